@@ -1,0 +1,116 @@
+# beamwork: verification and benchmark of three-dimensional beam finite elements.
+# Everything is built in $(BUILD); CC, CFLAGS and BUILD can be given on the command line.
+
+BUILD ?= build
+CFLAGS ?= -O2 -g
+PYTHON := /usr/bin/python3
+VERSION := $(shell sed -n 's/^version: *//p' CITATION.cff)
+COMMIT := $(shell git rev-parse --short=12 HEAD 2>/dev/null || echo unknown)
+
+WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wformat=2 -Wvla -Wwrite-strings
+ifdef WERROR
+WARNINGS += -Werror
+endif
+# -ffp-contract=off: the same sums with and without fused multiply-add.
+BASE_CFLAGS := -std=c11 -D_GNU_SOURCE -I. -fno-math-errno -ffp-contract=off -fPIC $(WARNINGS)
+
+FORMULATIONS := $(sort $(wildcard elements/*.c))
+CASES := $(sort $(wildcard cases/*.c))
+LIBRARY_SOURCES := $(FORMULATIONS) $(CASES) $(sort $(wildcard elements/*/*.c cases/*/*.c harness/model/*.c harness/solve/*.c harness/run/*.c))
+LIBRARY_SOURCES := $(filter-out %_test.c elements/test/% cases/test/%,$(LIBRARY_SOURCES))
+PROGRAM_SOURCES := $(sort $(wildcard harness/cli/*.c))
+TEST_SOURCES := $(sort $(wildcard elements/test/*_test.c cases/test/*_test.c harness/test/*_test.c))
+PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py reports/test/*_test.py harness/test/*_test.py))))
+
+REGISTRY := $(BUILD)/registry.c
+LIBRARY := $(BUILD)/libbeamwork.a
+PROGRAM := $(BUILD)/beamwork
+TRUTHS := $(BUILD)/truths.h5
+OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o)
+TESTS := $(TEST_SOURCES:%.c=$(BUILD)/%)
+
+QUIET := $(filter help clean format layers,$(or $(MAKECMDGOALS),help))
+ifeq ($(QUIET),)
+include $(BUILD)/flags.mk
+endif
+
+.PHONY: help all verify test layers asan tidy format format-check check clean report truths FORCE
+.DELETE_ON_ERROR:
+.SUFFIXES:
+
+help: ## this list
+	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+verify: all ## judge every formulation on every case against the stored truths
+	@$(PROGRAM) verify -o $(BUILD)/results.h5 --json $(BUILD)/verify.json --junit $(BUILD)/junit.xml $(VERIFY)
+
+test: all $(TESTS) layers ## run all tests; ends in "N passed, M failed"
+	@BEAMWORK=$(PROGRAM) BEAMWORK_TRUTHS=$(TRUTHS) harness/tools/run_tests.sh $(BUILD)/logs $(TESTS) -- $(sort $(PYTHON_TESTS))
+
+all: $(PROGRAM) $(TRUTHS) ## build the program, the library and the packed truths
+
+report: all ## draw the report of the last verify into build/report/index.html
+	@test -f $(BUILD)/results.h5 || $(MAKE) --no-print-directory verify
+	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports $(BUILD)/results.h5 $(TRUTHS) -o $(BUILD)/report
+
+truths: ## derive every exact row again and compare it with reference/tables
+	@$(PYTHON) reference/derive/rederive.py
+
+layers: ## check that includes point down only
+	@harness/tools/layers.sh
+
+asan: ## tests under the address and undefined-behaviour sanitizers
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/asan CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer" test
+
+tidy: ## clang-tidy, findings are errors
+	@clang-tidy --quiet --warnings-as-errors='*' $(LIBRARY_SOURCES) $(PROGRAM_SOURCES) -- $(BASE_CFLAGS) $(DEP_CFLAGS) -DBEAMWORK_VERSION='""' -DBEAMWORK_COMMIT='""' -DBEAMWORK_CFLAGS='""'
+
+format: ## rewrite the C sources in the house's layout
+	@git ls-files '*.c' '*.h' | xargs clang-format -i
+
+format-check:
+	@git ls-files '*.c' '*.h' | xargs clang-format --dry-run -Werror
+
+check: ## everything CI runs: gcc and clang with warnings as errors, layout, tidy, sanitizers, tests, verify
+	@.ci/run
+
+clean: ## remove what was built
+	@rm -rf $(BUILD)
+
+$(BUILD)/flags.mk: harness/tools/dependencies.sh
+	@CC="$(CC)" harness/tools/dependencies.sh $@
+
+$(REGISTRY): FORCE
+	@harness/tools/registry.sh $@ $(FORMULATIONS) $(CASES)
+
+# The list of objects: when a source disappears, the archive is made anew.
+$(BUILD)/objects.list: FORCE
+	@mkdir -p $(@D); echo '$(CC) $(CFLAGS) $(OBJECTS)' | cmp -s - $@ || echo '$(CC) $(CFLAGS) $(OBJECTS)' >$@
+
+$(BUILD)/%.o: %.c
+	@mkdir -p $(@D)
+	$(CC) $(BASE_CFLAGS) $(CFLAGS) $(DEP_CFLAGS) $(DEFINES) -MMD -MP -c $< -o $@
+
+$(REGISTRY:.c=.o): $(REGISTRY)
+	$(CC) $(BASE_CFLAGS) $(CFLAGS) $(DEP_CFLAGS) -c $< -o $@
+
+$(LIBRARY): $(OBJECTS) $(BUILD)/objects.list
+	@rm -f $@
+	@$(AR) rcs $@ $(OBJECTS)
+
+# What a build says of itself is compiled in one place only.
+$(BUILD)/harness/run/environment.o: DEFINES := -DBEAMWORK_VERSION='"$(VERSION)"' -DBEAMWORK_COMMIT='"$(COMMIT)"' -DBEAMWORK_CFLAGS='"$(CFLAGS)"'
+
+$(PROGRAM): $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) $(LIBRARY)
+	$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
+
+$(BUILD)/%_test: $(BUILD)/%_test.o $(LIBRARY)
+	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
+
+$(TRUTHS): $(wildcard reference/tables/*.csv reference/*.csv) reference/pack.py
+	@mkdir -p $(@D)
+	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) reference/pack.py -o $@
+
+FORCE:
+
+-include $(OBJECTS:.o=.d) $(PROGRAM_SOURCES:%.c=$(BUILD)/%.d) $(TEST_SOURCES:%.c=$(BUILD)/%.d)

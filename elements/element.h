@@ -1,0 +1,137 @@
+/* The element interface: a beam formulation is a deformation function e = D(x),
+ * a stress function sigma = S(e) that derives from an energy, and inertia
+ * (Nijenhuis et al. 2024, section 2.5).
+ *
+ * One file in elements/ defines one const element_type whose symbol is
+ * element_<file name>; the registry is generated from the files that exist.
+ *
+ * Coordinates of an element with n nodes: 7 per node, in the order
+ * dr (3, [m]), dphi (3, spatial increment, [rad]), da (warping amplitude, [rad/m]).
+ * First derivatives are with respect to these; second derivatives are those in
+ * the exponential chart R(dphi) = exp(dphi~) R, hence symmetric.
+ * Matrices are row-major.  NULL output: not wanted and not computed.
+ * Elements allocate nothing and keep no state: the caller owns all arrays. */
+#ifndef BEAMWORK_ELEMENT_H
+#define BEAMWORK_ELEMENT_H
+
+#include <stddef.h>
+
+#include "elements/math/status.h"
+#include "elements/section/section.h"
+
+enum { ELEMENT_ABI = 1 };
+enum { ELEMENT_MAX_NODES = 3, NODE_COORDINATES = 7, ELEMENT_MAX_COORDINATES = 21, ELEMENT_MAX_STRAINS = 24, ELEMENT_MAX_OPTIONS = 6 };
+
+/* Physics an element can be asked for.  A scene's needs must be a subset of what the type offers. */
+enum element_feature {
+    FEATURE_WARPING = 1 << 0,        /* warping amplitude as a coordinate, bimoment */
+    FEATURE_SHEAR = 1 << 1,          /* transverse (and warping) shear flexibility */
+    FEATURE_ECCENTRIC = 1 << 2,      /* shear centre off the centroid */
+    FEATURE_TRAPEZE = 1 << 3,        /* torsion-elongation coupling Ip/A phi'^2/2 */
+    FEATURE_WAGNER_MOMENTS = 1 << 4, /* int y(y^2+z^2), int z(y^2+z^2) */
+    FEATURE_WAGNER_TORQUE = 1 << 5,  /* torque cubic in the twist rate */
+    FEATURE_ENGESSER = 1 << 6,       /* shear in stability: 1/2 (v'^2 + w'^2) of the fibre */
+    FEATURE_HARINGX = 1 << 7,        /* shear in stability: rotation of the section (Simo-Reissner) */
+    FEATURE_GEOMETRIC = 1 << 8,      /* stiffness of the prestressed undeformed state */
+    FEATURE_LARGE = 1 << 9,          /* large displacements and rotations of the structure */
+    FEATURE_MASS = 1 << 10,          /* inertia */
+    FEATURE_ROTARY_INERTIA = 1 << 11,/* rotary and warping inertia in it */
+    FEATURE_CURVATURE = 1 << 12      /* initial curvature and strain */
+};
+
+/* What a type is restricted to. */
+enum element_limit {
+    LIMIT_RECTANGLE = 1 << 0,         /* solid rectangular sections only */
+    LIMIT_DOUBLY_SYMMETRIC = 1 << 1,  /* shear centre at the centroid, D diagonal */
+    LIMIT_UNSYMMETRIC_TANGENT = 1 << 2, /* the stress function's Jacobian is not symmetric */
+    LIMIT_ORDER_DEPENDENT = 1 << 3,   /* exchanging p and q changes the answer (by a discretisation error) */
+    LIMIT_SMALL_DEFORMATION = 1 << 4, /* rigid motion changes strains only through truncated terms: none known */
+    LIMIT_NO_STRESS_FREE_SHEAR = 1 << 5 /* shear-rigid by construction */
+};
+
+/* A choice of the user: -f name:key=value. */
+typedef struct element_option {
+    const char *name;    /* NULL ends the list */
+    const char *choices; /* "lumped|consistent|averaged" (value = index) or NULL for a number */
+    double value;        /* default */
+    double min, max;     /* of a number */
+    const char *summary;
+} element_option;
+
+typedef struct element_request {
+    const section *section;
+    double length;               /* l0 [m] */
+    unsigned features;           /* exactly what is to be active */
+    const double *options;       /* values in the order of type->options */
+    double curvature[3];         /* initial torsion and curvatures kx, ky, kz [1/m] */
+} element_request;
+
+typedef struct element_data element_data; /* opaque; one per kind of element, shared by identical ones */
+
+typedef struct node_state {
+    double r[3]; /* position [m] */
+    double R[9]; /* node rotation times the element's initial triad; columns nX nY nZ */
+    double a;    /* warping amplitude [rad/m]; phi_x' in the shear-rigid limit */
+} node_state;
+
+typedef struct node_rate {
+    double r[3], w[3], a; /* velocity or acceleration: [m/s^k], spatial angular [rad/s^k], [rad/(m s^k)] */
+} node_rate;
+
+typedef struct strain_output {
+    double *e;       /* [strains] [m] */
+    double *J;       /* [strains x 7 nodes] de/dx */
+    const double *s; /* in: [strains] stresses for H; NULL: H not wanted */
+    double *H;       /* [7 nodes x 7 nodes] sum_i s_i d2e_i/dx2, overwritten */
+} strain_output;
+
+typedef struct stress_output {
+    double *energy;   /* [1] [J] */
+    double *sigma;    /* [strains] [N]; with inner unknowns: after eliminating their residual */
+    double *C;        /* [strains x strains] dsigma/de [N/m], inner unknowns eliminated */
+    double *residual; /* [1] dimensionless size of the inner residual (0 without inner unknowns) */
+    double *memory;   /* [memory] filled by stress, read by update: the eliminated inner equations */
+} stress_output;
+
+typedef struct inertia_output {
+    double *M;  /* [7n x 7n] mass matrix: translations [kg] */
+    double *h;  /* [7n] convective inertia forces [N, N m, ...] */
+    double *dh_dv; /* [7n x 7n] gyroscopic */
+    double *dfdx;  /* [7n x 7n] d(M a + h)/dx */
+} inertia_output;
+
+typedef struct element_type {
+    const char *name;    /* file name = exported symbol without element_ = command line = results key */
+    const char *summary; /* one line */
+    const char *source;  /* paper and equations */
+    unsigned abi;        /* ELEMENT_ABI */
+    unsigned offers;     /* element_feature */
+    unsigned limits;     /* element_limit */
+    const element_option *options; /* ends with a NULL name; NULL: none */
+    /* Sizes may depend on the options (stages, nodes). */
+    int (*nodes)(const double options[]);   /* NULL: 2 */
+    int (*strains)(const double options[]); /* NULL: 8 */
+    int (*inner)(const double options[]);   /* element unknowns of its own; NULL: 0 */
+    int (*memory)(const double options[]);  /* doubles kept between stress and update; NULL: 0 */
+    size_t (*data_size)(const element_request *);
+    /* Once per kind of element.  Refuses what it cannot do, naming it. */
+    status (*prepare)(const element_request *, element_data *, fault *);
+    void (*strain)(const element_data *, const node_state x[], strain_output *);
+    /* NOT_CONVERGED or SINGULAR when the state is outside what the formulation can evaluate. */
+    status (*stress)(const element_data *, const double e[], const double inner[], stress_output *);
+    /* inner += (correction from the last stress) for the strain increment de; returns the dimensionless size of the change. */
+    double (*update)(const element_data *, const double de[], const double memory[], double inner[]);
+    /* Inner unknowns of the undeformed state. */
+    void (*rest)(const element_data *, double inner[]);
+    /* G[strains x strains] = derivative of C at e = 0 in the direction of the prestress sigma: sum sigma_i Q_i. NULL: zero. */
+    void (*geometric)(const element_data *, const double sigma[], double G[]);
+    /* v or a NULL: at rest. */
+    status (*inertia)(const element_data *, const node_state x[], const node_rate v[], const node_rate a[], inertia_output *);
+} element_type;
+
+static inline int element_nodes(const element_type *t, const double options[])   { return t->nodes ? t->nodes(options) : 2; }
+static inline int element_strains(const element_type *t, const double options[]) { return t->strains ? t->strains(options) : 8; }
+static inline int element_inner(const element_type *t, const double options[])   { return t->inner ? t->inner(options) : 0; }
+static inline int element_memory(const element_type *t, const double options[])  { return t->memory ? t->memory(options) : 0; }
+
+#endif

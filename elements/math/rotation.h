@@ -1,0 +1,25 @@
+/* Finite rotations: unit quaternions q = (w, x, y, z), rotation vectors, matrices.
+ *
+ * Matrices are row-major double[9]; a triad's columns are its unit vectors.
+ * Rotation increments are spatial: R <- exp(phi~) R, that is
+ * q <- rotation_exp(phi) o q.  Every function is accurate to a few eps for
+ * every angle, near 0 and near pi included. */
+#ifndef BEAMWORK_ROTATION_H
+#define BEAMWORK_ROTATION_H
+
+void rotation_identity(double q[4]);
+void rotation_exp(const double phi[3], double q[4]);        /* phi [rad] */
+void rotation_log(const double q[4], double phi[3]);        /* |phi| <= pi, the shorter way */
+void rotation_compose(const double a[4], const double b[4], double ab[4]); /* ab = a o b; ab may alias */
+void rotation_conjugate(const double q[4], double inverse[4]);
+void rotation_normalise(double q[4]);
+void rotation_matrix(const double q[4], double R[9]);
+void rotation_from_matrix(const double R[9], double q[4]);
+void rotation_apply(const double q[4], const double v[3], double Rv[3]); /* Rv may alias v */
+/* Spatial increment that turns `from` into `to`: log(to o conj(from)). */
+void rotation_between(const double from[4], const double to[4], double phi[3]);
+/* The triad whose x axis points along `x` and whose y axis is the part of `y` across it.
+ * Returns 0, or -1 if x is zero or y is parallel to it. */
+int rotation_triad(const double x[3], const double y[3], double R[9]);
+
+#endif

@@ -1,0 +1,123 @@
+/* A scene meshed with one formulation.
+ *
+ * Coordinates.  Every vertex of the mesh has a frame (position r, orientation q)
+ * and every element end a warping amplitude.  Scalars that can change are the
+ * model's coordinates, in this order:
+ *   [0, free)                          unknowns
+ *   [free, free + driven)              prescribed along the path by drivers
+ * What is held or depends on other coordinates (rigid offsets, rotation
+ * sequences, shared angles) has no coordinate: it was left out.  An unknown
+ * driver is one free coordinate; the coordinate its condition names is driven.
+ *
+ * Increments of coordinates are additive for translations, warping and angles,
+ * and spatial rotation increments (exponential chart) for free rotations.
+ * All second derivatives (offsets, sequences) are included in the tangent. */
+#ifndef BEAMWORK_MODEL_H
+#define BEAMWORK_MODEL_H
+
+#include "cases/scene/scene.h"
+#include "elements/element.h"
+#include "harness/model/sparse.h"
+
+typedef struct model model;
+
+typedef struct model_request {
+    const scene *scene;
+    const element_type *type;
+    const double *options; /* of the formulation; NULL: defaults */
+    int elements;          /* per member */
+    int keep_all;          /* 1: leave nothing out (same answer, more work) */
+} model_request;
+
+/* REFUSED (with the reason) when the formulation does not offer what the scene needs: see model_missing. */
+status model_alloc(const model_request *, model **, fault *);
+void model_free(model *);
+
+/* Feature bits the scene needs and those of them the type does not offer, or a limit it hits, in words; 0: it can run. */
+unsigned model_needs(const scene *);
+int model_missing(const scene *, const element_type *, char *words, int size);
+/* Comma-free words of a feature, for results: "warping", "shear", ... */
+const char *model_feature_name(unsigned bit);
+
+typedef struct model_size {
+    int elements, vertices, free, driven, strains, inner; /* per element for the last two */
+    unsigned features;
+} model_size;
+model_size model_sizes(const model *);
+
+/* What was left out, one line each ("warping coordinates of 12 ends: nothing warps there"). */
+int model_left_out(const model *, const char *const **lines);
+
+/* Work done so far; the solver adds its own. */
+typedef struct counters {
+    long strain_evaluations, stress_evaluations, inertia_evaluations;
+    long iterations, steps, rejected_steps, factorisations, solutions;
+    long factor_entries;
+    double factor_flops;
+} counters;
+counters *model_counters(model *);
+
+/* Everything that changes along a path. A copy undoes a rejected step. */
+typedef struct model_state model_state;
+status model_state_alloc(const model *, model_state **, fault *);   /* undeformed, path = 0 */
+void model_state_free(model_state *);
+void model_state_copy(const model *, const model_state *from, model_state *to);
+double model_state_path(const model_state *);
+
+/* Frame of a scene node in a state. */
+void model_frame(const model *, const model_state *, int node, double r[3], double q[4]);
+/* Displacement [m] or rotation-vector component [rad] of a scene node since the undeformed state. */
+double model_component(const model *, const model_state *, int node, int component);
+double model_driver_value(const model *, const model_state *, int driver);
+
+/* Coordinate index of a component of a node, or -1 where it is held, or dependent. */
+int model_coordinate(const model *, int node, int component);
+/* Jacobian of the node's six spatial increments with respect to the coordinates it depends on:
+ * returns the count m <= size, fills index[m] and T[6 x m] (row-major, leading dimension m). */
+int model_node_jacobian(const model *, const model_state *, int node, int size, int index[], double T[]);
+
+/* Patterns. `with_driven` 0: free x free; 1: all coordinates. */
+status model_pattern(const model *, int with_driven, sparse *out, fault *f); /* owns its arrays: model_pattern_free */
+void model_pattern_free(sparse *);
+
+/* Increments of the driven coordinates (dx[free .. free+driven)) that take the state to `path`; the rest of dx untouched. */
+void model_drive(const model *, const model_state *, double path, double dx[]);
+
+/* Mixed linearisation of equilibrium (simultaneous in coordinates, strains and stresses), condensed per element:
+ *   K dx = f(path, factor) - J^T [P'(e) + P''(e) (D(x) - e)]   ->  K, residual
+ * on the pattern K was allocated with (free only or all). `displacement`: e and sigma are taken from D(x) first.
+ * load: reference loads of the scene times their factor at `path`, plus `factor` times the loads marked unknown. */
+typedef struct model_linearisation {
+    double path;
+    int displacement;    /* 1: displacement-only Newton */
+    sparse *K;           /* NULL: not wanted */
+    double *residual;    /* [coordinates of K's pattern, or free] right-hand side */
+    double *load;        /* the load part of it, or NULL */
+    double incompatibility; /* out: dimensionless max |D(x) - e| */
+} model_linearisation;
+status model_linearise(model *, model_state *, model_linearisation *, fault *);
+/* After K dx = residual: strains, stresses, inner unknowns of every element and then the frames take their increments. dx[free + driven]. */
+status model_advance(model *, model_state *, const double dx[], double path, fault *);
+
+/* Linear analyses about the undeformed state. */
+status model_linear_stiffness(model *, sparse *K, fault *);                      /* J^T S J at e = 0 */
+status model_linear_stresses(model *, const double x[], double sigma[], fault *);/* sigma = S J x, [elements x strains] */
+status model_geometric_stiffness(model *, const double sigma[], sparse *G, fault *); /* sum sigma H + J^T G(sigma) J; loads' own: offsets */
+/* Quadratic forms from the element strains, free of the cancellation of x^T (K x): error eps n^2 instead of eps n^4. */
+double model_strain_energy2(model *, const double x[]);                          /* x^T K x = sum (Jx)^T S (Jx) */
+double model_geometric_energy2(model *, const double sigma[], const double x[]);
+/* Loads at factor 1 as a vector on the free coordinates. */
+status model_reference_load(model *, double f[], fault *);
+
+/* Mass matrix on the pattern of M about a state (NULL: undeformed). */
+status model_mass(model *, const model_state *, sparse *M, fault *);
+
+/* Shape of a mode or state for identification and pictures: displacement (3), rotation (3) and warping of every
+ * vertex in order along the members; returns vertices. u[vertices x 7], position[vertices x 3] (undeformed). */
+int model_shape(const model *, const double x[], double *u, double *position);
+int model_member_vertices(const model *, int member, int vertex[]); /* n + 1 in order; vertex NULL: count only */
+
+/* Section constants the model uses for a section of the scene. */
+const section *model_section(const model *, int index);
+
+#endif

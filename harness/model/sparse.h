@@ -1,0 +1,42 @@
+/* Sparse matrices in compressed columns, and their direct factorisation.
+ *
+ * Symmetric matrices keep the upper triangle (row <= column) only; the rest keep everything.
+ * The pattern is fixed once; numbers are added by position, so assembly searches nothing. */
+#ifndef BEAMWORK_SPARSE_H
+#define BEAMWORK_SPARSE_H
+
+#include "elements/math/status.h"
+
+typedef struct sparse {
+    int n, symmetric;
+    int *column;   /* [n + 1] */
+    int *row;      /* [column[n]], ascending in each column */
+    double *value; /* [column[n]] */
+} sparse;
+
+/* A second matrix with the same pattern shares column and row with the first and owns its values only. */
+status sparse_alloc_like(const sparse *pattern, sparse *out, fault *f);
+void sparse_free_values(sparse *a);
+void sparse_zero(sparse *a);
+void sparse_mul(const sparse *a, const double x[], double y[]); /* y = A x */
+
+typedef struct factor factor;
+
+typedef struct factor_counts {
+    long entries;           /* of the factors: fill */
+    double flops;           /* of one numeric factorisation */
+    int negative_pivots;    /* symmetric only; else -1 */
+    double condition;       /* cheap estimate max|d|/min|d| */
+} factor_counts;
+
+/* Symbolic analysis once: fill-reducing order (AMD). Symmetric: LDL^T without pivoting, whose signs give
+ * the inertia; unsymmetric: KLU. */
+status factor_alloc(const sparse *pattern, factor **out, fault *f);
+void factor_free(factor *fa);
+/* SINGULAR when a pivot is zero or not finite, or growth has destroyed the digits. */
+status factor_numeric(factor *fa, const sparse *a, fault *f);
+void factor_solve(const factor *fa, double x[]);               /* in place */
+void factor_solve_refined(const factor *fa, const sparse *a, double x[]); /* with one step of iterative refinement */
+factor_counts factor_count(const factor *fa);
+
+#endif

@@ -1,0 +1,33 @@
+/* One cell: case x parameter point x formulation with options x mesh. */
+#ifndef BEAMWORK_CELL_H
+#define BEAMWORK_CELL_H
+
+#include "cases/case.h"
+#include "harness/solve/solve.h"
+
+enum { CELL_KEY = 128 };
+
+typedef struct cell_request {
+    const case_type *type;
+    double parameter[CASE_MAX_PARAMETERS];
+    const element_type *formulation;
+    double option[ELEMENT_MAX_OPTIONS];
+    solve_options solve;
+    int elements;
+    int keep_all;
+} cell_request;
+
+typedef struct cell_result {
+    char formulation_key[CELL_KEY]; /* "beamw" or "beamw:mass=lumped": options that differ from their defaults, in order */
+    scene scene;                    /* owned: names, units, tolerances of the quantities */
+    model_size size;
+    counters counters;
+    int left_out_lines;
+    char **left_out;
+    solve_result solve;
+} cell_result;
+
+status cell_run(const cell_request *, cell_result *, fault *);
+void cell_result_free(cell_result *);
+
+#endif

@@ -1,0 +1,38 @@
+#!/bin/sh
+# Include rules of the house: an include points down only, and nobody names what it must not know.
+set -eu
+bad=0
+# rule PATHS... -- FORBIDDEN-REGEX -- reason
+rule() {
+    where=$1 pattern=$2 reason=$3
+    hits=$(grep -rnE "^[[:space:]]*#[[:space:]]*include[[:space:]]+\"($pattern)" $where --include='*.c' --include='*.h' 2>/dev/null || true)
+    if [ -n "$hits" ]; then
+        echo "$hits" | sed "s|\$|   <- $reason|"
+        bad=1
+    fi
+}
+rule elements 'cases/|harness/|reference/|reports/' 'elements know no case, truth or solver'
+rule elements/math 'elements/(section|element|beamw|sheet|exact)' 'math is the lowest floor'
+rule elements/section 'elements/(element|beamw|sheet|exact)' 'a section knows no element'
+rule cases 'harness/|reference/|reports/|elements/(element|beamw|sheet|exact)' 'a case knows no formulation and no solver'
+rule harness/model 'harness/(solve|run|cli)/' 'the model knows no solver'
+rule harness/solve 'harness/(run|cli)/' 'a solver knows no sweep'
+rule harness/run 'harness/cli/' 'a sweep knows no command line'
+rule harness 'reference/|reports/|elements/(beamw|sheet|exact)/' 'the harness names no formulation and no truth'
+# The harness walks generated lists: neither a formulation nor a case is named in it.
+for file in elements/*.c cases/*.c; do
+    [ -f "$file" ] || continue
+    name=$(basename "$file" .c)
+    hits=$(grep -rnwE "\"$name\"|element_$name|case_$name" harness --include='*.c' --include='*.h' 2>/dev/null | grep -v '/test/' || true)
+    if [ -n "$hits" ]; then
+        echo "$hits" | sed "s|\$|   <- the harness names $name|"
+        bad=1
+    fi
+done
+# Reports call no program of the house, references share nothing with it.
+hits=$(grep -rnE 'ctypes|cffi|libbeamwork|subprocess|os\.system' reports --include='*.py' 2>/dev/null | grep -v '/test/' || true)
+[ -z "$hits" ] || { echo "$hits" | sed 's|$|   <- reports read files only|'; bad=1; }
+hits=$(grep -rnE 'ctypes|cffi|libbeamwork|build/beamwork|import (harness|reports|elements)' reference --include='*.py' 2>/dev/null || true)
+[ -z "$hits" ] || { echo "$hits" | sed 's|$|   <- a truth shares no code with what it judges|'; bad=1; }
+[ $bad = 0 ] && echo "layers: every include points down"
+exit $bad
