@@ -138,6 +138,12 @@ typedef struct scene {
     int meshes;              /* default -n values of verify and converge */
     int mesh[16];
     int out_of_memory;
+    /* What the accessors below point to when an index is -1, so that a case can write without asking. */
+    scene_node scrap_node;
+    scene_member scrap_member;
+    scene_load scrap_load;
+    scene_analysis scrap_analysis;
+    scene_quantity scrap_quantity;
 } scene;
 
 /* Physics a case asks for by name, because data alone cannot tell.  The same words appear in results. */
@@ -156,9 +162,15 @@ int scene_add_member(scene *s, int p, int q, int section, const double y_axis[3]
 int scene_add_driver(scene *s, const char *name, int stations, const double path[], const double value[]);
 int scene_add_unknown_driver(scene *s, const char *name, int node, int component, int condition_driver);
 int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y, double z);
-int scene_add_analysis(scene *s, scene_analysis_kind kind);          /* then fill s->analysis[i] */
+int scene_add_analysis(scene *s, scene_analysis_kind kind);
 int scene_set_stations(scene *s, int analysis, int stations, const double path[]);
-int scene_add_quantity(scene *s, const char *name, const char *unit, scene_quantity_kind kind, int analysis);
+/* The new quantity, to be filled further: name, unit, kind and analysis are set, nodes and drivers SCENE_NONE, sign 1, the rest 0. */
+scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit, scene_quantity_kind kind, int analysis);
+/* Entry of a list, to be filled further; never NULL. */
+scene_node *scene_node_at(scene *s, int index);
+scene_member *scene_member_at(scene *s, int index);
+scene_load *scene_load_at(scene *s, int index);
+scene_analysis *scene_analysis_at(scene *s, int index);
 void scene_hold(scene *s, int node, int first, int last);  /* components SCENE_UX .. SCENE_RZ, inclusive */
 void scene_hold_all(scene *s, int node);
 void scene_drive(scene *s, int node, int component, int driver); /* a translation, or a spatial rotation component */
