@@ -1,0 +1,52 @@
+/* Simply supported C-shaped column: buckling under an axial force at the centroid, and natural frequencies.
+ * J section 5.1, Tables 1-3. */
+#include "cases/shared/column.h"
+
+#include <stdio.h>
+
+enum { ROTARY_INERTIA = COLUMN_PARAMETERS };
+enum { FREQUENCIES = 13 };
+
+static const case_parameter parameters[] = {
+    COLUMN_TABLE(1),
+    [ROTARY_INERTIA] = {"rotary_inertia", "1", 1, 0, 1, NULL, "1: rotary and warping inertia, 0: translations only"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+static status build(const double value[], scene *s, fault *f)
+{
+    int ends[2];
+    const status outcome = column_build(parameters, value, s, ends, f);
+    if (outcome != STATUS_OK)
+        return outcome;
+    if (value[ROTARY_INERTIA] != 0)
+        s->needs |= SCENE_NEED_ROTARY_INERTIA;
+    scene_add_load(s, SCENE_FORCE, ends[1], -1, 0, 0);
+
+    const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
+    scene_analysis_at(s, buckling)->wanted = 1;
+    scene_quantity *load = scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
+    load->tolerance = 1e-5;
+    load->least_order = 1.8;
+
+    const int modal = scene_add_analysis(s, SCENE_MODAL);
+    scene_analysis_at(s, modal)->wanted = FREQUENCIES;
+    for (int i = 0; i < FREQUENCIES; i++) {
+        char name[SCENE_NAME];
+        snprintf(name, sizeof name, "frequency_%d", i + 1);
+        scene_quantity *frequency = scene_add_quantity(s, name, "Hz", SCENE_FREQUENCY, modal);
+        frequency->family = SCENE_NOT_AXIAL;
+        frequency->order = i;
+        frequency->tolerance = 1e-3;
+        frequency->least_order = 1.8;
+    }
+    return STATUS_OK;
+}
+
+const case_type case_c_column = {
+    .name = "c_column",
+    .summary = "simply supported C-shaped column: buckling load and natural frequencies",
+    .source = "J section 5.1, Tables 1-3",
+    .parameters = parameters,
+    .build = build,
+};

@@ -1,0 +1,23 @@
+/* The C-shaped section that several scenes share. */
+#ifndef BEAMWORK_CASES_CHANNEL_H
+#define BEAMWORK_CASES_CHANNEL_H
+
+#include "elements/section/section.h"
+
+/* Where the section's constants come from. */
+enum { CHANNEL_SHEAR_FLOW, CHANNEL_PRINTED, CHANNEL_MISPRINTED };
+#define CHANNEL_DATA_CHOICES "shear_flow|printed|misprinted"
+
+typedef struct channel {
+    double height, width;                    /* of the centre line [m] */
+    double flange_thickness, web_thickness;  /* [m] */
+    double young, shear_modulus, density;    /* [Pa, Pa, kg/m^3] */
+} channel;
+
+/* Walls of a C whose web is on the +y side, parallel to z. */
+void channel_section(const channel *c, section_spec *out);
+
+/* The rounded constants printed for the C of 600 mm (J Table 1; D_w corrected, or as misprinted). */
+void channel_print_constants(int data, section_spec *out);
+
+#endif

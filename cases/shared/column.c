@@ -1,0 +1,37 @@
+#include "cases/shared/column.h"
+
+#include <stddef.h>
+
+static const char *first_changed_size(const case_parameter parameters[], const double value[])
+{
+    for (int i = COLUMN_HEIGHT; i <= COLUMN_WEB; i++)
+        if (value[i] != parameters[i].value)
+            return parameters[i].name;
+    return NULL;
+}
+
+status column_build(const case_parameter parameters[], const double value[], scene *s, int ends[2], fault *f)
+{
+    const channel c = {value[COLUMN_HEIGHT], value[COLUMN_WIDTH],         value[COLUMN_FLANGE], value[COLUMN_WEB],
+                       value[COLUMN_YOUNG],  value[COLUMN_SHEAR_MODULUS], value[COLUMN_DENSITY]};
+    const int data = (int)value[COLUMN_DATA];
+    const char *changed = first_changed_size(parameters, value);
+    if (data != CHANNEL_SHEAR_FLOW && changed != NULL)
+        return fault_set(f, STATUS_REFUSED, "section_data: the printed constants belong to the default sizes, but %s was changed; use section_data=shear_flow", changed);
+    section_spec spec;
+    channel_section(&c, &spec);
+    channel_print_constants(data, &spec);
+    const int profile = scene_add_section(s, &spec);
+    const double y_axis[3] = {0, 1, 0};
+    ends[0] = scene_add_node(s, 0, 0, 0);
+    ends[1] = scene_add_node(s, value[COLUMN_LENGTH], 0, 0);
+    scene_add_member(s, ends[0], ends[1], profile, y_axis);
+    scene_hold(s, ends[0], SCENE_UX, SCENE_RX);
+    scene_hold(s, ends[1], SCENE_UY, SCENE_RX);
+    if (value[COLUMN_SHEAR] != 0)
+        s->needs |= SCENE_NEED_SHEAR | (value[COLUMN_STABILITY] == 0 ? SCENE_NEED_ENGESSER : SCENE_NEED_HARINGX);
+    s->needs |= SCENE_NEED_TRAPEZE;
+    const int meshes[] = {2, 4, 8, 16, 32};
+    scene_meshes(s, 5, meshes);
+    return STATUS_OK;
+}

@@ -1,0 +1,57 @@
+/* Non-uniform torsion of a shear-rigid cantilever under a tip torque: hyperbolic functions against cubic ones.
+ * twist_ratio = phi GJ/(T L): 1 - tanh(kL)/(kL) with a free tip, 1 - tanh(kL/2)/(kL/2) when the tip cannot warp. */
+#include "cases/case.h"
+
+#include <stddef.h>
+
+enum { LENGTH, KL, ENDS };
+
+static const case_parameter parameters[] = {
+    [LENGTH] = {"length", "m", 1.0, 1e-6, 1e6, NULL, "length of the beam"},
+    [KL] = {"kL", "1", 1.0, 1e-4, 1e5, NULL, "length times sqrt(GJ/EIw)"},
+    [ENDS] = {"ends", "", 0, 0, 0, "cantilever|fixed", "warping at the tip: free (cantilever) or fixed"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+static status build(const double value[], scene *s, fault *f)
+{
+    (void)f;
+    const double length = value[LENGTH], k = value[KL] / length;
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = SECTION_CONSTANTS;
+    spec.young = 200e9;
+    spec.shear_modulus = 80e9;
+    spec.constants.A = 1e-3;
+    spec.constants.Iy = 2e-6;
+    spec.constants.Iz = 3e-6;
+    spec.constants.Ip = 5e-6;
+    spec.constants.It = 4e-8;
+    spec.constants.Iw = spec.shear_modulus * spec.constants.It / (spec.young * k * k);
+    const int profile = scene_add_section(s, &spec);
+    const double y_axis[3] = {0, 1, 0};
+    const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, length, 0, 0);
+    const int member = scene_add_member(s, root, tip, profile, y_axis);
+    scene_member_at(s, member)->warp_p = SCENE_WARP_FIXED;
+    scene_member_at(s, member)->warp_q = value[ENDS] == 0 ? SCENE_WARP_FREE : SCENE_WARP_FIXED;
+    scene_hold_all(s, root);
+    scene_add_load(s, SCENE_MOMENT, tip, 1, 0, 0);
+    const int linear = scene_add_analysis(s, SCENE_LINEAR);
+    scene_quantity *twist = scene_add_quantity(s, "twist_ratio", "1", SCENE_COORDINATE, linear);
+    twist->node = tip;
+    twist->row = SCENE_RX;
+    twist->factor = spec.shear_modulus * spec.constants.It / length;
+    twist->tolerance = 1e-6;
+    twist->least_order = 3.5;
+    const int meshes[] = {1, 2, 4, 8, 16, 32};
+    scene_meshes(s, 6, meshes);
+    return STATUS_OK;
+}
+
+const case_type case_warping_torsion = {
+    .name = "warping_torsion",
+    .summary = "cantilever in non-uniform torsion, shear-rigid",
+    .source = "Vlasov torsion, closed form",
+    .parameters = parameters,
+    .build = build,
+};
