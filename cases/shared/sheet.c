@@ -1,0 +1,63 @@
+#include "cases/shared/sheet.h"
+
+#include <math.h>
+#include <stdio.h>
+
+void sheet_section(double width, double thickness, double young, double poisson, double shear_factor, section_spec *out)
+{
+    section_spec_init(out);
+    out->kind = SECTION_RECTANGLE;
+    out->young = young;
+    out->shear_modulus = young / (2 * (1 + poisson));
+    out->width = width;
+    out->height = thickness;
+    const double k = shear_factor > 0 ? shear_factor : 10 * (1 + poisson) / (12 + 11 * poisson);
+    out->shear_factor[0] = out->shear_factor[1] = k;
+}
+
+status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f)
+{
+    const double length = value[SHEET_LENGTH];
+    if (fabs(value[SHEET_DEFLECTION]) >= length)
+        return fault_set(f, STATUS_REFUSED, "tip_deflection = %g m cannot be reached by a sheet of length %g m; give a smaller one",
+                         value[SHEET_DEFLECTION], length);
+    section_spec spec;
+    sheet_section(value[SHEET_WIDTH], value[SHEET_THICKNESS], value[SHEET_YOUNG], value[SHEET_POISSON], value[SHEET_SHEAR_FACTOR], &spec);
+    if (value[SHEET_WARPING] == 0)
+        spec.given.Iw = 0;
+    const int profile = scene_add_section(s, &spec);
+    const double y_axis[3] = {0, 1, 0};
+    *root = scene_add_node(s, 0, 0, 0);
+    *tip = scene_add_node(s, length, 0, 0);
+    scene_member *sheet = scene_member_at(s, scene_add_member(s, *root, *tip, profile, y_axis));
+    sheet->warp_p = SCENE_WARP_FIXED;
+    sheet->warp_q = value[SHEET_TIP_WARPING] == 0 ? SCENE_WARP_FIXED : SCENE_WARP_FREE;
+    scene_hold_all(s, *root);
+    if (value[SHEET_SHEAR] != 0)
+        s->needs |= SCENE_NEED_SHEAR | SCENE_NEED_HARINGX;
+    if (value[SHEET_TRAPEZE] != 0)
+        s->needs |= SCENE_NEED_TRAPEZE;
+    if (value[SHEET_WAGNER] != 0)
+        s->needs |= SCENE_NEED_WAGNER_TORQUE;
+    const int meshes[] = {1, 2, 3, 4, 8, 16, 32};
+    scene_meshes(s, 7, meshes);
+    return STATUS_OK;
+}
+
+void sheet_add_compliance(scene *s, int analysis, int tip, const int (*entries)[2], int count, double tolerance)
+{
+    static const char *const response[] = {"ux", "uy", "uz", "thx", "thy", "thz"};
+    static const char *const load[] = {"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
+    for (int i = 0; i < count; i++) {
+        const int row = entries[i][0], column = entries[i][1];
+        char name[SCENE_NAME];
+        snprintf(name, sizeof name, "C_%s_%s", response[row], load[column]);
+        const char *unit = row < 3 ? (column < 3 ? "m/N" : "1/N") : (column < 3 ? "rad/N" : "rad/(N m)");
+        scene_quantity *q = scene_add_quantity(s, name, unit, SCENE_COMPLIANCE_ENTRY, analysis);
+        q->node = tip;
+        q->row = row;
+        q->column = column;
+        q->tolerance = tolerance;
+        q->least_order = 1.8;
+    }
+}

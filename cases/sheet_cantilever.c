@@ -1,0 +1,80 @@
+/* Clamped sheet flexure with a prescribed tip deflection and no tip rotation about z: compliance of the deformed sheet.
+ * N section 4.1, Fig. 5. */
+#include "cases/shared/sheet.h"
+
+#include <stddef.h>
+#include <stdio.h>
+
+enum { STATIONS = 15 };
+
+static const case_parameter parameters[] = {
+    SHEET_TABLE(0),
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+/* In the plane of bending nothing couples to the motion out of it: the other 18 entries are zero by symmetry. */
+static const int entries[][2] = {
+    {0, 0}, {0, 1}, {0, 5}, {1, 0}, {1, 1}, {1, 5}, {5, 0}, {5, 1}, {5, 5}, {2, 2}, {2, 3}, {2, 4}, {3, 2}, {3, 3}, {3, 4}, {4, 2}, {4, 3}, {4, 4},
+};
+
+static void add_gated(scene *s, const char *name, const char *unit, scene_quantity_kind kind, int analysis, int node, int row)
+{
+    scene_quantity *q = scene_add_quantity(s, name, unit, kind, analysis);
+    q->node = node;
+    q->row = row;
+    q->column = row;
+    q->tolerance = 1e-4;
+    q->least_order = 1.8;
+}
+
+static void add_curve(scene *s, const char *name, int analysis, int node, int row, double deflection)
+{
+    scene_quantity *q = scene_add_quantity(s, name, "m/N", SCENE_COMPLIANCE_ENTRY, analysis);
+    q->node = node;
+    q->row = q->column = row;
+    q->reduction = SCENE_CURVE;
+    q->x_factor = deflection;
+    snprintf(q->x_name, sizeof q->x_name, "tip_deflection");
+    snprintf(q->x_unit, sizeof q->x_unit, "m");
+}
+
+static status build(const double value[], scene *s, fault *f)
+{
+    int root, tip;
+    const status outcome = sheet_build(value, s, &root, &tip, f);
+    if (outcome != STATUS_OK)
+        return outcome;
+    const double path[2] = {0, 1}, deflection[2] = {0, value[SHEET_DEFLECTION]}, none[2] = {0, 0};
+    scene_drive(s, tip, SCENE_UY, scene_add_driver(s, "tip_deflection", 2, path, deflection));
+    scene_drive(s, tip, SCENE_RZ, scene_add_driver(s, "tip_rotation", 2, path, none));
+
+    const int path_analysis = scene_add_analysis(s, SCENE_STATIC);
+    double stations[STATIONS];
+    for (int i = 0; i < STATIONS; i++)
+        stations[i] = (i + 1.0) / STATIONS;
+    scene_set_stations(s, path_analysis, STATIONS, stations);
+    const int compliance = scene_add_analysis(s, SCENE_COMPLIANCE);
+    scene_analysis *c = scene_analysis_at(s, compliance);
+    c->follows = path_analysis;
+    c->node = tip;
+    c->moments = SCENE_MOMENTS_SPATIAL;
+    c->released = 1u << SCENE_UY | 1u << SCENE_RZ;
+
+    add_gated(s, "C_xx", "m/N", SCENE_COMPLIANCE_ENTRY, compliance, tip, SCENE_UX);
+    add_gated(s, "C_zz", "m/N", SCENE_COMPLIANCE_ENTRY, compliance, tip, SCENE_UZ);
+    sheet_add_compliance(s, compliance, tip, entries, sizeof entries / sizeof entries[0], 1e-4);
+    add_gated(s, "u_x", "m", SCENE_COORDINATE, path_analysis, tip, SCENE_UX);
+    add_gated(s, "F_y", "N", SCENE_REACTION, path_analysis, tip, SCENE_UY);
+    add_gated(s, "M_z", "N m", SCENE_REACTION, path_analysis, tip, SCENE_RZ);
+    add_curve(s, "C_xx_curve", compliance, tip, SCENE_UX, value[SHEET_DEFLECTION]);
+    add_curve(s, "C_zz_curve", compliance, tip, SCENE_UZ, value[SHEET_DEFLECTION]);
+    return STATUS_OK;
+}
+
+const case_type case_sheet_cantilever = {
+    .name = "sheet_cantilever",
+    .summary = "clamped sheet flexure, tip deflected without rotation: compliance matrix",
+    .source = "N section 4.1, Fig. 5",
+    .parameters = parameters,
+    .build = build,
+};

@@ -1,0 +1,83 @@
+/* The sheet of sheet_cantilever, deflected and rotated about z, then twisted at its tip: du_x/dM_y shows the Wagner torque.
+ * N section 4.1, Fig. 6.  Tip rotation R = Ry(phi_y) Rz(phi_z) Rx(phi_x) with phi_y free (zero moment about y). */
+#include "cases/shared/sheet.h"
+
+#include <stddef.h>
+
+enum { TIP_PHI_Z = SHEET_PARAMETERS, TIP_PHI_X };
+enum { STATIONS_BENT = 5, STATIONS_TWISTED = 5 };
+
+static const case_parameter parameters[] = {
+    SHEET_TABLE(1),
+    [TIP_PHI_Z] = {"tip_phi_z", "rad", 0.15, -1.5, 1.5, NULL, "prescribed tip rotation about z"},
+    [TIP_PHI_X] = {"tip_phi_x", "rad", 0.15, -1.5, 1.5, NULL, "prescribed tip twist, after the bending"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+static void prescribe_tip(scene *s, int tip, const double value[])
+{
+    /* First the deflection and phi_z together (path 0 to 1), then phi_x (1 to 2). */
+    const double path[3] = {0, 1, 2};
+    const double deflection[3] = {0, value[SHEET_DEFLECTION], value[SHEET_DEFLECTION]};
+    const double bend[3] = {0, value[TIP_PHI_Z], value[TIP_PHI_Z]};
+    const double twist[3] = {0, 0, value[TIP_PHI_X]};
+    scene_drive(s, tip, SCENE_UY, scene_add_driver(s, "tip_deflection", 3, path, deflection));
+    const int about[3] = {SCENE_FREE, scene_add_driver(s, "tip_phi_z", 3, path, bend), scene_add_driver(s, "tip_phi_x", 3, path, twist)};
+    static const double axis[3][3] = {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
+    scene_node *n = scene_node_at(s, tip);
+    n->rotation = SCENE_ROTATION_SEQUENCE;
+    for (int k = 0; k < 3; k++) {
+        n->angle[k] = about[k];
+        for (int i = 0; i < 3; i++)
+            n->axis[k][i] = axis[k][i];
+    }
+}
+
+static status build(const double value[], scene *s, fault *f)
+{
+    int root, tip;
+    const status outcome = sheet_build(value, s, &root, &tip, f);
+    if (outcome != STATUS_OK)
+        return outcome;
+    prescribe_tip(s, tip, value);
+    const int path_analysis = scene_add_analysis(s, SCENE_STATIC);
+    double stations[STATIONS_BENT + STATIONS_TWISTED];
+    for (int i = 0; i < STATIONS_BENT + STATIONS_TWISTED; i++)
+        stations[i] = i < STATIONS_BENT ? (i + 1.0) / STATIONS_BENT : 1 + (i + 1.0 - STATIONS_BENT) / STATIONS_TWISTED;
+    scene_set_stations(s, path_analysis, STATIONS_BENT + STATIONS_TWISTED, stations);
+    const int compliance = scene_add_analysis(s, SCENE_COMPLIANCE);
+    scene_analysis *c = scene_analysis_at(s, compliance);
+    c->follows = path_analysis;
+    c->node = tip;
+    c->moments = SCENE_MOMENTS_SPATIAL;
+    c->released = 1u << SCENE_UY | 1u << SCENE_RX | 1u << SCENE_RY | 1u << SCENE_RZ;
+
+    int entries[36][2];
+    for (int i = 0; i < 36; i++) {
+        /* du_x/dM_y first: it is the figure's. */
+        const int k = i == 0 ? 4 : i <= 4 ? i - 1 : i;
+        entries[i][0] = k / 6;
+        entries[i][1] = k % 6;
+    }
+    sheet_add_compliance(s, compliance, tip, (const int(*)[2])entries, 36, 1e-3);
+    static const struct { const char *name, *unit; scene_quantity_kind kind; int row; } motions[] = {
+        {"u_x", "m", SCENE_COORDINATE, SCENE_UX}, {"u_z", "m", SCENE_COORDINATE, SCENE_UZ}, {"F_y", "N", SCENE_REACTION, SCENE_UY},
+        {"M_x", "N m", SCENE_REACTION, SCENE_RX}, {"M_z", "N m", SCENE_REACTION, SCENE_RZ},
+    };
+    for (size_t i = 0; i < sizeof motions / sizeof motions[0]; i++) {
+        scene_quantity *q = scene_add_quantity(s, motions[i].name, motions[i].unit, motions[i].kind, path_analysis);
+        q->node = tip;
+        q->row = motions[i].row;
+        q->tolerance = 1e-3;
+        q->least_order = 1.8;
+    }
+    return STATUS_OK;
+}
+
+const case_type case_sheet_wagner = {
+    .name = "sheet_wagner",
+    .summary = "sheet flexure bent, then twisted: effect of the Wagner torque",
+    .source = "N section 4.1, Fig. 6",
+    .parameters = parameters,
+    .build = build,
+};

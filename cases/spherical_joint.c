@@ -1,0 +1,87 @@
+/* Spherical flexure joint: its end effector is tilted about an axis in the xy plane that turns once around z; support
+ * stiffness along z with the rotations held.  N section 4.2, Fig. 8, Table 1. */
+#include "cases/shared/joint.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+
+enum { TILT = JOINT_PARAMETERS, STEPS };
+enum { MAX_STEPS = 1000 };
+
+static const case_parameter parameters[] = {
+    JOINT_TABLE,
+    [TILT] = {"tilt", "rad", 15 * JOINT_DEGREE, 0, 1, NULL, "rotation of the end effector"},
+    [STEPS] = {"steps", "1", 50, 1, MAX_STEPS, NULL, "azimuths of the tilt axis in one turn"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+/* Station k = 1 .. steps: axis at azimuth 2 pi (k - 1)/steps; path 0 is the undeformed joint. */
+static void prescribe_rotation(const double value[], scene *s, int effector, double station[])
+{
+    static const char *const name[3] = {"rotation_x", "rotation_y", "rotation_z"};
+    const int steps = (int)value[STEPS];
+    scene_node *node = scene_node_at(s, effector);
+    node->rotation = SCENE_ROTATION_VECTOR;
+    double component[MAX_STEPS + 1];
+    for (int k = 0; k <= steps; k++)
+        station[k] = k;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k <= steps; k++) {
+            const double azimuth = 2 * 3.14159265358979323846 * (k - 1) / steps;
+            component[k] = k == 0 || i == 2 ? 0 : value[TILT] * (i == 0 ? cos(azimuth) : sin(azimuth));
+        }
+        const int driver = scene_add_driver(s, name[i], steps + 1, station, component);
+        scene_node_at(s, effector)->angle[i] = driver;
+    }
+}
+
+static scene_quantity *add_stiffness(scene *s, const char *name, int analysis, int effector, scene_reduction reduction)
+{
+    scene_quantity *q = scene_add_quantity(s, name, "N/m", SCENE_STIFFNESS_ENTRY, analysis);
+    q->node = effector;
+    q->row = q->column = SCENE_UZ;
+    q->reduction = reduction;
+    q->tolerance = 1e-3;
+    q->least_order = 1.5;
+    return q;
+}
+
+static status build(const double value[], scene *s, fault *f)
+{
+    int profile;
+    const status outcome = joint_prepare(value, s, &profile, f);
+    if (outcome != STATUS_OK)
+        return outcome;
+    const double centre[3] = {0, 0, 0}, axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const int base = scene_add_node(s, 0, 0, 0), effector = scene_add_node(s, 0, 0, 0);
+    scene_hold_all(s, base);
+    joint_add(value, s, profile, centre, axes, base, effector);
+    double station[MAX_STEPS + 1];
+    prescribe_rotation(value, s, effector, station);
+
+    const int tilting = scene_add_analysis(s, SCENE_STATIC);
+    scene_set_stations(s, tilting, (int)value[STEPS], station + 1);
+    const int tilted = scene_add_analysis(s, SCENE_COMPLIANCE), rest = scene_add_analysis(s, SCENE_COMPLIANCE);
+    scene_analysis_at(s, tilted)->follows = tilting;
+    scene_analysis_at(s, tilted)->node = effector;
+    scene_analysis_at(s, rest)->node = effector;
+    add_stiffness(s, "support_stiffness_max", tilted, effector, SCENE_MAX);
+    add_stiffness(s, "support_stiffness_min", tilted, effector, SCENE_MIN);
+    add_stiffness(s, "support_stiffness_undeformed", rest, effector, SCENE_LAST);
+    scene_quantity *curve = add_stiffness(s, "support_stiffness_curve", tilted, effector, SCENE_CURVE);
+    curve->x_factor = 2 * 3.14159265358979323846 / value[STEPS];
+    snprintf(curve->x_name, sizeof curve->x_name, "azimuth");
+    snprintf(curve->x_unit, sizeof curve->x_unit, "rad");
+    const int meshes[] = {1, 2, 4, 8};
+    scene_meshes(s, 4, meshes);
+    return STATUS_OK;
+}
+
+const case_type case_spherical_joint = {
+    .name = "spherical_joint",
+    .summary = "spherical flexure joint of six folded sheets: support stiffness around one turn of the tilt axis",
+    .source = "N section 4.2, Fig. 8, Table 1; geometry reconstructed",
+    .parameters = parameters,
+    .build = build,
+};
