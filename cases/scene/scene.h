@@ -115,7 +115,7 @@ typedef struct scene_quantity {
     int half_waves;          /* 0: any */
     scene_reduction reduction;
     double at;               /* path value for SCENE_AT, controlled value for SCENE_FACTOR_AT */
-    double factor;           /* reported value = factor * extracted value (0 means 1) */
+    double factor, offset;   /* reported value = factor * extracted value + offset (factor 0 means 1) */
     double near_zero;        /* absolute scale for relative errors of values near zero; 0: |value| */
     double tolerance;        /* relative, of the limit against the truth */
     double least_order;      /* of convergence in the number of elements */

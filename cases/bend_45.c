@@ -1,0 +1,63 @@
+/* The 45-degree bend: a cantilever along an arc of radius 100, loaded at its tip across the arc's plane.
+ * Bathe and Bolourchi (1979); 1 x 1 square section, E = 1e7, nu = 0 (units of the source taken as SI). */
+#include "cases/case.h"
+
+#include <math.h>
+#include <stddef.h>
+
+enum { FORCE, TORSION };
+
+static const case_parameter parameters[] = {
+    [FORCE] = {"force", "N", 600.0, -1e4, 1e4, NULL, "dead tip force across the plane of the arc"},
+    [TORSION] = {"torsion", "", 0, 0, 0, "exact|polar", "exact: J of the square and k = 5/6; polar: J = 1/6 and k = 1, as published tip positions need"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+static status build(const double value[], scene *s, fault *f)
+{
+    (void)f;
+    const double radius = 100, angle = 0.78539816339744830962, side = 1;
+    const int polar = value[TORSION] != 0;
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = SECTION_RECTANGLE;
+    spec.young = 1e7;
+    spec.shear_modulus = 5e6;
+    spec.width = spec.height = side;
+    spec.shear_factor[0] = spec.shear_factor[1] = polar ? 1 : 5.0 / 6;
+    spec.given.Iw = 0; /* uniform torsion */
+    if (polar)
+        spec.given.It = 1.0 / 6;
+    const int profile = scene_add_section(s, &spec);
+    const double y_axis[3] = {0, 1, 0};
+    const int root = scene_add_node(s, 0, 0, 0);
+    const int tip = scene_add_node(s, radius * sin(angle), 2 * radius * sin(angle / 2) * sin(angle / 2), 0);
+    scene_member_at(s, scene_add_member(s, root, tip, profile, y_axis))->curvature[2] = 1 / radius;
+    scene_hold_all(s, root);
+    scene_add_load(s, SCENE_FORCE, tip, 0, 0, value[FORCE]);
+    s->needs |= SCENE_NEED_SHEAR | SCENE_NEED_HARINGX;
+
+    const int path = scene_add_analysis(s, SCENE_STATIC);
+    const double end = 1;
+    scene_set_stations(s, path, 1, &end);
+    scene_analysis_at(s, path)->steps_between = 4;
+    static const char *const name[3] = {"u_tangent", "u_radial", "u_load"};
+    for (int i = 0; i < 3; i++) {
+        scene_quantity *q = scene_add_quantity(s, name[i], "m", SCENE_COORDINATE, path);
+        q->node = tip;
+        q->row = i;
+        q->tolerance = 1e-5;
+        q->least_order = 1.8;
+    }
+    const int meshes[] = {1, 2, 4, 8, 16, 32};
+    scene_meshes(s, 6, meshes);
+    return STATUS_OK;
+}
+
+const case_type case_bend_45 = {
+    .name = "bend_45",
+    .summary = "45-degree bend under a force across its plane",
+    .source = "Bathe and Bolourchi, Int. J. Numer. Meth. Eng. 14 (1979); exact solution of the Simo-Reissner beam",
+    .parameters = parameters,
+    .build = build,
+};

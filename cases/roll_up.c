@@ -1,0 +1,32 @@
+/* A cantilever rolled up by an end moment into full circles. L = 1 m, EI = 1 N m^2. */
+#include "cases/shared/cantilever.h"
+
+#include <stddef.h>
+
+enum { TURNS };
+
+static const case_parameter parameters[] = {
+    [TURNS] = {"turns", "1", 1.0, -2.0, 2.0, NULL, "full turns of the tip"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+static status build(const double value[], scene *s, fault *f)
+{
+    (void)f;
+    const cantilever_stiffness k = {.EA = 1e6, .GJ = 1, .EI = 1};
+    int root, tip;
+    cantilever_build(1, &k, s, &root, &tip);
+    scene_add_load(s, SCENE_MOMENT, tip, 0, 0, 2 * 3.14159265358979323846 * value[TURNS]);
+    const int path = cantilever_path(s, 10);
+    cantilever_quantity(s, "tip_gap", "1", path, tip, SCENE_UX, 1, 1);
+    s->quantity[s->quantities - 1].near_zero = 1;
+    return STATUS_OK;
+}
+
+const case_type case_roll_up = {
+    .name = "roll_up",
+    .summary = "cantilever rolled into a circle by an end moment",
+    .source = "exact: a circle",
+    .parameters = parameters,
+    .build = build,
+};

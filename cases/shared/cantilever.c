@@ -1,0 +1,47 @@
+#include "cases/shared/cantilever.h"
+
+void cantilever_build(double length, const cantilever_stiffness *k, scene *s, int *root, int *tip)
+{
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = SECTION_CONSTANTS;
+    /* Only the products matter: E = G = 1 Pa. */
+    spec.young = spec.shear_modulus = 1;
+    section *c = &spec.constants;
+    c->A = k->EA;
+    c->Iy = c->Iz = k->EI;
+    c->Ip = 2 * k->EI;
+    c->It = k->GJ;
+    if (k->GA > 0)
+        c->F[0] = c->F[4] = 1 / k->GA;
+    const int profile = scene_add_section(s, &spec);
+    const double y_axis[3] = {0, 1, 0};
+    *root = scene_add_node(s, 0, 0, 0);
+    *tip = scene_add_node(s, length, 0, 0);
+    scene_add_member(s, *root, *tip, profile, y_axis);
+    scene_hold_all(s, *root);
+    if (k->GA > 0)
+        s->needs |= SCENE_NEED_SHEAR | SCENE_NEED_HARINGX;
+    const int meshes[] = {1, 2, 4, 8, 16, 32};
+    scene_meshes(s, 6, meshes);
+}
+
+int cantilever_path(scene *s, int steps)
+{
+    const int path = scene_add_analysis(s, SCENE_STATIC);
+    const double end = 1;
+    scene_set_stations(s, path, 1, &end);
+    scene_analysis_at(s, path)->steps_between = steps;
+    return path;
+}
+
+void cantilever_quantity(scene *s, const char *name, const char *unit, int analysis, int tip, int row, double factor, double offset)
+{
+    scene_quantity *q = scene_add_quantity(s, name, unit, SCENE_COORDINATE, analysis);
+    q->node = tip;
+    q->row = row;
+    q->factor = factor;
+    q->offset = offset;
+    q->tolerance = 1e-5;
+    q->least_order = 1.8;
+}
