@@ -1,0 +1,128 @@
+/* Small dense algebra: plain loops in the order that runs along rows. */
+#include "elements/math/dense.h"
+
+#include <string.h>
+
+void dense_mul(int m, int k, int n, const double *A, const double *B, double *C)
+{
+    memset(C, 0, sizeof(double) * (size_t)m * (size_t)n);
+    for (int i = 0; i < m; i++)
+        for (int l = 0; l < k; l++) {
+            const double a = A[i * k + l];
+            for (int j = 0; j < n; j++)
+                C[i * n + j] += a * B[l * n + j];
+        }
+}
+
+void dense_add_transpose_mul(int m, int k, int n, const double *A, const double *B, double *C)
+{
+    for (int l = 0; l < k; l++)
+        for (int i = 0; i < m; i++) {
+            const double a = A[l * m + i];
+            if (a == 0)
+                continue;
+            for (int j = 0; j < n; j++)
+                C[i * n + j] += a * B[l * n + j];
+        }
+}
+
+void dense_mul_vec(int m, int n, const double *A, const double *x, double *y)
+{
+    for (int i = 0; i < m; i++) {
+        double sum = 0;
+        for (int j = 0; j < n; j++)
+            sum += A[i * n + j] * x[j];
+        y[i] = sum;
+    }
+}
+
+void dense_add_congruence(int m, int n, const double *J, const double *S, double *K, double *work)
+{
+    dense_mul(m, m, n, S, J, work);
+    dense_add_transpose_mul(n, m, n, J, work, K);
+}
+
+int dense_cholesky(int n, double *A)
+{
+    for (int j = 0; j < n; j++) {
+        double d = A[j * n + j];
+        for (int k = 0; k < j; k++)
+            d -= A[j * n + k] * A[j * n + k];
+        if (!(d > 0) || !isfinite(d))
+            return j + 1;
+        d = sqrt(d);
+        A[j * n + j] = d;
+        for (int i = j + 1; i < n; i++) {
+            double sum = A[i * n + j];
+            for (int k = 0; k < j; k++)
+                sum -= A[i * n + k] * A[j * n + k];
+            A[i * n + j] = sum / d;
+        }
+    }
+    return 0;
+}
+
+void dense_cholesky_solve(int n, int m, const double *L, double *B)
+{
+    for (int i = 0; i < n; i++)
+        for (int c = 0; c < m; c++) {
+            double sum = B[i * m + c];
+            for (int k = 0; k < i; k++)
+                sum -= L[i * n + k] * B[k * m + c];
+            B[i * m + c] = sum / L[i * n + i];
+        }
+    for (int i = n - 1; i >= 0; i--)
+        for (int c = 0; c < m; c++) {
+            double sum = B[i * m + c];
+            for (int k = i + 1; k < n; k++)
+                sum -= L[k * n + i] * B[k * m + c];
+            B[i * m + c] = sum / L[i * n + i];
+        }
+}
+
+int dense_lu(int n, double *A, int pivot[])
+{
+    for (int j = 0; j < n; j++) {
+        int p = j;
+        for (int i = j + 1; i < n; i++)
+            if (fabs(A[i * n + j]) > fabs(A[p * n + j]))
+                p = i;
+        pivot[j] = p;
+        if (!(fabs(A[p * n + j]) > 0) || !isfinite(A[p * n + j]))
+            return j + 1;
+        for (int k = 0; p != j && k < n; k++) {
+            const double swap = A[j * n + k];
+            A[j * n + k] = A[p * n + k];
+            A[p * n + k] = swap;
+        }
+        for (int i = j + 1; i < n; i++) {
+            const double factor = A[i * n + j] / A[j * n + j];
+            A[i * n + j] = factor;
+            if (factor != 0)
+                for (int k = j + 1; k < n; k++)
+                    A[i * n + k] -= factor * A[j * n + k];
+        }
+    }
+    return 0;
+}
+
+void dense_lu_solve(int n, int m, const double *LU, const int pivot[], double *B)
+{
+    for (int i = 0; i < n; i++)
+        for (int c = 0; pivot[i] != i && c < m; c++) {
+            const double swap = B[i * m + c];
+            B[i * m + c] = B[pivot[i] * m + c];
+            B[pivot[i] * m + c] = swap;
+        }
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < i; k++)
+            for (int c = 0; c < m; c++)
+                B[i * m + c] -= LU[i * n + k] * B[k * m + c];
+    for (int i = n - 1; i >= 0; i--)
+        for (int c = 0; c < m; c++) {
+            double sum = B[i * m + c];
+            for (int k = i + 1; k < n; k++)
+                sum -= LU[i * n + k] * B[k * m + c];
+            B[i * m + c] = sum / LU[i * n + i];
+        }
+}
