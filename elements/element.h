@@ -70,6 +70,7 @@ typedef struct element_data element_data; /* opaque; one per kind of element, sh
 
 typedef struct node_state {
     double r[3]; /* position [m] */
+    double u[3]; /* displacement since the undeformed state [m]: r - u is the initial position, so that an elongation needs no cancellation */
     double R[9]; /* node rotation times the element's initial triad; columns nX nY nZ */
     double a;    /* warping amplitude [rad/m]; phi_x' in the shear-rigid limit */
 } node_state;

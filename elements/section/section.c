@@ -1,0 +1,161 @@
+/* Section constants from walls, a rectangle or given numbers, checked before anyone uses them. */
+#include "elements/section/section.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/section/walls.h"
+
+void section_spec_init(section_spec *spec)
+{
+    memset(spec, 0, sizeof *spec);
+    double *given[] = {&spec->given.Iw,  &spec->given.ys,  &spec->given.zs,  &spec->given.Dy, &spec->given.Dz, &spec->given.Dw,
+                       &spec->given.Dyz, &spec->given.Dyw, &spec->given.Dzw, &spec->given.It, &spec->given.Ip};
+    for (size_t i = 0; i < sizeof given / sizeof given[0]; i++)
+        *given[i] = NAN;
+}
+
+double section_rectangle_torsion(double a, double b)
+{
+    const double pi = 3.14159265358979323846, h = fmax(a, b), t = fmin(a, b);
+    /* J = h t^3/3 [1 - 192/pi^5 t/h sum over odd n of tanh(n pi h/2t)/n^5]; tanh differs from 1 for the first terms only */
+    double sum = 0;
+    for (int n = 399; n >= 1; n -= 2)
+        sum += tanh(n * pi * h / (2 * t)) / pow(n, 5);
+    return h * t * t * t / 3 * (1 - 192 / pow(pi, 5) * t / h * sum);
+}
+
+static status rectangle(const section_spec *s, section *out, fault *f)
+{
+    const double w = s->width, h = s->height;
+    if (!(w > 0) || !isfinite(w))
+        return fault_set(f, STATUS_REFUSED, "section: width of the rectangle is %g m; it must be positive", w);
+    if (!(h > 0) || !isfinite(h))
+        return fault_set(f, STATUS_REFUSED, "section: thickness of the rectangle is %g m; it must be positive", h);
+    const double wide = fmax(w, h), thin = fmin(w, h);
+    out->A = w * h;
+    out->Iy = h * w * w * w / 12;
+    out->Iz = w * h * h * h / 12;
+    out->Ip = out->Iy + out->Iz;
+    out->It = section_rectangle_torsion(w, h);
+    out->Iw = w * w * w * h * h * h / 144;
+    out->wagner_torque = pow(wide, 5) * thin / 1440;
+    const int theory = s->shear_factor[0] > 0 || s->shear_factor[1] > 0;
+    for (int i = 0; i < 2; i++)
+        out->F[4 * i] = 1 / ((theory ? s->shear_factor[i] : 5.0 / 6) * out->A);
+    out->F[8] = theory ? 0 : 1 / (5.0 / 6 * thin * wide * wide * wide / 12);
+    out->rectangle = 1;
+    out->width = w;
+    out->height = h;
+    return STATUS_OK;
+}
+
+/* D = F^-1 where F has stiffness to invert; rows and columns of zeros (rigid in shear) stay zero in both. */
+static status invert_on_support(const double from[9], double to[9], const char *name, fault *f)
+{
+    double scaled[9], scale[3];
+    int index[3], n = 0;
+    memset(to, 0, 9 * sizeof(double));
+    for (int i = 0; i < 3; i++)
+        if (from[4 * i] != 0)
+            index[n++] = i;
+    static const char *const axis[] = {"y", "z", "w"};
+    for (int i = 0; i < n; i++) {
+        if (!(from[4 * index[i]] > 0))
+            return fault_set(f, STATUS_REFUSED, "section: %s_%s = %g must be positive", name, axis[index[i]], from[4 * index[i]]);
+        scale[i] = sqrt(from[4 * index[i]]);
+    }
+    double inverse[9] = {0};
+    for (int i = 0; i < n; i++) {
+        inverse[i * n + i] = 1;
+        for (int j = 0; j < n; j++)
+            scaled[i * n + j] = from[3 * index[i] + index[j]] / (scale[i] * scale[j]);
+    }
+    if (dense_cholesky(n, scaled) != 0)
+        return fault_set(f, STATUS_REFUSED, "section: the shear rigidity matrix %s is not positive definite (its terms off the diagonal are too large for %s_y = %g, %s_z = %g, %s_w = %g); correct the section's data",
+                         name, name, from[0], name, from[4], name, from[8]);
+    dense_cholesky_solve(n, n, scaled, inverse);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            to[3 * index[i] + index[j]] = inverse[i * n + j] / (scale[i] * scale[j]);
+    return STATUS_OK;
+}
+
+static void override(double *value, double given)
+{
+    if (!isnan(given))
+        *value = given;
+}
+
+static status apply_given(const section_spec *s, section *out, fault *f)
+{
+    override(&out->Iw, s->given.Iw);
+    override(&out->ys, s->given.ys);
+    override(&out->zs, s->given.zs);
+    override(&out->It, s->given.It);
+    override(&out->Ip, s->given.Ip);
+    const double diagonal[3] = {s->given.Dy, s->given.Dz, s->given.Dw}, off[3] = {s->given.Dyz, s->given.Dyw, s->given.Dzw};
+    static const int row[3] = {0, 0, 1}, column[3] = {1, 2, 2};
+    int changed = 0;
+    for (int i = 0; i < 3; i++)
+        changed |= !isnan(diagonal[i]) || !isnan(off[i]);
+    if (!changed)
+        return STATUS_OK;
+    for (int i = 0; i < 3; i++) {
+        override(&out->D[4 * i], diagonal[i]);
+        override(&out->D[3 * row[i] + column[i]], off[i]);
+        override(&out->D[3 * column[i] + row[i]], off[i]);
+    }
+    return invert_on_support(out->D, out->F, "D", f);
+}
+
+static status check_material(const section_spec *s, fault *f)
+{
+    if (!(s->young > 0) || !isfinite(s->young))
+        return fault_set(f, STATUS_REFUSED, "section: young = %g Pa; the modulus of elasticity must be positive", s->young);
+    if (!(s->shear_modulus > 0) || !isfinite(s->shear_modulus))
+        return fault_set(f, STATUS_REFUSED, "section: shear_modulus = %g Pa; it must be positive (Poisson's ratio between -1 and 0.5)", s->shear_modulus);
+    if (!(s->density >= 0) || !isfinite(s->density))
+        return fault_set(f, STATUS_REFUSED, "section: density = %g kg/m^3; it must not be negative", s->density);
+    return STATUS_OK;
+}
+
+static status check_constants(const section *c, fault *f)
+{
+    const struct {
+        const char *name;
+        double value;
+        int may_vanish;
+    } all[] = {{"A", c->A, 0}, {"Iy", c->Iy, 0}, {"Iz", c->Iz, 0}, {"It", c->It, 1}, {"Iw", c->Iw, 1}, {"Ip", c->Ip, 0}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (!(all[i].value > 0 || (all[i].may_vanish && all[i].value == 0)) || !isfinite(all[i].value))
+            return fault_set(f, STATUS_REFUSED, "section: %s = %g; it must be %s", all[i].name, all[i].value, all[i].may_vanish ? "positive or zero" : "positive");
+    if (!isfinite(c->ys) || !isfinite(c->zs))
+        return fault_set(f, STATUS_REFUSED, "section: the shear centre (%g, %g) m is not finite", c->ys, c->zs);
+    return STATUS_OK;
+}
+
+status section_compute(const section_spec *spec, section *out, fault *f)
+{
+    status outcome = check_material(spec, f);
+    if (outcome != STATUS_OK)
+        return outcome;
+    memset(out, 0, sizeof *out);
+    if (spec->kind == SECTION_WALLS)
+        outcome = section_walls(spec, out, f);
+    else if (spec->kind == SECTION_RECTANGLE)
+        outcome = rectangle(spec, out, f);
+    else
+        *out = spec->constants;
+    if (outcome != STATUS_OK)
+        return outcome;
+    out->young = spec->young;
+    out->shear_modulus = spec->shear_modulus;
+    out->density = spec->density;
+    /* Whichever of D and F is there gives the other; both zero: rigid in shear. */
+    outcome = out->F[0] == 0 && out->D[0] != 0 ? invert_on_support(out->D, out->F, "D", f) : invert_on_support(out->F, out->D, "F", f);
+    if (outcome == STATUS_OK)
+        outcome = apply_given(spec, out, f);
+    return outcome == STATUS_OK ? check_constants(out, f) : outcome;
+}
