@@ -1,0 +1,91 @@
+/* With B = I + Q(e): sigma = B^T S ebar, dsigma/de = B^T S B + sum (S ebar)_i Q_i. */
+#include "elements/beamw/forms.h"
+
+#include <string.h>
+
+#include "elements/beamw/modes.h"
+#include "elements/math/dense.h"
+
+void forms_add_product(double Q[8 * 8], double c, const double a[8], const double b[8])
+{
+    for (int i = 0; i < 8; i++)
+        for (int j = 0; j < 8; j++)
+            Q[8 * i + j] += c * (a[i] * b[j] + b[i] * a[j]);
+}
+
+/* M <- T^T M T with T: e7 = e8 = e2. */
+static void follow_torsion(double M[8 * 8])
+{
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < 8; i++)
+            for (int k = 6; k < 8; k++) {
+                double *from = pass == 0 ? &M[8 * i + k] : &M[8 * k + i], *to = pass == 0 ? &M[8 * i + 1] : &M[8 * 1 + i];
+                *to += *from;
+                *from = 0;
+            }
+}
+
+void forms_drop_warping(element_data *d)
+{
+    follow_torsion(d->S);
+    for (int i = 0; i < FORMS_MODIFIED; i++)
+        follow_torsion(d->Q[i]);
+}
+
+size_t forms_data_size(const element_request *request)
+{
+    (void)request;
+    return sizeof(element_data);
+}
+
+void forms_strain(const element_data *d, const node_state x[], strain_output *out)
+{
+    modes_strain(d->l0, x, out);
+}
+
+status forms_stress(const element_data *d, const double e[], const double inner[], stress_output *out)
+{
+    (void)inner;
+    double B[8 * 8] = {0}, modified[8], conjugate[8];
+    memcpy(modified, e, sizeof modified);
+    for (int i = 0; i < 8; i++)
+        B[9 * i] = 1;
+    for (int k = 0; k < FORMS_MODIFIED && d->modified; k++) {
+        double row[8];
+        dense_mul_vec(8, 8, d->Q[k], e, row);
+        for (int j = 0; j < 8; j++) {
+            B[8 * k + j] += row[j];
+            modified[k] += row[j] * e[j] / 2;
+        }
+    }
+    dense_mul_vec(8, 8, d->S, modified, conjugate);
+    if (out->energy != NULL) {
+        *out->energy = 0;
+        for (int i = 0; i < 8; i++)
+            *out->energy += modified[i] * conjugate[i] / 2;
+    }
+    if (out->sigma != NULL) {
+        memset(out->sigma, 0, 8 * sizeof(double));
+        dense_add_transpose_mul(8, 8, 1, B, conjugate, out->sigma);
+    }
+    if (out->C != NULL) {
+        if (d->modified) {
+            double work[8 * 8];
+            forms_geometric(d, conjugate, out->C);
+            dense_add_congruence(8, 8, B, d->S, out->C, work);
+        } else {
+            memcpy(out->C, d->S, sizeof d->S);
+        }
+    }
+    if (out->residual != NULL)
+        *out->residual = 0;
+    return STATUS_OK;
+}
+
+void forms_geometric(const element_data *d, const double sigma[], double G[])
+{
+    memset(G, 0, 64 * sizeof(double));
+    for (int k = 0; k < FORMS_MODIFIED && d->modified; k++)
+        for (int i = 0; i < 64; i++)
+            G[i] += sigma[k] * d->Q[k][i];
+}

@@ -1,0 +1,30 @@
+/* The stress function that every BEAMW form shares: energy 1/2 ebar^T S ebar of modified modes
+ * ebar_i = e_i + 1/2 e^T Q_i e (J Eqs. 62-66).  A form says only what S and Q are. */
+#ifndef BEAMWORK_BEAMW_FORMS_H
+#define BEAMWORK_BEAMW_FORMS_H
+
+#include "elements/element.h"
+
+enum { FORMS_STRAINS = 8, FORMS_MODIFIED = 6 }; /* e7 and e8 are never modified */
+
+struct element_data {
+    double l0;                             /* [m] */
+    double S[8 * 8];                       /* [N/m] */
+    double Q[FORMS_MODIFIED][8 * 8];       /* [1/m], symmetric */
+    int modified;                          /* 0: every Q is zero */
+    double lumped[7], consistent[14 * 14]; /* inertia of half the element, and of the whole in element axes */
+    double share;                          /* of the consistent mass: 0 lumped, 1 consistent, 1/2 averaged */
+};
+
+/* Q += c (a b^T + b a^T): the quadratic c (a . e)(b . e). */
+void forms_add_product(double Q[8 * 8], double c, const double a[8], const double b[8]);
+
+/* Uniform torsion, where nothing warps: e7 and e8 follow e2. */
+void forms_drop_warping(element_data *d);
+
+size_t forms_data_size(const element_request *);
+void forms_strain(const element_data *d, const node_state x[], strain_output *out);
+status forms_stress(const element_data *d, const double e[], const double inner[], stress_output *out);
+void forms_geometric(const element_data *d, const double sigma[], double G[]);
+
+#endif

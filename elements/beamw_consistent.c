@@ -1,0 +1,25 @@
+/* BEAMW repaired: the whole of D in the stiffness, all modified modes from the full shear interpolation. */
+#include "elements/beamw/inertia.h"
+#include "elements/beamw/prepare.h"
+
+static status prepare(const element_request *request, element_data *out, fault *f)
+{
+    return prepare_form(request, STIFFNESS_COUPLED, PREPARE_CONSISTENT, out, f);
+}
+
+const element_type element_beamw_consistent = {
+    .name = "beamw_consistent",
+    .summary = "BEAMW with coupled shear stiffness and modified modes consistent with it",
+    .source = "J Eq. 7; stiffness and modes: reference/ERRATA.md, J 58/62/66",
+    .abi = ELEMENT_ABI,
+    .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_HARINGX | FEATURE_WAGNER_MOMENTS | FEATURE_WARPING |
+              FEATURE_ECCENTRIC | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
+    .limits = 0,
+    .options = prepare_options,
+    .data_size = forms_data_size,
+    .prepare = prepare,
+    .strain = forms_strain,
+    .stress = forms_stress,
+    .geometric = forms_geometric,
+    .inertia = inertia_of,
+};

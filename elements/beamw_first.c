@@ -1,0 +1,25 @@
+/* BEAMW without its second-order terms: what they are worth is measured by leaving them out. */
+#include "elements/beamw/inertia.h"
+#include "elements/beamw/prepare.h"
+
+static status prepare(const element_request *request, element_data *out, fault *f)
+{
+    return prepare_form(request, STIFFNESS_DIAGONAL, PREPARE_FIRST_ORDER, out, f);
+}
+
+const element_type element_beamw_first = {
+    .name = "beamw_first",
+    .summary = "BEAMW with linear modes: no second-order terms inside the element",
+    .source = "J Eqs. 7, App. A",
+    .abi = ELEMENT_ABI,
+    .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_HARINGX | FEATURE_WARPING | FEATURE_ECCENTRIC |
+              FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
+    .limits = 0,
+    .options = prepare_options,
+    .data_size = forms_data_size,
+    .prepare = prepare,
+    .strain = forms_strain,
+    .stress = forms_stress,
+    .geometric = forms_geometric,
+    .inertia = inertia_of,
+};

@@ -1,0 +1,25 @@
+/* BEAMW with Phi = 0 whatever the section's shear rigidities: Vlasov's theory. */
+#include "elements/beamw/inertia.h"
+#include "elements/beamw/prepare.h"
+
+static status prepare(const element_request *request, element_data *out, fault *f)
+{
+    return prepare_form(request, STIFFNESS_RIGID, PREPARE_PRINTED, out, f);
+}
+
+const element_type element_beamw_vlasov = {
+    .name = "beamw_vlasov",
+    .summary = "BEAMW in the shear-rigid limit (Vlasov)",
+    .source = "J Eqs. 7, 66, App. A with Phi = 0",
+    .abi = ELEMENT_ABI,
+    .offers = FEATURE_TRAPEZE | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS |
+              FEATURE_ROTARY_INERTIA,
+    .limits = LIMIT_NO_STRESS_FREE_SHEAR,
+    .options = prepare_options,
+    .data_size = forms_data_size,
+    .prepare = prepare,
+    .strain = forms_strain,
+    .stress = forms_stress,
+    .geometric = forms_geometric,
+    .inertia = inertia_of,
+};
