@@ -158,7 +158,7 @@ void scene_free(scene *s);
 int scene_add_section(scene *s, const section_spec *spec);
 int scene_add_node(scene *s, double x, double y, double z);
 int scene_add_attached(scene *s, int body, double x, double y, double z); /* absolute undeformed position */
-int scene_add_member(scene *s, int p, int q, int section, const double y_axis[3]);
+int scene_add_member(scene *s, int p, int q, int profile, const double y_axis[3]); /* profile: a section of the scene */
 int scene_add_driver(scene *s, const char *name, int stations, const double path[], const double value[]);
 int scene_add_unknown_driver(scene *s, const char *name, int node, int component, int condition_driver);
 int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y, double z);

@@ -1,0 +1,229 @@
+#include "cases/scene/scene.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void scene_init(scene *s, const char *name)
+{
+    memset(s, 0, sizeof *s);
+    snprintf(s->name, sizeof s->name, "%s", name);
+}
+
+void scene_free(scene *s)
+{
+    for (int i = 0; i < s->drivers; i++) {
+        free(s->driver[i].path);
+        free(s->driver[i].value);
+    }
+    for (int i = 0; i < s->loads; i++) {
+        free(s->load[i].path);
+        free(s->load[i].factor);
+    }
+    for (int i = 0; i < s->analyses; i++)
+        free(s->analysis[i].path);
+    free(s->section);
+    free(s->node);
+    free(s->member);
+    free(s->driver);
+    free(s->load);
+    free(s->analysis);
+    free(s->quantity);
+    memset(s, 0, sizeof *s);
+}
+
+/* Room for one more entry, zeroed: its index, or -1. Lists double when their count is a power of two. */
+static int grow(scene *s, void *list, int *count, size_t size)
+{
+    void *entries;
+    memcpy(&entries, list, sizeof entries);
+    const int n = *count;
+    if ((n & (n - 1)) == 0) {
+        void *larger = realloc(entries, (n == 0 ? 1 : 2 * (size_t)n) * size);
+        if (larger == NULL) {
+            s->out_of_memory = 1;
+            return SCENE_NONE;
+        }
+        entries = larger;
+        memcpy(list, &entries, sizeof entries);
+    }
+    memset((char *)entries + (size_t)n * size, 0, size);
+    return (*count)++;
+}
+
+static double *copy(scene *s, int n, const double from[])
+{
+    double *to = malloc((size_t)(n > 0 ? n : 1) * sizeof *to);
+    if (to == NULL)
+        s->out_of_memory = 1;
+    else if (n > 0)
+        memcpy(to, from, (size_t)n * sizeof *to);
+    return to;
+}
+
+int scene_add_section(scene *s, const section_spec *spec)
+{
+    const int i = grow(s, &s->section, &s->sections, sizeof *s->section);
+    if (i >= 0)
+        s->section[i] = *spec;
+    return i;
+}
+
+scene_node *scene_node_at(scene *s, int i)
+{
+    return i >= 0 && i < s->nodes ? &s->node[i] : &s->scrap_node;
+}
+
+scene_member *scene_member_at(scene *s, int i)
+{
+    return i >= 0 && i < s->members ? &s->member[i] : &s->scrap_member;
+}
+
+scene_load *scene_load_at(scene *s, int i)
+{
+    return i >= 0 && i < s->loads ? &s->load[i] : &s->scrap_load;
+}
+
+scene_analysis *scene_analysis_at(scene *s, int i)
+{
+    return i >= 0 && i < s->analyses ? &s->analysis[i] : &s->scrap_analysis;
+}
+
+int scene_add_node(scene *s, double x, double y, double z)
+{
+    const int i = grow(s, &s->node, &s->nodes, sizeof *s->node);
+    scene_node *n = scene_node_at(s, i);
+    n->position[0] = x;
+    n->position[1] = y;
+    n->position[2] = z;
+    n->attached = SCENE_NONE;
+    for (int k = 0; k < 3; k++)
+        n->translation[k] = n->angle[k] = SCENE_FREE;
+    return i;
+}
+
+int scene_add_attached(scene *s, int body, double x, double y, double z)
+{
+    const int i = scene_add_node(s, x, y, z);
+    scene_node_at(s, i)->attached = body;
+    return i;
+}
+
+int scene_add_member(scene *s, int p, int q, int profile, const double y_axis[3])
+{
+    const int i = grow(s, &s->member, &s->members, sizeof *s->member);
+    scene_member *m = scene_member_at(s, i);
+    m->p = p;
+    m->q = q;
+    m->section = profile;
+    memcpy(m->y_axis, y_axis, sizeof m->y_axis);
+    m->warp_p = m->warp_q = SCENE_WARP_FREE;
+    return i;
+}
+
+static int add_driver(scene *s, const char *name)
+{
+    const int i = grow(s, &s->driver, &s->drivers, sizeof *s->driver);
+    if (i >= 0) {
+        snprintf(s->driver[i].name, SCENE_NAME, "%s", name);
+        s->driver[i].condition_node = s->driver[i].condition_driver = SCENE_NONE;
+    }
+    return i;
+}
+
+int scene_add_driver(scene *s, const char *name, int stations, const double path[], const double value[])
+{
+    const int i = add_driver(s, name);
+    if (i >= 0) {
+        s->driver[i].stations = stations;
+        s->driver[i].path = copy(s, stations, path);
+        s->driver[i].value = copy(s, stations, value);
+    }
+    return i;
+}
+
+int scene_add_unknown_driver(scene *s, const char *name, int node, int component, int condition_driver)
+{
+    const int i = add_driver(s, name);
+    if (i >= 0) {
+        s->driver[i].condition_node = node;
+        s->driver[i].condition_component = component;
+        s->driver[i].condition_driver = condition_driver;
+    }
+    return i;
+}
+
+int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y, double z)
+{
+    const int i = grow(s, &s->load, &s->loads, sizeof *s->load);
+    scene_load *load = scene_load_at(s, i);
+    load->kind = kind;
+    load->where = where;
+    load->vector[0] = x;
+    load->vector[1] = y;
+    load->vector[2] = z;
+    return i;
+}
+
+int scene_add_analysis(scene *s, scene_analysis_kind kind)
+{
+    const int i = grow(s, &s->analysis, &s->analyses, sizeof *s->analysis);
+    scene_analysis *a = scene_analysis_at(s, i);
+    a->kind = kind;
+    a->follows = a->node = a->control_node = SCENE_NONE;
+    a->steps_between = 1;
+    return i;
+}
+
+int scene_set_stations(scene *s, int analysis, int stations, const double path[])
+{
+    scene_analysis *a = scene_analysis_at(s, analysis);
+    if (a == &s->scrap_analysis)
+        return SCENE_NONE;
+    free(a->path);
+    a->path = copy(s, stations, path);
+    a->stations = stations;
+    return analysis;
+}
+
+scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit, scene_quantity_kind kind, int analysis)
+{
+    const int i = grow(s, &s->quantity, &s->quantities, sizeof *s->quantity);
+    scene_quantity *q = i >= 0 ? &s->quantity[i] : &s->scrap_quantity;
+    memset(q, 0, sizeof *q);
+    snprintf(q->name, sizeof q->name, "%s", name);
+    snprintf(q->unit, sizeof q->unit, "%s", unit);
+    q->kind = kind;
+    q->analysis = analysis;
+    q->node = q->x_driver = SCENE_NONE;
+    q->sign = 1;
+    return q;
+}
+
+static int *component_of(scene_node *n, int component)
+{
+    return component < SCENE_RX ? &n->translation[component] : &n->angle[component - SCENE_RX];
+}
+
+void scene_hold(scene *s, int node, int first, int last)
+{
+    for (int c = first; c <= last; c++)
+        *component_of(scene_node_at(s, node), c) = SCENE_HELD;
+}
+
+void scene_hold_all(scene *s, int node)
+{
+    scene_hold(s, node, SCENE_UX, SCENE_RZ);
+}
+
+void scene_drive(scene *s, int node, int component, int driver)
+{
+    *component_of(scene_node_at(s, node), component) = driver;
+}
+
+void scene_meshes(scene *s, int count, const int mesh[])
+{
+    s->meshes = count < 16 ? count : 16;
+    memcpy(s->mesh, mesh, (size_t)s->meshes * sizeof *mesh);
+}

@@ -1,0 +1,143 @@
+/* What a scene must be before anything is built from it. */
+#include <math.h>
+#include <string.h>
+
+#include "cases/scene/scene.h"
+
+static status check_node(const scene *s, int i, fault *f)
+{
+    const scene_node *n = &s->node[i];
+    for (int k = 0; k < 3; k++) {
+        if (!isfinite(n->position[k]))
+            return fault_set(f, STATUS_REFUSED, "node %d: its position is not a number", i);
+        if (n->translation[k] < SCENE_HELD || n->translation[k] >= s->drivers || n->angle[k] < SCENE_HELD ||
+            n->angle[k] >= s->drivers)
+            return fault_set(f, STATUS_REFUSED, "node %d: moved by a driver that does not exist", i);
+        if (n->rotation == SCENE_ROTATION_VECTOR && n->angle[k] < 0)
+            return fault_set(f, STATUS_REFUSED, "node %d: a prescribed rotation vector needs three drivers", i);
+    }
+    if (n->attached == SCENE_NONE)
+        return STATUS_OK;
+    if (n->attached < 0 || n->attached >= s->nodes || n->attached == i || s->node[n->attached].attached != SCENE_NONE)
+        return fault_set(f, STATUS_REFUSED,
+                         "node %d: attached to node %d, which is no body; attach it to a node that is attached to nothing", i,
+                         n->attached);
+    for (int k = 0; k < 3; k++)
+        if (n->translation[k] != SCENE_FREE || n->angle[k] != SCENE_FREE)
+            return fault_set(f, STATUS_REFUSED, "node %d: contradictory supports, it moves with node %d; hold that one instead", i,
+                             n->attached);
+    return STATUS_OK;
+}
+
+static status check_member(const scene *s, int i, fault *f)
+{
+    const scene_member *m = &s->member[i];
+    if (m->p < 0 || m->p >= s->nodes || m->q < 0 || m->q >= s->nodes)
+        return fault_set(f, STATUS_REFUSED, "member %d: it ends at a node that does not exist", i);
+    if (m->section < 0 || m->section >= s->sections)
+        return fault_set(f, STATUS_REFUSED, "member %d: its section does not exist", i);
+    double d[3], length = 0, along = 0, across = 0;
+    for (int k = 0; k < 3; k++) {
+        d[k] = s->node[m->q].position[k] - s->node[m->p].position[k];
+        length += d[k] * d[k];
+        along += d[k] * m->y_axis[k];
+        across += m->y_axis[k] * m->y_axis[k];
+    }
+    if (!(length > 0))
+        return fault_set(f, STATUS_REFUSED, "member %d: its ends coincide; its length must be positive", i);
+    if (!(across > 0) || !(across * length - along * along > 1e-12 * across * length))
+        return fault_set(f, STATUS_REFUSED, "member %d: its y axis is parallel to it", i);
+    if (m->divisions < 0)
+        return fault_set(f, STATUS_REFUSED, "member %d: %d elements; give at least 1", i, m->divisions);
+    return STATUS_OK;
+}
+
+static int is_used(const scene *s, int driver)
+{
+    for (int i = 0; i < s->nodes; i++)
+        for (int k = 0; k < 3; k++)
+            if (s->node[i].translation[k] == driver || s->node[i].angle[k] == driver)
+                return 1;
+    for (int i = 0; i < s->drivers; i++)
+        if (s->driver[i].condition_driver == driver)
+            return 1;
+    return 0;
+}
+
+static status check_driver(const scene *s, int i, fault *f)
+{
+    const scene_driver *d = &s->driver[i];
+    if (!is_used(s, i))
+        return fault_set(f, STATUS_REFUSED, "driver %s: it moves nothing", d->name);
+    if (d->value == NULL) {
+        const int known =
+            d->condition_driver >= 0 && d->condition_driver < s->drivers && s->driver[d->condition_driver].value != NULL;
+        if (!known || d->condition_node < 0 || d->condition_node >= s->nodes)
+            return fault_set(f, STATUS_REFUSED, "driver %s: its value is unknown and no condition fixes it", d->name);
+        return STATUS_OK;
+    }
+    for (int k = 0; k < d->stations; k++) {
+        if (!isfinite(d->value[k]) || !isfinite(d->path[k]))
+            return fault_set(f, STATUS_REFUSED, "driver %s: station %d is not a number", d->name, k);
+        if (k > 0 && !(d->path[k] > d->path[k - 1]))
+            return fault_set(f, STATUS_REFUSED, "driver %s: its stations must ascend", d->name);
+    }
+    return STATUS_OK;
+}
+
+static status check_load(const scene *s, int i, fault *f)
+{
+    const scene_load *load = &s->load[i];
+    const int limit = load->kind == SCENE_DISTRIBUTED ? s->members : s->nodes;
+    if (load->where < 0 || load->where >= limit)
+        return fault_set(f, STATUS_REFUSED, "load %d: it acts on something that does not exist", i);
+    for (int k = 0; k < 3; k++)
+        if (!isfinite(load->vector[k]))
+            return fault_set(f, STATUS_REFUSED, "load %d: it is not a number", i);
+    return STATUS_OK;
+}
+
+static status check_analysis(const scene *s, int i, fault *f)
+{
+    const scene_analysis *a = &s->analysis[i];
+    if (a->follows != SCENE_NONE && (a->follows < 0 || a->follows >= i))
+        return fault_set(f, STATUS_REFUSED, "analysis %d: it follows one that does not come before it", i);
+    for (int k = 1; k < a->stations; k++)
+        if (!(a->path[k] > a->path[k - 1]))
+            return fault_set(f, STATUS_REFUSED, "analysis %d: its stations must ascend", i);
+    if (a->kind == SCENE_STATIC && a->stations < 1)
+        return fault_set(f, STATUS_REFUSED, "analysis %d: a static path needs a station", i);
+    if (a->kind == SCENE_COMPLIANCE && (a->node < 0 || a->node >= s->nodes))
+        return fault_set(f, STATUS_REFUSED, "analysis %d: a compliance needs a node", i);
+    return STATUS_OK;
+}
+
+static status check_quantity(const scene *s, int i, fault *f)
+{
+    const scene_quantity *q = &s->quantity[i];
+    for (int k = 0; k < i; k++)
+        if (strcmp(s->quantity[k].name, q->name) == 0)
+            return fault_set(f, STATUS_REFUSED, "quantity %s: two of that name", q->name);
+    if (q->analysis < 0 || q->analysis >= s->analyses)
+        return fault_set(f, STATUS_REFUSED, "quantity %s: no such analysis", q->name);
+    const int at_node = q->kind == SCENE_COORDINATE || q->kind == SCENE_REACTION;
+    if (at_node && (q->node < 0 || q->node >= s->nodes || q->row < SCENE_UX || q->row > SCENE_RZ))
+        return fault_set(f, STATUS_REFUSED, "quantity %s: no such coordinate", q->name);
+    return STATUS_OK;
+}
+
+status scene_validate(const scene *s, fault *f)
+{
+    static status (*const check[])(const scene *, int, fault *) = {check_node, check_member,   check_driver,
+                                                                   check_load, check_analysis, check_quantity};
+    const int count[] = {s->nodes, s->members, s->drivers, s->loads, s->analyses, s->quantities};
+    if (s->out_of_memory)
+        return fault_set(f, STATUS_FAULT, "%s: out of memory while the scene was built", s->name);
+    for (size_t k = 0; k < sizeof count / sizeof count[0]; k++)
+        for (int i = 0; i < count[k]; i++) {
+            const status outcome = check[k](s, i, f);
+            if (outcome != STATUS_OK)
+                return outcome;
+        }
+    return STATUS_OK;
+}
