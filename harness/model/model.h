@@ -59,8 +59,9 @@ counters *model_counters(model *);
 
 /* Everything that changes along a path. A copy undoes a rejected step. */
 typedef struct model_state model_state;
-status model_state_alloc(const model *, model_state **, fault *);   /* undeformed, path = 0 */
+status model_state_alloc(const model *, model_state **, fault *); /* undeformed, path = 0 */
 void model_state_free(model_state *);
+const model_state *model_rest(const model *); /* undeformed */
 void model_state_copy(const model *, const model_state *from, model_state *to);
 double model_state_path(const model_state *);
 
@@ -72,39 +73,51 @@ double model_driver_value(const model *, const model_state *, int driver);
 
 /* Coordinate index of a component of a node, or -1 where it is held, or dependent. */
 int model_coordinate(const model *, int node, int component);
+/* Coordinate that a driver moves, or -1. */
+int model_driver_coordinate(const model *, int driver);
 /* Jacobian of the node's six spatial increments with respect to the coordinates it depends on:
  * returns the count m <= size, fills index[m] and T[6 x m] (row-major, leading dimension m). */
 int model_node_jacobian(const model *, const model_state *, int node, int size, int index[], double T[]);
 
-/* Patterns. `with_driven` 0: free x free; 1: all coordinates. */
-status model_pattern(const model *, int with_driven, sparse *out, fault *f); /* owns its arrays: model_pattern_free */
-void model_pattern_free(sparse *);
+/* Patterns. `with_driven` 0: free x free; 1: all coordinates. Made at the first call and owned by the model;
+ * matrices on it come from sparse_alloc_like. Symmetric unless the formulation's or the loads' tangent is not. */
+status model_pattern(model *, int with_driven, const sparse **out, fault *f);
 
 /* Increments of the driven coordinates (dx[free .. free+driven)) that take the state to `path`; the rest of dx untouched. */
 void model_drive(const model *, const model_state *, double path, double dx[]);
 
-/* Mixed linearisation of equilibrium (simultaneous in coordinates, strains and stresses), condensed per element:
- *   K dx = f(path, factor) - J^T [P'(e) + P''(e) (D(x) - e)]   ->  K, residual
- * on the pattern K was allocated with (free only or all). `displacement`: e and sigma are taken from D(x) first.
- * load: reference loads of the scene times their factor at `path`, plus `factor` times the loads marked unknown. */
+/* Internal less external force of every coordinate is what equilibrium makes zero on the free ones.
+ * Mixed linearisation (simultaneous in coordinates, strains and stresses; N section 4), condensed per element:
+ *   K dx = f(path) - J^T [P'(e) + P''(e) (D(x) - e)],  K = J^T P'' J + sum sigma_i H_i
+ * The driven part of dx is known: its share is taken to the right-hand side here. */
 typedef struct model_linearisation {
     double path;
-    int displacement;    /* 1: displacement-only Newton */
-    sparse *K;           /* NULL: not wanted */
-    double *residual;    /* [coordinates of K's pattern, or free] right-hand side */
-    double *load;        /* the load part of it, or NULL */
-    double incompatibility; /* out: dimensionless max |D(x) - e| */
+    int displacement;       /* 1: displacement-only Newton: e and sigma are taken from D(x) first */
+    const double *drive;    /* [free + driven] increments; only the driven part is read; NULL: none */
+    sparse *K;              /* on a pattern of model_pattern; NULL: not wanted */
+    double *residual;       /* [free + driven] right-hand side; of driven coordinates: less their reaction */
+    double incompatibility; /* out: max |D(x) - e|/l over elements */
 } model_linearisation;
-status model_linearise(model *, model_state *, model_linearisation *, fault *);
-/* After K dx = residual: strains, stresses, inner unknowns of every element and then the frames take their increments. dx[free + driven]. */
-status model_advance(model *, model_state *, const double dx[], double path, fault *);
+status model_linearise(model *, const model_state *, model_linearisation *, fault *);
+/* After K dx = residual: strains, stresses, inner unknowns of every element and then the frames take their increments.
+ * dx[free + driven]. Returns the largest correction, dimensionless: translations by the size of the scene, rotations in
+ * rad, warping by the element length, inner unknowns as the element says. */
+double model_advance(model *, model_state *, const double dx[], double path);
+/* Forgets the independent strains and stresses: e = D(x), sigma = P'(e). */
+status model_make_compatible(model *, model_state *, fault *);
+/* Force and spatial moment that act from outside on a node's frame (loads and reactions) in the state: F[6] [N, N m]. */
+void model_node_force(model *, const model_state *, int node, double F[6]);
+/* The loads' part of it at the state's path. */
+void model_node_load(const model *, const model_state *, int node, double F[6]);
 
 /* Linear analyses about the undeformed state. */
-status model_linear_stiffness(model *, sparse *K, fault *);                      /* J^T S J at e = 0 */
-status model_linear_stresses(model *, const double x[], double sigma[], fault *);/* sigma = S J x, [elements x strains] */
-status model_geometric_stiffness(model *, const double sigma[], sparse *G, fault *); /* sum sigma H + J^T G(sigma) J; loads' own: offsets */
+status model_linear_stiffness(model *, sparse *K, fault *);                       /* J^T S J at e = 0 */
+status model_linear_stresses(model *, const double x[], double sigma[], fault *); /* sigma = S J x, [elements x strains] */
+void model_linear_forces(model *, const double sigma[], double f[]);              /* f[free + driven] = sum J^T sigma */
+status model_geometric_stiffness(model *, const double sigma[], sparse *G,
+                                 fault *); /* sum sigma H + J^T G(sigma) J; offsets included */
 /* Quadratic forms from the element strains, free of the cancellation of x^T (K x): error eps n^2 instead of eps n^4. */
-double model_strain_energy2(model *, const double x[]);                          /* x^T K x = sum (Jx)^T S (Jx) */
+double model_strain_energy2(model *, const double x[]); /* x^T K x = sum (Jx)^T S (Jx) */
 double model_geometric_energy2(model *, const double sigma[], const double x[]);
 /* Loads at factor 1 as a vector on the free coordinates. */
 status model_reference_load(model *, double f[], fault *);

@@ -23,10 +23,10 @@ void sparse_mul(const sparse *a, const double x[], double y[]); /* y = A x */
 typedef struct factor factor;
 
 typedef struct factor_counts {
-    long entries;           /* of the factors: fill */
-    double flops;           /* of one numeric factorisation */
-    int negative_pivots;    /* symmetric only; else -1 */
-    double condition;       /* cheap estimate max|d|/min|d| */
+    long entries;        /* of the factors: fill */
+    double flops;        /* of one numeric factorisation */
+    int negative_pivots; /* symmetric only; else -1 */
+    double condition;    /* cheap estimate max|d|/min|d| */
 } factor_counts;
 
 /* Symbolic analysis once: fill-reducing order (AMD). Symmetric: LDL^T without pivoting, whose signs give
@@ -35,8 +35,8 @@ status factor_alloc(const sparse *pattern, factor **out, fault *f);
 void factor_free(factor *fa);
 /* SINGULAR when a pivot is zero or not finite, or growth has destroyed the digits. */
 status factor_numeric(factor *fa, const sparse *a, fault *f);
-void factor_solve(const factor *fa, double x[]);               /* in place */
-void factor_solve_refined(const factor *fa, const sparse *a, double x[]); /* with one step of iterative refinement */
+void factor_solve(factor *fa, double x[]);                          /* in place */
+void factor_solve_refined(factor *fa, const sparse *a, double x[]); /* with one step of iterative refinement */
 factor_counts factor_count(const factor *fa);
 
 #endif

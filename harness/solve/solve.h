@@ -17,11 +17,11 @@ typedef struct curve {
 } curve;
 
 typedef struct quantity_result {
-    status status;      /* OK: value is a number */
-    double value;       /* NAN where it does not exist */
-    double x;           /* abscissa where a maximum or minimum was found */
-    curve curve;        /* of SCENE_CURVE, else 0 points */
-    char reason[160];   /* why there is no value */
+    status status;           /* OK: value is a number */
+    double value;            /* NAN where it does not exist */
+    double x;                /* abscissa where a maximum or minimum was found */
+    curve curve;             /* of SCENE_CURVE, else 0 points */
+    char reason[FAULT_TEXT]; /* why there is no value */
 } quantity_result;
 
 typedef struct step_record {

@@ -1,0 +1,143 @@
+/* Which scalars are unknown, which are prescribed, and what was left out. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/model/parts.h"
+
+status model_note_left_out(model *m, fault *f, const char *format, ...)
+{
+    char text[160];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    char **longer = realloc(m->line, (size_t)(m->lines + 1) * sizeof *longer);
+    if (longer != NULL)
+        m->line = longer;
+    char *line = longer != NULL ? strdup(text) : NULL;
+    if (line == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory");
+    m->line[m->lines++] = line;
+    return STATUS_OK;
+}
+
+/* How a component of a body moves: SCENE_FREE, SCENE_HELD or a driver. */
+static int motion_of(const model *m, int vertex, int component)
+{
+    if (vertex >= m->scene->nodes)
+        return SCENE_FREE;
+    const scene_node *n = &m->scene->node[vertex];
+    const int motion = component < SCENE_RX ? n->translation[component] : n->angle[component - SCENE_RX];
+    const int absent =
+        component >= SCENE_RX && n->rotation == SCENE_ROTATION_SEQUENCE && component - SCENE_RX >= m->vertex[vertex].angles;
+    return absent ? SCENE_HELD : motion;
+}
+
+/* A vertex that nothing is connected to must not become a row of zeros. */
+static void mark_used(const model *m, char *used)
+{
+    for (int i = 0; i < m->elements; i++)
+        for (int k = 0; k < m->nodes; k++)
+            used[m->vertex[m->element[i].vertex[k]].body] = 1;
+}
+
+static void number_vertex(model *m, int index, int pass, int used, int *held, int *unused)
+{
+    mesh_vertex *v = &m->vertex[index];
+    for (int c = 0; c < VERTEX_COORDINATES; c++) {
+        const int motion = v->body == index ? motion_of(m, index, c) : SCENE_HELD;
+        const int vector = c >= SCENE_RX && v->vector_driver[0] != NONE;
+        const int known_driver = motion >= 0 && !vector && m->scene->driver[motion].value != NULL;
+        const int unknown_driver = motion >= 0 && !vector && !known_driver;
+        const int kept = m->keep_all && v->body == index && motion == SCENE_HELD && !(v->angles > 0 && c - SCENE_RX >= v->angles);
+        const int is_free = motion == SCENE_FREE && used;
+        if (pass == 0) {
+            v->coordinate[c] = NONE;
+            *held += v->body == index && motion == SCENE_HELD && used && !kept;
+            *unused += motion == SCENE_FREE && !used && c == 0;
+            if (is_free)
+                v->coordinate[c] = m->free++;
+            else if (unknown_driver) {
+                if (m->driver_coordinate[motion] == NONE)
+                    m->driver_coordinate[motion] = m->free++;
+                v->coordinate[c] = m->driver_coordinate[motion];
+            }
+        } else if (known_driver) {
+            if (m->driver_coordinate[motion] == NONE)
+                m->driver_coordinate[motion] = m->free + m->driven++;
+            v->coordinate[c] = m->driver_coordinate[motion];
+        } else if (vector || kept) {
+            v->coordinate[c] = m->free + m->driven++;
+        }
+    }
+}
+
+static status number_vertices(model *m, int *held, fault *f)
+{
+    char *used = calloc((size_t)m->vertices, 1);
+    int unused = 0;
+    if (used == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory");
+    mark_used(m, used);
+    for (int pass = 0; pass < 2; pass++) {
+        /* The warping amplitudes come between: they are free. */
+        for (int i = 0; i < m->vertices; i++)
+            number_vertex(m, i, pass, used[i], held, &unused);
+        for (int i = 0; i < m->warps && pass == 0; i++)
+            m->warp[i].coordinate = m->free++;
+    }
+    free(used);
+    return unused > 0 ? model_note_left_out(m, f, "%d nodes that no member reaches", unused) : STATUS_OK;
+}
+
+/* Global coordinates of an element's own, after rigid offsets and sequences have been eliminated. */
+static void index_element(model *m, mesh_element *el)
+{
+    el->plain = 1;
+    for (int k = 0; k < m->nodes; k++) {
+        const mesh_vertex *v = &m->vertex[el->vertex[k]], *body = &m->vertex[v->body];
+        for (int c = 0; c < VERTEX_COORDINATES; c++)
+            el->index[7 * k + c] = body->coordinate[c];
+        el->index[7 * k + 6] = el->warp[k] == NONE ? NONE : m->warp[el->warp[k]].coordinate;
+        el->plain &= v->body == el->vertex[k] && body->angles == 0;
+    }
+}
+
+static int fixed_warps(const model *m, int *absent)
+{
+    int fixed = 0;
+    for (int i = 0; i < m->elements; i++)
+        for (int k = 0; k < m->nodes; k++) {
+            unsigned features;
+            features_of_section(m, m->kind[m->element[i].kind].section, &features, NULL);
+            *absent += !(features & FEATURE_WARPING);
+            fixed += (features & FEATURE_WARPING) && m->element[i].warp[k] == NONE;
+        }
+    return fixed;
+}
+
+status coordinates_number(model *m, fault *f)
+{
+    int held = 0, absent = 0, attached = 0;
+    for (int i = 0; i < m->scene->drivers; i++)
+        m->driver_coordinate[i] = NONE;
+    status outcome = number_vertices(m, &held, f);
+    for (int i = 0; i < m->elements; i++)
+        index_element(m, &m->element[i]);
+    for (int i = 0; i < m->scene->nodes; i++)
+        attached += m->vertex[i].body != i;
+    const int fixed = fixed_warps(m, &absent);
+    if (outcome == STATUS_OK && held > 0)
+        outcome = model_note_left_out(m, f, "%d held coordinates", held);
+    if (outcome == STATUS_OK && attached > 0)
+        outcome = model_note_left_out(m, f, "%d coordinates of %d nodes that move with a rigid body", 6 * attached, attached);
+    if (outcome == STATUS_OK && absent > 0)
+        outcome = model_note_left_out(m, f, "warping amplitudes of %d element ends: nothing warps there", absent);
+    if (outcome == STATUS_OK && fixed > 0)
+        outcome = model_note_left_out(m, f, "%d warping amplitudes held at zero", fixed);
+    if (outcome == STATUS_OK && m->driven > 0)
+        outcome = model_note_left_out(m, f, "rows of %d prescribed coordinates", m->driven);
+    return outcome;
+}

@@ -1,0 +1,111 @@
+/* Element coordinates (dr, dphi, da per vertex) -> coordinates of the bodies that move them, in place.
+ * Offset: dr = dr_b + theta x rho.  Second derivatives in the exponential chart: d2(F . rho)/dtheta2 = sym(F rho^T) - (F . rho) I.
+ * Sequence: theta = sum b_i dt_i + 1/2 sum_(i<j) b_i x b_j dt_i dt_j (Baker-Campbell-Hausdorff). */
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/model/parts.h"
+
+static void offset_force(const double rho[3], double force[7])
+{
+    double moment[3];
+    vec3_cross(rho, force, moment);
+    for (int i = 0; i < 3; i++)
+        force[3 + i] += moment[i];
+}
+
+static void sequence_force(int angles, double b[3][3], double force[7])
+{
+    double t[3] = {0, 0, 0};
+    for (int k = 0; k < angles; k++)
+        t[k] = vec3_dot(b[k], force + 3);
+    memcpy(force + 3, t, sizeof t);
+}
+
+void eliminate_forces(const model *m, const model_state *s, const mesh_element *el, double force[])
+{
+    if (el->plain)
+        return;
+    for (int k = 0; k < m->nodes; k++) {
+        const int v = el->vertex[k], body = m->vertex[v].body;
+        double rho[3], b[3][3];
+        if (body != v) {
+            kinematics_offset(m, s, v, rho);
+            offset_force(rho, force + 7 * k);
+        }
+        if (m->vertex[body].angles > 0) {
+            kinematics_axes(m, s, body, b);
+            sequence_force(m->vertex[body].angles, b, force + 7 * k);
+        }
+    }
+}
+
+/* Rotation columns += translation columns times -rho~, then the same for rows: K <- A^T K A. */
+static void offset_matrix(int n, int at, const double rho[3], const double force[3], double K[])
+{
+    for (int i = 0; i < n; i++) {
+        double moment[3];
+        vec3_cross(rho, &K[i * n + at], moment);
+        for (int c = 0; c < 3; c++)
+            K[i * n + at + 3 + c] += moment[c];
+    }
+    for (int j = 0; j < n; j++) {
+        const double column[3] = {K[at * n + j], K[(at + 1) * n + j], K[(at + 2) * n + j]};
+        double moment[3];
+        vec3_cross(rho, column, moment);
+        for (int c = 0; c < 3; c++)
+            K[(at + 3 + c) * n + j] += moment[c];
+    }
+    if (force == NULL)
+        return;
+    const double dot = vec3_dot(force, rho);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            K[(at + 3 + i) * n + at + 3 + j] += (force[i] * rho[j] + rho[i] * force[j]) / 2 - (i == j ? dot : 0);
+}
+
+static void sequence_matrix(int n, int at, int angles, double b[3][3], const double moment[3], double K[])
+{
+    for (int i = 0; i < n; i++) {
+        double t[3] = {0, 0, 0};
+        for (int k = 0; k < angles; k++)
+            t[k] = vec3_dot(&K[i * n + at + 3], b[k]);
+        memcpy(&K[i * n + at + 3], t, sizeof t);
+    }
+    for (int j = 0; j < n; j++) {
+        const double column[3] = {K[(at + 3) * n + j], K[(at + 4) * n + j], K[(at + 5) * n + j]};
+        for (int k = 0; k < 3; k++)
+            K[(at + 3 + k) * n + j] = k < angles ? vec3_dot(column, b[k]) : 0;
+    }
+    for (int i = 0; i < angles && moment != NULL; i++)
+        for (int j = i + 1; j < angles; j++) {
+            double cross[3];
+            vec3_cross(b[i], b[j], cross);
+            const double half = vec3_dot(moment, cross) / 2;
+            K[(at + 3 + i) * n + at + 3 + j] += half;
+            K[(at + 3 + j) * n + at + 3 + i] += half;
+        }
+}
+
+void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el, const double force[], double K[])
+{
+    if (el->plain)
+        return;
+    const int n = m->coordinates;
+    for (int k = 0; k < m->nodes; k++) {
+        const int v = el->vertex[k], body = m->vertex[v].body;
+        double rho[3], b[3][3], moment[7];
+        if (force != NULL)
+            memcpy(moment, force + 7 * k, sizeof moment);
+        if (body != v) {
+            kinematics_offset(m, s, v, rho);
+            offset_matrix(n, 7 * k, rho, force != NULL ? force + 7 * k : NULL, K);
+            if (force != NULL)
+                offset_force(rho, moment);
+        }
+        if (m->vertex[body].angles > 0) {
+            kinematics_axes(m, s, body, b);
+            sequence_matrix(n, 7 * k, m->vertex[body].angles, b, force != NULL ? moment + 3 : NULL, K);
+        }
+    }
+}

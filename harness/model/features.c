@@ -1,0 +1,135 @@
+/* What a scene needs, what a formulation offers, and in which words the difference is said. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/model/parts.h"
+
+static const struct {
+    unsigned bit;
+    const char *name;
+} names[] = {
+    {FEATURE_WARPING, "warping"},
+    {FEATURE_SHEAR, "shear"},
+    {FEATURE_ECCENTRIC, "eccentric shear centre"},
+    {FEATURE_TRAPEZE, "trapeze"},
+    {FEATURE_WAGNER_MOMENTS, "wagner moments"},
+    {FEATURE_WAGNER_TORQUE, "wagner torque"},
+    {FEATURE_ENGESSER, "engesser"},
+    {FEATURE_HARINGX, "haringx"},
+    {FEATURE_GEOMETRIC, "geometric"},
+    {FEATURE_LARGE, "large rotations"},
+    {FEATURE_MASS, "mass"},
+    {FEATURE_ROTARY_INERTIA, "rotary inertia"},
+    {FEATURE_CURVATURE, "initial curvature"},
+};
+enum { NAMES = sizeof names / sizeof names[0] };
+
+const char *model_feature_name(unsigned bit)
+{
+    for (int i = 0; i < NAMES; i++)
+        if (names[i].bit == bit)
+            return names[i].name;
+    return "unknown";
+}
+
+static int is_eccentric(const section *c)
+{
+    return hypot(c->ys, c->zs) > 1e-12 * sqrt(c->Ip / c->A);
+}
+
+static unsigned needs_of_analyses(const scene *s)
+{
+    unsigned needs = 0;
+    for (int i = 0; i < s->analyses; i++)
+        switch (s->analysis[i].kind) {
+        case SCENE_LINEAR:
+        case SCENE_COMPLIANCE:
+            break;
+        case SCENE_STATIC:
+        case SCENE_CONTINUATION:
+            needs |= FEATURE_LARGE;
+            break;
+        case SCENE_BUCKLING:
+            needs |= FEATURE_GEOMETRIC;
+            break;
+        case SCENE_MODAL:
+            needs |= FEATURE_MASS;
+            break;
+        case SCENE_ROTATION:
+            needs |= FEATURE_LARGE | FEATURE_MASS;
+            break;
+        }
+    return needs;
+}
+
+unsigned model_needs(const scene *s)
+{
+    static const struct {
+        scene_physics physics;
+        unsigned feature;
+    } map[] = {
+        {SCENE_NEED_SHEAR, FEATURE_SHEAR},
+        {SCENE_NEED_TRAPEZE, FEATURE_TRAPEZE},
+        {SCENE_NEED_WAGNER_MOMENTS, FEATURE_WAGNER_MOMENTS},
+        {SCENE_NEED_WAGNER_TORQUE, FEATURE_WAGNER_TORQUE},
+        {SCENE_NEED_ENGESSER, FEATURE_ENGESSER},
+        {SCENE_NEED_HARINGX, FEATURE_HARINGX},
+        {SCENE_NEED_ROTARY_INERTIA, FEATURE_ROTARY_INERTIA},
+        {SCENE_NEED_WARPING, FEATURE_WARPING},
+    };
+    unsigned needs = needs_of_analyses(s);
+    for (size_t i = 0; i < sizeof map / sizeof map[0]; i++)
+        if (s->needs & map[i].physics)
+            needs |= map[i].feature;
+    for (int i = 0; i < s->sections; i++) {
+        section c;
+        if (section_compute(&s->section[i], &c, NULL) != STATUS_OK)
+            continue; /* model_alloc says why */
+        needs |= c.Iw > 0 ? FEATURE_WARPING : 0;
+        needs |= is_eccentric(&c) ? FEATURE_ECCENTRIC : 0;
+    }
+    return needs;
+}
+
+static int limit_hit(const scene *s, const element_type *type, char *words, int size)
+{
+    for (int i = 0; i < s->sections; i++) {
+        section c;
+        if (section_compute(&s->section[i], &c, NULL) != STATUS_OK)
+            continue;
+        if ((type->limits & LIMIT_RECTANGLE) && !c.rectangle)
+            return snprintf(words, (size_t)size, "sections other than rectangles") > 0;
+        const double off = fabs(c.F[1]) + fabs(c.F[2]) + fabs(c.F[5]);
+        if ((type->limits & LIMIT_DOUBLY_SYMMETRIC) && (is_eccentric(&c) || off != 0))
+            return snprintf(words, (size_t)size, "sections that are not doubly symmetric") > 0;
+    }
+    return 0;
+}
+
+int model_missing(const scene *s, const element_type *type, char *words, int size)
+{
+    const unsigned missing = model_needs(s) & ~type->offers;
+    int used = 0;
+    if (size > 0)
+        words[0] = '\0';
+    for (int i = 0; i < NAMES; i++)
+        if ((missing & names[i].bit) && used < size)
+            used += snprintf(words + used, (size_t)(size - used), "%s%s", used > 0 ? ", " : "", names[i].name);
+    if (missing != 0)
+        return 1;
+    return limit_hit(s, type, words, size);
+}
+
+/* What elements of one section are asked for. */
+status features_of_section(const model *m, int index, unsigned *features, fault *f)
+{
+    (void)f;
+    const section *c = &m->section[index];
+    *features = m->features & m->type->offers;
+    if (c->Iw <= 0 && !m->keep_all)
+        *features &= ~(unsigned)FEATURE_WARPING;
+    if (!is_eccentric(c))
+        *features &= ~(unsigned)FEATURE_ECCENTRIC;
+    return STATUS_OK;
+}

@@ -1,0 +1,246 @@
+/* Frames of vertices and what they do to elements. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "harness/model/parts.h"
+
+void kinematics_position(const model *m, const model_state *s, int index, double r[3])
+{
+    for (int i = 0; i < 3; i++)
+        r[i] = m->vertex[index].position[i] + s->u[3 * index + i];
+}
+
+void kinematics_offset(const model *m, const model_state *s, int index, double rho[3])
+{
+    const mesh_vertex *v = &m->vertex[index];
+    rotation_apply(&s->q[4 * v->body], v->offset, rho);
+}
+
+void kinematics_axes(const model *m, const model_state *s, int index, double b[3][3])
+{
+    const mesh_vertex *v = &m->vertex[index];
+    double q[4];
+    rotation_identity(q);
+    for (int k = 0; k < v->angles; k++) {
+        double turn[3], step[4];
+        rotation_apply(q, v->axis[k], b[k]);
+        for (int i = 0; i < 3; i++)
+            turn[i] = v->axis[k][i] * s->angle[3 * index + k];
+        rotation_exp(turn, step);
+        rotation_compose(q, step, q);
+    }
+}
+
+static void sequence_orientation(const model *m, model_state *s, int index)
+{
+    const mesh_vertex *v = &m->vertex[index];
+    double *q = &s->q[4 * index];
+    rotation_identity(q);
+    for (int k = 0; k < v->angles; k++) {
+        double turn[3], step[4];
+        for (int i = 0; i < 3; i++)
+            turn[i] = v->axis[k][i] * s->angle[3 * index + k];
+        rotation_exp(turn, step);
+        rotation_compose(q, step, q);
+    }
+}
+
+/* Rigid offset: u = u_body + (R - 1) offset. */
+void kinematics_follow(const model *m, model_state *s)
+{
+    for (int i = 0; i < m->scene->nodes; i++) {
+        const mesh_vertex *v = &m->vertex[i];
+        if (v->angles > 0)
+            sequence_orientation(m, s, i);
+    }
+    for (int i = 0; i < m->scene->nodes; i++) {
+        const mesh_vertex *v = &m->vertex[i];
+        if (v->body == i)
+            continue;
+        double rho[3];
+        kinematics_offset(m, s, i, rho);
+        for (int k = 0; k < 3; k++)
+            s->u[3 * i + k] = s->u[3 * v->body + k] + (rho[k] - v->offset[k]);
+        memcpy(&s->q[4 * i], &s->q[4 * v->body], 4 * sizeof(double));
+    }
+}
+
+void kinematics_gather(const model *m, const model_state *s, const mesh_element *el, node_state x[])
+{
+    for (int k = 0; k < m->nodes; k++) {
+        const int v = el->vertex[k];
+        double R[9];
+        kinematics_position(m, s, v, x[k].r);
+        memcpy(x[k].u, &s->u[3 * v], sizeof x[k].u);
+        rotation_matrix(&s->q[4 * v], R);
+        mat3_mul(R, el->triad[k], x[k].R);
+        x[k].a = el->warp[k] == NONE ? 0 : s->warp[el->warp[k]];
+    }
+}
+
+/* Increments (translation, spatial rotation) of a body's frame. */
+static void body_increment(const model *m, const model_state *s, int body, const double dx[], double out[6])
+{
+    const mesh_vertex *v = &m->vertex[body];
+    double d[6];
+    for (int c = 0; c < 6; c++)
+        d[c] = v->coordinate[c] == NONE ? 0 : dx[v->coordinate[c]];
+    memcpy(out, d, 6 * sizeof(double));
+    if (v->angles > 0) {
+        double b[3][3];
+        kinematics_axes(m, s, body, b);
+        for (int i = 0; i < 3; i++) {
+            out[3 + i] = 0;
+            for (int k = 0; k < v->angles; k++)
+                out[3 + i] += b[k][i] * d[3 + k];
+        }
+    }
+}
+
+void kinematics_local(const model *m, const model_state *s, const mesh_element *el, const double dx[], double local[])
+{
+    for (int k = 0; k < m->nodes; k++) {
+        double *d = &local[7 * k];
+        for (int c = 0; c < 7; c++)
+            d[c] = el->index[7 * k + c] == NONE ? 0 : dx[el->index[7 * k + c]];
+        if (el->plain)
+            continue;
+        const int v = el->vertex[k], body = m->vertex[v].body;
+        body_increment(m, s, body, dx, d);
+        if (body != v) {
+            double rho[3], moved[3];
+            kinematics_offset(m, s, v, rho);
+            vec3_cross(d + 3, rho, moved);
+            for (int i = 0; i < 3; i++)
+                d[i] += moved[i];
+        }
+    }
+}
+
+const model_state *model_rest(const model *m)
+{
+    return m->rest;
+}
+
+double model_state_path(const model_state *s)
+{
+    return s->path;
+}
+
+status model_state_alloc(const model *m, model_state **out, fault *f)
+{
+    const size_t V = (size_t)m->vertices, E = (size_t)m->elements;
+    model_state *s = calloc(1, sizeof *s);
+    *out = s;
+    if (s == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a state");
+    s->size = V * 10 + (size_t)m->warps + (size_t)m->scene->drivers + E * (size_t)(2 * m->strains + m->inner);
+    s->block = calloc(s->size, sizeof *s->block);
+    if (s->block == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a state");
+    s->u = s->block;
+    s->q = s->u + 3 * V;
+    s->angle = s->q + 4 * V;
+    s->warp = s->angle + 3 * V;
+    s->driver = s->warp + m->warps;
+    s->e = s->driver + m->scene->drivers;
+    s->sigma = s->e + E * (size_t)m->strains;
+    s->inner = s->sigma + E * (size_t)m->strains;
+    for (size_t i = 0; i < V; i++)
+        rotation_identity(&s->q[4 * i]);
+    for (size_t i = 0; i < E && m->type->rest != NULL; i++)
+        m->type->rest(m->kind[m->element[i].kind].data, &s->inner[i * (size_t)m->inner]);
+    return STATUS_OK;
+}
+
+void model_state_free(model_state *s)
+{
+    if (s == NULL)
+        return;
+    free(s->block);
+    free(s);
+}
+
+void model_state_copy(const model *m, const model_state *from, model_state *to)
+{
+    (void)m;
+    memcpy(to->block, from->block, from->size * sizeof *from->block);
+    to->path = from->path;
+}
+
+void model_frame(const model *m, const model_state *s, int node, double r[3], double q[4])
+{
+    kinematics_position(m, s, node, r);
+    memcpy(q, &s->q[4 * node], 4 * sizeof(double));
+}
+
+double model_component(const model *m, const model_state *s, int node, int component)
+{
+    if (component < SCENE_RX)
+        return s->u[3 * node + component];
+    const mesh_vertex *v = &m->vertex[node];
+    double phi[3];
+    if (v->body == node && v->angles == 0 && v->vector_driver[0] == NONE &&
+        m->scene->node[node].angle[component - SCENE_RX] != SCENE_FREE)
+        return s->angle[3 * node + component - SCENE_RX]; /* held or driven about a fixed axis: also beyond pi */
+    rotation_log(&s->q[4 * node], phi);
+    return phi[component - SCENE_RX];
+}
+
+double model_driver_value(const model *m, const model_state *s, int driver)
+{
+    (void)m;
+    return s->driver[driver];
+}
+
+int model_coordinate(const model *m, int node, int component)
+{
+    return m->vertex[node].body == node ? m->vertex[node].coordinate[component] : NONE;
+}
+
+int model_driver_coordinate(const model *m, int driver)
+{
+    return m->driver_coordinate[driver];
+}
+
+int model_node_jacobian(const model *m, const model_state *s, int node, int size, int index[], double T[])
+{
+    const model_state *state = s != NULL ? s : m->rest;
+    const mesh_vertex *v = &m->vertex[node], *body = &m->vertex[v->body];
+    int count = 0, slot[6];
+    for (int c = 0; c < 6; c++) {
+        slot[c] = NONE;
+        if (body->coordinate[c] == NONE || count >= size)
+            continue;
+        for (int k = 0; k < count; k++)
+            if (index[k] == body->coordinate[c])
+                slot[c] = k;
+        if (slot[c] == NONE) {
+            slot[c] = count;
+            index[count++] = body->coordinate[c];
+        }
+    }
+    memset(T, 0, 6 * (size_t)count * sizeof *T);
+    double b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, rho[3];
+    if (body->angles > 0)
+        kinematics_axes(m, state, v->body, b);
+    kinematics_offset(m, state, node, rho);
+    for (int c = 0; c < 6; c++) {
+        if (slot[c] == NONE)
+            continue;
+        if (c < 3) {
+            T[c * count + slot[c]] += 1;
+            continue;
+        }
+        double moved[3];
+        vec3_cross(b[c - 3], rho, moved);
+        for (int i = 0; i < 3; i++) {
+            T[i * count + slot[c]] += v->body != node ? moved[i] : 0;
+            T[(3 + i) * count + slot[c]] += b[c - 3][i];
+        }
+    }
+    return count;
+}

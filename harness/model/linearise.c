@@ -1,0 +1,231 @@
+/* Mixed linearisation and its update (N section 4): with J = de/dx and the independent e and sigma,
+ *   de = D(x) - e + J dx,   sigma + dsigma = P'(e) + P''(e) de,
+ * condensed element by element, so that stiff modes make no huge false stresses on the way. */
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "harness/model/parts.h"
+
+/* One element's part of model.work between linearise and advance. */
+typedef struct slot {
+    double *J, *C, *sigma, *gap, *memory; /* sigma = P'(e) + C gap, gap = D(x) - e */
+} slot;
+
+static slot slot_of(const model *m, int element)
+{
+    slot w;
+    const int n = m->strains;
+    w.J = m->work + (size_t)element * (size_t)m->work_size;
+    w.C = w.J + n * m->coordinates;
+    w.sigma = w.C + n * n;
+    w.gap = w.sigma + n;
+    w.memory = w.gap + n;
+    return w;
+}
+
+/* e, sigma of an element from D(x): displacement-only Newton. */
+static status compatible_element(model *m, model_state *s, int i)
+{
+    const mesh_element *el = &m->element[i];
+    const element_data *data = m->kind[el->kind].data;
+    node_state x[ELEMENT_MAX_NODES];
+    kinematics_gather(m, s, el, x);
+    double *e = &s->e[(size_t)i * (size_t)m->strains], *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
+    m->type->strain(data, x, &(strain_output){.e = e});
+    m->counters.strain_evaluations++;
+    m->counters.stress_evaluations++;
+    return m->type->stress(data, e, &s->inner[(size_t)i * (size_t)m->inner], &(stress_output){.sigma = sigma});
+}
+
+status model_make_compatible(model *m, model_state *s, fault *f)
+{
+    for (int i = 0; i < m->elements; i++) {
+        const status outcome = compatible_element(m, s, i);
+        if (outcome != STATUS_OK)
+            return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i, m->element[i].member,
+                             m->type->name);
+    }
+    return STATUS_OK;
+}
+
+/* Fills the slot; H: sum sigma_i H_i of the element. Returns the size of the gap relative to the length. */
+static status evaluate(model *m, const model_state *s, int i, slot *w, double H[])
+{
+    const mesh_element *el = &m->element[i];
+    const element_data *data = m->kind[el->kind].data;
+    const double *e = &s->e[(size_t)i * (size_t)m->strains];
+    node_state x[ELEMENT_MAX_NODES];
+    double deformed[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
+    kinematics_gather(m, s, el, x);
+    m->type->strain(
+        data, x,
+        &(strain_output){.e = deformed, .J = w->J, .s = H != NULL ? &s->sigma[(size_t)i * (size_t)m->strains] : NULL, .H = H});
+    const status outcome =
+        m->type->stress(data, e, &s->inner[(size_t)i * (size_t)m->inner],
+                        &(stress_output){.sigma = w->sigma, .C = w->C, .memory = m->memory > 0 ? w->memory : NULL});
+    m->counters.strain_evaluations++;
+    m->counters.stress_evaluations++;
+    for (int k = 0; k < m->strains; k++)
+        w->gap[k] = deformed[k] - e[k];
+    dense_mul_vec(m->strains, m->strains, w->C, w->gap, more);
+    for (int k = 0; k < m->strains; k++)
+        w->sigma[k] += more[k];
+    return outcome;
+}
+
+static double gap_size(const model *m, const slot *w, double length)
+{
+    double largest = 0;
+    for (int k = 0; k < m->strains; k++)
+        largest = fmax(largest, fabs(w->gap[k]) / length);
+    return largest;
+}
+
+/* Internal forces of the element and, where wanted, its tangent; both in model coordinates. */
+static status element_equations(model *m, const model_state *s, int i, int tangent, double force[], double K[], double *gap)
+{
+    const mesh_element *el = &m->element[i];
+    slot w = slot_of(m, i);
+    double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
+    const status outcome = evaluate(m, s, i, &w, tangent ? K : NULL);
+    if (outcome != STATUS_OK)
+        return outcome;
+    memset(force, 0, (size_t)m->coordinates * sizeof *force);
+    dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, w.sigma, force);
+    if (tangent) {
+        double present[ELEMENT_MAX_COORDINATES] = {0}; /* conjugate to sigma, which H belongs to */
+        dense_add_congruence(m->strains, m->coordinates, w.J, w.C, K, work);
+        if (!el->plain)
+            dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, &s->sigma[(size_t)i * (size_t)m->strains], present);
+        eliminate_matrix(m, s, el, present, K);
+    }
+    eliminate_forces(m, s, el, force);
+    *gap = gap_size(m, &w, m->kind[el->kind].length);
+    return STATUS_OK;
+}
+
+/* force += K drive for the element's prescribed coordinates. */
+static void add_driven(const model *m, const mesh_element *el, const double drive[], const double K[], double force[])
+{
+    for (int j = 0; j < m->coordinates; j++) {
+        const double step = el->index[j] >= m->free ? drive[el->index[j]] : 0;
+        for (int i = 0; i < m->coordinates && step != 0; i++)
+            force[i] += K[i * m->coordinates + j] * step;
+    }
+}
+
+status model_linearise(model *m, const model_state *s, model_linearisation *lin, fault *f)
+{
+    double force[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
+    const int tangent = lin->K != NULL || lin->drive != NULL;
+    const mesh_pattern *p = lin->K == NULL ? NULL : &m->pattern[lin->K->row == m->pattern[1].matrix.row];
+    memset(lin->residual, 0, (size_t)(m->free + m->driven) * sizeof *lin->residual);
+    lin->incompatibility = 0;
+    if (lin->K != NULL)
+        sparse_zero(lin->K);
+    for (int i = 0; i < m->elements; i++) {
+        double gap = 0;
+        const status outcome = element_equations(m, s, i, tangent, force, K, &gap);
+        if (outcome != STATUS_OK)
+            return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i, m->element[i].member,
+                             m->type->name);
+        if (lin->drive != NULL)
+            add_driven(m, &m->element[i], lin->drive, K, force);
+        for (int k = 0; k < m->coordinates; k++)
+            force[k] = -force[k];
+        assemble_vector(&m->element[i], m->coordinates, force, lin->residual);
+        if (p != NULL)
+            assemble_matrix(p, i, K, lin->K);
+        lin->incompatibility = fmax(lin->incompatibility, gap);
+    }
+    loads_add(m, s, lin->path, lin->residual);
+    if (lin->K != NULL)
+        loads_subtract_stiffness(m, s, lin->path, lin->K);
+    return STATUS_OK;
+}
+
+/* Strains, stresses and inner unknowns of one element. */
+static double advance_element(model *m, model_state *s, int i, const double dx[])
+{
+    const mesh_element *el = &m->element[i];
+    slot w = slot_of(m, i);
+    double local[ELEMENT_MAX_COORDINATES], de[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
+    double *e = &s->e[(size_t)i * (size_t)m->strains], *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
+    kinematics_local(m, s, el, dx, local);
+    dense_mul_vec(m->strains, m->coordinates, w.J, local, de);
+    dense_mul_vec(m->strains, m->strains, w.C, de, more);
+    for (int k = 0; k < m->strains; k++) {
+        sigma[k] = w.sigma[k] + more[k];
+        de[k] += w.gap[k];
+        e[k] += de[k];
+    }
+    if (m->type->update == NULL)
+        return 0;
+    return m->type->update(m->kind[el->kind].data, de, w.memory, &s->inner[(size_t)i * (size_t)m->inner]);
+}
+
+static double advance_vertex(const model *m, model_state *s, int index, const double dx[])
+{
+    const mesh_vertex *v = &m->vertex[index];
+    double d[6], q[4], largest = 0;
+    for (int c = 0; c < 6; c++)
+        d[c] = v->coordinate[c] == NONE ? 0 : dx[v->coordinate[c]];
+    for (int c = 0; c < 3; c++) {
+        s->u[3 * index + c] += d[c];
+        s->angle[3 * index + c] += d[3 + c];
+        largest = fmax(largest, fmax(fabs(d[c]) / m->size, fabs(d[3 + c])));
+    }
+    if (v->angles == 0) {
+        rotation_exp(d + 3, q);
+        rotation_compose(q, &s->q[4 * index], &s->q[4 * index]);
+        rotation_normalise(&s->q[4 * index]);
+    }
+    return largest;
+}
+
+double model_advance(model *m, model_state *s, const double dx[], double path)
+{
+    double largest = 0;
+    for (int i = 0; i < m->elements; i++)
+        largest = fmax(largest, advance_element(m, s, i, dx));
+    for (int i = 0; i < m->vertices; i++)
+        if (m->vertex[i].body == i)
+            largest = fmax(largest, advance_vertex(m, s, i, dx));
+    for (int i = 0; i < m->warps; i++) {
+        s->warp[i] += dx[m->warp[i].coordinate];
+        largest = fmax(largest, fabs(dx[m->warp[i].coordinate]) * m->size);
+    }
+    for (int d = 0; d < m->scene->drivers; d++)
+        if (m->driver_coordinate[d] != NONE)
+            s->driver[d] += dx[m->driver_coordinate[d]];
+        else if (m->scene->driver[d].value != NULL)
+            s->driver[d] = driver_value_at(&m->scene->driver[d], path);
+    kinematics_follow(m, s);
+    s->path = path;
+    return largest;
+}
+
+void model_node_force(model *m, const model_state *s, int node, double F[6])
+{
+    memset(F, 0, 6 * sizeof(double));
+    for (int i = 0; i < m->elements; i++) {
+        const mesh_element *el = &m->element[i];
+        for (int k = 0; k < m->nodes; k++) {
+            if (m->vertex[el->vertex[k]].body != node)
+                continue;
+            node_state x[ELEMENT_MAX_NODES];
+            double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0}, rho[3], moment[3];
+            kinematics_gather(m, s, el, x);
+            m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
+            dense_add_transpose_mul(m->coordinates, m->strains, 1, J, &s->sigma[(size_t)i * (size_t)m->strains], force);
+            kinematics_offset(m, s, el->vertex[k], rho);
+            vec3_cross(rho, force + 7 * k, moment);
+            for (int c = 0; c < 3; c++) {
+                F[c] += force[7 * k + c];
+                F[3 + c] += force[7 * k + 3 + c] + (el->vertex[k] == node ? 0 : moment[c]);
+            }
+        }
+    }
+}

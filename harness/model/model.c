@@ -1,0 +1,161 @@
+#include "harness/model/model.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/model/parts.h"
+
+static status compute_sections(model *m, fault *f)
+{
+    const scene *s = m->scene;
+    m->section = calloc((size_t)(s->sections > 0 ? s->sections : 1), sizeof *m->section);
+    if (m->section == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for sections");
+    for (int i = 0; i < s->sections; i++) {
+        const status outcome = section_compute(&s->section[i], &m->section[i], f);
+        if (outcome != STATUS_OK)
+            return outcome;
+    }
+    return STATUS_OK;
+}
+
+static void choose_options(model *m, const double options[])
+{
+    const element_type *t = m->type;
+    for (int i = 0; t->options != NULL && t->options[i].name != NULL; i++)
+        m->options[i] = options != NULL ? options[i] : t->options[i].value;
+    m->nodes = element_nodes(t, m->options);
+    m->coordinates = NODE_COORDINATES * m->nodes;
+    m->strains = element_strains(t, m->options);
+    m->inner = element_inner(t, m->options);
+    m->memory = element_memory(t, m->options);
+    m->work_size = m->strains * (m->coordinates + m->strains + 2) + m->memory;
+}
+
+static status allocate(model *m, fault *f)
+{
+    m->work = malloc(((size_t)m->elements * (size_t)m->work_size + 1) * sizeof *m->work);
+    if (m->work == NULL)
+        return fault_set(f, STATUS_REFUSED, "%d elements: more than memory allows; give fewer", m->elements);
+    return model_state_alloc(m, &m->rest, f);
+}
+
+static status build(model *m, const model_request *request, fault *f)
+{
+    char words[200];
+    if (request->type->abi != ELEMENT_ABI)
+        return fault_set(f, STATUS_REFUSED, "formulation %s was written for another version of the element interface",
+                         request->type->name);
+    status outcome = compute_sections(m, f);
+    if (outcome == STATUS_OK && model_missing(request->scene, request->type, words, sizeof words))
+        return fault_set(f, STATUS_REFUSED, "formulation %s does not offer %s, which scene %s needs", request->type->name, words,
+                         request->scene->name);
+    m->features = model_needs(request->scene) | (request->type->offers & FEATURE_CURVATURE);
+    if (m->keep_all)
+        m->features |= FEATURE_WARPING | FEATURE_ECCENTRIC;
+    choose_options(m, request->options);
+    m->driver_coordinate = malloc(((size_t)request->scene->drivers + 1) * sizeof *m->driver_coordinate);
+    if (outcome == STATUS_OK && m->driver_coordinate == NULL)
+        outcome = fault_set(f, STATUS_FAULT, "out of memory for drivers");
+    if (outcome == STATUS_OK)
+        outcome = mesh_build(m, request->elements, f);
+    if (outcome == STATUS_OK)
+        outcome = coordinates_number(m, f);
+    if (outcome == STATUS_OK)
+        outcome = allocate(m, f);
+    return outcome;
+}
+
+status model_alloc(const model_request *request, model **out, fault *f)
+{
+    model *m = calloc(1, sizeof *m);
+    *out = NULL;
+    if (m == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a model");
+    m->scene = request->scene;
+    m->type = request->type;
+    m->keep_all = request->keep_all;
+    const status outcome = build(m, request, f);
+    if (outcome == STATUS_OK)
+        *out = m;
+    else
+        model_free(m);
+    return outcome;
+}
+
+void model_free(model *m)
+{
+    if (m == NULL)
+        return;
+    for (int i = 0; i < 2; i++) {
+        mesh_pattern *p = &m->pattern[i];
+        free(p->matrix.column);
+        free(p->matrix.row);
+        free(p->start);
+        free(p->local);
+        free(p->place);
+    }
+    for (int i = 0; i < m->kinds; i++)
+        free(m->kind[i].data);
+    for (int i = 0; i < m->lines; i++)
+        free(m->line[i]);
+    free(m->line);
+    free(m->section);
+    free(m->vertex);
+    free(m->element);
+    free(m->kind);
+    free(m->warp);
+    free(m->first_element);
+    free(m->driver_coordinate);
+    free(m->work);
+    model_state_free(m->rest);
+    free(m);
+}
+
+model_size model_sizes(const model *m)
+{
+    return (model_size){m->elements, m->vertices, m->free, m->driven, m->strains, m->inner, m->features};
+}
+
+int model_left_out(const model *m, const char *const **lines)
+{
+    *lines = (const char *const *)m->line;
+    return m->lines;
+}
+
+counters *model_counters(model *m)
+{
+    return &m->counters;
+}
+
+const section *model_section(const model *m, int index)
+{
+    return &m->section[index];
+}
+
+int model_member_vertices(const model *m, int member, int vertex[])
+{
+    const int first = m->first_element[member], last = m->first_element[member + 1] - 1;
+    const int count = (last - first + 1) * (m->nodes - 1) + 1;
+    for (int i = first; i <= last && vertex != NULL; i++)
+        for (int k = 0; k < m->nodes; k++)
+            vertex[(i - first) * (m->nodes - 1) + k] = m->element[i].vertex[k];
+    return count;
+}
+
+int model_shape(const model *m, const double x[], double *u, double *position)
+{
+    for (int v = 0; v < m->vertices && position != NULL; v++)
+        memcpy(&position[3 * v], m->vertex[v].position, 3 * sizeof(double));
+    if (u == NULL)
+        return m->vertices;
+    memset(u, 0, (size_t)m->vertices * 7 * sizeof *u);
+    for (int i = 0; i < m->elements; i++) {
+        double local[ELEMENT_MAX_COORDINATES];
+        kinematics_local(m, m->rest, &m->element[i], x, local);
+        for (int k = 0; k < m->nodes; k++)
+            memcpy(&u[7 * m->element[i].vertex[k]], &local[7 * k], 7 * sizeof(double));
+    }
+    return m->vertices;
+}

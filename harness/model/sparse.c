@@ -1,0 +1,36 @@
+#include "harness/model/sparse.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+status sparse_alloc_like(const sparse *pattern, sparse *out, fault *f)
+{
+    *out = *pattern;
+    const int entries = pattern->column[pattern->n];
+    out->value = calloc((size_t)(entries > 0 ? entries : 1), sizeof *out->value);
+    if (out->value == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a matrix of %d coordinates", pattern->n);
+    return STATUS_OK;
+}
+
+void sparse_free_values(sparse *a)
+{
+    free(a->value);
+    a->value = NULL;
+}
+
+void sparse_zero(sparse *a)
+{
+    memset(a->value, 0, (size_t)a->column[a->n] * sizeof *a->value);
+}
+
+void sparse_mul(const sparse *a, const double x[], double y[])
+{
+    memset(y, 0, (size_t)a->n * sizeof *y);
+    for (int j = 0; j < a->n; j++)
+        for (int k = a->column[j]; k < a->column[j + 1]; k++) {
+            y[a->row[k]] += a->value[k] * x[j];
+            if (a->symmetric && a->row[k] != j)
+                y[j] += a->value[k] * x[a->row[k]];
+        }
+}

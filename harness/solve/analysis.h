@@ -1,0 +1,62 @@
+/* One file per kind of analysis; each turns a model into an outcome that extract.c reads quantities from. */
+#ifndef BEAMWORK_ANALYSIS_H
+#define BEAMWORK_ANALYSIS_H
+
+#include "harness/solve/solve.h"
+
+typedef struct analysis_outcome {
+    status status;
+    char reason[FAULT_TEXT];
+    /* linear: displacements of all coordinates */
+    double *x;
+    /* static, continuation: the state at every station reached (the first `reached` of them) */
+    int stations, reached;
+    double *path;
+    model_state **state;
+    /* continuation: load factor and control value at every point of the path */
+    int points;
+    double *factor, *control;
+    /* buckling, modal, rotation: eigenvalues with their modes; buckling: load factors, ascending in size */
+    int positive, negative;
+    double *value_positive, *value_negative, *mode_positive, *mode_negative; /* modes [count x free] */
+    /* compliance: of the six components at the node, at every station [stations x 36]; rows of held components are zero */
+    double *compliance;
+} analysis_outcome;
+
+typedef struct analysis_context {
+    const scene *scene;
+    model *model;
+    const solve_options *options;
+    solve_result *result;       /* step records go here */
+    analysis_outcome *outcomes; /* [analyses], those before the present one are complete */
+    double setup;               /* [s] spent on patterns and symbolic factorisation */
+} analysis_context;
+
+typedef status analysis_function(analysis_context *, int analysis, analysis_outcome *, fault *);
+analysis_function analysis_linear, analysis_buckling, analysis_modal, analysis_static, analysis_compliance;
+
+void outcome_free(analysis_outcome *o);
+
+/* A linear solution about the undeformed state: x[free + driven] of K x = f, with the factors of K kept for the caller. */
+typedef struct linear_system {
+    sparse K;
+    factor *factor;
+} linear_system;
+status linear_system_alloc(analysis_context *, linear_system *, fault *);
+void linear_system_free(linear_system *);
+/* Loads at factor 1 and drivers at the end of their path (path 1). */
+status linear_system_solve(analysis_context *, linear_system *, double x[], fault *);
+
+/* extract.c */
+void extract_quantity(const analysis_context *, const scene_quantity *, quantity_result *);
+
+/* modes.c: what a mode of vibration or buckling looks like. */
+typedef struct mode_shape {
+    scene_family family;
+    int half_waves;
+} mode_shape;
+status mode_identify(const model *, const scene *, const double mode[], mode_shape *, fault *);
+
+double seconds_now(void); /* monotonic */
+
+#endif

@@ -1,0 +1,104 @@
+#include "harness/solve/solve.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "harness/solve/analysis.h"
+
+double seconds_now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+void outcome_free(analysis_outcome *o)
+{
+    for (int i = 0; i < o->reached && o->state != NULL; i++)
+        model_state_free(o->state[i]);
+    free(o->state);
+    free(o->path);
+    free(o->x);
+    free(o->factor);
+    free(o->control);
+    free(o->value_positive);
+    free(o->value_negative);
+    free(o->mode_positive);
+    free(o->mode_negative);
+    free(o->compliance);
+}
+
+static analysis_function *function_of(scene_analysis_kind kind)
+{
+    switch (kind) {
+    case SCENE_LINEAR:
+        return analysis_linear;
+    case SCENE_BUCKLING:
+        return analysis_buckling;
+    case SCENE_MODAL:
+        return analysis_modal;
+    case SCENE_STATIC:
+        return analysis_static;
+    case SCENE_COMPLIANCE:
+        return analysis_compliance;
+    case SCENE_CONTINUATION:
+    case SCENE_ROTATION:
+        break;
+    }
+    return NULL;
+}
+
+/* The first failure names the whole. */
+static void run_analyses(analysis_context *c)
+{
+    for (int i = 0; i < c->scene->analyses; i++) {
+        analysis_outcome *o = &c->outcomes[i];
+        fault f = {""};
+        analysis_function *run = function_of(c->scene->analysis[i].kind);
+        o->status = run != NULL ? run(c, i, o, &f) : fault_set(&f, STATUS_REFUSED, "analysis %d: not available", i);
+        snprintf(o->reason, sizeof o->reason, "%s", f.text);
+        if (o->status != STATUS_OK && c->result->status == STATUS_OK) {
+            c->result->status = o->status;
+            snprintf(c->result->reason, sizeof c->result->reason, "%s", f.text);
+        }
+    }
+}
+
+status solve_scene(const scene *s, model *m, const solve_options *options, solve_result *result, fault *f)
+{
+    static const solve_options defaults = {0};
+    analysis_context c = {.scene = s, .model = m, .options = options != NULL ? options : &defaults, .result = result};
+    const double start = seconds_now();
+    memset(result, 0, sizeof *result);
+    result->quantity = calloc((size_t)s->quantities + 1, sizeof *result->quantity);
+    c.outcomes = calloc((size_t)s->analyses + 1, sizeof *c.outcomes);
+    if (result->quantity == NULL || c.outcomes == NULL) {
+        free(c.outcomes);
+        return fault_set(f, STATUS_FAULT, "out of memory for a solution");
+    }
+    result->quantities = s->quantities;
+    run_analyses(&c);
+    result->seconds_setup = c.setup;
+    result->seconds_solve = seconds_now() - start - c.setup;
+    for (int i = 0; i < s->quantities; i++)
+        extract_quantity(&c, &s->quantity[i], &result->quantity[i]);
+    for (int i = 0; i < s->analyses; i++)
+        outcome_free(&c.outcomes[i]);
+    free(c.outcomes);
+    if (result->status != STATUS_OK && f != NULL)
+        snprintf(f->text, sizeof f->text, "%s", result->reason);
+    return result->status;
+}
+
+void solve_result_free(solve_result *r)
+{
+    for (int i = 0; i < r->quantities && r->quantity != NULL; i++) {
+        free(r->quantity[i].curve.x);
+        free(r->quantity[i].curve.value);
+    }
+    free(r->quantity);
+    free(r->step);
+    memset(r, 0, sizeof *r);
+}
