@@ -87,12 +87,19 @@ $(REGISTRY): FORCE
 $(BUILD)/objects.list: FORCE
 	@mkdir -p $(@D); echo '$(CC) $(CFLAGS) $(OBJECTS)' | cmp -s - $@ || echo '$(CC) $(CFLAGS) $(OBJECTS)' >$@
 
+# V=1 shows the commands.
+ifdef V
+SAY :=
+else
+SAY = @echo "  $(1)" &&
+endif
+
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
-	$(CC) $(BASE_CFLAGS) $(CFLAGS) $(DEP_CFLAGS) $(DEFINES) -MMD -MP -c $< -o $@
+	$(call SAY,compile $<)$(CC) $(BASE_CFLAGS) $(CFLAGS) $(DEP_CFLAGS) $(DEFINES) -MMD -MP -c $< -o $@
 
 $(REGISTRY:.c=.o): $(REGISTRY)
-	$(CC) $(BASE_CFLAGS) $(CFLAGS) $(DEP_CFLAGS) -c $< -o $@
+	$(call SAY,compile $<)$(CC) $(BASE_CFLAGS) $(CFLAGS) $(DEP_CFLAGS) -c $< -o $@
 
 $(LIBRARY): $(OBJECTS) $(BUILD)/objects.list
 	@rm -f $@
@@ -102,7 +109,7 @@ $(LIBRARY): $(OBJECTS) $(BUILD)/objects.list
 $(BUILD)/harness/run/environment.o: DEFINES := -DBEAMWORK_VERSION='"$(VERSION)"' -DBEAMWORK_COMMIT='"$(COMMIT)"' -DBEAMWORK_CFLAGS='"$(CFLAGS)"'
 
 $(PROGRAM): $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) $(LIBRARY)
-	$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
+	$(call SAY,link $@)$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
 
 $(BUILD)/%_test: $(BUILD)/%_test.o $(LIBRARY)
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)

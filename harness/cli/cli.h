@@ -1,0 +1,39 @@
+/* The verbs of the command line. Each returns an exit code. */
+#ifndef BEAMWORK_CLI_H
+#define BEAMWORK_CLI_H
+
+#include <argp.h>
+
+#include "harness/run/formulations.h"
+#include "harness/run/truths.h"
+
+enum { EXIT_AS_EXPECTED = 0, EXIT_DIFFERS = 1, EXIT_REFUSED = 2, EXIT_NOTHING = 3, EXIT_FAULT = 4 };
+
+enum { CLI_MAX_FORMULATIONS = 64, CLI_MAX_MESHES = 24 };
+
+/* What the verbs' options have in common. */
+typedef struct cli_request {
+    const char *case_name;
+    double parameter[CASE_MAX_PARAMETERS];
+    const char *assignment[CASE_MAX_PARAMETERS];
+    int assignments;
+    formulation formulation[CLI_MAX_FORMULATIONS];
+    int formulations;
+    int mesh[CLI_MAX_MESHES], meshes;
+    const char *format, *output, *json, *junit, *truths, *select;
+    int jobs, keep_all, steps;
+} cli_request;
+
+typedef int cli_verb(int count, char **arguments);
+cli_verb cli_list, cli_solve, cli_verify, cli_converge;
+
+/* Options shared by the verbs; a verb lists the keys it takes. Errors are printed and end the program with EXIT_REFUSED. */
+void cli_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys, int count, char **arguments, cli_request *out);
+/* The case of the request with its parameters, or NULL after a message. */
+const case_type *cli_case(cli_request *r);
+/* Default place of the packed truths: BEAMWORK_TRUTHS, or truths.h5 beside the program. */
+const char *cli_truths_path(const cli_request *r);
+/* One line on stderr; the exit code that belongs to a status. */
+int cli_fail(status s, const char *text);
+
+#endif

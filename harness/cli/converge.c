@@ -1,0 +1,54 @@
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "harness/cli/cli.h"
+#include "harness/run/output.h"
+#include "harness/run/text.h"
+
+static status write_out(const cli_request *r, const sweep *s, const truths *t, fault *f)
+{
+    void (*const write)(FILE *, const sweep *, const truths *) = strcmp(r->format, "csv") == 0 ? text_convergence_csv : text_convergence;
+    output file;
+    if (r->output == NULL) {
+        write(stdout, s, t);
+        return fflush(stdout) == 0 ? STATUS_OK : fault_set(f, STATUS_FAULT, "standard output cannot be written");
+    }
+    const status opened = output_open(r->output, &file, f);
+    if (opened != STATUS_OK)
+        return opened;
+    write(file.stream, s, t);
+    return output_close(&file, f);
+}
+
+int cli_converge(int count, char **arguments)
+{
+    cli_request r;
+    sweep s;
+    truths t;
+    fault f = {""};
+    cli_parse("converge", "CASE", "Solves one case on several meshes and shows errors, observed order and the limit.", "fnsFojT", count, arguments, &r);
+    const case_type *type = cli_case(&r);
+    if (type == NULL)
+        return EXIT_REFUSED;
+    if (strcmp(r.format, "json") == 0)
+        return cli_fail(STATUS_REFUSED, "converge writes text or csv");
+    if (r.formulations == 0)
+        return cli_fail(STATUS_REFUSED, "which formulation? Give -f, or -f all; 'beamwork list formulations' shows them");
+    status outcome = truths_read(cli_truths_path(&r), &t, &f);
+    if (outcome != STATUS_OK)
+        return cli_fail(outcome, f.text);
+    outcome = sweep_plan_one(type, r.parameter, r.formulation, r.formulations, r.mesh, r.meshes, &s, &f);
+    if (outcome != STATUS_OK) {
+        truths_free(&t);
+        return cli_fail(outcome, f.text);
+    }
+    const sweep_request request = {.jobs = r.jobs, .progress = isatty(STDERR_FILENO) ? stderr : NULL};
+    outcome = sweep_run(&request, &s, &f);
+    if (outcome == STATUS_OK)
+        outcome = write_out(&r, &s, &t, &f);
+    const int nothing = sweep_cells(&s) == 0;
+    sweep_free(&s);
+    truths_free(&t);
+    return outcome != STATUS_OK ? cli_fail(outcome, f.text) : nothing ? EXIT_NOTHING : EXIT_AS_EXPECTED;
+}

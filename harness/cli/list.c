@@ -1,0 +1,70 @@
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/cli/cli.h"
+#include "harness/run/registry.h"
+
+static void list_formulations(void)
+{
+    printf("formulations (-f NAME[:KEY=VALUE,...]); all take newton=mixed|displacement\n");
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        const element_type *t = registry_formulations[i];
+        printf("  %-24s %s\n  %-24s source: %s\n  %-24s offers:", t->name, t->summary, "", t->source, "");
+        for (unsigned bit = 1; bit <= FEATURE_CURVATURE; bit <<= 1)
+            if (t->offers & bit)
+                printf(" %s%s", model_feature_name(bit), (t->offers & ~(2 * bit - 1)) != 0 ? "," : "\n");
+        for (int k = 0; t->options != NULL && t->options[k].name != NULL; k++)
+            printf("  %-24s option %s=%s: %s\n", "", t->options[k].name, t->options[k].choices != NULL ? t->options[k].choices : "NUMBER", t->options[k].summary);
+    }
+}
+
+static void list_cases(void)
+{
+    printf("cases ('beamwork list CASE' shows parameters and quantities)\n");
+    for (int i = 0; registry_cases[i] != NULL; i++)
+        printf("  %-24s %s\n", registry_cases[i]->name, registry_cases[i]->summary);
+}
+
+static int list_case(const case_type *type)
+{
+    double value[CASE_MAX_PARAMETERS] = {0};
+    scene s;
+    fault f;
+    printf("%s: %s\nsource: %s\nparameters (--set NAME=VALUE)\n", type->name, type->summary, type->source);
+    for (int i = 0; type->parameters[i].name != NULL; i++) {
+        const case_parameter *p = &type->parameters[i];
+        char text[64];
+        parameters_value_text(p, p->value, text, sizeof text);
+        printf("  %-20s %-14s %-8s %s%s%s%s\n", p->name, text, p->unit, p->summary, p->choices != NULL ? " (" : "", p->choices != NULL ? p->choices : "", p->choices != NULL ? ")" : "");
+    }
+    parameters_default(type, value);
+    scene_init(&s, type->name);
+    status outcome = type->build(value, &s, &f);
+    if (outcome == STATUS_OK)
+        outcome = scene_validate(&s, &f);
+    printf("quantities\n");
+    for (int i = 0; i < s.quantities; i++)
+        printf("  %-28s %s%s\n", s.quantity[i].name, s.quantity[i].unit, s.quantity[i].reduction == SCENE_CURVE ? " (curve)" : "");
+    printf("formulations\n");
+    for (int i = 0; registry_formulations[i] != NULL && outcome == STATUS_OK; i++) {
+        char words[200];
+        const int missing = model_missing(&s, registry_formulations[i], words, sizeof words);
+        printf("  %-28s %s%s\n", registry_formulations[i]->name, missing ? "does not offer " : "runs", missing ? words : "");
+    }
+    scene_free(&s);
+    return outcome == STATUS_OK ? EXIT_AS_EXPECTED : cli_fail(outcome, f.text);
+}
+
+int cli_list(int count, char **arguments)
+{
+    cli_request r;
+    cli_parse("list", "[cases|formulations|CASE]", "Shows what there is: cases with their parameters and quantities, formulations with their options.", "", count, arguments, &r);
+    if (r.case_name == NULL || strcmp(r.case_name, "cases") == 0)
+        list_cases();
+    if (r.case_name == NULL || strcmp(r.case_name, "formulations") == 0)
+        list_formulations();
+    if (r.case_name == NULL || strcmp(r.case_name, "cases") == 0 || strcmp(r.case_name, "formulations") == 0)
+        return EXIT_AS_EXPECTED;
+    const case_type *type = cli_case(&r);
+    return type != NULL ? list_case(type) : EXIT_REFUSED;
+}

@@ -1,0 +1,62 @@
+/* beamwork VERB ...: see --help. */
+#include <gsl/gsl_errno.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/cli/cli.h"
+#include "harness/run/environment.h"
+#include "harness/run/parameters.h"
+
+static const struct {
+    const char *name;
+    cli_verb *run;
+    const char *summary;
+} verbs[] = {
+    {"list", cli_list, "cases, formulations, parameters, quantities"},
+    {"solve", cli_solve, "one case, one formulation, one mesh"},
+    {"converge", cli_converge, "one case on several meshes: errors, order, limit"},
+    {"verify", cli_verify, "every formulation on every case, judged against stored truths"},
+};
+enum { VERBS = sizeof verbs / sizeof verbs[0] };
+
+static const char *verb_name(const void *context, int i)
+{
+    (void)context;
+    return i < VERBS ? verbs[i].name : NULL;
+}
+
+static int help(void)
+{
+    printf("beamwork: verification and benchmark of three-dimensional beam finite elements\n\nusage: beamwork VERB [OPTION...]; 'beamwork VERB --help' shows its options\n\n");
+    for (int i = 0; i < VERBS; i++)
+        printf("  %-10s %s\n", verbs[i].name, verbs[i].summary);
+    printf("\n  --version  versions of the program and its libraries\n\n"
+           "exit status: 0 as expected; 1 a verdict differs (solve: not converged or singular); 2 refused input;\n"
+           "             3 nothing was checked; 4 file, disk or memory\n\n"
+           "example: beamwork converge c_column -f beamw -f beamw_consistent -n 2,4,8,16,32\n");
+    return EXIT_AS_EXPECTED;
+}
+
+static int version(void)
+{
+    const environment e = environment_now(1);
+    printf("beamwork %s (%s)\n%s, flags %s\n%s\n", e.version, e.commit, e.compiler, e.flags, e.libraries);
+    return EXIT_AS_EXPECTED;
+}
+
+int main(int count, char **arguments)
+{
+    gsl_set_error_handler_off();
+    if (count < 2 || strcmp(arguments[1], "--help") == 0 || strcmp(arguments[1], "help") == 0)
+        return help();
+    if (strcmp(arguments[1], "--version") == 0)
+        return version();
+    for (int i = 0; i < VERBS; i++)
+        if (strcmp(verbs[i].name, arguments[1]) == 0)
+            return verbs[i].run(count - 1, arguments + 1);
+    char text[200];
+    const char *near = nearest_name(arguments[1], verb_name, NULL);
+    snprintf(text, sizeof text, "unknown verb '%.60s'%s%s%s; 'beamwork --help' shows them all", arguments[1], near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
+             near != NULL ? "'?" : "");
+    return cli_fail(STATUS_REFUSED, text);
+}

@@ -1,0 +1,190 @@
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "harness/cli/cli.h"
+#include "harness/run/registry.h"
+
+static const struct argp_option all_options[] = {
+    {"formulation", 'f', "NAME[:KEY=VALUE,...]", 0, "formulation and its options; again for another, 'all' for every one", 0},
+    {"elements", 'n', "N[,N...]", 0, "elements per member", 0},
+    {"set", 's', "NAME=VALUE", 0, "value of a case parameter (SI); again for another", 0},
+    {"format", 'F', "text|json|csv", 0, "form of the output (default text)", 0},
+    {"output", 'o', "FILE", 0, "write there instead of to standard output (verify: results as HDF5)", 0},
+    {"keep-all", 'K', NULL, 0, "leave nothing out: same answer, more work", 0},
+    {"steps", 'S', "N", 0, "load steps between two stations of a path, to begin with", 0},
+    {"select", 'k', "EXPRESSION", 0, "words joined by and, or, not; looked for in case/parameters/formulation", 0},
+    {"jobs", 'j', "N", 0, "processes (default: one for each processor)", 0},
+    {"json", 'J', "FILE", 0, "verdicts as JSON", 0},
+    {"junit", 'U', "FILE", 0, "verdicts as JUnit XML", 0},
+    {"truths", 'T', "FILE", 0, "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)", 0},
+    {0},
+};
+
+static void refuse(const char *text)
+{
+    exit(cli_fail(STATUS_REFUSED, text));
+}
+
+static int whole_number(const char *text, const char *what, long least, long most)
+{
+    char *end, message[160];
+    errno = 0;
+    const long value = strtol(text, &end, 10);
+    if (end == text || *end != '\0' || errno != 0 || value < least || value > most) {
+        snprintf(message, sizeof message, "%s '%.40s': give a whole number from %ld to %ld", what, text, least, most);
+        refuse(message);
+    }
+    return (int)value;
+}
+
+static void add_meshes(cli_request *r, char *list)
+{
+    char *rest = NULL;
+    for (char *one = strtok_r(list, ",", &rest); one != NULL; one = strtok_r(NULL, ",", &rest)) {
+        if (r->meshes == CLI_MAX_MESHES)
+            refuse("too many meshes; give at most 24");
+        r->mesh[r->meshes++] = whole_number(one, "number of elements", 1, 10000000);
+    }
+}
+
+static void add_formulation(cli_request *r, const char *text)
+{
+    fault f;
+    for (int i = 0; strcmp(text, "all") == 0 && registry_formulations[i] != NULL && r->formulations < CLI_MAX_FORMULATIONS; i++)
+        formulation_default(registry_formulations[i], &r->formulation[r->formulations++]);
+    if (strcmp(text, "all") == 0)
+        return;
+    if (r->formulations == CLI_MAX_FORMULATIONS)
+        refuse("too many formulations");
+    if (formulation_parse(text, &r->formulation[r->formulations++], &f) != STATUS_OK)
+        refuse(f.text);
+}
+
+static error_t take(int key, char *value, struct argp_state *state)
+{
+    cli_request *r = state->input;
+    switch (key) {
+    case 'f':
+        add_formulation(r, value);
+        return 0;
+    case 'n':
+        add_meshes(r, value);
+        return 0;
+    case 's':
+        if (r->assignments == CASE_MAX_PARAMETERS)
+            refuse("too many parameters");
+        r->assignment[r->assignments++] = value;
+        return 0;
+    case 'F':
+        if (strcmp(value, "text") != 0 && strcmp(value, "json") != 0 && strcmp(value, "csv") != 0)
+            refuse("--format: give text, json or csv");
+        r->format = value;
+        return 0;
+    case 'o':
+        r->output = value;
+        return 0;
+    case 'K':
+        r->keep_all = 1;
+        return 0;
+    case 'S':
+        r->steps = whole_number(value, "number of steps", 1, 1000000);
+        return 0;
+    case 'k':
+        r->select = value;
+        return 0;
+    case 'j':
+        r->jobs = whole_number(value, "number of processes", 1, 64);
+        return 0;
+    case 'J':
+        r->json = value;
+        return 0;
+    case 'U':
+        r->junit = value;
+        return 0;
+    case 'T':
+        r->truths = value;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (r->case_name != NULL)
+            refuse("more than one argument; 'beamwork --help' shows the usage");
+        r->case_name = value;
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+void cli_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys, int count, char **arguments, cli_request *out)
+{
+    struct argp_option chosen[sizeof all_options / sizeof all_options[0]] = {{0}};
+    char name[64];
+    int n = 0;
+    for (int i = 0; all_options[i].name != NULL; i++)
+        if (strchr(keys, all_options[i].key) != NULL)
+            chosen[n++] = all_options[i];
+    const struct argp parser = {.options = chosen, .parser = take, .args_doc = arguments_doc, .doc = doc};
+    memset(out, 0, sizeof *out);
+    out->format = "text";
+    out->jobs = (int)sysconf(_SC_NPROCESSORS_ONLN);
+    snprintf(name, sizeof name, "beamwork %s", verb);
+    arguments[0] = name;
+    argp_err_exit_status = EXIT_REFUSED;
+    argp_parse(&parser, count, arguments, 0, NULL, out);
+}
+
+const case_type *cli_case(cli_request *r)
+{
+    fault f;
+    if (r->case_name == NULL) {
+        cli_fail(STATUS_REFUSED, "which case? 'beamwork list cases' shows them");
+        return NULL;
+    }
+    const case_type *type = case_find(r->case_name, &f);
+    if (type == NULL) {
+        cli_fail(STATUS_REFUSED, f.text);
+        return NULL;
+    }
+    parameters_default(type, r->parameter);
+    for (int i = 0; i < r->assignments; i++)
+        if (parameters_set(type, r->assignment[i], r->parameter, &f) != STATUS_OK) {
+            cli_fail(STATUS_REFUSED, f.text);
+            return NULL;
+        }
+    return type;
+}
+
+const char *cli_truths_path(const cli_request *r)
+{
+    static char beside[512];
+    if (r->truths != NULL)
+        return r->truths;
+    if (getenv("BEAMWORK_TRUTHS") != NULL)
+        return getenv("BEAMWORK_TRUTHS");
+    const ssize_t length = readlink("/proc/self/exe", beside, sizeof beside - 16);
+    if (length <= 0)
+        return "truths.h5";
+    beside[length] = '\0';
+    char *slash = strrchr(beside, '/');
+    snprintf(slash + 1, 16, "truths.h5");
+    return beside;
+}
+
+int cli_fail(status s, const char *text)
+{
+    fprintf(stderr, "beamwork: %s\n", text);
+    switch (s) {
+    case STATUS_OK:
+        return EXIT_AS_EXPECTED;
+    case STATUS_NOT_CONVERGED:
+    case STATUS_SINGULAR:
+        return EXIT_DIFFERS;
+    case STATUS_REFUSED:
+        return EXIT_REFUSED;
+    case STATUS_FAULT:
+        break;
+    }
+    return EXIT_FAULT;
+}

@@ -1,0 +1,85 @@
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/cli/cli.h"
+#include "harness/run/json.h"
+#include "harness/run/output.h"
+#include "harness/run/text.h"
+
+static status write_to(FILE *to, const cli_request *r, const sweep *s, const truths *t, fault *f)
+{
+    if (strcmp(r->format, "json") == 0)
+        return json_write_solution(to, s, t, f);
+    if (strcmp(r->format, "csv") == 0)
+        text_solution_csv(to, s);
+    else
+        text_solution(to, s, t);
+    return STATUS_OK;
+}
+
+static status write_out(const cli_request *r, const sweep *s, const truths *t, fault *f)
+{
+    output file;
+    if (r->output == NULL) {
+        const status written = write_to(stdout, r, s, t, f);
+        return written == STATUS_OK && fflush(stdout) != 0 ? fault_set(f, STATUS_FAULT, "standard output cannot be written") : written;
+    }
+    status outcome = output_open(r->output, &file, f);
+    if (outcome != STATUS_OK)
+        return outcome;
+    outcome = write_to(file.stream, r, s, t, f);
+    if (outcome == STATUS_OK)
+        return output_close(&file, f);
+    output_discard(&file);
+    return outcome;
+}
+
+/* The one cell, solved in this process so that its options reach it. */
+static status solve_cell(const cli_request *r, sweep *s, fault *f)
+{
+    const point *p = &s->point[0];
+    cell_request request = {.type = p->type, .formulation = r->formulation[0].type, .elements = r->mesh[0], .keep_all = r->keep_all};
+    memcpy(request.parameter, p->parameter, sizeof request.parameter);
+    memcpy(request.option, r->formulation[0].option, sizeof request.option);
+    request.solve.displacement_newton = r->formulation[0].displacement_newton;
+    request.solve.steps_between = r->steps;
+    return cell_run(&request, &s->series[0].cell[0], f);
+}
+
+int cli_solve(int count, char **arguments)
+{
+    cli_request r;
+    sweep s;
+    fault f = {""};
+    truths t = {0};
+    cli_parse("solve", "CASE", "Solves one case with one formulation and one mesh and shows every quantity with its error.", "fnsFoKST", count, arguments, &r);
+    const case_type *type = cli_case(&r);
+    if (type == NULL)
+        return EXIT_REFUSED;
+    if (r.formulations != 1)
+        return cli_fail(STATUS_REFUSED, "which formulation? Give one -f; 'beamwork list formulations' shows them");
+    if (r.meshes != 1)
+        return cli_fail(STATUS_REFUSED, "how many elements per member? Give one -n");
+    status outcome = truths_read(cli_truths_path(&r), &t, &f);
+    if (outcome != STATUS_OK && r.truths == NULL) /* a solution needs none: say so and go on */
+        fprintf(stderr, "beamwork: without truths: %s\n", f.text);
+    else if (outcome != STATUS_OK)
+        return cli_fail(outcome, f.text);
+    outcome = sweep_plan_one(type, r.parameter, r.formulation, 1, r.mesh, 1, &s, &f);
+    if (outcome != STATUS_OK) {
+        truths_free(&t);
+        return cli_fail(outcome, f.text);
+    }
+    const status solved = solve_cell(&r, &s, &f);
+    fault unwritten = {""};
+    int code = EXIT_AS_EXPECTED;
+    if (solved == STATUS_REFUSED || solved == STATUS_FAULT) {
+        code = cli_fail(solved, f.text);
+    } else {
+        outcome = write_out(&r, &s, &t, &unwritten);
+        code = outcome != STATUS_OK ? cli_fail(outcome, unwritten.text) : solved != STATUS_OK ? cli_fail(solved, f.text) : EXIT_AS_EXPECTED;
+    }
+    sweep_free(&s);
+    truths_free(&t);
+    return code;
+}

@@ -1,0 +1,97 @@
+#include <stdio.h>
+#include <unistd.h>
+
+#include "harness/cli/cli.h"
+#include "harness/run/json.h"
+#include "harness/run/output.h"
+#include "harness/run/store.h"
+#include "harness/run/text.h"
+
+static status write_json(const char *path, const sweep *s, const judgement *j, const environment *e, fault *f)
+{
+    output file;
+    status outcome = output_open(path, &file, f);
+    if (outcome != STATUS_OK)
+        return outcome;
+    outcome = json_write_verdicts(file.stream, s, j, e, f);
+    if (outcome == STATUS_OK)
+        return output_close(&file, f);
+    output_discard(&file);
+    return outcome;
+}
+
+static status write_junit(const char *path, const sweep *s, const judgement *j, fault *f)
+{
+    output file;
+    const status opened = output_open(path, &file, f);
+    if (opened != STATUS_OK)
+        return opened;
+    text_junit(file.stream, s, j);
+    return output_close(&file, f);
+}
+
+static status write_all(const cli_request *r, const sweep *s, const judgement *j, fault *f)
+{
+    const environment e = environment_now(r->jobs);
+    status outcome = STATUS_OK;
+    if (r->output != NULL)
+        outcome = store_write(r->output, s, j, &e, f);
+    if (outcome == STATUS_OK && r->json != NULL)
+        outcome = write_json(r->json, s, j, &e, f);
+    if (outcome == STATUS_OK && r->junit != NULL)
+        outcome = write_junit(r->junit, s, j, f);
+    return outcome;
+}
+
+/* An output that cannot be written is noticed before anything is computed. */
+static status try_output(const char *path, fault *f)
+{
+    output probe;
+    if (path == NULL)
+        return STATUS_OK;
+    const status opened = output_open(path, &probe, f);
+    if (opened == STATUS_OK)
+        output_discard(&probe);
+    return opened;
+}
+
+int cli_verify(int count, char **arguments)
+{
+    cli_request r;
+    sweep s = {0};
+    truths t;
+    judgement j = {0};
+    fault f = {""};
+    cli_parse("verify", "",
+              "Judges every formulation on every case and parameter point that has a truth. Exit status: 0 every verdict as expected, 1 one differs, 2 refused, "
+              "3 nothing was checked, 4 file, disk or memory.",
+              "fokjJUT", count, arguments, &r);
+    if (r.case_name != NULL)
+        return cli_fail(STATUS_REFUSED, "verify takes no case; select with -k");
+    status outcome = try_output(r.output, &f);
+    if (outcome == STATUS_OK)
+        outcome = try_output(r.json, &f);
+    if (outcome == STATUS_OK)
+        outcome = try_output(r.junit, &f);
+    if (outcome == STATUS_OK)
+        outcome = truths_read(cli_truths_path(&r), &t, &f);
+    if (outcome != STATUS_OK)
+        return cli_fail(outcome, f.text);
+    const sweep_request request = {.select = r.select, .jobs = r.jobs, .formulations = r.formulations, .formulation = r.formulation, .progress = isatty(STDERR_FILENO) ? stderr : NULL};
+    outcome = sweep_plan(&request, &t, &s, &f);
+    if (outcome == STATUS_OK)
+        outcome = sweep_run(&request, &s, &f);
+    if (outcome == STATUS_OK)
+        outcome = judge(&s, &t, r.select == NULL && r.formulations == 0, &j, &f);
+    if (outcome == STATUS_OK) {
+        text_verdicts(stdout, &s, &j, &t);
+        outcome = fflush(stdout) == 0 ? write_all(&r, &s, &j, &f) : fault_set(&f, STATUS_FAULT, "standard output cannot be written");
+    }
+    const int code = outcome != STATUS_OK ? cli_fail(outcome, f.text) : judgement_exit(&j);
+    if (outcome == STATUS_OK && code == EXIT_NOTHING)
+        fprintf(stderr, "beamwork: nothing was checked: no verdict against a truth; see 'beamwork list' and -k\n");
+    judgement_free(&j);
+    sweep_free(&s);
+    truths_free(&t);
+    return code;
+}

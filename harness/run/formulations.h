@@ -1,0 +1,18 @@
+/* -f name:key=value,...: a formulation with its options. */
+#ifndef BEAMWORK_FORMULATIONS_H
+#define BEAMWORK_FORMULATIONS_H
+
+#include "harness/run/cell.h"
+
+typedef struct formulation {
+    const element_type *type;
+    double option[ELEMENT_MAX_OPTIONS];
+    int displacement_newton; /* newton=displacement */
+    char key[CELL_KEY];      /* name, and the options that differ from their defaults, in table order */
+} formulation;
+
+status formulation_parse(const char *text, formulation *out, fault *f);
+void formulation_default(const element_type *type, formulation *out);
+const case_type *case_find(const char *name, fault *f); /* NULL: unknown, f names the nearest */
+
+#endif

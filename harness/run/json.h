@@ -1,0 +1,14 @@
+/* JSON of one solution and of a verification (jansson). */
+#ifndef BEAMWORK_JSON_H
+#define BEAMWORK_JSON_H
+
+#include <stdio.h>
+
+#include "harness/run/environment.h"
+#include "harness/run/verdict.h"
+
+/* Solution of one cell of a one-point sweep; t may be NULL. */
+status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f);
+status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const environment *e, fault *f);
+
+#endif

@@ -1,0 +1,196 @@
+#include "harness/run/sweep.h"
+
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "harness/run/wire.h"
+
+enum { MAX_JOBS = 64 };
+
+typedef struct task {
+    int series, mesh;
+} task;
+
+/* Shared by all processes: the next task, and what each worker is at. */
+typedef struct board {
+    int next;
+    int at[MAX_JOBS];
+} board;
+
+typedef struct worker {
+    pid_t process;
+    FILE *from;
+} worker;
+
+static void request_of(const sweep *s, const task *t, cell_request *out)
+{
+    const series *one = &s->series[t->series];
+    const point *p = &s->point[one->point];
+    memset(out, 0, sizeof *out);
+    out->type = p->type;
+    memcpy(out->parameter, p->parameter, sizeof out->parameter);
+    out->formulation = one->formulation.type;
+    memcpy(out->option, one->formulation.option, sizeof out->option);
+    out->solve.displacement_newton = one->formulation.displacement_newton;
+    out->elements = one->mesh[t->mesh];
+}
+
+static void run_task(const sweep *s, const task *t, cell_result *out)
+{
+    cell_request request;
+    fault f = {""};
+    request_of(s, t, &request);
+    cell_run(&request, out, &f);
+    scene_free(&out->scene);
+}
+
+/* Child: takes tasks until none is left. */
+static void work(const sweep *s, const task *tasks, int count, board *b, int self, int to)
+{
+    FILE *out = fdopen(to, "wb");
+    for (;;) {
+        const int i = __atomic_fetch_add(&b->next, 1, __ATOMIC_SEQ_CST);
+        cell_result cell;
+        if (i >= count || out == NULL)
+            break;
+        b->at[self] = i;
+        run_task(s, &tasks[i], &cell);
+        if (fwrite(&i, sizeof i, 1, out) != 1 || wire_write(out, &cell) != 0)
+            break;
+        b->at[self] = -1;
+        cell_result_free(&cell);
+    }
+    if (out != NULL)
+        fclose(out);
+    _exit(0);
+}
+
+static status start(const sweep *s, const task *tasks, int count, board *b, int self, worker *w, fault *f)
+{
+    int ends[2];
+    if (pipe(ends) != 0)
+        return fault_set(f, STATUS_FAULT, "cannot start a worker: no pipe");
+    b->at[self] = -1;
+    w->process = fork();
+    if (w->process < 0)
+        return fault_set(f, STATUS_FAULT, "cannot start a worker process");
+    if (w->process == 0) {
+        close(ends[0]);
+        work(s, tasks, count, b, self, ends[1]);
+    }
+    close(ends[1]);
+    w->from = fdopen(ends[0], "rb");
+    return w->from != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "cannot read from a worker");
+}
+
+static cell_result *cell_of(sweep *s, const task *t)
+{
+    return &s->series[t->series].cell[t->mesh];
+}
+
+/* A worker that ended while it had a task: that cell failed, another worker takes over. Returns 1 when it must be replaced. */
+static int bury(sweep *s, const task *tasks, const board *b, int self, worker *w)
+{
+    int how = 0;
+    fclose(w->from);
+    w->from = NULL;
+    waitpid(w->process, &how, 0);
+    if (b->at[self] < 0)
+        return 0;
+    cell_result *cell = cell_of(s, &tasks[b->at[self]]);
+    cell->solve.status = STATUS_FAULT;
+    snprintf(cell->solve.reason, sizeof cell->solve.reason, "the cell's process ended by %s %d", WIFSIGNALED(how) ? "signal" : "exit status",
+             WIFSIGNALED(how) ? WTERMSIG(how) : WEXITSTATUS(how));
+    return 1;
+}
+
+static void report(const sweep_request *request, const sweep *s, const task *t, int done, int count)
+{
+    if (request->progress == NULL)
+        return;
+    const series *one = &s->series[t->series];
+    fprintf(request->progress, "\r\033[K%d/%d %s %s n=%d", done, count, s->point[one->point].type->name, one->formulation.key, one->mesh[t->mesh]);
+    if (done == count)
+        fprintf(request->progress, "\r\033[K");
+    fflush(request->progress);
+}
+
+/* Takes one result from worker `self`; 1: it has ended and is gone. */
+static int receive(sweep *s, const task *tasks, int count, worker *w, int *last)
+{
+    int i = 0;
+    if (fread(&i, sizeof i, 1, w->from) != 1 || i < 0 || i >= count || wire_read(w->from, cell_of(s, &tasks[i])) != 0)
+        return 1;
+    *last = i;
+    return 0;
+}
+
+static status run_parallel(const sweep_request *request, sweep *s, const task *tasks, int count, board *b, fault *f)
+{
+    worker workers[MAX_JOBS] = {{0}};
+    const int jobs = request->jobs < count ? request->jobs : count;
+    int running = 0, done = 0;
+    status outcome = STATUS_OK;
+    for (int i = 0; i < jobs && outcome == STATUS_OK; i++, running++)
+        outcome = start(s, tasks, count, b, i, &workers[i], f);
+    while (running > 0 && outcome == STATUS_OK) {
+        struct pollfd ends[MAX_JOBS];
+        for (int i = 0; i < jobs; i++)
+            ends[i] = (struct pollfd){.fd = workers[i].from != NULL ? fileno(workers[i].from) : -1, .events = POLLIN};
+        if (poll(ends, (nfds_t)jobs, -1) < 0)
+            continue;
+        for (int i = 0; i < jobs && outcome == STATUS_OK; i++) {
+            int last = 0;
+            if (workers[i].from == NULL || !(ends[i].revents & (POLLIN | POLLHUP)))
+                continue;
+            if (!receive(s, tasks, count, &workers[i], &last)) {
+                report(request, s, &tasks[last], ++done, count);
+            } else if (bury(s, tasks, b, i, &workers[i])) {
+                done++;
+                outcome = start(s, tasks, count, b, i, &workers[i], f);
+            } else {
+                running--;
+            }
+        }
+    }
+    for (int i = 0; i < jobs; i++)
+        if (workers[i].from != NULL) {
+            kill(workers[i].process, SIGKILL);
+            bury(s, tasks, b, i, &workers[i]);
+        }
+    return outcome;
+}
+
+status sweep_run(const sweep_request *request, sweep *s, fault *f)
+{
+    const int count = sweep_cells(s);
+    task *tasks = calloc((size_t)count + 1, sizeof *tasks);
+    board *b = mmap(NULL, sizeof *b, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    status outcome = STATUS_OK;
+    if (tasks == NULL || b == MAP_FAILED) {
+        free(tasks);
+        return fault_set(f, STATUS_FAULT, "out of memory for the sweep");
+    }
+    int n = 0;
+    for (int i = 0; i < s->seriess; i++)
+        for (int k = 0; k < s->series[i].meshes && s->series[i].missing[0] == '\0' && s->point[s->series[i].point].status == STATUS_OK; k++)
+            tasks[n++] = (task){i, k};
+    if (request->jobs > 1) {
+        sweep_request bounded = *request;
+        bounded.jobs = request->jobs < MAX_JOBS ? request->jobs : MAX_JOBS;
+        outcome = run_parallel(&bounded, s, tasks, count, b, f);
+    } else {
+        for (int i = 0; i < count; i++) {
+            run_task(s, &tasks[i], cell_of(s, &tasks[i]));
+            report(request, s, &tasks[i], i + 1, count);
+        }
+    }
+    munmap(b, sizeof *b);
+    free(tasks);
+    return outcome;
+}

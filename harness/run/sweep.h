@@ -1,0 +1,56 @@
+/* All cells of a verification: series of meshes for every case, parameter point and formulation, run by several processes. */
+#ifndef BEAMWORK_SWEEP_H
+#define BEAMWORK_SWEEP_H
+
+#include <stdio.h>
+
+#include "harness/run/formulations.h"
+#include "harness/run/truths.h"
+
+enum { SERIES_MAX_MESHES = 24 };
+
+typedef struct point {
+    const case_type *type;
+    double parameter[CASE_MAX_PARAMETERS];
+    char text[PARAMETERS_TEXT]; /* differences from the defaults */
+    char name[16];              /* "default" or the first digits of the hash */
+    scene scene;                /* names, units, tolerances of the quantities */
+    status status;              /* of building the scene */
+    char reason[FAULT_TEXT];
+} point;
+
+typedef struct series {
+    int point;
+    formulation formulation;
+    char missing[200]; /* what the scene needs and the formulation does not offer; empty: it runs */
+    int meshes, mesh[SERIES_MAX_MESHES];
+    cell_result *cell; /* [meshes]; their scenes are empty: the point has it */
+} series;
+
+typedef struct sweep {
+    int points, seriess;
+    point *point;
+    series *series;
+} sweep;
+
+typedef struct sweep_request {
+    const char *select;     /* expression over "case/point/formulation", or NULL */
+    int jobs;               /* processes, >= 1 */
+    int formulations;       /* restrict to these, or 0: all */
+    const formulation *formulation;
+    FILE *progress;         /* NULL: quiet */
+} sweep_request;
+
+/* Does an expression (words joined by and, or, not; a word is looked for in text) hold? -1: malformed. */
+int select_matches(const char *expression, const char *text);
+
+/* Points: the defaults and every parameter point of a truth. */
+status sweep_plan(const sweep_request *request, const truths *t, sweep *out, fault *f);
+/* One point, the given formulations and meshes. */
+status sweep_plan_one(const case_type *type, const double value[], const formulation chosen[], int count, const int mesh[], int meshes, sweep *out, fault *f);
+/* Runs every cell; a cell that fails or crashes is a result. Order of results does not depend on jobs. */
+status sweep_run(const sweep_request *request, sweep *s, fault *f);
+int sweep_cells(const sweep *s);
+void sweep_free(sweep *s);
+
+#endif
