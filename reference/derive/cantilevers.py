@@ -1,0 +1,89 @@
+"""Cantilevers under dead tip loads at large displacement: shooting with the geometrically exact beam of beam.py."""
+import math
+
+import numpy as np
+
+from reference.derive.beam import Beam, rotation_vector
+
+RELATIVE = 2e-11
+
+
+def dead_load(beam, F, path):
+    """p of a cantilever under a dead tip force F [N]; unknown: the root moment."""
+    load = np.array(F) / beam.force
+
+    def residual(level, p, tip):
+        return list(p[:3] - level * load) + list(tip[2])
+    p = beam.solve(residual, np.zeros(6), path)
+    return beam.tip(p.astype(complex))
+
+
+def elastica():
+    for load in (1, 2, 5, 10):
+        beam = Beam(1.0, EA=1e8, EIy=1.0, EIz=1.0, GJ=1.0)
+        r, R, _, _ = dead_load(beam, (0, load, 0), np.linspace(0.1, 1, 10))
+        at = "" if load == 1 else f"load={load}"
+        yield "elastica", at, "w_over_L", r[1].real, "1", RELATIVE
+        yield "elastica", at, "u_over_L", 1 - r[0].real, "1", 1e-10
+        yield "elastica", at, "theta", rotation_vector(R.real + 0j)[2].real, "rad", RELATIVE
+
+
+def shear_elastica():
+    for GA in (500, 50, 10):
+        beam = Beam(1.0, EA=1e9, EIy=10.0, EIz=10.0, GJ=10.0, fy=1 / GA, fz=1 / GA)
+        r, _, _, _ = dead_load(beam, (0, 10, 0), np.linspace(0.1, 1, 10))
+        at = "" if GA == 500 else f"GA={GA}"
+        yield "shear_elastica", at, "u", r[0].real - 1, "m", 1e-10
+        yield "shear_elastica", at, "v", r[1].real, "m", RELATIVE
+
+
+def geradin_cardona():
+    for load in (600e3, 300e3):
+        beam = Beam(5.0, EA=4.8e8, EIy=9.346e6, EIz=9.346e6, GJ=1e6, fy=1 / 3.231e8, fz=1 / 3.231e8)
+        r, R, _, _ = dead_load(beam, (0, -load, 0), np.linspace(0.1, 1, 10))
+        at = "" if load == 600e3 else f"load={load:g}"
+        yield "geradin_cardona", at, "tip_x", 5 * r[0].real, "m", RELATIVE
+        yield "geradin_cardona", at, "tip_y", 5 * r[1].real, "m", RELATIVE
+        yield "geradin_cardona", at, "theta", -rotation_vector(R.real + 0j)[2].real, "rad", RELATIVE
+
+
+def square_torsion():
+    """Saint-Venant constant of the unit square: 1/3 - 64/pi^5 sum tanh(n pi/2)/n^5, n odd."""
+    return 1 / 3 - 64 / math.pi ** 5 * sum(math.tanh(n * math.pi / 2) / n ** 5 for n in range(1, 400, 2))
+
+
+def bend_45():
+    radius, angle, E, G = 100.0, math.pi / 4, 1e7, 5e6
+    for torsion in ("exact", "polar"):
+        k, J = (5 / 6, square_torsion()) if torsion == "exact" else (1.0, 1 / 6)
+        beam = Beam(radius * angle, EA=E, EIy=E / 12, EIz=E / 12, GJ=G * J, fy=1 / (k * G), fz=1 / (k * G), curvature=1 / radius)
+        for force in (600, 300):
+            r, _, _, _ = dead_load(beam, (0, 0, force), np.linspace(0.05, 1, 20))
+            at = [f"force={force}"] if force != 600 else []
+            at += ["torsion=polar"] if torsion == "polar" else []
+            start = (radius * math.sin(angle), radius * (1 - math.cos(angle)), 0.0)
+            for i, name in enumerate(("u_tangent", "u_radial", "u_load")):
+                yield "bend_45", ";".join(at), name, beam.length * r[i].real - start[i], "m", 1e-10
+
+
+def roll_up():
+    """A circle: the tip is at L sin(angle)/angle."""
+    for turns in (1, 0.25, 2):
+        angle = 2 * math.pi * turns
+        value = 0.0 if turns >= 1 else math.sin(angle) / angle
+        yield "roll_up", "" if turns == 1 else f"turns={turns}", "tip_gap", value, "1", 1e-13
+
+
+def wagner_torsion():
+    E, G, b, t, L = 2e11, 8e10, 0.2, 0.01, 1.0
+    for angle in (1.0, 0.5, 2.0):
+        k = angle / L
+        J, In = b * t ** 3 / 3, t * b ** 5 / 180
+        at = "" if angle == 1.0 else f"angle={angle:g}"
+        yield "wagner_torsion", at, "moment", G * J * k + E * In * k ** 3 / 2, "N m"
+        yield "wagner_torsion", at, "shortening", L * (b ** 2 + t ** 2) / 24 * k ** 2, "m"
+
+
+def rows():
+    for family in (elastica, shear_elastica, geradin_cardona, bend_45, roll_up, wagner_torsion):
+        yield from family()

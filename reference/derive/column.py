@@ -1,0 +1,161 @@
+"""Buckling and vibration of a simply supported thin-walled beam: one half-wave k = n pi/l at a time, 6 x 6.
+
+Unknowns: amplitudes of v_s, w_s, phi (sin kx) and of the shear strains g_y, g_z, g_w (cos kx).
+  strain    EIz k^2 (kV - g_y)^2 + EIy k^2 (kW - g_z)^2 + EIw k^2 (kP - g_w)^2 + G It (kP)^2 + G g^T D g
+  prestress (v_c'^2 + w_c'^2 + Ip/A phi'^2) - c [(g_y^2 + g_z^2) + 2 (zs g_y - ys g_z) phi'],  v_c = v_s + zs phi, w_c = w_s - ys phi
+  kinetic   rho [A (v_c^2 + w_c^2) + Ip phi^2 + Iz (v_s' - g_y)^2 + Iy (w_s' - g_z)^2 + Iw (phi' - g_w)^2]
+c = 0: shear in stability after Engesser, c = 1: after Haringx (Simo-Reissner).
+Uniform end moment: closed form of the monosymmetric beam with shear (reference/ERRATA.md).
+"""
+from mpmath import mp, mpf, matrix, pi, sqrt, cholesky, inverse, eigsy
+
+from reference.derive.section import channel
+
+mp.dps = 40
+E, G, RHO = mpf(144) * 10 ** 9, mpf("4.14e9"), mpf(1389)
+PRINTED = {"Iw": "1.3886e-4", "ys": "0.4571", "Dy": "0.0279", "Dz": "0.0158", "Dzw": "-3.70e-3", "Dw": "3.65e-3"}
+
+
+def channel_data(printed):
+    s = channel("0.6", "0.6", mpf("0.03"), mpf("0.03"))
+    if printed:
+        s.Iw, s.ys = mpf(PRINTED["Iw"]), mpf(PRINTED["ys"])
+        d = matrix(3, 3)
+        d[0, 0], d[1, 1], d[2, 2] = mpf(PRINTED["Dy"]), mpf(PRINTED["Dz"]), mpf(PRINTED["Dw"])
+        d[1, 2] = d[2, 1] = mpf(PRINTED["Dzw"])
+        s.F = inverse(d)
+    return s
+
+
+def _square(m, factor, row):
+    for i, a in enumerate(row):
+        for j, b in enumerate(row):
+            m[i, j] += factor * a * b
+
+
+def _strain(s, k, shear):
+    n = 6 if shear else 3
+    m = matrix(n, n)
+    for i, inertia in enumerate((s.Iz, s.Iy, s.Iw)):
+        row = [mpf(0)] * n
+        row[i] = k
+        if shear:
+            row[3 + i] = mpf(-1)
+        _square(m, E * inertia * k ** 2, row)
+    m[2, 2] += G * s.It * k ** 2
+    if shear:
+        d = inverse(s.F)
+        for i in range(3):
+            for j in range(3):
+                m[3 + i, 3 + j] += G * d[i, j]
+    return m
+
+
+def _prestress(s, k, shear, c):
+    n = 6 if shear else 3
+    m = matrix(n, n)
+    pad = [mpf(0)] * (n - 3)
+    _square(m, mpf(1), [k, mpf(0), s.zs * k] + pad)
+    _square(m, mpf(1), [mpf(0), k, -s.ys * k] + pad)
+    m[2, 2] += s.Ip / s.A * k ** 2
+    if shear and c:
+        m[3, 3] -= c
+        m[4, 4] -= c
+        m[2, 3] -= c * s.zs * k
+        m[3, 2] -= c * s.zs * k
+        m[2, 4] += c * s.ys * k
+        m[4, 2] += c * s.ys * k
+    return m
+
+
+def _kinetic(s, k, shear, rotary):
+    n = 6 if shear else 3
+    m = matrix(n, n)
+    pad = [mpf(0)] * (n - 3)
+    _square(m, RHO * s.A, [mpf(1), mpf(0), s.zs] + pad)
+    _square(m, RHO * s.A, [mpf(0), mpf(1), -s.ys] + pad)
+    m[2, 2] += RHO * s.Ip
+    for i, inertia in enumerate((s.Iz, s.Iy, s.Iw)):
+        row = [mpf(0)] * n
+        row[i] = k
+        if shear:
+            row[3 + i] = mpf(-1)
+        if rotary:
+            _square(m, RHO * inertia, row)
+    return m
+
+
+def _ratios(a, b):
+    """Eigenvalues of B x = nu A x, A positive definite."""
+    l = inverse(cholesky(a))
+    c = l * b * l.T
+    return [v for v in eigsy((c + c.T) / 2, eigvals_only=True)]
+
+
+def buckling_load(s, length, shear, haringx):
+    best = None
+    for n in range(1, 6):
+        k = n * pi / length
+        load = 1 / max(_ratios(_strain(s, k, shear), _prestress(s, k, shear, int(haringx))))
+        best = load if best is None or load < best else best
+    return best
+
+
+def frequencies(s, length, shear, rotary, count):
+    found = []
+    for n in range(1, 30):
+        k = n * pi / length
+        for nu in _ratios(_strain(s, k, shear), _kinetic(s, k, shear, rotary)):
+            if nu > mpf(10) ** -30:
+                found.append(1 / sqrt(nu) / (2 * pi))
+    return sorted(found)[:count]
+
+
+def buckling_moments(s, length, shear, haringx, wagner):
+    """W (1 - (1-c) F_zw M/G)^2 + G It - M (b_z - 2 ys) = M^2 [1/(EIy k^2) + (1-c) F_zz/G], n = 1."""
+    k = pi / length
+    c = 1 if haringx or not shear else 0
+    fww = s.F[2, 2] if shear else mpf(0)
+    w = E * s.Iw * k ** 2 / (1 + fww * E * s.Iw * k ** 2 / G)
+    bz = s.wagner_y / s.Iz if wagner else mpf(0)
+    alpha = (1 - c) * s.F[1, 2] / G
+    p2 = 1 / (E * s.Iy * k ** 2) + (1 - c) * s.F[1, 1] / G - w * alpha ** 2
+    p1 = 2 * w * alpha + bz - 2 * s.ys
+    p0 = -(w + G * s.It)
+    root = sqrt(p1 ** 2 - 4 * p2 * p0)
+    return (-p1 - root) / (2 * p2), (-p1 + root) / (2 * p2)
+
+
+def _text(**given):
+    return ";".join(f"{name}={value}" for name, value in given.items())
+
+
+def rows():
+    for length in (None, 3, 12):
+        at = {} if length is None else {"length": length}
+        l = mpf(6 if length is None else length)
+        plain, printed = channel_data(False), channel_data(True)
+        yield "c_column", _text(**at), "buckling_load", buckling_load(plain, l, True, False), "N"
+        yield "c_column", _text(**at, shear_stability="haringx"), "buckling_load", buckling_load(plain, l, True, True), "N"
+        yield "c_column", _text(**at, shear=0), "buckling_load", buckling_load(plain, l, False, False), "N"
+        for i, value in enumerate(frequencies(plain, l, True, True, 13)):
+            yield "c_column", _text(**at), f"frequency_{i + 1}", value, "Hz"
+        if length is None:
+            yield "c_column", "section_data=printed", "buckling_load", buckling_load(printed, l, True, False), "N"
+            yield "c_column", "section_data=printed;shear=0", "buckling_load", buckling_load(printed, l, False, False), "N"
+            for i, value in enumerate(frequencies(plain, l, False, False, 13)):
+                yield "c_column", "shear=0;rotary_inertia=0", f"frequency_{i + 1}", value, "Hz"
+            yield "c_column", "shear=0;rotary_inertia=0", "buckling_load", buckling_load(plain, l, False, False), "N"
+        for shear, haringx, wagner in ((0, 0, 1), (0, 0, 0), (1, 0, 1), (1, 0, 0), (1, 1, 1), (1, 1, 0)):
+            if length is not None and not wagner:
+                continue
+            given = dict(at)
+            if shear:
+                given["shear"] = 1
+            if haringx:
+                given["shear_stability"] = "haringx"
+            if not wagner:
+                given["wagner_moments"] = 0
+            low, high = buckling_moments(plain, l, shear, haringx, wagner)
+            yield "moment_buckling", _text(**given), "buckling_moment_negative", low, "N m"
+            yield "moment_buckling", _text(**given), "buckling_moment_positive", high, "N m"

@@ -1,0 +1,190 @@
+"""Packs the truth tables and the findings into one HDF5 file that the driver reads.
+
+usage: pack.py -o FILE     Layout: reference/README.md.  The file appears complete or not at all.
+"""
+import argparse
+import csv
+import math
+import os
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+COLUMNS = "case,parameters,formulation,elements,quantity,value,unit,uncertainty,kind,model,convention,source".split(",")
+FINDING_COLUMNS = "case,parameters,formulation,quantity,verdict,limit,uncertainty,proof".split(",")
+KINDS = ("exact", "independent", "consensus", "published", "reconstructed", "experiment")
+MODELS = ("same", "other")
+VERDICTS = ("pass", "wrong limit", "low order", "not asymptotic", "diverged", "refused", "no truth")
+
+
+class Refused(Exception):
+    """A row that makes no sense; the text names it."""
+
+
+def fnv1a(text):
+    value = 14695981039346656037
+    for byte in text.encode():
+        value = (value ^ byte) * 1099511628211 % 2 ** 64
+    return value
+
+
+def read_csv(path, columns):
+    with open(path, newline="", encoding="utf-8") as table:
+        reader = csv.DictReader(table)
+        if reader.fieldnames != columns:
+            raise Refused(f"{path.name}: columns must be {','.join(columns)}")
+        for number, row in enumerate(reader, 2):
+            if None in row or None in row.values():
+                raise Refused(f"{path.name}:{number}: wrong number of fields")
+            yield number, row
+
+
+def read_defaults(path):
+    """{case: [(parameter, default, choices)]} in table order."""
+    cases = {}
+    for _, row in read_csv(path, ["case", "parameter", "value", "choices"]):
+        cases.setdefault(row["case"], []).append((row["parameter"], float(row["value"]), row["choices"].split("|") if row["choices"] else []))
+    return cases
+
+
+def printf_g17(value):
+    return "%.17g" % value
+
+
+def parameter_hash(table, parameters, where):
+    """FNV-1a of "name=%.17g;" over all parameters, choices by index, "name=*;" for any value."""
+    given = {}
+    everything = parameters == "*"
+    for item in ([] if everything else filter(None, parameters.split(";"))):
+        name, equals, value = item.partition("=")
+        if not equals or name in given:
+            raise Refused(f"{where}: '{item}' is not name=value, or is given twice")
+        given[name] = value
+    text = ""
+    for name, default, choices in table:
+        value = given.pop(name, None)
+        if everything or value == "*":
+            text += f"{name}=*;"
+            continue
+        if value is None:
+            number = default
+        elif choices:
+            if value not in choices:
+                raise Refused(f"{where}: {name}={value} is none of {'|'.join(choices)}")
+            number = choices.index(value)
+        else:
+            number = finite(value, f"{where}: {name}")
+        text += f"{name}={printf_g17(number)};"
+    if given:
+        raise Refused(f"{where}: unknown parameter '{next(iter(given))}'")
+    return fnv1a(text)
+
+
+def finite(text, where):
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise Refused(f"{where}: '{text}' is not a finite number")
+    return value
+
+
+def check_truth(row, where, defaults):
+    if row["case"] not in defaults:
+        raise Refused(f"{where}: unknown case '{row['case']}'")
+    if row["kind"] not in KINDS or row["model"] not in MODELS:
+        raise Refused(f"{where}: kind '{row['kind']}' or model '{row['model']}' is not known")
+    if not row["unit"] or not row["quantity"] or not row["source"]:
+        raise Refused(f"{where}: unit, quantity and source must be given")
+    row["value"] = finite(row["value"], f"{where}: value")
+    row["uncertainty"] = finite(row["uncertainty"], f"{where}: uncertainty")
+    if row["uncertainty"] < 0:
+        raise Refused(f"{where}: negative uncertainty")
+    row["elements"] = int(row["elements"] or 0)
+    if bool(row["formulation"]) != (row["elements"] > 0):
+        raise Refused(f"{where}: a discrete value needs formulation and elements, a value of the continuum neither")
+    row["hash"] = parameter_hash(defaults[row["case"]], row["parameters"], where)
+
+
+def read_truths(folder, defaults):
+    cases, seen = {}, {}
+    for path in sorted(folder.glob("*.csv")):
+        for number, row in read_csv(path, COLUMNS):
+            where = f"{path.name}:{number}"
+            check_truth(row, where, defaults)
+            key = (row["case"], row["hash"], row["formulation"], row["elements"], row["quantity"], row["kind"], row["model"], row["convention"], row["source"])
+            if key in seen:
+                raise Refused(f"{where}: the same row as {seen[key]}")
+            seen[key] = where
+            cases.setdefault(row["case"], []).append(row)
+    return cases
+
+
+def read_findings(path, defaults):
+    rows = []
+    for number, row in read_csv(path, FINDING_COLUMNS):
+        where = f"{path.name}:{number}"
+        if row["case"] not in defaults:
+            raise Refused(f"{where}: unknown case '{row['case']}'")
+        if row["verdict"] not in VERDICTS:
+            raise Refused(f"{where}: unknown verdict '{row['verdict']}'")
+        if not row["proof"]:
+            raise Refused(f"{where}: a finding needs its proof")
+        parameter_hash(defaults[row["case"]], row["parameters"], where)
+        for name in ("limit", "uncertainty"):
+            row[name] = finite(row[name], f"{where}: {name}") if row[name] else math.nan
+        rows.append(row)
+    return rows
+
+
+def write_columns(group, rows, columns):
+    import numpy
+    for name in columns:
+        values = [row[name] for row in rows]
+        if values and not isinstance(values[0], str) or name in ("limit", "uncertainty"):
+            kind = {"elements": "i4", "hash": "u8"}.get(name, "f8")
+            group.create_dataset(name, data=numpy.array(values, dtype=kind))
+        else:
+            encoded = [v.encode() for v in values]
+            group.create_dataset(name, data=numpy.array(encoded, dtype=f"S{max([1] + [len(v) for v in encoded])}"))
+
+
+def pack(folder, out):
+    import h5py
+    import numpy
+    defaults = read_defaults(folder / "defaults.csv")
+    truths = read_truths(folder / "tables", defaults)
+    findings = read_findings(folder / "findings.csv", defaults)
+    temporary = f"{out}.part{os.getpid()}"
+    try:
+        with h5py.File(temporary, "w") as file:
+            file.attrs["schema"] = numpy.bytes_("beamwork-truths")
+            file.attrs["version"] = 1
+            group = file.create_group("truths")
+            for case, rows in sorted(truths.items()):
+                write_columns(group.create_group(case), rows, COLUMNS[1:] + ["hash"])
+            write_columns(file.create_group("findings"), findings, FINDING_COLUMNS)
+        os.replace(temporary, out)
+    finally:
+        if os.path.exists(temporary):
+            os.unlink(temporary)
+    return sum(len(rows) for rows in truths.values()), len(findings)
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("-o", dest="out", required=True, help="HDF5 file to write")
+    parser.add_argument("--folder", type=pathlib.Path, default=HERE, help=argparse.SUPPRESS)
+    given = parser.parse_args(arguments)
+    try:
+        truths, findings = pack(given.folder, given.out)
+    except (Refused, OSError) as why:
+        print(f"pack.py: {why}", file=sys.stderr)
+        return 1
+    print(f"  packed {truths} truths and {findings} findings")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
