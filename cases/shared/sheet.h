@@ -19,7 +19,7 @@ enum { SHEET_LENGTH, SHEET_WIDTH, SHEET_THICKNESS, SHEET_YOUNG, SHEET_POISSON, S
     [SHEET_SHEAR] = {"shear", "1", 1, 0, 1, NULL, "1: flexible in shear, 0: shear-rigid"},                                          \
     [SHEET_TRAPEZE] = {"trapeze", "1", 1, 0, 1, NULL, "1: shortening of a twisted sheet (N Eq. 8)"},                                \
     [SHEET_WAGNER] = {"wagner", "1", default_wagner, 0, 1, NULL, "1: Wagner torque (N Eq. 46)"},                                    \
-    [SHEET_SHEAR_FACTOR] = {"shear_factor", "1", 0, 0, 1, NULL, "k of the shear stiffness; 0: 10 (1 + nu)/(12 + 11 nu)"}
+    [SHEET_SHEAR_FACTOR] = {"shear_factor", "1", 0, 0, 10, NULL, "k of the shear stiffness; 0: 10 (1 + nu)/(12 + 11 nu)"}
 
 /* Steel-like sheet section; width along the member's local z. shear_factor 0: the formula. */
 void sheet_section(double width, double thickness, double young, double poisson, double shear_factor, section_spec *out);
