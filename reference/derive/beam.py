@@ -27,7 +27,9 @@ class Beam:
         self.curvature = curvature * length
         self.warps = EIw > 0
 
-    def _rotation(self, q):
+    @staticmethod
+    def _rotation(q):
+        """Rotation matrices [3, 3, ...] of quaternions [4, ...]."""
         w, x, y, z = q
         return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
                          [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
@@ -39,56 +41,64 @@ class Beam:
         for _ in range(60 if self.c else 0):
             step = ((self.gj + self.t * Nx) * k + 4 * self.c * k ** 3 - Mx) / (self.gj + self.t * Nx + 12 * self.c * k ** 2)
             k = k - step
-            if abs(step) <= 1e-17 * (1 + abs(k)):
+            if np.max(np.abs(step)) <= 1e-17:
                 break
         return k
 
     def _slope(self, y, F, m0):
+        """Columns of y [7 or 9, many] are independent beams."""
         r, q = y[:3], y[3:7]
         R = self._rotation(q)
-        m = m0 - np.cross(r, F)
-        N, M = R.T @ F, R.T @ m
+        m = m0 - np.cross(r, F, axis=0)
+        N, M = np.einsum("ijk,ik->jk", R, F), np.einsum("ijk,ik->jk", R, m)
         kx = y[7] if self.warps else self._twist(M[0], N[0])
         g = np.array([1 + self.a * N[0] - self.t * kx * kx / 2, self.fy * N[1], self.fz * N[2]])
-        k = np.array([kx, self.by * M[1], self.bz * M[2] + self.curvature])
-        w, x, yy, z = q
-        dq = np.array([-x * k[0] - yy * k[1] - z * k[2], w * k[0] + yy * k[2] - z * k[1],
-                       w * k[1] + z * k[0] - x * k[2], w * k[2] + x * k[1] - yy * k[0]]) / 2
-        tail = [y[8] / self.iw, (self.gj + self.t * N[0]) * kx + 4 * self.c * kx ** 3 - M[0]] if self.warps else []
-        return np.concatenate([R @ g, dq, tail])
+        ky, kz = self.by * M[1], self.bz * M[2] + self.curvature
+        w, x, v, z = q
+        dq = np.array([-x * kx - v * ky - z * kz, w * kx + v * kz - z * ky, w * ky + z * kx - x * kz, w * kz + x * ky - v * kx]) / 2
+        out = [np.einsum("ijk,jk->ik", R, g), dq]
+        if self.warps:
+            out.append(np.array([y[8] / self.iw, (self.gj + self.t * N[0]) * kx + 4 * self.c * kx ** 3 - M[0]]))
+        return np.concatenate(out)
 
-    def tip(self, p, start=None):
-        """p = (F, m0[, B0]), dimensionless -> (r, R, m at the tip, kx and B there)."""
+    def tips(self, p, tolerance=TOLERANCE):
+        """p [6 or 7, many] = (F, m0[, B0]), dimensionless -> list of (r, R, m at the tip, (kx, B) there)."""
+        many = p.shape[1]
         F, m0 = p[:3], p[3:6]
-        y0 = np.zeros(9 if self.warps else 7, dtype=complex)
+        y0 = np.zeros((9 if self.warps else 7, many), dtype=complex)
         y0[3] = 1
         if self.warps:
             y0[8] = p[6]
-        s = solve_ivp(lambda _, y: self._slope(y, F, m0), (0.0, 1.0), y0, method="DOP853", rtol=TOLERANCE, atol=1e-16)
-        y = s.y[:, -1]
-        return y[:3], self._rotation(y[3:7]), m0 - np.cross(y[:3], F), (y[7:9] if self.warps else np.zeros(2))
+        shape = y0.shape
+        s = solve_ivp(lambda _, y: self._slope(y.reshape(shape), F, m0).ravel(), (0.0, 1.0), y0.ravel(), method="DOP853", rtol=tolerance, atol=tolerance / 100)
+        y = s.y[:, -1].reshape(shape)
+        R, m = self._rotation(y[3:7]), m0 - np.cross(y[:3], F, axis=0)
+        return [(y[:3, k], R[:, :, k], m[:, k], y[7:9, k] if self.warps else np.zeros(2)) for k in range(many)]
+
+    def tip(self, p):
+        return self.tips(p.astype(complex).reshape(-1, 1))[0]
+
+    def linearised(self, f, p, tolerance=TOLERANCE):
+        """f(p, tip) and its derivative by complex steps, all columns integrated together."""
+        n = len(p)
+        z = np.tile(p.astype(complex)[:, None], (1, n))
+        z[np.arange(n), np.arange(n)] += 1e-30j
+        values = np.array([f(z[:, k], tip) for k, tip in enumerate(self.tips(z, tolerance))])
+        return values[0].real, values.imag.T / 1e-30
 
     def solve(self, residual, p, path=(1.0,)):
         """Newton on residual(level, p, tip(p)) = 0 for each level of the path in turn."""
         for level in path:
+            last = level == path[-1]
             for _ in range(40):
-                value = np.array(residual(level, p, self.tip(p.astype(complex)))).real
-                jacobian = self.derivative(lambda z: residual(level, z, self.tip(z)), p)
+                value, jacobian = self.linearised(lambda z, tip: np.array(residual(level, z, tip)), p, TOLERANCE if last else 1e-8)
                 step = np.linalg.solve(jacobian, value)
                 p = p - step
-                if np.max(np.abs(step)) <= 1e-13 * (1 + np.max(np.abs(p))):
+                if np.max(np.abs(step)) <= (1e-12 if last else 1e-5) * (1 + np.max(np.abs(p))):
                     break
             else:
                 raise ArithmeticError("the shooting method did not converge")
         return p
-
-    def derivative(self, f, p):
-        columns = []
-        for i in range(len(p)):
-            z = p.astype(complex)
-            z[i] += 1e-30j
-            columns.append(np.array(f(z)).imag / 1e-30)
-        return np.array(columns).T
 
 
 def rotation_vector(R):

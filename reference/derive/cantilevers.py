@@ -15,7 +15,7 @@ def dead_load(beam, F, path):
     def residual(level, p, tip):
         return list(p[:3] - level * load) + list(tip[2])
     p = beam.solve(residual, np.zeros(6), path)
-    return beam.tip(p.astype(complex))
+    return beam.tip(p)
 
 
 def elastica():

@@ -5,6 +5,7 @@ Unknowns: amplitudes of v_s, w_s, phi (sin kx) and of the shear strains g_y, g_z
   prestress (v_c'^2 + w_c'^2 + Ip/A phi'^2) - c [(g_y^2 + g_z^2) + 2 (zs g_y - ys g_z) phi'],  v_c = v_s + zs phi, w_c = w_s - ys phi
   kinetic   rho [A (v_c^2 + w_c^2) + Ip phi^2 + Iz (v_s' - g_y)^2 + Iy (w_s' - g_z)^2 + Iw (phi' - g_w)^2]
 c = 0: shear in stability after Engesser, c = 1: after Haringx (Simo-Reissner).
+n = 0 exists too: uniform rotation of the sections, restrained by shear alone.
 Uniform end moment: closed form of the monosymmetric beam with shear (reference/ERRATA.md).
 """
 from mpmath import mp, mpf, matrix, pi, sqrt, cholesky, inverse, eigsy
@@ -103,6 +104,12 @@ def buckling_load(s, length, shear, haringx):
 
 def frequencies(s, length, shear, rotary, count):
     found = []
+    if shear and rotary:  # no half-wave at all: sections turn and warp in pure shear
+        inertia = [RHO * i for i in (s.Iz, s.Iy, s.Iw)]
+        mass = matrix(3, 3)
+        for i in range(3):
+            mass[i, i] = inertia[i]
+        found += [1 / sqrt(nu) / (2 * pi) for nu in _ratios(G * inverse(s.F), mass)]
     for n in range(1, 30):
         k = n * pi / length
         for nu in _ratios(_strain(s, k, shear), _kinetic(s, k, shear, rotary)):

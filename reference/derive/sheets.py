@@ -34,17 +34,13 @@ def warp_residual(beam, tip, tip_warping):
 
 
 def compliance(beam, p, tip_warping):
-    here = beam.tip(p.astype(complex))
+    here = beam.tip(p)
 
-    def motion(z):
-        r, R, _, _ = beam.tip(z)
-        return np.concatenate([r, 1j * spatial_spin(R, here[1])])
-
-    def loads(z):
-        tip = beam.tip(z)
-        return np.concatenate([z[:3], tip[2], np.array(warp_residual(beam, tip, tip_warping), dtype=complex)])
-    out, into = beam.derivative(motion, p), beam.derivative(loads, p)
-    C = (out @ np.linalg.inv(into))[:, :6]
+    def motion_and_loads(z, tip):
+        r, R, m, _ = tip
+        return np.concatenate([r, 1j * spatial_spin(R, here[1]), z[:3], m, np.array(warp_residual(beam, tip, tip_warping), dtype=complex)])
+    _, slope = beam.linearised(motion_and_loads, p)
+    C = (slope[:6] @ np.linalg.inv(slope[6:]))[:, :6]
     L, force = beam.length, beam.force
     scale_out = np.array([L, L, L, 1, 1, 1])
     scale_in = np.array([force] * 3 + [force * L] * 3)
@@ -87,7 +83,7 @@ def twisted(**given):
         bend, twist = min(level, 1.0), max(level - 1.0, 0.0)
         return [r[1] - bend * deflection / beam.length, R[1, 0] - math.sin(bend * phi_z), R[1, 2] + math.tan(twist * phi_x) * R[1, 1], p[0], p[2], m[1]] \
             + warp_residual(beam, tip, free)
-    p = beam.solve(residual, np.zeros(7), (0.5, 1.0, 1.5, 2.0) if phi_x else (0.5, 1.0))
+    p = beam.solve(residual, np.zeros(7), [0.5] + [1 + i / 60 for i in range(61)] if phi_x else (0.5, 1.0))
     C, (r, _, m, _) = compliance(beam, p, free)
     at = parameters(given)
     for i in range(6):
