@@ -120,6 +120,22 @@ void loads_subtract_stiffness(const model *m, const model_state *s, double path,
     }
 }
 
+void model_release_moment(const model *m, const model_state *s, int node, const double M[3], sparse *K)
+{
+    const mesh_vertex *v = &m->vertex[node];
+    double b[3][3];
+    if (v->angles == 0)
+        return;
+    kinematics_axes(m, s, node, b);
+    for (int i = 0; i < v->angles; i++)
+        for (int j = i + 1; j < v->angles; j++) {
+            double cross[3];
+            vec3_cross(b[i], b[j], cross);
+            subtract(K, v->coordinate[3 + i], v->coordinate[3 + j], vec3_dot(M, cross) / 2);
+            subtract(K, v->coordinate[3 + j], v->coordinate[3 + i], vec3_dot(M, cross) / 2);
+        }
+}
+
 void model_node_load(const model *m, const model_state *s, int node, double F[6])
 {
     memset(F, 0, 6 * sizeof(double));

@@ -107,6 +107,9 @@ double model_advance(model *, model_state *, const double dx[], double path);
 status model_make_compatible(model *, model_state *, fault *);
 /* Force and spatial moment that act from outside on a node's frame (loads and reactions) in the state: F[6] [N, N m]. */
 void model_node_force(model *, const model_state *, int node, double F[6]);
+/* K of a node turned by a sequence of angles, when the moment M that the angles' prescription exerts becomes a load that is
+ * conservative in the exponential chart: the angles' own second derivatives no longer belong to it. */
+void model_release_moment(const model *, const model_state *, int node, const double M[3], sparse *K);
 /* The loads' part of it at the state's path. */
 void model_node_load(const model *, const model_state *, int node, double F[6]);
 

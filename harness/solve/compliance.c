@@ -142,11 +142,13 @@ static void tangent_free(tangent *t)
     free(t->residual);
 }
 
-static status tangent_at(analysis_context *c, const scene_analysis *a, const model_state *s, tangent *t, fault *f)
+/* reaction[6]: force and moment of the prescription on the node. */
+static status tangent_at(analysis_context *c, const scene_analysis *a, const model_state *s, const double reaction[6], tangent *t, fault *f)
 {
     model_linearisation lin = {.path = model_state_path(s), .K = &t->K, .residual = t->residual};
     status outcome = model_linearise(c->model, s, &lin, f);
     if (outcome == STATUS_OK) {
+        model_release_moment(c->model, s, a->node, reaction + 3, &t->K);
         copy_inside(t);
         outcome = factor_numeric(t->factor, &t->inside, f);
     }
@@ -299,13 +301,16 @@ static unsigned wanted_columns(const analysis_context *c, int analysis)
 static status compliance_at(analysis_context *c, const scene_analysis *a, const model_state *s, tangent *t, unsigned wanted,
                             double C[36], fault *f)
 {
-    double F[6];
+    double F[6], load[6];
     int component[COMPONENTS];
-    status outcome = tangent_at(c, a, s, t, f);
+    model_node_force(c->model, s, a->node, F);
+    model_node_load(c->model, s, a->node, load);
+    for (int i = 0; i < 6; i++)
+        F[i] -= load[i];
+    status outcome = tangent_at(c, a, s, F, t, f);
     if (outcome != STATUS_OK)
         return outcome;
     const int count = movable(t, component), turns = count > 0 && component[count - 1] >= 3;
-    model_node_force(c->model, s, a->node, F);
     const int dead = a->moments == SCENE_MOMENTS_SPATIAL && turns && vec3_norm(F + 3) > 0;
     if (dead)
         for (int i = 0; i < count; i++)
