@@ -22,7 +22,8 @@ static void prescribe_tip(scene *s, int tip, const double value[])
     const double bend[3] = {0, value[TIP_PHI_Z], value[TIP_PHI_Z]};
     const double twist[3] = {0, 0, value[TIP_PHI_X]};
     scene_drive(s, tip, SCENE_UY, scene_add_driver(s, "tip_deflection", 3, path, deflection));
-    const int about[3] = {SCENE_FREE, scene_add_driver(s, "tip_phi_z", 3, path, bend), scene_add_driver(s, "tip_phi_x", 3, path, twist)};
+    const int about[3] = {SCENE_FREE, scene_add_driver(s, "tip_phi_z", 3, path, bend),
+                          scene_add_driver(s, "tip_phi_x", 3, path, twist)};
     static const double axis[3][3] = {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
     scene_node *n = scene_node_at(s, tip);
     n->rotation = SCENE_ROTATION_SEQUENCE;
@@ -60,7 +61,11 @@ static status build(const double value[], scene *s, fault *f)
         entries[i][1] = k % 6;
     }
     sheet_add_compliance(s, compliance, tip, (const int(*)[2])entries, 36, 3e-3);
-    static const struct { const char *name, *unit; scene_quantity_kind kind; int row; } motions[] = {
+    static const struct {
+        const char *name, *unit;
+        scene_quantity_kind kind;
+        int row;
+    } motions[] = {
         {"u_x", "m", SCENE_COORDINATE, SCENE_UX}, {"u_z", "m", SCENE_COORDINATE, SCENE_UZ}, {"F_y", "N", SCENE_REACTION, SCENE_UY},
         {"M_x", "N m", SCENE_REACTION, SCENE_RX}, {"M_z", "N m", SCENE_REACTION, SCENE_RZ},
     };

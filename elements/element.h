@@ -20,32 +20,38 @@
 #include "elements/section/section.h"
 
 enum { ELEMENT_ABI = 1 };
-enum { ELEMENT_MAX_NODES = 3, NODE_COORDINATES = 7, ELEMENT_MAX_COORDINATES = 21, ELEMENT_MAX_STRAINS = 24, ELEMENT_MAX_OPTIONS = 6 };
+enum {
+    ELEMENT_MAX_NODES = 3,
+    NODE_COORDINATES = 7,
+    ELEMENT_MAX_COORDINATES = 21,
+    ELEMENT_MAX_STRAINS = 24,
+    ELEMENT_MAX_OPTIONS = 6
+};
 
 /* Physics an element can be asked for.  A scene's needs must be a subset of what the type offers. */
 enum element_feature {
-    FEATURE_WARPING = 1 << 0,        /* warping amplitude as a coordinate, bimoment */
-    FEATURE_SHEAR = 1 << 1,          /* transverse (and warping) shear flexibility */
-    FEATURE_ECCENTRIC = 1 << 2,      /* shear centre off the centroid */
-    FEATURE_TRAPEZE = 1 << 3,        /* torsion-elongation coupling Ip/A phi'^2/2 */
-    FEATURE_WAGNER_MOMENTS = 1 << 4, /* int y(y^2+z^2), int z(y^2+z^2) */
-    FEATURE_WAGNER_TORQUE = 1 << 5,  /* torque cubic in the twist rate */
-    FEATURE_ENGESSER = 1 << 6,       /* shear in stability: 1/2 (v'^2 + w'^2) of the fibre */
-    FEATURE_HARINGX = 1 << 7,        /* shear in stability: rotation of the section (Simo-Reissner) */
-    FEATURE_GEOMETRIC = 1 << 8,      /* stiffness of the prestressed undeformed state */
-    FEATURE_LARGE = 1 << 9,          /* large displacements and rotations of the structure */
-    FEATURE_MASS = 1 << 10,          /* inertia */
-    FEATURE_ROTARY_INERTIA = 1 << 11,/* rotary and warping inertia in it */
-    FEATURE_CURVATURE = 1 << 12      /* initial curvature and strain */
+    FEATURE_WARPING = 1 << 0,         /* warping amplitude as a coordinate, bimoment */
+    FEATURE_SHEAR = 1 << 1,           /* transverse (and warping) shear flexibility */
+    FEATURE_ECCENTRIC = 1 << 2,       /* shear centre off the centroid */
+    FEATURE_TRAPEZE = 1 << 3,         /* torsion-elongation coupling Ip/A phi'^2/2 */
+    FEATURE_WAGNER_MOMENTS = 1 << 4,  /* int y(y^2+z^2), int z(y^2+z^2) */
+    FEATURE_WAGNER_TORQUE = 1 << 5,   /* torque cubic in the twist rate */
+    FEATURE_ENGESSER = 1 << 6,        /* shear in stability: 1/2 (v'^2 + w'^2) of the fibre */
+    FEATURE_HARINGX = 1 << 7,         /* shear in stability: rotation of the section (Simo-Reissner) */
+    FEATURE_GEOMETRIC = 1 << 8,       /* stiffness of the prestressed undeformed state */
+    FEATURE_LARGE = 1 << 9,           /* large displacements and rotations of the structure */
+    FEATURE_MASS = 1 << 10,           /* inertia */
+    FEATURE_ROTARY_INERTIA = 1 << 11, /* rotary and warping inertia in it */
+    FEATURE_CURVATURE = 1 << 12       /* initial curvature and strain */
 };
 
 /* What a type is restricted to. */
 enum element_limit {
-    LIMIT_RECTANGLE = 1 << 0,         /* solid rectangular sections only */
-    LIMIT_DOUBLY_SYMMETRIC = 1 << 1,  /* shear centre at the centroid, D diagonal */
+    LIMIT_RECTANGLE = 1 << 0,           /* solid rectangular sections only */
+    LIMIT_DOUBLY_SYMMETRIC = 1 << 1,    /* shear centre at the centroid, D diagonal */
     LIMIT_UNSYMMETRIC_TANGENT = 1 << 2, /* the stress function's Jacobian is not symmetric */
-    LIMIT_ORDER_DEPENDENT = 1 << 3,   /* exchanging p and q changes the answer (by a discretisation error) */
-    LIMIT_SMALL_DEFORMATION = 1 << 4, /* rigid motion changes strains only through truncated terms: none known */
+    LIMIT_ORDER_DEPENDENT = 1 << 3,     /* exchanging p and q changes the answer (by a discretisation error) */
+    LIMIT_SMALL_DEFORMATION = 1 << 4,   /* rigid motion changes strains only through truncated terms: none known */
     LIMIT_NO_STRESS_FREE_SHEAR = 1 << 5 /* shear-rigid by construction */
 };
 
@@ -60,17 +66,18 @@ typedef struct element_option {
 
 typedef struct element_request {
     const section *section;
-    double length;               /* l0 [m] */
-    unsigned features;           /* exactly what is to be active */
-    const double *options;       /* values in the order of type->options */
-    double curvature[3];         /* initial torsion and curvatures kx, ky, kz [1/m] */
+    double length;         /* l0 [m] */
+    unsigned features;     /* exactly what is to be active */
+    const double *options; /* values in the order of type->options */
+    double curvature[3];   /* initial torsion and curvatures kx, ky, kz [1/m] */
 } element_request;
 
 typedef struct element_data element_data; /* opaque; one per kind of element, shared by identical ones */
 
 typedef struct node_state {
     double r[3]; /* position [m] */
-    double u[3]; /* displacement since the undeformed state [m]: r - u is the initial position, so that an elongation needs no cancellation */
+    double u
+        [3]; /* displacement since the undeformed state [m]: r - u is the initial position, so that an elongation needs no cancellation */
     double R[9]; /* node rotation times the element's initial triad; columns nX nY nZ */
     double a;    /* warping amplitude [rad/m]; phi_x' in the shear-rigid limit */
 } node_state;
@@ -95,19 +102,19 @@ typedef struct stress_output {
 } stress_output;
 
 typedef struct inertia_output {
-    double *M;  /* [7n x 7n] mass matrix: translations [kg] */
-    double *h;  /* [7n] convective inertia forces [N, N m, ...] */
+    double *M;     /* [7n x 7n] mass matrix: translations [kg] */
+    double *h;     /* [7n] convective inertia forces [N, N m, ...] */
     double *dh_dv; /* [7n x 7n] gyroscopic */
     double *dfdx;  /* [7n x 7n] d(M a + h)/dx */
 } inertia_output;
 
 typedef struct element_type {
-    const char *name;    /* file name = exported symbol without element_ = command line = results key */
-    const char *summary; /* one line */
-    const char *source;  /* paper and equations */
-    unsigned abi;        /* ELEMENT_ABI */
-    unsigned offers;     /* element_feature */
-    unsigned limits;     /* element_limit */
+    const char *name;              /* file name = exported symbol without element_ = command line = results key */
+    const char *summary;           /* one line */
+    const char *source;            /* paper and equations */
+    unsigned abi;                  /* ELEMENT_ABI */
+    unsigned offers;               /* element_feature */
+    unsigned limits;               /* element_limit */
     const element_option *options; /* ends with a NULL name; NULL: none */
     /* Sizes may depend on the options (stages, nodes). */
     int (*nodes)(const double options[]);   /* NULL: 2 */
@@ -130,9 +137,21 @@ typedef struct element_type {
     status (*inertia)(const element_data *, const node_state x[], const node_rate v[], const node_rate a[], inertia_output *);
 } element_type;
 
-static inline int element_nodes(const element_type *t, const double options[])   { return t->nodes ? t->nodes(options) : 2; }
-static inline int element_strains(const element_type *t, const double options[]) { return t->strains ? t->strains(options) : 8; }
-static inline int element_inner(const element_type *t, const double options[])   { return t->inner ? t->inner(options) : 0; }
-static inline int element_memory(const element_type *t, const double options[])  { return t->memory ? t->memory(options) : 0; }
+static inline int element_nodes(const element_type *t, const double options[])
+{
+    return t->nodes ? t->nodes(options) : 2;
+}
+static inline int element_strains(const element_type *t, const double options[])
+{
+    return t->strains ? t->strains(options) : 8;
+}
+static inline int element_inner(const element_type *t, const double options[])
+{
+    return t->inner ? t->inner(options) : 0;
+}
+static inline int element_memory(const element_type *t, const double options[])
+{
+    return t->memory ? t->memory(options) : 0;
+}
 
 #endif

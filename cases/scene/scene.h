@@ -32,8 +32,8 @@ typedef struct scene_node {
     int attached;       /* node this one is rigidly attached to (a rigid body is a node others are attached to), or SCENE_NONE */
     int translation[3]; /* SCENE_FREE, SCENE_HELD or a driver */
     scene_rotation rotation;
-    int angle[3];       /* SCENE_FREE, SCENE_HELD or a driver: of the spatial components, the angles or the vector */
-    double axis[3][3];  /* of the sequence; a zero axis ends it */
+    int angle[3];      /* SCENE_FREE, SCENE_HELD or a driver: of the spatial components, the angles or the vector */
+    double axis[3][3]; /* of the sequence; a zero axis ends it */
 } scene_node;
 
 typedef struct scene_member {
@@ -48,9 +48,9 @@ typedef struct scene_member {
 typedef struct scene_driver {
     char name[SCENE_NAME];
     int stations;
-    double *path, *value;    /* [stations]; value in m or rad; NULL: unknown, fixed by the condition */
+    double *path, *value;                    /* [stations]; value in m or rad; NULL: unknown, fixed by the condition */
     int condition_node, condition_component; /* unknown driver: this coordinate is prescribed instead, by ... */
-    int condition_driver;    /* ... the value of this driver; SCENE_NONE for a known driver */
+    int condition_driver;                    /* ... the value of this driver; SCENE_NONE for a known driver */
 } scene_driver;
 
 typedef enum scene_load_kind { SCENE_FORCE, SCENE_MOMENT, SCENE_DISTRIBUTED } scene_load_kind;
@@ -64,36 +64,36 @@ typedef struct scene_load {
 } scene_load;
 
 typedef enum scene_analysis_kind {
-    SCENE_LINEAR,      /* one linear solution with the loads at factor 1 */
-    SCENE_STATIC,      /* nonlinear equilibrium along the path */
-    SCENE_BUCKLING,    /* linear prestress about the undeformed state, or about the state of the static path before it */
-    SCENE_MODAL,       /* natural frequencies about the present state */
-    SCENE_COMPLIANCE,  /* at every station of the static path before it */
-    SCENE_CONTINUATION,/* path of a load factor, controlled by arc length or by one coordinate */
-    SCENE_ROTATION     /* stationary rotation: equilibrium and frequencies in the rotating frame */
+    SCENE_LINEAR,       /* one linear solution with the loads at factor 1 */
+    SCENE_STATIC,       /* nonlinear equilibrium along the path */
+    SCENE_BUCKLING,     /* linear prestress about the undeformed state, or about the state of the static path before it */
+    SCENE_MODAL,        /* natural frequencies about the present state */
+    SCENE_COMPLIANCE,   /* at every station of the static path before it */
+    SCENE_CONTINUATION, /* path of a load factor, controlled by arc length or by one coordinate */
+    SCENE_ROTATION      /* stationary rotation: equilibrium and frequencies in the rotating frame */
 } scene_analysis_kind;
 
 typedef enum scene_moments { SCENE_MOMENTS_SPATIAL, SCENE_MOMENTS_SEMITANGENTIAL, SCENE_MOMENTS_SYMMETRISED } scene_moments;
 
 typedef struct scene_analysis {
     scene_analysis_kind kind;
-    int follows;             /* analysis whose state(s) this one is about, or SCENE_NONE: the undeformed state */
-    int stations;            /* static, continuation: path parameter values to stop at, in order */
+    int follows;  /* analysis whose state(s) this one is about, or SCENE_NONE: the undeformed state */
+    int stations; /* static, continuation: path parameter values to stop at, in order */
     double *path;
     int steps_between;       /* first try of load steps from one station to the next (adaptive from there); >= 1 */
     int wanted;              /* buckling, modal: how many eigenvalues (of each sign in buckling) */
     int modes_wanted_family; /* reserved: see scene_quantity.family */
     int node;                /* compliance: where */
     scene_moments moments;   /* convention of compliance */
-    unsigned released;       /* compliance: bit i: component i at `node`, though prescribed, is free and its reaction is a dead load */
+    unsigned released; /* compliance: bit i: component i at `node`, though prescribed, is free and its reaction is a dead load */
     int control_node, control_component; /* continuation: displacement control; SCENE_NONE: arc length */
-    double step, step_max;   /* continuation: first and largest step [of the controlled coordinate or arc] */
-    double omega[3], omega_centre[3]; /* rotation [rad/s], [m] */
+    double step, step_max;               /* continuation: first and largest step [of the controlled coordinate or arc] */
+    double omega[3], omega_centre[3];    /* rotation [rad/s], [m] */
 } scene_analysis;
 
 typedef enum scene_quantity_kind {
-    SCENE_COORDINATE,  /* displacement or rotation-vector component of `node` in a static or linear analysis */
-    SCENE_REACTION,    /* of a prescribed component at `node` */
+    SCENE_COORDINATE,       /* displacement or rotation-vector component of `node` in a static or linear analysis */
+    SCENE_REACTION,         /* of a prescribed component at `node` */
     SCENE_COMPLIANCE_ENTRY, /* row, column of the 6 x 6 matrix */
     SCENE_STIFFNESS_ENTRY,  /* 1 / compliance entry (row, row) with only the non-held coordinates free */
     SCENE_CRITICAL_FACTOR,  /* order-th positive (sign +1) or negative (sign -1) load factor, counted from 0 */
@@ -112,15 +112,15 @@ typedef struct scene_quantity {
     int analysis, node, row, column; /* row also: component, driver */
     int sign, order;
     scene_family family;
-    int half_waves;          /* 0: any */
+    int half_waves; /* 0: any */
     scene_reduction reduction;
-    double at;               /* path value for SCENE_AT, controlled value for SCENE_FACTOR_AT */
-    double factor, offset;   /* reported value = factor * extracted value + offset (factor 0 means 1) */
-    double near_zero;        /* absolute scale for relative errors of values near zero; 0: |value| */
-    double tolerance;        /* relative, of the limit against the truth */
-    double least_order;      /* of convergence in the number of elements */
+    double at;                           /* path value for SCENE_AT, controlled value for SCENE_FACTOR_AT */
+    double factor, offset;               /* reported value = factor * extracted value + offset (factor 0 means 1) */
+    double near_zero;                    /* absolute scale for relative errors of values near zero; 0: |value| */
+    double tolerance;                    /* relative, of the limit against the truth */
+    double least_order;                  /* of convergence in the number of elements */
     char x_name[SCENE_NAME], x_unit[16]; /* of a curve */
-    int x_driver;            /* curve: abscissa is this driver's value; SCENE_NONE: the path parameter times x_factor */
+    int x_driver;                        /* curve: abscissa is this driver's value; SCENE_NONE: the path parameter times x_factor */
     double x_factor;
 } scene_quantity;
 
@@ -134,8 +134,8 @@ typedef struct scene {
     scene_load *load;
     scene_analysis *analysis;
     scene_quantity *quantity;
-    unsigned needs;          /* physics that cannot be derived from the data: FEATURE_* bits given by scene_need */
-    int meshes;              /* default -n values of verify and converge */
+    unsigned needs; /* physics that cannot be derived from the data: FEATURE_* bits given by scene_need */
+    int meshes;     /* default -n values of verify and converge */
     int mesh[16];
     int out_of_memory;
     /* What the accessors below point to when an index is -1, so that a case can write without asking. */
@@ -148,8 +148,14 @@ typedef struct scene {
 
 /* Physics a case asks for by name, because data alone cannot tell.  The same words appear in results. */
 typedef enum scene_physics {
-    SCENE_NEED_SHEAR = 1 << 0, SCENE_NEED_TRAPEZE = 1 << 1, SCENE_NEED_WAGNER_MOMENTS = 1 << 2, SCENE_NEED_WAGNER_TORQUE = 1 << 3,
-    SCENE_NEED_ENGESSER = 1 << 4, SCENE_NEED_HARINGX = 1 << 5, SCENE_NEED_ROTARY_INERTIA = 1 << 6, SCENE_NEED_WARPING = 1 << 7
+    SCENE_NEED_SHEAR = 1 << 0,
+    SCENE_NEED_TRAPEZE = 1 << 1,
+    SCENE_NEED_WAGNER_MOMENTS = 1 << 2,
+    SCENE_NEED_WAGNER_TORQUE = 1 << 3,
+    SCENE_NEED_ENGESSER = 1 << 4,
+    SCENE_NEED_HARINGX = 1 << 5,
+    SCENE_NEED_ROTARY_INERTIA = 1 << 6,
+    SCENE_NEED_WARPING = 1 << 7
 } scene_physics;
 
 void scene_init(scene *s, const char *name);
@@ -157,7 +163,7 @@ void scene_free(scene *s);
 
 int scene_add_section(scene *s, const section_spec *spec);
 int scene_add_node(scene *s, double x, double y, double z);
-int scene_add_attached(scene *s, int body, double x, double y, double z); /* absolute undeformed position */
+int scene_add_attached(scene *s, int body, double x, double y, double z);          /* absolute undeformed position */
 int scene_add_member(scene *s, int p, int q, int profile, const double y_axis[3]); /* profile: a section of the scene */
 int scene_add_driver(scene *s, const char *name, int stations, const double path[], const double value[]);
 int scene_add_unknown_driver(scene *s, const char *name, int node, int component, int condition_driver);
@@ -171,7 +177,7 @@ scene_node *scene_node_at(scene *s, int index);
 scene_member *scene_member_at(scene *s, int index);
 scene_load *scene_load_at(scene *s, int index);
 scene_analysis *scene_analysis_at(scene *s, int index);
-void scene_hold(scene *s, int node, int first, int last);  /* components SCENE_UX .. SCENE_RZ, inclusive */
+void scene_hold(scene *s, int node, int first, int last); /* components SCENE_UX .. SCENE_RZ, inclusive */
 void scene_hold_all(scene *s, int node);
 void scene_drive(scene *s, int node, int component, int driver); /* a translation, or a spatial rotation component */
 void scene_meshes(scene *s, int count, const int mesh[]);

@@ -9,9 +9,9 @@ enum { CHANNEL_SHEAR_FLOW, CHANNEL_PRINTED, CHANNEL_MISPRINTED };
 #define CHANNEL_DATA_CHOICES "shear_flow|printed|misprinted"
 
 typedef struct channel {
-    double height, width;                    /* of the centre line [m] */
-    double flange_thickness, web_thickness;  /* [m] */
-    double young, shear_modulus, density;    /* [Pa, Pa, kg/m^3] */
+    double height, width;                   /* of the centre line [m] */
+    double flange_thickness, web_thickness; /* [m] */
+    double young, shear_modulus, density;   /* [Pa, Pa, kg/m^3] */
 } channel;
 
 /* Walls of a C whose web is on the +y side, parallel to z. */

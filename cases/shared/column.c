@@ -17,7 +17,10 @@ status column_build(const case_parameter parameters[], const double value[], sce
     const int data = (int)value[COLUMN_DATA];
     const char *changed = first_changed_size(parameters, value);
     if (data != CHANNEL_SHEAR_FLOW && changed != NULL)
-        return fault_set(f, STATUS_REFUSED, "section_data: the printed constants belong to the default sizes, but %s was changed; use section_data=shear_flow", changed);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "section_data: the printed constants belong to the default sizes, but %s was changed; use section_data=shear_flow",
+            changed);
     section_spec spec;
     channel_section(&c, &spec);
     channel_print_constants(data, &spec);

@@ -9,7 +9,8 @@ enum { FOLDS = 3 };
 status joint_prepare(const double value[], scene *s, int *profile, fault *f)
 {
     if (value[JOINT_RADIUS] <= value[JOINT_WIDTH])
-        return fault_set(f, STATUS_REFUSED, "radius = %g m: a fold line of width %g m would reach through the centre; give a larger radius",
+        return fault_set(f, STATUS_REFUSED,
+                         "radius = %g m: a fold line of width %g m would reach through the centre; give a larger radius",
                          value[JOINT_RADIUS], value[JOINT_WIDTH]);
     section_spec spec;
     sheet_section(value[JOINT_WIDTH], value[JOINT_THICKNESS], value[JOINT_YOUNG], value[JOINT_POISSON], 0, &spec);
@@ -27,7 +28,8 @@ static void to_global(const double centre[3], const double axes[9], const double
         global[i] = centre[i] + axes[3 * i] * local[0] + axes[3 * i + 1] * local[1] + axes[3 * i + 2] * local[2];
 }
 
-static void add_sheet(const double value[], scene *s, int profile, int body, const double end[3], int fold, const double normal[3], int shared)
+static void add_sheet(const double value[], scene *s, int profile, int body, const double end[3], int fold, const double normal[3],
+                      int shared)
 {
     const int clamp = scene_add_attached(s, body, end[0], end[1], end[2]);
     scene_member *sheet = scene_member_at(s, scene_add_member(s, clamp, fold, profile, normal));
@@ -38,7 +40,8 @@ static void add_sheet(const double value[], scene *s, int profile, int body, con
 
 /* Fold at one azimuth; up = +1: first set (fold line above the centre), -1: its mirror image in the xy plane.
  * The sheet on the +azimuth side goes to body[0], the other to body[1]. */
-static void add_fold(const double value[], scene *s, int profile, const double centre[3], const double axes[9], double azimuth, int up, const int body[2])
+static void add_fold(const double value[], scene *s, int profile, const double centre[3], const double axes[9], double azimuth,
+                     int up, const int body[2])
 {
     static const double origin[3] = {0, 0, 0};
     const double polar = value[JOINT_POLAR], half = value[JOINT_FOLD_ANGLE] / 2;

@@ -22,7 +22,8 @@ status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f
         return fault_set(f, STATUS_REFUSED, "tip_deflection = %g m cannot be reached by a sheet of length %g m; give a smaller one",
                          value[SHEET_DEFLECTION], length);
     section_spec spec;
-    sheet_section(value[SHEET_WIDTH], value[SHEET_THICKNESS], value[SHEET_YOUNG], value[SHEET_POISSON], value[SHEET_SHEAR_FACTOR], &spec);
+    sheet_section(value[SHEET_WIDTH], value[SHEET_THICKNESS], value[SHEET_YOUNG], value[SHEET_POISSON], value[SHEET_SHEAR_FACTOR],
+                  &spec);
     if (value[SHEET_WARPING] == 0)
         spec.given.Iw = 0;
     const int profile = scene_add_section(s, &spec);

@@ -25,7 +25,8 @@ typedef struct fault {
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif
-status fault_set(fault *f, status s, const char *format, ...);
+status
+fault_set(fault *f, status s, const char *format, ...);
 
 /* "ok", "not_converged", "singular", "refused", "fault": the words of the result file. */
 const char *status_name(status s);

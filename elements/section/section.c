@@ -73,7 +73,9 @@ static status invert_on_support(const double from[9], double to[9], const char *
             scaled[i * n + j] = from[3 * index[i] + index[j]] / (scale[i] * scale[j]);
     }
     if (dense_cholesky(n, scaled) != 0)
-        return fault_set(f, STATUS_REFUSED, "section: the shear rigidity matrix %s is not positive definite (its terms off the diagonal are too large for %s_y = %g, %s_z = %g, %s_w = %g); correct the section's data",
+        return fault_set(f, STATUS_REFUSED,
+                         "section: the shear rigidity matrix %s is not positive definite (its terms off the diagonal are too large "
+                         "for %s_y = %g, %s_z = %g, %s_w = %g); correct the section's data",
                          name, name, from[0], name, from[4], name, from[8]);
     dense_cholesky_solve(n, n, scaled, inverse);
     for (int i = 0; i < n; i++)
@@ -115,7 +117,9 @@ static status check_material(const section_spec *s, fault *f)
     if (!(s->young > 0) || !isfinite(s->young))
         return fault_set(f, STATUS_REFUSED, "section: young = %g Pa; the modulus of elasticity must be positive", s->young);
     if (!(s->shear_modulus > 0) || !isfinite(s->shear_modulus))
-        return fault_set(f, STATUS_REFUSED, "section: shear_modulus = %g Pa; it must be positive (Poisson's ratio between -1 and 0.5)", s->shear_modulus);
+        return fault_set(f, STATUS_REFUSED,
+                         "section: shear_modulus = %g Pa; it must be positive (Poisson's ratio between -1 and 0.5)",
+                         s->shear_modulus);
     if (!(s->density >= 0) || !isfinite(s->density))
         return fault_set(f, STATUS_REFUSED, "section: density = %g kg/m^3; it must not be negative", s->density);
     return STATUS_OK;
@@ -130,7 +134,8 @@ static status check_constants(const section *c, fault *f)
     } all[] = {{"A", c->A, 0}, {"Iy", c->Iy, 0}, {"Iz", c->Iz, 0}, {"It", c->It, 1}, {"Iw", c->Iw, 1}, {"Ip", c->Ip, 0}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         if (!(all[i].value > 0 || (all[i].may_vanish && all[i].value == 0)) || !isfinite(all[i].value))
-            return fault_set(f, STATUS_REFUSED, "section: %s = %g; it must be %s", all[i].name, all[i].value, all[i].may_vanish ? "positive or zero" : "positive");
+            return fault_set(f, STATUS_REFUSED, "section: %s = %g; it must be %s", all[i].name, all[i].value,
+                             all[i].may_vanish ? "positive or zero" : "positive");
     if (!isfinite(c->ys) || !isfinite(c->zs))
         return fault_set(f, STATUS_REFUSED, "section: the shear centre (%g, %g) m is not finite", c->ys, c->zs);
     return STATUS_OK;
@@ -154,7 +159,8 @@ status section_compute(const section_spec *spec, section *out, fault *f)
     out->shear_modulus = spec->shear_modulus;
     out->density = spec->density;
     /* Whichever of D and F is there gives the other; both zero: rigid in shear. */
-    outcome = out->F[0] == 0 && out->D[0] != 0 ? invert_on_support(out->D, out->F, "D", f) : invert_on_support(out->F, out->D, "F", f);
+    outcome =
+        out->F[0] == 0 && out->D[0] != 0 ? invert_on_support(out->D, out->F, "D", f) : invert_on_support(out->F, out->D, "F", f);
     if (outcome == STATUS_OK)
         outcome = apply_given(spec, out, f);
     return outcome == STATUS_OK ? check_constants(out, f) : outcome;

@@ -49,7 +49,8 @@ static status grow_tree(const section_spec *s, tree *t, fault *f)
             if (used[w] || (!reached[a] && !reached[b]))
                 continue;
             if (reached[a] && reached[b])
-                return fault_set(f, STATUS_REFUSED, "section: wall %d (points %d-%d) closes a cell; only open sections are offered: open it", w, a, b);
+                return fault_set(f, STATUS_REFUSED,
+                                 "section: wall %d (points %d-%d) closes a cell; only open sections are offered: open it", w, a, b);
             used[w] = grown = 1;
             t->wall[count] = w;
             t->near[count] = reached[a] ? a : b;
@@ -60,7 +61,8 @@ static status grow_tree(const section_spec *s, tree *t, fault *f)
     }
     for (int w = 0; w < s->walls; w++)
         if (!used[w])
-            return fault_set(f, STATUS_REFUSED, "section: wall %d (points %d-%d) is not connected to wall 0; join the walls at shared points", w,
+            return fault_set(f, STATUS_REFUSED,
+                             "section: wall %d (points %d-%d) is not connected to wall 0; join the walls at shared points", w,
                              s->wall[w].from, s->wall[w].to);
     for (int p = 0; p < s->points; p++)
         if (!reached[p])
@@ -71,13 +73,16 @@ static status grow_tree(const section_spec *s, tree *t, fault *f)
 static status check_walls(const section_spec *s, fault *f)
 {
     if (s->walls < 1 || s->walls > SECTION_MAX_WALLS || s->points < 2 || s->points > SECTION_MAX_POINTS)
-        return fault_set(f, STATUS_REFUSED, "section: %d walls and %d points; give 1 to %d walls", s->walls, s->points, SECTION_MAX_WALLS);
+        return fault_set(f, STATUS_REFUSED, "section: %d walls and %d points; give 1 to %d walls", s->walls, s->points,
+                         SECTION_MAX_WALLS);
     for (int w = 0; w < s->walls; w++) {
         const int a = s->wall[w].from, b = s->wall[w].to;
         if (a < 0 || a >= s->points || b < 0 || b >= s->points)
-            return fault_set(f, STATUS_REFUSED, "section: wall %d names point %d of %d; number points from 0", w, a < 0 || a >= s->points ? a : b, s->points);
+            return fault_set(f, STATUS_REFUSED, "section: wall %d names point %d of %d; number points from 0", w,
+                             a < 0 || a >= s->points ? a : b, s->points);
         if (!(s->wall[w].thickness > 0) || !isfinite(s->wall[w].thickness))
-            return fault_set(f, STATUS_REFUSED, "section: thickness of wall %d is %g m; it must be positive", w, s->wall[w].thickness);
+            return fault_set(f, STATUS_REFUSED, "section: thickness of wall %d is %g m; it must be positive", w,
+                             s->wall[w].thickness);
         if (!(wall_length(s, w) > 0) || !isfinite(wall_length(s, w)))
             return fault_set(f, STATUS_REFUSED, "section: length of wall %d is %g m; it must be positive", w, wall_length(s, w));
     }
@@ -85,7 +90,8 @@ static status check_walls(const section_spec *s, fault *f)
 }
 
 /* Sectorial coordinate about a pole, zero mean: omega = int (y dz - z dy). */
-static void sectorial(const section_spec *s, const tree *t, const double y[], const double z[], double yp, double zp, double area, double omega[])
+static void sectorial(const section_spec *s, const tree *t, const double y[], const double z[], double yp, double zp, double area,
+                      double omega[])
 {
     double one[SECTION_MAX_POINTS];
     for (int p = 0; p < SECTION_MAX_POINTS; p++)
@@ -132,7 +138,8 @@ static void wagner_constants(const section_spec *s, const double y[], const doub
         const wall_frame n = frame_of(s, w, y, z);
         const double t = s->wall[w].thickness, bend = s->thickness_terms ? t * t * t / 12 : 0;
         for (int k = 0; k < GAUSS; k++) {
-            const double ds = gauss_weight[k] / 2 * n.length, yk = along(s, w, y, k), zk = along(s, w, z, k), square = yk * yk + zk * zk;
+            const double ds = gauss_weight[k] / 2 * n.length, yk = along(s, w, y, k), zk = along(s, w, z, k),
+                         square = yk * yk + zk * zk;
             out->wagner_y += ds * (t * yk * square + bend * (yk * (1 + 2 * n.ny * n.ny) + 2 * zk * n.ny * n.nz));
             out->wagner_z += ds * (t * zk * square + bend * (zk * (1 + 2 * n.nz * n.nz) + 2 * yk * n.ny * n.nz));
         }
@@ -184,7 +191,8 @@ static double principal_angle(double Iyy, double Izz, double Iyz)
     return atan2(up, across) / 2;
 }
 
-static double warping_constant(const section_spec *s, const double y[], const double z[], const double omega[], const double pole[2])
+static double warping_constant(const section_spec *s, const double y[], const double z[], const double omega[],
+                               const double pole[2])
 {
     double Iw = product(s, omega, omega);
     for (int w = 0; w < s->walls && s->thickness_terms; w++) {
@@ -231,7 +239,9 @@ status section_walls(const section_spec *s, section *out, fault *f)
     second_moments(s, y, z, &out->Iy, &out->Iz, &Iyz);
     out->Ip = out->Iy + out->Iz;
     if (!(out->Iy > 1e-14 * out->Ip) || !(out->Iz > 1e-14 * out->Ip))
-        return fault_set(f, STATUS_REFUSED, "section: the walls lie on one line, so the mid-line has no bending stiffness across it; switch thickness_terms on or give a rectangle");
+        return fault_set(f, STATUS_REFUSED,
+                         "section: the walls lie on one line, so the mid-line has no bending stiffness across it; switch "
+                         "thickness_terms on or give a rectangle");
 
     double pole[2] = {0, 0};
     sectorial(s, &t, y, z, 0, 0, out->A, omega);

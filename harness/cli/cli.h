@@ -28,7 +28,8 @@ typedef int cli_verb(int count, char **arguments);
 cli_verb cli_list, cli_solve, cli_verify, cli_converge;
 
 /* Options shared by the verbs; a verb lists the keys it takes. Errors are printed and end the program with EXIT_REFUSED. */
-void cli_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys, int count, char **arguments, cli_request *out);
+void cli_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys, int count, char **arguments,
+               cli_request *out);
 /* The case of the request with its parameters, or NULL after a message. */
 const case_type *cli_case(cli_request *r);
 /* Default place of the packed truths: BEAMWORK_TRUTHS, or truths.h5 beside the program. */

@@ -8,7 +8,8 @@
 
 static status write_out(const cli_request *r, const sweep *s, const truths *t, fault *f)
 {
-    void (*const write)(FILE *, const sweep *, const truths *) = strcmp(r->format, "csv") == 0 ? text_convergence_csv : text_convergence;
+    void (*const write)(FILE *, const sweep *, const truths *) =
+        strcmp(r->format, "csv") == 0 ? text_convergence_csv : text_convergence;
     output file;
     if (r->output == NULL) {
         write(stdout, s, t);
@@ -27,7 +28,8 @@ int cli_converge(int count, char **arguments)
     sweep s;
     truths t;
     fault f = {""};
-    cli_parse("converge", "CASE", "Solves one case on several meshes and shows errors, observed order and the limit.", "fnsFojT", count, arguments, &r);
+    cli_parse("converge", "CASE", "Solves one case on several meshes and shows errors, observed order and the limit.", "fnsFojT",
+              count, arguments, &r);
     const case_type *type = cli_case(&r);
     if (type == NULL)
         return EXIT_REFUSED;

@@ -14,7 +14,8 @@ static void list_formulations(void)
             if (t->offers & bit)
                 printf(" %s%s", model_feature_name(bit), (t->offers & ~(2 * bit - 1)) != 0 ? "," : "\n");
         for (int k = 0; t->options != NULL && t->options[k].name != NULL; k++)
-            printf("  %-24s option %s=%s: %s\n", "", t->options[k].name, t->options[k].choices != NULL ? t->options[k].choices : "NUMBER", t->options[k].summary);
+            printf("  %-24s option %s=%s: %s\n", "", t->options[k].name,
+                   t->options[k].choices != NULL ? t->options[k].choices : "NUMBER", t->options[k].summary);
     }
 }
 
@@ -35,7 +36,8 @@ static int list_case(const case_type *type)
         const case_parameter *p = &type->parameters[i];
         char text[64];
         parameters_value_text(p, p->value, text, sizeof text);
-        printf("  %-20s %-14s %-8s %s%s%s%s\n", p->name, text, p->unit, p->summary, p->choices != NULL ? " (" : "", p->choices != NULL ? p->choices : "", p->choices != NULL ? ")" : "");
+        printf("  %-20s %-14s %-8s %s%s%s%s\n", p->name, text, p->unit, p->summary, p->choices != NULL ? " (" : "",
+               p->choices != NULL ? p->choices : "", p->choices != NULL ? ")" : "");
     }
     parameters_default(type, value);
     scene_init(&s, type->name);
@@ -58,7 +60,9 @@ static int list_case(const case_type *type)
 int cli_list(int count, char **arguments)
 {
     cli_request r;
-    cli_parse("list", "[cases|formulations|CASE]", "Shows what there is: cases with their parameters and quantities, formulations with their options.", "", count, arguments, &r);
+    cli_parse("list", "[cases|formulations|CASE]",
+              "Shows what there is: cases with their parameters and quantities, formulations with their options.", "", count,
+              arguments, &r);
     if (r.case_name == NULL || strcmp(r.case_name, "cases") == 0)
         list_cases();
     if (r.case_name == NULL || strcmp(r.case_name, "formulations") == 0)

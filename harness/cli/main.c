@@ -27,7 +27,8 @@ static const char *verb_name(const void *context, int i)
 
 static int help(void)
 {
-    printf("beamwork: verification and benchmark of three-dimensional beam finite elements\n\nusage: beamwork VERB [OPTION...]; 'beamwork VERB --help' shows its options\n\n");
+    printf("beamwork: verification and benchmark of three-dimensional beam finite elements\n\nusage: beamwork VERB [OPTION...]; "
+           "'beamwork VERB --help' shows its options\n\n");
     for (int i = 0; i < VERBS; i++)
         printf("  %-10s %s\n", verbs[i].name, verbs[i].summary);
     printf("\n  --version  versions of the program and its libraries\n\n"
@@ -56,7 +57,7 @@ int main(int count, char **arguments)
             return verbs[i].run(count - 1, arguments + 1);
     char text[200];
     const char *near = nearest_name(arguments[1], verb_name, NULL);
-    snprintf(text, sizeof text, "unknown verb '%.60s'%s%s%s; 'beamwork --help' shows them all", arguments[1], near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
-             near != NULL ? "'?" : "");
+    snprintf(text, sizeof text, "unknown verb '%.60s'%s%s%s; 'beamwork --help' shows them all", arguments[1],
+             near != NULL ? ", did you mean '" : "", near != NULL ? near : "", near != NULL ? "'?" : "");
     return cli_fail(STATUS_REFUSED, text);
 }

@@ -117,7 +117,8 @@ static error_t take(int key, char *value, struct argp_state *state)
     }
 }
 
-void cli_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys, int count, char **arguments, cli_request *out)
+void cli_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys, int count, char **arguments,
+               cli_request *out)
 {
     struct argp_option chosen[sizeof all_options / sizeof all_options[0]] = {{0}};
     char name[64];

@@ -22,7 +22,8 @@ static status write_out(const cli_request *r, const sweep *s, const truths *t, f
     output file;
     if (r->output == NULL) {
         const status written = write_to(stdout, r, s, t, f);
-        return written == STATUS_OK && fflush(stdout) != 0 ? fault_set(f, STATUS_FAULT, "standard output cannot be written") : written;
+        return written == STATUS_OK && fflush(stdout) != 0 ? fault_set(f, STATUS_FAULT, "standard output cannot be written")
+                                                           : written;
     }
     status outcome = output_open(r->output, &file, f);
     if (outcome != STATUS_OK)
@@ -38,7 +39,8 @@ static status write_out(const cli_request *r, const sweep *s, const truths *t, f
 static status solve_cell(const cli_request *r, sweep *s, fault *f)
 {
     const point *p = &s->point[0];
-    cell_request request = {.type = p->type, .formulation = r->formulation[0].type, .elements = r->mesh[0], .keep_all = r->keep_all};
+    cell_request request = {
+        .type = p->type, .formulation = r->formulation[0].type, .elements = r->mesh[0], .keep_all = r->keep_all};
     memcpy(request.parameter, p->parameter, sizeof request.parameter);
     memcpy(request.option, r->formulation[0].option, sizeof request.option);
     request.solve.displacement_newton = r->formulation[0].displacement_newton;
@@ -52,7 +54,8 @@ int cli_solve(int count, char **arguments)
     sweep s;
     fault f = {""};
     truths t = {0};
-    cli_parse("solve", "CASE", "Solves one case with one formulation and one mesh and shows every quantity with its error.", "fnsFoKST", count, arguments, &r);
+    cli_parse("solve", "CASE", "Solves one case with one formulation and one mesh and shows every quantity with its error.",
+              "fnsFoKST", count, arguments, &r);
     const case_type *type = cli_case(&r);
     if (type == NULL)
         return EXIT_REFUSED;
@@ -77,7 +80,9 @@ int cli_solve(int count, char **arguments)
         code = cli_fail(solved, f.text);
     } else {
         outcome = write_out(&r, &s, &t, &unwritten);
-        code = outcome != STATUS_OK ? cli_fail(outcome, unwritten.text) : solved != STATUS_OK ? cli_fail(solved, f.text) : EXIT_AS_EXPECTED;
+        code = outcome != STATUS_OK  ? cli_fail(outcome, unwritten.text)
+               : solved != STATUS_OK ? cli_fail(solved, f.text)
+                                     : EXIT_AS_EXPECTED;
     }
     sweep_free(&s);
     truths_free(&t);

@@ -63,7 +63,8 @@ int cli_verify(int count, char **arguments)
     judgement j = {0};
     fault f = {""};
     cli_parse("verify", "",
-              "Judges every formulation on every case and parameter point that has a truth. Exit status: 0 every verdict as expected, 1 one differs, 2 refused, "
+              "Judges every formulation on every case and parameter point that has a truth. Exit status: 0 every verdict as "
+              "expected, 1 one differs, 2 refused, "
               "3 nothing was checked, 4 file, disk or memory.",
               "fokjJUT", count, arguments, &r);
     if (r.case_name != NULL)
@@ -77,7 +78,11 @@ int cli_verify(int count, char **arguments)
         outcome = truths_read(cli_truths_path(&r), &t, &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
-    const sweep_request request = {.select = r.select, .jobs = r.jobs, .formulations = r.formulations, .formulation = r.formulation, .progress = isatty(STDERR_FILENO) ? stderr : NULL};
+    const sweep_request request = {.select = r.select,
+                                   .jobs = r.jobs,
+                                   .formulations = r.formulations,
+                                   .formulation = r.formulation,
+                                   .progress = isatty(STDERR_FILENO) ? stderr : NULL};
     outcome = sweep_plan(&request, &t, &s, &f);
     if (outcome == STATUS_OK)
         outcome = sweep_run(&request, &s, &f);
@@ -85,7 +90,8 @@ int cli_verify(int count, char **arguments)
         outcome = judge(&s, &t, r.select == NULL && r.formulations == 0, &j, &f);
     if (outcome == STATUS_OK) {
         text_verdicts(stdout, &s, &j, &t);
-        outcome = fflush(stdout) == 0 ? write_all(&r, &s, &j, &f) : fault_set(&f, STATUS_FAULT, "standard output cannot be written");
+        outcome =
+            fflush(stdout) == 0 ? write_all(&r, &s, &j, &f) : fault_set(&f, STATUS_FAULT, "standard output cannot be written");
     }
     const int code = outcome != STATUS_OK ? cli_fail(outcome, f.text) : judgement_exit(&j);
     if (outcome == STATUS_OK && code == EXIT_NOTHING)

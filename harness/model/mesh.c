@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
@@ -220,7 +221,8 @@ static status allocate(model *m, int elements, fault *f)
     double total = 0;
     for (int i = 0; i < s->members; i++)
         total += divisions(s, i, elements);
-    if (total > 2e7)
+    const double per_element = 8e3; /* bytes of an element with its share of matrices and factors, measured on straight members */
+    if (total * per_element > (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) || total > 1e8)
         return fault_set(f, STATUS_REFUSED, "%.0f elements: more than memory allows; give fewer", total);
     m->vertices = s->nodes + (int)total * (m->nodes - 1) - s->members;
     m->vertex = calloc((size_t)m->vertices, sizeof *m->vertex);

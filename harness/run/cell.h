@@ -18,8 +18,7 @@ typedef struct cell_request {
 } cell_request;
 
 typedef struct cell_result {
-    char formulation_key[CELL_KEY]; /* "beamw" or "beamw:mass=lumped": options that differ from their defaults, in order */
-    scene scene;                    /* owned: names, units, tolerances of the quantities */
+    scene scene; /* owned: names, units, tolerances of the quantities */
     model_size size;
     counters counters;
     int left_out_lines;

@@ -3,9 +3,9 @@
 #define BEAMWORK_CONVERGENCE_H
 
 typedef enum convergence_kind {
-    CONVERGENCE_NONE,      /* fewer than three meshes, or differences that change sign or grow */
-    CONVERGENCE_ORDERLY,   /* v(n) = limit + c n^-order */
-    CONVERGENCE_FLOOR      /* the last values agree to round-off: limit is the last value */
+    CONVERGENCE_NONE,    /* fewer than three meshes, or differences that change sign or grow */
+    CONVERGENCE_ORDERLY, /* v(n) = limit + c n^-order */
+    CONVERGENCE_FLOOR    /* the last values agree to round-off: limit is the last value */
 } convergence_kind;
 
 typedef struct convergence {

@@ -35,8 +35,9 @@ environment environment_now(int threads)
     int lapack[3] = {0};
     H5get_libversion(&major, &minor, &release);
     LAPACK_ilaver(&lapack[0], &lapack[1], &lapack[2]);
-    snprintf(e.libraries, sizeof e.libraries, "GSL %s, LAPACK %d.%d.%d, HDF5 %u.%u.%u, SuiteSparse %d.%d.%d, jansson %s", gsl_version, lapack[0], lapack[1], lapack[2],
-             major, minor, release, SUITESPARSE_MAIN_VERSION, SUITESPARSE_SUB_VERSION, SUITESPARSE_SUBSUB_VERSION, jansson_version_str());
+    snprintf(e.libraries, sizeof e.libraries, "GSL %s, LAPACK %d.%d.%d, HDF5 %u.%u.%u, SuiteSparse %d.%d.%d, jansson %s",
+             gsl_version, lapack[0], lapack[1], lapack[2], major, minor, release, SUITESPARSE_MAIN_VERSION, SUITESPARSE_SUB_VERSION,
+             SUITESPARSE_SUBSUB_VERSION, jansson_version_str());
     read_processor(e.processor, sizeof e.processor);
     const time_t now = time(NULL);
     struct tm utc;

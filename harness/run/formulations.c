@@ -22,8 +22,8 @@ static const char *case_name(const void *context, int i)
 
 static status unknown(fault *f, const char *what, const char *name, const char *near)
 {
-    return fault_set(f, STATUS_REFUSED, "unknown %s '%s'%s%s%s; 'beamwork list' shows them all", what, name, near != NULL ? ", did you mean '" : "",
-                     near != NULL ? near : "", near != NULL ? "'?" : "");
+    return fault_set(f, STATUS_REFUSED, "unknown %s '%s'%s%s%s; 'beamwork list' shows them all", what, name,
+                     near != NULL ? ", did you mean '" : "", near != NULL ? near : "", near != NULL ? "'?" : "");
 }
 
 const case_type *case_find(const char *name, fault *f)
@@ -67,25 +67,29 @@ static status set_option(formulation *out, const char *name, const char *value, 
     if (strcmp(name, "newton") == 0) {
         const int index = choice_index("mixed|displacement", value);
         out->displacement_newton = index == 1;
-        return index >= 0 ? STATUS_OK : fault_set(f, STATUS_REFUSED, "option newton: unknown choice '%s'; give mixed or displacement", value);
+        return index >= 0 ? STATUS_OK
+                          : fault_set(f, STATUS_REFUSED, "option newton: unknown choice '%s'; give mixed or displacement", value);
     }
     const element_option *o = out->type->options;
     int i = 0;
     while (o != NULL && o[i].name != NULL && strcmp(o[i].name, name) != 0)
         i++;
     if (o == NULL || o[i].name == NULL)
-        return fault_set(f, STATUS_REFUSED, "formulation %s has no option '%s'; 'beamwork list formulations' shows them", out->type->name, name);
+        return fault_set(f, STATUS_REFUSED, "formulation %s has no option '%s'; 'beamwork list formulations' shows them",
+                         out->type->name, name);
     if (o[i].choices != NULL) {
         const int index = choice_index(o[i].choices, value);
         if (index < 0)
-            return fault_set(f, STATUS_REFUSED, "option %s of %s: unknown choice '%s'; give one of %s", name, out->type->name, value, o[i].choices);
+            return fault_set(f, STATUS_REFUSED, "option %s of %s: unknown choice '%s'; give one of %s", name, out->type->name,
+                             value, o[i].choices);
         out->option[i] = index;
         return STATUS_OK;
     }
     char *end;
     const double number = strtod(value, &end);
     if (end == value || *end != '\0' || !(number >= o[i].min && number <= o[i].max) || number != floor(number))
-        return fault_set(f, STATUS_REFUSED, "option %s of %s: '%s'; give a whole number from %g to %g", name, out->type->name, value, o[i].min, o[i].max);
+        return fault_set(f, STATUS_REFUSED, "option %s of %s: '%s'; give a whole number from %g to %g", name, out->type->name,
+                         value, o[i].min, o[i].max);
     out->option[i] = number;
     return STATUS_OK;
 }

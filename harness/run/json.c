@@ -54,10 +54,12 @@ static json_t *options_of(const formulation *fm)
 static json_t *counters_of(const cell_result *c)
 {
     const counters *n = &c->counters;
-    return json_pack("{s:i,s:i,s:i,s:I,s:I,s:I,s:I,s:I,s:I,s:I,s:I,s:I,s:f}", "elements", c->size.elements, "free", c->size.free, "driven", c->size.driven, "strain_evaluations",
-                     (json_int_t)n->strain_evaluations, "stress_evaluations", (json_int_t)n->stress_evaluations, "inertia_evaluations", (json_int_t)n->inertia_evaluations,
-                     "iterations", (json_int_t)n->iterations, "steps", (json_int_t)n->steps, "rejected_steps", (json_int_t)n->rejected_steps, "factorisations",
-                     (json_int_t)n->factorisations, "solutions", (json_int_t)n->solutions, "factor_entries", (json_int_t)n->factor_entries, "factor_flops", n->factor_flops);
+    return json_pack("{s:i,s:i,s:i,s:I,s:I,s:I,s:I,s:I,s:I,s:I,s:I,s:I,s:f}", "elements", c->size.elements, "free", c->size.free,
+                     "driven", c->size.driven, "strain_evaluations", (json_int_t)n->strain_evaluations, "stress_evaluations",
+                     (json_int_t)n->stress_evaluations, "inertia_evaluations", (json_int_t)n->inertia_evaluations, "iterations",
+                     (json_int_t)n->iterations, "steps", (json_int_t)n->steps, "rejected_steps", (json_int_t)n->rejected_steps,
+                     "factorisations", (json_int_t)n->factorisations, "solutions", (json_int_t)n->solutions, "factor_entries",
+                     (json_int_t)n->factor_entries, "factor_flops", n->factor_flops);
 }
 
 /* All truths of the continuum that hold here, with the error against each. */
@@ -66,7 +68,8 @@ static json_t *truths_of(const point *p, const scene_quantity *q, double value, 
     json_t *list = json_array();
     for (int i = 0; t != NULL && i < t->rows; i++) {
         const truth *row = &t->row[i];
-        if (row->elements > 0 || row->formulation[0] != '\0' || strcmp(row->quantity, q->name) != 0 || !truth_holds(row, p->type, p->parameter))
+        if (row->elements > 0 || row->formulation[0] != '\0' || strcmp(row->quantity, q->name) != 0 ||
+            !truth_holds(row, p->type, p->parameter))
             continue;
         json_t *one = json_pack("{s:s,s:s,s:s}", "kind", row->kind, "model", row->model, "source", row->source);
         json_object_set_new(one, "value", number(row->value));
@@ -92,7 +95,8 @@ static void add_quantities(json_t *root, const point *p, const solve_result *r, 
         const scene_quantity *q = &p->scene.quantity[i];
         const quantity_result *v = &r->quantity[i];
         if (q->reduction == SCENE_CURVE) {
-            json_t *one = json_pack("{s:s,s:s,s:s,s:s}", "name", q->name, "unit", q->unit, "x_name", q->x_name, "x_unit", q->x_unit);
+            json_t *one =
+                json_pack("{s:s,s:s,s:s,s:s}", "name", q->name, "unit", q->unit, "x_name", q->x_name, "x_unit", q->x_unit);
             json_object_set_new(one, "x", numbers(v->curve.points, v->curve.x));
             json_object_set_new(one, "values", numbers(v->curve.points, v->curve.value));
             json_array_append_new(curves, one);
@@ -124,8 +128,9 @@ status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
     json_t *left_out = json_array();
     for (int i = 0; i < c->left_out_lines; i++)
         json_array_append_new(left_out, json_string(c->left_out[i]));
-    json_t *root = json_pack("{s:i,s:s,s:s,s:i,s:s,s:s}", "schema", 1, "case", p->type->name, "formulation", one->formulation.type->name, "elements", one->mesh[0], "status",
-                             status_name(c->solve.status), "reason", c->solve.reason);
+    json_t *root =
+        json_pack("{s:i,s:s,s:s,s:i,s:s,s:s}", "schema", 1, "case", p->type->name, "formulation", one->formulation.type->name,
+                  "elements", one->mesh[0], "status", status_name(c->solve.status), "reason", c->solve.reason);
     json_object_set_new(root, "options", options_of(&one->formulation));
     json_object_set_new(root, "parameters", parameters_of(p));
     json_object_set_new(root, "features", features_of(c->size.features));
@@ -140,9 +145,9 @@ static json_t *verdict_of(const sweep *s, const verdict *v)
 {
     const series *one = &s->series[v->series];
     const point *p = &s->point[one->point];
-    json_t *out = json_pack("{s:s,s:s,s:s,s:s,s:s,s:s,s:b}", "case", p->type->name, "parameters", p->text, "formulation", one->formulation.key, "quantity",
-                            p->scene.quantity[v->quantity].name, "verdict", verdict_name(v->kind), "expected", v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "?", "as_expected",
-                            v->matches);
+    json_t *out = json_pack("{s:s,s:s,s:s,s:s,s:s,s:s,s:b}", "case", p->type->name, "parameters", p->text, "formulation",
+                            one->formulation.key, "quantity", p->scene.quantity[v->quantity].name, "verdict", verdict_name(v->kind),
+                            "expected", v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "?", "as_expected", v->matches);
     json_object_set_new(out, "reason", json_string(v->reason));
     json_object_set_new(out, "value", number(v->finest));
     json_object_set_new(out, "limit", number(v->fit.limit));
@@ -165,16 +170,18 @@ status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const e
         const agreement *a = &j->agreement[i];
         const series *one = &s->series[a->series];
         const point *p = &s->point[one->point];
-        json_t *row = json_pack("{s:s,s:s,s:s,s:i,s:s,s:b,s:s}", "case", p->type->name, "parameters", p->text, "formulation", one->formulation.key, "elements", one->mesh[a->mesh],
-                                "quantity", p->scene.quantity[a->quantity].name, "agrees", a->good, "source", a->truth->source);
+        json_t *row = json_pack("{s:s,s:s,s:s,s:i,s:s,s:b,s:s}", "case", p->type->name, "parameters", p->text, "formulation",
+                                one->formulation.key, "elements", one->mesh[a->mesh], "quantity",
+                                p->scene.quantity[a->quantity].name, "agrees", a->good, "source", a->truth->source);
         json_object_set_new(row, "value", number(a->value));
         json_object_set_new(row, "stored", number(a->truth->value));
         json_array_append_new(discrete, row);
     }
     for (int k = 0; k < VERDICT_KINDS; k++)
         json_object_set_new(counts, verdict_name((verdict_kind)k), json_integer(j->by_kind[k]));
-    json_t *root = json_pack("{s:i,s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:i,s:i}", "schema", 1, "program_version", e->version, "commit", e->commit, "compiler", e->compiler, "clock", e->clock, "cells",
-                             sweep_cells(s), "judged", j->judged, "unexpected", j->unexpected, "disagreements", j->disagreements, "unobserved_findings", j->unobserved);
+    json_t *root = json_pack("{s:i,s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:i,s:i}", "schema", 1, "program_version", e->version, "commit",
+                             e->commit, "compiler", e->compiler, "clock", e->clock, "cells", sweep_cells(s), "judged", j->judged,
+                             "unexpected", j->unexpected, "disagreements", j->disagreements, "unobserved_findings", j->unobserved);
     json_object_set_new(root, "counts", counts);
     json_object_set_new(root, "verdicts", list);
     json_object_set_new(root, "discrete", discrete);

@@ -20,7 +20,9 @@ status output_open(const char *path, output *out, fault *f)
     if (named != STATUS_OK)
         return named;
     out->stream = fopen(out->temporary, "w");
-    return out->stream != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another place", path, strerror(errno));
+    return out->stream != NULL
+               ? STATUS_OK
+               : fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another place", path, strerror(errno));
 }
 
 void output_discard(output *out)
@@ -33,7 +35,8 @@ void output_discard(output *out)
 
 status output_close(output *out, fault *f)
 {
-    const int bad = ferror(out->stream) | (fflush(out->stream) != 0) | (fsync(fileno(out->stream)) != 0 && errno != EINVAL && errno != EROFS);
+    const int bad =
+        ferror(out->stream) | (fflush(out->stream) != 0) | (fsync(fileno(out->stream)) != 0 && errno != EINVAL && errno != EROFS);
     const int closed = fclose(out->stream);
     out->stream = NULL;
     if (bad || closed != 0 || rename(out->temporary, out->path) != 0) {

@@ -97,7 +97,8 @@ static status set_value(const case_parameter *p, const char *text, double *value
     if (end == text || *end != '\0' || !isfinite(number))
         return fault_set(f, STATUS_REFUSED, "parameter %s: '%s' is not a finite number", p->name, text);
     if (number < p->min || number > p->max)
-        return fault_set(f, STATUS_REFUSED, "parameter %s = %g %s is outside its range %g .. %g", p->name, number, p->unit, p->min, p->max);
+        return fault_set(f, STATUS_REFUSED, "parameter %s = %g %s is outside its range %g .. %g", p->name, number, p->unit, p->min,
+                         p->max);
     const int whole = strcmp(p->unit, "1") == 0 && p->min == 0 && p->max == 1;
     if (whole && number != 0 && number != 1)
         return fault_set(f, STATUS_REFUSED, "parameter %s = %g: give 0 or 1", p->name, number);
@@ -125,8 +126,8 @@ static status set_one(const case_type *c, const char *assignment, double value[]
         char name[LONGEST];
         snprintf(name, sizeof name, "%.*s", (int)length, assignment);
         const char *near = nearest_name(name, parameter_name, c);
-        return fault_set(f, STATUS_REFUSED, "case %s has no parameter '%s'%s%s%s", c->name, name, near != NULL ? "; did you mean '" : "", near != NULL ? near : "",
-                         near != NULL ? "'?" : "");
+        return fault_set(f, STATUS_REFUSED, "case %s has no parameter '%s'%s%s%s", c->name, name,
+                         near != NULL ? "; did you mean '" : "", near != NULL ? near : "", near != NULL ? "'?" : "");
     }
     if (equals == NULL)
         return fault_set(f, STATUS_REFUSED, "parameter %s: no value; write %s=VALUE", p->name, p->name);

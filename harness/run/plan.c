@@ -53,7 +53,8 @@ static status plan_points(const truths *t, sweep *s, fault *f)
         parameters_default(registry_cases[c], value);
         status outcome = add_point(s, registry_cases[c], value, f);
         for (int i = 0; i < t->rows && outcome == STATUS_OK; i++)
-            if (t->row[i].type == registry_cases[c] && is_complete(&t->row[i]) && !known_point(s, registry_cases[c], t->row[i].parameter))
+            if (t->row[i].type == registry_cases[c] && is_complete(&t->row[i]) &&
+                !known_point(s, registry_cases[c], t->row[i].parameter))
                 outcome = add_point(s, registry_cases[c], t->row[i].parameter, f);
         if (outcome != STATUS_OK)
             return outcome;
@@ -89,7 +90,8 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
     for (int i = 0; i < p->scene.meshes; i++)
         add_mesh(one, p->scene.mesh[i]);
     for (int i = 0; t != NULL && i < t->rows; i++)
-        if (t->row[i].elements > 0 && strcmp(t->row[i].formulation, chosen->key) == 0 && truth_holds(&t->row[i], p->type, p->parameter))
+        if (t->row[i].elements > 0 && strcmp(t->row[i].formulation, chosen->key) == 0 &&
+            truth_holds(&t->row[i], p->type, p->parameter))
             add_mesh(one, t->row[i].elements);
     return STATUS_OK;
 }
@@ -147,7 +149,8 @@ status sweep_plan(const sweep_request *request, const truths *t, sweep *out, fau
     return outcome;
 }
 
-status sweep_plan_one(const case_type *type, const double value[], const formulation chosen[], int count, const int mesh[], int meshes, sweep *out, fault *f)
+status sweep_plan_one(const case_type *type, const double value[], const formulation chosen[], int count, const int mesh[],
+                      int meshes, sweep *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     status outcome = add_point(out, type, value, f);

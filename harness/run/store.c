@@ -28,7 +28,8 @@ static hid_t text_type(size_t length)
 
 static void put_text(store *s, hid_t at, const char *name, const char *text)
 {
-    const hid_t type = text_type(strlen(text)), space = H5Screate(H5S_SCALAR), a = H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t type = text_type(strlen(text)), space = H5Screate(H5S_SCALAR),
+                a = H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
     char empty[1] = "";
     check(s, a >= 0 && H5Awrite(a, type, text[0] != '\0' ? text : empty) >= 0);
     H5Aclose(a);
@@ -85,7 +86,8 @@ static void put_texts(store *s, hid_t at, const char *name, int count, const cha
 
 static hid_t group(store *s, hid_t at, const char *name)
 {
-    const hid_t g = H5Lexists(at, name, H5P_DEFAULT) > 0 ? H5Gopen2(at, name, H5P_DEFAULT) : H5Gcreate2(at, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t g = H5Lexists(at, name, H5P_DEFAULT) > 0 ? H5Gopen2(at, name, H5P_DEFAULT)
+                                                         : H5Gcreate2(at, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     check(s, g >= 0);
     return g;
 }
@@ -172,7 +174,8 @@ static void put_steps(store *s, hid_t at, const solve_result *r)
     }
     for (int i = 0; i < r->steps; i++) {
         const step_record *k = &r->step[i];
-        const double row[COLUMNS] = {k->path, k->increment, k->iterations, k->rejected, k->negative_pivots, k->residual, k->correction, k->incompatibility};
+        const double row[COLUMNS] = {k->path,     k->increment,  k->iterations,     k->rejected, k->negative_pivots,
+                                     k->residual, k->correction, k->incompatibility};
         memcpy(table + COLUMNS * (size_t)i, row, sizeof row);
     }
     const hid_t set = put_doubles(s, at, "steps", 2, size, table);
@@ -214,7 +217,8 @@ static void put_quantities(store *s, hid_t at, const point *p, const solve_resul
 static void put_verdicts(store *s, hid_t at, const sweep *all, const judgement *j, int index)
 {
     enum { MOST = 256, NUMBERS = 10 };
-    static const char *const number_name[NUMBERS] = {"truth", "truth_uncertainty", "limit", "limit_uncertainty", "order", "error", "model_truth", "model_error", "tolerance", "finest"};
+    static const char *const number_name[NUMBERS] = {"truth", "truth_uncertainty", "limit",       "limit_uncertainty", "order",
+                                                     "error", "model_truth",       "model_error", "tolerance",         "finest"};
     const char *text[7][MOST];
     double number[NUMBERS][MOST];
     int count = 0;
@@ -223,10 +227,23 @@ static void put_verdicts(store *s, hid_t at, const sweep *all, const judgement *
         const verdict *v = &j->verdict[i];
         if (v->series != index)
             continue;
-        const char *const words[7] = {p->scene.quantity[v->quantity].name, verdict_name(v->kind), v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "?",
-                                      v->truth != NULL ? v->truth->kind : "", v->reason, v->finding != NULL ? v->finding->proof : "", v->truth != NULL ? v->truth->source : ""};
-        const double values[NUMBERS] = {v->truth != NULL ? v->truth->value : NAN, v->truth != NULL ? v->truth->uncertainty : NAN, v->fit.limit, v->fit.limit_uncertainty,
-                                        v->fit.order, v->error, v->model_truth != NULL ? v->model_truth->value : NAN, v->model_error, v->tolerance, v->finest};
+        const char *const words[7] = {p->scene.quantity[v->quantity].name,
+                                      verdict_name(v->kind),
+                                      v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "?",
+                                      v->truth != NULL ? v->truth->kind : "",
+                                      v->reason,
+                                      v->finding != NULL ? v->finding->proof : "",
+                                      v->truth != NULL ? v->truth->source : ""};
+        const double values[NUMBERS] = {v->truth != NULL ? v->truth->value : NAN,
+                                        v->truth != NULL ? v->truth->uncertainty : NAN,
+                                        v->fit.limit,
+                                        v->fit.limit_uncertainty,
+                                        v->fit.order,
+                                        v->error,
+                                        v->model_truth != NULL ? v->model_truth->value : NAN,
+                                        v->model_error,
+                                        v->tolerance,
+                                        v->finest};
         for (int k = 0; k < 7; k++)
             text[k][count] = words[k];
         for (int k = 0; k < NUMBERS; k++)

@@ -104,8 +104,8 @@ static int bury(sweep *s, const task *tasks, const board *b, int self, worker *w
         return 0;
     cell_result *cell = cell_of(s, &tasks[b->at[self]]);
     cell->solve.status = STATUS_FAULT;
-    snprintf(cell->solve.reason, sizeof cell->solve.reason, "the cell's process ended by %s %d", WIFSIGNALED(how) ? "signal" : "exit status",
-             WIFSIGNALED(how) ? WTERMSIG(how) : WEXITSTATUS(how));
+    snprintf(cell->solve.reason, sizeof cell->solve.reason, "the cell's process ended by %s %d",
+             WIFSIGNALED(how) ? "signal" : "exit status", WIFSIGNALED(how) ? WTERMSIG(how) : WEXITSTATUS(how));
     return 1;
 }
 
@@ -114,7 +114,8 @@ static void report(const sweep_request *request, const sweep *s, const task *t, 
     if (request->progress == NULL)
         return;
     const series *one = &s->series[t->series];
-    fprintf(request->progress, "\r\033[K%d/%d %s %s n=%d", done, count, s->point[one->point].type->name, one->formulation.key, one->mesh[t->mesh]);
+    fprintf(request->progress, "\r\033[K%d/%d %s %s n=%d", done, count, s->point[one->point].type->name, one->formulation.key,
+            one->mesh[t->mesh]);
     if (done == count)
         fprintf(request->progress, "\r\033[K");
     fflush(request->progress);
@@ -178,7 +179,8 @@ status sweep_run(const sweep_request *request, sweep *s, fault *f)
     }
     int n = 0;
     for (int i = 0; i < s->seriess; i++)
-        for (int k = 0; k < s->series[i].meshes && s->series[i].missing[0] == '\0' && s->point[s->series[i].point].status == STATUS_OK; k++)
+        for (int k = 0;
+             k < s->series[i].meshes && s->series[i].missing[0] == '\0' && s->point[s->series[i].point].status == STATUS_OK; k++)
             tasks[n++] = (task){i, k};
     if (request->jobs > 1) {
         sweep_request bounded = *request;

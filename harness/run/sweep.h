@@ -34,11 +34,11 @@ typedef struct sweep {
 } sweep;
 
 typedef struct sweep_request {
-    const char *select;     /* expression over "case/point/formulation", or NULL */
-    int jobs;               /* processes, >= 1 */
-    int formulations;       /* restrict to these, or 0: all */
+    const char *select; /* expression over "case/point/formulation", or NULL */
+    int jobs;           /* processes, >= 1 */
+    int formulations;   /* restrict to these, or 0: all */
     const formulation *formulation;
-    FILE *progress;         /* NULL: quiet */
+    FILE *progress; /* NULL: quiet */
 } sweep_request;
 
 /* Does an expression (words joined by and, or, not; a word is looked for in text) hold? -1: malformed. */
@@ -47,7 +47,8 @@ int select_matches(const char *expression, const char *text);
 /* Points: the defaults and every parameter point of a truth. */
 status sweep_plan(const sweep_request *request, const truths *t, sweep *out, fault *f);
 /* One point, the given formulations and meshes. */
-status sweep_plan_one(const case_type *type, const double value[], const formulation chosen[], int count, const int mesh[], int meshes, sweep *out, fault *f);
+status sweep_plan_one(const case_type *type, const double value[], const formulation chosen[], int count, const int mesh[],
+                      int meshes, sweep *out, fault *f);
 /* Runs every cell; a cell that fails or crashes is a result. Order of results does not depend on jobs. */
 status sweep_run(const sweep_request *request, sweep *s, fault *f);
 int sweep_cells(const sweep *s);

@@ -7,7 +7,8 @@ static void row_of_series(FILE *to, const sweep *s, int index)
 {
     const series *one = &s->series[index];
     const point *p = &s->point[one->point];
-    fprintf(to, "%s%s%s%s, %s\n", p->type->name, p->text[0] != '\0' ? " (" : "", p->text, p->text[0] != '\0' ? ")" : "", one->formulation.key);
+    fprintf(to, "%s%s%s%s, %s\n", p->type->name, p->text[0] != '\0' ? " (" : "", p->text, p->text[0] != '\0' ? ")" : "",
+            one->formulation.key);
 }
 
 static void percent(FILE *to, double error)
@@ -26,9 +27,9 @@ void text_solution(FILE *to, const sweep *s, const truths *t)
     const point *p = &s->point[one->point];
     const cell_result *c = &one->cell[0];
     row_of_series(to, s, 0);
-    fprintf(to, "%s%s%s; %d elements, %d free coordinates, %ld iterations, %ld factorisations, %.3g s set-up, %.3g s solution\n", status_name(c->solve.status),
-            c->solve.reason[0] != '\0' ? ": " : "", c->solve.reason, c->size.elements, c->size.free, c->counters.iterations, c->counters.factorisations, c->solve.seconds_setup,
-            c->solve.seconds_solve);
+    fprintf(to, "%s%s%s; %d elements, %d free coordinates, %ld iterations, %ld factorisations, %.3g s set-up, %.3g s solution\n",
+            status_name(c->solve.status), c->solve.reason[0] != '\0' ? ": " : "", c->solve.reason, c->size.elements, c->size.free,
+            c->counters.iterations, c->counters.factorisations, c->solve.seconds_setup, c->solve.seconds_solve);
     for (int i = 0; i < c->left_out_lines; i++)
         fprintf(to, "left out: %s\n", c->left_out[i]);
     fprintf(to, "%-28s %24s %-10s %11s\n", "quantity", "value", "unit", "error");
@@ -143,18 +144,20 @@ void text_verdicts(FILE *to, const sweep *s, const judgement *j, const truths *t
         if (a->good)
             continue;
         const series *one = &s->series[a->series];
-        fprintf(to, "\n%s, %s, n = %d, %s: %.12g differs from the stored %.12g\n", s->point[one->point].type->name, one->formulation.key, one->mesh[a->mesh],
-                s->point[one->point].scene.quantity[a->quantity].name, a->value, a->truth->value);
+        fprintf(to, "\n%s, %s, n = %d, %s: %.12g differs from the stored %.12g\n", s->point[one->point].type->name,
+                one->formulation.key, one->mesh[a->mesh], s->point[one->point].scene.quantity[a->quantity].name, a->value,
+                a->truth->value);
     }
     for (int i = 0; i < t->findings && j->unobserved > 0; i++)
         if (t->finding[i].observed == 0)
-            fprintf(to, "\nfinding not observed: %s, %s, %s: %s\n", t->finding[i].type != NULL ? t->finding[i].type->name : "unknown case", t->finding[i].formulation,
+            fprintf(to, "\nfinding not observed: %s, %s, %s: %s\n",
+                    t->finding[i].type != NULL ? t->finding[i].type->name : "unknown case", t->finding[i].formulation,
                     t->finding[i].quantity, t->finding[i].verdict);
     fprintf(to, "\n%d cells; %d verdicts against truths:", sweep_cells(s), j->judged);
     for (int k = 0; k < VERDICT_KINDS; k++)
         fprintf(to, "%s %d %s", k > 0 ? "," : "", j->by_kind[k], verdict_name((verdict_kind)k));
-    fprintf(to, "\n%d of %d stored discrete values agree; %d verdicts differ from the expected one; %d findings not observed\n", j->agreements - j->disagreements, j->agreements,
-            j->unexpected, j->unobserved);
+    fprintf(to, "\n%d of %d stored discrete values agree; %d verdicts differ from the expected one; %d findings not observed\n",
+            j->agreements - j->disagreements, j->agreements, j->unexpected, j->unobserved);
 }
 
 void text_convergence(FILE *to, const sweep *s, const truths *t)
@@ -180,13 +183,19 @@ void text_convergence(FILE *to, const sweep *s, const truths *t)
                 fprintf(to, "  %6d", one->mesh[k]);
                 value_or_dash(to, 23, 14, 'g', x);
                 percent(to, row != NULL ? relative_error(&p->scene.quantity[q], x, row->value) : NAN);
-                fprintf(to, " %10.3g s%s%s\n", r->seconds_setup + r->seconds_solve, isfinite(x) ? "" : "  ", isfinite(x) ? "" : q < r->quantities ? r->quantity[q].reason : r->reason);
+                fprintf(to, " %10.3g s%s%s\n", r->seconds_setup + r->seconds_solve, isfinite(x) ? "" : "  ",
+                        isfinite(x)         ? ""
+                        : q < r->quantities ? r->quantity[q].reason
+                                            : r->reason);
                 if (isfinite(x)) {
                     n[count] = one->mesh[k];
                     value[count++] = x;
                 }
             }
-            const convergence c = convergence_of(count, n, value, fabs(row != NULL ? row->value : count > 0 ? value[count - 1] : 1));
+            const convergence c = convergence_of(count, n, value,
+                                                 fabs(row != NULL ? row->value
+                                                      : count > 0 ? value[count - 1]
+                                                                  : 1));
             fprintf(to, "  limit ");
             value_or_dash(to, 22, 14, 'g', c.limit);
             fprintf(to, " +- ");
@@ -220,7 +229,8 @@ void text_convergence_csv(FILE *to, const sweep *s, const truths *t)
                     fprintf(to, ",%.17g,%.17g,", row->value, relative_error(&p->scene.quantity[q], value, row->value));
                 else
                     fprintf(to, ",,,");
-                fprintf(to, "%d,%.6g,%.6g\n", one->cell[k].size.free, one->cell[k].solve.seconds_setup, one->cell[k].solve.seconds_solve);
+                fprintf(to, "%d,%.6g,%.6g\n", one->cell[k].size.free, one->cell[k].solve.seconds_setup,
+                        one->cell[k].solve.seconds_solve);
             }
     }
 }
@@ -262,15 +272,18 @@ static double seconds_of(const series *one)
 
 void text_junit(FILE *to, const sweep *s, const judgement *j)
 {
-    fprintf(to, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n <testsuite name=\"beamwork\" tests=\"%d\" failures=\"%d\" skipped=\"%d\">\n", j->verdicts + j->agreements,
-            j->unexpected + j->disagreements, j->by_kind[VERDICT_SKIP]);
+    fprintf(to,
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n <testsuite name=\"beamwork\" tests=\"%d\" failures=\"%d\" "
+            "skipped=\"%d\">\n",
+            j->verdicts + j->agreements, j->unexpected + j->disagreements, j->by_kind[VERDICT_SKIP]);
     for (int i = 0; i < j->verdicts; i++) {
         const verdict *v = &j->verdict[i];
         const series *one = &s->series[v->series];
         const point *p = &s->point[one->point];
         fprintf(to, "  <testcase classname=\"%s.", p->type->name);
         escaped(to, p->text[0] != '\0' ? p->text : "default");
-        fprintf(to, "\" name=\"%s %s\" time=\"%.6f\">\n   <properties>\n", one->formulation.key, p->scene.quantity[v->quantity].name, seconds_of(one));
+        fprintf(to, "\" name=\"%s %s\" time=\"%.6f\">\n   <properties>\n", one->formulation.key,
+                p->scene.quantity[v->quantity].name, seconds_of(one));
         property(to, "value", v->finest);
         property(to, "limit", v->fit.limit);
         property(to, "order", v->fit.order);
@@ -283,7 +296,8 @@ void text_junit(FILE *to, const sweep *s, const judgement *j)
             escaped(to, v->reason);
             fprintf(to, "\"/>\n");
         } else if (!v->matches) {
-            fprintf(to, "   <failure message=\"%s, expected %s", verdict_name(v->kind), v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
+            fprintf(to, "   <failure message=\"%s, expected %s", verdict_name(v->kind),
+                    v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
             escaped(to, v->reason[0] != '\0' ? ": " : "");
             escaped(to, v->reason);
             fprintf(to, "\"/>\n");
@@ -296,7 +310,8 @@ void text_junit(FILE *to, const sweep *s, const judgement *j)
         const point *p = &s->point[one->point];
         fprintf(to, "  <testcase classname=\"%s.", p->type->name);
         escaped(to, p->text[0] != '\0' ? p->text : "default");
-        fprintf(to, "\" name=\"%s n=%d %s (discrete)\">\n", one->formulation.key, one->mesh[a->mesh], p->scene.quantity[a->quantity].name);
+        fprintf(to, "\" name=\"%s n=%d %s (discrete)\">\n", one->formulation.key, one->mesh[a->mesh],
+                p->scene.quantity[a->quantity].name);
         if (!a->good)
             fprintf(to, "   <failure message=\"%.17g differs from the stored %.17g\"/>\n", a->value, a->truth->value);
         fprintf(to, "  </testcase>\n");

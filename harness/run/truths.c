@@ -19,7 +19,8 @@ typedef struct reader {
 
 static status broken(const reader *r, const char *column)
 {
-    return fault_set(r->f, STATUS_FAULT, "%s: column %s of %s is missing or damaged; build it again ('make all')", r->path, column, r->name);
+    return fault_set(r->f, STATUS_FAULT, "%s: column %s of %s is missing or damaged; build it again ('make all')", r->path, column,
+                     r->name);
 }
 
 /* Number of rows of a column, or -1. */
@@ -28,7 +29,8 @@ static int length_of(hid_t group, const char *column)
     hsize_t size = 0;
     const hid_t set = H5Dopen2(group, column, H5P_DEFAULT);
     const hid_t space = set >= 0 ? H5Dget_space(set) : -1;
-    const int good = space >= 0 && H5Sget_simple_extent_ndims(space) == 1 && H5Sget_simple_extent_dims(space, &size, NULL) == 1 && size < 10000000;
+    const int good = space >= 0 && H5Sget_simple_extent_ndims(space) == 1 && H5Sget_simple_extent_dims(space, &size, NULL) == 1 &&
+                     size < 10000000;
     if (space >= 0)
         H5Sclose(space);
     if (set >= 0)
@@ -82,7 +84,8 @@ static status read_field(const reader *r, const char *column, void *base, size_t
 static status read_number_field(const reader *r, const char *column, void *base, size_t stride, size_t offset)
 {
     double *value = calloc((size_t)r->rows + 1, sizeof *value);
-    status outcome = value == NULL ? fault_set(r->f, STATUS_FAULT, "out of memory for truths") : read_numbers(r, column, H5T_NATIVE_DOUBLE, value);
+    status outcome = value == NULL ? fault_set(r->f, STATUS_FAULT, "out of memory for truths")
+                                   : read_numbers(r, column, H5T_NATIVE_DOUBLE, value);
     for (int i = 0; i < r->rows && value != NULL; i++)
         memcpy((char *)base + (size_t)i * stride + offset, &value[i], sizeof value[i]);
     free(value);
@@ -96,8 +99,10 @@ static status check_row(const reader *r, const case_type *type, int i, const cha
     if (parameters_parse(type, text, value, any, &why) != STATUS_OK)
         return fault_set(r->f, STATUS_FAULT, "%s: row %d of %s: %.200s", r->path, i + 1, r->name, why.text);
     if (parameters_hash(type, value, any) != hash)
-        return fault_set(r->f, STATUS_FAULT, "%s: row %d of %s is stale: the defaults of the case have changed; correct reference/defaults.csv and its tables",
-                         r->path, i + 1, r->name);
+        return fault_set(
+            r->f, STATUS_FAULT,
+            "%s: row %d of %s is stale: the defaults of the case have changed; correct reference/defaults.csv and its tables",
+            r->path, i + 1, r->name);
     return STATUS_OK;
 }
 
@@ -106,8 +111,12 @@ static status read_rows(const reader *r, const case_type *type, truth *row)
     static const struct {
         const char *name;
         size_t offset;
-    } text[] = {{"formulation", offsetof(truth, formulation)}, {"quantity", offsetof(truth, quantity)},     {"unit", offsetof(truth, unit)},
-                {"kind", offsetof(truth, kind)},               {"model", offsetof(truth, model)},           {"convention", offsetof(truth, convention)},
+    } text[] = {{"formulation", offsetof(truth, formulation)},
+                {"quantity", offsetof(truth, quantity)},
+                {"unit", offsetof(truth, unit)},
+                {"kind", offsetof(truth, kind)},
+                {"model", offsetof(truth, model)},
+                {"convention", offsetof(truth, convention)},
                 {"source", offsetof(truth, source)}};
     char **parameters = calloc((size_t)r->rows + 1, sizeof *parameters);
     uint64_t *hash = calloc((size_t)r->rows + 1, sizeof *hash);
@@ -179,7 +188,10 @@ static status read_findings(const char *path, hid_t file, truths *out, fault *f)
     static const struct {
         const char *name;
         size_t offset;
-    } text[] = {{"formulation", offsetof(finding, formulation)}, {"quantity", offsetof(finding, quantity)}, {"verdict", offsetof(finding, verdict)}, {"proof", offsetof(finding, proof)}};
+    } text[] = {{"formulation", offsetof(finding, formulation)},
+                {"quantity", offsetof(finding, quantity)},
+                {"verdict", offsetof(finding, verdict)},
+                {"proof", offsetof(finding, proof)}};
     reader r = {.path = path, .name = "findings", .f = f};
     r.group = H5Gopen2(file, "findings", H5P_DEFAULT);
     r.rows = r.group >= 0 ? length_of(r.group, "verdict") : -1;
@@ -235,7 +247,8 @@ static status check_schema(hid_t file, const char *path, fault *f)
     if (strcmp(name, "beamwork-truths") != 0)
         return fault_set(f, STATUS_FAULT, "%s: not a file of truths; build it with 'make all'", path);
     if (version != TRUTHS_VERSION)
-        return fault_set(f, STATUS_FAULT, "%s: truths of version %d, this program reads %d; build it again ('make all')", path, version, TRUTHS_VERSION);
+        return fault_set(f, STATUS_FAULT, "%s: truths of version %d, this program reads %d; build it again ('make all')", path,
+                         version, TRUTHS_VERSION);
     return STATUS_OK;
 }
 
@@ -245,7 +258,8 @@ status truths_read(const char *path, truths *out, fault *f)
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file < 0)
-        return fault_set(f, STATUS_FAULT, "%s: cannot be read as HDF5 (missing, truncated or of another kind); build it with 'make all'", path);
+        return fault_set(f, STATUS_FAULT,
+                         "%s: cannot be read as HDF5 (missing, truncated or of another kind); build it with 'make all'", path);
     status outcome = check_schema(file, path, f);
     const hid_t all = outcome == STATUS_OK ? H5Gopen2(file, "truths", H5P_DEFAULT) : -1;
     if (outcome == STATUS_OK && all < 0)
@@ -316,7 +330,8 @@ const truth *truth_of(const truths *t, const case_type *type, const double value
     const truth *best = NULL;
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
-        const int fits = row->elements == 0 && row->formulation[0] == '\0' && strcmp(row->quantity, quantity) == 0 && strcmp(row->model, model) == 0;
+        const int fits = row->elements == 0 && row->formulation[0] == '\0' && strcmp(row->quantity, quantity) == 0 &&
+                         strcmp(row->model, model) == 0;
         if (fits && truth_holds(row, type, value) && (best == NULL || rank(row->kind) < rank(best->kind)))
             best = row;
     }

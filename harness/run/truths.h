@@ -38,7 +38,8 @@ typedef struct truths {
 status truths_read(const char *path, truths *out, fault *f);
 void truths_free(truths *t);
 int truth_holds(const truth *row, const case_type *type, const double value[]);
-int finding_holds(const finding *row, const case_type *type, const double value[], const char *formulation_key, const char *quantity);
+int finding_holds(const finding *row, const case_type *type, const double value[], const char *formulation_key,
+                  const char *quantity);
 /* The continuum's truth of the same model to judge by (exact before published), or NULL. */
 const truth *truth_of(const truths *t, const case_type *type, const double value[], const char *quantity, const char *model);
 

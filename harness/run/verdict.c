@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const names[VERDICT_KINDS] = {"pass", "wrong limit", "low order", "not asymptotic", "diverged", "refused", "skip", "no truth"};
+static const char *const names[VERDICT_KINDS] = {"pass",     "wrong limit", "low order", "not asymptotic",
+                                                 "diverged", "refused",     "skip",      "no truth"};
 static const double order_slack = 0.3; /* an order seen on finite meshes is not sharper */
 
 const char *verdict_name(verdict_kind kind)
@@ -39,7 +40,10 @@ static history history_of(const series *s, int quantity)
         const solve_result *r = &s->cell[i].solve;
         const quantity_result *q = quantity < r->quantities ? &r->quantity[quantity] : NULL;
         const int good = q != NULL && q->status == STATUS_OK && isfinite(q->value);
-        h.failure = good ? STATUS_OK : q != NULL && q->status != STATUS_OK ? q->status : r->status != STATUS_OK ? r->status : STATUS_NOT_CONVERGED;
+        h.failure = good                                  ? STATUS_OK
+                    : q != NULL && q->status != STATUS_OK ? q->status
+                    : r->status != STATUS_OK              ? r->status
+                                                          : STATUS_NOT_CONVERGED;
         h.reason = good ? "" : q != NULL && q->reason[0] != '\0' ? q->reason : r->reason;
         if (good) {
             h.n[h.count] = s->mesh[i];
@@ -52,7 +56,8 @@ static history history_of(const series *s, int quantity)
 /* Against the truth, once there is a limit. */
 static verdict_kind compare(const scene_quantity *q, const verdict *v, const history *h)
 {
-    const double finest = fabs(v->finest - v->truth->value), limit = fabs(v->fit.limit - v->truth->value), coarse = h->count > 1 ? fabs(h->value[0] - v->truth->value) : finest;
+    const double finest = fabs(v->finest - v->truth->value), limit = fabs(v->fit.limit - v->truth->value),
+                 coarse = h->count > 1 ? fabs(h->value[0] - v->truth->value) : finest;
     const int inside = finest <= v->tolerance || (v->fit.kind != CONVERGENCE_NONE && limit <= v->tolerance);
     if (!inside) {
         if (v->fit.kind == CONVERGENCE_NONE || limit <= v->tolerance + 2 * v->fit.limit_uncertainty)

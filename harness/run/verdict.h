@@ -7,12 +7,12 @@
 
 typedef enum verdict_kind {
     VERDICT_PASS,
-    VERDICT_WRONG_LIMIT,    /* converges, but not to the truth */
+    VERDICT_WRONG_LIMIT, /* converges, but not to the truth */
     VERDICT_LOW_ORDER,
     VERDICT_NOT_ASYMPTOTIC, /* the meshes do not show a limit yet */
     VERDICT_DIVERGED,       /* a mesh has no value: not converged, singular, crashed */
     VERDICT_REFUSED,
-    VERDICT_SKIP,           /* needs what the formulation does not offer */
+    VERDICT_SKIP, /* needs what the formulation does not offer */
     VERDICT_NO_TRUTH,
     VERDICT_KINDS
 } verdict_kind;
@@ -22,11 +22,11 @@ typedef struct verdict {
     verdict_kind kind, expected;
     const truth *truth, *model_truth; /* NULL: none */
     convergence fit;
-    double finest;        /* value on the finest mesh, NAN: none */
-    double error;         /* (limit - truth)/truth, relative to near_zero where the truth is near zero; NAN */
-    double model_error;   /* against the truth of another model */
-    double tolerance;     /* absolute, uncertainty included */
-    int matches;          /* 1: verdict as expected */
+    double finest;      /* value on the finest mesh, NAN: none */
+    double error;       /* (limit - truth)/truth, relative to near_zero where the truth is near zero; NAN */
+    double model_error; /* against the truth of another model */
+    double tolerance;   /* absolute, uncertainty included */
+    int matches;        /* 1: verdict as expected */
     const finding *finding;
     char reason[FAULT_TEXT];
 } verdict;
@@ -44,10 +44,10 @@ typedef struct judgement {
     verdict *verdict;
     agreement *agreement;
     int by_kind[VERDICT_KINDS];
-    int unexpected;     /* verdicts that differ from the expected one */
+    int unexpected; /* verdicts that differ from the expected one */
     int disagreements;
-    int judged;         /* verdicts that compare with a truth */
-    int unobserved;     /* findings that no verdict showed (whole runs only) */
+    int judged;     /* verdicts that compare with a truth */
+    int unobserved; /* findings that no verdict showed (whole runs only) */
 } judgement;
 
 const char *verdict_name(verdict_kind kind);

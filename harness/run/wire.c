@@ -43,7 +43,8 @@ int wire_read(FILE *from, cell_result *cell)
     solve_result *s = &cell->solve;
     int lines = 0, bad = 0;
     memset(cell, 0, sizeof *cell);
-    if (get(from, &cell->size, sizeof cell->size) != 0 || get(from, &cell->counters, sizeof cell->counters) != 0 || get(from, s, sizeof *s) != 0)
+    if (get(from, &cell->size, sizeof cell->size) != 0 || get(from, &cell->counters, sizeof cell->counters) != 0 ||
+        get(from, s, sizeof *s) != 0)
         return -1;
     s->quantity = NULL;
     s->step = NULL;

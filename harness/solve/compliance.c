@@ -143,7 +143,8 @@ static void tangent_free(tangent *t)
 }
 
 /* reaction[6]: force and moment of the prescription on the node. */
-static status tangent_at(analysis_context *c, const scene_analysis *a, const model_state *s, const double reaction[6], tangent *t, fault *f)
+static status tangent_at(analysis_context *c, const scene_analysis *a, const model_state *s, const double reaction[6], tangent *t,
+                         fault *f)
 {
     model_linearisation lin = {.path = model_state_path(s), .K = &t->K, .residual = t->residual};
     status outcome = model_linearise(c->model, s, &lin, f);

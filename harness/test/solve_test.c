@@ -1,0 +1,120 @@
+/* Model and solvers through their public door: what is left out changes nothing, round-off stays small, linear algebra. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/model/sparse.h"
+#include "harness/run/formulations.h"
+#include "harness/run/parameters.h"
+
+static double value_of(const char *case_name, const char *formulation_text, int n, int keep_all, const char *assignment,
+                       const char *quantity, long *iterations)
+{
+    cell_request request = {0};
+    cell_result result;
+    formulation chosen;
+    fault f = {""};
+    double value = NAN;
+    request.type = case_find(case_name, &f);
+    gsl_test(request.type == NULL || formulation_parse(formulation_text, &chosen, &f) != STATUS_OK, "%s, %s exist", case_name,
+             formulation_text);
+    parameters_default(request.type, request.parameter);
+    gsl_test(assignment[0] != '\0' && parameters_set(request.type, assignment, request.parameter, &f) != STATUS_OK, "%s: %s",
+             case_name, assignment);
+    request.formulation = chosen.type;
+    memcpy(request.option, chosen.option, sizeof request.option);
+    request.solve.displacement_newton = chosen.displacement_newton;
+    request.elements = n;
+    request.keep_all = keep_all;
+    gsl_test(cell_run(&request, &result, &f) != STATUS_OK, "%s solved with %s (%s)", case_name, formulation_text, f.text);
+    for (int i = 0; i < result.solve.quantities; i++)
+        if (strcmp(result.scene.quantity[i].name, quantity) == 0)
+            value = result.solve.quantity[i].value;
+    if (iterations != NULL)
+        *iterations = result.counters.iterations;
+    cell_result_free(&result);
+    return value;
+}
+
+static void leaving_out_changes_nothing(void)
+{
+    static const struct {
+        const char *case_name, *quantity;
+    } pairs[] = {{"c_column", "buckling_load"},
+                 {"warping_torsion", "twist_ratio"},
+                 {"sheet_cantilever", "C_zz"},
+                 {"elastica", "theta"},
+                 {"wagner_torsion", "shortening"}};
+    for (size_t i = 0; i < 4; i++) {
+        const double lean = value_of(pairs[i].case_name, "beamw", 4, 0, "", pairs[i].quantity, NULL);
+        const double full = value_of(pairs[i].case_name, "beamw", 4, 1, "", pairs[i].quantity, NULL);
+        gsl_test_rel(full, lean, 1e-10, "%s: keeping everything gives the same %s", pairs[i].case_name, pairs[i].quantity);
+    }
+}
+
+static void newton(void)
+{
+    long mixed = 0, displacement = 0;
+    const double a = value_of("sheet_cantilever", "beamw_consistent", 4, 0, "", "C_xx", &mixed);
+    const double b = value_of("sheet_cantilever", "beamw_consistent:newton=displacement", 4, 0, "", "C_xx", &displacement);
+    gsl_test_rel(b, a, 1e-9, "both kinds of Newton find the same equilibrium");
+    gsl_test(!(mixed <= 4 * 15), "mixed Newton takes at most four iterations a step (%ld in 15 steps)", mixed);
+}
+
+static void fine_mesh(void)
+{
+    const double coarse = value_of("c_column", "beamw_vlasov", 256, 0, "shear=0", "buckling_load", NULL);
+    const double fine = value_of("c_column", "beamw_vlasov", 1024, 0, "shear=0", "buckling_load", NULL);
+    const double exact = 16117335.51891;
+    gsl_test_rel(fine, exact, 2e-6, "1024 elements: %.3g from the exact load", fine / exact - 1);
+    const double order = log((coarse - exact) / (fine - exact)) / log(4);
+    gsl_test(!(fabs(order - 2) < 0.1), "round-off does not hide the order on 1024 elements (%.2f)", order);
+}
+
+/* Symmetric indefinite tridiagonal: eigenvalues 2 - s - 2 cos(k pi/(n+1)). */
+static void inertia_of_a_chain(void)
+{
+    enum { N = 50 };
+    int column[N + 1], row[2 * N];
+    double value[2 * N], x[N], b[N];
+    const double shift = 0.8;
+    int entries = 0, expected = 0;
+    for (int j = 0; j < N; j++) {
+        column[j] = entries;
+        if (j > 0) {
+            row[entries] = j - 1;
+            value[entries++] = -1;
+        }
+        row[entries] = j;
+        value[entries++] = 2 - shift;
+        expected += 2 - shift - 2 * cos((j + 1) * 3.14159265358979323846 / (N + 1)) < 0;
+    }
+    column[N] = entries;
+    sparse a = {N, 1, column, row, value};
+    factor *f;
+    gsl_test(factor_alloc(&a, &f, NULL) != STATUS_OK || factor_numeric(f, &a, NULL) != STATUS_OK,
+             "an indefinite matrix is factorised");
+    gsl_test_int(factor_count(f).negative_pivots, expected, "negative pivots count the negative eigenvalues");
+    for (int i = 0; i < N; i++)
+        x[i] = sin(1.7 * i);
+    sparse_mul(&a, x, b);
+    factor_solve_refined(f, &a, b);
+    double worst = 0;
+    for (int i = 0; i < N; i++)
+        worst = fmax(worst, fabs(b[i] - x[i]));
+    gsl_test(!(worst < 1e-12), "and solved (%.1e)", worst);
+    for (int i = 0; i < entries; i++)
+        value[i] = i == 0 ? 0 : value[i] * (row[i] == N - 1 ? 0 : 1);
+    gsl_test(factor_numeric(f, &a, NULL) != STATUS_SINGULAR, "a singular matrix is called singular");
+    factor_free(f);
+}
+
+int main(void)
+{
+    leaving_out_changes_nothing();
+    newton();
+    fine_mesh();
+    inertia_of_a_chain();
+    return gsl_test_summary();
+}
