@@ -37,6 +37,7 @@ endif
 .PHONY: help all verify test layers asan tidy format format-check check clean report truths FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
+.SECONDARY:
 
 help: ## this list
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)

@@ -54,7 +54,7 @@ static int add_crank(const double value[], scene *s, double azimuth, int angle)
 
 static void add_leg(const double value[], scene *s, int profile, int leg, int angle, int platform)
 {
-    const double side = leg % 2 == 0 ? -1 : 1, middle = 120 * JOINT_DEGREE * (leg / 2);
+    const double side = leg % 2 == 0 ? -1 : 1, middle = 120 * JOINT_DEGREE * (leg >> 1);
     const double below = middle + side * value[CRANK_AZIMUTH], above = middle + side * value[PLATFORM_AZIMUTH];
     const double tip_radius = value[BASE_RADIUS] - value[CRANK_LENGTH];
     const double low[3] = {tip_radius * cos(below), tip_radius * sin(below), 0};
