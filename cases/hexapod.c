@@ -122,7 +122,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_analysis *c = scene_analysis_at(s, compliance);
     c->follows = lifting;
     c->node = platform;
-    c->released = 1u << SCENE_UZ; /* its driver's condition ends: the cranks hold their angle */
+    c->released = 1u << SCENE_UZ; /* the condition ends: the cranks hold their angle */
     add_stiffnesses(s, compliance, platform, station + 1, steps);
     scene_quantity *first = scene_add_quantity(s, "crank_angle", "rad", SCENE_DRIVER_VALUE, lifting);
     first->row = angle;

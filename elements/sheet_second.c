@@ -11,7 +11,8 @@ const element_type element_sheet_second = {
     .summary = "second-order sheet-flexure element (Hu-Washizu)",
     .source = "N Eqs. 33-37, 40-42",
     .abi = ELEMENT_ABI,
-    .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_HARINGX | FEATURE_ENGESSER | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
+    .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_HARINGX | FEATURE_ENGESSER | FEATURE_GEOMETRIC |
+              FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .limits = LIMIT_DOUBLY_SYMMETRIC | LIMIT_ORDER_DEPENDENT,
     .data_size = second_data_size,
     .prepare = prepare,

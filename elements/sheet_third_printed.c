@@ -11,7 +11,8 @@ const element_type element_sheet_third_printed = {
     .summary = "third-order sheet-flexure element with the printed sign of u_y",
     .source = "N Eqs. 37, 44-50, 55-65 as printed",
     .abi = ELEMENT_ABI,
-    .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_ENGESSER | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
+    .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_ENGESSER |
+              FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .limits = LIMIT_DOUBLY_SYMMETRIC | LIMIT_ORDER_DEPENDENT,
     .data_size = third_data_size,
     .prepare = prepare,

@@ -31,7 +31,8 @@ static inline jet jet_mul(const jet *a, const jet *b)
         c.gradient[i] = a->value * b->gradient[i] + b->value * a->gradient[i];
     for (int i = 0; i < JET_VARIABLES; i++)
         for (int j = i; j < JET_VARIABLES; j++, k++)
-            c.hessian[k] = a->value * b->hessian[k] + b->value * a->hessian[k] + a->gradient[i] * b->gradient[j] + a->gradient[j] * b->gradient[i];
+            c.hessian[k] = a->value * b->hessian[k] + b->value * a->hessian[k] + a->gradient[i] * b->gradient[j] +
+                           a->gradient[j] * b->gradient[i];
     return c;
 }
 

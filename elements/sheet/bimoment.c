@@ -27,7 +27,8 @@ void bimoment_functions(double lambda, double x, bimoment_values *out)
     out->dc1 = lambda * sinh_ratio(lambda, x);
     out->dc2 = -lambda * sinh_ratio(lambda, 1 - x);
     /* sinh(a - 2 a x)/cosh(a), a = lambda/2 */
-    const double a = lambda / 2, y = 1 - 2 * x, edge = exp(-a * (1 - fabs(y))), far = exp(-a * (1 + fabs(y))), both = 1 + exp(-2 * a);
+    const double a = lambda / 2, y = 1 - 2 * x, edge = exp(-a * (1 - fabs(y))), far = exp(-a * (1 + fabs(y))),
+                 both = 1 + exp(-2 * a);
     const double sine = lambda < 1 ? sinh(a * y) / cosh(a) : (y < 0 ? -1 : 1) * (edge - far) / both;
     out->torque = sine / lambda;
     out->dtorque = lambda < 1 ? -cosh(a * y) / cosh(a) : -(edge + far) / both;
@@ -67,7 +68,8 @@ void bimoment_moment(double lambda, const bimoment_load *load, double x, double 
         return;
     }
     bimoment_values v;
-    const double l2 = lambda * lambda, C2 = (load->f1 / l2 + load->m0) / lambda, C1 = (-load->m1 - (2 * load->f2 + load->f1) / l2) / lambda;
+    const double l2 = lambda * lambda, C2 = (load->f1 / l2 + load->m0) / lambda,
+                 C1 = (-load->m1 - (2 * load->f2 + load->f1) / l2) / lambda;
     bimoment_functions(lambda, x, &v);
     *b = (load->f2 * x * x + load->f1 * x + load->f0 + 2 * load->f2 / l2) / l2 + C1 * v.c1 + C2 * v.c2;
     *db = (2 * load->f2 * x + load->f1) / l2 + C1 * v.dc1 + C2 * v.dc2;

@@ -60,12 +60,13 @@ static void angles(const double d_value[3], const double R[9], jet out[6])
     out[LOCAL_YP] = jet_atan2(&d[2], &rho);
     const jet azimuth = jet_atan2(&d[1], &d[0]);
     out[LOCAL_ZP] = jet_add(&azimuth, -1, &azimuth, 0);
-    const jet bZ = product_sum(&d[0], &Z[1], -1, &d[1], &Z[0]), bY = product_sum(&d[0], &Y[1], -1, &d[1], &Y[0]), bX = product_sum(&d[0], &X[1], -1, &d[1], &X[0]);
+    const jet bZ = product_sum(&d[0], &Z[1], -1, &d[1], &Z[0]), bY = product_sum(&d[0], &Y[1], -1, &d[1], &Y[0]),
+              bX = product_sum(&d[0], &X[1], -1, &d[1], &X[0]);
     const jet minus_bZ = jet_add(&bZ, -1, &bZ, 0);
     out[LOCAL_PX] = jet_atan2(&minus_bZ, &bY);
     /* along = rho (dx Xx + dy Xy)/rho^2 ...: components of Xq in the frame pu times rho and l. */
     const jet flat = product_sum(&d[0], &X[0], 1, &d[1], &X[1]);
-    const jet n = product_sum(&rho2, &X[2], -1, &d[2], &flat);    /* c . Xq = l rho (B_z . Xq) */
+    const jet n = product_sum(&rho2, &X[2], -1, &d[2], &flat);              /* c . Xq = l rho (B_z . Xq) */
     const jet dX = product_sum(&d[2], &X[2], 1, &flat, &(jet){.value = 1}); /* d . Xq = l (B_x . Xq) */
     const jet along = jet_mul(&rho, &dX), minus_n = jet_add(&n, -1, &n, 0);
     out[LOCAL_YQ] = jet_atan2(&minus_n, &along);

@@ -8,11 +8,11 @@
 enum { LOCAL_U, LOCAL_PX, LOCAL_YP, LOCAL_YQ, LOCAL_ZP, LOCAL_ZQ, LOCAL_WP, LOCAL_WQ, LOCALS };
 
 typedef struct local_frame {
-    double value[LOCALS];                 /* [m], [rad] x 5, [rad/m] x 2 */
-    double gradient[LOCALS][14];          /* with respect to the element's coordinates */
+    double value[LOCALS];        /* [m], [rad] x 5, [rad/m] x 2 */
+    double gradient[LOCALS][14]; /* with respect to the element's coordinates */
     /* What the Hessian needs: first and second derivatives in (d, eta), the position and rotation of q seen from p. */
     double inner_gradient[6][6], inner_hessian[6][21];
-    double Rp[9], d[3];                   /* triad of p, Rp^T (rq - rp) */
+    double Rp[9], d[3]; /* triad of p, Rp^T (rq - rp) */
 } local_frame;
 
 /* derivatives: 0 value, 1 and the gradient, 2 and what local_hessian needs. */

@@ -16,10 +16,10 @@ const int potential_local[AFFINE] = {-1, LOCAL_PX, LOCAL_ZP, LOCAL_ZQ, LOCAL_WP,
 
 /* Unit-stress fields at one point, affine in (1, px, zp, zq, Wp, Wq). */
 typedef struct unit_fields {
-    double T[STRESSES][AFFINE];              /* Mx + B' */
+    double T[STRESSES][AFFINE]; /* Mx + B' */
     double B[STRESSES][AFFINE];
     double My[STRESSES], Mz[STRESSES][AFFINE];
-    double B0[AFFINE], B01[AFFINE];          /* part of B due to Wp, Wq, and its derivative */
+    double B0[AFFINE], B01[AFFINE]; /* part of B due to Wp, Wq, and its derivative */
 } unit_fields;
 
 typedef struct stiffnesses {
@@ -72,7 +72,8 @@ static void unit_fields_at(const stiffnesses *k, double x, double f[FIELD_COUNT]
 }
 
 /* target[local a][local b] += w * p_a q_b, symmetrised as second derivatives; p affine in y, q linear in x. */
-static void add_product(double target[LOCALS][LOCALS], double linear[LOCALS], double w, const double p[AFFINE], const double q[LOCALS])
+static void add_product(double target[LOCALS][LOCALS], double linear[LOCALS], double w, const double p[AFFINE],
+                        const double q[LOCALS])
 {
     for (int b = 0; b < LOCALS; b++) {
         if (linear != NULL)
@@ -123,8 +124,8 @@ static void add_work(const stiffnesses *k, const unit_fields *u, double f[FIELD_
         for (int b = 0; b < LOCALS; b++) {
             out->b[0][a][b] += w * f[FIELD_UY1][a] * f[FIELD_UY1][b];
             if (k->warps)
-                out->P0[a][b] += w * (B01[a] * f[FIELD_PX1][b] + f[FIELD_PX1][a] * B01[b] + B0[a] * f[FIELD_PX2][b] + f[FIELD_PX2][a] * B0[b] -
-                                      B01[a] * B01[b] / k->GJ - B0[a] * B0[b] / k->EIw);
+                out->P0[a][b] += w * (B01[a] * f[FIELD_PX1][b] + f[FIELD_PX1][a] * B01[b] + B0[a] * f[FIELD_PX2][b] +
+                                      f[FIELD_PX2][a] * B0[b] - B01[a] * B01[b] / k->GJ - B0[a] * B0[b] / k->EIw);
         }
 }
 
@@ -147,8 +148,14 @@ status potential_prepare(const element_request *request, int printed, potential 
     const section *c = request->section;
     double x[QUADRATURE_MAX_GRADED], w[QUADRATURE_MAX_GRADED];
     int n = 0;
-    stiffnesses k = {.L = request->length, .GJ = c->shear_modulus * c->It, .EIw = c->young * c->Iw, .EIy = c->young * c->Iy, .EIz = c->young * c->Iz,
-                     .EA = c->young * c->A, .fz = request->features & FEATURE_SHEAR ? c->F[4] / c->shear_modulus : 0, .printed = printed};
+    stiffnesses k = {.L = request->length,
+                     .GJ = c->shear_modulus * c->It,
+                     .EIw = c->young * c->Iw,
+                     .EIy = c->young * c->Iy,
+                     .EIz = c->young * c->Iz,
+                     .EA = c->young * c->A,
+                     .fz = request->features & FEATURE_SHEAR ? c->F[4] / c->shear_modulus : 0,
+                     .printed = printed};
     memset(out, 0, sizeof *out);
     k.warps = (request->features & FEATURE_WARPING) != 0 && k.EIw > 0;
     k.lambda = k.warps ? k.L * sqrt(k.GJ / k.EIw) : 1;
@@ -192,7 +199,8 @@ static void evaluate_compliance(const potential *p, const double y[AFFINE], doub
 }
 
 /* As[a][i] = sum_j dA_ij/dy_a s_j;  sAs[a][b] = s^T d2A/dy_a dy_b s. */
-static void compliance_derivatives(const potential *p, const double y[AFFINE], const double s[STRESSES], double As[AFFINE][STRESSES], double sAs[AFFINE][AFFINE])
+static void compliance_derivatives(const potential *p, const double y[AFFINE], const double s[STRESSES],
+                                   double As[AFFINE][STRESSES], double sAs[AFFINE][AFFINE])
 {
     memset(As, 0, AFFINE * sizeof As[0]);
     memset(sAs, 0, AFFINE * sizeof sAs[0]);
@@ -230,7 +238,8 @@ static void add_wagner_terms(const potential *p, const double x[LOCALS], double 
  * P,kl = P0,kl + s.b,kl - s^T A,kl s/2 + (b,k - A,k s)^T A^-1 (b,l - A,l s). */
 status potential_evaluate(const potential *p, const double x[LOCALS], double *P, double g[LOCALS], double h[LOCALS * LOCALS])
 {
-    double y[AFFINE] = {1}, A[STRESSES * STRESSES], b1[STRESSES][LOCALS], s[STRESSES], b[STRESSES], As[AFFINE][STRESSES], sAs[AFFINE][AFFINE];
+    double y[AFFINE] = {1}, A[STRESSES * STRESSES], b1[STRESSES][LOCALS], s[STRESSES], b[STRESSES], As[AFFINE][STRESSES],
+           sAs[AFFINE][AFFINE];
     for (int a = 1; a < AFFINE; a++)
         y[a] = x[potential_local[a]];
     evaluate_compliance(p, y, A);

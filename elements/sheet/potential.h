@@ -11,8 +11,8 @@ typedef struct potential {
     double A[STRESSES][STRESSES][AFFINE][AFFINE]; /* A_ij = sum y_a y_b A[i][j][a][b], symmetric in both pairs */
     double b[STRESSES][LOCALS][LOCALS];           /* quadratic part: x^T b_i x/2 */
     double b_linear[STRESSES][LOCALS];
-    double P0[LOCALS][LOCALS];                    /* x^T P0 x/2 */
-    double wagner[5][3];                          /* weight c L and phi_x' (px, Wp, Wq) at five points: sum w (phi_x')^4 */
+    double P0[LOCALS][LOCALS]; /* x^T P0 x/2 */
+    double wagner[5][3];       /* weight c L and phi_x' (px, Wp, Wq) at five points: sum w (phi_x')^4 */
     double wagner_weight[5];
 } potential;
 
@@ -22,6 +22,7 @@ extern const int potential_local[AFFINE];
 status potential_prepare(const element_request *request, int printed, potential *out, fault *f);
 
 /* P(x) after eliminating the stress variables, its gradient [8] and Hessian [8 x 8]. SINGULAR when A is not positive definite. */
-status potential_evaluate(const potential *p, const double x[LOCALS], double *P, double gradient[LOCALS], double hessian[LOCALS * LOCALS]);
+status potential_evaluate(const potential *p, const double x[LOCALS], double *P, double gradient[LOCALS],
+                          double hessian[LOCALS * LOCALS]);
 
 #endif

@@ -63,10 +63,10 @@ static void add_point(relations *r, double Phi_y, double Phi_z, double trapeze, 
         const double gz = k == LOCAL_YP || k == LOCAL_YQ ? Phi_z / (2 + 2 * Phi_z) : 0;
         phi_z[k] = f[FIELD_UY1][k] - gy;
         phi_y[k] = -f[FIELD_UZ1][k] + gz;
-        tilt_y[k] = phi_y[k] / 2 + f[FIELD_UZ1][k];  /* of g_x = u_x' - phi_y (phi_y/2 + u_z') - phi_z (phi_z/2 - u_y') */
+        tilt_y[k] = phi_y[k] / 2 + f[FIELD_UZ1][k]; /* of g_x = u_x' - phi_y (phi_y/2 + u_z') - phi_z (phi_z/2 - u_y') */
         tilt_z[k] = phi_z[k] / 2 - f[FIELD_UY1][k];
-        gap_y[k] = phi_y[k] + f[FIELD_UZ1][k];       /* g_y = g_y0 + phi_x (phi_y + u_z') */
-        gap_z[k] = phi_z[k] - f[FIELD_UY1][k];       /* g_z = g_z0 + phi_x (phi_z - u_y') */
+        gap_y[k] = phi_y[k] + f[FIELD_UZ1][k]; /* g_y = g_y0 + phi_x (phi_y + u_z') */
+        gap_z[k] = phi_z[k] - f[FIELD_UY1][k]; /* g_z = g_z0 + phi_x (phi_z - u_y') */
     }
     double phi_y1[LOCALS], phi_z1[LOCALS];
     for (int k = 0; k < LOCALS; k++) {
@@ -77,12 +77,12 @@ static void add_point(relations *r, double Phi_y, double Phi_z, double trapeze, 
     add(r->Q[0], -ds, phi_y, tilt_y);
     add(r->Q[0], -ds, phi_z, tilt_z);
     add(r->Q[0], trapeze * ds / 2, px1, px1);
-    add(r->Q[1], L * ds, phi_y1, phi_z);             /* kappa_x = phi_x' + phi_y' phi_z */
+    add(r->Q[1], L * ds, phi_y1, phi_z); /* kappa_x = phi_x' + phi_y' phi_z */
     add(r->Q[6], L * ds, phi_y1, phi_z);
     add(r->Q[7], L * ds, phi_y1, phi_z);
-    add(r->Q[2], (L - s) * ds, phi_z1, px);          /* kappa_y = phi_y' + phi_z' phi_x */
+    add(r->Q[2], (L - s) * ds, phi_z1, px); /* kappa_y = phi_y' + phi_z' phi_x */
     add(r->Q[3], s * ds, phi_z1, px);
-    add(r->Q[4], -(L - s) * ds, phi_y1, px);         /* kappa_z = phi_z' - phi_y' phi_x */
+    add(r->Q[4], -(L - s) * ds, phi_y1, px); /* kappa_z = phi_z' - phi_y' phi_x */
     add(r->Q[5], -s * ds, phi_y1, px);
     add(r->Q[2], -ds, px, gap_z);
     add(r->Q[3], ds, px, gap_z);
@@ -104,7 +104,8 @@ status relations_prepare(const element_request *request, double Phi_y, double Ph
     r->length = L;
     memcpy(r->linear, linear, sizeof linear);
     for (int i = 0; i < POINTS; i++)
-        add_point(r, Phi_y, Phi_z, request->features & FEATURE_TRAPEZE ? c->Ip / c->A : 0, (request->features & FEATURE_WARPING) != 0, x[i], w[i]);
+        add_point(r, Phi_y, Phi_z, request->features & FEATURE_TRAPEZE ? c->Ip / c->A : 0,
+                  (request->features & FEATURE_WARPING) != 0, x[i], w[i]);
     return STATUS_OK;
 }
 

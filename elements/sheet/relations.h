@@ -10,7 +10,7 @@ enum { RELATIONS_STRAINS = 8 };
 
 typedef struct relations {
     double length;
-    double linear[RELATIONS_STRAINS];                  /* e_k = linear_k x_k + x^T Q_k x/2, locals in the order of the strains */
+    double linear[RELATIONS_STRAINS]; /* e_k = linear_k x_k + x^T Q_k x/2, locals in the order of the strains */
     double Q[RELATIONS_STRAINS][LOCALS * LOCALS];
 } relations;
 

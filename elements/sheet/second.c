@@ -30,7 +30,8 @@ status second_prepare(const element_request *request, int consistent, element_da
     memset(out, 0, sizeof *out);
     out->linear.l0 = request->length;
     relations_shear(request, &Phi_y, &Phi_z);
-    stiffness_of(request->section, request->length, request->features & FEATURE_SHEAR ? STIFFNESS_DIAGONAL : STIFFNESS_RIGID, &fields, out->linear.S);
+    stiffness_of(request->section, request->length, request->features & FEATURE_SHEAR ? STIFFNESS_DIAGONAL : STIFFNESS_RIGID,
+                 &fields, out->linear.S);
     if (request->features & FEATURE_MASS)
         inertia_prepare(request->section, request->features, INERTIA_LUMPED, &fields, &out->linear);
     if (!(request->features & FEATURE_WARPING))

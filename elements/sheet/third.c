@@ -10,7 +10,7 @@ typedef struct third_data {
     element_data linear; /* inertia only; S is not used */
     relations relations;
     potential potential;
-    double scale[RELATIONS_STRAINS];                       /* x_a = scale_a e_a + e^T X_a e/2: N Eqs. 58-65 */
+    double scale[RELATIONS_STRAINS]; /* x_a = scale_a e_a + e^T X_a e/2: N Eqs. 58-65 */
     double X[RELATIONS_STRAINS][RELATIONS_STRAINS * RELATIONS_STRAINS];
     int warps;
 } third_data;

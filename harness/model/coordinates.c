@@ -35,6 +35,17 @@ static int motion_of(const model *m, int vertex, int component)
     return absent ? SCENE_HELD : motion;
 }
 
+/* The unknown driver whose value is found from the condition that known driver `known` puts on a component, or NONE. */
+static int conditioned_by(const model *m, int vertex, int component, int known)
+{
+    for (int d = 0; d < m->scene->drivers; d++) {
+        const scene_driver *u = &m->scene->driver[d];
+        if (u->value == NULL && u->condition_driver == known && u->condition_node == vertex && u->condition_component == component)
+            return d;
+    }
+    return NONE;
+}
+
 /* A vertex that nothing is connected to must not become a row of zeros. */
 static void mark_used(const model *m, char *used)
 {
@@ -49,22 +60,19 @@ static void number_vertex(model *m, int index, int pass, int used, int *held, in
     for (int c = 0; c < VERTEX_COORDINATES; c++) {
         const int motion = v->body == index ? motion_of(m, index, c) : SCENE_HELD;
         const int vector = c >= SCENE_RX && v->vector_driver[0] != NONE;
-        const int known_driver = motion >= 0 && !vector && m->scene->driver[motion].value != NULL;
-        const int unknown_driver = motion >= 0 && !vector && !known_driver;
+        const int driver = motion >= 0 && !vector;
+        const int condition = driver ? conditioned_by(m, index, c, motion) : NONE;
         const int kept = m->keep_all && v->body == index && motion == SCENE_HELD && !(v->angles > 0 && c - SCENE_RX >= v->angles);
-        const int is_free = motion == SCENE_FREE && used;
+        const int is_free = used && (motion == SCENE_FREE || condition != NONE);
         if (pass == 0) {
             v->coordinate[c] = NONE;
             *held += v->body == index && motion == SCENE_HELD && used && !kept;
             *unused += motion == SCENE_FREE && !used && c == 0;
             if (is_free)
                 v->coordinate[c] = m->free++;
-            else if (unknown_driver) {
-                if (m->driver_coordinate[motion] == NONE)
-                    m->driver_coordinate[motion] = m->free++;
-                v->coordinate[c] = m->driver_coordinate[motion];
-            }
-        } else if (known_driver) {
+            if (condition != NONE)
+                m->driver_coordinate[motion] = v->coordinate[c];
+        } else if (driver && condition == NONE) {
             if (m->driver_coordinate[motion] == NONE)
                 m->driver_coordinate[motion] = m->free + m->driven++;
             v->coordinate[c] = m->driver_coordinate[motion];

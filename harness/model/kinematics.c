@@ -201,11 +201,6 @@ int model_coordinate(const model *m, int node, int component)
     return m->vertex[node].body == node ? m->vertex[node].coordinate[component] : NONE;
 }
 
-int model_driver_coordinate(const model *m, int driver)
-{
-    return m->driver_coordinate[driver];
-}
-
 int model_node_jacobian(const model *m, const model_state *s, int node, int size, int index[], double T[])
 {
     const model_state *state = s != NULL ? s : m->rest;

@@ -116,13 +116,25 @@ static void add_driven(const model *m, const mesh_element *el, const double driv
     }
 }
 
+/* Columns of the unknowns of conditions. */
+static void add_columns(const model *m, const mesh_element *el, const double K[], model_linearisation *lin)
+{
+    for (int c = 0; c < lin->conditions; c++)
+        for (int j = 0; j < m->coordinates; j++)
+            for (int i = 0; i < m->coordinates && el->index[j] == lin->condition[c].unknown; i++)
+                if (el->index[i] != NONE)
+                    lin->column[c * (m->free + m->driven) + el->index[i]] += K[i * m->coordinates + j];
+}
+
 status model_linearise(model *m, const model_state *s, model_linearisation *lin, fault *f)
 {
     double force[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
-    const int tangent = lin->K != NULL || lin->drive != NULL;
+    const int tangent = lin->K != NULL || lin->drive != NULL || lin->conditions > 0;
     const mesh_pattern *p = lin->K == NULL ? NULL : &m->pattern[lin->K->row == m->pattern[1].matrix.row];
     memset(lin->residual, 0, (size_t)(m->free + m->driven) * sizeof *lin->residual);
     lin->incompatibility = 0;
+    if (lin->conditions > 0)
+        memset(lin->column, 0, (size_t)(lin->conditions * (m->free + m->driven)) * sizeof *lin->column);
     if (lin->K != NULL)
         sparse_zero(lin->K);
     for (int i = 0; i < m->elements; i++) {
@@ -133,6 +145,7 @@ status model_linearise(model *m, const model_state *s, model_linearisation *lin,
                              m->type->name);
         if (lin->drive != NULL)
             add_driven(m, &m->element[i], lin->drive, K, force);
+        add_columns(m, &m->element[i], K, lin);
         for (int k = 0; k < m->coordinates; k++)
             force[k] = -force[k];
         assemble_vector(&m->element[i], m->coordinates, force, lin->residual);

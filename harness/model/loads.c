@@ -155,7 +155,7 @@ void model_node_load(const model *m, const model_state *s, int node, double F[6]
 void model_drive(const model *m, const model_state *s, double path, double dx[])
 {
     for (int d = 0; d < m->scene->drivers; d++)
-        if (m->scene->driver[d].value != NULL && m->driver_coordinate[d] != NONE)
+        if (m->scene->driver[d].value != NULL && m->driver_coordinate[d] >= m->free)
             dx[m->driver_coordinate[d]] = driver_value_at(&m->scene->driver[d], path) - s->driver[d];
     for (int i = 0; i < m->scene->nodes; i++) {
         const mesh_vertex *v = &m->vertex[i];
@@ -169,6 +169,20 @@ void model_drive(const model *m, const model_state *s, double path, double dx[])
         for (int k = 0; k < 3; k++)
             dx[v->coordinate[3 + k]] = turn[k];
     }
+}
+
+int model_conditions(const model *m, const model_state *s, double path, model_condition out[MODEL_MAX_CONDITIONS])
+{
+    int count = 0;
+    for (int d = 0; d < m->scene->drivers && count < MODEL_MAX_CONDITIONS; d++) {
+        const scene_driver *u = &m->scene->driver[d];
+        if (u->value != NULL || m->driver_coordinate[d] == NONE)
+            continue;
+        out[count].unknown = m->driver_coordinate[d];
+        out[count].coordinate = m->driver_coordinate[u->condition_driver];
+        out[count++].increment = driver_value_at(&m->scene->driver[u->condition_driver], path) - s->driver[u->condition_driver];
+    }
+    return count;
 }
 
 status model_reference_load(model *m, double f[], fault *fl)

@@ -107,7 +107,8 @@ static status kind_of(model *m, int profile, double length, const double curvatu
 {
     for (int i = 0; i < m->kinds; i++)
         if (m->kind[i].section == profile && fabs(m->kind[i].length - length) <= 1e-12 * length &&
-            m->kind[i].curvature[0] == curvature[0] && m->kind[i].curvature[1] == curvature[1] && m->kind[i].curvature[2] == curvature[2]) {
+            m->kind[i].curvature[0] == curvature[0] && m->kind[i].curvature[1] == curvature[1] &&
+            m->kind[i].curvature[2] == curvature[2]) {
             *out = i;
             return STATUS_OK;
         }

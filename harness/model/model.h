@@ -7,7 +7,7 @@
  *   [free, free + driven)              prescribed along the path by drivers
  * What is held or depends on other coordinates (rigid offsets, rotation
  * sequences, shared angles) has no coordinate: it was left out.  An unknown
- * driver is one free coordinate; the coordinate its condition names is driven.
+ * driver is a driven coordinate whose increment is found with the free ones; the coordinate its condition names is free.
  *
  * Increments of coordinates are additive for translations, warping and angles,
  * and spatial rotation increments (exponential chart) for free rotations.
@@ -73,8 +73,6 @@ double model_driver_value(const model *, const model_state *, int driver);
 
 /* Coordinate index of a component of a node, or -1 where it is held, or dependent. */
 int model_coordinate(const model *, int node, int component);
-/* Coordinate that a driver moves, or -1. */
-int model_driver_coordinate(const model *, int driver);
 /* Jacobian of the node's six spatial increments with respect to the coordinates it depends on:
  * returns the count m <= size, fills index[m] and T[6 x m] (row-major, leading dimension m). */
 int model_node_jacobian(const model *, const model_state *, int node, int size, int index[], double T[]);
@@ -86,14 +84,26 @@ status model_pattern(model *, int with_driven, const sparse **out, fault *f);
 /* Increments of the driven coordinates (dx[free .. free+driven)) that take the state to `path`; the rest of dx untouched. */
 void model_drive(const model *, const model_state *, double path, double dx[]);
 
+/* An unknown driver: the driven coordinate `unknown` moves by what makes the free one `coordinate` move by `increment`. The force
+ * on that coordinate stays free of reactions, the one on the driver is whatever it takes. */
+enum { MODEL_MAX_CONDITIONS = 4 };
+typedef struct model_condition {
+    int unknown, coordinate;
+    double increment;
+} model_condition;
+int model_conditions(const model *, const model_state *, double path, model_condition out[MODEL_MAX_CONDITIONS]);
+
 /* Internal less external force of every coordinate is what equilibrium makes zero on the free ones.
  * Mixed linearisation (simultaneous in coordinates, strains and stresses; N section 4), condensed per element:
  *   K dx = f(path) - J^T [P'(e) + P''(e) (D(x) - e)],  K = J^T P'' J + sum sigma_i H_i
  * The driven part of dx is known: its share is taken to the right-hand side here. */
 typedef struct model_linearisation {
     double path;
-    int displacement;       /* 1: displacement-only Newton: e and sigma are taken from D(x) first */
-    const double *drive;    /* [free + driven] increments; only the driven part is read; NULL: none */
+    int displacement;    /* 1: displacement-only Newton: e and sigma are taken from D(x) first */
+    const double *drive; /* [free + driven] increments; only the driven part is read; NULL: none */
+    int conditions;      /* columns of K wanted for the unknowns of conditions ... */
+    const model_condition *condition;
+    double *column;         /* ... [conditions x (free + driven)] */
     sparse *K;              /* on a pattern of model_pattern; NULL: not wanted */
     double *residual;       /* [free + driven] right-hand side; of driven coordinates: less their reaction */
     double incompatibility; /* out: max |D(x) - e|/l over elements */

@@ -11,8 +11,8 @@ enum { COMPONENTS = 6, MAX_BORDER = 12 };
 
 typedef struct border {
     int count;
-    int coordinate[MAX_BORDER]; /* released (>= free) or frozen (< free) */
-    double *U, *V;              /* [count x free]: K_fr or e_c; K_rf or e_c */
+    int coordinate[MAX_BORDER]; /* released: driven coordinates that are free now */
+    double *U, *V;              /* [count x free]: K_fr; K_rf */
     double W[MAX_BORDER * MAX_BORDER];
 } border;
 
@@ -35,17 +35,6 @@ static int is_released(const analysis_context *c, const scene_analysis *a, int c
     return 0;
 }
 
-/* A released coordinate whose driver was the condition of an unknown driver: that one holds its value now. */
-static void add_frozen(const analysis_context *c, const scene_analysis *a, border *b)
-{
-    for (int d = 0; d < c->scene->drivers; d++) {
-        const scene_driver *driver = &c->scene->driver[d];
-        if (driver->value != NULL || driver->condition_node != a->node || !(a->released >> driver->condition_component & 1u))
-            continue;
-        b->coordinate[b->count++] = model_driver_coordinate(c->model, d);
-    }
-}
-
 static status border_alloc(const analysis_context *c, const scene_analysis *a, tangent *t, fault *f)
 {
     border *b = &t->border;
@@ -55,7 +44,6 @@ static status border_alloc(const analysis_context *c, const scene_analysis *a, t
     for (int i = size.free; i < t->all; i++)
         if (is_released(c, a, i))
             b->coordinate[b->count++] = i;
-    add_frozen(c, a, b);
     b->U = calloc((size_t)(b->count * t->free) + 1, sizeof *b->U);
     b->V = calloc((size_t)(b->count * t->free) + 1, sizeof *b->V);
     t->residual = calloc((size_t)t->all + 1, sizeof *t->residual);
@@ -93,9 +81,6 @@ static void fill_border(tangent *t)
             if (t->K.symmetric && row >= 0 && column >= 0)
                 b->W[column * b->count + row] = value;
         }
-    for (int i = 0; i < b->count; i++)
-        if (b->coordinate[i] < t->free)
-            b->U[i * t->free + b->coordinate[i]] = b->V[i * t->free + b->coordinate[i]] = 1;
 }
 
 /* The free block: the first columns of the whole, whose driven rows come last. */
@@ -161,11 +146,10 @@ static status tangent_at(analysis_context *c, const scene_analysis *a, const mod
     return outcome;
 }
 
-/* Coordinates of the node that move: free and not frozen, or released. */
+/* Coordinates of the node that move: free or released. */
 static int moves(const tangent *t, int k)
 {
-    const int in_border = place_in_border(&t->border, t->index[k]);
-    return t->index[k] < t->free ? in_border < 0 : in_border >= 0;
+    return t->index[k] < t->free || place_in_border(&t->border, t->index[k]) >= 0;
 }
 
 static double dot(int n, const double a[], const double b[])
@@ -185,9 +169,9 @@ static void respond(tangent *t, counters *n, int component, const double Z[], co
     memset(x, 0, (size_t)t->free * sizeof *x);
     for (int k = 0; k < t->coordinates; k++) {
         const int place = place_in_border(b, t->index[k]);
-        if (t->index[k] < t->free && place < 0)
+        if (t->index[k] < t->free)
             x[t->index[k]] = t->T[component * t->coordinates + k];
-        else if (t->index[k] >= t->free && place >= 0)
+        else if (place >= 0)
             z[place] = t->T[component * t->coordinates + k];
     }
     factor_solve(t->factor, x);

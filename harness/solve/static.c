@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/dense.h"
 #include "harness/solve/analysis.h"
 
 enum { MAX_ITERATIONS = 30, EASY_ITERATIONS = 6, MAX_HALVINGS = 14 };
@@ -14,6 +15,7 @@ typedef struct newton {
     sparse K;
     factor *factor;
     double *residual, *dx; /* [free + driven] */
+    double *column;        /* [conditions x (free + driven)] */
     double criterion;
     int max_iterations, free, all;
 } newton;
@@ -31,8 +33,10 @@ static status newton_alloc(analysis_context *c, newton *n, fault *f)
     n->max_iterations = c->options->max_iterations > 0 ? c->options->max_iterations : MAX_ITERATIONS;
     n->residual = calloc((size_t)n->all + 1, sizeof *n->residual);
     n->dx = calloc((size_t)n->all + 1, sizeof *n->dx);
-    status outcome =
-        n->residual == NULL || n->dx == NULL ? fault_set(f, STATUS_FAULT, "out of memory for a static solution") : STATUS_OK;
+    n->column = calloc((size_t)(MODEL_MAX_CONDITIONS * n->all) + 1, sizeof *n->column);
+    status outcome = n->residual == NULL || n->dx == NULL || n->column == NULL
+                         ? fault_set(f, STATUS_FAULT, "out of memory for a static solution")
+                         : STATUS_OK;
     if (outcome == STATUS_OK)
         outcome = model_pattern(c->model, 0, &pattern, f);
     if (outcome == STATUS_OK)
@@ -51,10 +55,35 @@ static void newton_free(newton *n)
 {
     free(n->residual);
     free(n->dx);
+    free(n->column);
     sparse_free_values(&n->K);
     factor_free(n->factor);
     model_state_free(n->state);
     model_state_free(n->backup);
+}
+
+/* Unknown drivers: their increments make the conditions hold; dx of the free coordinates follows. */
+static status meet_conditions(newton *n, int count, const model_condition condition[], fault *f)
+{
+    double A[MODEL_MAX_CONDITIONS * MODEL_MAX_CONDITIONS], b[MODEL_MAX_CONDITIONS];
+    int pivot[MODEL_MAX_CONDITIONS];
+    for (int c = 0; c < count; c++)
+        factor_solve(n->factor, n->column + c * n->all);
+    for (int r = 0; r < count; r++) {
+        b[r] = n->dx[condition[r].coordinate] - condition[r].increment;
+        for (int c = 0; c < count; c++)
+            A[r * count + c] = n->column[c * n->all + condition[r].coordinate];
+    }
+    if (count > 0 && dense_lu(count, A, pivot) != 0)
+        return fault_set(f, STATUS_SINGULAR, "an unknown driver does not move the coordinate of its condition");
+    dense_lu_solve(count, 1, A, pivot, b);
+    for (int c = 0; c < count; c++) {
+        for (int k = 0; k < n->free; k++)
+            n->dx[k] -= n->column[c * n->all + k] * b[c];
+        n->dx[condition[c].unknown] = b[c];
+    }
+    model_counters(n->c->model)->solutions += count;
+    return STATUS_OK;
 }
 
 /* One iteration towards `path`; *correction: dimensionless size of what changed. */
@@ -69,7 +98,15 @@ static status iterate(newton *n, double path, double *correction, step_record *r
         if (compatible != STATUS_OK)
             return compatible;
     }
-    model_linearisation lin = {.path = path, .drive = n->dx, .K = &n->K, .residual = n->residual};
+    model_condition condition[MODEL_MAX_CONDITIONS];
+    const int conditions = model_conditions(m, n->state, path, condition);
+    model_linearisation lin = {.path = path,
+                               .drive = n->dx,
+                               .K = &n->K,
+                               .residual = n->residual,
+                               .conditions = conditions,
+                               .condition = condition,
+                               .column = n->column};
     status outcome = model_linearise(m, n->state, &lin, f);
     if (outcome == STATUS_OK)
         outcome = factor_numeric(n->factor, &n->K, f);
@@ -78,6 +115,9 @@ static status iterate(newton *n, double path, double *correction, step_record *r
     const factor_counts counts = factor_count(n->factor);
     memcpy(n->dx, n->residual, (size_t)n->free * sizeof *n->dx);
     factor_solve(n->factor, n->dx);
+    const status met = meet_conditions(n, conditions, condition, f);
+    if (met != STATUS_OK)
+        return met;
     *correction = model_advance(m, n->state, n->dx, path);
     count->iterations++;
     count->factorisations++;
