@@ -14,7 +14,7 @@ COLUMNS = "case,parameters,formulation,elements,quantity,value,unit,uncertainty,
 FINDING_COLUMNS = "case,parameters,formulation,quantity,verdict,limit,uncertainty,proof".split(",")
 KINDS = ("exact", "independent", "consensus", "published", "reconstructed", "experiment")
 MODELS = ("same", "other")
-VERDICTS = ("pass", "wrong limit", "low order", "not asymptotic", "diverged", "refused", "no truth")
+VERDICTS = ("pass", "wrong limit", "low order", "not asymptotic", "diverged", "refused", "skip", "no truth")
 
 
 class Refused(Exception):
@@ -42,13 +42,12 @@ def read_csv(path, columns):
 def read_defaults(path):
     """{case: [(parameter, default, choices)]} in table order."""
     cases = {}
-    for _, row in read_csv(path, ["case", "parameter", "value", "choices"]):
-        cases.setdefault(row["case"], []).append((row["parameter"], float(row["value"]), row["choices"].split("|") if row["choices"] else []))
+    for number, row in read_csv(path, ["case", "parameter", "value", "choices"]):
+        table = cases.setdefault(row["case"], [])
+        if row["parameter"] in [name for name, _, _ in table]:
+            raise Refused(f"{path.name}:{number}: parameter '{row['parameter']}' is given twice")
+        table.append((row["parameter"], finite(row["value"], f"{path.name}:{number}: value"), row["choices"].split("|") if row["choices"] else []))
     return cases
-
-
-def printf_g17(value):
-    return "%.17g" % value
 
 
 def parameter_hash(table, parameters, where):
@@ -74,7 +73,7 @@ def parameter_hash(table, parameters, where):
             number = choices.index(value)
         else:
             number = finite(value, f"{where}: {name}")
-        text += f"{name}={printf_g17(number)};"
+        text += f"{name}={number:.17g};"
     if given:
         raise Refused(f"{where}: unknown parameter '{next(iter(given))}'")
     return fnv1a(text)
@@ -90,6 +89,12 @@ def finite(text, where):
     return value
 
 
+def count(text, where):
+    if text and (not text.isdecimal() or int(text) == 0):
+        raise Refused(f"{where}: elements '{text}' is not a number above zero; leave it empty for the continuum")
+    return int(text or 0)
+
+
 def check_truth(row, where, defaults):
     if row["case"] not in defaults:
         raise Refused(f"{where}: unknown case '{row['case']}'")
@@ -101,28 +106,32 @@ def check_truth(row, where, defaults):
     row["uncertainty"] = finite(row["uncertainty"], f"{where}: uncertainty")
     if row["uncertainty"] < 0:
         raise Refused(f"{where}: negative uncertainty")
-    row["elements"] = int(row["elements"] or 0)
+    row["elements"] = count(row["elements"], where)
     if bool(row["formulation"]) != (row["elements"] > 0):
         raise Refused(f"{where}: a discrete value needs formulation and elements, a value of the continuum neither")
     row["hash"] = parameter_hash(defaults[row["case"]], row["parameters"], where)
 
 
 def read_truths(folder, defaults):
-    cases, seen = {}, {}
+    cases, seen, units = {}, {}, {}
     for path in sorted(folder.glob("*.csv")):
         for number, row in read_csv(path, COLUMNS):
             where = f"{path.name}:{number}"
             check_truth(row, where, defaults)
-            key = (row["case"], row["hash"], row["formulation"], row["elements"], row["quantity"], row["kind"], row["model"], row["convention"], row["source"])
+            key = (row["case"], row["hash"], row["formulation"], row["elements"], row["quantity"], row["kind"], row["model"], row["convention"],
+                   "" if row["kind"] == "exact" else row["source"])
             if key in seen:
                 raise Refused(f"{where}: the same row as {seen[key]}")
             seen[key] = where
+            unit, first = units.setdefault((row["case"], row["quantity"]), (row["unit"], where))
+            if unit != row["unit"]:
+                raise Refused(f"{where}: {row['quantity']} in {row['unit']}, but in {unit} at {first}")
             cases.setdefault(row["case"], []).append(row)
     return cases
 
 
 def read_findings(path, defaults):
-    rows = []
+    rows, seen = [], {}
     for number, row in read_csv(path, FINDING_COLUMNS):
         where = f"{path.name}:{number}"
         if row["case"] not in defaults:
@@ -131,9 +140,14 @@ def read_findings(path, defaults):
             raise Refused(f"{where}: unknown verdict '{row['verdict']}'")
         if not row["proof"]:
             raise Refused(f"{where}: a finding needs its proof")
-        parameter_hash(defaults[row["case"]], row["parameters"], where)
+        key = (row["case"], parameter_hash(defaults[row["case"]], row["parameters"], where), row["formulation"], row["quantity"])
+        if key in seen:
+            raise Refused(f"{where}: the same finding as {seen[key]}")
+        seen[key] = where
         for name in ("limit", "uncertainty"):
             row[name] = finite(row[name], f"{where}: {name}") if row[name] else math.nan
+        if bool(row["limit"] == row["limit"]) != bool(row["uncertainty"] >= 0):
+            raise Refused(f"{where}: a limit and its uncertainty are given together or not at all")
         rows.append(row)
     return rows
 
@@ -179,7 +193,7 @@ def main(arguments):
     given = parser.parse_args(arguments)
     try:
         truths, findings = pack(given.folder, given.out)
-    except (Refused, OSError) as why:
+    except (Refused, OSError, UnicodeDecodeError, csv.Error) as why:
         print(f"pack.py: {why}", file=sys.stderr)
         return 1
     print(f"  packed {truths} truths and {findings} findings")

@@ -58,21 +58,54 @@ class Pack(unittest.TestCase):
             self.assertEqual(int(file["truths/beam/hash"][0]), pack.fnv1a("length=3;ends=0;"))
 
     def test_hash_of_known_text(self):
+        self.assertEqual(pack.fnv1a(""), 0xCBF29CE484222325)
         self.assertEqual(pack.fnv1a("a"), 0xAF63DC4C8601EC8C)
+        self.assertEqual(pack.fnv1a("foobar"), 0x85944171F73967E8)
 
     def test_any_value(self):
         self.assertEqual(pack.parameter_hash([("x", 1.0, [])], "x=*", "here"), pack.fnv1a("x=*;"))
 
-    def test_refusals(self):
-        self.refused("unknown case", self.changed(case="bean"))
-        self.refused("unknown parameter", self.changed(parameters="lenght=3"))
-        self.refused("is none of", self.changed(parameters="ends=loose"))
-        self.refused("finite", self.changed(value="nan"))
-        self.refused("negative", self.changed(uncertainty="-1"))
-        self.refused("kind", self.changed(kind="guess"))
-        self.refused("unit", self.changed(unit=""))
-        self.refused("discrete", self.changed(formulation="beamw"))
+    def test_refused_truths(self):
+        for word, fields in (("unknown case", {"case": "bean"}), ("unknown parameter", {"parameters": "lenght=3"}), ("is none of", {"parameters": "ends=loose"}),
+                             ("finite", {"parameters": "length=long"}), ("given twice", {"parameters": "length=3;length=4"}), ("name=value", {"parameters": "length"}),
+                             ("finite", {"value": "nan"}), ("finite", {"value": "inf"}), ("finite", {"value": ""}), ("finite", {"uncertainty": "nan"}),
+                             ("negative", {"uncertainty": "-1"}), ("kind", {"kind": "guess"}), ("model", {"model": "similar"}), ("unit", {"unit": ""}), ("source", {"source": ""}),
+                             ("discrete", {"formulation": "beamw"}), ("discrete", {"elements": "4"}), ("elements", {"formulation": "beamw", "elements": "four"}),
+                             ("elements", {"formulation": "beamw", "elements": "-2"})):
+            with self.subTest(word=word, **fields):
+                self.refused(word, self.changed(**fields))
+
+    def test_refused_pairs(self):
         self.refused("the same row", self.row, self.row)
+        self.refused("the same row", self.row, self.changed(parameters="ends=free;length=3.0", source="another program"))
+        self.refused("but in N", self.row, self.changed(parameters="", unit="kN"))
+
+    def test_refused_findings(self):
+        good = ["beam", "length=*", "beamw", "load", "wrong limit", "11", "0.1", "why"]
+        for word, at, value in (("unknown case", 0, "bean"), ("unknown parameter", 1, "lenght=3"), ("unknown verdict", 4, "bad"), ("finite", 5, "nan"), ("together", 6, ""), ("proof", 7, "")):
+            with self.subTest(word=word):
+                bad = good[:at] + [value] + good[at + 1:]
+                self.write("findings.csv", [",".join(pack.FINDING_COLUMNS), ",".join(bad)])
+                self.refused(word, self.row)
+        self.write("findings.csv", [",".join(pack.FINDING_COLUMNS), ",".join(good), ",".join(good)])
+        self.refused("the same finding", self.row)
+        self.write("findings.csv", [",".join(pack.FINDING_COLUMNS), ",".join(good)])
+        self.assertEqual(self.run_pack(self.row).returncode, 0)
+
+    def test_refused_files(self):
+        self.refused("wrong number of fields", self.row[:-1])
+        (self.folder / "tables" / "beam.csv").unlink()
+        (self.folder / "tables" / "other.csv").write_bytes(b"case,\xff\n")
+        self.refused("decode", self.row)
+        (self.folder / "tables" / "other.csv").unlink()
+        self.write("defaults.csv", ["case,parameter,value,choices", "beam,length,2,", "beam,length,3,"])
+        self.refused("given twice", self.row)
+
+    def test_old_file_survives_a_refusal(self):
+        self.assertEqual(self.run_pack(self.row).returncode, 0)
+        before = (self.folder / "t.h5").read_bytes()
+        self.assertEqual(self.run_pack(self.changed(value="nan")).returncode, 1)
+        self.assertEqual((self.folder / "t.h5").read_bytes(), before)
 
 
 class Tables(unittest.TestCase):
