@@ -19,7 +19,7 @@ find_missing() {
     have_header klu.h || need libsuitesparse-dev
     pkg-config --exists arpack 2>/dev/null || need libarpack2-dev
     pkg-config --exists jansson 2>/dev/null || need libjansson-dev
-    for pair in h5py:python3-h5py matplotlib:python3-matplotlib jinja2:python3-jinja2 mpmath:python3-mpmath scipy:python3-scipy; do
+    for pair in h5py:python3-h5py matplotlib:python3-matplotlib jinja2:python3-jinja2 markdown:python3-markdown mpmath:python3-mpmath scipy:python3-scipy; do
         /usr/bin/python3 -c "import ${pair%%:*}" >/dev/null 2>&1 || need "${pair##*:}"
     done
 }

@@ -1,0 +1,25 @@
+"""python -m reports RESULTS.h5 TRUTHS.h5 -o FOLDER: the report as one self-contained folder of HTML and SVG."""
+import argparse
+import sys
+
+from reports import data
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="reports", description=__doc__)
+    parser.add_argument("results")
+    parser.add_argument("truths")
+    parser.add_argument("-o", dest="folder", required=True)
+    given = parser.parse_args()
+    try:
+        from reports import pages
+        count = pages.build(given.results, given.truths, given.folder)
+    except (data.Unreadable, OSError) as why:
+        print(f"report: {why}", file=sys.stderr)
+        return 4
+    print(f"{count} pages: {given.folder}/index.html")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
