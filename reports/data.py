@@ -79,10 +79,9 @@ def read_mesh(group, units):
     attrs = group.attrs
     mesh = Mesh(int(attrs["elements_per_member"]), text(attrs["status"]), text(attrs["reason"]), float(attrs["seconds_setup"]) + float(attrs["seconds_solve"]),
                 int(attrs["free"]), int(attrs["iterations"]), text(attrs["left_out"]))
-    for name, item in group["quantities"].items():
-        mesh.values[name] = float(item[()])
-        mesh.errors[name] = float(item.attrs["error"])
-        units[name] = text(item.attrs["unit"])
+    for row in group["quantities"][()]:
+        name = text(row["name"])
+        mesh.values[name], mesh.errors[name], units[name] = float(row["value"]), float(row["error"]), text(row["unit"])
     for name, item in group["curves"].items():
         mesh.curves[name] = (item["x"][()], item["value"][()], text(item["x"].attrs["name"]), text(item["x"].attrs["unit"]), text(item["value"].attrs["unit"]))
     mesh.steps = group["steps"][()]

@@ -9,7 +9,7 @@ from reports import data, plots
 from reports.style import Styles
 
 LEVELS = (0.1, 0.01, 0.001, 0.0001)
-MOST_FIGURES = 6
+MOST_FIGURES, MOST_POINTS = 5, 4
 
 
 def number(value, digits=6):
@@ -57,7 +57,7 @@ def figures_of(case, styles, folder):
     """[(point, [(quantity, convergence svg)], [(quantity, curve svg)])]; every quantity of the defaults, the first of other points."""
     out = []
     for i, point in enumerate(case.points):
-        quantities = judged(point)[:MOST_FIGURES if i == 0 else 1]
+        quantities = judged(point)[:MOST_FIGURES if i == 0 else 1 if i < MOST_POINTS else 0]
         drawn = [(q, plots.convergence(point, q, styles, folder, f"{case.name}_{point.name}_{q}")) for q in quantities]
         names = sorted({name for s in point.series for m in s.meshes for name in m.curves}) if i == 0 else []
         curves = [(q, plots.curves(point, q, styles, folder, f"{case.name}_{point.name}_{q}_curve")) for q in names]

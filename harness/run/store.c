@@ -2,6 +2,8 @@
 
 #include <hdf5.h>
 #include <math.h>
+#include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -184,32 +186,72 @@ static void put_steps(store *s, hid_t at, const solve_result *r)
     free(table);
 }
 
+/* One row of a mesh's quantities. */
+typedef struct quantity_row {
+    char name[SCENE_NAME], unit[16], status[16], reason[128];
+    double value, error, x;
+} quantity_row;
+
+static hid_t row_type(void)
+{
+    static const struct {
+        const char *name;
+        size_t offset, length; /* length 0: a double */
+    } field[] = {{"name", offsetof(quantity_row, name), SCENE_NAME},
+                 {"unit", offsetof(quantity_row, unit), 16},
+                 {"status", offsetof(quantity_row, status), 16},
+                 {"reason", offsetof(quantity_row, reason), 128},
+                 {"value", offsetof(quantity_row, value), 0},
+                 {"error", offsetof(quantity_row, error), 0},
+                 {"x", offsetof(quantity_row, x), 0}};
+    const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof(quantity_row));
+    for (size_t i = 0; i < sizeof field / sizeof field[0]; i++) {
+        const hid_t text = field[i].length > 0 ? text_type(field[i].length) : -1;
+        H5Tinsert(type, field[i].name, field[i].offset, text >= 0 ? text : H5T_NATIVE_DOUBLE);
+        if (text >= 0)
+            H5Tclose(text);
+    }
+    return type;
+}
+
+static void put_curve(store *s, hid_t curves, const scene_quantity *q, const curve *c)
+{
+    const hid_t one = group(s, curves, q->name);
+    const hsize_t size = (hsize_t)c->points;
+    const hid_t x = put_doubles(s, one, "x", 1, &size, c->x), y = put_doubles(s, one, "value", 1, &size, c->value);
+    put_text(s, x, "name", q->x_name);
+    put_text(s, x, "unit", q->x_unit);
+    put_text(s, y, "unit", q->unit);
+    H5Dclose(x);
+    H5Dclose(y);
+    H5Gclose(one);
+}
+
 static void put_quantities(store *s, hid_t at, const point *p, const solve_result *r, const truth *const truth_row[])
 {
-    const hid_t values = group(s, at, "quantities"), curves = group(s, at, "curves");
-    for (int i = 0; i < r->quantities; i++) {
+    const hid_t curves = group(s, at, "curves");
+    quantity_row *row = calloc((size_t)r->quantities + 1, sizeof *row);
+    for (int i = 0; i < r->quantities && row != NULL; i++) {
         const scene_quantity *q = &p->scene.quantity[i];
         const quantity_result *v = &r->quantity[i];
-        const hid_t set = put_doubles(s, values, q->name, 0, NULL, &v->value);
-        put_text(s, set, "unit", q->unit);
-        put_text(s, set, "status", status_name(v->status));
-        put_text(s, set, "reason", v->reason);
-        put_double(s, set, "x", v->x);
-        put_double(s, set, "error", truth_row[i] != NULL ? relative_error(q, v->value, truth_row[i]->value) : NAN);
-        H5Dclose(set);
-        if (v->curve.points == 0)
-            continue;
-        const hid_t one = group(s, curves, q->name);
-        const hsize_t size = (hsize_t)v->curve.points;
-        const hid_t x = put_doubles(s, one, "x", 1, &size, v->curve.x), y = put_doubles(s, one, "value", 1, &size, v->curve.value);
-        put_text(s, x, "name", q->x_name);
-        put_text(s, x, "unit", q->x_unit);
-        put_text(s, y, "unit", q->unit);
-        H5Dclose(x);
-        H5Dclose(y);
-        H5Gclose(one);
+        snprintf(row[i].name, sizeof row[i].name, "%s", q->name);
+        snprintf(row[i].unit, sizeof row[i].unit, "%s", q->unit);
+        snprintf(row[i].status, sizeof row[i].status, "%s", status_name(v->status));
+        snprintf(row[i].reason, sizeof row[i].reason, "%.127s", v->reason);
+        row[i].value = v->value;
+        row[i].error = truth_row[i] != NULL ? relative_error(q, v->value, truth_row[i]->value) : NAN;
+        row[i].x = v->x;
+        if (v->curve.points > 0)
+            put_curve(s, curves, q, &v->curve);
     }
-    H5Gclose(values);
+    const hsize_t size = (hsize_t)r->quantities;
+    const hid_t type = row_type(), space = H5Screate_simple(1, &size, NULL),
+                set = H5Dcreate2(at, "quantities", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    check(s, row != NULL && set >= 0 && (size == 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, row) >= 0));
+    H5Dclose(set);
+    H5Sclose(space);
+    H5Tclose(type);
+    free(row);
     H5Gclose(curves);
 }
 
