@@ -71,6 +71,7 @@ static status build(const double value[], scene *s, fault *f)
     add_stiffness(s, "support_stiffness_undeformed", rest, effector, SCENE_LAST);
     scene_quantity *curve = add_stiffness(s, "support_stiffness_curve", tilted, effector, SCENE_CURVE);
     curve->x_factor = 2 * 3.14159265358979323846 / value[STEPS];
+    curve->x_offset = -curve->x_factor; /* station 1 is azimuth 0 */
     snprintf(curve->x_name, sizeof curve->x_name, "azimuth");
     snprintf(curve->x_unit, sizeof curve->x_unit, "rad");
     const int meshes[] = {1, 2, 4, 8};

@@ -3,6 +3,7 @@ import math
 import os
 
 import numpy as np
+from matplotlib.ticker import ScalarFormatter
 
 from reports.style import plt
 
@@ -22,6 +23,8 @@ def log_axes(axes, xlabel, ylabel):
     axes.set_yscale("log")
     axes.set_xlabel(xlabel)
     axes.set_ylabel(ylabel)
+    if "elements" in xlabel:
+        axes.xaxis.set_major_formatter(ScalarFormatter())
 
 
 def finite_errors(series, quantity):
@@ -110,6 +113,6 @@ def column_figure(case, styles, folder):
         axes.annotate(f"{verdict.verdict} ({100 * verdict.error:+.2g} %)" if verdict.verdict == "wrong limit" else verdict.verdict,
                       (pairs[-1][0].n, pairs[-1][1]), textcoords="offset points", xytext=(4, 4), fontsize=8, color=styles.of(key)["color"])
     log_axes(axes, "elements over the column", "relative error of the buckling load")
-    axes.margins(x=0.2)
-    axes.legend()
+    axes.margins(x=0.25)
+    axes.legend(loc="lower left")
     return save(figure, folder, "column")

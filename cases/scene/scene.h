@@ -120,8 +120,8 @@ typedef struct scene_quantity {
     double tolerance;                    /* relative, of the limit against the truth */
     double least_order;                  /* of convergence in the number of elements */
     char x_name[SCENE_NAME], x_unit[16]; /* of a curve */
-    int x_driver;                        /* curve: abscissa is this driver's value; SCENE_NONE: the path parameter times x_factor */
-    double x_factor;
+    int x_driver;                        /* curve: abscissa is this driver's value; SCENE_NONE: the path parameter times x_factor plus x_offset */
+    double x_factor, x_offset;
 } scene_quantity;
 
 typedef struct scene {

@@ -47,7 +47,7 @@ static double abscissa(const analysis_context *c, const scene_quantity *q, const
 {
     if (q->x_driver != SCENE_NONE && o->state != NULL)
         return model_driver_value(c->model, o->state[i], q->x_driver);
-    return o->path[i] * (q->x_factor != 0 ? q->x_factor : 1);
+    return o->path[i] * (q->x_factor != 0 ? q->x_factor : 1) + q->x_offset;
 }
 
 static void take_curve(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)

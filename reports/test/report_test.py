@@ -1,0 +1,71 @@
+"""The report of a small run: every page is there, every link and image resolves, foreign files are refused."""
+import html.parser
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
+TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+class Links(html.parser.HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.found = []
+
+    def handle_starttag(self, tag, attrs):
+        for name, value in attrs:
+            if name in ("href", "src") and not value.startswith(("data:", "http")):
+                self.found.append(value)
+
+
+def report(results, folder):
+    return subprocess.run([sys.executable, "-m", "reports", results, TRUTHS, "-o", folder], capture_output=True, text=True, check=False, cwd=ROOT,
+                          env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+
+
+class Report(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        cls.results = os.path.join(cls.folder, "results.h5")
+        subprocess.run([PROGRAM, "verify", "-k", "warping_torsion or roll_up", "-o", cls.results], capture_output=True, check=False)
+        cls.done = report(cls.results, os.path.join(cls.folder, "site"))
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def test_pages(self):
+        self.assertEqual(self.done.returncode, 0, self.done.stderr)
+        names = os.listdir(os.path.join(self.folder, "site"))
+        for name in ("index.html", "errata.html", "warping_torsion.html", "formulation_beamw.html"):
+            self.assertIn(name, names)
+
+    def test_links_resolve(self):
+        site = pathlib.Path(self.folder) / "site"
+        for page in site.glob("*.html"):
+            links = Links()
+            links.feed(page.read_text(encoding="utf-8"))
+            for link in links.found:
+                self.assertTrue((site / link).is_file(), f"{page.name}: {link}")
+
+    def test_figures_are_drawn(self):
+        figures = list((pathlib.Path(self.folder) / "site").glob("*.svg"))
+        self.assertGreater(len(figures), 3)
+        for figure in figures:
+            self.assertIn("<path", figure.read_text(encoding="utf-8"))
+
+    def test_foreign_file(self):
+        done = report(TRUTHS, os.path.join(self.folder, "none"))
+        self.assertEqual(done.returncode, 4)
+        self.assertEqual(len(done.stderr.strip().splitlines()), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
