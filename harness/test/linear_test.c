@@ -37,7 +37,7 @@ static void fill_random(int n, kind what, unsigned long long *seed, double A[])
 /* Relative to the rounding error that elimination with pivoting makes. */
 static double distance_from_dense(int n, const double A[], const double x[], const double b[])
 {
-    double copy[MOST * MOST], dense[MOST], worst = 0, scale = 0, norm, condition;
+    double copy[MOST * MOST] = {0}, dense[MOST], worst = 0, scale = 0, norm, condition;
     int pivot[MOST];
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
@@ -160,17 +160,7 @@ static status beam_outcome(int n, int held, int unsymmetric)
     for (int i = 0; i < held; i++)
         matrices_add(&s, i, i, k[5 * i] * n);
     if (unsymmetric) {
-        sparse full = {s.n, 0, calloc((size_t)s.n + 1, sizeof(int)), malloc((size_t)s.n * 8 * sizeof(int)),
-                       calloc((size_t)s.n * 8, sizeof(double))};
-        for (int j = 0, at = 0; j < s.n; j++) {
-            for (int i = j / 2 * 2 - 2; i < j / 2 * 2 + 4; i++)
-                for (int l = s.column[i > j ? i : j]; i >= 0 && i < s.n && l < s.column[(i > j ? i : j) + 1]; l++)
-                    if (s.row[l] == (i > j ? j : i)) {
-                        full.row[at] = i;
-                        full.value[at++] = s.value[l];
-                    }
-            full.column[j + 1] = at;
-        }
+        sparse full = matrices_both_triangles(&s);
         matrices_free(&s);
         s = full;
     }

@@ -56,6 +56,39 @@ static inline void matrices_free(sparse *s)
     memset(s, 0, sizeof *s);
 }
 
+/* The same matrix, every entry kept. */
+static inline sparse matrices_both_triangles(const sparse *a)
+{
+    const int n = a->n;
+    sparse s = {n, 0, calloc((size_t)n + 1, sizeof(int)), NULL, NULL};
+    int *next = calloc((size_t)n + 1, sizeof *next);
+    s.row = malloc(2 * (size_t)a->column[n] * sizeof *s.row + 1);
+    s.value = malloc(2 * (size_t)a->column[n] * sizeof *s.value + 1);
+    for (int j = 0; j < n; j++)
+        for (int k = a->column[j]; k < a->column[j + 1]; k++) {
+            s.column[j + 1]++;
+            if (a->row[k] != j)
+                s.column[a->row[k] + 1]++;
+        }
+    for (int j = 0; j < n; j++) {
+        s.column[j + 1] += s.column[j];
+        next[j] = s.column[j];
+    }
+    /* Column j's upper part is complete before a later column adds to its lower part: rows ascend. */
+    for (int j = 0; j < n; j++)
+        for (int k = a->column[j]; k < a->column[j + 1]; k++) {
+            const int i = a->row[k];
+            s.row[next[j]] = i;
+            s.value[next[j]++] = a->value[k];
+            if (i != j) {
+                s.row[next[i]] = j;
+                s.value[next[i]++] = a->value[k];
+            }
+        }
+    free(next);
+    return s;
+}
+
 static inline void matrices_add(sparse *s, int i, int j, double value)
 {
     const int low = i < j ? i : j, high = i < j ? j : i;
