@@ -3,13 +3,14 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
+#include "harness/run/csv.h"
 #include "harness/run/output.h"
-#include "harness/run/text.h"
+#include "harness/run/table.h"
 
 static status write_out(const cli_request *r, const sweep *s, const truths *t, fault *f)
 {
     void (*const write)(FILE *, const sweep *, const truths *) =
-        strcmp(r->format, "csv") == 0 ? text_convergence_csv : text_convergence;
+        strcmp(r->format, "csv") == 0 ? csv_convergence : table_convergence;
     output file;
     if (r->output == NULL) {
         write(stdout, s, t);

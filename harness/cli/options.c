@@ -15,7 +15,7 @@ static const struct argp_option all_options[] = {
     {"output", 'o', "FILE", 0, "write there instead of to standard output (verify: results as HDF5)", 0},
     {"keep-all", 'K', NULL, 0, "leave nothing out: same answer, more work", 0},
     {"steps", 'S', "N", 0, "load steps between two stations of a path, to begin with", 0},
-    {"select", 'k', "EXPRESSION", 0, "words joined by and, or, not; looked for in case/parameters/formulation", 0},
+    {"select", 'k', "EXPRESSION", 0, "words joined by and, or, not; looked for in case/parameters/formulation/quantity", 0},
     {"jobs", 'j', "N", 0, "processes (default: one for each processor)", 0},
     {"json", 'J', "FILE", 0, "verdicts as JSON", 0},
     {"junit", 'U', "FILE", 0, "verdicts as JUnit XML", 0},

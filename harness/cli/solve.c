@@ -2,18 +2,19 @@
 #include <string.h>
 
 #include "harness/cli/cli.h"
+#include "harness/run/csv.h"
 #include "harness/run/json.h"
 #include "harness/run/output.h"
-#include "harness/run/text.h"
+#include "harness/run/table.h"
 
 static status write_to(FILE *to, const cli_request *r, const sweep *s, const truths *t, fault *f)
 {
     if (strcmp(r->format, "json") == 0)
         return json_write_solution(to, s, t, f);
     if (strcmp(r->format, "csv") == 0)
-        text_solution_csv(to, s);
+        csv_solution(to, s);
     else
-        text_solution(to, s, t);
+        table_solution(to, s, t);
     return STATUS_OK;
 }
 

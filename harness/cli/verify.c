@@ -3,9 +3,10 @@
 
 #include "harness/cli/cli.h"
 #include "harness/run/json.h"
+#include "harness/run/junit.h"
 #include "harness/run/output.h"
 #include "harness/run/store.h"
-#include "harness/run/text.h"
+#include "harness/run/table.h"
 
 static status write_json(const char *path, const sweep *s, const judgement *j, const environment *e, fault *f)
 {
@@ -26,7 +27,7 @@ static status write_junit(const char *path, const sweep *s, const judgement *j, 
     const status opened = output_open(path, &file, f);
     if (opened != STATUS_OK)
         return opened;
-    text_junit(file.stream, s, j);
+    junit_write(file.stream, s, j);
     return output_close(&file, f);
 }
 
@@ -89,7 +90,7 @@ int cli_verify(int count, char **arguments)
     if (outcome == STATUS_OK)
         outcome = judge(&s, &t, r.select == NULL && r.formulations == 0, &j, &f);
     if (outcome == STATUS_OK) {
-        text_verdicts(stdout, &s, &j, &t);
+        table_verdicts(stdout, &s, &j, &t);
         outcome =
             fflush(stdout) == 0 ? write_all(&r, &s, &j, &f) : fault_set(&f, STATUS_FAULT, "standard output cannot be written");
     }

@@ -35,6 +35,15 @@ const case_type *case_find(const char *name, fault *f)
     return NULL;
 }
 
+const element_type *formulation_find(const char *key)
+{
+    const size_t length = strcspn(key, ":");
+    for (int i = 0; registry_formulations[i] != NULL; i++)
+        if (strlen(registry_formulations[i]->name) == length && strncmp(registry_formulations[i]->name, key, length) == 0)
+            return registry_formulations[i];
+    return NULL;
+}
+
 static void write_key(formulation *out)
 {
     const element_option *o = out->type->options;
@@ -103,12 +112,10 @@ status formulation_parse(const char *text, formulation *out, fault *f)
     char *colon = strchr(copy, ':'), *rest = NULL;
     if (colon != NULL)
         *colon = '\0';
-    int i = 0;
-    while (registry_formulations[i] != NULL && strcmp(registry_formulations[i]->name, copy) != 0)
-        i++;
-    if (registry_formulations[i] == NULL)
+    const element_type *type = formulation_find(copy);
+    if (type == NULL)
         return unknown(f, "formulation", copy, nearest_name(copy, formulation_name, NULL));
-    formulation_default(registry_formulations[i], out);
+    formulation_default(type, out);
     for (char *one = colon != NULL ? strtok_r(colon + 1, ",", &rest) : NULL; one != NULL; one = strtok_r(NULL, ",", &rest)) {
         char *equals = strchr(one, '=');
         if (equals == NULL)

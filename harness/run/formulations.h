@@ -12,6 +12,8 @@ typedef struct formulation {
 } formulation;
 
 status formulation_parse(const char *text, formulation *out, fault *f);
+/* The type that "name" or "name:key=value,..." means, or NULL. */
+const element_type *formulation_find(const char *key);
 void formulation_default(const element_type *type, formulation *out);
 const case_type *case_find(const char *name, fault *f); /* NULL: unknown, f names the nearest */
 

@@ -153,7 +153,9 @@ static json_t *verdict_of(const sweep *s, const verdict *v)
     json_object_set_new(out, "limit", number(v->fit.limit));
     json_object_set_new(out, "limit_uncertainty", number(v->fit.limit_uncertainty));
     json_object_set_new(out, "order", number(v->fit.order));
+    json_object_set_new(out, "order_uncertainty", number(v->fit.order_uncertainty));
     json_object_set_new(out, "truth", v->truth != NULL ? number(v->truth->value) : json_null());
+    json_object_set_new(out, "truth_uncertainty", v->truth != NULL ? number(v->truth->uncertainty) : json_null());
     json_object_set_new(out, "truth_kind", v->truth != NULL ? json_string(v->truth->kind) : json_null());
     json_object_set_new(out, "error", number(v->error));
     json_object_set_new(out, "model_error", number(v->model_error));
@@ -179,9 +181,10 @@ status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const e
     }
     for (int k = 0; k < VERDICT_KINDS; k++)
         json_object_set_new(counts, verdict_name((verdict_kind)k), json_integer(j->by_kind[k]));
-    json_t *root = json_pack("{s:i,s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:i,s:i}", "schema", 1, "program_version", e->version, "commit",
-                             e->commit, "compiler", e->compiler, "clock", e->clock, "cells", sweep_cells(s), "judged", j->judged,
-                             "unexpected", j->unexpected, "disagreements", j->disagreements, "unobserved_findings", j->unobserved);
+    json_t *root =
+        json_pack("{s:i,s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:i,s:i,s:i}", "schema", 1, "program_version", e->version, "commit", e->commit,
+                  "compiler", e->compiler, "clock", e->clock, "cells", sweep_cells(s), "judged", j->judged, "unexpected",
+                  j->unexpected, "disagreements", j->disagreements, "unobserved_findings", j->unobserved, "unmet_truths", j->unmet);
     json_object_set_new(root, "counts", counts);
     json_object_set_new(root, "verdicts", list);
     json_object_set_new(root, "discrete", discrete);

@@ -96,6 +96,13 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
     return STATUS_OK;
 }
 
+int sweep_selects(const sweep *s, const point *p, const formulation *chosen, const char *quantity)
+{
+    char text[PARAMETERS_TEXT + CELL_KEY + 2 * FAULT_TEXT];
+    snprintf(text, sizeof text, "%s/%s/%s/%s", p->type->name, p->text[0] != '\0' ? p->text : "default", chosen->key, quantity);
+    return s->select == NULL || select_matches(s->select, text) > 0;
+}
+
 /* Formulations of one point: all, and the options that a discrete truth speaks of. */
 static status plan_series(const sweep_request *request, const truths *t, sweep *s, int index, fault *f)
 {
@@ -114,11 +121,9 @@ static status plan_series(const sweep_request *request, const truths *t, sweep *
             count++;
     }
     for (int i = 0; i < count; i++) {
-        char text[FAULT_TEXT * 3];
-        snprintf(text, sizeof text, "%s/%s/%s", p->type->name, p->text[0] != '\0' ? p->text : "default", list[i].key);
-        const int selected = request->select == NULL ? 1 : select_matches(request->select, text);
-        if (selected < 0)
-            return fault_set(f, STATUS_REFUSED, "selection '%s' is malformed; write words joined by and, or, not", request->select);
+        int selected = p->scene.quantities == 0 && sweep_selects(s, p, &list[i], "");
+        for (int q = 0; q < p->scene.quantities && !selected; q++)
+            selected = sweep_selects(s, p, &list[i], p->scene.quantity[q].name);
         const status outcome = selected ? add_series(s, index, &list[i], t, f) : STATUS_OK;
         if (outcome != STATUS_OK)
             return outcome;
@@ -139,6 +144,9 @@ static status alloc_cells(sweep *s, fault *f)
 status sweep_plan(const sweep_request *request, const truths *t, sweep *out, fault *f)
 {
     memset(out, 0, sizeof *out);
+    if (request->select != NULL && select_matches(request->select, "") < 0)
+        return fault_set(f, STATUS_REFUSED, "selection '%.100s' is malformed; write words joined by and, or, not", request->select);
+    out->select = request->select;
     status outcome = plan_points(t, out, f);
     for (int i = 0; i < out->points && outcome == STATUS_OK; i++)
         outcome = plan_series(request, t, out, i, f);

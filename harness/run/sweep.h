@@ -28,13 +28,14 @@ typedef struct series {
 } series;
 
 typedef struct sweep {
+    const char *select; /* of the request: what it leaves out is not judged either; NULL: nothing is left out */
     int points, seriess;
     point *point;
     series *series;
 } sweep;
 
 typedef struct sweep_request {
-    const char *select; /* expression over "case/point/formulation", or NULL */
+    const char *select; /* expression over "case/point/formulation/quantity", or NULL */
     int jobs;           /* processes, >= 1 */
     int formulations;   /* restrict to these, or 0: all */
     const formulation *formulation;
@@ -43,6 +44,9 @@ typedef struct sweep_request {
 
 /* Does an expression (words joined by and, or, not; a word is looked for in text) hold? -1: malformed. */
 int select_matches(const char *expression, const char *text);
+
+/* Does the sweep's selection hold for a quantity? */
+int sweep_selects(const sweep *s, const point *p, const formulation *chosen, const char *quantity);
 
 /* Points: the defaults and every parameter point of a truth. */
 status sweep_plan(const sweep_request *request, const truths *t, sweep *out, fault *f);

@@ -8,6 +8,7 @@
 #include "harness/run/parameters.h"
 
 enum { TRUTHS_VERSION = 1 };
+#define TRUTH_KINDS "exact|independent|consensus|published|reconstructed|experiment" /* the first known one judges */
 
 typedef struct truth {
     const case_type *type;
@@ -17,6 +18,7 @@ typedef struct truth {
     int elements;                 /* 0: the continuum */
     char *quantity, *unit, *kind, *model, *convention, *source;
     double value, uncertainty;
+    int met, judged; /* by the judge: a quantity it speaks of exists; not every formulation skips it */
 } truth;
 
 typedef struct finding {
@@ -32,6 +34,8 @@ typedef struct truths {
     int rows, findings;
     truth *row;
     finding *finding;
+    int strangers; /* cases of the file that the program does not have */
+    char stranger[64];
 } truths;
 
 /* FAULT for a missing, truncated or foreign file and for a stale row (its case's defaults have changed since). */

@@ -53,25 +53,28 @@ static history history_of(const series *s, int quantity)
     return h;
 }
 
-/* Against the truth, once there is a limit. */
-static verdict_kind compare(const scene_quantity *q, const verdict *v, const history *h)
+/* Is the order that the last meshes show both known and too low?  Differences that the truth's own uncertainty hides, or
+ * orders that still change from mesh to mesh, say nothing. */
+static int order_is_low(const scene_quantity *q, const verdict *v, const history *h)
 {
-    const double finest = fabs(v->finest - v->truth->value), limit = fabs(v->fit.limit - v->truth->value),
-                 coarse = h->count > 1 ? fabs(h->value[0] - v->truth->value) : finest;
-    const int inside = finest <= v->tolerance || (v->fit.kind != CONVERGENCE_NONE && limit <= v->tolerance);
-    if (!inside) {
-        if (v->fit.kind == CONVERGENCE_NONE || limit <= v->tolerance + 2 * v->fit.limit_uncertainty)
-            return VERDICT_NOT_ASYMPTOTIC;
-        return VERDICT_WRONG_LIMIT;
-    }
-    /* An order is asked for where the error of the coarsest mesh leaves one to be seen. */
-    const int visible = v->fit.kind == CONVERGENCE_ORDERLY && coarse > 10 * v->tolerance;
-    if (q->least_order > 0 && visible && v->fit.order < q->least_order - order_slack && finest > v->tolerance)
-        return VERDICT_LOW_ORDER;
-    return VERDICT_PASS;
+    const int settled = h->count == 3 || isfinite(v->fit.order_uncertainty);
+    const double doubt = h->count == 3 ? 0 : v->fit.order_uncertainty;
+    return v->fit.kind == CONVERGENCE_ORDERLY && settled && v->fit.order + doubt < q->least_order - order_slack &&
+           fabs(v->finest - h->value[h->count - 2]) > v->truth->uncertainty;
 }
 
-static void judge_one(const sweep *s, truths *t, verdict *v)
+/* Against the truth. */
+static verdict_kind compare(const scene_quantity *q, const verdict *v, const history *h)
+{
+    const double limit = fabs(v->fit.limit - v->truth->value);
+    if (v->fit.kind == CONVERGENCE_NONE) /* no limit: the last two meshes must both be there */
+        return h->count > 1 && limit + v->fit.limit_uncertainty <= v->tolerance ? VERDICT_PASS : VERDICT_NOT_ASYMPTOTIC;
+    if (limit > v->tolerance)
+        return limit <= v->tolerance + 2 * v->fit.limit_uncertainty ? VERDICT_NOT_ASYMPTOTIC : VERDICT_WRONG_LIMIT;
+    return order_is_low(q, v, h) ? VERDICT_LOW_ORDER : VERDICT_PASS;
+}
+
+void verdict_reach(const sweep *s, const truths *t, verdict *v)
 {
     const series *one = &s->series[v->series];
     const point *p = &s->point[one->point];
@@ -83,6 +86,11 @@ static void judge_one(const sweep *s, truths *t, verdict *v)
     if (one->missing[0] != '\0') {
         v->kind = v->expected = VERDICT_SKIP;
         snprintf(v->reason, sizeof v->reason, "does not offer %s", one->missing);
+        return;
+    }
+    if (p->status != STATUS_OK) {
+        v->kind = p->status == STATUS_REFUSED ? VERDICT_REFUSED : VERDICT_DIVERGED;
+        snprintf(v->reason, sizeof v->reason, "%s", p->reason);
         return;
     }
     const history h = history_of(one, v->quantity);
@@ -103,110 +111,4 @@ static void judge_one(const sweep *s, truths *t, verdict *v)
     v->tolerance = q->tolerance * scale_of(q, v->truth->value) + v->truth->uncertainty;
     v->error = relative_error(q, v->fit.kind == CONVERGENCE_NONE ? v->finest : v->fit.limit, v->truth->value);
     v->kind = compare(q, v, &h);
-}
-
-static verdict_kind kind_of(const char *name)
-{
-    for (int i = 0; i < VERDICT_KINDS; i++)
-        if (strcmp(names[i], name) == 0)
-            return (verdict_kind)i;
-    return VERDICT_KINDS; /* matches nothing */
-}
-
-/* The first finding that speaks of this verdict sets what is expected, limit included. */
-static void expect(const sweep *s, truths *t, verdict *v)
-{
-    const series *one = &s->series[v->series];
-    const point *p = &s->point[one->point];
-    v->matches = v->kind == v->expected;
-    if (v->kind == VERDICT_SKIP)
-        return;
-    for (int i = 0; i < t->findings; i++) {
-        finding *known = &t->finding[i];
-        if (!finding_holds(known, p->type, p->parameter, one->formulation.key, p->scene.quantity[v->quantity].name))
-            continue;
-        v->finding = known;
-        v->expected = kind_of(known->verdict);
-        v->matches = v->kind == v->expected;
-        if (v->matches && isfinite(known->limit) && !(fabs(v->fit.limit - known->limit) <= known->uncertainty)) {
-            v->matches = 0;
-            snprintf(v->reason, sizeof v->reason, "its limit differs from the finding's %.10g", known->limit);
-        }
-        known->observed += v->matches;
-        return;
-    }
-}
-
-static status add_agreements(const sweep *s, const truths *t, int index, judgement *out, fault *f)
-{
-    const series *one = &s->series[index];
-    const point *p = &s->point[one->point];
-    for (int r = 0; r < t->rows && one->missing[0] == '\0'; r++) {
-        const truth *row = &t->row[r];
-        if (row->elements == 0 || strcmp(row->formulation, one->formulation.key) != 0 || !truth_holds(row, p->type, p->parameter))
-            continue;
-        for (int i = 0; i < one->meshes; i++)
-            for (int q = 0; q < p->scene.quantities && one->mesh[i] == row->elements; q++) {
-                if (strcmp(p->scene.quantity[q].name, row->quantity) != 0)
-                    continue;
-                agreement *more = realloc(out->agreement, (size_t)(out->agreements + 1) * sizeof *more);
-                if (more == NULL)
-                    return fault_set(f, STATUS_FAULT, "out of memory for agreements");
-                out->agreement = more;
-                const solve_result *result = &one->cell[i].solve;
-                const double value = q < result->quantities ? result->quantity[q].value : NAN;
-                const int good = fabs(value - row->value) <= fmax(row->uncertainty, 1e-6 * fabs(row->value));
-                more[out->agreements++] = (agreement){index, i, q, row, value, good};
-                out->disagreements += !good;
-            }
-    }
-    return STATUS_OK;
-}
-
-status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f)
-{
-    int count = 0;
-    memset(out, 0, sizeof *out);
-    for (int i = 0; i < t->findings; i++)
-        t->finding[i].observed = 0;
-    for (int i = 0; i < s->seriess; i++)
-        count += s->point[s->series[i].point].scene.quantities;
-    out->verdict = calloc((size_t)count + 1, sizeof *out->verdict);
-    if (out->verdict == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for verdicts");
-    for (int i = 0; i < s->seriess; i++) {
-        const point *p = &s->point[s->series[i].point];
-        for (int q = 0; q < p->scene.quantities; q++) {
-            if (p->scene.quantity[q].reduction == SCENE_CURVE)
-                continue; /* curves are drawn, their points are judged by their own quantities */
-            verdict *v = &out->verdict[out->verdicts++];
-            v->series = i;
-            v->quantity = q;
-            judge_one(s, t, v);
-            expect(s, t, v);
-            out->by_kind[v->kind]++;
-            out->judged += v->truth != NULL && v->kind != VERDICT_SKIP;
-            out->unexpected += !v->matches;
-        }
-        const status outcome = add_agreements(s, t, i, out, f);
-        if (outcome != STATUS_OK)
-            return outcome;
-    }
-    for (int i = 0; i < t->findings && whole; i++)
-        out->unobserved += t->finding[i].observed == 0;
-    return STATUS_OK;
-}
-
-void judgement_free(judgement *j)
-{
-    free(j->verdict);
-    free(j->agreement);
-    memset(j, 0, sizeof *j);
-}
-
-int judgement_exit(const judgement *j)
-{
-    if (j->judged + j->agreements == 0)
-        return 3;
-    return j->unexpected + j->disagreements + j->unobserved > 0 ? 1 : 0;
 }

@@ -48,10 +48,15 @@ typedef struct judgement {
     int disagreements;
     int judged;     /* verdicts that compare with a truth */
     int unobserved; /* findings that no verdict showed (whole runs only) */
+    int unmet;      /* truths that speak of no case, point or quantity there is (whole runs only) */
+    int waiting;    /* truths that every formulation skips, or of a formulation that is not here (whole runs only) */
 } judgement;
 
 const char *verdict_name(verdict_kind kind);
-/* whole: 1 when nothing was selected away, so that a finding nobody observed is a failure. */
+/* What the series shows of the quantity, both given in v: kind, fit, errors, and as expected what holds without findings. */
+void verdict_reach(const sweep *s, const truths *t, verdict *v);
+/* FAULT when a truth has another unit than its quantity. whole: 1 when nothing was selected away, so that a finding nobody observed and a truth that
+ * speaks of nothing are failures. */
 status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f);
 void judgement_free(judgement *j);
 /* Exit code: 0 as expected, 1 a verdict differs, 3 nothing was checked. */

@@ -92,7 +92,7 @@ class Answers(unittest.TestCase):
                 file["findings/quantity"][...] = b"gone"
             done = run(*selection)
             self.assertEqual(done.returncode, 1)
-            self.assertIn("wrong limit (-2.78 %)", done.stdout)
+            self.assertIn("-2.7801%  wrong limit", done.stdout)
         finally:
             shutil.rmtree(folder)
 

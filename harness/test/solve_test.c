@@ -1,10 +1,9 @@
-/* Model and solvers through their public door: what is left out changes nothing, round-off stays small, linear algebra. */
+/* Model and solvers through their public door: what is left out changes nothing, round-off stays small. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/sparse.h"
 #include "harness/run/formulations.h"
 #include "harness/run/parameters.h"
 
@@ -72,49 +71,10 @@ static void fine_mesh(void)
     gsl_test(!(fabs(order - 2) < 0.1), "round-off does not hide the order on 1024 elements (%.2f)", order);
 }
 
-/* Symmetric indefinite tridiagonal: eigenvalues 2 - s - 2 cos(k pi/(n+1)). */
-static void inertia_of_a_chain(void)
-{
-    enum { N = 50 };
-    int column[N + 1], row[2 * N];
-    double value[2 * N], x[N], b[N];
-    const double shift = 0.8;
-    int entries = 0, expected = 0;
-    for (int j = 0; j < N; j++) {
-        column[j] = entries;
-        if (j > 0) {
-            row[entries] = j - 1;
-            value[entries++] = -1;
-        }
-        row[entries] = j;
-        value[entries++] = 2 - shift;
-        expected += 2 - shift - 2 * cos((j + 1) * 3.14159265358979323846 / (N + 1)) < 0;
-    }
-    column[N] = entries;
-    sparse a = {N, 1, column, row, value};
-    factor *f;
-    gsl_test(factor_alloc(&a, &f, NULL) != STATUS_OK || factor_numeric(f, &a, NULL) != STATUS_OK,
-             "an indefinite matrix is factorised");
-    gsl_test_int(factor_count(f).negative_pivots, expected, "negative pivots count the negative eigenvalues");
-    for (int i = 0; i < N; i++)
-        x[i] = sin(1.7 * i);
-    sparse_mul(&a, x, b);
-    factor_solve_refined(f, &a, b);
-    double worst = 0;
-    for (int i = 0; i < N; i++)
-        worst = fmax(worst, fabs(b[i] - x[i]));
-    gsl_test(!(worst < 1e-12), "and solved (%.1e)", worst);
-    for (int i = 0; i < entries; i++)
-        value[i] = i == 0 ? 0 : value[i] * (row[i] == N - 1 ? 0 : 1);
-    gsl_test(factor_numeric(f, &a, NULL) != STATUS_SINGULAR, "a singular matrix is called singular");
-    factor_free(f);
-}
-
 int main(void)
 {
     leaving_out_changes_nothing();
     newton();
     fine_mesh();
-    inertia_of_a_chain();
     return gsl_test_summary();
 }

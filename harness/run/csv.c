@@ -1,0 +1,60 @@
+#include "harness/run/csv.h"
+
+#include <math.h>
+
+/* A field that may hold commas or quotes. */
+static void field(FILE *to, const char *text, const char *end)
+{
+    fputc('"', to);
+    for (; *text != '\0'; text++) {
+        if (*text == '"')
+            fputc('"', to);
+        fputc(*text, to);
+    }
+    fprintf(to, "\"%s", end);
+}
+
+void csv_solution(FILE *to, const sweep *s)
+{
+    const series *one = &s->series[0];
+    const point *p = &s->point[one->point];
+    const cell_result *c = &one->cell[0];
+    fprintf(to, "case,parameters,formulation,elements,quantity,unit,value,status,reason\n");
+    for (int i = 0; i < c->solve.quantities; i++) {
+        const quantity_result *v = &c->solve.quantity[i];
+        fprintf(to, "%s,", p->type->name);
+        field(to, p->text, ",");
+        field(to, one->formulation.key, ",");
+        fprintf(to, "%d,%s,%s,", one->mesh[0], p->scene.quantity[i].name, p->scene.quantity[i].unit);
+        if (isfinite(v->value))
+            fprintf(to, "%.17g", v->value);
+        fprintf(to, ",%s,", status_name(v->status));
+        field(to, v->reason, "\n");
+    }
+}
+
+void csv_convergence(FILE *to, const sweep *s, const truths *t)
+{
+    fprintf(to, "case,parameters,formulation,elements,quantity,unit,value,truth,error,free,seconds_setup,seconds_solve\n");
+    for (int i = 0; i < s->seriess; i++) {
+        const series *one = &s->series[i];
+        const point *p = &s->point[one->point];
+        for (int k = 0; k < one->meshes && one->missing[0] == '\0'; k++)
+            for (int q = 0; q < p->scene.quantities && q < one->cell[k].solve.quantities; q++) {
+                const double value = one->cell[k].solve.quantity[q].value;
+                const truth *row = truth_of(t, p->type, p->parameter, p->scene.quantity[q].name, "same");
+                fprintf(to, "%s,", p->type->name);
+                field(to, p->text, ",");
+                field(to, one->formulation.key, ",");
+                fprintf(to, "%d,%s,%s,", one->mesh[k], p->scene.quantity[q].name, p->scene.quantity[q].unit);
+                if (isfinite(value))
+                    fprintf(to, "%.17g", value);
+                if (row != NULL)
+                    fprintf(to, ",%.17g,%.17g,", row->value, relative_error(&p->scene.quantity[q], value, row->value));
+                else
+                    fprintf(to, ",,,");
+                fprintf(to, "%d,%.6g,%.6g\n", one->cell[k].size.free, one->cell[k].solve.seconds_setup,
+                        one->cell[k].solve.seconds_solve);
+            }
+    }
+}

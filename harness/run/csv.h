@@ -1,0 +1,12 @@
+/* Results for spreadsheets: one row per value, full precision, empty where there is none. */
+#ifndef BEAMWORK_CSV_H
+#define BEAMWORK_CSV_H
+
+#include <stdio.h>
+
+#include "harness/run/verdict.h"
+
+void csv_solution(FILE *to, const sweep *s);
+void csv_convergence(FILE *to, const sweep *s, const truths *t);
+
+#endif
