@@ -89,5 +89,13 @@ def rows():
     for given in ({}, {"tip_warping": 1}, {"tip_deflection": 0.05}, {"tip_deflection": 0.05, "tip_warping": 1}, {"tip_deflection": 0.001}, {"shear": 0},
                   {"warping": 0, "trapeze": 0, "shear_factor": 0.8333333333333334}, {"length": 0.05, "tip_deflection": 0.0075}, {"width": 0.02}, {"thickness": 0.0005}):
         yield from cantilever(**given)
+    for deflection in (0.005, 0.01):
+        for free in (0, 1):
+            given = {"tip_deflection": deflection, "tip_warping": 1} if free else {"tip_deflection": deflection}
+            yield from (row for row in cantilever(**given) if row[2] in ("C_xx", "C_zz"))
     for given in ({}, {"wagner": 0}, {"tip_warping": 1}, {"wagner": 0, "tip_warping": 1}):
         yield from twisted(**given)
+    for phi_x in (0.05, 0.1):
+        for wagner in (1, 0):
+            given = {"tip_phi_x": phi_x} if wagner else {"wagner": 0, "tip_phi_x": phi_x}
+            yield from (row for row in twisted(**given) if row[2] == "C_ux_My")
