@@ -146,18 +146,40 @@ static int entries(const char *folder)
     return count;
 }
 
+/* Is it there, complete, for whoever reads it? */
+static int readable(const char *path, int count)
+{
+    hsize_t size = 0;
+    double last = 0;
+    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), set = H5Dopen2(file, "ramp", H5P_DEFAULT),
+                space = H5Dget_space(set);
+    double *value = calloc((size_t)count, sizeof *value);
+    if (H5Sget_simple_extent_dims(space, &size, NULL) == 1 && size == (hsize_t)count &&
+        H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0)
+        last = value[count - 1];
+    free(value);
+    H5Sclose(space);
+    H5Dclose(set);
+    H5Fclose(file);
+    return last == count - 1;
+}
+
 static void write_record(const char *path, const char *folder, int good, const char *what)
 {
-    static double zeros[10000];
-    const hsize_t size = 10000;
+    enum { COUNT = 10000 };
+    static double ramp[COUNT];
+    const hsize_t size = COUNT;
+    for (int i = 0; i < COUNT; i++)
+        ramp[i] = i;
     record r;
     fault f = {""};
     const int before = entries(folder);
     gsl_test(record_open(&r, &f) != STATUS_OK, "opened %s", f.text);
-    H5Dclose(record_values(&r, r.file, "zeros", 1, &size, zeros, "m"));
+    H5Dclose(record_values(&r, r.file, "ramp", 1, &size, ramp, "m"));
     const status outcome = record_close(&r, path, &f);
     gsl_test(good ? outcome != STATUS_OK : outcome != STATUS_FAULT || strchr(f.text, '\n') != NULL, "%s: %s", what, f.text);
     gsl_test_int(entries(folder) - before, good, "%s: files left", what);
+    gsl_test(good && !readable(path, COUNT), "%s: the file can be read", what);
 }
 
 static void write_failures(void)
