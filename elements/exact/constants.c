@@ -21,15 +21,20 @@ status constants_of(const element_request *request, constants *out, fault *f)
     const double scale[3] = {1 / l0, 1 / l0, 1};
     for (int i = 0; i < 9 && (has & FEATURE_SHEAR); i++)
         out->F[i] = c->F[i] / G * scale[i / 3] * scale[i % 3];
-    if (has & FEATURE_ECCENTRIC) {
-        out->ys = c->ys / l0;
-        out->zs = c->zs / l0;
-    }
+    /* A fibre at (y, z) turns about the shear centre when nothing shears, so that r' has the parts zs kappa_x and -ys kappa_x
+     * across the section: its elongation is gamma_x + z kappa_y - y kappa_z + [(y - ys)^2 + (z - zs)^2] kappa_x^2/2. */
     if (has & FEATURE_TRAPEZE)
         out->trapeze = c->Ip / c->A / (l0 * l0);
     if (has & FEATURE_WAGNER_MOMENTS) {
         out->bend_y = c->wagner_z / c->Iy / l0;
         out->bend_z = -c->wagner_y / c->Iz / l0;
+    }
+    if (has & FEATURE_ECCENTRIC) {
+        out->ys = c->ys / l0;
+        out->zs = c->zs / l0;
+        out->trapeze += out->ys * out->ys + out->zs * out->zs;
+        out->bend_y -= 2 * out->zs;
+        out->bend_z += 2 * out->ys;
     }
     if (has & FEATURE_WAGNER_TORQUE)
         out->torque = E * c->wagner_torque / (l0 * l0);

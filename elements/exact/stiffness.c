@@ -7,13 +7,13 @@
 #include "elements/math/dense.h"
 
 enum {
-    MAX_BUBBLES = 3,                    /* of the warping amplitude (one per point), of bending in y and z (two nodes) */
-    MAX_SHEARS = 3 * STRAIN_MAX_POINTS, /* Q_y, Q_z, M_w of every point */
+    MAX_BUBBLES = STRAIN_MAX_POINTS, /* of the warping amplitude */
+    STRESSES = 5,                    /* Q_y, Q_z, M_w, M_y, M_z of a point */
     MAX_FREE = STIFFNESS_MAX_STRAINS + MAX_BUBBLES,
-    MAX_ALL = MAX_FREE + MAX_SHEARS
+    MAX_ALL = MAX_FREE + STRESSES * STRAIN_MAX_POINTS
 };
 
-/* Everything the energy depends on before elimination: strains, bubbles, shear stresses; dimensionless. */
+/* Everything the energy depends on before elimination: strains, bubbles, stresses; dimensionless. */
 typedef struct fields {
     int nodes, points, strains, warping_bubbles, free, all, field;
     double x[STRAIN_MAX_POINTS], w[STRAIN_MAX_POINTS];           /* points of the strains */
@@ -84,51 +84,61 @@ static void twist_fields(fields *f)
         }
 }
 
+/* -1/2 w/(k EI) (Q -+ M')^2: what the part of the moment above the points' polynomial makes flexible, M' its slope. */
+static void residual_bending(fields *f, int g, int Q, int M, double sign, double flexibility)
+{
+    double row[MAX_ALL] = {0}; /* on Q, M of the points */
+    row[f->free + STRESSES * g + Q] = 1;
+    if (f->points == 2)
+        for (int h = 0; h < 2; h++)
+            row[f->free + STRESSES * h + M] = -sign * (h == 0 ? -1 : 1) / (f->x[1] - f->x[0]);
+    for (int i = f->free; i < f->all; i++)
+        for (int j = f->free; j < f->all; j++)
+            f->energy[i * f->all + j] -= f->w[g] * flexibility * row[i] * row[j];
+}
+
+/* Stress times strain less half of stress times flexibility, at one point; shears are those of the shear centre. */
+static void energy_of_point(const constants *c, fields *f, int g)
+{
+    const int e = 6 * g, Q = f->free + STRESSES * g;
+    const double w = f->w[g];
+    f->energy[e * (f->all + 1)] += w * c->EA;
+    add_product(f, w, Q, e + 1);
+    add_product(f, -w * c->zs, Q, e + 3);
+    add_product(f, w, Q + 1, e + 2);
+    add_product(f, w * c->ys, Q + 1, e + 3);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            if (f->warping_bubbles > 0 || (i < 2 && j < 2))
+                f->energy[(Q + i) * f->all + Q + j] -= w * c->F[3 * i + j];
+    if (f->warping_bubbles == 0)
+        f->energy[(Q + 2) * (f->all + 1)] = -1; /* no bimoment, hence no warping torque */
+    else
+        add_product(f, w, Q + 2, e + 3);
+    for (int k = 0; k < f->free && f->warping_bubbles > 0; k++)
+        if (f->mean[g][k] != 0)
+            add_product(f, -w * f->mean[g][k], Q + 2, k);
+    add_product(f, w, Q + 3, e + 4);
+    add_product(f, w, Q + 4, e + 5);
+    f->energy[(Q + 3) * (f->all + 1)] -= w / c->EIy;
+    f->energy[(Q + 4) * (f->all + 1)] -= w / c->EIz;
+    /* int (M - polynomial)^2 for a linear and for a quadratic moment */
+    const double part = f->points == 1 ? 1.0 / 12 : 1.0 / 60;
+    residual_bending(f, g, 0, 4, -1, part / c->EIz); /* Q_y = -M_z' */
+    residual_bending(f, g, 1, 3, 1, part / c->EIy);  /* Q_z = M_y' */
+}
+
 static void energy_of_fields(const constants *c, fields *f)
 {
-    for (int g = 0; g < f->points; g++) {
-        const int e = 6 * g;
-        f->energy[e * (f->all + 1)] += f->w[g] * c->EA;
-        f->energy[(e + 4) * (f->all + 1)] += f->w[g] * c->EIy;
-        f->energy[(e + 5) * (f->all + 1)] += f->w[g] * c->EIz;
-    }
     for (int i = 0; i < f->field; i++) {
         add_square(f, f->weight[i] * c->GJ, f->twist[i]);
         add_square(f, f->weight[i] * c->EIw, f->slope[i]);
     }
-    const int bend = f->strains + f->warping_bubbles;
-    if (f->points == 1) {
-        f->energy[bend * (f->all + 1)] += 12 * c->EIz;
-        f->energy[(bend + 1) * (f->all + 1)] += 12 * c->EIy;
-    }
-    /* Q . (shear - F Q/2) at every point, the shears about the shear centre */
-    for (int g = 0; g < f->points; g++) {
-        const int e = 6 * g, Q = f->free + 3 * g;
-        const double w = f->w[g];
-        add_product(f, w, Q, e + 1);
-        add_product(f, -w * c->zs, Q, e + 3);
-        add_product(f, w, Q + 1, e + 2);
-        add_product(f, w * c->ys, Q + 1, e + 3);
-        if (f->points == 1) {
-            add_product(f, -w, Q, bend);
-            add_product(f, -w, Q + 1, bend + 1);
-        }
-        for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++)
-                if (f->warping_bubbles > 0 || (i < 2 && j < 2))
-                    f->energy[(Q + i) * f->all + Q + j] -= w * c->F[3 * i + j];
-        if (f->warping_bubbles == 0) { /* no bimoment, no warping torque */
-            f->energy[(Q + 2) * (f->all + 1)] = -1;
-            continue;
-        }
-        add_product(f, w, Q + 2, e + 3);
-        for (int k = 0; k < f->free; k++)
-            if (f->mean[g][k] != 0)
-                add_product(f, -w * f->mean[g][k], Q + 2, k);
-    }
+    for (int g = 0; g < f->points; g++)
+        energy_of_point(c, f, g);
 }
 
-/* Bubbles and shear stresses as they follow from the strains: X[all - strains][strains]; 0, or the failing pivot. */
+/* Bubbles and stresses as they follow from the strains: X[all - strains][strains]; 0, or the failing pivot. */
 static int eliminate(const fields *f, double X[])
 {
     const int n = f->all - f->strains, m = f->strains;
@@ -186,11 +196,9 @@ status stiffness_prepare(const element_request *request, int nodes, stiffness *o
     f.points = nodes - 1;
     f.strains = 6 * f.points + nodes;
     f.warping_bubbles = c.warping ? f.points : 0;
-    f.free = f.strains + f.warping_bubbles + (f.points == 1 ? 2 : 0);
-    f.all = f.free + 3 * f.points;
+    f.free = f.strains + f.warping_bubbles;
+    f.all = f.free + STRESSES * f.points;
     f.field = 4 * f.points + 1;
-    if (f.points > 1 && !(c.F[0] > 0 && c.F[4] > 0))
-        return fault_set(fault_out, STATUS_REFUSED, "a section rigid in shear needs geometrically_exact:nodes=2");
     line_gauss(f.points, f.x, f.w);
     line_gauss(f.field, f.at, f.weight);
     twist_fields(&f);

@@ -5,8 +5,9 @@
  *   - bubbles of the warping amplitude, one per point: a = sum L_k a_k + sum c_j beta_j.  The twist rate is what the points
  *     measure plus what of a they do not see, kappa_x(s) = P kappa + a - P a with P the interpolation through the points, so
  *     that without warping shear kappa_x = a holds everywhere and nothing is penalised;
- *   - with two nodes, the linear part of the bending moment (MacNeal's residual bending flexibility): the linear element is
- *     exact for end loads, and sections rigid in shear are possible. */
+ *   - of the bending moment what is above the polynomial through the points: with two nodes its linear part (MacNeal's
+ *     residual bending flexibility), with three the quadratic one (ours).  The linear element is exact for end loads, and
+ *     sections that are rigid in shear need nothing special. */
 #ifndef BEAMWORK_EXACT_STIFFNESS_H
 #define BEAMWORK_EXACT_STIFFNESS_H
 
