@@ -122,6 +122,9 @@ static void energy_of_point(const constants *c, fields *f, int g)
     add_product(f, w, Q + 4, e + 5);
     f->energy[(Q + 3) * (f->all + 1)] -= w / c->EIy;
     f->energy[(Q + 4) * (f->all + 1)] -= w / c->EIz;
+    const int rigid = !(c->F[0] > 0 && c->F[4] > 0);
+    if (f->points > 1 && !rigid)
+        return;
     /* int (M - polynomial)^2 for a linear and for a quadratic moment */
     const double part = f->points == 1 ? 1.0 / 12 : 1.0 / 60;
     residual_bending(f, g, 0, 4, -1, part / c->EIz); /* Q_y = -M_z' */

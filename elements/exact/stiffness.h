@@ -6,8 +6,10 @@
  *     measure plus what of a they do not see, kappa_x(s) = P kappa + a - P a with P the interpolation through the points, so
  *     that without warping shear kappa_x = a holds everywhere and nothing is penalised;
  *   - of the bending moment what is above the polynomial through the points: with two nodes its linear part (MacNeal's
- *     residual bending flexibility), with three the quadratic one (ours).  The linear element is exact for end loads, and
- *     sections that are rigid in shear need nothing special. */
+ *     residual bending flexibility: the linear element is exact for end loads, also when it is rigid in shear); with three
+ *     nodes the quadratic part (ours), and only for sections that are rigid in shear, which would leave no shear flexibility at
+ *     all.  It measures Q against the slope of M in section axes, which differ by kappa x M: with three nodes and no shear
+ *     flexibility the order is four in a plane and two in space. */
 #ifndef BEAMWORK_EXACT_STIFFNESS_H
 #define BEAMWORK_EXACT_STIFFNESS_H
 
