@@ -11,7 +11,7 @@ struct element_data {
 };
 
 static const element_option options[] = {
-    [OPTION_NODES] = {"nodes", "2|3", 0, 0, 1, "nodes of an element; one integration point fewer"},
+    [OPTION_NODES] = {"nodes", "2|3", 1, 0, 1, "nodes of an element; one integration point fewer"},
     {NULL, NULL, 0, 0, 0, NULL},
 };
 
