@@ -39,7 +39,8 @@ void dense_mul_vec(int m, int n, const double *A, const double *x, double *y)
 }
 
 /* K += J^T (S J); sizes that are known where it is inlined make straight code. */
-static inline void congruence(int m, int n, const double *restrict J, const double *restrict S, double *restrict K, double *restrict work)
+static inline void congruence(int m, int n, const double *restrict J, const double *restrict S, double *restrict K,
+                              double *restrict work)
 {
     for (int i = 0; i < m; i++) {
         double *row = work + i * n;
