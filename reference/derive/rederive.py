@@ -1,6 +1,6 @@
 """Derives every exact row again and compares it with reference/tables.
 
-usage: rederive.py [--print] [PROGRAM...]   --print writes the rows in the tables' format instead.
+usage: rederive.py [--write] [PROGRAM...]     --write replaces the exact rows of the programs' cases; review the diff.
 """
 import csv
 import importlib
@@ -9,7 +9,9 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
-COLUMNS = "case,parameters,formulation,elements,quantity,value,unit,uncertainty,kind,model,convention,source".split(",")
+from reference.pack import COLUMNS  # noqa: E402
+
+TABLES = ROOT / "reference" / "tables"
 DIGITS = 13
 
 
@@ -17,33 +19,22 @@ def canonical(parameters):
     return ";".join(sorted(p for p in parameters.split(";") if p))
 
 
-def stored_rows():
-    for path in sorted((ROOT / "reference" / "tables").glob("*.csv")):
-        with open(path, newline="") as table:
-            for row in csv.DictReader(table):
-                if row["kind"] == "exact":
-                    yield (row["case"], canonical(row["parameters"]), row["quantity"]), row
+def read_table(path):
+    with open(path, newline="", encoding="utf-8") as table:
+        return list(csv.DictReader(table))
 
 
 def programs(names):
-    found = sorted(p.stem for p in (ROOT / "reference" / "derive").glob("*.py") if hasattr_rows(p))
+    """Every module here with a function rows()."""
+    found = sorted(p.stem for p in (ROOT / "reference" / "derive").glob("*.py") if "\ndef rows(" in p.read_text(encoding="utf-8"))
+    unknown = [n for n in names if n not in found]
+    if unknown:
+        raise SystemExit(f"rederive.py: no program '{unknown[0]}'; there are {', '.join(found)}")
     return [n for n in found if not names or n in names]
 
 
-def hasattr_rows(path):
-    return "\ndef rows(" in path.read_text()
-
-
-def normalised(derived, name):
-    """(case, parameters, quantity, value, unit[, relative uncertainty[, convention]])."""
-    for row in derived:
-        case, parameters, quantity, value, unit = row[:5]
-        relative = row[5] if len(row) > 5 else 10.0 ** (1 - DIGITS) / 2
-        convention = row[6] if len(row) > 6 else ""
-        yield case, parameters, quantity, value, unit, relative, convention, f"reference/derive/{name}.py"
-
-
 def as_text(value, relative):
+    """Digits that the relative uncertainty supports."""
     from mpmath import mpf, nstr
     digits = DIGITS
     while digits > 4 and 10.0 ** (1 - digits) < relative / 5:
@@ -51,48 +42,72 @@ def as_text(value, relative):
     return nstr(mpf(value), digits, min_fixed=-4, max_fixed=14, strip_zeros=False)
 
 
-def print_rows(names):
-    writer = csv.writer(sys.stdout, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    for name in programs(names):
-        module = importlib.import_module(f"reference.derive.{name}")
-        for case, parameters, quantity, value, unit, relative, convention, source in normalised(module.rows(), name):
-            uncertainty = max(abs(float(value)) * relative, 1e-300) if float(value) != 0 else relative
-            writer.writerow([case, parameters, "", "", quantity, as_text(value, relative), unit, "%.1e" % uncertainty, "exact", "same", convention, source])
+def derived_rows(name):
+    """A program yields (case, parameters, quantity, value, unit[, relative uncertainty[, convention]])."""
+    for given in importlib.import_module(f"reference.derive.{name}").rows():
+        case, parameters, quantity, value, unit = given[:5]
+        relative = given[5] if len(given) > 5 else 10.0 ** (1 - DIGITS) / 2
+        uncertainty = abs(float(value)) * relative if float(value) != 0 else relative
+        yield dict(zip(COLUMNS, [case, parameters, "", "", quantity, as_text(value, relative), unit, "%.1e" % uncertainty, "exact", "same",
+                                 given[6] if len(given) > 6 else "", f"reference/derive/{name}.py"])), float(value)
 
 
-def compare(names):
-    stored = dict(stored_rows())
+def write(names):
+    derived = {}
+    for name in names:
+        for row, _ in derived_rows(name):
+            derived.setdefault(row["case"], []).append(row)
+    for case, rows in derived.items():
+        path = TABLES / f"{case}.csv"
+        replaced = {row["source"] for row in rows}
+        kept = [row for row in (read_table(path) if path.exists() else []) if row["kind"] != "exact" or row["source"] not in replaced]
+        with open(path, "w", newline="", encoding="utf-8") as table:
+            writer = csv.DictWriter(table, COLUMNS, lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(rows + kept)
+        print(f"{path.name}: {len(rows)} exact rows, {len(kept)} others")
+
+
+def differences(name, stored, seen):
+    """(rows that agree, lines that say what differs) of one program."""
+    agree, lines = 0, []
+    for row, value in derived_rows(name):
+        key = (row["case"], canonical(row["parameters"]), row["quantity"])
+        seen.add(key)
+        known = stored.get(key)
+        if known is None:
+            lines.append(f"{key}: derived {value:.15g} {row['unit']}, not in the table")
+        elif known["unit"] != row["unit"] or abs(value - float(known["value"])) > float(known["uncertainty"]):
+            lines.append(f"{key}: derived {value:.15g} {row['unit']}, stored {known['value']} +- {known['uncertainty']} {known['unit']}")
+        else:
+            agree += 1
+    return agree, lines
+
+
+def compare(names, everything):
+    stored = {}
+    for path in sorted(TABLES.glob("*.csv")):
+        stored.update({(row["case"], canonical(row["parameters"]), row["quantity"]): row for row in read_table(path) if row["kind"] == "exact"})
     seen, agree, differ = set(), 0, 0
-    for name in programs(names):
-        module = importlib.import_module(f"reference.derive.{name}")
-        here = 0
-        for case, parameters, quantity, value, unit, _, _, _ in normalised(module.rows(), name):
-            key = (case, canonical(parameters), quantity)
-            row = stored.get(key)
-            seen.add(key)
-            if row is None:
-                continue
-            good = row["unit"] == unit and abs(float(value) - float(row["value"])) <= 2 * float(row["uncertainty"])
-            agree, differ, here = agree + good, differ + (not good), here + 1
-            if not good:
-                print(f"  {key}: derived {float(value):.15g} {unit}, stored {row['value']} {row['unit']}")
-        print(f"{name}: {here} rows")
-    if not names:
-        for key in stored:
-            if key not in seen:
-                differ += 1
-                print(f"  {key}: exact, but no program derives it")
+    for name in names:
+        good, lines = differences(name, stored, seen)
+        agree, differ = agree + good, differ + len(lines)
+        print(f"{name:<24} {good:5d} rows agree {len(lines):5d} differ", flush=True)
+        for line in lines:
+            print(f"  {line}")
+    for key in [k for k in stored if everything and k not in seen]:
+        differ += 1
+        print(f"  {key}: exact, but no program derives it")
     print(f"{agree} rows agree, {differ} differ")
-    return 1 if differ else 0
+    return 1 if differ or agree == 0 else 0
 
 
 def main(arguments):
-    names = [a for a in arguments if not a.startswith("-")]
-    if "--print" in arguments:
-        print_rows(names)
+    names = [a for a in arguments if a != "--write"]
+    if "--write" in arguments:
+        write(programs(names))
         return 0
-    return compare(names)
+    return compare(programs(names), not names)
 
 
 if __name__ == "__main__":

@@ -1,15 +1,12 @@
-"""The sheet flexure with prescribed tip motion: reactions and the compliance matrix with spatial moments, by shooting.
-
-The tip's six loads and the warping condition are functions of the seven unknowns at the root, and so is its motion:
-C = d(motion)/d(unknowns) [d(loads)/d(unknowns)]^-1, which is the compliance with dead forces and dead moments about fixed axes.
-"""
+"""The sheet flexure with prescribed tip motion: reactions, and the compliance matrix with spatial moments."""
 import math
 
 import numpy as np
 
-from reference.derive.beam import Beam, spatial_spin
+from reference.derive.beam import Beam
+from reference.derive.network import Network, clamped, free
 
-RELATIVE = 1e-9
+RELATIVE = 5e-12
 RESPONSE, LOAD = ("ux", "uy", "uz", "thx", "thy", "thz"), ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 PLANAR = [(0, 0), (0, 1), (0, 5), (1, 0), (1, 1), (1, 5), (5, 0), (5, 1), (5, 5),
           (2, 2), (2, 3), (2, 4), (3, 2), (3, 3), (3, 4), (4, 2), (4, 3), (4, 4)]
@@ -29,24 +26,6 @@ def sheet(length=0.1, width=0.1, thickness=0.00225, young=200e9, poisson=0.3, wa
                 EIw=young * (w * t) ** 3 / 144 if warping else 0.0, t=(w * w + t * t) / 12 if trapeze else 0.0, c=young * w ** 5 * t / 1440 if wagner else 0.0)
 
 
-def warp_residual(beam, tip, tip_warping):
-    return [] if not beam.warps else [tip[3][1] if tip_warping else tip[3][0]]
-
-
-def compliance(beam, p, tip_warping):
-    here = beam.tip(p)
-
-    def motion_and_loads(z, tip):
-        r, R, m, _ = tip
-        return np.concatenate([r, 1j * spatial_spin(R, here[1]), z[:3], m, np.array(warp_residual(beam, tip, tip_warping), dtype=complex)])
-    _, slope = beam.linearised(motion_and_loads, p)
-    C = (slope[:6] @ np.linalg.inv(slope[6:]))[:, :6]
-    L, force = beam.length, beam.force
-    scale_out = np.array([L, L, L, 1, 1, 1])
-    scale_in = np.array([force] * 3 + [force * L] * 3)
-    return C * scale_out[:, None] / scale_in[None, :], here
-
-
 def unit_of(i, j):
     return ("m/N" if j < 3 else "1/N") if i < 3 else ("rad/N" if j < 3 else "rad/(N m)")
 
@@ -55,51 +34,68 @@ def parameters(given):
     return ";".join(f"{k}={v}" for k, v in given.items())
 
 
-def cantilever(**given):
-    beam, deflection, free = sheet(**given), given.get("tip_deflection", 0.015), given.get("tip_warping", 0)
+def clamped_sheet(given, conditions):
+    """Network of one sheet; its tip obeys conditions."""
+    beam = sheet(**given)
+    net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=max(4, round(2 * beam.length / given.get("width", 0.1))), nodes=14)
+    root, tip = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body((beam.length, 0, 0), conditions)
+    net.member(beam, root, tip, (0, 0, 0), np.eye(3), ("fixed", "free" if given.get("tip_warping") else "fixed"))
+    return net, tip
 
-    def residual(level, p, tip):
-        r, R, m, _ = tip
-        return [r[1] - level * deflection / beam.length, R[1, 0], p[0], p[2], m[0], m[1]] + warp_residual(beam, tip, free)
-    p = beam.solve(residual, np.zeros(7 if beam.warps else 6), np.linspace(0.2, 1, 5) if deflection > 0.02 else (0.5, 1.0))
-    C, (r, _, m, _) = compliance(beam, p, free)
+
+def quantities(case, given, net, tip, entries, note):
+    """Compliance with dead forces and dead moments about fixed axes; displacements and reactions are yielded by the caller."""
+    C = net.response(1.0, tip, {tip: free})
     at = parameters(given)
-    for i, j in PLANAR:
-        yield "sheet_cantilever", at, f"C_{RESPONSE[i]}_{LOAD[j]}", C[i, j], unit_of(i, j), RELATIVE, "spatial moments"
-    yield "sheet_cantilever", at, "C_xx", C[0, 0], "m/N", RELATIVE, "spatial moments"
-    yield "sheet_cantilever", at, "C_zz", C[2, 2], "m/N", RELATIVE, "spatial moments"
-    yield "sheet_cantilever", at, "u_x", beam.length * (r[0].real - 1), "m", RELATIVE
-    yield "sheet_cantilever", at, "F_y", beam.force * p[1], "N", RELATIVE
-    yield "sheet_cantilever", at, "M_z", beam.force * beam.length * m[2].real, "N m", RELATIVE
+    for i, j in entries:
+        if abs(C[i, j]) > 1e-9 * math.sqrt(abs(C[i, i] * C[j, j])):
+            yield case, at, f"C_{RESPONSE[i]}_{LOAD[j]}", C[i, j], unit_of(i, j), RELATIVE, note
+    if case == "sheet_cantilever":
+        yield case, at, "C_xx", C[0, 0], "m/N", RELATIVE, note
+        yield case, at, "C_zz", C[2, 2], "m/N", RELATIVE, note
+    yield case, at, "u_x", net.length * (tip.x[0] - 1), "m", RELATIVE
+    if case == "sheet_wagner":
+        yield case, at, "u_z", net.length * tip.x[2], "m", RELATIVE
+    yield case, at, "F_y", net.force * tip.load[1], "N", RELATIVE
+    if case == "sheet_wagner":
+        yield case, at, "M_x", net.force * net.length * tip.load[3], "N m", RELATIVE
+    yield case, at, "M_z", net.force * net.length * tip.load[5], "N m", RELATIVE
+
+
+def cantilever(**given):
+    """u_y prescribed, no rotation about z; all else free."""
+    deflection = given.get("tip_deflection", 0.015) / given.get("length", 0.1)
+
+    def conditions(level, x, R, force, moment, numbers):
+        return np.array([x[1] - level * deflection, R[1, 0], force[0], force[2], moment[0], moment[1]])
+    net, tip = clamped_sheet(given, conditions)
+    net.solve(np.linspace(0.1, 1, 10) if deflection > 0.2 else (0.5, 1.0))
+    yield from quantities("sheet_cantilever", given, net, tip, PLANAR, "spatial moments")
 
 
 def twisted(**given):
     """sheet_wagner: R = Ry Rz Rx, phi_y free with zero moment about the fixed y axis."""
-    beam = sheet(**{"wagner": 1, **given})
-    free, phi_x, phi_z, deflection = given.get("tip_warping", 0), given.get("tip_phi_x", 0.15), given.get("tip_phi_z", 0.15), given.get("tip_deflection", 0.015)
+    phi_x, phi_z, deflection = given.get("tip_phi_x", 0.15), given.get("tip_phi_z", 0.15), given.get("tip_deflection", 0.015) / given.get("length", 0.1)
 
-    def residual(level, p, tip):
-        r, R, m, _ = tip
+    def conditions(level, x, R, force, moment, numbers):
         bend, twist = min(level, 1.0), max(level - 1.0, 0.0)
-        return [r[1] - bend * deflection / beam.length, R[1, 0] - math.sin(bend * phi_z), R[1, 2] + math.tan(twist * phi_x) * R[1, 1], p[0], p[2], m[1]] \
-            + warp_residual(beam, tip, free)
-    p = beam.solve(residual, np.zeros(7), [0.5] + [1 + i / 60 for i in range(61)] if phi_x else (0.5, 1.0))
-    C, (r, _, m, _) = compliance(beam, p, free)
-    at = parameters(given)
-    for i in range(6):
-        for j in range(6):
-            if abs(C[i, j]) > 1e-9 * math.sqrt(abs(C[i, i] * C[j, j])):
-                yield "sheet_wagner", at, f"C_{RESPONSE[i]}_{LOAD[j]}", C[i, j], unit_of(i, j), RELATIVE, "spatial moments; R = Ry Rz Rx"
-    yield "sheet_wagner", at, "u_x", beam.length * (r[0].real - 1), "m", RELATIVE
-    yield "sheet_wagner", at, "u_z", beam.length * r[2].real, "m", RELATIVE
-    yield "sheet_wagner", at, "F_y", beam.force * p[1], "N", RELATIVE
-    yield "sheet_wagner", at, "M_x", beam.force * beam.length * m[0].real, "N m", RELATIVE
-    yield "sheet_wagner", at, "M_z", beam.force * beam.length * m[2].real, "N m", RELATIVE
+        return np.array([x[1] - bend * deflection, R[1, 0] - math.sin(bend * phi_z), R[1, 2] + math.tan(twist * phi_x) * R[1, 1], force[0], force[2], moment[1]])
+    net, tip = clamped_sheet({"wagner": 1, **given}, conditions)
+    net.solve([0.5, 1.0] + [1 + i / 5 for i in range(1, 6)] if phi_x else (0.5, 1.0))
+    yield from quantities("sheet_wagner", given, net, tip, [(i, j) for i in range(6) for j in range(6)], "spatial moments; R = Ry Rz Rx")
 
 
 def rows():
     for given in ({}, {"tip_warping": 1}, {"tip_deflection": 0.05}, {"tip_deflection": 0.05, "tip_warping": 1}, {"tip_deflection": 0.001}, {"shear": 0},
                   {"warping": 0, "trapeze": 0, "shear_factor": 0.8333333333333334}, {"length": 0.05, "tip_deflection": 0.0075}, {"width": 0.02}, {"thickness": 0.0005}):
         yield from cantilever(**given)
+    for deflection in (0.005, 0.01):
+        for free in (0, 1):
+            given = {"tip_deflection": deflection, "tip_warping": 1} if free else {"tip_deflection": deflection}
+            yield from (row for row in cantilever(**given) if row[2] in ("C_xx", "C_zz"))
     for given in ({}, {"wagner": 0}, {"tip_warping": 1}, {"wagner": 0, "tip_warping": 1}):
         yield from twisted(**given)
+    for phi_x in (0.05, 0.1):
+        for wagner in (1, 0):
+            given = {"tip_phi_x": phi_x} if wagner else {"wagner": 0, "tip_phi_x": phi_x}
+            yield from (row for row in twisted(**given) if row[2] == "C_ux_My")

@@ -1,0 +1,78 @@
+"""Flexure-based hexapod (N section 4.3, synthetic sizes): support stiffness along z of twelve joints of geometrically exact sheets.
+
+Six cranks turn about horizontal tangents by one common angle, unknown, such that the platform has the prescribed height;
+then the cranks are held and the platform takes a unit force.  Each joint's base is on the rod, its z axis along the rod and
+out of it, its x axis in the plane of the rod and the global z axis, on the upper side.
+"""
+import math
+
+import numpy as np
+
+from reference.derive.beam import rotation
+from reference.derive.joint import add_joint, sheet_of
+from reference.derive.network import Network
+from reference.derive.sheets import parameters
+
+RELATIVE = 1e-9
+SIZES = {"base_radius": 0.40, "crank_length": 0.20, "crank_azimuth": math.radians(12), "platform_radius": 0.16, "platform_azimuth": math.radians(48), "height": 0.30,
+         "stroke": 0.05, "steps": 11}
+
+
+def crank_conditions(pivot, axis):
+    """Turned about the axis by the common angle."""
+    axis = np.asarray(axis)
+
+    def conditions(level, x, R, force, moment, numbers):
+        turn = rotation(np.concatenate([[np.cos(numbers[0] / 2)], np.sin(numbers[0] / 2) * axis]))
+        D = R @ turn.T
+        return np.concatenate([x - pivot, np.array([D[2, 1] - D[1, 2], D[0, 2] - D[2, 0], D[1, 0] - D[0, 1]]) / 2])
+    return conditions
+
+
+def joint_axes(direction):
+    x = np.array([0, 0, 1]) - direction[2] * direction
+    x = x / np.linalg.norm(x)
+    return np.column_stack([x, np.cross(direction, x), direction])
+
+
+def add_leg(net, beam, given, leg, platform):
+    value = {**SIZES, **given}
+    side, middle = (-1 if leg % 2 == 0 else 1), 2 * math.pi / 3 * (leg // 2)
+    below, above = middle + side * value["crank_azimuth"], middle + side * value["platform_azimuth"]
+    radial = np.array([math.cos(below), math.sin(below), 0])
+    low = (value["base_radius"] - value["crank_length"]) * radial
+    high = np.array([value["platform_radius"] * math.cos(above), value["platform_radius"] * math.sin(above), value["height"]])
+    along = (high - low) / np.linalg.norm(high - low)
+    pivot = value["base_radius"] * radial
+    crank = net.body(pivot, crank_conditions(pivot / net.length, (-math.sin(below), math.cos(below), 0)))
+    rod = net.body(low)
+    add_joint(net, beam, given, low, joint_axes(-along), rod, crank, f"{leg}.low")
+    add_joint(net, beam, given, high, joint_axes(along), rod, platform, f"{leg}.high")
+
+
+def stiffness_curve(intervals=3, nodes=9, **given):
+    """[(stiffness in N/m, crank angle in rad)] at the positions from -stroke to +stroke."""
+    value = {**SIZES, **given}
+    beam = sheet_of(given)
+    net = Network(beam.length, beam.EIz / beam.length ** 2, numbers=[0.0], intervals=intervals, nodes=nodes)
+    platform = net.body((0, 0, value["height"]))
+    for leg in range(6):
+        add_leg(net, beam, given, leg, platform)
+    net.extra = [(platform, lambda level, x, R, force, moment, numbers: [x[2] - (value["height"] + level) / net.length])]
+    cranks_held = {"extra": [(platform, lambda level, x, R, force, moment, numbers: [numbers[0]])]}
+    out = []
+    steps = value["steps"]
+    positions = [value["stroke"] * (2 * k / (steps - 1) - 1) for k in range(steps)]
+    net.solve([positions[0] / 4 * k for k in (1, 2, 3)], tolerance=1e-4)
+    for position in positions:
+        net.solve((position,), tolerance=1e-9)
+        out.append((1 / net.response(position, platform, cranks_held)[2, 2], net.numbers[0]))
+    return out
+
+
+def rows():
+    for given in ({}, {"wagner": 0}):
+        curve = stiffness_curve(**given)
+        for k, (stiffness, _) in enumerate(curve):
+            yield "hexapod", parameters(given), f"support_stiffness_{k + 1}", stiffness, "N/m", RELATIVE
+        yield "hexapod", parameters(given), "crank_angle", curve[-1][1], "rad", RELATIVE

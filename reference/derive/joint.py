@@ -1,0 +1,100 @@
+"""Spherical flexure joint (N section 4.2): support stiffness of twelve geometrically exact sheets around one turn of the tilt axis.
+
+Geometry: fold lines through the centre at the polar angle from z, their outer ends at the radius; the two sheets of a fold
+lie symmetric to the vertical plane through it, the fold angle apart, on the outer side, at right angles to the fold line.
+Three folds join base and intermediate body; their mirror images in the xy plane, turned by 60 degrees, join that to the end
+effector.  The sheet on the +azimuth side goes to the lower-numbered body.  Sheets do not warp at bodies.
+"""
+import math
+
+import numpy as np
+
+from reference.derive.network import Network, clamped, free
+from reference.derive.sheets import parameters, sheet
+
+RELATIVE = 1e-10
+SIZES = {"length": 0.0681, "width": 0.0282, "thickness": 0.000838, "young": 210e9, "poisson": 0.3, "wagner": 1}
+ANGLES = {"fold_angle": math.radians(86.2), "radius": 0.0343, "polar_angle": math.radians(40.2), "azimuth": 0.0, "fold_warping": "shared"}
+
+
+def sheet_of(given):
+    return sheet(**{**SIZES, **{k: v for k, v in given.items() if k in SIZES}})
+
+
+def fold(net, beam, given, centre, axes, azimuth, mirrored, bodies, name):
+    """Two sheets and the body where they meet; axes: columns are the joint's x, y, z."""
+    value = {**SIZES, **ANGLES, **given}
+    up = np.diag([1, 1, -1.0 if mirrored else 1.0])
+    turn = np.array([[math.cos(azimuth), -math.sin(azimuth), 0], [math.sin(azimuth), math.cos(azimuth), 0], [0, 0, 1]])
+    to_global = axes @ turn @ up
+    polar, half = value["polar_angle"], value["fold_angle"] / 2
+    line = np.array([math.sin(polar), 0, math.cos(polar)])
+    outward = np.array([math.cos(polar), 0, -math.sin(polar)])
+    middle = (value["radius"] - value["width"] / 2) * line
+    crease = net.body(centre + to_global @ middle)
+    for side, body in ((1, bodies[0]), (-1, bodies[1])):
+        along = math.cos(half) * outward + side * math.sin(half) * np.array([0, 1, 0])  # from the fold to the body
+        end = middle + value["length"] * along
+        x, z = -to_global @ along, to_global @ line
+        at_fold = {"shared": name, "free": "free", "fixed": "fixed"}[value["fold_warping"]]
+        # z along the fold line, y normal to the sheet.
+        y = np.cross(z, x)
+        net.member(beam, body, crease, centre + to_global @ end, np.column_stack([x, y, z]), ("fixed", at_fold))
+
+
+def add_joint(net, beam, given, centre, axes, base, effector, name):
+    """One joint between two bodies; returns its intermediate body."""
+    middle = net.body(centre)
+    first = given.get("azimuth", ANGLES["azimuth"])
+    for k in range(3):
+        fold(net, beam, given, centre, axes, first + 2 * math.pi * k / 3, False, (base, middle), f"{name}.{k}")
+    for k in range(3):
+        fold(net, beam, given, centre, axes, first + 2 * math.pi * (k + 0.5) / 3, True, (middle, effector), f"{name}.{k + 3}")
+    return middle
+
+
+def held_rotation(level, x, R, force, moment, numbers):
+    """For the response: any force, no change of rotation."""
+    return np.concatenate([force, [R[2, 1], R[0, 2], R[1, 0]]])
+
+
+def turned(given):
+    tilt, steps = given.get("tilt", math.radians(15)), given.get("steps", 50)
+
+    def vector(level):
+        """Levels below 1 lead to the first azimuth."""
+        azimuth = 2 * math.pi * max(level - 1, 0) / steps
+        return min(level, 1.0) * tilt * np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
+    return vector
+
+
+def stiffness_curve(intervals=4, nodes=10, **given):
+    """(undeformed, [at every azimuth]) in N/m."""
+    beam = sheet_of(given)
+    net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=intervals, nodes=nodes)
+    vector = turned(given)
+    place = clamped((0.0, 0.0, 0.0), vector)
+
+    def driven(level, x, R, force, moment, numbers):
+        return np.concatenate([force, place(level, x, R, force, moment, numbers)[3:]])
+    base, effector = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body((0, 0, 0), driven)
+    add_joint(net, beam, given, np.zeros(3), np.eye(3), base, effector, "joint")
+
+    def stiffness(level):
+        return 1 / net.response(level, effector, {})[2, 2]
+    undeformed, curve = stiffness(0.0), []
+    for level in (0.5, 1.0):
+        net.solve((level,))
+    steps = given.get("steps", 50)
+    for k in range(steps):
+        net.solve((1.0 + k,), tolerance=1e-9)
+        curve.append(stiffness(1.0 + k))
+    return undeformed, curve
+
+
+def rows():
+    for given in ({}, {"wagner": 0}, {"fold_warping": "free", "wagner": 0, "tilt": 0.1, "steps": 10}):
+        undeformed, curve = stiffness_curve(**given)
+        at = parameters(given)
+        for name, value in (("max", max(curve)), ("min", min(curve)), ("undeformed", undeformed)):
+            yield "spherical_joint", at, f"support_stiffness_{name}", value, "N/m", RELATIVE

@@ -1,0 +1,291 @@
+"""Rigid bodies joined by geometrically exact beams (beam.py): equilibrium by Newton's method, and the linear response there.
+
+Unknowns: of each body position x, rotation and the load (f, mu) on its reference point; of each beam F, m0 (moment about
+the origin, constant along the beam), its states at the ends of the intervals; numbers of the problem's own.
+Equations: body, equilibrium of forces and moments and six conditions; beam, its intervals, the closure at its end, one
+condition of warping at each end.
+"""
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.linalg import splu
+
+from reference.derive.beam import STEP, chebyshev, cross_matrix, exponential, product, quaternion, rotation
+
+BODY = 12  # x, rotation, force, moment
+
+
+def free(level, x, R, force, moment, numbers):
+    return np.concatenate([force, moment])
+
+
+def clamped(at, turned=None):
+    """Conditions of a body held at a place, with its rotation vector; both may depend on the level."""
+    place = at if callable(at) else lambda level: at
+    turn = turned or (lambda level: (0.0, 0.0, 0.0))
+
+    def conditions(level, x, R, force, moment, numbers):
+        D = R @ rotation(exponential(np.array(turn(level)))).T
+        return np.concatenate([x - np.array(place(level)), np.array([D[2, 1] - D[1, 2], D[0, 2] - D[2, 0], D[1, 0] - D[0, 1]]) / 2])
+    return conditions
+
+
+class Body:
+    def __init__(self, x, conditions):
+        self.x, self.q, self.load, self.conditions = np.array(x, dtype=float), np.array([1.0, 0, 0, 0]), np.zeros(6), conditions
+
+    @property
+    def R(self):
+        return rotation(self.q)
+
+
+class Member:
+    """A beam between two bodies; warp: 'fixed', 'free' or a name shared by several ends."""
+
+    def __init__(self, beam, bodies, ends, q0, warp, intervals, nodes):
+        self.beam, self.bodies, self.warp = beam, bodies, warp
+        self.ends, self.q_end = ends, [q0, None]  # offsets and triads in the bodies' axes
+        self.p = np.zeros(6)
+        self.s, self.W = chebyshev(nodes)
+        grid = (np.arange(intervals)[:, None] + self.s[None, :]) / intervals
+        self.h = 1.0 / intervals
+        start = np.array(bodies[0].x) + ends[0]
+        self.y = np.moveaxis(beam.at_rest(start, q0, grid.ravel()).reshape(beam.states, intervals, -1), 0, 2)
+        self.q_end[1] = self.y[-1, -1, 3:7].copy()
+        self.ends[1] = self.y[-1, -1, :3] - bodies[1].x
+
+    @property
+    def size(self):
+        return 6 + (2 if self.beam.warps else 0) + self.y.shape[0] * self.beam.states
+
+    def start_state(self):
+        y = self.y[0, 0].copy()
+        y[:3] = self.bodies[0].x + self.bodies[0].R @ self.ends[0]
+        y[3:7] = product(self.bodies[0].q, self.q_end[0])
+        return y
+
+    def linearise(self):
+        """Per interval: Y = base + A y_start + B p for changes, with the residual of the current values folded into base."""
+        m, n1, n = self.y.shape
+        columns = self.y.reshape(-1, n).T
+        f, fy, fp = self.beam.slope_and_derivatives(columns, np.repeat(self.p[:, None], columns.shape[1], axis=1))
+        f, fy, fp = f.T.reshape(m, n1, n), fy.reshape(m, n1, n, n), fp.reshape(m, n1, n, 6)
+        W = self.h * self.W
+        matrix = -np.einsum("jk,mkab->mjakb", W, fy).reshape(m, n1 * n, n1 * n)
+        matrix[:, np.arange(n1 * n), np.arange(n1 * n)] += 1
+        start = np.tile(np.eye(n), (n1, 1))
+        by_p = np.einsum("jk,mkab->mjab", W, fp).reshape(m, n1 * n, 6)
+        residual = (self.y[:, :1] + np.einsum("jk,mka->mja", W, f) - self.y).reshape(m, n1 * n, 1)
+        right = np.concatenate([np.broadcast_to(start, (m, n1 * n, n)), by_p, residual], axis=2)
+        self.response = np.linalg.solve(matrix, right).reshape(m, n1, n, n + 7)
+        return self.response[:, -1]
+
+
+class Network:
+    def __init__(self, length, force, numbers=(), intervals=4, nodes=12):
+        self.length, self.force, self.numbers = length, force, np.array(numbers, dtype=float)
+        self.bodies, self.members, self.intervals, self.nodes = [], [], intervals, nodes
+        self.extra = []  # conditions that fix the numbers: (body, function(level, x, R, force, moment, numbers))
+
+    def body(self, position, conditions=free):
+        """position [m]; conditions see dimensionless values."""
+        self.bodies.append(Body(np.array(position) / self.length, conditions))
+        return self.bodies[-1]
+
+    def member(self, beam, first, second, start, axes, warp=("fixed", "fixed")):
+        """start [m]: where the beam begins, fixed to the first body; axes: columns are its x, y, z."""
+        offset = np.array(start) / self.length - first.x
+        self.members.append(Member(beam.scaled(self.length, self.force), (first, second), [offset, None], quaternion(np.array(axes)), warp, self.intervals, self.nodes))
+        return self.members[-1]
+
+    def _places(self):
+        at = BODY * len(self.bodies)
+        for m in self.members:
+            m.at = at
+            at += m.size
+        for i, b in enumerate(self.bodies):
+            b.at = BODY * i
+        return at, at + len(self.numbers)
+
+    def _body_rows(self, level, conditions, b, put):
+        """Six conditions at rows b.at + 6 ..; linearised by complex steps."""
+        numbers = self._places_of_numbers
+        columns = list(range(b.at, b.at + BODY)) + numbers
+        R = b.R
+        values = None
+        for k, column in enumerate(columns):
+            d = np.zeros(BODY + len(numbers), dtype=complex)
+            d[k] = 1j * STEP
+            value = np.array(conditions(level, b.x + d[:3], R + cross_matrix(d[3:6]) @ R, b.load[:3] + d[6:9], b.load[3:] + d[9:12], self.numbers + d[12:]), dtype=complex)
+            values = value.real
+            for i in np.nonzero(value.imag)[0]:
+                put(i, column, value[i].imag / STEP)
+        return values
+
+    def _equilibrium(self, b, put, right):
+        """Rows b.at .. b.at + 5: external load, then the members add theirs."""
+        for i in range(3):
+            put(b.at + i, b.at + 6 + i, 1.0)
+            put(b.at + 3 + i, b.at + 9 + i, 1.0)
+        right[b.at:b.at + 3] -= b.load[:3]
+        right[b.at + 3:b.at + 6] -= b.load[3:] + np.cross(b.x, b.load[:3])
+        _block(put, b.at + 3, b.at + 6, cross_matrix(b.x))
+        _block(put, b.at + 3, b.at, -cross_matrix(b.load[:3]))
+
+    def _member_rows(self, m, put, right):
+        n, warps = m.beam.states, m.beam.warps
+        for b, sign in zip(m.bodies, (1.0, -1.0)):
+            _block(put, b.at, m.at, sign * np.eye(6))
+            right[b.at:b.at + 6] -= sign * m.p
+        first = m.at + 6  # column of (kx, B) at the start, then the states at the intervals' ends
+        nodes = first + (2 if warps else 0)
+        row = m.at
+        start = m.start_state()
+        maps = m.linearise()
+        for i, one in enumerate(maps):
+            A, B, c = one[:, :n], one[:, n:n + 6], one[:, n + 6]
+            _block(put, row, nodes + i * n, np.eye(n))
+            _block(put, row, m.at, -B)
+            jump = start - m.y[0, 0] if i == 0 else m.y[i - 1, -1] - m.y[i, 0]
+            right[row:row + n] += c + A @ jump
+            if i == 0:
+                b = m.bodies[0]
+                _block(put, row, b.at, -A[:, :3])
+                arm = -cross_matrix(b.R @ m.ends[0])
+                _block(put, row, b.at + 3, -A[:, :3] @ arm - A[:, 3:7] @ _spin(start[3:7]))
+                if warps:
+                    _block(put, row, first, -A[:, 7:9])
+            else:
+                _block(put, row, nodes + (i - 1) * n, -A)
+            row += n
+        self._closure(m, nodes + (len(maps) - 1) * n, row, put, right)
+
+    @staticmethod
+    def _closure(m, last, row, put, right):
+        """Place and rotation of the end; 2 vec(q o q_target*) = 0."""
+        b, y = m.bodies[1], m.y[-1, -1]
+        arm = b.R @ m.ends[1]
+        _block(put, row, last, np.eye(3))
+        _block(put, row, b.at, -np.eye(3))
+        _block(put, row, b.at + 3, cross_matrix(arm))
+        right[row:row + 3] -= y[:3] - b.x - arm
+        target = product(b.q, m.q_end[1])
+        back = target * np.array([1, -1, -1, -1])
+        by_q = np.array([2 * product(e, back)[1:] for e in np.eye(4)]).T
+        _block(put, row + 3, last + 3, by_q)
+        _block(put, row + 3, b.at + 3, -np.eye(3))
+        right[row + 3:row + 6] -= 2 * product(y[3:7], back)[1:]
+        m.warp_row = row + 6
+
+    def _warp_rows(self, put, right):
+        """One condition per end; ends that share a coordinate: equal kx, and their bimoments in balance."""
+        groups = {}
+        for m in (m for m in self.members if m.beam.warps):
+            for end in range(2):
+                column = m.at + (6 if end == 0 else 8 + m.y.shape[0] * 9 - 2)
+                state = m.y[0, 0, 7:] if end == 0 else m.y[-1, -1, 7:]
+                row, kind = m.warp_row + end, m.warp[end]
+                if kind in ("fixed", "free"):
+                    put(row, column + (kind == "free"), 1.0)
+                    right[row] -= state[int(kind == "free")]
+                else:
+                    groups.setdefault(kind, []).append((row, column, state, 1.0 if end else -1.0))
+        for ends in groups.values():
+            for k, (row, column, state, sign) in enumerate(ends):
+                if k > 0:
+                    put(row, column, 1.0)
+                    put(row, ends[0][1], -1.0)
+                    right[row] -= state[0] - ends[0][2][0]
+                put(ends[0][0], column + 1, sign)
+                right[ends[0][0]] -= sign * state[1]
+
+    def system(self, level, override=None):
+        """Sparse matrix and right-hand side of Newton's method; override: other conditions for some bodies."""
+        first_number, total = self._places()
+        self._places_of_numbers = list(range(first_number, total))
+        rows, columns, values, right = [], [], [], np.zeros(total)
+
+        def put(row, column, value):
+            rows.append(row), columns.append(column), values.append(value)
+        for b in self.bodies:
+            self._equilibrium(b, put, right)
+            conditions = (override or {}).get(b, b.conditions)
+            at = b.at + 6
+            right[at:at + 6] -= self._body_rows(level, conditions, b, lambda i, c, v: put(at + i, c, v))
+        for m in self.members:
+            self._member_rows(m, put, right)
+        self._warp_rows(put, right)
+        for k, (b, conditions) in enumerate((override or {}).get("extra", self.extra)):
+            right[first_number + k] -= self._body_rows(level, conditions, b, lambda i, c, v: put(first_number + k, c, v))[0]
+        return coo_matrix((values, (rows, columns)), shape=(total, total)).tocsc(), right
+
+    def _advance(self, step):
+        for m in self.members:
+            n, at = m.beam.states, m.at + 6 + (2 if m.beam.warps else 0)
+            start = m.start_state()
+            before = start - m.y[0, 0]
+            b = m.bodies[0]
+            before[:3] += step[b.at:b.at + 3] + np.cross(step[b.at + 3:b.at + 6], b.R @ m.ends[0])
+            before[3:7] += _spin(start[3:7]) @ step[b.at + 3:b.at + 6]
+            if m.beam.warps:
+                before[7:9] += step[m.at + 6:m.at + 8]
+            p = step[m.at:m.at + 6]
+            old_ends = m.y[:, -1].copy()
+            for i in range(m.y.shape[0]):
+                if i:
+                    before = old_ends[i - 1] + step[at + (i - 1) * n:at + i * n] - m.y[i, 0]
+                m.y[i] += m.response[i] @ np.concatenate([before, p, [1.0]])
+            m.p = m.p + p
+        for b in self.bodies:
+            d = step[b.at:b.at + BODY]
+            b.x, b.q, b.load = b.x + d[:3], product(exponential(d[3:6]), b.q), b.load + d[6:]
+            b.q = b.q / np.linalg.norm(b.q)
+        self.numbers = self.numbers + step[len(step) - len(self.numbers):]
+
+    def solve(self, path=(1.0,), tolerance=1e-12):
+        """Equilibrium at each level in turn; the last ones to round-off."""
+        for level in path:
+            for _ in range(30):
+                matrix, right = self.system(level)
+                step = splu(matrix).solve(right)
+                self._advance(step)
+                size = np.max(np.abs(step) / (1 + self._magnitudes()))
+                if not np.isfinite(size):
+                    raise ArithmeticError("Newton's method left the numbers")
+                if size <= tolerance:
+                    break
+            else:
+                raise ArithmeticError(f"Newton's method did not converge at level {level}")
+
+    def _magnitudes(self):
+        out = np.zeros(self._places()[1])
+        for b in self.bodies:
+            out[b.at + 6:b.at + 12] = np.max(np.abs(b.load))
+        for m in self.members:
+            out[m.at:m.at + 6] = np.max(np.abs(m.p))
+            if m.beam.warps:
+                out[m.at + 6:m.at + m.size] = np.max(np.abs(m.y[:, :, 7:]))
+        return out
+
+    def response(self, level, body, override):
+        """[6, 6] in SI: change of (u, theta) of the body by unit dead (f, mu) on it, with other conditions in force.
+
+        The body itself takes loads: its overriding conditions must be those of free bodies where a load is wanted.
+        """
+        matrix, _ = self.system(level, override)
+        right = np.zeros((matrix.shape[0], 6))
+        right[body.at + 6 + np.arange(6), np.arange(6)] = 1.0
+        out = splu(matrix).solve(right)[body.at:body.at + 6]
+        scale = np.array([self.length] * 3 + [1.0] * 3)[:, None] / np.array([self.force] * 3 + [self.force * self.length] * 3)[None, :]
+        return out * scale
+
+
+def _spin(q):
+    """dq/dtheta [4, 3] of a spatial rotation increment."""
+    return np.array([product(np.concatenate([[0.0], e]), q) / 2 for e in np.eye(3)]).T
+
+
+def _block(put, row, column, block):
+    for i, line in enumerate(block):
+        for j, value in enumerate(line):
+            if value != 0:
+                put(row + i, column + j, value)
