@@ -2,7 +2,7 @@
 # Everything is built in $(BUILD); CC, CFLAGS and BUILD can be given on the command line.
 
 BUILD ?= build
-CFLAGS ?= -O2 -g
+CFLAGS ?= -O3 -g
 PYTHON := /usr/bin/python3
 VERSION := $(shell sed -n 's/^version: *//p' CITATION.cff)
 COMMIT := $(shell git rev-parse --short=12 HEAD 2>/dev/null || echo unknown)

@@ -3,18 +3,20 @@
 
 #include <string.h>
 
-void dense_mul(int m, int k, int n, const double *A, const double *B, double *C)
+void dense_mul(int m, int k, int n, const double *restrict A, const double *restrict B, double *restrict C)
 {
     memset(C, 0, sizeof(double) * (size_t)m * (size_t)n);
     for (int i = 0; i < m; i++)
         for (int l = 0; l < k; l++) {
             const double a = A[i * k + l];
+            if (a == 0) /* blocks of zeros are the rule */
+                continue;
             for (int j = 0; j < n; j++)
                 C[i * n + j] += a * B[l * n + j];
         }
 }
 
-void dense_add_transpose_mul(int m, int k, int n, const double *A, const double *B, double *C)
+void dense_add_transpose_mul(int m, int k, int n, const double *restrict A, const double *restrict B, double *restrict C)
 {
     for (int l = 0; l < k; l++)
         for (int i = 0; i < m; i++) {
@@ -36,10 +38,36 @@ void dense_mul_vec(int m, int n, const double *A, const double *x, double *y)
     }
 }
 
+/* K += J^T (S J); sizes that are known where it is inlined make straight code. */
+static inline void congruence(int m, int n, const double *restrict J, const double *restrict S, double *restrict K,
+                              double *restrict work)
+{
+    for (int i = 0; i < m; i++) {
+        double *row = work + i * n;
+        for (int j = 0; j < n; j++)
+            row[j] = 0;
+        for (int l = 0; l < m; l++) {
+            const double s = S[i * m + l];
+            for (int j = 0; j < n && s != 0; j++)
+                row[j] += s * J[l * n + j];
+        }
+    }
+    for (int l = 0; l < m; l++)
+        for (int i = 0; i < n; i++) {
+            const double a = J[l * n + i];
+            for (int j = 0; j < n && a != 0; j++)
+                K[i * n + j] += a * work[l * n + j];
+        }
+}
+
 void dense_add_congruence(int m, int n, const double *J, const double *S, double *K, double *work)
 {
-    dense_mul(m, m, n, S, J, work);
-    dense_add_transpose_mul(n, m, n, J, work, K);
+    if (m == 8 && n == 14)
+        congruence(8, 14, J, S, K, work);
+    else if (m == 8 && n == 8)
+        congruence(8, 8, J, S, K, work);
+    else
+        congruence(m, n, J, S, K, work);
 }
 
 int dense_cholesky(int n, double *A)

@@ -96,7 +96,8 @@ static void add_compliance(const stiffnesses *k, const unit_fields *u, double w,
                         sum += u->B[i][a] * u->B[j][b] / k->EIw;
                     if (a == 0 && b == 0)
                         sum += u->My[i] * u->My[j] / k->EIy;
-                    out->A[i][j][a][b] += w * sum;
+                    out->A[i][j][a][b] += w * sum; /* second derivatives: symmetric in a and b */
+                    out->A[i][j][b][a] += w * sum;
                 }
 }
 
@@ -170,10 +171,10 @@ status potential_prepare(const element_request *request, int printed, potential 
         add_compliance(&k, &u, w[i] * k.L, out);
         add_work(&k, &u, field, w[i] * k.L, out);
     }
-    out->A[0][0][0][0] += k.L / k.EA;
+    out->A[0][0][0][0] += 2 * k.L / k.EA;
     for (int i = 2; i < 4; i++)
         for (int j = 2; j < 4; j++)
-            out->A[i][j][0][0] += k.fz / k.L;
+            out->A[i][j][0][0] += 2 * k.fz / k.L;
     out->b_linear[0][LOCAL_U] += 1;
     out->b_linear[2][LOCAL_YP] += 1;
     out->b_linear[3][LOCAL_YQ] += 1;
@@ -182,39 +183,41 @@ status potential_prepare(const element_request *request, int printed, potential 
     return made;
 }
 
-/* A, its derivatives A_k (times s) and the sums the Hessian needs, at y. */
-static void evaluate_compliance(const potential *p, const double y[AFFINE], double A[STRESSES * STRESSES])
+enum { PAIRS = STRESSES * (STRESSES + 1) / 2 };
+
+/* A at y, and row[pair][a] = dA_ij/dy_a. */
+static void evaluate_compliance(const potential *p, const double y[AFFINE], double A[STRESSES * STRESSES],
+                                double row[PAIRS][AFFINE])
 {
-    for (int i = 0; i < STRESSES; i++)
-        for (int j = i; j < STRESSES; j++) {
+    for (int i = 0, k = 0; i < STRESSES; i++)
+        for (int j = i; j < STRESSES; j++, k++) {
             double sum = 0;
             for (int a = 0; a < AFFINE; a++) {
-                double row = 0;
+                row[k][a] = 0;
                 for (int b = 0; b < AFFINE; b++)
-                    row += p->A[i][j][a][b] * y[b];
-                sum += row * y[a];
+                    row[k][a] += p->A[i][j][a][b] * y[b];
+                sum += row[k][a] * y[a];
             }
-            A[STRESSES * i + j] = A[STRESSES * j + i] = sum;
+            A[STRESSES * i + j] = A[STRESSES * j + i] = sum / 2;
         }
 }
 
 /* As[a][i] = sum_j dA_ij/dy_a s_j;  sAs[a][b] = s^T d2A/dy_a dy_b s. */
-static void compliance_derivatives(const potential *p, const double y[AFFINE], const double s[STRESSES],
+static void compliance_derivatives(const potential *p, double row[PAIRS][AFFINE], const double s[STRESSES],
                                    double As[AFFINE][STRESSES], double sAs[AFFINE][AFFINE])
 {
     memset(As, 0, AFFINE * sizeof As[0]);
     memset(sAs, 0, AFFINE * sizeof sAs[0]);
-    for (int i = 0; i < STRESSES; i++)
-        for (int j = 0; j < STRESSES; j++)
+    for (int i = 0, k = 0; i < STRESSES; i++)
+        for (int j = i; j < STRESSES; j++, k++) {
+            const double both = (i == j ? 1 : 2) * s[i] * s[j];
             for (int a = 1; a < AFFINE; a++) {
-                double sum = 0;
-                for (int b = 0; b < AFFINE; b++) {
-                    const double c = p->A[i][j][a][b] + p->A[i][j][b][a];
-                    sum += c * y[b];
-                    sAs[a][b] += s[i] * s[j] * c;
-                }
-                As[a][i] += sum * s[j];
+                As[a][i] += row[k][a] * s[j];
+                As[a][j] += i == j ? 0 : row[k][a] * s[i];
+                for (int b = 0; b < AFFINE; b++)
+                    sAs[a][b] += both * p->A[i][j][a][b];
             }
+        }
 }
 
 static void add_wagner_terms(const potential *p, const double x[LOCALS], double *P, double g[LOCALS], double h[LOCALS * LOCALS])
@@ -239,18 +242,18 @@ static void add_wagner_terms(const potential *p, const double x[LOCALS], double 
 status potential_evaluate(const potential *p, const double x[LOCALS], double *P, double g[LOCALS], double h[LOCALS * LOCALS])
 {
     double y[AFFINE] = {1}, A[STRESSES * STRESSES], b1[STRESSES][LOCALS], s[STRESSES], b[STRESSES], As[AFFINE][STRESSES],
-           sAs[AFFINE][AFFINE];
+           sAs[AFFINE][AFFINE], row[PAIRS][AFFINE];
     for (int a = 1; a < AFFINE; a++)
         y[a] = x[potential_local[a]];
-    evaluate_compliance(p, y, A);
+    evaluate_compliance(p, y, A, row);
     for (int i = 0; i < STRESSES; i++) {
         double half = 0, linear = 0;
         for (int k = 0; k < LOCALS; k++) {
-            double row = 0;
+            double slope = 0;
             for (int m = 0; m < LOCALS; m++)
-                row += p->b[i][k][m] * x[m];
-            b1[i][k] = p->b_linear[i][k] + row;
-            half += row * x[k] / 2;
+                slope += p->b[i][k][m] * x[m];
+            b1[i][k] = p->b_linear[i][k] + slope;
+            half += slope * x[k] / 2;
             linear += p->b_linear[i][k] * x[k];
         }
         s[i] = b[i] = linear + half;
@@ -258,7 +261,7 @@ status potential_evaluate(const potential *p, const double x[LOCALS], double *P,
     if (dense_cholesky(STRESSES, A) != 0)
         return STATUS_SINGULAR;
     dense_cholesky_solve(STRESSES, 1, A, s);
-    compliance_derivatives(p, y, s, As, sAs);
+    compliance_derivatives(p, row, s, As, sAs);
 
     double R[STRESSES][LOCALS], AR[STRESSES][LOCALS];
     memcpy(R, b1, sizeof R);

@@ -8,7 +8,7 @@
 enum { STRESSES = 6, AFFINE = 6, QUARTIC = 35 };
 
 typedef struct potential {
-    double A[STRESSES][STRESSES][AFFINE][AFFINE]; /* A_ij = sum y_a y_b A[i][j][a][b], symmetric in both pairs */
+    double A[STRESSES][STRESSES][AFFINE][AFFINE]; /* A_ij = sum y_a y_b A[i][j][a][b]/2, symmetric in both pairs */
     double b[STRESSES][LOCALS][LOCALS];           /* quadratic part: x^T b_i x/2 */
     double b_linear[STRESSES][LOCALS];
     double P0[LOCALS][LOCALS]; /* x^T P0 x/2 */

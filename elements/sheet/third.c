@@ -10,8 +10,7 @@ typedef struct third_data {
     element_data linear; /* inertia only; S is not used */
     relations relations;
     potential potential;
-    double scale[RELATIONS_STRAINS]; /* x_a = scale_a e_a + e^T X_a e/2: N Eqs. 58-65 */
-    double X[RELATIONS_STRAINS][RELATIONS_STRAINS * RELATIONS_STRAINS];
+    relations_map inverse; /* local coordinates from strains: N Eqs. 58-65 */
     int warps;
 } third_data;
 
@@ -27,30 +26,10 @@ size_t third_data_size(const element_request *request)
 }
 
 /* Strains counted from 1, as in the paper. */
-static void add_term(third_data *d, int local, int i, int j, double c)
+static void add_term(double X[RELATIONS_STRAINS * RELATIONS_STRAINS], int i, int j, double c)
 {
-    d->X[local][RELATIONS_STRAINS * (i - 1) + j - 1] += c;
-    d->X[local][RELATIONS_STRAINS * (j - 1) + i - 1] += c;
-}
-
-/* N Eqs. 58-65: the deformation function inverted to second order. */
-static void partial_inverse(double L, third_data *d)
-{
-    const double L2 = L * L, linear[RELATIONS_STRAINS] = {1, 1 / L, -1 / L, 1 / L, -1 / L, 1 / L, 1 / L2, 1 / L2};
-    memcpy(d->scale, linear, sizeof linear);
-    add_term(d, LOCAL_U, 5, 5, -1 / (15 * L));
-    add_term(d, LOCAL_U, 5, 6, -1 / (30 * L));
-    add_term(d, LOCAL_U, 6, 6, -1 / (15 * L));
-    add_term(d, LOCAL_YP, 2, 5, 1 / (10 * L2));
-    add_term(d, LOCAL_YP, 2, 6, 2 / (10 * L2));
-    add_term(d, LOCAL_YP, 7, 5, 1 / (10 * L2));
-    add_term(d, LOCAL_YP, 8, 5, -1 / (30 * L2));
-    add_term(d, LOCAL_YP, 8, 6, -1 / (30 * L2));
-    add_term(d, LOCAL_YQ, 2, 5, 2 / (10 * L2));
-    add_term(d, LOCAL_YQ, 2, 6, -9 / (10 * L2));
-    add_term(d, LOCAL_YQ, 8, 6, 1 / (10 * L2));
-    add_term(d, LOCAL_YQ, 7, 5, -1 / (30 * L2));
-    add_term(d, LOCAL_YQ, 7, 6, -1 / (30 * L2));
+    X[RELATIONS_STRAINS * (i - 1) + j - 1] += c;
+    X[RELATIONS_STRAINS * (j - 1) + i - 1] += c;
 }
 
 /* e7 = e8 = e2 where nothing warps: everything that multiplies e7 or e8 multiplies e2. */
@@ -66,6 +45,34 @@ static void follow(double M[RELATIONS_STRAINS * RELATIONS_STRAINS])
             }
 }
 
+/* N Eqs. 58-65: the deformation function inverted to second order. */
+static void partial_inverse(double L, int warps, relations_map *inverse)
+{
+    double X[RELATIONS_STRAINS][RELATIONS_STRAINS * RELATIONS_STRAINS] = {{0}};
+    const double L2 = L * L, linear[RELATIONS_STRAINS] = {1, 1 / L, -1 / L, 1 / L, -1 / L, 1 / L, 1 / L2, 1 / L2};
+    memcpy(inverse->linear, linear, sizeof linear);
+    add_term(X[LOCAL_U], 5, 5, -1 / (15 * L));
+    add_term(X[LOCAL_U], 5, 6, -1 / (30 * L));
+    add_term(X[LOCAL_U], 6, 6, -1 / (15 * L));
+    add_term(X[LOCAL_YP], 2, 5, 1 / (10 * L2));
+    add_term(X[LOCAL_YP], 2, 6, 2 / (10 * L2));
+    add_term(X[LOCAL_YP], 7, 5, 1 / (10 * L2));
+    add_term(X[LOCAL_YP], 8, 5, -1 / (30 * L2));
+    add_term(X[LOCAL_YP], 8, 6, -1 / (30 * L2));
+    add_term(X[LOCAL_YQ], 2, 5, 2 / (10 * L2));
+    add_term(X[LOCAL_YQ], 2, 6, -9 / (10 * L2));
+    add_term(X[LOCAL_YQ], 8, 6, 1 / (10 * L2));
+    add_term(X[LOCAL_YQ], 7, 5, -1 / (30 * L2));
+    add_term(X[LOCAL_YQ], 7, 6, -1 / (30 * L2));
+    for (int a = 0; a < RELATIONS_STRAINS; a++) {
+        if (!warps)
+            follow(X[a]);
+        if (!warps && a >= LOCAL_WP)
+            inverse->linear[a] = 0;
+        relations_add_terms(inverse, a, X[a]);
+    }
+}
+
 status third_prepare(const element_request *request, int printed, element_data *d, fault *f)
 {
     third_data *out = (third_data *)(void *)d;
@@ -76,12 +83,7 @@ status third_prepare(const element_request *request, int printed, element_data *
     stiffness_of(request->section, request->length, STIFFNESS_RIGID, &fields, out->linear.S);
     if (request->features & FEATURE_MASS)
         inertia_prepare(request->section, request->features, INERTIA_LUMPED, &fields, &out->linear);
-    partial_inverse(request->length, out);
-    for (int a = 0; a < RELATIONS_STRAINS && !out->warps; a++) {
-        follow(out->X[a]);
-        if (a >= LOCAL_WP)
-            out->scale[a] = 0;
-    }
+    partial_inverse(request->length, out->warps, &out->inverse);
     const status made = relations_prepare(request, 0, 0, &out->relations, f);
     return made == STATUS_OK ? potential_prepare(request, printed, &out->potential, f) : made;
 }
@@ -96,16 +98,8 @@ status third_stress(const element_data *base, const double e[], const double inn
     enum { N = RELATIONS_STRAINS };
     (void)inner;
     const third_data *d = data_of(base);
-    double x[N], J[N * N], P, g[N], h[N * N];
-    for (int a = 0; a < N; a++) {
-        double row[N], half = 0;
-        dense_mul_vec(N, N, d->X[a], e, row);
-        for (int k = 0; k < N; k++) {
-            J[N * a + k] = row[k] + (a == k ? d->scale[a] : 0);
-            half += row[k] * e[k] / 2;
-        }
-        x[a] = d->scale[a] * e[a] + half;
-    }
+    double x[N], J[N][N], P, g[N], h[N * N];
+    relations_apply(&d->inverse, e, x, J);
     const status outcome = potential_evaluate(&d->potential, x, &P, g, h);
     if (outcome != STATUS_OK)
         return outcome;
@@ -113,15 +107,13 @@ status third_stress(const element_data *base, const double e[], const double inn
         *out->energy = P;
     if (out->sigma != NULL) {
         memset(out->sigma, 0, N * sizeof(double));
-        dense_add_transpose_mul(N, N, 1, J, g, out->sigma);
+        dense_add_transpose_mul(N, N, 1, &J[0][0], g, out->sigma);
     }
     if (out->C != NULL) {
         double work[N * N];
         memset(out->C, 0, N * N * sizeof(double));
-        dense_add_congruence(N, N, J, h, out->C, work);
-        for (int a = 0; a < N; a++)
-            for (int i = 0; i < N * N; i++)
-                out->C[i] += g[a] * d->X[a][i];
+        dense_add_congruence(N, N, &J[0][0], h, out->C, work);
+        relations_add_second(&d->inverse, g, out->C);
     }
     if (out->residual != NULL)
         *out->residual = 0;
