@@ -3,10 +3,13 @@
 #define BEAMWORK_STORE_H
 
 #include "harness/run/environment.h"
+#include "harness/run/record.h"
 #include "harness/run/verdict.h"
 
 enum { STORE_VERSION = 1 };
 
+/* Group n<elements> below `at`; of[quantities]: the truth of each, NULL where there is none. */
+void store_cell(record *r, hid_t at, const point *p, int elements, const cell_result *cell, const truth *const of[]);
 /* Written beside and renamed: FAULT leaves nothing behind. */
 status store_write(const char *path, const sweep *s, const judgement *j, const environment *e, fault *f);
 

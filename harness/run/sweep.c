@@ -104,8 +104,10 @@ static int bury(sweep *s, const task *tasks, const board *b, int self, worker *w
         return 0;
     cell_result *cell = cell_of(s, &tasks[b->at[self]]);
     cell->solve.status = STATUS_FAULT;
-    snprintf(cell->solve.reason, sizeof cell->solve.reason, "the cell's process ended by %s %d",
-             WIFSIGNALED(how) ? "signal" : "exit status", WIFSIGNALED(how) ? WTERMSIG(how) : WEXITSTATUS(how));
+    if (WIFSIGNALED(how))
+        snprintf(cell->solve.reason, sizeof cell->solve.reason, "crashed with signal %d", WTERMSIG(how));
+    else
+        snprintf(cell->solve.reason, sizeof cell->solve.reason, "its process ended with status %d", WEXITSTATUS(how));
     return 1;
 }
 
@@ -164,6 +166,8 @@ static status run_parallel(const sweep_request *request, sweep *s, const task *t
             kill(workers[i].process, SIGKILL);
             bury(s, tasks, b, i, &workers[i]);
         }
+    if (outcome == STATUS_OK && done < count)
+        outcome = fault_set(f, STATUS_FAULT, "the worker processes ended before all cells were done (%d of %d)", done, count);
     return outcome;
 }
 
@@ -182,16 +186,10 @@ status sweep_run(const sweep_request *request, sweep *s, fault *f)
         for (int k = 0;
              k < s->series[i].meshes && s->series[i].missing[0] == '\0' && s->point[s->series[i].point].status == STATUS_OK; k++)
             tasks[n++] = (task){i, k};
-    if (request->jobs > 1) {
-        sweep_request bounded = *request;
-        bounded.jobs = request->jobs < MAX_JOBS ? request->jobs : MAX_JOBS;
-        outcome = run_parallel(&bounded, s, tasks, count, b, f);
-    } else {
-        for (int i = 0; i < count; i++) {
-            run_task(s, &tasks[i], cell_of(s, &tasks[i]));
-            report(request, s, &tasks[i], i + 1, count);
-        }
-    }
+    /* Even one job runs in a process of its own, so that a crash is a result and answers do not depend on the number. */
+    sweep_request bounded = *request;
+    bounded.jobs = request->jobs < MAX_JOBS ? request->jobs : MAX_JOBS;
+    outcome = run_parallel(&bounded, s, tasks, count, b, f);
     munmap(b, sizeof *b);
     free(tasks);
     return outcome;

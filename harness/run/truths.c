@@ -118,8 +118,10 @@ static status read_findings(const char *path, hid_t file, truths *out, fault *f)
     columns r = {.path = path, .name = "findings", .f = f};
     r.group = H5Gopen2(file, "findings", H5P_DEFAULT);
     r.rows = r.group >= 0 ? columns_length(r.group, "verdict") : -1;
-    if (r.rows < 0)
+    if (r.rows < 0) {
+        H5Gclose(r.group);
         return columns_broken(&r, "verdict");
+    }
     char **case_name = calloc((size_t)r.rows + 1, sizeof *case_name), **parameters = calloc((size_t)r.rows + 1, sizeof *parameters);
     out->finding = calloc((size_t)r.rows + 1, sizeof *out->finding);
     status outcome = STATUS_OK;

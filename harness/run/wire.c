@@ -38,33 +38,40 @@ static void *array(FILE *from, size_t count, size_t size, int *bad)
     return out;
 }
 
-int wire_read(FILE *from, cell_result *cell)
+static int read_cell(FILE *from, cell_result *cell)
 {
     solve_result *s = &cell->solve;
-    int lines = 0, bad = 0;
-    memset(cell, 0, sizeof *cell);
-    if (get(from, &cell->size, sizeof cell->size) != 0 || get(from, &cell->counters, sizeof cell->counters) != 0 ||
-        get(from, s, sizeof *s) != 0)
-        return -1;
-    s->quantity = NULL;
-    s->step = NULL;
-    if (get(from, &lines, sizeof lines) != 0)
+    int lines = 0, bad = get(from, &cell->size, sizeof cell->size) | get(from, &cell->counters, sizeof cell->counters);
+    solve_result head = {0};
+    if (bad || get(from, &head, sizeof head) != 0 || get(from, &lines, sizeof lines) != 0 || head.quantities < 0 ||
+        head.steps < 0 || lines < 0)
         return -1;
     cell->left_out = calloc((size_t)lines + 1, sizeof *cell->left_out);
     for (int i = 0; i < lines && !bad && cell->left_out != NULL; i++) {
         size_t length = 0;
         bad = get(from, &length, sizeof length) != 0;
-        cell->left_out[i] = bad ? NULL : array(from, length, 1, &bad);
-        cell->left_out_lines++;
+        cell->left_out[cell->left_out_lines++] = bad ? NULL : array(from, length, 1, &bad);
     }
-    if (bad)
-        return -1;
-    s->quantity = array(from, (size_t)s->quantities, sizeof *s->quantity, &bad);
-    s->step = array(from, (size_t)s->steps, sizeof *s->step, &bad);
+    quantity_result *quantity = bad ? NULL : array(from, (size_t)head.quantities, sizeof *quantity, &bad);
+    for (int i = 0; i < head.quantities && quantity != NULL; i++)
+        quantity[i].curve.x = quantity[i].curve.value = NULL; /* addresses of the other process */
+    *s = head;
+    s->quantity = quantity;
+    s->quantities = quantity != NULL ? head.quantities : 0;
+    s->step = bad ? NULL : array(from, (size_t)head.steps, sizeof *s->step, &bad);
     for (int i = 0; i < s->quantities && !bad; i++) {
         const size_t points = (size_t)s->quantity[i].curve.points;
         s->quantity[i].curve.x = points > 0 ? array(from, points, sizeof(double), &bad) : NULL;
         s->quantity[i].curve.value = points > 0 ? array(from, points, sizeof(double), &bad) : NULL;
     }
-    return bad ? -1 : 0;
+    return bad || cell->left_out == NULL ? -1 : 0;
+}
+
+int wire_read(FILE *from, cell_result *cell)
+{
+    memset(cell, 0, sizeof *cell);
+    const int outcome = read_cell(from, cell);
+    if (outcome != 0)
+        cell_result_free(cell); /* nothing half-read is left */
+    return outcome;
 }

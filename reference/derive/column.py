@@ -17,8 +17,8 @@ E, G, RHO = mpf(144) * 10 ** 9, mpf("4.14e9"), mpf(1389)
 PRINTED = {"Iw": "1.3886e-4", "ys": "0.4571", "Dy": "0.0279", "Dz": "0.0158", "Dzw": "-3.70e-3", "Dw": "3.65e-3"}
 
 
-def channel_data(printed):
-    s = channel("0.6", "0.6", mpf("0.03"), mpf("0.03"))
+def channel_data(printed=False, height="0.6", width="0.6", web_thickness="0.03", **_):
+    s = channel(height, width, mpf("0.03"), mpf(web_thickness))
     if printed:
         s.Iw, s.ys = mpf(PRINTED["Iw"]), mpf(PRINTED["ys"])
         d = matrix(3, 3)
@@ -137,7 +137,23 @@ def _text(**given):
     return ";".join(f"{name}={value}" for name, value in given.items())
 
 
+def other_sizes():
+    """A deep channel, and one with a thin web."""
+    for given in ({"length": 4, "height": "0.9", "width": "0.3"}, {"web_thickness": "0.01"}):
+        s, l = channel_data(**given), mpf(given.get("length", 6))
+        yield "c_column", _text(**given), "buckling_load", buckling_load(s, l, True, False), "N"
+        yield "c_column", _text(**given, shear=0), "buckling_load", buckling_load(s, l, False, False), "N"
+        for i, value in enumerate(frequencies(s, l, True, True, 4)):
+            yield "c_column", _text(**given), f"frequency_{i + 1}", value, "Hz"
+        for shear in (0, 1):
+            low, high = buckling_moments(s, l, shear, False, True)
+            at = _text(**given, **({"shear": 1} if shear else {}))
+            yield "moment_buckling", at, "buckling_moment_negative", low, "N m"
+            yield "moment_buckling", at, "buckling_moment_positive", high, "N m"
+
+
 def rows():
+    yield from other_sizes()
     for length in (None, 3, 12):
         at = {} if length is None else {"length": length}
         l = mpf(6 if length is None else length)
@@ -150,6 +166,8 @@ def rows():
         if length is None:
             yield "c_column", "section_data=printed", "buckling_load", buckling_load(printed, l, True, False), "N"
             yield "c_column", "section_data=printed;shear=0", "buckling_load", buckling_load(printed, l, False, False), "N"
+            for i, value in enumerate(frequencies(printed, l, True, True, 13)):
+                yield "c_column", "section_data=printed", f"frequency_{i + 1}", value, "Hz"
             for i, value in enumerate(frequencies(plain, l, False, False, 13)):
                 yield "c_column", "shear=0;rotary_inertia=0", f"frequency_{i + 1}", value, "Hz"
             yield "c_column", "shear=0;rotary_inertia=0", "buckling_load", buckling_load(plain, l, False, False), "N"

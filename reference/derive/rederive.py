@@ -9,7 +9,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
-from reference.pack import COLUMNS  # noqa: E402
+from reference.pack import COLUMNS, read_defaults  # noqa: E402
 
 TABLES = ROOT / "reference" / "tables"
 DIGITS = 13
@@ -53,9 +53,11 @@ def derived_rows(name):
 
 
 def write(names):
-    derived = {}
+    derived, cases = {}, read_defaults(ROOT / "reference" / "defaults.csv")
     for name in names:
         for row, _ in derived_rows(name):
+            if row["case"] not in cases:
+                raise SystemExit(f"rederive.py: {name} knows case {row['case']}, reference/defaults.csv does not; add its parameters there first")
             derived.setdefault(row["case"], []).append(row)
     for case, rows in derived.items():
         path = TABLES / f"{case}.csv"
@@ -68,10 +70,13 @@ def write(names):
         print(f"{path.name}: {len(rows)} exact rows, {len(kept)} others")
 
 
-def differences(name, stored, seen):
-    """(rows that agree, lines that say what differs) of one program."""
-    agree, lines = 0, []
+def differences(name, stored, seen, cases):
+    """(rows that agree, lines that say what differs, rows of cases that do not exist yet) of one program."""
+    agree, lines, waiting = 0, [], 0
     for row, value in derived_rows(name):
+        if row["case"] not in cases:
+            waiting += 1
+            continue
         key = (row["case"], canonical(row["parameters"]), row["quantity"])
         seen.add(key)
         known = stored.get(key)
@@ -81,18 +86,19 @@ def differences(name, stored, seen):
             lines.append(f"{key}: derived {value:.15g} {row['unit']}, stored {known['value']} +- {known['uncertainty']} {known['unit']}")
         else:
             agree += 1
-    return agree, lines
+    return agree, lines, waiting
 
 
 def compare(names, everything):
     stored = {}
     for path in sorted(TABLES.glob("*.csv")):
         stored.update({(row["case"], canonical(row["parameters"]), row["quantity"]): row for row in read_table(path) if row["kind"] == "exact"})
-    seen, agree, differ = set(), 0, 0
+    seen, agree, differ, cases = set(), 0, 0, read_defaults(ROOT / "reference" / "defaults.csv")
     for name in names:
-        good, lines = differences(name, stored, seen)
+        good, lines, waiting = differences(name, stored, seen, cases)
         agree, differ = agree + good, differ + len(lines)
-        print(f"{name:<24} {good:5d} rows agree {len(lines):5d} differ", flush=True)
+        later = f" {waiting:5d} wait for their case" if waiting else ""
+        print(f"{name:<24} {good:5d} rows agree {len(lines):5d} differ{later}", flush=True)
         for line in lines:
             print(f"  {line}")
     for key in [k for k in stored if everything and k not in seen]:

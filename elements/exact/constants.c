@@ -1,0 +1,47 @@
+#include "elements/exact/constants.h"
+
+#include <math.h>
+#include <string.h>
+
+status constants_of(const element_request *request, constants *out, fault *f)
+{
+    const section *c = request->section;
+    const unsigned has = request->features;
+    const double l0 = request->length, EI = c->young * fmin(c->Iy, c->Iz), E = c->young / EI, G = c->shear_modulus / EI;
+    if (!(l0 > 0) || !isfinite(l0))
+        return fault_set(f, STATUS_REFUSED, "element length %g m: it must be positive", l0);
+    memset(out, 0, sizeof *out);
+    out->energy = EI / l0;
+    out->EA = E * c->A * l0 * l0;
+    out->EIy = E * c->Iy;
+    out->EIz = E * c->Iz;
+    out->GJ = G * c->It;
+    out->warping = (has & FEATURE_WARPING) != 0;
+    out->EIw = E * c->Iw / (l0 * l0);
+    const double scale[3] = {1 / l0, 1 / l0, 1};
+    for (int i = 0; i < 9 && (has & FEATURE_SHEAR); i++)
+        out->F[i] = c->F[i] / G * scale[i / 3] * scale[i % 3];
+    /* A fibre at (y, z) turns about the shear centre when nothing shears, so that r' has the parts zs kappa_x and -ys kappa_x
+     * across the section: its elongation is gamma_x + z kappa_y - y kappa_z + [(y - ys)^2 + (z - zs)^2] kappa_x^2/2. */
+    if (has & FEATURE_TRAPEZE)
+        out->trapeze = c->Ip / c->A / (l0 * l0);
+    if (has & FEATURE_WAGNER_MOMENTS) {
+        out->bend_y = c->wagner_z / c->Iy / l0;
+        out->bend_z = -c->wagner_y / c->Iz / l0;
+    }
+    if (has & FEATURE_ECCENTRIC) {
+        out->ys = c->ys / l0;
+        out->zs = c->zs / l0;
+        out->trapeze += out->ys * out->ys + out->zs * out->zs;
+        out->bend_y -= 2 * out->zs;
+        out->bend_z += 2 * out->ys;
+    }
+    if (has & FEATURE_WAGNER_TORQUE)
+        out->torque = E * c->wagner_torque / (l0 * l0);
+    const double all[] = {out->energy, out->EA,   out->EIy,  out->EIz,  out->GJ,
+                          out->EIw,    out->F[0], out->F[4], out->F[8], out->torque};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (!isfinite(all[i]))
+            return fault_set(f, STATUS_REFUSED, "element of length %g m: its stiffness overflows; use fewer elements", l0);
+    return STATUS_OK;
+}

@@ -1,0 +1,21 @@
+/* Section constants made dimensionless with the length l0 of an element and one of its bending stiffnesses, and only those
+ * of the physics that is asked for. */
+#ifndef BEAMWORK_EXACT_CONSTANTS_H
+#define BEAMWORK_EXACT_CONSTANTS_H
+
+#include "elements/element.h"
+
+/* Forces in units of EI/l0^2, moments of EI/l0, bimoments of EI, lengths of l0. */
+typedef struct constants {
+    double energy; /* unit of energy EI/l0 [J], EI the smaller one */
+    double EA, EIy, EIz, GJ, EIw;
+    double F[9];                    /* shear flexibility F/G: (g_y, g_z, g_w) = F (Q_y, Q_z, M_w); zero: rigid */
+    double ys, zs;                  /* shear centre */
+    double trapeze, bend_y, bend_z; /* N, My, Mz see gamma_x, kappa_y, kappa_z plus these times kappa_x^2/2 */
+    double torque;                  /* energy torque kappa_x^4 per length */
+    int warping;
+} constants;
+
+status constants_of(const element_request *request, constants *out, fault *f);
+
+#endif

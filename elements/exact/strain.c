@@ -1,0 +1,266 @@
+#include "elements/exact/strain.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/exact/line.h"
+#include "elements/exact/point.h"
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+
+/* What the nodes' states say, once per evaluation. */
+typedef struct nodes {
+    double q[ELEMENT_MAX_NODES][4];
+    double r[ELEMENT_MAX_NODES][3], u[ELEMENT_MAX_NODES][3]; /* per l0 */
+} nodes;
+
+/* atan(y)/y and its first and second derivative with respect to t = y^2. */
+static void angle_ratio(double t, double m[3])
+{
+    if (t < 0.01) {
+        double power = 1;
+        m[0] = m[1] = m[2] = 0;
+        for (int k = 0; k < 10; k++) { /* sum (-t)^k/(2 k + 1) */
+            m[0] += power / (2 * k + 1);
+            m[1] -= power * (k + 1) / (2 * k + 3);
+            m[2] += power * (k + 1) * (k + 2) / (2 * k + 5);
+            power *= -t;
+        }
+        return;
+    }
+    m[0] = atan(sqrt(t)) / sqrt(t);
+    m[1] = (1 / (1 + t) - m[0]) / (2 * t);
+    m[2] = (-1 / ((1 + t) * (1 + t)) - 3 * m[1]) / (2 * t);
+}
+
+/* From x = 4 tan(angle/4) about an axis to the angle about it: psi = m(|x|^2/16) x. */
+static void to_angle(const double x[3], double psi[3], double T[9])
+{
+    double m[3];
+    angle_ratio(vec3_dot(x, x) / 16, m);
+    for (int i = 0; i < 3; i++) {
+        psi[i] = m[0] * x[i];
+        for (int j = 0; j < 3; j++)
+            T[3 * i + j] = (i == j ? m[0] : 0) + m[1] / 8 * x[i] * x[j];
+    }
+}
+
+/* Second derivative of n . psi(x). */
+static void to_angle_second(const double x[3], const double n[3], double H[9])
+{
+    double m[3];
+    angle_ratio(vec3_dot(x, x) / 16, m);
+    const double along = vec3_dot(n, x);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            H[3 * i + j] = m[1] / 8 * (n[i] * x[j] + x[i] * n[j] + (i == j ? along : 0)) + m[2] / 64 * along * x[i] * x[j];
+}
+
+static void measure(const strain_line *line, const nodes *s, int g, point *p, double y[3], double dy[3])
+{
+    for (int i = 0; i < 3; i++) {
+        y[i] = dy[i] = 0;
+        for (int k = 0; k < line->nodes; k++) {
+            y[i] += line->dN[g][k] * s->r[k][i];
+            dy[i] += line->dN[g][k] * s->u[k][i];
+        }
+    }
+    point_at(line->nodes, s->q, line->N[g], line->dN[g], y, p);
+}
+
+/* v - v0; the part along x from |v|^2 - |v0|^2 = (2 y0 + dy) . dy, so that a small elongation is no difference of lengths. */
+static void stretch(const double v[3], const double v0[3], const double y[3], const double dy[3], double e[3])
+{
+    e[1] = v[1] - v0[1];
+    e[2] = v[2] - v0[2];
+    const double squares = 2 * vec3_dot(y, dy) - vec3_dot(dy, dy) - e[1] * (v[1] + v0[1]) - e[2] * (v[2] + v0[2]);
+    e[0] = v[0] + v0[0] > 1 ? squares / (v[0] + v0[0]) : v[0] - v0[0];
+}
+
+static void strains_at(const strain_line *line, int g, const point *p, const double y[3], const double dy[3], double e[6])
+{
+    double psi[3], T[9];
+    stretch(p->v, line->rest[g], y, dy, e);
+    if (line->angle)
+        to_angle(p->kappa, psi, T);
+    else
+        memcpy(psi, p->kappa, sizeof psi);
+    for (int i = 0; i < 3; i++) {
+        e[i] *= line->l0;
+        e[3 + i] = line->l0 * (psi[i] - line->rest[g][3 + i]);
+    }
+}
+
+/* Six rows of J, those of point g. */
+static void first(const strain_line *line, const nodes *s, int g, const point *p, double J[])
+{
+    const double none[3] = {0}, l0 = line->l0;
+    const int n = 7 * line->nodes;
+    double T[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, psi[3];
+    if (line->angle)
+        to_angle(p->kappa, psi, T);
+    for (int row = 0; row < 6; row++) {
+        double Q[4], S[4], unit[3] = {0}, inverse[4], weight[4], turn[4];
+        if (row < 3)
+            unit[row] = 1;
+        point_gradient(p, row < 3 ? none : &T[3 * (row - 3)], unit, Q, S);
+        for (int k = 0; k < line->nodes; k++) {
+            double *out = &J[row * n + 7 * k];
+            for (int i = 0; i < 4; i++)
+                weight[i] = line->N[g][k] * Q[i] + line->dN[g][k] * S[i];
+            rotation_conjugate(s->q[k], inverse);
+            rotation_compose(weight, inverse, turn); /* w . (theta q) = theta . Im(w q^-1) */
+            for (int i = 0; i < 3; i++) {
+                out[i] = row < 3 ? line->dN[g][k] * p->R[3 * i + row] : 0; /* r per l0, e times l0 */
+                out[3 + i] = l0 / 2 * turn[i + 1];
+            }
+            out[6] = 0;
+        }
+    }
+}
+
+/* H += second derivatives of f . v + n . kappa between nodes k and l; both weights in [N m]. */
+static void second_of_pair(const strain_line *line, const nodes *s, int g, int k, int l, const double QQ[16], const double QS[16],
+                           const double QY[12], double H[])
+{
+    const int n = 7 * line->nodes;
+    const double Nk = line->N[g][k], Nl = line->N[g][l], dk = line->dN[g][k], dl = line->dN[g][l];
+    double X[16], Pk[12], Pl[12], XP[12], block[9] = {0}, mixed[9] = {0};
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            X[4 * i + j] = (Nk * Nl * QQ[4 * i + j] + Nk * dl * QS[4 * i + j] + dk * Nl * QS[4 * j + i]) / 4;
+    point_turn(s->q[k], Pk);
+    point_turn(s->q[l], Pl);
+    dense_mul(4, 4, 3, X, Pl, XP);
+    dense_add_transpose_mul(3, 4, 3, Pk, XP, block);
+    dense_add_transpose_mul(3, 4, 3, Pk, QY, mixed);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            const double coupling = Nk * dl / (2 * line->l0) * mixed[3 * i + j];
+            H[(7 * k + 3 + i) * n + 7 * l + 3 + j] += block[3 * i + j];
+            H[(7 * k + 3 + i) * n + 7 * l + j] += coupling;
+            H[(7 * l + j) * n + 7 * k + 3 + i] += coupling;
+        }
+}
+
+static void second(const strain_line *line, const nodes *s, int g, const point *p, const double weight[6], const double J[],
+                   double H[])
+{
+    const int n = 7 * line->nodes;
+    double turn[3], stretching[3], Q[4], S[4], QQ[16], QS[16], QY[12];
+    for (int i = 0; i < 3; i++) {
+        stretching[i] = line->l0 * weight[i];
+        turn[i] = line->l0 * weight[3 + i];
+    }
+    if (line->angle) {
+        /* n . psi(x): T^T n takes n's place, and the second derivative of psi meets dx = T^-1 J twice. */
+        double psi[3], T[9], inner[9], inverse[9], bent[9], dx[3 * 7 * ELEMENT_MAX_NODES], weighted[3];
+        int pivot[3];
+        to_angle(p->kappa, psi, T);
+        to_angle_second(p->kappa, turn, inner);
+        memcpy(inverse, T, sizeof inverse);
+        memcpy(dx, &J[3 * n], 3 * (size_t)n * sizeof *dx);
+        dense_lu(3, inverse, pivot); /* the angle grows with 4 tan(angle/4): never singular */
+        dense_lu_solve(3, n, inverse, pivot, dx);
+        for (int i = 0; i < 9; i++)
+            bent[i] = inner[i] / (line->l0 * line->l0);
+        double work[3 * 7 * ELEMENT_MAX_NODES];
+        dense_add_congruence(3, n, dx, bent, H, work);
+        mat3_transpose_mul_vec(T, turn, weighted);
+        memcpy(turn, weighted, sizeof turn);
+    }
+    point_gradient(p, turn, stretching, Q, S);
+    point_hessian(p, turn, stretching, QQ, QS, QY);
+    for (int k = 0; k < line->nodes; k++) {
+        double curved = 0;
+        for (int i = 0; i < 4; i++)
+            curved += (line->N[g][k] * Q[i] + line->dN[g][k] * S[i]) * s->q[k][i];
+        for (int i = 0; i < 3; i++) /* q'' = -1/4 |theta|^2 q */
+            H[(7 * k + 3 + i) * (n + 1)] -= curved / 4;
+        for (int l = 0; l < line->nodes; l++)
+            second_of_pair(line, s, g, k, l, QQ, QS, QY, H);
+    }
+}
+
+void strain_of(const strain_line *line, const node_state x[], strain_output *out)
+{
+    const int n = 7 * line->nodes, first_a = 6 * line->points;
+    nodes s;
+    for (int k = 0; k < line->nodes; k++) {
+        rotation_from_matrix(x[k].R, s.q[k]);
+        for (int i = 0; i < 3; i++) {
+            s.r[k][i] = (x[k].r[i] - x[0].r[i]) / line->l0;
+            s.u[k][i] = (x[k].u[i] - x[0].u[i]) / line->l0;
+        }
+    }
+    point_align(line->nodes, s.q);
+    if (out->H != NULL)
+        memset(out->H, 0, (size_t)(n * n) * sizeof *out->H);
+    for (int g = 0; g < line->points; g++) {
+        point p;
+        double y[3], dy[3], e[6], rows[6 * 7 * ELEMENT_MAX_NODES];
+        measure(line, &s, g, &p, y, dy);
+        strains_at(line, g, &p, y, dy, e);
+        if (out->e != NULL)
+            memcpy(&out->e[6 * g], e, sizeof e);
+        if (out->J == NULL && out->H == NULL)
+            continue;
+        first(line, &s, g, &p, rows);
+        if (out->J != NULL)
+            memcpy(&out->J[6 * g * n], rows, 6 * (size_t)n * sizeof *rows);
+        if (out->H != NULL)
+            second(line, &s, g, &p, &out->s[6 * g], rows, out->H);
+    }
+    for (int k = 0; k < line->nodes; k++) {
+        if (out->e != NULL)
+            out->e[first_a + k] = line->l0 * line->l0 * x[k].a;
+        if (out->J != NULL) {
+            memset(&out->J[(first_a + k) * n], 0, (size_t)n * sizeof *out->J);
+            out->J[(first_a + k) * n + 7 * k + 6] = line->l0 * line->l0;
+        }
+    }
+}
+
+void strain_arc(const double curvature[3], double l0, double x, double r[3], double q[4])
+{
+    const double turn[3] = {curvature[0] * l0 * x, curvature[1] * l0 * x, curvature[2] * l0 * x}, w = vec3_norm(turn);
+    const double e[3] = {1, 0, 0}, half = sin(w / 2);
+    /* (1 - cos w)/w^2 and (w - sin w)/w^3 */
+    const double a = w < 1e-4 ? 0.5 - w * w / 24 : 2 * half * half / (w * w);
+    const double b =
+        w < 0.3 ? (1 - w * w / 20 * (1 - w * w / 42 * (1 - w * w / 72 * (1 - w * w / 110)))) / 6 : (w - sin(w)) / (w * w * w);
+    double once[3], twice[3];
+    vec3_cross(turn, e, once);
+    vec3_cross(turn, once, twice);
+    for (int i = 0; i < 3; i++)
+        r[i] = x * (e[i] + a * once[i] + b * twice[i]);
+    rotation_exp(turn, q);
+}
+
+void strain_prepare(int nodes_count, int points, double l0, const double curvature[3], int angle, strain_line *line)
+{
+    double x[STRAIN_MAX_POINTS], w[STRAIN_MAX_POINTS], at[ELEMENT_MAX_NODES];
+    nodes s;
+    memset(line, 0, sizeof *line);
+    line->nodes = nodes_count;
+    line->points = points;
+    line->l0 = l0;
+    line->angle = angle;
+    for (int k = 0; k < nodes_count; k++) {
+        at[k] = (double)k / (nodes_count - 1);
+        strain_arc(curvature, l0, at[k], s.r[k], s.q[k]);
+    }
+    line_gauss(points, x, w);
+    for (int g = 0; g < points; g++) {
+        point p;
+        double y[3], dy[3], psi[3], T[9];
+        line_lagrange(nodes_count, at, x[g], line->N[g], line->dN[g]);
+        memset(s.u, 0, sizeof s.u);
+        measure(line, &s, g, &p, y, dy);
+        to_angle(p.kappa, psi, T);
+        for (int i = 0; i < 3; i++) {
+            line->rest[g][i] = p.v[i];
+            line->rest[g][3 + i] = angle ? psi[i] : p.kappa[i];
+        }
+    }
+}

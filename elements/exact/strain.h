@@ -1,0 +1,29 @@
+/* Strains of the Simo-Reissner beam at points of an element whose nodes' quaternions are interpolated (point.h):
+ *   e[6 g ..]     = l0 (gamma_x, gamma_y, gamma_z), gamma = R^T r' - e_x, and l0^2 (kappa_x, kappa_y, kappa_z), at point g,
+ *   e[6 points ..] = l0^2 a of every node,
+ * all in [m], less their values in the undeformed (curved) state. */
+#ifndef BEAMWORK_EXACT_STRAIN_H
+#define BEAMWORK_EXACT_STRAIN_H
+
+#include "elements/element.h"
+
+enum { STRAIN_MAX_POINTS = 2 };
+
+typedef struct strain_line {
+    int nodes, points;
+    double l0; /* [m] */
+    /* 1: with two nodes, the rotation between them is measured as its angle, not as 4 tan(angle/4). */
+    int angle;
+    double N[STRAIN_MAX_POINTS][ELEMENT_MAX_NODES], dN[STRAIN_MAX_POINTS][ELEMENT_MAX_NODES]; /* dN: per l0 */
+    double rest[STRAIN_MAX_POINTS][6]; /* R^T r' and l0 kappa undeformed, dimensionless */
+} strain_line;
+
+/* Gauss points between evenly spaced nodes; curvature: initial, constant [1/m]. */
+void strain_prepare(int nodes, int points, double l0, const double curvature[3], int angle, strain_line *line);
+
+void strain_of(const strain_line *line, const node_state x[], strain_output *out);
+
+/* Undeformed position (per l0) and orientation at x l0 along an arc of constant curvature [1/m], in the axes at its start. */
+void strain_arc(const double curvature[3], double l0, double x, double r[3], double q[4]);
+
+#endif

@@ -1,0 +1,76 @@
+/* The geometrically exact beam (Reissner, Simo) with warping, as general codes offer it: two or three nodes, reduced
+ * integration, strains at the integration points. */
+#include "elements/exact/stiffness.h"
+#include "elements/exact/strain.h"
+
+enum { OPTION_NODES };
+
+struct element_data {
+    strain_line line;
+    stiffness stiffness;
+};
+
+static const element_option options[] = {
+    [OPTION_NODES] = {"nodes", "2|3", 1, 0, 1, "nodes of an element; one integration point fewer"},
+    {NULL, NULL, 0, 0, 0, NULL},
+};
+
+static int nodes(const double value[])
+{
+    return 2 + (int)value[OPTION_NODES];
+}
+
+static int strains(const double value[])
+{
+    return 6 * (nodes(value) - 1) + nodes(value);
+}
+
+static size_t data_size(const element_request *request)
+{
+    (void)request;
+    return sizeof(element_data);
+}
+
+static status prepare(const element_request *request, element_data *out, fault *f)
+{
+    const int count = nodes(request->options);
+    const status outcome = stiffness_prepare(request, count, &out->stiffness, f);
+    if (outcome == STATUS_OK)
+        strain_prepare(count, count - 1, request->length, request->curvature, count == 2, &out->line);
+    return outcome;
+}
+
+static void strain(const element_data *d, const node_state x[], strain_output *out)
+{
+    strain_of(&d->line, x, out);
+}
+
+static status stress(const element_data *d, const double e[], const double inner[], stress_output *out)
+{
+    (void)inner;
+    return stiffness_stress(&d->stiffness, e, out);
+}
+
+static void geometric(const element_data *d, const double sigma[], double G[])
+{
+    stiffness_geometric(&d->stiffness, sigma, G);
+}
+
+const element_type element_geometrically_exact = {
+    .name = "geometrically_exact",
+    .summary = "geometrically exact beam with warping, two or three nodes, reduced integration",
+    .source = "Reissner, J. Appl. Math. Phys. 32 (1981); Simo, Comput. Methods Appl. Mech. Eng. 49 (1985); interpolation of "
+              "rotations ours",
+    .abi = ELEMENT_ABI,
+    .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS |
+              FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_CURVATURE,
+    .limits = 0,
+    .options = options,
+    .nodes = nodes,
+    .strains = strains,
+    .data_size = data_size,
+    .prepare = prepare,
+    .strain = strain,
+    .stress = stress,
+    .geometric = geometric,
+};

@@ -1,0 +1,34 @@
+/* Writing an HDF5 file that appears complete or not at all: it is made in memory, then written beside and renamed.
+ * Every call is checked; after the first failure nothing more is tried and record_close says so. */
+#ifndef BEAMWORK_RECORD_H
+#define BEAMWORK_RECORD_H
+
+#include <hdf5.h>
+
+#include "elements/math/status.h"
+
+typedef struct record {
+    hid_t file, scalar; /* scalar: the shape of an attribute */
+    int bad;
+} record;
+
+status record_open(record *r, fault *f);
+/* Writes what was recorded to `path` (NULL: nothing) and frees it. */
+status record_close(record *r, const char *path, fault *f);
+
+/* Group of this name, made where it does not exist; the caller closes it with H5Gclose. */
+hid_t record_group(record *r, hid_t at, const char *name);
+/* Attributes. */
+void record_text(record *r, hid_t at, const char *name, const char *text);
+void record_number(record *r, hid_t at, const char *name, double value);
+void record_count(record *r, hid_t at, const char *name, long value);
+/* New data set of rank 0, 1 or 2 with its unit (NULL: none); the caller closes it with H5Dclose. */
+hid_t record_values(record *r, hid_t at, const char *name, int rank, const hsize_t size[], const double value[], const char *unit);
+/* UTF-8 of a fixed length; the caller closes it with H5Tclose. */
+hid_t record_text_type(size_t length);
+/* New data set row[count] of the given type. */
+void record_table(record *r, hid_t at, const char *name, hid_t type, int count, const void *row);
+/* New data set text[count]. */
+void record_texts(record *r, hid_t at, const char *name, int count, const char *const text[]);
+
+#endif

@@ -1,0 +1,129 @@
+"""Lateral-torsional buckling of narrow beams, the column flexible in shear, and the right-angle frame: linear prestress.
+
+Lateral: Pi = 1/2 int EI w''^2 + GJ phi'^2 + EIw phi''^2 + int M phi w'' gives EI w'' = -M phi and, with x in units of L and
+K = L^2 GJ/EIw,  phi''''/K - phi'' - (gamma m(x))^2 phi = 0,  M = gamma m sqrt(EI GJ)/L; loads act at the shear centre.
+Frame: a leg carries a constant spatial moment (m_x, m_y + f x, M): GJ t_x' = m_x - M t_y, EI t_y' = m_y + f x + M t_x, w' = -t_y.
+"""
+from mpmath import findroot, matrix, det, mp, mpf, pi, sqrt, zeros
+
+mp.dps = 40
+TERMS = 160
+
+# m(x) as coefficients of powers of x, measured from the end where the loaded length is zero; where the half beam ends
+LOADS = {"tip": ([0, 1], 1), "distributed": ([0, 0, mpf(1) / 2], 1), "mid": ([0, mpf(1) / 2], mpf(1) / 2), "mid_distributed": ([0, mpf(1) / 2, -mpf(1) / 2], mpf(1) / 2)}
+GUESS = {"tip": "4.0", "distributed": "12.9", "mid": "16.9", "mid_distributed": "28.3"}
+
+
+def _square(m):
+    out = [mpf(0)] * (2 * len(m) - 1)
+    for i, a in enumerate(m):
+        for j, b in enumerate(m):
+            out[i + j] += a * b
+    return out
+
+
+def _series(start, K, gamma, m2):
+    """Power series about x = 0 of the solution with given phi, phi', (phi'', phi''')."""
+    c = [mpf(v) / f for v, f in zip(start, (1, 1, 2, 6))]
+    while len(c) < TERMS:
+        n = len(c) - (4 if K else 2)
+        load = gamma ** 2 * sum(a * c[n - i] for i, a in enumerate(m2) if 0 <= n - i)
+        if K:
+            c.append(K * ((n + 2) * (n + 1) * c[n + 2] + load) / ((n + 4) * (n + 3) * (n + 2) * (n + 1)))
+        else:
+            c.append(-load / ((n + 2) * (n + 1)))
+    return c
+
+
+def _value(c, x, order):
+    total = mpf(0)
+    for n in range(order, len(c)):
+        factor = mpf(1)
+        for k in range(order):
+            factor *= n - k
+        total += factor * c[n] * x ** (n - order)
+    return total
+
+
+def _condition(load, K, gamma):
+    """Determinant of the conditions at x = end of the solutions that satisfy those at x = 0."""
+    m, end = LOADS[load]
+    m2, end = _square(m), mpf(end)
+    cantilever = load in ("tip", "distributed")
+    if not K:  # x = 0 is the free tip, phi' = 0 there, or the fork, phi = 0
+        c = _series((1, 0) if cantilever else (0, 1), K, gamma, m2)
+        return _value(c, end, 0 if cantilever else 1)
+    # Tip: phi'' = 0 and phi''' = K phi'; fork: phi = phi'' = 0.  Root: phi = phi' = 0; middle: phi' = phi''' = 0.
+    starts = ((1, 0, 0, 0), (0, 1, 0, K)) if cantilever else ((0, 1, 0, 0), (0, 0, 0, 1))
+    orders = (0, 1) if cantilever else (1, 3)
+    a, b = (_series(s, K, gamma, m2) for s in starts)
+    return _value(a, end, orders[0]) * _value(b, end, orders[1]) - _value(a, end, orders[1]) * _value(b, end, orders[0])
+
+
+def lateral_load(load, K, guess):
+    return findroot(lambda g: _condition(load, mpf(K), g), mpf(guess), tol=mpf(10) ** -30)
+
+
+def lateral_rows():
+    for load in LOADS:
+        at = [] if load == "tip" else [f"load={load}"]
+        yield "lateral_buckling", ";".join(at), "load_factor", lateral_load(load, 0, GUESS[load]), "1"
+    for K, guess in ((1, "15.7"), (4, "9.75"), (16, "6.81")):
+        yield "lateral_buckling", f"K={K}", "load_factor", lateral_load("tip", K, guess), "1"
+
+
+def column_rows():
+    """P_E = pi^2 EI/l^2, GA_s = 5/6 G A: Engesser P_E/(1 + P_E/GA_s), Haringx GA_s (sqrt(1 + 4 P_E/GA_s) - 1)/2."""
+    E, side = mpf(70) * 10 ** 9, mpf("0.02")
+    for length in (1, mpf("0.1")):
+        for G in (mpf(27) * 10 ** 9, mpf("2.7e9"), E / 1000):
+            euler, shear = pi ** 2 * E * side ** 4 / 12 / length ** 2, G * side ** 2 * 5 / 6
+            at = [] if length == 1 else ["length=0.1"]
+            at += [] if G == mpf(27) * 10 ** 9 else [f"shear_modulus={int(G)}"]
+            yield "shear_column", ";".join(at), "buckling_load", euler / (1 + euler / shear), "N"
+            yield "shear_column", ";".join(at + ["shear_stability=haringx"]), "buckling_load", shear * (sqrt(1 + 4 * euler / shear) - 1) / 2, "N"
+
+
+def _leg(x, M, EI, GJ):
+    """[3, 6]: (w, t_x, t_y) at x as linear functions of those at the corner and (m_x, m_y, f); power series."""
+    out = zeros(3, 6)
+    for column in range(6):
+        unit = [mpf(1) if column == k else mpf(0) for k in range(6)]
+        w, tx, ty = [unit[0]], [unit[1]], [unit[2]]
+        mx, my, f = unit[3:]
+        for n in range(TERMS):
+            w.append(-ty[n] / (n + 1))
+            tx.append(((mx if n == 0 else 0) - M * ty[n]) / GJ / (n + 1))
+            ty.append(((my if n == 0 else f if n == 1 else 0) + M * tx[n]) / EI / (n + 1))
+        for i, series in enumerate((w, tx, ty)):
+            out[i, column] = sum(c * x ** n for n, c in enumerate(series))
+    return out
+
+
+def frame_determinant(M, EI, GJ, length):
+    """Legs along x and y from the corner; their ends do not leave the plane and turn about its normal only.
+
+    The second leg's axes are (y, -x, z); it carries the opposite of what the first leg carries.
+    """
+    first, second = _leg(length, M, EI, GJ), _leg(length, -M, EI, GJ)
+    turn = matrix([[1, 0, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, -1, 0, 0, 0, 0], [0, 0, 0, 0, -1, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 0, -1]])
+    both = zeros(6, 6)
+    second = second * turn
+    for i in range(3):
+        for j in range(6):
+            both[i, j], both[3 + i, j] = first[i, j], second[i, j]
+    return det(both)
+
+
+def frame_rows():
+    """Thin strip, GJ = G b t^3/3."""
+    E, nu, b, t, length = mpf(71240) * 10 ** 6, mpf("0.31"), mpf("0.03"), mpf("0.0006"), mpf("0.24")
+    EI, GJ = E * b * t ** 3 / 12, E / (2 * (1 + nu)) * b * t ** 3 / 3
+    scale = sqrt(EI * GJ) / length
+    yield "right_angle_frame", "", "critical_moment", scale * findroot(lambda g: frame_determinant(g * scale, EI, GJ, length) / scale, (mpf("3.0"), mpf("3.3")), tol=mpf(10) ** -25, solver="anderson"), "N m"
+
+
+def rows():
+    yield from lateral_rows()
+    yield from column_rows()
+    yield from frame_rows()
