@@ -1,0 +1,63 @@
+/* Lateral-torsional buckling of a beam bent about its strong axis, load at the shear centre, prebuckling deflection neglected
+ * (linear prestress). L = 1 m, weak EI = GJ = 1 N m^2; load_factor = P L^2/sqrt(EI GJ), a distributed load as its total. */
+#include "cases/case.h"
+
+#include <stddef.h>
+
+enum { LOAD, K };
+enum { TIP, DISTRIBUTED, MID, MID_DISTRIBUTED };
+
+static const case_parameter parameters[] = {
+    [LOAD] = {"load", "", TIP, 0, 0, "tip|distributed|mid|mid_distributed", "cantilever with a tip or a distributed load; simply supported beam with a mid or a distributed load"},
+    [K] = {"K", "1", 0, 0, 1e6, NULL, "L^2 GJ/EIw; 0: nothing warps"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+static status build(const double value[], scene *s, fault *f)
+{
+    (void)f;
+    const int load = (int)value[LOAD], supported = load == MID || load == MID_DISTRIBUTED;
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = SECTION_CONSTANTS;
+    spec.young = spec.shear_modulus = 1; /* only the products matter */
+    spec.constants.A = 1e6;
+    spec.constants.Iy = 1e4;
+    spec.constants.Iz = spec.constants.It = 1;
+    spec.constants.Ip = 1e4 + 1;
+    spec.constants.Iw = value[K] > 0 ? 1 / value[K] : 0;
+    const int profile = scene_add_section(s, &spec);
+    const double y_axis[3] = {0, 1, 0};
+    const int start = scene_add_node(s, 0, 0, 0), middle = scene_add_node(s, 0.5, 0, 0), end = scene_add_node(s, 1, 0, 0);
+    const int first = scene_add_member(s, start, middle, profile, y_axis), second = scene_add_member(s, middle, end, profile, y_axis);
+    scene_member_at(s, first)->warp_p = supported ? SCENE_WARP_FREE : SCENE_WARP_FIXED;
+    scene_member_at(s, first)->warp_q = scene_member_at(s, second)->warp_p = middle;
+    if (supported) {
+        scene_hold(s, start, SCENE_UX, SCENE_RX);
+        scene_hold(s, end, SCENE_UY, SCENE_RX);
+    } else {
+        scene_hold_all(s, start);
+    }
+    if (load == TIP || load == MID) {
+        scene_add_load(s, SCENE_FORCE, load == TIP ? end : middle, 0, 0, -1);
+    } else {
+        scene_add_load(s, SCENE_DISTRIBUTED, first, 0, 0, -1);
+        scene_add_load(s, SCENE_DISTRIBUTED, second, 0, 0, -1);
+    }
+    const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
+    scene_analysis_at(s, buckling)->wanted = 1;
+    scene_quantity *q = scene_add_quantity(s, "load_factor", "1", SCENE_CRITICAL_FACTOR, buckling);
+    q->tolerance = 1e-4;
+    q->least_order = 1.8;
+    const int meshes[] = {1, 2, 4, 8, 16, 32};
+    scene_meshes(s, 6, meshes);
+    return STATUS_OK;
+}
+
+const case_type case_lateral_buckling = {
+    .name = "lateral_buckling",
+    .summary = "lateral-torsional buckling of cantilevers and simply supported beams",
+    .source = "Timoshenko and Gere, Theory of Elastic Stability; boundary-value problem of thin beams",
+    .parameters = parameters,
+    .build = build,
+};

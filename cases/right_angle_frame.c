@@ -1,0 +1,64 @@
+/* Hinged right-angle frame of two deep thin strips under end moments in its plane: lateral buckling through the corner.
+ * Argyris et al. (1979); critical moment pi/L sqrt(EI GJ), EI about the weak axis, J = b t^3/3. */
+#include "cases/case.h"
+
+#include <math.h>
+#include <stddef.h>
+
+enum { LEG, DEPTH, THICKNESS, YOUNG, POISSON };
+
+static const case_parameter parameters[] = {
+    [LEG] = {"leg", "m", 0.24, 1e-6, 1e6, NULL, "length of a leg"},
+    [DEPTH] = {"depth", "m", 0.03, 1e-9, 1e3, NULL, "depth of the strip, in the plane of the frame"},
+    [THICKNESS] = {"thickness", "m", 0.0006, 1e-12, 1e3, NULL, "thickness of the strip"},
+    [YOUNG] = {"young", "Pa", 71.24e9, 1e-3, 1e15, NULL, "modulus of elasticity"},
+    [POISSON] = {"poisson", "1", 0.31, -0.99, 0.49, NULL, "Poisson's ratio"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+/* Hinge about z that can slide along x. */
+static void hinge(scene *s, int node)
+{
+    scene_hold(s, node, SCENE_UY, SCENE_UZ);
+    scene_hold(s, node, SCENE_RX, SCENE_RY);
+}
+
+static status build(const double value[], scene *s, fault *f)
+{
+    (void)f;
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = SECTION_RECTANGLE;
+    spec.young = value[YOUNG];
+    spec.shear_modulus = value[YOUNG] / (2 * (1 + value[POISSON]));
+    spec.width = value[DEPTH];       /* along the local z, which lies in the plane */
+    spec.height = value[THICKNESS];
+    spec.given.Iw = 0;
+    spec.given.It = value[DEPTH] * pow(value[THICKNESS], 3) / 3;
+    const int profile = scene_add_section(s, &spec);
+    const double half = value[LEG] / sqrt(2), y_axis[3] = {0, 0, 1};
+    const int left = scene_add_node(s, -half, 0, 0), corner = scene_add_node(s, 0, half, 0), right = scene_add_node(s, half, 0, 0);
+    scene_add_member(s, left, corner, profile, y_axis);
+    scene_add_member(s, corner, right, profile, y_axis);
+    hinge(s, left);
+    hinge(s, right);
+    scene_hold(s, corner, SCENE_UX, SCENE_UX);
+    scene_add_load(s, SCENE_MOMENT, left, 0, 0, 1);
+    scene_add_load(s, SCENE_MOMENT, right, 0, 0, -1);
+    const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
+    scene_analysis_at(s, buckling)->wanted = 1;
+    scene_quantity *q = scene_add_quantity(s, "critical_moment", "N m", SCENE_CRITICAL_FACTOR, buckling);
+    q->tolerance = 1e-4;
+    q->least_order = 1.8;
+    const int meshes[] = {2, 4, 8, 16, 32};
+    scene_meshes(s, 5, meshes);
+    return STATUS_OK;
+}
+
+const case_type case_right_angle_frame = {
+    .name = "right_angle_frame",
+    .summary = "hinged right-angle frame under end moments: lateral buckling",
+    .source = "Argyris et al., Comput. Meth. Appl. Mech. Eng. 17/18 (1979)",
+    .parameters = parameters,
+    .build = build,
+};

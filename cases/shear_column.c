@@ -1,0 +1,53 @@
+/* Pinned column of a solid square section: shear in stability after Engesser and after Haringx.
+ * Engesser P_E/(1 + P_E/GA_s), Haringx GA_s (sqrt(1 + 4 P_E/GA_s) - 1)/2, with A_s = 5/6 A. */
+#include "cases/case.h"
+
+#include <stddef.h>
+
+enum { LENGTH, SIDE, YOUNG, SHEAR_MODULUS, SHEAR_STABILITY };
+
+static const case_parameter parameters[] = {
+    [LENGTH] = {"length", "m", 1.0, 1e-6, 1e6, NULL, "length of the column"},
+    [SIDE] = {"side", "m", 0.02, 1e-9, 1e3, NULL, "side of the square"},
+    [YOUNG] = {"young", "Pa", 70e9, 1e-3, 1e15, NULL, "modulus of elasticity"},
+    [SHEAR_MODULUS] = {"shear_modulus", "Pa", 27e9, 1e-6, 1e15, NULL, "shear modulus"},
+    [SHEAR_STABILITY] = {"shear_stability", "", 0, 0, 0, "engesser|haringx", "theory of shear in stability"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+static status build(const double value[], scene *s, fault *f)
+{
+    (void)f;
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = SECTION_RECTANGLE;
+    spec.young = value[YOUNG];
+    spec.shear_modulus = value[SHEAR_MODULUS];
+    spec.width = spec.height = value[SIDE];
+    spec.shear_factor[0] = spec.shear_factor[1] = 5.0 / 6;
+    spec.given.Iw = 0;
+    const int profile = scene_add_section(s, &spec);
+    const double y_axis[3] = {0, 1, 0};
+    const int foot = scene_add_node(s, 0, 0, 0), head = scene_add_node(s, value[LENGTH], 0, 0);
+    scene_add_member(s, foot, head, profile, y_axis);
+    scene_hold(s, foot, SCENE_UX, SCENE_RX);
+    scene_hold(s, head, SCENE_UY, SCENE_RX);
+    scene_add_load(s, SCENE_FORCE, head, -1, 0, 0);
+    s->needs |= SCENE_NEED_SHEAR | (value[SHEAR_STABILITY] == 0 ? SCENE_NEED_ENGESSER : SCENE_NEED_HARINGX);
+    const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
+    scene_analysis_at(s, buckling)->wanted = 1;
+    scene_quantity *load = scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
+    load->tolerance = 1e-5;
+    load->least_order = 1.8;
+    const int meshes[] = {2, 4, 8, 16, 32};
+    scene_meshes(s, 5, meshes);
+    return STATUS_OK;
+}
+
+const case_type case_shear_column = {
+    .name = "shear_column",
+    .summary = "pinned column, flexible in shear: Engesser against Haringx",
+    .source = "closed forms of Engesser and Haringx",
+    .parameters = parameters,
+    .build = build,
+};
