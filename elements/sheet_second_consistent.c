@@ -11,7 +11,7 @@ const element_type element_sheet_second_consistent = {
     .summary = "second-order sheet-flexure element with shear kept in its deformation function",
     .source = "N Eqs. 7, 13-17, 33-36; reference/ERRATA.md, N 37",
     .abi = ELEMENT_ABI,
-    .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_HARINGX | FEATURE_ENGESSER | FEATURE_GEOMETRIC |
+    .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_HARINGX | FEATURE_GEOMETRIC |
               FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .limits = LIMIT_DOUBLY_SYMMETRIC | LIMIT_ORDER_DEPENDENT,
     .data_size = second_data_size,
