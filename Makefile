@@ -5,7 +5,7 @@ BUILD ?= build
 CFLAGS ?= -O3 -g
 PYTHON := /usr/bin/python3
 VERSION := $(shell sed -n 's/^version: *//p' CITATION.cff)
-COMMIT := $(shell git rev-parse --short=12 HEAD 2>/dev/null || echo unknown)
+COMMIT := $(shell git describe --always --dirty --abbrev=12 --exclude='*' 2>/dev/null || echo unknown)
 
 WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wformat=2 -Wvla -Wwrite-strings
 ifdef WERROR
@@ -107,6 +107,9 @@ $(LIBRARY): $(OBJECTS) $(BUILD)/objects.list
 	@$(AR) rcs $@ $(OBJECTS)
 
 # What a build says of itself is compiled in one place only.
+$(BUILD)/identity: FORCE
+	@mkdir -p $(@D); echo '$(VERSION) $(COMMIT) $(CFLAGS)' | cmp -s - $@ || echo '$(VERSION) $(COMMIT) $(CFLAGS)' >$@
+$(BUILD)/harness/run/environment.o: $(BUILD)/identity
 $(BUILD)/harness/run/environment.o: DEFINES := -DBEAMWORK_VERSION='"$(VERSION)"' -DBEAMWORK_COMMIT='"$(COMMIT)"' -DBEAMWORK_CFLAGS='"$(CFLAGS)"'
 
 $(PROGRAM): $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) $(LIBRARY)

@@ -4,6 +4,17 @@
 #include "harness/cli/cli.h"
 #include "harness/run/registry.h"
 
+static void list_option(const element_option *o)
+{
+    char text[64];
+    if (o->choices != NULL) {
+        choice_name(o->choices, (int)o->value, text, sizeof text);
+        printf("  %-24s option %s=%s (default %s): %s\n", "", o->name, o->choices, text, o->summary);
+    } else {
+        printf("  %-24s option %s=%g..%g (default %g): %s\n", "", o->name, o->min, o->max, o->value, o->summary);
+    }
+}
+
 static void list_formulations(void)
 {
     printf("formulations (-f NAME[:KEY=VALUE,...]); all take newton=mixed|displacement\n");
@@ -14,8 +25,7 @@ static void list_formulations(void)
             if (t->offers & bit)
                 printf(" %s%s", model_feature_name(bit), (t->offers & ~(2 * bit - 1)) != 0 ? "," : "\n");
         for (int k = 0; t->options != NULL && t->options[k].name != NULL; k++)
-            printf("  %-24s option %s=%s: %s\n", "", t->options[k].name,
-                   t->options[k].choices != NULL ? t->options[k].choices : "NUMBER", t->options[k].summary);
+            list_option(&t->options[k]);
     }
 }
 
@@ -36,8 +46,11 @@ static int list_case(const case_type *type)
         const case_parameter *p = &type->parameters[i];
         char text[64];
         parameters_value_text(p, p->value, text, sizeof text);
-        printf("  %-20s %-14s %-8s %s%s%s%s\n", p->name, text, p->unit, p->summary, p->choices != NULL ? " (" : "",
-               p->choices != NULL ? p->choices : "", p->choices != NULL ? ")" : "");
+        printf("  %-20s %-14s %-8s %s (", p->name, text, p->unit, p->summary);
+        if (p->choices != NULL)
+            printf("%s)\n", p->choices);
+        else
+            printf("%g .. %g)\n", p->min, p->max);
     }
     parameters_default(type, value);
     scene_init(&s, type->name);

@@ -26,7 +26,8 @@ void sparse_zero(sparse *a)
 
 void sparse_mul(const sparse *a, const double x[], double y[])
 {
-    memset(y, 0, (size_t)a->n * sizeof *y);
+    for (int j = 0; j < a->n; j++)
+        y[j] = 0;
     for (int j = 0; j < a->n; j++)
         for (int k = a->column[j]; k < a->column[j + 1]; k++) {
             y[a->row[k]] += a->value[k] * x[j];

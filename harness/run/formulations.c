@@ -71,6 +71,15 @@ void formulation_default(const element_type *type, formulation *out)
     write_key(out);
 }
 
+static const char *option_name(const void *context, int i)
+{
+    const element_option *o = context;
+    int count = 0;
+    while (o != NULL && o[count].name != NULL)
+        count++;
+    return i < count ? o[i].name : i == count ? "newton" : NULL;
+}
+
 static status set_option(formulation *out, const char *name, const char *value, fault *f)
 {
     if (strcmp(name, "newton") == 0) {
@@ -83,9 +92,12 @@ static status set_option(formulation *out, const char *name, const char *value, 
     int i = 0;
     while (o != NULL && o[i].name != NULL && strcmp(o[i].name, name) != 0)
         i++;
-    if (o == NULL || o[i].name == NULL)
-        return fault_set(f, STATUS_REFUSED, "formulation %s has no option '%s'; 'beamwork list formulations' shows them",
-                         out->type->name, name);
+    if (o == NULL || o[i].name == NULL) {
+        const char *near = nearest_name(name, option_name, o);
+        return fault_set(f, STATUS_REFUSED, "formulation %s has no option '%s'%s%s%s; 'beamwork list formulations' shows them",
+                         out->type->name, name, near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
+                         near != NULL ? "'?" : "");
+    }
     if (o[i].choices != NULL) {
         const int index = choice_index(o[i].choices, value);
         if (index < 0)

@@ -104,8 +104,8 @@ static void add_quantities(json_t *root, const point *p, const solve_result *r, 
         }
         json_t *one = json_pack("{s:s,s:s}", "name", q->name, "unit", q->unit);
         json_object_set_new(one, "value", number(v->value));
-        if (v->reason[0] != '\0')
-            json_object_set_new(one, "reason", json_string(v->reason));
+        if (!isfinite(v->value))
+            json_object_set_new(one, "reason", json_string(v->reason[0] != '\0' ? v->reason : r->reason));
         json_object_set_new(one, "truths", truths_of(p, q, v->value, t));
         json_array_append_new(values, one);
     }

@@ -152,6 +152,8 @@ status parameters_parse(const case_type *c, const char *text, double value[], in
     for (const char *at = all ? "" : text; *at != '\0';) {
         char one[128];
         const size_t length = strcspn(at, ";");
+        if (length >= sizeof one)
+            return fault_set(f, STATUS_REFUSED, "parameter '%.40s...': too long", at);
         snprintf(one, sizeof one, "%.*s", (int)length, at);
         const status outcome = set_one(c, one, value, any, f);
         if (outcome != STATUS_OK)

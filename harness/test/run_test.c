@@ -67,6 +67,94 @@ static void convergences(void)
     gsl_test_rel(c.order, 4, 1e-6, "order on uneven meshes");
 }
 
+/* Values of one quantity along meshes that double. */
+static convergence doubled(int count, const double value[])
+{
+    static const int n[] = {2, 4, 8, 16, 32, 64};
+    return convergence_of(count, n, value, 1);
+}
+
+static void odd_sequences(void)
+{
+    const double constant[] = {1, 1, 1}, growing[] = {1, 1.1, 1.3, 1.7}, one[] = {1}, noisy[] = {1.5, 1.1, 1 + 4e-12, 1 - 6e-12};
+    gsl_test(doubled(3, constant).kind != CONVERGENCE_FLOOR || doubled(3, constant).limit != 1, "constant values are at the floor");
+    gsl_test(doubled(4, growing).kind != CONVERGENCE_NONE, "growing differences have no limit");
+    gsl_test(doubled(1, one).kind != CONVERGENCE_NONE || !isnan(doubled(1, one).limit_uncertainty), "one mesh has no limit");
+    gsl_test(doubled(0, one).kind != CONVERGENCE_NONE || !isnan(doubled(0, one).limit), "no mesh, no number");
+    gsl_test(doubled(4, noisy).kind != CONVERGENCE_FLOOR, "noise at the floor");
+    double value[6];
+    for (int i = 0; i < 6; i++)
+        value[i] = 1 - 0.3 * pow(2 << i, -2) + 0.2 * pow(2 << i, -4);
+    const convergence c = doubled(6, value);
+    gsl_test_abs(c.order, 2, 0.01, "order of the leading term");
+    gsl_test(!(fabs(c.order - 2) <= 2 * c.order_uncertainty), "within its own uncertainty (%g +- %g)", c.order,
+             c.order_uncertainty);
+    gsl_test(!(fabs(c.limit - 1) <= 2 * c.limit_uncertainty), "so is the limit (%g +- %g)", c.limit - 1, c.limit_uncertainty);
+}
+
+static unsigned next_random(unsigned *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return *state >> 10;
+}
+
+/* Pieces of right input put together at random: answered or refused in one line, never a crash or another status. */
+static void random_input(void)
+{
+    static const char *const piece[] = {
+        "length",
+        "=",
+        ";",
+        ":",
+        ",",
+        "*",
+        "|",
+        "-1",
+        "1e400",
+        "nan",
+        "7.25",
+        "section_data",
+        "printed",
+        "beamw",
+        "mass",
+        "lumped",
+        "newton",
+        "and",
+        "or",
+        "not",
+        " ",
+        "\t",
+        "%s%n",
+        "\xc3\xa4",
+        "",
+        "0x1p3",
+        "a_word_that_is_longer_than_any_buffer_might_expect_it_to_be_in_a_name_of_a_case_or_a_parameter_of_it"};
+    const case_type *c = case_find("c_column", NULL);
+    unsigned state = 1;
+    int wrong = 0;
+    for (int i = 0; i < 20000; i++) {
+        char text[2048] = "";
+        double value[CASE_MAX_PARAMETERS];
+        int any[CASE_MAX_PARAMETERS];
+        formulation chosen;
+        for (unsigned k = next_random(&state) % 12; k > 0; k--)
+            strcat(text, piece[next_random(&state) % (sizeof piece / sizeof piece[0])]);
+        fault f[4] = {{""}, {""}, {""}, {""}};
+        parameters_default(c, value);
+        const status outcome[4] = {parameters_set(c, text, value, &f[0]), formulation_parse(text, &chosen, &f[1]),
+                                   case_find(text, &f[2]) != NULL ? STATUS_OK : STATUS_REFUSED,
+                                   parameters_parse(c, text, value, any, &f[3])};
+        for (int k = 0; k < 4; k++)
+            wrong += outcome[k] != STATUS_OK &&
+                     (outcome[k] != STATUS_REFUSED || f[k].text[0] == '\0' || strchr(f[k].text, '\n') != NULL);
+        const int matches = select_matches(text, "c_column/default/beamw/buckling_load");
+        wrong += matches < -1 || matches > 1;
+        for (int k = 0; k < parameters_count(c); k++)
+            wrong += !(value[k] >= (c->parameters[k].choices != NULL ? 0 : c->parameters[k].min));
+    }
+    gsl_test_int(wrong, 0, "answers to 20000 random inputs that are neither a value nor a clear refusal");
+}
+
 static void selection(void)
 {
     const char *text = "c_column/default/beamw";
@@ -108,6 +196,8 @@ int main(void)
 {
     parameters();
     convergences();
+    odd_sequences();
+    random_input();
     selection();
     truth_files();
     return gsl_test_summary();

@@ -1,0 +1,155 @@
+"""Files the program writes: complete or not there at all, and readable by others."""
+import csv
+import io
+import json
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+import h5py
+import numpy
+
+PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
+SELECTION = ("verify", "-k", "warping_torsion/default")
+
+
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False, **options)
+
+
+def small_files():
+    """In the child: a file cannot grow beyond 2000 bytes, as on a disk that is full."""
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+
+class Complete(Folder):
+    def test_full_disk(self):
+        """Each kind of file on a full disk: one line, exit 4, and what was there before is untouched."""
+        wanted = {"-o": "r.h5", "--json": "v.json", "--junit": "j.xml"}
+        for option, name in wanted.items():
+            pathlib.Path(self.path(name)).write_bytes(b"before")
+            done = run(*SELECTION, option, self.path(name), preexec_fn=small_files)
+            self.assertEqual(done.returncode, 4, done.stderr)
+            self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+            self.assertEqual(pathlib.Path(self.path(name)).read_bytes(), b"before")
+        self.assertEqual(sorted(os.listdir(self.folder.name)), sorted(wanted.values()))
+
+    def test_interrupted(self):
+        """A run that is ended from outside leaves no file."""
+        process = subprocess.Popen([PROGRAM, "verify", "-o", self.path("r.h5")], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            process.wait(0.3)
+        except subprocess.TimeoutExpired:
+            process.terminate()
+        process.wait(20)
+        self.assertEqual(os.listdir(self.folder.name), [])
+
+    def test_nowhere(self):
+        for option in ("-o", "--json", "--junit"):
+            for place in (self.folder.name, self.path("none/r")):
+                done = run(*SELECTION, option, place)
+                self.assertEqual(done.returncode, 4, done)
+                self.assertIn("cannot be written", done.stderr)
+        self.assertEqual(os.listdir(self.folder.name), [])
+
+
+class Readable(Folder):
+    def test_results(self):
+        done = run(*SELECTION, "-o", self.path("r.h5"), "--json", self.path("v.json"), "--junit", self.path("j.xml"))
+        self.assertEqual(done.returncode, 0, done.stdout)
+        summary = json.loads(pathlib.Path(self.path("v.json")).read_text(encoding="utf-8"))
+        suite = xml.etree.ElementTree.parse(self.path("j.xml")).getroot()[0]
+        self.assertEqual(int(suite.get("tests")), len(suite))
+        self.assertEqual(int(suite.get("failures")), 0)
+        self.assertEqual(len(suite), len(summary["verdicts"]) + len(summary["discrete"]) + 2)
+        with h5py.File(self.path("r.h5")) as file:
+            self.assertEqual(file.attrs["schema"], b"beamwork-results")
+            point = file["cases/warping_torsion/default"]
+            self.assertEqual(point.attrs["parameter_kL"], 1)
+            for row in summary["verdicts"]:
+                columns = point[row["formulation"]]["verdicts"]
+                at = list(columns["quantity"].asstr()).index(row["quantity"])
+                self.assertEqual(columns["verdict"].asstr()[at], row["verdict"])
+                numpy.testing.assert_equal(columns["limit"][at], numpy.nan if row["limit"] is None else row["limit"])
+            meshes = [group for group in point["beamw"].values() if "elements_per_member" in group.attrs]
+            finest = max(meshes, key=lambda group: group.attrs["elements_per_member"])
+            row = next(row for row in summary["verdicts"] if row["formulation"] == "beamw")
+            self.assertEqual(finest["quantities"]["value"][0], row["value"])
+            self.assertEqual(finest["quantities"]["unit"][0].decode(), "1")
+
+    def test_csv(self):
+        done = run("converge", "warping_torsion", "-f", "beamw", "-f", "beamw_vlasov", "-n", "4,2,8", "--format", "csv")
+        rows = list(csv.DictReader(io.StringIO(done.stdout)))
+        self.assertEqual([(row["formulation"], row["elements"]) for row in rows],
+                         [(name, n) for name in ("beamw", "beamw_vlasov") for n in ("2", "4", "8")])
+        for row in rows:
+            self.assertAlmostEqual((float(row["value"]) - float(row["truth"])) / float(row["truth"]), float(row["error"]), delta=1e-12)
+
+    def test_quantity(self):
+        """A selection reaches single quantities."""
+        done = run("verify", "-k", "c_column/default and buckling_load", "--json", self.path("v.json"))
+        self.assertEqual(done.returncode, 0, done.stdout)
+        summary = json.loads(pathlib.Path(self.path("v.json")).read_text(encoding="utf-8"))
+        self.assertEqual({row["quantity"] for row in summary["verdicts"]}, {"buckling_load"})
+
+    def test_malformed(self):
+        for expression in ("and", "c_column or", "not", ""):
+            done = run("verify", "-k", expression)
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertIn("malformed", done.stderr)
+
+
+class Gate(Folder):
+    def altered(self, change):
+        """Exit code and output of a run of one case with a copy of the truths that was changed."""
+        truths = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
+        pathlib.Path(self.path("t.h5")).write_bytes(pathlib.Path(truths).read_bytes())
+        with h5py.File(self.path("t.h5"), "r+") as file:
+            change(file)
+        return run(*SELECTION, "--truths", self.path("t.h5"))
+
+    def test_value(self):
+        def change(file):
+            file["truths/warping_torsion/value"][...] *= 1.01
+        self.assertEqual(self.altered(lambda file: None).returncode, 0)
+        self.assertEqual(self.altered(change).returncode, 1)
+
+    def test_unit(self):
+        def change(file):
+            file["truths/warping_torsion/unit"][...] = b"m"
+        done = self.altered(change)
+        self.assertEqual(done.returncode, 4)
+        self.assertIn("'m'", done.stderr)
+
+    def test_stale(self):
+        def change(file):
+            file["truths/warping_torsion/hash"][0] += 1
+        done = self.altered(change)
+        self.assertEqual(done.returncode, 4)
+        self.assertIn("stale", done.stderr)
+        self.assertIn("warping_torsion", done.stderr)
+
+    def test_other_parameters(self):
+        """Truths that speak of other points judge nothing here."""
+        def change(file):
+            del file["truths/warping_torsion"]
+        self.assertEqual(self.altered(change).returncode, 3)
+
+
+if __name__ == "__main__":
+    unittest.main()
