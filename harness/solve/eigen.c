@@ -65,7 +65,7 @@ static status both_dense(pairs *up, int largest, pairs *down, int smallest, long
 {
     const size_t n = (size_t)up->n;
     const int from_top = largest < up->n ? largest : up->n, from_bottom = smallest < up->n ? smallest : up->n;
-    double *mu = malloc(n * sizeof *mu), *x = calloc(n * n, sizeof *x);
+    double *mu = calloc(n, sizeof *mu), *x = calloc(n * n, sizeof *x);
     status outcome = mu == NULL || x == NULL ? fault_set(f, STATUS_FAULT, "out of memory for an eigenvalue problem") : STATUS_OK;
     if (outcome == STATUS_OK)
         outcome = solve_dense(up->problem, mu, x, f);
