@@ -1,69 +1,53 @@
 /* Linear buckling about the undeformed state: (K + lambda G) x = 0 with G from the stresses of the reference load. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "harness/solve/analysis.h"
 #include "harness/solve/eigen.h"
 
-/* lambda = -x^T K x/x^T G x from the element strains. */
-static double quotient(model *m, const double sigma[], int free_count, int all, const double mode[], double *x)
+/* Quadratic forms from the element strains. */
+typedef struct forms {
+    model *m;
+    const double *sigma; /* prestress at factor 1 */
+    double *x;           /* [free + driven] driven coordinates: zero */
+    size_t free_count;
+} forms;
+
+static double stiffness_form(void *context, const double mode[])
 {
-    memset(x, 0, (size_t)all * sizeof *x);
-    memcpy(x, mode, (size_t)free_count * sizeof *x);
-    return -model_strain_energy2(m, x) / model_geometric_energy2(m, sigma, x);
+    const forms *f = context;
+    memcpy(f->x, mode, f->free_count * sizeof *f->x);
+    return model_strain_energy2(f->m, f->x);
 }
 
-static void sort_by_size(int count, double value[], double mode[], int n, double *swap)
+static double geometric_form(void *context, const double mode[])
 {
-    for (int i = 1; i < count; i++)
-        for (int k = i; k > 0 && fabs(value[k]) < fabs(value[k - 1]); k--) {
-            const double v = value[k];
-            value[k] = value[k - 1];
-            value[k - 1] = v;
-            const size_t bytes = (size_t)n * sizeof *mode;
-            memcpy(swap, mode + (size_t)k * (size_t)n, bytes);
-            memcpy(mode + (size_t)k * (size_t)n, mode + (size_t)(k - 1) * (size_t)n, bytes);
-            memcpy(mode + (size_t)(k - 1) * (size_t)n, swap, bytes);
-        }
+    const forms *f = context;
+    memcpy(f->x, mode, f->free_count * sizeof *f->x);
+    return model_geometric_energy2(f->m, f->sigma, f->x);
 }
 
-/* Moves the eigenpairs into the outcome. */
-static status keep(analysis_context *c, const double sigma[], eigen_result *e, analysis_outcome *o, fault *f)
+/* Moves the modes into the outcome, with lambda = 1/mu. */
+static void keep(eigen_side *side, int *count, double **value, double **mode)
 {
-    const model_size size = model_sizes(c->model);
-    const int all = size.free + size.driven;
-    double *x = malloc(((size_t)all + 1) * sizeof *x);
-    if (x == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for buckling modes");
-    o->positive = e->positive;
-    o->negative = e->negative;
-    o->value_positive = e->mu_positive;
-    o->value_negative = e->mu_negative;
-    o->mode_positive = e->mode_positive;
-    o->mode_negative = e->mode_negative;
-    memset(e, 0, sizeof *e);
-    for (int i = 0; i < o->positive; i++)
-        o->value_positive[i] = quotient(c->model, sigma, size.free, all, o->mode_positive + (size_t)i * (size_t)size.free, x);
-    for (int i = 0; i < o->negative; i++)
-        o->value_negative[i] = quotient(c->model, sigma, size.free, all, o->mode_negative + (size_t)i * (size_t)size.free, x);
-    sort_by_size(o->positive, o->value_positive, o->mode_positive, size.free, x);
-    sort_by_size(o->negative, o->value_negative, o->mode_negative, size.free, x);
-    free(x);
-    return STATUS_OK;
+    for (int i = 0; i < side->count; i++)
+        side->mu[i] = 1 / side->mu[i];
+    *count = side->count;
+    *value = side->mu;
+    *mode = side->mode;
+    side->mu = side->mode = NULL;
 }
 
 /* How many eigenvalues of each sign the quantities ask for. */
 static void wanted_of(const analysis_context *c, int analysis, eigen_problem *p)
 {
-    const int spare = 2; /* so that a cluster is not cut in two */
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
         if (q->kind != SCENE_CRITICAL_FACTOR || q->analysis != analysis)
             continue;
         int *side = q->sign > 0 ? &p->largest : &p->smallest;
-        if (*side < q->order + 1 + spare)
-            *side = q->order + 1 + spare;
+        if (*side < q->order + 1)
+            *side = q->order + 1;
     }
 }
 
@@ -89,13 +73,21 @@ status analysis_buckling(analysis_context *c, int analysis, analysis_outcome *o,
     if (result == STATUS_OK)
         result = model_geometric_stiffness(c->model, sigma, &G, f);
     if (result == STATUS_OK) {
+        memset(x, 0, (size_t)(size.free + size.driven) * sizeof *x);
+        forms about = {c->model, sigma, x, (size_t)size.free};
         eigen_problem p = {.K = &s.K, .A = &G, .K_factor = s.factor, .sign = -1};
+        p.K_energy = stiffness_form;
+        p.A_energy = geometric_form;
+        p.context = &about;
         wanted_of(c, analysis, &p);
         result = eigen_solve(&p, &e, f);
         model_counters(c->model)->solutions += e.solutions;
+        model_counters(c->model)->factorisations += e.factorisations;
     }
-    if (result == STATUS_OK)
-        result = keep(c, sigma, &e, o, f);
+    if (result == STATUS_OK) {
+        keep(&e.positive, &o->positive, &o->value_positive, &o->mode_positive);
+        keep(&e.negative, &o->negative, &o->value_negative, &o->mode_negative);
+    }
     eigen_free(&e);
     linear_system_free(&s);
     sparse_free_values(&G);

@@ -1,203 +1,183 @@
 #include "harness/solve/eigen.h"
 
-#include <arpack/arpack.h>
 #include <float.h>
 #include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { DENSE_UP_TO = 120 };
+#include "harness/solve/lanczos.h"
+#include "harness/solve/pairs.h"
 
-static status alloc_result(eigen_result *r, int n, int positive, int negative, fault *f)
+enum { DENSE_UP_TO = 80, SPARE = 2, MAX_PASSES = 8 };
+
+/* Of a pair; the error of mu is about its square. */
+static const double largest_residual = 1e-3;
+
+/* Part of the largest size of an eigenvalue below which none is looked for by iteration. */
+static const double negligible = 1e-9;
+
+static void free_side(eigen_side *s)
 {
-    memset(r, 0, sizeof *r);
-    r->n = n;
-    r->mu_positive = calloc((size_t)positive + 1, sizeof(double));
-    r->mu_negative = calloc((size_t)negative + 1, sizeof(double));
-    r->mode_positive = calloc((size_t)(positive + 1) * (size_t)n, sizeof(double));
-    r->mode_negative = calloc((size_t)(negative + 1) * (size_t)n, sizeof(double));
-    if (r->mu_positive == NULL || r->mu_negative == NULL || r->mode_positive == NULL || r->mode_negative == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for eigenvectors");
-    return STATUS_OK;
+    free(s->mu);
+    free(s->mode);
+    free(s->residual);
 }
 
 void eigen_free(eigen_result *r)
 {
-    free(r->mu_positive);
-    free(r->mu_negative);
-    free(r->mode_positive);
-    free(r->mode_negative);
+    free_side(&r->positive);
+    free_side(&r->negative);
     memset(r, 0, sizeof *r);
+}
+
+/* Values below are rounding errors of the largest one: n^(3/2) of them add up in a slender structure of n unknowns. */
+static double least_of(int n, double scale)
+{
+    return 16 * n * sqrt(n) * DBL_EPSILON * scale;
 }
 
 static void fill_dense(const sparse *a, double factor_, double D[])
 {
-    for (int j = 0; j < a->n; j++)
-        for (int k = a->column[j]; k < a->column[j + 1]; k++) {
-            D[(size_t)a->row[k] * (size_t)a->n + (size_t)j] = factor_ * a->value[k];
-            if (a->symmetric)
-                D[(size_t)j * (size_t)a->n + (size_t)a->row[k]] = factor_ * a->value[k];
-        }
+    const size_t n = (size_t)a->n;
+    for (size_t j = 0; j < n; j++)
+        for (int k = a->column[j]; k < a->column[j + 1]; k++)
+            D[(size_t)a->row[k] * n + j] = D[j * n + (size_t)a->row[k]] = factor_ * a->value[k];
 }
 
-/* Takes over pair (mu, x) when it is on the wanted side and not a rounding error. */
-static void take(eigen_result *r, double mu, double scale, const double x[], int stride, int positive, int negative)
+/* All eigenvalues mu[n], ascending, with their vectors x[n x n], one after the other. */
+static status solve_dense(const eigen_problem *e, double mu[], double x[], fault *f)
 {
-    if (fabs(mu) <= 1e-13 * scale)
-        return;
-    const int up = mu > 0;
-    int *count = up ? &r->positive : &r->negative;
-    if (*count >= (up ? positive : negative))
-        return;
-    double *mode = (up ? r->mode_positive : r->mode_negative) + (size_t)*count * (size_t)r->n;
-    (up ? r->mu_positive : r->mu_negative)[(*count)++] = mu;
-    for (int i = 0; i < r->n; i++)
-        mode[i] = x[(size_t)i * (size_t)stride];
-}
-
-static status solve_dense(const eigen_problem *p, eigen_result *r, fault *f)
-{
-    const size_t n = (size_t)p->K->n;
-    double *A = calloc(n * n + 1, sizeof *A), *K = calloc(n * n + 1, sizeof *K), *mu = calloc(n + 1, sizeof *mu);
-    status outcome = STATUS_OK;
-    if (A == NULL || K == NULL || mu == NULL) {
-        outcome = fault_set(f, STATUS_FAULT, "out of memory for an eigenvalue problem");
-    } else {
-        fill_dense(p->A, p->sign, A);
-        fill_dense(p->K, 1, K);
-        const int info = LAPACKE_dsygv(LAPACK_ROW_MAJOR, 1, 'V', 'U', (int)n, A, (int)n, K, (int)n, mu);
-        if (info != 0)
-            outcome = fault_set(f, STATUS_SINGULAR, "the stiffness matrix is not positive definite: something is not held");
-        const double scale = n > 0 ? fmax(fabs(mu[0]), fabs(mu[n - 1])) : 0;
-        for (size_t i = 0; i < n && outcome == STATUS_OK; i++)
-            take(r, mu[n - 1 - i], scale, &A[n - 1 - i], (int)n, p->largest, 0);
-        for (size_t i = 0; i < n && outcome == STATUS_OK; i++)
-            take(r, mu[i], scale, &A[i], (int)n, 0, p->smallest);
-    }
-    free(A);
+    const int n = e->K->n;
+    double *K = calloc((size_t)n * (size_t)n, sizeof *K);
+    if (K == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a dense matrix of %d unknowns", n);
+    fill_dense(e->A, e->sign, x);
+    fill_dense(e->K, 1, K);
+    const int info = LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', n, x, n, K, n, mu);
     free(K);
+    return info == 0 ? STATUS_OK
+                     : fault_set(f, STATUS_NOT_CONVERGED, "a dense eigenvalue problem of %d unknowns: LAPACK says %d", n, info);
+}
+
+/* Candidates of both sides at once. */
+static status both_dense(pairs *up, int largest, pairs *down, int smallest, long *solutions, fault *f)
+{
+    const size_t n = (size_t)up->n;
+    const int from_top = largest < up->n ? largest : up->n, from_bottom = smallest < up->n ? smallest : up->n;
+    double *mu = calloc(n, sizeof *mu), *x = calloc(n * n, sizeof *x);
+    status outcome = mu == NULL || x == NULL ? fault_set(f, STATUS_FAULT, "out of memory for an eigenvalue problem") : STATUS_OK;
+    if (outcome == STATUS_OK)
+        outcome = solve_dense(up->problem, mu, x, f);
+    if (outcome == STATUS_OK) {
+        const double least = least_of(up->n, fmax(fabs(mu[0]), fabs(mu[n - 1])));
+        outcome = pairs_add(up, from_top, x + (n - (size_t)from_top) * n, least, solutions, f);
+        if (outcome == STATUS_OK)
+            outcome = pairs_add(down, from_bottom, x, least, solutions, f);
+    }
     free(mu);
+    free(x);
     return outcome;
 }
 
-typedef struct arnoldi {
-    int n, nev, ncv, lworkl;
-    double *resid, *v, *workd, *workl, *d;
-    int *select;
-} arnoldi;
-
-static void arnoldi_free(arnoldi *a)
+/* Candidates from one run of Lanczos, in what the present ones leave. */
+static status run_lanczos(pairs *p, int wanted, double least, long *solutions, fault *f)
 {
-    free(a->resid);
-    free(a->v);
-    free(a->workd);
-    free(a->workl);
-    free(a->d);
-    free(a->select);
+    const eigen_problem *e = p->problem;
+    const lanczos_problem l = {e->K, e->A, e->K_factor, p->sign, p->count, p->x, p->Kx};
+    const int room = p->n - p->count - 1, count = wanted < room ? wanted : room;
+    double *mu = malloc((size_t)count * sizeof *mu), *x = malloc((size_t)count * (size_t)p->n * sizeof *x);
+    status outcome = mu == NULL || x == NULL ? fault_set(f, STATUS_FAULT, "out of memory for %d eigenvectors", count) : STATUS_OK;
+    if (outcome == STATUS_OK)
+        outcome = lanczos_largest(&l, count, mu, x, solutions, f);
+    if (outcome == STATUS_OK)
+        outcome = pairs_add(p, count, x, least, solutions, f);
+    free(mu);
+    free(x);
+    return outcome;
 }
 
-static status arnoldi_alloc(arnoldi *a, int n, int wanted, int subspace, fault *f)
+/* Candidates of one side, until the inertia says that no eigenvalue above the last wanted one is missing. */
+static status one_sparse(pairs *p, int wanted, eigen_result *r, fault *f)
 {
-    memset(a, 0, sizeof *a);
-    a->n = n;
-    a->nev = wanted < n - 1 ? wanted : n - 1;
-    a->ncv = subspace < n ? subspace : n;
-    a->lworkl = a->ncv * (a->ncv + 8);
-    a->resid = malloc((size_t)n * sizeof(double));
-    a->v = malloc((size_t)n * (size_t)a->ncv * sizeof(double));
-    a->workd = malloc(3 * (size_t)n * sizeof(double));
-    a->workl = malloc((size_t)a->lworkl * sizeof(double));
-    a->d = malloc((size_t)a->ncv * sizeof(double));
-    a->select = malloc((size_t)a->ncv * sizeof(int));
-    if (a->resid == NULL || a->v == NULL || a->workd == NULL || a->workl == NULL || a->d == NULL || a->select == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for an eigenvalue problem");
-    unsigned long long seed = 0x9E3779B97F4A7C15ull; /* the same start every time */
-    for (int i = 0; i < n; i++) {
-        seed = seed * 6364136223846793005ull + 1442695040888963407ull;
-        a->resid[i] = (double)(seed >> 11) / 9007199254740992.0 - 0.5;
+    const double scale = wanted > 0 ? pairs_scale(p, &r->solutions) : 0;
+    if (scale == 0)
+        return STATUS_OK;
+    const double least = fmax(negligible * scale, least_of(p->n, scale));
+    int exist = 0;
+    status outcome = pairs_above(p, least, &exist, r, f);
+    const int asked = wanted < exist ? wanted : exist;
+    int missing = wanted + SPARE < exist ? wanted + SPARE : exist;
+    for (int pass = 0; outcome == STATUS_OK && missing > 0; pass++) {
+        if (pass == MAX_PASSES || p->count + missing >= p->n)
+            return fault_set(f, STATUS_NOT_CONVERGED, "%d of %d eigenvalues are missing after %d attempts", missing, asked, pass);
+        outcome = run_lanczos(p, missing, least, &r->solutions, f);
+        missing = asked - p->count;
+        if (outcome == STATUS_OK && missing <= 0)
+            outcome = pairs_missing(p, asked, &missing, r, f);
     }
+    return outcome;
+}
+
+static status hand_over(pairs *p, int wanted, eigen_side *out, fault *f)
+{
+    const size_t n = (size_t)p->n;
+    const eigen_problem *e = p->problem;
+    const int count = p->count < wanted ? p->count : wanted;
+    for (int i = 0; i < count; i++) {
+        double *mode = p->x + (size_t)i * n;
+        if (!(p->residual[i] <= largest_residual))
+            return fault_set(f, STATUS_NOT_CONVERGED,
+                             "eigenvalue %d of %d unknowns is lost in round-off (residual %.1e): refine less", i + 1, p->n,
+                             p->residual[i]);
+        const double length = e->K_energy != NULL ? sqrt(e->K_energy(e->context, mode)) : 1;
+        for (size_t k = 0; k < n; k++)
+            mode[k] /= length;
+        p->mu[i] *= p->sign * e->sign;
+    }
+    out->count = count;
+    out->mu = p->mu;
+    out->mode = p->x;
+    out->residual = p->residual;
+    p->mu = p->x = p->residual = NULL;
     return STATUS_OK;
 }
 
-/* OP = K^-1 A in the inner product of K (ARPACK's mode 2). */
-static int arnoldi_iterate(const eigen_problem *p, arnoldi *a, const char *which, int *param, int *pointer, long *solutions)
+static status solve(const eigen_problem *e, pairs *up, pairs *down, eigen_result *r, fault *f)
 {
-    int ido = 0, info = 1;
-    memset(param, 0, 11 * sizeof *param);
-    param[0] = 1;
-    param[2] = 3000;
-    param[6] = 2;
-    for (;;) {
-        dsaupd_c(&ido, "G", a->n, which, a->nev, 0, a->resid, a->ncv, a->v, a->n, param, pointer, a->workd, a->workl, a->lworkl,
-                 &info);
-        double *x = a->workd + pointer[0] - 1, *y = a->workd + pointer[1] - 1;
-        if (ido == 2) {
-            sparse_mul(p->K, x, y);
-            continue;
-        }
-        if (ido != 1 && ido != -1)
-            return info;
-        sparse_mul(p->A, x, y);
-        for (int i = 0; i < a->n; i++)
-            y[i] *= p->sign;
-        memcpy(x, y, (size_t)a->n * sizeof *x);
-        factor_solve(p->K_factor, y);
-        (*solutions)++;
+    const int most = (e->largest > e->smallest ? e->largest : e->smallest) + SPARE + 1;
+    status outcome;
+    if ((r->n <= DENSE_UP_TO && !e->iterate) || most >= r->n) {
+        outcome = both_dense(up, e->largest, down, e->smallest, &r->solutions, f);
+    } else {
+        outcome = one_sparse(up, e->largest, r, f);
+        if (outcome == STATUS_OK)
+            outcome = one_sparse(down, e->smallest, r, f);
     }
-}
-
-static int descending_size(const double *d, int n, int *order)
-{
-    for (int i = 0; i < n; i++)
-        order[i] = i;
-    for (int i = 1; i < n; i++)
-        for (int k = i; k > 0 && fabs(d[order[k]]) > fabs(d[order[k - 1]]); k--) {
-            const int swap = order[k];
-            order[k] = order[k - 1];
-            order[k - 1] = swap;
-        }
-    return n;
-}
-
-static status solve_end(const eigen_problem *p, const char *which, int wanted, eigen_result *r, double *scale, fault *f)
-{
-    arnoldi a;
-    int param[11], pointer[14], info = 0;
-    status outcome = arnoldi_alloc(&a, p->K->n, wanted, 2 * wanted + 20, f);
-    if (outcome == STATUS_OK) {
-        info = arnoldi_iterate(p, &a, which, param, pointer, &r->solutions);
-        const int found = param[4];
-        if (info < 0 || (info != 0 && found < a.nev))
-            outcome = fault_set(f, STATUS_NOT_CONVERGED, "%d of %d eigenvalues found (ARPACK says %d)", found, a.nev, info);
-    }
-    if (outcome == STATUS_OK) {
-        int order[256];
-        dseupd_c(1, "A", a.select, a.d, a.v, a.n, 0, "G", a.n, which, a.nev, 0, a.resid, a.ncv, a.v, a.n, param, pointer, a.workd,
-                 a.workl, a.lworkl, &info);
-        const int count = descending_size(a.d, a.nev < 256 ? a.nev : 256, order);
-        *scale = fmax(*scale, count > 0 ? fabs(a.d[order[0]]) : 0);
-        for (int i = 0; i < count && info == 0; i++)
-            take(r, a.d[order[i]], *scale, a.v + (size_t)order[i] * (size_t)a.n, 1, which[0] == 'L' ? p->largest : 0,
-                 which[0] == 'S' ? p->smallest : 0);
-        if (info != 0)
-            outcome = fault_set(f, STATUS_NOT_CONVERGED, "the eigenvectors were not found (ARPACK says %d)", info);
-    }
-    arnoldi_free(&a);
+    if (outcome == STATUS_OK)
+        outcome = hand_over(up, e->largest, &r->positive, f);
+    if (outcome == STATUS_OK)
+        outcome = hand_over(down, e->smallest, &r->negative, f);
     return outcome;
 }
 
-status eigen_solve(const eigen_problem *p, eigen_result *r, fault *f)
+status eigen_solve(const eigen_problem *e, eigen_result *r, fault *f)
 {
-    status outcome = alloc_result(r, p->K->n, p->largest, p->smallest, f);
-    double scale = 0;
-    if (outcome != STATUS_OK || p->K->n == 0)
-        return outcome;
-    if (p->K->n <= DENSE_UP_TO || p->largest + p->smallest + 2 >= p->K->n)
-        return solve_dense(p, r, f);
-    if (p->largest > 0)
-        outcome = solve_end(p, "LA", p->largest, r, &scale, f);
-    if (outcome == STATUS_OK && p->smallest > 0)
-        outcome = solve_end(p, "SA", p->smallest, r, &scale, f);
+    const int negative = factor_count(e->K_factor).negative_pivots;
+    memset(r, 0, sizeof *r);
+    r->n = e->K->n;
+    if (negative != 0)
+        return fault_set(f, STATUS_REFUSED, "eigenvalues need a positive definite stiffness: this one has %d negative pivots%s",
+                         negative, negative > 0 ? ", the structure is beyond a critical point" : " (it is not symmetric)");
+    if (r->n == 0)
+        return STATUS_OK;
+    pairs up, down;
+    status outcome = pairs_alloc(&up, e, e->sign, f);
+    const status other = pairs_alloc(&down, e, -e->sign, f);
+    outcome = outcome == STATUS_OK ? other : outcome;
+    if (outcome == STATUS_OK)
+        outcome = solve(e, &up, &down, r, f);
+    pairs_free(&up);
+    pairs_free(&down);
     return outcome;
 }

@@ -18,48 +18,38 @@ static int modes_wanted(const analysis_context *c, int analysis)
     return wanted + others;
 }
 
-static int by_frequency(const void *a, const void *b)
+/* Strain energy from the element strains, and the shift's share. */
+typedef struct forms {
+    model *m;
+    const sparse *M;
+    double shift;  /* [1/s^2] */
+    double *x, *y; /* [free + driven] driven coordinates: zero; [free] */
+    int free_count;
+} forms;
+
+static double stiffness_form(void *context, const double mode[])
 {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+    const forms *f = context;
+    double mass = 0;
+    memcpy(f->x, mode, (size_t)f->free_count * sizeof *f->x);
+    if (f->shift > 0)
+        sparse_mul(f->M, mode, f->y);
+    for (int i = 0; i < f->free_count && f->shift > 0; i++)
+        mass += mode[i] * f->y[i];
+    return model_strain_energy2(f->m, f->x) + f->shift * mass;
 }
 
-/* omega^2 = x^T K x/x^T M x with x^T K x from the element strains; sorted with their modes. */
-static status keep(analysis_context *c, const sparse *M, double shift, eigen_result *e, analysis_outcome *o, fault *f)
+/* Moves the modes into the outcome, with omega^2 = 1/mu - shift; what is a rounding error of the shift moves as a rigid body. */
+static void keep(const forms *about, eigen_side *side, analysis_outcome *o)
 {
-    const model_size size = model_sizes(c->model);
-    const size_t n = (size_t)size.free, all = (size_t)(size.free + size.driven) + 1;
-    double *x = calloc(all, sizeof *x), *Mx = calloc(n + 1, sizeof *Mx), *pair = calloc(2 * (size_t)e->positive + 2, sizeof *pair);
-    double *modes = calloc((size_t)(e->positive + 1) * n + 1, sizeof *modes);
-    o->value_positive = calloc((size_t)e->positive + 1, sizeof *o->value_positive);
-    o->mode_positive = modes;
-    if (x == NULL || Mx == NULL || pair == NULL || modes == NULL || o->value_positive == NULL) {
-        free(x);
-        free(Mx);
-        free(pair);
-        return fault_set(f, STATUS_FAULT, "out of memory for modes");
+    for (int i = 0; i < side->count; i++) {
+        const double square = 1 / side->mu[i] - about->shift;
+        side->mu[i] = square <= 1e-9 * about->shift ? 0 : sqrt(square);
     }
-    for (int i = 0; i < e->positive; i++) {
-        const double *mode = e->mode_positive + (size_t)i * n;
-        double mass = 0;
-        memcpy(x, mode, n * sizeof *x);
-        sparse_mul(M, mode, Mx);
-        for (size_t k = 0; k < n; k++)
-            mass += mode[k] * Mx[k];
-        const double stiffness = model_strain_energy2(c->model, x);
-        pair[2 * i] = stiffness <= 1e-9 * shift * mass ? 0 : sqrt(stiffness / mass);
-        pair[2 * i + 1] = i;
-    }
-    qsort(pair, (size_t)e->positive, 2 * sizeof *pair, by_frequency);
-    o->positive = e->positive;
-    for (int i = 0; i < e->positive; i++) {
-        o->value_positive[i] = pair[2 * i];
-        memcpy(modes + (size_t)i * n, e->mode_positive + (size_t)pair[2 * i + 1] * n, n * sizeof *modes);
-    }
-    free(x);
-    free(Mx);
-    free(pair);
-    return STATUS_OK;
+    o->positive = side->count;
+    o->value_positive = side->mu;
+    o->mode_positive = side->mode;
+    side->mu = side->mode = NULL;
 }
 
 /* A structure that is not held has K singular: K + shift M is not. */
@@ -79,27 +69,40 @@ static status shifted_system(analysis_context *c, linear_system *s, const sparse
 
 status analysis_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
+    const model_size size = model_sizes(c->model);
+    const size_t all = (size_t)(size.free + size.driven) + 1;
     linear_system s;
     sparse M = {0};
     eigen_result e = {0};
-    double shift = 0;
+    forms about = {c->model, &M, 0, calloc(all, sizeof(double)), calloc(all, sizeof(double)), size.free};
     status result = linear_system_alloc(c, &s, f);
     const int singular = result == STATUS_SINGULAR;
     if (result == STATUS_OK || singular)
         result = sparse_alloc_like(&s.K, &M, f);
+    if (result == STATUS_OK && (about.x == NULL || about.y == NULL))
+        result = fault_set(f, STATUS_FAULT, "out of memory for modes");
     if (result == STATUS_OK)
         result = model_mass(c->model, NULL, &M, f);
     if (result == STATUS_OK && singular)
-        result = shifted_system(c, &s, &M, &shift, f);
+        result = shifted_system(c, &s, &M, &about.shift, f);
     if (result == STATUS_OK) {
-        const eigen_problem p = {.K = &s.K, .A = &M, .K_factor = s.factor, .sign = 1, .largest = modes_wanted(c, analysis)};
+        const eigen_problem p = {.K = &s.K,
+                                 .A = &M,
+                                 .K_factor = s.factor,
+                                 .sign = 1,
+                                 .largest = modes_wanted(c, analysis),
+                                 .K_energy = stiffness_form,
+                                 .context = &about};
         result = eigen_solve(&p, &e, f);
         model_counters(c->model)->solutions += e.solutions;
+        model_counters(c->model)->factorisations += e.factorisations;
     }
     if (result == STATUS_OK)
-        result = keep(c, &M, shift, &e, o, f);
+        keep(&about, &e.positive, o);
     eigen_free(&e);
     linear_system_free(&s);
     sparse_free_values(&M);
+    free(about.x);
+    free(about.y);
     return result;
 }

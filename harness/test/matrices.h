@@ -8,6 +8,8 @@
 
 #include "harness/model/sparse.h"
 
+#define MATRICES_PI 3.14159265358979323846
+
 /* Uniform in (-1, 1), the same sequence every time. */
 static inline double matrices_random(unsigned long long *seed)
 {
