@@ -1,9 +1,10 @@
-/* second-order sheet-flexure element (Hu-Washizu). */
+/* The second-order element of N section 2, whose generalized strains leave the shear terms out: with flexible shear it
+ * converges to a limit of its own (reference/ERRATA.md, N 37). */
 #include "elements/sheet/second.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
-    return second_prepare(request, 0, out, f);
+    return second_prepare(request, BASE_PRINTED, out, f);
 }
 
 const element_type element_sheet_second = {
@@ -11,13 +12,11 @@ const element_type element_sheet_second = {
     .summary = "second-order sheet-flexure element (Hu-Washizu)",
     .source = "N Eqs. 33-37, 40-42",
     .abi = ELEMENT_ABI,
-    .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_HARINGX | FEATURE_ENGESSER | FEATURE_GEOMETRIC |
-              FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
-    .limits = LIMIT_DOUBLY_SYMMETRIC | LIMIT_ORDER_DEPENDENT,
+    .offers = BASE_OFFERS,
+    .limits = BASE_LIMITS,
     .data_size = second_data_size,
     .prepare = prepare,
-    .strain = second_strain,
+    .strain = base_strain,
     .stress = second_stress,
-    .geometric = second_geometric,
-    .inertia = second_inertia,
+    .inertia = base_inertia,
 };

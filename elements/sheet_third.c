@@ -1,4 +1,4 @@
-/* third-order sheet-flexure element (Hellinger-Reissner), sign of u_y corrected. */
+/* The third-order element of N section 3 with the sign of u_y in N Eq. 49 corrected (reference/ERRATA.md, N 49). */
 #include "elements/sheet/third.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)
@@ -9,15 +9,14 @@ static status prepare(const element_request *request, element_data *out, fault *
 const element_type element_sheet_third = {
     .name = "sheet_third",
     .summary = "third-order sheet-flexure element (Hellinger-Reissner), sign of u_y corrected",
-    .source = "N Eqs. 37, 44-50, 55-65; reference/ERRATA.md, N 49",
+    .source = "N Eqs. 37, 44-52, 55-65; reference/ERRATA.md, N 49",
     .abi = ELEMENT_ABI,
-    .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_ENGESSER |
-              FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
-    .limits = LIMIT_DOUBLY_SYMMETRIC | LIMIT_ORDER_DEPENDENT,
+    .offers = BASE_OFFERS,
+    .limits = BASE_LIMITS,
     .data_size = third_data_size,
     .prepare = prepare,
-    .strain = third_strain,
+    .strain = base_strain,
     .stress = third_stress,
     .geometric = third_geometric,
-    .inertia = third_inertia,
+    .inertia = base_inertia,
 };

@@ -1,205 +1,203 @@
-/* Seen from p: d = Rp^T (rq - rp) and Rp^T Rq = exp(eta~) R0.  With rho = hypot(dx, dy):
- *   yp = atan2(dz, rho), zp = -atan2(dy, dx), and with b = (-dy, dx, 0), the y axis of the frame pu times rho,
- *   px = atan2(-b.Zq, b.Yq), zq = atan2(b.Xq/rho, ...) , yq = atan2(-(c.Xq)/rho, d.Xq), c = (-dz dx, -dz dy, rho^2).
- * In the exponential chart of both nodes d = Rp^T exp(-tp~)(rq - rp) and eta = Rp^T (tq - tp - tp x tq/2). */
+/* F^T R^p = R(p) = Ry(yp) Rz(zp), whose first row is n seen from p, and F^T R^q = Ry(yq) Rz(zq) Rx(px).
+ *
+ * With w_F the spin of the frame, a vector fixed in space has the rate a x w_F in frame axes.  The chord gives
+ * w_F,y = -v_z/l and w_F,z = v_y/l; that p does not twist against the frame gives w_F,x. */
 #include "elements/sheet/local.h"
 
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/math/jet.h"
 
-enum { VARIABLES = JET_VARIABLES };
-
-static jet variable(double value, int index)
+void local_of(double l0, const node_state x[2], local_state *out)
 {
-    jet j = {.value = value};
-    j.gradient[index] = 1;
-    return j;
-}
-
-static int pair(int i, int j)
-{
-    const int low = i < j ? i : j, high = i < j ? j : i;
-    return low * VARIABLES - low * (low - 1) / 2 + high - low;
-}
-
-/* Column v of Rp^T Rq as it turns: v + eta x v + (eta (eta . v) - v |eta|^2)/2. */
-static void turning_column(const double v[3], jet out[3])
-{
-    const double skew[3][3] = {{0, v[2], -v[1]}, {-v[2], 0, v[0]}, {v[1], -v[0], 0}}; /* d(eta x v)_i/d eta_k */
+    const double *p = x[0].R, *q = x[1].R;
+    double d[3], moved[3], sum[3], D[3], F[3][3], M[9];
     for (int i = 0; i < 3; i++) {
-        memset(&out[i], 0, sizeof out[i]);
-        out[i].value = v[i];
+        d[i] = x[1].r[i] - x[0].r[i];
+        moved[i] = x[1].u[i] - x[0].u[i];
+        sum[i] = 2 * d[i] - moved[i];
+    }
+    mat3_transpose_mul_vec(p, d, D);
+    const double l = sqrt(vec3_dot(d, d)), h = sqrt(D[0] * D[0] + D[1] * D[1]);
+    for (int i = 0; i < 3; i++) {
+        F[0][i] = d[i] / l;
+        F[1][i] = (p[3 * i + 1] * D[0] - p[3 * i] * D[1]) / h;
+    }
+    vec3_cross(F[0], F[1], F[2]);
+    for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++)
-            out[i].gradient[3 + k] = skew[i][k];
+            out->F[3 * i + k] = F[k][i];
+    mat3_transpose_mul(out->F, q, M);
+    const double m = sqrt(M[0] * M[0] + M[6] * M[6]);
+    out->l = l;
+    out->q[LOCAL_U] = vec3_dot(sum, moved) / (l + l0); /* l - l0, without a difference of nearly equal lengths */
+    out->q[LOCAL_YP] = atan2(D[2], h);
+    out->q[LOCAL_ZP] = atan2(-D[1], D[0]);
+    out->q[LOCAL_YQ] = atan2(-M[6], M[0]);
+    out->q[LOCAL_ZQ] = atan2(M[3], m);
+    out->q[LOCAL_PX] = atan2(-M[5], M[4]);
+    out->q[LOCAL_WP] = x[0].a;
+    out->q[LOCAL_WQ] = x[1].a;
+    out->tan_yp = D[2] / h;
+    out->sec_yp = l / h;
+    out->cos_yq = M[0] / m;
+    out->sin_yq = -M[6] / m;
+    out->tan_zq = M[3] / m;
+    out->sec_zq = 1 / m;
+}
+
+/* Rates that the local ones are made of: rows over v, P, Q. */
+typedef struct spins {
+    double frame[3][RATE_TURNS];    /* w_F */
+    double bend[RATE_TURNS];        /* P_z - w_F,z */
+    double relative[3][RATE_TURNS]; /* Q - w_F */
+    double across[RATE_TURNS];      /* its part cos(yq) w_x - sin(yq) w_z */
+} spins;
+
+static spins spins_of(const local_state *s)
+{
+    spins w;
+    memset(&w, 0, sizeof w);
+    w.frame[1][RATE_V + 2] = -1 / s->l;
+    w.frame[2][RATE_V + 1] = 1 / s->l;
+    w.bend[RATE_P + 2] = 1;
+    w.bend[RATE_V + 1] = -1 / s->l;
+    w.frame[0][RATE_P] = 1;
+    w.frame[0][RATE_P + 2] = -s->tan_yp;
+    w.frame[0][RATE_V + 1] = s->tan_yp / s->l;
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < RATE_TURNS; j++)
+            w.relative[i][j] = -w.frame[i][j];
+        w.relative[i][RATE_Q + i] += 1;
+    }
+    for (int j = 0; j < RATE_TURNS; j++)
+        w.across[j] = s->cos_yq * w.relative[0][j] - s->sin_yq * w.relative[2][j];
+    return w;
+}
+
+void local_rates(const local_state *s, double R[LOCAL_COORDINATES * RATES])
+{
+    const spins w = spins_of(s);
+    memset(R, 0, LOCAL_COORDINATES * RATES * sizeof(double));
+    R[LOCAL_U * RATES + RATE_V] = 1;
+    R[LOCAL_YP * RATES + RATE_P + 1] = 1;
+    R[LOCAL_YP * RATES + RATE_V + 2] = 1 / s->l;
+    for (int j = 0; j < RATE_TURNS; j++) {
+        R[LOCAL_ZP * RATES + j] = s->sec_yp * w.bend[j];
+        R[LOCAL_ZQ * RATES + j] = s->sin_yq * w.relative[0][j] + s->cos_yq * w.relative[2][j];
+        R[LOCAL_PX * RATES + j] = s->sec_zq * w.across[j];
+        R[LOCAL_YQ * RATES + j] = w.relative[1][j] - s->tan_zq * w.across[j];
+    }
+    R[LOCAL_WP * RATES + RATE_WP] = R[LOCAL_WQ * RATES + RATE_WQ] = 1;
+}
+
+/* A += c a b^T; a is often sparse. */
+static void add_product(double c, const double a[RATE_TURNS], const double b[RATE_TURNS], double A[RATE_TURNS * RATE_TURNS])
+{
+    for (int i = 0; i < RATE_TURNS; i++)
+        for (int j = 0; j < RATE_TURNS && a[i] != 0; j++)
+            A[RATE_TURNS * i + j] += c * a[i] * b[j];
+}
+
+/* Weights of the accelerations dv/dt, dP/dt, dQ/dt in sum t_k d2q_k/dt2, from those of dw/dt and d(bend)/dt. */
+static void acceleration_weights(const local_state *s, const double t[LOCAL_COORDINATES], const double relative[3], double bend,
+                                 double g[RATE_TURNS])
+{
+    const double turn = bend + s->tan_yp * relative[0];
+    g[RATE_V] = t[LOCAL_U];
+    g[RATE_V + 1] = -(turn + relative[2]) / s->l;
+    g[RATE_V + 2] = (t[LOCAL_YP] + relative[1]) / s->l;
+    g[RATE_P] = -relative[0];
+    g[RATE_P + 1] = t[LOCAL_YP];
+    g[RATE_P + 2] = turn;
+    for (int i = 0; i < 3; i++)
+        g[RATE_Q + i] = relative[i];
+}
+
+/* Vectors turn with the frame, lengths change: terms of the accelerations. */
+static void add_frame_terms(const local_state *s, const spins *w, const double g[RATE_TURNS], double A[RATE_TURNS * RATE_TURNS])
+{
+    for (int i = 0; i < 3; i++) { /* g . (a x w_F) = w_F . (g x a) for a = v, P, Q */
+        const int next = (i + 1) % 3, last = (i + 2) % 3;
+        double row[RATE_TURNS] = {0};
+        for (int block = 0; block < RATE_TURNS; block += 3) {
+            row[block + last] = g[block + next];
+            row[block + next] = -g[block + last];
+        }
+        add_product(1, w->frame[i], row, A);
+    }
+    A[RATE_V + 1] -= g[RATE_V + 1] / s->l; /* d(1/l)/dt = -v_x/l^2 in v_y/l and v_z/l */
+    A[RATE_V + 2] -= g[RATE_V + 2] / s->l;
+}
+
+void local_add_second(const local_state *s, const double R[LOCAL_COORDINATES * RATES], const double t[LOCAL_COORDINATES],
+                      double H[RATES * RATES])
+{
+    const spins w = spins_of(s);
+    /* weights of d(across)/dt, dw/dt and d(bend)/dt */
+    const double across = t[LOCAL_PX] * s->sec_zq - t[LOCAL_YQ] * s->tan_zq, bend = t[LOCAL_ZP] * s->sec_yp;
+    const double relative[3] = {t[LOCAL_ZQ] * s->sin_yq + across * s->cos_yq, t[LOCAL_YQ],
+                                t[LOCAL_ZQ] * s->cos_yq - across * s->sin_yq};
+    double g[RATE_TURNS], A[RATE_TURNS * RATE_TURNS] = {0}, zq_and_across[RATE_TURNS];
+    acceleration_weights(s, t, relative, bend, g);
+    add_frame_terms(s, &w, g, A);
+    /* d(1/cos yp)/dt in zp, d(tan yp)/dt in w_x */
+    add_product((bend * s->tan_yp + relative[0] * s->sec_yp * s->sec_yp), w.bend, R + LOCAL_YP * RATES, A);
+    /* d(across)/dt = .. - yq' zq', d(zq')/dt = .. + yq' across; d(1/cos zq)/dt in px, d(tan zq)/dt in yq */
+    for (int j = 0; j < RATE_TURNS; j++)
+        zq_and_across[j] = t[LOCAL_ZQ] * w.across[j] - across * R[LOCAL_ZQ * RATES + j];
+    add_product(1, R + LOCAL_YQ * RATES, zq_and_across, A);
+    add_product((t[LOCAL_PX] * s->tan_zq - t[LOCAL_YQ] * s->sec_zq) * s->sec_zq, R + LOCAL_ZQ * RATES, w.across, A);
+    for (int i = 0; i < RATE_TURNS; i++)
+        for (int j = 0; j < RATE_TURNS; j++)
+            H[RATES * i + j] += (A[RATE_TURNS * i + j] + A[RATE_TURNS * j + i]) / 2;
+}
+
+void local_nodal_gradient(const local_state *s, int m, const double A[], double J[])
+{
+    for (int i = 0; i < m; i++) {
+        const double *a = A + RATES * i;
+        double *row = J + LOCAL_NODAL * i;
+        mat3_mul_vec(s->F, a + RATE_V, row + 7);
+        mat3_mul_vec(s->F, a + RATE_P, row + 3);
+        mat3_mul_vec(s->F, a + RATE_Q, row + 10);
         for (int k = 0; k < 3; k++)
-            for (int m = k; m < 3; m++)
-                out[i].hessian[pair(3 + k, 3 + m)] = ((i == k ? v[m] : 0) + (i == m ? v[k] : 0)) / 2 - (k == m ? v[i] : 0);
+            row[k] = -row[7 + k];
+        row[6] = a[RATE_WP];
+        row[13] = a[RATE_WQ];
     }
 }
 
-static jet product_sum(const jet *a, const jet *b, double sign, const jet *c, const jet *e) /* a b + sign c e */
+/* K(row + i, column + j) = K(column + j, row + i) = B_ij. */
+static void put(int row, int column, double sign, const double B[9], double K[LOCAL_NODAL * LOCAL_NODAL])
 {
-    const jet first = jet_mul(a, b), second = jet_mul(c, e);
-    return jet_add(&first, 1, &second, sign);
-}
-
-/* The five angles as jets of (d, eta). */
-static void angles(const double d_value[3], const double R[9], jet out[6])
-{
-    jet d[3], column[3][3];
     for (int i = 0; i < 3; i++)
-        d[i] = variable(d_value[i], i);
-    for (int k = 0; k < 3; k++) {
-        const double v[3] = {R[k], R[3 + k], R[6 + k]};
-        turning_column(v, column[k]);
-    }
-    const jet *X = column[0], *Y = column[1], *Z = column[2];
-    const jet rho2 = product_sum(&d[0], &d[0], 1, &d[1], &d[1]), rho = jet_sqrt(&rho2);
-    out[LOCAL_YP] = jet_atan2(&d[2], &rho);
-    const jet azimuth = jet_atan2(&d[1], &d[0]);
-    out[LOCAL_ZP] = jet_add(&azimuth, -1, &azimuth, 0);
-    const jet bZ = product_sum(&d[0], &Z[1], -1, &d[1], &Z[0]), bY = product_sum(&d[0], &Y[1], -1, &d[1], &Y[0]),
-              bX = product_sum(&d[0], &X[1], -1, &d[1], &X[0]);
-    const jet minus_bZ = jet_add(&bZ, -1, &bZ, 0);
-    out[LOCAL_PX] = jet_atan2(&minus_bZ, &bY);
-    /* along = rho (dx Xx + dy Xy)/rho^2 ...: components of Xq in the frame pu times rho and l. */
-    const jet flat = product_sum(&d[0], &X[0], 1, &d[1], &X[1]);
-    const jet n = product_sum(&rho2, &X[2], -1, &d[2], &flat);              /* c . Xq = l rho (B_z . Xq) */
-    const jet dX = product_sum(&d[2], &X[2], 1, &flat, &(jet){.value = 1}); /* d . Xq = l (B_x . Xq) */
-    const jet along = jet_mul(&rho, &dX), minus_n = jet_add(&n, -1, &n, 0);
-    out[LOCAL_YQ] = jet_atan2(&minus_n, &along);
-    /* sin zq = bX/rho; cos zq = hypot(the other two)/(l rho) >= 0 */
-    const jet bX2 = jet_mul(&bX, &bX), rest = jet_add(&rho2, 1, &bX2, -1), across = jet_sqrt(&rest);
-    out[LOCAL_ZQ] = jet_atan2(&bX, &across);
+        for (int j = 0; j < 3; j++)
+            K[LOCAL_NODAL * (row + i) + column + j] = K[LOCAL_NODAL * (column + j) + row + i] = sign * B[3 * i + j];
 }
 
-/* Gradient in the element's coordinates from that in (d, eta). */
-static void chain(const double Rp[9], const double d[3], const double g[6], double row[14])
+void local_nodal_form(const local_state *s, const double H[RATES * RATES], double K[LOCAL_NODAL * LOCAL_NODAL])
 {
-    double gd[3], ge[3], moment[3];
-    const double *at_d = g, *at_eta = g + 3;
-    double cross[3];
-    mat3_mul_vec(Rp, at_d, gd);
-    mat3_mul_vec(Rp, at_eta, ge);
-    vec3_cross(d, at_d, cross); /* d(d)/dtp = Rp^T (rq - rp)~: gradient (rq - rp) x ... */
-    mat3_mul_vec(Rp, cross, moment);
-    memset(row, 0, 14 * sizeof *row);
-    for (int i = 0; i < 3; i++) {
-        row[i] = -gd[i];
-        row[7 + i] = gd[i];
-        row[3 + i] = -moment[i] - ge[i];
-        row[10 + i] = ge[i];
-    }
-}
-
-void local_evaluate(double length, const node_state x[2], int derivatives, local_frame *l)
-{
-    double between[3], R[9], sum = 0;
-    jet angle[6];
-    for (int i = 0; i < 3; i++) {
-        const double moved = x[1].u[i] - x[0].u[i];
-        between[i] = x[1].r[i] - x[0].r[i];
-        sum += (2 * between[i] - moved) * moved;
-    }
-    memcpy(l->Rp, x[0].R, sizeof l->Rp);
-    mat3_transpose_mul_vec(x[0].R, between, l->d);
-    mat3_transpose_mul(x[0].R, x[1].R, R);
-    angles(l->d, R, angle);
-    const double now = sqrt(vec3_dot(between, between));
-    l->value[LOCAL_U] = sum / (now + length);
-    l->value[LOCAL_WP] = x[0].a;
-    l->value[LOCAL_WQ] = x[1].a;
-    for (int a = LOCAL_PX; a <= LOCAL_ZQ; a++)
-        l->value[a] = angle[a].value;
-    if (derivatives == 0)
-        return;
-    memset(l->gradient, 0, sizeof l->gradient);
-    memset(l->inner_gradient, 0, sizeof l->inner_gradient);
-    for (int i = 0; i < 3; i++)
-        l->inner_gradient[LOCAL_U][i] = l->d[i] / now;
-    for (int i = 0, k = 0; i < 6; i++)
-        for (int j = i; j < 6; j++, k++)
-            l->inner_hessian[LOCAL_U][k] = j < 3 ? ((i == j) - l->d[i] * l->d[j] / (now * now)) / now : 0;
-    for (int a = LOCAL_PX; a <= LOCAL_ZQ; a++) {
-        memcpy(l->inner_gradient[a], angle[a].gradient, sizeof angle[a].gradient);
-        memcpy(l->inner_hessian[a], angle[a].hessian, sizeof angle[a].hessian);
-    }
-    for (int a = 0; a < 6; a++)
-        chain(l->Rp, l->d, l->inner_gradient[a], l->gradient[a]);
-    l->gradient[LOCAL_WP][6] = l->gradient[LOCAL_WQ][13] = 1;
-}
-
-/* Second derivatives of d and eta themselves, for the weights g = sum w_a d x_a/d(d, eta). */
-static void add_chart_terms(const local_frame *l, const double g[6], double H[14 * 14])
-{
-    double F[3], m[3], r[3];
-    mat3_mul_vec(l->Rp, g, F);
-    mat3_mul_vec(l->Rp, g + 3, m);
-    mat3_mul_vec(l->Rp, l->d, r);
-    const double dot = vec3_dot(F, r), skew_F[9] = {0, -F[2], F[1], F[2], 0, -F[0], -F[1], F[0], 0};
-    const double skew_m[9] = {0, -m[2], m[1], m[2], 0, -m[0], -m[1], m[0], 0};
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            /* F . [tp x (tp x r)]/2 and -F . (tp x (rq - rp)) */
-            H[(3 + i) * 14 + 3 + j] += (F[i] * r[j] + r[i] * F[j]) / 2 - (i == j ? dot : 0);
-            const double turn = skew_F[3 * i + j];
-            H[(3 + i) * 14 + 7 + j] += turn;
-            H[(7 + j) * 14 + 3 + i] += turn;
-            H[(3 + i) * 14 + j] -= turn;
-            H[j * 14 + 3 + i] -= turn;
-            /* -m . (tp x tq)/2 */
-            const double half = skew_m[3 * i + j] / 2;
-            H[(3 + i) * 14 + 10 + j] += half;
-            H[(10 + j) * 14 + 3 + i] += half;
+    static const int place[3] = {7, 3, 10}; /* of v, P, Q; v is minus the motion of p too */
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b <= a; b++) {
+            double block[9], half[9], turned[9];
+            for (int i = 0; i < 3; i++) /* F B F^T = (F (F B)^T)^T */
+                for (int j = 0; j < 3; j++)
+                    block[3 * i + j] = H[RATES * (3 * a + i) + 3 * b + j];
+            mat3_mul(s->F, block, half);
+            for (int i = 0; i < 3; i++)
+                for (int j = 0; j < 3; j++)
+                    turned[3 * i + j] = vec3_dot(half + 3 * i, s->F + 3 * j);
+            put(place[a], place[b], 1, turned, K);
+            if (b == 0)
+                put(place[a], 0, -1, turned, K);
+            if (a == 0)
+                put(0, 0, 1, turned, K);
         }
-}
-
-/* d(d, eta)/dx applied to column j: the six rates. */
-static void inner_rates(const local_frame *l, double T[6][12])
-{
-    memset(T, 0, 6 * sizeof T[0]);
-    double r[3];
-    mat3_mul_vec(l->Rp, l->d, r);
-    const double skew_r[9] = {0, -r[2], r[1], r[2], 0, -r[0], -r[1], r[0], 0};
-    double turned[9];
-    mat3_transpose_mul(l->Rp, skew_r, turned);
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            T[i][j] = -l->Rp[3 * j + i];
-            T[i][6 + j] = l->Rp[3 * j + i];
-            T[i][3 + j] = turned[3 * i + j];
-            T[3 + i][3 + j] = -l->Rp[3 * j + i];
-            T[3 + i][9 + j] = l->Rp[3 * j + i];
-        }
-}
-
-void local_add_hessian(const local_frame *l, const double w[LOCALS], double H[14 * 14])
-{
-    static const int place[12] = {0, 1, 2, 3, 4, 5, 7, 8, 9, 10, 11, 12};
-    double g[6] = {0}, h[6][6], T[6][12], hT[6][12] = {{0}};
-    for (int a = 0; a < 6; a++)
-        for (int i = 0; i < 6; i++)
-            g[i] += w[a] * l->inner_gradient[a][i];
-    for (int i = 0, k = 0; i < 6; i++)
-        for (int j = i; j < 6; j++, k++) {
-            double sum = 0;
-            for (int a = 0; a < 6; a++)
-                sum += w[a] * l->inner_hessian[a][k];
-            h[i][j] = h[j][i] = sum;
-        }
-    inner_rates(l, T);
-    for (int i = 0; i < 6; i++)
-        for (int j = 0; j < 6; j++)
-            for (int c = 0; c < 12; c++)
-                hT[i][c] += h[i][j] * T[j][c];
-    for (int a = 0; a < 12; a++)
-        for (int c = 0; c < 12; c++) {
-            double sum = 0;
-            for (int i = 0; i < 6; i++)
-                sum += T[i][a] * hT[i][c];
-            H[place[a] * 14 + place[c]] += sum;
-        }
-    add_chart_terms(l, g, H);
+    double rows[2 * LOCAL_NODAL];
+    local_nodal_gradient(s, 2, H + RATES * RATE_WP, rows);
+    for (int k = 0; k < 2; k++)
+        for (int j = 0; j < LOCAL_NODAL; j++)
+            K[LOCAL_NODAL * (6 + 7 * k) + j] = K[LOCAL_NODAL * j + 6 + 7 * k] = rows[LOCAL_NODAL * k + j];
 }

@@ -1,28 +1,33 @@
-/* Coefficients of the Hellinger-Reissner potential as polynomials in the local coordinates (N Eqs. 44-50). */
+/* The Hellinger-Reissner potential of N section 3 as a polynomial in the local coordinates (N Eqs. 44-50):
+ * P = P0 + b.s - 1/2 s^T A s at the stresses s = A^-1 b, s = (F~x, M~x, M~yp, M~yq, M~zp, M~zq). */
 #ifndef BEAMWORK_SHEET_POTENTIAL_H
 #define BEAMWORK_SHEET_POTENTIAL_H
 
-#include "elements/sheet/relations.h"
+#include "elements/sheet/local.h"
 
-/* Stress variables F~x, M~x, M~yp, M~yq, M~zp, M~zq; affine variables 1, px, zp, zq, Wp, Wq. */
-enum { STRESSES = 6, AFFINE = 6, QUARTIC = 35 };
+enum { STRESSES = 6 };
+
+/* c v_a v_b in A_ij (i >= j, and in A_ji), in b_i or in P0; v_0 = 1, v_(1+k) = x_k. */
+typedef struct potential_term {
+    double c;
+    int i, j, a, b;
+} potential_term;
+
+enum { TERMS_A = 96, TERMS_B = 64, TERMS_P0 = 12 };
 
 typedef struct potential {
-    double A[STRESSES][STRESSES][AFFINE][AFFINE]; /* A_ij = sum y_a y_b A[i][j][a][b]/2, symmetric in both pairs */
-    double b[STRESSES][LOCALS][LOCALS];           /* quadratic part: x^T b_i x/2 */
-    double b_linear[STRESSES][LOCALS];
-    double P0[LOCALS][LOCALS]; /* x^T P0 x/2 */
-    double wagner[5][3];       /* weight c L and phi_x' (px, Wp, Wq) at five points: sum w (phi_x')^4 */
-    double wagner_weight[5];
+    int terms_A, terms_b, terms_P0;
+    potential_term A[TERMS_A], b[TERMS_B], P0[TERMS_P0];
 } potential;
 
-/* Local coordinate of an affine variable (0: the constant). */
-extern const int potential_local[AFFINE];
-
+/* printed: u_y in M_x with the sign of N Eq. 49 as printed.  Refuses a section without torsional stiffness. */
 status potential_prepare(const element_request *request, int printed, potential *out, fault *f);
 
-/* P(x) after eliminating the stress variables, its gradient [8] and Hessian [8 x 8]. SINGULAR when A is not positive definite. */
-status potential_evaluate(const potential *p, const double x[LOCALS], double *P, double gradient[LOCALS],
-                          double hessian[LOCALS * LOCALS]);
+/* P[1], its gradient[8] and Hessian[8 x 8] at x; NULL: not wanted.  SINGULAR when A is not positive definite there. */
+status potential_evaluate(const potential *p, const double x[LOCAL_COORDINATES], double *P, double *gradient, double *hessian);
+
+/* T[8 x 8] = derivative of the Hessian at x in the direction dx. */
+status potential_third(const potential *p, const double x[LOCAL_COORDINATES], const double dx[LOCAL_COORDINATES],
+                       double T[LOCAL_COORDINATES * LOCAL_COORDINATES]);
 
 #endif

@@ -2,16 +2,20 @@
 
 #include <string.h>
 
-#include "elements/beamw/inertia.h"
 #include "elements/math/dense.h"
+#include "elements/sheet/fields.h"
 #include "elements/sheet/potential.h"
 
+enum { N = SHEET_STRAINS, CURVED = 3 };
+
+/* Local coordinates whose inverse is quadratic: x = scale e + 1/2 e^T X e (N Eqs. 58, 60, 61). */
+static const int curved[CURVED] = {LOCAL_U, LOCAL_YP, LOCAL_YQ};
+
 typedef struct third_data {
-    element_data linear; /* inertia only; S is not used */
-    relations relations;
+    base_data base;
     potential potential;
-    relations_map inverse; /* local coordinates from strains: N Eqs. 58-65 */
-    int warps;
+    double scale[N];
+    double X[CURVED][N * N];
 } third_data;
 
 static const third_data *data_of(const element_data *d)
@@ -25,131 +29,138 @@ size_t third_data_size(const element_request *request)
     return sizeof(third_data);
 }
 
-/* Strains counted from 1, as in the paper. */
-static void add_term(double X[RELATIONS_STRAINS * RELATIONS_STRAINS], int i, int j, double c)
-{
-    X[RELATIONS_STRAINS * (i - 1) + j - 1] += c;
-    X[RELATIONS_STRAINS * (j - 1) + i - 1] += c;
-}
-
-/* e7 = e8 = e2 where nothing warps: everything that multiplies e7 or e8 multiplies e2. */
-static void follow(double M[RELATIONS_STRAINS * RELATIONS_STRAINS])
-{
-    enum { N = RELATIONS_STRAINS };
-    for (int pass = 0; pass < 2; pass++)
-        for (int i = 0; i < N; i++)
-            for (int k = 6; k < 8; k++) {
-                double *from = pass == 0 ? &M[N * i + k] : &M[N * k + i], *to = pass == 0 ? &M[N * i + 1] : &M[N + i];
-                *to += *from;
-                *from = 0;
-            }
-}
-
 /* N Eqs. 58-65: the deformation function inverted to second order. */
-static void partial_inverse(double L, int warps, relations_map *inverse)
+static void partial_inverse(double L, int warp, third_data *d)
 {
-    double X[RELATIONS_STRAINS][RELATIONS_STRAINS * RELATIONS_STRAINS] = {{0}};
-    const double L2 = L * L, linear[RELATIONS_STRAINS] = {1, 1 / L, -1 / L, 1 / L, -1 / L, 1 / L, 1 / L2, 1 / L2};
-    memcpy(inverse->linear, linear, sizeof linear);
-    add_term(X[LOCAL_U], 5, 5, -1 / (15 * L));
-    add_term(X[LOCAL_U], 5, 6, -1 / (30 * L));
-    add_term(X[LOCAL_U], 6, 6, -1 / (15 * L));
-    add_term(X[LOCAL_YP], 2, 5, 1 / (10 * L2));
-    add_term(X[LOCAL_YP], 2, 6, 2 / (10 * L2));
-    add_term(X[LOCAL_YP], 7, 5, 1 / (10 * L2));
-    add_term(X[LOCAL_YP], 8, 5, -1 / (30 * L2));
-    add_term(X[LOCAL_YP], 8, 6, -1 / (30 * L2));
-    add_term(X[LOCAL_YQ], 2, 5, 2 / (10 * L2));
-    add_term(X[LOCAL_YQ], 2, 6, -9 / (10 * L2));
-    add_term(X[LOCAL_YQ], 8, 6, 1 / (10 * L2));
-    add_term(X[LOCAL_YQ], 7, 5, -1 / (30 * L2));
-    add_term(X[LOCAL_YQ], 7, 6, -1 / (30 * L2));
-    for (int a = 0; a < RELATIONS_STRAINS; a++) {
-        if (!warps)
-            follow(X[a]);
-        if (!warps && a >= LOCAL_WP)
-            inverse->linear[a] = 0;
-        relations_add_terms(inverse, a, X[a]);
+    static const struct {
+        int row, i, j; /* strains counted from 1 */
+        double c;      /* times 1/L for u, 1/L^2 for the angles */
+    } term[] = {{0, 5, 5, -2.0 / 30}, {0, 5, 6, -1.0 / 30}, {0, 6, 6, -2.0 / 30}, {1, 2, 5, 1.0 / 10}, {1, 2, 6, 2.0 / 10},
+                {1, 7, 5, 1.0 / 10},  {1, 8, 5, -1.0 / 30}, {1, 8, 6, -1.0 / 30}, {2, 2, 5, 2.0 / 10}, {2, 2, 6, -9.0 / 10},
+                {2, 8, 6, 1.0 / 10},  {2, 7, 5, -1.0 / 30}, {2, 7, 6, -1.0 / 30}};
+    const double linear[N] = {1, 1 / L, -1 / L, 1 / L, -1 / L, 1 / L, 1 / (L * L), 1 / (L * L)};
+    memcpy(d->scale, linear, sizeof linear);
+    for (size_t k = 0; k < sizeof term / sizeof term[0]; k++) {
+        const int uniform = !warp && term[k].i > 6; /* e7 = e8 = e2 */
+        const int i = uniform ? 1 : term[k].i - 1, j = term[k].j - 1;
+        const double c = term[k].c / (term[k].row == 0 ? L : L * L);
+        d->X[term[k].row][N * i + j] += c;
+        d->X[term[k].row][N * j + i] += c;
     }
 }
 
-status third_prepare(const element_request *request, int printed, element_data *d, fault *f)
+status third_prepare(const element_request *request, int printed, element_data *data, fault *f)
 {
-    third_data *out = (third_data *)(void *)d;
-    stiffness_fields fields;
+    third_data *out = (third_data *)(void *)data;
     memset(out, 0, sizeof *out);
-    out->linear.l0 = request->length;
-    out->warps = (request->features & FEATURE_WARPING) != 0;
-    stiffness_of(request->section, request->length, STIFFNESS_RIGID, &fields, out->linear.S);
-    if (request->features & FEATURE_MASS)
-        inertia_prepare(request->section, request->features, INERTIA_LUMPED, &fields, &out->linear);
-    partial_inverse(request->length, out->warps, &out->inverse);
-    const status made = relations_prepare(request, 0, 0, &out->relations, f);
-    return made == STATUS_OK ? potential_prepare(request, printed, &out->potential, f) : made;
+    const status made = base_prepare(request, BASE_PRINTED, &out->base, f);
+    if (made != STATUS_OK)
+        return made;
+    partial_inverse(request->length, fields_warp(request), out);
+    return potential_prepare(request, printed, &out->potential, f);
 }
 
-void third_strain(const element_data *d, const node_state x[], strain_output *out)
+/* x(e) and the rows that dx/de has beside its diagonal. */
+static void invert(const third_data *d, const double e[N], double x[N], double row[CURVED][N])
 {
-    relations_strain(&data_of(d)->relations, x, out);
+    for (int k = 0; k < N; k++)
+        x[k] = d->scale[k] * e[k];
+    for (int r = 0; r < CURVED; r++) {
+        dense_mul_vec(N, N, d->X[r], e, row[r]);
+        for (int k = 0; k < N; k++)
+            x[curved[r]] += row[r][k] * e[k] / 2;
+    }
 }
 
-status third_stress(const element_data *base, const double e[], const double inner[], stress_output *out)
+/* A (dx/de) in place, A(N x N) by rows. */
+static void multiply(const third_data *d, double row[CURVED][N], double A[N * N])
 {
-    enum { N = RELATIONS_STRAINS };
+    for (int i = 0; i < N; i++) {
+        double *a = A + N * i, factor[CURVED];
+        for (int r = 0; r < CURVED; r++)
+            factor[r] = a[curved[r]];
+        for (int k = 0; k < N; k++)
+            a[k] = a[k] * d->scale[k] + factor[0] * row[0][k] + factor[1] * row[1][k] + factor[2] * row[2][k];
+    }
+}
+
+static void transpose(double A[N * N])
+{
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < i; j++) {
+            const double swap = A[N * i + j];
+            A[N * i + j] = A[N * j + i];
+            A[N * j + i] = swap;
+        }
+}
+
+/* C = (dx/de)^T h (dx/de) + sum_k g_k d2x_k/de2. */
+static void second_derivative(const third_data *d, double row[CURVED][N], const double g[N], const double h[N * N], double C[N * N])
+{
+    memcpy(C, h, N * N * sizeof(double));
+    multiply(d, row, C);
+    transpose(C);
+    multiply(d, row, C);
+    for (int r = 0; r < CURVED; r++)
+        for (int k = 0; k < N * N; k++)
+            C[k] += g[curved[r]] * d->X[r][k];
+}
+
+status third_stress(const element_data *data, const double e[], const double inner[], stress_output *out)
+{
+    const third_data *d = data_of(data);
+    double x[N], row[CURVED][N], g[N], h[N * N];
+    const int first = out->sigma != NULL || out->C != NULL;
     (void)inner;
-    const third_data *d = data_of(base);
-    double x[N], J[N][N], P, g[N], h[N * N];
-    relations_apply(&d->inverse, e, x, J);
-    const status outcome = potential_evaluate(&d->potential, x, &P, g, h);
+    invert(d, e, x, row);
+    const status outcome = potential_evaluate(&d->potential, x, out->energy, first ? g : NULL, out->C != NULL ? h : NULL);
     if (outcome != STATUS_OK)
         return outcome;
-    if (out->energy != NULL)
-        *out->energy = P;
     if (out->sigma != NULL) {
-        memset(out->sigma, 0, N * sizeof(double));
-        dense_add_transpose_mul(N, N, 1, &J[0][0], g, out->sigma);
+        for (int k = 0; k < N; k++)
+            out->sigma[k] = d->scale[k] * g[k] + row[0][k] * g[curved[0]] + row[1][k] * g[curved[1]] + row[2][k] * g[curved[2]];
     }
-    if (out->C != NULL) {
-        double work[N * N];
-        memset(out->C, 0, N * N * sizeof(double));
-        dense_add_congruence(N, N, &J[0][0], h, out->C, work);
-        relations_add_second(&d->inverse, g, out->C);
-    }
+    if (out->C != NULL)
+        second_derivative(d, row, g, h, out->C);
     if (out->residual != NULL)
         *out->residual = 0;
+    wagner_add(&d->base.wagner, e, out->energy, out->sigma, out->C);
     return STATUS_OK;
 }
 
-/* dC/de in the direction whose stress is sigma, at e = 0: by the quadratic parts of the potential, through a small strain. */
-void third_geometric(const element_data *d, const double sigma[], double G[])
+/* At e = 0 along the strain v whose stress is sigma: x' = scale v, (dx/de)' = X v, C' by the product rule. */
+void third_geometric(const element_data *data, const double sigma[], double G[])
 {
-    enum { N = RELATIONS_STRAINS };
-    double zero[N] = {0}, C[N * N], de[N], side[2][N * N], size = 0;
+    const third_data *d = data_of(data);
+    const double zero[N] = {0};
+    double x[N], row[CURVED][N], turning[CURVED][N], g[N], h[N * N], T[N * N], v[N], LU[N * N], along[N], dx[N], mixed[N * N];
     int pivot[N];
-    double LU[N * N];
-    third_stress(d, zero, NULL, &(stress_output){.C = C});
-    memcpy(LU, C, sizeof LU);
-    for (int k = 6; k < N && !data_of(d)->warps; k++)
-        LU[N * k + k] = 1;
-    memcpy(de, sigma, sizeof de);
     memset(G, 0, N * N * sizeof *G);
+    invert(d, zero, x, row);
+    if (potential_evaluate(&d->potential, x, NULL, g, h) != STATUS_OK)
+        return;
+    second_derivative(d, row, g, h, LU);
+    for (int k = 6; k < N; k++) /* no amplitudes: e7 and e8 carry no stress */
+        LU[N * k + k] += LU[N * k + k] == 0;
+    memcpy(v, sigma, sizeof v);
     if (dense_lu(N, LU, pivot) != 0)
         return;
-    dense_lu_solve(N, 1, LU, pivot, de);
+    dense_lu_solve(N, 1, LU, pivot, v);
+    for (int k = 0; k < N; k++)
+        dx[k] = d->scale[k] * v[k];
+    if (potential_third(&d->potential, x, dx, T) != STATUS_OK)
+        return;
+    dense_mul_vec(N, N, h, dx, along);
+    second_derivative(d, row, along, T, G);
+    for (int r = 0; r < CURVED; r++)
+        dense_mul_vec(N, N, d->X[r], v, turning[r]);
     for (int i = 0; i < N; i++)
-        size = fmax(size, fabs(de[i]));
-    const double t = size > 0 ? 1e-4 * data_of(d)->relations.length / size : 0; /* odd terms only: the cubic ones are 1e-8 */
-    for (int k = 0; k < 2 && t > 0; k++) {
-        double e[N];
-        for (int i = 0; i < N; i++)
-            e[i] = (k == 0 ? t : -t) * de[i];
-        third_stress(d, e, NULL, &(stress_output){.C = side[k]});
-    }
-    for (int i = 0; i < N * N && t > 0; i++)
-        G[i] = (side[0][i] - side[1][i]) / (2 * t);
-}
-
-status third_inertia(const element_data *d, const node_state x[], const node_rate v[], const node_rate a[], inertia_output *out)
-{
-    return inertia_of(&data_of(d)->linear, x, v, a, out);
+        for (int k = 0; k < N; k++) {
+            mixed[N * i + k] = 0;
+            for (int r = 0; r < CURVED; r++)
+                mixed[N * i + k] += d->scale[i] * h[N * i + curved[r]] * turning[r][k];
+        }
+    for (int i = 0; i < N; i++)
+        for (int k = 0; k < N; k++)
+            G[N * i + k] += mixed[N * i + k] + mixed[N * k + i];
 }

@@ -1,5 +1,6 @@
 #include "harness/run/columns.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -56,6 +57,7 @@ status columns_strings(const columns *r, const char *column, char **out)
 
 status columns_read(const columns *r, const columns_field *field, void *base, size_t stride)
 {
+    assert(r->rows >= 0);
     const size_t size = field->is_text ? sizeof(char *) : sizeof(double);
     char *all = calloc((size_t)r->rows + 1, size);
     if (all == NULL)

@@ -72,7 +72,8 @@ static void put_verdicts(record *r, hid_t at, const point *p, int count, const v
 {
     const hid_t g = record_group(r, at, "verdicts");
     const hsize_t size = (hsize_t)count;
-    const char **text = calloc((size_t)count + 1, TEXTS * sizeof *text), **column = calloc((size_t)count + 1, sizeof *column);
+    const char **text = calloc(((size_t)count + 1) * TEXTS, sizeof(const char *)),
+               **column = calloc((size_t)count + 1, sizeof(const char *));
     double *number = calloc((size_t)count + 1, NUMBERS * sizeof *number), *values = calloc((size_t)count + 1, sizeof *values);
     r->bad |= text == NULL || column == NULL || number == NULL || values == NULL;
     for (int i = 0; i < count && !r->bad; i++)
@@ -99,7 +100,7 @@ static void put_series(record *r, hid_t cases, const sweep *all, int index, int 
 {
     const series *one = &all->series[index];
     const point *p = &all->point[one->point];
-    const truth **of = calloc((size_t)p->scene.quantities + 1, sizeof *of);
+    const truth **of = calloc((size_t)p->scene.quantities + 1, sizeof(const truth *));
     const hid_t of_case = record_group(r, cases, p->type->name);
     const int new_point = H5Lexists(of_case, p->name, H5P_DEFAULT) <= 0;
     const hid_t at_point = record_group(r, of_case, p->name), here = record_group(r, at_point, one->formulation.key);

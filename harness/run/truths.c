@@ -1,5 +1,6 @@
 #include "harness/run/truths.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,6 +39,7 @@ static status read_rows(const columns *r, const case_type *type, truth *row)
                                           {"source", 1, offsetof(truth, source)},
                                           {"value", 0, offsetof(truth, value)},
                                           {"uncertainty", 0, offsetof(truth, uncertainty)}};
+    assert(r->rows >= 0);
     char **parameters = calloc((size_t)r->rows + 1, sizeof *parameters);
     uint64_t *hash = calloc((size_t)r->rows + 1, sizeof *hash);
     int *elements = calloc((size_t)r->rows + 1, sizeof *elements);

@@ -9,6 +9,7 @@
 
 #include "harness/run/registry.h"
 #include "harness/run/truths.h"
+#include "harness/test/truths_file.h"
 
 /* HDF5 1.10 keeps a few bytes of a damaged file's head for good; our own leaks are still found. */
 const char *__lsan_default_suppressions(void);
@@ -17,109 +18,13 @@ const char *__lsan_default_suppressions(void)
     return "leak:libhdf5\n";
 }
 
-/* What a file is made with; the defaults are right. */
-typedef struct recipe {
-    const char *schema, *case_group, *kind, *model, *formulation, *parameters, *left_out_column, *finding_case;
-    int version, elements, short_column;
-    double value, uncertainty;
-    uint64_t hash_change;
-} recipe;
-
-static const recipe right = {.schema = "beamwork-truths",
-                             .kind = "exact",
-                             .model = "same",
-                             .formulation = "",
-                             .parameters = "",
-                             .left_out_column = "",
-                             .version = 1,
-                             .value = 3,
-                             .uncertainty = 1e-9};
-
-static void put(hid_t at, const char *name, hid_t type, hsize_t rows, const void *value)
-{
-    const hid_t space = H5Screate_simple(1, &rows, NULL);
-    const hid_t set = H5Dcreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value);
-    H5Dclose(set);
-    H5Sclose(space);
-}
-
-static void put_text(hid_t at, const recipe *r, const char *name, const char *text)
-{
-    char field[64] = "";
-    const hid_t type = H5Tcopy(H5T_C_S1);
-    H5Tset_size(type, sizeof field);
-    snprintf(field, sizeof field, "%s", text);
-    if (strcmp(name, r->left_out_column) != 0)
-        put(at, name, type, 1, field);
-    H5Tclose(type);
-}
-
-static void put_truth(hid_t file, const recipe *r, const case_type *type)
-{
-    double value[CASE_MAX_PARAMETERS] = {0}, pair[2] = {r->value, r->value};
-    int any[CASE_MAX_PARAMETERS] = {0};
-    parameters_parse(type, r->parameters, value, any, NULL);
-    const uint64_t hash = parameters_hash(type, value, any) + r->hash_change;
-    const hid_t all = H5Gcreate2(file, "truths", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    const hid_t at = H5Gcreate2(all, r->case_group != NULL ? r->case_group : type->name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    put_text(at, r, "parameters", r->parameters);
-    put_text(at, r, "formulation", r->formulation);
-    put_text(at, r, "quantity", "load");
-    put_text(at, r, "unit", "N");
-    put_text(at, r, "kind", r->kind);
-    put_text(at, r, "model", r->model);
-    put_text(at, r, "convention", "");
-    put_text(at, r, "source", "test");
-    put(at, "value", H5T_NATIVE_DOUBLE, 1, pair);
-    const double uncertainty[2] = {r->uncertainty, r->uncertainty};
-    put(at, "uncertainty", H5T_NATIVE_DOUBLE, r->short_column ? 2 : 1, uncertainty);
-    put(at, "elements", H5T_NATIVE_INT, 1, &r->elements);
-    put(at, "hash", H5T_NATIVE_UINT64, 1, &hash);
-    H5Gclose(at);
-    H5Gclose(all);
-}
-
-static void put_finding(hid_t file, const recipe *r, const case_type *type)
-{
-    const double limit = NAN;
-    const hid_t at = H5Gcreate2(file, "findings", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    put_text(at, r, "case", r->finding_case != NULL ? r->finding_case : type->name);
-    put_text(at, r, "parameters", "*");
-    put_text(at, r, "formulation", "some*");
-    put_text(at, r, "quantity", "lo?d");
-    put_text(at, r, "verdict", "wrong limit");
-    put_text(at, r, "proof", "test");
-    put(at, "limit", H5T_NATIVE_DOUBLE, 1, &limit);
-    put(at, "uncertainty", H5T_NATIVE_DOUBLE, 1, &limit);
-    H5Gclose(at);
-}
-
-static void make(const char *path, const recipe *r)
-{
-    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), scalar = H5Screate(H5S_SCALAR);
-    const hid_t type = H5Tcopy(H5T_C_S1);
-    H5Tset_size(type, strlen(r->schema) + 1);
-    hid_t a = H5Acreate2(file, "schema", type, scalar, H5P_DEFAULT, H5P_DEFAULT);
-    H5Awrite(a, type, r->schema);
-    H5Aclose(a);
-    a = H5Acreate2(file, "version", H5T_NATIVE_INT, scalar, H5P_DEFAULT, H5P_DEFAULT);
-    H5Awrite(a, H5T_NATIVE_INT, &r->version);
-    H5Aclose(a);
-    put_truth(file, r, registry_cases[0]);
-    put_finding(file, r, registry_cases[0]);
-    H5Tclose(type);
-    H5Sclose(scalar);
-    H5Fclose(file);
-}
-
 static void good_file(const char *path)
 {
     truths t;
     fault f = {""};
     double value[CASE_MAX_PARAMETERS] = {0};
     const case_type *type = registry_cases[0];
-    make(path, &right);
+    truths_file_make(path, &right);
     parameters_default(type, value);
     gsl_test(truths_read(path, &t, &f) != STATUS_OK, "a good file is read %s", f.text);
     gsl_test_int(t.rows, 1, "one truth");
@@ -139,7 +44,7 @@ static void refused(const char *path, const char *word, recipe r, const char *wh
 {
     truths t;
     fault f = {""};
-    make(path, &r);
+    truths_file_make(path, &r);
     gsl_test(truths_read(path, &t, &f) != STATUS_FAULT || strstr(f.text, word) == NULL || strchr(f.text, '\n') != NULL ||
                  strstr(f.text, path) == NULL || t.rows != 0,
              "%s: %s", what, f.text);
@@ -191,7 +96,7 @@ static void damaged_files(const char *path)
     static char bytes[1 << 20];
     truths t;
     fault f = {""};
-    make(path, &right);
+    truths_file_make(path, &right);
     FILE *file = fopen(path, "rb");
     const size_t size = file != NULL ? fread(bytes, 1, sizeof bytes, file) : 0;
     if (file != NULL)
@@ -232,13 +137,13 @@ static void strangers(const char *path)
     fault f = {""};
     recipe r = right;
     r.case_group = "no_such_case";
-    make(path, &r);
+    truths_file_make(path, &r);
     gsl_test(truths_read(path, &t, &f) != STATUS_OK || t.rows != 0 || t.strangers != 1 || strcmp(t.stranger, "no_such_case") != 0,
              "truths of an unknown case are counted");
     truths_free(&t);
     r = right;
     r.finding_case = "no_such_case";
-    make(path, &r);
+    truths_file_make(path, &r);
     gsl_test(truths_read(path, &t, &f) != STATUS_OK || t.finding[0].type != NULL, "a finding of an unknown case holds nowhere");
     truths_free(&t);
 }

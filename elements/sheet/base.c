@@ -1,0 +1,49 @@
+#include "elements/sheet/base.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/beamw/inertia.h"
+#include "elements/sheet/elastic.h"
+#include "elements/sheet/fields.h"
+
+static const base_data *data_of(const element_data *d)
+{
+    return (const base_data *)(const void *)d;
+}
+
+status base_prepare(const element_request *request, base_shear shear, base_data *out, fault *f)
+{
+    const double l0 = request->length;
+    const int flexible = (request->features & FEATURE_SHEAR) != 0, whole = shear == BASE_CONSISTENT;
+    section c = *request->section;
+    memset(out, 0, sizeof *out);
+    if (!fields_warp(request))
+        c.Iw = 0;
+    const double Phi_y = flexible ? elastic_phi_y(&c, l0) : 0, Phi_z = flexible ? elastic_phi_z(&c, l0) : 0;
+    status made = strains_prepare(request, whole ? Phi_y : 0, whole ? Phi_z : 0, &out->table, f);
+    if (made == STATUS_OK)
+        made = wagner_prepare(request, &out->wagner, f);
+    if (made != STATUS_OK)
+        return made;
+    out->linear.l0 = l0;
+    elastic_stiffness(&c, l0, Phi_y, Phi_z, out->linear.S);
+    for (int i = 0; i < SHEET_STRAINS * SHEET_STRAINS; i++)
+        if (!isfinite(out->linear.S[i]))
+            return fault_set(f, STATUS_REFUSED, "element of length %g m: its stiffness overflows; use fewer elements", l0);
+    if (request->features & FEATURE_CURVATURE)
+        elastic_initial(&c, l0, request->curvature, out->initial);
+    if (request->features & FEATURE_MASS)
+        inertia_prepare(request->section, request->features, INERTIA_LUMPED, NULL, &out->linear);
+    return STATUS_OK;
+}
+
+void base_strain(const element_data *d, const node_state x[], strain_output *out)
+{
+    strains_evaluate(&data_of(d)->table, x, out);
+}
+
+status base_inertia(const element_data *d, const node_state x[], const node_rate v[], const node_rate a[], inertia_output *out)
+{
+    return inertia_of(&data_of(d)->linear, x, v, a, out);
+}

@@ -1,0 +1,161 @@
+/* The generalized strains are weighted integrals of the second-order strains of N Eq. 7,
+ *   kx = phi_x' + phi_y' phi_z,  ky = phi_y' + phi_z' phi_x,  kz = phi_z' - phi_y' phi_x,
+ *   gx = u_x' - phi_y (phi_y/2 + u_z') - phi_z (phi_z/2 - u_y') + Ite phi_x'^2/2,
+ *   gy = gy0 + phi_x (phi_y + u_z'),  gz = gz0 + phi_x (phi_z - u_y'),
+ * over the linear solution N Eqs. 14-19:
+ *   e1 = int gx, e2 = L int kx, e3 = int [(L-s) ky - gz], e4 = int [s ky + gz], e5 = int [(L-s) kz + gy], e6 = int [s kz - gy],
+ *   e7 = L^2 Wp + L int phi_y' phi_z, e8 = L^2 Wq + L int phi_y' phi_z.
+ * With Phi = 0 they are N Eq. 37 (the last term of its e1 has L^2 for L). */
+#include "elements/sheet/strains.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/quadrature.h"
+#include "elements/sheet/fields.h"
+
+enum { N = LOCAL_COORDINATES, POINTS = 4 }; /* products of degree 7 at most: exact */
+
+/* Q += c (a b^T + b a^T): the quadratic c (a . q)(b . q). */
+static void add_product(double c, const double a[N], const double b[N], double Q[N * N])
+{
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++)
+            Q[N * i + j] += c * (a[i] * b[j] + b[i] * a[j]);
+}
+
+static void add_point(double x, double ds, double trapeze, const fields *f, strains_table *out)
+{
+    double lag_y[N], lag_z[N];
+    for (int i = 0; i < N; i++) {
+        lag_y[i] = f->phi_y[i] + f->duz[i];
+        lag_z[i] = f->phi_z[i] - f->duy[i];
+    }
+    const double from_p = x * out->l0, to_q = (1 - x) * out->l0;
+    double(*Q)[N * N] = out->Q;
+    add_product(-ds / 2, f->phi_y, f->phi_y, Q[0]);
+    add_product(-ds, f->phi_y, f->duz, Q[0]);
+    add_product(-ds / 2, f->phi_z, f->phi_z, Q[0]);
+    add_product(ds, f->phi_z, f->duy, Q[0]);
+    add_product(ds * trapeze / 2, f->dphi_x, f->dphi_x, Q[0]);
+    add_product(ds * out->l0, f->dphi_y, f->phi_z, Q[1]);
+    add_product(ds * to_q, f->dphi_z, f->phi_x, Q[2]);
+    add_product(-ds, f->phi_x, lag_z, Q[2]);
+    add_product(ds * from_p, f->dphi_z, f->phi_x, Q[3]);
+    add_product(ds, f->phi_x, lag_z, Q[3]);
+    add_product(-ds * to_q, f->dphi_y, f->phi_x, Q[4]);
+    add_product(ds, f->phi_x, lag_y, Q[4]);
+    add_product(-ds * from_p, f->dphi_y, f->phi_x, Q[5]);
+    add_product(-ds, f->phi_x, lag_y, Q[5]);
+}
+
+status strains_prepare(const element_request *request, double Phi_y, double Phi_z, strains_table *out, fault *f)
+{
+    const section *c = request->section;
+    const double l0 = request->length, trapeze = request->features & FEATURE_TRAPEZE ? c->Ip / c->A : 0;
+    const int amplitude = (request->features & FEATURE_WARPING) != 0;
+    double x[POINTS], w[POINTS];
+    memset(out, 0, sizeof *out);
+    if (!(l0 > 0) || !isfinite(l0))
+        return fault_set(f, STATUS_REFUSED, "element length %g m: it must be positive", l0);
+    const status made = quadrature_points(POINTS, x, w, f);
+    if (made != STATUS_OK)
+        return made;
+    out->l0 = l0;
+    out->Lambda[N * 0 + LOCAL_U] = 1;
+    out->Lambda[N * 1 + LOCAL_PX] = l0;
+    out->Lambda[N * 2 + LOCAL_YP] = -l0;
+    out->Lambda[N * 3 + LOCAL_YQ] = l0;
+    out->Lambda[N * 4 + LOCAL_ZP] = -l0;
+    out->Lambda[N * 5 + LOCAL_ZQ] = l0;
+    /* without amplitudes the twist is uniform: Wp = Wq = px/l0 */
+    out->Lambda[N * 6 + (amplitude ? LOCAL_WP : LOCAL_PX)] = amplitude ? l0 * l0 : l0;
+    out->Lambda[N * 7 + (amplitude ? LOCAL_WQ : LOCAL_PX)] = amplitude ? l0 * l0 : l0;
+    for (int i = 0; i < POINTS; i++) {
+        const fields at = fields_at(l0, x[i], Phi_y, Phi_z, fields_warp(request));
+        add_point(x[i], w[i] * l0, trapeze, &at, out);
+    }
+    memcpy(out->Q[6], out->Q[1], sizeof out->Q[1]);
+    memcpy(out->Q[7], out->Q[1], sizeof out->Q[1]);
+    return STATUS_OK;
+}
+
+/* E[8 x 8] = de/dq at q, e[8]. */
+static void gradient(const strains_table *m, const double q[N], double e[SHEET_STRAINS], double E[SHEET_STRAINS * N])
+{
+    for (int i = 0; i < SHEET_STRAINS; i++) {
+        double turn[N] = {0}, *row = E + N * i;
+        for (int k = LOCAL_PX; k < N; k++) /* nothing is quadratic in u */
+            for (int j = 0; j < N; j++)
+                turn[j] += m->Q[i][N * k + j] * q[k];
+        e[i] = 0;
+        for (int j = 0; j < N; j++) {
+            row[j] = m->Lambda[N * i + j] + turn[j];
+            e[i] += (m->Lambda[N * i + j] + turn[j] / 2) * q[j];
+        }
+    }
+}
+
+enum { ANGLES = LOCAL_WP - LOCAL_PX, FIRST = LOCAL_PX * RATES }; /* rows of R that are not single ones */
+
+/* A[m x 11] = E[m x 8] R. */
+static void chain(int m, const double E[], const double R[N * RATES], double A[])
+{
+    for (int i = 0; i < m; i++) {
+        const double *e = E + N * i;
+        double *a = A + RATES * i;
+        for (int j = 0; j < RATES; j++)
+            a[j] = 0;
+        a[RATE_V] = e[LOCAL_U];
+        a[RATE_WP] = e[LOCAL_WP];
+        a[RATE_WQ] = e[LOCAL_WQ];
+        for (int k = 0; k < ANGLES; k++)
+            for (int j = 0; j < RATE_TURNS; j++)
+                a[j] += e[LOCAL_PX + k] * R[FIRST + RATES * k + j];
+    }
+}
+
+/* H[11 x 11] = R^T Q R, Q[8 x 8] without u. */
+static void congruence(const double Q[N * N], const double R[N * RATES], double H[RATES * RATES])
+{
+    double QR[N * RATES];
+    chain(N, Q, R, QR);
+    memset(H, 0, RATES * RATES * sizeof(double));
+    for (int k = 0; k < ANGLES; k++)
+        for (int i = 0; i < RATE_TURNS; i++)
+            for (int j = 0; j < RATES; j++)
+                H[RATES * i + j] += R[FIRST + RATES * k + i] * QR[RATES * (LOCAL_PX + k) + j];
+    memcpy(H + RATES * RATE_WP, QR + RATES * LOCAL_WP, 2 * RATES * sizeof(double));
+}
+
+/* With E = de/dq, R = dq/d(rates) and T the rates of the nodes' coordinates: J = E R T and
+ * sum s_i d2e_i/dx2 = T^T [R^T (sum s_i Q_i) R + sum_k t_k q_k''] T, t = E^T s. */
+void strains_evaluate(const strains_table *table, const node_state x[2], strain_output *out)
+{
+    double e[SHEET_STRAINS], E[SHEET_STRAINS * N], R[N * RATES];
+    local_state s;
+    local_of(table->l0, x, &s);
+    gradient(table, s.q, e, E);
+    if (out->e != NULL)
+        memcpy(out->e, e, sizeof e);
+    const int second = out->s != NULL && out->H != NULL;
+    if (out->J == NULL && !second)
+        return;
+    local_rates(&s, R);
+    if (out->J != NULL) {
+        double along[SHEET_STRAINS * RATES];
+        chain(SHEET_STRAINS, E, R, along);
+        local_nodal_gradient(&s, SHEET_STRAINS, along, out->J);
+    }
+    if (second) {
+        double Q[N * N] = {0}, t[N] = {0}, H[RATES * RATES];
+        for (int i = 0; i < SHEET_STRAINS; i++)
+            for (int j = 0; j < N * N; j++)
+                Q[j] += out->s[i] * table->Q[i][j];
+        dense_add_transpose_mul(N, SHEET_STRAINS, 1, E, out->s, t);
+        congruence(Q, R, H);
+        local_add_second(&s, R, t, H);
+        local_nodal_form(&s, H, out->H);
+    }
+}

@@ -1,0 +1,23 @@
+/* Deformation functions of N's elements: eight generalized strains, quadratic in the local coordinates,
+ * e_i = (Lambda q)_i + 1/2 q^T Q_i q (N Eq. 37). */
+#ifndef BEAMWORK_SHEET_STRAINS_H
+#define BEAMWORK_SHEET_STRAINS_H
+
+#include "elements/sheet/local.h"
+
+enum { SHEET_STRAINS = 8 };
+
+typedef struct strains_table {
+    double l0;                                                      /* [m] */
+    double Lambda[SHEET_STRAINS * LOCAL_COORDINATES];               /* [m per coordinate] */
+    double Q[SHEET_STRAINS][LOCAL_COORDINATES * LOCAL_COORDINATES]; /* symmetric */
+} strains_table;
+
+/* Phi_y, Phi_z: shear parameters of the displacement fields (N Eq. 18); both 0: N Eq. 37, where shear is left out; the
+ * section's own: consistent with shear, ours.  Features: warping, trapeze. */
+status strains_prepare(const element_request *request, double Phi_y, double Phi_z, strains_table *out, fault *f);
+
+/* As element_type.strain. */
+void strains_evaluate(const strains_table *table, const node_state x[2], strain_output *out);
+
+#endif

@@ -1,0 +1,210 @@
+"""Proofs of the errata (reference/ERRATA.md) that need no element: each printed form fails where the corrected one holds."""
+import math
+import pathlib
+import sys
+import unittest
+
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+from reference.derive.beam import exponential, rotation  # noqa: E402
+from reference.derive.column import channel_data  # noqa: E402
+
+X, WEIGHT = (lambda x, w: ((x + 1) / 2, w / 2))(*np.polynomial.legendre.leggauss(12))
+STEP = 1e-6
+
+
+def integral(values):
+    return float(WEIGHT @ values)
+
+
+def slope(f, x=X, h=1e-5):
+    return (8 * (f(x + h) - f(x - h)) - f(x + 2 * h) + f(x - 2 * h)) / (12 * h)
+
+
+def shapes(Phi):
+    """Functions of J Eq. 38b as corrected."""
+    f = 1 / (1 + Phi)
+    return {"13": lambda x: f * (x * x * (3 - 2 * x) + Phi * x), "23": lambda x: f * 6 * x * (1 - x), "12": lambda x: f * x * ((1 - x) ** 2 + Phi / 2 * (1 - x)),
+            "14": lambda x: f * x * (x - x * x + Phi / 2 * (1 - x)), "22": lambda x: f * (-3 * x * x + 4 * x - 1 + Phi * (x - 1)), "24": lambda x: f * x * (3 * x - 2 + Phi)}
+
+
+class Modes(unittest.TestCase):
+    """J Eqs. 7 and 13, 60."""
+    l0 = 1.3
+
+    def modes(self, r, Rp, Rq):
+        l0, d = self.l0, r[3:] - r[:3]
+        n = d / np.linalg.norm(d)
+        (_, yp, zp), (_, yq, zq) = Rp.T, Rq.T
+        return np.array([np.linalg.norm(d) - l0, l0 / 2 * (zp @ yq - yp @ zq), -l0 * n @ zp, l0 * n @ zq, l0 * n @ yp, -l0 * n @ yq])
+
+    def setUp(self):
+        self.r = np.array([0.1, -0.2, 0.3, 1.2, 0.4, -0.1])
+        self.Rp, self.Rq = rotation(exponential(np.array([0.3, 0.2, -0.4]))), rotation(exponential(np.array([-0.2, 0.5, 0.1])))
+
+    def measured(self):
+        """Gradient with columns r^p, phi^p, r^q, phi^q by central differences."""
+        columns = []
+        for k in range(12):
+            values = []
+            for sign in (1, -1):
+                r, turn = self.r.copy(), {3: np.zeros(3), 9: np.zeros(3)}
+                if k < 3 or 6 <= k < 9:
+                    r[k if k < 3 else k - 3] += sign * STEP
+                else:
+                    turn[3 if k < 6 else 9][k % 3] = sign * STEP
+                values.append(self.modes(r, rotation(exponential(turn[3])) @ self.Rp, rotation(exponential(turn[9])) @ self.Rq))
+            columns.append((values[0] - values[1]) / (2 * STEP))
+        return np.array(columns).T
+
+    def test_gradient(self):
+        d = self.r[3:] - self.r[:3]
+        l, l0 = np.linalg.norm(d), self.l0
+        n = d / l
+        P = np.eye(3) - np.outer(n, n)
+        (_, yp, zp), (_, yq, zq) = self.Rp.T, self.Rq.T
+        zero, c = np.zeros(3), np.cross
+        right = np.array([np.concatenate(row) for row in (
+            (-n, zero, n, zero), (zero, l0 / 2 * (c(zp, yq) - c(yp, zq)), zero, l0 / 2 * (c(yq, zp) - c(zq, yp))),
+            (l0 / l * P @ zp, -l0 * c(zp, n), -l0 / l * P @ zp, zero), (-l0 / l * P @ zq, zero, l0 / l * P @ zq, l0 * c(zq, n)),
+            (-l0 / l * P @ yp, l0 * c(yp, n), l0 / l * P @ yp, zero), (l0 / l * P @ yq, zero, -l0 / l * P @ yq, -l0 * c(yq, n)))])
+        measured = self.measured()
+        self.assertLess(np.max(np.abs(right - measured)), 1e-9)
+        printed4 = np.concatenate([-l0 / l * (zq - (n @ zp) * n), zero, l0 / l * (zq - (n @ zp) * n), zero])
+        printed6 = np.concatenate([-l0 / l * (yq - (n @ yp) * n), zero, l0 / l * (yp - (n @ yp) * n), zero])
+        self.assertGreater(np.max(np.abs(printed4 - measured[3])), 0.1)
+        self.assertGreater(np.max(np.abs(printed6 - measured[5])), 0.1)
+
+    def test_rotation_about_the_shear_centre(self):
+        """A twist of the end about an axis at (ys, zs) carries the centroid along: all signs of J Eq. 60 are opposite."""
+        angle, ys, zs = 1e-6, 0.4, -0.3
+        moved = np.array([0, 0, 0, self.l0, zs * angle, -ys * angle])
+        e = self.modes(moved, np.eye(3), rotation(exponential(np.array([angle, 0, 0]))))
+        e2 = e[1]
+        self.assertLess(np.max(np.abs(e[2:] * self.l0 / e2 - np.array([ys, -ys, zs, -zs]))), 1e-5)
+
+
+class Interpolation(unittest.TestCase):
+    """J Eqs. 38, 40a, App. A."""
+    Phi = 0.7
+
+    def test_torsion_functions(self):
+        """phi(0) = 0, and the warping shear is constant and carries the change of bimoment: g_w = q (e2 - (e7 + e8)/2)/l0^2."""
+        N, q = shapes(self.Phi), self.Phi / (1 + self.Phi)
+        for e2, e7, e8 in ((1, 0, 0), (0, 1, 0), (0, 0, 1)):
+            phi = lambda x: N["13"](x) * e2 + N["12"](x) * e7 - N["14"](x) * e8  # noqa: E731
+            a = lambda x: N["23"](x) * e2 - N["22"](x) * e7 + N["24"](x) * e8  # noqa: E731
+            self.assertLess(np.max(np.abs(slope(phi) - a(X) - q * (e2 - (e7 + e8) / 2))), 1e-9)
+        self.assertEqual(N["13"](0.0), 0)
+        printed = lambda x: x * x * (3 - 2 * x) + self.Phi  # noqa: E731
+        self.assertEqual(printed(0.0), self.Phi)
+
+    def test_sign_of_the_row_of_v(self):
+        """v' = phi_z without shear: v = -(N12 e5 + N14 e6)."""
+        N = shapes(0.0)
+        for e5, e6 in ((1, 0), (0, 1)):
+            phi_z = N["22"](X) * e5 + N["24"](X) * e6
+            v = lambda x: N["12"](x) * e5 + N["14"](x) * e6  # noqa: E731
+            self.assertLess(np.max(np.abs(-slope(v) - phi_z)), 1e-9)
+            self.assertGreater(np.max(np.abs(slope(v) - phi_z)), 0.5)
+
+    def test_coupling_of_shear_and_warping(self):
+        """S24 = d2/de2 de4 of int G D_zw g_z g_w dx = G D_zw q_w q_z/(2 l0^2); printed with 2/l0."""
+        l0, G, D, qz, qw = 1.7, 2.0, -0.3, 0.4, 0.2
+        energy = lambda e2, e4: G * D * l0 * (qz * e4 / (2 * l0)) * (qw * e2 / l0 ** 2)  # noqa: E731
+        second = energy(1, 1) - energy(1, 0) - energy(0, 1) + energy(0, 0)
+        self.assertAlmostEqual(second, G * D * qw * qz / (2 * l0 ** 2), delta=1e-15)
+        self.assertGreater(abs(second / (2 * G * D * qw * qz / l0) - 1), 0.5)
+
+    def test_uniform_torsion(self):
+        """e7 = e8 = e2 in J Eq. 40a with Iw = 0: s2 = G It/l0^3 e2, not 1/30 of it; s7 = s8 = 0."""
+        s = np.array([[36, -3, -3], [-3, 4, -1], [-3, -1, 4]]) / 30 @ np.ones(3)
+        self.assertLess(np.max(np.abs(s - [1, 0, 0])), 1e-15)
+
+
+class Modified(unittest.TestCase):
+    """J Eqs. 58 to 66."""
+
+    def test_elongation_without_shear_and_eccentricity(self):
+        rng = np.random.default_rng(7)
+        e = rng.uniform(-1, 1, 9)  # e[1] .. e[8]
+        N = shapes(0.0)
+        v = lambda x: -(N["12"](x) * e[5] + N["14"](x) * e[6])  # noqa: E731
+        w = lambda x: N["12"](x) * e[3] + N["14"](x) * e[4]  # noqa: E731
+        phi = lambda x: N["13"](x) * e[2] + N["12"](x) * e[7] - N["14"](x) * e[8]  # noqa: E731
+        bending = integral(slope(v) ** 2 + slope(w) ** 2) / 2
+        self.assertAlmostEqual(bending, (2 * e[3] ** 2 + e[3] * e[4] + 2 * e[4] ** 2 + 2 * e[5] ** 2 + e[5] * e[6] + 2 * e[6] ** 2) / 30, delta=1e-9)
+        printed = (3 * e[2] * (6 * e[2] - e[7] - e[8]) + 2 * e[7] ** 2 - e[7] * e[8] + 2 * e[8] ** 2) / 30
+        self.assertAlmostEqual(integral(slope(phi) ** 2) / 2, printed, delta=1e-9)
+
+    def elongation(self, e, Phi, ys):
+        """int (v_c'^2 + w_c'^2)/2 dx with l0 = 1: e[3], e[4] about the shear centre, v_c = v_s, w_c = w_s - ys phi."""
+        N = shapes(Phi)
+        e3, e4 = e[3] - ys * e[2], e[4] + ys * e[2]
+        w = lambda x: N["12"](x) * e3 + N["14"](x) * e4 - ys * (N["13"](x) * e[2] + N["12"](x) * e[7] - N["14"](x) * e[8]) + ys * e[2] * x  # noqa: E731
+        # The chord passes through the centroids, so that w_s(1) = ys phi(1): the last term.
+        return integral(slope(w) ** 2) / 2
+
+    def test_shear_and_eccentricity_are_missing(self):
+        """The coefficients 2, 1, 2 over 30 are those of shear-rigid beams."""
+        e = {2: 0.0, 3: 0.8, 4: -0.5, 7: 0.0, 8: 0.0}
+        printed = (2 * e[3] ** 2 + e[3] * e[4] + 2 * e[4] ** 2) / 30
+        self.assertAlmostEqual(self.elongation(e, 0.0, 0.0), printed, delta=1e-9)
+        for Phi in (1.0, 100.0):  # fine meshes: Phi grows with 1/l0^2
+            Vt = (e[3] - e[4]) / (2 * (1 + Phi))
+            Vs = (e[3] + e[4]) / 2
+            self.assertAlmostEqual(self.elongation(e, Phi, 0.0), (Vs ** 2 / 3 + Vt ** 2 / 5) / 2, delta=1e-9)
+            self.assertGreater(abs(self.elongation(e, Phi, 0.0) / printed - 1), 0.2)
+
+    def test_eccentric_shear_centre(self):
+        """The exact integral in closed form; the extra term -(ys^2 + zs^2) e2^2/10 of J Eq. 66 is not in it, even without shear."""
+        ys, e = 0.7, {2: 0.6, 3: 0.8, 4: -0.5, 7: 0.4, 8: -0.3}
+        for Phi in (0.0, 2.0):
+            tw = (e[2] - (e[7] + e[8]) / 2) / (1 + Phi)
+            Ws, Wt = (e[3] + e[4]) / 2 - ys * (e[7] - e[8]) / 2, (e[3] - e[4] - 2 * ys * e[2]) / (2 * (1 + Phi)) + ys * tw
+            self.assertAlmostEqual(self.elongation(e, Phi, ys), (Ws ** 2 / 3 + Wt ** 2 / 5) / 2, delta=1e-9)
+            printed = (2 * e[3] ** 2 + e[3] * e[4] + 2 * e[4] ** 2) / 30 - ys ** 2 * e[2] ** 2 / 10
+            self.assertGreater(abs(self.elongation(e, Phi, ys) - printed), 0.01)
+
+    def test_table_1(self):
+        """D with D_w = 3.65e6 mm^4 as printed is indefinite; with 3.65e9 and by shear flow it is positive definite."""
+        for Dw, good in ((3.65e6, False), (3.65e9, True)):
+            self.assertEqual(1.58e4 * Dw - 3.7e6 ** 2 > 0, good)
+        self.assertAlmostEqual(float((channel_data().F ** -1)[2, 2]) * 1e12, 3.6936533e9, delta=1e2)
+
+
+class ThirdOrder(unittest.TestCase):
+    """N Eqs. 11, 49, 50, App. B."""
+
+    def test_torsion_moment(self):
+        """Equilibrium of a slice: M_x' = kz M_y - ky M_z, here u_y'' M_y."""
+        p, q, zp, zq = 0.7, -0.4, 0.3, 0.9
+        u = lambda x: zp * (x - 2 * x ** 2 + x ** 3) + zq * (-x ** 2 + x ** 3)  # noqa: E731
+        du = lambda x: zp * (1 - 4 * x + 3 * x ** 2) + zq * (-2 * x + 3 * x ** 2)  # noqa: E731
+        ddu = lambda x: zp * (-4 + 6 * x) + zq * (-2 + 6 * x)  # noqa: E731
+        My = lambda x: p * (x - 1) + q * x  # noqa: E731
+        for sign, holds in ((-1, True), (1, False)):
+            Mx = lambda x: sign * u(x) * (p + q) + du(x) * My(x)  # noqa: E731, B023
+            self.assertEqual(np.max(np.abs(slope(Mx) - ddu(X) * My(X))) < 1e-9, holds)
+
+    def test_bimoment_of_appendix_b(self):
+        """Its polynomial part satisfies lambda^2 b - b'' = L f with the printed sign of u_y only after division by lambda^4."""
+        f = lambda x: 12 * x ** 2 - 18 * x + 6  # noqa: E731
+        for rate in (0.5, 4.0):
+            b = lambda x: 24 + rate ** 2 * (6 - 18 * x + 12 * x ** 2)  # noqa: E731, B023
+            residual = rate ** 2 * b(X) - 24 * rate ** 2
+            self.assertLess(np.max(np.abs(residual / rate ** 4 - f(X))), 1e-12)
+            self.assertGreater(np.max(np.abs(residual - f(X))), 0.5)
+
+    def test_sign_of_the_shear_strain(self):
+        """g_z = +(u_z' + phi_y) in N Eqs. 16, 20 and 25; Eq. 11 has the opposite."""
+        Phi, yp, yq = 0.8, 0.3, 0.5
+        u = lambda x: yp * (-x + 2 * x ** 2 - x ** 3) + yq * (x ** 2 - x ** 3) + Phi * (yp + yq) * (x - 3 * x ** 2 + 2 * x ** 3) / (2 + 2 * Phi)  # noqa: E731
+        phi = -slope(u) + Phi * (yp + yq) / (2 + 2 * Phi)  # Eq. 16
+        self.assertLess(np.max(np.abs(slope(u) + phi - Phi * (yq - -yp) / (2 + 2 * Phi))), 1e-9)  # Eq. 25 with e3 = -L yp
+        self.assertTrue(math.isclose(phi[0] + slope(u)[0], Phi * (yp + yq) / (2 + 2 * Phi), rel_tol=1e-9))
+
+
+if __name__ == "__main__":
+    unittest.main()
