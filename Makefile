@@ -34,7 +34,10 @@ ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
-.PHONY: help all verify test layers asan tidy format format-check check clean report truths FORCE
+bench: all ## time every formulation on every case into build/bench.csv
+	@$(PROGRAM) bench -o $(BUILD)/bench.csv
+
+.PHONY: help all verify test bench layers asan tidy format format-check check clean report truths FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .SECONDARY:

@@ -17,7 +17,7 @@ static void list_option(const element_option *o)
 
 static void list_formulations(void)
 {
-    printf("formulations (-f NAME[:KEY=VALUE,...]); all take newton=mixed|displacement\n");
+    printf("formulations (-f NAME[:KEY=VALUE,...]); all take newton=%s\n", formulation_newtons);
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *t = registry_formulations[i];
         printf("  %-24s %s\n  %-24s source: %s\n  %-24s offers:", t->name, t->summary, "", t->source, "");

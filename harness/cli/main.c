@@ -15,6 +15,7 @@ static const struct {
     {"list", cli_list, "cases, formulations, parameters, quantities"},
     {"solve", cli_solve, "one case, one formulation, one mesh"},
     {"converge", cli_converge, "one case on several meshes: errors, order, limit"},
+    {"bench", cli_bench, "error against run time: the cheapest way to an error"},
     {"verify", cli_verify, "every formulation on every case, judged against stored truths"},
 };
 enum { VERBS = sizeof verbs / sizeof verbs[0] };

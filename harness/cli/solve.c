@@ -44,7 +44,7 @@ static status solve_cell(const cli_request *r, sweep *s, fault *f)
         .type = p->type, .formulation = r->formulation[0].type, .elements = r->mesh[0], .keep_all = r->keep_all};
     memcpy(request.parameter, p->parameter, sizeof request.parameter);
     memcpy(request.option, r->formulation[0].option, sizeof request.option);
-    request.solve.displacement_newton = r->formulation[0].displacement_newton;
+    request.solve.newton = r->formulation[0].newton;
     request.solve.steps_between = r->steps;
     return cell_run(&request, &s->series[0].cell[0], f);
 }

@@ -113,6 +113,11 @@ status model_linearise(model *, const model_state *, model_linearisation *, faul
  * dx[free + driven]. Returns the largest correction, dimensionless: translations by the size of the scene, rotations in
  * rad, warping by the element length, inner unknowns as the element says. */
 double model_advance(model *, model_state *, const double dx[], double path);
+/* The uncondensed dense system (column-major A[n x n], b[n] with n = model_full_size + conditions), unknowns in the order free
+ * coordinates, strains, stresses, drivers of conditions; load[free + driven] is work space. */
+int model_full_size(const model *);
+status model_full_system(model *, const model_state *, double path, const double drive[], int conditions,
+                         const model_condition condition[], double A[], double b[], double load[], fault *);
 /* Forgets the independent strains and stresses: e = D(x), sigma = P'(e). */
 status model_make_compatible(model *, model_state *, fault *);
 /* Force and spatial moment that act from outside on a node's frame (loads and reactions) in the state: F[6] [N, N m]. */

@@ -8,6 +8,9 @@
 #include "harness/run/parameters.h"
 #include "harness/run/registry.h"
 
+static const char *const newton_names[SOLVE_NEWTONS] = {"mixed", "displacement", "dense"};
+const char formulation_newtons[] = "mixed|displacement|dense";
+
 static const char *formulation_name(const void *context, int i)
 {
     (void)context;
@@ -58,8 +61,8 @@ static void write_key(formulation *out)
             snprintf(text, sizeof text, "%g", out->option[i]);
         used += snprintf(out->key + used, (size_t)(CELL_KEY - used), "%s%s=%s", given++ > 0 ? "," : ":", o[i].name, text);
     }
-    if (out->displacement_newton && used < CELL_KEY)
-        snprintf(out->key + used, (size_t)(CELL_KEY - used), "%snewton=displacement", given > 0 ? "," : ":");
+    if (out->newton != SOLVE_MIXED && used < CELL_KEY)
+        snprintf(out->key + used, (size_t)(CELL_KEY - used), "%snewton=%s", given > 0 ? "," : ":", newton_names[out->newton]);
 }
 
 void formulation_default(const element_type *type, formulation *out)
@@ -83,10 +86,11 @@ static const char *option_name(const void *context, int i)
 static status set_option(formulation *out, const char *name, const char *value, fault *f)
 {
     if (strcmp(name, "newton") == 0) {
-        const int index = choice_index("mixed|displacement", value);
-        out->displacement_newton = index == 1;
-        return index >= 0 ? STATUS_OK
-                          : fault_set(f, STATUS_REFUSED, "option newton: unknown choice '%s'; give mixed or displacement", value);
+        const int index = choice_index(formulation_newtons, value);
+        out->newton = index >= 0 ? (solve_newton)index : SOLVE_MIXED;
+        return index >= 0
+                   ? STATUS_OK
+                   : fault_set(f, STATUS_REFUSED, "option newton: unknown choice '%s'; give one of %s", value, formulation_newtons);
     }
     const element_option *o = out->type->options;
     int i = 0;

@@ -7,9 +7,11 @@
 typedef struct formulation {
     const element_type *type;
     double option[ELEMENT_MAX_OPTIONS];
-    int displacement_newton; /* newton=displacement */
+    solve_newton newton;
     char key[CELL_KEY];      /* name, and the options that differ from their defaults, in table order */
 } formulation;
+
+extern const char formulation_newtons[]; /* choices of the option newton, which every formulation takes */
 
 status formulation_parse(const char *text, formulation *out, fault *f);
 /* The type that "name" or "name:key=value,..." means, or NULL. */

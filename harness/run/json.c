@@ -47,7 +47,9 @@ static json_t *options_of(const formulation *fm)
             json_object_set_new(all, o[i].name, json_real(fm->option[i]));
         }
     }
-    json_object_set_new(all, "newton", json_string(fm->displacement_newton ? "displacement" : "mixed"));
+    char newton[32];
+    choice_name(formulation_newtons, (int)fm->newton, newton, sizeof newton);
+    json_object_set_new(all, "newton", json_string(newton));
     return all;
 }
 

@@ -36,7 +36,7 @@ static void request_of(const sweep *s, const task *t, cell_request *out)
     memcpy(out->parameter, p->parameter, sizeof out->parameter);
     out->formulation = one->formulation.type;
     memcpy(out->option, one->formulation.option, sizeof out->option);
-    out->solve.displacement_newton = one->formulation.displacement_newton;
+    out->solve.newton = one->formulation.newton;
     out->elements = one->mesh[t->mesh];
 }
 

@@ -4,8 +4,11 @@
 
 #include "harness/model/model.h"
 
+/* The mixed Newton condensed element by element; for comparison, in displacements only, and uncondensed with dense elimination. */
+typedef enum solve_newton { SOLVE_MIXED, SOLVE_DISPLACEMENT, SOLVE_DENSE, SOLVE_NEWTONS } solve_newton;
+
 typedef struct solve_options {
-    int displacement_newton; /* 1: displacement-only Newton, for comparison */
+    solve_newton newton;
     double criterion;        /* relative size of the corrections; 0: default */
     int max_iterations;      /* per step; 0: default */
     int steps_between;       /* overrides the scene's; 0: the scene's */

@@ -1,4 +1,5 @@
 /* Nonlinear equilibrium along a path: Newton in coordinates, strains and stresses at once, with steps that adapt. */
+#include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,8 +15,10 @@ typedef struct newton {
     model_state *state, *backup;
     sparse K;
     factor *factor;
-    double *residual, *dx; /* [free + driven] */
-    double *column;        /* [conditions x (free + driven)] */
+    double *residual, *dx;   /* [free + driven] */
+    double *dense, *unknown; /* of the uncondensed system, allocated when it is asked for */
+    int *pivot;
+    double *column; /* [conditions x (free + driven)] */
     double criterion;
     int max_iterations, free, all;
 } newton;
@@ -56,6 +59,9 @@ static void newton_free(newton *n)
     free(n->residual);
     free(n->dx);
     free(n->column);
+    free(n->dense);
+    free(n->unknown);
+    free(n->pivot);
     sparse_free_values(&n->K);
     factor_free(n->factor);
     model_state_free(n->state);
@@ -86,6 +92,51 @@ static status meet_conditions(newton *n, int count, const model_condition condit
     return STATUS_OK;
 }
 
+/* dx of the condensed system. */
+static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
+{
+    status outcome = model_linearise(n->c->model, n->state, lin, f);
+    if (outcome == STATUS_OK)
+        outcome = factor_numeric(n->factor, &n->K, f);
+    if (outcome != STATUS_OK)
+        return outcome;
+    memcpy(n->dx, n->residual, (size_t)n->free * sizeof *n->dx);
+    factor_solve(n->factor, n->dx);
+    return meet_conditions(n, lin->conditions, lin->condition, f);
+}
+
+/* dx of the uncondensed system, by Gaussian elimination with partial pivoting (LAPACK). */
+static status solve_dense(newton *n, model_linearisation *lin, fault *f)
+{
+    model *m = n->c->model;
+    const size_t size = (size_t)(model_full_size(m) + lin->conditions);
+    if (n->dense == NULL) {
+        n->dense = malloc(size * size * sizeof *n->dense);
+        n->unknown = malloc(size * sizeof *n->unknown);
+        n->pivot = malloc(size * sizeof *n->pivot);
+    }
+    if (n->dense == NULL || n->unknown == NULL || n->pivot == NULL)
+        return fault_set(f, STATUS_REFUSED, "%zu unknowns at once: more than memory allows for a dense matrix; give newton=mixed",
+                         size);
+    model_linearisation parts = *lin;
+    parts.K = NULL;
+    parts.drive = NULL;
+    parts.conditions = 0;
+    status outcome = model_linearise(m, n->state, &parts, f); /* what model_advance needs */
+    lin->incompatibility = parts.incompatibility;
+    if (outcome == STATUS_OK)
+        outcome =
+            model_full_system(m, n->state, lin->path, n->dx, lin->conditions, lin->condition, n->dense, n->unknown, n->residual, f);
+    if (outcome != STATUS_OK)
+        return outcome;
+    if (LAPACKE_dgesv(LAPACK_COL_MAJOR, (int)size, 1, n->dense, (int)size, n->pivot, n->unknown, (int)size) != 0)
+        return fault_set(f, STATUS_SINGULAR, "the uncondensed system is singular");
+    memcpy(n->dx, n->unknown, (size_t)n->free * sizeof *n->dx);
+    for (int c = 0; c < lin->conditions; c++)
+        n->dx[lin->condition[c].unknown] = n->unknown[size - (size_t)(lin->conditions - c)];
+    return STATUS_OK;
+}
+
 /* One iteration towards `path`; *correction: dimensionless size of what changed. */
 static status iterate(newton *n, double path, double *correction, step_record *record, fault *f)
 {
@@ -93,7 +144,7 @@ static status iterate(newton *n, double path, double *correction, step_record *r
     counters *count = model_counters(m);
     memset(n->dx, 0, (size_t)n->all * sizeof *n->dx);
     model_drive(m, n->state, path, n->dx);
-    if (n->c->options->displacement_newton) {
+    if (n->c->options->newton == SOLVE_DISPLACEMENT) {
         const status compatible = model_make_compatible(m, n->state, f);
         if (compatible != STATUS_OK)
             return compatible;
@@ -107,17 +158,10 @@ static status iterate(newton *n, double path, double *correction, step_record *r
                                .conditions = conditions,
                                .condition = condition,
                                .column = n->column};
-    status outcome = model_linearise(m, n->state, &lin, f);
-    if (outcome == STATUS_OK)
-        outcome = factor_numeric(n->factor, &n->K, f);
+    const status outcome = n->c->options->newton == SOLVE_DENSE ? solve_dense(n, &lin, f) : solve_condensed(n, &lin, f);
     if (outcome != STATUS_OK)
         return outcome;
     const factor_counts counts = factor_count(n->factor);
-    memcpy(n->dx, n->residual, (size_t)n->free * sizeof *n->dx);
-    factor_solve(n->factor, n->dx);
-    const status met = meet_conditions(n, conditions, condition, f);
-    if (met != STATUS_OK)
-        return met;
     *correction = model_advance(m, n->state, n->dx, path);
     count->iterations++;
     count->factorisations++;

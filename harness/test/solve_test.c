@@ -23,7 +23,7 @@ static double value_of(const char *case_name, const char *formulation_text, int 
              case_name, assignment);
     request.formulation = chosen.type;
     memcpy(request.option, chosen.option, sizeof request.option);
-    request.solve.displacement_newton = chosen.displacement_newton;
+    request.solve.newton = chosen.newton;
     request.elements = n;
     request.keep_all = keep_all;
     gsl_test(cell_run(&request, &result, &f) != STATUS_OK, "%s solved with %s (%s)", case_name, formulation_text, f.text);
@@ -58,6 +58,8 @@ static void newton(void)
     const double a = value_of("sheet_cantilever", "beamw_consistent", 4, 0, "", "C_xx", &mixed);
     const double b = value_of("sheet_cantilever", "beamw_consistent:newton=displacement", 4, 0, "", "C_xx", &displacement);
     gsl_test_rel(b, a, 1e-9, "both kinds of Newton find the same equilibrium");
+    const double c = value_of("sheet_cantilever", "beamw_consistent:newton=dense", 4, 0, "", "C_xx", NULL);
+    gsl_test_rel(c, a, 1e-10, "and so does the uncondensed system");
     gsl_test(!(mixed <= 4 * 15), "mixed Newton takes at most four iterations a step (%ld in 15 steps)", mixed);
 }
 
