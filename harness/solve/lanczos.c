@@ -11,8 +11,7 @@ enum { MAX_RESTARTS = 300, EXTRA_VECTORS = 20, PARAMETERS = 11, POINTERS = 14 };
 typedef struct workspace {
     int n, wanted, vectors, size;
     double *numbers, *start, *basis, *vector, *work, *value;
-    int *select;
-    int parameter[PARAMETERS], pointer[POINTERS];
+    int *integers, *parameter, *pointer, *select;
 } workspace;
 
 static status workspace_alloc(workspace *w, int n, int wanted, int room, fault *f)
@@ -24,21 +23,24 @@ static status workspace_alloc(workspace *w, int n, int wanted, int room, fault *
     w->size = w->vectors * (w->vectors + 8);
     const size_t N = (size_t)n, vectors = (size_t)w->vectors;
     w->numbers = malloc((N + N * vectors + 3 * N + (size_t)w->size + vectors) * sizeof *w->numbers);
-    w->select = malloc(vectors * sizeof *w->select);
-    if (w->numbers == NULL || w->select == NULL)
+    w->integers = calloc(PARAMETERS + POINTERS + vectors, sizeof *w->integers);
+    if (w->numbers == NULL || w->integers == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for %d vectors of %d unknowns", w->vectors, n);
     w->start = w->numbers;
     w->basis = w->start + N;
     w->vector = w->basis + N * vectors;
     w->work = w->vector + 3 * N;
     w->value = w->work + w->size;
+    w->parameter = w->integers;
+    w->pointer = w->parameter + PARAMETERS;
+    w->select = w->pointer + POINTERS;
     return STATUS_OK;
 }
 
 static void workspace_free(workspace *w)
 {
     free(w->numbers);
-    free(w->select);
+    free(w->integers);
 }
 
 /* The same start every time, with a part of every mode. */
@@ -86,14 +88,14 @@ static int iterate(const lanczos_problem *p, workspace *w, long *solutions)
     for (;;) {
         dsaupd_c(&ido, "G", w->n, "LA", w->wanted, 0, w->start, w->vectors, w->basis, w->n, w->parameter, w->pointer, w->vector,
                  w->work, w->size, &info);
-        double *x = w->vector + w->pointer[0] - 1, *y = w->vector + w->pointer[1] - 1;
+        if (ido != 2 && ido != 1 && ido != -1)
+            return info;
+        double *x = &w->vector[w->pointer[0] - 1], *y = &w->vector[w->pointer[1] - 1];
         if (ido == 2) {
             sparse_mul(p->K, x, y);
-        } else if (ido == 1 || ido == -1) {
+        } else {
             apply(p, x, y);
             (*solutions)++;
-        } else {
-            return info;
         }
     }
 }
