@@ -130,7 +130,7 @@ static status hand_over(pairs *p, int wanted, eigen_side *out, fault *f)
             return fault_set(f, STATUS_NOT_CONVERGED,
                              "eigenvalue %d of %d unknowns is lost in round-off (residual %.1e): refine less", i + 1, p->n,
                              p->residual[i]);
-        const double length = e->K_energy != NULL ? sqrt(e->K_energy(e->context, mode)) : 1;
+        const double length = sqrt(p->stiffness[i]);
         for (size_t k = 0; k < n; k++)
             mode[k] /= length;
         p->mu[i] *= p->sign * e->sign;

@@ -8,6 +8,9 @@
 
 enum { MAX_RESTARTS = 300, EXTRA_VECTORS = 20, PARAMETERS = 11, POINTERS = 14 };
 
+/* Of a vector: Rayleigh's quotient squares it. */
+static const double tolerance = 1e-10;
+
 typedef struct workspace {
     int n, wanted, vectors, size;
     double *numbers, *start, *basis, *vector, *work, *value;
@@ -86,8 +89,8 @@ static int iterate(const lanczos_problem *p, workspace *w, long *solutions)
     w->parameter[2] = MAX_RESTARTS;
     w->parameter[6] = 2;
     for (;;) {
-        dsaupd_c(&ido, "G", w->n, "LA", w->wanted, 0, w->start, w->vectors, w->basis, w->n, w->parameter, w->pointer, w->vector,
-                 w->work, w->size, &info);
+        dsaupd_c(&ido, "G", w->n, "LA", w->wanted, tolerance, w->start, w->vectors, w->basis, w->n, w->parameter, w->pointer,
+                 w->vector, w->work, w->size, &info);
         if (ido != 2 && ido != 1 && ido != -1)
             return info;
         double *x = &w->vector[w->pointer[0] - 1], *y = &w->vector[w->pointer[1] - 1];
@@ -115,8 +118,8 @@ status lanczos_largest(const lanczos_problem *p, int wanted, double mu[], double
     }
     if (outcome == STATUS_OK) {
         int info = 0;
-        dseupd_c(1, "A", w.select, w.value, w.basis, n, 0, "G", n, "LA", wanted, 0, w.start, w.vectors, w.basis, n, w.parameter,
-                 w.pointer, w.vector, w.work, w.size, &info);
+        dseupd_c(1, "A", w.select, w.value, w.basis, n, 0, "G", n, "LA", wanted, tolerance, w.start, w.vectors, w.basis, n,
+                 w.parameter, w.pointer, w.vector, w.work, w.size, &info);
         if (info != 0)
             outcome = fault_set(f, STATUS_NOT_CONVERGED, "the eigenvectors were not found (ARPACK says %d)", info);
     }

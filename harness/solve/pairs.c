@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double close = 1e-6; /* relative distance of eigenvalues that are not told apart */
+static const double close = 1e-9; /* relative distance of eigenvalues that are not told apart */
 
 status pairs_alloc(pairs *p, const eigen_problem *problem, double sign, fault *f)
 {
@@ -25,7 +25,7 @@ status pairs_alloc(pairs *p, const eigen_problem *problem, double sign, fault *f
 
 void pairs_free(pairs *p)
 {
-    void *const all[] = {p->mu, p->residual, p->noise, p->x, p->Kx, p->work, p->form};
+    void *const all[] = {p->mu, p->residual, p->noise, p->stiffness, p->x, p->Kx, p->work, p->form};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         free(all[i]);
     sparse_free_values(&p->shifted);
@@ -44,8 +44,8 @@ static int grow(double **list, size_t count)
 static status make_room(pairs *p, int room, fault *f)
 {
     const size_t count = (size_t)room, numbers = count * (size_t)p->n;
-    if (room > p->room && !(grow(&p->mu, count) && grow(&p->residual, count) && grow(&p->noise, count) && grow(&p->x, numbers) &&
-                            grow(&p->Kx, numbers)))
+    if (room > p->room && !(grow(&p->mu, count) && grow(&p->residual, count) && grow(&p->noise, count) &&
+                            grow(&p->stiffness, count) && grow(&p->x, numbers) && grow(&p->Kx, numbers)))
         return fault_set(f, STATUS_FAULT, "out of memory for %d eigenvectors", room);
     p->room = room > p->room ? room : p->room;
     return STATUS_OK;
@@ -91,8 +91,8 @@ static void sort_last(pairs *p)
 {
     const size_t n = (size_t)p->n;
     for (int i = p->count - 1; i > 0 && p->mu[i] > p->mu[i - 1]; i--) {
-        double *const numbers[] = {p->mu, p->residual, p->noise}, *const vectors[] = {p->x, p->Kx};
-        for (int k = 0; k < 3; k++) {
+        double *const numbers[] = {p->mu, p->residual, p->noise, p->stiffness}, *const vectors[] = {p->x, p->Kx};
+        for (int k = 0; k < 4; k++) {
             const double kept = numbers[k][i];
             numbers[k][i] = numbers[k][i - 1];
             numbers[k][i - 1] = kept;
@@ -115,12 +115,12 @@ static void apply(pairs *p, const double x[], double y[])
 }
 
 /* With x^T K x = 1 and y = K^-1 s A x - mu x an eigenvalue lies within sqrt(y^T K y) of mu. */
-static double residual_of(pairs *p, double mu, const double x[])
+static double residual_of(pairs *p, double mu, double stiffness, const double x[])
 {
     apply(p, x, p->work);
     for (int i = 0; i < p->n; i++)
         p->work[i] -= mu * x[i];
-    return sqrt(K_form(p, p->work) / K_form(p, x)) / mu;
+    return sqrt(K_form(p, p->work) / stiffness) / mu;
 }
 
 double pairs_scale(pairs *p, long *solutions)
@@ -162,11 +162,13 @@ status pairs_add(pairs *p, int count, const double x[], double least, long *solu
             vector[i] /= length;
             product[i] /= length;
         }
-        const double mu = p->sign * form_of(p, e->A_energy, e->A, vector, p->form) / K_form(p, vector);
+        const double stiffness = K_form(p, vector);
+        const double mu = p->sign * form_of(p, e->A_energy, e->A, vector, p->form) / stiffness;
         if (!(mu > least))
             continue;
         p->mu[p->count] = mu;
-        p->residual[p->count] = residual_of(p, mu, vector);
+        p->residual[p->count] = residual_of(p, mu, stiffness, vector);
+        p->stiffness[p->count] = stiffness;
         p->noise[p->count] = rounding(p, mu, vector);
         (*solutions)++;
         p->count++;

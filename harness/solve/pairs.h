@@ -11,6 +11,7 @@ typedef struct pairs {
     double *mu;          /* [room] descending */
     double *residual;    /* [room] of a pair, in parts of mu */
     double *noise;       /* [room] part of mu that rounding the matrices changes */
+    double *stiffness;   /* [room] x^T K x as the caller evaluates it */
     double *x, *Kx;      /* [room x n] x^T K x = 1 by the matrix */
     double *work, *form; /* [n] each */
     sparse shifted;      /* K - s A/mu; without values until it is needed */

@@ -167,7 +167,7 @@ int main(void)
     for (size_t i = 0; i < sizeof spreads / sizeof spreads[0]; i++)
         for (int copies = 1; copies <= 6; copies += copies == 1 ? 1 : 2)
             for (int wanted = 1; wanted <= 13; wanted += 4)
-                test_strings(copies, 60, spreads[i], wanted, 1, 1e-13);
+                test_strings(copies, 60, spreads[i], wanted, 1, spreads[i] < 1e-9 ? 1e-13 + copies * spreads[i] : 1e-13);
     test_strings(6, 12, 0, 13, 0, 1e-13);
     test_strings(1, 3000, 0, 12, 0, 1e-11);
     test_strings(3, 1000, 0, 12, 0, 1e-11);
