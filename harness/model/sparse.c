@@ -24,14 +24,32 @@ void sparse_zero(sparse *a)
     memset(a->value, 0, (size_t)a->column[a->n] * sizeof *a->value);
 }
 
+/* The upper triangle stands for both; its diagonal entry, where there is one, ends the column. */
+static void mul_symmetric(const sparse *a, const double x[], double y[])
+{
+    for (int j = 0; j < a->n; j++) {
+        int end = a->column[j + 1];
+        const double xj = x[j];
+        double sum = 0;
+        if (end > a->column[j] && a->row[end - 1] == j)
+            sum = a->value[--end] * xj;
+        for (int k = a->column[j]; k < end; k++) {
+            y[a->row[k]] += a->value[k] * xj;
+            sum += a->value[k] * x[a->row[k]];
+        }
+        y[j] += sum;
+    }
+}
+
 void sparse_mul(const sparse *a, const double x[], double y[])
 {
     for (int j = 0; j < a->n; j++)
         y[j] = 0;
+    if (a->symmetric) {
+        mul_symmetric(a, x, y);
+        return;
+    }
     for (int j = 0; j < a->n; j++)
-        for (int k = a->column[j]; k < a->column[j + 1]; k++) {
+        for (int k = a->column[j]; k < a->column[j + 1]; k++)
             y[a->row[k]] += a->value[k] * x[j];
-            if (a->symmetric && a->row[k] != j)
-                y[j] += a->value[k] * x[a->row[k]];
-        }
 }

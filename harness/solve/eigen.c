@@ -11,8 +11,8 @@
 
 enum { DENSE_UP_TO = 80, SPARE = 2, MAX_PASSES = 8 };
 
-/* Of a pair; the error of mu is about its square. */
-static const double largest_residual = 1e-3;
+/* Of an eigenvalue, in parts of itself. */
+static const double largest_error = 1e-7;
 
 /* Part of the largest size of an eigenvalue below which none is looked for by iteration. */
 static const double negligible = 1e-9;
@@ -22,6 +22,7 @@ static void free_side(eigen_side *s)
     free(s->mu);
     free(s->mode);
     free(s->residual);
+    free(s->error);
 }
 
 void eigen_free(eigen_result *r)
@@ -61,7 +62,7 @@ static status solve_dense(const eigen_problem *e, double mu[], double x[], fault
 }
 
 /* Candidates of both sides at once. */
-static status both_dense(pairs *up, int largest, pairs *down, int smallest, long *solutions, fault *f)
+static status both_dense(pairs *up, int largest, pairs *down, int smallest, fault *f)
 {
     const size_t n = (size_t)up->n;
     const int from_top = largest < up->n ? largest : up->n, from_bottom = smallest < up->n ? smallest : up->n;
@@ -71,9 +72,9 @@ static status both_dense(pairs *up, int largest, pairs *down, int smallest, long
         outcome = solve_dense(up->problem, mu, x, f);
     if (outcome == STATUS_OK) {
         const double least = least_of(up->n, fmax(fabs(mu[0]), fabs(mu[n - 1])));
-        outcome = pairs_add(up, from_top, x + (n - (size_t)from_top) * n, least, solutions, f);
+        outcome = pairs_add(up, from_top, x + (n - (size_t)from_top) * n, least, f);
         if (outcome == STATUS_OK)
-            outcome = pairs_add(down, from_bottom, x, least, solutions, f);
+            outcome = pairs_add(down, from_bottom, x, least, f);
     }
     free(mu);
     free(x);
@@ -91,7 +92,7 @@ static status run_lanczos(pairs *p, int wanted, double least, long *solutions, f
     if (outcome == STATUS_OK)
         outcome = lanczos_largest(&l, count, mu, x, solutions, f);
     if (outcome == STATUS_OK)
-        outcome = pairs_add(p, count, x, least, solutions, f);
+        outcome = pairs_add(p, count, x, least, f);
     free(mu);
     free(x);
     return outcome;
@@ -119,27 +120,30 @@ static status one_sparse(pairs *p, int wanted, eigen_result *r, fault *f)
     return outcome;
 }
 
-static status hand_over(pairs *p, int wanted, eigen_side *out, fault *f)
+/* The best of the candidates become the result. */
+static status hand_over(pairs *p, int wanted, eigen_side *out, long *solutions, fault *f)
 {
     const size_t n = (size_t)p->n;
-    const eigen_problem *e = p->problem;
     const int count = p->count < wanted ? p->count : wanted;
+    out->residual = calloc((size_t)count + 1, sizeof *out->residual);
+    out->error = calloc((size_t)count + 1, sizeof *out->error);
+    if (out->residual == NULL || out->error == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for %d eigenvalues", count);
+    for (int i = 0; i < count; i++, (*solutions)++) {
+        pairs_judge(p, i, &out->residual[i], &out->error[i]);
+        if (!(out->error[i] <= largest_error))
+            return fault_set(f, STATUS_NOT_CONVERGED, "eigenvalue %d of %d unknowns is lost in round-off (error %.1e): refine less",
+                             i + 1, p->n, out->error[i]);
+    }
     for (int i = 0; i < count; i++) {
-        double *mode = p->x + (size_t)i * n;
-        if (!(p->residual[i] <= largest_residual))
-            return fault_set(f, STATUS_NOT_CONVERGED,
-                             "eigenvalue %d of %d unknowns is lost in round-off (residual %.1e): refine less", i + 1, p->n,
-                             p->residual[i]);
-        const double length = e->K_energy != NULL ? sqrt(e->K_energy(e->context, mode)) : 1;
         for (size_t k = 0; k < n; k++)
-            mode[k] /= length;
-        p->mu[i] *= p->sign * e->sign;
+            p->x[(size_t)i * n + k] /= sqrt(p->stiffness[i]);
+        p->mu[i] *= p->sign * p->problem->sign;
     }
     out->count = count;
     out->mu = p->mu;
     out->mode = p->x;
-    out->residual = p->residual;
-    p->mu = p->x = p->residual = NULL;
+    p->mu = p->x = NULL;
     return STATUS_OK;
 }
 
@@ -148,16 +152,16 @@ static status solve(const eigen_problem *e, pairs *up, pairs *down, eigen_result
     const int most = (e->largest > e->smallest ? e->largest : e->smallest) + SPARE + 1;
     status outcome;
     if ((r->n <= DENSE_UP_TO && !e->iterate) || most >= r->n) {
-        outcome = both_dense(up, e->largest, down, e->smallest, &r->solutions, f);
+        outcome = both_dense(up, e->largest, down, e->smallest, f);
     } else {
         outcome = one_sparse(up, e->largest, r, f);
         if (outcome == STATUS_OK)
             outcome = one_sparse(down, e->smallest, r, f);
     }
     if (outcome == STATUS_OK)
-        outcome = hand_over(up, e->largest, &r->positive, f);
+        outcome = hand_over(up, e->largest, &r->positive, &r->solutions, f);
     if (outcome == STATUS_OK)
-        outcome = hand_over(down, e->smallest, &r->negative, f);
+        outcome = hand_over(down, e->smallest, &r->negative, &r->solutions, f);
     return outcome;
 }
 

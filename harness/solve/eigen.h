@@ -26,7 +26,8 @@ typedef struct eigen_side {
     int count;        /* found; fewer than wanted when no more exist */
     double *mu;       /* [count] largest size first */
     double *mode;     /* [count x n] x^T K x = 1 */
-    double *residual; /* [count] an eigenvalue lies within residual |mu| of mu; the error of mu is about residual^2 |mu| */
+    double *residual; /* [count] an eigenvalue lies within residual |mu| of mu */
+    double *error;    /* [count] estimate: |mu| is off by error |mu|, which is at most about residual^2 |mu| */
 } eigen_side;
 
 typedef struct eigen_result {

@@ -8,11 +8,13 @@
 
 enum { MAX_RESTARTS = 300, EXTRA_VECTORS = 20, PARAMETERS = 11, POINTERS = 14 };
 
+/* Of a vector: Rayleigh's quotient squares it. */
+static const double tolerance = 1e-10;
+
 typedef struct workspace {
     int n, wanted, vectors, size;
     double *numbers, *start, *basis, *vector, *work, *value;
-    int *select;
-    int parameter[PARAMETERS], pointer[POINTERS];
+    int *integers, *parameter, *pointer, *select;
 } workspace;
 
 static status workspace_alloc(workspace *w, int n, int wanted, int room, fault *f)
@@ -24,21 +26,24 @@ static status workspace_alloc(workspace *w, int n, int wanted, int room, fault *
     w->size = w->vectors * (w->vectors + 8);
     const size_t N = (size_t)n, vectors = (size_t)w->vectors;
     w->numbers = malloc((N + N * vectors + 3 * N + (size_t)w->size + vectors) * sizeof *w->numbers);
-    w->select = malloc(vectors * sizeof *w->select);
-    if (w->numbers == NULL || w->select == NULL)
+    w->integers = calloc(PARAMETERS + POINTERS + vectors, sizeof *w->integers);
+    if (w->numbers == NULL || w->integers == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for %d vectors of %d unknowns", w->vectors, n);
     w->start = w->numbers;
     w->basis = w->start + N;
     w->vector = w->basis + N * vectors;
     w->work = w->vector + 3 * N;
     w->value = w->work + w->size;
+    w->parameter = w->integers;
+    w->pointer = w->parameter + PARAMETERS;
+    w->select = w->pointer + POINTERS;
     return STATUS_OK;
 }
 
 static void workspace_free(workspace *w)
 {
     free(w->numbers);
-    free(w->select);
+    free(w->integers);
 }
 
 /* The same start every time, with a part of every mode. */
@@ -84,16 +89,16 @@ static int iterate(const lanczos_problem *p, workspace *w, long *solutions)
     w->parameter[2] = MAX_RESTARTS;
     w->parameter[6] = 2;
     for (;;) {
-        dsaupd_c(&ido, "G", w->n, "LA", w->wanted, 0, w->start, w->vectors, w->basis, w->n, w->parameter, w->pointer, w->vector,
-                 w->work, w->size, &info);
-        double *x = w->vector + w->pointer[0] - 1, *y = w->vector + w->pointer[1] - 1;
+        dsaupd_c(&ido, "G", w->n, "LA", w->wanted, tolerance, w->start, w->vectors, w->basis, w->n, w->parameter, w->pointer,
+                 w->vector, w->work, w->size, &info);
+        if (ido != 2 && ido != 1 && ido != -1)
+            return info;
+        double *x = &w->vector[w->pointer[0] - 1], *y = &w->vector[w->pointer[1] - 1];
         if (ido == 2) {
             sparse_mul(p->K, x, y);
-        } else if (ido == 1 || ido == -1) {
+        } else {
             apply(p, x, y);
             (*solutions)++;
-        } else {
-            return info;
         }
     }
 }
@@ -113,8 +118,8 @@ status lanczos_largest(const lanczos_problem *p, int wanted, double mu[], double
     }
     if (outcome == STATUS_OK) {
         int info = 0;
-        dseupd_c(1, "A", w.select, w.value, w.basis, n, 0, "G", n, "LA", wanted, 0, w.start, w.vectors, w.basis, n, w.parameter,
-                 w.pointer, w.vector, w.work, w.size, &info);
+        dseupd_c(1, "A", w.select, w.value, w.basis, n, 0, "G", n, "LA", wanted, tolerance, w.start, w.vectors, w.basis, n,
+                 w.parameter, w.pointer, w.vector, w.work, w.size, &info);
         if (info != 0)
             outcome = fault_set(f, STATUS_NOT_CONVERGED, "the eigenvectors were not found (ARPACK says %d)", info);
     }

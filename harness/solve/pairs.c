@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double close = 1e-6; /* relative distance of eigenvalues that are not told apart */
+static const double close = 1e-9; /* relative distance of eigenvalues that are not told apart */
 
 status pairs_alloc(pairs *p, const eigen_problem *problem, double sign, fault *f)
 {
@@ -25,7 +25,7 @@ status pairs_alloc(pairs *p, const eigen_problem *problem, double sign, fault *f
 
 void pairs_free(pairs *p)
 {
-    void *const all[] = {p->mu, p->residual, p->noise, p->x, p->Kx, p->work, p->form};
+    void *const all[] = {p->mu, p->noise, p->stiffness, p->x, p->Kx, p->work, p->form};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         free(all[i]);
     sparse_free_values(&p->shifted);
@@ -44,7 +44,7 @@ static int grow(double **list, size_t count)
 static status make_room(pairs *p, int room, fault *f)
 {
     const size_t count = (size_t)room, numbers = count * (size_t)p->n;
-    if (room > p->room && !(grow(&p->mu, count) && grow(&p->residual, count) && grow(&p->noise, count) && grow(&p->x, numbers) &&
+    if (room > p->room && !(grow(&p->mu, count) && grow(&p->noise, count) && grow(&p->stiffness, count) && grow(&p->x, numbers) &&
                             grow(&p->Kx, numbers)))
         return fault_set(f, STATUS_FAULT, "out of memory for %d eigenvectors", room);
     p->room = room > p->room ? room : p->room;
@@ -91,7 +91,7 @@ static void sort_last(pairs *p)
 {
     const size_t n = (size_t)p->n;
     for (int i = p->count - 1; i > 0 && p->mu[i] > p->mu[i - 1]; i--) {
-        double *const numbers[] = {p->mu, p->residual, p->noise}, *const vectors[] = {p->x, p->Kx};
+        double *const numbers[] = {p->mu, p->noise, p->stiffness}, *const vectors[] = {p->x, p->Kx};
         for (int k = 0; k < 3; k++) {
             const double kept = numbers[k][i];
             numbers[k][i] = numbers[k][i - 1];
@@ -112,15 +112,6 @@ static void apply(pairs *p, const double x[], double y[])
     for (int i = 0; i < p->n; i++)
         y[i] *= p->sign;
     factor_solve(p->problem->K_factor, y);
-}
-
-/* With x^T K x = 1 and y = K^-1 s A x - mu x an eigenvalue lies within sqrt(y^T K y) of mu. */
-static double residual_of(pairs *p, double mu, const double x[])
-{
-    apply(p, x, p->work);
-    for (int i = 0; i < p->n; i++)
-        p->work[i] -= mu * x[i];
-    return sqrt(K_form(p, p->work) / K_form(p, x)) / mu;
 }
 
 double pairs_scale(pairs *p, long *solutions)
@@ -146,7 +137,7 @@ double pairs_scale(pairs *p, long *solutions)
     return largest;
 }
 
-status pairs_add(pairs *p, int count, const double x[], double least, long *solutions, fault *f)
+status pairs_add(pairs *p, int count, const double x[], double least, fault *f)
 {
     const eigen_problem *e = p->problem;
     const size_t n = (size_t)p->n;
@@ -162,17 +153,40 @@ status pairs_add(pairs *p, int count, const double x[], double least, long *solu
             vector[i] /= length;
             product[i] /= length;
         }
-        const double mu = p->sign * form_of(p, e->A_energy, e->A, vector, p->form) / K_form(p, vector);
+        const double stiffness = K_form(p, vector);
+        const double mu = p->sign * form_of(p, e->A_energy, e->A, vector, p->form) / stiffness;
         if (!(mu > least))
             continue;
         p->mu[p->count] = mu;
-        p->residual[p->count] = residual_of(p, mu, vector);
+        p->stiffness[p->count] = stiffness;
         p->noise[p->count] = rounding(p, mu, vector);
-        (*solutions)++;
         p->count++;
         sort_last(p);
     }
     return STATUS_OK;
+}
+
+/* With x^T K x = 1 and y = K^-1 s A x - mu x an eigenvalue lies within sqrt(y^T K y) of mu. What y has of a larger mode k,
+ * c_k = x_k^T K y = x_k^T s A y/mu_k, comes from a part c_k/(mu_k - mu) of that mode in x, which moves the quotient mu by
+ * c_k^2/(mu_k - mu), or, where they are too close to be told apart, by their distance. The rest counts in full. */
+void pairs_judge(pairs *p, int i, double *residual, double *error)
+{
+    const double mu = p->mu[i], *x = p->x + (size_t)i * (size_t)p->n;
+    double *y = p->work;
+    apply(p, x, y);
+    for (int k = 0; k < p->n; k++)
+        y[k] -= mu * x[k];
+    const double square = K_form(p, y) / (p->stiffness[i] * mu * mu);
+    double rest = square;
+    sparse_mul(p->problem->A, y, p->form);
+    *error = 0;
+    for (int k = 0; k < i; k++) {
+        const double part = dot(p->n, p->x + (size_t)k * (size_t)p->n, p->form) / p->mu[k] / mu, apart = p->mu[k] / mu - 1;
+        rest -= part * part;
+        *error += part * part > apart * apart ? apart : part * part / apart;
+    }
+    *residual = sqrt(square);
+    *error += fmax(rest, 0);
 }
 
 status pairs_above(pairs *p, double s, int *above, eigen_result *work, fault *f)

@@ -9,8 +9,8 @@ typedef struct pairs {
     double sign; /* s: of the problem, reversed for the most negative values */
     int n, count, room;
     double *mu;          /* [room] descending */
-    double *residual;    /* [room] of a pair, in parts of mu */
     double *noise;       /* [room] part of mu that rounding the matrices changes */
+    double *stiffness;   /* [room] x^T K x as the caller evaluates it */
     double *x, *Kx;      /* [room x n] x^T K x = 1 by the matrix */
     double *work, *form; /* [n] each */
     sparse shifted;      /* K - s A/mu; without values until it is needed */
@@ -22,7 +22,9 @@ void pairs_free(pairs *p);
 /* Size of the largest |mu|, from below, by a few powers of K^-1 A. */
 double pairs_scale(pairs *p, long *solutions);
 /* Takes in vectors x[count x n], whatever their length; those with mu <= least are dropped. */
-status pairs_add(pairs *p, int count, const double x[], double least, long *solutions, fault *f);
+status pairs_add(pairs *p, int count, const double x[], double least, fault *f);
+/* Residual of candidate i and estimated error of its mu, both in parts of mu. One solution. */
+void pairs_judge(pairs *p, int i, double *residual, double *error);
 /* How many of the eigenvalues that lie clearly above the one of rank `wanted` (counted from 1) are not among the candidates.
  * NOT_CONVERGED when there are fewer than candidates. */
 status pairs_missing(pairs *p, int wanted, int *missing, eigen_result *work, fault *f);
