@@ -22,13 +22,13 @@ void point_align(int nodes, double q[][4])
     }
 }
 
-void point_at(int nodes, const double q[][4], const double N[], const double dN[], const double y[3], point *p)
+void point_at(int nodes, const double q[], const double N[], const double dN[], const double y[3], point *p)
 {
     double Q[4] = {0}, S[4] = {0}, inverse[4], h[4];
     for (int k = 0; k < nodes; k++)
         for (int i = 0; i < 4; i++) {
-            Q[i] += N[k] * q[k][i];
-            S[i] += dN[k] * q[k][i];
+            Q[i] += N[k] * q[4 * k + i];
+            S[i] += dN[k] * q[4 * k + i];
         }
     p->m = sqrt(Q[0] * Q[0] + Q[1] * Q[1] + Q[2] * Q[2] + Q[3] * Q[3]);
     for (int i = 0; i < 4; i++)

@@ -20,7 +20,8 @@ typedef struct point {
 /* Signs of q[1..] are changed so that neighbours are on the same side. */
 void point_align(int nodes, double q[][4]);
 
-void point_at(int nodes, const double q[][4], const double N[], const double dN[], const double y[3], point *p);
+/* q [nodes x 4], N and dN [nodes]. */
+void point_at(int nodes, const double q[], const double N[], const double dN[], const double y[3], point *p);
 
 /* Gradient of n . kappa + f . v with respect to Q and Q'.  That with respect to y is R f. */
 void point_gradient(const point *p, const double n[3], const double f[3], double Q[4], double S[4]);

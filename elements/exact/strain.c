@@ -65,7 +65,7 @@ static void measure(const strain_line *line, const nodes *s, int g, point *p, do
             dy[i] += line->dN[g][k] * s->u[k][i];
         }
     }
-    point_at(line->nodes, s->q, line->N[g], line->dN[g], y, p);
+    point_at(line->nodes, s->q[0], line->N[g], line->dN[g], y, p);
 }
 
 /* v - v0; the part along x from |v|^2 - |v0|^2 = (2 y0 + dy) . dy, so that a small elongation is no difference of lengths. */

@@ -1,0 +1,174 @@
+/* The geometrically exact beam with warping solved inside the element, by Gauss collocation with exact equilibrium of forces
+ * (elements/exact/stages.h).  What the stages need is unknown of the element itself, so that the mixed Newton iteration of the
+ * structure solves for it on the way. */
+#include <math.h>
+#include <string.h>
+
+#include "elements/exact/stages.h"
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+
+enum { OPTION_STAGES, FEWEST = 3, OUTER = STAGES_OUTER };
+
+struct element_data {
+    stages stages;
+};
+
+static const element_option options[] = {
+    [OPTION_STAGES] = {"stages", "3|4|5|6|7|8", 2, 0, 5, "Gauss points inside an element: order twice their number"},
+    {NULL, NULL, 0, 0, 0, NULL},
+};
+
+static int stage_count(const double value[])
+{
+    return FEWEST + (int)value[OPTION_STAGES];
+}
+
+/* F (3), multiplier of the bimoment, quaternions of the inner nodes. */
+static int inner_count(const double value[])
+{
+    return 4 * stage_count(value);
+}
+
+/* Unknowns' correction, and what they follow the strains with. */
+static int memory_count(const double value[])
+{
+    return (4 + 3 * (stage_count(value) - 1)) * (1 + OUTER);
+}
+
+static size_t data_size(const element_request *request)
+{
+    (void)request;
+    return sizeof(element_data);
+}
+
+static status prepare(const element_request *request, element_data *out, fault *f)
+{
+    return stages_prepare(request, stage_count(request->options), &out->stages, f);
+}
+
+static void strain(const element_data *d, const node_state x[], strain_output *out)
+{
+    strain_of(&d->stages.line, x, out);
+}
+
+static void rest(const element_data *d, double inner[])
+{
+    const stages *s = &d->stages;
+    memset(inner, 0, 4 * sizeof *inner);
+    memcpy(inner + 4, s->rest_q[1], 4 * (size_t)(s->stages - 1) * sizeof *inner);
+}
+
+/* Eliminates the unknowns: X [unknowns x (OUTER + 1)] = K_zz^-1 (K_ze | r_z). */
+static int eliminate(const stages *s, const stages_derivatives *d, double X[])
+{
+    const int m = s->unknowns, n = m + OUTER;
+    double K[STAGES_UNKNOWNS * STAGES_UNKNOWNS];
+    int pivot[STAGES_UNKNOWNS];
+    for (int i = 0; i < m; i++) {
+        memcpy(&K[i * m], &d->hessian[i * n], (size_t)m * sizeof *K);
+        memcpy(&X[i * (OUTER + 1)], &d->hessian[i * n + m], OUTER * sizeof *X);
+        X[i * (OUTER + 1) + OUTER] = d->gradient[i];
+    }
+    const int failed = dense_lu(m, K, pivot);
+    if (failed == 0)
+        dense_lu_solve(m, OUTER + 1, K, pivot, X);
+    return failed;
+}
+
+static void condense(const stages *s, const stages_derivatives *d, const double X[], stress_output *out)
+{
+    const int m = s->unknowns, n = m + OUTER;
+    const double l0 = s->line.l0, energy = s->c.energy;
+    double residual = 0, P = d->P;
+    for (int i = 0; i < m; i++) {
+        residual = fmax(residual, fabs(d->gradient[i]));
+        P -= d->gradient[i] * X[i * (OUTER + 1) + OUTER] / 2;
+    }
+    for (int i = 0; i < OUTER; i++) {
+        double sigma = d->gradient[m + i];
+        for (int k = 0; k < m; k++)
+            sigma -= d->hessian[(m + i) * n + k] * X[k * (OUTER + 1) + OUTER];
+        if (out->sigma != NULL)
+            out->sigma[i] = energy / l0 * sigma;
+        for (int j = 0; j < OUTER && out->C != NULL; j++) {
+            double C = d->hessian[(m + i) * n + m + j];
+            for (int k = 0; k < m; k++)
+                C -= d->hessian[(m + i) * n + k] * X[k * (OUTER + 1) + j];
+            out->C[i * OUTER + j] = energy / (l0 * l0) * C;
+        }
+    }
+    if (out->energy != NULL)
+        *out->energy = energy * P;
+    if (out->residual != NULL)
+        *out->residual = residual;
+}
+
+static status stress(const element_data *data, const double e[], const double inner[], stress_output *out)
+{
+    const stages *s = &data->stages;
+    double scaled[OUTER], X[STAGES_UNKNOWNS * (OUTER + 1)];
+    stages_derivatives d;
+    for (int i = 0; i < OUTER; i++)
+        scaled[i] = e[i] / s->line.l0;
+    const status outcome = stages_evaluate(s, scaled, inner, &d);
+    if (outcome != STATUS_OK)
+        return outcome;
+    if (eliminate(s, &d, X) != 0)
+        return STATUS_SINGULAR;
+    condense(s, &d, X, out);
+    if (out->memory != NULL)
+        memcpy(out->memory, X, (size_t)(s->unknowns * (OUTER + 1)) * sizeof *X);
+    return isfinite(d.P) ? STATUS_OK : STATUS_NOT_CONVERGED;
+}
+
+static double update(const element_data *data, const double de[], const double memory[], double inner[])
+{
+    const stages *s = &data->stages;
+    double change[STAGES_UNKNOWNS], largest = 0;
+    for (int i = 0; i < s->unknowns; i++) {
+        change[i] = -memory[i * (OUTER + 1) + OUTER];
+        for (int j = 0; j < OUTER; j++)
+            change[i] -= memory[i * (OUTER + 1) + j] * de[j] / s->line.l0;
+    }
+    double force = 1;
+    for (int i = 0; i < 4; i++) {
+        inner[i] += change[i];
+        force = fmax(force, fabs(inner[i]));
+    }
+    for (int i = 0; i < s->unknowns; i++)
+        largest = fmax(largest, fabs(change[i]) / (i < 4 ? force : 1));
+    for (int k = 1; k < s->stages; k++) {
+        double turn[4];
+        rotation_exp(&change[4 + 3 * (k - 1)], turn);
+        rotation_compose(turn, &inner[4 * k], &inner[4 * k]);
+        rotation_normalise(&inner[4 * k]);
+    }
+    return largest;
+}
+
+static int strains(const double value[])
+{
+    (void)value;
+    return OUTER;
+}
+
+const element_type element_collocation = {
+    .name = "collocation",
+    .summary = "geometrically exact beam with warping solved inside the element by Gauss collocation",
+    .source = "ours; theory: Reissner, J. Appl. Math. Phys. 32 (1981); Simo, Comput. Methods Appl. Mech. Eng. 49 (1985)",
+    .abi = ELEMENT_ABI,
+    .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS |
+              FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_LARGE | FEATURE_CURVATURE,
+    .limits = 0,
+    .options = options,
+    .strains = strains,
+    .inner = inner_count,
+    .memory = memory_count,
+    .data_size = data_size,
+    .prepare = prepare,
+    .strain = strain,
+    .stress = stress,
+    .update = update,
+    .rest = rest,
+};
