@@ -6,7 +6,6 @@
 
 #include "elements/exact/stages.h"
 #include "elements/math/dense.h"
-#include "elements/math/rotation.h"
 
 enum { OPTION_STAGES, FEWEST = 3, OUTER = STAGES_OUTER };
 
@@ -24,16 +23,16 @@ static int stage_count(const double value[])
     return FEWEST + (int)value[OPTION_STAGES];
 }
 
-/* F (3), multiplier of the bimoment, quaternions of the inner nodes. */
+/* F (3), multiplier of the bimoment, rotation vectors of the inner nodes. */
 static int inner_count(const double value[])
 {
-    return 4 * stage_count(value);
+    return 4 + 3 * (stage_count(value) - 1);
 }
 
 /* Unknowns' correction, and what they follow the strains with. */
 static int memory_count(const double value[])
 {
-    return (4 + 3 * (stage_count(value) - 1)) * (1 + OUTER);
+    return inner_count(value) * (1 + OUTER);
 }
 
 static size_t data_size(const element_request *request)
@@ -56,7 +55,7 @@ static void rest(const element_data *d, double inner[])
 {
     const stages *s = &d->stages;
     memset(inner, 0, 4 * sizeof *inner);
-    memcpy(inner + 4, s->rest_q[1], 4 * (size_t)(s->stages - 1) * sizeof *inner);
+    memcpy(inner + 4, s->rest_psi[1], 3 * (size_t)(s->stages - 1) * sizeof *inner);
 }
 
 /* Eliminates the unknowns: X [unknowns x (OUTER + 1)] = K_zz^-1 (K_ze | r_z). */
@@ -111,9 +110,7 @@ static status stress(const element_data *data, const double e[], const double in
     stages_derivatives d;
     for (int i = 0; i < OUTER; i++)
         scaled[i] = e[i] / s->line.l0;
-    const status outcome = stages_evaluate(s, scaled, inner, &d);
-    if (outcome != STATUS_OK)
-        return outcome;
+    stages_evaluate(s, scaled, inner, &d);
     if (eliminate(s, &d, X) != 0)
         return STATUS_SINGULAR;
     condense(s, &d, X, out);
@@ -125,24 +122,15 @@ static status stress(const element_data *data, const double e[], const double in
 static double update(const element_data *data, const double de[], const double memory[], double inner[])
 {
     const stages *s = &data->stages;
-    double change[STAGES_UNKNOWNS], largest = 0;
+    double largest = 0, force = 1;
     for (int i = 0; i < s->unknowns; i++) {
-        change[i] = -memory[i * (OUTER + 1) + OUTER];
+        double change = -memory[i * (OUTER + 1) + OUTER];
         for (int j = 0; j < OUTER; j++)
-            change[i] -= memory[i * (OUTER + 1) + j] * de[j] / s->line.l0;
-    }
-    double force = 1;
-    for (int i = 0; i < 4; i++) {
-        inner[i] += change[i];
-        force = fmax(force, fabs(inner[i]));
-    }
-    for (int i = 0; i < s->unknowns; i++)
-        largest = fmax(largest, fabs(change[i]) / (i < 4 ? force : 1));
-    for (int k = 1; k < s->stages; k++) {
-        double turn[4];
-        rotation_exp(&change[4 + 3 * (k - 1)], turn);
-        rotation_compose(turn, &inner[4 * k], &inner[4 * k]);
-        rotation_normalise(&inner[4 * k]);
+            change -= memory[i * (OUTER + 1) + j] * de[j] / s->line.l0;
+        inner[i] += change;
+        if (i < 4)
+            force = fmax(force, fabs(inner[i])); /* the four come first; forces are relative, rotations are not */
+        largest = fmax(largest, fabs(change) / (i < 4 ? force : 1));
     }
     return largest;
 }
