@@ -5,7 +5,7 @@
 
 #include "elements/test/chain.h"
 
-extern const element_type element_geometrically_exact;
+extern const element_type element_geometrically_exact, element_collocation;
 
 enum { MOST = ELEMENT_MAX_COORDINATES, STRAINS = ELEMENT_MAX_STRAINS };
 
@@ -179,7 +179,17 @@ static double roll_up(const element_type *type, const double option[], int n)
     return hypot(c.x[c.nodes - 1].r[0], c.x[c.nodes - 1].r[1]);
 }
 
-int main(void)
+/* One element against the exact beam: errors of C_xx and C_zz. */
+static void one_element(const element_type *type, double stages, double deflection, const double exact[2], const double error[2])
+{
+    double C[2];
+    sheet(type, &stages, 1, deflection, C);
+    for (int i = 0; i < 2; i++)
+        gsl_test(!(fabs(C[i] / exact[i] - 1) <= error[i]), "%s: %s of one sheet with %g stages moved by %g m: error %.2e",
+                 type->name, i == 0 ? "C_xx" : "C_zz", stages + 3, deflection, C[i] / exact[i] - 1);
+}
+
+static void geometrically_exact(void)
 {
     const element_type *type = &element_geometrically_exact;
     const double two[1] = {0}, three[1] = {1};
@@ -196,5 +206,31 @@ int main(void)
     gsl_test(!(closed < 1e-13), "%s: regular polygons close (%.1e)", type->name, closed);
     gsl_test(!(circle[1] < 2e-4 && circle[0] / circle[1] > 15), "%s: three nodes close the circle (%.1e, %.1e)", type->name,
              circle[0], circle[1]);
+}
+
+static void collocation(void)
+{
+    const element_type *type = &element_collocation;
+    const double three[1] = {0}, four[1] = {1}, five[1] = {2};
+    const double small[2] = {3.972596107351e-7, 2.620413704209e-8}, large[2] = {1.832361796194e-6, 1.287708251249e-7};
+    derivatives(type, five, 0.4);
+    shear_elastica_converges(type, three, 1, 2e-6, 5.5);
+    sheet_converges(type, three, 4, 6e-7, 5.7);
+    sheet_converges(type, four, 2, 6e-7, 6.9);
+    one_element(type, 0, 0.015, small, (const double[2]){4.1e-3, 3.2e-2});
+    one_element(type, 1, 0.015, small, (const double[2]){1.8e-4, 8.4e-3});
+    one_element(type, 2, 0.015, small, (const double[2]){3.0e-6, 2.7e-4});
+    one_element(type, 3, 0.015, small, (const double[2]){1.6e-7, 3.4e-5});
+    one_element(type, 5, 0.015, small, (const double[2]){1.1e-10, 1.1e-8});
+    one_element(type, 2, 0.05, large, (const double[2]){3.0e-6, 1.2e-3});
+    one_element(type, 5, 0.05, large, (const double[2]){1.4e-7, 1.7e-6});
+    const double closed = roll_up(type, three, 2);
+    gsl_test(!(closed < 1e-13), "%s: two elements make a circle (%.1e)", type->name, closed);
+}
+
+int main(void)
+{
+    geometrically_exact();
+    collocation();
     return gsl_test_summary();
 }
