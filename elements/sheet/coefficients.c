@@ -70,16 +70,6 @@ static void add_bending(const element_request *r, double x, double ds, const fie
     }
 }
 
-/* L int t_k phi_x' dx. */
-static void add_twist_work(double x, double ds, const fields *f, const double t[TORSION_MODES][TORSION_DEGREE + 1], sums *out)
-{
-    for (int k = 0; k < TORSION_MODES; k++) {
-        const double torque = t[k][0] + x * (t[k][1] + x * (t[k][2] + x * t[k][3]));
-        for (int a = 0; a < LOCAL_COORDINATES; a++)
-            out->b[mode[k].stress][mode[k].variable][1 + a] += ds * torque * f->dphi_x[a];
-    }
-}
-
 static status add_torsion(const element_request *r, const double t[TORSION_MODES][TORSION_DEGREE + 1], sums *out, fault *f)
 {
     const section *c = r->section;
@@ -93,8 +83,9 @@ static status add_torsion(const element_request *r, const double t[TORSION_MODES
         double(*b)[V] = out->b[mode[k].stress];
         for (int l = 0; l < TORSION_MODES; l++)
             out->A[mode[k].stress][mode[l].stress][mode[k].variable][mode[l].variable] += L / GJ * integral.compliance[k][l];
-        b[mode[k].variable][WP] -= L * integral.ends[k][0];
-        b[mode[k].variable][WQ] -= L * integral.ends[k][1];
+        b[mode[k].variable][PX] += integral.work[k][TORSION_PX];
+        b[mode[k].variable][WP] += L * integral.work[k][TORSION_WP];
+        b[mode[k].variable][WQ] += L * integral.work[k][TORSION_WQ];
         b[mode[k].variable][ONE] -= L * integral.compliance[k][0] * kx;
     }
     out->P0[WP][WP] = out->P0[WQ][WQ] = EIw / (2 * L) * integral.same;
@@ -141,7 +132,6 @@ status potential_prepare(const element_request *r, int printed, potential *out, 
     for (int i = 0; i < POINTS && made == STATUS_OK; i++) {
         const fields at = fields_at(L, x[i], 0, 0, fields_warp(r));
         add_bending(r, x[i], w[i] * L, &at, &total);
-        add_twist_work(x[i], w[i] * L, &at, torque, &total);
     }
     if (made == STATUS_OK)
         made = add_torsion(r, torque, &total, f);

@@ -4,10 +4,14 @@
 
 #include "elements/math/quadrature.h"
 
-enum { COEFFICIENTS = TORSION_DEGREE + 1, POINTS = 20 };
+enum { COEFFICIENTS = TORSION_DEGREE + 1, POINTS = 16, LOADS = TORSION_MODES + 2 };
 
 /* Below, the closed form would cancel like lambda^-4; above, the kernel has boundary layers that few points miss. */
 static const double closed_from = 6;
+
+/* phi_x' per px/L, Wp, Wq (N Eq. 19), and h_p, h_q for lambda -> 0. */
+static const double rate[TORSION_TWISTS][COEFFICIENTS] = {{0, 6, -6}, {1, -4, 3}, {0, -2, 3}};
+static const double chord[2][COEFFICIENTS] = {{1, -1}, {0, 1}};
 
 static double value(const double t[COEFFICIENTS], double x)
 {
@@ -19,60 +23,83 @@ static double second(const double t[COEFFICIENTS], double x)
     return 2 * t[2] + 6 * t[3] * x;
 }
 
+/* int a b dx, rounded once: 420/(n + 1) is whole for every power n <= 6. */
 static double integral_of_product(const double a[COEFFICIENTS], const double b[COEFFICIENTS])
 {
     double sum = 0;
     for (int i = 0; i < COEFFICIENTS; i++)
-        for (int j = 0; j < COEFFICIENTS; j++)
-            sum += a[i] * b[j] / (i + j + 1);
-    return sum;
+        for (int j = 0; j < COEFFICIENTS; j++) {
+            const int share = 420 / (i + j + 1);
+            sum += a[i] * b[j] * share;
+        }
+    return sum / 420;
 }
 
-/* int t h_q dx and, with t reversed, int t h_p dx: twice by parts with h'' = lambda^2 h. */
-static double end_closed(double lambda, const double t[COEFFICIENTS], int at_q)
+/* int t h_q dx (end 1) or int t h_p dx (end 0): twice by parts with h'' = lambda^2 h. */
+static double end_integral(double lambda, const double t[COEFFICIENTS], int end)
 {
-    const double decay = exp(-lambda), coth = (1 + decay * decay) / -expm1(-2 * lambda), csch = 2 * decay / -expm1(-2 * lambda);
-    const double near = at_q ? 1 : 0, far = 1 - near, outwards = at_q ? 1 : -1, l2 = lambda * lambda;
-    const double slope_near = t[1] + near * (2 * t[2] + 3 * t[3]); /* dt/dx at x = 0 or 1 */
-    const double third = 6 * t[3];
-    return ((value(t, near) + second(t, near) / l2) * lambda * coth - (value(t, far) + second(t, far) / l2) * lambda * csch -
-            outwards * (slope_near + third / l2)) /
-           l2;
+    const double decay = exp(-lambda), scale = -expm1(-2 * lambda), coth = (1 + decay * decay) / scale, csch = 2 * decay / scale;
+    const double l2 = lambda * lambda, slope = t[1] + end * (2 * t[2] + 3 * t[3]) + 6 * t[3] / l2;
+    const double near = value(t, end) + second(t, end) / l2, far = value(t, 1 - end) + second(t, 1 - end) / l2;
+    return (lambda * (near * coth - far * csch) - (end == 1 ? slope : -slope)) / l2;
 }
 
+/* lambda^2 g = t + t''/lambda^2 less its end values times h_p, h_q. */
 static void closed(double lambda, const double t[TORSION_MODES][COEFFICIENTS], torsion_integrals *out)
 {
     const double l2 = lambda * lambda;
     for (int k = 0; k < TORSION_MODES; k++) {
-        out->ends[k][0] = end_closed(lambda, t[k], 0);
-        out->ends[k][1] = end_closed(lambda, t[k], 1);
-    }
-    for (int k = 0; k < TORSION_MODES; k++)
+        const double end[2] = {end_integral(lambda, t[k], 0), end_integral(lambda, t[k], 1)};
         for (int l = 0; l < TORSION_MODES; l++) {
             const double curved[COEFFICIENTS] = {2 * t[l][2], 6 * t[l][3]}; /* t_l'' */
             out->compliance[k][l] = integral_of_product(t[k], t[l]) + integral_of_product(t[k], curved) / l2 -
-                                    (value(t[l], 0) + second(t[l], 0) / l2) * out->ends[k][0] -
-                                    (value(t[l], 1) + second(t[l], 1) / l2) * out->ends[k][1];
+                                    (value(t[l], 0) + second(t[l], 0) / l2) * end[0] -
+                                    (value(t[l], 1) + second(t[l], 1) / l2) * end[1];
         }
+        out->work[k][TORSION_WP] = integral_of_product(t[k], rate[TORSION_WP]) - end[0];
+        out->work[k][TORSION_WQ] = integral_of_product(t[k], rate[TORSION_WQ]) - end[1];
+    }
 }
 
-/* Green's function sinh(lambda y) sinh(lambda (1 - x))/(lambda sinh(lambda)), y < x, over the triangle y = x z. */
+/* Green's function sinh(lambda y) sinh(lambda (1 - x))/(lambda sinh(lambda)), y < x, over the triangle y = x z.  It also gives
+ * the ends: chord - h solves lambda^2 g - g'' = lambda^2 chord. */
 static void by_quadrature(double lambda, const double t[TORSION_MODES][COEFFICIENTS], const double point[POINTS],
                           const double weight[POINTS], torsion_integrals *out)
 {
-    const double sine = sinh(lambda);
+    double sum[TORSION_MODES][LOADS] = {{0}};
     for (int i = 0; i < POINTS; i++) {
-        const double x = point[i], h_p = sinh(lambda * (1 - x)) / sine, h_q = sinh(lambda * x) / sine;
-        for (int k = 0; k < TORSION_MODES; k++) {
-            out->ends[k][0] += weight[i] * h_p * value(t[k], x);
-            out->ends[k][1] += weight[i] * h_q * value(t[k], x);
-        }
+        double at_x[LOADS], at_y[LOADS];
+        const double x = point[i], h_p = sinh(lambda * (1 - x)) / sinh(lambda);
+        for (int k = 0; k < LOADS; k++)
+            at_x[k] = value(k < TORSION_MODES ? t[k] : chord[k - TORSION_MODES], x);
         for (int j = 0; j < POINTS; j++) {
             const double y = x * point[j], kernel = weight[i] * weight[j] * x * lambda * sinh(lambda * y) * h_p;
+            for (int k = 0; k < LOADS; k++)
+                at_y[k] = value(k < TORSION_MODES ? t[k] : chord[k - TORSION_MODES], y);
             for (int k = 0; k < TORSION_MODES; k++)
-                for (int l = 0; l < TORSION_MODES; l++)
-                    out->compliance[k][l] += kernel * (value(t[k], x) * value(t[l], y) + value(t[l], x) * value(t[k], y));
+                for (int l = 0; l < LOADS; l++)
+                    sum[k][l] += kernel * (at_x[k] * at_y[l] + at_x[l] * at_y[k]);
         }
+    }
+    for (int k = 0; k < TORSION_MODES; k++) {
+        for (int l = 0; l < TORSION_MODES; l++)
+            out->compliance[k][l] = sum[k][l];
+        for (int end = 0; end < 2; end++) {
+            double gap[COEFFICIENTS];
+            for (int i = 0; i < COEFFICIENTS; i++)
+                gap[i] = rate[TORSION_WP + end][i] - chord[end][i];
+            out->work[k][TORSION_WP + end] = integral_of_product(t[k], gap) + sum[k][TORSION_MODES + end];
+        }
+    }
+}
+
+static void uniform(const double t[TORSION_MODES][COEFFICIENTS], torsion_integrals *out)
+{
+    const double one[COEFFICIENTS] = {1};
+    for (int k = 0; k < TORSION_MODES; k++) {
+        out->work[k][TORSION_PX] = integral_of_product(t[k], one);
+        for (int l = 0; l < TORSION_MODES; l++)
+            out->compliance[k][l] = integral_of_product(t[k], t[l]);
     }
 }
 
@@ -80,13 +107,13 @@ status torsion_integrate(double lambda, const double t[TORSION_MODES][COEFFICIEN
 {
     *out = (torsion_integrals){0};
     if (isinf(lambda)) {
-        for (int k = 0; k < TORSION_MODES; k++)
-            for (int l = 0; l < TORSION_MODES; l++)
-                out->compliance[k][l] = integral_of_product(t[k], t[l]);
+        uniform(t, out);
         return STATUS_OK;
     }
     out->same = lambda * (1 + exp(-2 * lambda)) / -expm1(-2 * lambda);
     out->other = -2 * lambda * exp(-lambda) / -expm1(-2 * lambda);
+    for (int k = 0; k < TORSION_MODES; k++)
+        out->work[k][TORSION_PX] = integral_of_product(t[k], rate[TORSION_PX]);
     if (lambda >= closed_from) {
         closed(lambda, t, out);
         return STATUS_OK;

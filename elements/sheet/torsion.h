@@ -1,7 +1,7 @@
 /* Nonuniform torsion of an element (N Eq. 51), in x = s/L with lambda = L sqrt(GJ/EIw).
  *
  * A torque t(x) beside which the twist rate vanishes at both ends twists by kappa = (lambda^2/GJ) g, lambda^2 g - g'' = t,
- * g(0) = g(1) = 0; its bimoment is L g' (N App. B, with M_x as given).  A twist rate Wp, Wq at the ends without torque is
+ * g(0) = g(1) = 0; its bimoment is L g' (N App. B, with M_x as given).  Twist rates Wp, Wq of the ends without torque are
  * kappa = Wp h_p + Wq h_q, h_q = sinh(lambda x)/sinh(lambda), h_p(x) = h_q(1 - x).
  *
  * Integrated by parts, the Hellinger-Reissner potential of N Eq. 44 needs the bimoment only in the integrals below, in
@@ -12,14 +12,16 @@
 #include "elements/math/status.h"
 
 enum { TORSION_DEGREE = 3, TORSION_MODES = 5 };
+enum { TORSION_PX, TORSION_WP, TORSION_WQ, TORSION_TWISTS };
 
 typedef struct torsion_integrals {
     double compliance[TORSION_MODES][TORSION_MODES]; /* lambda^2 int t_k g_l dx, symmetric */
-    double ends[TORSION_MODES][2];                   /* int t_k h_p dx, int t_k h_q dx */
-    double same, other;                              /* h_p against itself and against h_q in int (lambda^2 h h + h' h') dx */
+    /* int t_k (phi' - h) dx: twist rate per px/L, Wp, Wq in N Eq. 19 less that of the ends without torque */
+    double work[TORSION_MODES][TORSION_TWISTS];
+    double same, other; /* h_p against itself and against h_q in int (lambda^2 h h + h' h') dx */
 } torsion_integrals;
 
-/* Torque modes t_k(x) = sum_i t[k][i] x^i.  lambda INFINITY: nothing warps, compliance = int t_k t_l and nothing at the ends. */
+/* Torque modes t_k(x) = sum_i t[k][i] x^i, whole numbers.  lambda INFINITY: nothing warps, the twist of phi_x is uniform. */
 status torsion_integrate(double lambda, const double t[TORSION_MODES][TORSION_DEGREE + 1], torsion_integrals *out, fault *f);
 
 #endif
