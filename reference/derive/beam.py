@@ -1,10 +1,13 @@
 """The geometrically exact (Simo-Reissner) beam with warping: its differential equations, and their spectral integration.
 
-State y(s) = (r, q, kx, B); F constant, m(s) = m0 - r x F in fixed axes; N = R^T F, M = R^T m;
-  gx = Nx/EA - t kx^2/2, gy = Ny/GAy, gz = Nz/GAz, ky = My/EIy, kz = Mz/EIz + kz0,
-  r' = R (ex + g), q' = q o (0, k)/2, EIw kx' = B, B' = (GJ + t Nx) kx + 4 c kx^3 - Mx   (warping restrained)
-  or Mx = (GJ + t Nx) kx + 4 c kx^3                                                    (uniform torsion, EIw = 0).
-t = Ip/A (trapeze term), c = E int (y^2 + z^2 - Ip/A)^2 dA/8 (Wagner torque); N Eqs. 46-47 with the sign of u_y corrected.
+State y(s) = (r, q, a, B), r on the line of centroids; F constant, m(s) = m0 - r x F in fixed axes; N = R^T F, M = R^T m;
+  gx = Nx/EA - t kx^2/2, ky = My/EIy - by kx^2/2, kz = Mz/EIz + kz0 + bz kx^2/2,
+  Mw = Mx + zs Ny - ys Nz - (GJ + t Nx + by My - bz Mz) kx - 4 c kx^3,
+  (gy - zs kx, gz + ys kx, kx - a) = f (Ny, Nz, Mw)   (strains at the shear centre and of warping; f = F/G, zero: rigid),
+  r' = R (ex + g), q' = q o (0, k)/2, EIw a' = B, B' = -Mw; uniform torsion, EIw = 0: Mw = 0.
+With p^2 the square of the distance from the shear centre: t its mean (trapeze term), bz = int y p^2/Iz, by = int z p^2/Iy
+(Wagner moments; J keeps -2 ys and -2 zs of them), c = E int (y^2 + z^2 - Ip/A)^2 dA/8 (Wagner torque, ys = zs = 0); N Eqs. 46-47 with
+the sign of u_y corrected; J's strains with shear in stability after Haringx.
 
 Each of several intervals is integrated from values at Chebyshev points, Y_j = y_0 + h sum_k W_jk f(Y_k), with W exact
 for the interpolating polynomial; derivatives are complex steps, which cost no digits.
@@ -15,21 +18,23 @@ STEP = 1e-30
 
 
 class Beam:
-    """Stiffnesses in SI; shear compliances fy, fz may be zero (rigid); EIw = 0: uniform torsion."""
+    """Stiffnesses in SI; shear: 3 x 3 compliance f of (y, z, w), or fy and fz alone; EIw = 0: uniform torsion."""
 
-    def __init__(self, length, EA, EIy, EIz, GJ, fy=0.0, fz=0.0, EIw=0.0, t=0.0, c=0.0, curvature=0.0):
+    def __init__(self, length, EA, EIy, EIz, GJ, fy=0.0, fz=0.0, EIw=0.0, t=0.0, c=0.0, curvature=0.0, centre=(0.0, 0.0), shear=None, wagner=(0.0, 0.0)):
         self.length, self.EA, self.EIy, self.EIz, self.GJ = length, EA, EIy, EIz, GJ
-        self.fy, self.fz, self.EIw, self.t, self.c, self.curvature = fy, fz, EIw, t, c, curvature
+        self.f = np.diag([fy, fz, 0.0]) if shear is None else np.array(shear, dtype=float)
+        self.EIw, self.t, self.c, self.curvature, self.centre, self.wagner = EIw, t, c, curvature, centre, wagner  # wagner = (by, bz)
 
     def scaled(self, length, force):
         """The same beam in units of length and force; stiffness becomes compliance where it may be infinite."""
         moment = force * length
         s = Scaled()
         s.length, s.warps = self.length / length, self.EIw > 0
-        s.a, s.fy, s.fz = force / self.EA, self.fy * force, self.fz * force
+        dimension = np.array([1.0, 1.0, length])
+        s.a, s.f = force / self.EA, self.f * force * np.outer(dimension, dimension)
         s.by, s.bz, s.gj = moment * length / self.EIy, moment * length / self.EIz, self.GJ / (moment * length)
         s.iw, s.t, s.c = self.EIw / (moment * length ** 3), self.t / length ** 2, self.c / (moment * length ** 3)
-        s.curvature = self.curvature * length
+        s.curvature, s.centre, s.wagner = self.curvature * length, np.array(self.centre) / length, np.array(self.wagner) / length
         return s
 
 
@@ -40,24 +45,38 @@ class Scaled:
     def states(self):
         return 9 if self.warps else 7
 
-    def _twist(self, Mx, Nx):
-        """kx of uniform torsion."""
-        k = Mx / (self.gj + self.t * Nx)
+    def _twist(self, torque, rigidity, N, a):
+        """kx from kx - a = f (Ny, Nz, Mw), or from Mw = 0 in uniform torsion."""
+        f = self.f[2]
+        if not self.warps:
+            scale, given = rigidity, torque
+            cubic = 4 * self.c
+        elif not np.any(f):
+            return a
+        else:
+            scale, given = 1 + f[2] * rigidity, a + f[0] * N[1] + f[1] * N[2] + f[2] * torque
+            cubic = 4 * self.c * f[2]
+        k = given / scale
         for _ in range(40 if self.c else 0):
-            k = k - ((self.gj + self.t * Nx) * k + 4 * self.c * k ** 3 - Mx) / (self.gj + self.t * Nx + 12 * self.c * k ** 2)
+            k = k - (scale * k + cubic * k ** 3 - given) / (scale + 3 * cubic * k ** 2)
         return k
 
     def slope(self, y, p):
         """dy/ds, s in [0, 1]; y [states, many], p [6, many] = (F, m0)."""
         R, F = rotation(y[3:7]), p[:3]
+        ys, zs = self.centre
         m = p[3:] - np.cross(y[:3], F, axis=0)
         N, M = np.einsum("ijk,ik->jk", R, F), np.einsum("ijk,ik->jk", R, m)
-        kx = y[7] if self.warps else self._twist(M[0], N[0])
-        g = np.array([1 + self.a * N[0] - self.t * kx * kx / 2, self.fy * N[1], self.fz * N[2]])
-        k = np.array([kx, self.by * M[1], self.bz * M[2] + self.curvature])
+        torque = M[0] + zs * N[1] - ys * N[2]
+        rigidity = self.gj + self.t * N[0] + self.wagner[0] * M[1] - self.wagner[1] * M[2]
+        kx = self._twist(torque, rigidity, N, y[7] if self.warps else None)
+        Mw = torque - rigidity * kx - 4 * self.c * kx ** 3 if self.warps else 0 * kx
+        sheared = [self.f[i, 0] * N[1] + self.f[i, 1] * N[2] + self.f[i, 2] * Mw for i in range(2)]
+        g = np.array([1 + self.a * N[0] - self.t * kx * kx / 2, sheared[0] + zs * kx, sheared[1] - ys * kx])
+        k = np.array([kx, self.by * M[1] - self.wagner[0] * kx * kx / 2, self.bz * M[2] + self.curvature + self.wagner[1] * kx * kx / 2])
         out = [np.einsum("ijk,jk->ik", R, g), product(y[3:7], np.concatenate([np.zeros_like(k[:1]), k])) / 2]
         if self.warps:
-            out.append(np.array([y[8] / self.iw, (self.gj + self.t * N[0]) * kx + 4 * self.c * kx ** 3 - M[0]]))
+            out.append(np.array([y[8] / self.iw, -Mw]))
         return self.length * np.concatenate(out)
 
     def slope_and_derivatives(self, y, p):

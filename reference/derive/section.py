@@ -58,7 +58,7 @@ def section(points, walls):
     iyz = area_integral(lambda i, j, s: at(y, i, j, s) * at(z, i, j, s))
     beta = atan2(2 * iyz, izz - iyy) / 2 if abs(iyz) > mp.eps * (iyy + izz) else mpf(0)
     y, z = ([cos(beta) * a + sin(beta) * b for a, b in zip(y, z)], [-sin(beta) * a + cos(beta) * b for a, b in zip(y, z)])
-    out.beta = beta
+    out.beta, out.points = beta, list(zip(y, z))
     out.Iy = area_integral(lambda i, j, s: at(z, i, j, s) ** 2)
     out.Iz = area_integral(lambda i, j, s: at(y, i, j, s) ** 2)
     out.Ip = out.Iy + out.Iz

@@ -85,7 +85,7 @@ class Sheet(unittest.TestCase):
         root, tip = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body((beam.length, 0, 0))
         net.member(beam, root, tip, (0, 0, 0), np.eye(3))
         C = net.response(1.0, tip, {})
-        self.assertAlmostEqual(C[2, 2] / (beam.length ** 3 / (3 * beam.EIy) + beam.length * beam.fz), 1, delta=1e-12)
+        self.assertAlmostEqual(C[2, 2] / (beam.length ** 3 / (3 * beam.EIy) + beam.length * beam.f[1, 1]), 1, delta=1e-12)
         self.assertAlmostEqual(C[0, 0] / (beam.length / beam.EA), 1, delta=1e-12)
         rate = beam.length * math.sqrt(beam.GJ / beam.EIw)  # both ends cannot warp
         self.assertAlmostEqual(C[3, 3] / (beam.length / beam.GJ * (1 - math.tanh(rate / 2) / (rate / 2))), 1, delta=1e-11)

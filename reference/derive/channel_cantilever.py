@@ -1,0 +1,53 @@
+"""Channel cantilever under a dead tip force parallel to its web (J section 5.2): force at given deflections of the loaded point.
+
+The geometrically exact beam with eccentric shear centre and warping; root clamped and unable to warp, tip free to warp.  The
+end section is rigid, the force follows its point D (top of the web) or E (bottom).  Kept, as in J: shortening by twist and the
+part -2 ys of the Wagner moments; left out: int y (y^2 + z^2) dA and the Wagner torque.  Shear in stability after Haringx.
+"""
+import numpy as np
+
+from reference.derive.beam import Beam
+from reference.derive.network import Network, clamped
+from reference.derive.section import channel
+from reference.derive.sheets import parameters
+
+E, G, LENGTH = 210e9, 80.77e9, 9.0
+SIZES = {"overall": ("0.284", "0.095"), "centreline": ("0.3", "0.1")}
+RELATIVE = 1e-9
+
+
+def channel_beam(sizes, shear):
+    """(beam, half the height, y of the web) of flanges 16 mm and web 10 mm thick."""
+    s = channel(*SIZES[sizes], "0.016", "0.010")
+    ys, zs = float(s.ys), float(s.zs)
+    beam = Beam(LENGTH, EA=E * float(s.A), EIy=E * float(s.Iy), EIz=E * float(s.Iz), GJ=G * float(s.It), EIw=E * float(s.Iw),
+                t=float(s.Ip / s.A) + ys ** 2 + zs ** 2, centre=(ys, zs), wagner=(-2 * zs, -2 * ys), shear=np.array((s.F / G).tolist(), dtype=float) * shear)
+    return beam, float(SIZES[sizes][0]) / 2, float(s.points[1][0])
+
+
+def load_at(deflections, sizes="overall", load_point="D", shear=0, intervals=6, nodes=11):
+    """Force [N] at each deflection [m], found along the path in small steps so that no branch is jumped."""
+    beam, half, web = channel_beam(sizes, shear)
+    net = Network(LENGTH, beam.EIz / LENGTH ** 2, numbers=[0.0], intervals=intervals, nodes=nodes)
+    arm = np.array([0, web, half if load_point == "D" else -half]) / LENGTH
+
+    def loaded(level, x, R, force, moment, numbers):
+        pull = np.array([0 * numbers[0], 0 * numbers[0], -numbers[0]])
+        return np.concatenate([force - pull, moment - np.cross(R @ arm, pull)])
+    root, tip = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body((LENGTH, 0, 0), loaded)
+    net.member(beam, root, tip, (0, 0, 0), np.eye(3), ("fixed", "free"))
+    net.extra = [(tip, lambda level, x, R, force, moment, numbers: [x[2] + (R @ arm)[2] - arm[2] + level])]
+    out, at = [], 0.0
+    for w in deflections:
+        while at < w - 1e-12:
+            at = min(at + (0.01 if at < 0.4 else 0.05), w)
+            net.solve((at / LENGTH,), tolerance=1e-11 if at == w else 1e-7)
+        out.append(net.numbers[0] * net.force)
+    return out
+
+
+def rows():
+    deflections = (0.125, 0.25, 0.5, 1.0, 1.5, 2.0, 2.5)
+    for given, last in (({}, 7), ({"load_point": "E"}, 4), ({"sizes": "centreline"}, 7), ({"shear": 1}, 7)):
+        for w, force in zip(deflections, load_at(deflections[:last], **given)):
+            yield "c_cantilever", parameters({**given, **({"w": w} if w != 0.5 else {})}), "load_at_w", force, "N", RELATIVE
