@@ -98,6 +98,24 @@ static status run_lanczos(pairs *p, int wanted, double least, long *solutions, f
     return outcome;
 }
 
+/* How many eigenvalues exist, as far as `enough`: counted above ever smaller values. Far down, where K is small beside A/s, the
+ * count may fail for want of pivoting: what is known by then stands. */
+static status count_existing(pairs *p, int enough, double scale, double least, int *exist, eigen_result *r, fault *f)
+{
+    const double step = 30;
+    *exist = 0;
+    for (double s = scale; *exist < enough && s > least;) {
+        int above = 0;
+        s = fmax(s / step, least);
+        const status outcome = pairs_above(p, s, &above, r, f);
+        if (outcome == STATUS_FAULT)
+            return outcome;
+        if (outcome == STATUS_OK && above > *exist)
+            *exist = above;
+    }
+    return STATUS_OK;
+}
+
 /* Candidates of one side, until the inertia says that no eigenvalue above the last wanted one is missing. */
 static status one_sparse(pairs *p, int wanted, eigen_result *r, fault *f)
 {
@@ -105,8 +123,8 @@ static status one_sparse(pairs *p, int wanted, eigen_result *r, fault *f)
     if (scale == 0)
         return STATUS_OK;
     const double least = fmax(negligible * scale, least_of(p->n, scale));
-    int exist = 0;
-    status outcome = pairs_above(p, least, &exist, r, f);
+    int exist;
+    status outcome = count_existing(p, wanted + SPARE, scale, least, &exist, r, f);
     const int asked = wanted < exist ? wanted : exist;
     int missing = wanted + SPARE < exist ? wanted + SPARE : exist;
     for (int pass = 0; outcome == STATUS_OK && missing > 0; pass++) {

@@ -87,6 +87,34 @@ static void test_both_signs(void)
     matrices_free(&A);
 }
 
+/* Two strings that only A couples, one with the slope of the other: every value is double and comes with both signs. */
+static void test_coupled_strings(int masses)
+{
+    enum { WANTED = 3 };
+    strings s;
+    eigen_result sparse_way = {0}, dense_way = {0};
+    fault f = {""};
+    strings_init(&s, 2, masses, 0);
+    sparse_zero(&s.M);
+    for (int i = 1; i < masses; i++) {
+        matrices_add(&s.M, 2 * (i - 1), 2 * i + 1, 1);
+        matrices_add(&s.M, 2 * i, 2 * (i - 1) + 1, -1);
+    }
+    eigen_problem p = {.K = &s.K, .A = &s.M, .sign = 1, .largest = WANTED, .smallest = WANTED, .iterate = 1};
+    gsl_test_int((int)eigen_problems_solve(&p, &sparse_way, &f), STATUS_OK, "coupled strings of %d, sparse: %s", masses, f.text);
+    gsl_test(sparse_way.positive.count != WANTED || sparse_way.negative.count != WANTED, "coupled strings of %d: all found",
+             masses);
+    p.largest = p.smallest = s.K.n;
+    gsl_test_int((int)eigen_problems_solve(&p, &dense_way, &f), STATUS_OK, "coupled strings of %d, dense: %s", masses, f.text);
+    for (int i = 0; i < WANTED && sparse_way.positive.count == WANTED && sparse_way.negative.count == WANTED; i++) {
+        gsl_test_rel(sparse_way.positive.mu[i], dense_way.positive.mu[i], 1e-12, "coupled strings: positive value %d", i);
+        gsl_test_rel(sparse_way.negative.mu[i], dense_way.negative.mu[i], 1e-12, "coupled strings: negative value %d", i);
+    }
+    eigen_free(&sparse_way);
+    eigen_free(&dense_way);
+    strings_free(&s);
+}
+
 /* A of rank 3 (two positive, one negative value): what does not exist is not found. */
 static void test_rank(int iterate)
 {
@@ -172,6 +200,8 @@ int main(void)
     test_strings(1, 3000, 0, 12, 0, 1e-11);
     test_strings(3, 1000, 0, 12, 0, 1e-11);
     test_both_signs();
+    test_coupled_strings(60);
+    test_coupled_strings(61);
     test_rank(0);
     test_rank(1);
     test_missed_copies();
