@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from reference.derive.network import Network, clamped, free
+from reference.derive.network import Network, clamped
 from reference.derive.sheets import parameters, sheet
 
 RELATIVE = 1e-10
@@ -51,11 +51,6 @@ def add_joint(net, beam, given, centre, axes, base, effector, name):
     for k in range(3):
         fold(net, beam, given, centre, axes, first + 2 * math.pi * (k + 0.5) / 3, True, (middle, effector), f"{name}.{k + 3}")
     return middle
-
-
-def held_rotation(level, x, R, force, moment, numbers):
-    """For the response: any force, no change of rotation."""
-    return np.concatenate([force, [R[2, 1], R[0, 2], R[1, 0]]])
 
 
 def turned(given):

@@ -120,7 +120,8 @@ def frame_rows():
     E, nu, b, t, length = mpf(71240) * 10 ** 6, mpf("0.31"), mpf("0.03"), mpf("0.0006"), mpf("0.24")
     EI, GJ = E * b * t ** 3 / 12, E / (2 * (1 + nu)) * b * t ** 3 / 3
     scale = sqrt(EI * GJ) / length
-    yield "right_angle_frame", "", "critical_moment", scale * findroot(lambda g: frame_determinant(g * scale, EI, GJ, length) / scale, (mpf("3.0"), mpf("3.3")), tol=mpf(10) ** -25, solver="anderson"), "N m"
+    root = findroot(lambda g: frame_determinant(g * scale, EI, GJ, length) / scale, (mpf("3.0"), mpf("3.3")), tol=mpf(10) ** -25, solver="anderson")
+    yield "right_angle_frame", "", "critical_moment", scale * root, "N m"
 
 
 def rows():

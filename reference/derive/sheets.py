@@ -90,8 +90,8 @@ def rows():
                   {"warping": 0, "trapeze": 0, "shear_factor": 0.8333333333333334}, {"length": 0.05, "tip_deflection": 0.0075}, {"width": 0.02}, {"thickness": 0.0005}):
         yield from cantilever(**given)
     for deflection in (0.005, 0.01):
-        for free in (0, 1):
-            given = {"tip_deflection": deflection, "tip_warping": 1} if free else {"tip_deflection": deflection}
+        for tip in (0, 1):
+            given = {"tip_deflection": deflection, "tip_warping": 1} if tip else {"tip_deflection": deflection}
             yield from (row for row in cantilever(**given) if row[2] in ("C_xx", "C_zz"))
     for given in ({}, {"wagner": 0}, {"tip_warping": 1}, {"wagner": 0, "tip_warping": 1}):
         yield from twisted(**given)
