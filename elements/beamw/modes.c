@@ -13,18 +13,16 @@ typedef struct chord {
     double e1;      /* l - l0 */
 } chord;
 
-/* l - l0 = (2 d0 + Du) . Du/(l + l0): no difference of nearly equal lengths. */
 static chord chord_of(double l0, const node_state x[2])
 {
     chord c;
-    double d[3], sum = 0;
+    double d[3], moved[3];
     for (int i = 0; i < 3; i++) {
-        const double moved = x[1].u[i] - x[0].u[i];
+        moved[i] = x[1].u[i] - x[0].u[i];
         d[i] = x[1].r[i] - x[0].r[i];
-        sum += (2 * d[i] - moved) * moved;
     }
     c.l = sqrt(vec3_dot(d, d));
-    c.e1 = sum / (c.l + l0);
+    c.e1 = vec3_elongation(d, moved, l0);
     for (int i = 0; i < 3; i++)
         c.n[i] = d[i] / c.l;
     return c;

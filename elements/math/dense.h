@@ -22,6 +22,13 @@ static inline double vec3_norm(const double a[3])
     return hypot(hypot(a[0], a[1]), a[2]);
 }
 
+/* |d| - l0 for d = d0 + moved, |d0| = l0: (2 d - moved) . moved/(|d| + l0), no difference of nearly equal lengths. */
+static inline double vec3_elongation(const double d[3], const double moved[3], double l0)
+{
+    const double sum[3] = {2 * d[0] - moved[0], 2 * d[1] - moved[1], 2 * d[2] - moved[2]};
+    return vec3_dot(sum, moved) / (sqrt(vec3_dot(d, d)) + l0);
+}
+
 static inline void mat3_mul(const double A[9], const double B[9], double C[9]) /* C = A B, no alias */
 {
     for (int i = 0; i < 3; i++)

@@ -11,11 +11,10 @@
 void local_of(double l0, const node_state x[2], local_state *out)
 {
     const double *p = x[0].R, *q = x[1].R;
-    double d[3], moved[3], sum[3], D[3], F[3][3], M[9];
+    double d[3], moved[3], D[3], F[3][3], M[9];
     for (int i = 0; i < 3; i++) {
         d[i] = x[1].r[i] - x[0].r[i];
         moved[i] = x[1].u[i] - x[0].u[i];
-        sum[i] = 2 * d[i] - moved[i];
     }
     mat3_transpose_mul_vec(p, d, D);
     const double l = sqrt(vec3_dot(d, d)), h = sqrt(D[0] * D[0] + D[1] * D[1]);
@@ -30,7 +29,7 @@ void local_of(double l0, const node_state x[2], local_state *out)
     mat3_transpose_mul(out->F, q, M);
     const double m = sqrt(M[0] * M[0] + M[6] * M[6]);
     out->l = l;
-    out->q[LOCAL_U] = vec3_dot(sum, moved) / (l + l0); /* l - l0, without a difference of nearly equal lengths */
+    out->q[LOCAL_U] = vec3_elongation(d, moved, l0);
     out->q[LOCAL_YP] = atan2(D[2], h);
     out->q[LOCAL_ZP] = atan2(-D[1], D[0]);
     out->q[LOCAL_YQ] = atan2(-M[6], M[0]);
