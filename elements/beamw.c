@@ -15,7 +15,7 @@ const element_type element_beamw = {
     .abi = ELEMENT_ABI,
     .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_HARINGX | FEATURE_WARPING | FEATURE_ECCENTRIC |
               FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
-    .limits = 0,
+    .limits = LIMIT_QUARTER_TURN,
     .options = prepare_options,
     .data_size = forms_data_size,
     .prepare = prepare,

@@ -52,6 +52,7 @@ enum element_limit {
     LIMIT_UNSYMMETRIC_TANGENT = 1 << 2, /* the stress function's Jacobian is not symmetric */
     LIMIT_ORDER_DEPENDENT = 1 << 3,     /* exchanging p and q changes the answer (by a discretisation error) */
     LIMIT_SMALL_DEFORMATION = 1 << 4,   /* rigid motion changes strains only through truncated terms: none known */
+    LIMIT_QUARTER_TURN = 1 << 6, /* strains are sines of the turn between the nodes: beyond pi/2 another state has the same ones */
     LIMIT_NO_STRESS_FREE_SHEAR = 1 << 5 /* shear-rigid by construction */
 };
 

@@ -196,6 +196,37 @@ double model_driver_value(const model *m, const model_state *s, int driver)
     return s->driver[driver];
 }
 
+/* Cosine of the angle between an element's chord and the x axis of one of its nodes. */
+static double chord_cosine(const model *m, const model_state *s, const mesh_element *el, int node)
+{
+    double p[3], q[3], d[3], axis[3];
+    const double *triad = el->triad[node], x[3] = {triad[0], triad[3], triad[6]};
+    kinematics_position(m, s, el->vertex[0], p);
+    kinematics_position(m, s, el->vertex[m->nodes - 1], q);
+    for (int i = 0; i < 3; i++)
+        d[i] = q[i] - p[i];
+    rotation_apply(&s->q[4 * el->vertex[node]], x, axis);
+    return vec3_dot(d, axis) / vec3_norm(d);
+}
+
+double model_largest_turn(const model *m, const model_state *s, int *index)
+{
+    double least = 1; /* cosine */
+    *index = 0;
+    for (int i = 0; i < m->elements; i++) {
+        const mesh_element *el = &m->element[i];
+        const int last = m->nodes - 1;
+        const double *p = &s->q[4 * el->vertex[0]], *q = &s->q[4 * el->vertex[last]];
+        const double w = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3]; /* cosine of half the turn between the nodes */
+        const double cosine = fmin(2 * w * w - 1, fmin(chord_cosine(m, s, el, 0), chord_cosine(m, s, el, last)));
+        if (!(cosine >= least)) {
+            least = cosine;
+            *index = i;
+        }
+    }
+    return acos(fmax(-1, least));
+}
+
 int model_coordinate(const model *m, int node, int component)
 {
     return m->vertex[node].body == node ? m->vertex[node].coordinate[component] : NONE;

@@ -124,6 +124,11 @@ int model_left_out(const model *m, const char *const **lines)
     return m->lines;
 }
 
+unsigned model_limits(const model *m)
+{
+    return m->type->limits;
+}
+
 counters *model_counters(model *m)
 {
     return &m->counters;

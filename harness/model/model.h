@@ -71,6 +71,10 @@ void model_frame(const model *, const model_state *, int node, double r[3], doub
 double model_component(const model *, const model_state *, int node, int component);
 double model_driver_value(const model *, const model_state *, int driver);
 
+unsigned model_limits(const model *); /* LIMIT_* of its formulation */
+/* Largest angle [rad] that an element's nodes have turned against each other, or against its chord, and that element. */
+double model_largest_turn(const model *, const model_state *, int *element_index);
+
 /* Coordinate index of a component of a node, or -1 where it is held, or dependent. */
 int model_coordinate(const model *, int node, int component);
 /* Jacobian of the node's six spatial increments with respect to the coordinates it depends on:

@@ -175,6 +175,18 @@ static status iterate(newton *n, double path, double *correction, step_record *r
     return isfinite(*correction) ? STATUS_OK : fault_set(f, STATUS_NOT_CONVERGED, "the corrections are not finite");
 }
 
+/* A formulation whose strains are sines of the turn can converge to a state it cannot tell from the right one. */
+static status judge_turns(const newton *n, double path, fault *f)
+{
+    const double quarter = 1.57079632679489661923;
+    int element = 0;
+    if (!(model_limits(n->c->model) & LIMIT_QUARTER_TURN) || model_largest_turn(n->c->model, n->state, &element) < quarter)
+        return STATUS_OK;
+    return fault_set(f, STATUS_NOT_CONVERGED,
+                     "element %d is turned by more than a quarter turn at path %g: use more elements or smaller steps", element,
+                     path);
+}
+
 /* Newton to `path`: converged, or NOT_CONVERGED with the reason. */
 static status step_to(newton *n, double path, step_record *record, fault *f)
 {
@@ -187,7 +199,7 @@ static status step_to(newton *n, double path, step_record *record, fault *f)
         if (outcome != STATUS_OK)
             return outcome;
         if (correction <= n->criterion)
-            return STATUS_OK;
+            return judge_turns(n, path, f);
         growing = correction > last && i > 1 ? growing + 1 : 0;
         if (correction > wild * 4 || (i > 2 && correction > wild) || growing >= 4)
             return fault_set(f, STATUS_NOT_CONVERGED, "Newton diverged at path %g: correction %.1e in iteration %d", path,
