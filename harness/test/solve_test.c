@@ -86,8 +86,8 @@ static void frame_of_strips(void)
 /* Equal elements round alike: their errors add up to much more than independent ones, and the inertia is that of the sums. */
 static void equal_elements(void)
 {
-    const double factor = value_of("lateral_buckling", "geometrically_exact", 256, 0, "load=mid", "load_factor", NULL);
-    gsl_test_rel(factor, 16.93613215047, 1e-6, "lateral buckling with 512 elements");
+    const double critical = value_of("lateral_buckling", "geometrically_exact", 256, 0, "load=mid", "load_factor", NULL);
+    gsl_test_rel(critical, 16.93613215047, 1e-6, "lateral buckling with 512 elements");
 }
 
 int main(void)
