@@ -12,7 +12,7 @@
 enum { DENSE_UP_TO = 80, SPARE = 2, MAX_PASSES = 8 };
 
 /* Of an eigenvalue, in parts of itself. */
-static const double largest_error = 1e-7;
+static const double largest_error = 1e-6;
 
 /* Part of the largest size of an eigenvalue below which none is looked for by iteration. */
 static const double negligible = 1e-9;

@@ -25,7 +25,7 @@ status pairs_alloc(pairs *p, const eigen_problem *problem, double sign, fault *f
 
 void pairs_free(pairs *p)
 {
-    void *const all[] = {p->mu, p->noise, p->stiffness, p->x, p->Kx, p->work, p->form};
+    void *const all[] = {p->mu, p->matrix_mu, p->noise, p->stiffness, p->x, p->Kx, p->work, p->form};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         free(all[i]);
     sparse_free_values(&p->shifted);
@@ -44,8 +44,8 @@ static int grow(double **list, size_t count)
 static status make_room(pairs *p, int room, fault *f)
 {
     const size_t count = (size_t)room, numbers = count * (size_t)p->n;
-    if (room > p->room && !(grow(&p->mu, count) && grow(&p->noise, count) && grow(&p->stiffness, count) && grow(&p->x, numbers) &&
-                            grow(&p->Kx, numbers)))
+    if (room > p->room && !(grow(&p->mu, count) && grow(&p->matrix_mu, count) && grow(&p->noise, count) &&
+                            grow(&p->stiffness, count) && grow(&p->x, numbers) && grow(&p->Kx, numbers)))
         return fault_set(f, STATUS_FAULT, "out of memory for %d eigenvectors", room);
     p->room = room > p->room ? room : p->room;
     return STATUS_OK;
@@ -91,8 +91,8 @@ static void sort_last(pairs *p)
 {
     const size_t n = (size_t)p->n;
     for (int i = p->count - 1; i > 0 && p->mu[i] > p->mu[i - 1]; i--) {
-        double *const numbers[] = {p->mu, p->noise, p->stiffness}, *const vectors[] = {p->x, p->Kx};
-        for (int k = 0; k < 3; k++) {
+        double *const numbers[] = {p->mu, p->matrix_mu, p->noise, p->stiffness}, *const vectors[] = {p->x, p->Kx};
+        for (int k = 0; k < 4; k++) {
             const double kept = numbers[k][i];
             numbers[k][i] = numbers[k][i - 1];
             numbers[k][i - 1] = kept;
@@ -159,6 +159,7 @@ status pairs_add(pairs *p, int count, const double x[], double least, fault *f)
             continue;
         p->mu[p->count] = mu;
         p->stiffness[p->count] = stiffness;
+        p->matrix_mu[p->count] = p->sign * form_of(p, NULL, e->A, vector, p->form);
         p->noise[p->count] = rounding(p, mu, vector);
         p->count++;
         sort_last(p);
@@ -207,20 +208,24 @@ status pairs_above(pairs *p, double s, int *above, eigen_result *work, fault *f)
     return outcome;
 }
 
-/* Number of candidates above the cluster that the one of rank `wanted` belongs to. */
-static int above_cluster(const pairs *p, int wanted)
+/* Number of candidates above the cluster that the one of rank `wanted` belongs to, and the largest value of the cluster. */
+static int above_cluster(const pairs *p, int wanted, double *top)
 {
+    const double *mu = p->matrix_mu;
     int q = wanted - 1;
-    while (q > 0 && p->mu[q - 1] - p->mu[q] <= (close + 16 * fmax(p->noise[q - 1], p->noise[q])) * p->mu[q - 1])
-        q--;
+    *top = mu[q];
+    while (q > 0 && mu[q - 1] - *top <= (close + 16 * fmax(p->noise[q - 1], p->noise[q])) * mu[q - 1])
+        *top = fmax(*top, mu[--q]);
     return q;
 }
 
+/* The inertia is that of the matrices: so are the values between which it is counted. */
 status pairs_missing(pairs *p, int wanted, int *missing, eigen_result *work, fault *f)
 {
     static const double place[] = {0.5, 0.35, 0.65};
-    const int q = above_cluster(p, wanted);
-    const double low = p->mu[q], high = q > 0 ? p->mu[q - 1] : low * (1 + 2 * close + 32 * p->noise[q]);
+    double low;
+    const int q = above_cluster(p, wanted, &low);
+    const double high = q > 0 ? p->matrix_mu[q - 1] : low * (1 + 2 * close + 32 * p->noise[q]);
     int above = 0;
     *missing = -1;
     for (int i = 0; i < 3 && *missing != 0; i++) { /* a count that does not fit is not believed at once: there is no pivoting */

@@ -90,6 +90,13 @@ static void frame_of_strips(void)
     }
 }
 
+/* Equal elements round alike: their errors add up to much more than independent ones, and the inertia is that of the sums. */
+static void equal_elements(void)
+{
+    const double critical = value_of("lateral_buckling", "geometrically_exact", 256, 0, "load=mid", "load_factor", NULL);
+    gsl_test_rel(critical, 16.93613215047, 1e-6, "lateral buckling with 512 elements");
+}
+
 int main(void)
 {
     leaving_out_changes_nothing();
@@ -97,5 +104,6 @@ int main(void)
     no_element_is_turned_round();
     fine_mesh();
     frame_of_strips();
+    equal_elements();
     return gsl_test_summary();
 }
