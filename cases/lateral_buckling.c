@@ -8,7 +8,8 @@ enum { LOAD, K };
 enum { TIP, DISTRIBUTED, MID, MID_DISTRIBUTED };
 
 static const case_parameter parameters[] = {
-    [LOAD] = {"load", "", TIP, 0, 0, "tip|distributed|mid|mid_distributed", "cantilever with a tip or a distributed load; simply supported beam with a mid or a distributed load"},
+    [LOAD] = {"load", "", TIP, 0, 0, "tip|distributed|mid|mid_distributed",
+              "cantilever with a tip or a distributed load; simply supported beam with a mid or a distributed load"},
     [K] = {"K", "1", 0, 0, 1e6, NULL, "L^2 GJ/EIw; 0: nothing warps"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
@@ -29,7 +30,8 @@ static status build(const double value[], scene *s, fault *f)
     const int profile = scene_add_section(s, &spec);
     const double y_axis[3] = {0, 1, 0};
     const int start = scene_add_node(s, 0, 0, 0), middle = scene_add_node(s, 0.5, 0, 0), end = scene_add_node(s, 1, 0, 0);
-    const int first = scene_add_member(s, start, middle, profile, y_axis), second = scene_add_member(s, middle, end, profile, y_axis);
+    const int first = scene_add_member(s, start, middle, profile, y_axis),
+              second = scene_add_member(s, middle, end, profile, y_axis);
     scene_member_at(s, first)->warp_p = supported ? SCENE_WARP_FREE : SCENE_WARP_FIXED;
     scene_member_at(s, first)->warp_q = scene_member_at(s, second)->warp_p = middle;
     if (supported) {

@@ -31,7 +31,7 @@ static status build(const double value[], scene *s, fault *f)
     spec.kind = SECTION_RECTANGLE;
     spec.young = value[YOUNG];
     spec.shear_modulus = value[YOUNG] / (2 * (1 + value[POISSON]));
-    spec.width = value[DEPTH];       /* along the local z, which lies in the plane */
+    spec.width = value[DEPTH]; /* along the local z, which lies in the plane */
     spec.height = value[THICKNESS];
     spec.given.Iw = 0;
     spec.given.It = value[DEPTH] * pow(value[THICKNESS], 3) / 3;
