@@ -5,7 +5,7 @@ import pathlib
 
 import jinja2
 
-from reports import data, plots
+from reports import claims, data, plots
 from reports.style import Styles
 
 LEVELS = (0.1, 0.01, 0.001, 0.0001)
@@ -114,4 +114,5 @@ def build(results, truths, folder):
     errata = pathlib.Path(__file__).resolve().parents[1] / "reference" / "ERRATA.md"
     import markdown
     write(env, "errata.html", folder, "errata.html", body=markdown.markdown(errata.read_text(encoding="utf-8"), extensions=["tables"]))
-    return len(cases) + len(rows) + 2
+    write(env, "claims.html", folder, "claims.html", claims=claims.claims(cases), peers=claims.peers(cases))
+    return len(cases) + len(rows) + 3

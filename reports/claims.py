@@ -1,0 +1,87 @@
+"""What the papers claim, beside what is measured here; and other programs on the same case."""
+import csv
+import math
+import pathlib
+
+PEERS = pathlib.Path(__file__).resolve().parents[1] / "reference" / "peers.csv"
+
+
+class Lookup:
+    """Values, errors and times of cells by name."""
+
+    def __init__(self, cases):
+        self.points = {(c.name, canonical(p.parameters)): p for c in cases for p in c.points}
+
+    def mesh(self, case, parameters, key, n):
+        point = self.points.get((case, canonical(parameters)))
+        series = next((s for s in point.series if s.key == key), None) if point else None
+        return next((m for m in series.meshes if m.n == n), None) if series else None
+
+    def error(self, case, parameters, key, n, quantity):
+        mesh = self.mesh(case, parameters, key, n)
+        return mesh.errors.get(quantity, math.nan) if mesh else math.nan
+
+    def value(self, case, parameters, key, n, quantity):
+        mesh = self.mesh(case, parameters, key, n)
+        return mesh.values.get(quantity, math.nan) if mesh else math.nan
+
+
+def canonical(parameters):
+    return ";".join(sorted(p for p in parameters.split(";") if p))
+
+
+def percent(value):
+    return "–" if not math.isfinite(value) else f"{100 * value:+.2f} %"
+
+
+def sheets(look):
+    free, far = "tip_warping=1", "tip_deflection=0.05;tip_warping=1"
+    yield ("N 4.1: one third-order element within 0.8 % at 0.15 L (tip free to warp)", "0.8 %",
+           ", ".join(f"{q} {percent(look.error('sheet_cantilever', free, 'sheet_third', 1, q))}" for q in ("C_xx", "C_zz")))
+    yield ("N 4.1: within 2.4 % at 0.5 L", "2.4 %",
+           ", ".join(f"{q} {percent(look.error('sheet_cantilever', far, 'sheet_third', 1, q))}" for q in ("C_xx", "C_zz")))
+    yield ("N 4.1: the second order needs more than three elements", "> 3",
+           ", ".join(f"n = {n}: {percent(look.error('sheet_cantilever', free, 'sheet_second', n, 'C_zz'))}" for n in (1, 2, 3, 4)))
+    plate = 1.57061e-6
+    for wagner, claim in (("", "2.4 %"), (";wagner=0", "38 %")):
+        value = look.value("sheet_wagner", free + wagner, "sheet_third", 3, "C_ux_My")
+        yield (f"N 4.1: three elements {'without' if wagner else 'with'} the Wagner torque, du_x/dM_y against a plate", claim, percent(value / plate - 1))
+
+
+def joint(look):
+    published = (("sheet_third", "", 1, 9.77, 1.0), ("sheet_third", "", 2, 9.61, 3.3), ("sheet_second", "wagner=0", 1, 10.95, 0.9),
+                 ("sheet_second", "wagner=0", 2, 9.68, 3.1), ("sheet_second", "wagner=0", 4, 9.63, 9.6))
+    first = look.mesh("spherical_joint", "", "sheet_third", 1)
+    for key, parameters, n, maximum, time in published:
+        mesh = look.mesh("spherical_joint", parameters, key, n)
+        value = look.value("spherical_joint", parameters, key, n, "support_stiffness_max")
+        ratio = mesh.seconds / first.seconds if mesh and first else math.nan
+        yield (f"N 4.2: joint, {key}, {n} per sheet: maximum, relative time", f"{maximum} x 1e5 N/m, {time}", f"{value / 1e5:.3f} x 1e5 N/m, {ratio:.1f}")
+
+
+def column(look):
+    for key, parameters, loads in (("beamw", "section_data=printed", (12.86, 11.90)), ("beamw_vlasov", "shear=0", (18.34, 16.67))):
+        for n, load in zip((2, 4), loads):
+            yield f"J Table 2: {key}, {n} elements", f"{load:.2f} MN", f"{look.value('c_column', parameters, key, n, 'buckling_load') / 1e6:.3f} MN"
+    for i, (ours, published) in enumerate(((1, 33.23), (2, 67.17), (3, 99.03), (4, 102.79), (5, 169.05), (6, 178.01))):
+        value = look.value("c_column", "", "beamw_consistent", 64, f"frequency_{ours}")
+        yield f"J Table 3 (a): frequency {i + 1}", f"{published} Hz", f"{value:.2f} Hz"
+
+
+def claims(cases):
+    """[(claim, published, measured)] as far as the results reach."""
+    look = Lookup(cases)
+    rows = [row for family in (sheets, joint, column) for row in family(look)]
+    return [row for row in rows if "nan" not in row[2] and not row[2].endswith("–")]
+
+
+def peers(cases):
+    """[(program, n, unknowns, C_xx error, C_zz error, time)], ours and others', by unknowns."""
+    with open(PEERS, newline="", encoding="utf-8") as table:
+        rows = list(csv.DictReader(table))
+    out = [(r["program"], int(r["n"]), int(r["unknowns"]), float(r["C_xx"]) / 100, float(r["C_zz"]) / 100, float(r["milliseconds"]) / 1e3, False) for r in rows]
+    look = Lookup(cases)
+    point = look.points.get(("sheet_cantilever", canonical(rows[0]["parameters"])))
+    for series in point.series if point else []:
+        out += [(series.key, m.n, m.free, m.errors["C_xx"], m.errors["C_zz"], m.seconds, True) for m in series.meshes if math.isfinite(m.errors.get("C_zz", math.nan))]
+    return sorted(out, key=lambda row: (row[2], row[0]))
