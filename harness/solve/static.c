@@ -109,7 +109,7 @@ static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
 static status solve_dense(newton *n, model_linearisation *lin, fault *f)
 {
     model *m = n->c->model;
-    const size_t size = (size_t)(model_full_size(m) + lin->conditions);
+    const size_t size = (size_t)model_full_size(m) + (size_t)lin->conditions;
     if (n->dense == NULL) {
         n->dense = malloc(size * size * sizeof *n->dense);
         n->unknown = malloc(size * sizeof *n->unknown);
