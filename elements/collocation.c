@@ -23,7 +23,7 @@ static int stage_count(const double value[])
     return FEWEST + (int)value[OPTION_STAGES];
 }
 
-/* F (3), multiplier of the bimoment, rotation vectors of the inner nodes. */
+/* F (3), multiplier of the bimoment, x of the inner nodes. */
 static int inner_count(const double value[])
 {
     return 4 + 3 * (stage_count(value) - 1);
@@ -55,7 +55,7 @@ static void rest(const element_data *d, double inner[])
 {
     const stages *s = &d->stages;
     memset(inner, 0, 4 * sizeof *inner);
-    memcpy(inner + 4, s->rest_psi[1], 3 * (size_t)(s->stages - 1) * sizeof *inner);
+    memcpy(inner + 4, s->rest_x[1], 3 * (size_t)(s->stages - 1) * sizeof *inner);
 }
 
 /* Eliminates the unknowns: X [unknowns x (OUTER + 1)] = K_zz^-1 (K_ze | r_z). */

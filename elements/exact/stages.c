@@ -7,15 +7,15 @@
 #include "elements/exact/turn.h"
 #include "elements/math/dense.h"
 
-enum { PSI = 0, SLOPE = 3, F = 6, SPACE = 9 }; /* a point's variables: psi, psi' and F */
+enum { TURN = 0, SLOPE = 3, F = 6, SPACE = 9 }; /* a point's variables: x, x' and F */
 
 /* One Gauss point in the present state. */
 typedef struct stage {
-    double psi[3], slope[3], kappa[3], N[3];
-    turn_functions f;
+    double x[3], slope[3], kappa[3], N[3];
+    turn_form orientation, curvature;
 } stage;
 
-/* Sums over the points in terms of psi at the nodes. */
+/* Sums over the points in terms of x at the nodes. */
 typedef struct sums {
     double g[STAGES_NODES][3];               /* gradient */
     double X[STAGES_NODES][STAGES_NODES][9]; /* second derivatives, l >= k only */
@@ -24,7 +24,7 @@ typedef struct sums {
     double z[WARPING_MAX], dz[WARPING_MAX * STAGES_ALL]; /* arguments of the warping energy and their derivatives */
 } sums;
 
-/* psi at node k is `factor` times the variables from `first` on: its own, or psi_rel. */
+/* x at node k is `factor` times the variables from `first` on: its own, or 2 X. */
 static int variables(const stages *s, int k, double *factor)
 {
     const int end = k == 0 || k == s->stages;
@@ -63,15 +63,15 @@ static double material(const constants *c, const double kappa[3], const double N
            My * ky / 2 + Mz * kz / 2 + c->GJ * k * k / 2 + c->torque * k * k * k * k;
 }
 
-/* Derivatives of kappa and N with respect to (psi, psi', F). */
+/* Derivatives of kappa and N with respect to (x, x', F). */
 static void rows_of_point(const stage *p, const double force[3], double D[6][SPACE])
 {
     memset(D, 0, 6 * sizeof *D);
     for (int i = 0; i < 3; i++) {
         double unit[3] = {0};
         unit[i] = 1;
-        turn_gradient(p->psi, p->f.a, p->f.b, unit, p->slope, &D[i][PSI], &D[i][SLOPE]);
-        turn_gradient(p->psi, p->f.c, p->f.a, unit, force, &D[3 + i][PSI], &D[3 + i][F]);
+        turn_gradient(&p->curvature, p->x, unit, p->slope, &D[i][TURN], &D[i][SLOPE]);
+        turn_gradient(&p->orientation, p->x, unit, force, &D[3 + i][TURN], &D[3 + i][F]);
     }
 }
 
@@ -80,8 +80,8 @@ static void hessian_of_point(const stage *p, const double force[3], const double
                              double D[6][SPACE], double H[SPACE][SPACE])
 {
     double MD[6][SPACE], PP[9] = {0}, PS[9] = {0}, PF[9] = {0};
-    turn_add_hessian(p->psi, p->f.a, p->f.b, gradient, p->slope, PP, PS);
-    turn_add_hessian(p->psi, p->f.c, p->f.a, gradient + 3, force, PP, PF);
+    turn_add_hessian(&p->curvature, p->x, gradient, p->slope, PP, PS);
+    turn_add_hessian(&p->orientation, p->x, gradient + 3, force, PP, PF);
     for (int i = 0; i < 6; i++)
         for (int j = 0; j < SPACE; j++) {
             MD[i][j] = 0;
@@ -96,29 +96,29 @@ static void hessian_of_point(const stage *p, const double force[3], const double
         }
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
-            H[PSI + i][PSI + j] += w * PP[3 * i + j];
-            H[PSI + i][SLOPE + j] += w * PS[3 * i + j];
-            H[SLOPE + j][PSI + i] += w * PS[3 * i + j];
-            H[PSI + i][F + j] += w * PF[3 * i + j];
-            H[F + j][PSI + i] += w * PF[3 * i + j];
+            H[TURN + i][TURN + j] += w * PP[3 * i + j];
+            H[TURN + i][SLOPE + j] += w * PS[3 * i + j];
+            H[SLOPE + j][TURN + i] += w * PS[3 * i + j];
+            H[TURN + i][F + j] += w * PF[3 * i + j];
+            H[F + j][TURN + i] += w * PF[3 * i + j];
         }
 }
 
 static void add_point(int nodes, const double N[], const double dN[], const double gradient[SPACE], double H[SPACE][SPACE], sums *a)
 {
     for (int l = 0; l < nodes; l++) {
-        double psi[9], slope[9];
+        double turn[9], slope[9];
         for (int i = 0; i < 3; i++) {
-            a->g[l][i] += N[l] * gradient[PSI + i] + dN[l] * gradient[SLOPE + i];
+            a->g[l][i] += N[l] * gradient[TURN + i] + dN[l] * gradient[SLOPE + i];
             for (int j = 0; j < 3; j++) {
-                psi[3 * i + j] = H[PSI + i][PSI + j] * N[l] + H[PSI + i][SLOPE + j] * dN[l];
-                slope[3 * i + j] = H[SLOPE + i][PSI + j] * N[l] + H[SLOPE + i][SLOPE + j] * dN[l];
-                a->Y[l][3 * i + j] += N[l] * H[PSI + i][F + j] + dN[l] * H[SLOPE + i][F + j];
+                turn[3 * i + j] = H[TURN + i][TURN + j] * N[l] + H[TURN + i][SLOPE + j] * dN[l];
+                slope[3 * i + j] = H[SLOPE + i][TURN + j] * N[l] + H[SLOPE + i][SLOPE + j] * dN[l];
+                a->Y[l][3 * i + j] += N[l] * H[TURN + i][F + j] + dN[l] * H[SLOPE + i][F + j];
             }
         }
         for (int k = 0; k <= l; k++)
             for (int i = 0; i < 9; i++)
-                a->X[k][l][i] += N[k] * psi[i] + dN[k] * slope[i];
+                a->X[k][l][i] += N[k] * turn[i] + dN[k] * slope[i];
     }
     for (int i = 0; i < 3; i++) {
         a->gF[i] += gradient[F + i];
@@ -137,13 +137,13 @@ static void warping_row(const stages *s, int i, double D[6][SPACE], sums *a)
         double factor;
         const int first = variables(s, k, &factor);
         for (int j = 0; j < 3; j++)
-            dz[first + j] += factor * (s->N[i][k] * row[PSI + j] + s->dN[i][k] * row[SLOPE + j]);
+            dz[first + j] += factor * (s->N[i][k] * row[TURN + j] + s->dN[i][k] * row[SLOPE + j]);
     }
     for (int j = 0; j < 3; j++)
         dz[j] += row[F + j];
 }
 
-/* From psi at the nodes to the variables. */
+/* From x at the nodes to the variables. */
 static void gather(const stages *s, const sums *a, stages_derivatives *out)
 {
     const int n = s->unknowns + STAGES_OUTER;
@@ -201,20 +201,20 @@ static void add_warping(const stages *s, const sums *a, const double Sz[], stage
     dense_add_congruence(m, n, a->dz, s->S, out->hessian, work);
 }
 
-static void stage_at(const stages *s, int i, const double psi[], const double force[3], stage *p)
+static void stage_at(const stages *s, int i, const double x[], const double force[3], stage *p)
 {
     for (int j = 0; j < 3; j++) {
-        p->psi[j] = p->slope[j] = 0;
+        p->x[j] = p->slope[j] = 0;
         for (int k = 0; k <= s->stages; k++) {
-            p->psi[j] += s->N[i][k] * psi[3 * k + j];
-            p->slope[j] += s->dN[i][k] * psi[3 * k + j];
+            p->x[j] += s->N[i][k] * x[3 * k + j];
+            p->slope[j] += s->dN[i][k] * x[3 * k + j];
         }
     }
-    turn_functions_at(vec3_dot(p->psi, p->psi), &p->f);
-    turn_vector(p->psi, p->f.a[0], p->f.b[0], p->slope, p->kappa);
-    turn_vector(p->psi, p->f.c[0], p->f.a[0], force, p->N);
+    turn_forms(vec3_dot(p->x, p->x), &p->orientation, &p->curvature);
+    turn_vector(&p->curvature, p->x, p->slope, p->kappa);
+    turn_vector(&p->orientation, p->x, force, p->N);
     for (int j = 0; j < 3; j++)
-        p->kappa[j] -= s->rest_kappa[j];
+        p->kappa[j] -= s->rest_kappa[i][j];
 }
 
 /* Without bimoments: no multiplier, and amplitudes, if there are any, that nothing depends on. */
@@ -232,18 +232,18 @@ static void no_warping(const stages *s, const double e[], stages_derivatives *ou
 void stages_evaluate(const stages *s, const double e[], const double inner[], stages_derivatives *out)
 {
     const int last = s->stages, n = s->unknowns + STAGES_OUTER;
-    double psi[STAGES_NODES][3], torque[WARPING_MAX] = {0};
+    double x[STAGES_NODES][3], torque[WARPING_MAX] = {0};
     stage p[STAGES_MAX];
     sums a;
     memset(&a, 0, sizeof a);
     memset(out, 0, sizeof *out);
-    memcpy(psi[1], inner + 4, 3 * (size_t)(last - 1) * sizeof(double));
+    memcpy(x[1], inner + 4, 3 * (size_t)(last - 1) * sizeof(double));
     for (int i = 0; i < 3; i++) {
-        psi[last][i] = (s->line.rest[0][3 + i] + e[3 + i]) / 2;
-        psi[0][i] = -psi[last][i];
+        x[last][i] = (s->line.rest[0][3 + i] + e[3 + i]) / 2;
+        x[0][i] = -x[last][i];
     }
     for (int i = 0; i < last; i++)
-        stage_at(s, i, psi[0], inner, &p[i]);
+        stage_at(s, i, x[0], inner, &p[i]);
     if (s->warps)
         warping_arguments(s, e, inner[3], p, &a, torque);
     for (int i = 0; i < last; i++) {
@@ -275,7 +275,7 @@ void stages_evaluate(const stages *s, const double e[], const double inner[], st
 
 status stages_prepare(const element_request *request, int count, stages *out, fault *f)
 {
-    double x[STAGES_MAX], at[STAGES_NODES];
+    double point[STAGES_MAX], at[STAGES_NODES];
     const double pi = 3.14159265358979323846;
     memset(out, 0, sizeof *out);
     const status outcome = constants_of(request, &out->c, f);
@@ -283,28 +283,30 @@ status stages_prepare(const element_request *request, int count, stages *out, fa
         return outcome;
     out->stages = count;
     out->unknowns = 4 + 3 * (count - 1);
-    strain_prepare(2, 1, request->length, request->curvature, 1, &out->line);
-    line_gauss(count, x, out->w);
+    strain_prepare(2, 1, request->length, request->curvature, STRAIN_EIGHTH, &out->line);
+    line_gauss(count, point, out->w);
+    const double turn = vec3_norm(request->curvature) * request->length;
     for (int k = 0; k <= count; k++) {
         at[k] = (1 - cos(pi * k / count)) / 2; /* any distinct points would do: Chebyshev's keep the numbers of a size */
+        const double length = turn > 0 ? 4 * tan(turn * (at[k] - 0.5) / 4) / turn : 0;
         for (int i = 0; i < 3; i++)
-            out->rest_psi[k][i] = request->curvature[i] * request->length * (at[k] - 0.5);
+            out->rest_x[k][i] = request->curvature[i] * request->length * length;
     }
-    for (int i = 0; i < count; i++)
-        line_lagrange(count + 1, at, x[i], out->N[i], out->dN[i]);
     for (int i = 0; i < count; i++) {
         stage p;
         double axis[3];
         const double unit[3] = {1, 0, 0};
-        stage_at(out, i, out->rest_psi[0], unit, &p);
-        turn_vector(p.psi, -p.f.c[0], p.f.a[0], unit, axis); /* R e_x */
+        line_lagrange(count + 1, at, point[i], out->N[i], out->dN[i]);
+        stage_at(out, i, out->rest_x[0], unit, &p);
+        memcpy(out->rest_kappa[i], p.kappa, sizeof p.kappa);
+        for (int j = 0; j < 3; j++)
+            p.x[j] = -p.x[j];
+        turn_vector(&p.orientation, p.x, unit, axis); /* R e_x */
         for (int j = 0; j < 3; j++)
             out->rest_v[j] += out->w[i] * axis[j];
     }
-    for (int i = 0; i < 3; i++)
-        out->rest_kappa[i] = request->curvature[i] * request->length;
     out->warps = out->c.warping && out->c.EIw > 0;
     if (out->warps)
-        warping_energy(&out->c, count, x, out->w, out->S);
+        warping_energy(&out->c, count, point, out->w, out->S);
     return STATUS_OK;
 }

@@ -1,15 +1,15 @@
 /* One element of a geometrically exact beam with warping, solved by Gauss collocation (ours).
  *
  * In the axes half way between its ends the element has the strains e of strain.h (two nodes): v, the vector from p to q, and
- * the rotation vector psi_rel from p to q; and the end amplitudes a.  Orientation is exp(psi), psi a polynomial of degree p
- * through -psi_rel/2, p - 1 inner values and psi_rel/2.  The force F is constant: equilibrium of forces is exact.  The potential
+ * 2 X, 8 tan(angle/8) about the axis of the rotation from p to q; and the end amplitudes a.  Orientation is given by a vector x
+ * (turn.h), a polynomial of degree p through -X, p - 1 inner values and X.  The force F is constant: equilibrium of forces is exact.  The potential
  *
  *   P = F . v + sum_i w_i [-N_x - N_x^2/2EA - 1/2 (N_y, N_z) F (N_y, N_z) + (ys N_z - zs N_y) k + 1/2 rho^2 N_x k^2
  *                          + 1/2 EI_y kappa_y^2 + 1/2 EI_z kappa_z^2 + 1/2 GJ k^2 + c k^4] + warping (warping.h),
  *   N = R^T F, k = kappa_x, over p Gauss points,
  *
- * is stationary in F, in the inner rotation vectors and in the bimoment's multiplier.  In a plane this is collocation of
- * psi' = kappa and m' = F x r' at the Gauss points, whose moments are in equilibrium with F exactly.  All dimensionless (constants.h). */
+ * is stationary in F, in the inner x and in the bimoment's multiplier.  In a linear problem this is collocation
+ * of m' = F x r' at the Gauss points, whose moments are in equilibrium with F exactly.  All dimensionless (constants.h). */
 #ifndef BEAMWORK_EXACT_STAGES_H
 #define BEAMWORK_EXACT_STAGES_H
 
@@ -20,21 +20,21 @@ enum {
     STAGES_MAX = WARPING_MAX_STAGES,
     STAGES_NODES = STAGES_MAX + 1,
     STAGES_OUTER = 8,                           /* strains */
-    STAGES_UNKNOWNS = 4 + 3 * (STAGES_MAX - 1), /* F, multiplier, inner rotation vectors */
+    STAGES_UNKNOWNS = 4 + 3 * (STAGES_MAX - 1), /* F, multiplier, inner x */
     STAGES_ALL = STAGES_UNKNOWNS + STAGES_OUTER
 };
 
 typedef struct stages {
-    int stages, unknowns; /* unknowns: F (3), multiplier, psi of the inner nodes */
+    int stages, unknowns; /* unknowns: F (3), multiplier, x of the inner nodes */
     constants c;
     strain_line line;
     double w[STAGES_MAX], N[STAGES_MAX][STAGES_NODES], dN[STAGES_MAX][STAGES_NODES];
-    double rest_psi[STAGES_NODES][3], rest_kappa[3], rest_v[3];
+    double rest_x[STAGES_NODES][3], rest_kappa[STAGES_MAX][3], rest_v[3];
     int warps; /* 0: no warping energy */
     double S[WARPING_MAX * WARPING_MAX];
 } stages;
 
-/* Derivatives of P: gradient and Hessian with respect to unknowns, then (v, psi_rel, a_p, a_q). */
+/* Derivatives of P: gradient and Hessian with respect to unknowns, then (v, 2 X, a_p, a_q). */
 typedef struct stages_derivatives {
     double P, gradient[STAGES_ALL], hessian[STAGES_ALL * STAGES_ALL];
 } stages_derivatives;

@@ -14,13 +14,20 @@ typedef struct nodes {
     double r[ELEMENT_MAX_NODES][3], u[ELEMENT_MAX_NODES][3]; /* per l0 */
 } nodes;
 
-/* atan(y)/y and its first and second derivative with respect to t = y^2. */
-static void angle_ratio(double t, double m[3])
+/* What 4 y must be multiplied by, y = tan(angle/4), and its first and second derivative with respect to t = y^2. */
+static void ratio(strain_rotation kind, double t, double m[3])
 {
-    if (t < 0.01) {
+    if (kind == STRAIN_EIGHTH) { /* 2 tan(angle/8)/tan(angle/4) */
+        const double r = sqrt(1 + t);
+        m[0] = 2 / (1 + r);
+        m[1] = -1 / (r * (1 + r) * (1 + r));
+        m[2] = (1 + 3 * r) / (2 * r * r * r * (1 + r) * (1 + r) * (1 + r));
+        return;
+    }
+    if (t < 0.01) { /* atan(y)/y = sum (-t)^k/(2 k + 1) */
         double power = 1;
         m[0] = m[1] = m[2] = 0;
-        for (int k = 0; k < 10; k++) { /* sum (-t)^k/(2 k + 1) */
+        for (int k = 0; k < 10; k++) {
             m[0] += power / (2 * k + 1);
             m[1] -= power * (k + 1) / (2 * k + 3);
             m[2] += power * (k + 1) * (k + 2) / (2 * k + 5);
@@ -33,23 +40,24 @@ static void angle_ratio(double t, double m[3])
     m[2] = (-1 / ((1 + t) * (1 + t)) - 3 * m[1]) / (2 * t);
 }
 
-/* From x = 4 tan(angle/4) about an axis to the angle about it: psi = m(|x|^2/16) x. */
-static void to_angle(const double x[3], double psi[3], double T[9])
+/* From x = 4 tan(angle/4) about an axis to the measure wanted: m(|x|^2/16) x, and its derivative. */
+static void to_measure(strain_rotation kind, const double x[3], double out[3], double T[9])
 {
-    double m[3];
-    angle_ratio(vec3_dot(x, x) / 16, m);
+    double m[3] = {1, 0, 0};
+    if (kind != STRAIN_QUARTER)
+        ratio(kind, vec3_dot(x, x) / 16, m);
     for (int i = 0; i < 3; i++) {
-        psi[i] = m[0] * x[i];
+        out[i] = m[0] * x[i];
         for (int j = 0; j < 3; j++)
             T[3 * i + j] = (i == j ? m[0] : 0) + m[1] / 8 * x[i] * x[j];
     }
 }
 
-/* Second derivative of n . psi(x). */
-static void to_angle_second(const double x[3], const double n[3], double H[9])
+/* Second derivative of n . measure(x). */
+static void to_measure_second(strain_rotation kind, const double x[3], const double n[3], double H[9])
 {
     double m[3];
-    angle_ratio(vec3_dot(x, x) / 16, m);
+    ratio(kind, vec3_dot(x, x) / 16, m);
     const double along = vec3_dot(n, x);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
@@ -81,10 +89,7 @@ static void strains_at(const strain_line *line, int g, const point *p, const dou
 {
     double psi[3], T[9];
     stretch(p->v, line->rest[g], y, dy, e);
-    if (line->angle)
-        to_angle(p->kappa, psi, T);
-    else
-        memcpy(psi, p->kappa, sizeof psi);
+    to_measure(line->rotation, p->kappa, psi, T);
     for (int i = 0; i < 3; i++) {
         e[i] *= line->l0;
         e[3 + i] = line->l0 * (psi[i] - line->rest[g][3 + i]);
@@ -96,9 +101,8 @@ static void first(const strain_line *line, const nodes *s, int g, const point *p
 {
     const double none[3] = {0}, l0 = line->l0;
     const int n = 7 * line->nodes;
-    double T[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, psi[3];
-    if (line->angle)
-        to_angle(p->kappa, psi, T);
+    double T[9], psi[3];
+    to_measure(line->rotation, p->kappa, psi, T);
     for (int row = 0; row < 6; row++) {
         double Q[4], S[4], unit[3] = {0}, inverse[4], weight[4], turn[4];
         if (row < 3)
@@ -152,15 +156,15 @@ static void second(const strain_line *line, const nodes *s, int g, const point *
         stretching[i] = line->l0 * weight[i];
         turn[i] = line->l0 * weight[3 + i];
     }
-    if (line->angle) {
+    if (line->rotation != STRAIN_QUARTER) {
         /* n . psi(x): T^T n takes n's place, and the second derivative of psi meets dx = T^-1 J twice. */
         double psi[3], T[9], inner[9], inverse[9], bent[9], dx[3 * 7 * ELEMENT_MAX_NODES], weighted[3];
         int pivot[3];
-        to_angle(p->kappa, psi, T);
-        to_angle_second(p->kappa, turn, inner);
+        to_measure(line->rotation, p->kappa, psi, T);
+        to_measure_second(line->rotation, p->kappa, turn, inner);
         memcpy(inverse, T, sizeof inverse);
         memcpy(dx, &J[3 * n], 3 * (size_t)n * sizeof *dx);
-        dense_lu(3, inverse, pivot); /* the angle grows with 4 tan(angle/4): never singular */
+        dense_lu(3, inverse, pivot); /* every measure grows with the angle: never singular */
         dense_lu_solve(3, n, inverse, pivot, dx);
         for (int i = 0; i < 9; i++)
             bent[i] = inner[i] / (line->l0 * line->l0);
@@ -237,7 +241,7 @@ void strain_arc(const double curvature[3], double l0, double x, double r[3], dou
     rotation_exp(turn, q);
 }
 
-void strain_prepare(int nodes_count, int points, double l0, const double curvature[3], int angle, strain_line *line)
+void strain_prepare(int nodes_count, int points, double l0, const double curvature[3], strain_rotation rotation, strain_line *line)
 {
     double x[STRAIN_MAX_POINTS], w[STRAIN_MAX_POINTS], at[ELEMENT_MAX_NODES];
     nodes s;
@@ -245,7 +249,7 @@ void strain_prepare(int nodes_count, int points, double l0, const double curvatu
     line->nodes = nodes_count;
     line->points = points;
     line->l0 = l0;
-    line->angle = angle;
+    line->rotation = rotation;
     for (int k = 0; k < nodes_count; k++) {
         at[k] = (double)k / (nodes_count - 1);
         strain_arc(curvature, l0, at[k], s.r[k], s.q[k]);
@@ -257,10 +261,10 @@ void strain_prepare(int nodes_count, int points, double l0, const double curvatu
         line_lagrange(nodes_count, at, x[g], line->N[g], line->dN[g]);
         memset(s.u, 0, sizeof s.u);
         measure(line, &s, g, &p, y, dy);
-        to_angle(p.kappa, psi, T);
+        to_measure(rotation, p.kappa, psi, T);
         for (int i = 0; i < 3; i++) {
             line->rest[g][i] = p.v[i];
-            line->rest[g][3 + i] = angle ? psi[i] : p.kappa[i];
+            line->rest[g][3 + i] = psi[i];
         }
     }
 }

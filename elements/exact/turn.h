@@ -1,27 +1,24 @@
-/* Rotation vectors psi: R^T y and the curvature kappa = psi' - a psi x psi' + b psi x (psi x psi') of a line on which psi varies,
- * with derivatives.  Both are of one kind,
- *   x . R^T y = B(c, a; x, y),  x . kappa = B(a, b; x, psi'),
- *   B(p, q; x, y) = x . y - p psi . (y x x) + q [(psi . x)(psi . y) - t x . y],  t = |psi|^2,
- *   c = sin(angle)/angle, a = (1 - cos)/angle^2, b = (angle - sin)/angle^3. */
+/* Rotations by Rodrigues' modified vectors x = 4 tan(angle/4) about the axis: regular up to a full turn, and rational.
+ * R^T y and the curvature kappa of a line on which x varies with slope x' are of one kind,
+ *   w . R^T y = B(w, y; x),  w . kappa = B(w, x'; x),
+ *   B(w, y; x) = s w . y - p x . (y x w) + q [(x . w)(x . y) - t w . y],  s, p, q functions of t = |x|^2. */
 #ifndef BEAMWORK_EXACT_TURN_H
 #define BEAMWORK_EXACT_TURN_H
 
-/* A function of t with its first and second derivative. */
-typedef struct turn_functions {
-    double c[3], a[3], b[3];
-} turn_functions;
+/* s, p, q, each with its first and second derivative. */
+typedef struct turn_form {
+    double s[3], p[3], q[3];
+} turn_form;
 
-void turn_functions_at(double t, turn_functions *out);
+void turn_forms(double t, turn_form *orientation, turn_form *curvature);
 
-/* B for x along each axis: the vector itself [3]. */
-void turn_vector(const double psi[3], double p, double q, const double y[3], double out[3]);
+/* B for w along each axis: the vector itself [3]. */
+void turn_vector(const turn_form *f, const double x[3], const double y[3], double out[3]);
 
-/* Gradients of B with respect to psi and y. */
-void turn_gradient(const double psi[3], const double p[3], const double q[3], const double x[3], const double y[3], double d_psi[3],
-                   double d_y[3]);
+/* Gradients of B with respect to x and y. */
+void turn_gradient(const turn_form *f, const double x[3], const double w[3], const double y[3], double dx[3], double dy[3]);
 
-/* PP += d2B/dpsi2, PY += d2B/dpsi dy (rows psi). */
-void turn_add_hessian(const double psi[3], const double p[3], const double q[3], const double x[3], const double y[3], double PP[9],
-                      double PY[9]);
+/* XX += d2B/dx2, XY += d2B/dx dy (rows x). */
+void turn_add_hessian(const turn_form *f, const double x[3], const double w[3], const double y[3], double XX[9], double XY[9]);
 
 #endif
