@@ -54,7 +54,7 @@ static unsigned needs_of_analyses(const scene *s)
             needs |= FEATURE_GEOMETRIC;
             break;
         case SCENE_MODAL:
-            needs |= FEATURE_MASS;
+            needs |= FEATURE_MASS | (s->analysis[i].follows != SCENE_NONE ? FEATURE_GEOMETRIC : 0);
             break;
         case SCENE_ROTATION:
             needs |= FEATURE_LARGE | FEATURE_MASS;

@@ -1,4 +1,4 @@
-/* Natural frequencies about the undeformed state: M x = (1/omega^2) K x, so that a mass matrix singular in the rotations does no harm. */
+/* Natural frequencies about the undeformed state, with the stresses of a linear analysis where one is followed: M x = (1/omega^2) K x, so that a mass matrix singular in the rotations does no harm. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,6 +25,7 @@ typedef struct forms {
     double shift;  /* [1/s^2] */
     double *x, *y; /* [free + driven] driven coordinates: zero; [free] */
     int free_count;
+    const double *sigma; /* prestress [elements x strains], or NULL */
 } forms;
 
 static double stiffness_form(void *context, const double mode[])
@@ -36,7 +37,8 @@ static double stiffness_form(void *context, const double mode[])
         sparse_mul(f->M, mode, f->y);
     for (int i = 0; i < f->free_count && f->shift > 0; i++)
         mass += mode[i] * f->y[i];
-    return model_strain_energy2(f->m, f->x) + f->shift * mass;
+    const double prestress = f->sigma != NULL ? model_geometric_energy2(f->m, f->sigma, f->x) : 0;
+    return model_strain_energy2(f->m, f->x) + prestress + f->shift * mass;
 }
 
 /* Moves the modes into the outcome, with omega^2 = 1/mu - shift; what is a rounding error of the shift moves as a rigid body. */
@@ -67,6 +69,28 @@ static status shifted_system(analysis_context *c, linear_system *s, const sparse
     return factor_numeric(s->factor, &s->K, f);
 }
 
+/* K += G of the stresses of the linear analysis that is followed; sigma is the caller's. */
+static status add_prestress(analysis_context *c, int follows, linear_system *s, double **sigma, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    sparse G = {0};
+    *sigma = calloc((size_t)size.elements * (size_t)size.strains + 1, sizeof **sigma);
+    status outcome = *sigma == NULL ? fault_set(f, STATUS_FAULT, "out of memory for prestress") : STATUS_OK;
+    if (outcome == STATUS_OK && (c->scene->analysis[follows].kind != SCENE_LINEAR || c->outcomes[follows].x == NULL))
+        outcome = fault_set(f, STATUS_REFUSED, "frequencies of a loaded structure follow a linear analysis that has been solved");
+    if (outcome == STATUS_OK)
+        outcome = model_linear_stresses(c->model, c->outcomes[follows].x, *sigma, f);
+    if (outcome == STATUS_OK)
+        outcome = sparse_alloc_like(&s->K, &G, f);
+    if (outcome == STATUS_OK)
+        outcome = model_geometric_stiffness(c->model, *sigma, &G, f);
+    for (int i = 0; i < s->K.column[s->K.n] && outcome == STATUS_OK; i++)
+        s->K.value[i] += G.value[i];
+    sparse_free_values(&G);
+    model_counters(c->model)->factorisations++;
+    return outcome == STATUS_OK ? factor_numeric(s->factor, &s->K, f) : outcome;
+}
+
 status analysis_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     const model_size size = model_sizes(c->model);
@@ -74,8 +98,12 @@ status analysis_modal(analysis_context *c, int analysis, analysis_outcome *o, fa
     linear_system s;
     sparse M = {0};
     eigen_result e = {0};
-    forms about = {c->model, &M, 0, calloc(all, sizeof(double)), calloc(all, sizeof(double)), size.free};
+    forms about = {c->model, &M, 0, calloc(all, sizeof(double)), calloc(all, sizeof(double)), size.free, NULL};
+    double *sigma = NULL;
     status result = linear_system_alloc(c, &s, f);
+    if (result == STATUS_OK && c->scene->analysis[analysis].follows != SCENE_NONE)
+        result = add_prestress(c, c->scene->analysis[analysis].follows, &s, &sigma, f);
+    about.sigma = sigma;
     const int singular = result == STATUS_SINGULAR;
     if (result == STATUS_OK || singular)
         result = sparse_alloc_like(&s.K, &M, f);
@@ -104,5 +132,6 @@ status analysis_modal(analysis_context *c, int analysis, analysis_outcome *o, fa
     sparse_free_values(&M);
     free(about.x);
     free(about.y);
+    free(sigma);
     return result;
 }

@@ -1,0 +1,98 @@
+/* Fork-ended column of an unsymmetric, branched thin-walled section under an axial force at the centroid: buckling load, and
+ * natural frequencies of the loaded column.  Closed form: one half-wave at a time (reference/derive/column.py). */
+#include "cases/case.h"
+
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LENGTH, YOUNG, SHEAR_MODULUS, DENSITY, SHEAR, SHEAR_STABILITY, ROTARY_INERTIA, AXIAL_LOAD };
+enum { FREQUENCIES = 6 };
+
+static const case_parameter parameters[] = {
+    [LENGTH] = {"length", "m", 3.0, 1e-6, 1e6, NULL, "length of the column"},
+    [YOUNG] = {"young", "Pa", 210e9, 1e-3, 1e15, NULL, "modulus of elasticity"},
+    [SHEAR_MODULUS] = {"shear_modulus", "Pa", 80e9, 1e-6, 1e15, NULL, "shear modulus"},
+    [DENSITY] = {"density", "kg/m^3", 7850.0, 1e-9, 1e9, NULL, "density"},
+    [SHEAR] = {"shear", "1", 1, 0, 1, NULL, "1: flexible in shear, 0: shear-rigid"},
+    [SHEAR_STABILITY] = {"shear_stability", "", 0, 0, 0, "engesser|haringx", "theory of shear in stability"},
+    [ROTARY_INERTIA] = {"rotary_inertia", "1", 1, 0, 1, NULL, "1: rotary and warping inertia, 0: translations and twist only"},
+    [AXIAL_LOAD] = {"axial_load", "N", 5000.0, -1e9, 1e9, NULL, "compression under which the column vibrates"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+/* Five points, four walls of different thickness [m]. */
+static void branched_section(const double value[], section_spec *spec)
+{
+    static const double point[5][2] = {{0, 0}, {0.05, 0}, {0.05, 0.08}, {0.02, 0.08}, {0.05, 0.1}};
+    static const int ends[4][2] = {{0, 1}, {1, 2}, {2, 3}, {2, 4}};
+    static const double thickness[4] = {0.002, 0.003, 0.004, 0.001};
+    section_spec_init(spec);
+    spec->kind = SECTION_WALLS;
+    spec->young = value[YOUNG];
+    spec->shear_modulus = value[SHEAR_MODULUS];
+    spec->density = value[DENSITY];
+    spec->points = 5;
+    spec->walls = 4;
+    memcpy(spec->point, point, sizeof point);
+    for (int i = 0; i < 4; i++) {
+        spec->wall[i].from = ends[i][0];
+        spec->wall[i].to = ends[i][1];
+        spec->wall[i].thickness = thickness[i];
+    }
+}
+
+static void add_frequencies(scene *s, int modal)
+{
+    scene_analysis_at(s, modal)->wanted = FREQUENCIES;
+    for (int i = 0; i < FREQUENCIES; i++) {
+        char name[SCENE_NAME];
+        snprintf(name, sizeof name, "frequency_%d", i + 1);
+        scene_quantity *frequency = scene_add_quantity(s, name, "Hz", SCENE_FREQUENCY, modal);
+        frequency->family = SCENE_NOT_AXIAL;
+        frequency->order = i;
+        frequency->tolerance = 1e-4;
+        frequency->least_order = 1.8;
+    }
+}
+
+static status build(const double value[], scene *s, fault *f)
+{
+    (void)f;
+    section_spec spec;
+    branched_section(value, &spec);
+    const int profile = scene_add_section(s, &spec);
+    const double y_axis[3] = {0, 1, 0}, load = value[AXIAL_LOAD] != 0 ? value[AXIAL_LOAD] : 1;
+    const int foot = scene_add_node(s, 0, 0, 0), head = scene_add_node(s, value[LENGTH], 0, 0);
+    scene_add_member(s, foot, head, profile, y_axis);
+    scene_hold(s, foot, SCENE_UX, SCENE_RX);
+    scene_hold(s, head, SCENE_UY, SCENE_RX);
+    scene_add_load(s, SCENE_FORCE, head, -load, 0, 0);
+    s->needs |= SCENE_NEED_TRAPEZE;
+    if (value[SHEAR] != 0)
+        s->needs |= SCENE_NEED_SHEAR | (value[SHEAR_STABILITY] == 0 ? SCENE_NEED_ENGESSER : SCENE_NEED_HARINGX);
+    if (value[ROTARY_INERTIA] != 0)
+        s->needs |= SCENE_NEED_ROTARY_INERTIA;
+
+    const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
+    scene_analysis_at(s, buckling)->wanted = 1;
+    scene_quantity *critical = scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
+    critical->sign = load > 0 ? 1 : -1;
+    critical->factor = load;
+    critical->tolerance = 1e-5;
+    critical->least_order = 1.8;
+    const int loading = scene_add_analysis(s, SCENE_LINEAR), modal = scene_add_analysis(s, SCENE_MODAL);
+    scene_analysis_at(s, modal)->follows = value[AXIAL_LOAD] != 0 ? loading : SCENE_NONE;
+    add_frequencies(s, modal);
+    const int meshes[] = {2, 4, 8, 16, 32};
+    scene_meshes(s, 5, meshes);
+    return STATUS_OK;
+}
+
+const case_type case_unsymmetric_column = {
+    .name = "unsymmetric_column",
+    .summary = "fork-ended column of an unsymmetric section: buckling load, frequencies under axial load",
+    .source = "closed form of the thin-walled column, one half-wave at a time",
+    .parameters = parameters,
+    .build = build,
+};
