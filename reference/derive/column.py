@@ -10,7 +10,7 @@ Uniform end moment: closed form of the monosymmetric beam with shear (reference/
 """
 from mpmath import mp, mpf, matrix, pi, sqrt, cholesky, inverse, eigsy
 
-from reference.derive.section import channel
+from reference.derive.section import channel, section
 
 mp.dps = 40
 E, G, RHO = mpf(144) * 10 ** 9, mpf("4.14e9"), mpf(1389)
@@ -25,6 +25,7 @@ def channel_data(printed=False, height="0.6", width="0.6", web_thickness="0.03",
         d[0, 0], d[1, 1], d[2, 2] = mpf(PRINTED["Dy"]), mpf(PRINTED["Dz"]), mpf(PRINTED["Dw"])
         d[1, 2] = d[2, 1] = mpf(PRINTED["Dzw"])
         s.F = inverse(d)
+    s.E, s.G, s.RHO = E, G, RHO
     return s
 
 
@@ -42,13 +43,13 @@ def _strain(s, k, shear):
         row[i] = k
         if shear:
             row[3 + i] = mpf(-1)
-        _square(m, E * inertia * k ** 2, row)
-    m[2, 2] += G * s.It * k ** 2
+        _square(m, s.E * inertia * k ** 2, row)
+    m[2, 2] += s.G * s.It * k ** 2
     if shear:
         d = inverse(s.F)
         for i in range(3):
             for j in range(3):
-                m[3 + i, 3 + j] += G * d[i, j]
+                m[3 + i, 3 + j] += s.G * d[i, j]
     return m
 
 
@@ -73,16 +74,16 @@ def _kinetic(s, k, shear, rotary):
     n = 6 if shear else 3
     m = matrix(n, n)
     pad = [mpf(0)] * (n - 3)
-    _square(m, RHO * s.A, [mpf(1), mpf(0), s.zs] + pad)
-    _square(m, RHO * s.A, [mpf(0), mpf(1), -s.ys] + pad)
-    m[2, 2] += RHO * s.Ip
+    _square(m, s.RHO * s.A, [mpf(1), mpf(0), s.zs] + pad)
+    _square(m, s.RHO * s.A, [mpf(0), mpf(1), -s.ys] + pad)
+    m[2, 2] += s.RHO * s.Ip
     for i, inertia in enumerate((s.Iz, s.Iy, s.Iw)):
         row = [mpf(0)] * n
         row[i] = k
         if shear:
             row[3 + i] = mpf(-1)
         if rotary:
-            _square(m, RHO * inertia, row)
+            _square(m, s.RHO * inertia, row)
     return m
 
 
@@ -102,17 +103,18 @@ def buckling_load(s, length, shear, haringx):
     return best
 
 
-def frequencies(s, length, shear, rotary, count):
+def frequencies(s, length, shear, rotary, count, load=0, haringx=False):
+    """Under an axial compression `load`, about the undeformed state."""
     found = []
     if shear and rotary:  # no half-wave at all: sections turn and warp in pure shear
-        inertia = [RHO * i for i in (s.Iz, s.Iy, s.Iw)]
+        inertia = [s.RHO * i for i in (s.Iz, s.Iy, s.Iw)]
         mass = matrix(3, 3)
         for i in range(3):
             mass[i, i] = inertia[i]
-        found += [1 / sqrt(nu) / (2 * pi) for nu in _ratios(G * inverse(s.F), mass)]
+        found += [1 / sqrt(nu) / (2 * pi) for nu in _ratios(s.G * inverse(s.F), mass)]
     for n in range(1, 30):
         k = n * pi / length
-        for nu in _ratios(_strain(s, k, shear), _kinetic(s, k, shear, rotary)):
+        for nu in _ratios(_strain(s, k, shear) - load * _prestress(s, k, shear, int(haringx)), _kinetic(s, k, shear, rotary)):
             if nu > mpf(10) ** -30:
                 found.append(1 / sqrt(nu) / (2 * pi))
     return sorted(found)[:count]
@@ -123,12 +125,12 @@ def buckling_moments(s, length, shear, haringx, wagner):
     k = pi / length
     c = 1 if haringx or not shear else 0
     fww = s.F[2, 2] if shear else mpf(0)
-    w = E * s.Iw * k ** 2 / (1 + fww * E * s.Iw * k ** 2 / G)
+    w = s.E * s.Iw * k ** 2 / (1 + fww * s.E * s.Iw * k ** 2 / s.G)
     bz = s.wagner_y / s.Iz if wagner else mpf(0)
-    alpha = (1 - c) * s.F[1, 2] / G
-    p2 = 1 / (E * s.Iy * k ** 2) + (1 - c) * s.F[1, 1] / G - w * alpha ** 2
+    alpha = (1 - c) * s.F[1, 2] / s.G
+    p2 = 1 / (s.E * s.Iy * k ** 2) + (1 - c) * s.F[1, 1] / s.G - w * alpha ** 2
     p1 = 2 * w * alpha + bz - 2 * s.ys
-    p0 = -(w + G * s.It)
+    p0 = -(w + s.G * s.It)
     root = sqrt(p1 ** 2 - 4 * p2 * p0)
     return (-p1 - root) / (2 * p2), (-p1 + root) / (2 * p2)
 
@@ -152,8 +154,29 @@ def other_sizes():
             yield "moment_buckling", at, "buckling_moment_positive", high, "N m"
 
 
+def branched():
+    """The unsymmetric section of four walls, in SI."""
+    mm = mpf(10) ** -3
+    points = [(0, 0), (50, 0), (50, 80), (20, 80), (50, 100)]
+    s = section([(y * mm, z * mm) for y, z in points], [(0, 1, 2 * mm), (1, 2, 3 * mm), (2, 3, 4 * mm), (2, 4, mm)])
+    s.E, s.G, s.RHO = mpf(210) * 10 ** 9, mpf(80) * 10 ** 9, mpf(7850)
+    return s
+
+
+def unsymmetric():
+    s = branched()
+    for given in ({}, {"axial_load": 0}, {"length": mpf("0.6"), "axial_load": 100000}, {"length": mpf("0.6"), "shear_stability": "haringx", "axial_load": 100000},
+                  {"shear": 0, "rotary_inertia": 0, "axial_load": 0}):
+        at = ";".join(f"{k}={v if isinstance(v, (int, str)) else float(v)}" for k, v in given.items())
+        l, shear, haringx, load = mpf(given.get("length", 3)), given.get("shear", 1), given.get("shear_stability") == "haringx", given.get("axial_load", 5000)
+        yield "unsymmetric_column", at, "buckling_load", buckling_load(s, l, shear, haringx), "N"
+        for i, value in enumerate(frequencies(s, l, shear, given.get("rotary_inertia", 1), 6, load, haringx)):
+            yield "unsymmetric_column", at, f"frequency_{i + 1}", value, "Hz"
+
+
 def rows():
     yield from other_sizes()
+    yield from unsymmetric()
     for length in (None, 3, 12):
         at = {} if length is None else {"length": length}
         l = mpf(6 if length is None else length)
