@@ -34,10 +34,8 @@ ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
-bench: all ## time every formulation on every case into build/bench.csv
-	@$(PROGRAM) bench -o $(BUILD)/bench.csv
-
 .PHONY: help all verify test bench layers asan tidy format format-check check clean report truths FORCE
+.DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .SECONDARY:
@@ -56,6 +54,9 @@ all: $(PROGRAM) $(TRUTHS) ## build the program, the library and the packed truth
 report: all ## draw the report of the last verify into build/report/index.html
 	@test -f $(BUILD)/results.h5 || $(MAKE) --no-print-directory verify
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports $(BUILD)/results.h5 $(TRUTHS) -o $(BUILD)/report
+
+bench: all ## time every formulation on every case into build/bench.csv
+	@$(PROGRAM) bench -o $(BUILD)/bench.csv
 
 truths: ## derive every exact row again and compare it with reference/tables
 	@$(PYTHON) reference/derive/rederive.py

@@ -120,7 +120,7 @@ typedef struct scene_quantity {
     double tolerance;                    /* relative, of the limit against the truth */
     double least_order;                  /* of convergence in the number of elements */
     char x_name[SCENE_NAME], x_unit[16]; /* of a curve */
-    int x_driver;                        /* curve: abscissa is this driver's value; SCENE_NONE: the path parameter times x_factor plus x_offset */
+    int x_driver; /* curve: abscissa is this driver's value; SCENE_NONE: the path parameter times x_factor plus x_offset */
     double x_factor, x_offset;
 } scene_quantity;
 

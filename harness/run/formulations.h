@@ -8,7 +8,7 @@ typedef struct formulation {
     const element_type *type;
     double option[ELEMENT_MAX_OPTIONS];
     solve_newton newton;
-    char key[CELL_KEY];      /* name, and the options that differ from their defaults, in table order */
+    char key[CELL_KEY]; /* name, and the options that differ from their defaults, in table order */
 } formulation;
 
 extern const char formulation_newtons[]; /* choices of the option newton, which every formulation takes */

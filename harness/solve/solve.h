@@ -9,9 +9,9 @@ typedef enum solve_newton { SOLVE_MIXED, SOLVE_DISPLACEMENT, SOLVE_DENSE, SOLVE_
 
 typedef struct solve_options {
     solve_newton newton;
-    double criterion;        /* relative size of the corrections; 0: default */
-    int max_iterations;      /* per step; 0: default */
-    int steps_between;       /* overrides the scene's; 0: the scene's */
+    double criterion;   /* relative size of the corrections; 0: default */
+    int max_iterations; /* per step; 0: default */
+    int steps_between;  /* overrides the scene's; 0: the scene's */
 } solve_options;
 
 typedef struct curve {
