@@ -4,6 +4,8 @@
 #ifndef BEAMWORK_TEST_BIMOMENT_VALUES_H
 #define BEAMWORK_TEST_BIMOMENT_VALUES_H
 
+/* clang-format off */
+
 enum { BIMOMENT_VALUES = 33 };
 
 static const struct {
