@@ -114,7 +114,7 @@ def main():
     print("/* Written by reference/derive/bimoment_coefficients.py: torsional coefficients of the third-order potential for L = GJ = 1,")
     print(" * EIw = 1/lambda^2.  Order: A of the unit torques M, PP, PQ, QP, QQ (lower triangle by rows), b of each of them with px, Wp, Wq,")
     print(" * P0 of Wp^2, Wp Wq, Wq^2. */")
-    print("#ifndef BEAMWORK_TEST_BIMOMENT_VALUES_H\n#define BEAMWORK_TEST_BIMOMENT_VALUES_H\n")
+    print("#ifndef BEAMWORK_TEST_BIMOMENT_VALUES_H\n#define BEAMWORK_TEST_BIMOMENT_VALUES_H\n\n/* clang-format off */\n")
     print("enum { BIMOMENT_VALUES = 33 };\n")
     print("static const struct {\n    int printed; /* sign of u_y in M_x */\n    double lambda, value[BIMOMENT_VALUES];\n} bimoment_values[] = {")
     for printed, form in enumerate(LOADS):
