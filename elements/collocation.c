@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "elements/exact/stages.h"
+#include "elements/exact/prestress.h"
 #include "elements/math/dense.h"
 
 enum { OPTION_STAGES, FEWEST = 3, OUTER = STAGES_OUTER };
@@ -119,6 +119,23 @@ static status stress(const element_data *data, const double e[], const double in
     return isfinite(d.P) ? STATUS_OK : STATUS_NOT_CONVERGED;
 }
 
+static void geometric(const element_data *data, const double sigma[], double G[])
+{
+    const stages *s = &data->stages;
+    double scaled[OUTER], largest = 0;
+    memset(G, 0, OUTER * OUTER * sizeof *G);
+    for (int i = 0; i < OUTER; i++)
+        largest = fmax(largest, fabs(sigma[i]));
+    if (!(largest > 0))
+        return;
+    /* Of the size of one, so that the part linear in the prestress is neither small nor large beside the stiffness. */
+    for (int i = 0; i < OUTER; i++)
+        scaled[i] = sigma[i] / largest;
+    prestress_stiffness(s, scaled, G);
+    for (int i = 0; i < OUTER * OUTER; i++)
+        G[i] *= largest / s->line.l0; /* energy/l0^2 times largest/(energy/l0) */
+}
+
 static double update(const element_data *data, const double de[], const double memory[], double inner[])
 {
     const stages *s = &data->stages;
@@ -147,7 +164,7 @@ const element_type element_collocation = {
     .source = "ours; theory: Reissner, J. Appl. Math. Phys. 32 (1981); Simo, Comput. Methods Appl. Mech. Eng. 49 (1985)",
     .abi = ELEMENT_ABI,
     .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS |
-              FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_LARGE | FEATURE_CURVATURE,
+              FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_CURVATURE,
     .limits = 0,
     .options = options,
     .strains = strains,
@@ -159,4 +176,5 @@ const element_type element_collocation = {
     .stress = stress,
     .update = update,
     .rest = rest,
+    .geometric = geometric,
 };

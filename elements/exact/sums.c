@@ -1,0 +1,127 @@
+#include "elements/exact/sums.h"
+
+#include <string.h>
+
+#include "elements/math/dense.h"
+
+/* x at node k is `factor` times the variables from `first` on: its own, or 2 X. */
+static int variables(const stages *s, int k, double *factor)
+{
+    const int end = k == 0 || k == s->stages;
+    *factor = !end ? 1 : k == 0 ? -0.5 : 0.5;
+    return end ? s->unknowns + 3 : 4 + 3 * (k - 1);
+}
+
+static void add_point(int nodes, const double N[], const double dN[], const double gradient[STAGE_SPACE],
+                      double H[STAGE_SPACE][STAGE_SPACE], sums *a)
+{
+    for (int l = 0; l < nodes; l++) {
+        double turn[9], slope[9];
+        for (int i = 0; i < 3; i++) {
+            a->g[l][i] += N[l] * gradient[STAGE_TURN + i] + dN[l] * gradient[STAGE_SLOPE + i];
+            for (int j = 0; j < 3; j++) {
+                turn[3 * i + j] = H[STAGE_TURN + i][STAGE_TURN + j] * N[l] + H[STAGE_TURN + i][STAGE_SLOPE + j] * dN[l];
+                slope[3 * i + j] = H[STAGE_SLOPE + i][STAGE_TURN + j] * N[l] + H[STAGE_SLOPE + i][STAGE_SLOPE + j] * dN[l];
+                a->Y[l][3 * i + j] += N[l] * H[STAGE_TURN + i][STAGE_FORCE + j] + dN[l] * H[STAGE_SLOPE + i][STAGE_FORCE + j];
+            }
+        }
+        for (int k = 0; k <= l; k++)
+            for (int i = 0; i < 9; i++)
+                a->X[k][l][i] += N[k] * turn[i] + dN[k] * slope[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        a->gF[i] += gradient[STAGE_FORCE + i];
+        for (int j = 0; j < 3; j++)
+            a->FF[3 * i + j] += H[STAGE_FORCE + i][STAGE_FORCE + j];
+    }
+}
+
+/* Row of the warping energy's argument at point i: kappa_x less the warping shear that Q_y and Q_z make. */
+static void warping_row(const stages *s, int i, double D[6][STAGE_SPACE], sums *a)
+{
+    double row[STAGE_SPACE], *dz = &a->dz[i * (s->unknowns + STAGES_OUTER)];
+    for (int j = 0; j < STAGE_SPACE; j++)
+        row[j] = D[0][j] - s->c.F[6] * D[4][j] - s->c.F[7] * D[5][j];
+    for (int k = 0; k <= s->stages; k++) {
+        double factor;
+        const int first = variables(s, k, &factor);
+        for (int j = 0; j < 3; j++)
+            dz[first + j] += factor * (s->N[i][k] * row[STAGE_TURN + j] + s->dN[i][k] * row[STAGE_SLOPE + j]);
+    }
+    for (int j = 0; j < 3; j++)
+        dz[j] += row[STAGE_FORCE + j];
+}
+
+void sums_add(const stages *s, int i, const stage *p, const double force[3], const double gradient[6], const double M[36], sums *a)
+{
+    double D[6][STAGE_SPACE], H[STAGE_SPACE][STAGE_SPACE], slope[STAGE_SPACE] = {0};
+    stage_rows(p, force, D);
+    stage_hessian(p, force, gradient, M, s->w[i], D, H);
+    for (int j = 0; j < STAGE_SPACE; j++)
+        for (int k = 0; k < 6; k++)
+            slope[j] += s->w[i] * gradient[k] * D[k][j];
+    add_point(s->stages + 1, s->N[i], s->dN[i], slope, H, a);
+    if (s->warps)
+        warping_row(s, i, D, a);
+}
+
+void sums_warping(const stages *s, const double e[], double multiplier, const stage p[], sums *a, double Sz[])
+{
+    const int m = s->stages, n = s->unknowns + STAGES_OUTER;
+    for (int i = 0; i < m; i++)
+        a->z[i] = p[i].kappa[0] - s->c.F[6] * p[i].N[1] - s->c.F[7] * p[i].N[2];
+    a->z[m] = e[6];
+    a->z[m + 1] = e[7];
+    a->z[m + 2] = multiplier;
+    a->dz[m * n + s->unknowns + 6] = a->dz[(m + 1) * n + s->unknowns + 7] = a->dz[(m + 2) * n + 3] = 1;
+    dense_mul_vec(m + 3, m + 3, s->S, a->z, Sz);
+}
+
+void sums_gather(const stages *s, const sums *a, double gradient[], double hessian[])
+{
+    const int n = s->unknowns + STAGES_OUTER;
+    double *K = hessian, row_factor, column_factor;
+    for (int k = 0; k <= s->stages; k++) {
+        const int row = variables(s, k, &row_factor);
+        for (int i = 0; i < 3; i++) {
+            gradient[row + i] += row_factor * a->g[k][i];
+            for (int j = 0; j < 3; j++) {
+                K[(row + i) * n + j] += row_factor * a->Y[k][3 * i + j];
+                K[j * n + row + i] += row_factor * a->Y[k][3 * i + j];
+            }
+        }
+        for (int l = k; l <= s->stages; l++) {
+            const int column = variables(s, l, &column_factor);
+            for (int i = 0; i < 3; i++)
+                for (int j = 0; j < 3; j++) {
+                    const double value = row_factor * column_factor * a->X[k][l][3 * i + j];
+                    K[(row + i) * n + column + j] += value;
+                    if (k != l)
+                        K[(column + j) * n + row + i] += value;
+                }
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        gradient[i] += a->gF[i];
+        for (int j = 0; j < 3; j++)
+            K[i * n + j] += a->FF[3 * i + j];
+    }
+    if (s->warps) {
+        double work[WARPING_MAX * STAGES_ALL];
+        dense_add_congruence(s->stages + 3, n, a->dz, s->S, K, work);
+    }
+}
+
+void sums_follow(const stages *s, int i, const double change[], double x[3], double slope[3])
+{
+    memset(x, 0, 3 * sizeof *x);
+    memset(slope, 0, 3 * sizeof *slope);
+    for (int k = 0; k <= s->stages; k++) {
+        double factor;
+        const int first = variables(s, k, &factor);
+        for (int j = 0; j < 3; j++) {
+            x[j] += s->N[i][k] * factor * change[first + j];
+            slope[j] += s->dN[i][k] * factor * change[first + j];
+        }
+    }
+}
