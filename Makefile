@@ -29,12 +29,12 @@ TRUTHS := $(BUILD)/truths.h5
 OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o)
 TESTS := $(TEST_SOURCES:%.c=$(BUILD)/%)
 
-QUIET := $(filter help clean format layers,$(or $(MAKECMDGOALS),help))
+QUIET := $(filter help clean format layers mutants,$(or $(MAKECMDGOALS),help))
 ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
-.PHONY: help all verify test bench layers asan tidy format format-check check clean report truths FORCE
+.PHONY: help all verify test bench mutants layers asan tidy format format-check check clean report truths FORCE
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -60,6 +60,9 @@ bench: all ## time every formulation on every case into build/bench.csv
 
 truths: ## derive every exact row again and compare it with reference/tables
 	@$(PYTHON) reference/derive/rederive.py
+
+mutants: ## plant faults one by one; each must be noticed
+	@harness/tools/mutants.sh $(BUILD)/mutants
 
 layers: ## check that includes point down only
 	@harness/tools/layers.sh
