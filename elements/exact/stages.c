@@ -71,7 +71,7 @@ status stages_prepare(const element_request *request, int count, stages *out, fa
         return outcome;
     out->stages = count;
     out->unknowns = 4 + 3 * (count - 1);
-    strain_prepare(2, 1, request->length, request->curvature, STRAIN_EIGHTH, &out->line);
+    strain_prepare(2, 1, request->length, request->curvature, MEASURE_EIGHTH, &out->line);
     line_gauss(count, point, out->w);
     const double turn = vec3_norm(request->curvature) * request->length;
     for (int k = 0; k <= count; k++) {
