@@ -23,10 +23,10 @@ static int stage_count(const double value[])
     return FEWEST + (int)value[OPTION_STAGES];
 }
 
-/* F (3), multiplier of the bimoment, x of the inner nodes. */
+/* F (3), x of the inner nodes (3 each). */
 static int inner_count(const double value[])
 {
-    return 4 + 3 * (stage_count(value) - 1);
+    return 3 * stage_count(value);
 }
 
 /* Unknowns' correction, and what they follow the strains with. */
@@ -54,8 +54,8 @@ static void strain(const element_data *d, const node_state x[], strain_output *o
 static void rest(const element_data *d, double inner[])
 {
     const stages *s = &d->stages;
-    memset(inner, 0, 4 * sizeof *inner);
-    memcpy(inner + 4, s->rest_x[1], 3 * (size_t)(s->stages - 1) * sizeof *inner);
+    memset(inner, 0, 3 * sizeof *inner);
+    memcpy(inner + 3, s->rest_x[1], 3 * (size_t)(s->stages - 1) * sizeof *inner);
 }
 
 /* Eliminates the unknowns: X [unknowns x (OUTER + 1)] = K_zz^-1 (K_ze | r_z). */
@@ -145,9 +145,9 @@ static double update(const element_data *data, const double de[], const double m
         for (int j = 0; j < OUTER; j++)
             change -= memory[i * (OUTER + 1) + j] * de[j] / s->line.l0;
         inner[i] += change;
-        if (i < 4)
-            force = fmax(force, fabs(inner[i])); /* the four come first; forces are relative, rotations are not */
-        largest = fmax(largest, fabs(change) / (i < 4 ? force : 1));
+        if (i < 3)
+            force = fmax(force, fabs(inner[i])); /* they come first: forces are relative, rotations are not */
+        largest = fmax(largest, fabs(change) / (i < 3 ? force : 1));
     }
     return largest;
 }

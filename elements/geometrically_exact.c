@@ -36,7 +36,7 @@ static status prepare(const element_request *request, element_data *out, fault *
     const int count = nodes(request->options);
     const status outcome = stiffness_prepare(request, count, &out->stiffness, f);
     if (outcome == STATUS_OK)
-        strain_prepare(count, count - 1, request->length, request->curvature, count == 2 ? STRAIN_ANGLE : STRAIN_QUARTER,
+        strain_prepare(count, count - 1, request->length, request->curvature, count == 2 ? MEASURE_ANGLE : MEASURE_QUARTER,
                        &out->line);
     return outcome;
 }

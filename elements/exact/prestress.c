@@ -15,7 +15,7 @@ static void linear_state(const stages *s, const double sigma[], double change[],
     double rest[STAGES_UNKNOWNS] = {0}, none[STAGES_OUTER] = {0}, K[STAGES_UNKNOWNS * STAGES_UNKNOWNS];
     stages_derivatives d;
     int pivot[STAGES_ALL];
-    memcpy(rest + 4, s->rest_x[1], 3 * (size_t)(s->stages - 1) * sizeof(double));
+    memcpy(rest + 3, s->rest_x[1], 3 * (size_t)(s->stages - 1) * sizeof(double));
     stages_evaluate(s, none, rest, &d);
     for (int i = 0; i < m; i++) {
         memcpy(&K[i * m], &d.hessian[i * n], (size_t)m * sizeof *K);
@@ -58,13 +58,12 @@ static void stressed_hessian(const stages *s, const double change[], double fact
     if (s->warps) {
         dz[s->stages] = change[s->unknowns + 6];
         dz[s->stages + 1] = change[s->unknowns + 7];
-        dz[s->stages + 2] = change[3];
-        dense_mul_vec(s->stages + 3, s->stages + 3, s->S, dz, Sz);
+        dense_mul_vec(s->stages + 2, s->stages + 2, s->S, dz, Sz);
     }
     memset(&a, 0, sizeof a);
     memset(hessian, 0, (size_t)(n * n) * sizeof *hessian);
     if (s->warps)
-        sums_warping(s, (const double[STAGES_OUTER]){0}, 0, p, &a, dz);
+        sums_warping(s, (const double[STAGES_OUTER]){0}, p, &a, dz);
     for (int i = 0; i < s->stages; i++) {
         double gradient[6] = {0, 0, 0, -1, 0, 0}, stiff[36];
         memcpy(stiff, M, sizeof stiff);

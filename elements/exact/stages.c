@@ -7,11 +7,10 @@
 #include "elements/exact/sums.h"
 #include "elements/math/dense.h"
 
-/* Without bimoments: no multiplier, and amplitudes, if there are any, that nothing depends on. */
+/* Without bimoments: amplitudes, if there are any, that nothing depends on. */
 static void no_warping(const stages *s, const double e[], stages_derivatives *out)
 {
     const int n = s->unknowns + STAGES_OUTER;
-    out->hessian[3 * n + 3] = 1;
     for (int i = s->unknowns + 6; i < n && s->c.warping; i++) {
         out->hessian[i * (n + 1)] = s->c.GJ;
         out->gradient[i] = s->c.GJ * e[i - s->unknowns];
@@ -27,7 +26,7 @@ void stages_evaluate(const stages *s, const double e[], const double inner[], st
     sums a;
     memset(&a, 0, sizeof a);
     memset(out, 0, sizeof *out);
-    memcpy(x[1], inner + 4, 3 * (size_t)(last - 1) * sizeof(double));
+    memcpy(x[1], inner + 3, 3 * (size_t)(last - 1) * sizeof(double));
     for (int i = 0; i < 3; i++) {
         x[last][i] = (s->line.rest[0][3 + i] + e[3 + i]) / 2;
         x[0][i] = -x[last][i];
@@ -35,7 +34,7 @@ void stages_evaluate(const stages *s, const double e[], const double inner[], st
     for (int i = 0; i < last; i++)
         stage_at(last + 1, s->N[i], s->dN[i], x[0], inner, s->rest_kappa[i], &p[i]);
     if (s->warps)
-        sums_warping(s, e, inner[3], p, &a, Sz);
+        sums_warping(s, e, p, &a, Sz);
     for (int i = 0; i < last; i++) {
         double gradient[6], M[36];
         out->P += s->w[i] * stage_material(&s->c, p[i].kappa, p[i].N, Sz[i] / s->w[i], gradient, M);
@@ -54,11 +53,10 @@ void stages_evaluate(const stages *s, const double e[], const double inner[], st
         no_warping(s, e, out);
         return;
     }
-    for (int i = 0; i < last + 3; i++)
+    for (int i = 0; i < last + 2; i++)
         out->P += a.z[i] * Sz[i] / 2;
     out->gradient[s->unknowns + 6] += Sz[last]; /* the points' part of the gradient is there already */
     out->gradient[s->unknowns + 7] += Sz[last + 1];
-    out->gradient[3] += Sz[last + 2];
 }
 
 status stages_prepare(const element_request *request, int count, stages *out, fault *f)
@@ -70,8 +68,8 @@ status stages_prepare(const element_request *request, int count, stages *out, fa
     if (outcome != STATUS_OK)
         return outcome;
     out->stages = count;
-    out->unknowns = 4 + 3 * (count - 1);
-    strain_prepare(2, 1, request->length, request->curvature, STRAIN_EIGHTH, &out->line);
+    out->unknowns = 3 * count;
+    strain_prepare(2, 1, request->length, request->curvature, MEASURE_EIGHTH, &out->line);
     line_gauss(count, point, out->w);
     const double turn = vec3_norm(request->curvature) * request->length;
     for (int k = 0; k <= count; k++) {

@@ -8,7 +8,7 @@
  *                          + 1/2 EI_y kappa_y^2 + 1/2 EI_z kappa_z^2 + 1/2 GJ k^2 + c k^4] + warping (warping.h),
  *   N = R^T F, k = kappa_x, over p Gauss points,
  *
- * is stationary in F, in the inner x and in the bimoment's multiplier.  In a linear problem this is collocation
+ * is stationary in F and in the inner x.  In a linear problem this is collocation
  * of m' = F x r' at the Gauss points, whose moments are in equilibrium with F exactly.  All dimensionless (constants.h). */
 #ifndef BEAMWORK_EXACT_STAGES_H
 #define BEAMWORK_EXACT_STAGES_H
@@ -19,13 +19,13 @@
 enum {
     STAGES_MAX = WARPING_MAX_STAGES,
     STAGES_NODES = STAGES_MAX + 1,
-    STAGES_OUTER = 8,                           /* strains */
-    STAGES_UNKNOWNS = 4 + 3 * (STAGES_MAX - 1), /* F, multiplier, inner x */
+    STAGES_OUTER = 8,                 /* strains */
+    STAGES_UNKNOWNS = 3 * STAGES_MAX, /* F, inner x */
     STAGES_ALL = STAGES_UNKNOWNS + STAGES_OUTER
 };
 
 typedef struct stages {
-    int stages, unknowns; /* unknowns: F (3), multiplier, x of the inner nodes */
+    int stages, unknowns; /* unknowns: F (3), x of the inner nodes */
     constants c;
     strain_line line;
     double w[STAGES_MAX], N[STAGES_MAX][STAGES_NODES], dN[STAGES_MAX][STAGES_NODES];

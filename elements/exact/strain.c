@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "elements/exact/line.h"
+#include "elements/exact/measure.h"
 #include "elements/exact/point.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
@@ -14,57 +15,7 @@ typedef struct nodes {
     double r[ELEMENT_MAX_NODES][3], u[ELEMENT_MAX_NODES][3]; /* per l0 */
 } nodes;
 
-/* What 4 y must be multiplied by, y = tan(angle/4), and its first and second derivative with respect to t = y^2. */
-static void ratio(strain_rotation kind, double t, double m[3])
-{
-    if (kind == STRAIN_EIGHTH) { /* 2 tan(angle/8)/tan(angle/4) */
-        const double r = sqrt(1 + t);
-        m[0] = 2 / (1 + r);
-        m[1] = -1 / (r * (1 + r) * (1 + r));
-        m[2] = (1 + 3 * r) / (2 * r * r * r * (1 + r) * (1 + r) * (1 + r));
-        return;
-    }
-    if (t < 0.01) { /* atan(y)/y = sum (-t)^k/(2 k + 1) */
-        double power = 1;
-        m[0] = m[1] = m[2] = 0;
-        for (int k = 0; k < 10; k++) {
-            m[0] += power / (2 * k + 1);
-            m[1] -= power * (k + 1) / (2 * k + 3);
-            m[2] += power * (k + 1) * (k + 2) / (2 * k + 5);
-            power *= -t;
-        }
-        return;
-    }
-    m[0] = atan(sqrt(t)) / sqrt(t);
-    m[1] = (1 / (1 + t) - m[0]) / (2 * t);
-    m[2] = (-1 / ((1 + t) * (1 + t)) - 3 * m[1]) / (2 * t);
-}
-
-/* From x = 4 tan(angle/4) about an axis to the measure wanted: m(|x|^2/16) x, and its derivative. */
-static void to_measure(strain_rotation kind, const double x[3], double out[3], double T[9])
-{
-    double m[3] = {1, 0, 0};
-    if (kind != STRAIN_QUARTER)
-        ratio(kind, vec3_dot(x, x) / 16, m);
-    for (int i = 0; i < 3; i++) {
-        out[i] = m[0] * x[i];
-        for (int j = 0; j < 3; j++)
-            T[3 * i + j] = (i == j ? m[0] : 0) + m[1] / 8 * x[i] * x[j];
-    }
-}
-
-/* Second derivative of n . measure(x). */
-static void to_measure_second(strain_rotation kind, const double x[3], const double n[3], double H[9])
-{
-    double m[3];
-    ratio(kind, vec3_dot(x, x) / 16, m);
-    const double along = vec3_dot(n, x);
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            H[3 * i + j] = m[1] / 8 * (n[i] * x[j] + x[i] * n[j] + (i == j ? along : 0)) + m[2] / 64 * along * x[i] * x[j];
-}
-
-static void measure(const strain_line *line, const nodes *s, int g, point *p, double y[3], double dy[3])
+static void observe(const strain_line *line, const nodes *s, int g, point *p, double y[3], double dy[3])
 {
     for (int i = 0; i < 3; i++) {
         y[i] = dy[i] = 0;
@@ -89,7 +40,7 @@ static void strains_at(const strain_line *line, int g, const point *p, const dou
 {
     double psi[3], T[9];
     stretch(p->v, line->rest[g], y, dy, e);
-    to_measure(line->rotation, p->kappa, psi, T);
+    measure_of(line->rotation, p->kappa, psi, T);
     for (int i = 0; i < 3; i++) {
         e[i] *= line->l0;
         e[3 + i] = line->l0 * (psi[i] - line->rest[g][3 + i]);
@@ -102,7 +53,7 @@ static void first(const strain_line *line, const nodes *s, int g, const point *p
     const double none[3] = {0}, l0 = line->l0;
     const int n = 7 * line->nodes;
     double T[9], psi[3];
-    to_measure(line->rotation, p->kappa, psi, T);
+    measure_of(line->rotation, p->kappa, psi, T);
     for (int row = 0; row < 6; row++) {
         double Q[4], S[4], unit[3] = {0}, inverse[4], weight[4], turn[4];
         if (row < 3)
@@ -156,12 +107,12 @@ static void second(const strain_line *line, const nodes *s, int g, const point *
         stretching[i] = line->l0 * weight[i];
         turn[i] = line->l0 * weight[3 + i];
     }
-    if (line->rotation != STRAIN_QUARTER) {
+    if (line->rotation != MEASURE_QUARTER) {
         /* n . psi(x): T^T n takes n's place, and the second derivative of psi meets dx = T^-1 J twice. */
         double psi[3], T[9], inner[9], inverse[9], bent[9], dx[3 * 7 * ELEMENT_MAX_NODES], weighted[3];
         int pivot[3];
-        to_measure(line->rotation, p->kappa, psi, T);
-        to_measure_second(line->rotation, p->kappa, turn, inner);
+        measure_of(line->rotation, p->kappa, psi, T);
+        measure_second(line->rotation, p->kappa, turn, inner);
         memcpy(inverse, T, sizeof inverse);
         memcpy(dx, &J[3 * n], 3 * (size_t)n * sizeof *dx);
         dense_lu(3, inverse, pivot); /* every measure grows with the angle: never singular */
@@ -203,7 +154,7 @@ void strain_of(const strain_line *line, const node_state x[], strain_output *out
     for (int g = 0; g < line->points; g++) {
         point p;
         double y[3], dy[3], e[6], rows[6 * 7 * ELEMENT_MAX_NODES];
-        measure(line, &s, g, &p, y, dy);
+        observe(line, &s, g, &p, y, dy);
         strains_at(line, g, &p, y, dy, e);
         if (out->e != NULL)
             memcpy(&out->e[6 * g], e, sizeof e);
@@ -241,7 +192,7 @@ void strain_arc(const double curvature[3], double l0, double x, double r[3], dou
     rotation_exp(turn, q);
 }
 
-void strain_prepare(int nodes_count, int points, double l0, const double curvature[3], strain_rotation rotation, strain_line *line)
+void strain_prepare(int nodes_count, int points, double l0, const double curvature[3], measure_kind rotation, strain_line *line)
 {
     double x[STRAIN_MAX_POINTS], w[STRAIN_MAX_POINTS], at[ELEMENT_MAX_NODES];
     nodes s;
@@ -260,8 +211,8 @@ void strain_prepare(int nodes_count, int points, double l0, const double curvatu
         double y[3], dy[3], psi[3], T[9];
         line_lagrange(nodes_count, at, x[g], line->N[g], line->dN[g]);
         memset(s.u, 0, sizeof s.u);
-        measure(line, &s, g, &p, y, dy);
-        to_measure(rotation, p.kappa, psi, T);
+        observe(line, &s, g, &p, y, dy);
+        measure_of(rotation, p.kappa, psi, T);
         for (int i = 0; i < 3; i++) {
             line->rest[g][i] = p.v[i];
             line->rest[g][3 + i] = psi[i];

@@ -6,26 +6,20 @@
 #define BEAMWORK_EXACT_STRAIN_H
 
 #include "elements/element.h"
+#include "elements/exact/measure.h"
 
 enum { STRAIN_MAX_POINTS = 2 };
-
-/* How the rotation between two nodes is measured, all about its axis. */
-typedef enum strain_rotation {
-    STRAIN_QUARTER, /* l0 kappa of the interpolation: 4 tan(angle/4) */
-    STRAIN_ANGLE,   /* the angle itself */
-    STRAIN_EIGHTH   /* 8 tan(angle/8) */
-} strain_rotation;
 
 typedef struct strain_line {
     int nodes, points;
     double l0; /* [m] */
-    strain_rotation rotation;
+    measure_kind rotation;
     double N[STRAIN_MAX_POINTS][ELEMENT_MAX_NODES], dN[STRAIN_MAX_POINTS][ELEMENT_MAX_NODES]; /* dN: per l0 */
     double rest[STRAIN_MAX_POINTS][6]; /* R^T r' and l0 kappa undeformed, dimensionless */
 } strain_line;
 
 /* Gauss points between evenly spaced nodes; curvature: initial, constant [1/m]. */
-void strain_prepare(int nodes, int points, double l0, const double curvature[3], strain_rotation rotation, strain_line *line);
+void strain_prepare(int nodes, int points, double l0, const double curvature[3], measure_kind rotation, strain_line *line);
 
 void strain_of(const strain_line *line, const node_state x[], strain_output *out);
 

@@ -9,7 +9,7 @@ static int variables(const stages *s, int k, double *factor)
 {
     const int end = k == 0 || k == s->stages;
     *factor = !end ? 1 : k == 0 ? -0.5 : 0.5;
-    return end ? s->unknowns + 3 : 4 + 3 * (k - 1);
+    return end ? s->unknowns + 3 : 3 * k;
 }
 
 static void add_point(int nodes, const double N[], const double dN[], const double gradient[STAGE_SPACE],
@@ -65,16 +65,15 @@ void sums_add(const stages *s, int i, const stage *p, const double force[3], con
         warping_row(s, i, D, a);
 }
 
-void sums_warping(const stages *s, const double e[], double multiplier, const stage p[], sums *a, double Sz[])
+void sums_warping(const stages *s, const double e[], const stage p[], sums *a, double Sz[])
 {
     const int m = s->stages, n = s->unknowns + STAGES_OUTER;
     for (int i = 0; i < m; i++)
         a->z[i] = p[i].kappa[0] - s->c.F[6] * p[i].N[1] - s->c.F[7] * p[i].N[2];
     a->z[m] = e[6];
     a->z[m + 1] = e[7];
-    a->z[m + 2] = multiplier;
-    a->dz[m * n + s->unknowns + 6] = a->dz[(m + 1) * n + s->unknowns + 7] = a->dz[(m + 2) * n + 3] = 1;
-    dense_mul_vec(m + 3, m + 3, s->S, a->z, Sz);
+    a->dz[m * n + s->unknowns + 6] = a->dz[(m + 1) * n + s->unknowns + 7] = 1;
+    dense_mul_vec(m + 2, m + 2, s->S, a->z, Sz);
 }
 
 void sums_gather(const stages *s, const sums *a, double gradient[], double hessian[])
@@ -108,7 +107,7 @@ void sums_gather(const stages *s, const sums *a, double gradient[], double hessi
     }
     if (s->warps) {
         double work[WARPING_MAX * STAGES_ALL];
-        dense_add_congruence(s->stages + 3, n, a->dz, s->S, K, work);
+        dense_add_congruence(s->stages + 2, n, a->dz, s->S, K, work);
     }
 }
 

@@ -18,7 +18,7 @@ typedef struct sums {
 void sums_add(const stages *s, int i, const stage *p, const double force[3], const double gradient[6], const double M[36], sums *a);
 
 /* Arguments of the warping energy and, in Sz, its gradient with respect to them. */
-void sums_warping(const stages *s, const double e[], double multiplier, const stage p[], sums *a, double Sz[]);
+void sums_warping(const stages *s, const double e[], const stage p[], sums *a, double Sz[]);
 
 /* To gradient and Hessian in the element's variables, warping energy included. */
 void sums_gather(const stages *s, const sums *a, double gradient[], double hessian[]);

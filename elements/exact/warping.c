@@ -1,67 +1,144 @@
 #include "elements/exact/warping.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "elements/exact/line.h"
 #include "elements/math/dense.h"
 
-/* Polynomial through 0 and the stages: slopes at the stages and the value at 1, on (value at 0, values at the stages). */
-static void polynomial(int stages, const double x[], double slope[][WARPING_MAX_STAGES + 1], double end[])
+enum {
+    STAGES = WARPING_MAX_STAGES,
+    POLYNOMIALS =
+        20, /* resolve layers up to lambda = SHORT to rounding: their energy errs by the square of the amplitude's error */
+    BUBBLES = POLYNOMIALS,
+    FUNCTIONS = BUBBLES + 2, /* 1 - x and x come first */
+    INTERVALS = 9,
+    ORDER = 16,
+    POINTS = INTERVALS * ORDER
+};
+static const double lambda_short = 20; /* beyond it the layers are functions of their own, and few polynomials are needed */
+
+typedef struct basis {
+    int bubbles, layers;
+    double lambda;
+} basis;
+
+/* Functions and slopes at x, by its distances from both ends: exact near either. */
+static void functions_at(const basis *b, double x, double rest, double value[], double slope[])
 {
-    double at[WARPING_MAX_STAGES + 1] = {0}, L[WARPING_MAX_STAGES + 1];
-    memcpy(at + 1, x, (size_t)stages * sizeof *x);
-    for (int i = 0; i < stages; i++)
-        line_lagrange(stages + 1, at, x[i], L, slope[i]);
-    line_lagrange(stages + 1, at, 1, end, NULL);
+    value[0] = rest;
+    value[1] = x;
+    slope[0] = -1;
+    slope[1] = 1;
+    /* Integrated Legendre polynomials (P_(j+1) - P_(j-1))/(2 (2 j + 1)), zero at both ends. */
+    double before = 1, now = x - rest;
+    for (int j = 1; j <= b->bubbles - 2 * b->layers; j++) {
+        const double next = ((2 * j + 1) * (x - rest) * now - j * before) / (j + 1);
+        value[j + 1] = (next - before) / (2 * (2 * j + 1));
+        slope[j + 1] = now;
+        before = now;
+        now = next;
+    }
+    if (!b->layers)
+        return;
+    const double l = b->lambda, far = exp(-l), p = exp(-l * x), q = exp(-l * rest);
+    const int k = b->bubbles;
+    value[k] = p - rest - far * x;
+    slope[k] = -l * p + 1 - far;
+    value[k + 1] = q - x - far * rest;
+    slope[k + 1] = l * q - 1 + far;
+}
+
+/* Points that integrate smooth functions and layers of thickness 1/lambda at both ends. rest: 1 - x. */
+static void graded_points(double lambda, double x[], double rest[], double w[])
+{
+    const double step[] = {0, 1, 4, 12, 40}, thickness = fmin(1 / lambda, 0.01);
+    double at[INTERVALS + 1], gauss[ORDER], weight[ORDER];
+    for (int i = 0; i <= INTERVALS / 2; i++) {
+        at[i] = step[i] * thickness;
+        at[INTERVALS - i] = at[i]; /* from the other end */
+    }
+    line_gauss(ORDER, gauss, weight);
+    for (int i = 0; i < INTERVALS; i++)
+        for (int g = 0; g < ORDER; g++) {
+            const int k = i * ORDER + g, middle = INTERVALS / 2, from_q = i > middle;
+            const double length = i == middle ? 1 - 2 * at[i] : fabs(at[i + 1] - at[i]);
+            const double near = from_q ? at[i + 1] + gauss[g] * length : at[i] + gauss[g] * length;
+            w[k] = weight[g] * length;
+            x[k] = from_q ? 1 - near : near;
+            rest[k] = from_q ? near : 1 - near;
+        }
+}
+
+/* Mean[stages][functions]: P of every function at the stages; K: 2 x energy of their slopes and of what P does not see. */
+static void integrate(const constants *c, const basis *b, int stages, const double x[], const double w[],
+                      double mean[STAGES * FUNCTIONS], double K[FUNCTIONS * FUNCTIONS])
+{
+    const int n = b->bubbles + 2;
+    double at[POINTS], rest[POINTS], weight[POINTS];
+    memset(mean, 0, (size_t)(stages * n) * sizeof *mean);
+    memset(K, 0, (size_t)(n * n) * sizeof *K);
+    graded_points(fmax(b->lambda, 1), at, rest, weight);
+    for (int pass = 0; pass < 2; pass++)
+        for (int k = 0; k < POINTS; k++) {
+            double value[FUNCTIONS], slope[FUNCTIONS], L[STAGES];
+            functions_at(b, at[k], rest[k], value, slope);
+            line_lagrange(stages, x, at[k], L, NULL);
+            for (int i = 0; i < stages; i++)
+                for (int j = 0; j < n; j++)
+                    if (pass == 0)
+                        mean[i * n + j] += weight[k] * L[i] / w[i] * value[j];
+                    else
+                        value[j] -= L[i] * mean[i * n + j];
+            for (int i = 0; i < n && pass == 1; i++)
+                for (int j = 0; j < n; j++)
+                    K[i * n + j] += weight[k] * (c->EIw * slope[i] * slope[j] + c->GJ * value[i] * value[j]);
+        }
 }
 
 void warping_energy(const constants *c, int stages, const double x[], const double w[], double S[WARPING_MAX * WARPING_MAX])
 {
-    enum { P = WARPING_MAX_STAGES };
-    const int n = stages + 3, p = stages, q = stages + 1, multiplier = stages + 2;
-    const double flexible = c->F[8];
-    double slope[P][P + 1], end[P + 1], bend[P + 1][P + 1], A[P * P], a[(P + 1) * WARPING_MAX] = {0}, T[P * WARPING_MAX];
-    int pivot[P];
-    polynomial(stages, x, slope, end);
-    for (int i = 0; i <= stages; i++)
-        for (int j = 0; j <= stages; j++) {
-            bend[i][j] = 0;
-            for (int k = 0; k < stages; k++)
-                bend[i][j] += c->EIw * w[k] * slope[k][i] * slope[k][j];
-        }
-    /* Warping torque w T = bend a - multiplier end, twist rate = a + flexible T: a at the stages. */
-    double *rows = a + n;
-    a[p] = 1;
-    for (int i = 0; i < stages; i++) {
-        const double k = flexible / w[i];
-        for (int j = 0; j < stages; j++)
-            A[i * stages + j] = (i == j) + k * bend[i + 1][j + 1];
-        rows[i * n + i] = 1;
-        rows[i * n + p] = -k * bend[i + 1][0];
-        rows[i * n + multiplier] = k * end[i + 1];
+    enum { SIZE = BUBBLES + STAGES };
+    const double lambda = sqrt(c->GJ / c->EIw);
+    const int layers = lambda > lambda_short;
+    const basis b = {.layers = layers, .bubbles = layers ? stages + 3 : BUBBLES, .lambda = lambda};
+    const int n = b.bubbles + 2, m = stages + 2, size = b.bubbles + stages;
+    double mean[STAGES * FUNCTIONS], K[FUNCTIONS * FUNCTIONS], A[SIZE * SIZE] = {0}, X[SIZE * WARPING_MAX] = {0};
+    int pivot[SIZE];
+    integrate(c, &b, stages, x, w, mean, K);
+    /* Unknown: bubbles and w T, T the warping torque at the stages: 1/2 a K a + T w (kappa - P a) - 1/2 flexibility w T^2. */
+    for (int i = 0; i < b.bubbles; i++) {
+        for (int j = 0; j < b.bubbles; j++)
+            A[i * size + j] = K[(i + 2) * n + j + 2];
+        for (int j = 0; j < 2; j++)
+            X[i * m + stages + j] = -K[(i + 2) * n + j];
+        for (int k = 0; k < stages; k++)
+            A[i * size + b.bubbles + k] = A[(b.bubbles + k) * size + i] = -mean[k * n + i + 2];
     }
-    dense_lu(stages, A, pivot); /* never singular: both matrices of the product are positive semidefinite */
-    dense_lu_solve(stages, n, A, pivot, rows);
-    for (int i = 0; i < stages; i++)
-        for (int j = 0; j < n; j++) {
-            T[i * n + j] = j == multiplier ? -end[i + 1] / w[i] : 0;
-            for (int k = 0; k <= stages; k++)
-                T[i * n + j] += bend[i + 1][k] / w[i] * a[k * n + j];
-        }
+    for (int k = 0; k < stages; k++) {
+        const int row = b.bubbles + k;
+        A[row * size + row] = -c->F[8] / w[k];
+        X[row * m + k] = -1;
+        for (int j = 0; j < 2; j++)
+            X[row * m + stages + j] = mean[k * n + j];
+    }
+    dense_lu(size, A, pivot); /* never singular: K is positive definite on the bubbles, which outnumber the stages */
+    dense_lu_solve(size, m, A, pivot, X);
+    /* The gradient with respect to z: w T at the stages, and K a - P^T w T at the ends. */
     memset(S, 0, WARPING_MAX * WARPING_MAX * sizeof *S);
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) {
-            for (int k = 0; k <= stages; k++)
-                for (int l = 0; l <= stages; l++)
-                    S[i * n + j] += bend[k][l] * a[k * n + i] * a[l * n + j];
+    for (int j = 0; j < m; j++) {
+        for (int i = 0; i < stages; i++)
+            S[i * m + j] = X[(b.bubbles + i) * m + j];
+        for (int i = 0; i < 2; i++) {
+            double sum = j >= stages ? K[i * n + j - stages] : 0;
+            for (int k = 0; k < b.bubbles; k++)
+                sum += K[i * n + k + 2] * X[k * m + j];
             for (int k = 0; k < stages; k++)
-                S[i * n + j] += flexible * w[k] * T[k * n + i] * T[k * n + j];
+                sum -= mean[k * n + i] * X[(b.bubbles + k) * m + j];
+            S[(stages + i) * m + j] = sum;
         }
-    for (int j = 0; j < n; j++) {
-        double closing = j == q ? -1 : 0; /* a(1) - a_q */
-        for (int k = 0; k <= stages; k++)
-            closing += end[k] * a[k * n + j];
-        S[multiplier * n + j] -= closing;
-        S[j * n + multiplier] -= closing;
     }
+    for (int i = 0; i < m; i++)
+        for (int j = 0; j < i; j++)
+            S[i * m + j] = S[j * m + i] = (S[i * m + j] + S[j * m + i]) / 2;
 }

@@ -215,15 +215,14 @@ static void collocation(void)
     const double small[2] = {3.972596107351e-7, 2.620413704209e-8}, large[2] = {1.832361796194e-6, 1.287708251249e-7};
     derivatives(type, five, 0.4);
     shear_elastica_converges(type, three, 4, 2e-9, 5.7);
-    sheet_converges(type, three, 4, 7e-7, 5.7);
-    sheet_converges(type, four, 2, 6e-7, 6.9);
-    one_element(type, 0, 0.015, small, (const double[2]){5.5e-3, 3.2e-2});
-    one_element(type, 1, 0.015, small, (const double[2]){4.0e-4, 8.1e-3});
-    one_element(type, 2, 0.015, small, (const double[2]){5.7e-6, 2.8e-4});
-    one_element(type, 3, 0.015, small, (const double[2]){4.0e-7, 3.4e-5});
+    sheet_converges(type, three, 4, 8e-7, 6);
+    sheet_converges(type, four, 3, 2e-8, 7);
+    one_element(type, 1, 0.015, small, (const double[2]){4.0e-4, 8.8e-4});
+    one_element(type, 2, 0.015, small, (const double[2]){5.7e-6, 7.8e-5});
+    one_element(type, 3, 0.015, small, (const double[2]){4.0e-7, 2.3e-5});
     one_element(type, 5, 0.015, small, (const double[2]){3.0e-10, 1.2e-8});
-    one_element(type, 2, 0.05, large, (const double[2]){2.8e-4, 5.0e-5});
-    one_element(type, 5, 0.05, large, (const double[2]){3.6e-7, 1.9e-6});
+    one_element(type, 2, 0.05, large, (const double[2]){2.8e-4, 2.5e-4});
+    one_element(type, 5, 0.05, large, (const double[2]){3.6e-7, 2.7e-6});
     const double circle[2] = {roll_up(type, five, 2), roll_up(type, five, 4)};
     gsl_test(!(circle[1] < 1e-10 && circle[0] / circle[1] > 900), "%s: two and four elements close the circle (%.1e, %.1e)",
              type->name, circle[0], circle[1]);
