@@ -195,6 +195,23 @@ static void not_met(FILE *to, const judgement *j, const truths *t)
         fprintf(to, "\ntruths of %d unknown cases, the first: %s\n", t->strangers, t->stranger);
 }
 
+/* Cells that have no solution, also where finer meshes have one and decide the verdict. */
+static void failed_cells(FILE *to, const sweep *s)
+{
+    int count = 0;
+    for (int i = 0; i < s->seriess; i++)
+        for (int k = 0; k < s->series[i].meshes && s->series[i].missing[0] == '\0'; k++) {
+            const series *one = &s->series[i];
+            const solve_result *r = &one->cell[k].solve;
+            if (r->status == STATUS_OK)
+                continue;
+            if (count++ == 0)
+                fprintf(to, "\ncells without a solution\n");
+            fprintf(to, "  %s, %s, n = %d: %s: %.110s\n", s->point[one->point].type->name, one->formulation.key, one->mesh[k],
+                    status_name(r->status), r->reason);
+        }
+}
+
 void table_verdicts(FILE *to, const sweep *s, const judgement *j, const truths *t)
 {
     int last_point = -1, last_series = -1;
@@ -214,6 +231,7 @@ void table_verdicts(FILE *to, const sweep *s, const judgement *j, const truths *
         last_series = v->series;
     }
     disagreements(to, s, j);
+    failed_cells(to, s);
     not_met(to, j, t);
     fprintf(to, "\n%d cells; %d verdicts against truths:", sweep_cells(s), j->judged);
     for (int k = 0; k < VERDICT_KINDS; k++)
