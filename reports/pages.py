@@ -1,4 +1,5 @@
 """HTML pages from records and figures."""
+import concurrent.futures
 import math
 import os
 import pathlib
@@ -9,7 +10,7 @@ from reports import claims, data, plots
 from reports.style import Styles
 
 LEVELS = (0.1, 0.01, 0.001, 0.0001)
-MOST_FIGURES, MOST_POINTS = 5, 4
+MOST_FIGURES, MOST_POINTS = 64, 3
 
 
 def number(value, digits=6):
@@ -94,6 +95,11 @@ def formulation_rows(cases):
     return rows
 
 
+def write_case(case, styles, folder):
+    """One case with its figures; cases are drawn side by side in processes of their own."""
+    write(environment(folder), "case.html", folder, f"{case.name}.html", case=case, figures=figures_of(case, styles, folder), cheapest=data.cheapest, judged=judged)
+
+
 def build(results, truths, folder):
     """Writes the whole site; returns the number of pages."""
     about, cases = data.read_results(results)
@@ -101,8 +107,9 @@ def build(results, truths, folder):
     os.makedirs(folder, exist_ok=True)
     styles = Styles([s.key for c in cases for p in c.points for s in p.series])
     env = environment(folder)
-    for case in cases:
-        write(env, "case.html", folder, f"{case.name}.html", case=case, figures=figures_of(case, styles, folder), cheapest=data.cheapest, judged=judged)
+    with concurrent.futures.ProcessPoolExecutor() as pool:
+        for done in [pool.submit(write_case, case, styles, folder) for case in cases]:
+            done.result()
     rows = formulation_rows(cases)
     for key in rows:
         series = [(c, p, s) for c in cases for p in c.points for s in p.series if s.key == key and not s.missing]
