@@ -20,7 +20,6 @@ static status build(const double value[], scene *s, fault *f)
     const int path = cantilever_path(s, 10);
     cantilever_quantity(s, "tip_gap", "1", path, tip, SCENE_UX, 1, 1);
     s->quantity[s->quantities - 1].near_zero = 1;
-    s->quantity[s->quantities - 1].tolerance = 1e-3;
     return STATUS_OK;
 }
 

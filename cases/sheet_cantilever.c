@@ -63,8 +63,7 @@ static status build(const double value[], scene *s, fault *f)
 
     add_gated(s, "C_xx", "m/N", SCENE_COMPLIANCE_ENTRY, compliance, tip, SCENE_UX);
     add_gated(s, "C_zz", "m/N", SCENE_COMPLIANCE_ENTRY, compliance, tip, SCENE_UZ);
-    s->quantity[s->quantities - 1].tolerance = 4e-4;
-    sheet_add_compliance(s, compliance, tip, entries, sizeof entries / sizeof entries[0], 2e-3);
+    sheet_add_compliance(s, compliance, tip, entries, sizeof entries / sizeof entries[0], 1e-4);
     add_gated(s, "u_x", "m", SCENE_COORDINATE, path_analysis, tip, SCENE_UX);
     add_gated(s, "F_y", "N", SCENE_REACTION, path_analysis, tip, SCENE_UY);
     add_gated(s, "M_z", "N m", SCENE_REACTION, path_analysis, tip, SCENE_RZ);

@@ -60,7 +60,7 @@ static status build(const double value[], scene *s, fault *f)
         entries[i][0] = k / 6;
         entries[i][1] = k % 6;
     }
-    sheet_add_compliance(s, compliance, tip, (const int(*)[2])entries, 36, 3e-3);
+    sheet_add_compliance(s, compliance, tip, (const int(*)[2])entries, 36, 1e-3);
     static const struct {
         const char *name, *unit;
         scene_quantity_kind kind;
