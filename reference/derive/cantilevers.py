@@ -75,7 +75,7 @@ def bend_45():
 
 def roll_up():
     """A circle: the tip is at L sin(angle)/angle."""
-    for turns in (1, 0.25):
+    for turns in (1, 0.25, 2):
         angle = 2 * math.pi * turns
         value = 0.0 if turns >= 1 else math.sin(angle) / angle
         yield "roll_up", "" if turns == 1 else f"turns={turns}", "tip_gap", value, "1", 1e-13
