@@ -3,7 +3,7 @@ import math
 import os
 
 import numpy as np
-from matplotlib.ticker import ScalarFormatter
+from matplotlib.ticker import NullFormatter, ScalarFormatter
 
 from reports.style import plt
 
@@ -24,7 +24,9 @@ def log_axes(axes, xlabel, ylabel):
     axes.set_xlabel(xlabel)
     axes.set_ylabel(ylabel)
     if "elements" in xlabel:
+        axes.set_xticks([1, 2, 4, 8, 16, 32, 64])
         axes.xaxis.set_major_formatter(ScalarFormatter())
+        axes.xaxis.set_minor_formatter(NullFormatter())
 
 
 def finite_errors(series, quantity):
@@ -61,7 +63,9 @@ def convergence(point, quantity, styles, folder, name):
     if not drawn:
         plt.close(figure)
         return None
+    span = left.get_xlim()
     log_axes(left, "elements per member", "relative error")
+    left.set_xlim(0.9 * max(span[0], 1), 1.1 * span[1])
     log_axes(right, "seconds (set-up and solution)", "")
     if best and best[0] >= 1:
         slope_triangle(left, *best)
@@ -113,6 +117,6 @@ def column_figure(case, styles, folder):
         axes.annotate(f"{verdict.verdict} ({100 * verdict.error:+.2g} %)" if verdict.verdict == "wrong limit" else verdict.verdict,
                       (pairs[-1][0].n, pairs[-1][1]), textcoords="offset points", xytext=(4, 4), fontsize=8, color=styles.of(key)["color"])
     log_axes(axes, "elements over the column", "relative error of the buckling load")
-    axes.margins(x=0.25)
+    axes.set_xlim(1.8, 260)
     axes.legend(loc="lower left")
     return save(figure, folder, "column")
