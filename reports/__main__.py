@@ -17,7 +17,7 @@ def main():
     except (data.Unreadable, OSError) as why:
         print(f"report: {why}", file=sys.stderr)
         return 4
-    print(f"{count} pages: {given.folder}/index.html")
+    print(f"{count} parts: {given.folder}/index.html")
     return 0
 
 

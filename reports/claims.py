@@ -1,9 +1,12 @@
 """What the papers claim, beside what is measured here; and other programs on the same case."""
 import csv
+import functools
 import math
-import pathlib
 
-PEERS = pathlib.Path(__file__).resolve().parents[1] / "reference" / "peers.csv"
+from reports.site import ROOT
+
+NAVIGATION = [("claims.html", "claims")]
+PEERS = ROOT / "reference" / "peers.csv"
 
 
 class Lookup:
@@ -85,3 +88,11 @@ def peers(cases):
     for series in point.series if point else []:
         out += [(series.key, m.n, m.free, m.errors["C_xx"], m.errors["C_zz"], m.seconds, True) for m in series.meshes if math.isfinite(m.errors.get("C_zz", math.nan))]
     return sorted(out, key=lambda row: (row[2], row[0]))
+
+
+def write(site):
+    site.write("claims.html", "claims.html", claims=claims(site.cases), peers=peers(site.cases))
+
+
+def tasks(site):
+    return [functools.partial(write, site)]

@@ -1,6 +1,5 @@
 """Figures: error against elements and against time, curves, the summary of all verdicts."""
 import math
-import os
 
 import numpy as np
 from matplotlib.ticker import NullFormatter, ScalarFormatter
@@ -8,14 +7,6 @@ from matplotlib.ticker import NullFormatter, ScalarFormatter
 from reports.style import plt
 
 FLOOR = 1e-13
-
-
-def save(figure, folder, name):
-    """Writes an SVG without a date; returns its name."""
-    path = os.path.join(folder, f"{name}.svg")
-    figure.savefig(path, metadata={"Date": None}, bbox_inches="tight")
-    plt.close(figure)
-    return f"{name}.svg"
 
 
 def log_axes(axes, xlabel, ylabel):
@@ -44,7 +35,7 @@ def slope_triangle(axes, order, n, error):
     axes.annotate(f"order {order:.0f}", (x[0], error * 4 ** order), fontsize=7, color="0.4")
 
 
-def convergence(point, quantity, styles, folder, name):
+def convergence(site, point, quantity, name):
     """Error against elements (left) and against seconds (right); failures are marked at the top."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.8), sharey=True)
     drawn, best = False, None
@@ -54,7 +45,7 @@ def convergence(point, quantity, styles, folder, name):
             continue
         drawn = True
         n, error = [m.n for m, _ in pairs], [max(e, FLOOR) for _, e in pairs]
-        style = styles.of(series.key)
+        style = site.styles.of(series.key)
         left.plot(n, error, label=series.key, **style)
         right.plot([max(m.seconds, 1e-6) for m, _ in pairs], error, **style)
         order = next((v.order for v in series.verdicts if v.quantity == quantity), math.nan)
@@ -72,17 +63,17 @@ def convergence(point, quantity, styles, folder, name):
     top = left.get_ylim()[1]
     for series in point.series:
         for mesh in failures(series, quantity) if series.missing == "" else []:
-            left.plot([mesh.n], [top], marker="x", color=styles.of(series.key)["color"], clip_on=False, linestyle="none")
+            left.plot([mesh.n], [top], marker="x", color=site.styles.of(series.key)["color"], clip_on=False, linestyle="none")
     tolerance = next((v.tolerance / abs(v.truth) for s in point.series for v in s.verdicts if v.quantity == quantity and v.truth and math.isfinite(v.truth)), None)
     if tolerance:
         for axes in (left, right):
             axes.axhline(tolerance, color="0.5", linewidth=0.7, linestyle=(0, (2, 2)))
         right.annotate("tolerance", (right.get_xlim()[1], tolerance), fontsize=7, color="0.4", ha="right", va="bottom")
     right.legend(*left.get_legend_handles_labels(), loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize=8)
-    return save(figure, folder, name)
+    return site.image(figure, name)
 
 
-def curves(point, quantity, styles, folder, name):
+def curves(site, point, quantity, name):
     """The curve of every formulation on its finest mesh."""
     figure, axes = plt.subplots(figsize=(6, 3.6))
     labels = None
@@ -91,7 +82,7 @@ def curves(point, quantity, styles, folder, name):
         if not meshes:
             continue
         x, value, x_name, x_unit, unit = meshes[-1].curves[quantity]
-        style = {**styles.of(series.key), "marker": ""}
+        style = {**site.styles.of(series.key), "marker": ""}
         axes.plot(x, value, label=f"{series.key}, n = {meshes[-1].n}", **style)
         labels = (f"{x_name} [{x_unit}]", f"{quantity} [{unit}]")
     if labels is None:
@@ -100,10 +91,10 @@ def curves(point, quantity, styles, folder, name):
     axes.set_xlabel(labels[0])
     axes.set_ylabel(labels[1])
     axes.legend(fontsize=7)
-    return save(figure, folder, name)
+    return site.image(figure, name)
 
 
-def column_figure(case, styles, folder):
+def column_figure(site, case):
     """The column under its axial load: the printed form levels off at the wrong limit, the consistent one goes down."""
     point = next((p for p in case.points if p.parameters == "section_data=printed"), case.points[0])
     figure, axes = plt.subplots(figsize=(6.4, 3.8))
@@ -112,11 +103,11 @@ def column_figure(case, styles, folder):
         if series is None:
             continue
         pairs = finite_errors(series, "buckling_load")
-        axes.plot([m.n for m, _ in pairs], [e for _, e in pairs], label=key, **styles.of(key))
+        axes.plot([m.n for m, _ in pairs], [e for _, e in pairs], label=key, **site.styles.of(key))
         verdict = next(v for v in series.verdicts if v.quantity == "buckling_load")
         axes.annotate(f"{verdict.verdict} ({100 * verdict.error:+.2g} %)" if verdict.verdict == "wrong limit" else verdict.verdict,
-                      (pairs[-1][0].n, pairs[-1][1]), textcoords="offset points", xytext=(4, 4), fontsize=8, color=styles.of(key)["color"])
+                      (pairs[-1][0].n, pairs[-1][1]), textcoords="offset points", xytext=(4, 4), fontsize=8, color=site.styles.of(key)["color"])
     log_axes(axes, "elements over the column", "relative error of the buckling load")
     axes.set_xlim(1.8, 260)
     axes.legend(loc="lower left")
-    return save(figure, folder, "column")
+    return site.image(figure, "column")

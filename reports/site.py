@@ -1,0 +1,66 @@
+"""What every page shares: records, styles, templates, the folder written into."""
+import math
+import os
+import pathlib
+
+import jinja2
+
+from reports import data
+from reports.style import Styles, plt
+
+LEVELS = (0.1, 0.01, 0.001, 0.0001)
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+
+
+def number(value, digits=6):
+    return f"{value:.{digits}g}" if math.isfinite(value) else "–"
+
+
+def percent(value):
+    if not math.isfinite(value):
+        return "–"
+    return f"{100 * value:+.4f} %" if abs(value) >= 1e-5 else f"{100 * value:+.1e} %"
+
+
+def seconds(value):
+    if not math.isfinite(value):
+        return "–"
+    return f"{1e3 * value:.3g} ms" if value < 1 else f"{value:.3g} s"
+
+
+def file_of(key):
+    """File name without suffix for the key of a formulation."""
+    return "formulation_" + key.replace(":", "_").replace("=", "_").replace(",", "_")
+
+
+class Site:
+    """One report. cases: data.Case records; about: environment of the results; kinds: truths by kind."""
+
+    def __init__(self, results, truths, folder):
+        self.about, self.cases = data.read_results(results)
+        self.kinds = data.read_truth_counts(truths)
+        self.results, self.folder = results, folder
+        self.styles = Styles([s.key for c in self.cases for p in c.points for s in p.series])
+        self.navigation, self.sections = [], []
+        os.makedirs(folder, exist_ok=True)
+        loader = jinja2.FileSystemLoader(pathlib.Path(__file__).parent / "templates")
+        self.templates = jinja2.Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+        self.templates.filters.update(number=number, percent=percent, seconds=seconds, file_of=file_of)
+        self.templates.globals.update(levels=LEVELS, navigation=self.navigation)
+
+    def case(self, name):
+        """The case of this name, or None."""
+        return next((c for c in self.cases if c.name == name), None)
+
+    def write(self, template, name, **context):
+        """Renders a template into a page of the site."""
+        path = os.path.join(self.folder, name)
+        with open(f"{path}.part", "w", encoding="utf-8") as out:
+            out.write(self.templates.get_template(template).render(**context))
+        os.replace(f"{path}.part", path)
+
+    def image(self, figure, name):
+        """Writes a figure as SVG and closes it; returns the file's name for a page's <img src>."""
+        figure.savefig(os.path.join(self.folder, f"{name}.svg"), metadata={"Date": None}, bbox_inches="tight")
+        plt.close(figure)
+        return f"{name}.svg"
