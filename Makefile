@@ -34,7 +34,7 @@ ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
-.PHONY: help all verify test bench mutants layers asan tidy format format-check check clean report truths FORCE
+.PHONY: help all verify test bench causes mutants layers asan tidy format format-check check clean report truths FORCE
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -60,6 +60,9 @@ bench: all ## time every formulation on every case into build/bench.csv
 
 truths: ## derive every exact row again and compare it with reference/tables
 	@$(PYTHON) reference/derive/rederive.py
+
+causes: verify ## find by experiment why a verdict is not `pass`; rewrites the proofs in reference/findings.csv
+	@$(PYTHON) harness/tools/causes.py $(PROGRAM) $(BUILD)/verify.json
 
 mutants: ## plant faults one by one; each must be noticed
 	@harness/tools/mutants.sh $(BUILD)/mutants
