@@ -34,7 +34,7 @@ ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
-.PHONY: help all verify test bench causes mutants layers asan tidy format format-check check clean report truths FORCE
+.PHONY: help all verify test bench bench-elements causes mutants layers asan tidy format format-check check clean report truths FORCE
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -57,6 +57,12 @@ report: all ## draw the report of the last verify into build/report/index.html
 
 bench: all ## time every formulation on every case into build/bench.csv
 	@$(PROGRAM) bench -o $(BUILD)/bench.csv
+
+bench-elements: all $(BUILD)/harness/test/element_time ## microseconds per element of every formulation
+	@$(BUILD)/harness/test/element_time
+
+$(BUILD)/harness/test/element_time: $(BUILD)/harness/test/element_time.o $(LIBRARY)
+	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
 
 truths: ## derive every exact row again and compare it with reference/tables
 	@$(PYTHON) reference/derive/rederive.py

@@ -191,7 +191,7 @@ static double chain_solve(chain *c, const double step[7], const double load[7])
 }
 
 /* Compliance of the tip [6 x 6], all six released, for spatial moments. */
-static void chain_compliance(chain *c, double C[36])
+static inline void chain_compliance(chain *c, double C[36])
 {
     const int n = 7 * (c->nodes - 1), tip = n - 7;
     double *K = malloc((size_t)(n * n) * sizeof *K), *force = malloc((size_t)n * sizeof *force),
