@@ -64,6 +64,15 @@ bench-elements: all $(BUILD)/harness/test/element_time ## microseconds per eleme
 $(BUILD)/harness/test/element_time: $(BUILD)/harness/test/element_time.o $(LIBRARY)
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
 
+# A former run shows change, never truth.
+.PHONY: compare baseline
+BASELINE := harness/baseline.csv
+compare: ## errors and work of the last verify against the committed ones
+	@$(PROGRAM) compare $(BASELINE) $(BUILD)/results.h5
+
+baseline: verify ## accept the errors and work of now: review the diff
+	@$(PROGRAM) compare $(BUILD)/results.h5 -o $(BASELINE)
+
 truths: ## derive every exact row again and compare it with reference/tables
 	@$(PYTHON) reference/derive/rederive.py
 

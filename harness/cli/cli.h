@@ -13,19 +13,20 @@ enum { CLI_MAX_FORMULATIONS = 64, CLI_MAX_MESHES = 24 };
 
 /* What the verbs' options have in common. */
 typedef struct cli_request {
-    const char *case_name;
+    const char *case_name, *second; /* arguments; a verb that takes two lists the key '2' */
+    int two;
     double parameter[CASE_MAX_PARAMETERS];
     const char *assignment[CASE_MAX_PARAMETERS];
     int assignments;
     formulation formulation[CLI_MAX_FORMULATIONS];
     int formulations;
     int mesh[CLI_MAX_MESHES], meshes;
-    const char *format, *output, *json, *junit, *truths, *select;
+    const char *format, *output, *json, *junit, *truths, *select, *threshold;
     int jobs, keep_all, steps;
 } cli_request;
 
 typedef int cli_verb(int count, char **arguments);
-cli_verb cli_list, cli_solve, cli_verify, cli_converge, cli_bench;
+cli_verb cli_list, cli_solve, cli_verify, cli_converge, cli_bench, cli_compare;
 
 /* Options shared by the verbs; a verb lists the keys it takes. Errors are printed and end the program with EXIT_REFUSED. */
 void cli_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys, int count, char **arguments,

@@ -17,6 +17,7 @@ static const struct {
     {"converge", cli_converge, "one case on several meshes: errors, order, limit"},
     {"bench", cli_bench, "error against run time: the cheapest way to an error"},
     {"verify", cli_verify, "every formulation on every case, judged against stored truths"},
+    {"compare", cli_compare, "two stored runs: errors and work, worse and better; exit status like diff"},
 };
 enum { VERBS = sizeof verbs / sizeof verbs[0] };
 

@@ -19,6 +19,10 @@ static const struct argp_option all_options[] = {
     {"jobs", 'j', "N", 0, "processes (default: one for each processor)", 0},
     {"json", 'J', "FILE", 0, "verdicts as JSON", 0},
     {"junit", 'U', "FILE", 0, "verdicts as JUnit XML", 0},
+    {"threshold", 'h', "NAME=R[,NAME=R]", 0,
+     "changes that count (default error=0.01,floor=1e-8,work=0.02): of an error relative to itself, of a value relative to its "
+     "truth, of a count relative to itself",
+     0},
     {"truths", 'T', "FILE", 0, "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)", 0},
     {0},
 };
@@ -108,9 +112,12 @@ static error_t take(int key, char *value, struct argp_state *state)
         r->truths = value;
         return 0;
     case ARGP_KEY_ARG:
-        if (r->case_name != NULL)
-            refuse("more than one argument; 'beamwork --help' shows the usage");
-        r->case_name = value;
+        if (r->case_name != NULL && (!r->two || r->second != NULL))
+            refuse("too many arguments; 'beamwork --help' shows the usage");
+        *(r->case_name == NULL ? &r->case_name : &r->second) = value;
+        return 0;
+    case 'h':
+        r->threshold = value;
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
@@ -128,6 +135,7 @@ void cli_parse(const char *verb, const char *arguments_doc, const char *doc, con
             chosen[n++] = all_options[i];
     const struct argp parser = {.options = chosen, .parser = take, .args_doc = arguments_doc, .doc = doc};
     memset(out, 0, sizeof *out);
+    out->two = strchr(keys, '2') != NULL;
     out->format = "text";
     out->jobs = (int)sysconf(_SC_NPROCESSORS_ONLN);
     snprintf(name, sizeof name, "beamwork %s", verb);

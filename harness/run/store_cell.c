@@ -81,25 +81,20 @@ static void put_curve(record *r, hid_t curves, const scene_quantity *q, const cu
     H5Gclose(one);
 }
 
-/* One row of a mesh's quantities. */
-typedef struct quantity_row {
-    char name[SCENE_NAME], unit[16], status[16], reason[128];
-    double value, error, x;
-} quantity_row;
-
-static hid_t row_type(void)
+hid_t store_row_type(void)
 {
     static const struct {
         const char *name;
         size_t offset, length; /* length 0: a double */
-    } field[] = {{"name", offsetof(quantity_row, name), SCENE_NAME},
-                 {"unit", offsetof(quantity_row, unit), 16},
-                 {"status", offsetof(quantity_row, status), 16},
-                 {"reason", offsetof(quantity_row, reason), 128},
-                 {"value", offsetof(quantity_row, value), 0},
-                 {"error", offsetof(quantity_row, error), 0},
-                 {"x", offsetof(quantity_row, x), 0}};
-    const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof(quantity_row));
+    } field[] = {{"name", offsetof(store_row, name), SCENE_NAME},
+                 {"unit", offsetof(store_row, unit), 16},
+                 {"status", offsetof(store_row, status), 16},
+                 {"reason", offsetof(store_row, reason), 128},
+                 {"value", offsetof(store_row, value), 0},
+                 {"error", offsetof(store_row, error), 0},
+                 {"x", offsetof(store_row, x), 0},
+                 {"near_zero", offsetof(store_row, near_zero), 0}};
+    const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof(store_row));
     for (size_t i = 0; i < sizeof field / sizeof field[0]; i++) {
         const hid_t text = field[i].length > 0 ? record_text_type(field[i].length) : -1;
         H5Tinsert(type, field[i].name, field[i].offset, text >= 0 ? text : H5T_NATIVE_DOUBLE);
@@ -112,8 +107,8 @@ static hid_t row_type(void)
 /* of[]: the truth of each quantity, NULL where there is none. */
 static void put_quantities(record *r, hid_t at, const point *p, const solve_result *result, const truth *const of[])
 {
-    const hid_t curves = record_group(r, at, "curves"), type = row_type();
-    quantity_row *row = calloc((size_t)result->quantities + 1, sizeof *row);
+    const hid_t curves = record_group(r, at, "curves"), type = store_row_type();
+    store_row *row = calloc((size_t)result->quantities + 1, sizeof *row);
     r->bad |= row == NULL;
     for (int i = 0; i < result->quantities && row != NULL; i++) {
         const scene_quantity *q = &p->scene.quantity[i];
@@ -125,6 +120,7 @@ static void put_quantities(record *r, hid_t at, const point *p, const solve_resu
         row[i].value = v->value;
         row[i].error = of[i] != NULL ? relative_error(q, v->value, of[i]->value) : NAN;
         row[i].x = v->x;
+        row[i].near_zero = q->near_zero;
         if (v->curve.points > 0)
             put_curve(r, curves, q, &v->curve);
     }

@@ -1,0 +1,121 @@
+"""beamwork compare: exit status like diff, worse and better named, nothing believed of a file."""
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import h5py
+import numpy
+
+PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
+CELL = "cases/warping_torsion/default/beamw/n4"
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False)
+
+
+class Compare(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.old, cls.new, cls.table = (os.path.join(cls.folder.name, name) for name in ("old.h5", "new.h5", "old.csv"))
+        done = run("verify", "-k", "warping_torsion/default", "-o", cls.old)
+        assert done.returncode == 0, done.stdout
+        done = run("compare", cls.old, "-o", cls.table)
+        assert done.returncode == 0, done.stderr
+
+    def compared(self, change, *options, old=None):
+        shutil.copy(self.old, self.new)
+        with h5py.File(self.new, "r+") as file:
+            change(file)
+        return run("compare", *options, old or self.old, self.new)
+
+    def check(self, code, words, change, *options):
+        """Against the whole former run and against its short table."""
+        for old in (self.old, self.table):
+            done = self.compared(change, *options, old=old)
+            self.assertEqual(done.returncode, code, done)
+            for word in words:
+                self.assertIn(word, done.stdout)
+
+    def test_same(self):
+        self.check(0, ["0 worse, 0 better, 0 changed, 0 gone, 0 new"], lambda file: None)
+        done = self.compared(lambda file: None, "--threshold", "error=0,floor=0,work=0")
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_extra_work(self):
+        for count in ("factorisations", "iterations", "strain_evaluations"):
+            def change(file, count=count):
+                attributes = file[CELL].attrs
+                attributes.modify(count, 2 * attributes[count] + 1)
+            self.check(1, ["worse    warping_torsion/default/beamw n=4", " 1 worse, 0 better"], change)
+        self.assertEqual(self.compared(lambda file: file[CELL].attrs.modify("factorisations", 2), "--threshold", "work=1").returncode, 0)
+
+    def test_less_work(self):
+        def change(file):
+            cell = file[CELL]
+            cell.attrs.modify("strain_evaluations", cell.attrs["strain_evaluations"] // 2)
+        self.check(1, ["better   warping_torsion/default/beamw n=4: evaluations", "0 worse, 1 better"], change)
+
+    def errors(self, factor):
+        def change(file):
+            table = file[CELL]["quantities"]
+            rows = table[...]
+            rows["error"] *= factor
+            table[...] = rows
+        return change
+
+    def test_errors(self):
+        self.check(1, ["worse    warping_torsion/default/beamw n=4", "error"], self.errors(1.02))
+        self.check(1, ["better   warping_torsion/default/beamw n=4", "error"], self.errors(0.5))
+        self.check(0, [], self.errors(1.005))
+        self.check(1, ["worse"], self.errors(1.005), "--threshold", "error=0.001")
+
+    def test_cells(self):
+        def gone(file):
+            del file[CELL]
+
+        def failed(file):
+            file[CELL].attrs["status"] = numpy.bytes_("singular")
+        self.check(1, ["gone     warping_torsion/default/beamw n=4"], gone)
+        self.check(1, ["worse    warping_torsion/default/beamw n=4: ok -> singular"], failed)
+        self.compared(gone)
+        done = run("compare", self.new, self.old)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("new      warping_torsion/default/beamw n=4", done.stdout)
+
+    def trouble(self, word, *arguments):
+        done = run("compare", *arguments)
+        self.assertEqual(done.returncode, 2, done)
+        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+        self.assertIn(word, done.stderr)
+
+    def test_trouble(self):
+        data, cut = pathlib.Path(self.old).read_bytes(), os.path.join(self.folder.name, "cut")
+        for length in (0, 5, 100, len(data) // 2):
+            pathlib.Path(cut).write_bytes(data[:length])
+            self.trouble(cut, cut, self.old)
+        pathlib.Path(cut).write_text(pathlib.Path(self.table).read_text(encoding="utf-8")[:-10], encoding="utf-8")
+        self.trouble("damaged or cut short", cut, self.old)
+        self.trouble("not a file of results", self.old, os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5"))
+        self.trouble("missing.h5", "missing.h5", self.old)
+        self.trouble("nothing was compared", "-k", "elastica", self.old, self.old)
+        self.trouble("threshold", "--threshold", "work=-1", self.old, self.old)
+        self.trouble("malformed", "-k", "and", self.old, self.old)
+        self.trouble("two stored runs", self.old)
+        self.trouble("too many", self.old, self.old, self.old)
+
+    def test_damaged_cell(self):
+        def change(file):
+            del file[CELL]["quantities"]
+        done = self.compared(change)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("warping_torsion/default/beamw is missing or damaged", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
