@@ -23,6 +23,7 @@ typedef struct cli_request {
     int mesh[CLI_MAX_MESHES], meshes;
     const char *format, *output, *json, *junit, *truths, *select, *threshold;
     int jobs, keep_all, steps;
+    int shapes; /* states of a path whose shapes are stored; 0: none */
 } cli_request;
 
 typedef int cli_verb(int count, char **arguments);

@@ -23,6 +23,10 @@ static const struct argp_option all_options[] = {
      "changes that count (default error=0.01,floor=1e-8,work=0.02): of an error relative to itself, of a value relative to its "
      "truth, of a count relative to itself",
      0},
+    {"shapes", 'P', "STATES", OPTION_ARG_OPTIONAL,
+     "store centre lines, sections and resultants of at most so many states of a path (solve: all, and -o FILE becomes HDF5 for "
+     "ParaView; verify: 5)",
+     0},
     {"truths", 'T', "FILE", 0, "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)", 0},
     {0},
 };
@@ -107,6 +111,9 @@ static error_t take(int key, char *value, struct argp_state *state)
         return 0;
     case 'U':
         r->junit = value;
+        return 0;
+    case 'P':
+        r->shapes = value != NULL ? whole_number(value, "number of states", 1, SHAPES_ALL) : SHAPES_ALL;
         return 0;
     case 'T':
         r->truths = value;

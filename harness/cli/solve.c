@@ -5,6 +5,7 @@
 #include "harness/run/csv.h"
 #include "harness/run/json.h"
 #include "harness/run/output.h"
+#include "harness/run/store.h"
 #include "harness/run/table.h"
 
 static status write_to(FILE *to, const cli_request *r, const sweep *s, const truths *t, fault *f)
@@ -21,6 +22,11 @@ static status write_to(FILE *to, const cli_request *r, const sweep *s, const tru
 static status write_out(const cli_request *r, const sweep *s, const truths *t, fault *f)
 {
     output file;
+    if (r->shapes > 0) {
+        const environment e = environment_now(1);
+        table_solution(stdout, s, t);
+        return store_write_solution(r->output, s, &e, f);
+    }
     if (r->output == NULL) {
         const status written = write_to(stdout, r, s, t, f);
         return written == STATUS_OK && fflush(stdout) != 0 ? fault_set(f, STATUS_FAULT, "standard output cannot be written")
@@ -46,6 +52,7 @@ static status solve_cell(const cli_request *r, sweep *s, fault *f)
     memcpy(request.option, r->formulation[0].option, sizeof request.option);
     request.solve.newton = r->formulation[0].newton;
     request.solve.steps_between = r->steps;
+    request.solve.shapes = r->shapes;
     return cell_run(&request, &s->series[0].cell[0], f);
 }
 
@@ -56,7 +63,7 @@ int cli_solve(int count, char **arguments)
     fault f = {""};
     truths t = {0};
     cli_parse("solve", "CASE", "Solves one case with one formulation and one mesh and shows every quantity with its error.",
-              "fnsFoKST", count, arguments, &r);
+              "fnsFoKSPT", count, arguments, &r);
     const case_type *type = cli_case(&r);
     if (type == NULL)
         return EXIT_REFUSED;
@@ -64,6 +71,8 @@ int cli_solve(int count, char **arguments)
         return cli_fail(STATUS_REFUSED, "which formulation? Give one -f; 'beamwork list formulations' shows them");
     if (r.meshes != 1)
         return cli_fail(STATUS_REFUSED, "how many elements per member? Give one -n");
+    if (r.shapes > 0 && r.output == NULL)
+        return cli_fail(STATUS_REFUSED, "--shapes: into which file? Give -o FILE");
     status outcome = truths_read(cli_truths_path(&r), &t, &f);
     if (outcome != STATUS_OK && r.truths == NULL) /* a solution needs none: say so and go on */
         fprintf(stderr, "beamwork: without truths: %s\n", f.text);

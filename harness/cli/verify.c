@@ -8,6 +8,8 @@
 #include "harness/run/store.h"
 #include "harness/run/table.h"
 
+enum { PICTURED_STATES = 5 };
+
 static status write_json(const char *path, const sweep *s, const judgement *j, const environment *e, fault *f)
 {
     output file;
@@ -67,7 +69,7 @@ int cli_verify(int count, char **arguments)
               "Judges every formulation on every case and parameter point that has a truth. Exit status: 0 every verdict as "
               "expected, 1 one differs, 2 refused, "
               "3 nothing was checked, 4 file, disk or memory.",
-              "fokjJUT", count, arguments, &r);
+              "fokjJUPT", count, arguments, &r);
     if (r.case_name != NULL)
         return cli_fail(STATUS_REFUSED, "verify takes no case; select with -k");
     status outcome = try_output(r.output, &f);
@@ -83,6 +85,7 @@ int cli_verify(int count, char **arguments)
                                    .jobs = r.jobs,
                                    .formulations = r.formulations,
                                    .formulation = r.formulation,
+                                   .shapes = r.shapes < PICTURED_STATES ? r.shapes : PICTURED_STATES,
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
     outcome = sweep_plan(&request, &t, &s, &f);
     if (outcome == STATUS_OK)

@@ -95,14 +95,41 @@ void record_count(record *r, hid_t at, const char *name, long value)
     put(r, at, name, H5T_NATIVE_LONG, &value);
 }
 
-hid_t record_values(record *r, hid_t at, const char *name, int rank, const hsize_t size[], const double value[], const char *unit)
+void record_version(record *r, hid_t at, const char *name, const int version[2])
+{
+    const hsize_t size = 2;
+    const hid_t space = H5Screate_simple(1, &size, NULL);
+    const hid_t a = r->bad ? -1 : H5Acreate2(at, name, H5T_NATIVE_INT, space, H5P_DEFAULT, H5P_DEFAULT);
+    check(r, a >= 0 && H5Awrite(a, H5T_NATIVE_INT, version) >= 0);
+    H5Aclose(a);
+    H5Sclose(space);
+}
+
+void record_ascii(record *r, hid_t at, const char *name, const char *text)
+{
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, strlen(text));
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
+    put(r, at, name, type, text);
+    H5Tclose(type);
+}
+
+hid_t record_array(record *r, hid_t at, const char *name, hid_t type, int rank, const hsize_t size[], const void *value)
 {
     const hid_t space = rank > 0 ? H5Screate_simple(rank, size, NULL) : r->scalar;
-    const hid_t set = r->bad ? -1 : H5Dcreate2(at, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    const int empty = rank > 0 && size[0] == 0;
-    check(r, set >= 0 && (empty || H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0));
+    const hid_t set = r->bad ? -1 : H5Dcreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    int empty = 0;
+    for (int i = 0; i < rank; i++)
+        empty |= size[i] == 0;
+    check(r, set >= 0 && (empty || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0));
     if (rank > 0)
         H5Sclose(space);
+    return set;
+}
+
+hid_t record_values(record *r, hid_t at, const char *name, int rank, const hsize_t size[], const double value[], const char *unit)
+{
+    const hid_t set = record_array(r, at, name, H5T_NATIVE_DOUBLE, rank, size, value);
     if (unit != NULL)
         record_text(r, set, "unit", unit);
     return set;

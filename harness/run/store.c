@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/run/vtkhdf.h"
+
 static void put_environment(record *r, const environment *e)
 {
     record_text(r, r->file, "schema", "beamwork-results");
@@ -95,7 +97,22 @@ static void put_verdicts(record *r, hid_t at, const point *p, int count, const v
     H5Gclose(g);
 }
 
-/* v[count]: its verdicts. */
+/* One picture of a point is enough: that of the first formulation with a solution; its place becomes an attribute. */
+static void put_picture(record *r, hid_t at_point, hid_t at_series, const point *p, const series *one, int mesh)
+{
+    char place[CELL_KEY + 32], name[16];
+    const shapes *s = &one->cell[mesh].solve.shapes;
+    if (r->bad || s->states == 0 || one->cell[mesh].solve.status != STATUS_OK || H5Aexists(at_point, "shapes") > 0)
+        return;
+    snprintf(name, sizeof name, "n%d", one->mesh[mesh]);
+    snprintf(place, sizeof place, "%s/%s/shapes", one->formulation.key, name);
+    const hid_t here = record_group(r, at_series, name);
+    store_shapes(r, here, &p->scene, s);
+    record_text(r, at_point, "shapes", place);
+    H5Gclose(here);
+}
+
+/* v[count]: its verdicts; NULL: it was not judged. */
 static void put_series(record *r, hid_t cases, const sweep *all, int index, int count, const verdict v[])
 {
     const series *one = &all->series[index];
@@ -110,12 +127,15 @@ static void put_series(record *r, hid_t cases, const sweep *all, int index, int 
     record_text(r, here, "summary", one->formulation.type->summary);
     record_text(r, here, "source", one->formulation.type->source);
     record_text(r, here, "missing", one->missing);
-    put_verdicts(r, here, p, count, v);
+    if (v != NULL)
+        put_verdicts(r, here, p, count, v);
     r->bad |= of == NULL;
     for (int i = 0; i < count && of != NULL; i++)
         of[v[i].quantity] = v[i].truth;
-    for (int i = 0; i < one->meshes && one->missing[0] == '\0' && !r->bad; i++)
+    for (int i = 0; i < one->meshes && one->missing[0] == '\0' && !r->bad; i++) {
         store_cell(r, here, p, one->mesh[i], &one->cell[i], of);
+        put_picture(r, at_point, here, p, one, i);
+    }
     free(of);
     H5Gclose(here);
     H5Gclose(at_point);
@@ -138,6 +158,22 @@ status store_write(const char *path, const sweep *all, const judgement *j, const
         put_series(&r, cases, all, i, count, &j->verdict[first]);
         first += count;
     }
+    H5Gclose(cases);
+    return record_close(&r, path, f);
+}
+
+status store_write_solution(const char *path, const sweep *s, const environment *e, fault *f)
+{
+    record r;
+    const status opened = record_open(&r, f);
+    if (opened != STATUS_OK)
+        return opened;
+    put_environment(&r, e);
+    const hid_t cases = record_group(&r, r.file, "cases");
+    put_series(&r, cases, s, 0, 0, NULL);
+    const point *p = &s->point[s->series[0].point];
+    if (s->series[0].cell[0].solve.shapes.states > 0)
+        vtkhdf_write(&r, &p->scene, &s->series[0].cell[0].solve.shapes);
     H5Gclose(cases);
     return record_close(&r, path, f);
 }

@@ -17,7 +17,11 @@ hid_t store_row_type(void); /* in memory and in the file */
 
 /* Group n<elements> below `at`; of[quantities]: the truth of each, NULL where there is none. */
 void store_cell(record *r, hid_t at, const point *p, int elements, const cell_result *cell, const truth *const of[]);
+/* Group `shapes` below `at`: centre lines, sections, bodies. */
+void store_shapes(record *r, hid_t at, const scene *sc, const shapes *s);
 /* Written beside and renamed: FAULT leaves nothing behind. */
 status store_write(const char *path, const sweep *s, const judgement *j, const environment *e, fault *f);
+/* The first cell of a sweep in the same tree, without verdicts, and its shapes for VTK too. */
+status store_write_solution(const char *path, const sweep *s, const environment *e, fault *f);
 
 #endif

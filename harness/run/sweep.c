@@ -38,6 +38,8 @@ static void request_of(const sweep *s, const task *t, cell_request *out)
     memcpy(out->option, one->formulation.option, sizeof out->option);
     out->solve.newton = one->formulation.newton;
     out->elements = one->mesh[t->mesh];
+    if (p->text[0] == '\0' && t->mesh == one->meshes - 1)
+        out->solve.shapes = s->shapes;
 }
 
 static void run_task(const sweep *s, const task *t, cell_result *out)
@@ -187,6 +189,7 @@ status sweep_run(const sweep_request *request, sweep *s, fault *f)
              k < s->series[i].meshes && s->series[i].missing[0] == '\0' && s->point[s->series[i].point].status == STATUS_OK; k++)
             tasks[n++] = (task){i, k};
     /* Even one job runs in a process of its own, so that a crash is a result and answers do not depend on the number. */
+    s->shapes = request->shapes;
     sweep_request bounded = *request;
     bounded.jobs = request->jobs < MAX_JOBS ? request->jobs : MAX_JOBS;
     outcome = run_parallel(&bounded, s, tasks, count, b, f);

@@ -29,6 +29,7 @@ typedef struct series {
 
 typedef struct sweep {
     const char *select; /* of the request: what it leaves out is not judged either; NULL: nothing is left out */
+    int shapes;         /* of the request */
     int points, seriess;
     point *point;
     series *series;
@@ -39,6 +40,7 @@ typedef struct sweep_request {
     int jobs;           /* processes, >= 1 */
     int formulations;   /* restrict to these, or 0: all */
     const formulation *formulation;
+    int shapes;     /* most states of a path whose centre lines are kept, of the finest mesh at the defaults; 0: none */
     FILE *progress; /* NULL: quiet */
 } sweep_request;
 

@@ -13,6 +13,16 @@ static int get(FILE *from, void *data, size_t size)
     return size == 0 || fread(data, size, 1, from) == 1 ? 0 : -1;
 }
 
+static int put_shapes(FILE *to, const shapes *s)
+{
+    const size_t states = (size_t)s->states;
+    if (states == 0)
+        return 0;
+    return put(to, s->first, ((size_t)s->members + 1) * sizeof *s->first) | put(to, s->state, states * sizeof *s->state) |
+           put(to, s->point, states * (size_t)s->points * sizeof *s->point) |
+           put(to, s->node, states * 3 * (size_t)s->nodes * sizeof *s->node);
+}
+
 int wire_write(FILE *to, const cell_result *cell)
 {
     const solve_result *s = &cell->solve;
@@ -27,7 +37,7 @@ int wire_write(FILE *to, const cell_result *cell)
         const size_t bytes = (size_t)s->quantity[i].curve.points * sizeof(double);
         bad = put(to, s->quantity[i].curve.x, bytes) | put(to, s->quantity[i].curve.value, bytes);
     }
-    return bad != 0 || fflush(to) != 0 ? -1 : 0;
+    return bad || put_shapes(to, &s->shapes) != 0 || fflush(to) != 0 ? -1 : 0;
 }
 
 static void *array(FILE *from, size_t count, size_t size, int *bad)
@@ -36,6 +46,19 @@ static void *array(FILE *from, size_t count, size_t size, int *bad)
     if (out == NULL || get(from, out, count * size) != 0)
         *bad = 1;
     return out;
+}
+
+/* The counts have been read; the arrays follow. */
+static int get_shapes(FILE *from, shapes *s)
+{
+    const size_t states = (size_t)s->states;
+    if (states == 0)
+        return 0;
+    if (shapes_alloc(s, NULL) != STATUS_OK)
+        return -1;
+    return get(from, s->first, ((size_t)s->members + 1) * sizeof *s->first) | get(from, s->state, states * sizeof *s->state) |
+           get(from, s->point, states * (size_t)s->points * sizeof *s->point) |
+           get(from, s->node, states * 3 * (size_t)s->nodes * sizeof *s->node);
 }
 
 static int read_cell(FILE *from, cell_result *cell)
@@ -55,6 +78,10 @@ static int read_cell(FILE *from, cell_result *cell)
     quantity_result *quantity = bad ? NULL : array(from, (size_t)head.quantities, sizeof *quantity, &bad);
     for (int i = 0; i < head.quantities && quantity != NULL; i++)
         quantity[i].curve.x = quantity[i].curve.value = NULL; /* addresses of the other process */
+    head.shapes.first = NULL;                                 /* the arrays are the other process's */
+    head.shapes.state = NULL;
+    head.shapes.point = NULL;
+    head.shapes.node = NULL;
     *s = head;
     s->quantity = quantity;
     s->quantities = quantity != NULL ? head.quantities : 0;
@@ -64,7 +91,7 @@ static int read_cell(FILE *from, cell_result *cell)
         s->quantity[i].curve.x = points > 0 ? array(from, points, sizeof(double), &bad) : NULL;
         s->quantity[i].curve.value = points > 0 ? array(from, points, sizeof(double), &bad) : NULL;
     }
-    return bad || cell->left_out == NULL ? -1 : 0;
+    return bad || cell->left_out == NULL || get_shapes(from, &s->shapes) != 0 ? -1 : 0;
 }
 
 int wire_read(FILE *from, cell_result *cell)

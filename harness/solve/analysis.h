@@ -50,6 +50,9 @@ status linear_system_solve(analysis_context *, linear_system *, double x[], faul
 /* extract.c */
 void extract_quantity(const analysis_context *, const scene_quantity *, quantity_result *);
 
+/* shapes.c: centre lines of the undeformed structure, of at most `most` states of every path, of linear solutions and modes. */
+status shapes_collect(const analysis_context *, int most, shapes *, fault *);
+
 /* modes.c: what a mode of vibration or buckling looks like. */
 typedef struct mode_shape {
     scene_family family;

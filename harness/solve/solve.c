@@ -84,6 +84,8 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
     result->seconds_solve = seconds_now() - start - c.setup;
     for (int i = 0; i < s->quantities; i++)
         extract_quantity(&c, &s->quantity[i], &result->quantity[i]);
+    if (c.options->shapes > 0 && shapes_collect(&c, c.options->shapes, &result->shapes, f) != STATUS_OK)
+        result->status = STATUS_FAULT;
     for (int i = 0; i < s->analyses; i++)
         outcome_free(&c.outcomes[i]);
     free(c.outcomes);
@@ -100,5 +102,6 @@ void solve_result_free(solve_result *r)
     }
     free(r->quantity);
     free(r->step);
+    shapes_free(&r->shapes);
     memset(r, 0, sizeof *r);
 }

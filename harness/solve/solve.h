@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_SOLVE_H
 #define BEAMWORK_SOLVE_H
 
-#include "harness/model/model.h"
+#include "harness/solve/shapes.h"
 
 /* The mixed Newton condensed element by element; for comparison, in displacements only, and uncondensed with dense elimination. */
 typedef enum solve_newton { SOLVE_MIXED, SOLVE_DISPLACEMENT, SOLVE_DENSE, SOLVE_NEWTONS } solve_newton;
@@ -12,6 +12,7 @@ typedef struct solve_options {
     double criterion;   /* relative size of the corrections; 0: default */
     int max_iterations; /* per step; 0: default */
     int steps_between;  /* overrides the scene's; 0: the scene's */
+    int shapes;         /* most states of every path whose centre lines are kept; 0: no shapes */
 } solve_options;
 
 typedef struct curve {
@@ -41,6 +42,7 @@ typedef struct solve_result {
     int steps;
     step_record *step;
     double seconds_setup, seconds_solve; /* analysis of the pattern | the rest */
+    shapes shapes;
 } solve_result;
 
 /* Fills result even on failure (quantities that could be found stay). */

@@ -9,6 +9,8 @@ need() { packages="$packages $1"; }
 
 have_header() { printf '#include <%s>\n' "$1" | ${CC:-cc} -E -I/usr/include/suitesparse -xc - >/dev/null 2>&1; }
 
+can_install() { [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null 2>&1; }
+
 find_missing() {
     packages=
     command -v pkg-config >/dev/null 2>&1 || need pkg-config
@@ -22,11 +24,15 @@ find_missing() {
     for pair in h5py:python3-h5py matplotlib:python3-matplotlib jinja2:python3-jinja2 markdown:python3-markdown mpmath:python3-mpmath scipy:python3-scipy; do
         /usr/bin/python3 -c "import ${pair%%:*}" >/dev/null 2>&1 || need "${pair##*:}"
     done
+    # One test reads a file with VTK and is skipped without it.
+    if can_install; then
+        /usr/bin/python3 -c "import vtk" >/dev/null 2>&1 || need python3-vtk9
+    fi
 }
 
 find_missing
 if [ -n "$packages" ]; then
-    if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null 2>&1; then
+    if can_install; then
         echo "beamwork: installing$packages"
         { apt-get update -q && DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $packages; } >&2
         find_missing

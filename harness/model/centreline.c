@@ -1,0 +1,192 @@
+#include "harness/model/centreline.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "harness/model/parts.h"
+
+enum { LEAST_PIECES = 12 }; /* of a member, so that one element is a curve */
+static const double drawn_part = 0.1;
+
+/* Gaps between the vertices of a member, and pieces of each gap. */
+static int gaps_of(const model *m, int member)
+{
+    return (m->first_element[member + 1] - m->first_element[member]) * (m->nodes - 1);
+}
+
+static int pieces_of(const model *m, int member)
+{
+    const int gaps = gaps_of(m, member);
+    return (LEAST_PIECES + gaps - 1) / gaps;
+}
+
+int centreline_points(const model *m, int first[])
+{
+    int count = 0;
+    for (int i = 0; i < m->scene->members; i++) {
+        if (first != NULL)
+            first[i] = count;
+        count += gaps_of(m, i) * pieces_of(m, i) + 1;
+    }
+    if (first != NULL)
+        first[m->scene->members] = count;
+    return count;
+}
+
+/* One element: its nodes' frames and the forces that the outside exerts on them. */
+typedef struct span {
+    int nodes;
+    double gap; /* undeformed distance between two nodes [m] */
+    node_state x[ELEMENT_MAX_NODES];
+    double q[ELEMENT_MAX_NODES][4];
+    double force[ELEMENT_MAX_COORDINATES];
+} span;
+
+static void span_of(const model *m, const model_state *s, int element, span *out)
+{
+    const mesh_element *el = &m->element[element];
+    const element_data *data = m->kind[el->kind].data;
+    const double *sigma = &s->sigma[(size_t)element * (size_t)m->strains];
+    double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
+    memset(out, 0, sizeof *out);
+    out->nodes = m->nodes;
+    out->gap = m->kind[el->kind].length / (m->nodes - 1);
+    kinematics_gather(m, s, el, out->x);
+    for (int k = 0; k < m->nodes; k++)
+        rotation_from_matrix(out->x[k].R, out->q[k]);
+    m->type->strain(data, out->x, &(strain_output){.J = J});
+    dense_add_transpose_mul(m->coordinates, m->strains, 1, J, sigma, out->force);
+}
+
+/* Cubic from node k to the next at t = 0 .. 1: position and direction. */
+static void cubic(const span *e, int k, double t, double r[3], double direction[3])
+{
+    const double *p = e->x[k].r, *q = e->x[k + 1].r, u = 1 - t;
+    for (int i = 0; i < 3; i++) {
+        const double a = e->gap * e->x[k].R[3 * i], b = e->gap * e->x[k + 1].R[3 * i];
+        r[i] = p[i] + t * t * (3 - 2 * t) * (q[i] - p[i]) + t * u * (u * a - t * b);
+        direction[i] = 6 * t * u * (q[i] - p[i]) + u * (1 - 3 * t) * a + t * (3 * t - 2) * b;
+    }
+}
+
+/* The shorter way between the two triads, then the shortest turn of its x axis into the line. */
+static void orientation(const span *e, int k, double t, const double direction[3], double q[4])
+{
+    double turn[3], step[4], x[3] = {1, 0, 0}, axis[3];
+    rotation_between(e->q[k], e->q[k + 1], turn);
+    for (int i = 0; i < 3; i++)
+        turn[i] *= t;
+    rotation_exp(turn, step);
+    rotation_compose(step, e->q[k], q);
+    rotation_apply(q, x, x);
+    vec3_cross(x, direction, axis);
+    const double sine = vec3_norm(axis), angle = atan2(sine, vec3_dot(x, direction));
+    for (int i = 0; i < 3; i++)
+        turn[i] = sine > 0 ? axis[i] / sine * angle : 0;
+    rotation_exp(turn, step);
+    rotation_compose(step, q, q);
+}
+
+/* What acts on the part before the point: the forces on the nodes beyond it. */
+static void resultants(const span *e, int k, double t, centreline_point *p)
+{
+    double force[3] = {0}, moment[3] = {0}, R[9];
+    const double along = (k + t) / (e->nodes - 1);
+    for (int beyond = k + 1; beyond < e->nodes; beyond++) {
+        const double *f = &e->force[7 * beyond];
+        double arm[3], more[3];
+        for (int i = 0; i < 3; i++)
+            arm[i] = e->x[beyond].r[i] - p->r[i];
+        vec3_cross(arm, f, more);
+        for (int i = 0; i < 3; i++) {
+            force[i] += f[i];
+            moment[i] += f[3 + i] + more[i];
+        }
+    }
+    rotation_matrix(p->q, R);
+    mat3_transpose_mul_vec(R, force, p->force);
+    mat3_transpose_mul_vec(R, moment, p->moment);
+    p->bimoment = along * e->force[7 * e->nodes - 1] - (1 - along) * e->force[6];
+}
+
+static void point_at(const span *e, int k, double t, centreline_point *p)
+{
+    double direction[3];
+    cubic(e, k, t, p->r, direction);
+    orientation(e, k, t, direction, p->q);
+    resultants(e, k, t, p);
+}
+
+void centreline_fill(const model *m, const model_state *s, centreline_point out[])
+{
+    for (int member = 0; member < m->scene->members; member++) {
+        const int last = m->first_element[member + 1] - 1, pieces = pieces_of(m, member);
+        for (int i = m->first_element[member]; i <= last; i++) {
+            span e;
+            span_of(m, s, i, &e);
+            for (int k = 0; k + 1 < e.nodes; k++)
+                for (int piece = 0; piece < pieces; piece++)
+                    point_at(&e, k, (double)piece / pieces, out++);
+            if (i == last)
+                point_at(&e, e.nodes - 2, 1, out++);
+        }
+    }
+}
+
+void centreline_nodes(const model *m, const model_state *s, double out[])
+{
+    for (int i = 0; i < m->scene->nodes; i++)
+        kinematics_position(m, s, i, out + 3 * i);
+}
+
+/* Increments of a vertex's frame: translation, spatial rotation. */
+static void increments_of(const model *m, const model_state *s, const double x[], double out[])
+{
+    for (int i = 0; i < m->elements; i++) {
+        double local[ELEMENT_MAX_COORDINATES];
+        kinematics_local(m, s, &m->element[i], x, local);
+        for (int k = 0; k < m->nodes; k++)
+            memcpy(&out[6 * m->element[i].vertex[k]], &local[7 * k], 6 * sizeof(double));
+    }
+}
+
+static double largest_translation(const model *m, const double increment[])
+{
+    double largest = 0;
+    for (int v = 0; v < m->vertices; v++)
+        largest = fmax(largest, vec3_norm(&increment[6 * v]));
+    return largest;
+}
+
+status centreline_displaced(const model *m, const model_state *from, const double x[], const double sigma[], double *scale,
+                            model_state **out, fault *f)
+{
+    double *increment = calloc((size_t)m->vertices * 6 + 1, sizeof *increment);
+    status outcome = model_state_alloc(m, out, f);
+    if (increment == NULL)
+        outcome = fault_set(f, STATUS_FAULT, "out of memory for a picture");
+    if (outcome == STATUS_OK) {
+        model_state *s = *out;
+        model_state_copy(m, from, s);
+        increments_of(m, from, x, increment);
+        const double largest = largest_translation(m, increment);
+        if (*scale == 0)
+            *scale = largest > 0 ? drawn_part * m->size / largest : 1;
+        for (int v = 0; v < m->vertices; v++) {
+            double turn[3], q[4];
+            for (int i = 0; i < 3; i++) {
+                s->u[3 * v + i] += *scale * increment[6 * v + i];
+                turn[i] = *scale * increment[6 * v + 3 + i];
+            }
+            rotation_exp(turn, q);
+            rotation_compose(q, &s->q[4 * v], &s->q[4 * v]);
+        }
+        if (sigma != NULL)
+            memcpy(s->sigma, sigma, (size_t)m->elements * (size_t)m->strains * sizeof *sigma);
+    }
+    free(increment);
+    return outcome;
+}

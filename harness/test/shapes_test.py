@@ -1,0 +1,154 @@
+"""Shapes of solutions: equilibrium along the lines, agreement with the quantities, and the same through VTK's own reader."""
+import os
+import subprocess
+import tempfile
+import unittest
+
+import h5py
+import numpy
+
+try:
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+except ImportError:
+    vtk = None
+
+PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
+
+
+def turned(q, v):
+    """v[..., 3] turned by unit quaternions q[..., 4] (w x y z)."""
+    w, u = q[..., :1], q[..., 1:]
+    return v + 2 * numpy.cross(u, numpy.cross(u, v) + w * v)
+
+
+class Solution(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = os.path.join(self.folder.name, "s.h5")
+
+    def solve(self, case, formulation, n, *more):
+        done = subprocess.run([PROGRAM, "solve", case, "-f", formulation, "-n", str(n), "-o", self.path, *more], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        file = h5py.File(self.path)
+        self.addCleanup(file.close)
+        point = next(iter(file[f"cases/{case}"].values()))
+        return file, point[point.attrs["shapes"]], point
+
+    def test_path(self):
+        """The tip of the cantilever is where its quantity says; the resultants there are the reactions."""
+        for formulation, n in (("sheet_third", 1), ("collocation", 3), ("geometrically_exact:nodes=3", 2)):
+            _, shapes, point = self.solve("sheet_cantilever", formulation, n, "--shapes")
+            cell = shapes.parent
+            value = {row["name"].decode(): row["value"] for row in cell["quantities"][()]}
+            position, force = shapes["position"][()], shapes["force"][()]
+            orientation = shapes["orientation"][()]
+            self.assertEqual(list(shapes["kind"].asstr()[:2]), ["undeformed", "path"])
+            self.assertEqual(len(position), 16)
+            moved = position[-1, -1] - position[0, -1]
+            self.assertAlmostEqual(moved[1], point.attrs["parameter_tip_deflection"], delta=1e-12)
+            if formulation == "sheet_third":
+                self.assertAlmostEqual(moved[0], value["u_x"], delta=1e-12)
+            fixed = turned(orientation[-1], force[-1])
+            self.assertAlmostEqual(fixed[-1, 1], value["F_y"], delta=1e-8 * value["F_y"])
+            moment = turned(orientation[-1], shapes["moment"][-1])
+            self.assertAlmostEqual(moment[-1, 2], value["M_z"], delta=1e-8 * abs(value["M_z"]))
+            arm = position[-1, -1] - position[-1]
+            balance = moment[-1] + numpy.cross(arm, fixed[-1]) - moment
+            scale = numpy.abs(moment).max()
+            self.assertLess(numpy.abs(fixed - fixed[-1]).max(), 1e-9 * numpy.abs(fixed).max())
+            self.assertLess(numpy.abs(balance).max(), 1e-9 * scale, formulation)
+
+    def test_structure(self):
+        """Sections, bodies and one line per member; nodes lie where the members end."""
+        _, shapes, _ = self.solve("spherical_joint", "sheet_third", 2, "--shapes=3")
+        self.assertEqual(list(shapes["value"][()]), [0, 1, 25, 50])
+        members, first = shapes["members"][()], shapes["first_point"][()]
+        self.assertEqual((len(members), len(first)), (12, 13))
+        numpy.testing.assert_allclose(numpy.sort(numpy.abs(shapes["sections/0"][0]), axis=0)[0], [0.000838 / 2, 0.0282 / 2], rtol=1e-15)
+        position, nodes = shapes["position"][()], shapes["nodes"][()]
+        for i, (p, q, _) in enumerate(members):
+            numpy.testing.assert_allclose(position[:, first[i]], nodes[:, p], atol=1e-15)
+            numpy.testing.assert_allclose(position[:, first[i + 1] - 1], nodes[:, q], atol=1e-15)
+        bodies = shapes["bodies"][:, 0]
+        self.assertEqual(sorted(numpy.unique(bodies, return_counts=True)[1]), [3, 3, 6, 9])
+        attached = numpy.flatnonzero(bodies >= 0)
+        distance = numpy.linalg.norm(nodes[:, attached] - nodes[:, bodies[attached]], axis=2)
+        numpy.testing.assert_allclose(distance, numpy.broadcast_to(distance[0], distance.shape), rtol=1e-12)
+
+    def test_modes(self):
+        """The first mode of buckling is drawn, a tenth of the length high."""
+        _, shapes, _ = self.solve("c_column", "beamw_consistent", 16, "--shapes")
+        kinds = list(shapes["kind"].asstr()[()])
+        self.assertIn("buckling", kinds)
+        self.assertIn("mode", kinds)
+        position = shapes["position"][()]
+        length = numpy.ptp(position[0], axis=0).max()
+        moved = numpy.linalg.norm(position[kinds.index("buckling")] - position[0], axis=1)
+        self.assertAlmostEqual(moved.max() / length, 0.1, delta=1e-3)
+
+    def test_not_asked(self):
+        done = subprocess.run([PROGRAM, "solve", "elastica", "-f", "collocation", "-n", "2", "--shapes"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        done = subprocess.run([PROGRAM, "verify", "-k", "elastica/default", "-o", self.path], capture_output=True, text=True, check=False)
+        with h5py.File(self.path) as file:
+            self.assertNotIn("shapes", file["cases/elastica/default"].attrs)
+
+    def read(self):
+        reader = vtk.vtkHDFReader()
+        self.assertTrue(reader.CanReadFile(self.path))
+        reader.SetFileName(self.path)
+        reader.Update()
+        return reader.GetOutput()
+
+    @unittest.skipIf(vtk is None, "python3-vtk9 is not installed")
+    def test_vtk(self):
+        """VTK reads one state: lines and walls with their fields."""
+        file, shapes, _ = self.solve("spherical_joint", "sheet_third", 1, "--shapes=1")
+        self.assertEqual(list(file["VTKHDF"].attrs["Version"]), [1, 0])
+        grid = self.read()
+        points = shapes["position"].shape[1]
+        self.assertEqual(grid.GetNumberOfPoints(), 3 * points)
+        self.assertEqual(grid.GetNumberOfCells(), points)
+        self.assertEqual(sorted({grid.GetCellType(i) for i in range(grid.GetNumberOfCells())}), [vtk.VTK_POLY_LINE, vtk.VTK_QUAD])
+        along = []
+        for i in range(grid.GetNumberOfCells()):
+            cell = grid.GetCell(i)
+            if cell.GetCellType() == vtk.VTK_POLY_LINE:
+                along += [cell.GetPointId(k) for k in range(cell.GetNumberOfPoints())]
+        place = vtk_to_numpy(grid.GetPoints().GetData())
+        numpy.testing.assert_array_equal(place[along], shapes["position"][-1])
+        numpy.testing.assert_array_equal(vtk_to_numpy(grid.GetPointData().GetArray("force (N, Qy, Qz)"))[along], shapes["force"][-1])
+        area = vtk.vtkCellSizeFilter()
+        area.SetInputData(grid)
+        area.Update()
+        covered = vtk_to_numpy(area.GetOutput().GetCellData().GetArray("Area")).sum()
+        self.assertAlmostEqual(covered / (12 * 0.0681 * 0.0282), 1, delta=2e-3)  # sheets keep their area, twisted quadrilaterals nearly
+
+    def test_vtk_steps(self):
+        """Several states are time steps: the layout of version 2.0, and each step is the state it says."""
+        file, shapes, _ = self.solve("sheet_cantilever", "sheet_third", 2, "--shapes")
+        root = file["VTKHDF"]
+        self.assertEqual(list(root.attrs["Version"]), [2, 0])
+        steps, per_state = root["Steps"], int(root["NumberOfPoints"][0])
+        count = int(steps.attrs["NSteps"])
+        self.assertEqual(count, len(shapes["value"]))
+        numpy.testing.assert_array_equal(steps["Values"], shapes["value"])
+        self.assertTrue((numpy.diff(steps["Values"]) > 0).all())
+        numpy.testing.assert_array_equal(steps["PointOffsets"], per_state * numpy.arange(count))
+        for name in ("CellOffsets", "ConnectivityIdOffsets"):
+            self.assertEqual(steps[name].shape, (count, 1))
+            self.assertFalse(steps[name][()].any())
+        self.assertEqual(set(steps["PointDataOffsets"]), set(root["PointData"]))
+        self.assertEqual(set(steps["CellDataOffsets"]), set(root["CellData"]))
+        self.assertEqual(len(root["Points"]), count * per_state)
+        self.assertEqual(len(root["Offsets"]), root["NumberOfCells"][0] + 1)
+        self.assertEqual(root["Offsets"][-1], root["NumberOfConnectivityIds"][0])
+        centre = root["Connectivity"][:shapes["position"].shape[1]]
+        for i in range(count):
+            numpy.testing.assert_array_equal(root["Points"][()][i * per_state:][centre], shapes["position"][i])
+
+
+if __name__ == "__main__":
+    unittest.main()
