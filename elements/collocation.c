@@ -14,8 +14,8 @@ struct element_data {
 };
 
 static const element_option options[] = {
-    [OPTION_STAGES] = {"stages", "3|4|5|6|7|8", 2, 0, 5, "Gauss points inside an element: order twice their number"},
-    {NULL, NULL, 0, 0, 0, NULL},
+    [OPTION_STAGES] = {"stages", "3|4|5|6|7|8", 2, 0, 5, "Gauss points inside an element: order twice their number", 0},
+    {NULL, NULL, 0, 0, 0, NULL, 0},
 };
 
 static int stage_count(const double value[])

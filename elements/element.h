@@ -63,6 +63,7 @@ typedef struct element_option {
     double value;        /* default */
     double min, max;     /* of a number */
     const char *summary;
+    unsigned judged; /* enum element_feature: verify judges every choice where a quantity depends on one of these; 0: the default */
 } element_option;
 
 typedef struct element_request {

@@ -11,8 +11,8 @@ struct element_data {
 };
 
 static const element_option options[] = {
-    [OPTION_NODES] = {"nodes", "2|3", 1, 0, 1, "nodes of an element; one integration point fewer"},
-    {NULL, NULL, 0, 0, 0, NULL},
+    [OPTION_NODES] = {"nodes", "2|3", 1, 0, 1, "nodes of an element; one integration point fewer", 0},
+    {NULL, NULL, 0, 0, 0, NULL, 0},
 };
 
 static int nodes(const double value[])

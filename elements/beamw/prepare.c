@@ -10,8 +10,8 @@ enum { OPTION_MASS };
 
 const element_option prepare_options[] = {
     [OPTION_MASS] = {"mass", "lumped|consistent|averaged", INERTIA_CONSISTENT, 0, 2,
-                     "mass matrix: J Eq. 73, from the shape functions, or the mean of the two"},
-    {NULL, NULL, 0, 0, 0, NULL},
+                     "mass matrix: J Eq. 73, from the shape functions, or the mean of the two", FEATURE_MASS},
+    {NULL, NULL, 0, 0, 0, NULL, 0},
 };
 
 status prepare_form(const element_request *request, stiffness_shear shear, prepare_modes modes, element_data *out, fault *f)
