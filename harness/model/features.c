@@ -92,6 +92,14 @@ unsigned model_needs(const scene *s)
     return needs;
 }
 
+unsigned model_quantity_needs(const scene *s, int quantity)
+{
+    const unsigned inertia = FEATURE_MASS | FEATURE_ROTARY_INERTIA;
+    const int analysis = s->quantity[quantity].analysis;
+    const int moves = analysis >= 0 && (s->analysis[analysis].kind == SCENE_MODAL || s->analysis[analysis].kind == SCENE_ROTATION);
+    return model_needs(s) & (moves ? ~0U : ~inertia);
+}
+
 static int limit_hit(const scene *s, const element_type *type, char *words, int size)
 {
     for (int i = 0; i < s->sections; i++) {

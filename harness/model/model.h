@@ -35,6 +35,8 @@ void model_free(model *);
 
 /* Feature bits the scene needs and those of them the type does not offer, or a limit it hits, in words; 0: it can run. */
 unsigned model_needs(const scene *);
+/* Those of them that one quantity depends on: inertia only where it is a frequency or of a rotating structure. */
+unsigned model_quantity_needs(const scene *, int quantity);
 int model_missing(const scene *, const element_type *, char *words, int size);
 /* Comma-free words of a feature, for results: "warping", "shear", ... */
 const char *model_feature_name(unsigned bit);

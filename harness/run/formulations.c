@@ -74,6 +74,27 @@ void formulation_default(const element_type *type, formulation *out)
     write_key(out);
 }
 
+int formulation_choice(const element_type *type, int index, int choice, formulation *out)
+{
+    const element_option *o = &type->options[index];
+    if (o->choices == NULL || choice > (int)o->max || choice == (int)o->value)
+        return 0;
+    formulation_default(type, out);
+    out->option[index] = choice;
+    write_key(out);
+    return 1;
+}
+
+unsigned formulation_bears_on(const formulation *chosen)
+{
+    const element_option *o = chosen->type->options;
+    unsigned features = 0;
+    for (int i = 0; o != NULL && o[i].name != NULL; i++)
+        if (chosen->option[i] != o[i].value)
+            features |= o[i].judged;
+    return features;
+}
+
 static const char *option_name(const void *context, int i)
 {
     const element_option *o = context;

@@ -96,8 +96,20 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
     return STATUS_OK;
 }
 
+/* Does the quantity depend on what the formulation's options change? */
+static int option_matters(const point *p, const formulation *chosen, const char *quantity)
+{
+    const unsigned features = formulation_bears_on(chosen);
+    for (int q = 0; q < p->scene.quantities && features != 0; q++)
+        if (strcmp(p->scene.quantity[q].name, quantity) == 0)
+            return (features & model_quantity_needs(&p->scene, q)) != 0;
+    return 1;
+}
+
 int sweep_selects(const sweep *s, const point *p, const formulation *chosen, const char *quantity)
 {
+    if (!option_matters(p, chosen, quantity))
+        return 0;
     char text[PARAMETERS_TEXT + CELL_KEY + 2 * FAULT_TEXT];
     snprintf(text, sizeof text, "%s/%s/%s/%s", p->type->name, p->text[0] != '\0' ? p->text : "default", chosen->key, quantity);
     return s->select == NULL || select_matches(s->select, text) > 0;
@@ -113,6 +125,11 @@ static status plan_series(const sweep_request *request, const truths *t, sweep *
         list[count++] = request->formulation[i];
     for (int i = 0; request->formulations == 0 && registry_formulations[i] != NULL && count < 64; i++)
         formulation_default(registry_formulations[i], &list[count++]);
+    for (int i = 0; registry_formulations[i] != NULL && request->formulations == 0 && p->text[0] == '\0'; i++)
+        for (int k = 0; registry_formulations[i]->options != NULL && registry_formulations[i]->options[k].name != NULL; k++)
+            for (int choice = 0;
+                 registry_formulations[i]->options[k].judged != 0 && choice <= registry_formulations[i]->options[k].max; choice++)
+                count += count < 64 && formulation_choice(registry_formulations[i], k, choice, &list[count]);
     for (int i = 0; i < t->rows && request->formulations == 0; i++) {
         int known = t->row[i].formulation[0] == '\0' || !truth_holds(&t->row[i], p->type, p->parameter);
         for (int k = 0; k < count && !known; k++)
