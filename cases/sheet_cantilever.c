@@ -58,7 +58,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_analysis *c = scene_analysis_at(s, compliance);
     c->follows = path_analysis;
     c->node = tip;
-    c->moments = SCENE_MOMENTS_SPATIAL;
+    c->moments = (scene_moments)value[SHEET_MOMENTS];
     c->released = 1u << SCENE_UY | 1u << SCENE_RZ;
 
     add_gated(s, "C_xx", "m/N", SCENE_COMPLIANCE_ENTRY, compliance, tip, SCENE_UX);

@@ -50,7 +50,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_analysis *c = scene_analysis_at(s, compliance);
     c->follows = path_analysis;
     c->node = tip;
-    c->moments = SCENE_MOMENTS_SPATIAL;
+    c->moments = (scene_moments)value[SHEET_MOMENTS];
     c->released = 1u << SCENE_UY | 1u << SCENE_RX | 1u << SCENE_RY | 1u << SCENE_RZ;
 
     int entries[36][2];

@@ -5,6 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char *scene_moments_name(scene_moments moments)
+{
+    static const char *const name[] = {"spatial", "semitangential", "symmetrised"};
+    return name[moments];
+}
+
 void scene_init(scene *s, const char *name)
 {
     memset(s, 0, sizeof *s);
@@ -226,4 +232,10 @@ void scene_meshes(scene *s, int count, const int mesh[])
 {
     s->meshes = count < 16 ? count : 16;
     memcpy(s->mesh, mesh, (size_t)s->meshes * sizeof *mesh);
+}
+
+const char *scene_convention(const scene *s, const scene_quantity *q)
+{
+    const int matrix = q->kind == SCENE_COMPLIANCE_ENTRY || q->kind == SCENE_STIFFNESS_ENTRY;
+    return matrix && q->analysis >= 0 && q->analysis < s->analyses ? scene_moments_name(s->analysis[q->analysis].moments) : NULL;
 }

@@ -73,7 +73,10 @@ typedef enum scene_analysis_kind {
     SCENE_ROTATION      /* stationary rotation: equilibrium and frequencies in the rotating frame */
 } scene_analysis_kind;
 
+/* What a reaction's moment does while its node turns (harness/solve/convention.h). */
 typedef enum scene_moments { SCENE_MOMENTS_SPATIAL, SCENE_MOMENTS_SEMITANGENTIAL, SCENE_MOMENTS_SYMMETRISED } scene_moments;
+#define SCENE_MOMENTS_CHOICES "spatial|semitangential|symmetrised"
+const char *scene_moments_name(scene_moments);
 
 typedef struct scene_analysis {
     scene_analysis_kind kind;
@@ -180,6 +183,8 @@ scene_analysis *scene_analysis_at(scene *s, int index);
 void scene_hold(scene *s, int node, int first, int last); /* components SCENE_UX .. SCENE_RZ, inclusive */
 void scene_hold_all(scene *s, int node);
 void scene_drive(scene *s, int node, int component, int driver); /* a translation, or a spatial rotation component */
+/* Convention of moments that a quantity depends on, or NULL. */
+const char *scene_convention(const scene *s, const scene_quantity *q);
 void scene_meshes(scene *s, int count, const int mesh[]);
 
 /* Indices in range, members of positive length, supports that do not contradict, drivers that are used,

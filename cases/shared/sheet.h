@@ -18,6 +18,7 @@ enum {
     SHEET_TRAPEZE,
     SHEET_WAGNER,
     SHEET_SHEAR_FACTOR,
+    SHEET_MOMENTS,
     SHEET_PARAMETERS
 };
 
@@ -43,7 +44,9 @@ enum {
     [SHEET_SHEAR] = {"shear", "1", 1, 0, 1, NULL, "1: flexible in shear, 0: shear-rigid"},                                         \
     [SHEET_TRAPEZE] = {"trapeze", "1", 1, 0, 1, NULL, "1: shortening of a twisted sheet (N Eq. 8)"},                               \
     [SHEET_WAGNER] = {"wagner", "1", default_wagner, 0, 1, NULL, "1: Wagner torque (N Eq. 46)"},                                   \
-    [SHEET_SHEAR_FACTOR] = {"shear_factor", "1", 0, 0, 10, NULL, "k of the shear stiffness; 0: 10 (1 + nu)/(12 + 11 nu)"}
+    [SHEET_SHEAR_FACTOR] = {"shear_factor", "1", 0, 0, 10, NULL, "k of the shear stiffness; 0: 10 (1 + nu)/(12 + 11 nu)"},         \
+    [SHEET_MOMENTS] = {                                                                                                            \
+        "moment_convention", "", SCENE_MOMENTS_SPATIAL, 0, 0, SCENE_MOMENTS_CHOICES, "moments on the tip while it turns, in C_*"}
 
 /* Steel-like sheet section; width along the member's local z. shear_factor 0: the formula. */
 void sheet_section(double width, double thickness, double young, double poisson, double shear_factor, section_spec *out);
@@ -52,7 +55,7 @@ void sheet_section(double width, double thickness, double young, double poisson,
  * Refuses a tip deflection that the length cannot reach. */
 status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f);
 
-/* Compliance at the tip along a static path, prescribed motion replaced by its reactions, spatial moments: adds
+/* Compliance at the tip along a static path, prescribed motion replaced by its reactions: adds
  * the entries C_<response>_<load> whose row and column are listed, as values at the end of the path. */
 void sheet_add_compliance(scene *s, int analysis, int tip, const int (*entries)[2], int count, double tolerance);
 

@@ -19,7 +19,7 @@ void csv_solution(FILE *to, const sweep *s)
     const series *one = &s->series[0];
     const point *p = &s->point[one->point];
     const cell_result *c = &one->cell[0];
-    fprintf(to, "case,parameters,formulation,elements,quantity,unit,value,status,reason\n");
+    fprintf(to, "case,parameters,formulation,elements,quantity,unit,value,moments,status,reason\n");
     for (int i = 0; i < c->solve.quantities; i++) {
         const quantity_result *v = &c->solve.quantity[i];
         fprintf(to, "%s,", p->type->name);
@@ -28,7 +28,8 @@ void csv_solution(FILE *to, const sweep *s)
         fprintf(to, "%d,%s,%s,", one->mesh[0], p->scene.quantity[i].name, p->scene.quantity[i].unit);
         if (isfinite(v->value))
             fprintf(to, "%.17g", v->value);
-        fprintf(to, ",%s,", status_name(v->status));
+        const char *convention = scene_convention(&p->scene, &p->scene.quantity[i]);
+        fprintf(to, ",%s,%s,", convention != NULL ? convention : "", status_name(v->status));
         field(to, v->reason, "\n");
     }
 }

@@ -4,11 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* JSON has no NaN: a value that does not exist is null. */
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
+#include "harness/run/json_path.h"
 
 static json_t *features_of(unsigned features)
 {
@@ -74,19 +70,11 @@ static json_t *truths_of(const point *p, const scene_quantity *q, double value, 
             !truth_holds(row, p->type, p->parameter))
             continue;
         json_t *one = json_pack("{s:s,s:s,s:s}", "kind", row->kind, "model", row->model, "source", row->source);
-        json_object_set_new(one, "value", number(row->value));
-        json_object_set_new(one, "uncertainty", number(row->uncertainty));
-        json_object_set_new(one, "error", number(relative_error(q, value, row->value)));
+        json_object_set_new(one, "value", json_number(row->value));
+        json_object_set_new(one, "uncertainty", json_number(row->uncertainty));
+        json_object_set_new(one, "error", json_number(relative_error(q, value, row->value)));
         json_array_append_new(list, one);
     }
-    return list;
-}
-
-static json_t *numbers(int count, const double *value)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < count; i++)
-        json_array_append_new(list, number(value[i]));
     return list;
 }
 
@@ -99,13 +87,15 @@ static void add_quantities(json_t *root, const point *p, const solve_result *r, 
         if (q->reduction == SCENE_CURVE) {
             json_t *one =
                 json_pack("{s:s,s:s,s:s,s:s}", "name", q->name, "unit", q->unit, "x_name", q->x_name, "x_unit", q->x_unit);
-            json_object_set_new(one, "x", numbers(v->curve.points, v->curve.x));
-            json_object_set_new(one, "values", numbers(v->curve.points, v->curve.value));
+            json_object_set_new(one, "x", json_numbers(v->curve.points, v->curve.x));
+            json_object_set_new(one, "values", json_numbers(v->curve.points, v->curve.value));
             json_array_append_new(curves, one);
             continue;
         }
         json_t *one = json_pack("{s:s,s:s}", "name", q->name, "unit", q->unit);
-        json_object_set_new(one, "value", number(v->value));
+        if (scene_convention(&p->scene, q) != NULL)
+            json_object_set_new(one, "moments", json_string(scene_convention(&p->scene, q)));
+        json_object_set_new(one, "value", json_number(v->value));
         if (!isfinite(v->value))
             json_object_set_new(one, "reason", json_string(v->reason[0] != '\0' ? v->reason : r->reason));
         json_object_set_new(one, "truths", truths_of(p, q, v->value, t));
@@ -140,6 +130,8 @@ status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
     json_object_set_new(root, "counters", counters_of(c));
     json_object_set_new(root, "seconds", json_pack("{s:f,s:f}", "setup", c->solve.seconds_setup, "solve", c->solve.seconds_solve));
     add_quantities(root, p, &c->solve, t);
+    json_object_set_new(root, "steps", json_steps(&c->solve));
+    json_object_set_new(root, "matrices", json_matrices(&c->solve));
     return dump(root, to, f);
 }
 
@@ -151,17 +143,17 @@ static json_t *verdict_of(const sweep *s, const verdict *v)
                             one->formulation.key, "quantity", p->scene.quantity[v->quantity].name, "verdict", verdict_name(v->kind),
                             "expected", v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "?", "as_expected", v->matches);
     json_object_set_new(out, "reason", json_string(v->reason));
-    json_object_set_new(out, "value", number(v->finest));
-    json_object_set_new(out, "limit", number(v->fit.limit));
-    json_object_set_new(out, "limit_uncertainty", number(v->fit.limit_uncertainty));
-    json_object_set_new(out, "order", number(v->fit.order));
-    json_object_set_new(out, "order_uncertainty", number(v->fit.order_uncertainty));
-    json_object_set_new(out, "truth", v->truth != NULL ? number(v->truth->value) : json_null());
-    json_object_set_new(out, "truth_uncertainty", v->truth != NULL ? number(v->truth->uncertainty) : json_null());
+    json_object_set_new(out, "value", json_number(v->finest));
+    json_object_set_new(out, "limit", json_number(v->fit.limit));
+    json_object_set_new(out, "limit_uncertainty", json_number(v->fit.limit_uncertainty));
+    json_object_set_new(out, "order", json_number(v->fit.order));
+    json_object_set_new(out, "order_uncertainty", json_number(v->fit.order_uncertainty));
+    json_object_set_new(out, "truth", v->truth != NULL ? json_number(v->truth->value) : json_null());
+    json_object_set_new(out, "truth_uncertainty", v->truth != NULL ? json_number(v->truth->uncertainty) : json_null());
     json_object_set_new(out, "truth_kind", v->truth != NULL ? json_string(v->truth->kind) : json_null());
-    json_object_set_new(out, "error", number(v->error));
-    json_object_set_new(out, "model_error", number(v->model_error));
-    json_object_set_new(out, "tolerance", number(v->tolerance));
+    json_object_set_new(out, "error", json_number(v->error));
+    json_object_set_new(out, "model_error", json_number(v->model_error));
+    json_object_set_new(out, "tolerance", json_number(v->tolerance));
     return out;
 }
 
@@ -177,8 +169,8 @@ status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const e
         json_t *row = json_pack("{s:s,s:s,s:s,s:i,s:s,s:b,s:s}", "case", p->type->name, "parameters", p->text, "formulation",
                                 one->formulation.key, "elements", one->mesh[a->mesh], "quantity",
                                 p->scene.quantity[a->quantity].name, "agrees", a->good, "source", a->truth->source);
-        json_object_set_new(row, "value", number(a->value));
-        json_object_set_new(row, "stored", number(a->truth->value));
+        json_object_set_new(row, "value", json_number(a->value));
+        json_object_set_new(row, "stored", json_number(a->truth->value));
         json_array_append_new(discrete, row);
     }
     for (int k = 0; k < VERDICT_KINDS; k++)

@@ -10,7 +10,7 @@ enum { STORE_VERSION = 1 };
 
 /* One row of a mesh's quantities. */
 typedef struct store_row {
-    char name[SCENE_NAME], unit[16], status[16], reason[128];
+    char name[SCENE_NAME], unit[16], moments[16], status[16], reason[128];
     double value, error, x, near_zero; /* near_zero: [unit] a value below it counts as zero */
 } store_row;
 hid_t store_row_type(void); /* in memory and in the file */

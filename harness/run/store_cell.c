@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "harness/run/store.h"
+#include "harness/run/store_path.h"
 
 static void put_features(record *r, hid_t at, unsigned features)
 {
@@ -51,24 +52,6 @@ static void put_left_out(record *r, hid_t at, const cell_result *c)
     free(text);
 }
 
-static void put_steps(record *r, hid_t at, const solve_result *result)
-{
-    enum { COLUMNS = 8 };
-    const hsize_t size[2] = {(hsize_t)result->steps, COLUMNS};
-    double *table = calloc((size_t)(result->steps + 1) * COLUMNS, sizeof *table);
-    r->bad |= table == NULL;
-    for (int i = 0; i < result->steps && table != NULL; i++) {
-        const step_record *k = &result->step[i];
-        const double row[COLUMNS] = {k->path,     k->increment,  k->iterations,     k->rejected, k->negative_pivots,
-                                     k->residual, k->correction, k->incompatibility};
-        memcpy(table + COLUMNS * (size_t)i, row, sizeof row);
-    }
-    const hid_t set = record_values(r, at, "steps", 2, size, table, NULL);
-    record_text(r, set, "columns", "path increment iterations rejected negative_pivots residual correction incompatibility");
-    H5Dclose(set);
-    free(table);
-}
-
 static void put_curve(record *r, hid_t curves, const scene_quantity *q, const curve *c)
 {
     const hid_t one = record_group(r, curves, q->name);
@@ -86,13 +69,10 @@ hid_t store_row_type(void)
     static const struct {
         const char *name;
         size_t offset, length; /* length 0: a double */
-    } field[] = {{"name", offsetof(store_row, name), SCENE_NAME},
-                 {"unit", offsetof(store_row, unit), 16},
-                 {"status", offsetof(store_row, status), 16},
-                 {"reason", offsetof(store_row, reason), 128},
-                 {"value", offsetof(store_row, value), 0},
-                 {"error", offsetof(store_row, error), 0},
-                 {"x", offsetof(store_row, x), 0},
+    } field[] = {{"name", offsetof(store_row, name), SCENE_NAME}, {"unit", offsetof(store_row, unit), 16},
+                 {"moments", offsetof(store_row, moments), 16},   {"status", offsetof(store_row, status), 16},
+                 {"reason", offsetof(store_row, reason), 128},    {"value", offsetof(store_row, value), 0},
+                 {"error", offsetof(store_row, error), 0},        {"x", offsetof(store_row, x), 0},
                  {"near_zero", offsetof(store_row, near_zero), 0}};
     const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof(store_row));
     for (size_t i = 0; i < sizeof field / sizeof field[0]; i++) {
@@ -115,6 +95,8 @@ static void put_quantities(record *r, hid_t at, const point *p, const solve_resu
         const quantity_result *v = &result->quantity[i];
         snprintf(row[i].name, sizeof row[i].name, "%s", q->name);
         snprintf(row[i].unit, sizeof row[i].unit, "%s", q->unit);
+        const char *convention = scene_convention(&p->scene, q);
+        snprintf(row[i].moments, sizeof row[i].moments, "%s", convention != NULL ? convention : "");
         snprintf(row[i].status, sizeof row[i].status, "%s", status_name(v->status));
         snprintf(row[i].reason, sizeof row[i].reason, "%.127s", v->reason);
         row[i].value = v->value;
@@ -140,7 +122,8 @@ void store_cell(record *r, hid_t at, const point *p, int elements, const cell_re
     record_count(r, mesh, "elements_per_member", elements);
     put_cost(r, mesh, cell);
     put_left_out(r, mesh, cell);
-    put_steps(r, mesh, &cell->solve);
+    store_steps(r, mesh, &cell->solve);
+    store_matrices(r, mesh, &cell->solve);
     put_quantities(r, mesh, p, &cell->solve, of);
     H5Gclose(mesh);
 }

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "harness/run/table_path.h"
+
 static void row_of_series(FILE *to, const sweep *s, int index)
 {
     const series *one = &s->series[index];
@@ -60,6 +62,8 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
         percent(to, row != NULL ? relative_error(q, v->value, row->value) : NAN);
         fprintf(to, "%s%s\n", row != NULL ? " against " : "", row != NULL ? row->kind : "");
     }
+    table_matrices(to, &c->solve);
+    table_steps(to, &c->solve);
 }
 
 void table_convergence(FILE *to, const sweep *s, const truths *t)

@@ -32,7 +32,16 @@ int wire_write(FILE *to, const cell_result *cell)
         const size_t length = strlen(cell->left_out[i]) + 1;
         bad = put(to, &length, sizeof length) | put(to, cell->left_out[i], length);
     }
-    bad |= put(to, s->quantity, (size_t)s->quantities * sizeof *s->quantity) | put(to, s->step, (size_t)s->steps * sizeof *s->step);
+    bad |= put(to, s->quantity, (size_t)s->quantities * sizeof *s->quantity) |
+           put(to, s->step, (size_t)s->steps * sizeof *s->step) |
+           put(to, s->iteration, (size_t)s->iterations * sizeof *s->iteration) |
+           put(to, s->matrices, (size_t)s->matrix_sets * sizeof *s->matrices);
+    for (int i = 0; i < s->matrix_sets && !bad; i++) {
+        const nodal_matrices *m = &s->matrices[i];
+        const size_t matrices = 36 * (size_t)m->stations * sizeof(double);
+        bad = put(to, m->path, (size_t)m->stations * sizeof(double)) | put(to, m->compliance, matrices) |
+              put(to, m->stiffness, matrices);
+    }
     for (int i = 0; i < s->quantities && !bad; i++) {
         const size_t bytes = (size_t)s->quantity[i].curve.points * sizeof(double);
         bad = put(to, s->quantity[i].curve.x, bytes) | put(to, s->quantity[i].curve.value, bytes);
@@ -61,13 +70,28 @@ static int get_shapes(FILE *from, shapes *s)
            get(from, s->node, states * 3 * (size_t)s->nodes * sizeof *s->node);
 }
 
+static void read_matrices(FILE *from, int sets, solve_result *s, int *bad)
+{
+    s->matrices = array(from, (size_t)sets, sizeof *s->matrices, bad);
+    s->matrix_sets = 0; /* those whose addresses are of this process */
+    for (int i = 0; i < sets && !*bad; i++) {
+        nodal_matrices *m = &s->matrices[i];
+        const size_t stations = (size_t)m->stations;
+        m->path = m->compliance = m->stiffness = NULL;
+        s->matrix_sets++;
+        m->path = array(from, stations, sizeof(double), bad);
+        m->compliance = array(from, 36 * stations, sizeof(double), bad);
+        m->stiffness = array(from, 36 * stations, sizeof(double), bad);
+    }
+}
+
 static int read_cell(FILE *from, cell_result *cell)
 {
     solve_result *s = &cell->solve;
     int lines = 0, bad = get(from, &cell->size, sizeof cell->size) | get(from, &cell->counters, sizeof cell->counters);
     solve_result head = {0};
     if (bad || get(from, &head, sizeof head) != 0 || get(from, &lines, sizeof lines) != 0 || head.quantities < 0 ||
-        head.steps < 0 || lines < 0)
+        head.steps < 0 || head.iterations < 0 || head.matrix_sets < 0 || lines < 0)
         return -1;
     cell->left_out = calloc((size_t)lines + 1, sizeof *cell->left_out);
     for (int i = 0; i < lines && !bad && cell->left_out != NULL; i++) {
@@ -85,7 +109,12 @@ static int read_cell(FILE *from, cell_result *cell)
     *s = head;
     s->quantity = quantity;
     s->quantities = quantity != NULL ? head.quantities : 0;
+    s->matrices = NULL;
+    s->matrix_sets = 0;
     s->step = bad ? NULL : array(from, (size_t)head.steps, sizeof *s->step, &bad);
+    s->iteration = bad ? NULL : array(from, (size_t)head.iterations, sizeof *s->iteration, &bad);
+    if (!bad)
+        read_matrices(from, head.matrix_sets, s, &bad);
     for (int i = 0; i < s->quantities && !bad; i++) {
         const size_t points = (size_t)s->quantity[i].curve.points;
         s->quantity[i].curve.x = points > 0 ? array(from, points, sizeof(double), &bad) : NULL;

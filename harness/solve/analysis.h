@@ -19,8 +19,9 @@ typedef struct analysis_outcome {
     /* buckling, modal, rotation: eigenvalues with their modes; buckling: load factors, ascending in size */
     int positive, negative;
     double *value_positive, *value_negative, *mode_positive, *mode_negative; /* modes [count x free] */
-    /* compliance: of the six components at the node, at every station [stations x 36]; rows of held components are zero */
-    double *compliance;
+    /* compliance: of the six components at the node, at every station [stations x 36]; rows of held components are zero, columns that nothing asks for NAN; belongs to
+     * the result */
+    const double *compliance;
 } analysis_outcome;
 
 typedef struct analysis_context {

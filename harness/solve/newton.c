@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/solve/history.h"
 
 enum { MAX_ITERATIONS = 30 };
 static const double default_criterion = 1e-8; /* largest correction, dimensionless: the next one would be its square */
@@ -80,6 +81,14 @@ static status meet_conditions(newton *n, int count, const model_condition condit
     return STATUS_OK;
 }
 
+static double work_of(int n, const double force[], const double motion[])
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += force[i] * motion[i];
+    return sum;
+}
+
 /* dx of the condensed system. */
 static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
 {
@@ -90,6 +99,7 @@ static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
         return outcome;
     memcpy(n->dx, n->residual, (size_t)n->free * sizeof *n->dx);
     factor_solve(n->factor, n->dx);
+    n->energy = fabs(work_of(n->free, n->residual, n->dx));
     return meet_conditions(n, lin->conditions, lin->condition, f);
 }
 
@@ -129,6 +139,7 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
 {
     model *m = n->c->model;
     counters *count = model_counters(m);
+    n->energy = NAN;
     memset(n->dx, 0, (size_t)n->all * sizeof *n->dx);
     model_drive(m, n->state, path, n->dx);
     if (n->c->options->newton == SOLVE_DISPLACEMENT) {
@@ -162,8 +173,10 @@ status newton_advance(newton *n, double path, double *correction, step_record *r
 {
     *correction = model_advance(n->c->model, n->state, n->dx, path);
     model_counters(n->c->model)->iterations++;
-    record->iterations++;
-    record->correction = *correction;
+    const iteration_record one = {.correction = *correction, .incompatibility = record->incompatibility};
+    const status kept = history_add_iteration(n->c->result, record, &one, n->energy, f);
+    if (kept != STATUS_OK)
+        return kept;
     return isfinite(*correction) ? STATUS_OK : fault_set(f, STATUS_NOT_CONVERGED, "the corrections are not finite");
 }
 

@@ -14,8 +14,8 @@ typedef struct newton {
     double *residual, *dx;   /* [free + driven] */
     double *dense, *unknown; /* of the uncondensed system, allocated when it is asked for */
     int *pivot;
-    double *column; /* [conditions x (free + driven)] */
-    double criterion;
+    double *column;           /* [conditions x (free + driven)] */
+    double criterion, energy; /* energy: |r . K^-1 r| of the last residual r [J]; NAN: not known */
     int max_iterations, free, all;
 } newton;
 

@@ -27,7 +27,6 @@ void outcome_free(analysis_outcome *o)
     free(o->value_negative);
     free(o->mode_positive);
     free(o->mode_negative);
-    free(o->compliance);
 }
 
 static analysis_function *function_of(scene_analysis_kind kind)
@@ -100,8 +99,15 @@ void solve_result_free(solve_result *r)
         free(r->quantity[i].curve.x);
         free(r->quantity[i].curve.value);
     }
+    for (int i = 0; i < r->matrix_sets; i++) {
+        free(r->matrices[i].path);
+        free(r->matrices[i].compliance);
+        free(r->matrices[i].stiffness);
+    }
+    free(r->matrices);
     free(r->quantity);
     free(r->step);
     shapes_free(&r->shapes);
+    free(r->iteration);
     memset(r, 0, sizeof *r);
 }

@@ -28,11 +28,29 @@ typedef struct quantity_result {
     char reason[FAULT_TEXT]; /* why there is no value */
 } quantity_result;
 
+/* All dimensionless.  Quadratic convergence: each correction is about the square of the one before. */
+typedef struct iteration_record {
+    double residual;   /* sqrt(r . K^-1 r) of the unbalanced forces r before it, by that of the step's first; NAN: newton=dense */
+    double correction; /* what the iteration changed: model_advance */
+    double incompatibility; /* max |D(x) - e|/l before it */
+} iteration_record;
+
 typedef struct step_record {
     double path, increment;
-    int iterations, rejected, negative_pivots;
-    double residual, correction, incompatibility;
+    int iterations, rejected, negative_pivots;    /* rejected: tries of longer steps that failed before this one */
+    double residual, correction, incompatibility; /* of the last iteration */
+    int first;                                    /* of its iterations in solve_result.iteration */
+    double energy;                                /* r . K^-1 r of the first one [J] */
 } step_record;
+
+/* Compliance and stiffness [6 x 6] (ux uy uz thx thy thz by Fx Fy Fz Mx My Mz; SI) of a node at stations of a path. */
+typedef struct nodal_matrices {
+    int node;
+    scene_moments moments; /* convention */
+    int stations;
+    double *path;                   /* [stations] */
+    double *compliance, *stiffness; /* [stations x 36]; held components: zero; not computed because nothing asked: NAN */
+} nodal_matrices;
 
 typedef struct solve_result {
     status status;
@@ -41,6 +59,10 @@ typedef struct solve_result {
     quantity_result *quantity; /* [scene quantities], same order */
     int steps;
     step_record *step;
+    int iterations; /* of all the steps that were kept */
+    iteration_record *iteration;
+    int matrix_sets;
+    nodal_matrices *matrices;
     double seconds_setup, seconds_solve; /* analysis of the pattern | the rest */
     shapes shapes;
 } solve_result;

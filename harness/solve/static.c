@@ -1,4 +1,5 @@
 /* Nonlinear equilibrium along a path, with steps that adapt. */
+#include "harness/solve/history.h"
 #include "harness/solve/newton.h"
 
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14 };
@@ -25,6 +26,7 @@ static status walk_to(newton *n, double target, double *increment, fault *f)
                 *increment *= 2;
             continue;
         }
+        history_drop_step(n->c->result, &record);
         if (outcome == STATUS_FAULT || ++halvings > MAX_HALVINGS)
             return outcome == STATUS_SINGULAR || outcome == STATUS_FAULT ? outcome : STATUS_NOT_CONVERGED;
         model_state_copy(n->c->model, n->backup, n->state);

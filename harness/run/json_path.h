@@ -1,0 +1,14 @@
+/* Load steps with their iterations, and matrices of nodes, as JSON. */
+#ifndef BEAMWORK_JSON_PATH_H
+#define BEAMWORK_JSON_PATH_H
+
+#include <jansson.h>
+
+#include "harness/solve/solve.h"
+
+json_t *json_number(double value); /* JSON has no NaN: a value that does not exist is null */
+json_t *json_numbers(int count, const double value[]);
+json_t *json_steps(const solve_result *r);
+json_t *json_matrices(const solve_result *r);
+
+#endif

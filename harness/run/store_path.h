@@ -1,0 +1,11 @@
+/* Load steps with their iterations, and matrices of nodes, in the result file. */
+#ifndef BEAMWORK_STORE_PATH_H
+#define BEAMWORK_STORE_PATH_H
+
+#include "harness/run/record.h"
+#include "harness/solve/solve.h"
+
+void store_steps(record *r, hid_t at, const solve_result *result);
+void store_matrices(record *r, hid_t at, const solve_result *result);
+
+#endif

@@ -1,0 +1,13 @@
+/* Load steps with their iterations, and matrices of nodes, as text. */
+#ifndef BEAMWORK_TABLE_PATH_H
+#define BEAMWORK_TABLE_PATH_H
+
+#include <stdio.h>
+
+#include "harness/solve/solve.h"
+
+void table_steps(FILE *to, const solve_result *r);
+/* At the last station that was reached. */
+void table_matrices(FILE *to, const solve_result *r);
+
+#endif
