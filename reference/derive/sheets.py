@@ -1,9 +1,14 @@
-"""The sheet flexure with prescribed tip motion: reactions, and the compliance matrix with spatial moments."""
+"""The sheet flexure with prescribed tip motion: reactions, and the compliance matrix of its tip.
+
+The reaction's moment m follows a convention while the tip turns by theta: spatial, dead about fixed axes (what the network's
+response is); semitangential, m + theta x m/2, whose stiffness is the spatial one plus m~/2 on the rotations; symmetrised, the
+symmetric part of the spatial stiffness, which is the same matrix where the beam has a potential.
+"""
 import math
 
 import numpy as np
 
-from reference.derive.beam import Beam
+from reference.derive.beam import Beam, cross_matrix
 from reference.derive.network import Network, clamped, free
 
 RELATIVE = 5e-12
@@ -43,9 +48,21 @@ def clamped_sheet(given, conditions):
     return net, tip
 
 
-def quantities(case, given, net, tip, entries, note):
-    """Compliance with dead forces and dead moments about fixed axes; displacements and reactions are yielded by the caller."""
-    C = net.response(1.0, tip, {tip: free})
+def under_convention(C, moment, convention):
+    """Compliance [6, 6] under another convention, from the spatial one; moment [3] in N m."""
+    K = np.linalg.inv(C)
+    if convention == "semitangential":
+        K[3:, 3:] += cross_matrix(moment) / 2
+    elif convention == "symmetrised":
+        K = (K + K.T) / 2
+    return C if convention == "spatial" else np.linalg.inv(K)
+
+
+def quantities(case, given, net, tip, entries):
+    """Compliance with dead forces and moments of the case's convention; displacements and reactions."""
+    convention = given.get("moment_convention", "spatial")
+    note = f"{convention} moments" + ("; R = Ry Rz Rx" if case == "sheet_wagner" else "")
+    C = under_convention(net.response(1.0, tip, {tip: free}), net.force * net.length * tip.load[3:], convention)
     at = parameters(given)
     for i, j in entries:
         if abs(C[i, j]) > 1e-9 * math.sqrt(abs(C[i, i] * C[j, j])):
@@ -70,7 +87,7 @@ def cantilever(**given):
         return np.array([x[1] - level * deflection, R[1, 0], force[0], force[2], moment[0], moment[1]])
     net, tip = clamped_sheet(given, conditions)
     net.solve(np.linspace(0.1, 1, 10) if deflection > 0.2 else (0.5, 1.0))
-    yield from quantities("sheet_cantilever", given, net, tip, PLANAR, "spatial moments")
+    yield from quantities("sheet_cantilever", given, net, tip, PLANAR)
 
 
 def twisted(**given):
@@ -82,7 +99,7 @@ def twisted(**given):
         return np.array([x[1] - bend * deflection, R[1, 0] - math.sin(bend * phi_z), R[1, 2] + math.tan(twist * phi_x) * R[1, 1], force[0], force[2], moment[1]])
     net, tip = clamped_sheet({"wagner": 1, **given}, conditions)
     net.solve([0.5, 1.0] + [1 + i / 5 for i in range(1, 6)] if phi_x else (0.5, 1.0))
-    yield from quantities("sheet_wagner", given, net, tip, [(i, j) for i in range(6) for j in range(6)], "spatial moments; R = Ry Rz Rx")
+    yield from quantities("sheet_wagner", given, net, tip, [(i, j) for i in range(6) for j in range(6)])
 
 
 def rows():
@@ -99,3 +116,7 @@ def rows():
         for wagner in (1, 0):
             given = {"tip_phi_x": phi_x} if wagner else {"wagner": 0, "tip_phi_x": phi_x}
             yield from (row for row in twisted(**given) if row[2] == "C_ux_My")
+    yield from (row for row in cantilever(moment_convention="semitangential") if row[2] == "C_zz")
+    yield from (row for row in cantilever(moment_convention="symmetrised") if row[2] in ("C_zz", "C_uz_My"))
+    for given in ({"moment_convention": "semitangential"}, {"moment_convention": "symmetrised"}, {"tip_warping": 1, "moment_convention": "symmetrised"}):
+        yield from (row for row in twisted(**given) if row[2] in ("C_ux_My", "C_thy_Fx"))
