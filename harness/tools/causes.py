@@ -111,7 +111,7 @@ def cause_of(laboratory, row, verdict, switches):
             off = [f"{s}=0" for s in chosen]
             left, _ = laboratory.limit_error(case, row["formulation"], given + off, quantity)
             if abs(left) <= abs(base) / 20 and abs(left) <= max(tolerance / 10, 1e-6):
-                why = "; ".join(LEFT_OUT.get(formulation, {}).get(s, f"{s} is not kept fully") for s in chosen)
+                why = "; ".join(LEFT_OUT.get(formulation, {}).get(s, f"the error comes with {s}") for s in chosen)
                 return f"{why}: with n to {finest} the limit is {base:+.1e} off, with {' '.join(off)} {left:+.1e}"
     for other, what in SIBLINGS.get(formulation, []):
         left, _ = laboratory.limit_error(case, other, given, quantity)

@@ -104,7 +104,8 @@ def twisted(**given):
 
 def rows():
     for given in ({}, {"tip_warping": 1}, {"tip_deflection": 0.05}, {"tip_deflection": 0.05, "tip_warping": 1}, {"tip_deflection": 0.001}, {"shear": 0},
-                  {"warping": 0, "trapeze": 0, "shear_factor": 0.8333333333333334}, {"length": 0.05, "tip_deflection": 0.0075}, {"width": 0.02}, {"thickness": 0.0005}):
+                  {"warping": 0, "trapeze": 0, "shear_factor": 0.8333333333333334}, {"length": 0.05, "tip_deflection": 0.0075}, {"width": 0.02}, {"thickness": 0.0005}, {"thickness": 0.0001, "tip_deflection": 0.05},
+                  {"length": 0.05, "tip_deflection": 0.025, "tip_warping": 1}, {"length": 0.5, "tip_deflection": 0.25}, {"length": 2, "tip_deflection": 0.3}):
         yield from cantilever(**given)
     for deflection in (0.005, 0.01):
         for tip in (0, 1):
