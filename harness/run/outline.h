@@ -6,7 +6,7 @@
 
 typedef struct outline {
     int walls;
-    int equivalent;                        /* 1: of a section given by its constants only: the rectangle of the same A and Iy : Iz */
+    int equivalent; /* 1: of a section given by its constants only: the rectangle of the same A and Iy : Iz */
     double corner[SECTION_MAX_WALLS][4][2]; /* (y, z) [m]: two at one end of the wall's mid-line, two at the other, going round */
 } outline;
 

@@ -55,7 +55,8 @@ static void put_integers(record *r, hid_t at, const char *name, int rows, int co
 /* What connects the points: sections and ends of the members, bodies and supports of the nodes. */
 static void put_structure(record *r, hid_t at, const scene *sc)
 {
-    int *member = calloc((size_t)sc->members * 3 + 1, sizeof *member), *attached = calloc((size_t)sc->nodes * 2 + 1, sizeof *attached);
+    int *member = calloc((size_t)sc->members * 3 + 1, sizeof *member),
+        *attached = calloc((size_t)sc->nodes * 2 + 1, sizeof *attached);
     r->bad |= member == NULL || attached == NULL;
     for (int i = 0; i < sc->members && !r->bad; i++) {
         const scene_member *m = &sc->member[i];

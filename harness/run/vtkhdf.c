@@ -14,7 +14,7 @@ enum { POLY_LINE = 4, QUAD = 9 }; /* VTK's cell types */
 typedef struct grid {
     const scene *scene;
     const shapes *shapes;
-    outline *outline; /* [sections] */
+    outline *outline;       /* [sections] */
     int points, cells, ids; /* of one state */
     int states, *state;     /* the states that are time steps */
 } grid;
@@ -99,8 +99,14 @@ enum { FIELDS = 8 };
 static const struct {
     const char *name, *unit;
     int size;
-} field[FIELDS] = {{"Points", "m", 3},   {"displacement", "m", 3},         {"axis_x", "1", 3},         {"axis_y", "1", 3},
-                   {"axis_z", "1", 3},   {"force (N, Qy, Qz)", "N", 3}, {"moment (Mx, My, Mz)", "N m", 3}, {"bimoment", "N m^2", 1}};
+} field[FIELDS] = {{"Points", "m", 3},
+                   {"displacement", "m", 3},
+                   {"axis_x", "1", 3},
+                   {"axis_y", "1", 3},
+                   {"axis_z", "1", 3},
+                   {"force (N, Qy, Qz)", "N", 3},
+                   {"moment (Mx, My, Mz)", "N m", 3},
+                   {"bimoment", "N m^2", 1}};
 
 /* The fields of a point of a centre line moved by (0, y, z) of its section; rest: the same point undeformed. */
 static void fill_point(const centreline_point *p, const centreline_point *rest, double y, double z, double *out[FIELDS])

@@ -66,12 +66,13 @@ static void keep_path(const analysis_context *c, int analysis, int most, shapes 
 }
 
 /* x[free + driven]; the state the analysis is about is the last of the path it follows. */
-static status keep_displaced(const analysis_context *c, shape_state *what, const double x[], const double sigma[], shapes *s, fault *f)
+static status keep_displaced(const analysis_context *c, shape_state *what, const double x[], const double sigma[], shapes *s,
+                             fault *f)
 {
     const int follows = c->scene->analysis[what->analysis].follows;
     const analysis_outcome *path = follows == SCENE_NONE ? NULL : &c->outcomes[follows];
-    const model_state *about = path != NULL && path->reached > 0 && path->state != NULL ? path->state[path->reached - 1]
-                                                                                        : model_rest(c->model);
+    const model_state *about =
+        path != NULL && path->reached > 0 && path->state != NULL ? path->state[path->reached - 1] : model_rest(c->model);
     model_state *moved = NULL;
     const status outcome = centreline_displaced(c->model, about, x, sigma, &what->scale, &moved, f);
     if (outcome == STATUS_OK)
