@@ -17,6 +17,7 @@ PAGES = (
     "errata",
     "case",
     "formulation",
+    "pictures",
 )
 
 _tasks = []  # of the run at hand; inherited by the processes of the pool, so that no record is copied

@@ -8,8 +8,8 @@
 #include "elements/math/rotation.h"
 #include "harness/model/parts.h"
 
-enum { LEAST_PIECES = 12 }; /* of a member, so that one element is a curve */
-static const double drawn_part = 0.1;
+enum { LEAST_PIECES = 12 };                             /* of a member, so that one element is a curve */
+static const double drawn_part = 0.1, drawn_turn = 0.5; /* of the size; [rad] */
 
 /* Gaps between the vertices of a member, and pieces of each gap. */
 static int gaps_of(const model *m, int member)
@@ -153,12 +153,14 @@ static void increments_of(const model *m, const model_state *s, const double x[]
     }
 }
 
-static double largest_translation(const model *m, const double increment[])
+/* Makes a mode visible: its translations, or its turns when these are larger. */
+static double visible_scale(const model *m, const double increment[])
 {
-    double largest = 0;
+    double scale = INFINITY;
     for (int v = 0; v < m->vertices; v++)
-        largest = fmax(largest, vec3_norm(&increment[6 * v]));
-    return largest;
+        scale =
+            fmin(scale, fmin(drawn_part * m->size / vec3_norm(&increment[6 * v]), drawn_turn / vec3_norm(&increment[6 * v + 3])));
+    return isfinite(scale) ? scale : 1;
 }
 
 status centreline_displaced(const model *m, const model_state *from, const double x[], const double sigma[], double *scale,
@@ -172,9 +174,8 @@ status centreline_displaced(const model *m, const model_state *from, const doubl
         model_state *s = *out;
         model_state_copy(m, from, s);
         increments_of(m, from, x, increment);
-        const double largest = largest_translation(m, increment);
         if (*scale == 0)
-            *scale = largest > 0 ? drawn_part * m->size / largest : 1;
+            *scale = visible_scale(m, increment);
         for (int v = 0; v < m->vertices; v++) {
             double turn[3], q[4];
             for (int i = 0; i < 3; i++) {

@@ -1,0 +1,325 @@
+"""Pictures of every scene, undeformed and deformed, with its sections and modes, from the centre lines in the result file.
+
+Surfaces are projected in parallel and painted from back to front; a wall of a section is a strip along its mid-line, thick ones are solid.
+Rigid bodies are the convex hulls of the points attached to them, those of points far apart joined by rods."""
+import dataclasses
+import functools
+import html
+import math
+
+import h5py
+import numpy as np
+from matplotlib.collections import PolyCollection
+from scipy.spatial import ConvexHull
+from scipy.spatial.transform import Rotation
+
+from reports.data import text
+from reports.style import plt
+
+NAVIGATION = [("pictures.html", "pictures")]
+
+MEMBER, BODY, SUPPORT, REST = np.array([0.52, 0.71, 0.87]), np.array([0.93, 0.80, 0.62]), "#1c2430", "#8b95a3"
+LIGHT = np.array([0.35, -0.55, 0.76])
+SYMBOL = 0.03         # half a side of a rectangle that stands for constants, to the size, at most
+THIN = 0.2            # thickness to length of a wall that is drawn as a surface
+VISIBLE = 0.02        # displacement to size below which the picture exaggerates
+GAP = 0.35            # between the points of a body, to its extent, beyond which they are drawn as parts joined by rods
+CLAMPED = 63          # all six components held
+MOST_STRIPS, MOST_MODES = 900, 4
+
+
+@dataclasses.dataclass
+class Shapes:
+    """What the group `shapes` of a cell holds."""
+    formulation: str
+    n: int
+    members: np.ndarray      # [members x 3]: nodes p and q, section
+    first: np.ndarray        # [members + 1]
+    body: np.ndarray         # [nodes]: node it moves with, or -1
+    held: np.ndarray         # [nodes]: bits
+    sections: list           # [walls x 4 x 2] in m
+    equivalent: list         # section known by its constants only: a rectangle stands for it
+    kind: list
+    value: np.ndarray
+    position: np.ndarray     # [states x points x 3] in m
+    axes: np.ndarray         # [states x points x 3 x 3]: rows are the section's axes
+    nodes: np.ndarray        # [states x nodes x 3] in m
+
+
+def matrices(q):
+    """Rows: axes x, y, z of the triads of quaternions q[..., 4]."""
+    w, x, y, z = np.moveaxis(q, -1, 0)
+    rows = [[1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
+            [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)],
+            [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)]]
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+
+
+def read(site, case):
+    """Shapes of a case's defaults, or None when the results hold none."""
+    with h5py.File(site.results) as file:
+        point = file[f"cases/{case.name}/default"] if f"cases/{case.name}/default" in file else None
+        if point is None or "shapes" not in point.attrs:
+            return None
+        place = text(point.attrs["shapes"])
+        g = point[place]
+        sections = [g["sections"][str(i)] for i in range(len(g["sections"]))]
+        equivalent = [bool(s.attrs["equivalent"]) for s in sections]
+        size = np.linalg.norm(np.ptp(g["position"][0], axis=0))
+        walls = [s[()] * min(1, SYMBOL * size / np.abs(s[()]).max()) if symbol else s[()] for s, symbol in zip(sections, equivalent)]
+        return Shapes(place.split("/", maxsplit=1)[0], int(g.parent.attrs["elements_per_member"]), g["members"][()], g["first_point"][()], g["bodies"][:, 0], g["bodies"][:, 1],
+                      walls, equivalent, [text(k) for k in g["kind"]], g["value"][()],
+                      g["position"][()], matrices(g["orientation"][()]), g["nodes"][()])
+
+
+def size_of(s):
+    return float(np.linalg.norm(np.ptp(s.position[0], axis=0)))
+
+
+def turns(s, a, b):
+    """Rotation vectors [points x 3] from state a to b."""
+    return Rotation.from_matrix(np.swapaxes(s.axes[b], -1, -2) @ s.axes[a]).as_rotvec()
+
+
+def distance(s, a, b):
+    """Largest displacement of a corner, nearly."""
+    radius = max(np.linalg.norm(walls, axis=2).max() for walls in s.sections)
+    return float((np.linalg.norm(s.position[a] - s.position[b], axis=1) + radius * np.linalg.norm(turns(s, a, b), axis=1)).max())
+
+
+def exaggeration(s, state):
+    """1 when the displacements can be seen, else the round number that makes them visible."""
+    moved = distance(s, state, 0)
+    if moved == 0 or moved > VISIBLE * size_of(s):
+        return 1
+    exact = min(0.1 * size_of(s) / moved, 0.6 / max(np.linalg.norm(turns(s, 0, state), axis=1).max(), 1e-300))
+    decade = 10 ** math.floor(math.log10(exact))
+    return max(1, decade * (5 if exact >= 5 * decade else 2 if exact >= 2 * decade else 1))
+
+
+def axes_of(s, state, scale):
+    if scale == 1:
+        return s.axes[state]
+    turned = Rotation.from_rotvec(scale * turns(s, 0, state)).as_matrix()
+    return s.axes[0] @ np.swapaxes(turned, -1, -2)
+
+
+def strips(s, state, scale, every):
+    """Quadrilaterals [.. x 4 x 3] of all members."""
+    out = []
+    position = s.position[0] + scale * (s.position[state] - s.position[0])
+    axes = axes_of(s, state, scale)
+    for i, (_, _, section) in enumerate(s.members):
+        at = np.arange(s.first[i], s.first[i + 1])
+        at = np.append(at[:-1:every], at[-1])
+        r, y, z = position[at], axes[at, 1], axes[at, 2]
+        for wall in s.sections[section]:
+            thick = np.linalg.norm(wall[0] - wall[1]) > THIN * np.linalg.norm(wall[1] - wall[2])
+            corners = wall if thick else np.array([(wall[0] + wall[1]) / 2, (wall[2] + wall[3]) / 2])
+            edges = [r + c[0] * y + c[1] * z for c in corners]
+            pairs = [(k, (k + 1) % 4) for k in range(4)] if thick else [(0, 1)]
+            out += [np.stack([edges[a][:-1], edges[b][:-1], edges[b][1:], edges[a][1:]], axis=1) for a, b in pairs]
+            if thick:
+                out += [np.stack([e[k] for e in edges])[None] for k in (0, -1)]
+    return np.concatenate(out)
+
+
+def hull(points):
+    """Faces of the convex hull; of points in a plane the polygon, of points in a line the segment."""
+    points = np.unique(np.round(points, 12), axis=0)
+    middle = points.mean(axis=0)
+    _, extent, axes = np.linalg.svd(points - middle, full_matrices=False)
+    rank = int((extent > 1e-6 * max(extent[0], 1e-300)).sum()) if len(points) > 1 else 0
+    if rank == 3:
+        return [points[list(f)] for f in ConvexHull(points).simplices]
+    flat = (points - middle) @ axes.T
+    if rank == 2:
+        return [points[ConvexHull(flat[:, :2]).vertices]]
+    return [points[[flat[:, 0].argmin(), flat[:, 0].argmax()]]] if rank == 1 else []
+
+
+def clusters(points):
+    """Indices of points that lie together: gaps below a third of the whole extent join."""
+    reach = GAP * np.linalg.norm(np.ptp(points, axis=0))
+    group = np.arange(len(points))
+    for i in range(len(points)):
+        for j in range(i):
+            if np.linalg.norm(points[i] - points[j]) <= reach:
+                group[group == group[i]] = group[j]
+    return [np.flatnonzero(group == g) for g in np.unique(group)]
+
+
+def bodies(s, state, scale):
+    """Faces, and rods between their middles. A body has its own node too when that is a hinge, which is held in part."""
+    faces = []
+    nodes = s.nodes[0] + scale * (s.nodes[state] - s.nodes[0])
+    for b in sorted({int(b) for b in s.body if b >= 0}):
+        attached = list(np.flatnonzero(s.body == b)) + ([b] if s.held[b] not in (0, CLAMPED) else [])
+        groups = clusters(s.nodes[0][attached])
+        for group in groups:
+            faces += hull(nodes[attached][group])
+        if len(groups) > 1:
+            faces += hull(np.array([nodes[attached][group].mean(axis=0) for group in groups]))
+    return faces
+
+
+class View:
+    """Parallel projection, z upwards."""
+
+    def __init__(self, azimuth=-58, elevation=24):
+        a, e = math.radians(azimuth), math.radians(elevation)
+        self.towards = np.array([math.cos(e) * math.cos(a), math.cos(e) * math.sin(a), math.sin(e)])
+        self.right = np.array([-math.sin(a), math.cos(a), 0])
+        self.up = np.cross(self.towards, self.right)
+
+    def flat(self, points):
+        return np.stack([points @ self.right, points @ self.up], axis=-1)
+
+    def depth(self, points):
+        return points @ self.towards
+
+
+def best_view(s, states):
+    """From the side, or more from above when that shows clearly more of the displacements."""
+    def seen(view):
+        return max((float(np.linalg.norm(view.flat(s.position[k] - s.position[0]), axis=1).max()) for k in states), default=0)
+    side, above = View(), View(elevation=52)
+    return above if seen(above) > 1.25 * seen(side) else side
+
+
+def shade(polygon, colour):
+    normal = np.cross(polygon[2] - polygon[0], polygon[-1] - polygon[1])
+    length = np.linalg.norm(normal)
+    brightness = 0.62 + 0.42 * abs(normal @ LIGHT) / (length * np.linalg.norm(LIGHT)) if length > 0 else 1
+    return np.clip(colour * brightness, 0, 1)
+
+
+def supports(s):
+    """Nodes that stay in place: held ones that are no bodies, what is attached to a clamped body, hinges."""
+    owner = {int(b) for b in s.body}
+    return [i for i, (b, held) in enumerate(zip(s.body, s.held)) if (b >= 0 and s.held[b] == CLAMPED) or (b < 0 and held and (i not in owner or held != CLAMPED))]
+
+
+def paint(axes, view, s, state, scale):
+    """One state over the pale undeformed one."""
+    every = max(1, math.ceil(len(s.position[0]) / MOST_STRIPS))
+    if state > 0:
+        rest = view.flat(strips(s, 0, 1, every))
+        axes.add_collection(PolyCollection(rest, facecolors="#e9ecf0", edgecolors="#dde1e7", linewidths=0.3, zorder=0))
+    polygons = [(p, shade(p, MEMBER), 0.95) for p in strips(s, state, scale, every)]
+    polygons += [(f, shade(f, BODY) if len(f) > 2 else 0.8 * BODY, 0.3) for f in bodies(s, state, scale)]
+    polygons.sort(key=lambda item: view.depth(item[0]).mean())
+    edge = [(*(0.88 * c), 0.9) if alpha > 0.5 else (*c, 1) if len(p) == 2 else (*c, 0.3) for p, c, alpha in polygons]
+    drawn = PolyCollection([view.flat(p) for p, _, _ in polygons], facecolors=[(*c, alpha) for _, c, alpha in polygons], edgecolors=edge,
+                           linewidths=[3.5 if len(p) == 2 else 0.35 for p, _, _ in polygons], capstyle="round", zorder=1)
+    axes.add_collection(drawn)
+    nodes = s.nodes[0] + scale * (s.nodes[state] - s.nodes[0])
+    at = supports(s)
+    spots = view.flat(nodes[at]) if at else np.empty((0, 2))
+    axes.plot(spots[:, 0], spots[:, 1], "s", color=SUPPORT, markersize=3, zorder=2)
+
+
+def frame(axes, view, s, states):
+    """Limits that hold all drawn states, with a bar of a round length."""
+    everything = np.concatenate([view.flat(strips(s, k, e, 1)).reshape(-1, 2) for k, e in states] + [view.flat(s.nodes[k]) for k, e in states if e == 1])
+    low, high = everything.min(axis=0), everything.max(axis=0)
+    margin = 0.04 * (high - low).max()
+    length = 10 ** math.floor(math.log10(0.5 * max(high[0] - low[0], 1e-9)))
+    axes.set_xlim(low[0] - margin, high[0] + margin)
+    axes.set_ylim(low[1] - 3 * margin, high[1] + margin)
+    axes.plot([low[0], low[0] + length], [low[1] - 2 * margin] * 2, color="#1c2430", linewidth=1.5)
+    axes.text(low[0] + 1.1 * length, low[1] - 2 * margin, f"{length:g} m" if length >= 1 else f"{1e3 * length:g} mm", va="center", fontsize=8)
+    axes.set_aspect("equal")
+    axes.axis("off")
+
+
+def title_of(s, state, scale):
+    value = f"{s.value[state]:.4g}"
+    words = {"undeformed": "undeformed", "path": f"at path parameter {value}", "linear": "linear solution", "buckling": f"buckling at load factor {value}", "mode": f"{value} Hz"}[s.kind[state]]
+    return words + (f", displacements × {scale:g}" if scale != 1 else "")
+
+
+def chosen(s):
+    """States worth a picture: of a path the first that has moved far and the one farthest from it, a linear solution, the first modes."""
+    path = [k for k, kind in enumerate(s.kind) if kind == "path"]
+    out = [0]
+    if path:
+        moved = [distance(s, k, 0) for k in path]
+        first = next(k for k, d in zip(path, moved) if d >= 0.5 * max(moved))
+        out += sorted({first, max(path, key=lambda k: distance(s, k, first))}) if first != path[-1] else [first]
+    for kind in ("linear", "buckling", "mode"):
+        out += [k for k, each in enumerate(s.kind) if each == kind][:MOST_MODES]
+    return out
+
+
+def draw_states(site, case, s):
+    states = [(k, exaggeration(s, k)) for k in chosen(s)]
+    view = best_view(s, [k for k, _ in states])
+    flat = view.flat(s.position[0])
+    tall = np.ptp(flat[:, 1]) > 0.35 * np.ptp(flat[:, 0])
+    columns = min(len(states), 3)
+    rows = math.ceil(len(states) / columns)
+    figure, grid = plt.subplots(rows, columns, figsize=(4.4 * columns, (3.9 if tall else 2.2) * rows), squeeze=False)
+    for axes, (state, scale) in zip(grid.flat, states):
+        paint(axes, view, s, state, scale)
+        frame(axes, view, s, [(0, 1), (state, scale)])
+        axes.set_title(title_of(s, state, scale), fontsize=9)
+    for axes in grid.flat[len(states):]:
+        axes.axis("off")
+    figure.tight_layout()
+    return site.image(figure, f"picture_{case.name}")
+
+
+def draw_sections(site, case, s):
+    count = len(s.sections)
+    figure, grid = plt.subplots(1, count, figsize=(2.6 * count, 2.2), squeeze=False)
+    for axes, walls, equivalent in zip(grid[0], s.sections, s.equivalent):
+        millimetres = 1e3 * walls
+        axes.add_collection(PolyCollection(millimetres[:, :, ::-1], facecolors=[(*MEMBER, 1)], edgecolors=[(*(0.5 * MEMBER), 1)], linewidths=0.6))
+        span = np.abs(millimetres).max()
+        axes.plot([0], [0], "+", color="#1c2430", markersize=7)
+        axes.set_xlim(-1.15 * span, 1.15 * span)
+        low, high = millimetres[:, :, 0].min(), millimetres[:, :, 0].max()
+        pad = max(0.15 * span, 0.1 * (high - low))
+        axes.set_ylim(low - pad, high + pad)
+        axes.set_aspect("equal")
+        axes.set_xlabel("z [mm]", fontsize=8)
+        axes.set_ylabel("y [mm]", fontsize=8)
+        axes.tick_params(labelsize=7)
+        axes.grid(False)
+        if equivalent:
+            axes.set_title("only its constants are given", fontsize=7)
+    figure.tight_layout()
+    return site.image(figure, f"section_{case.name}")
+
+
+def write_case(site, case):
+    s = read(site, case)
+    if s is not None:
+        draw_states(site, case, s)
+        draw_sections(site, case, s)
+
+
+def caption(s):
+    return (f"Computed with {html.escape(s.formulation)}, n = {s.n}; between the nodes a cubic through their axes. Grey: undeformed; sand: rigid bodies; black: held. "
+            "Modes: largest displacement a tenth of the size, or largest turn half a radian.")
+
+
+def markup(case, s):
+    name = html.escape(case.name)
+    return (f'<figure><img src="picture_{name}.svg" alt="{name}, undeformed and deformed"><figcaption>{caption(s)}</figcaption></figure>'
+            f'<figure><img src="section_{name}.svg" alt="section of {name}"><figcaption>Section in its principal axes; the cross is its centroid.</figcaption></figure>')
+
+
+def section(site, case):
+    s = read(site, case)
+    return [("The scene", markup(case, s))] if s is not None else []
+
+
+def write(site):
+    found = [(case, read(site, case)) for case in site.cases]
+    site.write("pictures.html", "pictures.html", pictures=[(case, markup(case, s)) for case, s in found if s is not None])
+
+
+def tasks(site):
+    return [functools.partial(write, site)] + [functools.partial(write_case, site, case) for case in site.cases]

@@ -1,0 +1,63 @@
+"""Pictures: geometry of what is drawn, and that a report with shapes has them."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from reports import pictures
+
+PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
+TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
+
+
+class Geometry(unittest.TestCase):
+    def test_axes(self):
+        rotation = Rotation.from_rotvec([0.3, -1.1, 0.7])
+        x, y, z, w = rotation.as_quat()
+        np.testing.assert_allclose(pictures.matrices(np.array([w, x, y, z])), rotation.as_matrix().T, atol=1e-15)
+
+    def test_hull(self):
+        square = np.array([[0, 0, 1.], [1, 0, 1], [1, 1, 1], [0, 1, 1], [0.5, 0.5, 1]])
+        faces = pictures.hull(square)
+        self.assertEqual([len(f) for f in faces], [4])
+        self.assertEqual(len(pictures.hull(square[:1])), 0)
+        self.assertEqual([len(f) for f in pictures.hull(square[[0, 4, 2]])], [2])
+        corners = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)], float)
+        self.assertEqual(len(pictures.hull(corners)), 12)
+
+    def test_clusters(self):
+        points = np.array([[0, 0, 0.], [0.1, 0, 0], [1, 0, 0], [1, 0.1, 0]])
+        self.assertEqual([list(g) for g in pictures.clusters(points)], [[0, 1], [2, 3]])
+
+
+class Report(unittest.TestCase):
+    def site(self, *options):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        results, out = os.path.join(folder.name, "r.h5"), os.path.join(folder.name, "site")
+        subprocess.run([PROGRAM, "verify", "-k", "spherical_joint/default", "-f", "sheet_third", *options, "-o", results], capture_output=True, check=False)
+        done = subprocess.run([sys.executable, "-B", "-m", "reports", results, TRUTHS, "-o", out], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return pathlib.Path(out)
+
+    def test_drawn(self):
+        site = self.site("--shapes")
+        for name in ("picture_spherical_joint.svg", "section_spherical_joint.svg"):
+            self.assertIn("<path", (site / name).read_text(encoding="utf-8"))
+            for page in ("pictures.html", "spherical_joint.html"):
+                self.assertIn(f'src="{name}"', (site / page).read_text(encoding="utf-8"))
+
+    def test_absent(self):
+        """Results without shapes: the page says how to get them."""
+        page = (self.site() / "pictures.html").read_text(encoding="utf-8")
+        self.assertIn("verify --shapes", page)
+        self.assertNotIn("<img", page)
+
+
+if __name__ == "__main__":
+    unittest.main()
