@@ -82,6 +82,10 @@ causes: verify ## find by experiment why a verdict is not `pass`; rewrites the p
 mutants: ## plant faults one by one; each must be noticed
 	@harness/tools/mutants.sh $(BUILD)/mutants
 
+.PHONY: fuzz
+fuzz: all ## any bytes as every input the program reads (clang's libFuzzer)
+	@harness/tools/fuzz.sh $(BUILD)
+
 layers: ## check that includes point down only
 	@harness/tools/layers.sh
 

@@ -8,6 +8,7 @@ import math
 import os
 import pathlib
 import sys
+import zlib
 
 HERE = pathlib.Path(__file__).resolve().parent
 COLUMNS = "case,parameters,formulation,elements,quantity,value,unit,uncertainty,kind,model,convention,source".split(",")
@@ -164,6 +165,13 @@ def write_columns(group, rows, columns):
             group.create_dataset(name, data=numpy.array(encoded, dtype=f"S{max([1] + [len(v) for v in encoded])}"))
 
 
+def seal(path):
+    """Appends the line by which the driver notices a file that was cut short, damaged or altered: length and CRC-32 of what comes before."""
+    with open(path, "rb+") as file:
+        data = file.read()
+        file.write(b"beamwork-seal %016x %08x\n" % (len(data), zlib.crc32(data)))
+
+
 def pack(folder, out):
     import h5py
     import numpy
@@ -179,6 +187,7 @@ def pack(folder, out):
             for case, rows in sorted(truths.items()):
                 write_columns(group.create_group(case), rows, COLUMNS[1:] + ["hash"])
             write_columns(file.create_group("findings"), findings, FINDING_COLUMNS)
+        seal(temporary)
         os.replace(temporary, out)
     finally:
         if os.path.exists(temporary):

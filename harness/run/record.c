@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "harness/run/output.h"
+#include "harness/run/seal.h"
 
 enum { GROWTH = 1 << 22 }; /* [bytes] by which the file in memory grows */
 
@@ -38,7 +39,10 @@ static status write_image(record *r, const char *path, fault *f)
     }
     status outcome = output_open(path, &file, f);
     if (outcome == STATUS_OK) {
+        char seal[SEAL_LENGTH + 1];
+        seal_write(image, (size_t)size, seal);
         fwrite(image, 1, (size_t)size, file.stream); /* the stream remembers an error until it is closed */
+        fputs(seal, file.stream);
         outcome = output_close(&file, f);
     }
     free(image);

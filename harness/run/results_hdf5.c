@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "harness/run/results.h"
+#include "harness/run/seal.h"
 #include "harness/run/store.h"
 
 enum { NAME = 200, PARAMETERS = 600, MOST_VALUES = 100000 };
@@ -157,11 +158,13 @@ status results_read_hdf5(const char *path, results *out, fault *f)
     const reader r = {path, out, f};
     char schema[64];
     long version = 0;
+    const status sealed = seal_check(path, f);
+    if (sealed != STATUS_OK)
+        return sealed;
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file < 0)
-        return fault_set(f, STATUS_FAULT, "%.120s: cannot be read as HDF5 (truncated or damaged); run 'beamwork verify -o' again",
-                         path);
+        return fault_set(f, STATUS_FAULT, "%.120s: cannot be read as HDF5; run 'beamwork verify -o' again", path);
     const int known = read_text(file, "schema", schema, sizeof schema) && strcmp(schema, "beamwork-results") == 0 &&
                       read_count(file, "schema_version", &version);
     const hid_t cases = known && version == STORE_VERSION ? H5Gopen2(file, "cases", H5P_DEFAULT) : -1;

@@ -7,7 +7,7 @@
 #include "harness/run/results.h"
 
 static const char head[] = "cell,elements,status,iterations,evaluations,factorisations,judged,decades,error,quantity";
-enum { FIELDS = 10, LONGEST_LINE = 2000 };
+enum { FIELDS = 10, LONGEST_NAME = 1200, LONGEST_LINE = 2000 };
 
 void results_write_table(FILE *to, const results *r)
 {
@@ -64,9 +64,9 @@ static int take(char *field[FIELDS], result_cell *cell)
 {
     long elements = 0, judged = 0;
     result_summary *s = &cell->summary;
-    int good = strlen(field[2]) < sizeof cell->status && strlen(field[9]) < sizeof s->quantity &&
-               whole(field[1], 10000000, &elements) && whole(field[6], 1000000, &judged) && number(field[7], &s->decades) &&
-               number(field[8], &s->worst) && s->worst >= 0;
+    int good = strlen(field[0]) < LONGEST_NAME && strchr(field[0], '"') == NULL && strlen(field[2]) < sizeof cell->status &&
+               strlen(field[9]) < sizeof s->quantity && whole(field[1], 10000000, &elements) && whole(field[6], 1000000, &judged) &&
+               number(field[7], &s->decades) && fabs(s->decades) < 1e9 && number(field[8], &s->worst) && s->worst >= 0;
     for (int k = 0; k < RESULTS_WORKS; k++)
         good = good && whole(field[3 + k], 1000000000000000L, &cell->work[k]);
     if (!good)

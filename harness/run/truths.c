@@ -8,6 +8,7 @@
 
 #include "harness/run/columns.h"
 #include "harness/run/registry.h"
+#include "harness/run/seal.h"
 
 /* Parameters of a row, and whether they still mean what they meant when the table was packed. */
 static status check_row(const columns *r, const case_type *type, int i, const char *text, uint64_t hash, double value[], int any[])
@@ -191,11 +192,13 @@ static status check_schema(hid_t file, const char *path, fault *f)
 status truths_read(const char *path, truths *out, fault *f)
 {
     memset(out, 0, sizeof *out);
+    const status sealed = seal_check(path, f);
+    if (sealed != STATUS_OK)
+        return sealed;
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file < 0)
-        return fault_set(f, STATUS_FAULT,
-                         "%s: cannot be read as HDF5 (missing, truncated or of another kind); build it with 'make all'", path);
+        return fault_set(f, STATUS_FAULT, "%s: cannot be read as HDF5; build it with 'make all'", path);
     status outcome = check_schema(file, path, f);
     const hid_t all = outcome == STATUS_OK ? H5Gopen2(file, "truths", H5P_DEFAULT) : -1;
     if (outcome == STATUS_OK && all < 0)

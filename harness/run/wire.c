@@ -51,7 +51,8 @@ int wire_write(FILE *to, const cell_result *cell)
 
 static void *array(FILE *from, size_t count, size_t size, int *bad)
 {
-    void *out = calloc(count + 1, size);
+    enum { LARGEST = 1 << 28 }; /* [bytes] a count beyond this is damage */
+    void *out = count < LARGEST / size ? calloc(count + 1, size) : NULL;
     if (out == NULL || get(from, out, count * size) != 0)
         *bad = 1;
     return out;

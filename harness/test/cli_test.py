@@ -7,6 +7,8 @@ import subprocess
 import tempfile
 import unittest
 
+from reference.pack import seal
+
 PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
 TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
 
@@ -90,6 +92,7 @@ class Answers(unittest.TestCase):
             self.assertEqual(run(*selection).returncode, 0)
             with h5py.File(path, "r+") as file:
                 file["findings/quantity"][...] = b"gone"
+            seal(path)
             done = run(*selection)
             self.assertEqual(done.returncode, 1)
             self.assertIn("-2.7801%  wrong limit", done.stdout)

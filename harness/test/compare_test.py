@@ -9,6 +9,8 @@ import unittest
 import h5py
 import numpy
 
+from reference.pack import seal
+
 PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
 CELL = "cases/warping_torsion/default/beamw/n4"
 
@@ -32,6 +34,7 @@ class Compare(unittest.TestCase):
         shutil.copy(self.old, self.new)
         with h5py.File(self.new, "r+") as file:
             change(file)
+        seal(self.new)
         return run("compare", *options, old or self.old, self.new)
 
     def check(self, code, words, change, *options):

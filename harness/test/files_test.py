@@ -14,6 +14,8 @@ import xml.etree.ElementTree
 import h5py
 import numpy
 
+from reference.pack import seal
+
 PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
 SELECTION = ("verify", "-k", "warping_torsion/default")
 
@@ -121,6 +123,7 @@ class Gate(Folder):
         pathlib.Path(self.path("t.h5")).write_bytes(pathlib.Path(truths).read_bytes())
         with h5py.File(self.path("t.h5"), "r+") as file:
             change(file)
+        seal(self.path("t.h5"))
         return run(*SELECTION, "--truths", self.path("t.h5"))
 
     def test_value(self):

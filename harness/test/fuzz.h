@@ -1,0 +1,38 @@
+/* What the fuzzing programs have in common. Each has libFuzzer's LLVMFuzzerTestOneInput and is run by harness/tools/fuzz.sh. */
+#ifndef BEAMWORK_FUZZ_H
+#define BEAMWORK_FUZZ_H
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static inline void fuzz_must(int holds, const char *what)
+{
+    if (!holds) {
+        fprintf(stderr, "does not hold: %s\n", what);
+        abort();
+    }
+}
+
+/* The bytes as text, up to the first zero; malloced, so that reading beyond it is seen. */
+static inline char *fuzz_text(const uint8_t *data, size_t size)
+{
+    char *text = malloc(size + 1);
+    fuzz_must(text != NULL, "there is memory");
+    memcpy(text, data, size);
+    text[size] = '\0';
+    return text;
+}
+
+/* A stream that reads the bytes; never NULL. */
+static inline FILE *fuzz_stream(const uint8_t *data, size_t size)
+{
+    FILE *from = size > 0 ? fmemopen((void *)(uintptr_t)data, size, "rb") : fopen("/dev/null", "rb");
+    fuzz_must(from != NULL, "there is memory");
+    return from;
+}
+
+#endif
