@@ -1,6 +1,8 @@
-/* BEAMW repaired: the whole of D in the stiffness, all modified modes from the full shear interpolation. */
+/* BEAMW repaired: the whole of D in the stiffness, strains that see uniform shear of any size (elements/beamw/screw.h), and modified
+ * modes from the strains of the Simo-Reissner beam over the full linear solution (elements/beamw/modified.c). */
 #include "elements/beamw/inertia.h"
 #include "elements/beamw/prepare.h"
+#include "elements/beamw/screw.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
@@ -10,15 +12,14 @@ static status prepare(const element_request *request, element_data *out, fault *
 const element_type element_beamw_consistent = {
     .name = "beamw_consistent",
     .summary = "BEAMW with coupled shear stiffness and modified modes consistent with it",
-    .source = "J Eq. 7; stiffness and modes: reference/ERRATA.md, J 58/62/66",
+    .source = "J; stiffness and modes: reference/ERRATA.md, J 58/62/66, App. A",
     .abi = ELEMENT_ABI,
     .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_HARINGX | FEATURE_WAGNER_MOMENTS | FEATURE_WARPING |
               FEATURE_ECCENTRIC | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
-    .limits = LIMIT_QUARTER_TURN,
     .options = prepare_options,
     .data_size = forms_data_size,
     .prepare = prepare,
-    .strain = forms_strain,
+    .strain = screw_strain,
     .stress = forms_stress,
     .geometric = forms_geometric,
     .inertia = inertia_of,

@@ -4,6 +4,7 @@
 #define BEAMWORK_BEAMW_FORMS_H
 
 #include "elements/element.h"
+#include "elements/exact/strain.h"
 
 enum { FORMS_STRAINS = 8, FORMS_MODIFIED = 6 }; /* e7 and e8 are never modified */
 
@@ -12,6 +13,7 @@ struct element_data {
     double S[8 * 8];                       /* [N/m] */
     double Q[FORMS_MODIFIED][8 * 8];       /* [1/m], symmetric */
     int modified;                          /* 0: every Q is zero */
+    strain_line line;                      /* of the modes seen from the middle (screw.h) */
     double lumped[7], consistent[14 * 14]; /* inertia of half the element, and of the whole in element axes */
     double share;                          /* of the consistent mass: 0 lumped, 1 consistent, 1/2 averaged */
 };

@@ -2,6 +2,11 @@
 #include "elements/beamw/modified.h"
 
 #include <stddef.h>
+#include <string.h>
+
+#include "elements/math/quadrature.h"
+
+enum { POINTS = 4 }; /* products of degree 7 at most: exact */
 
 typedef struct term {
     int mode, i, j; /* ebar_mode += c e_i e_j, counted from 1 as in the paper */
@@ -41,108 +46,119 @@ void modified_printed(const section *c, unsigned features, element_data *d)
     d->modified = 1;
 }
 
-/* out = sum of c_i f_i. */
-static void combine(double out[8], int n, const double c[], const double *const f[])
+/* Which strains count.  Under a given stress the energy is right to third order when the strains of second order are taken over
+ * the linear solution and weighted with its stresses,
+ *   e1 = int gx, e2 = l int kx, e3 = int [(l-s) ky - gz], e4 = int [s ky + gz], e5 = int [(l-s) kz + gy], e6 = int [s kz - gy].
+ * Strains are those of the Simo-Reissner beam at the centroid (gamma, kappa); e7 and e8 need nothing, since the amplitude at a node
+ * is the twist rate kx there less its warping shear, whatever the frame.  Which closed form holds for uniform moment and axial load
+ * follows: gamma turns with the section, so that stress resultants couple through the section's rotation (Haringx); the slope w' of
+ * the fibre (Engesser, J) enters only when the squares of the shear strains are added to gamma_x, as J's kinematics does
+ * (fibres_at below).  Proof and reduction to J Eq. 66: reference/derive/second_order.py. */
+
+/* Linear fields of J section 3.2 at a point, as functionals of e: rotation of the section against the middle of the element,
+ * twist and bending rates [1/m], shear at the centroid, extension. */
+typedef struct point_fields {
+    double turn[3][8], rate[3][8], shear_y[8], shear_z[8], extension[8];
+} point_fields;
+
+/* turn = rate of change times x - 1/2 plus what bends or twists unevenly; shear is constant at the shear centre. */
+static void fields_at(const section *c, double l, double x, const stiffness_fields *s, point_fields *out)
 {
+    const double bubble = x * (1 - x), skew = x * (3 * x - 2 * x * x - 1), odd = 1 - 2 * x, even = 6 * bubble - 1;
+    const double mean[3][8] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
     for (int k = 0; k < 8; k++) {
-        out[k] = 0;
-        for (int i = 0; i < n; i++)
-            out[k] += c[i] * f[i][k];
+        const double bend[3] = {0, -6 * s->hg[1][k], 6 * s->hg[0][k]};
+        for (int i = 0; i < 3; i++) {
+            out->turn[i][k] = mean[i][k] * (x - 0.5) + bend[i] * bubble;
+            out->rate[i][k] = (mean[i][k] + bend[i] * odd) / l;
+        }
+        out->turn[0][k] += (s->A[k] * bubble + s->tw[k] * skew) / l;
+        out->rate[0][k] += (s->A[k] * odd + s->tw[k] * even) / (l * l);
+        out->shear_y[k] = s->g[0][k] + c->zs * out->rate[0][k];
+        out->shear_z[k] = s->g[1][k] - c->ys * out->rate[0][k];
+        out->extension[k] = k == 0 ? 1 / l : 0;
     }
 }
 
-typedef struct fields {
-    double e2[8], A[8], tw[8], Vs[8], Vt[8], Ws[8], Wt[8], ap[8], bp[8], aq[8], bq[8];
-} fields;
+/* Parts of second order of the strains of the Simo-Reissner beam, r' = R (e_x + gamma), R = exp(turn~): with w = turn,
+ * kappa = w' - 1/2 w x w',  gamma = u' - w x e_x + 1/2 w x (w x e_x) - w x u'. */
+typedef struct point_strains {
+    double gamma[3][8 * 8], kappa[3][8 * 8];
+} point_strains;
 
-static fields fields_of(const section *c, double l, const stiffness_fields *s)
+static void strains_at(const point_fields *f, point_strains *out)
 {
-    fields f;
-    const double e2[8] = {0, 1}, sum_y[8] = {0, 0, 1, 1}, sum_z[8] = {0, 0, 0, 0, 1, 1};
-    for (int k = 0; k < 8; k++) {
-        f.e2[k] = e2[k];
-        f.A[k] = s->A[k];
-        f.tw[k] = s->tw[k];
+    memset(out, 0, sizeof *out);
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        forms_add_product(out->kappa[i], -0.5, f->turn[j], f->rate[k]);
+        forms_add_product(out->kappa[i], 0.5, f->turn[k], f->rate[j]);
     }
-    combine(f.Vs, 2, (double[]){-0.5, c->zs / l}, (const double *[]){sum_z, f.A});
-    combine(f.Vt, 2, (double[]){-l, -c->zs / l}, (const double *[]){s->hg[0], f.tw});
-    combine(f.Ws, 2, (double[]){0.5, -c->ys / l}, (const double *[]){sum_y, f.A});
-    combine(f.Wt, 2, (double[]){-l, c->ys / l}, (const double *[]){s->hg[1], f.tw});
-    combine(f.ap, 3, (double[]){-2 / 3.0, -1 / 6.0, 1 / 30.0}, (const double *[]){f.e2, f.A, f.tw});
-    combine(f.bp, 2, (double[]){0.1, -0.1}, (const double *[]){f.tw, f.A});
-    combine(f.aq, 3, (double[]){-2 / 3.0, 1 / 6.0, 1 / 30.0}, (const double *[]){f.e2, f.A, f.tw});
-    combine(f.bq, 2, (double[]){-0.1, -0.1}, (const double *[]){f.tw, f.A});
-    return f;
+    forms_add_product(out->gamma[0], 0.5, f->turn[1], f->turn[1]);
+    forms_add_product(out->gamma[0], 0.5, f->turn[2], f->turn[2]);
+    forms_add_product(out->gamma[0], 1, f->turn[2], f->shear_y);
+    forms_add_product(out->gamma[0], -1, f->turn[1], f->shear_z);
+    forms_add_product(out->gamma[1], -0.5, f->turn[0], f->turn[1]);
+    forms_add_product(out->gamma[1], 1, f->turn[0], f->shear_z);
+    forms_add_product(out->gamma[1], -1, f->turn[2], f->extension);
+    forms_add_product(out->gamma[2], -0.5, f->turn[0], f->turn[2]);
+    forms_add_product(out->gamma[2], -1, f->turn[0], f->shear_y);
+    forms_add_product(out->gamma[2], 1, f->turn[1], f->extension);
 }
 
-/* e1bar: the exact integral of (v_c'^2 + w_c'^2 + Ip/A phi'^2)/2, less the shear where the section's rotation counts. */
-static void elongation(const section *c, unsigned features, const stiffness_fields *s, const fields *f, element_data *d)
+/* Fibres elongate by gamma_x + z kappa_y - y kappa_z and half the square of how far they lean to the section's normal: all of
+ * it after Engesser, (shear_y - z kx, shear_z + y kx); after Haringx the part without shear, kx times the distance from the
+ * shear centre.  Its mean and first moments count. */
+static void fibres_at(const section *c, unsigned features, const point_fields *f, point_strains *out)
 {
-    const double l = d->l0, haringx = features & FEATURE_HARINGX ? 1 : 0;
-    double *Q = d->Q[0];
-    forms_add_product(Q, 1 / (6 * l), f->Vs, f->Vs);
-    forms_add_product(Q, 1 / (6 * l), f->Ws, f->Ws);
-    forms_add_product(Q, 1 / (10 * l), f->Vt, f->Vt);
-    forms_add_product(Q, 1 / (10 * l), f->Wt, f->Wt);
-    if (features & FEATURE_TRAPEZE) {
-        const double k = c->Ip / c->A / (2 * l * l * l);
-        forms_add_product(Q, k, f->e2, f->e2);
-        forms_add_product(Q, k / 3, f->A, f->A);
-        forms_add_product(Q, k / 5, f->tw, f->tw);
+    const double *kx = f->rate[0];
+    if (features & FEATURE_HARINGX) {
+        forms_add_product(out->gamma[0], (c->ys * c->ys + c->zs * c->zs) / 2, kx, kx);
+        forms_add_product(out->kappa[1], -c->zs, kx, kx);
+        forms_add_product(out->kappa[2], c->ys, kx, kx);
+    } else {
+        forms_add_product(out->gamma[0], 0.5, f->shear_y, f->shear_y);
+        forms_add_product(out->gamma[0], 0.5, f->shear_z, f->shear_z);
+        forms_add_product(out->kappa[1], -1, f->shear_y, kx);
+        forms_add_product(out->kappa[2], -1, f->shear_z, kx);
     }
-    forms_add_product(Q, -haringx * l / 2, s->g[0], s->g[0]);
-    forms_add_product(Q, -haringx * l / 2, s->g[1], s->g[1]);
-    forms_add_product(Q, -haringx * c->zs / l, s->g[0], f->e2);
-    forms_add_product(Q, haringx * c->ys / l, s->g[1], f->e2);
-}
-
-static void torsion_and_bending(unsigned features, const stiffness_fields *s, const fields *f, element_data *d)
-{
-    const double l = d->l0, haringx = features & FEATURE_HARINGX ? 1 : 0;
-    const double sum_y[8] = {0, 0, 1, 1}, sum_z[8] = {0, 0, 0, 0, 1, 1};
-    double half_p[8], half_q[8];
-    forms_add_product(d->Q[1], 1, sum_y, s->hg[0]);
-    forms_add_product(d->Q[1], 1, sum_z, s->hg[1]);
-    combine(half_p, 2, (double[]){0.5, 1 / 6.0}, (const double *[]){f->e2, f->A});
-    combine(half_q, 2, (double[]){0.5, -1 / 6.0}, (const double *[]){f->e2, f->A});
-    const struct {
-        int mode;
-        double sign;
-        const double *S, *T, *a, *b, *g, *half;
-    } bending[] = {{2, 1, f->Vs, f->Vt, f->ap, f->bp, s->g[0], half_p},
-                   {3, -1, f->Vs, f->Vt, f->aq, f->bq, s->g[0], half_q},
-                   {4, 1, f->Ws, f->Wt, f->ap, f->bp, s->g[1], half_p},
-                   {5, -1, f->Ws, f->Wt, f->aq, f->bq, s->g[1], half_q}};
-    for (size_t i = 0; i < sizeof bending / sizeof bending[0]; i++) {
-        double *Q = d->Q[bending[i].mode];
-        forms_add_product(Q, bending[i].sign / l, bending[i].S, bending[i].a);
-        forms_add_product(Q, bending[i].sign / l, bending[i].T, bending[i].b);
-        forms_add_product(Q, haringx, bending[i].g, bending[i].half);
+    if (features & FEATURE_TRAPEZE)
+        forms_add_product(out->gamma[0], c->Ip / c->A / 2, kx, kx);
+    if (features & FEATURE_WAGNER_MOMENTS) {
+        forms_add_product(out->kappa[1], c->wagner_z / c->Iy / 2, kx, kx);
+        forms_add_product(out->kappa[2], -c->wagner_y / c->Iz / 2, kx, kx);
     }
 }
 
-/* Axial strain that is quadratic over the section, phi'^2 (y^2 + z^2)/2, bends a section without that symmetry. */
-static void wagner_moments(const section *c, const fields *f, element_data *d)
+status modified_consistent(const section *c, unsigned features, const stiffness_fields *fields, element_data *d, fault *f)
 {
-    const double l2 = d->l0 * d->l0, by = c->wagner_z / c->Iy / (4 * l2), bz = c->wagner_y / c->Iz / (4 * l2);
-    const double share[4] = {by, by, -bz, -bz};
-    for (int i = 0; i < 4; i++) {
-        double *Q = d->Q[2 + i];
-        const double side = i % 2 == 0 ? 1 : -1;
-        forms_add_product(Q, share[i], f->e2, f->e2);
-        forms_add_product(Q, share[i] / 3, f->A, f->A);
-        forms_add_product(Q, share[i] / 5, f->tw, f->tw);
-        forms_add_product(Q, side * share[i] * 2 / 3, f->A, f->e2);
-        forms_add_product(Q, -side * share[i] * 4 / 15, f->A, f->tw);
+    const double l = d->l0;
+    double x[POINTS], w[POINTS];
+    const status made = quadrature_points(POINTS, x, w, f);
+    for (int p = 0; made == STATUS_OK && p < POINTS; p++) {
+        point_fields at;
+        point_strains strain;
+        fields_at(c, l, x[p], fields, &at);
+        strains_at(&at, &strain);
+        fibres_at(c, features, &at, &strain);
+        const double ds = w[p] * l, to_q = (1 - x[p]) * l, from_p = x[p] * l;
+        for (int i = 0; i < 64; i++) {
+            d->Q[0][i] += ds * strain.gamma[0][i];
+            d->Q[1][i] += ds * l * strain.kappa[0][i];
+            d->Q[2][i] += ds * (to_q * strain.kappa[1][i] - strain.gamma[2][i]);
+            d->Q[3][i] += ds * (from_p * strain.kappa[1][i] + strain.gamma[2][i]);
+            d->Q[4][i] += ds * (to_q * strain.kappa[2][i] + strain.gamma[1][i]);
+            d->Q[5][i] += ds * (from_p * strain.kappa[2][i] - strain.gamma[1][i]);
+        }
     }
-}
-
-void modified_consistent(const section *c, unsigned features, const stiffness_fields *s, element_data *d)
-{
-    const fields f = fields_of(c, d->l0, s);
-    elongation(c, features, s, &f, d);
-    torsion_and_bending(features, s, &f, d);
-    if (features & FEATURE_WAGNER_MOMENTS)
-        wagner_moments(c, &f, d);
+    /* The screw's share is in e already: -1/24 psi x (psi x U), what a straight chord is shorter than its arc. */
+    const double psi[3][8] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
+    forms_add_product(d->Q[0], -l / 24, psi[1], psi[1]);
+    forms_add_product(d->Q[0], -l / 24, psi[2], psi[2]);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        forms_add_product(d->Q[sign < 0 ? 2 : 3], sign * l / 24, psi[0], psi[2]);
+        forms_add_product(d->Q[sign < 0 ? 5 : 4], sign * l / 24, psi[0], psi[1]);
+    }
     d->modified = 1;
+    return made;
 }

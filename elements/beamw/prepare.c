@@ -5,6 +5,7 @@
 
 #include "elements/beamw/inertia.h"
 #include "elements/beamw/modified.h"
+#include "elements/beamw/screw.h"
 
 enum { OPTION_MASS };
 
@@ -25,8 +26,12 @@ status prepare_form(const element_request *request, stiffness_shear shear, prepa
     stiffness_of(c, request->length, request->features & FEATURE_SHEAR ? shear : STIFFNESS_RIGID, &fields, out->S);
     if (modes == PREPARE_PRINTED)
         modified_printed(c, request->features, out);
-    else if (modes == PREPARE_CONSISTENT)
-        modified_consistent(c, request->features, &fields, out);
+    else if (modes == PREPARE_CONSISTENT) {
+        screw_prepare(out);
+        const status made = modified_consistent(c, request->features, &fields, out, f);
+        if (made != STATUS_OK)
+            return made;
+    }
     if (request->features & FEATURE_MASS)
         inertia_prepare(c, request->features, (inertia_kind)request->options[OPTION_MASS], &fields, out);
     if (!(request->features & FEATURE_WARPING))
