@@ -34,7 +34,7 @@ ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
-.PHONY: help all verify test bench bench-elements causes mutants layers asan tidy format format-check check clean report truths FORCE
+.PHONY: help all verify test stress bench bench-elements causes mutants layers asan tidy format format-check check clean report truths FORCE
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -54,6 +54,9 @@ all: $(PROGRAM) $(TRUTHS) ## build the program, the library and the packed truth
 report: all ## draw the report of the last verify into build/report/index.html
 	@test -f $(BUILD)/results.h5 || $(MAKE) --no-print-directory verify
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports $(BUILD)/results.h5 $(TRUTHS) -o $(BUILD)/report
+
+stress: all ## drive every formulation to extremes; a table, and build/stress.json
+	@$(PROGRAM) stress --json $(BUILD)/stress.json $(STRESS)
 
 bench: all ## time every formulation on every case into build/bench.csv
 	@$(PROGRAM) bench -o $(BUILD)/bench.csv
@@ -147,7 +150,7 @@ $(PROGRAM): $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) $(LIBRARY)
 $(BUILD)/%_test: $(BUILD)/%_test.o $(LIBRARY)
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
 
-$(TRUTHS): $(wildcard reference/tables/*.csv reference/*.csv) reference/pack.py
+$(TRUTHS): $(wildcard reference/tables/*.csv reference/extremes/*.csv reference/*.csv) reference/pack.py
 	@mkdir -p $(@D)
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) reference/pack.py -o $@
 

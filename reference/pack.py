@@ -13,6 +13,8 @@ import zlib
 HERE = pathlib.Path(__file__).resolve().parent
 COLUMNS = "case,parameters,formulation,elements,quantity,value,unit,uncertainty,kind,model,convention,source".split(",")
 FINDING_COLUMNS = "case,parameters,formulation,quantity,verdict,limit,uncertainty,proof".split(",")
+EXTREME_COLUMNS = "extreme,from,to,formulation,quantity,outcome,proof".split(",")
+OUTCOMES = ("value", "coarse", "wrong", "not converged", "singular", "refused", "no value", "fault")
 KINDS = ("exact", "independent", "consensus", "published", "reconstructed", "experiment")
 MODELS = ("same", "other")
 VERDICTS = ("pass", "wrong limit", "low order", "not asymptotic", "diverged", "refused", "skip", "no truth")
@@ -153,11 +155,26 @@ def read_findings(path, defaults):
     return rows
 
 
+def read_extreme_findings(path):
+    rows = []
+    for number, row in read_csv(path, EXTREME_COLUMNS):
+        where = f"{path.name}:{number}"
+        row["from"], row["to"] = finite(row["from"], f"{where}: from"), finite(row["to"], f"{where}: to")
+        if row["from"] > row["to"]:
+            raise Refused(f"{where}: from {row['from']:g} to {row['to']:g} holds nothing")
+        if row["outcome"] not in OUTCOMES:
+            raise Refused(f"{where}: unknown outcome '{row['outcome']}'")
+        if not row["proof"]:
+            raise Refused(f"{where}: a finding needs its proof")
+        rows.append(row)
+    return rows
+
+
 def write_columns(group, rows, columns):
     import numpy
     for name in columns:
         values = [row[name] for row in rows]
-        if values and not isinstance(values[0], str) or name in ("limit", "uncertainty"):
+        if values and not isinstance(values[0], str) or name in ("limit", "uncertainty", "from", "to"):
             kind = {"elements": "i4", "hash": "u8"}.get(name, "f8")
             group.create_dataset(name, data=numpy.array(values, dtype=kind))
         else:
@@ -178,6 +195,8 @@ def pack(folder, out):
     defaults = read_defaults(folder / "defaults.csv")
     truths = read_truths(folder / "tables", defaults)
     findings = read_findings(folder / "findings.csv", defaults)
+    extremes = read_truths(folder / "extremes", defaults)
+    extreme_findings = read_extreme_findings(folder / "extreme_findings.csv")
     temporary = f"{out}.part{os.getpid()}"
     try:
         with h5py.File(temporary, "w") as file:
@@ -187,6 +206,10 @@ def pack(folder, out):
             for case, rows in sorted(truths.items()):
                 write_columns(group.create_group(case), rows, COLUMNS[1:] + ["hash"])
             write_columns(file.create_group("findings"), findings, FINDING_COLUMNS)
+            group = file.create_group("extremes")
+            for case, rows in sorted(extremes.items()):
+                write_columns(group.create_group(case), rows, COLUMNS[1:] + ["hash"])
+            write_columns(file.create_group("extreme_findings"), extreme_findings, EXTREME_COLUMNS)
         seal(temporary)
         os.replace(temporary, out)
     finally:

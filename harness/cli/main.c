@@ -16,6 +16,7 @@ static const struct {
     {"solve", cli_solve, "one case, one formulation, one mesh"},
     {"converge", cli_converge, "one case on several meshes: errors, order, limit"},
     {"bench", cli_bench, "error against run time: the cheapest way to an error"},
+    {"stress", cli_stress, "every formulation driven to extremes: a value with its error, or a named failure"},
     {"verify", cli_verify, "every formulation on every case, judged against stored truths"},
     {"compare", cli_compare, "two stored runs: errors and work, worse and better; exit status like diff"},
 };

@@ -103,6 +103,14 @@ void factor_solve(factor *fa, double x[])
         factor_unsymmetric_solve(fa->unsymmetric, x);
 }
 
+void factor_solve_transposed(factor *fa, double x[])
+{
+    if (fa->unsymmetric != NULL)
+        factor_unsymmetric_solve_transposed(fa->unsymmetric, x);
+    else
+        factor_solve(fa, x);
+}
+
 void factor_solve_refined(factor *fa, const sparse *a, double x[])
 {
     double *b = fa->other;

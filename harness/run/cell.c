@@ -22,6 +22,8 @@ status cell_run(const cell_request *request, cell_result *out, fault *f)
     scene_init(&out->scene, request->type->name);
     status outcome = request->type->build(request->parameter, &out->scene, f);
     if (outcome == STATUS_OK)
+        outcome = scene_edit_apply(&out->scene, &request->edit, f);
+    if (outcome == STATUS_OK)
         outcome = scene_validate(&out->scene, f);
     const model_request what = {&out->scene, request->formulation, request->option, request->elements, request->keep_all};
     if (outcome == STATUS_OK)

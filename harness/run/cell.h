@@ -3,6 +3,7 @@
 #define BEAMWORK_CELL_H
 
 #include "cases/case.h"
+#include "cases/scene/edit.h"
 #include "harness/solve/solve.h"
 
 enum { CELL_KEY = 128 };
@@ -13,6 +14,7 @@ typedef struct cell_request {
     const element_type *formulation;
     double option[ELEMENT_MAX_OPTIONS];
     solve_options solve;
+    scene_edit edit; /* of the scene the parameters give */
     int elements;
     int keep_all;
 } cell_request;

@@ -2,8 +2,7 @@
 
 #include <math.h>
 
-/* A field that may hold commas or quotes. */
-static void field(FILE *to, const char *text, const char *end)
+void csv_field(FILE *to, const char *text, const char *end)
 {
     fputc('"', to);
     for (; *text != '\0'; text++) {
@@ -23,14 +22,14 @@ void csv_solution(FILE *to, const sweep *s)
     for (int i = 0; i < c->solve.quantities; i++) {
         const quantity_result *v = &c->solve.quantity[i];
         fprintf(to, "%s,", p->type->name);
-        field(to, p->text, ",");
-        field(to, one->formulation.key, ",");
+        csv_field(to, p->text, ",");
+        csv_field(to, one->formulation.key, ",");
         fprintf(to, "%d,%s,%s,", one->mesh[0], p->scene.quantity[i].name, p->scene.quantity[i].unit);
         if (isfinite(v->value))
             fprintf(to, "%.17g", v->value);
         const char *convention = scene_convention(&p->scene, &p->scene.quantity[i]);
         fprintf(to, ",%s,%s,", convention != NULL ? convention : "", status_name(v->status));
-        field(to, v->reason, "\n");
+        csv_field(to, v->reason, "\n");
     }
 }
 
@@ -45,8 +44,8 @@ void csv_convergence(FILE *to, const sweep *s, const truths *t)
                 const double value = one->cell[k].solve.quantity[q].value;
                 const truth *row = truth_of(t, p->type, p->parameter, p->scene.quantity[q].name, "same");
                 fprintf(to, "%s,", p->type->name);
-                field(to, p->text, ",");
-                field(to, one->formulation.key, ",");
+                csv_field(to, p->text, ",");
+                csv_field(to, one->formulation.key, ",");
                 fprintf(to, "%d,%s,%s,", one->mesh[k], p->scene.quantity[q].name, p->scene.quantity[q].unit);
                 if (isfinite(value))
                     fprintf(to, "%.17g", value);

@@ -6,6 +6,8 @@
 
 #include "harness/run/verdict.h"
 
+/* A field that may hold commas or quotes, and what follows it. */
+void csv_field(FILE *to, const char *text, const char *end);
 void csv_solution(FILE *to, const sweep *s);
 void csv_convergence(FILE *to, const sweep *s, const truths *t);
 

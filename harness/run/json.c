@@ -105,7 +105,7 @@ static void add_quantities(json_t *root, const point *p, const solve_result *r, 
     json_object_set_new(root, "curves", curves);
 }
 
-static status dump(json_t *root, FILE *to, fault *f)
+status json_finish(json_t *root, FILE *to, fault *f)
 {
     const int bad = root == NULL || json_dumpf(root, to, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) != 0 || fputc('\n', to) == EOF;
     json_decref(root);
@@ -132,7 +132,7 @@ status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
     add_quantities(root, p, &c->solve, t);
     json_object_set_new(root, "steps", json_steps(&c->solve));
     json_object_set_new(root, "matrices", json_matrices(&c->solve));
-    return dump(root, to, f);
+    return json_finish(root, to, f);
 }
 
 static json_t *verdict_of(const sweep *s, const verdict *v)
@@ -182,5 +182,5 @@ status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const e
     json_object_set_new(root, "counts", counts);
     json_object_set_new(root, "verdicts", list);
     json_object_set_new(root, "discrete", discrete);
-    return dump(root, to, f);
+    return json_finish(root, to, f);
 }

@@ -151,6 +151,8 @@ static status plan_series(const sweep_request *request, const truths *t, sweep *
 static status alloc_cells(sweep *s, fault *f)
 {
     for (int i = 0; i < s->seriess; i++) {
+        if (s->series[i].cell != NULL)
+            continue;
         s->series[i].cell = calloc((size_t)s->series[i].meshes + 1, sizeof *s->series[i].cell);
         if (s->series[i].cell == NULL)
             return fault_set(f, STATUS_FAULT, "out of memory for results");
@@ -174,19 +176,31 @@ status sweep_plan(const sweep_request *request, const truths *t, sweep *out, fau
     return outcome;
 }
 
+status sweep_add(sweep *s, const case_type *type, const double value[], const int mesh[], int meshes, fault *f)
+{
+    const status outcome = add_point(s, type, value, f);
+    if (outcome == STATUS_OK && meshes > 0)
+        scene_meshes(&s->point[s->points - 1].scene, meshes, mesh);
+    return outcome;
+}
+
+status sweep_extend(sweep *s, const formulation chosen[], int count, fault *f)
+{
+    status outcome = STATUS_OK;
+    for (int i = 0; i < count && outcome == STATUS_OK; i++)
+        outcome = add_series(s, s->points - 1, &chosen[i], NULL, f);
+    return outcome == STATUS_OK ? alloc_cells(s, f) : outcome;
+}
+
 status sweep_plan_one(const case_type *type, const double value[], const formulation chosen[], int count, const int mesh[],
                       int meshes, sweep *out, fault *f)
 {
     memset(out, 0, sizeof *out);
-    status outcome = add_point(out, type, value, f);
+    status outcome = sweep_add(out, type, value, mesh, meshes, f);
     if (outcome == STATUS_OK && out->point[0].status != STATUS_OK)
         outcome = fault_set(f, out->point[0].status, "%s", out->point[0].reason);
-    if (outcome == STATUS_OK && meshes > 0)
-        scene_meshes(&out->point[0].scene, meshes, mesh);
-    for (int i = 0; i < count && outcome == STATUS_OK; i++)
-        outcome = add_series(out, 0, &chosen[i], NULL, f);
     if (outcome == STATUS_OK)
-        outcome = alloc_cells(out, f);
+        outcome = sweep_extend(out, chosen, count, f);
     if (outcome != STATUS_OK)
         sweep_free(out);
     return outcome;

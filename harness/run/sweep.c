@@ -37,6 +37,9 @@ static void request_of(const sweep *s, const task *t, cell_request *out)
     out->formulation = one->formulation.type;
     memcpy(out->option, one->formulation.option, sizeof out->option);
     out->solve.newton = one->formulation.newton;
+    out->solve.steps_between = p->steps;
+    out->solve.condition = p->condition;
+    out->edit = p->edit;
     out->elements = one->mesh[t->mesh];
     if (p->text[0] == '\0' && t->mesh == one->meshes - 1)
         out->solve.shapes = s->shapes;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "harness/run/columns.h"
+#include "harness/run/findings.h"
 #include "harness/run/registry.h"
 #include "harness/run/seal.h"
 
@@ -99,57 +100,6 @@ static status read_case(const char *path, hid_t all, const case_type *type, trut
     return outcome;
 }
 
-static status check_finding(const columns *r, finding *row, int i, char *const case_name[], char *const parameters[])
-{
-    fault why = {""};
-    for (int k = 0; registry_cases[k] != NULL; k++)
-        if (strcmp(registry_cases[k]->name, case_name[i]) == 0)
-            row[i].type = registry_cases[k];
-    if (row[i].type != NULL && parameters_parse(row[i].type, parameters[i], row[i].parameter, row[i].any, &why) != STATUS_OK)
-        return fault_set(r->f, STATUS_FAULT, "%s: finding %d: %.200s", r->path, i + 1, why.text);
-    return STATUS_OK;
-}
-
-static status read_findings(const char *path, hid_t file, truths *out, fault *f)
-{
-    static const columns_field field[] = {{"formulation", 1, offsetof(finding, formulation)},
-                                          {"quantity", 1, offsetof(finding, quantity)},
-                                          {"verdict", 1, offsetof(finding, verdict)},
-                                          {"proof", 1, offsetof(finding, proof)},
-                                          {"limit", 0, offsetof(finding, limit)},
-                                          {"uncertainty", 0, offsetof(finding, uncertainty)}};
-    columns r = {.path = path, .name = "findings", .f = f};
-    r.group = H5Gopen2(file, "findings", H5P_DEFAULT);
-    r.rows = r.group >= 0 ? columns_length(r.group, "verdict") : -1;
-    if (r.rows < 0) {
-        H5Gclose(r.group);
-        return columns_broken(&r, "verdict");
-    }
-    char **case_name = calloc((size_t)r.rows + 1, sizeof *case_name), **parameters = calloc((size_t)r.rows + 1, sizeof *parameters);
-    out->finding = calloc((size_t)r.rows + 1, sizeof *out->finding);
-    status outcome = STATUS_OK;
-    if (case_name == NULL || parameters == NULL || out->finding == NULL)
-        outcome = fault_set(f, STATUS_FAULT, "out of memory for findings");
-    else
-        out->findings = r.rows;
-    for (size_t k = 0; k < sizeof field / sizeof field[0] && outcome == STATUS_OK; k++)
-        outcome = columns_read(&r, &field[k], out->finding, sizeof *out->finding);
-    if (outcome == STATUS_OK)
-        outcome = columns_strings(&r, "case", case_name);
-    if (outcome == STATUS_OK)
-        outcome = columns_strings(&r, "parameters", parameters);
-    for (int i = 0; i < r.rows && outcome == STATUS_OK; i++)
-        outcome = check_finding(&r, out->finding, i, case_name, parameters);
-    for (int i = 0; i < r.rows && case_name != NULL && parameters != NULL; i++) {
-        free(case_name[i]);
-        free(parameters[i]);
-    }
-    free(case_name);
-    free(parameters);
-    H5Gclose(r.group);
-    return outcome;
-}
-
 /* Tables of cases that do not exist would otherwise never be missed. */
 static void find_strangers(hid_t all, truths *out)
 {
@@ -189,31 +139,58 @@ static status check_schema(hid_t file, const char *path, fault *f)
     return STATUS_OK;
 }
 
-status truths_read(const char *path, truths *out, fault *f)
+/* The tables of one group, one for every case. */
+static status read_tables(const char *path, hid_t file, const char *name, truths *out, fault *f)
 {
-    memset(out, 0, sizeof *out);
-    const status sealed = seal_check(path, f);
-    if (sealed != STATUS_OK)
-        return sealed;
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (file < 0)
-        return fault_set(f, STATUS_FAULT, "%s: cannot be read as HDF5; build it with 'make all'", path);
-    status outcome = check_schema(file, path, f);
-    const hid_t all = outcome == STATUS_OK ? H5Gopen2(file, "truths", H5P_DEFAULT) : -1;
-    if (outcome == STATUS_OK && all < 0)
-        outcome = fault_set(f, STATUS_FAULT, "%s: no truths in it; build it again ('make all')", path);
+    const hid_t all = H5Gopen2(file, name, H5P_DEFAULT);
+    if (all < 0)
+        return fault_set(f, STATUS_FAULT, "%s: no %s in it; build it again ('make all')", path, name);
+    status outcome = STATUS_OK;
     for (int i = 0; registry_cases[i] != NULL && outcome == STATUS_OK; i++)
         outcome = read_case(path, all, registry_cases[i], out, f);
-    if (outcome == STATUS_OK) {
+    if (outcome == STATUS_OK)
         find_strangers(all, out);
-        outcome = read_findings(path, file, out, f);
-    }
-    if (all >= 0)
-        H5Gclose(all);
-    H5Fclose(file);
+    H5Gclose(all);
+    return outcome;
+}
+
+/* FAULT, and below 0, when it is damaged or not ours. */
+static hid_t open_truths(const char *path, status *outcome, fault *f)
+{
+    *outcome = seal_check(path, f);
+    if (*outcome != STATUS_OK)
+        return -1;
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    *outcome = file >= 0 ? check_schema(file, path, f)
+                         : fault_set(f, STATUS_FAULT, "%s: cannot be read as HDF5; build it with 'make all'", path);
+    return file;
+}
+
+status truths_read(const char *path, truths *out, fault *f)
+{
+    status outcome;
+    memset(out, 0, sizeof *out);
+    const hid_t file = open_truths(path, &outcome, f);
+    if (outcome == STATUS_OK)
+        outcome = read_tables(path, file, "truths", out, f);
+    if (outcome == STATUS_OK)
+        outcome = findings_read(path, file, out, f);
+    if (file >= 0)
+        H5Fclose(file);
     if (outcome != STATUS_OK)
         truths_free(out);
+    return outcome;
+}
+
+status truths_read_extremes(const char *path, truths *out, fault *f)
+{
+    status outcome;
+    const hid_t file = open_truths(path, &outcome, f);
+    if (outcome == STATUS_OK)
+        outcome = read_tables(path, file, "extremes", out, f);
+    if (file >= 0)
+        H5Fclose(file);
     return outcome;
 }
 

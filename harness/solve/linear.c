@@ -4,6 +4,15 @@
 
 #include "harness/solve/analysis.h"
 
+void count_condition(const analysis_context *c, factor *fa, const sparse *K)
+{
+    counters *n = model_counters(c->model);
+    if (c->options->condition) {
+        const double estimate = factor_condition(fa, K);
+        n->condition = !(estimate <= n->condition) ? estimate : n->condition;
+    }
+}
+
 status linear_system_alloc(analysis_context *c, linear_system *out, fault *f)
 {
     const sparse *pattern;
@@ -25,6 +34,7 @@ status linear_system_alloc(analysis_context *c, linear_system *out, fault *f)
         n->factorisations++;
         n->factor_entries = counts.entries;
         n->factor_flops += counts.flops;
+        count_condition(c, out->factor, &out->K);
     }
     return outcome;
 }

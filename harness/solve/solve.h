@@ -12,6 +12,7 @@ typedef struct solve_options {
     double criterion;   /* relative size of the corrections; 0: default */
     int max_iterations; /* per step; 0: default */
     int steps_between;  /* overrides the scene's; 0: the scene's */
+    int condition;      /* 1: estimate the condition of the tangents (of a static path: at its stations) */
     int shapes;         /* most states of every path whose centre lines are kept; 0: no shapes */
 } solve_options;
 

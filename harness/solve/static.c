@@ -49,6 +49,8 @@ status analysis_static(analysis_context *c, int analysis, analysis_outcome *o, f
         const double from = i > 0 ? a->path[i - 1] : 0;
         double increment = (a->path[i] - from) / steps;
         result = walk_to(&n, a->path[i], &increment, f);
+        if (result == STATUS_OK && c->options->newton != SOLVE_DENSE)
+            count_condition(c, n.factor, &n.K);
         if (result == STATUS_OK)
             result = newton_keep(&n, o, a->path[i], f);
     }

@@ -81,14 +81,18 @@ def roll_up():
         yield "roll_up", "" if turns == 1 else f"turns={turns}", "tip_gap", value, "1", 1e-13
 
 
-def wagner_torsion():
+def wagner_strip(angle):
     E, G, b, t, L = 2e11, 8e10, 0.2, 0.01, 1.0
+    k = angle / L
+    J, In = b * t ** 3 / 3, t * b ** 5 / 180
+    at = "" if angle == 1.0 else f"angle={angle:g}"
+    yield "wagner_torsion", at, "moment", G * J * k + E * In * k ** 3 / 2, "N m"
+    yield "wagner_torsion", at, "shortening", L * (b ** 2 + t ** 2) / 24 * k ** 2, "m"
+
+
+def wagner_torsion():
     for angle in (1.0, 0.5, 2.0):
-        k = angle / L
-        J, In = b * t ** 3 / 3, t * b ** 5 / 180
-        at = "" if angle == 1.0 else f"angle={angle:g}"
-        yield "wagner_torsion", at, "moment", G * J * k + E * In * k ** 3 / 2, "N m"
-        yield "wagner_torsion", at, "shortening", L * (b ** 2 + t ** 2) / 24 * k ** 2, "m"
+        yield from wagner_strip(angle)
 
 
 def rows():

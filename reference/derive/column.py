@@ -17,15 +17,20 @@ E, G, RHO = mpf(144) * 10 ** 9, mpf("4.14e9"), mpf(1389)
 PRINTED = {"Iw": "1.3886e-4", "ys": "0.4571", "Dy": "0.0279", "Dz": "0.0158", "Dzw": "-3.70e-3", "Dw": "3.65e-3"}
 
 
+def sized(height="0.6", width="0.6", flange_thickness="0.03", web_thickness="0.03", shear_modulus=G):
+    s = channel(height, width, mpf(flange_thickness), mpf(web_thickness))
+    s.E, s.G, s.RHO = E, mpf(shear_modulus), RHO
+    return s
+
+
 def channel_data(printed=False, height="0.6", width="0.6", web_thickness="0.03", **_):
-    s = channel(height, width, mpf("0.03"), mpf(web_thickness))
+    s = sized(height, width, web_thickness=web_thickness)
     if printed:
         s.Iw, s.ys = mpf(PRINTED["Iw"]), mpf(PRINTED["ys"])
         d = matrix(3, 3)
         d[0, 0], d[1, 1], d[2, 2] = mpf(PRINTED["Dy"]), mpf(PRINTED["Dz"]), mpf(PRINTED["Dw"])
         d[1, 2] = d[2, 1] = mpf(PRINTED["Dzw"])
         s.F = inverse(d)
-    s.E, s.G, s.RHO = E, G, RHO
     return s
 
 

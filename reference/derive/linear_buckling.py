@@ -22,10 +22,10 @@ def _square(m):
     return out
 
 
-def _series(start, K, gamma, m2):
+def _series(start, K, gamma, m2, terms):
     """Power series about x = 0 of the solution with given phi, phi', (phi'', phi''')."""
     c = [mpf(v) / f for v, f in zip(start, (1, 1, 2, 6))]
-    while len(c) < TERMS:
+    while len(c) < terms:
         n = len(c) - (4 if K else 2)
         load = gamma ** 2 * sum(a * c[n - i] for i, a in enumerate(m2) if 0 <= n - i)
         if K:
@@ -45,23 +45,26 @@ def _value(c, x, order):
     return total
 
 
-def _condition(load, K, gamma):
+def _condition(load, K, gamma, terms):
     """Determinant of the conditions at x = end of the solutions that satisfy those at x = 0."""
     m, end = LOADS[load]
     m2, end = _square(m), mpf(end)
     cantilever = load in ("tip", "distributed")
     if not K:  # x = 0 is the free tip, phi' = 0 there, or the fork, phi = 0
-        c = _series((1, 0) if cantilever else (0, 1), K, gamma, m2)
+        c = _series((1, 0) if cantilever else (0, 1), K, gamma, m2, terms)
         return _value(c, end, 0 if cantilever else 1)
     # Tip: phi'' = 0 and phi''' = K phi'; fork: phi = phi'' = 0.  Root: phi = phi' = 0; middle: phi' = phi''' = 0.
     starts = ((1, 0, 0, 0), (0, 1, 0, K)) if cantilever else ((0, 1, 0, 0), (0, 0, 0, 1))
     orders = (0, 1) if cantilever else (1, 3)
-    a, b = (_series(s, K, gamma, m2) for s in starts)
+    a, b = (_series(s, K, gamma, m2, terms) for s in starts)
     return _value(a, end, orders[0]) * _value(b, end, orders[1]) - _value(a, end, orders[1]) * _value(b, end, orders[0])
 
 
-def lateral_load(load, K, guess):
-    return findroot(lambda g: _condition(load, mpf(K), g), mpf(guess), tol=mpf(10) ** -30)
+def lateral_load(load, K, guess, terms=TERMS):
+    """terms: several times exp(1) sqrt K. The determinant grows with exp(sqrt K): its size near the root is its unit."""
+    K, guess = mpf(K), mpf(guess)
+    unit = abs(_condition(load, K, guess * mpf("1.01"), terms))
+    return findroot(lambda g: _condition(load, K, g, terms) / unit, guess, tol=mpf(10) ** -30)
 
 
 def lateral_rows():
@@ -72,16 +75,32 @@ def lateral_rows():
         yield "lateral_buckling", f"K={K}", "load_factor", lateral_load("tip", K, guess), "1"
 
 
+COLUMN_E, COLUMN_SIDE = mpf(70) * 10 ** 9, mpf("0.02")
+
+
+def _column(length, G):
+    """P_E = pi^2 EI/l^2 and GA_s = 5/6 G A."""
+    return pi ** 2 * COLUMN_E * COLUMN_SIDE ** 4 / 12 / length ** 2, G * COLUMN_SIDE ** 2 * 5 / 6
+
+
+def engesser(length, G):
+    euler, shear = _column(length, G)
+    return euler / (1 + euler / shear)
+
+
+def haringx(length, G):
+    """GA_s (sqrt(1 + 4 P_E/GA_s) - 1)/2."""
+    euler, shear = _column(length, G)
+    return shear * (sqrt(1 + 4 * euler / shear) - 1) / 2
+
+
 def column_rows():
-    """P_E = pi^2 EI/l^2, GA_s = 5/6 G A: Engesser P_E/(1 + P_E/GA_s), Haringx GA_s (sqrt(1 + 4 P_E/GA_s) - 1)/2."""
-    E, side = mpf(70) * 10 ** 9, mpf("0.02")
     for length in (1, mpf("0.1")):
-        for G in (mpf(27) * 10 ** 9, mpf("2.7e9"), E / 1000):
-            euler, shear = pi ** 2 * E * side ** 4 / 12 / length ** 2, G * side ** 2 * 5 / 6
+        for G in (mpf(27) * 10 ** 9, mpf("2.7e9"), COLUMN_E / 1000):
             at = [] if length == 1 else ["length=0.1"]
             at += [] if G == mpf(27) * 10 ** 9 else [f"shear_modulus={int(G)}"]
-            yield "shear_column", ";".join(at), "buckling_load", euler / (1 + euler / shear), "N"
-            yield "shear_column", ";".join(at + ["shear_stability=haringx"]), "buckling_load", shear * (sqrt(1 + 4 * euler / shear) - 1) / 2, "N"
+            yield "shear_column", ";".join(at), "buckling_load", engesser(length, G), "N"
+            yield "shear_column", ";".join(at + ["shear_stability=haringx"]), "buckling_load", haringx(length, G), "N"
 
 
 def _leg(x, M, EI, GJ):

@@ -1,4 +1,4 @@
-"""Derives every exact row again and compares it with reference/tables.
+"""Derives every exact row again and compares it with reference/tables and reference/extremes.
 
 usage: rederive.py [--write] [PROGRAM...]     --write replaces the exact rows of the programs' cases; review the diff.
 """
@@ -11,7 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 from reference.pack import COLUMNS, read_defaults  # noqa: E402
 
-TABLES = ROOT / "reference" / "tables"
+FOLDERS = ("tables", "extremes")
 DIGITS = 13
 
 
@@ -31,6 +31,11 @@ def programs(names):
     if unknown:
         raise SystemExit(f"rederive.py: no program '{unknown[0]}'; there are {', '.join(found)}")
     return [n for n in found if not names or n in names]
+
+
+def folder_of(name):
+    """Where a program's rows are kept: its TABLES, or tables."""
+    return getattr(importlib.import_module(f"reference.derive.{name}"), "TABLES", FOLDERS[0])
 
 
 def as_text(value, relative):
@@ -58,9 +63,9 @@ def write(names):
         for row, _ in derived_rows(name):
             if row["case"] not in cases:
                 raise SystemExit(f"rederive.py: {name} knows case {row['case']}, reference/defaults.csv does not; add its parameters there first")
-            derived.setdefault(row["case"], []).append(row)
-    for case, rows in derived.items():
-        path = TABLES / f"{case}.csv"
+            derived.setdefault((folder_of(name), row["case"]), []).append(row)
+    for (folder, case), rows in derived.items():
+        path = ROOT / "reference" / folder / f"{case}.csv"
         replaced = {row["source"] for row in rows}
         kept = [row for row in (read_table(path) if path.exists() else []) if row["kind"] != "exact" or row["source"] not in replaced]
         with open(path, "w", newline="", encoding="utf-8") as table:
@@ -77,7 +82,7 @@ def differences(name, stored, seen, cases):
         if row["case"] not in cases:
             waiting += 1
             continue
-        key = (row["case"], canonical(row["parameters"]), row["quantity"])
+        key = (folder_of(name), row["case"], canonical(row["parameters"]), row["quantity"])
         seen.add(key)
         known = stored.get(key)
         if known is None:
@@ -91,8 +96,8 @@ def differences(name, stored, seen, cases):
 
 def compare(names, everything):
     stored = {}
-    for path in sorted(TABLES.glob("*.csv")):
-        stored.update({(row["case"], canonical(row["parameters"]), row["quantity"]): row for row in read_table(path) if row["kind"] == "exact"})
+    for path in sorted(p for folder in FOLDERS for p in (ROOT / "reference" / folder).glob("*.csv")):
+        stored.update({(path.parent.name, row["case"], canonical(row["parameters"]), row["quantity"]): row for row in read_table(path) if row["kind"] == "exact"})
     seen, agree, differ, cases = set(), 0, 0, read_defaults(ROOT / "reference" / "defaults.csv")
     for name in names:
         good, lines, waiting = differences(name, stored, seen, cases)

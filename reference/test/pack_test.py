@@ -20,6 +20,7 @@ class Pack(unittest.TestCase):
         (self.folder / "tables").mkdir()
         self.write("defaults.csv", ["case,parameter,value,choices", "beam,length,2,", "beam,ends,1,free|fixed"])
         self.write("findings.csv", [",".join(pack.FINDING_COLUMNS)])
+        self.write("extreme_findings.csv", [",".join(pack.EXTREME_COLUMNS)])
         self.row = ["beam", "length=3;ends=free", "", "", "load", "12.5", "N", "0.1", "exact", "same", "", "closed form"]
 
     def tearDown(self):

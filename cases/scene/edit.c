@@ -1,0 +1,91 @@
+#include "cases/scene/edit.h"
+
+#include <stddef.h>
+
+/* The same section seen from the other end, turned by pi about z: y' = -y, z' = z, and sectorial coordinates change their sign
+ * with x. Face and axis turn together, so that Qy and Mw keep their signs and Qz does not. */
+static void mirror_section(section_spec *spec)
+{
+    section *c = &spec->constants;
+    for (int i = 0; i < spec->points; i++)
+        spec->point[i][0] = -spec->point[i][0];
+    double *const odd[] = {&spec->given.ys, &spec->given.Dyz, &spec->given.Dzw, &c->ys,         &c->wagner_y,
+                           &c->D[1],        &c->D[3],         &c->D[5],         &c->D[7],       &c->F[1],
+                           &c->F[3],        &c->F[5],         &c->F[7],         &c->axes_angle, &c->centroid[0]};
+    for (size_t i = 0; i < sizeof odd / sizeof odd[0]; i++)
+        *odd[i] = -*odd[i];
+}
+
+static status reverse(scene *s, fault *f)
+{
+    for (int i = 0; i < s->sections; i++)
+        mirror_section(&s->section[i]);
+    for (int i = 0; i < s->members; i++) {
+        scene_member *m = &s->member[i];
+        const int p = m->p, warp_p = m->warp_p;
+        if (m->curvature[0] != 0)
+            return fault_set(f, STATUS_REFUSED, "member %d: initially twisted, its y axis at the other end is not known here", i);
+        m->p = m->q;
+        m->q = p;
+        m->warp_p = m->warp_q;
+        m->warp_q = warp_p;
+        m->curvature[2] = -m->curvature[2];
+        for (int k = 0; k < 3; k++)
+            m->y_axis[k] = -m->y_axis[k];
+    }
+    return STATUS_OK;
+}
+
+static int unused_name(const scene *s)
+{
+    int name = 0;
+    for (int i = 0; i < s->members; i++) {
+        name = s->member[i].warp_p >= name ? s->member[i].warp_p + 1 : name;
+        name = s->member[i].warp_q >= name ? s->member[i].warp_q + 1 : name;
+    }
+    return name;
+}
+
+static status split(scene *s, double fraction, fault *f)
+{
+    const scene_member first = *scene_member_at(s, 0);
+    const int loads = s->loads;
+    double between[3];
+    if (!(fraction > 0 && fraction < 1))
+        return fault_set(f, STATUS_REFUSED, "a member cannot be split at %g of its length; give a fraction between 0 and 1",
+                         fraction);
+    for (int k = 0; k < 3; k++) {
+        if (first.curvature[k] != 0)
+            return fault_set(f, STATUS_REFUSED, "member 0: curved, only straight members are split");
+        const double p = s->node[first.p].position[k], q = s->node[first.q].position[k];
+        between[k] = p + fraction * (q - p);
+    }
+    const int name = unused_name(s), middle = scene_add_node(s, between[0], between[1], between[2]);
+    const int second = scene_add_member(s, middle, first.q, first.section, first.y_axis);
+    scene_member *m = scene_member_at(s, second);
+    m->warp_p = name;
+    m->warp_q = first.warp_q;
+    m->divisions = first.divisions;
+    m = scene_member_at(s, 0);
+    m->q = middle;
+    m->warp_q = name;
+    for (int i = 0; i < loads; i++)
+        if (s->load[i].kind == SCENE_DISTRIBUTED && s->load[i].where == 0) {
+            const double *v = s->load[i].vector;
+            scene_add_load(s, SCENE_DISTRIBUTED, second, v[0], v[1], v[2]);
+        }
+    return STATUS_OK;
+}
+
+status scene_edit_apply(scene *s, const scene_edit *edit, fault *f)
+{
+    switch (edit->kind) {
+    case SCENE_EDIT_NONE:
+        break;
+    case SCENE_EDIT_REVERSE:
+        return reverse(s, f);
+    case SCENE_EDIT_SPLIT:
+        return split(s, edit->fraction, f);
+    }
+    return STATUS_OK;
+}

@@ -1,0 +1,65 @@
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "harness/cli/cli.h"
+#include "harness/run/output.h"
+#include "harness/run/stress.h"
+
+static status write_format(const char *format, FILE *to, const stress *s, fault *f)
+{
+    if (strcmp(format, "json") == 0)
+        return stress_json(to, s, f);
+    (strcmp(format, "csv") == 0 ? stress_csv : stress_table)(to, s);
+    return STATUS_OK;
+}
+
+static status write_file(const char *path, const char *format, const stress *s, fault *f)
+{
+    output file;
+    status outcome = output_open(path, &file, f);
+    if (outcome != STATUS_OK)
+        return outcome;
+    outcome = write_format(format, file.stream, s, f);
+    if (outcome == STATUS_OK)
+        return output_close(&file, f);
+    output_discard(&file);
+    return outcome;
+}
+
+static status write_out(const cli_request *r, const stress *s, fault *f)
+{
+    status outcome = r->output != NULL ? write_file(r->output, r->format, s, f) : write_format(r->format, stdout, s, f);
+    if (outcome == STATUS_OK && fflush(stdout) != 0)
+        outcome = fault_set(f, STATUS_FAULT, "standard output cannot be written");
+    return outcome == STATUS_OK && r->json != NULL ? write_file(r->json, "json", s, f) : outcome;
+}
+
+int cli_stress(int count, char **arguments)
+{
+    cli_request r;
+    stress s;
+    fault f = {""};
+    cli_parse(
+        "stress", "",
+        "Drives every formulation to the extremes where numbers become unstable, and judges every answer: a value, coarse, a "
+        "named failure, or wrong. Exit status: 0 all as expected, 1 one differs, 2 refused, 3 nothing was tried, 4 file, disk "
+        "or memory.",
+        "fokjJFT", count, arguments, &r);
+    if (r.case_name != NULL)
+        return cli_fail(STATUS_REFUSED, "stress takes no case; select with -k");
+    const stress_request request = {.select = r.select,
+                                    .jobs = r.jobs,
+                                    .formulations = r.formulations,
+                                    .formulation = r.formulation,
+                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
+    status outcome = stress_run(&request, cli_truths_path(&r), &s, &f);
+    if (outcome != STATUS_OK)
+        return cli_fail(outcome, f.text);
+    outcome = write_out(&r, &s, &f);
+    const int code = outcome != STATUS_OK ? cli_fail(outcome, f.text) : stress_exit(&s);
+    if (outcome == STATUS_OK && code == EXIT_NOTHING)
+        fprintf(stderr, "beamwork: nothing was tried; see 'beamwork list' and -k\n");
+    stress_free(&s);
+    return code;
+}

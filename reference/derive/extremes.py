@@ -1,0 +1,116 @@
+"""Exact values where cases are driven to their extremes (cases/extremes): closed forms and boundary-value problems of the other programs.
+
+They are kept apart (reference/extremes), because a verification does not run them.
+"""
+import math
+
+from mpmath import mp, mpf, sqrt, tanh
+
+from reference.derive import cantilevers, column, linear_buckling, sheets
+from reference.derive.beam import Beam
+
+TABLES = "extremes"
+mp.dps = 40
+
+
+def decimal(value):
+    """15 digits, as the program sets its parameters."""
+    return "%.15g" % float(value)
+
+
+def thin_sheet():
+    for ratio in ("1e-1", "1e-2", "1e-3", "1e-4", "1e-5", "1e-6"):
+        thickness = decimal(mpf(ratio) / 10)
+        for row in sheets.cantilever(thickness=float(thickness)):
+            if row[2] in ("C_xx", "C_zz", "F_y", "M_z"):
+                yield (row[0], f"thickness={thickness}") + row[2:]
+
+
+def inextensible():
+    for axial in (1e2, 1e4, 1e6, 1e10, 1e12, 1e14):
+        beam = Beam(1.0, EA=axial, EIy=1.0, EIz=1.0, GJ=1.0)
+        r, R = cantilevers.dead_load(beam, (0, 5, 0), 10)
+        at = f"load=5;axial={decimal(axial)}"
+        for name, value, unit in (("w_over_L", r[1], "1"), ("u_over_L", 1 - r[0], "1"), ("theta", cantilevers.planar_angle(R), "rad")):
+            yield "elastica", at, name, value, unit, cantilevers.RELATIVE
+
+
+def channel(at, length="6", shear=True, rotary=True, **sizes):
+    """Buckling load (Engesser) and lowest frequency of the C-shaped column; sizes as of column.sized."""
+    s, l = column.sized(**sizes), mpf(length)
+    yield "c_column", at, "buckling_load", column.buckling_load(s, l, shear, False), "N"
+    yield "c_column", at, "frequency_1", column.frequencies(s, l, shear, rotary, 1)[0], "Hz"
+
+
+def channels():
+    for ratio in ("0.1", "1", "1e2", "1e3", "1e4", "1e5"):
+        length = decimal(mpf("0.6") * mpf(ratio))
+        yield from channel(f"length={length}", length=length)
+        yield from channel(f"length={length};shear=0;rotary_inertia=0", length=length, shear=False, rotary=False)
+    for ratio in ("2.6", "10", "1e2", "1e3", "1e4"):
+        G = decimal(column.E / mpf(ratio))
+        yield from channel(f"shear_modulus={G}", shear_modulus=G)
+    for ratio in ("1e-2", "1e-4", "1e-6"):
+        flange = decimal(mpf("0.03") * mpf(ratio))
+        yield from channel(f"flange_thickness={flange}", flange_thickness=flange)
+    for ratio in ("1e-1", "1e-2", "1e-3", "1e-4"):
+        width = decimal(mpf("0.6") * mpf(ratio))
+        yield from channel(f"width={width}", width=width)
+
+
+def squares():
+    def row(length, G):
+        at = ";".join([f"length={length}"] * (length != "1") + [f"shear_modulus={G}"] * (G != "27e9") + ["shear_stability=haringx"])
+        return "shear_column", at, "buckling_load", linear_buckling.haringx(mpf(length), mpf(G)), "N"
+    for ratio in ("1", "10", "1e2", "1e3", "1e4", "1e5"):
+        yield row(decimal(mpf("0.02") * mpf(ratio)), "27e9")
+    for ratio in ("2.6", "10", "1e2", "1e4"):
+        yield row("1", decimal(mpf(70) * 10 ** 9 / mpf(ratio)))
+
+
+def torsion():
+    for kl in ("1e-3", "1e-2", "1e-1", "1e2", "1e3", "1e4"):
+        x = mpf(kl)
+        yield "warping_torsion", f"kL={decimal(x)}", "twist_ratio", 1 - tanh(x) / x, "1"
+        yield "warping_torsion", f"kL={decimal(x)};ends=fixed", "twist_ratio", 1 - tanh(x / 2) / (x / 2), "1"
+
+
+def lateral():
+    """With gamma^2 = c K at small K (warping alone: phi'''' = c x^2 phi), and gamma = 4.0126 (1 + a/sqrt K) at large K, as guesses."""
+    guess = linear_buckling.lateral_load("tip", 1, "15.7")
+    for K in ("1e-2", "1e-4", "1e-6"):
+        guess *= 10
+        guess = linear_buckling.lateral_load("tip", K, guess)
+        yield "lateral_buckling", f"K={decimal(K)}", "load_factor", guess, "1"
+    guess = mpf("6.81")
+    digits = mp.dps
+    for K, extra, terms in (("16", 0, 160), ("1e2", 20, 300), ("1e3", 40, 500), ("1e4", 100, 1000), ("1e5", 300, 2500), ("1e6", 900, 6000)):
+        mp.dps = digits + extra
+        limit = mpf("4.012599")
+        guess = linear_buckling.lateral_load("tip", K, guess, terms)
+        if K in ("1e2", "1e4", "1e6"):
+            yield "lateral_buckling", f"K={decimal(K)}", "load_factor", guess, "1"
+        guess = limit + (guess - limit) / sqrt(mpf(10)) if K != "16" else limit + (guess - limit) * mpf("0.4")
+        mp.dps = digits
+
+
+def twisted():
+    """Held ends, no axial force: GJ phi/L over 1 - tanh(kL/2)/(kL/2), k^2 = GJ/EIw; and the strip with the Wagner torque."""
+    beam = sheets.sheet()
+    half = math.sqrt(beam.GJ / beam.EIw) * beam.length / 2
+    for angle in (0.1, 0.5, 1, 1.3, 1.4, 1.5):
+        at = f"wagner=0;tip_deflection=0;tip_phi_z=0;tip_phi_x={decimal(angle)}"
+        yield "sheet_wagner", at, "M_x", beam.GJ * angle / beam.length / (1 - math.tanh(half) / half), "N m", 1e-13
+    for angle in (0.1, 1.4, 1.6, 3):
+        yield from cantilevers.wagner_strip(angle)
+
+
+def turns():
+    for part in (0.5, 0.75, 1.5):
+        angle = 2 * math.pi * part
+        yield "roll_up", f"turns={part}", "tip_gap", float(mp.sinpi(2 * mpf(part))) / angle, "1", 1e-13
+
+
+def rows():
+    for family in (thin_sheet, inextensible, channels, squares, torsion, lateral, twisted, turns):
+        yield from family()
