@@ -81,7 +81,7 @@ const char *scene_moments_name(scene_moments);
 typedef struct scene_analysis {
     scene_analysis_kind kind;
     int follows;  /* analysis whose state(s) this one is about, or SCENE_NONE: the undeformed state */
-    int stations; /* static, continuation: path parameter values to stop at, in order */
+    int stations; /* static: path parameter values to stop at, ascending; continuation: values of the control coordinate, as met */
     double *path;
     int steps_between;       /* first try of load steps from one station to the next (adaptive from there); >= 1 */
     int wanted;              /* buckling, modal: how many eigenvalues (of each sign in buckling) */
@@ -89,9 +89,14 @@ typedef struct scene_analysis {
     int node;                /* compliance: where */
     scene_moments moments;   /* convention of compliance */
     unsigned released; /* compliance: bit i: component i at `node`, though prescribed, is free and its reaction is a dead load */
-    int control_node, control_component; /* continuation: displacement control; SCENE_NONE: arc length */
-    double step, step_max;               /* continuation: first and largest step [of the controlled coordinate or arc] */
-    double omega[3], omega_centre[3];    /* rotation [rad/s], [m] */
+    /* Continuation of proportional loads: their factor is unknown. The control coordinate is a translation of any node, also of an
+     * attached one; by arc length it is what curves are drawn over. The arc is the root of the mean, over all nodes, of
+     * (displacement/size of the scene)^2 + rotation^2, dimensionless. */
+    int control_node, control_component;
+    int by_arc;            /* 1: steps are lengths of arc, 0: steps of the control coordinate */
+    double step, step_max; /* first and largest step [m, or 1 by arc length] */
+    int constant_steps; /* 1: all steps are `step`, and a branch jump ends the path; 0: steps adapt, and a jump is walked around */
+    double omega[3], omega_centre[3]; /* rotation [rad/s], [m] */
 } scene_analysis;
 
 typedef enum scene_quantity_kind {
@@ -101,9 +106,13 @@ typedef enum scene_quantity_kind {
     SCENE_STIFFNESS_ENTRY,  /* 1 / compliance entry (row, row) with only the non-held coordinates free */
     SCENE_CRITICAL_FACTOR,  /* order-th positive (sign +1) or negative (sign -1) load factor, counted from 0 */
     SCENE_FREQUENCY,        /* [Hz] by order among the modes of the wanted family and half-waves */
-    SCENE_FACTOR_AT,        /* continuation: load factor where the controlled coordinate has the value `at` */
-    SCENE_DRIVER_VALUE      /* of an unknown driver */
+    SCENE_FACTOR_AT,      /* continuation: load factor at the station `at` of the control coordinate, or all along (SCENE_CURVE) */
+    SCENE_CRITICAL_POINT, /* continuation: load factor of the order-th point of kind `row` (scene_critical) met along the path */
+    SCENE_DRIVER_VALUE    /* of an unknown driver */
 } scene_quantity_kind;
+
+/* A point of a path at which the tangent stiffness is singular. */
+typedef enum scene_critical { SCENE_LIMIT_POINT, SCENE_BIFURCATION } scene_critical;
 
 typedef enum scene_family { SCENE_ANY, SCENE_NOT_AXIAL, SCENE_AXIAL, SCENE_BENDING_Y, SCENE_BENDING_Z, SCENE_TORSION } scene_family;
 

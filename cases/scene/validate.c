@@ -97,16 +97,30 @@ static status check_load(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
+static status check_continuation(const scene *s, const scene_analysis *a, int i, fault *f)
+{
+    if (a->control_node < 0 || a->control_node >= s->nodes || a->control_component < SCENE_UX || a->control_component > SCENE_UZ)
+        return fault_set(f, STATUS_REFUSED, "analysis %d: continuation needs a translation of a node as control coordinate", i);
+    if (!(a->step > 0) || !(a->step_max >= a->step))
+        return fault_set(f, STATUS_REFUSED, "analysis %d: steps of %g to %g; the first must be positive, the largest not smaller", i,
+                         a->step, a->step_max);
+    if (s->drivers > 0)
+        return fault_set(f, STATUS_REFUSED, "analysis %d: continuation changes loads only; take the drivers away", i);
+    return STATUS_OK;
+}
+
 static status check_analysis(const scene *s, int i, fault *f)
 {
     const scene_analysis *a = &s->analysis[i];
     if (a->follows != SCENE_NONE && (a->follows < 0 || a->follows >= i))
         return fault_set(f, STATUS_REFUSED, "analysis %d: it follows one that does not come before it", i);
-    for (int k = 1; k < a->stations; k++)
+    for (int k = 1; k < a->stations && a->kind != SCENE_CONTINUATION; k++)
         if (!(a->path[k] > a->path[k - 1]))
             return fault_set(f, STATUS_REFUSED, "analysis %d: its stations must ascend", i);
-    if (a->kind == SCENE_STATIC && a->stations < 1)
-        return fault_set(f, STATUS_REFUSED, "analysis %d: a static path needs a station", i);
+    if ((a->kind == SCENE_STATIC || a->kind == SCENE_CONTINUATION) && a->stations < 1)
+        return fault_set(f, STATUS_REFUSED, "analysis %d: a path needs a station", i);
+    if (a->kind == SCENE_CONTINUATION)
+        return check_continuation(s, a, i, f);
     if (a->kind == SCENE_COMPLIANCE && (a->node < 0 || a->node >= s->nodes))
         return fault_set(f, STATUS_REFUSED, "analysis %d: a compliance needs a node", i);
     return STATUS_OK;

@@ -22,6 +22,17 @@ double loads_factor(const scene_load *load, double path)
     return load->stations > 0 ? interpolate(load->stations, load->path, load->factor, path) : path;
 }
 
+/* Derivative of the factor by the path parameter; at a station: of what follows. */
+static double loads_rate(const scene_load *load, double path)
+{
+    if (load->stations == 0)
+        return 1;
+    for (int i = 1; i < load->stations; i++)
+        if (path >= load->path[i - 1] && path < load->path[i])
+            return (load->factor[i] - load->factor[i - 1]) / (load->path[i] - load->path[i - 1]);
+    return 0;
+}
+
 double driver_value_at(const scene_driver *d, double path)
 {
     return interpolate(d->stations, d->path, d->value, path);
@@ -56,19 +67,28 @@ static void node_vector(const scene_load *load, double scale, double F[6])
         F[(load->kind == SCENE_MOMENT ? 3 : 0) + i] = scale * load->vector[i];
 }
 
+static void add_load(const model *m, const model_state *s, const scene_load *load, double scale, double out[])
+{
+    double F[6];
+    if (load->kind == SCENE_DISTRIBUTED) {
+        add_distributed(m, s, load, scale, out);
+    } else {
+        node_vector(load, scale, F);
+        add_at_vertex(m, s, load->where, F, out);
+    }
+}
+
 void loads_add(const model *m, const model_state *s, double path, double out[])
 {
-    for (int i = 0; i < m->scene->loads; i++) {
-        const scene_load *load = &m->scene->load[i];
-        const double scale = loads_factor(load, path);
-        double F[6];
-        if (load->kind == SCENE_DISTRIBUTED) {
-            add_distributed(m, s, load, scale, out);
-        } else {
-            node_vector(load, scale, F);
-            add_at_vertex(m, s, load->where, F, out);
-        }
-    }
+    for (int i = 0; i < m->scene->loads; i++)
+        add_load(m, s, &m->scene->load[i], loads_factor(&m->scene->load[i], path), out);
+}
+
+void model_load_rate(const model *m, const model_state *s, double path, double out[])
+{
+    memset(out, 0, (size_t)(m->free + m->driven) * sizeof *out);
+    for (int i = 0; i < m->scene->loads; i++)
+        add_load(m, s, &m->scene->load[i], loads_rate(&m->scene->load[i], path), out);
 }
 
 static void subtract(sparse *K, int row, int column, double value)

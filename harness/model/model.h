@@ -74,6 +74,14 @@ void model_frame(const model *, const model_state *, int node, double r[3], doub
 double model_component(const model *, const model_state *, int node, int component);
 double model_driver_value(const model *, const model_state *, int driver);
 
+/* Continuation: derivative of the loads by the path parameter in a state, out[free + driven]; weights [free + driven] of the
+ * square of an increment, (displacement/size)^2 + rotation^2 in the mean over the bodies; the same distance between two states;
+ * and the largest angle [rad] between the orientations of a node in two states. */
+void model_load_rate(const model *, const model_state *, double path, double out[]);
+void model_metric(const model *, double weight[]);
+double model_distance(const model *, const model_state *, const model_state *);
+double model_turn_between(const model *, const model_state *, const model_state *);
+
 unsigned model_limits(const model *); /* LIMIT_* of its formulation */
 /* Largest angle [rad] that an element's nodes have turned against each other, or against its chord, and that element. */
 double model_largest_turn(const model *, const model_state *, int *element_index);

@@ -129,6 +129,8 @@ status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
     json_object_set_new(root, "left_out", left_out);
     json_object_set_new(root, "counters", counters_of(c));
     json_object_set_new(root, "seconds", json_pack("{s:f,s:f}", "setup", c->solve.seconds_setup, "solve", c->solve.seconds_solve));
+    if (c->solve.events > 0)
+        json_object_set_new(root, "events", json_events(&c->solve));
     add_quantities(root, p, &c->solve, t);
     json_object_set_new(root, "steps", json_steps(&c->solve));
     json_object_set_new(root, "matrices", json_matrices(&c->solve));

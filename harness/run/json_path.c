@@ -58,3 +58,19 @@ json_t *json_matrices(const solve_result *r)
     }
     return list;
 }
+
+json_t *json_events(const solve_result *r)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < r->events; i++) {
+        const path_event *e = &r->event[i];
+        json_t *one = json_pack("{s:s,s:i,s:i,s:i}", "kind", event_name(e->kind), "analysis", e->analysis, "negative_before",
+                                e->negative_before, "negative_after", e->negative_after);
+        json_object_set_new(one, "factor", json_number(e->factor));
+        json_object_set_new(one, "control", json_number(e->control));
+        json_object_set_new(one, "other_factor", json_number(e->other_factor));
+        json_object_set_new(one, e->kind == EVENT_BRANCH_JUMP ? "distance" : "load_work", json_number(e->measure));
+        json_array_append_new(list, one);
+    }
+    return list;
+}

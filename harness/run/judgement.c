@@ -132,9 +132,13 @@ status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f)
     for (int i = 0; i < s->seriess && outcome == STATUS_OK; i++) {
         const series *one = &s->series[i];
         const point *p = &s->point[one->point];
-        for (int q = 0; q < p->scene.quantities; q++) /* curves are drawn, their points are judged by their own quantities */
-            if (p->scene.quantity[q].reduction != SCENE_CURVE && sweep_selects(s, p, &one->formulation, p->scene.quantity[q].name))
+        for (int q = 0; q < p->scene.quantities; q++) {
+            const scene_quantity *quantity = &p->scene.quantity[q];
+            if (quantity->reduction == SCENE_CURVE) /* drawn beside its truths; a point of it is judged by a quantity of its own */
+                mark_met(t, p, &one->formulation, quantity->name, one->missing[0] == '\0');
+            else if (sweep_selects(s, p, &one->formulation, quantity->name))
                 judge_quantity(s, t, i, q, out);
+        }
         outcome = compare_meshes(s, t, i, out, f);
     }
     for (int i = 0; i < t->findings && whole; i++)

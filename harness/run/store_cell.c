@@ -124,6 +124,7 @@ void store_cell(record *r, hid_t at, const point *p, int elements, const cell_re
     put_left_out(r, mesh, cell);
     store_steps(r, mesh, &cell->solve);
     store_matrices(r, mesh, &cell->solve);
+    store_events(r, mesh, &cell->solve);
     put_quantities(r, mesh, p, &cell->solve, of);
     H5Gclose(mesh);
 }

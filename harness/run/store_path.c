@@ -56,3 +56,22 @@ void store_matrices(record *r, hid_t at, const solve_result *result)
         H5Gclose(group);
     }
 }
+
+void store_events(record *r, hid_t at, const solve_result *result)
+{
+    enum { COLUMNS = 8 };
+    if (result->events == 0)
+        return;
+    double *table = calloc((size_t)(result->events + 1) * COLUMNS, sizeof *table);
+    r->bad |= table == NULL;
+    for (int i = 0; i < result->events && table != NULL; i++) {
+        const path_event *e = &result->event[i];
+        const double row[COLUMNS] = {e->kind,   e->analysis, e->negative_before, e->negative_after,
+                                     e->factor, e->control,  e->other_factor,    e->measure};
+        memcpy(table + COLUMNS * (size_t)i, row, sizeof row);
+    }
+    put_table(r, at, "events", result->events, COLUMNS, table,
+              "kind(limit_point=0,bifurcation=1,branch_jump=2) analysis negative_before negative_after factor control other_factor "
+              "measure");
+    free(table);
+}

@@ -6,6 +6,7 @@
 #include "harness/solve/solve.h"
 
 void store_steps(record *r, hid_t at, const solve_result *result);
+void store_events(record *r, hid_t at, const solve_result *result); /* nothing where there are none */
 void store_matrices(record *r, hid_t at, const solve_result *result);
 
 #endif

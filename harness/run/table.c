@@ -47,6 +47,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
             c->counters.iterations, c->counters.factorisations, c->solve.seconds_setup, c->solve.seconds_solve);
     for (int i = 0; i < c->left_out_lines; i++)
         fprintf(to, "left out: %s\n", c->left_out[i]);
+    table_events(to, &c->solve);
     fprintf(to, "%-28s %24s %-10s %11s\n", "quantity", "value", "unit", "error");
     for (int i = 0; i < c->solve.quantities; i++) {
         const scene_quantity *q = &p->scene.quantity[i];

@@ -55,3 +55,20 @@ void table_matrices(FILE *to, const solve_result *r)
         matrix(to, m->stiffness + last, load, motion);
     }
 }
+
+static void row_of_event(FILE *to, const path_event *e)
+{
+    fprintf(to, "%s at %.9g m, load factor %.9g", event_name(e->kind), e->control, e->factor);
+    if (e->kind == EVENT_BRANCH_JUMP)
+        fprintf(to, ": a step led to another branch with %.9g\n", e->other_factor);
+    else if (e->negative_before >= 0)
+        fprintf(to, ": negative pivots %d -> %d\n", e->negative_before, e->negative_after);
+    else
+        fputc('\n', to);
+}
+
+void table_events(FILE *to, const solve_result *r)
+{
+    for (int i = 0; i < r->events; i++)
+        row_of_event(to, &r->event[i]);
+}

@@ -7,6 +7,8 @@
 #include "harness/solve/solve.h"
 
 void table_steps(FILE *to, const solve_result *r);
+/* Critical points and branch jumps of continued paths. */
+void table_events(FILE *to, const solve_result *r);
 /* At the last station that was reached. */
 void table_matrices(FILE *to, const solve_result *r);
 

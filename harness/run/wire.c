@@ -33,7 +33,7 @@ int wire_write(FILE *to, const cell_result *cell)
         bad = put(to, &length, sizeof length) | put(to, cell->left_out[i], length);
     }
     bad |= put(to, s->quantity, (size_t)s->quantities * sizeof *s->quantity) |
-           put(to, s->step, (size_t)s->steps * sizeof *s->step) |
+           put(to, s->step, (size_t)s->steps * sizeof *s->step) | put(to, s->event, (size_t)s->events * sizeof *s->event) |
            put(to, s->iteration, (size_t)s->iterations * sizeof *s->iteration) |
            put(to, s->matrices, (size_t)s->matrix_sets * sizeof *s->matrices);
     for (int i = 0; i < s->matrix_sets && !bad; i++) {
@@ -92,7 +92,7 @@ static int read_cell(FILE *from, cell_result *cell)
     int lines = 0, bad = get(from, &cell->size, sizeof cell->size) | get(from, &cell->counters, sizeof cell->counters);
     solve_result head = {0};
     if (bad || get(from, &head, sizeof head) != 0 || get(from, &lines, sizeof lines) != 0 || head.quantities < 0 ||
-        head.steps < 0 || head.iterations < 0 || head.matrix_sets < 0 || lines < 0)
+        head.steps < 0 || head.events < 0 || head.iterations < 0 || head.matrix_sets < 0 || lines < 0)
         return -1;
     cell->left_out = calloc((size_t)lines + 1, sizeof *cell->left_out);
     for (int i = 0; i < lines && !bad && cell->left_out != NULL; i++) {
@@ -113,6 +113,7 @@ static int read_cell(FILE *from, cell_result *cell)
     s->matrices = NULL;
     s->matrix_sets = 0;
     s->step = bad ? NULL : array(from, (size_t)head.steps, sizeof *s->step, &bad);
+    s->event = bad ? NULL : array(from, (size_t)head.events, sizeof *s->event, &bad);
     s->iteration = bad ? NULL : array(from, (size_t)head.iterations, sizeof *s->iteration, &bad);
     if (!bad)
         read_matrices(from, head.matrix_sets, s, &bad);

@@ -13,9 +13,10 @@ typedef struct analysis_outcome {
     int stations, reached;
     double *path;
     model_state **state;
-    /* continuation: load factor and control value at every point of the path */
+    /* continuation: load factor and control value [m] at every point of the path, the first without load */
     int points;
     double *factor, *control;
+    model_state **point_state; /* [points]; NULL unless a curve of coordinates is wanted */
     /* buckling, modal, rotation: eigenvalues with their modes; buckling: load factors, ascending in size */
     int positive, negative;
     double *value_positive, *value_negative, *mode_positive, *mode_negative; /* modes [count x free] */
@@ -34,7 +35,7 @@ typedef struct analysis_context {
 } analysis_context;
 
 typedef status analysis_function(analysis_context *, int analysis, analysis_outcome *, fault *);
-analysis_function analysis_linear, analysis_buckling, analysis_modal, analysis_static, analysis_compliance;
+analysis_function analysis_linear, analysis_buckling, analysis_modal, analysis_static, analysis_compliance, analysis_continuation;
 
 void outcome_free(analysis_outcome *o);
 
@@ -50,6 +51,11 @@ status linear_system_solve(analysis_context *, linear_system *, double x[], faul
 
 /* extract.c */
 void extract_quantity(const analysis_context *, const scene_quantity *, quantity_result *);
+void extract_no_value(quantity_result *, status, const char *reason);
+double extract_scaled(const scene_quantity *, double value);
+/* continuation_extract.c: curves and critical points of a continued path; 0: the quantity is something else. */
+int extract_continuation(const analysis_context *, const scene_quantity *, const analysis_outcome *, quantity_result *);
+int continuation_keeps_states(const scene *, int analysis); /* a curve of coordinates is wanted */
 
 /* shapes.c: centre lines of the undeformed structure, of at most `most` states of every path, of linear solutions and modes. */
 status shapes_collect(const analysis_context *, int most, shapes *, fault *);

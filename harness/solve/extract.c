@@ -6,14 +6,14 @@
 
 #include "harness/solve/analysis.h"
 
-static void no_value(quantity_result *r, status s, const char *reason)
+void extract_no_value(quantity_result *r, status s, const char *reason)
 {
     r->status = s;
     r->value = NAN;
     snprintf(r->reason, sizeof r->reason, "%s", reason);
 }
 
-static double scaled(const scene_quantity *q, double value)
+double extract_scaled(const scene_quantity *q, double value)
 {
     return (q->factor != 0 ? q->factor : 1) * value + q->offset;
 }
@@ -24,20 +24,22 @@ static double at_station(const analysis_context *c, const scene_quantity *q, con
     double F[6], L[6];
     switch (q->kind) {
     case SCENE_COORDINATE:
-        return scaled(q, model_component(c->model, o->state[i], q->node, q->row));
+        return extract_scaled(q, model_component(c->model, o->state[i], q->node, q->row));
     case SCENE_REACTION:
         model_node_force(c->model, o->state[i], q->node, F);
         model_node_load(c->model, o->state[i], q->node, L);
-        return scaled(q, F[q->row] - L[q->row]);
+        return extract_scaled(q, F[q->row] - L[q->row]);
     case SCENE_COMPLIANCE_ENTRY:
-        return scaled(q, o->compliance[36 * i + 6 * q->row + q->column]);
+        return extract_scaled(q, o->compliance[36 * i + 6 * q->row + q->column]);
     case SCENE_STIFFNESS_ENTRY:
-        return scaled(q, 1 / o->compliance[36 * i + 6 * q->row + q->column]);
+        return extract_scaled(q, 1 / o->compliance[36 * i + 6 * q->row + q->column]);
     case SCENE_DRIVER_VALUE:
-        return scaled(q, model_driver_value(c->model, o->state[i], q->row));
+        return extract_scaled(q, model_driver_value(c->model, o->state[i], q->row));
     case SCENE_CRITICAL_FACTOR:
     case SCENE_FREQUENCY:
     case SCENE_FACTOR_AT:
+        return extract_scaled(q, model_state_path(o->state[i]));
+    case SCENE_CRITICAL_POINT:
         break;
     }
     return NAN;
@@ -55,7 +57,7 @@ static void take_curve(const analysis_context *c, const scene_quantity *q, const
     r->curve.x = calloc((size_t)o->reached + 1, sizeof(double));
     r->curve.value = calloc((size_t)o->reached + 1, sizeof(double));
     if (r->curve.x == NULL || r->curve.value == NULL) {
-        no_value(r, STATUS_FAULT, "out of memory");
+        extract_no_value(r, STATUS_FAULT, "out of memory");
         return;
     }
     r->curve.points = o->reached;
@@ -82,12 +84,12 @@ static void from_path(const analysis_context *c, const scene_quantity *q, const 
     if (q->reduction == SCENE_CURVE) {
         take_curve(c, q, o, r);
         if (!complete)
-            no_value(r, o->status, o->reason);
+            extract_no_value(r, o->status, o->reason);
         return;
     }
     if (chosen < 0 || (q->reduction != SCENE_AT && !complete)) {
-        no_value(r, o->status != STATUS_OK ? o->status : STATUS_NOT_CONVERGED,
-                 o->status != STATUS_OK ? o->reason : "the path does not reach this station");
+        extract_no_value(r, o->status != STATUS_OK ? o->status : STATUS_NOT_CONVERGED,
+                         o->status != STATUS_OK ? o->reason : "the path does not reach this station");
         return;
     }
     r->value = at_station(c, q, o, chosen);
@@ -98,9 +100,10 @@ static void from_buckling(const scene_quantity *q, const analysis_outcome *o, qu
 {
     const int count = q->sign > 0 ? o->positive : o->negative;
     if (q->order >= count)
-        no_value(r, STATUS_OK, q->sign > 0 ? "no positive critical load of this order" : "no negative critical load of this order");
+        extract_no_value(r, STATUS_OK,
+                         q->sign > 0 ? "no positive critical load of this order" : "no negative critical load of this order");
     else
-        r->value = scaled(q, (q->sign > 0 ? o->value_positive : o->value_negative)[q->order]);
+        r->value = extract_scaled(q, (q->sign > 0 ? o->value_positive : o->value_negative)[q->order]);
 }
 
 static int in_family(const scene_quantity *q, const mode_shape *shape)
@@ -120,12 +123,12 @@ static void from_modes(const analysis_context *c, const scene_quantity *q, const
         memcpy(x, o->mode_positive + (size_t)i * (size_t)n, (size_t)n * sizeof *x);
         if (mode_identify(c->model, c->scene, x, &shape, NULL) != STATUS_OK || !in_family(q, &shape) || order++ < q->order)
             continue;
-        r->value = scaled(q, o->value_positive[i] / (2 * 3.14159265358979323846));
+        r->value = extract_scaled(q, o->value_positive[i] / (2 * 3.14159265358979323846));
         free(x);
         return;
     }
     free(x);
-    no_value(r, STATUS_OK, "the mesh has no mode of this kind");
+    extract_no_value(r, STATUS_OK, "the mesh has no mode of this kind");
 }
 
 static void from_linear(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
@@ -136,17 +139,17 @@ static void from_linear(const analysis_context *c, const scene_quantity *q, cons
     for (int k = 0; k < n; k++)
         sum += T[q->row * n + k] * o->x[index[k]];
     if (q->kind == SCENE_COORDINATE)
-        r->value = scaled(q, sum);
+        r->value = extract_scaled(q, sum);
     else
-        no_value(r, STATUS_REFUSED, "a linear analysis gives coordinates only");
+        extract_no_value(r, STATUS_REFUSED, "a linear analysis gives coordinates only");
 }
 
 void extract_quantity(const analysis_context *c, const scene_quantity *q, quantity_result *r)
 {
     const analysis_outcome *o = &c->outcomes[q->analysis];
     memset(r, 0, sizeof *r);
-    if (o->status != STATUS_OK && o->reached == 0) {
-        no_value(r, o->status, o->reason);
+    if (o->status != STATUS_OK && o->reached == 0 && o->points == 0) {
+        extract_no_value(r, o->status, o->reason);
         return;
     }
     switch (c->scene->analysis[q->analysis].kind) {
@@ -159,15 +162,18 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
     case SCENE_MODAL:
         from_modes(c, q, o, r);
         break;
+    case SCENE_CONTINUATION:
+        if (!extract_continuation(c, q, o, r))
+            from_path(c, q, o, r);
+        break;
     case SCENE_STATIC:
     case SCENE_COMPLIANCE:
         from_path(c, q, o, r);
         break;
-    case SCENE_CONTINUATION:
     case SCENE_ROTATION:
-        no_value(r, STATUS_REFUSED, "this analysis is not available");
+        extract_no_value(r, STATUS_REFUSED, "this analysis is not available");
         break;
     }
     if (r->status == STATUS_OK && !isfinite(r->value) && r->reason[0] == '\0')
-        no_value(r, STATUS_SINGULAR, "the value is not finite");
+        extract_no_value(r, STATUS_SINGULAR, "the value is not finite");
 }

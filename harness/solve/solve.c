@@ -18,6 +18,9 @@ void outcome_free(analysis_outcome *o)
 {
     for (int i = 0; i < o->reached && o->state != NULL; i++)
         model_state_free(o->state[i]);
+    for (int i = 0; i < o->points && o->point_state != NULL; i++)
+        model_state_free(o->point_state[i]);
+    free(o->point_state);
     free(o->state);
     free(o->path);
     free(o->x);
@@ -43,6 +46,7 @@ static analysis_function *function_of(scene_analysis_kind kind)
     case SCENE_COMPLIANCE:
         return analysis_compliance;
     case SCENE_CONTINUATION:
+        return analysis_continuation;
     case SCENE_ROTATION:
         break;
     }
@@ -109,5 +113,6 @@ void solve_result_free(solve_result *r)
     free(r->step);
     shapes_free(&r->shapes);
     free(r->iteration);
+    free(r->event);
     memset(r, 0, sizeof *r);
 }

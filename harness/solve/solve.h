@@ -52,6 +52,22 @@ typedef struct nodal_matrices {
     double *path;                   /* [stations] */
     double *compliance, *stiffness; /* [stations x 36]; held components: zero; not computed because nothing asked: NAN */
 } nodal_matrices;
+/* What happened along a continued path. */
+typedef enum event_kind {
+    EVENT_LIMIT_POINT, /* the load has an extremum */
+    EVENT_BIFURCATION, /* other branches start here; this one is followed */
+    EVENT_BRANCH_JUMP, /* a step converged to another branch: it was noticed and not followed */
+    EVENT_KINDS
+} event_kind;
+const char *event_name(event_kind); /* "limit point", ... */
+
+typedef struct path_event {
+    event_kind kind;
+    int analysis, negative_before, negative_after; /* negative pivots of the tangent stiffness; -1: not symmetric */
+    double factor, control; /* of the point; of a jump: where both branches have this value of the control coordinate [m] */
+    double other_factor;    /* of a jump: on the branch that was not followed; else NAN */
+    double measure;         /* of a point: |phi . f|/(|phi| |f|), null vector phi, load f; of a jump: distance of the branches */
+} path_event;
 
 typedef struct solve_result {
     status status;
@@ -64,6 +80,8 @@ typedef struct solve_result {
     iteration_record *iteration;
     int matrix_sets;
     nodal_matrices *matrices;
+    int events;
+    path_event *event;
     double seconds_setup, seconds_solve; /* analysis of the pattern | the rest */
     shapes shapes;
 } solve_result;

@@ -12,6 +12,7 @@ from reference.derive.section import channel
 from reference.derive.sheets import parameters
 
 E, G, LENGTH = 210e9, 80.77e9, 9.0
+FLANGE = 0.016
 SIZES = {"overall": ("0.284", "0.095"), "centreline": ("0.3", "0.1")}
 RELATIVE = 1e-9
 
@@ -25,9 +26,10 @@ def channel_beam(sizes, shear):
     return beam, float(SIZES[sizes][0]) / 2, float(s.points[1][0])
 
 
-def load_at(deflections, sizes="overall", load_point="D", shear=0, intervals=6, nodes=11):
-    """Force [N] at each deflection [m], found along the path in small steps so that no branch is jumped."""
+def path(deflections, sizes="overall", load_point="D", load_height="corner", shear=0, intervals=6, nodes=11):
+    """(force [N], displacement of the loaded point along y [m]) at each deflection [m], in small steps so that no branch is jumped."""
     beam, half, web = channel_beam(sizes, shear)
+    half += FLANGE / 2 if load_height == "edge" else 0
     net = Network(LENGTH, beam.EIz / LENGTH ** 2, numbers=[0.0], intervals=intervals, nodes=nodes)
     arm = np.array([0, web, half if load_point == "D" else -half]) / LENGTH
 
@@ -42,12 +44,18 @@ def load_at(deflections, sizes="overall", load_point="D", shear=0, intervals=6, 
         while at < w - 1e-12:
             at = min(at + (0.01 if at < 0.4 else 0.05), w)
             net.solve((at / LENGTH,), tolerance=1e-11 if at == w else 1e-7)
-        out.append(net.numbers[0] * net.force)
+        out.append((net.numbers[0] * net.force, (tip.x + tip.R @ arm - arm)[1] * LENGTH))
     return out
 
 
+POINTS = (({}, (0.125, 0.25, 0.5, 1.0, 1.5, 2.0, 2.5, 2.6)), ({"load_point": "E"}, (0.125, 0.25, 0.5, 1.0, 1.2, 1.5, 2.0, 2.5)), ({"sizes": "centreline"}, (0.25, 1.0, 2.5)),
+          ({"sizes": "centreline", "load_point": "E"}, (1.0,)), ({"shear": 1}, (0.25, 1.0, 2.5)), ({"shear": 1, "load_point": "E"}, (1.0,)),
+          ({"load_height": "edge"}, (0.1, 0.2, 0.5, 1.04, 2.6)), ({"load_height": "edge", "load_point": "E"}, (0.1, 0.2, 0.494, 1.04, 1.2)))
+
+
 def rows():
-    deflections = (0.125, 0.25, 0.5, 1.0, 1.5, 2.0, 2.5)
-    for given, last in (({}, 7), ({"load_point": "E"}, 4), ({"sizes": "centreline"}, 7), ({"shear": 1}, 7)):
-        for w, force in zip(deflections, load_at(deflections[:last], **given)):
-            yield "c_cantilever", parameters({**given, **({"w": w} if w != 0.5 else {})}), "load_at_w", force, "N", RELATIVE
+    for given, deflections in POINTS:
+        for w, (force, lateral) in zip(deflections, path(deflections, **given)):
+            at = parameters({**given, **({"w": w} if w != 0.5 else {})})
+            yield "c_cantilever", at, "load_at_w", force, "N", RELATIVE
+            yield "c_cantilever", at, "lateral", lateral, "m", RELATIVE

@@ -1,0 +1,110 @@
+/* C-shaped cantilever under a dead tip force parallel to the web, applied off the shear centre: lateral-torsional deflection far
+ * beyond buckling. J section 5.2, Figs. 11-13; the table of section sizes is lost, so both readings of them are offered. */
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "cases/case.h"
+#include "cases/shared/channel.h"
+
+enum { LENGTH, SIZES, LOAD_POINT, LOAD_HEIGHT, SHEAR, OMEGA, DEFLECTION, STEP };
+
+static const case_parameter parameters[] = {
+    [LENGTH] = {"length", "m", 9.0, 1e-3, 1e4, NULL, "length of the beam"},
+    [SIZES] = {"sizes", "", 0, 0, 0, "overall|centreline", "30 x 10 cm are the section's outer sizes, or those of its centre line"},
+    [LOAD_POINT] = {"load_point", "", 0, 0, 0, "D|E", "end of the web that carries the force: D top, E bottom"},
+    [LOAD_HEIGHT] = {"load_height", "", 0, 0, 0, "corner|edge",
+                     "where the web ends: at the corner of the centre line, or at the outer face of the flange"},
+    [SHEAR] = {"shear", "1", 0, 0, 1, NULL, "1: flexible in shear, 0: shear-rigid"},
+    [OMEGA] = {"omega", "rad/s", 0, 0, 0, NULL, "angular velocity about the vertical axis through the root"},
+    [DEFLECTION] = {"w", "m", 0.5, 1e-4, 5, NULL, "deflection of the load point up to which the load is followed"},
+    [STEP] = {"step", "m", 0, 0, 5, NULL, "steps of w, all of this size; 0: steps that adapt"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+static channel section_sizes(int centreline)
+{
+    const double flange = 0.016, web = 0.010, outer_height = 0.30, outer_width = 0.10;
+    return (channel){.height = centreline ? outer_height : outer_height - flange,
+                     .width = centreline ? outer_width : outer_width - web / 2,
+                     .flange_thickness = flange,
+                     .web_thickness = web,
+                     .young = 210e9,
+                     .shear_modulus = 80.77e9,
+                     .density = 7800};
+}
+
+/* Distance of the web's centre line from the centroid, along y [m]. */
+static double web_offset(const channel *c)
+{
+    const double flanges = 2 * c->width * c->flange_thickness, area = flanges + c->height * c->web_thickness;
+    return flanges * c->width / 2 / area;
+}
+
+static int load_node(const double value[], scene *s, const channel *c, int tip)
+{
+    const double half = (c->height + (value[LOAD_HEIGHT] != 0 ? c->flange_thickness : 0)) / 2;
+    return scene_add_attached(s, tip, value[LENGTH], web_offset(c), value[LOAD_POINT] == 0 ? half : -half);
+}
+
+static void add_path(const double value[], scene *s, int node)
+{
+    const double end = -value[DEFLECTION], step = value[STEP];
+    const int loading = scene_add_analysis(s, SCENE_CONTINUATION);
+    scene_set_stations(s, loading, 1, &end);
+    scene_analysis *a = scene_analysis_at(s, loading);
+    a->control_node = node;
+    a->control_component = SCENE_UZ;
+    a->step = step > 0 ? step : value[LENGTH] / 900;
+    a->step_max = step > 0 ? step : value[LENGTH] / 40;
+    a->constant_steps = step > 0;
+    a->omega[2] = value[OMEGA];
+    scene_quantity *at = scene_add_quantity(s, "load_at_w", "N", SCENE_FACTOR_AT, loading);
+    at->tolerance = 1e-4;
+    at->least_order = 1.8;
+    scene_quantity *lateral = scene_add_quantity(s, "lateral", "m", SCENE_COORDINATE, loading);
+    lateral->node = node;
+    lateral->row = SCENE_UY;
+    lateral->tolerance = 1e-4;
+    lateral->least_order = 1.8;
+    for (int i = 0; i < 2; i++) {
+        scene_quantity *curve = i == 0 ? scene_add_quantity(s, "curve", "N", SCENE_FACTOR_AT, loading)
+                                       : scene_add_quantity(s, "lateral_curve", "m", SCENE_COORDINATE, loading);
+        curve->node = node;
+        curve->row = SCENE_UY;
+        curve->reduction = SCENE_CURVE;
+        curve->x_factor = -1;
+        snprintf(curve->x_name, sizeof curve->x_name, "w");
+        snprintf(curve->x_unit, sizeof curve->x_unit, "m");
+    }
+}
+
+static status build(const double value[], scene *s, fault *f)
+{
+    (void)f;
+    const channel c = section_sizes(value[SIZES] != 0);
+    section_spec spec;
+    channel_section(&c, &spec);
+    const int profile = scene_add_section(s, &spec);
+    const double y_axis[3] = {0, 1, 0};
+    const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, value[LENGTH], 0, 0);
+    scene_member_at(s, scene_add_member(s, root, tip, profile, y_axis))->warp_p = SCENE_WARP_FIXED;
+    scene_hold_all(s, root);
+    const int node = load_node(value, s, &c, tip);
+    scene_add_load(s, SCENE_FORCE, node, 0, 0, -1);
+    s->needs |= SCENE_NEED_TRAPEZE;
+    if (value[SHEAR] != 0)
+        s->needs |= SCENE_NEED_SHEAR | SCENE_NEED_HARINGX;
+    add_path(value, s, node);
+    const int meshes[] = {5, 10, 20, 40, 80};
+    scene_meshes(s, 5, meshes);
+    return STATUS_OK;
+}
+
+const case_type case_c_cantilever = {
+    .name = "c_cantilever",
+    .summary = "C-shaped cantilever under an eccentric tip force, far beyond lateral buckling",
+    .source = "J section 5.2, Figs. 11-13",
+    .parameters = parameters,
+    .build = build,
+};

@@ -1,0 +1,61 @@
+/* How far apart two states of a model are: what arc length is measured with. */
+#include <math.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "harness/model/parts.h"
+
+/* Bodies that have a coordinate. */
+static int moving_bodies(const model *m)
+{
+    int count = 0;
+    for (int i = 0; i < m->vertices; i++) {
+        int moves = 0;
+        for (int c = 0; c < VERTEX_COORDINATES; c++)
+            moves |= m->vertex[i].body == i && m->vertex[i].coordinate[c] != NONE;
+        count += moves;
+    }
+    return count > 0 ? count : 1;
+}
+
+void model_metric(const model *m, double weight[])
+{
+    const double share = 1.0 / moving_bodies(m);
+    for (int k = 0; k < m->free + m->driven; k++)
+        weight[k] = 0;
+    for (int i = 0; i < m->vertices; i++)
+        for (int c = 0; c < VERTEX_COORDINATES && m->vertex[i].body == i; c++)
+            if (m->vertex[i].coordinate[c] != NONE)
+                weight[m->vertex[i].coordinate[c]] += c < SCENE_RX ? share / (m->size * m->size) : share;
+}
+
+static double turn(const model_state *a, const model_state *b, int vertex)
+{
+    double angle[3];
+    rotation_between(&a->q[4 * vertex], &b->q[4 * vertex], angle);
+    return vec3_norm(angle);
+}
+
+double model_distance(const model *m, const model_state *a, const model_state *b)
+{
+    double sum = 0;
+    for (int i = 0; i < m->vertices; i++) {
+        if (m->vertex[i].body != i)
+            continue;
+        const double angle = turn(a, b, i);
+        double d[3];
+        for (int k = 0; k < 3; k++)
+            d[k] = (b->u[3 * i + k] - a->u[3 * i + k]) / m->size;
+        sum += vec3_dot(d, d) + angle * angle;
+    }
+    return sqrt(sum / moving_bodies(m));
+}
+
+double model_turn_between(const model *m, const model_state *a, const model_state *b)
+{
+    double largest = 0;
+    for (int i = 0; i < m->vertices; i++)
+        if (m->vertex[i].body == i)
+            largest = fmax(largest, turn(a, b, i));
+    return largest;
+}
