@@ -34,7 +34,7 @@ ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
-.PHONY: help all verify test stress bench bench-elements causes mutants layers asan tidy format format-check check clean report truths FORCE
+.PHONY: help all verify test stress bench bench-check bench-elements causes mutants layers asan tidy format format-check check clean report truths FORCE
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -58,8 +58,11 @@ report: all ## draw the report of the last verify into build/report/index.html
 stress: all ## drive every formulation to extremes; a table, and build/stress.json
 	@$(PROGRAM) stress --json $(BUILD)/stress.json $(STRESS)
 
-bench: all ## time every formulation on every case into build/bench.csv
-	@$(PROGRAM) bench -o $(BUILD)/bench.csv
+bench: all ## time every formulation on every case into build/bench.h5
+	@$(PROGRAM) bench -o $(BUILD)/bench.h5
+
+bench-check: all ## plant work of known size: comparisons must find it, and nothing else
+	@$(PYTHON) harness/tools/bench_check.py $(PROGRAM) -o $(BUILD)/bench_check.json
 
 bench-elements: all $(BUILD)/harness/test/element_time ## microseconds per element of every formulation
 	@$(BUILD)/harness/test/element_time

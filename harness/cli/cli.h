@@ -9,31 +9,35 @@
 
 enum { EXIT_AS_EXPECTED = 0, EXIT_DIFFERS = 1, EXIT_REFUSED = 2, EXIT_NOTHING = 3, EXIT_FAULT = 4 };
 
-enum { CLI_MAX_FORMULATIONS = 64, CLI_MAX_MESHES = 24 };
+enum { CLI_MAX_CASES = 64, CLI_MAX_FORMULATIONS = 64, CLI_MAX_MESHES = 24 };
 
 /* What the verbs' options have in common. */
 typedef struct cli_request {
-    const char *case_name, *second; /* arguments; a verb that takes two lists the key '2' */
-    int two;
+    const char *case_name, *second;   /* arguments; a verb that takes two lists the key '2', ... */
+    const char *cases[CLI_MAX_CASES]; /* ... one that takes several cases '+' */
+    int most_arguments, case_count;
     double parameter[CASE_MAX_PARAMETERS];
     const char *assignment[CASE_MAX_PARAMETERS];
     int assignments;
     formulation formulation[CLI_MAX_FORMULATIONS];
     int formulations;
     int mesh[CLI_MAX_MESHES], meshes;
-    const char *format, *output, *json, *junit, *truths, *select, *threshold;
+    const char *format, *output, *json, *junit, *markdown, *truths, *select, *threshold, *against;
     int jobs, keep_all, steps;
-    int shapes; /* states of a path whose shapes are stored; 0: none */
+    int shapes;   /* states of a path whose shapes are stored; 0: none */
+    double plant; /* share of its time that is added to every run of the other */
 } cli_request;
 
 typedef int cli_verb(int count, char **arguments);
 cli_verb cli_list, cli_solve, cli_verify, cli_converge, cli_bench, cli_stress, cli_compare;
 
-/* Options shared by the verbs; a verb lists the keys it takes. Errors are printed and end the program with EXIT_REFUSED. */
+/* Options shared by the verbs; a verb lists the keys it takes, and '+' when it takes several cases. Errors are printed and end the program with EXIT_REFUSED. */
 void cli_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys, int count, char **arguments,
                cli_request *out);
 /* The case of the request with its parameters, or NULL after a message. */
 const case_type *cli_case(cli_request *r);
+/* Two contestants in alternation (bench --against). */
+int cli_against(cli_request *r);
 /* Default place of the packed truths: BEAMWORK_TRUTHS, or truths.h5 beside the program. */
 const char *cli_truths_path(const cli_request *r);
 /* One line on stderr; the exit code that belongs to a status. */

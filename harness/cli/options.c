@@ -27,6 +27,9 @@ static const struct argp_option all_options[] = {
      "store centre lines, sections and resultants of at most so many states of a path (solve: all, and -o FILE becomes HDF5 for "
      "ParaView; verify: 5)",
      0},
+    {"markdown", 'M', "FILE", 0, "summary as Markdown, for a pull request", 0},
+    {"against", 'A', "OTHER", 0, "compare in alternation with another formulation, or with another program (a path with a '/')", 0},
+    {"plant", 'X', "PERCENT", 0, "make the other slower by that much, to see whether the comparison finds it", 0},
     {"truths", 'T', "FILE", 0, "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)", 0},
     {0},
 };
@@ -69,6 +72,15 @@ static void add_formulation(cli_request *r, const char *text)
         refuse("too many formulations");
     if (formulation_parse(text, &r->formulation[r->formulations++], &f) != STATUS_OK)
         refuse(f.text);
+}
+
+static void add_case(cli_request *r, const char *name)
+{
+    if (r->case_count == r->most_arguments)
+        refuse("too many arguments; 'beamwork --help' shows the usage");
+    r->cases[r->case_count++] = name;
+    r->case_name = r->cases[0];
+    r->second = r->cases[1];
 }
 
 static error_t take(int key, char *value, struct argp_state *state)
@@ -118,10 +130,17 @@ static error_t take(int key, char *value, struct argp_state *state)
     case 'T':
         r->truths = value;
         return 0;
+    case 'M':
+        r->markdown = value;
+        return 0;
+    case 'A':
+        r->against = value;
+        return 0;
+    case 'X':
+        r->plant = 0.01 * whole_number(value, "planted percentage", 0, 1000);
+        return 0;
     case ARGP_KEY_ARG:
-        if (r->case_name != NULL && (!r->two || r->second != NULL))
-            refuse("too many arguments; 'beamwork --help' shows the usage");
-        *(r->case_name == NULL ? &r->case_name : &r->second) = value;
+        add_case(r, value);
         return 0;
     case 'h':
         r->threshold = value;
@@ -142,8 +161,8 @@ void cli_parse(const char *verb, const char *arguments_doc, const char *doc, con
             chosen[n++] = all_options[i];
     const struct argp parser = {.options = chosen, .parser = take, .args_doc = arguments_doc, .doc = doc};
     memset(out, 0, sizeof *out);
-    out->two = strchr(keys, '2') != NULL;
     out->format = "text";
+    out->most_arguments = strchr(keys, '+') != NULL ? CLI_MAX_CASES : strchr(keys, '2') != NULL ? 2 : 1;
     out->jobs = (int)sysconf(_SC_NPROCESSORS_ONLN);
     snprintf(name, sizeof name, "beamwork %s", verb);
     arguments[0] = name;

@@ -18,6 +18,7 @@ static status copy_left_out(const model *m, cell_result *out, fault *f)
 status cell_run(const cell_request *request, cell_result *out, fault *f)
 {
     model *m = NULL;
+    const double start = seconds_now();
     memset(out, 0, sizeof *out);
     scene_init(&out->scene, request->type->name);
     status outcome = request->type->build(request->parameter, &out->scene, f);
@@ -32,6 +33,7 @@ status cell_run(const cell_request *request, cell_result *out, fault *f)
         out->size = model_sizes(m);
         outcome = copy_left_out(m, out, f);
     }
+    const double prepared = seconds_now() - start;
     if (outcome == STATUS_OK) {
         outcome = solve_scene(&out->scene, m, &request->solve, &out->solve, f);
         out->counters = *model_counters(m);
@@ -40,6 +42,7 @@ status cell_run(const cell_request *request, cell_result *out, fault *f)
         out->solve.status = outcome;
         snprintf(out->solve.reason, sizeof out->solve.reason, "%s", f != NULL ? f->text : "");
     }
+    out->solve.seconds_setup += prepared;
     model_free(m);
     return outcome;
 }

@@ -4,42 +4,68 @@
 #include <sched.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-enum { LEAST = 3, MOST = 200 };
+void clock_round(const cell_request *request, double floor, clock_reading *out)
+{
+    double least = INFINITY, spent = 0;
+    for (int i = 0; out->rounds < CLOCK_ROUNDS && (i == 0 || spent < floor); i++) {
+        cell_result cell;
+        fault f = {""};
+        cell_run(request, &cell, &f);
+        const double total = cell.solve.seconds_setup + cell.solve.seconds_solve;
+        if (total < fmin(least, clock_least(out))) {
+            out->setup = cell.solve.seconds_setup;
+            out->solve = cell.solve.seconds_solve;
+        }
+        least = fmin(least, total);
+        spent += fmax(total, 1e-6);
+        out->repeats++;
+        cell_result_free(&cell);
+    }
+    if (out->rounds < CLOCK_ROUNDS)
+        out->round[out->rounds++] = least;
+}
+
+double clock_least(const clock_reading *c)
+{
+    double least = INFINITY;
+    for (int i = 0; i < c->rounds; i++)
+        least = fmin(least, c->round[i]);
+    return least;
+}
+
+double clock_most(const clock_reading *c)
+{
+    double most = 0;
+    for (int i = 0; i < c->rounds; i++)
+        most = fmax(most, c->round[i]);
+    return c->rounds > 0 ? most : INFINITY;
+}
+
+int clock_compare(const clock_reading *a, const clock_reading *b)
+{
+    return clock_most(a) < clock_least(b) ? -1 : clock_most(b) < clock_least(a) ? 1 : 0;
+}
 
 void clock_pin(void)
 {
-    cpu_set_t only;
     const int here = sched_getcpu();
+    cpu_set_t only;
     CPU_ZERO(&only);
     CPU_SET(here >= 0 ? here : 0, &only);
     sched_setaffinity(0, sizeof only, &only); /* without it the readings are only noisier */
 }
 
-static int ascending(const void *a, const void *b)
+void clock_single_thread(char **arguments)
 {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-status clock_cell(const cell_request *request, double floor, clock_reading *out, cell_result *last, fault *f)
-{
-    double total[MOST], spent = 0;
-    status outcome = STATUS_OK;
-    *out = (clock_reading){INFINITY, INFINITY, 0, 0};
-    memset(last, 0, sizeof *last);
-    while (out->repeats < MOST && (out->repeats < LEAST || spent < floor)) {
-        if (out->repeats > 0)
-            cell_result_free(last);
-        outcome = cell_run(request, last, f);
-        out->setup = fmin(out->setup, last->solve.seconds_setup);
-        out->solve = fmin(out->solve, last->solve.seconds_solve);
-        total[out->repeats] = last->solve.seconds_setup + last->solve.seconds_solve;
-        spent += total[out->repeats++];
-        if (outcome != STATUS_OK)
-            break; /* a failure is not worth repeating */
+    static const char *const threads[] = {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "BLIS_NUM_THREADS"};
+    enum { LIBRARIES = sizeof threads / sizeof threads[0] };
+    int single = 1;
+    for (int i = 0; i < LIBRARIES; i++) {
+        single &= getenv(threads[i]) != NULL && strcmp(getenv(threads[i]), "1") == 0;
+        setenv(threads[i], "1", 1);
     }
-    qsort(total, (size_t)out->repeats, sizeof *total, ascending);
-    out->spread = total[0] > 0 ? total[out->repeats / 2] / total[0] - 1 : 0;
-    return outcome;
+    if (!single)
+        execv("/proc/self/exe", arguments); /* returns only where there is no /proc: then libraries decide */
 }

@@ -58,3 +58,41 @@ void csv_convergence(FILE *to, const sweep *s, const truths *t)
             }
     }
 }
+
+static void timing_of(FILE *to, const sweep *s, const verdict *v, int mesh)
+{
+    const series *one = &s->series[v->series];
+    const point *p = &s->point[one->point];
+    const scene_quantity *q = &p->scene.quantity[v->quantity];
+    const cell_result *cell = &one->cell[mesh];
+    const clock_reading *c = &one->timing[mesh].as_is;
+    const counters *k = &cell->counters;
+    const double value = v->quantity < cell->solve.quantities ? cell->solve.quantity[v->quantity].value : NAN;
+    fprintf(to, "%s,", p->type->name);
+    csv_field(to, p->text, ",");
+    csv_field(to, one->formulation.key, ",");
+    fprintf(to, "%d,%d,%s,", one->mesh[mesh], cell->size.free, q->name);
+    if (isfinite(value))
+        fprintf(to, "%.6e", relative_error(q, value, v->truth->value));
+    fprintf(to, ",");
+    if (isfinite(value) && v->model_truth != NULL)
+        fprintf(to, "%.6e", relative_error(q, value, v->model_truth->value));
+    if (c->rounds > 0)
+        fprintf(to, ",%.6e,%.6e,%.6e,%.6e,%d", c->setup, c->solve, clock_least(c), clock_most(c), c->repeats);
+    else
+        fprintf(to, ",,,,,0");
+    fprintf(to, ",%ld,%ld,%ld,%ld,%ld,%.6e,%s\n", k->iterations, k->strain_evaluations, k->stress_evaluations, k->factorisations,
+            k->factor_entries, k->factor_flops, status_name(cell->solve.status));
+}
+
+void csv_timing(FILE *to, const sweep *s, const judgement *j)
+{
+    fprintf(to, "case,parameters,formulation,elements,free,quantity,error,model_error,seconds_setup,seconds_solve,seconds_least,"
+                "seconds_most,repeats,iterations,strain_evaluations,stress_evaluations,factorisations,factor_entries,factor_flops,"
+                "status\n");
+    for (int i = 0; i < j->verdicts; i++) {
+        const verdict *v = &j->verdict[i];
+        for (int k = 0; k < s->series[v->series].meshes && v->truth != NULL && s->series[v->series].missing[0] == '\0'; k++)
+            timing_of(to, s, v, k);
+    }
+}

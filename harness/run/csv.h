@@ -10,5 +10,7 @@
 void csv_field(FILE *to, const char *text, const char *end);
 void csv_solution(FILE *to, const sweep *s);
 void csv_convergence(FILE *to, const sweep *s, const truths *t);
+/* Of a benchmark: a row for every cell and judged quantity. */
+void csv_timing(FILE *to, const sweep *s, const judgement *j);
 
 #endif

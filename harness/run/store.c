@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/run/reach.h"
 #include "harness/run/vtkhdf.h"
 
 static void put_environment(record *r, const environment *e)
@@ -39,13 +40,20 @@ static void put_point(record *r, hid_t at, const point *p)
     }
 }
 
-enum { TEXTS = 7, NUMBERS = 11 };
+enum { TEXTS = 7, NUMBERS = 15 };
 static const char *const text_name[TEXTS] = {"quantity", "verdict", "expected", "kind", "reason", "proof", "source"};
-static const char *const number_name[NUMBERS] = {"truth",       "truth_uncertainty", "limit", "limit_uncertainty",
-                                                 "order",       "order_uncertainty", "error", "model_truth",
-                                                 "model_error", "tolerance",         "finest"};
+static const char *const number_name[NUMBERS] = {
+    "truth",       "truth_uncertainty", "limit",  "limit_uncertainty", "order",   "order_uncertainty", "error",     "model_truth",
+    "model_error", "tolerance",         "finest", "reach_10",          "reach_1", "reach_0.1",         "reach_0.01"};
 
-static void verdict_fields(const point *p, const verdict *v, const char *text[TEXTS], double number[NUMBERS])
+/* Elements of the coarsest mesh within a level and all finer ones too; NAN: none. */
+static double reach(const sweep *s, const verdict *v, int level)
+{
+    const int mesh = reach_mesh(s, v, reach_level[level]);
+    return mesh >= 0 ? s->series[v->series].mesh[mesh] : NAN;
+}
+
+static void verdict_fields(const sweep *s, const point *p, const verdict *v, const char *text[TEXTS], double number[NUMBERS])
 {
     const char *const words[TEXTS] = {p->scene.quantity[v->quantity].name,
                                       verdict_name(v->kind),
@@ -64,13 +72,17 @@ static void verdict_fields(const point *p, const verdict *v, const char *text[TE
                                     v->model_truth != NULL ? v->model_truth->value : NAN,
                                     v->model_error,
                                     v->tolerance,
-                                    v->finest};
+                                    v->finest,
+                                    reach(s, v, 0),
+                                    reach(s, v, 1),
+                                    reach(s, v, 2),
+                                    reach(s, v, 3)};
     memcpy(text, words, sizeof words);
     memcpy(number, values, sizeof values);
 }
 
 /* The verdicts of one series, [count]: parallel columns. */
-static void put_verdicts(record *r, hid_t at, const point *p, int count, const verdict v[])
+static void put_verdicts(record *r, hid_t at, const sweep *s, const point *p, int count, const verdict v[])
 {
     const hid_t g = record_group(r, at, "verdicts");
     const hsize_t size = (hsize_t)count;
@@ -79,7 +91,7 @@ static void put_verdicts(record *r, hid_t at, const point *p, int count, const v
     double *number = calloc((size_t)count + 1, NUMBERS * sizeof *number), *values = calloc((size_t)count + 1, sizeof *values);
     r->bad |= text == NULL || column == NULL || number == NULL || values == NULL;
     for (int i = 0; i < count && !r->bad; i++)
-        verdict_fields(p, &v[i], text + TEXTS * i, number + NUMBERS * i);
+        verdict_fields(s, p, &v[i], text + TEXTS * i, number + NUMBERS * i);
     for (int k = 0; k < TEXTS && !r->bad; k++) {
         for (int i = 0; i < count; i++)
             column[i] = text[TEXTS * i + k];
@@ -117,7 +129,7 @@ static void put_series(record *r, hid_t cases, const sweep *all, int index, int 
 {
     const series *one = &all->series[index];
     const point *p = &all->point[one->point];
-    const truth **of = calloc((size_t)p->scene.quantities + 1, sizeof(const truth *));
+    const verdict **of = calloc((size_t)p->scene.quantities + 1, sizeof(const verdict *));
     const hid_t of_case = record_group(r, cases, p->type->name);
     const int new_point = H5Lexists(of_case, p->name, H5P_DEFAULT) <= 0;
     const hid_t at_point = record_group(r, of_case, p->name), here = record_group(r, at_point, one->formulation.key);
@@ -128,12 +140,12 @@ static void put_series(record *r, hid_t cases, const sweep *all, int index, int 
     record_text(r, here, "source", one->formulation.type->source);
     record_text(r, here, "missing", one->missing);
     if (v != NULL)
-        put_verdicts(r, here, p, count, v);
+        put_verdicts(r, here, all, p, count, v);
     r->bad |= of == NULL;
     for (int i = 0; i < count && of != NULL; i++)
-        of[v[i].quantity] = v[i].truth;
+        of[v[i].quantity] = &v[i];
     for (int i = 0; i < one->meshes && one->missing[0] == '\0' && !r->bad; i++) {
-        store_cell(r, here, p, one->mesh[i], &one->cell[i], of);
+        store_cell(r, here, p, one->mesh[i], &one->cell[i], of, one->timing != NULL ? &one->timing[i] : NULL);
         put_picture(r, at_point, here, p, one, i);
     }
     free(of);

@@ -11,12 +11,13 @@ enum { STORE_VERSION = 1 };
 /* One row of a mesh's quantities. */
 typedef struct store_row {
     char name[SCENE_NAME], unit[16], moments[16], status[16], reason[128];
-    double value, error, x, near_zero; /* near_zero: [unit] a value below it counts as zero */
+    double value, error, model_error, x, near_zero; /* near_zero: [unit] a value below it counts as zero */
 } store_row;
 hid_t store_row_type(void); /* in memory and in the file */
 
-/* Group n<elements> below `at`; of[quantities]: the truth of each, NULL where there is none. */
-void store_cell(record *r, hid_t at, const point *p, int elements, const cell_result *cell, const truth *const of[]);
+/* Group n<elements> below `at`; of[quantities]: the verdict on each, NULL where there is none; timing: of a benchmark, or NULL. */
+void store_cell(record *r, hid_t at, const point *p, int elements, const cell_result *cell, const verdict *const of[],
+                const cell_timing *timing);
 /* Group `shapes` below `at`: centre lines, sections, bodies. */
 void store_shapes(record *r, hid_t at, const scene *sc, const shapes *s);
 /* Written beside and renamed: FAULT leaves nothing behind. */

@@ -64,15 +64,42 @@ static void put_curve(record *r, hid_t curves, const scene_quantity *q, const cu
     H5Gclose(one);
 }
 
+/* Least times of every round. */
+static void put_reading(record *r, hid_t at, const char *name, const clock_reading *c)
+{
+    const hsize_t size = (hsize_t)c->rounds;
+    if (c->rounds == 0)
+        return;
+    const hid_t set = record_values(r, at, name, 1, &size, c->round, "s");
+    record_count(r, set, "repeats", c->repeats);
+    record_number(r, set, "seconds_setup", c->setup);
+    record_number(r, set, "seconds_solve", c->solve);
+    H5Dclose(set);
+}
+
+static void put_timing(record *r, hid_t at, const cell_timing *timing)
+{
+    const hid_t g = record_group(r, at, "timing");
+    put_reading(r, g, "as_is", &timing->as_is);
+    put_reading(r, g, "keep_all", &timing->keep_all);
+    record_count(r, g, "free_keep_all", timing->free_keep_all);
+    H5Gclose(g);
+}
+
 hid_t store_row_type(void)
 {
     static const struct {
         const char *name;
         size_t offset, length; /* length 0: a double */
-    } field[] = {{"name", offsetof(store_row, name), SCENE_NAME}, {"unit", offsetof(store_row, unit), 16},
-                 {"moments", offsetof(store_row, moments), 16},   {"status", offsetof(store_row, status), 16},
-                 {"reason", offsetof(store_row, reason), 128},    {"value", offsetof(store_row, value), 0},
-                 {"error", offsetof(store_row, error), 0},        {"x", offsetof(store_row, x), 0},
+    } field[] = {{"name", offsetof(store_row, name), SCENE_NAME},
+                 {"unit", offsetof(store_row, unit), 16},
+                 {"moments", offsetof(store_row, moments), 16},
+                 {"status", offsetof(store_row, status), 16},
+                 {"reason", offsetof(store_row, reason), 128},
+                 {"value", offsetof(store_row, value), 0},
+                 {"error", offsetof(store_row, error), 0},
+                 {"model_error", offsetof(store_row, model_error), 0},
+                 {"x", offsetof(store_row, x), 0},
                  {"near_zero", offsetof(store_row, near_zero), 0}};
     const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof(store_row));
     for (size_t i = 0; i < sizeof field / sizeof field[0]; i++) {
@@ -84,8 +111,8 @@ hid_t store_row_type(void)
     return type;
 }
 
-/* of[]: the truth of each quantity, NULL where there is none. */
-static void put_quantities(record *r, hid_t at, const point *p, const solve_result *result, const truth *const of[])
+/* of[]: the verdict on each quantity, NULL where there is none. */
+static void put_quantities(record *r, hid_t at, const point *p, const solve_result *result, const verdict *const of[])
 {
     const hid_t curves = record_group(r, at, "curves"), type = store_row_type();
     store_row *row = calloc((size_t)result->quantities + 1, sizeof *row);
@@ -100,7 +127,9 @@ static void put_quantities(record *r, hid_t at, const point *p, const solve_resu
         snprintf(row[i].status, sizeof row[i].status, "%s", status_name(v->status));
         snprintf(row[i].reason, sizeof row[i].reason, "%.127s", v->reason);
         row[i].value = v->value;
-        row[i].error = of[i] != NULL ? relative_error(q, v->value, of[i]->value) : NAN;
+        row[i].error = of[i] != NULL && of[i]->truth != NULL ? relative_error(q, v->value, of[i]->truth->value) : NAN;
+        row[i].model_error =
+            of[i] != NULL && of[i]->model_truth != NULL ? relative_error(q, v->value, of[i]->model_truth->value) : NAN;
         row[i].x = v->x;
         row[i].near_zero = q->near_zero;
         if (v->curve.points > 0)
@@ -112,7 +141,8 @@ static void put_quantities(record *r, hid_t at, const point *p, const solve_resu
     H5Gclose(curves);
 }
 
-void store_cell(record *r, hid_t at, const point *p, int elements, const cell_result *cell, const truth *const of[])
+void store_cell(record *r, hid_t at, const point *p, int elements, const cell_result *cell, const verdict *const of[],
+                const cell_timing *timing)
 {
     char name[32];
     snprintf(name, sizeof name, "n%d", elements);
@@ -126,5 +156,7 @@ void store_cell(record *r, hid_t at, const point *p, int elements, const cell_re
     store_matrices(r, mesh, &cell->solve);
     store_events(r, mesh, &cell->solve);
     put_quantities(r, mesh, p, &cell->solve, of);
+    if (timing != NULL)
+        put_timing(r, mesh, timing);
     H5Gclose(mesh);
 }

@@ -27,29 +27,26 @@ typedef struct worker {
     FILE *from;
 } worker;
 
-static void request_of(const sweep *s, const task *t, cell_request *out)
+cell_request sweep_cell(const sweep *s, int series_index, int mesh)
 {
-    const series *one = &s->series[t->series];
+    const series *one = &s->series[series_index];
     const point *p = &s->point[one->point];
-    memset(out, 0, sizeof *out);
-    out->type = p->type;
-    memcpy(out->parameter, p->parameter, sizeof out->parameter);
-    out->formulation = one->formulation.type;
-    memcpy(out->option, one->formulation.option, sizeof out->option);
-    out->solve.newton = one->formulation.newton;
-    out->solve.steps_between = p->steps;
-    out->solve.condition = p->condition;
-    out->edit = p->edit;
-    out->elements = one->mesh[t->mesh];
-    if (p->text[0] == '\0' && t->mesh == one->meshes - 1)
-        out->solve.shapes = s->shapes;
+    cell_request out = {.type = p->type, .formulation = one->formulation.type, .elements = one->mesh[mesh]};
+    memcpy(out.parameter, p->parameter, sizeof out.parameter);
+    memcpy(out.option, one->formulation.option, sizeof out.option);
+    out.solve.newton = one->formulation.newton;
+    out.solve.steps_between = p->steps;
+    out.solve.condition = p->condition;
+    out.edit = p->edit;
+    if (p->text[0] == '\0' && mesh == one->meshes - 1)
+        out.solve.shapes = s->shapes;
+    return out;
 }
 
 static void run_task(const sweep *s, const task *t, cell_result *out)
 {
-    cell_request request;
+    const cell_request request = sweep_cell(s, t->series, t->mesh);
     fault f = {""};
-    request_of(s, t, &request);
     cell_run(&request, out, &f);
     scene_free(&out->scene);
 }

@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 
+#include "harness/run/clock.h"
 #include "harness/run/formulations.h"
 #include "harness/run/truths.h"
 
@@ -22,12 +23,19 @@ typedef struct point {
     char reason[FAULT_TEXT];
 } point;
 
+/* Repeated runs of a cell, as it is and with nothing left out (--keep-all). */
+typedef struct cell_timing {
+    clock_reading as_is, keep_all; /* rounds = 0: not measured */
+    int free_keep_all;             /* unknowns when nothing is left out */
+} cell_timing;
+
 typedef struct series {
     int point;
     formulation formulation;
     char missing[200]; /* what the scene needs and the formulation does not offer; empty: it runs */
     int meshes, mesh[SERIES_MAX_MESHES];
-    cell_result *cell; /* [meshes]; their scenes are empty: the point has it */
+    cell_result *cell;   /* [meshes]; their scenes are empty: the point has it */
+    cell_timing *timing; /* [meshes], of a benchmark; else NULL */
 } series;
 
 typedef struct sweep {
@@ -64,6 +72,8 @@ status sweep_add(sweep *s, const case_type *type, const double value[], const in
 status sweep_extend(sweep *s, const formulation chosen[], int count, fault *f);
 /* Runs every cell; a cell that fails or crashes is a result. Order of results does not depend on jobs. */
 status sweep_run(const sweep_request *request, sweep *s, fault *f);
+/* What running one mesh of a series means. */
+cell_request sweep_cell(const sweep *s, int series_index, int mesh);
 int sweep_cells(const sweep *s);
 void sweep_free(sweep *s);
 

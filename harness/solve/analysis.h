@@ -70,6 +70,4 @@ status mode_identify(const model *, const scene *, const double mode[], mode_sha
 /* When it was asked for: the condition of a matrix just factored, into the counters. */
 void count_condition(const analysis_context *, factor *, const sparse *);
 
-double seconds_now(void); /* monotonic */
-
 #endif

@@ -82,12 +82,14 @@ typedef struct solve_result {
     nodal_matrices *matrices;
     int events;
     path_event *event;
-    double seconds_setup, seconds_solve; /* analysis of the pattern | the rest */
+    double seconds_setup, seconds_solve; /* scene, sections, quadrature, mesh, analysis of the pattern | the rest */
     shapes shapes;
 } solve_result;
 
 /* Fills result even on failure (quantities that could be found stay). */
 status solve_scene(const scene *, model *, const solve_options *, solve_result *, fault *);
 void solve_result_free(solve_result *);
+/* [s] of the processor spent by this thread: other programs on the machine do not count. */
+double seconds_now(void);
 
 #endif

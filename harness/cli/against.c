@@ -1,0 +1,212 @@
+/* bench --against: one cell in alternation with the same cell of another formulation (in this process) or of another program
+ * (both are started anew for every lap and say their own time and work as JSON). */
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "harness/cli/cli.h"
+#include "harness/run/cell.h"
+#include "harness/run/clock.h"
+#include "harness/run/versus.h"
+
+enum { COUNTS = 9, MOST_REPEATS = 10000 };
+static const char *const count_name[COUNTS] = {
+    "free",           "iterations", "strain_evaluations", "stress_evaluations", "inertia_evaluations",
+    "factorisations", "solutions",  "factor_entries",     "factor_flops"};
+static const double budget_seconds = 3, lap_seconds = 0.002;
+
+typedef struct contestant {
+    char name[CELL_KEY + 512];
+    cell_request request;
+    const char *program;    /* NULL: in this process */
+    const char **arguments; /* of the program, NULL-terminated */
+    int repeats;            /* in one lap */
+    double plant;           /* share of its time added to every lap */
+    double count[COUNTS];
+} contestant;
+
+static void count_cell(const cell_result *cell, double count[COUNTS])
+{
+    const counters *k = &cell->counters;
+    const double all[COUNTS] = {cell->size.free,
+                                (double)k->iterations,
+                                (double)k->strain_evaluations,
+                                (double)k->stress_evaluations,
+                                (double)k->inertia_evaluations,
+                                (double)k->factorisations,
+                                (double)k->solutions,
+                                (double)k->factor_entries,
+                                k->factor_flops};
+    memcpy(count, all, sizeof all);
+}
+
+static status lap_here(contestant *c, double *seconds, fault *f)
+{
+    const double start = seconds_now();
+    for (int i = 0; i < c->repeats; i++) {
+        cell_result cell;
+        const status outcome = cell_run(&c->request, &cell, f);
+        count_cell(&cell, c->count);
+        cell_result_free(&cell);
+        if (outcome != STATUS_OK)
+            return outcome;
+    }
+    const double end = start + (1 + c->plant) * (seconds_now() - start);
+    do /* planted work */
+        *seconds = seconds_now() - start;
+    while (start + *seconds < end);
+    return STATUS_OK;
+}
+
+/* What the program wrote: its seconds and its work. */
+static status read_lap(contestant *c, FILE *from, double *seconds, fault *f)
+{
+    json_error_t where;
+    json_t *root = json_loadf(from, 0, &where), *clock = json_object_get(root, "seconds"),
+           *work = json_object_get(root, "counters");
+    *seconds = json_number_value(json_object_get(clock, "setup")) + json_number_value(json_object_get(clock, "solve"));
+    for (int i = 0; i < COUNTS; i++)
+        c->count[i] = json_number_value(json_object_get(work, count_name[i]));
+    json_decref(root);
+    return *seconds > 0 ? STATUS_OK : fault_set(f, STATUS_FAULT, "%s: its 'solve --format json' tells no seconds", c->program);
+}
+
+static status lap_elsewhere(contestant *c, double *seconds, fault *f)
+{
+    int ends[2], how = 0;
+    const pid_t child = pipe(ends) == 0 ? fork() : -1;
+    if (child < 0)
+        return fault_set(f, STATUS_FAULT, "cannot start %s", c->program);
+    if (child == 0) {
+        dup2(ends[1], STDOUT_FILENO);
+        close(ends[0]);
+        close(ends[1]);
+        execv(c->program, (char **)c->arguments);
+        _exit(EXIT_FAULT);
+    }
+    close(ends[1]);
+    FILE *from = fdopen(ends[0], "r");
+    const status outcome =
+        from != NULL ? read_lap(c, from, seconds, f) : fault_set(f, STATUS_FAULT, "cannot read from %s", c->program);
+    if (from != NULL)
+        fclose(from);
+    waitpid(child, &how, 0);
+    if (WIFEXITED(how) && WEXITSTATUS(how) == EXIT_AS_EXPECTED)
+        return outcome;
+    return fault_set(f, STATUS_FAULT, "%s does not solve that cell", c->program);
+}
+
+static status lap(void *what, double *seconds, fault *f)
+{
+    contestant *c = what;
+    return c->program != NULL ? lap_elsewhere(c, seconds, f) : lap_here(c, seconds, f);
+}
+
+/* Enough repeats for a lap that the clock can tell. */
+static status set_repeats(contestant *a, contestant *b, fault *f)
+{
+    double first = 0, second = 0;
+    status outcome = STATUS_OK;
+    a->repeats = b->repeats = 1;
+    for (int i = 0; i < 2 && outcome == STATUS_OK; i++) { /* the first one warms up */
+        outcome = lap(a, &first, f);
+        outcome = outcome == STATUS_OK ? lap(b, &second, f) : outcome;
+    }
+    const double shorter = first < second ? first : second;
+    if (a->program == NULL && shorter < lap_seconds)
+        a->repeats = b->repeats = lap_seconds / shorter < MOST_REPEATS ? 1 + (int)(lap_seconds / shorter) : MOST_REPEATS;
+    return outcome;
+}
+
+static void set_request(contestant *c, const cli_request *r, const case_type *type, const formulation *chosen, int elements)
+{
+    c->request = (cell_request){.type = type, .formulation = chosen->type, .elements = elements, .keep_all = r->keep_all};
+    memcpy(c->request.parameter, r->parameter, sizeof c->request.parameter);
+    memcpy(c->request.option, chosen->option, sizeof c->request.option);
+    c->request.solve.newton = chosen->newton;
+    snprintf(c->name, sizeof c->name, "%s, n = %d", chosen->key, elements);
+}
+
+enum { MOST_ARGUMENTS = 10 + 2 * CASE_MAX_PARAMETERS };
+
+static void set_program(contestant *c, const cli_request *r, const char *program, char elements[16],
+                        const char *arguments[MOST_ARGUMENTS])
+{
+    int n = 0;
+    snprintf(elements, 16, "%d", r->mesh[0]);
+    const char *const first[] = {program, "solve", r->case_name, "--format", "json", "-f", r->formulation[0].key, "-n", elements};
+    for (size_t i = 0; i < sizeof first / sizeof first[0]; i++)
+        arguments[n++] = first[i];
+    for (int i = 0; i < r->assignments; i++) {
+        arguments[n++] = "--set";
+        arguments[n++] = r->assignment[i];
+    }
+    arguments[n] = NULL;
+    c->program = program;
+    c->arguments = arguments;
+    snprintf(c->name, sizeof c->name, "%.500s", program);
+}
+
+static void show(const contestant *a, const contestant *b, const versus *v)
+{
+    int same = 1;
+    printf("A  %-40s %10.4g ms\nB  %-40s %10.4g ms\n", a->name, 1e3 * v->a / a->repeats, b->name, 1e3 * v->b / b->repeats);
+    printf("B takes %.4f times as long as A (%.4f to %.4f with 99.9 %% confidence, %d pairs): %s\n", v->ratio, v->low, v->high,
+           v->pairs, versus_name(v->outcome));
+    for (int i = 0; i < COUNTS; i++)
+        if (a->count[i] != b->count[i]) {
+            printf("%s %s %.10g against %.10g", same ? "work differs:" : ",", count_name[i], a->count[i], b->count[i]);
+            same = 0;
+        }
+    printf(same ? "the same work\n" : "\n");
+}
+
+static void show_json(const contestant *a, const contestant *b, const versus *v)
+{
+    json_t *work = json_array();
+    for (int i = 0; i < COUNTS; i++)
+        json_array_append_new(work, json_pack("{s:s,s:f,s:f}", "name", count_name[i], "a", a->count[i], "b", b->count[i]));
+    json_t *root = json_pack("{s:s,s:s,s:f,s:f,s:f,s:f,s:f,s:i,s:s,s:o}", "a", a->name, "b", b->name, "seconds_a",
+                             v->a / a->repeats, "seconds_b", v->b / b->repeats, "ratio", v->ratio, "low", v->low, "high", v->high,
+                             "pairs", v->pairs, "outcome", versus_name(v->outcome), "work", work);
+    json_dumpf(root, stdout, JSON_INDENT(1));
+    putchar('\n');
+    json_decref(root);
+}
+
+int cli_against(cli_request *r)
+{
+    contestant a = {.plant = 0}, b = {.plant = r->plant};
+    const char *arguments[2][MOST_ARGUMENTS];
+    char elements[2][16];
+    formulation other;
+    versus answer;
+    fault f = {""};
+    if (r->case_count != 1 || r->formulations != 1 || r->meshes < 1 || r->meshes > 2)
+        return cli_fail(STATUS_REFUSED, "--against compares one cell: give one CASE, one -f and one -n (or two: A's and B's)");
+    const case_type *type = cli_case(r);
+    if (type == NULL)
+        return EXIT_REFUSED;
+    if (strchr(r->against, '/') != NULL) {
+        if (r->plant > 0 || r->meshes != 1)
+            return cli_fail(STATUS_REFUSED, "--plant and a second mesh are for another formulation in the same program");
+        set_program(&a, r, "/proc/self/exe", elements[0], arguments[0]);
+        set_program(&b, r, r->against, elements[1], arguments[1]);
+    } else if (formulation_parse(r->against, &other, &f) == STATUS_OK) {
+        set_request(&a, r, type, &r->formulation[0], r->mesh[0]);
+        set_request(&b, r, type, &other, r->mesh[r->meshes - 1]);
+    } else {
+        return cli_fail(STATUS_REFUSED, f.text);
+    }
+    clock_pin();
+    status outcome = set_repeats(&a, &b, &f);
+    if (outcome == STATUS_OK)
+        outcome = versus_run(lap, &a, &b, budget_seconds, &answer, &f);
+    if (outcome != STATUS_OK)
+        return cli_fail(outcome, f.text);
+    (r->format[0] == 'j' ? show_json : show)(&a, &b, &answer);
+    return EXIT_AS_EXPECTED;
+}

@@ -1,0 +1,70 @@
+#include "harness/run/timing.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static int can_run(const sweep *s, const series *one, int mesh)
+{
+    return one->missing[0] == '\0' && s->point[one->point].status == STATUS_OK && one->cell[mesh].solve.status != STATUS_FAULT;
+}
+
+/* The middle mesh that has a solution, or -1. */
+static int mesh_kept_whole(const sweep *s, const series *one)
+{
+    if (strcmp(s->point[one->point].name, "default") != 0)
+        return -1;
+    int mesh = one->meshes / 2;
+    while (mesh > 0 && one->cell[mesh].solve.status != STATUS_OK)
+        mesh--;
+    return one->meshes > 0 && one->cell[mesh].solve.status == STATUS_OK ? mesh : -1;
+}
+
+/* Both in turn: the difference of their times is what leaving out saves. */
+static void round_kept_whole(const cell_request *as_is, double floor, cell_timing *out)
+{
+    cell_request whole = *as_is;
+    whole.keep_all = 1;
+    if (out->free_keep_all == 0) {
+        cell_result cell;
+        fault f = {""};
+        const status outcome = cell_run(&whole, &cell, &f);
+        out->free_keep_all = outcome == STATUS_OK ? cell.size.free : -1;
+        cell_result_free(&cell);
+    }
+    if (out->free_keep_all > 0)
+        clock_round(&whole, floor, &out->keep_all);
+}
+
+static void round_of_series(sweep *s, int index, double floor)
+{
+    series *one = &s->series[index];
+    const int whole = mesh_kept_whole(s, one);
+    for (int i = 0; i < one->meshes; i++) {
+        if (!can_run(s, one, i))
+            continue;
+        const cell_request request = sweep_cell(s, index, i);
+        clock_round(&request, floor, &one->timing[i].as_is);
+        if (i == whole)
+            round_kept_whole(&request, floor, &one->timing[i]);
+    }
+}
+
+status timing_run(sweep *s, double floor, FILE *progress, fault *f)
+{
+    for (int i = 0; i < s->seriess; i++) {
+        s->series[i].timing = calloc((size_t)s->series[i].meshes + 1, sizeof *s->series[i].timing);
+        if (s->series[i].timing == NULL)
+            return fault_set(f, STATUS_FAULT, "out of memory for times");
+    }
+    for (int p = 0; p < s->points; p++) {
+        if (progress != NULL)
+            fprintf(progress, "\r\033[K%d/%d %s %s", p + 1, s->points, s->point[p].type->name, s->point[p].text);
+        for (int round = 0; round < CLOCK_ROUNDS; round++)
+            for (int i = 0; i < s->seriess; i++)
+                if (s->series[i].point == p)
+                    round_of_series(s, i, floor);
+    }
+    if (progress != NULL)
+        fprintf(progress, "\r\033[K");
+    return STATUS_OK;
+}

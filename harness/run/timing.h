@@ -1,0 +1,11 @@
+/* Times of all cells of a sweep that has been run, in rounds over the cells of a point. */
+#ifndef BEAMWORK_TIMING_H
+#define BEAMWORK_TIMING_H
+
+#include "harness/run/sweep.h"
+
+/* floor: least [s] a round spends on a cell. What is left out is measured at the defaults of every case, on the middle mesh of
+ * each formulation. Cells that crashed are not run again. */
+status timing_run(sweep *s, double floor, FILE *progress, fault *f);
+
+#endif
