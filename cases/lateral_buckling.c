@@ -1,16 +1,18 @@
-/* Lateral-torsional buckling of a beam bent about its strong axis, load at the shear centre, prebuckling deflection neglected
- * (linear prestress). L = 1 m, weak EI = GJ = 1 N m^2; load_factor = P L^2/sqrt(EI GJ), a distributed load as its total. */
+/* Lateral-torsional buckling of a beam bent about its strong axis, load at the shear centre.  Prebuckling deflection neglected: linear
+ * prestress; included: the critical point of the nonlinear path, which the deflection raises by weak EI/strong EI.  L = 1 m, weak EI = GJ = 1 N m^2; load_factor = P L^2/sqrt(EI GJ), a distributed load as its total. */
 #include "cases/case.h"
 
 #include <stddef.h>
 
-enum { LOAD, K };
+enum { LOAD, K, PREBUCKLING, RATIO };
 enum { TIP, DISTRIBUTED, MID, MID_DISTRIBUTED };
 
 static const case_parameter parameters[] = {
     [LOAD] = {"load", "", TIP, 0, 0, "tip|distributed|mid|mid_distributed",
               "cantilever with a tip or a distributed load; simply supported beam with a mid or a distributed load"},
     [K] = {"K", "1", 0, 0, 1e6, NULL, "L^2 GJ/EIw; 0: nothing warps"},
+    [PREBUCKLING] = {"prebuckling", "", 0, 0, 0, "neglected|included", "deflection before buckling"},
+    [RATIO] = {"ratio", "1", 1e4, 1, 1e8, NULL, "strong EI/weak EI"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -23,9 +25,9 @@ static status build(const double value[], scene *s, fault *f)
     spec.kind = SECTION_CONSTANTS;
     spec.young = spec.shear_modulus = 1; /* only the products matter */
     spec.constants.A = 1e6;
-    spec.constants.Iy = 1e4;
+    spec.constants.Iy = value[RATIO];
     spec.constants.Iz = spec.constants.It = 1;
-    spec.constants.Ip = 1e4 + 1;
+    spec.constants.Ip = value[RATIO] + 1;
     spec.constants.Iw = value[K] > 0 ? 1 / value[K] : 0;
     const int profile = scene_add_section(s, &spec);
     const double y_axis[3] = {0, 1, 0};
@@ -46,8 +48,15 @@ static status build(const double value[], scene *s, fault *f)
         scene_add_load(s, SCENE_DISTRIBUTED, first, 0, 0, -1);
         scene_add_load(s, SCENE_DISTRIBUTED, second, 0, 0, -1);
     }
+    int path = SCENE_NONE;
+    if (value[PREBUCKLING] != 0) {
+        const double one = 1; /* well below every critical load */
+        path = scene_add_analysis(s, SCENE_STATIC);
+        scene_set_stations(s, path, 1, &one);
+    }
     const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
     scene_analysis_at(s, buckling)->wanted = 1;
+    scene_analysis_at(s, buckling)->follows = path;
     scene_quantity *q = scene_add_quantity(s, "load_factor", "1", SCENE_CRITICAL_FACTOR, buckling);
     q->tolerance = 1e-4;
     q->least_order = 1.8;

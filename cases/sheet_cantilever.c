@@ -5,10 +5,15 @@
 #include <stddef.h>
 #include <stdio.h>
 
-enum { STATIONS = 15 };
+enum { MODES = SHEET_PARAMETERS, DENSITY, ROTARY };
+enum { STATIONS = 15, MOST_MODES = 6 };
 
 static const case_parameter parameters[] = {
     SHEET_TABLE(0),
+    [MODES] = {"modes", "1", 0, 0, MOST_MODES, NULL,
+               "natural frequencies of the deflected sheet, its tip held along y and about z"},
+    [DENSITY] = {"density", "kg/m^3", 7850, 1e-3, 1e6, NULL, "of the sheet"},
+    [ROTARY] = {"rotary_inertia", "1", 1, 0, 1, NULL, "1: rotary and warping inertia, 0: translations and twist only"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -39,12 +44,30 @@ static void add_curve(scene *s, const char *name, int analysis, int node, int ro
     snprintf(q->x_unit, sizeof q->x_unit, "m");
 }
 
+/* About the last state of the path.  The rotation about z is held in the sense of the rotation vector from there. */
+static void add_frequencies(scene *s, int path, int count)
+{
+    const int modal = scene_add_analysis(s, SCENE_MODAL);
+    scene_analysis_at(s, modal)->follows = path;
+    scene_analysis_at(s, modal)->wanted = count;
+    for (int i = 0; i < count; i++) {
+        char name[SCENE_NAME];
+        snprintf(name, sizeof name, "frequency_%d", i + 1);
+        scene_quantity *q = scene_add_quantity(s, name, "Hz", SCENE_FREQUENCY, modal);
+        q->order = i;
+        q->tolerance = 1e-4;
+        q->least_order = 1.8;
+    }
+}
+
 static status build(const double value[], scene *s, fault *f)
 {
     int root, tip;
     const status outcome = sheet_build(value, s, &root, &tip, f);
     if (outcome != STATUS_OK)
         return outcome;
+    if (s->section != NULL)
+        s->section[0].density = value[DENSITY];
     const double path[2] = {0, 1}, deflection[2] = {0, value[SHEET_DEFLECTION]}, none[2] = {0, 0};
     scene_drive(s, tip, SCENE_UY, scene_add_driver(s, "tip_deflection", 2, path, deflection));
     scene_drive(s, tip, SCENE_RZ, scene_add_driver(s, "tip_rotation", 2, path, none));
@@ -69,6 +92,10 @@ static status build(const double value[], scene *s, fault *f)
     add_gated(s, "M_z", "N m", SCENE_REACTION, path_analysis, tip, SCENE_RZ);
     add_curve(s, "C_xx_curve", compliance, tip, SCENE_UX, value[SHEET_DEFLECTION]);
     add_curve(s, "C_zz_curve", compliance, tip, SCENE_UZ, value[SHEET_DEFLECTION]);
+    if (value[MODES] > 0) {
+        add_frequencies(s, path_analysis, (int)value[MODES]);
+        s->needs |= value[ROTARY] != 0 ? SCENE_NEED_ROTARY_INERTIA : 0;
+    }
     return STATUS_OK;
 }
 

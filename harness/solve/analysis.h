@@ -49,6 +49,9 @@ void linear_system_free(linear_system *);
 /* Loads at factor 1 and drivers at the end of their path (path 1). */
 status linear_system_solve(analysis_context *, linear_system *, double x[], fault *);
 
+/* modal.c: how many modes the quantities of an analysis ask for. */
+int modal_wanted(const analysis_context *, int analysis);
+
 /* extract.c */
 void extract_quantity(const analysis_context *, const scene_quantity *, quantity_result *);
 void extract_no_value(quantity_result *, status, const char *reason);

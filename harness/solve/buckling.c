@@ -4,6 +4,7 @@
 
 #include "harness/solve/analysis.h"
 #include "harness/solve/eigen.h"
+#include "harness/solve/equilibrium.h"
 
 /* Quadratic forms from the element strains. */
 typedef struct forms {
@@ -53,6 +54,9 @@ static void wanted_of(const analysis_context *c, int analysis, eigen_problem *p)
 
 status analysis_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
+    const int follows = c->scene->analysis[analysis].follows;
+    if (follows != SCENE_NONE && c->scene->analysis[follows].kind == SCENE_STATIC)
+        return equilibrium_buckling(c, analysis, o, f);
     const model_size size = model_sizes(c->model);
     linear_system s;
     sparse G = {0};

@@ -5,8 +5,9 @@
 
 #include "harness/solve/analysis.h"
 #include "harness/solve/eigen.h"
+#include "harness/solve/equilibrium.h"
 
-static int modes_wanted(const analysis_context *c, int analysis)
+int modal_wanted(const analysis_context *c, int analysis)
 {
     const int others = 6; /* axial modes and other families lie between */
     int wanted = c->scene->analysis[analysis].wanted;
@@ -93,6 +94,9 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
 
 status analysis_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
+    const int follows = c->scene->analysis[analysis].follows;
+    if (follows != SCENE_NONE && c->scene->analysis[follows].kind == SCENE_STATIC)
+        return equilibrium_modal(c, analysis, o, f);
     const model_size size = model_sizes(c->model);
     const size_t all = (size_t)(size.free + size.driven) + 1;
     linear_system s;
@@ -101,8 +105,8 @@ status analysis_modal(analysis_context *c, int analysis, analysis_outcome *o, fa
     forms about = {c->model, &M, 0, calloc(all, sizeof(double)), calloc(all, sizeof(double)), size.free, NULL};
     double *sigma = NULL;
     status result = linear_system_alloc(c, &s, f);
-    if (result == STATUS_OK && c->scene->analysis[analysis].follows != SCENE_NONE)
-        result = add_prestress(c, c->scene->analysis[analysis].follows, &s, &sigma, f);
+    if (result == STATUS_OK && follows != SCENE_NONE)
+        result = add_prestress(c, follows, &s, &sigma, f);
     about.sigma = sigma;
     const int singular = result == STATUS_SINGULAR;
     if (result == STATUS_OK || singular)
@@ -118,7 +122,7 @@ status analysis_modal(analysis_context *c, int analysis, analysis_outcome *o, fa
                                  .A = &M,
                                  .K_factor = s.factor,
                                  .sign = 1,
-                                 .largest = modes_wanted(c, analysis),
+                                 .largest = modal_wanted(c, analysis),
                                  .K_energy = stiffness_form,
                                  .context = &about};
         result = eigen_solve(&p, &e, f);

@@ -4,8 +4,7 @@
 
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14 };
 
-/* From the present path to `target` in steps that halve when Newton fails and double when it is easy. */
-static status walk_to(newton *n, double target, double *increment, fault *f)
+status static_walk(newton *n, double target, double *increment, fault *f)
 {
     counters *count = model_counters(n->c->model);
     int halvings = 0, rejected = 0;
@@ -48,7 +47,7 @@ status analysis_static(analysis_context *c, int analysis, analysis_outcome *o, f
     for (int i = 0; i < a->stations && result == STATUS_OK; i++) {
         const double from = i > 0 ? a->path[i - 1] : 0;
         double increment = (a->path[i] - from) / steps;
-        result = walk_to(&n, a->path[i], &increment, f);
+        result = static_walk(&n, a->path[i], &increment, f);
         if (result == STATUS_OK && c->options->newton != SOLVE_DENSE)
             count_condition(c, n.factor, &n.K);
         if (result == STATUS_OK)
