@@ -16,6 +16,7 @@ static const double growth = 0.5;     /* of the path beyond its beginning, at mo
 static const double approached = 0.9; /* part of the way to the estimate */
 static const double farthest = 1e3;   /* path at which the search ends, of the path so far */
 static const double wanted_error = 1e-9;
+static const double closest = 1e-5; /* distance from the estimate, of the path: nearer, round-off decides about stability */
 
 /* The state that is followed: the end of a static path that was reached. */
 static status followed_state(const analysis_context *c, int analysis, const model_state **state, fault *f)
@@ -93,8 +94,8 @@ status equilibrium_modal(analysis_context *c, int analysis, analysis_outcome *o,
 typedef struct search {
     newton n;
     model_state *stable;
-    sparse scale; /* diagonal of the first K */
-    double begin, p[POINTS], sigma[POINTS];
+    sparse scale;                                  /* diagonal of the first K */
+    double begin, shift, p[POINTS], sigma[POINTS]; /* shift: the first sigma; that of K + shift scale is lost in no round-off */
     int points;
     double estimate, change, unstable; /* unstable: least path known to be beyond the critical point */
     eigen_result found;
@@ -131,14 +132,19 @@ static status take_state(search *s, fault *f)
 {
     const eigen_problem p = {.K = &s->n.K, .A = &s->scale, .K_factor = s->n.factor, .sign = 1, .largest = 1};
     eigen_free(&s->found);
-    const status outcome = eigen_solve(&p, &s->found, f);
+    for (int i = 0; i < s->scale.column[s->scale.n]; i++)
+        s->n.K.value[i] += s->shift * s->scale.value[i];
+    status outcome = s->shift > 0 ? factor_numeric(s->n.factor, &s->n.K, f) : STATUS_OK;
+    if (outcome == STATUS_OK)
+        outcome = eigen_solve(&p, &s->found, f);
     count_work(s->n.c, &s->found);
     if (outcome != STATUS_OK)
         return outcome;
     memmove(s->p + 1, s->p, (POINTS - 1) * sizeof *s->p);
     memmove(s->sigma + 1, s->sigma, (POINTS - 1) * sizeof *s->sigma);
     s->p[0] = model_state_path(s->n.state);
-    s->sigma[0] = 1 / s->found.positive.mu[0];
+    s->sigma[0] = 1 / s->found.positive.mu[0] - s->shift;
+    s->shift = s->points == 0 ? s->sigma[0] : s->shift;
     s->points += s->points < POINTS;
     model_state_copy(s->n.c->model, s->n.state, s->stable);
     return STATUS_OK;
@@ -153,6 +159,10 @@ static status go_to(search *s, double path, int *stable, fault *f)
     status outcome = static_walk(&s->n, path, &increment, f);
     if (outcome == STATUS_OK)
         outcome = newton_direction(&s->n, path, &unused, f);
+    if (outcome == STATUS_SINGULAR) { /* at the critical point */
+        *stable = 0;
+        return STATUS_OK;
+    }
     *stable = outcome == STATUS_OK && factor_count(s->n.factor).negative_pivots == 0;
     return *stable ? take_state(s, f) : outcome;
 }
@@ -189,9 +199,10 @@ static status find_critical(search *s, fault *f)
         const double last = s->estimate, limit = fmin(s->p[0] + growth * (s->p[0] - s->begin), (s->p[0] + s->unstable) / 2);
         s->estimate = extrapolate(s);
         s->change = fabs(s->estimate - last);
-        if (isfinite(s->estimate) && s->change <= wanted_error * fmax(fabs(s->estimate), s->estimate - s->begin))
+        const double left = s->estimate - s->p[0], size = fmax(fabs(s->estimate), s->estimate - s->begin);
+        if (isfinite(s->estimate) && (s->change <= wanted_error * size || left <= 2 * closest * size))
             return STATUS_OK;
-        target = fmin(s->p[0] + approached * (s->estimate - s->p[0]), limit);
+        target = fmin(s->p[0] + fmin(approached * left, isfinite(left) ? left - closest * size : left), limit);
     }
     if (outcome != STATUS_OK)
         return outcome;
