@@ -18,7 +18,10 @@ void dense_mul(int m, int k, int n, const double *restrict A, const double *rest
 
 void dense_add_transpose_mul(int m, int k, int n, const double *restrict A, const double *restrict B, double *restrict C)
 {
-    for (int l = 0; l < k; l++)
+    for (int l = 0; l < k && n == 1; l++)
+        for (int i = 0; i < m; i++)
+            C[i] += A[l * m + i] * B[l];
+    for (int l = 0; l < k && n > 1; l++)
         for (int i = 0; i < m; i++) {
             const double a = A[l * m + i];
             if (a == 0)

@@ -104,17 +104,36 @@ static void add_idle_amplitudes(const element_request *r, sums *out)
             out->P0[a][b] += k * (2 * p[a] * p[b] + 2 * q[a] * q[b] - p[a] * q[b]);
 }
 
-static void append(potential_term terms[], int most, int *count, int i, int j, double table[V][V])
+/* The terms of one degree in x. */
+static void append(int degree, potential_term terms[], int most, int *count, int i, int j, double table[V][V])
 {
     for (int a = 0; a < V; a++)
         for (int b = a; b < V; b++) {
             const double c = a == b ? table[a][a] : table[a][b] + table[b][a];
-            if (c == 0)
+            if (c == 0 || (a != ONE) + (b != ONE) != degree)
                 continue;
             assert(*count < most);
             (void)most;
             terms[(*count)++] = (potential_term){c, i, j, a, b};
         }
+}
+
+static void list_terms(sums *total, potential *out)
+{
+    int *const linear[3] = {&out->linear_A, &out->linear_b, &out->linear_P0}, *const quadratic[3] = {&out->quadratic_A,
+                                                                                                     &out->quadratic_b,
+                                                                                                     &out->quadratic_P0};
+    for (int degree = 0; degree <= 2; degree++) {
+        for (int i = 0; i < STRESSES; i++) {
+            append(degree, out->b, TERMS_B, &out->terms_b, i, 0, total->b[i]);
+            for (int j = 0; j <= i; j++)
+                append(degree, out->A, TERMS_A, &out->terms_A, i, j, total->A[i][j]);
+        }
+        append(degree, out->P0, TERMS_P0, &out->terms_P0, 0, 0, total->P0);
+        const int ends[3] = {out->terms_A, out->terms_b, out->terms_P0};
+        for (int k = 0; k < 3 && degree < 2; k++)
+            *(degree == 0 ? linear : quadratic)[k] = ends[k];
+    }
 }
 
 status potential_prepare(const element_request *r, int printed, potential *out, fault *f)
@@ -148,11 +167,6 @@ status potential_prepare(const element_request *r, int printed, potential *out, 
     total.b[MYQ][ONE][1 + LOCAL_YQ] += 1;
     total.b[MZP][ONE][ZP] += 1; /* int (x - 1) u_y'' ds */
     total.b[MZQ][ONE][ZQ] += 1;
-    for (int i = 0; i < STRESSES; i++) {
-        append(out->b, TERMS_B, &out->terms_b, i, 0, total.b[i]);
-        for (int j = 0; j <= i; j++)
-            append(out->A, TERMS_A, &out->terms_A, i, j, total.A[i][j]);
-    }
-    append(out->P0, TERMS_P0, &out->terms_P0, 0, 0, total.P0);
+    list_terms(&total, out);
     return STATUS_OK;
 }

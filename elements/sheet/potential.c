@@ -41,32 +41,46 @@ static status solve(const potential *p, const double x[N], point *at)
     return STATUS_OK;
 }
 
-/* Terms of P at fixed stresses: derivatives of P0 + b.s - s^T A s/2; W completed. */
+/* g_a += 1/2 s.W_a */
+static void add_half_work(const point *at, double g[V])
+{
+    for (int i = 0; i < STRESSES; i++)
+        for (int a = 0; a < V; a++)
+            g[a] += at->s[i] / 2 * at->W[i][a];
+}
+
+/* Terms of P at fixed stresses: g = d(P0 + b.s - s^T A s/2)/dv, h its second derivatives with row <= column; W completed.
+ * s.b,a - s^T A,a s/2 is half of s.W_a before and after A,a s is taken from W. Index 0 is no variable: its entries are not used. */
 static void add_explicit(const potential *p, point *at, double g[V], double h[V * V])
 {
     const double *v = at->v, *s = at->s;
-    for (int k = 0; k < p->terms_P0 + p->terms_b; k++) {
-        const int own = k < p->terms_P0;
-        const potential_term *t = own ? &p->P0[k] : &p->b[k - p->terms_P0];
-        const double c = own ? t->c : t->c * s[t->i];
-        g[t->a] += c * v[t->b];
-        g[t->b] += c * v[t->a];
-        h[V * t->a + t->b] += c;
-        h[V * t->b + t->a] += c;
+    add_half_work(at, g);
+    for (int k = p->linear_P0; k < p->terms_P0; k++) {
+        const potential_term *t = &p->P0[k];
+        g[t->a] += t->c * v[t->b];
+        g[t->b] += t->c * v[t->a];
+        h[V * t->a + t->b] += t->a == t->b ? 2 * t->c : t->c;
     }
-    for (int k = 0; k < p->terms_A; k++) {
+    for (int k = p->quadratic_b; k < p->terms_b; k++) {
+        const potential_term *t = &p->b[k];
+        h[V * t->a + t->b] += (t->a == t->b ? 2 : 1) * t->c * s[t->i];
+    }
+    for (int k = p->linear_A; k < p->quadratic_A; k++) {
         const potential_term *t = &p->A[k];
-        const double c = t->i == t->j ? t->c / 2 : t->c, si = s[t->i], sj = s[t->j], work = c * si * sj, ca = c * v[t->a],
-                     cb = c * v[t->b];
-        at->W[t->i][t->a] -= cb * sj;
-        at->W[t->j][t->a] -= cb * si;
-        at->W[t->i][t->b] -= ca * sj;
-        at->W[t->j][t->b] -= ca * si;
-        g[t->a] -= work * v[t->b];
-        g[t->b] -= work * v[t->a];
-        h[V * t->a + t->b] -= work;
-        h[V * t->b + t->a] -= work;
+        at->W[t->i][t->b] -= t->c * s[t->j];
+        if (t->i != t->j)
+            at->W[t->j][t->b] -= t->c * s[t->i];
     }
+    for (int k = p->quadratic_A; k < p->terms_A; k++) {
+        const potential_term *t = &p->A[k];
+        const double c = t->i == t->j ? t->c / 2 : t->c, ci = c * s[t->i], cj = c * s[t->j];
+        at->W[t->i][t->a] -= cj * v[t->b];
+        at->W[t->j][t->a] -= ci * v[t->b];
+        at->W[t->i][t->b] -= cj * v[t->a];
+        at->W[t->j][t->b] -= ci * v[t->a];
+        h[V * t->a + t->b] -= (t->a == t->b ? 2 : 1) * ci * s[t->j];
+    }
+    add_half_work(at, g);
 }
 
 /* Rows of L^-1 W: their products are W^T A^-1 W. */

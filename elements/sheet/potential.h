@@ -7,7 +7,7 @@
 
 enum { STRESSES = 6 };
 
-/* c v_a v_b in A_ij (i >= j, and in A_ji), in b_i or in P0; v_0 = 1, v_(1+k) = x_k. */
+/* c v_a v_b in A_ij (i >= j, and in A_ji), in b_i or in P0; v_0 = 1, v_(1+k) = x_k, a <= b. */
 typedef struct potential_term {
     double c;
     int i, j, a, b;
@@ -17,6 +17,8 @@ enum { TERMS_A = 96, TERMS_B = 64, TERMS_P0 = 12 };
 
 typedef struct potential {
     int terms_A, terms_b, terms_P0;
+    /* Terms are ordered by degree in x; where the linear and the quadratic ones begin. */
+    int linear_A, quadratic_A, linear_b, quadratic_b, linear_P0, quadratic_P0;
     potential_term A[TERMS_A], b[TERMS_B], P0[TERMS_P0];
 } potential;
 

@@ -25,21 +25,20 @@ static void add_product(double c, const double a[N], const double b[N], double Q
             Q[N * i + j] += c * (a[i] * b[j] + b[i] * a[j]);
 }
 
-static void add_point(double x, double ds, double trapeze, const fields *f, strains_table *out)
+static void add_point(double x, double ds, double l0, double trapeze, const fields *f, double Q[STRAINS_LISTED][N * N])
 {
     double lag_y[N], lag_z[N];
     for (int i = 0; i < N; i++) {
         lag_y[i] = f->phi_y[i] + f->duz[i];
         lag_z[i] = f->phi_z[i] - f->duy[i];
     }
-    const double from_p = x * out->l0, to_q = (1 - x) * out->l0;
-    double(*Q)[N * N] = out->Q;
+    const double from_p = x * l0, to_q = (1 - x) * l0;
     add_product(-ds / 2, f->phi_y, f->phi_y, Q[0]);
     add_product(-ds, f->phi_y, f->duz, Q[0]);
     add_product(-ds / 2, f->phi_z, f->phi_z, Q[0]);
     add_product(ds, f->phi_z, f->duy, Q[0]);
     add_product(ds * trapeze / 2, f->dphi_x, f->dphi_x, Q[0]);
-    add_product(ds * out->l0, f->dphi_y, f->phi_z, Q[1]);
+    add_product(ds * l0, f->dphi_y, f->phi_z, Q[1]);
     add_product(ds * to_q, f->dphi_z, f->phi_x, Q[2]);
     add_product(-ds, f->phi_x, lag_z, Q[2]);
     add_product(ds * from_p, f->dphi_z, f->phi_x, Q[3]);
@@ -50,12 +49,25 @@ static void add_point(double x, double ds, double trapeze, const fields *f, stra
     add_product(-ds, f->phi_x, lag_y, Q[5]);
 }
 
+static void list_terms(double Q[STRAINS_LISTED][N * N], strains_table *out)
+{
+    for (int i = 0; i < STRAINS_LISTED; i++)
+        for (int j = 0; j < N; j++)
+            for (int k = j; k < N; k++)
+                if (Q[i][N * j + k] != 0) {
+                    out->term[out->terms].c = Q[i][N * j + k];
+                    out->term[out->terms].i = i;
+                    out->term[out->terms].j = j;
+                    out->term[out->terms++].k = k;
+                }
+}
+
 status strains_prepare(const element_request *request, double Phi_y, double Phi_z, strains_table *out, fault *f)
 {
     const section *c = request->section;
     const double l0 = request->length, trapeze = request->features & FEATURE_TRAPEZE ? c->Ip / c->A : 0;
     const int amplitude = (request->features & FEATURE_WARPING) != 0;
-    double x[POINTS], w[POINTS];
+    double x[POINTS], w[POINTS], Q[STRAINS_LISTED][N * N] = {{0}};
     memset(out, 0, sizeof *out);
     if (!(l0 > 0) || !isfinite(l0))
         return fault_set(f, STATUS_REFUSED, "element length %g m: it must be positive", l0);
@@ -74,27 +86,43 @@ status strains_prepare(const element_request *request, double Phi_y, double Phi_
     out->Lambda[N * 7 + (amplitude ? LOCAL_WQ : LOCAL_PX)] = amplitude ? l0 * l0 : l0;
     for (int i = 0; i < POINTS; i++) {
         const fields at = fields_at(l0, x[i], Phi_y, Phi_z, fields_warp(request));
-        add_point(x[i], w[i] * l0, trapeze, &at, out);
+        add_point(x[i], w[i] * l0, l0, trapeze, &at, Q);
     }
-    memcpy(out->Q[6], out->Q[1], sizeof out->Q[1]);
-    memcpy(out->Q[7], out->Q[1], sizeof out->Q[1]);
+    list_terms(Q, out);
     return STATUS_OK;
 }
 
 /* E[8 x 8] = de/dq at q, e[8]. */
 static void gradient(const strains_table *m, const double q[N], double e[SHEET_STRAINS], double E[SHEET_STRAINS * N])
 {
+    double turn[SHEET_STRAINS][N] = {{0}};
+    for (int t = 0; t < m->terms; t++) {
+        const int i = m->term[t].i, j = m->term[t].j, k = m->term[t].k;
+        turn[i][j] += m->term[t].c * q[k];
+        if (j != k)
+            turn[i][k] += m->term[t].c * q[j];
+    }
+    memcpy(turn[6], turn[1], sizeof turn[1]);
+    memcpy(turn[7], turn[1], sizeof turn[1]);
     for (int i = 0; i < SHEET_STRAINS; i++) {
-        double turn[N] = {0}, *row = E + N * i;
-        for (int k = LOCAL_PX; k < N; k++) /* nothing is quadratic in u */
-            for (int j = 0; j < N; j++)
-                turn[j] += m->Q[i][N * k + j] * q[k];
         e[i] = 0;
         for (int j = 0; j < N; j++) {
-            row[j] = m->Lambda[N * i + j] + turn[j];
-            e[i] += (m->Lambda[N * i + j] + turn[j] / 2) * q[j];
+            E[N * i + j] = m->Lambda[N * i + j] + turn[i][j];
+            e[i] += (m->Lambda[N * i + j] + turn[i][j] / 2) * q[j];
         }
     }
+}
+
+/* Q = sum s_i Q_i. */
+static void weighted(const strains_table *m, const double s[SHEET_STRAINS], double Q[N * N])
+{
+    const double weight[STRAINS_LISTED] = {s[0], s[1] + s[6] + s[7], s[2], s[3], s[4], s[5]};
+    memset(Q, 0, N * N * sizeof *Q);
+    for (int t = 0; t < m->terms; t++)
+        Q[N * m->term[t].j + m->term[t].k] += weight[m->term[t].i] * m->term[t].c;
+    for (int j = 0; j < N; j++)
+        for (int k = 0; k < j; k++)
+            Q[N * j + k] = Q[N * k + j];
 }
 
 enum { ANGLES = LOCAL_WP - LOCAL_PX, FIRST = LOCAL_PX * RATES }; /* rows of R that are not single ones */
@@ -149,10 +177,8 @@ void strains_evaluate(const strains_table *table, const node_state x[2], strain_
         local_nodal_gradient(&s, SHEET_STRAINS, along, out->J);
     }
     if (second) {
-        double Q[N * N] = {0}, t[N] = {0}, H[RATES * RATES];
-        for (int i = 0; i < SHEET_STRAINS; i++)
-            for (int j = 0; j < N * N; j++)
-                Q[j] += out->s[i] * table->Q[i][j];
+        double Q[N * N], t[N] = {0}, H[RATES * RATES];
+        weighted(table, out->s, Q);
         dense_add_transpose_mul(N, SHEET_STRAINS, 1, E, out->s, t);
         congruence(Q, R, H);
         local_add_second(&s, R, t, H);

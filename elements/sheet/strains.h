@@ -5,12 +5,16 @@
 
 #include "elements/sheet/local.h"
 
-enum { SHEET_STRAINS = 8 };
+enum { SHEET_STRAINS = 8, STRAINS_LISTED = 6, STRAINS_TERMS = STRAINS_LISTED * 36 };
 
 typedef struct strains_table {
-    double l0;                                                      /* [m] */
-    double Lambda[SHEET_STRAINS * LOCAL_COORDINATES];               /* [m per coordinate] */
-    double Q[SHEET_STRAINS][LOCAL_COORDINATES * LOCAL_COORDINATES]; /* symmetric */
+    double l0;                                        /* [m] */
+    double Lambda[SHEET_STRAINS * LOCAL_COORDINATES]; /* [m per coordinate] */
+    int terms; /* Q_i jk and Q_i kj, j <= k, that are not zero; Q_7 = Q_8 = Q_2 are not listed */
+    struct {
+        double c;
+        int i, j, k;
+    } term[STRAINS_TERMS];
 } strains_table;
 
 /* Phi_y, Phi_z: shear parameters of the displacement fields (N Eq. 18); both 0: N Eq. 37, where shear is left out; the

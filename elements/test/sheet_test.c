@@ -76,12 +76,13 @@ static void printed_equation(void)
     strains_table table;
     double e[N], printed[N];
     gsl_test(strains_prepare(&request, 0, 0, &table, NULL) != STATUS_OK, "strains are integrated");
-    for (int i = 0; i < N; i++) {
-        double Qq[N];
-        dense_mul_vec(N, N, table.Q[i], q, Qq);
-        e[i] = 0;
-        for (int k = 0; k < N; k++)
-            e[i] += (table.Lambda[N * i + k] + Qq[k] / 2) * q[k];
+    dense_mul_vec(N, N, table.Lambda, q, e);
+    for (int t = 0; t < table.terms; t++) {
+        const int j = table.term[t].j, k = table.term[t].k;
+        const double value = table.term[t].c * q[j] * q[k] / (j == k ? 2 : 1);
+        e[table.term[t].i] += value;
+        e[6] += table.term[t].i == 1 ? value : 0;
+        e[7] += table.term[t].i == 1 ? value : 0;
     }
     printed_strains(L, c.Ip / c.A, q, printed);
     for (int i = 0; i < N; i++)

@@ -67,6 +67,10 @@ void model_state_free(model_state *);
 const model_state *model_rest(const model *); /* undeformed */
 void model_state_copy(const model *, const model_state *from, model_state *to);
 double model_state_path(const model_state *);
+/* First guess of the state at `path` from the last `count` ones (two: a line, three: a parabola), oldest first. 0: there is none, because what
+ * is prescribed bends, or the step is too long; `out` is untouched then. */
+enum { MODEL_EXTRAPOLATED = 3 };
+int model_state_extrapolate(const model *, int count, const model_state *const at[], double path, model_state *out);
 
 /* Frame of a scene node in a state. */
 void model_frame(const model *, const model_state *, int node, double r[3], double q[4]);

@@ -5,10 +5,12 @@
 #include <math.h>
 
 #include "harness/solve/analysis.h"
+#include "harness/solve/trail.h"
 
 typedef struct newton {
     analysis_context *c;
     model_state *state, *backup;
+    trail *trail; /* NULL: every step begins at the last state */
     sparse K;
     factor *factor;
     double *residual, *dx;   /* [free + driven] */

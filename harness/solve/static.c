@@ -14,12 +14,16 @@ status static_walk(newton *n, double target, double *increment, fault *f)
         const double to = last ? target : from + *increment;
         step_record record = {.path = to, .increment = to - from, .rejected = rejected};
         model_state_copy(n->c->model, n->state, n->backup);
+        if (n->trail != NULL)
+            trail_guess(n->c->model, n->trail, to, n->state);
         const status outcome = newton_to(n, to, &record, f);
         if (outcome == STATUS_OK) {
             const status stored = newton_add_record(n->c->result, &record, f);
             if (stored != STATUS_OK)
                 return stored;
             count->steps++;
+            if (n->trail != NULL)
+                trail_add(n->c->model, n->state, n->trail);
             rejected = 0;
             if (record.iterations <= EASY_ITERATIONS && !last)
                 *increment *= 2;
@@ -29,6 +33,8 @@ status static_walk(newton *n, double target, double *increment, fault *f)
         if (outcome == STATUS_FAULT || ++halvings > MAX_HALVINGS)
             return outcome == STATUS_SINGULAR || outcome == STATUS_FAULT ? outcome : STATUS_NOT_CONVERGED;
         model_state_copy(n->c->model, n->backup, n->state);
+        if (n->trail != NULL)
+            trail_forget(n->trail);
         count->rejected_steps++;
         rejected++;
         *increment = (to - from) / 2;
@@ -40,7 +46,11 @@ status analysis_static(analysis_context *c, int analysis, analysis_outcome *o, f
 {
     const scene_analysis *a = &c->scene->analysis[analysis];
     newton n;
+    trail t = {0};
     status result = newton_alloc(c, &n, f);
+    if (result == STATUS_OK)
+        result = trail_alloc(c->model, &t, f);
+    n.trail = &t;
     if (result == STATUS_OK)
         result = newton_stations(o, a->stations, f);
     const int steps = c->options->steps_between > 0 ? c->options->steps_between : a->steps_between > 0 ? a->steps_between : 1;
@@ -53,6 +63,7 @@ status analysis_static(analysis_context *c, int analysis, analysis_outcome *o, f
         if (result == STATUS_OK)
             result = newton_keep(&n, o, a->path[i], f);
     }
+    trail_free(&t);
     newton_free(&n);
     return result;
 }

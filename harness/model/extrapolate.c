@@ -1,0 +1,74 @@
+/* A first guess of the next state of a path: the parabola (or the line) through the last ones. */
+#include <math.h>
+
+#include "elements/math/rotation.h"
+#include "harness/model/parts.h"
+
+/* Longest step to extrapolate over, relative to the last one; largest error of what is prescribed, relative to its own step. */
+static const double far = 1.5, bent = 0.25;
+
+/* Weights of the states in the polynomial through them, at `path`. */
+static void lagrange(int count, const model_state *const at[], double path, double weight[])
+{
+    for (int i = 0; i < count; i++) {
+        weight[i] = 1;
+        for (int k = 0; k < count; k++)
+            if (k != i)
+                weight[i] *= (path - at[k]->path) / (at[i]->path - at[k]->path);
+    }
+}
+
+static double combined(int count, const double weight[], const double value[])
+{
+    double sum = 0;
+    for (int i = 0; i < count; i++)
+        sum += weight[i] * value[i];
+    return sum;
+}
+
+/* Is the next value of something prescribed, value[count], near what the extrapolation takes it to? */
+static int continues(int count, const double weight[], const double value[])
+{
+    const double rounding = 1e-12 * (fabs(value[count]) + fabs(value[count - 1]) + fabs(value[0]));
+    return fabs(combined(count, weight, value) - value[count]) <= bent * fabs(value[count] - value[count - 1]) + rounding;
+}
+
+/* Drivers and loads at the states' paths and at the next one. */
+static int smooth(const model *m, int count, const model_state *const at[], double path, const double weight[])
+{
+    double value[MODEL_EXTRAPOLATED + 1];
+    int good = 1;
+    for (int d = 0; d < m->scene->drivers; d++) {
+        const scene_driver *driver = &m->scene->driver[d];
+        for (int i = 0; i <= count && driver->value != NULL; i++)
+            value[i] = driver_value_at(driver, i < count ? at[i]->path : path);
+        good &= driver->value == NULL || continues(count, weight, value);
+    }
+    for (int l = 0; l < m->scene->loads; l++) {
+        for (int i = 0; i <= count; i++)
+            value[i] = loads_factor(&m->scene->load[l], i < count ? at[i]->path : path);
+        good &= continues(count, weight, value);
+    }
+    return good;
+}
+
+int model_state_extrapolate(const model *m, int count, const model_state *const at[], double path, model_state *out)
+{
+    double weight[MODEL_EXTRAPOLATED];
+    const double step = path - at[count - 1]->path;
+    if (count < 2 || !(step <= far * (at[count - 1]->path - at[count - 2]->path)))
+        return 0;
+    lagrange(count, at, path, weight);
+    if (!smooth(m, count, at, path, weight))
+        return 0;
+    for (size_t k = 0; k < out->size; k++) {
+        double sum = 0;
+        for (int i = 0; i < count; i++)
+            sum += weight[i] * at[i]->block[k];
+        out->block[k] = sum;
+    }
+    for (int v = 0; v < m->vertices; v++)
+        rotation_normalise(&out->q[4 * v]);
+    kinematics_follow(m, out);
+    return 1;
+}
