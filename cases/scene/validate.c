@@ -102,8 +102,8 @@ static status check_continuation(const scene *s, const scene_analysis *a, int i,
     if (a->control_node < 0 || a->control_node >= s->nodes || a->control_component < SCENE_UX || a->control_component > SCENE_UZ)
         return fault_set(f, STATUS_REFUSED, "analysis %d: continuation needs a translation of a node as control coordinate", i);
     if (!(a->step > 0) || !(a->step_max >= a->step))
-        return fault_set(f, STATUS_REFUSED, "analysis %d: steps of %g to %g; the first must be positive, the largest not smaller", i,
-                         a->step, a->step_max);
+        return fault_set(f, STATUS_REFUSED, "analysis %d: steps of %g to %g; the first must be positive, the largest not smaller",
+                         i, a->step, a->step_max);
     if (s->drivers > 0)
         return fault_set(f, STATUS_REFUSED, "analysis %d: continuation changes loads only; take the drivers away", i);
     return STATUS_OK;

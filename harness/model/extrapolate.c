@@ -52,6 +52,38 @@ static int smooth(const model *m, int count, const model_state *const at[], doub
     return good;
 }
 
+/* Prescribed components of a spatial increment are those of their drivers: only so do they and the frame stay together. */
+static void prescribe(const model *m, const mesh_vertex *v, const model_state *last, const model_state *out, double turn[3])
+{
+    for (int c = 0; c < 3; c++) {
+        const int coordinate = v->coordinate[3 + c];
+        if (coordinate < m->free || v->vector_driver[0] != NONE)
+            continue;
+        turn[c] = 0;
+        for (int d = 0; d < m->scene->drivers; d++)
+            if (m->driver_coordinate[d] == coordinate)
+                turn[c] = out->driver[d] - last->driver[d];
+    }
+}
+
+/* From the last orientation along the rotation vector that the others lie on. */
+static void extrapolate_rotation(const model *m, int vertex, int count, const double weight[], const model_state *const at[],
+                                 model_state *out)
+{
+    const model_state *last = at[count - 1];
+    double turn[3] = {0}, step[4];
+    for (int i = 0; i + 1 < count; i++) {
+        double back[3];
+        rotation_between(&last->q[4 * vertex], &at[i]->q[4 * vertex], back);
+        for (int c = 0; c < 3; c++)
+            turn[c] += weight[i] * back[c];
+    }
+    prescribe(m, &m->vertex[vertex], last, out, turn);
+    rotation_exp(turn, step);
+    rotation_compose(step, &last->q[4 * vertex], &out->q[4 * vertex]);
+    rotation_normalise(&out->q[4 * vertex]);
+}
+
 int model_state_extrapolate(const model *m, int count, const model_state *const at[], double path, model_state *out)
 {
     double weight[MODEL_EXTRAPOLATED];
@@ -68,7 +100,8 @@ int model_state_extrapolate(const model *m, int count, const model_state *const 
         out->block[k] = sum;
     }
     for (int v = 0; v < m->vertices; v++)
-        rotation_normalise(&out->q[4 * v]);
+        if (m->vertex[v].body == v && m->vertex[v].angles == 0)
+            extrapolate_rotation(m, v, count, weight, at, out);
     kinematics_follow(m, out);
     return 1;
 }

@@ -13,8 +13,8 @@ typedef enum stress_kind {
     STRESS_SINGULAR,
     STRESS_REFUSED,
     STRESS_NO_VALUE, /* the mesh has no such mode, load or state */
-    STRESS_FAULT, /* crashed, or out of memory */
-    STRESS_SKIP,  /* needs what the formulation does not offer */
+    STRESS_FAULT,    /* crashed, or out of memory */
+    STRESS_SKIP,     /* needs what the formulation does not offer */
     STRESS_KINDS
 } stress_kind;
 
