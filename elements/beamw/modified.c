@@ -4,10 +4,6 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "elements/math/quadrature.h"
-
-enum { POINTS = 4 }; /* products of degree 7 at most: exact */
-
 typedef struct term {
     int mode, i, j; /* ebar_mode += c e_i e_j, counted from 1 as in the paper */
     double c;
@@ -62,9 +58,10 @@ typedef struct point_fields {
 } point_fields;
 
 /* turn = rate of change times x - 1/2 plus what bends or twists unevenly; shear is constant at the shear centre. */
-static void fields_at(const section *c, double l, double x, const stiffness_fields *s, point_fields *out)
+static void fields_at(const section *c, double l, double x, const twist *t, const stiffness_fields *s, point_fields *out)
 {
-    const double bubble = x * (1 - x), skew = x * (3 * x - 2 * x * x - 1), odd = 1 - 2 * x, even = 6 * bubble - 1;
+    const double bubble = x * (1 - x), odd = 1 - 2 * x;
+    const twist_shapes shape = twist_at(t, x);
     const double mean[3][8] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
     for (int k = 0; k < 8; k++) {
         const double bend[3] = {0, -6 * s->hg[1][k], 6 * s->hg[0][k]};
@@ -72,10 +69,11 @@ static void fields_at(const section *c, double l, double x, const stiffness_fiel
             out->turn[i][k] = mean[i][k] * (x - 0.5) + bend[i] * bubble;
             out->rate[i][k] = (mean[i][k] + bend[i] * odd) / l;
         }
-        out->turn[0][k] += (s->A[k] * bubble + s->tw[k] * skew) / l;
-        out->rate[0][k] += (s->A[k] * odd + s->tw[k] * even) / (l * l);
-        out->shear_y[k] = s->g[0][k] + c->zs * out->rate[0][k];
-        out->shear_z[k] = s->g[1][k] - c->ys * out->rate[0][k];
+        const double uneven = (s->A[k] * shape.odd + s->tw[k] * shape.even) / (l * l);
+        out->turn[0][k] += (s->A[k] * shape.odd_integral + s->tw[k] * shape.even_integral) / l;
+        out->rate[0][k] += uneven;
+        out->shear_y[k] = s->g[0][k] - t->lag[0] * uneven + c->zs * out->rate[0][k];
+        out->shear_z[k] = s->g[1][k] - t->lag[1] * uneven - c->ys * out->rate[0][k];
         out->extension[k] = k == 0 ? 1 / l : 0;
     }
 }
@@ -130,15 +128,16 @@ static void fibres_at(const section *c, unsigned features, const point_fields *f
     }
 }
 
-status modified_consistent(const section *c, unsigned features, const stiffness_fields *fields, element_data *d, fault *f)
+status modified_consistent(const section *c, unsigned features, const twist *t, const stiffness_fields *fields, element_data *d,
+                           fault *f)
 {
     const double l = d->l0;
-    double x[POINTS], w[POINTS];
-    const status made = quadrature_points(POINTS, x, w, f);
-    for (int p = 0; made == STATUS_OK && p < POINTS; p++) {
+    double x[TWIST_MAX_POINTS], w[TWIST_MAX_POINTS];
+    const int points = twist_points(t, x, w, f);
+    for (int p = 0; p < points; p++) {
         point_fields at;
         point_strains strain;
-        fields_at(c, l, x[p], fields, &at);
+        fields_at(c, l, x[p], t, fields, &at);
         strains_at(&at, &strain);
         fibres_at(c, features, &at, &strain);
         const double ds = w[p] * l, to_q = (1 - x[p]) * l, from_p = x[p] * l;
@@ -160,5 +159,5 @@ status modified_consistent(const section *c, unsigned features, const stiffness_
         forms_add_product(d->Q[sign < 0 ? 5 : 4], sign * l / 24, psi[0], psi[1]);
     }
     d->modified = 1;
-    return made;
+    return points > 0 ? STATUS_OK : STATUS_FAULT;
 }

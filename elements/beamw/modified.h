@@ -9,6 +9,7 @@ void modified_printed(const section *c, unsigned features, element_data *d);
 
 /* From the full shear interpolation: consistent with shear and eccentricity (reference/ERRATA.md), either theory of
  * shear in stability, with the monosymmetric Wagner moments where asked for. */
-status modified_consistent(const section *c, unsigned features, const stiffness_fields *fields, element_data *d, fault *f);
+status modified_consistent(const section *c, unsigned features, const twist *t, const stiffness_fields *fields, element_data *d,
+                           fault *f);
 
 #endif

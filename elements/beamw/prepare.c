@@ -7,11 +7,23 @@
 #include "elements/beamw/modified.h"
 #include "elements/beamw/screw.h"
 
-enum { OPTION_MASS };
+enum { OPTION_MASS, OPTION_TORSION };
+
+#define MASS_OPTION                                                                                                                \
+    {                                                                                                                              \
+        "mass", "lumped|consistent|averaged", INERTIA_CONSISTENT, 0, 2,                                                            \
+            "mass matrix: J Eq. 73, from the shape functions, or the mean of the two", FEATURE_MASS                                \
+    }
 
 const element_option prepare_options[] = {
-    [OPTION_MASS] = {"mass", "lumped|consistent|averaged", INERTIA_CONSISTENT, 0, 2,
-                     "mass matrix: J Eq. 73, from the shape functions, or the mean of the two", FEATURE_MASS},
+    [OPTION_MASS] = MASS_OPTION,
+    {NULL, NULL, 0, 0, 0, NULL, 0},
+};
+
+const element_option prepare_options_consistent[] = {
+    [OPTION_MASS] = MASS_OPTION,
+    [OPTION_TORSION] = {"torsion", "cubic|hyperbolic", TWIST_CUBIC, 0, 1,
+                        "twist along the element: J Eq. 38, or the exact functions of non-uniform torsion", 0},
     {NULL, NULL, 0, 0, 0, NULL, 0},
 };
 
@@ -23,12 +35,15 @@ status prepare_form(const element_request *request, stiffness_shear shear, prepa
     stiffness_fields fields;
     memset(out, 0, sizeof *out);
     out->l0 = request->length;
-    stiffness_of(c, request->length, request->features & FEATURE_SHEAR ? shear : STIFFNESS_RIGID, &fields, out->S);
+    const int flexible = (request->features & FEATURE_SHEAR) != 0;
+    const twist t = twist_of(c, request->length, flexible,
+                             modes == PREPARE_CONSISTENT ? (twist_kind)request->options[OPTION_TORSION] : TWIST_CUBIC);
+    stiffness_of(c, request->length, flexible ? shear : STIFFNESS_RIGID, &t, &fields, out->S);
     if (modes == PREPARE_PRINTED)
         modified_printed(c, request->features, out);
     else if (modes == PREPARE_CONSISTENT) {
         screw_prepare(out);
-        const status made = modified_consistent(c, request->features, &fields, out, f);
+        const status made = modified_consistent(c, request->features, &t, &fields, out, f);
         if (made != STATUS_OK)
             return made;
     }

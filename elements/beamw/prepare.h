@@ -13,7 +13,7 @@ typedef enum prepare_modes {
 /* Without FEATURE_SHEAR in the request the stiffness is shear-rigid, whatever `shear` says. */
 status prepare_form(const element_request *request, stiffness_shear shear, prepare_modes modes, element_data *out, fault *f);
 
-/* Options of every form, in the order prepare_form reads them. */
-extern const element_option prepare_options[];
+/* Options in the order prepare_form reads them; those of PREPARE_CONSISTENT are more. */
+extern const element_option prepare_options[], prepare_options_consistent[];
 
 #endif

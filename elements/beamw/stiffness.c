@@ -55,7 +55,7 @@ static void series(const section *c, double l, stiffness_shear kind, const doubl
     const double bend[3] = {stiffness[0], stiffness[1], 12 * c->young * c->Iw / l}, torsion = c->shear_modulus * c->It * l / 5;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
-            if (kind == STIFFNESS_COUPLED)
+            if (kind != STIFFNESS_DIAGONAL)
                 K[3 * i + j] = (stiffness[i] * M[3 * i + j] + stiffness[j] * M[3 * j + i]) / 2;
             else if (i == j) /* J App. A: bending and shear in series, Saint-Venant torsion of the flexible field */
                 K[4 * i] = bend[i] * M[4 * i] + (i == W ? torsion * M[4 * i] * M[4 * i] : 0);
@@ -69,10 +69,10 @@ static void add_square(double S[8 * 8], double k, const double a[8])
     forms_add_product(S, k / 2, a, a);
 }
 
-void stiffness_of(const section *c, double l, stiffness_shear kind, stiffness_fields *f, double S[8 * 8])
+void stiffness_of(const section *c, double l, stiffness_shear kind, const twist *t, stiffness_fields *f, double S[8 * 8])
 {
     const double E = c->young, G = c->shear_modulus, l3 = l * l * l;
-    const double Ka[3] = {12 * E * c->Iz / l, 12 * E * c->Iy / l, 12 * E * c->Iw / l + G * c->It * l / 5};
+    const double Ka[3] = {12 * E * c->Iz / l, 12 * E * c->Iy / l, t->uneven};
     double M[9], K[9];
     antisymmetric_functionals(c, l, f);
     split(c, l, kind, Ka, M);
@@ -92,7 +92,7 @@ void stiffness_of(const section *c, double l, stiffness_shear kind, stiffness_fi
     add_square(S, E * c->Iy / l3, sum_y);
     add_square(S, E * c->Iz / l3, sum_z);
     add_square(S, G * c->It / l3, e2);
-    add_square(S, G * c->It / (3 * l3) + 4 * E * c->Iw / (l3 * l * l), f->A);
+    add_square(S, t->opposite, f->A);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             forms_add_product(S, K[3 * i + j] / 2, f->h[i], f->h[j]);

@@ -3,11 +3,12 @@
 #define BEAMWORK_BEAMW_STIFFNESS_H
 
 #include "elements/beamw/forms.h"
+#include "elements/beamw/twist.h"
 
 typedef enum stiffness_shear {
     STIFFNESS_RIGID,    /* Phi = 0: Vlasov */
     STIFFNESS_DIAGONAL, /* J App. A, whose Phi see only the diagonal of D */
-    STIFFNESS_COUPLED   /* the whole of D: nodally exact for any positive definite D if It = 0 */
+    STIFFNESS_COUPLED   /* the whole of D: nodally exact for any positive definite D if It = 0 or with hyperbolic twist */
 } stiffness_shear;
 
 /* Linear functionals of e that stiffness, modified modes and inertia are made of. */
@@ -19,6 +20,7 @@ typedef struct stiffness_fields {
     double tw[8];    /* l0^2 hg_w */
 } stiffness_fields;
 
-void stiffness_of(const section *c, double l0, stiffness_shear kind, stiffness_fields *fields, double S[8 * 8]);
+/* t: twist_of the same section, length and shear. */
+void stiffness_of(const section *c, double l0, stiffness_shear kind, const twist *t, stiffness_fields *fields, double S[8 * 8]);
 
 #endif

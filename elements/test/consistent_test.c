@@ -1,84 +1,8 @@
 /* beamw_consistent: uniform strains of any size, derivatives at large turns, and to second order the same element as J Eq. 66
  * without shear and as the sheet element that is consistent with shear. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <string.h>
-
-#include "elements/element.h"
-#include "elements/math/dense.h"
-#include "elements/math/rotation.h"
+#include "elements/test/pair.h"
 
 extern const element_type element_beamw, element_beamw_consistent, element_sheet_second_consistent;
-
-enum { N = 14, STRAINS = 8 };
-
-typedef struct subject {
-    const element_type *type;
-    union {
-        double align;
-        unsigned char bytes[1 << 15];
-    } store;
-} subject;
-
-static const element_data *data_of(const subject *s)
-{
-    return (const element_data *)s->store.bytes;
-}
-
-static void start(subject *s, const element_type *type, const section *c, double l0, unsigned features)
-{
-    double options[ELEMENT_MAX_OPTIONS] = {0};
-    for (int i = 0; type->options != NULL && type->options[i].name != NULL; i++)
-        options[i] = type->options[i].value;
-    const element_request request = {.section = c, .length = l0, .features = features, .options = options};
-    fault f;
-    s->type = type;
-    gsl_test(type->data_size(&request) > sizeof s->store, "%s: data fits", type->name);
-    gsl_test(type->prepare(&request, (element_data *)s->store.bytes, &f) != STATUS_OK, "%s: prepared", type->name);
-}
-
-/* A sheet without warping shear, which N does not have: length 0.1 m, slender enough in neither direction to hide Phi. */
-static section sheet(void)
-{
-    section_spec spec;
-    section c;
-    fault f;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 2e11;
-    spec.shear_modulus = 7.7e10;
-    spec.width = 0.06;
-    spec.height = 0.02;
-    spec.shear_factor[0] = spec.shear_factor[1] = 0.85;
-    spec.sheet_warping = 1;
-    gsl_test(section_compute(&spec, &c, &f) != STATUS_OK, "section of the sheet");
-    c.F[8] = 0;
-    return c;
-}
-
-static void mul_turn(double R[9], const double phi[3])
-{
-    double q[4], turn[9], old[9];
-    memcpy(old, R, sizeof old);
-    rotation_exp(phi, q);
-    rotation_matrix(q, turn);
-    mat3_mul(turn, old, R);
-}
-
-/* Nodes of an element along x moved by d [14]. */
-static void place(double l0, const double d[N], node_state x[2])
-{
-    for (int node = 0; node < 2; node++) {
-        const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, *step = d + 7 * node;
-        memcpy(x[node].R, identity, sizeof identity);
-        mul_turn(x[node].R, step + 3);
-        for (int i = 0; i < 3; i++) {
-            x[node].u[i] = step[i];
-            x[node].r[i] = step[i] + (i == 0 ? node * l0 : 0);
-        }
-        x[node].a = step[6];
-    }
-}
 
 /* ebar_k = e_k + 1/2 e^T Q_k e, Q_k being the geometric stiffness of a unit stress. */
 static void modified(const subject *s, const node_state x[2], double ebar[STRAINS])

@@ -1,0 +1,37 @@
+/* How the rate of twist is distributed along an element: cubic functions (J Eq. 38), or hyperbolic ones, the exact linear solution
+ * with Saint-Venant torsion.  With M_w = -B' constant but for torsion, T = G It kx + M_w and kx - a = f (Q, M_w),
+ *   B'' = (lambda/l)^2 B,  lambda^2 = l^2 G It/(E Iw (1 + r)),  r = G It f_ww,
+ *   l^2 kx = e2 + A odd(x) + tw even(x);  odd -> 1 - 2x, even -> 6x(1-x) - 1 for lambda -> 0. */
+#ifndef BEAMWORK_BEAMW_TWIST_H
+#define BEAMWORK_BEAMW_TWIST_H
+
+#include "elements/math/status.h"
+#include "elements/section/section.h"
+
+typedef enum twist_kind { TWIST_CUBIC, TWIST_HYPERBOLIC } twist_kind;
+
+typedef struct twist {
+    double uneven;   /* [N m^3] stiffness of hg_w, the even part of the warping */
+    double opposite; /* [N/m] of A = (e7 - e8)/2, the odd part */
+    double lambda;   /* 0: cubic */
+    double excess;   /* lambda/2 coth(lambda/2) - 1 */
+    double soft;     /* 1 + r */
+    double lag[2];   /* G It (f_yw, f_zw) [m]: kx above its mean takes so much from the shear strains */
+} twist;
+
+/* shear: 0 where the section is rigid in shear.  Iw = 0 has cubic functions only: nothing warps. */
+twist twist_of(const section *c, double l, int shear, twist_kind kind);
+
+typedef struct twist_shapes {
+    double odd, even;                   /* as above */
+    double odd_integral, even_integral; /* from 0 to x */
+} twist_shapes;
+
+twist_shapes twist_at(const twist *t, double x);
+
+enum { TWIST_MAX_POINTS = 144 };
+
+/* Points and weights on [0, 1] that integrate products of two of the shapes with polynomials; returns how many. */
+int twist_points(const twist *t, double x[TWIST_MAX_POINTS], double w[TWIST_MAX_POINTS], fault *f);
+
+#endif

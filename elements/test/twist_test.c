@@ -1,0 +1,138 @@
+/* Hyperbolic twist of beamw_consistent: one element is exact in the linear theory whatever couples, and its functions and points
+ * are accurate from no Saint-Venant torsion to boundary layers. */
+#include "elements/test/pair.h"
+
+extern const element_type element_beamw_consistent;
+
+/* Branched and unsymmetric: everything couples. */
+static section unsymmetric(void)
+{
+    static const double point[5][2] = {{0, 0}, {0.05, 0}, {0.05, 0.08}, {0.02, 0.08}, {0.05, 0.1}};
+    static const int wall[4][2] = {{0, 1}, {1, 2}, {2, 3}, {2, 4}};
+    static const double thickness[4] = {0.002, 0.003, 0.004, 0.001};
+    section_spec spec;
+    section c;
+    fault f;
+    section_spec_init(&spec);
+    spec.kind = SECTION_WALLS;
+    spec.young = 2.1e11;
+    spec.shear_modulus = 8e10;
+    spec.points = 5;
+    spec.walls = 4;
+    memcpy(spec.point, point, sizeof point);
+    for (int i = 0; i < 4; i++) {
+        spec.wall[i].from = wall[i][0];
+        spec.wall[i].to = wall[i][1];
+        spec.wall[i].thickness = thickness[i];
+    }
+    gsl_test(section_compute(&spec, &c, &f) != STATUS_OK, "unsymmetric section");
+    return c;
+}
+
+/* K [14 x 14] of a straight element at rest. */
+static void linear_stiffness(const section *c, double l0, twist_kind torsion, double K[N * N])
+{
+    subject s;
+    const double none[N] = {0}, e[STRAINS] = {0};
+    double J[STRAINS * N], S[STRAINS * STRAINS], work[STRAINS * N];
+    node_state x[2];
+    start_with(&s, &element_beamw_consistent, c, l0, FEATURE_SHEAR | FEATURE_WARPING | FEATURE_ECCENTRIC, torsion);
+    place(l0, none, x);
+    s.type->strain(data_of(&s), x, &(strain_output){.J = J});
+    s.type->stress(data_of(&s), e, NULL, &(stress_output){.C = S});
+    memset(K, 0, N * N * sizeof *K);
+    dense_add_congruence(STRAINS, N, J, S, K, work);
+}
+
+/* Two halves with their common node eliminated are the whole if and only if the linear solution between the nodes is exact.
+ * Returns the largest difference, each coordinate scaled by the root of its stiffness. */
+static double halves_against_whole(const section *c, double l0, twist_kind torsion)
+{
+    enum { M = 7 };
+    double whole[N * N], half[N * N], middle[M * M], sides[M * N], worst = 0;
+    int pivot[M];
+    linear_stiffness(c, l0, torsion, whole);
+    linear_stiffness(c, l0 / 2, torsion, half);
+    for (int i = 0; i < M; i++) {
+        for (int j = 0; j < M; j++) {
+            middle[M * i + j] = half[N * (M + i) + M + j] + half[N * i + j];
+            sides[N * i + j] = half[N * (M + i) + j];
+            sides[N * i + M + j] = half[N * i + M + j];
+        }
+    }
+    double solved[M * N];
+    memcpy(solved, sides, sizeof solved);
+    gsl_test(dense_lu(M, middle, pivot), "the middle node is held");
+    dense_lu_solve(M, N, middle, pivot, solved);
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++) {
+            double sum = 0;
+            if (i / M == j / M)
+                sum = half[N * i + j];
+            for (int k = 0; k < M; k++)
+                sum -= sides[N * k + i] * solved[N * k + j];
+            worst = fmax(worst, fabs(sum - whole[N * i + j]) / sqrt(whole[(N + 1) * i] * whole[(N + 1) * j]));
+        }
+    return worst;
+}
+
+static void hyperbolic_twist(void)
+{
+    section c = unsymmetric();
+    const double lengths[] = {0.03, 0.3, 3, 30};
+    for (int i = 0; i < 4; i++) {
+        const double cubic = halves_against_whole(&c, lengths[i], TWIST_CUBIC);
+        const double exact = halves_against_whole(&c, lengths[i], TWIST_HYPERBOLIC);
+        const double lambda = twist_of(&c, lengths[i], 1, TWIST_HYPERBOLIC).lambda;
+        gsl_test(!(exact < 1e-10 && cubic > 1e-8), "lambda %.3f: one hyperbolic element is two (%.1e), a cubic one is not (%.1e)",
+                 lambda, exact, cubic);
+    }
+    c.It = 0;
+    gsl_test(!(halves_against_whole(&c, 0.3, TWIST_HYPERBOLIC) < 1e-10), "without Saint-Venant torsion both are");
+}
+
+/* Functions and points for every lambda: limits, means, squares in closed form. */
+static void twist_functions(void)
+{
+    section c = sheet();
+    const double lambdas[] = {1e-8, 1e-3, 0.5, 1.9, 2.1, 30, 79, 81, 1e3, 1e4};
+    for (size_t k = 0; k < sizeof lambdas / sizeof lambdas[0]; k++) {
+        double x[TWIST_MAX_POINTS], w[TWIST_MAX_POINTS], even = 0, odd = 0, square = 0, turn = 0;
+        fault f;
+        c.Iw = c.shear_modulus * c.It * 1.3 * 1.3 / (c.young * lambdas[k] * lambdas[k]);
+        const twist t = twist_of(&c, 1.3, 0, TWIST_HYPERBOLIC);
+        const double h = t.lambda / 2, moment = 1 / (tanh(h) * t.lambda) - (h < 300 ? 1 / (2 * sinh(h) * sinh(h)) : 0);
+        const int points = twist_points(&t, x, w, &f);
+        gsl_test_rel(t.lambda, lambdas[k], 1e-14, "lambda");
+        for (int i = 0; i < points; i++) {
+            const twist_shapes s = twist_at(&t, x[i]);
+            even += w[i] * s.even;
+            odd += w[i] * s.odd;
+            square += w[i] * s.odd * s.odd;
+            turn += w[i] * (s.odd_integral + (x[i] - 0.5) * s.odd); /* by parts: zero */
+        }
+        gsl_test(!(points > 0 && fabs(even) < 1e-13 && fabs(odd) < 1e-14 && fabs(turn) < 1e-14), "lambda %g: means %.1e %.1e %.1e",
+                 lambdas[k], even, odd, turn);
+        if (lambdas[k] > 0.1)
+            gsl_test_rel(square, moment, 1e-12, "lambda %g: square of the odd rate", lambdas[k]);
+        const twist_shapes end = twist_at(&t, 1), start_of = twist_at(&t, 0);
+        gsl_test_rel(end.odd, -1, 1e-14, "lambda %g: odd rate at the end", lambdas[k]);
+        gsl_test_rel(start_of.even, -1, 1e-12, "lambda %g: even rate at the end", lambdas[k]);
+        gsl_test(fabs(end.odd_integral) + fabs(end.even_integral) > 1e-14, "lambda %g: no turn at the end", lambdas[k]);
+        if (lambdas[k] < 1e-2) {
+            const twist_shapes hyperbolic = twist_at(&t, 0.3), cubic = twist_at(&(twist){.soft = 1}, 0.3);
+            const double close = lambdas[k] * lambdas[k] + 1e-14;
+            gsl_test_rel(hyperbolic.odd, cubic.odd, close, "odd -> linear");
+            gsl_test_rel(hyperbolic.even, cubic.even, close, "even -> quadratic");
+            gsl_test_rel(hyperbolic.odd_integral, cubic.odd_integral, close, "turn of odd -> quadratic");
+            gsl_test_rel(hyperbolic.even_integral, cubic.even_integral, close, "turn of even -> cubic");
+        }
+    }
+}
+
+int main(void)
+{
+    hyperbolic_twist();
+    twist_functions();
+    return gsl_test_summary();
+}
