@@ -106,9 +106,9 @@ typedef enum scene_quantity_kind {
     SCENE_STIFFNESS_ENTRY,  /* 1 / compliance entry (row, row) with only the non-held coordinates free */
     SCENE_CRITICAL_FACTOR,  /* order-th positive (sign +1) or negative (sign -1) load factor, counted from 0 */
     SCENE_FREQUENCY,        /* [Hz] by order among the modes of the wanted family and half-waves */
-    SCENE_FACTOR_AT,      /* continuation: load factor at the station `at` of the control coordinate, or all along (SCENE_CURVE) */
-    SCENE_CRITICAL_POINT, /* continuation: load factor of the order-th point of kind `row` (scene_critical) met along the path */
-    SCENE_DRIVER_VALUE    /* of an unknown driver */
+    SCENE_FACTOR_AT, /* continuation: load factor at the station `at` of the control coordinate, or all along (SCENE_CURVE) */
+    SCENE_CRITICAL_POINT, /* continuation: the order-th point of kind `row` (scene_critical): load factor (column 0) or control coordinate (1) */
+    SCENE_DRIVER_VALUE /* of an unknown driver */
 } scene_quantity_kind;
 
 /* A point of a path at which the tangent stiffness is singular. */

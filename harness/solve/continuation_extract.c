@@ -48,7 +48,7 @@ static void take_critical(const analysis_context *c, const scene_quantity *q, co
         const path_event *e = &c->result->event[i];
         if (e->analysis != q->analysis || e->kind != kind || order++ < q->order)
             continue;
-        r->value = extract_scaled(q, e->factor);
+        r->value = extract_scaled(q, q->column == 0 ? e->factor : e->control);
         r->x = abscissa(q, e->control);
         return;
     }

@@ -1,0 +1,92 @@
+/* Shallow frame of two hinged bars (von Mises) under a force at its apex: snap-through with two limit points.
+ *
+ * Half of it: the bar of length L at the angle a, the apex guided. With N = EA (1 - cos a0/cos a), F = 2 N sin a: the force has its
+ * extrema +-2 EA (1 - cos^(2/3) a0)^(3/2) at cos^3 a = cos a0. */
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "cases/case.h"
+
+enum { ANGLE, CONTROL, STEP };
+
+static const case_parameter parameters[] = {
+    [ANGLE] = {"angle", "rad", 0.3, 0.01, 1.5, NULL, "inclination of the bars"},
+    [CONTROL] = {"control", "", 0, 0, 0, "arc|displacement", "what is given along the path: the arc or the apex's deflection"},
+    [STEP] = {"step", "1", 0.02, 1e-5, 1, NULL, "first step: of the arc, or of the deflection over the length"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+static int stiff_bar(scene *s)
+{
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = SECTION_CONSTANTS;
+    spec.young = spec.shear_modulus = 1;
+    /* EA = 1 N; bending so stiff that the bar does not buckle. */
+    section *c = &spec.constants;
+    c->A = c->Iy = c->Iz = c->It = 1;
+    c->Ip = 2;
+    return scene_add_section(s, &spec);
+}
+
+static void add_quantities(scene *s, int path, int apex, double height)
+{
+    static const char *const name[] = {"limit_load", "limit_load_back"};
+    for (int i = 0; i < 2; i++) {
+        scene_quantity *load = scene_add_quantity(s, name[i], "N", SCENE_CRITICAL_POINT, path);
+        load->row = SCENE_LIMIT_POINT;
+        load->order = i;
+        load->tolerance = 1e-8;
+    }
+    scene_quantity *deflection = scene_add_quantity(s, "deflection_at_limit", "m", SCENE_CRITICAL_POINT, path);
+    deflection->row = SCENE_LIMIT_POINT;
+    deflection->column = 1;
+    deflection->factor = -1;
+    deflection->tolerance = 1e-6;
+    scene_quantity *inverted = scene_add_quantity(s, "load_inverted", "N", SCENE_FACTOR_AT, path);
+    inverted->reduction = SCENE_AT;
+    inverted->at = -2.5 * height;
+    inverted->tolerance = 1e-8;
+    scene_quantity *curve = scene_add_quantity(s, "curve", "N", SCENE_FACTOR_AT, path);
+    curve->node = apex;
+    curve->reduction = SCENE_CURVE;
+    curve->x_factor = -1;
+    snprintf(curve->x_name, sizeof curve->x_name, "deflection");
+    snprintf(curve->x_unit, sizeof curve->x_unit, "m");
+}
+
+static status build(const double value[], scene *s, fault *f)
+{
+    (void)f;
+    const double height = sin(value[ANGLE]), y_axis[3] = {0, 0, 1};
+    const int profile = stiff_bar(s);
+    const int base = scene_add_node(s, -cos(value[ANGLE]), 0, 0), apex = scene_add_node(s, 0, height, 0);
+    scene_add_member(s, base, apex, profile, y_axis);
+    scene_hold(s, base, SCENE_UX, SCENE_RY);
+    scene_hold(s, apex, SCENE_UX, SCENE_UX);
+    scene_hold(s, apex, SCENE_UZ, SCENE_RY);
+    scene_add_load(s, SCENE_FORCE, apex, 0, -0.5, 0);
+
+    const int path = scene_add_analysis(s, SCENE_CONTINUATION);
+    const double end = -2.5 * height;
+    scene_set_stations(s, path, 1, &end);
+    scene_analysis *a = scene_analysis_at(s, path);
+    a->control_node = apex;
+    a->control_component = SCENE_UY;
+    a->by_arc = value[CONTROL] == 0;
+    a->step = value[STEP];
+    a->step_max = 5 * value[STEP];
+    add_quantities(s, path, apex, height);
+    const int meshes[] = {1, 2, 4};
+    scene_meshes(s, 3, meshes);
+    return STATUS_OK;
+}
+
+const case_type case_snap_through = {
+    .name = "snap_through",
+    .summary = "shallow frame of two hinged bars: snap-through with two limit points",
+    .source = "closed form of the frame of von Mises",
+    .parameters = parameters,
+    .build = build,
+};
