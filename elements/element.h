@@ -84,9 +84,11 @@ typedef struct node_state {
     double a;    /* warping amplitude [rad/m]; phi_x' in the shear-rigid limit */
 } node_state;
 
-typedef struct node_rate {
-    double r[3], w[3], a; /* velocity or acceleration: [m/s^k], spatial angular [rad/s^k], [rad/(m s^k)] */
-} node_rate;
+/* A frame that turns steadily. */
+typedef struct element_spin {
+    double omega[3];  /* angular velocity [rad/s] */
+    double centre[3]; /* a point of its axis [m] */
+} element_spin;
 
 typedef struct strain_output {
     double *e;       /* [strains] [m] */
@@ -104,10 +106,12 @@ typedef struct stress_output {
 } stress_output;
 
 typedef struct inertia_output {
-    double *M;     /* [7n x 7n] mass matrix: translations [kg] */
-    double *h;     /* [7n] convective inertia forces [N, N m, ...] */
-    double *dh_dv; /* [7n x 7n] gyroscopic */
-    double *dfdx;  /* [7n x 7n] d(M a + h)/dx */
+    double *M; /* [7n x 7n] mass matrix: translations [kg] */
+    /* In a turning frame; zero without one. */
+    double *potential; /* [1] centrifugal: -1/2 int |Omega x r|^2 dm [J] */
+    double *force;     /* [7n] centrifugal, outward: -d potential/dx [N, N m, N m^2] */
+    double *N;         /* [7n x 7n] d2 potential/dx2, symmetric: centrifugal softening */
+    double *G;         /* [7n x 7n] gyroscopic, skew: M x'' + G x' + (K + N) x = 0 */
 } inertia_output;
 
 typedef struct element_type {
@@ -135,8 +139,8 @@ typedef struct element_type {
     void (*rest)(const element_data *, double inner[]);
     /* G[strains x strains] = derivative of C at e = 0 in the direction of the prestress sigma: sum sigma_i Q_i. NULL: zero. */
     void (*geometric)(const element_data *, const double sigma[], double G[]);
-    /* v or a NULL: at rest. */
-    status (*inertia)(const element_data *, const node_state x[], const node_rate v[], const node_rate a[], inertia_output *);
+    /* spin NULL: the frame is at rest. */
+    status (*inertia)(const element_data *, const node_state x[], const element_spin *, inertia_output *);
 } element_type;
 
 static inline int element_nodes(const element_type *t, const double options[])

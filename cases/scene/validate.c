@@ -117,8 +117,11 @@ static status check_analysis(const scene *s, int i, fault *f)
     for (int k = 1; k < a->stations && a->kind != SCENE_CONTINUATION; k++)
         if (!(a->path[k] > a->path[k - 1]))
             return fault_set(f, STATUS_REFUSED, "analysis %d: its stations must ascend", i);
-    if ((a->kind == SCENE_STATIC || a->kind == SCENE_CONTINUATION) && a->stations < 1)
+    if ((a->kind == SCENE_STATIC || a->kind == SCENE_CONTINUATION || a->kind == SCENE_ROTATION) && a->stations < 1)
         return fault_set(f, STATUS_REFUSED, "analysis %d: a path needs a station", i);
+    for (int k = 0; k < 3; k++)
+        if (!isfinite(a->omega[k]) || !isfinite(a->omega_centre[k]))
+            return fault_set(f, STATUS_REFUSED, "analysis %d: its angular velocity is not a number", i);
     if (a->kind == SCENE_CONTINUATION)
         return check_continuation(s, a, i, f);
     if (a->kind == SCENE_COMPLIANCE && (a->node < 0 || a->node >= s->nodes))

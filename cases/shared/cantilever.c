@@ -7,6 +7,7 @@ void cantilever_build(double length, const cantilever_stiffness *k, scene *s, in
     spec.kind = SECTION_CONSTANTS;
     /* Only the products matter: E = G = 1 Pa. */
     spec.young = spec.shear_modulus = 1;
+    spec.density = k->density;
     section *c = &spec.constants;
     c->A = k->EA;
     c->Iy = c->Iz = k->EI;

@@ -4,9 +4,10 @@
 
 #include "cases/case.h"
 
-/* Stiffnesses of a doubly symmetric section that does not warp; GA = 0: shear-rigid. [N, N, N m^2, N m^2] */
+/* Stiffnesses of a doubly symmetric section that does not warp; GA = 0: shear-rigid. [N, N, N m^2, N m^2] With E = 1 Pa the area
+ * is EA, and the density [kg/m^3] belongs to that. */
 typedef struct cantilever_stiffness {
-    double EA, GA, GJ, EI;
+    double EA, GA, GJ, EI, density;
 } cantilever_stiffness;
 
 /* Adds section, clamped root at the origin and free tip at (length, 0, 0), the physics and meshes 1 .. 32. */

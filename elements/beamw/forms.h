@@ -3,19 +3,25 @@
 #ifndef BEAMWORK_BEAMW_FORMS_H
 #define BEAMWORK_BEAMW_FORMS_H
 
-#include "elements/element.h"
 #include "elements/exact/strain.h"
+#include "elements/inertia/lumped.h"
 
-enum { FORMS_STRAINS = 8, FORMS_MODIFIED = 6 }; /* e7 and e8 are never modified */
+enum {
+    FORMS_STRAINS = 8,
+    FORMS_MODIFIED = 6, /* e7 and e8 are never modified */
+    FORMS_GAUSS = 4,    /* points of the consistent mass */
+    FORMS_FIELDS = 6    /* and its functionals at each */
+};
 
 struct element_data {
-    double l0;                             /* [m] */
-    double S[8 * 8];                       /* [N/m] */
-    double Q[FORMS_MODIFIED][8 * 8];       /* [1/m], symmetric */
-    int modified;                          /* 0: every Q is zero */
-    strain_line line;                      /* of the modes seen from the middle (screw.h) */
-    double lumped[7], consistent[14 * 14]; /* inertia of half the element, and of the whole in element axes */
-    double share;                          /* of the consistent mass: 0 lumped, 1 consistent, 1/2 averaged */
+    double l0;                                              /* [m] */
+    double S[8 * 8];                                        /* [N/m] */
+    double Q[FORMS_MODIFIED][8 * 8];                        /* [1/m], symmetric */
+    int modified;                                           /* 0: every Q is zero */
+    strain_line line;                                       /* of the modes seen from the middle (screw.h) */
+    lumped_mass lumped;                                     /* inertia of half the element */
+    double field[FORMS_GAUSS][FORMS_FIELDS][FORMS_STRAINS]; /* functionals of e: see inertia.c */
+    double share;                                           /* of the consistent mass: 0 lumped, 1 consistent, 1/2 averaged */
 };
 
 /* Q += c (a b^T + b a^T): the quadratic c (a . e)(b . e). */

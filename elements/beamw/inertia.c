@@ -1,205 +1,211 @@
-/* Linear fields (formulation of J section 3.2, shear functionals as in stiffness.h), x = s/l, c = x (1 - x):
+/* Consistent mass.  The fields are those of J section 3.2 (shear functionals as in stiffness.h), x = s/l, c = x (1 - x),
  *   v_s = chord - [(e5+e6)/2 c + l hg_y c (1-2x)],  w_s = chord + [(e3+e4)/2 c - l hg_z c (1-2x)],
  *   l phi = l phi_p + e2 x + A c - tw c (1-2x),     v_c = v_s + zs phi,  w_c = w_s - ys phi,
- *   theta_z = v_s' - g_y,  theta_y = -(w_s' - g_z),  a = phi' - g_w. */
+ *   theta_z = v_s' - g_y,  theta_y = -(w_s' - g_z),  a = phi' - g_w,
+ * written as the nodes' values between p and q plus functionals of the strains: v_c = lin(v) + nu_y . e and so on.  In the
+ * deformed state the functionals go along the mean m_k of the nodes' unit vectors (ours):
+ *   r = lin(r) + m_y (nu_y . e) + m_z (nu_z . e),  n_y = lin(n_y) + m_z (chi_x . e) - m_x (chi_z . e), ...
+ * which are linear in e and in vectors fixed to the nodes: their first two derivatives are exact, and so is what derives from
+ * the kinetic energy.  The error of the centrifugal force in the fields' second order vanishes with the fourth power of l. */
 #include "elements/beamw/inertia.h"
 
 #include <string.h>
 
+#include "elements/beamw/modes.h"
+#include "elements/inertia/moving.h"
 #include "elements/math/dense.h"
-#include "elements/math/lumped.h"
 
-enum { N = 14, FIELDS = 7 };
-typedef enum field { U, V, W, PHI, THETA_Y, THETA_Z, WARP } field;
+enum { N = 14, TP = 3, TQ = 10 };
+enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z, PSI }; /* the last: warping amplitude */
 
-/* e = L x of small motions in element axes. */
-static void linear_strains(double l, double L[8][N])
+/* Gauss's rule: exact for the square of a cubic. */
+static const double gauss_at[FORMS_GAUSS] = {0.06943184420297371239, 0.33000947820757186760, 0.66999052179242813240,
+                                             0.93056815579702628761};
+static const double gauss_weight[FORMS_GAUSS] = {0.17392742256872692869, 0.32607257743127307131, 0.32607257743127307131,
+                                                 0.17392742256872692869};
+
+static void functionals_at(const section *c, double l, const stiffness_fields *s, double x, double field[FORMS_FIELDS][8])
 {
-    memset(L, 0, 8 * sizeof L[0]);
-    L[0][0] = -1, L[0][7] = 1;
-    L[1][3] = -l, L[1][10] = l;
-    L[2][2] = 1, L[2][9] = -1, L[2][4] = -l;
-    L[3][2] = -1, L[3][9] = 1, L[3][11] = l;
-    L[4][1] = -1, L[4][8] = 1, L[4][5] = -l;
-    L[5][1] = 1, L[5][8] = -1, L[5][12] = l;
-    L[6][6] = L[7][13] = l * l;
-}
-
-static void add_strain(double row[N], double factor, const double functional[8], double L[8][N])
-{
-    for (int k = 0; k < 8; k++)
-        for (int j = 0; j < N; j++)
-            row[j] += factor * functional[k] * L[k][j];
-}
-
-/* Rows of the seven fields at x as functions of the 14 coordinates. */
-static void fields_at(const section *c, double l, const stiffness_fields *s, double L[8][N], double x, double F[FIELDS][N])
-{
-    const double e1[8] = {1}, e2[8] = {0, 1}, sum_y[8] = {0, 0, 1, 1}, sum_z[8] = {0, 0, 0, 0, 1, 1};
+    const double e2[8] = {0, 1}, sum_y[8] = {0, 0, 1, 1}, sum_z[8] = {0, 0, 0, 0, 1, 1};
+    const double bend_y[8] = {0, 0, 1 - x, -x}, bend_z[8] = {0, 0, 0, 0, 1 - x, -x}; /* slope of the chord less lin(theta) */
     const double b = x * (1 - x), cubic = b * (1 - 2 * x), db = 1 - 2 * x, dcubic = 1 - 6 * b;
-    double phi[N] = {0}, dphi[N] = {0};
-    memset(F, 0, FIELDS * sizeof F[0]);
-    phi[3] = 1;
-    add_strain(phi, x / l, e2, L);
-    add_strain(phi, b / l, s->A, L);
-    add_strain(phi, -cubic / l, s->tw, L);
-    add_strain(dphi, 1 / (l * l), e2, L);
-    add_strain(dphi, db / (l * l), s->A, L);
-    add_strain(dphi, -dcubic / (l * l), s->tw, L);
-
-    F[U][0] = 1;
-    add_strain(F[U], x, e1, L);
-    /* Chord of the shear centre: v_s = v - zs phi, w_s = w + ys phi at the nodes. */
-    F[V][1] = 1 - x, F[V][8] = x, F[V][3] = -c->zs * (1 - x), F[V][10] = -c->zs * x;
-    F[W][2] = 1 - x, F[W][9] = x, F[W][3] = c->ys * (1 - x), F[W][10] = c->ys * x;
-    add_strain(F[V], -b / 2, sum_z, L);
-    add_strain(F[V], -l * cubic, s->hg[0], L);
-    add_strain(F[W], b / 2, sum_y, L);
-    add_strain(F[W], -l * cubic, s->hg[1], L);
-    F[THETA_Z][1] = -1 / l, F[THETA_Z][8] = 1 / l, F[THETA_Z][3] = c->zs / l, F[THETA_Z][10] = -c->zs / l;
-    add_strain(F[THETA_Z], -db / (2 * l), sum_z, L);
-    add_strain(F[THETA_Z], -dcubic, s->hg[0], L);
-    add_strain(F[THETA_Z], -1, s->g[0], L);
-    F[THETA_Y][2] = 1 / l, F[THETA_Y][9] = -1 / l, F[THETA_Y][3] = c->ys / l, F[THETA_Y][10] = -c->ys / l;
-    add_strain(F[THETA_Y], -db / (2 * l), sum_y, L);
-    add_strain(F[THETA_Y], dcubic, s->hg[1], L);
-    add_strain(F[THETA_Y], 1, s->g[1], L);
-    for (int j = 0; j < N; j++) {
-        F[V][j] += c->zs * phi[j];
-        F[W][j] -= c->ys * phi[j];
-        F[PHI][j] = phi[j];
-        F[WARP][j] = dphi[j];
-    }
-    add_strain(F[WARP], -1, s->g[2], L);
-}
-
-static void consistent_matrix(const section *c, double l, const double per_length[FIELDS], const stiffness_fields *s,
-                              double L[8][N], double M[N * N])
-{
-    /* Gauss with four points: exact for the square of a cubic. */
-    static const double at[2] = {0.86113631159405257522, 0.33998104358485626480},
-                        weight[2] = {0.34785484513745385737, 0.65214515486254614263};
-    for (int point = 0; point < 4; point++) {
-        const double x = (1 + (point % 2 ? 1 : -1) * at[point / 2]) / 2;
-        double F[FIELDS][N];
-        fields_at(c, l, s, L, x, F);
-        for (int k = 0; k < FIELDS; k++)
-            for (int i = 0; i < N; i++)
-                for (int j = 0; j < N; j++)
-                    M[N * i + j] += weight[point / 2] / 2 * l * per_length[k] * F[k][i] * F[k][j];
+    for (int k = 0; k < 8; k++) {
+        const double chi_x = (b * s->A[k] - cubic * s->tw[k]) / l;
+        field[CHI_X][k] = chi_x;
+        field[NU_Y][k] = c->zs * chi_x - b / 2 * sum_z[k] - l * cubic * s->hg[0][k];
+        field[NU_Z][k] = -c->ys * chi_x + b / 2 * sum_y[k] - l * cubic * s->hg[1][k];
+        field[CHI_Z][k] = (bend_z[k] - db / 2 * sum_z[k]) / l - c->zs * e2[k] / (l * l) - dcubic * s->hg[0][k] - s->g[0][k];
+        field[CHI_Y][k] = (bend_y[k] - db / 2 * sum_y[k]) / l - c->ys * e2[k] / (l * l) + dcubic * s->hg[1][k] + s->g[1][k];
+        field[PSI][k] = (e2[k] + db * s->A[k] - dcubic * s->tw[k]) / (l * l) - s->g[2][k];
     }
 }
 
 void inertia_prepare(const section *c, unsigned features, inertia_kind kind, const stiffness_fields *fields, element_data *d)
 {
-    const double rotary = features & FEATURE_ROTARY_INERTIA ? 1 : 0, warps = features & FEATURE_WARPING ? 1 : 0, rho = c->density;
-    const double node[7] = {c->A, c->A, c->A, c->Ip, rotary * c->Iy, rotary * c->Iz, rotary * warps * c->Iw};
-    for (int i = 0; i < 7; i++)
-        d->lumped[i] = rho * d->l0 / 2 * node[i];
+    d->lumped = lumped_of(c, features, d->l0 / 2);
     d->share = kind == INERTIA_LUMPED ? 0 : kind == INERTIA_CONSISTENT ? 1 : 0.5;
-    if (d->share == 0)
-        return;
-    const double per_length[FIELDS] = {rho * node[0], rho * node[1], rho * node[2], rho * node[3],
-                                       rho * node[4], rho * node[5], rho * node[6]};
-    double L[8][N];
-    linear_strains(d->l0, L);
-    if (!warps) {
-        memcpy(L[6], L[1], sizeof L[6]);
-        memcpy(L[7], L[1], sizeof L[7]);
+    for (int g = 0; g < FORMS_GAUSS && d->share > 0; g++) {
+        functionals_at(c, d->l0, fields, gauss_at[g], d->field[g]);
+        for (int k = 0; k < FORMS_FIELDS && !(features & FEATURE_WARPING); k++) { /* uniform torsion: e7 and e8 follow e2 */
+            d->field[g][k][1] += d->field[g][k][6] + d->field[g][k][7];
+            d->field[g][k][6] = d->field[g][k][7] = 0;
+        }
     }
-    consistent_matrix(c, d->l0, per_length, fields, L, d->consistent);
 }
 
-/* Axes that move with the element: x along the chord, y near the mean of the nodes' y axes. */
-static void element_axes(const node_state x[2], double B[9])
-{
-    double axis[3][3];
-    for (int i = 0; i < 3; i++) {
-        axis[0][i] = x[1].r[i] - x[0].r[i];
-        axis[1][i] = x[0].R[3 * i + 1] + x[1].R[3 * i + 1];
-    }
-    vec3_cross(axis[0], axis[1], axis[2]);
-    const double length = vec3_norm(axis[0]), across = vec3_norm(axis[2]);
-    for (int i = 0; i < 3; i++) {
-        axis[0][i] /= length;
-        axis[2][i] /= across;
-    }
-    vec3_cross(axis[2], axis[0], axis[1]);
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            B[3 * i + k] = axis[k][i];
-}
+/* The element's state, and what the points gather for the second derivatives of the strains. */
+typedef struct configuration {
+    double vector[2][3][3]; /* node, direction: unit vectors */
+    double mean[3][3];      /* m_k */
+    double e[8], J[8 * N], s[8];
+    const node_state *x;
+    const element_spin *spin;
+    inertia_output *out;
+} configuration;
 
-/* First index of the vector that coordinate i belongs to, and its length (3, or 1 for warping). */
-static int vector_of(int i, int *size)
-{
-    const int at = i % 7;
-    *size = at == 6 ? 1 : 3;
-    return at == 6 ? i : i - at % 3;
-}
+/* y = lin(a vector of the nodes) + sum_k m_k (along[k] . e). */
+typedef struct interpolation {
+    double mass, x;
+    int director;           /* -1: position */
+    const double *along[3]; /* [8] functional, NULL: none */
+    double sign[3];
+} interpolation;
 
-static void add_consistent(const element_data *d, const node_state x[2], double M[N * N])
+static void linear_part(const configuration *c, const interpolation *y, moving_vector *v, double T[3 * N], double fixed[2][3])
 {
-    double B[9];
-    element_axes(x, B);
-    for (int i = 0; i < N; i++)
-        for (int j = 0; j < N; j++) {
-            int rows, columns;
-            const int row = vector_of(i, &rows), column = vector_of(j, &columns);
-            for (int k = 0; k < rows; k++)
-                for (int m = 0; m < columns; m++) {
-                    const double turn = (rows == 3 ? B[3 * (i - row) + k] : 1) * (columns == 3 ? B[3 * (j - column) + m] : 1);
-                    M[N * i + j] += d->share * turn * d->consistent[N * (row + k) + column + m];
-                }
+    const double weight[2] = {1 - y->x, y->x};
+    for (int node = 0; node < 2; node++)
+        for (int i = 0; i < 3; i++) {
+            if (y->director >= 0) {
+                fixed[node][i] = weight[node] * c->vector[node][y->director][i];
+                v->y[i] += fixed[node][i];
+            } else {
+                T[N * i + 7 * node + i] = weight[node];
+                v->y[i] += weight[node] * (c->x[node].r[i] - (c->spin != NULL ? c->spin->centre[i] : 0));
+            }
         }
 }
 
-/* out(14 x 14) block of node `node`, rotations: += B(3 x 3). */
-static void add_rotation_block(int node, double factor, const double B[9], double *out)
+/* N -= h g^T + g h^T with h = d(F . m_k)/dx and g = d(functional . e)/dx; F . m_k is the functional's share of the stress. */
+static void add_curvature(configuration *c, const double F[3], int k, double sign, const double functional[8], const double g[N])
 {
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            out[N * (7 * node + 3 + i) + 7 * node + 3 + j] += factor * B[3 * i + j];
-}
-
-static void node_inertia(const element_data *d, int node, const node_state *x, const node_rate *v, const node_rate *a,
-                         inertia_output *out)
-{
-    static const double rest[3] = {0, 0, 0};
-    const double lumped = 1 - d->share;
-    const double *w = v != NULL ? v->w : rest, *alpha = a != NULL ? a->w : rest;
-    double J[9], h[3], dh[9], dx[9];
-    lumped_rotary(d->lumped, x->R, J);
-    if (out->M != NULL) {
-        add_rotation_block(node, lumped, J, out->M);
+    const double size = sign * vec3_dot(F, c->mean[k]);
+    for (int i = 0; i < 8; i++)
+        c->s[i] += size * functional[i];
+    for (int node = 0; node < 2; node++) {
+        double h[3];
+        vec3_cross(c->vector[node][k], F, h);
         for (int i = 0; i < 3; i++)
-            out->M[(N + 1) * (7 * node + i)] += lumped * d->lumped[i];
-        out->M[(N + 1) * (7 * node + 6)] += lumped * d->lumped[6];
-    }
-    lumped_convective(J, w, h, dh);
-    for (int i = 0; i < 3 && out->h != NULL; i++)
-        out->h[7 * node + 3 + i] += h[i];
-    if (out->dh_dv != NULL)
-        add_rotation_block(node, 1, dh, out->dh_dv);
-    if (out->dfdx != NULL) {
-        lumped_turning(J, w, alpha, dx);
-        add_rotation_block(node, 1, dx, out->dfdx);
+            for (int j = 0; j < N; j++) {
+                const int row = 7 * node + 3 + i;
+                c->out->N[N * row + j] -= h[i] / 2 * g[j];
+                c->out->N[N * j + row] -= h[i] / 2 * g[j];
+            }
     }
 }
 
-status inertia_of(const element_data *d, const node_state x[], const node_rate v[], const node_rate a[], inertia_output *out)
+static void add_interpolated(configuration *c, const interpolation *y)
 {
-    if ((v != NULL || a != NULL) && d->share != 0)
-        return STATUS_REFUSED;
-    double *const matrices[] = {out->M, out->dh_dv, out->dfdx};
+    double T[3 * N] = {0}, gradient[3][N] = {{0}}, fixed[2][3] = {{0}}, F[3];
+    moving_vector v = {.mass = y->mass, .at = 0, .columns = N, .T = T};
+    linear_part(c, y, &v, T, fixed);
+    for (int k = 0; k < 3; k++) {
+        if (y->along[k] == NULL)
+            continue;
+        double amplitude = 0;
+        for (int i = 0; i < 8; i++)
+            amplitude += y->sign[k] * y->along[k][i] * c->e[i];
+        dense_add_transpose_mul(N, 8, 1, c->J, y->along[k], gradient[k]);
+        for (int i = 0; i < 3; i++) {
+            v.y[i] += c->mean[k][i] * amplitude;
+            for (int node = 0; node < 2; node++)
+                fixed[node][i] += amplitude / 2 * c->vector[node][k][i];
+        }
+        for (int j = 0; j < N; j++) {
+            gradient[k][j] *= y->sign[k];
+            for (int i = 0; i < 3; i++)
+                T[N * i + j] += c->mean[k][i] * gradient[k][j];
+        }
+    }
+    moving_turning(fixed[0], TP, N, T);
+    moving_turning(fixed[1], TQ, N, T);
+    moving_add(&v, c->spin, N, c->out, F);
+    if (c->out->N == NULL)
+        return;
+    moving_turn(F, fixed[0], TP, N, c->out->N);
+    moving_turn(F, fixed[1], TQ, N, c->out->N);
     for (int k = 0; k < 3; k++)
-        if (matrices[k] != NULL)
-            memset(matrices[k], 0, N * N * sizeof(double));
-    if (out->h != NULL)
-        memset(out->h, 0, N * sizeof(double));
-    for (int node = 0; node < 2; node++)
-        node_inertia(d, node, &x[node], v != NULL ? &v[node] : NULL, a != NULL ? &a[node] : NULL, out);
-    if (out->M != NULL && d->share != 0)
-        add_consistent(d, x, out->M);
+        if (y->along[k] != NULL)
+            add_curvature(c, F, k, y->sign[k], y->along[k], gradient[k]);
+}
+
+/* A scalar field whose rate has a mass and which no turning frame acts on. */
+static void add_scalar(const configuration *c, double mass, const double row[N])
+{
+    for (int i = 0; i < N && c->out->M != NULL; i++)
+        for (int j = 0; j < N; j++)
+            c->out->M[N * i + j] += mass * row[i] * row[j];
+}
+
+static void add_point(configuration *c, const element_data *d, int g)
+{
+    const double weight = d->share * 2 * gauss_weight[g], x = gauss_at[g];
+    const double *const chi_x = d->field[g][CHI_X], *const chi_y = d->field[g][CHI_Y], *const chi_z = d->field[g][CHI_Z];
+    double row[N] = {0}, j[3];
+    add_interpolated(c, &(interpolation){.mass = weight * d->lumped.mass,
+                                         .x = x,
+                                         .director = -1,
+                                         .along = {NULL, d->field[g][NU_Y], d->field[g][NU_Z]},
+                                         .sign = {0, 1, 1}});
+    if (!d->lumped.turns) { /* the twist alone */
+        for (int node = 0; node < 2; node++)
+            for (int i = 0; i < 3; i++)
+                row[7 * node + 3 + i] = (node == 0 ? 1 - x : x) * c->vector[node][0][i];
+        dense_add_transpose_mul(N, 8, 1, c->J, chi_x, row);
+        add_scalar(c, weight * d->lumped.rotary[0], row);
+        return;
+    }
+    const interpolation director[3] = {{.along = {NULL, chi_z, chi_y}, .sign = {0, 1, -1}},
+                                       {.along = {chi_z, NULL, chi_x}, .sign = {-1, 0, 1}},
+                                       {.along = {chi_y, chi_x, NULL}, .sign = {1, -1, 0}}};
+    lumped_directors(d->lumped.rotary, j);
+    for (int k = 0; k < 3; k++) {
+        interpolation y = director[k];
+        y.mass = weight * j[k];
+        y.x = x;
+        y.director = k;
+        add_interpolated(c, &y);
+    }
+    dense_add_transpose_mul(N, 8, 1, c->J, d->field[g][PSI], row);
+    add_scalar(c, weight * d->lumped.warping, row);
+}
+
+static void add_consistent(const element_data *d, const node_state x[2], const element_spin *spin, inertia_output *out)
+{
+    configuration c = {.x = x, .spin = spin, .out = out};
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++) {
+            for (int node = 0; node < 2; node++)
+                c.vector[node][k][i] = x[node].R[3 * i + k];
+            c.mean[k][i] = (c.vector[0][k][i] + c.vector[1][k][i]) / 2;
+        }
+    modes_strain(d->l0, x, &(strain_output){.e = c.e, .J = c.J});
+    for (int g = 0; g < FORMS_GAUSS; g++)
+        add_point(&c, d, g);
+    if (out->N == NULL || spin == NULL)
+        return;
+    double H[N * N];
+    modes_strain(d->l0, x, &(strain_output){.s = c.s, .H = H});
+    for (int i = 0; i < N * N; i++)
+        out->N[i] -= H[i];
+}
+
+status inertia_of(const element_data *d, const node_state x[], const element_spin *spin, inertia_output *out)
+{
+    moving_clear(N, out);
+    for (int node = 0; node < 2 && d->share < 1; node++)
+        lumped_add(&d->lumped, 1 - d->share, &x[node], spin, 7 * node, N, out);
+    if (d->share > 0)
+        add_consistent(d, x, spin, out);
     return STATUS_OK;
 }

@@ -1,5 +1,5 @@
-/* Inertia of the two-node beam: lumped at the nodes (J Eq. 73, its J corrected to diag(Ip, Iy, Iz)), consistent with the
- * linear fields of J section 3.2, or the mean of both. */
+/* Inertia of the two-node beam: lumped at the nodes (J Eq. 73), consistent with the linear fields of J section 3.2 in the
+ * element's deformed state, or the mean of both.  What a frame that turns does to it derives from the same kinetic energy. */
 #ifndef BEAMWORK_BEAMW_INERTIA_H
 #define BEAMWORK_BEAMW_INERTIA_H
 
@@ -7,11 +7,10 @@
 
 typedef enum inertia_kind { INERTIA_LUMPED, INERTIA_CONSISTENT, INERTIA_AVERAGED } inertia_kind;
 
-/* Fills lumped, consistent and share.  Without FEATURE_ROTARY_INERTIA only translations and the polar moment of the
- * twist count, so that the matrix is singular in the other rotations and in the warping. */
+/* Fills lumped, field and share.  Without FEATURE_ROTARY_INERTIA only translations and the polar moment of the
+ * twist count, so that the matrix is singular in the other rotations and in the warping.  fields: NULL for lumped. */
 void inertia_prepare(const section *c, unsigned features, inertia_kind kind, const stiffness_fields *fields, element_data *d);
 
-/* Moving nodes (v, a): convective forces exist for the lumped mass only; REFUSED with another. */
-status inertia_of(const element_data *d, const node_state x[], const node_rate v[], const node_rate a[], inertia_output *out);
+status inertia_of(const element_data *d, const node_state x[], const element_spin *spin, inertia_output *out);
 
 #endif

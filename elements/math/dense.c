@@ -31,6 +31,23 @@ void dense_add_transpose_mul(int m, int k, int n, const double *restrict A, cons
         }
 }
 
+double dense_dot(int n, const double a[], const double b[])
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+double dense_quadratic(int n, const double A[], const double x[])
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            sum += x[i] * A[i * n + j] * x[j];
+    return sum;
+}
+
 void dense_mul_vec(int m, int n, const double *A, const double *x, double *y)
 {
     for (int i = 0; i < m; i++) {

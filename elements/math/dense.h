@@ -59,6 +59,8 @@ static inline void mat3_transpose_mul_vec(const double A[9], const double v[3], 
 void dense_mul(int m, int k, int n, const double *A, const double *B, double *C);
 /* C(m x n) += A^T B with A(k x m), B(k x n). */
 void dense_add_transpose_mul(int m, int k, int n, const double *A, const double *B, double *C);
+double dense_dot(int n, const double a[], const double b[]);
+double dense_quadratic(int n, const double A[], const double x[]); /* x^T A x */
 /* y(m) = A(m x n) x. */
 void dense_mul_vec(int m, int n, const double *A, const double *x, double *y);
 /* K(n x n) += J^T S J with J(m x n), S(m x m) (S need not be symmetric); work: m*n doubles. */

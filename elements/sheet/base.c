@@ -43,7 +43,7 @@ void base_strain(const element_data *d, const node_state x[], strain_output *out
     strains_evaluate(&data_of(d)->table, x, out);
 }
 
-status base_inertia(const element_data *d, const node_state x[], const node_rate v[], const node_rate a[], inertia_output *out)
+status base_inertia(const element_data *d, const node_state x[], const element_spin *spin, inertia_output *out)
 {
-    return inertia_of(&data_of(d)->linear, x, v, a, out);
+    return inertia_of(&data_of(d)->linear, x, spin, out);
 }

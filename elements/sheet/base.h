@@ -29,6 +29,6 @@ status base_prepare(const element_request *request, base_shear shear, base_data 
 
 /* Members of element_type; the data begin with base_data. */
 void base_strain(const element_data *d, const node_state x[], strain_output *out);
-status base_inertia(const element_data *d, const node_state x[], const node_rate v[], const node_rate a[], inertia_output *out);
+status base_inertia(const element_data *d, const node_state x[], const element_spin *spin, inertia_output *out);
 
 #endif

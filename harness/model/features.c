@@ -38,6 +38,11 @@ static int is_eccentric(const section *c)
     return hypot(c->ys, c->zs) > 1e-12 * sqrt(c->Ip / c->A);
 }
 
+static int turns(const scene_analysis *a)
+{
+    return a->omega[0] != 0 || a->omega[1] != 0 || a->omega[2] != 0;
+}
+
 static unsigned needs_of_analyses(const scene *s)
 {
     unsigned needs = 0;
@@ -48,7 +53,7 @@ static unsigned needs_of_analyses(const scene *s)
             break;
         case SCENE_STATIC:
         case SCENE_CONTINUATION:
-            needs |= FEATURE_LARGE;
+            needs |= FEATURE_LARGE | (turns(&s->analysis[i]) ? FEATURE_MASS : 0);
             break;
         case SCENE_BUCKLING:
             needs |= FEATURE_GEOMETRIC;

@@ -123,15 +123,6 @@ status model_geometric_stiffness(model *m, const double sigma[], sparse *out, fa
     return STATUS_OK;
 }
 
-static double quadratic(int n, const double A[], const double x[])
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++)
-            sum += x[i] * A[i * n + j] * x[j];
-    return sum;
-}
-
 double model_strain_energy2(model *m, const double x[])
 {
     double sum = 0;
@@ -140,7 +131,7 @@ double model_strain_energy2(model *m, const double x[])
         double e[ELEMENT_MAX_STRAINS];
         linear_of(m, i, &l);
         linear_strains(m, i, &l, x, e);
-        sum += quadratic(m->strains, l.S, e);
+        sum += dense_quadratic(m->strains, l.S, e);
     }
     return sum;
 }
@@ -156,9 +147,9 @@ double model_geometric_energy2(model *m, const double sigma[], const double x[])
         geometric_of(m, i, s, H, G, J);
         kinematics_local(m, m->rest, &m->element[i], x, local);
         dense_mul_vec(m->strains, m->coordinates, J, local, e);
-        sum += quadratic(m->strains, G, e);
+        sum += dense_quadratic(m->strains, G, e);
         if (m->element[i].plain) {
-            sum += quadratic(m->coordinates, H, local);
+            sum += dense_quadratic(m->coordinates, H, local);
             continue;
         }
         /* Second derivatives of offsets and sequences act in the model's coordinates. */
@@ -167,25 +158,7 @@ double model_geometric_energy2(model *m, const double sigma[], const double x[])
             own[k] = m->element[i].index[k] == NONE ? 0 : x[m->element[i].index[k]];
         dense_add_transpose_mul(m->coordinates, m->strains, 1, J, s, force);
         eliminate_matrix(m, m->rest, &m->element[i], force, H);
-        sum += quadratic(m->coordinates, H, own);
+        sum += dense_quadratic(m->coordinates, H, own);
     }
     return sum;
-}
-
-status model_mass(model *m, const model_state *state, sparse *out, fault *f)
-{
-    const model_state *s = state != NULL ? state : m->rest;
-    sparse_zero(out);
-    for (int i = 0; i < m->elements; i++) {
-        double M[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
-        node_state x[ELEMENT_MAX_NODES];
-        kinematics_gather(m, s, &m->element[i], x);
-        const status outcome = m->type->inertia(m->kind[m->element[i].kind].data, x, NULL, NULL, &(inertia_output){.M = M});
-        if (outcome != STATUS_OK)
-            return fault_set(f, outcome, "element %d of member %d: no mass matrix", i, m->element[i].member);
-        m->counters.inertia_evaluations++;
-        eliminate_matrix(m, s, &m->element[i], NULL, M);
-        assemble_matrix(pattern_of(m, out), i, M, out);
-    }
-    return STATUS_OK;
 }

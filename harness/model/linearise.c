@@ -50,15 +50,13 @@ status model_make_compatible(model *m, model_state *s, fault *f)
     return STATUS_OK;
 }
 
-/* Fills the slot; H: sum sigma_i H_i of the element. Returns the size of the gap relative to the length. */
-static status evaluate(model *m, const model_state *s, int i, slot *w, double H[])
+/* Fills the slot; H: sum sigma_i H_i of the element in the state of its nodes x. */
+static status evaluate(model *m, const model_state *s, int i, const node_state x[], slot *w, double H[])
 {
     const mesh_element *el = &m->element[i];
     const element_data *data = m->kind[el->kind].data;
     const double *e = &s->e[(size_t)i * (size_t)m->strains];
-    node_state x[ELEMENT_MAX_NODES];
     double deformed[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
-    kinematics_gather(m, s, el, x);
     m->type->strain(
         data, x,
         &(strain_output){.e = deformed, .J = w->J, .s = H != NULL ? &s->sigma[(size_t)i * (size_t)m->strains] : NULL, .H = H});
@@ -83,19 +81,28 @@ static double gap_size(const model *m, const slot *w, double length)
     return largest;
 }
 
-/* Internal forces of the element and, where wanted, its tangent; both in model coordinates. */
-static status element_equations(model *m, const model_state *s, int i, int tangent, double force[], double K[], double *gap)
+/* Internal less centrifugal forces of the element and, where wanted, their tangent; both in model coordinates. */
+static status element_equations(model *m, const model_state *s, int i, int tangent, double path, double force[], double K[],
+                                double *gap, fault *f)
 {
     const mesh_element *el = &m->element[i];
     slot w = slot_of(m, i);
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
-    const status outcome = evaluate(m, s, i, &w, tangent ? K : NULL);
+    double present[ELEMENT_MAX_COORDINATES] = {0}; /* conjugate to sigma, which H belongs to */
+    node_state x[ELEMENT_MAX_NODES];
+    kinematics_gather(m, s, el, x);
+    status outcome = evaluate(m, s, i, x, &w, tangent ? K : NULL);
     if (outcome != STATUS_OK)
-        return outcome;
+        return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i, el->member, m->type->name);
     memset(force, 0, (size_t)m->coordinates * sizeof *force);
+    if (m->spins) {
+        outcome = spin_add(m, x, i, path, force, tangent ? K : NULL, f);
+        if (outcome != STATUS_OK)
+            return outcome;
+        memcpy(present, force, (size_t)m->coordinates * sizeof *force);
+    }
     dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, w.sigma, force);
     if (tangent) {
-        double present[ELEMENT_MAX_COORDINATES] = {0}; /* conjugate to sigma, which H belongs to */
         dense_add_congruence(m->strains, m->coordinates, w.J, w.C, K, work);
         if (!el->plain)
             dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, &s->sigma[(size_t)i * (size_t)m->strains], present);
@@ -139,10 +146,9 @@ status model_linearise(model *m, const model_state *s, model_linearisation *lin,
         sparse_zero(lin->K);
     for (int i = 0; i < m->elements; i++) {
         double gap = 0;
-        const status outcome = element_equations(m, s, i, tangent, force, K, &gap);
+        const status outcome = element_equations(m, s, i, tangent, lin->path, force, K, &gap, f);
         if (outcome != STATUS_OK)
-            return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i, m->element[i].member,
-                             m->type->name);
+            return outcome;
         if (lin->drive != NULL)
             add_driven(m, &m->element[i], lin->drive, K, force);
         add_columns(m, &m->element[i], K, lin);
@@ -233,6 +239,7 @@ void model_node_force(model *m, const model_state *s, int node, double F[6])
             kinematics_gather(m, s, el, x);
             m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
             dense_add_transpose_mul(m->coordinates, m->strains, 1, J, &s->sigma[(size_t)i * (size_t)m->strains], force);
+            spin_add(m, x, i, s->path, force, NULL, NULL); /* never fails in a state that has been reached */
             kinematics_offset(m, s, el->vertex[k], rho);
             vec3_cross(rho, force + 7 * k, moment);
             for (int c = 0; c < 3; c++) {

@@ -159,8 +159,17 @@ double model_geometric_energy2(model *, const double sigma[], const double x[]);
 /* Loads at factor 1 as a vector on the free coordinates. */
 status model_reference_load(model *, double f[], fault *);
 
-/* Mass matrix on the pattern of M about a state (NULL: undeformed). */
-status model_mass(model *, const model_state *, sparse *M, fault *);
+/* Mass matrix on the pattern of M about a state (NULL: undeformed); G: gyroscopic matrix of a turning frame, of which a symmetric
+ * pattern stores the upper triangle, or NULL: not wanted. */
+status model_inertia(model *, const model_state *, double path, sparse *M, sparse *G, fault *);
+
+/* From here on the scene's axes turn with omega [rad/s] about an axis through `centre` [m]; times the path parameter if that is
+ * followed. Zero: they are at rest. What is linearised contains the centrifugal forces and their stiffness. */
+void model_set_spin(model *, const double omega[3], const double centre[3], int follows_path);
+/* x^T K x of the tangent of a state in equilibrium, but for what loads add to it: from the strains, as above. x[free + driven]. */
+status model_tangent_energy2(model *, const model_state *, double path, const double x[], double *energy);
+/* What loads on offsets and moments add to K. */
+void model_load_stiffness(const model *, const model_state *, double path, sparse *out);
 
 /* Shape of a mode or state for identification and pictures: displacement (3), rotation (3) and warping of every
  * vertex in order along the members; returns vertices. u[vertices x 7], position[vertices x 3] (undeformed). */

@@ -67,6 +67,8 @@ struct model {
     double *work; /* [elements x work_size]: J, C, P' + C (D - e), D - e, memory of the last linearisation */
     int work_size;
     model_state *rest; /* undeformed */
+    element_spin spin; /* of the frame, times the path if that is followed */
+    int spins, spin_follows_path;
     counters counters;
     int lines;
     char **line; /* what was left out */
@@ -109,6 +111,9 @@ void kinematics_local(const model *m, const model_state *s, const mesh_element *
 /* eliminate.c: element coordinates -> model coordinates, in place. force: internal, for the second derivatives; NULL entries are skipped. */
 void eliminate_forces(const model *m, const model_state *s, const mesh_element *el, double force[]);
 void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el, const double force[], double K[]);
+
+/* spin.c: force -= centrifugal force, K += its stiffness (NULL: not wanted), in element coordinates; nothing where no frame turns. */
+status spin_add(model *m, const node_state x[], int element, double path, double force[], double K[], fault *f);
 
 /* assemble.c */
 void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out);

@@ -23,6 +23,8 @@ typedef struct analysis_outcome {
     /* compliance: of the six components at the node, at every station [stations x 36]; rows of held components are zero, columns that nothing asks for NAN; belongs to
      * the result */
     const double *compliance;
+    /* rotation: modes at every station; none where no quantity asks for them */
+    struct rotation_modes *modes; /* [stations] */
 } analysis_outcome;
 
 typedef struct analysis_context {
@@ -35,7 +37,8 @@ typedef struct analysis_context {
 } analysis_context;
 
 typedef status analysis_function(analysis_context *, int analysis, analysis_outcome *, fault *);
-analysis_function analysis_linear, analysis_buckling, analysis_modal, analysis_static, analysis_compliance, analysis_continuation;
+analysis_function analysis_linear, analysis_buckling, analysis_modal, analysis_static, analysis_compliance, analysis_continuation,
+    analysis_rotation;
 
 void outcome_free(analysis_outcome *o);
 
@@ -69,6 +72,19 @@ typedef struct mode_shape {
     int half_waves;
 } mode_shape;
 status mode_identify(const model *, const scene *, const double mode[], mode_shape *, fault *);
+int mode_in_family(const scene_quantity *, const mode_shape *); /* is it what the quantity asks for? */
+const char *mode_family_name(scene_family);
+/* Modes of equal value[count], one after the other (each [n = free + driven]), may be mixed in any way: they become those that move
+ * along the members' z axes and those that do not. */
+status mode_separate(const model *, const scene *, int count, const double value[], size_t n, double *mode, fault *);
+
+/* Small motions about one state of a stationary rotation. */
+typedef struct rotation_modes {
+    int count;
+    double *frequency, *growth; /* [count] [rad/s], [1/s] */
+    mode_shape *shape;          /* [count] */
+} rotation_modes;
+void rotation_modes_free(rotation_modes modes[], int stations);
 
 /* When it was asked for: the condition of a matrix just factored, into the counters. */
 void count_condition(const analysis_context *, factor *, const sparse *);

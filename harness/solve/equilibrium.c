@@ -70,7 +70,7 @@ status equilibrium_modal(analysis_context *c, int analysis, analysis_outcome *o,
     if (result == STATUS_OK)
         result = sparse_alloc_like(&n.K, &M, f);
     if (result == STATUS_OK)
-        result = model_mass(c->model, n.state, &M, f);
+        result = model_inertia(c->model, n.state, 0, &M, NULL, f);
     if (result == STATUS_OK) {
         const eigen_problem p = {.K = &n.K, .A = &M, .K_factor = n.factor, .sign = 1, .largest = modal_wanted(c, analysis)};
         result = eigen_solve(&p, &e, f);

@@ -6,6 +6,8 @@
 
 #include "harness/solve/analysis.h"
 
+static const double TURN = 2 * 3.14159265358979323846; /* rad */
+
 void extract_no_value(quantity_result *r, status s, const char *reason)
 {
     r->status = s;
@@ -16,6 +18,19 @@ void extract_no_value(quantity_result *r, status s, const char *reason)
 double extract_scaled(const scene_quantity *q, double value)
 {
     return (q->factor != 0 ? q->factor : 1) * value + q->offset;
+}
+
+/* Frequency [Hz] or growth [1/s] of a stationary rotation; NAN: no mode of this kind. */
+static double of_rotation(const scene_quantity *q, const rotation_modes *modes)
+{
+    double largest = 0;
+    int order = 0;
+    for (int i = 0; i < modes->count; i++) {
+        largest = fmax(largest, modes->growth[i]);
+        if (q->kind == SCENE_FREQUENCY && modes->growth[i] == 0 && mode_in_family(q, &modes->shape[i]) && order++ == q->order)
+            return modes->frequency[i] / TURN;
+    }
+    return q->kind == SCENE_GROWTH && modes->count > 0 ? largest : NAN;
 }
 
 /* Value of a quantity of the path at one station. */
@@ -35,8 +50,10 @@ static double at_station(const analysis_context *c, const scene_quantity *q, con
         return extract_scaled(q, 1 / o->compliance[36 * i + 6 * q->row + q->column]);
     case SCENE_DRIVER_VALUE:
         return extract_scaled(q, model_driver_value(c->model, o->state[i], q->row));
-    case SCENE_CRITICAL_FACTOR:
     case SCENE_FREQUENCY:
+    case SCENE_GROWTH:
+        return o->modes != NULL ? extract_scaled(q, of_rotation(q, &o->modes[i])) : NAN;
+    case SCENE_CRITICAL_FACTOR:
     case SCENE_FACTOR_AT:
         return extract_scaled(q, model_state_path(o->state[i]));
     case SCENE_CRITICAL_POINT:
@@ -106,13 +123,6 @@ static void from_buckling(const scene_quantity *q, const analysis_outcome *o, qu
         r->value = extract_scaled(q, (q->sign > 0 ? o->value_positive : o->value_negative)[q->order]);
 }
 
-static int in_family(const scene_quantity *q, const mode_shape *shape)
-{
-    const int family =
-        q->family == SCENE_ANY || (q->family == SCENE_NOT_AXIAL ? shape->family != SCENE_AXIAL : shape->family == q->family);
-    return family && (q->half_waves == 0 || shape->half_waves == q->half_waves);
-}
-
 static void from_modes(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
 {
     const int n = model_sizes(c->model).free;
@@ -121,9 +131,9 @@ static void from_modes(const analysis_context *c, const scene_quantity *q, const
     for (int i = 0; i < o->positive && x != NULL; i++) {
         mode_shape shape;
         memcpy(x, o->mode_positive + (size_t)i * (size_t)n, (size_t)n * sizeof *x);
-        if (mode_identify(c->model, c->scene, x, &shape, NULL) != STATUS_OK || !in_family(q, &shape) || order++ < q->order)
+        if (mode_identify(c->model, c->scene, x, &shape, NULL) != STATUS_OK || !mode_in_family(q, &shape) || order++ < q->order)
             continue;
-        r->value = extract_scaled(q, o->value_positive[i] / (2 * 3.14159265358979323846));
+        r->value = extract_scaled(q, o->value_positive[i] / TURN);
         free(x);
         return;
     }
@@ -171,7 +181,9 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
         from_path(c, q, o, r);
         break;
     case SCENE_ROTATION:
-        extract_no_value(r, STATUS_REFUSED, "this analysis is not available");
+        from_path(c, q, o, r);
+        if (o->modes != NULL && isnan(r->value) && r->status == STATUS_OK)
+            extract_no_value(r, STATUS_OK, "the mesh has no mode of this kind");
         break;
     }
     if (r->status == STATUS_OK && !isfinite(r->value) && r->reason[0] == '\0')

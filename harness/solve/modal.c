@@ -114,7 +114,7 @@ status analysis_modal(analysis_context *c, int analysis, analysis_outcome *o, fa
     if (result == STATUS_OK && (about.x == NULL || about.y == NULL))
         result = fault_set(f, STATUS_FAULT, "out of memory for modes");
     if (result == STATUS_OK)
-        result = model_mass(c->model, NULL, &M, f);
+        result = model_inertia(c->model, NULL, 0, &M, NULL, f);
     if (result == STATUS_OK && singular)
         result = shifted_system(c, &s, &M, &about.shift, f);
     if (result == STATUS_OK) {

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/dense.h"
+
 static const double close = 1e-9; /* relative distance of eigenvalues that are not told apart */
 
 status pairs_alloc(pairs *p, const eigen_problem *problem, double sign, fault *f)
@@ -51,21 +53,13 @@ static status make_room(pairs *p, int room, fault *f)
     return STATUS_OK;
 }
 
-static double dot(int n, const double a[], const double b[])
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
-}
-
 /* x^T a x: the caller's, or from the matrix with a x kept in `product`. */
 static double form_of(const pairs *p, eigen_form *form, const sparse *a, const double x[], double product[])
 {
     if (form != NULL)
         return form(p->problem->context, x);
     sparse_mul(a, x, product);
-    return dot(p->n, x, product);
+    return dense_dot(p->n, x, product);
 }
 
 static double K_form(pairs *p, const double x[])
@@ -122,7 +116,7 @@ double pairs_scale(pairs *p, long *solutions)
         x[i] = sin(1.7 * i) / sqrt(*(p->problem->K->value + p->problem->K->column[i + 1] - 1));
     for (int power = 0; power <= POWERS; power++) {
         sparse_mul(p->problem->K, x, p->work);
-        const double size = sqrt(dot(p->n, x, p->work));
+        const double size = sqrt(dense_dot(p->n, x, p->work));
         if (power > 0 && before > 0)
             largest = fmax(largest, size / before);
         for (int i = 0; i < p->n && size > 0; i++)
@@ -148,7 +142,7 @@ status pairs_add(pairs *p, int count, const double x[], double least, fault *f)
         double *vector = p->x + (size_t)p->count * n, *product = p->Kx + (size_t)p->count * n;
         memcpy(vector, x + (size_t)c * n, n * sizeof *vector);
         sparse_mul(e->K, vector, product);
-        const double length = sqrt(dot(p->n, vector, product));
+        const double length = sqrt(dense_dot(p->n, vector, product));
         for (size_t i = 0; i < n; i++) {
             vector[i] /= length;
             product[i] /= length;
@@ -182,9 +176,9 @@ void pairs_judge(pairs *p, int i, double *residual, double *error)
     sparse_mul(p->problem->A, y, p->form);
     *error = 0;
     for (int k = 0; k < i; k++) {
-        const double part = dot(p->n, p->x + (size_t)k * (size_t)p->n, p->form) / p->mu[k] / mu, apart = p->mu[k] / mu - 1;
+        const double part = dense_dot(p->n, p->x + (size_t)k * (size_t)p->n, p->form) / p->mu[k] / mu, apart = p->mu[k] / mu - 1;
         rest -= part * part;
-        *error += part * part > apart * apart ? apart : part * part / apart;
+        *error += part * part >= apart * apart ? apart : part * part / apart;
     }
     *residual = sqrt(square);
     *error += fmax(rest, 0);

@@ -30,6 +30,7 @@ void outcome_free(analysis_outcome *o)
     free(o->value_negative);
     free(o->mode_positive);
     free(o->mode_negative);
+    rotation_modes_free(o->modes, o->stations);
 }
 
 static analysis_function *function_of(scene_analysis_kind kind)
@@ -48,7 +49,7 @@ static analysis_function *function_of(scene_analysis_kind kind)
     case SCENE_CONTINUATION:
         return analysis_continuation;
     case SCENE_ROTATION:
-        break;
+        return analysis_rotation;
     }
     return NULL;
 }
@@ -59,7 +60,9 @@ static void run_analyses(analysis_context *c)
     for (int i = 0; i < c->scene->analyses; i++) {
         analysis_outcome *o = &c->outcomes[i];
         fault f = {""};
-        analysis_function *run = function_of(c->scene->analysis[i].kind);
+        const scene_analysis *a = &c->scene->analysis[i];
+        analysis_function *run = function_of(a->kind);
+        model_set_spin(c->model, a->omega, a->omega_centre, a->kind == SCENE_ROTATION);
         o->status = run != NULL ? run(c, i, o, &f) : fault_set(&f, STATUS_REFUSED, "analysis %d: not available", i);
         snprintf(o->reason, sizeof o->reason, "%s", f.text);
         if (o->status != STATUS_OK && c->result->status == STATUS_OK) {

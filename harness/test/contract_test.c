@@ -266,7 +266,7 @@ static void total_mass(const subject *s)
     if (s->type->inertia == NULL || !(s->type->offers & FEATURE_MASS))
         return;
     place(s, d, x);
-    gsl_test(s->type->inertia(s->data, x, NULL, NULL, &(inertia_output){.M = M}) != STATUS_OK, "%s: mass matrix", s->type->name);
+    gsl_test(s->type->inertia(s->data, x, NULL, &(inertia_output){.M = M}) != STATUS_OK, "%s: mass matrix", s->type->name);
     const double mass = s->section.density * s->section.A * s->length;
     for (int c = 0; c < 3; c++) {
         double sum = 0;

@@ -1,0 +1,107 @@
+/* A cantilever that turns steadily: flap and lag frequencies, stretch of the end.  L = 1 m, EI = 1 N m^2, rho A = 1 kg/m, so that
+ * frequencies are in sqrt(EI/(rho A L^4)).  The root is at a distance from the axis, which is normal to the beam or inclined
+ * towards it; flap is motion in the plane of beam and axis, lag across it.  No shear, no rotary inertia. */
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "cases/shared/cantilever.h"
+
+enum { OMEGA, SLENDERNESS, HUB_RADIUS, AXIS, STIFFNESS_RATIO, STATIONS };
+enum { MODES = 3, LOWEST = 4, MOST_STATIONS = 200 };
+
+static const case_parameter parameters[] = {
+    [OMEGA] = {"omega_star", "1", 6.0, 0, 1e4, NULL, "angular velocity in sqrt(EI/(rho A L^4))"},
+    [SLENDERNESS] = {"slenderness", "1", 1000.0, 1, 1e7, NULL, "L/sqrt(I/A)"},
+    [HUB_RADIUS] = {"hub_radius", "1", 0, -100, 100, NULL, "distance of the root from the axis, in L; negative: it points inward"},
+    [AXIS] = {"axis", "rad", 0, 0, 1.57079632679489661923, NULL, "0: axis normal to the beam, pi/2: along it"},
+    [STIFFNESS_RATIO] = {"stiffness_ratio", "1", 1, 1e-6, 1e6, NULL, "bending stiffness in lag over that in flap"},
+    [STATIONS] = {"stations", "1", 1, 1, MOST_STATIONS, NULL,
+                  "angular velocities of the frequency curves, from zero upwards; 1: no curves"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+static const double two_pi = 2 * 3.14159265358979323846; /* Hz -> rad/s */
+
+static scene_quantity *add_frequency(scene *s, const char *stem, int order, const char *ending, int rotation, scene_family family)
+{
+    char name[SCENE_NAME];
+    snprintf(name, sizeof name, "%s_%d%s", stem, order + 1, ending);
+    scene_quantity *q = scene_add_quantity(s, name, "1", SCENE_FREQUENCY, rotation);
+    q->family = family;
+    q->order = order;
+    q->factor = two_pi;
+    q->tolerance = 1e-4;
+    q->least_order = 1.8;
+    return q;
+}
+
+static void make_curve(scene_quantity *q, double omega)
+{
+    q->reduction = SCENE_CURVE;
+    q->x_factor = omega;
+    snprintf(q->x_name, sizeof q->x_name, "angular velocity");
+    snprintf(q->x_unit, sizeof q->x_unit, "1");
+}
+
+/* Where the axis is along the beam, modes whirl: they are neither flap nor lag, and counted together. */
+static void add_frequencies(scene *s, int rotation, double omega, int curves, int whirl)
+{
+    static const struct {
+        const char *name;
+        scene_family family;
+    } kind[] = {{"flap", SCENE_BENDING_Z}, {"lag", SCENE_BENDING_Y}};
+    scene_analysis_at(s, rotation)->wanted = 2 * MODES;
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < MODES && !whirl; i++) {
+            add_frequency(s, kind[k].name, i, "", rotation, kind[k].family);
+            if (curves)
+                make_curve(add_frequency(s, kind[k].name, i, "_curve", rotation, kind[k].family), omega);
+        }
+    for (int i = 0; i < LOWEST && whirl; i++) {
+        add_frequency(s, "whirl", i, "", rotation, SCENE_ANY);
+        if (curves)
+            make_curve(add_frequency(s, "whirl", i, "_curve", rotation, SCENE_ANY), omega);
+    }
+}
+
+static status build(const double value[], scene *s, fault *f)
+{
+    (void)f;
+    const double area = value[SLENDERNESS] * value[SLENDERNESS], omega = value[OMEGA];
+    const cantilever_stiffness k = {.EA = area, .GJ = 1, .EI = 1, .density = 1 / area};
+    int root, tip;
+    cantilever_build(1, &k, s, &root, &tip);
+    if (s->sections > 0) {
+        section *c = &s->section[0].constants;
+        c->Iz *= value[STIFFNESS_RATIO];
+        c->Ip = c->Iy + c->Iz;
+    }
+    const int rotation = scene_add_analysis(s, SCENE_ROTATION), intervals = omega > 0 ? (int)value[STATIONS] - 1 : 0;
+    double path[MOST_STATIONS + 1];
+    for (int i = 0; i <= intervals; i++)
+        path[i] = intervals > 0 ? (double)i / intervals : 1;
+    scene_set_stations(s, rotation, intervals + 1, path);
+    scene_analysis *a = scene_analysis_at(s, rotation);
+    a->omega[0] = omega * sin(value[AXIS]);
+    a->omega[2] = omega * cos(value[AXIS]);
+    a->omega_centre[0] = -value[HUB_RADIUS];
+    add_frequencies(s, rotation, omega, intervals > 0, value[AXIS] > 1.5);
+    scene_quantity *growth = scene_add_quantity(s, "growth", "1", SCENE_GROWTH, rotation);
+    growth->near_zero = 1;
+    growth->tolerance = 1e-4;
+    growth->least_order = 1.8;
+    cantilever_quantity(s, "stretch", "1", rotation, tip, SCENE_UX, 1, 0);
+    s->quantity[s->quantities - 1].tolerance = 1e-8;
+    const int meshes[] = {2, 4, 8, 16, 32, 64};
+    scene_meshes(s, 6, meshes);
+    return STATUS_OK;
+}
+
+const case_type case_rotating_cantilever = {
+    .name = "rotating_cantilever",
+    .summary = "cantilever that turns steadily: flap and lag frequencies, stretch",
+    .source = "exact flap and lag of the stretched beam (reference/derive/rotating.py); stretch tan k/k - 1",
+    .parameters = parameters,
+    .build = build,
+};

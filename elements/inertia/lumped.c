@@ -1,0 +1,62 @@
+#include "elements/inertia/lumped.h"
+
+#include <string.h>
+
+#include "elements/inertia/moving.h"
+
+lumped_mass lumped_of(const section *c, unsigned features, double length)
+{
+    const double m = c->density * length;
+    const int turns = (features & FEATURE_ROTARY_INERTIA) != 0;
+    return (lumped_mass){.mass = m * c->A,
+                         .rotary = {m * c->Ip, turns ? m * c->Iy : 0, turns ? m * c->Iz : 0},
+                         .warping = turns && (features & FEATURE_WARPING) ? m * c->Iw : 0,
+                         .turns = turns};
+}
+
+void lumped_directors(const double rotary[3], double j[3])
+{
+    const double half = (rotary[0] + rotary[1] + rotary[2]) / 2;
+    for (int k = 0; k < 3; k++)
+        j[k] = half - rotary[k];
+}
+
+static void add_translation(double mass, const node_state *x, const element_spin *spin, int at, int n, inertia_output *out)
+{
+    static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    moving_vector v = {.mass = mass, .at = at, .columns = 3, .T = identity};
+    double F[3];
+    for (int i = 0; i < 3 && spin != NULL; i++)
+        v.y[i] = x->r[i] - spin->centre[i];
+    moving_add(&v, spin, n, out, F);
+}
+
+static void add_rotation(const lumped_mass *l, double share, const node_state *x, const element_spin *spin, int at, int n,
+                         inertia_output *out)
+{
+    double j[3];
+    lumped_directors(l->rotary, j);
+    for (int k = 0; k < 3; k++) {
+        double T[9] = {0}, F[3];
+        const moving_vector v = {
+            .mass = share * j[k], .y = {x->R[k], x->R[3 + k], x->R[6 + k]}, .at = at + 3, .columns = 3, .T = T};
+        moving_turning(v.y, 0, 3, T);
+        moving_add(&v, spin, n, out, F);
+        if (out->N != NULL)
+            moving_turn(F, v.y, at + 3, n, out->N);
+    }
+}
+
+void lumped_add(const lumped_mass *l, double share, const node_state *x, const element_spin *spin, int at, int n,
+                inertia_output *out)
+{
+    add_translation(share * l->mass, x, spin, at, n, out);
+    if (l->turns)
+        add_rotation(l, share, x, spin, at, n, out);
+    if (out->M == NULL)
+        return;
+    out->M[(n + 1) * (at + 6)] += share * l->warping;
+    for (int i = 0; i < 3 && !l->turns; i++)
+        for (int k = 0; k < 3; k++)
+            out->M[(at + 3 + i) * n + at + 3 + k] += share * l->rotary[0] * x->R[3 * i] * x->R[3 * k];
+}
