@@ -1,15 +1,20 @@
-"""Free vibration of a cantilever that turns about an axis through its root, normal to it: flap and lag.
+"""Free vibration of a cantilever that turns steadily: flap and lag about an axis normal to it, whirling about one along it.
 
-Units: L = 1, EI = 1, rho A = 1; EA = s^2 with s the slenderness L/sqrt(I/A).  No shear, no rotary inertia.
-Equilibrium: stretch x' = 1 + N/EA, N' = -Omega^2 x: x = sin(kX)/(k cos k), k = Omega/s (end stretch tan k/k - 1).
+Units: L = 1, EI = 1, rho A = 1; EA = s^2 with s the slenderness L/sqrt(I/A), the root at x = R.  No shear, no rotary inertia.
+Equilibrium: stretch x' = 1 + N/EA, N' = -Omega^2 x: x = R cos kX + (1 + k R sin k) sin(kX)/(k cos k), k = Omega/s, hence the end
+stretch tan k/k - 1 + R (1/cos k - 1).
 Second order in w: 1/2 [N w'^2/x' + (w'/x')'^2]; flap: det(K - omega^2 M) = 0; lag adds -Omega^2 v and the Coriolis coupling
 with stretching, 2 Omega (u' v - u v').  s -> inf: w'''' - Omega^2/2 ((1 - X^2) w')' = omega^2 w, and lag^2 = flap^2 - Omega^2.
 Galerkin method with integrated Legendre polynomials; spectral, so that all digits are reached.
+Axis along the beam: no stretch, and both planes have the modes of the beam at rest, omega_j and omega_j sqrt(ratio):
+lambda^4 + lambda^2 (a + b + 4 Omega^2) + a b = 0 with a = omega_j^2 - Omega^2, b = ratio omega_j^2 - Omega^2.
 """
 import numpy as np
+from mpmath import cos, cosh, findroot, mp, mpf, pi, sqrt, tan
 from numpy.polynomial import legendre
 from scipy.linalg import eigh, eig
 
+mp.dps = 30
 SIZE = 18
 RELATIVE = 5e-12
 
@@ -27,28 +32,28 @@ def _basis(times):
     return (points + 1) / 2, weights / 2, np.array(fields)
 
 
-def matrices(omega, s):
+def matrices(omega, s, R=0):
     """(K, M) of flap, (K, M) of stretching, coupling int u v."""
     X, weight, w = _basis(2)
     _, _, u = _basis(1)
     k = omega / s
-    stretch = np.cos(k * X) / np.cos(k)
-    slope = -k * np.sin(k * X) / np.cos(k)  # of the stretch
-    force = s * s * (2 * np.sin(k * (1 - X) / 2) * np.sin(k * (1 + X) / 2) / np.cos(k))  # s^2 (stretch - 1), without cancellation
+    strain = (2 * np.sin(k * (1 - X) / 2) * np.sin(k * (1 + X) / 2) + k * R * np.sin(k * (1 - X))) / np.cos(k)  # without cancellation
+    stretch, force = 1 + strain, s * s * strain
+    slope = -k * (np.sin(k * X) + k * R * np.cos(k * (1 - X))) / np.cos(k)  # of the stretch
     curvature = w[:, 2] / stretch - w[:, 1] * slope / stretch ** 2
     K = (curvature * weight) @ curvature.T + (w[:, 1] * (weight * force / stretch)) @ w[:, 1].T
     M = (w[:, 0] * weight) @ w[:, 0].T
     return K, M, s * s * (u[:, 1] * weight) @ u[:, 1].T, (u[:, 0] * weight) @ u[:, 0].T, (u[:, 0] * weight) @ w[:, 0].T
 
 
-def flap(omega, s, count=3):
-    K, M, _, _, _ = matrices(omega, s)
+def flap(omega, s, count=3, R=0):
+    K, M, _, _, _ = matrices(omega, s, R)
     return 1 / np.sqrt(eigh(M, K, eigvals_only=True)[::-1][:count])  # the lowest are the best conditioned so
 
 
-def lag(omega, s, count=3):
+def lag(omega, s, count=3, R=0):
     """u'' - 2 Omega v' + (K_u - Omega^2) u = 0, v'' + 2 Omega u' + (K - Omega^2) v = 0 (primes: time)."""
-    K, M, Ku, Mu, C = matrices(omega, s)
+    K, M, Ku, Mu, C = matrices(omega, s, R)
     n = SIZE
     mass = np.block([[Mu, np.zeros((n, n))], [np.zeros((n, n)), M]])
     stiffness = np.block([[Ku - omega ** 2 * Mu, np.zeros((n, n))], [np.zeros((n, n)), K - omega ** 2 * M]])
@@ -61,11 +66,52 @@ def lag(omega, s, count=3):
     return found[::2][:count]
 
 
+def stretch(omega, s, R=0):
+    k = mpf(omega) / s
+    return tan(k) / k - 1 + R * (1 / cos(k) - 1)
+
+
+def bending(count):
+    """Natural frequencies of the cantilever at rest: cos(z) cosh(z) = -1, omega = z^2."""
+    return [findroot(lambda z: cos(z) + 1 / cosh(z), (j + mpf(1) / 2) * pi + (mpf("0.3") if j == 0 else 0)) ** 2 for j in range(count)]
+
+
+def whirl(omega, ratio, count):
+    """(frequencies, largest rate of growth) about an axis along the beam."""
+    frequencies, growth = [], mpf(0)
+    for rest in bending(count):
+        a, b = rest ** 2 - mpf(omega) ** 2, ratio * rest ** 2 - mpf(omega) ** 2
+        half = (a + b + 4 * mpf(omega) ** 2) / 2
+        large = half + sqrt(half ** 2 - a * b)  # lambda^2 = -large, -small
+        small = a * b / large
+        frequencies += [sqrt(large)] + ([sqrt(small)] if small > 0 else [])
+        growth = max(growth, sqrt(-small) if small < 0 else mpf(0))
+    return sorted(frequencies), growth
+
+
+def across(omega, slenderness, at, R=0):
+    """Rows of flap, lag and stretch about an axis normal to the beam, which is stable there."""
+    for name, values in (("flap", flap(omega, slenderness, R=R)), ("lag", lag(omega, slenderness, R=R))):
+        for i, value in enumerate(values):
+            yield "rotating_cantilever", at, f"{name}_{i + 1}", value, "1", RELATIVE
+    if omega:
+        yield "rotating_cantilever", at, "stretch", stretch(omega, slenderness, R), "1"
+    yield "rotating_cantilever", at, "growth", 0, "1"
+
+
 def rows():
     for slenderness in (1000, 100):
         for omega in (0, 2, 6, 12):
-            at = [f"omega_star={omega}"] if omega else []
+            at = [f"omega_star={omega}"] if omega != 6 else []
             at += [f"slenderness={slenderness}"] if slenderness != 1000 else []
-            for name, values in (("flap", flap(omega, slenderness)), ("lag", lag(omega, slenderness))):
-                for i, value in enumerate(values):
-                    yield "rotating_cantilever", ";".join(at), f"{name}_{i + 1}", value, "1", RELATIVE
+            yield from across(omega, slenderness, ";".join(at))
+    yield from across(12, 1000, "omega_star=12;stations=13")
+    yield from across(6, 1000, "hub_radius=1", 1)
+    yield from across(1, 1000, "hub_radius=-2;omega_star=1", -2)
+    yield "rotating_cantilever", "omega_star=5;slenderness=10", "stretch", stretch(5, 10), "1"
+    for omega, ratio in ((2, 1), (5, 4), (10, 4)):
+        at = f"axis=1.5707963267948966;omega_star={omega}" + (f";stiffness_ratio={ratio}" if ratio != 1 else "")
+        frequencies, growth = whirl(omega, ratio, 4)
+        for i in range(4):
+            yield "rotating_cantilever", at, f"whirl_{i + 1}", frequencies[i], "1"
+        yield "rotating_cantilever", at, "growth", growth, "1"
