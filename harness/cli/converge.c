@@ -4,23 +4,37 @@
 
 #include "harness/cli/cli.h"
 #include "harness/run/csv.h"
+#include "harness/run/json.h"
 #include "harness/run/output.h"
 #include "harness/run/table.h"
 
+static status write_form(FILE *to, const char *format, const sweep *s, const truths *t, fault *f)
+{
+    if (strcmp(format, "json") == 0)
+        return json_write_convergence(to, s, t, f);
+    if (strcmp(format, "csv") == 0)
+        csv_convergence(to, s, t);
+    else
+        table_convergence(to, s, t);
+    return STATUS_OK;
+}
+
 static status write_out(const cli_request *r, const sweep *s, const truths *t, fault *f)
 {
-    void (*const write)(FILE *, const sweep *, const truths *) =
-        strcmp(r->format, "csv") == 0 ? csv_convergence : table_convergence;
     output file;
     if (r->output == NULL) {
-        write(stdout, s, t);
-        return fflush(stdout) == 0 ? STATUS_OK : fault_set(f, STATUS_FAULT, "standard output cannot be written");
+        const status written = write_form(stdout, r->format, s, t, f);
+        return written != STATUS_OK || fflush(stdout) == 0 ? written
+                                                           : fault_set(f, STATUS_FAULT, "standard output cannot be written");
     }
-    const status opened = output_open(r->output, &file, f);
-    if (opened != STATUS_OK)
-        return opened;
-    write(file.stream, s, t);
-    return output_close(&file, f);
+    status outcome = output_open(r->output, &file, f);
+    if (outcome != STATUS_OK)
+        return outcome;
+    outcome = write_form(file.stream, r->format, s, t, f);
+    if (outcome == STATUS_OK)
+        return output_close(&file, f);
+    output_discard(&file);
+    return outcome;
 }
 
 int cli_converge(int count, char **arguments)
@@ -34,8 +48,6 @@ int cli_converge(int count, char **arguments)
     const case_type *type = cli_case(&r);
     if (type == NULL)
         return EXIT_REFUSED;
-    if (strcmp(r.format, "json") == 0)
-        return cli_fail(STATUS_REFUSED, "converge writes text or csv");
     if (r.formulations == 0)
         return cli_fail(STATUS_REFUSED, "which formulation? Give -f, or -f all; 'beamwork list formulations' shows them");
     status outcome = truths_read(cli_truths_path(&r), &t, &f);

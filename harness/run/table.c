@@ -79,8 +79,7 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
         }
         for (int q = 0; q < p->scene.quantities; q++) {
             const truth *row = truth_of(t, p->type, p->parameter, p->scene.quantity[q].name, "same");
-            double value[SERIES_MAX_MESHES];
-            int n[SERIES_MAX_MESHES], count = 0;
+            verdict v = {.series = i, .quantity = q};
             if (p->scene.quantity[q].reduction == SCENE_CURVE)
                 continue;
             fprintf(to, "  %s [%s]\n", p->scene.quantity[q].name, p->scene.quantity[q].unit);
@@ -94,23 +93,16 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
                         isfinite(x)         ? ""
                         : q < r->quantities ? r->quantity[q].reason
                                             : r->reason);
-                if (isfinite(x)) {
-                    n[count] = one->mesh[k];
-                    value[count++] = x;
-                }
             }
-            const convergence c = convergence_of(count, n, value,
-                                                 fabs(row != NULL ? row->value
-                                                      : count > 0 ? value[count - 1]
-                                                                  : 1));
+            verdict_reach(s, t, &v);
             fprintf(to, "  limit ");
-            value_or_dash(to, 22, 14, 'g', c.limit);
+            value_or_dash(to, 22, 14, 'g', v.fit.limit);
             fprintf(to, " +- ");
-            value_or_dash(to, 1, 1, 'e', c.limit_uncertainty);
+            value_or_dash(to, 1, 1, 'e', v.fit.limit_uncertainty);
             fprintf(to, ", order ");
-            value_or_dash(to, 1, 3, 'f', c.order);
+            value_or_dash(to, 1, 3, 'f', v.fit.order);
             if (row != NULL)
-                fprintf(to, ", %s %.14g", row->kind, row->value);
+                fprintf(to, ", %s %.14g: %s", row->kind, row->value, verdict_name(v.kind));
             fputc('\n', to);
         }
     }
