@@ -1,9 +1,11 @@
 #include "harness/model/model.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/model/memory.h"
 #include "harness/model/parts.h"
 
 static status compute_sections(model *m, fault *f)
@@ -33,6 +35,22 @@ static void choose_options(model *m, const double options[])
     m->work_size = m->strains * (m->coordinates + m->strains + 2) + m->memory;
 }
 
+/* At least what the elements, the pattern of their matrices and the states kept along the path take. */
+static status check_memory(const model *m, int elements, fault *f)
+{
+    const double entries = (double)m->coordinates * m->coordinates / 2, words = 10.0 * (m->nodes - 1) + 2 * m->strains + m->inner;
+    double count = 0, states = 3;
+    char what[80];
+    for (int i = 0; i < m->scene->members; i++)
+        count += m->scene->member[i].divisions > 0 ? m->scene->member[i].divisions : elements;
+    for (int i = 0; i < m->scene->analyses; i++)
+        states += m->scene->analysis[i].stations;
+    const double each = sizeof(mesh_element) + (m->nodes - 1) * sizeof(mesh_vertex) +
+                        sizeof(double) * (m->work_size + states * words) + (2 * sizeof(int) + sizeof(double)) * entries;
+    snprintf(what, sizeof what, "%.0f elements", count);
+    return memory_check(count * each, what, "give fewer", f);
+}
+
 static status allocate(model *m, fault *f)
 {
     m->work = malloc(((size_t)m->elements * (size_t)m->work_size + 1) * sizeof *m->work);
@@ -58,6 +76,8 @@ static status build(model *m, const model_request *request, fault *f)
     m->driver_coordinate = malloc(((size_t)request->scene->drivers + 1) * sizeof *m->driver_coordinate);
     if (outcome == STATUS_OK && m->driver_coordinate == NULL)
         outcome = fault_set(f, STATUS_FAULT, "out of memory for drivers");
+    if (outcome == STATUS_OK)
+        outcome = check_memory(m, request->elements, f);
     if (outcome == STATUS_OK)
         outcome = mesh_build(m, request->elements, f);
     if (outcome == STATUS_OK)

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/model/memory.h"
 #include "harness/solve/history.h"
 
 enum { MAX_ITERATIONS = 30 };
@@ -108,14 +109,17 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
 {
     model *m = n->c->model;
     const size_t size = (size_t)model_full_size(m) + (size_t)lin->conditions;
+    const status fits = memory_check((double)size * (double)size * sizeof *n->dense, "dense matrices of all unknowns at once",
+                                     "give newton=mixed", f);
+    if (fits != STATUS_OK)
+        return fits;
     if (n->dense == NULL) {
         n->dense = malloc(size * size * sizeof *n->dense);
         n->unknown = malloc(size * sizeof *n->unknown);
         n->pivot = malloc(size * sizeof *n->pivot);
     }
     if (n->dense == NULL || n->unknown == NULL || n->pivot == NULL)
-        return fault_set(f, STATUS_REFUSED, "%zu unknowns at once: more than memory allows for a dense matrix; give newton=mixed",
-                         size);
+        return fault_set(f, STATUS_FAULT, "out of memory for a dense matrix of %zu unknowns; give newton=mixed", size);
     model_linearisation parts = *lin;
     parts.K = NULL;
     parts.drive = NULL;

@@ -30,8 +30,8 @@ status static_walk(newton *n, double target, double *increment, fault *f)
             continue;
         }
         history_drop_step(n->c->result, &record);
-        if (outcome == STATUS_FAULT || ++halvings > MAX_HALVINGS)
-            return outcome == STATUS_SINGULAR || outcome == STATUS_FAULT ? outcome : STATUS_NOT_CONVERGED;
+        if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED || ++halvings > MAX_HALVINGS)
+            return outcome;
         model_state_copy(n->c->model, n->backup, n->state);
         if (n->trail != NULL)
             trail_forget(n->trail);
