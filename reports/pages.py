@@ -18,6 +18,7 @@ PAGES = (
     "case",
     "formulation",
     "pictures",
+    "paths",
 )
 
 _tasks = []  # of the run at hand; inherited by the processes of the pool, so that no record is copied

@@ -39,7 +39,7 @@ class Site:
     def __init__(self, results, truths, folder):
         self.about, self.cases = data.read_results(results)
         self.kinds = data.read_truth_counts(truths)
-        self.results, self.folder = results, folder
+        self.results, self.truths, self.folder = results, truths, folder
         self.styles = Styles([s.key for c in self.cases for p in c.points for s in p.series])
         self.navigation, self.sections = [], []
         os.makedirs(folder, exist_ok=True)
