@@ -1,11 +1,12 @@
-/* Hinged right-angle frame of two deep thin strips under end moments in its plane: lateral buckling through the corner.
- * Argyris et al. (1979); critical moment pi/L sqrt(EI GJ), EI about the weak axis, J = b t^3/3. */
+/* Hinged frame of two deep thin strips under end moments in its plane: lateral buckling through the corner.  Argyris et al. (1979),
+ * right angle; the first critical moment is pi/L sqrt(EI GJ) for every angle, EI about the weak axis, J = b t^3/3; the second depends
+ * on the angle and on EI/GJ. */
 #include "cases/case.h"
 
 #include <math.h>
 #include <stddef.h>
 
-enum { LEG, DEPTH, THICKNESS, YOUNG, POISSON };
+enum { LEG, DEPTH, THICKNESS, YOUNG, POISSON, ANGLE };
 
 static const case_parameter parameters[] = {
     [LEG] = {"leg", "m", 0.24, 1e-6, 1e6, NULL, "length of a leg"},
@@ -13,6 +14,7 @@ static const case_parameter parameters[] = {
     [THICKNESS] = {"thickness", "m", 0.0006, 1e-12, 1e3, NULL, "thickness of the strip"},
     [YOUNG] = {"young", "Pa", 71.24e9, 1e-3, 1e15, NULL, "modulus of elasticity"},
     [POISSON] = {"poisson", "1", 0.31, -0.99, 0.49, NULL, "Poisson's ratio"},
+    [ANGLE] = {"angle", "rad", 1.5707963267948966, 0.1, 3.1, NULL, "between the legs"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -21,6 +23,14 @@ static void hinge(scene *s, int node)
 {
     scene_hold(s, node, SCENE_UY, SCENE_UZ);
     scene_hold(s, node, SCENE_RX, SCENE_RY);
+}
+
+static void add_moment(scene *s, int buckling, const char *name, int order)
+{
+    scene_quantity *q = scene_add_quantity(s, name, "N m", SCENE_CRITICAL_FACTOR, buckling);
+    q->order = order;
+    q->tolerance = 1e-4;
+    q->least_order = 1.8;
 }
 
 static status build(const double value[], scene *s, fault *f)
@@ -36,8 +46,8 @@ static status build(const double value[], scene *s, fault *f)
     spec.given.Iw = 0;
     spec.given.It = value[DEPTH] * pow(value[THICKNESS], 3) / 3;
     const int profile = scene_add_section(s, &spec);
-    const double half = value[LEG] / sqrt(2), y_axis[3] = {0, 0, 1};
-    const int left = scene_add_node(s, -half, 0, 0), corner = scene_add_node(s, 0, half, 0), right = scene_add_node(s, half, 0, 0);
+    const double half = value[LEG] * sin(value[ANGLE] / 2), rise = value[LEG] * cos(value[ANGLE] / 2), y_axis[3] = {0, 0, 1};
+    const int left = scene_add_node(s, -half, 0, 0), corner = scene_add_node(s, 0, rise, 0), right = scene_add_node(s, half, 0, 0);
     scene_add_member(s, left, corner, profile, y_axis);
     scene_add_member(s, corner, right, profile, y_axis);
     hinge(s, left);
@@ -46,10 +56,9 @@ static status build(const double value[], scene *s, fault *f)
     scene_add_load(s, SCENE_MOMENT, left, 0, 0, 1);
     scene_add_load(s, SCENE_MOMENT, right, 0, 0, -1);
     const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
-    scene_analysis_at(s, buckling)->wanted = 1;
-    scene_quantity *q = scene_add_quantity(s, "critical_moment", "N m", SCENE_CRITICAL_FACTOR, buckling);
-    q->tolerance = 1e-4;
-    q->least_order = 1.8;
+    scene_analysis_at(s, buckling)->wanted = 2;
+    add_moment(s, buckling, "critical_moment", 0);
+    add_moment(s, buckling, "critical_moment_2", 1);
     const int meshes[] = {2, 4, 8, 16, 32};
     scene_meshes(s, 5, meshes);
     return STATUS_OK;
