@@ -171,7 +171,7 @@ def branched():
 def unsymmetric():
     s = branched()
     for given in ({}, {"axial_load": 0}, {"length": mpf("0.6"), "axial_load": 100000}, {"length": mpf("0.6"), "shear_stability": "haringx", "axial_load": 100000},
-                  {"shear": 0, "rotary_inertia": 0, "axial_load": 0}):
+                  {"shear": 0, "rotary_inertia": 0, "axial_load": 0}, {"length": 1, "axial_load": -50000}):
         at = ";".join(f"{k}={v if isinstance(v, (int, str)) else float(v)}" for k, v in given.items())
         l, shear, haringx, load = mpf(given.get("length", 3)), given.get("shear", 1), given.get("shear_stability") == "haringx", given.get("axial_load", 5000)
         yield "unsymmetric_column", at, "buckling_load", buckling_load(s, l, shear, haringx), "N"

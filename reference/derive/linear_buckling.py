@@ -4,10 +4,11 @@ Lateral: Pi = 1/2 int EI w''^2 + GJ phi'^2 + EIw phi''^2 + int M phi w'' gives E
 K = L^2 GJ/EIw,  phi''''/K - phi'' - (gamma m(x))^2 phi = 0,  M = gamma m sqrt(EI GJ)/L; loads act at the shear centre.
 Frame: a leg carries a constant spatial moment (m_x, m_y + f x, M): GJ t_x' = m_x - M t_y, EI t_y' = m_y + f x + M t_x, w' = -t_y.
 """
-from mpmath import findroot, matrix, det, mp, mpf, pi, sqrt, zeros
+from mpmath import cos, det, findroot, matrix, mp, mpf, pi, sin, sqrt, zeros
 
 mp.dps = 40
 TERMS = 160
+LEG_TERMS = 64  # 7^64/64! = 1e-35
 
 # m(x) as coefficients of powers of x, measured from the end where the loaded length is zero; where the half beam ends
 LOADS = {"tip": ([0, 1], 1), "distributed": ([0, 0, mpf(1) / 2], 1), "mid": ([0, mpf(1) / 2], mpf(1) / 2), "mid_distributed": ([0, mpf(1) / 2, -mpf(1) / 2], mpf(1) / 2)}
@@ -73,24 +74,26 @@ def lateral_rows():
         yield "lateral_buckling", ";".join(at), "load_factor", lateral_load(load, 0, GUESS[load]), "1"
     for K, guess in ((1, "15.7"), (4, "9.75"), (16, "6.81")):
         yield "lateral_buckling", f"K={K}", "load_factor", lateral_load("tip", K, guess), "1"
+    for load, K, guess in (("distributed", 4, "39.7"), ("distributed", 40, "20.7"), ("mid", 4, "31.7"), ("mid", 40, "19.2"), ("mid_distributed", 4, "52.7"), ("mid_distributed", 40, "31.7")):
+        yield "lateral_buckling", f"load={load};K={K}", "load_factor", lateral_load(load, K, guess), "1"
 
 
 COLUMN_E, COLUMN_SIDE = mpf(70) * 10 ** 9, mpf("0.02")
 
 
-def _column(length, G):
+def _column(length, G, E=COLUMN_E, side=COLUMN_SIDE):
     """P_E = pi^2 EI/l^2 and GA_s = 5/6 G A."""
-    return pi ** 2 * COLUMN_E * COLUMN_SIDE ** 4 / 12 / length ** 2, G * COLUMN_SIDE ** 2 * 5 / 6
+    return pi ** 2 * E * side ** 4 / 12 / length ** 2, G * side ** 2 * 5 / 6
 
 
-def engesser(length, G):
-    euler, shear = _column(length, G)
+def engesser(*column):
+    euler, shear = _column(*column)
     return euler / (1 + euler / shear)
 
 
-def haringx(length, G):
+def haringx(*column):
     """GA_s (sqrt(1 + 4 P_E/GA_s) - 1)/2."""
-    euler, shear = _column(length, G)
+    euler, shear = _column(*column)
     return shear * (sqrt(1 + 4 * euler / shear) - 1) / 2
 
 
@@ -101,6 +104,10 @@ def column_rows():
             at += [] if G == mpf(27) * 10 ** 9 else [f"shear_modulus={int(G)}"]
             yield "shear_column", ";".join(at), "buckling_load", engesser(length, G), "N"
             yield "shear_column", ";".join(at + ["shear_stability=haringx"]), "buckling_load", haringx(length, G), "N"
+    other = (mpf("0.7"), mpf(5) * 10 ** 8, mpf("1.2e10"), mpf("0.09"))
+    at = "length=0.7;side=0.09;young=12000000000;shear_modulus=500000000"
+    yield "shear_column", at, "buckling_load", engesser(*other), "N"
+    yield "shear_column", at + ";shear_stability=haringx", "buckling_load", haringx(*other), "N"
 
 
 def _leg(x, M, EI, GJ):
@@ -110,7 +117,7 @@ def _leg(x, M, EI, GJ):
         unit = [mpf(1) if column == k else mpf(0) for k in range(6)]
         w, tx, ty = [unit[0]], [unit[1]], [unit[2]]
         mx, my, f = unit[3:]
-        for n in range(TERMS):
+        for n in range(LEG_TERMS):
             w.append(-ty[n] / (n + 1))
             tx.append(((mx if n == 0 else 0) - M * ty[n]) / GJ / (n + 1))
             ty.append(((my if n == 0 else f if n == 1 else 0) + M * tx[n]) / EI / (n + 1))
@@ -119,13 +126,14 @@ def _leg(x, M, EI, GJ):
     return out
 
 
-def frame_determinant(M, EI, GJ, length):
-    """Legs along x and y from the corner; their ends do not leave the plane and turn about its normal only.
+def frame_determinant(M, EI, GJ, length, angle):
+    """Legs from the corner, `angle` between them; their ends do not leave the plane and turn about its normal only.
 
-    The second leg's axes are (y, -x, z); it carries the opposite of what the first leg carries.
+    The first leg's axes are (x, y, z), the second's are turned about z; it carries the opposite of what the first leg carries.
     """
     first, second = _leg(length, M, EI, GJ), _leg(length, -M, EI, GJ)
-    turn = matrix([[1, 0, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, -1, 0, 0, 0, 0], [0, 0, 0, 0, -1, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 0, -1]])
+    c, s = cos(angle), sin(angle)
+    turn = matrix([[1, 0, 0, 0, 0, 0], [0, c, s, 0, 0, 0], [0, -s, c, 0, 0, 0], [0, 0, 0, -c, -s, 0], [0, 0, 0, s, -c, 0], [0, 0, 0, 0, 0, -1]])
     both = zeros(6, 6)
     second = second * turn
     for i in range(3):
@@ -134,13 +142,23 @@ def frame_determinant(M, EI, GJ, length):
     return det(both)
 
 
+FRAMES = ({}, {"angle": "1"}, {"angle": "2.5"}, {"leg": "0.6", "poisson": "0"}, {"leg": "0.1", "thickness": "0.002", "angle": "2"}, {"young": "210000000000", "depth": "0.05", "poisson": "0.45"})
+
+
 def frame_rows():
-    """Thin strip, GJ = G b t^3/3."""
-    E, nu, b, t, length = mpf(71240) * 10 ** 6, mpf("0.31"), mpf("0.03"), mpf("0.0006"), mpf("0.24")
-    EI, GJ = E * b * t ** 3 / 12, E / (2 * (1 + nu)) * b * t ** 3 / 3
-    scale = sqrt(EI * GJ) / length
-    root = findroot(lambda g: frame_determinant(g * scale, EI, GJ, length) / scale, (mpf("3.0"), mpf("3.3")), tol=mpf(10) ** -25, solver="anderson")
-    yield "right_angle_frame", "", "critical_moment", scale * root, "N m"
+    """Thin strips, GJ = G b t^3/3; the second factor lies between 1.4 pi and 2 pi for every angle."""
+    for given in FRAMES:
+        def value(name, default):
+            return mpf(given.get(name, default))
+        E, nu, b, t, length = value("young", 71240 * 10 ** 6), value("poisson", "0.31"), value("depth", "0.03"), value("thickness", "0.0006"), value("leg", "0.24")
+        angle = value("angle", pi / 2)
+        EI, GJ = E * b * t ** 3 / 12, E / (2 * (1 + nu)) * b * t ** 3 / 3
+        # with lengths in legs and forces in sqrt(EI GJ)/leg^2 one number is left, EI/GJ
+        root = sqrt(EI / GJ)
+        at = ";".join(f"{k}={v}" for k, v in given.items())
+        for name, bracket in (("critical_moment", ("3.0", "3.3")), ("critical_moment_2", ("4.4", "6.25"))):
+            factor = findroot(lambda g: frame_determinant(g, root, 1 / root, mpf(1), angle), [mpf(x) for x in bracket], tol=mpf(10) ** -25, solver="anderson")
+            yield "right_angle_frame", at, name, factor * sqrt(EI * GJ) / length, "N m"
 
 
 def rows():

@@ -5,7 +5,7 @@ mp.dps = 40
 
 
 def rows():
-    for kl in ("0.5", "1", "2", "5", "10"):
+    for kl in ("0.001", "0.5", "1", "2", "5", "10", "20"):
         x = mpf(kl)
         at = [] if kl == "1" else [f"kL={kl}"]
         yield "warping_torsion", ";".join(at), "twist_ratio", 1 - tanh(x) / x, "1"
