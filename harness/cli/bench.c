@@ -50,7 +50,7 @@ static status measure(cli_request *r, truths *t, sweep *s, judgement *j, fault *
     if (outcome != STATUS_OK)
         return outcome;
     clock_pin();
-    return timing_run(s, floor_seconds, progress, f);
+    return timing_run(s, floor_seconds, r->dense, progress, f);
 }
 
 static status write_out(const cli_request *r, const sweep *s, const judgement *j, fault *f)
@@ -81,7 +81,7 @@ int cli_bench(int count, char **arguments)
         "apart, with the error. Times whose rounds overlap are undecided. With --against: one cell in alternation with the same "
         "cell "
         "of another formulation or program, until the noise allows an answer.",
-        "+fnskFojTAX", count, arguments, &r);
+        "+fnskFojTAXD", count, arguments, &r);
     if (r.against != NULL)
         return cli_against(&r);
     if (r.case_count == 0 && (r.assignments > 0 || r.meshes > 0))

@@ -152,16 +152,19 @@ status model_linearise(model *m, const model_state *s, model_linearisation *lin,
         if (lin->drive != NULL)
             add_driven(m, &m->element[i], lin->drive, K, force);
         add_columns(m, &m->element[i], K, lin);
+        phases_lap(&m->phases, PHASE_ELEMENTS);
         for (int k = 0; k < m->coordinates; k++)
             force[k] = -force[k];
         assemble_vector(&m->element[i], m->coordinates, force, lin->residual);
         if (p != NULL)
             assemble_matrix(p, i, K, lin->K);
+        phases_lap(&m->phases, PHASE_ASSEMBLY);
         lin->incompatibility = fmax(lin->incompatibility, gap);
     }
     loads_add(m, s, lin->path, lin->residual);
     if (lin->K != NULL)
         loads_subtract_stiffness(m, s, lin->path, lin->K);
+    phases_lap(&m->phases, PHASE_ASSEMBLY);
     return STATUS_OK;
 }
 
@@ -209,6 +212,7 @@ double model_advance(model *m, model_state *s, const double dx[], double path)
     double largest = 0;
     for (int i = 0; i < m->elements; i++)
         largest = fmax(largest, advance_element(m, s, i, dx));
+    phases_lap(&m->phases, PHASE_ELEMENTS);
     for (int i = 0; i < m->vertices; i++)
         if (m->vertex[i].body == i)
             largest = fmax(largest, advance_vertex(m, s, i, dx));

@@ -154,6 +154,11 @@ counters *model_counters(model *m)
     return &m->counters;
 }
 
+phases *model_phases(model *m)
+{
+    return &m->phases;
+}
+
 const section *model_section(const model *m, int index)
 {
     return &m->section[index];

@@ -17,6 +17,7 @@
 
 #include "cases/scene/scene.h"
 #include "elements/element.h"
+#include "harness/model/phases.h"
 #include "harness/model/sparse.h"
 
 typedef struct model model;
@@ -59,6 +60,7 @@ typedef struct counters {
     double condition; /* largest estimate of the solved systems (factor_condition), where it was asked for; else 0 */
 } counters;
 counters *model_counters(model *);
+phases *model_phases(model *);
 
 /* Everything that changes along a path. A copy undoes a rejected step. */
 typedef struct model_state model_state;

@@ -70,6 +70,7 @@ struct model {
     element_spin spin; /* of the frame, times the path if that is followed */
     int spins, spin_follows_path;
     counters counters;
+    phases phases;
     int lines;
     char **line; /* what was left out */
 };

@@ -81,6 +81,13 @@ static void timing_of(FILE *to, const sweep *s, const verdict *v, int mesh)
         fprintf(to, ",%.6e,%.6e,%.6e,%.6e,%d", c->setup, c->solve, clock_least(c), clock_most(c), c->repeats);
     else
         fprintf(to, ",,,,,0");
+    for (int part = 0; part < PHASES; part++)
+        fprintf(to, ",%.6e", one->timing[mesh].phase[part]);
+    if (one->timing[mesh].dense.unknowns > 0)
+        fprintf(to, ",%.6e,%d", baseline_seconds(&one->timing[mesh].dense, k->iterations),
+                one->timing[mesh].dense.whole.rounds > 0);
+    else
+        fprintf(to, ",,");
     fprintf(to, ",%ld,%ld,%ld,%ld,%ld,%.6e,%s\n", k->iterations, k->strain_evaluations, k->stress_evaluations, k->factorisations,
             k->factor_entries, k->factor_flops, status_name(cell->solve.status));
 }
@@ -88,7 +95,8 @@ static void timing_of(FILE *to, const sweep *s, const verdict *v, int mesh)
 void csv_timing(FILE *to, const sweep *s, const judgement *j)
 {
     fprintf(to, "case,parameters,formulation,elements,free,quantity,error,model_error,seconds_setup,seconds_solve,seconds_least,"
-                "seconds_most,repeats,iterations,strain_evaluations,stress_evaluations,factorisations,factor_entries,factor_flops,"
+                "seconds_most,repeats,seconds_elements,seconds_assembly,seconds_factorisation,seconds_solution,seconds_dense,dense_"
+                "whole,iterations,strain_evaluations,stress_evaluations,factorisations,factor_entries,factor_flops,"
                 "status\n");
     for (int i = 0; i < j->verdicts; i++) {
         const verdict *v = &j->verdict[i];

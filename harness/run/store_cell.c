@@ -77,12 +77,20 @@ static void put_reading(record *r, hid_t at, const char *name, const clock_readi
     H5Dclose(set);
 }
 
-static void put_timing(record *r, hid_t at, const cell_timing *timing)
+static void put_timing(record *r, hid_t at, const cell_timing *timing, long iterations)
 {
     const hid_t g = record_group(r, at, "timing");
     put_reading(r, g, "as_is", &timing->as_is);
     put_reading(r, g, "keep_all", &timing->keep_all);
     record_count(r, g, "free_keep_all", timing->free_keep_all);
+    for (int k = 0; k < PHASES; k++)
+        record_number(r, g, phase_name((phase)k), timing->phase[k]); /* [s] */
+    if (timing->dense.unknowns > 0) {
+        record_count(r, g, "dense_unknowns", timing->dense.unknowns);
+        record_number(r, g, "dense_iteration", timing->dense.iteration); /* [s] */
+        record_number(r, g, "dense_seconds", baseline_seconds(&timing->dense, iterations));
+        record_count(r, g, "dense_whole", timing->dense.whole.rounds > 0); /* 0: one iteration times their number */
+    }
     H5Gclose(g);
 }
 
@@ -157,6 +165,6 @@ void store_cell(record *r, hid_t at, const point *p, int elements, const cell_re
     store_events(r, mesh, &cell->solve);
     put_quantities(r, mesh, p, &cell->solve, of);
     if (timing != NULL)
-        put_timing(r, mesh, timing);
+        put_timing(r, mesh, timing, cell->counters.iterations);
     H5Gclose(mesh);
 }

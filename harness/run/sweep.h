@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 
+#include "harness/run/baseline.h"
 #include "harness/run/clock.h"
 #include "harness/run/formulations.h"
 #include "harness/run/truths.h"
@@ -27,6 +28,8 @@ typedef struct point {
 typedef struct cell_timing {
     clock_reading as_is, keep_all; /* rounds = 0: not measured */
     int free_keep_all;             /* unknowns when nothing is left out */
+    double phase[PHASES];          /* [s] in the iterations of one run more, in which the clock is read between their parts */
+    baseline dense;                /* when asked for */
 } cell_timing;
 
 typedef struct series {

@@ -49,6 +49,43 @@ static void rows(FILE *to, const sweep *s, const judgement *j, int at)
             row(to, s, &s->series[i], first_judged(j, i), k);
 }
 
+/* Microseconds per iteration in each of its parts; the dense baseline where it was timed. */
+static void parts_of(FILE *to, const series *one, int mesh)
+{
+    const cell_timing *t = &one->timing[mesh];
+    const long iterations = one->cell[mesh].counters.iterations;
+    if (t->as_is.rounds == 0 || iterations == 0)
+        return;
+    fprintf(to, "  %-28s %5d ", one->formulation.key, one->mesh[mesh]);
+    for (int k = 0; k < PHASES; k++)
+        fprintf(to, " %14.4g", 1e6 * t->phase[k] / (double)iterations);
+    if (t->dense.whole.rounds > 0)
+        fprintf(to, "  dense %.4g ms", 1e3 * clock_least(&t->dense.whole));
+    else if (t->dense.unknowns > 0)
+        fprintf(to, "  dense %ld x %.4g ms", iterations, 1e3 * t->dense.iteration);
+    if (t->dense.unknowns > 0)
+        fprintf(to, " (%d unknowns): %.4g times ours", t->dense.unknowns,
+                baseline_seconds(&t->dense, iterations) / clock_least(&t->as_is));
+    fputc('\n', to);
+}
+
+static void parts(FILE *to, const sweep *s, int at)
+{
+    int iterative = 0;
+    for (int i = 0; i < s->seriess; i++)
+        for (int k = 0; k < s->series[i].meshes && s->series[i].point == at && s->series[i].missing[0] == '\0'; k++)
+            iterative |= s->series[i].cell[k].counters.iterations > 0;
+    if (!iterative)
+        return;
+    fprintf(to, "  %-28s %5s ", "microseconds per iteration", "n");
+    for (int k = 0; k < PHASES; k++)
+        fprintf(to, " %14s", phase_name((phase)k));
+    fputc('\n', to);
+    for (int i = 0; i < s->seriess; i++)
+        for (int k = 0; k < s->series[i].meshes && s->series[i].point == at && s->series[i].missing[0] == '\0'; k++)
+            parts_of(to, &s->series[i], k);
+}
+
 static const clock_reading *time_of(const sweep *s, const verdict *v, int mesh)
 {
     return &s->series[v->series].timing[mesh].as_is;
@@ -108,6 +145,8 @@ void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh)
         fprintf(to, "%s%s%s\n", here->type->name, here->text[0] != '\0' ? " " : "", here->text);
         if (every_mesh)
             rows(to, s, j, p);
+        if (every_mesh)
+            parts(to, s, p);
         for (int q = 0; q < here->scene.quantities && (every_mesh || shown == 0); q++)
             for (int level = 0; level < REACH_LEVELS && has_truth(s, j, p, q); level++, shown = 1)
                 cheapest(to, s, j, p, q, reach_level[level]);

@@ -35,7 +35,18 @@ static void round_kept_whole(const cell_request *as_is, double floor, cell_timin
         clock_round(&whole, floor, &out->keep_all);
 }
 
-static void round_of_series(sweep *s, int index, double floor)
+static void read_phases(const cell_request *as_is, cell_timing *out)
+{
+    cell_request request = *as_is;
+    cell_result cell;
+    fault f = {""};
+    request.solve.phases = 1;
+    cell_run(&request, &cell, &f);
+    memcpy(out->phase, cell.solve.phase, sizeof out->phase);
+    cell_result_free(&cell);
+}
+
+static void round_of_series(sweep *s, int index, double floor, int dense)
 {
     series *one = &s->series[index];
     const int whole = mesh_kept_whole(s, one);
@@ -46,10 +57,14 @@ static void round_of_series(sweep *s, int index, double floor)
         clock_round(&request, floor, &one->timing[i].as_is);
         if (i == whole)
             round_kept_whole(&request, floor, &one->timing[i]);
+        if (one->timing[i].as_is.rounds == CLOCK_ROUNDS) /* everything is in the caches by then */
+            read_phases(&request, &one->timing[i]);
+        if (dense)
+            baseline_round(&request, one->cell[i].counters.iterations, floor, &one->timing[i].dense);
     }
 }
 
-status timing_run(sweep *s, double floor, FILE *progress, fault *f)
+status timing_run(sweep *s, double floor, int dense, FILE *progress, fault *f)
 {
     for (int i = 0; i < s->seriess; i++) {
         s->series[i].timing = calloc((size_t)s->series[i].meshes + 1, sizeof *s->series[i].timing);
@@ -62,7 +77,7 @@ status timing_run(sweep *s, double floor, FILE *progress, fault *f)
         for (int round = 0; round < CLOCK_ROUNDS; round++)
             for (int i = 0; i < s->seriess; i++)
                 if (s->series[i].point == p)
-                    round_of_series(s, i, floor);
+                    round_of_series(s, i, floor, dense);
     }
     if (progress != NULL)
         fprintf(progress, "\r\033[K");

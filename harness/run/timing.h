@@ -6,6 +6,7 @@
 
 /* floor: least [s] a round spends on a cell. What is left out is measured at the defaults of every case, on the middle mesh of
  * each formulation. Cells that crashed are not run again. */
-status timing_run(sweep *s, double floor, FILE *progress, fault *f);
+/* dense: the published algorithm is timed too. */
+status timing_run(sweep *s, double floor, int dense, FILE *progress, fault *f);
 
 #endif

@@ -93,15 +93,19 @@ static double work_of(int n, const double force[], const double motion[])
 /* dx of the condensed system. */
 static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
 {
+    phases *p = model_phases(n->c->model);
     status outcome = model_linearise(n->c->model, n->state, lin, f);
     if (outcome == STATUS_OK)
         outcome = factor_numeric(n->factor, &n->K, f);
+    phases_lap(p, PHASE_FACTORISATION);
     if (outcome != STATUS_OK)
         return outcome;
     memcpy(n->dx, n->residual, (size_t)n->free * sizeof *n->dx);
     factor_solve(n->factor, n->dx);
     n->energy = fabs(work_of(n->free, n->residual, n->dx));
-    return meet_conditions(n, lin->conditions, lin->condition, f);
+    outcome = meet_conditions(n, lin->conditions, lin->condition, f);
+    phases_lap(p, PHASE_SOLUTION);
+    return outcome;
 }
 
 /* dx of the uncondensed system, by Gaussian elimination with partial pivoting (LAPACK). */
@@ -131,7 +135,10 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
             model_full_system(m, n->state, lin->path, n->dx, lin->conditions, lin->condition, n->dense, n->unknown, n->residual, f);
     if (outcome != STATUS_OK)
         return outcome;
-    if (LAPACKE_dgesv(LAPACK_COL_MAJOR, (int)size, 1, n->dense, (int)size, n->pivot, n->unknown, (int)size) != 0)
+    phases_lap(model_phases(m), PHASE_ASSEMBLY);
+    const int singular = LAPACKE_dgesv(LAPACK_COL_MAJOR, (int)size, 1, n->dense, (int)size, n->pivot, n->unknown, (int)size) != 0;
+    phases_lap(model_phases(m), PHASE_FACTORISATION);
+    if (singular)
         return fault_set(f, STATUS_SINGULAR, "the uncondensed system is singular");
     memcpy(n->dx, n->unknown, (size_t)n->free * sizeof *n->dx);
     for (int c = 0; c < lin->conditions; c++)
@@ -144,6 +151,7 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
     model *m = n->c->model;
     counters *count = model_counters(m);
     n->energy = NAN;
+    phases_start(model_phases(m));
     memset(n->dx, 0, (size_t)n->all * sizeof *n->dx);
     model_drive(m, n->state, path, n->dx);
     if (n->c->options->newton == SOLVE_DISPLACEMENT) {
@@ -176,6 +184,7 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
 status newton_advance(newton *n, double path, double *correction, step_record *record, fault *f)
 {
     *correction = model_advance(n->c->model, n->state, n->dx, path);
+    phases_stop(model_phases(n->c->model));
     model_counters(n->c->model)->iterations++;
     const iteration_record one = {.correction = *correction, .incompatibility = record->incompatibility};
     const status kept = history_add_iteration(n->c->result, record, &one, n->energy, f);

@@ -63,6 +63,8 @@ static void run_analyses(analysis_context *c)
         const scene_analysis *a = &c->scene->analysis[i];
         analysis_function *run = function_of(a->kind);
         model_set_spin(c->model, a->omega, a->omega_centre, a->kind == SCENE_ROTATION);
+        if (c->options->sample > 0 && a->kind != SCENE_STATIC)
+            continue;
         o->status = run != NULL ? run(c, i, o, &f) : fault_set(&f, STATUS_REFUSED, "analysis %d: not available", i);
         snprintf(o->reason, sizeof o->reason, "%s", f.text);
         if (o->status != STATUS_OK && c->result->status == STATUS_OK) {
@@ -85,7 +87,9 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
         return fault_set(f, STATUS_FAULT, "out of memory for a solution");
     }
     result->quantities = s->quantities;
+    model_phases(m)->wanted = c.options->phases;
     run_analyses(&c);
+    memcpy(result->phase, model_phases(m)->seconds, sizeof result->phase);
     result->seconds_setup = c.setup;
     result->seconds_solve = seconds_now() - start - c.setup;
     for (int i = 0; i < s->quantities; i++)

@@ -13,6 +13,8 @@ typedef struct solve_options {
     int max_iterations; /* per step; 0: default */
     int steps_between;  /* overrides the scene's; 0: the scene's */
     int condition;      /* 1: estimate the condition of the tangents (of a static path: at its stations) */
+    int phases;         /* 1: read the clock between the parts of an iteration */
+    int sample;         /* > 0: only so many iterations of each static path, for their time: there will be no values */
     int shapes;         /* most states of every path whose centre lines are kept; 0: no shapes */
 } solve_options;
 
@@ -83,6 +85,7 @@ typedef struct solve_result {
     int events;
     path_event *event;
     double seconds_setup, seconds_solve; /* scene, sections, quadrature, mesh, analysis of the pattern | the rest */
+    double phase[PHASES];                /* [s] in the iterations, when asked for */
     shapes shapes;
 } solve_result;
 

@@ -42,6 +42,16 @@ status static_walk(newton *n, double target, double *increment, fault *f)
     return STATUS_OK;
 }
 
+/* Iterations from the undeformed state, for their time; nothing moves, so that the next one is the same. */
+static status sample(newton *n, double path, fault *f)
+{
+    step_record record = {.path = path};
+    status outcome = STATUS_OK;
+    for (int i = 0; i < n->c->options->sample && outcome == STATUS_OK; i++)
+        outcome = newton_direction(n, path, &record, f);
+    return outcome;
+}
+
 status analysis_static(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     const scene_analysis *a = &c->scene->analysis[analysis];
@@ -54,7 +64,9 @@ status analysis_static(analysis_context *c, int analysis, analysis_outcome *o, f
     if (result == STATUS_OK)
         result = newton_stations(o, a->stations, f);
     const int steps = c->options->steps_between > 0 ? c->options->steps_between : a->steps_between > 0 ? a->steps_between : 1;
-    for (int i = 0; i < a->stations && result == STATUS_OK; i++) {
+    if (result == STATUS_OK && c->options->sample > 0)
+        result = sample(&n, a->path[0], f);
+    for (int i = 0; i < a->stations && result == STATUS_OK && c->options->sample == 0; i++) {
         const double from = i > 0 ? a->path[i - 1] : 0;
         double increment = (a->path[i] - from) / steps;
         result = static_walk(&n, a->path[i], &increment, f);
