@@ -28,14 +28,17 @@ static void to_global(const double centre[3], const double axes[9], const double
         global[i] = centre[i] + axes[3 * i] * local[0] + axes[3 * i + 1] * local[1] + axes[3 * i + 2] * local[2];
 }
 
+/* The direction of its elements matters to formulations that do not treat both ends alike. */
 static void add_sheet(const double value[], scene *s, int profile, int body, const double end[3], int fold, const double normal[3],
-                      int shared)
+                      int side)
 {
     const int clamp = scene_add_attached(s, body, end[0], end[1], end[2]);
-    scene_member *sheet = scene_member_at(s, scene_add_member(s, clamp, fold, profile, normal));
-    const int at_fold[] = {shared, SCENE_WARP_FREE, SCENE_WARP_FIXED};
-    sheet->warp_p = SCENE_WARP_FIXED;
-    sheet->warp_q = at_fold[(int)value[JOINT_FOLD_WARPING]];
+    const int from_fold = value[JOINT_DIRECTION] != 0 && side == 1;
+    scene_member *sheet =
+        scene_member_at(s, scene_add_member(s, from_fold ? fold : clamp, from_fold ? clamp : fold, profile, normal));
+    const int at_fold[] = {fold, SCENE_WARP_FREE, SCENE_WARP_FIXED};
+    *(from_fold ? &sheet->warp_q : &sheet->warp_p) = SCENE_WARP_FIXED;
+    *(from_fold ? &sheet->warp_p : &sheet->warp_q) = at_fold[(int)value[JOINT_FOLD_WARPING]];
 }
 
 /* Fold at one azimuth; up = +1: first set (fold line above the centre), -1: its mirror image in the xy plane.
@@ -67,7 +70,7 @@ static void add_fold(const double value[], scene *s, int profile, const double c
         }
         to_global(centre, axes, end, end_global);
         to_global(origin, axes, across, normal);
-        add_sheet(value, s, profile, body[side], end_global, fold, normal, fold);
+        add_sheet(value, s, profile, body[side], end_global, fold, normal, side);
     }
 }
 

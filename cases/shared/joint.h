@@ -18,6 +18,7 @@ enum {
     JOINT_AZIMUTH,
     JOINT_FOLD_WARPING,
     JOINT_WAGNER,
+    JOINT_DIRECTION,
     JOINT_PARAMETERS
 };
 
@@ -37,7 +38,9 @@ enum {
     [JOINT_POLAR] = {"polar_angle", "rad", 40.2 * JOINT_DEGREE, 0.01, 1.56, NULL, "angle between a fold line and the z axis"},     \
     [JOINT_AZIMUTH] = {"azimuth", "rad", 0.0, -6.3, 6.3, NULL, "azimuth of the first fold"},                                       \
     [JOINT_FOLD_WARPING] = {"fold_warping", "", 0, 0, 0, "shared|free|fixed", "warping of the two sheets at their fold"},          \
-    [JOINT_WAGNER] = {"wagner", "1", 1, 0, 1, NULL, "1: Wagner torque (N Eq. 46)"}
+    [JOINT_WAGNER] = {"wagner", "1", 1, 0, 1, NULL, "1: Wagner torque (N Eq. 46)"},                                                \
+    [JOINT_DIRECTION] = {                                                                                                          \
+        "element_direction", "", 0, 0, 0, "bodies|chained", "elements begin at the bodies, or run base - fold - body"}
 
 #define JOINT_DEGREE 0.017453292519943295
 

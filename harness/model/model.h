@@ -57,7 +57,8 @@ typedef struct counters {
     long iterations, steps, rejected_steps, factorisations, solutions;
     long factor_entries;
     double factor_flops;
-    double condition; /* largest estimate of the solved systems (factor_condition), where it was asked for; else 0 */
+    long negative_pivots; /* most in one factorisation of a symmetric tangent */
+    double condition;     /* largest estimate of the solved systems (factor_condition), where it was asked for; else 0 */
 } counters;
 counters *model_counters(model *);
 phases *model_phases(model *);

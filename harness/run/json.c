@@ -52,12 +52,13 @@ static json_t *options_of(const formulation *fm)
 static json_t *counters_of(const cell_result *c)
 {
     const counters *n = &c->counters;
-    return json_pack("{s:i,s:i,s:i,s:I,s:I,s:I,s:I,s:I,s:I,s:I,s:I,s:I,s:f}", "elements", c->size.elements, "free", c->size.free,
-                     "driven", c->size.driven, "strain_evaluations", (json_int_t)n->strain_evaluations, "stress_evaluations",
-                     (json_int_t)n->stress_evaluations, "inertia_evaluations", (json_int_t)n->inertia_evaluations, "iterations",
-                     (json_int_t)n->iterations, "steps", (json_int_t)n->steps, "rejected_steps", (json_int_t)n->rejected_steps,
-                     "factorisations", (json_int_t)n->factorisations, "solutions", (json_int_t)n->solutions, "factor_entries",
-                     (json_int_t)n->factor_entries, "factor_flops", n->factor_flops);
+    return json_pack("{s:i,s:i,s:i,s:I,s:I,s:I,s:I,s:I,s:I,s:I,s:I,s:I,s:f,s:I}", "elements", c->size.elements, "free",
+                     c->size.free, "driven", c->size.driven, "strain_evaluations", (json_int_t)n->strain_evaluations,
+                     "stress_evaluations", (json_int_t)n->stress_evaluations, "inertia_evaluations",
+                     (json_int_t)n->inertia_evaluations, "iterations", (json_int_t)n->iterations, "steps", (json_int_t)n->steps,
+                     "rejected_steps", (json_int_t)n->rejected_steps, "factorisations", (json_int_t)n->factorisations, "solutions",
+                     (json_int_t)n->solutions, "factor_entries", (json_int_t)n->factor_entries, "factor_flops", n->factor_flops,
+                     "negative_pivots", (json_int_t)n->negative_pivots);
 }
 
 /* All truths of the continuum that hold here, with the error against each. */

@@ -35,6 +35,7 @@ static void put_cost(record *r, hid_t at, const cell_result *c)
     record_count(r, at, "solutions", n->solutions);
     record_count(r, at, "factor_entries", n->factor_entries);
     record_number(r, at, "factor_flops", n->factor_flops);
+    record_count(r, at, "negative_pivots", n->negative_pivots);
     record_number(r, at, "seconds_setup", c->solve.seconds_setup);
     record_number(r, at, "seconds_solve", c->solve.seconds_solve);
 }

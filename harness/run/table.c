@@ -45,6 +45,8 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     fprintf(to, "%s%s%s; %d elements, %d free coordinates, %ld iterations, %ld factorisations, %.3g s set-up, %.3g s solution\n",
             status_name(c->solve.status), c->solve.reason[0] != '\0' ? ": " : "", c->solve.reason, c->size.elements, c->size.free,
             c->counters.iterations, c->counters.factorisations, c->solve.seconds_setup, c->solve.seconds_solve);
+    if (c->counters.negative_pivots > 0)
+        fprintf(to, "unstable: up to %ld negative pivots of the tangent\n", c->counters.negative_pivots);
     for (int i = 0; i < c->left_out_lines; i++)
         fprintf(to, "left out: %s\n", c->left_out[i]);
     table_events(to, &c->solve);

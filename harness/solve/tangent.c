@@ -121,7 +121,9 @@ status tangent_at(analysis_context *c, const scene_analysis *a, const model_stat
     }
     counters *n = model_counters(c->model);
     n->factorisations++;
-    n->factor_flops += factor_count(t->factor).flops;
+    const factor_counts counts = factor_count(t->factor);
+    n->factor_flops += counts.flops;
+    n->negative_pivots = counts.negative_pivots > n->negative_pivots ? counts.negative_pivots : n->negative_pivots;
     fill_border(t);
     t->coordinates = model_node_jacobian(c->model, s, a->node, TANGENT_COMPONENTS, t->index, t->T);
     return outcome;
