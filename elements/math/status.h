@@ -11,7 +11,8 @@ typedef enum status {
     STATUS_NOT_CONVERGED, /* an iteration ended without meeting its criterion */
     STATUS_SINGULAR,      /* a matrix that must be invertible is not */
     STATUS_REFUSED,       /* the input makes no sense or is not offered */
-    STATUS_FAULT          /* file, disk or memory: not the fault of the physics */
+    STATUS_FAULT,         /* file, disk or memory: not the fault of the physics */
+    STATUS_TIME_LIMIT     /* stopped by the clock */
 } status;
 
 enum { FAULT_TEXT = 320 };
@@ -28,7 +29,7 @@ __attribute__((format(printf, 3, 4)))
 status
 fault_set(fault *f, status s, const char *format, ...);
 
-/* "ok", "not_converged", "singular", "refused", "fault": the words of the result file. */
+/* "ok", "not_converged", "singular", "refused", "fault", "time_limit": the words of the result file. */
 const char *status_name(status s);
 
 #endif

@@ -17,6 +17,7 @@ static const struct argp_option all_options[] = {
     {"steps", 'S', "N", 0, "load steps between two stations of a path, to begin with", 0},
     {"select", 'k', "EXPRESSION", 0, "words joined by and, or, not; looked for in case/parameters/formulation/quantity", 0},
     {"jobs", 'j', "N", 0, "processes (default: one for each processor)", 0},
+    {"time-limit", 'L', "SECONDS", 0, "of one cell (default 120, 0: none); a cell that exceeds it is a failure of that name", 0},
     {"json", 'J', "FILE", 0, "verdicts as JSON", 0},
     {"junit", 'U', "FILE", 0, "verdicts as JUnit XML", 0},
     {"threshold", 'h', "NAME=R[,NAME=R]", 0,
@@ -119,6 +120,9 @@ static error_t take(int key, char *value, struct argp_state *state)
     case 'j':
         r->jobs = whole_number(value, "number of processes", 1, 64);
         return 0;
+    case 'L':
+        r->time_limit = whole_number(value, "time limit", 0, 1000000);
+        return 0;
     case 'J':
         r->json = value;
         return 0;
@@ -165,6 +169,7 @@ void cli_parse(const char *verb, const char *arguments_doc, const char *doc, con
             chosen[n++] = all_options[i];
     const struct argp parser = {.options = chosen, .parser = take, .args_doc = arguments_doc, .doc = doc};
     memset(out, 0, sizeof *out);
+    out->time_limit = 120;
     out->format = "text";
     out->most_arguments = strchr(keys, '+') != NULL ? CLI_MAX_CASES : strchr(keys, '2') != NULL ? 2 : 1;
     out->jobs = (int)sysconf(_SC_NPROCESSORS_ONLN);
@@ -219,6 +224,7 @@ int cli_fail(status s, const char *text)
         return EXIT_AS_EXPECTED;
     case STATUS_NOT_CONVERGED:
     case STATUS_SINGULAR:
+    case STATUS_TIME_LIMIT:
         return EXIT_DIFFERS;
     case STATUS_REFUSED:
         return EXIT_REFUSED;

@@ -69,7 +69,7 @@ int cli_verify(int count, char **arguments)
               "Judges every formulation on every case and parameter point that has a truth. Exit status: 0 every verdict as "
               "expected, 1 one differs, 2 refused, "
               "3 nothing was checked, 4 file, disk or memory.",
-              "fokjJUPT", count, arguments, &r);
+              "fokjJULPT", count, arguments, &r);
     if (r.case_name != NULL)
         return cli_fail(STATUS_REFUSED, "verify takes no case; select with -k");
     status outcome = try_output(r.output, &f);
@@ -83,6 +83,7 @@ int cli_verify(int count, char **arguments)
         return cli_fail(outcome, f.text);
     const sweep_request request = {.select = r.select,
                                    .jobs = r.jobs,
+                                   .time_limit = r.time_limit,
                                    .formulations = r.formulations,
                                    .formulation = r.formulation,
                                    .shapes = r.shapes < PICTURED_STATES ? r.shapes : PICTURED_STATES,

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "harness/run/wire.h"
@@ -20,11 +21,13 @@ typedef struct task {
 typedef struct board {
     int next;
     int at[MAX_JOBS];
+    double since[MAX_JOBS]; /* [s] of a clock that only goes forward: when the worker took it */
 } board;
 
 typedef struct worker {
     pid_t process;
     FILE *from;
+    int stopped; /* by the clock */
 } worker;
 
 cell_request sweep_cell(const sweep *s, int series_index, int mesh)
@@ -51,6 +54,13 @@ static void run_task(const sweep *s, const task *t, cell_result *out)
     scene_free(&out->scene);
 }
 
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
 /* Child: takes tasks until none is left. */
 static void work(const sweep *s, const task *tasks, int count, board *b, int self, int to)
 {
@@ -60,6 +70,7 @@ static void work(const sweep *s, const task *tasks, int count, board *b, int sel
         cell_result cell;
         if (i >= count || out == NULL)
             break;
+        b->since[self] = now();
         b->at[self] = i;
         run_task(s, &tasks[i], &cell);
         if (fwrite(&i, sizeof i, 1, out) != 1 || wire_write(out, &cell) != 0)
@@ -78,6 +89,7 @@ static status start(const sweep *s, const task *tasks, int count, board *b, int 
     if (pipe(ends) != 0)
         return fault_set(f, STATUS_FAULT, "cannot start a worker: no pipe");
     b->at[self] = -1;
+    w->stopped = 0;
     w->process = fork();
     if (w->process < 0)
         return fault_set(f, STATUS_FAULT, "cannot start a worker process");
@@ -96,7 +108,7 @@ static cell_result *cell_of(sweep *s, const task *t)
 }
 
 /* A worker that ended while it had a task: that cell failed, another worker takes over. Returns 1 when it must be replaced. */
-static int bury(sweep *s, const task *tasks, const board *b, int self, worker *w)
+static int bury(const sweep_request *request, sweep *s, const task *tasks, const board *b, int self, worker *w)
 {
     int how = 0;
     fclose(w->from);
@@ -105,8 +117,10 @@ static int bury(sweep *s, const task *tasks, const board *b, int self, worker *w
     if (b->at[self] < 0)
         return 0;
     cell_result *cell = cell_of(s, &tasks[b->at[self]]);
-    cell->solve.status = STATUS_FAULT;
-    if (WIFSIGNALED(how))
+    cell->solve.status = w->stopped ? STATUS_TIME_LIMIT : STATUS_FAULT;
+    if (w->stopped)
+        snprintf(cell->solve.reason, sizeof cell->solve.reason, "time limit: no result after %d s", request->time_limit);
+    else if (WIFSIGNALED(how))
         snprintf(cell->solve.reason, sizeof cell->solve.reason, "crashed with signal %d", WTERMSIG(how));
     else
         snprintf(cell->solve.reason, sizeof cell->solve.reason, "its process ended with status %d", WEXITSTATUS(how));
@@ -135,6 +149,17 @@ static int receive(sweep *s, const task *tasks, int count, worker *w, int *last)
     return 0;
 }
 
+/* Ends workers that have been at one cell for too long and have nothing to say; their pipes close. */
+static void stop_late(const sweep_request *request, const board *b, int jobs, worker workers[], const struct pollfd ends[])
+{
+    for (int i = 0; i < jobs && request->time_limit > 0; i++)
+        if (workers[i].from != NULL && !workers[i].stopped && ends[i].revents == 0 && b->at[i] >= 0 &&
+            now() - b->since[i] > request->time_limit) {
+            workers[i].stopped = 1;
+            kill(workers[i].process, SIGKILL);
+        }
+}
+
 static status run_parallel(const sweep_request *request, sweep *s, const task *tasks, int count, board *b, fault *f)
 {
     worker workers[MAX_JOBS] = {{0}};
@@ -147,26 +172,29 @@ static status run_parallel(const sweep_request *request, sweep *s, const task *t
         struct pollfd ends[MAX_JOBS];
         for (int i = 0; i < jobs; i++)
             ends[i] = (struct pollfd){.fd = workers[i].from != NULL ? fileno(workers[i].from) : -1, .events = POLLIN};
-        if (poll(ends, (nfds_t)jobs, -1) < 0)
+        if (poll(ends, (nfds_t)jobs, request->time_limit > 0 ? 100 : -1) < 0)
             continue;
+        stop_late(request, b, jobs, workers, ends);
         for (int i = 0; i < jobs && outcome == STATUS_OK; i++) {
             int last = 0;
             if (workers[i].from == NULL || !(ends[i].revents & (POLLIN | POLLHUP)))
                 continue;
             if (!receive(s, tasks, count, &workers[i], &last)) {
                 report(request, s, &tasks[last], ++done, count);
-            } else if (bury(s, tasks, b, i, &workers[i])) {
-                done++;
-                outcome = start(s, tasks, count, b, i, &workers[i], f);
             } else {
-                running--;
+                const int lost = bury(request, s, tasks, b, i, &workers[i]);
+                done += lost;
+                if (lost || workers[i].stopped)
+                    outcome = start(s, tasks, count, b, i, &workers[i], f);
+                else
+                    running--;
             }
         }
     }
     for (int i = 0; i < jobs; i++)
         if (workers[i].from != NULL) {
             kill(workers[i].process, SIGKILL);
-            bury(s, tasks, b, i, &workers[i]);
+            bury(request, s, tasks, b, i, &workers[i]);
         }
     if (outcome == STATUS_OK && done < count)
         outcome = fault_set(f, STATUS_FAULT, "the worker processes ended before all cells were done (%d of %d)", done, count);

@@ -52,6 +52,7 @@ typedef struct sweep {
 typedef struct sweep_request {
     const char *select; /* expression over "case/point/formulation/quantity", or NULL */
     int jobs;           /* processes, >= 1 */
+    int time_limit;     /* [s] of one cell, measured from outside; 0: none */
     int formulations;   /* restrict to these, or 0: all */
     const formulation *formulation;
     int shapes;     /* most states of a path whose centre lines are kept, of the finest mesh at the defaults; 0: none */

@@ -15,7 +15,7 @@
 #include "harness/run/sweep.h"
 #include "harness/run/wire.h"
 
-enum { KILLED = 1, ENDED };
+enum { KILLED = 1, ENDED, HANGING };
 static const case_parameter parameter[] = {{"end", "1", 0, 0, 9, NULL, "how the process of a cell ends"},
                                            {"parent", "1", 0, 0, 1e12, NULL, "the process that may build the scene"},
                                            {0}};
@@ -28,6 +28,8 @@ static status build(const double value[], scene *s, fault *f)
         raise(SIGKILL);
     if (getpid() != (pid_t)value[1] && value[0] == ENDED)
         _exit(3);
+    while (getpid() != (pid_t)value[1] && value[0] == HANGING)
+        pause();
     parameters_default(registry_cases[0], defaults);
     return registry_cases[0]->build(defaults, s, f);
 }
@@ -57,13 +59,14 @@ static void crashes(double end, int jobs, const char *reason)
     static const int mesh[] = {1, 2, 3};
     const double value[CASE_MAX_PARAMETERS] = {end, (double)getpid()};
     const formulation chosen = runner();
-    const sweep_request request = {.jobs = jobs};
+    const sweep_request request = {.jobs = jobs, .time_limit = 1};
+    const status expected = end == HANGING ? STATUS_TIME_LIMIT : STATUS_FAULT;
     sweep s;
     fault f = {""};
     gsl_test(sweep_plan_one(&crashing, value, &chosen, 1, mesh, 3, &s, &f) != STATUS_OK, "planned %s", f.text);
     gsl_test(sweep_run(&request, &s, &f) != STATUS_OK, "the sweep survives %s", f.text);
     for (int i = 0; i < 3; i++)
-        gsl_test(s.series[0].cell[i].solve.status != STATUS_FAULT || strcmp(s.series[0].cell[i].solve.reason, reason) != 0,
+        gsl_test(s.series[0].cell[i].solve.status != expected || strcmp(s.series[0].cell[i].solve.reason, reason) != 0,
                  "%d jobs: %s", jobs, s.series[0].cell[i].solve.reason);
     sweep_free(&s);
 }
@@ -217,6 +220,7 @@ int main(void)
     crashes(KILLED, 1, "crashed with signal 9");
     crashes(KILLED, 2, "crashed with signal 9");
     crashes(ENDED, 2, "its process ended with status 3");
+    crashes(HANGING, 3, "time limit: no result after 1 s");
     jobs();
     wires();
     write_failures();
