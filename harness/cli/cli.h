@@ -26,8 +26,8 @@ typedef struct cli_request {
     int jobs, keep_all, steps;
     int dense;    /* 1: the dense baseline is timed too */
     int time_limit; /* [s] of a cell; 0: none */
-    int shapes;   /* states of a path whose shapes are stored; 0: none */
-    double plant; /* share of its time that is added to every run of the other */
+    int shapes;     /* states of a path whose shapes are stored; 0: none */
+    double plant;   /* share of its time that is added to every run of the other */
 } cli_request;
 
 typedef int cli_verb(int count, char **arguments);
