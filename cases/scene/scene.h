@@ -38,7 +38,7 @@ typedef struct scene_node {
 
 typedef struct scene_member {
     int p, q, section;
-    double y_axis[3];    /* direction of the local y axis (its part across the member) */
+    double y_axis[3];    /* direction of the y axis in which the section is described (its part across the member) */
     int warp_p, warp_q;  /* SCENE_WARP_FREE, SCENE_WARP_FIXED or a shared name */
     double curvature[3]; /* initial torsion, curvatures about local y and z [1/m]; position of interior nodes follows the arc */
     int divisions;       /* 0: the mesh's -n; else this many elements always */

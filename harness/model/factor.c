@@ -80,6 +80,7 @@ status factor_numeric(factor *fa, const sparse *a, fault *f)
     int row = 0, column = 0;
     double ratio = 1;
     status outcome = STATUS_OK;
+    fa->counts.factorisations++;
     if (fa->symmetric != NULL) {
         outcome = factor_symmetric_numeric(fa->symmetric, a, &fa->counts, &row, &ratio);
         column = row;

@@ -31,7 +31,21 @@ static void arc_chord(const double k[3], double s, double c[3])
         c[i] = s * e[i] + a * first[i] + b * second[i];
 }
 
-static status arc_of(const scene *s, int member, arc *out, fault *f)
+/* From the axes in which a section is described, about which the scene speaks, to its principal ones. */
+static void turn_to_principal(double angle, arc *a)
+{
+    const double c = cos(angle), d = sin(angle), ky = a->k[1];
+    for (int i = 0; i < 9 && d != 0; i += 3) {
+        const double y = a->R[i + 1];
+        a->R[i + 1] = c * y + d * a->R[i + 2];
+        a->R[i + 2] = c * a->R[i + 2] - d * y;
+    }
+    a->k[1] = c * ky + d * a->k[2];
+    a->k[2] = c * a->k[2] - d * ky;
+}
+
+/* axes_angle [rad]: of its section. */
+static status arc_of(const scene *s, int member, double axes_angle, arc *out, fault *f)
 {
     const scene_member *m = &s->member[member];
     double chord[3], c[3], B[9], local[9];
@@ -59,6 +73,7 @@ static status arc_of(const scene *s, int member, arc *out, fault *f)
     for (int i = 0; i < 3; i++) /* R = B local^T */
         for (int j = 0; j < 3; j++)
             out->R[3 * i + j] = vec3_dot(&B[3 * i], &local[3 * j]);
+    turn_to_principal(axes_angle, out);
     return STATUS_OK;
 }
 
@@ -251,7 +266,7 @@ status mesh_build(model *m, int elements, fault *f)
     for (int member = 0; member < s->members; member++) {
         const int n = divisions(s, member, elements);
         arc a;
-        outcome = arc_of(s, member, &a, f);
+        outcome = arc_of(s, member, m->section[s->member[member].section].axes_angle, &a, f);
         m->first_element[member] = m->elements;
         for (int i = 0; i < n && outcome == STATUS_OK; i++)
             outcome = add_element(m, &a, member, i, n, inner_vertex, f);

@@ -25,6 +25,7 @@ typedef struct factor factor;
 typedef struct factor_counts {
     long entries;        /* of the factors: fill */
     double flops;        /* of one numeric factorisation */
+    long factorisations; /* numeric ones, so far */
     int negative_pivots; /* symmetric only; else -1 */
     double condition;    /* cheap estimate max|d|/min|d| */
 } factor_counts;

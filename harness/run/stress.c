@@ -85,6 +85,7 @@ static stress_kind failure_of(status s)
         return STRESS_REFUSED;
     case STATUS_OK:
     case STATUS_FAULT:
+    case STATUS_TIME_LIMIT:
         break;
     }
     return STRESS_FAULT;

@@ -172,7 +172,8 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
     if (outcome != STATUS_OK)
         return outcome;
     const factor_counts counts = factor_count(n->factor);
-    count->factorisations++;
+    count->factorisations += n->c->options->newton == SOLVE_DENSE ? 1 : counts.factorisations - n->counted;
+    n->counted = counts.factorisations;
     count->solutions++;
     count->factor_entries = counts.entries;
     count->factor_flops += counts.flops;

@@ -19,6 +19,7 @@ typedef struct newton {
     double *column;           /* [conditions x (free + driven)] */
     double criterion, energy; /* energy: |r . K^-1 r| of the last residual r [J]; NAN: not known */
     int max_iterations, free, all;
+    long counted; /* factorisations that are in the model's counters */
 } newton;
 
 status newton_alloc(analysis_context *, newton *, fault *);

@@ -35,8 +35,9 @@ typedef struct bench {
     judgement j;
 } bench;
 
-static char words[][32] = {"load", "N", "exact", "same", "test", "", "element", "wrong limit", "why", "kN", "low order", "other"};
-enum { LOAD, NEWTON, EXACT, SAME, TEST, NOTHING, ELEMENT, WRONG_LIMIT, WHY, KILONEWTON, LOW_ORDER, OTHER };
+static char words[][32] = {"load",        "N",   "exact", "same",      "test",  "",         "element",
+                           "wrong limit", "why", "kN",    "low order", "other", "published"};
+enum { LOAD, NEWTON, EXACT, SAME, TEST, NOTHING, ELEMENT, WRONG_LIMIT, WHY, KILONEWTON, LOW_ORDER, OTHER, PUBLISHED };
 
 static void bench_make(bench *b)
 {
@@ -186,6 +187,26 @@ static void expectations(void)
     gsl_test_int(b.j.unmet, 1, "and is missed");
     b.row[0].any[0] = 1;
     expect(&b, VERDICT_PASS, 0, "a truth of any length does");
+    b.row[0].any[0] = 0;
+    b.row[0].parameter[0] = 2;
+    bench_fill(&b, 3.003, 0.7, 2);
+    b.row[0].uncertainty = 0.0028;
+    expect(&b, VERDICT_PASS, 0, "a limit within the tolerance and the truth's own uncertainty");
+    b.row[0].uncertainty = 0.0026;
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "and one beyond both");
+    b.row[0].uncertainty = 0;
+    bench_fill(&b, 3, 0.7, 2);
+    b.row[1] = b.row[0];
+    b.row[1].value = 3.003;
+    b.t.rows = 2;
+    for (int exact = 0; exact < 2; exact++) {
+        b.row[exact].kind = words[EXACT];
+        b.row[1 - exact].kind = words[PUBLISHED];
+        expect(&b, exact == 0 ? VERDICT_PASS : VERDICT_WRONG_LIMIT, exact,
+               "an exact truth judges, a published one that contradicts it does not");
+    }
+    b.row[0].kind = words[EXACT];
+    b.t.rows = 1;
     b.row[0].model = words[OTHER];
     expect(&b, VERDICT_NO_TRUTH, 3, "a truth of another model does not judge");
     gsl_test_abs(b.j.verdict[0].model_error, 0, 1e-6, "it gives the model error");
