@@ -8,14 +8,9 @@
 #include "elements/math/rotation.h"
 #include "harness/model/parts.h"
 
-/* One element's part of model.work between linearise and advance. */
-typedef struct slot {
-    double *J, *C, *sigma, *gap, *memory; /* sigma = P'(e) + C gap, gap = D(x) - e */
-} slot;
-
-static slot slot_of(const model *m, int element)
+model_slot slot_of(const model *m, int element)
 {
-    slot w;
+    model_slot w;
     const int n = m->strains;
     w.J = m->work + (size_t)element * (size_t)m->work_size;
     w.C = w.J + n * m->coordinates;
@@ -51,7 +46,7 @@ status model_make_compatible(model *m, model_state *s, fault *f)
 }
 
 /* Fills the slot; H: sum sigma_i H_i of the element in the state of its nodes x. */
-static status evaluate(model *m, const model_state *s, int i, const node_state x[], slot *w, double H[])
+static status evaluate(model *m, const model_state *s, int i, const node_state x[], model_slot *w, double H[])
 {
     const mesh_element *el = &m->element[i];
     const element_data *data = m->kind[el->kind].data;
@@ -73,7 +68,7 @@ static status evaluate(model *m, const model_state *s, int i, const node_state x
     return outcome;
 }
 
-static double gap_size(const model *m, const slot *w, double length)
+static double gap_size(const model *m, const model_slot *w, double length)
 {
     double largest = 0;
     for (int k = 0; k < m->strains; k++)
@@ -86,7 +81,7 @@ static status element_equations(model *m, const model_state *s, int i, int tange
                                 double *gap, fault *f)
 {
     const mesh_element *el = &m->element[i];
-    slot w = slot_of(m, i);
+    model_slot w = slot_of(m, i);
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     double present[ELEMENT_MAX_COORDINATES] = {0}; /* conjugate to sigma, which H belongs to */
     node_state x[ELEMENT_MAX_NODES];
@@ -172,7 +167,7 @@ status model_linearise(model *m, const model_state *s, model_linearisation *lin,
 static double advance_element(model *m, model_state *s, int i, const double dx[])
 {
     const mesh_element *el = &m->element[i];
-    slot w = slot_of(m, i);
+    model_slot w = slot_of(m, i);
     double local[ELEMENT_MAX_COORDINATES], de[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
     double *e = &s->e[(size_t)i * (size_t)m->strains], *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
     kinematics_local(m, s, el, dx, local);

@@ -131,6 +131,11 @@ typedef struct model_linearisation {
     double incompatibility; /* out: max |D(x) - e|/l over elements */
 } model_linearisation;
 status model_linearise(model *, const model_state *, model_linearisation *, fault *);
+/* K x of the last linearisation in two parts. The stiff one goes through the element strains, y += sum J^T P'' (J x): as a sum of
+ * matrices it would lose all digits of the soft motions. x, y: [free + driven]. The other is a matrix on the pattern of G:
+ * sum sigma_i H_i with the second derivatives of offsets and sequences, less the loads' and the rotation's stiffness. */
+void model_stiff_part(const model *, const model_state *, const double x[], double y[]);
+status model_soft_part(model *, const model_state *, sparse *G, fault *);
 /* After K dx = residual: strains, stresses, inner unknowns of every element and then the frames take their increments.
  * dx[free + driven]. Returns the largest correction, dimensionless: translations by the size of the scene, rotations in
  * rad, warping by the element length, inner unknowns as the element says. */

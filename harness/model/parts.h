@@ -121,6 +121,12 @@ void assemble_matrix(const mesh_pattern *p, int element, const double K[], spars
 void assemble_vector(const mesh_element *el, int coordinates, const double local[], double out[]);
 double *sparse_entry(sparse *a, int row, int column); /* NULL when not stored */
 
+/* linearise.c: one element's part of model.work between linearise and advance. */
+typedef struct model_slot {
+    double *J, *C, *sigma, *gap, *memory; /* sigma = P'(e) + C gap, gap = D(x) - e */
+} model_slot;
+model_slot slot_of(const model *m, int element);
+
 /* loads.c */
 double loads_factor(const scene_load *load, double path);
 void loads_add(const model *m, const model_state *s, double path, double out[]); /* [free + driven] */

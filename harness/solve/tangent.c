@@ -9,6 +9,10 @@
 
 #include "elements/math/dense.h"
 
+enum { REFINEMENTS = 2 };
+/* Solutions are refined where round-off would take more than the last four digits. */
+static const double harmless_condition = 1e4;
+
 static int is_released(const analysis_context *c, const scene_analysis *a, int coordinate)
 {
     for (int k = 0; k < TANGENT_COMPONENTS; k++)
@@ -93,6 +97,8 @@ status tangent_alloc(analysis_context *c, const scene_analysis *a, tangent *t, f
     if (outcome == STATUS_OK && !with_driven)
         t->inside = t->K;
     if (outcome == STATUS_OK)
+        outcome = sparse_alloc_like(whole, &t->soft, f);
+    if (outcome == STATUS_OK)
         outcome = factor_alloc(inside, &t->factor, f);
     c->setup += seconds_now() - start;
     return outcome;
@@ -103,6 +109,7 @@ void tangent_free(tangent *t)
     if (t->inside.value != t->K.value)
         sparse_free_values(&t->inside);
     sparse_free_values(&t->K);
+    sparse_free_values(&t->soft);
     factor_free(t->factor);
     free(t->border.U);
     free(t->border.V);
@@ -118,6 +125,12 @@ status tangent_at(analysis_context *c, const scene_analysis *a, const model_stat
         model_release_moment(c->model, s, a->node, reaction + 3, &t->K);
         copy_inside(t);
         outcome = factor_numeric(t->factor, &t->inside, f);
+    }
+    t->state = s;
+    t->refined = outcome == STATUS_OK && factor_condition(t->factor, &t->inside) > harmless_condition;
+    if (t->refined) {
+        outcome = model_soft_part(c->model, s, &t->soft, f);
+        model_release_moment(c->model, s, a->node, reaction + 3, &t->soft);
     }
     counters *n = model_counters(c->model);
     n->factorisations++;
@@ -143,68 +156,110 @@ static double dot(int n, const double a[], const double b[])
     return sum;
 }
 
-/* Response of the node to a unit load on one component; x: [free], z: [border]. */
-static void respond(tangent *t, counters *n, int component, const double Z[], const double S[], const int pivot[], double *x,
-                    double response[TANGENT_COMPONENTS])
+/* Factors of the bordered system. */
+typedef struct bordered {
+    double *Z; /* [count x free] K^-1 U */
+    double S[TANGENT_BORDER * TANGENT_BORDER];
+    int pivot[TANGENT_BORDER];
+    double *x, *load, *rest; /* [all] */
+} bordered;
+
+static status bordered_alloc(tangent *t, counters *n, bordered *out, fault *f)
 {
     const border *b = &t->border;
-    double z[TANGENT_BORDER] = {0};
-    memset(x, 0, (size_t)t->free * sizeof *x);
-    for (int k = 0; k < t->coordinates; k++) {
-        const int place = place_in_border(b, t->index[k]);
-        if (t->index[k] < t->free)
-            x[t->index[k]] = t->T[component * t->coordinates + k];
-        else if (place >= 0)
-            z[place] = t->T[component * t->coordinates + k];
+    const size_t all = (size_t)t->all + 1;
+    out->Z = calloc((size_t)(b->count * t->free) + 1, sizeof *out->Z);
+    out->x = calloc(3 * all, sizeof *out->x);
+    if (out->Z == NULL || out->x == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
+    out->load = out->x + all;
+    out->rest = out->load + all;
+    for (int i = 0; i < b->count; i++) {
+        memcpy(out->Z + i * t->free, b->U + i * t->free, (size_t)t->free * sizeof *out->Z);
+        factor_solve(t->factor, out->Z + i * t->free);
+        n->solutions++;
     }
+    for (int i = 0; i < b->count; i++)
+        for (int j = 0; j < b->count; j++)
+            out->S[i * b->count + j] = b->W[i * b->count + j] - dot(t->free, b->V + i * t->free, out->Z + j * t->free);
+    return b->count > 0 && dense_lu(b->count, out->S, out->pivot) != 0
+               ? fault_set(f, STATUS_SINGULAR, "the structure is not held when the prescribed motion is released")
+               : STATUS_OK;
+}
+
+static void bordered_free(bordered *s)
+{
+    free(s->Z);
+    free(s->x);
+}
+
+/* In place; what is held or prescribed stays as it is. x: [all] */
+static void bordered_solve(tangent *t, counters *n, const bordered *s, double x[])
+{
+    const border *b = &t->border;
+    double z[TANGENT_BORDER];
     factor_solve(t->factor, x);
     n->solutions++;
     for (int i = 0; i < b->count; i++)
-        z[i] -= dot(t->free, b->V + i * t->free, x);
+        z[i] = x[b->coordinate[i]] - dot(t->free, b->V + i * t->free, x);
     if (b->count > 0)
-        dense_lu_solve(b->count, 1, S, pivot, z);
-    for (int i = 0; i < b->count; i++)
+        dense_lu_solve(b->count, 1, s->S, s->pivot, z);
+    for (int i = 0; i < b->count; i++) {
         for (int k = 0; k < t->free; k++)
-            x[k] -= Z[i * t->free + k] * z[i];
+            x[k] -= s->Z[i * t->free + k] * z[i];
+        x[b->coordinate[i]] = z[i];
+    }
+}
+
+/* Iterative refinement with residuals whose stiff part comes from the element strains. */
+static void refine(const model *m, tangent *t, counters *n, const bordered *s)
+{
+    for (int r = 0; r < REFINEMENTS; r++) {
+        double *rest = s->rest;
+        memset(rest, 0, (size_t)t->all * sizeof *rest);
+        sparse_mul(&t->soft, s->x, rest);
+        model_stiff_part(m, t->state, s->x, rest);
+        for (int k = 0; k < t->all; k++)
+            rest[k] = k < t->free || place_in_border(&t->border, k) >= 0 ? s->load[k] - rest[k] : 0;
+        bordered_solve(t, n, s, rest);
+        for (int k = 0; k < t->all; k++)
+            s->x[k] += rest[k];
+    }
+}
+
+/* Response of the node to a unit load on one component. */
+static void respond(const model *m, tangent *t, counters *n, int component, const bordered *s, double response[TANGENT_COMPONENTS])
+{
+    memset(s->load, 0, (size_t)t->all * sizeof *s->load);
+    for (int k = 0; k < t->coordinates; k++)
+        if (moves(t, k))
+            s->load[t->index[k]] = t->T[component * t->coordinates + k];
+    memcpy(s->x, s->load, (size_t)t->all * sizeof *s->x);
+    bordered_solve(t, n, s, s->x);
+    if (t->refined)
+        refine(m, t, n, s);
     for (int i = 0; i < TANGENT_COMPONENTS; i++) {
         response[i] = 0;
-        for (int k = 0; k < t->coordinates; k++) {
-            const int place = place_in_border(b, t->index[k]);
-            const double moved = t->index[k] < t->free ? x[t->index[k]] : place >= 0 ? z[place] : 0;
-            response[i] += t->T[i * t->coordinates + k] * (moves(t, k) ? moved : 0);
-        }
+        for (int k = 0; k < t->coordinates; k++)
+            response[i] += moves(t, k) ? t->T[i * t->coordinates + k] * s->x[t->index[k]] : 0;
     }
 }
 
 status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, double C[36], fault *f)
 {
-    const border *b = &t->border;
     counters *n = model_counters(c->model);
-    double *Z = calloc((size_t)(b->count * t->free) + 1, sizeof *Z), *x = calloc((size_t)t->free + 1, sizeof *x),
-           S[TANGENT_BORDER * TANGENT_BORDER];
-    int pivot[TANGENT_BORDER];
-    status outcome = Z == NULL || x == NULL ? fault_set(f, STATUS_FAULT, "out of memory for a compliance") : STATUS_OK;
-    for (int i = 0; i < b->count && outcome == STATUS_OK; i++) {
-        memcpy(Z + i * t->free, b->U + i * t->free, (size_t)t->free * sizeof *Z);
-        factor_solve(t->factor, Z + i * t->free);
-        n->solutions++;
-    }
-    for (int i = 0; i < b->count && outcome == STATUS_OK; i++)
-        for (int j = 0; j < b->count; j++)
-            S[i * b->count + j] = b->W[i * b->count + j] - dot(t->free, b->V + i * t->free, Z + j * t->free);
-    if (outcome == STATUS_OK && b->count > 0 && dense_lu(b->count, S, pivot) != 0)
-        outcome = fault_set(f, STATUS_SINGULAR, "the structure is not held when the prescribed motion is released");
+    bordered s = {0};
+    const status outcome = bordered_alloc(t, n, &s, f);
     memset(C, 0, 36 * sizeof *C);
     for (int j = 0; j < TANGENT_COMPONENTS && outcome == STATUS_OK; j++) {
         double response[TANGENT_COMPONENTS];
         if (!(wanted >> j & 1u))
             continue;
-        respond(t, n, j, Z, S, pivot, x, response);
+        respond(c->model, t, n, j, &s, response);
         for (int i = 0; i < TANGENT_COMPONENTS; i++)
             C[6 * i + j] = response[i];
     }
-    free(Z);
-    free(x);
+    bordered_free(&s);
     return outcome;
 }
 

@@ -18,10 +18,13 @@ typedef struct border {
 typedef struct tangent {
     sparse K;      /* of all coordinates when something is released, else of the free ones */
     sparse inside; /* free x free */
+    sparse soft;   /* like K, where solutions are refined: see model_soft_part */
+    int refined;   /* 1: the condition asks for it */
     factor *factor;
     border border;
     int free, all;
     double *residual;
+    const model_state *state; /* of K */
     int index[TANGENT_COMPONENTS], coordinates; /* the node's */
     double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS];
 } tangent;

@@ -1,0 +1,47 @@
+/* The tangent of the last linearisation as a stiff and a soft part, for residuals that keep their digits. */
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/model/parts.h"
+
+void model_stiff_part(const model *m, const model_state *s, const double x[], double y[])
+{
+    for (int i = 0; i < m->elements; i++) {
+        const mesh_element *el = &m->element[i];
+        const model_slot w = slot_of(m, i);
+        double local[ELEMENT_MAX_COORDINATES], e[ELEMENT_MAX_STRAINS], sigma[ELEMENT_MAX_STRAINS],
+            force[ELEMENT_MAX_COORDINATES] = {0};
+        kinematics_local(m, s, el, x, local);
+        dense_mul_vec(m->strains, m->coordinates, w.J, local, e);
+        dense_mul_vec(m->strains, m->strains, w.C, e, sigma);
+        dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, sigma, force);
+        eliminate_forces(m, s, el, force);
+        assemble_vector(el, m->coordinates, force, y);
+    }
+}
+
+status model_soft_part(model *m, const model_state *s, sparse *G, fault *f)
+{
+    const mesh_pattern *p = &m->pattern[G->row == m->pattern[1].matrix.row];
+    sparse_zero(G);
+    for (int i = 0; i < m->elements; i++) {
+        const mesh_element *el = &m->element[i];
+        const model_slot w = slot_of(m, i);
+        const double *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
+        node_state x[ELEMENT_MAX_NODES];
+        double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], present[ELEMENT_MAX_COORDINATES] = {0};
+        kinematics_gather(m, s, el, x);
+        m->type->strain(m->kind[el->kind].data, x, &(strain_output){.s = sigma, .H = H});
+        m->counters.strain_evaluations++;
+        if (m->spins) {
+            const status outcome = spin_add(m, x, i, s->path, present, H, f);
+            if (outcome != STATUS_OK)
+                return outcome;
+        }
+        dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, sigma, present);
+        eliminate_matrix(m, s, el, present, H);
+        assemble_matrix(p, i, H, G);
+    }
+    loads_subtract_stiffness(m, s, s->path, G);
+    return STATUS_OK;
+}
