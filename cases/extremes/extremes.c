@@ -15,7 +15,7 @@
 const extreme extremes[] = {
     /* Thin and slender. */
     {"thin_sheet", "thin", "thickness to length of a sheet flexure deflected by 0.15 of its length",
-     "sheet_cantilever", "",
+     "sheet_cantilever", "shear=0",
      {{"thickness", 0, 0.1, 1}},
      {{"C_xx", 0}, {"C_zz", 0}, {"F_y", 0}, {"M_z", 0}}, "thickness/length", "1", EXTREME_PARAMETERS,
      8, 6, {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}, EXTREME_EXACT, 0, 1e-4},
@@ -83,12 +83,12 @@ const extreme extremes[] = {
      16, 4, {1, 1e-2, 1e-4, 1e-6}, EXTREME_EXACT, 0, 1e-4},
     /* Many elements, and a very short one. */
     {"many_sheet", "elements", "round-off growth with the number of elements: sheet flexure",
-     "sheet_cantilever", "",
+     "sheet_cantilever", "shear=0",
      {{NULL, 0, 0, 0}},
      {{"C_xx", 0}, {"C_zz", 0}, {"F_y", 0}, {"M_z", 0}}, "elements", "1", EXTREME_ELEMENTS,
      0, 6, {1, 4, 16, 64, 256, 1024}, EXTREME_EXACT, 0, 1e-6},
     {"many_channel", "elements", "round-off growth with the number of elements: C-shaped column",
-     "c_column", "",
+     "c_column", "shear=0;rotary_inertia=0",
      {{NULL, 0, 0, 0}},
      {{"buckling_load", 0}, {"frequency_1", 0}}, "elements", "1", EXTREME_ELEMENTS,
      0, 6, {1, 4, 16, 64, 256, 1024}, EXTREME_EXACT, 0, 1e-6},
@@ -164,7 +164,23 @@ const extreme extremes[] = {
      "roll_up", "",
      {{"turns", 0, 1, 1}},
      {{"tip_gap", 0}}, "turns", "1", EXTREME_PARAMETERS,
-     16, 6, {0.25, 0.5, 0.75, 1, 1.5, 2}, EXTREME_EXACT, 0, 1e-3},
+     32, 6, {0.25, 0.5, 0.75, 1, 1.5, 2}, EXTREME_EXACT, 0, 1e-3},
+    {"carried", "rigid motion", "a strained rod carried around by whole turns",
+     "carried_rod", "",
+     {{"turns", 0, 1, 1}},
+     {{"M_x", 0}, {"M_y", 0}, {"M_z", 0}, {"u_x", 0}}, "turns", "1", EXTREME_PARAMETERS,
+     4, 5, {0, 1, 3, 10, 30}, EXTREME_SAME, 0, 1e-9},
+    /* Nearly equal eigenvalues. */
+    {"equal_frequencies", "equal eigenvalues", "the lowest bending and torsion frequencies of the C-shaped column approach each other",
+     "c_column", "",
+     {{"width", 0.223203587801597, 0.223203587801597, 1}},
+     {{"frequency_1", 0}, {"frequency_2", 0}}, "distance of the width", "1", EXTREME_PARAMETERS,
+     16, 5, {1e-1, 1e-3, 1e-6, 1e-9, 1e-12}, EXTREME_EXACT, 0, 1e-4},
+    {"equal_loads", "equal eigenvalues", "short columns: the loads of all half-waves approach that of pure shear (Engesser)",
+     "c_column", "",
+     {{"length", 0, 0.6, 1}},
+     {{"buckling_load", 0}}, "length/height", "1", EXTREME_PARAMETERS,
+     64, 5, {1, 0.3, 0.1, 0.03, 0.01}, EXTREME_EXACT, 0, 1e-4},
     {.name = NULL},
 };
 /* clang-format on */

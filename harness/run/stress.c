@@ -8,7 +8,8 @@
 
 static const char *const names[STRESS_KINDS] = {"value",   "coarse",   "wrong", "not converged", "singular",
                                                 "refused", "no value", "fault", "skip"};
-static const double least_fall = 0.75; /* of the error at every doubling of the mesh; order 0.4 */
+static const double least_fall = 0.5;  /* of the error, from a mesh to one of four times as many elements: order 0.5 */
+enum { enough_elements = 16 };         /* from here on the neighbours are coarser meshes, else finer ones */
 
 const char *stress_name(stress_kind kind)
 {
@@ -35,12 +36,12 @@ static const quantity_result *result_of(const stress *s, const stress_outcome *o
     return index < cell->solve.quantities ? &cell->solve.quantity[index] : NULL;
 }
 
-/* Value on the first mesh (refinement 0) or on a finer one; NAN: there is none. */
+/* Value on the first mesh (refinement 0) or on a neighbouring one; NAN: there is none. */
 static double value_of(const stress *s, const stress_outcome *o, int refinement)
 {
-    if (refinement > 0 && o->finer < 0)
+    if (refinement > 0 && o->neighbours < 0)
         return NAN;
-    const cell_result *cell = refinement == 0 ? stress_cell(s, o) : &s->finer.series[o->finer].cell[refinement - 1];
+    const cell_result *cell = refinement == 0 ? stress_cell(s, o) : &s->neighbours.series[o->neighbours].cell[refinement - 1];
     const quantity_result *r = result_of(s, o, cell);
     return r != NULL && r->status == STATUS_OK ? r->value : NAN;
 }
@@ -91,7 +92,7 @@ static stress_kind failure_of(status s)
     return STRESS_FAULT;
 }
 
-/* From the first mesh alone: a value, a failure, or wrong until finer meshes are seen. */
+/* From the first mesh alone: a value, a failure, or wrong until other meshes are seen. */
 static status judge_first(const stress *s, const truths *t, stress_outcome *o, fault *f)
 {
     const extreme *e = &extremes[o->extreme];
@@ -99,8 +100,8 @@ static status judge_first(const stress *s, const truths *t, stress_outcome *o, f
     const point *p = &s->first.point[o->point];
     double uncertainty;
     o->result = o->error = NAN;
-    for (int i = 0; i < STRESS_FINER; i++)
-        o->finer_error[i] = NAN;
+    for (int i = 0; i < STRESS_NEIGHBOURS; i++)
+        o->neighbour_error[i] = NAN;
     o->reference = reference_of(s, t, o, 0, &uncertainty);
     if (e->judge == EXTREME_EXACT && !isfinite(o->reference))
         return fault_set(f, STATUS_FAULT, "extreme %s: no exact value of %s at %s; derive it (reference/derive/extremes.py)",
@@ -129,42 +130,44 @@ static status judge_first(const stress *s, const truths *t, stress_outcome *o, f
 }
 
 /* Does the error fall as a discretisation error does? */
-static void judge_finer(const stress *s, const truths *t, stress_outcome *o)
+static void judge_neighbours(const stress *s, const truths *t, stress_outcome *o)
 {
-    const extreme *e = &extremes[o->extreme];
-    double last = fabs(o->error);
-    o->kind = STRESS_COARSE;
-    for (int i = 0; i < STRESS_FINER; i++) {
+    const int coarser = s->neighbours.series[o->neighbours].mesh[0] < s->first.series[o->series].mesh[0];
+    double size[STRESS_NEIGHBOURS + 1];
+    for (int i = 0; i < STRESS_NEIGHBOURS; i++) {
         double uncertainty;
         const double reference = reference_of(s, t, o, i + 1, &uncertainty), value = value_of(s, o, i + 1);
-        o->finer_error[i] = relative_error(quantity_of(s, o), value, reference);
-        const double size = fabs(o->finer_error[i]);
-        if (!(size <= least_fall * last) && !(size <= e->tolerance + uncertainty)) {
-            o->kind = STRESS_WRONG;
-            o->reason = "the error does not fall with more elements";
-        }
-        last = size;
+        o->neighbour_error[i] = relative_error(quantity_of(s, o), value, reference);
+        size[coarser ? i : i + 1] = fabs(o->neighbour_error[i]);
+    }
+    size[coarser ? STRESS_NEIGHBOURS : 0] = fabs(o->error);
+    if (size[2] <= size[1] && size[2] <= least_fall * size[0]) {
+        o->kind = STRESS_COARSE;
+    } else {
+        o->kind = STRESS_WRONG;
+        o->reason = "the error does not fall with more elements";
     }
 }
 
-/* A series of finer meshes for the cell of an outcome, once. */
+/* A series of neighbouring meshes for the cell of an outcome, once. */
 static status refine(stress *s, stress_outcome *o, fault *f)
 {
     const series *one = &s->first.series[o->series];
     const point *p = &s->first.point[o->point];
-    if (o->finer >= 0)
+    if (o->neighbours >= 0)
         return STATUS_OK;
-    const int mesh[STRESS_FINER] = {2 * one->mesh[0], 4 * one->mesh[0]};
-    status outcome = sweep_add(&s->finer, p->type, p->parameter, mesh, STRESS_FINER, f);
+    const int n = one->mesh[0], coarser = n >= enough_elements;
+    const int mesh[STRESS_NEIGHBOURS] = {coarser ? n / 4 : 2 * n, coarser ? n / 2 : 4 * n};
+    status outcome = sweep_add(&s->neighbours, p->type, p->parameter, mesh, STRESS_NEIGHBOURS, f);
     if (outcome == STATUS_OK) {
-        point *finer = &s->finer.point[s->finer.points - 1];
-        finer->edit = p->edit;
-        finer->steps = p->steps;
-        outcome = sweep_extend(&s->finer, &one->formulation, 1, f);
+        point *near = &s->neighbours.point[s->neighbours.points - 1];
+        near->edit = p->edit;
+        near->steps = p->steps;
+        outcome = sweep_extend(&s->neighbours, &one->formulation, 1, f);
     }
     for (int i = 0; i < s->outcomes && outcome == STATUS_OK; i++)
         if (s->outcome[i].series == o->series)
-            s->outcome[i].finer = s->finer.seriess - 1;
+            s->outcome[i].neighbours = s->neighbours.seriess - 1;
     return outcome;
 }
 
@@ -181,11 +184,11 @@ static status look_closer(const stress_request *request, stress *s, const truths
         if (outcome == STATUS_OK && base != NULL)
             outcome = refine(s, base, f);
     }
-    if (outcome == STATUS_OK && s->finer.seriess > 0)
-        outcome = sweep_run(&run, &s->finer, f);
+    if (outcome == STATUS_OK && s->neighbours.seriess > 0)
+        outcome = sweep_run(&run, &s->neighbours, f);
     for (int i = 0; i < s->outcomes && outcome == STATUS_OK; i++)
         if (s->outcome[i].kind == STRESS_WRONG && isfinite(s->outcome[i].error))
-            judge_finer(s, t, &s->outcome[i]);
+            judge_neighbours(s, t, &s->outcome[i]);
     return outcome;
 }
 

@@ -7,7 +7,7 @@
 
 typedef enum stress_kind {
     STRESS_VALUE,  /* within the extreme's tolerance */
-    STRESS_COARSE, /* outside it, but twice and four times as many elements make the error fall: a discretisation error */
+    STRESS_COARSE, /* outside it, but the error falls with more elements: a discretisation error */
     STRESS_WRONG,  /* a number that is neither */
     STRESS_NOT_CONVERGED,
     STRESS_SINGULAR,
@@ -18,7 +18,7 @@ typedef enum stress_kind {
     STRESS_KINDS
 } stress_kind;
 
-enum { STRESS_FINER = 2 };
+enum { STRESS_NEIGHBOURS = 2 };
 
 /* What is expected although it is neither a value nor coarse (reference/extreme_findings.csv). */
 typedef struct stress_finding {
@@ -29,10 +29,10 @@ typedef struct stress_finding {
 
 typedef struct stress_outcome {
     int extreme, value, formulation, quantity; /* indices: table, its values, list of formulations, its quantities */
-    int point, series, finer;                  /* of the sweeps; finer: first series of the finer meshes, or -1 */
+    int point, series, neighbours;             /* of the sweeps; neighbours: series of the other meshes, or -1 */
     stress_kind kind;
     double x, result, reference, error; /* NAN: none; error relative */
-    double finer_error[STRESS_FINER];   /* with 2 and 4 times as many elements; NAN: not needed, or no value */
+    double neighbour_error[STRESS_NEIGHBOURS];   /* on the other meshes; NAN: not needed, or no value */
     const stress_finding *finding;
     int as_expected;
     const char *reason;
@@ -46,7 +46,7 @@ typedef struct stress_count {
 typedef struct stress {
     int formulations, outcomes, findings, unexpected, unobserved;
     formulation *formulation;
-    sweep first, finer;
+    sweep first, neighbours;
     stress_outcome *outcome;
     stress_finding *finding;
     stress_count *count; /* [formulations] */

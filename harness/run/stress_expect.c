@@ -112,7 +112,7 @@ void stress_free(stress *s)
             free(all[k]);
     }
     sweep_free(&s->first);
-    sweep_free(&s->finer);
+    sweep_free(&s->neighbours);
     free(s->finding);
     free(s->formulation);
     free(s->outcome);

@@ -92,7 +92,7 @@ static status add_outcomes(stress *out, int extreme_index, int value, int formul
                                                          .quantity = q,
                                                          .point = last,
                                                          .series = out->first.seriess - 1,
-                                                         .finer = -1,
+                                                         .neighbours = -1,
                                                          .x = e->value[value],
                                                          .reason = ""};
     }

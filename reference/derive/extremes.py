@@ -11,6 +11,7 @@ from reference.derive.beam import Beam
 
 TABLES = "extremes"
 mp.dps = 40
+EQUAL_WIDTH = mpf("0.223203587801597")  # of the C-shaped column whose lowest bending and torsion frequencies are equal
 
 
 def decimal(value):
@@ -21,9 +22,9 @@ def decimal(value):
 def thin_sheet():
     for ratio in ("1e-1", "1e-2", "1e-3", "1e-4", "1e-5", "1e-6"):
         thickness = decimal(mpf(ratio) / 10)
-        for row in sheets.cantilever(thickness=float(thickness)):
+        for row in sheets.cantilever(shear=0, thickness=float(thickness)):
             if row[2] in ("C_xx", "C_zz", "F_y", "M_z"):
-                yield (row[0], f"thickness={thickness}") + row[2:]
+                yield (row[0], f"shear=0;thickness={thickness}") + row[2:]
 
 
 def inextensible():
@@ -53,6 +54,14 @@ def channels():
     for ratio in ("1e-2", "1e-4", "1e-6"):
         flange = decimal(mpf("0.03") * mpf(ratio))
         yield from channel(f"flange_thickness={flange}", flange_thickness=flange)
+    for ratio in ("0.3", "0.03", "0.01"):
+        length = decimal(mpf("0.6") * mpf(ratio))
+        yield from channel(f"length={length}", length=length)
+    for distance in ("1e-1", "1e-3", "1e-6", "1e-9", "1e-12"):
+        width = decimal(EQUAL_WIDTH * (1 + mpf(distance)))
+        s = column.sized(width=width)
+        for i, value in enumerate(column.frequencies(s, mpf(6), True, True, 2)):
+            yield "c_column", f"width={width}", f"frequency_{i + 1}", value, "Hz"
     for ratio in ("1e-1", "1e-2", "1e-3", "1e-4"):
         width = decimal(mpf("0.6") * mpf(ratio))
         yield from channel(f"width={width}", width=width)
