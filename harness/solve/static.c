@@ -7,7 +7,8 @@ enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14 };
 status static_walk(newton *n, double target, double *increment, fault *f)
 {
     counters *count = model_counters(n->c->model);
-    int halvings = 0, rejected = 0;
+    const double least = *increment / (1 << MAX_HALVINGS);
+    int rejected = 0;
     while (model_state_path(n->state) < target) {
         const double from = model_state_path(n->state);
         const int last = from + *increment * (1 + 1e-9) >= target;
@@ -24,13 +25,13 @@ status static_walk(newton *n, double target, double *increment, fault *f)
             count->steps++;
             if (n->trail != NULL)
                 trail_add(n->c->model, n->state, n->trail);
-            rejected = 0;
-            if (record.iterations <= EASY_ITERATIONS && !last)
+            if (record.iterations <= EASY_ITERATIONS && !last && rejected == 0)
                 *increment *= 2;
+            rejected = 0;
             continue;
         }
         history_drop_step(n->c->result, &record);
-        if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED || ++halvings > MAX_HALVINGS)
+        if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED || to - from <= least)
             return outcome;
         model_state_copy(n->c->model, n->backup, n->state);
         if (n->trail != NULL)
