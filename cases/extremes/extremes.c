@@ -164,7 +164,7 @@ const extreme extremes[] = {
      "roll_up", "",
      {{"turns", 0, 1, 1}},
      {{"tip_gap", 0}}, "turns", "1", EXTREME_PARAMETERS,
-     32, 6, {0.25, 0.5, 0.75, 1, 1.5, 2}, EXTREME_EXACT, 0, 1e-3},
+     64, 6, {0.25, 0.5, 0.75, 1, 1.5, 2}, EXTREME_EXACT, 0, 1e-3},
     {"carried", "rigid motion", "a strained rod carried around by whole turns",
      "carried_rod", "",
      {{"turns", 0, 1, 1}},

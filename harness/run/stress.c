@@ -8,8 +8,7 @@
 
 static const char *const names[STRESS_KINDS] = {"value",   "coarse",   "wrong", "not converged", "singular",
                                                 "refused", "no value", "fault", "skip"};
-static const double least_fall = 0.5;  /* of the error, from a mesh to one of four times as many elements: order 0.5 */
-enum { enough_elements = 16 };         /* from here on the neighbours are coarser meshes, else finer ones */
+enum { enough_elements = 16 }; /* from here on the neighbours are coarser meshes, else finer ones */
 
 const char *stress_name(stress_kind kind)
 {
@@ -129,19 +128,30 @@ static status judge_first(const stress *s, const truths *t, stress_outcome *o, f
     return STATUS_OK;
 }
 
-/* Does the error fall as a discretisation error does? */
+/* Does the error fall as a discretisation error does: to the finest mesh, by order 0.5 at least? */
 static void judge_neighbours(const stress *s, const truths *t, stress_outcome *o)
 {
-    const int coarser = s->neighbours.series[o->neighbours].mesh[0] < s->first.series[o->series].mesh[0];
-    double size[STRESS_NEIGHBOURS + 1];
-    for (int i = 0; i < STRESS_NEIGHBOURS; i++) {
+    const int *mesh = s->neighbours.series[o->neighbours].mesh, own = s->first.series[o->series].mesh[0];
+    double size[STRESS_NEIGHBOURS + 1], elements[STRESS_NEIGHBOURS + 1];
+    int count = 0, placed = 0;
+    for (int i = 0; i <= STRESS_NEIGHBOURS; i++) { /* meshes that have a value, coarse to fine */
+        if (!placed && (i == STRESS_NEIGHBOURS || own < mesh[i])) {
+            elements[count] = own;
+            size[count++] = fabs(o->error);
+            placed = 1;
+        }
+        if (i == STRESS_NEIGHBOURS)
+            break;
         double uncertainty;
         const double reference = reference_of(s, t, o, i + 1, &uncertainty), value = value_of(s, o, i + 1);
         o->neighbour_error[i] = relative_error(quantity_of(s, o), value, reference);
-        size[coarser ? i : i + 1] = fabs(o->neighbour_error[i]);
+        if (isfinite(o->neighbour_error[i])) {
+            elements[count] = mesh[i];
+            size[count++] = fabs(o->neighbour_error[i]);
+        }
     }
-    size[coarser ? STRESS_NEIGHBOURS : 0] = fabs(o->error);
-    if (size[2] <= size[1] && size[2] <= least_fall * size[0]) {
+    const int last = count - 1;
+    if (count > 1 && size[last] <= size[last - 1] && size[last] <= size[0] * sqrt(elements[0] / elements[last])) {
         o->kind = STRESS_COARSE;
     } else {
         o->kind = STRESS_WRONG;
