@@ -7,7 +7,7 @@
 #include "cases/case.h"
 #include "cases/shared/channel.h"
 
-enum { LENGTH, SIZES, LOAD_POINT, LOAD_HEIGHT, SHEAR, OMEGA, DEFLECTION, STEP };
+enum { LENGTH, SIZES, LOAD_POINT, LOAD_HEIGHT, SHEAR, WAGNER, OMEGA, DEFLECTION, STEP };
 
 static const case_parameter parameters[] = {
     [LENGTH] = {"length", "m", 9.0, 1e-3, 1e4, NULL, "length of the beam"},
@@ -16,6 +16,7 @@ static const case_parameter parameters[] = {
     [LOAD_HEIGHT] = {"load_height", "", 0, 0, 0, "corner|edge",
                      "where the web ends: at the corner of the centre line, or at the outer face of the flange"},
     [SHEAR] = {"shear", "1", 0, 0, 1, NULL, "1: flexible in shear, 0: shear-rigid"},
+    [WAGNER] = {"wagner_moments", "1", 0, 0, 1, NULL, "1: with int y (y^2 + z^2) dA in the Wagner moments, 0: without, as J"},
     [OMEGA] = {"omega", "rad/s", 0, 0, 0, NULL, "angular velocity about the vertical axis through the root"},
     [DEFLECTION] = {"w", "m", 0.5, 1e-4, 5, NULL, "deflection of the load point up to which the load is followed"},
     [STEP] = {"step", "m", 0, 0, 5, NULL, "steps of w, all of this size; 0: steps that adapt"},
@@ -95,6 +96,8 @@ static status build(const double value[], scene *s, fault *f)
     s->needs |= SCENE_NEED_TRAPEZE;
     if (value[SHEAR] != 0)
         s->needs |= SCENE_NEED_SHEAR | SCENE_NEED_HARINGX;
+    if (value[WAGNER] != 0)
+        s->needs |= SCENE_NEED_WAGNER_MOMENTS;
     add_path(value, s, node);
     const int meshes[] = {5, 10, 20, 40, 80};
     scene_meshes(s, 5, meshes);

@@ -111,7 +111,7 @@ static void reject(continuation *p, const attempt *t)
 
 static double next_size(const continuation *p, double size, double length, const attempt *t)
 {
-    const double wanted = length * fmin(2, fmax(0.5, 0.7 / t->swing)) * (t->record.iterations > MANY_ITERATIONS ? 0.5 : 1);
+    const double wanted = length * fmin(2, fmax(0.5, 0.5 / t->swing)) * (t->record.iterations > MANY_ITERATIONS ? 0.5 : 1);
     return fmin(p->a->step_max, wanted < length ? wanted : fmax(size, wanted));
 }
 

@@ -2,7 +2,8 @@
 
 The geometrically exact beam with eccentric shear centre and warping; root clamped and unable to warp, tip free to warp.  The
 end section is rigid, the force follows its point D (top of the web) or E (bottom).  Kept, as in J: shortening by twist and the
-part -2 ys of the Wagner moments; left out: int y (y^2 + z^2) dA and the Wagner torque.  Shear in stability after Haringx.
+part -2 ys of the Wagner moments; left out: the Wagner torque and, unless it is asked for, int y (y^2 + z^2) dA.  Shear in
+stability after Haringx.
 """
 import numpy as np
 
@@ -17,18 +18,18 @@ SIZES = {"overall": ("0.284", "0.095"), "centreline": ("0.3", "0.1")}
 RELATIVE = 1e-9
 
 
-def channel_beam(sizes, shear):
+def channel_beam(sizes, shear, wagner_moments=0):
     """(beam, half the height, y of the web) of flanges 16 mm and web 10 mm thick."""
     s = channel(*SIZES[sizes], "0.016", "0.010")
     ys, zs = float(s.ys), float(s.zs)
     beam = Beam(LENGTH, EA=E * float(s.A), EIy=E * float(s.Iy), EIz=E * float(s.Iz), GJ=G * float(s.It), EIw=E * float(s.Iw),
-                t=float(s.Ip / s.A) + ys ** 2 + zs ** 2, centre=(ys, zs), wagner=(-2 * zs, -2 * ys), shear=np.array((s.F / G).tolist(), dtype=float) * shear)
+                t=float(s.Ip / s.A) + ys ** 2 + zs ** 2, centre=(ys, zs), wagner=(-2 * zs, float(s.wagner_y / s.Iz) * wagner_moments - 2 * ys), shear=np.array((s.F / G).tolist(), dtype=float) * shear)
     return beam, float(SIZES[sizes][0]) / 2, float(s.points[1][0])
 
 
-def path(deflections, sizes="overall", load_point="D", load_height="corner", shear=0, intervals=6, nodes=11):
+def path(deflections, sizes="overall", load_point="D", load_height="corner", shear=0, wagner_moments=0, intervals=6, nodes=11):
     """(force [N], displacement of the loaded point along y [m]) at each deflection [m], in small steps so that no branch is jumped."""
-    beam, half, web = channel_beam(sizes, shear)
+    beam, half, web = channel_beam(sizes, shear, wagner_moments)
     half += FLANGE / 2 if load_height == "edge" else 0
     net = Network(LENGTH, beam.EIz / LENGTH ** 2, numbers=[0.0], intervals=intervals, nodes=nodes)
     arm = np.array([0, web, half if load_point == "D" else -half]) / LENGTH
@@ -50,7 +51,8 @@ def path(deflections, sizes="overall", load_point="D", load_height="corner", she
 
 POINTS = (({}, (0.125, 0.25, 0.5, 1.0, 1.5, 2.0, 2.5, 2.6)), ({"load_point": "E"}, (0.125, 0.25, 0.5, 1.0, 1.2, 1.5, 2.0, 2.5)), ({"sizes": "centreline"}, (0.25, 1.0, 2.5)),
           ({"sizes": "centreline", "load_point": "E"}, (1.0,)), ({"shear": 1}, (0.25, 1.0, 2.5)), ({"shear": 1, "load_point": "E"}, (1.0,)),
-          ({"load_height": "edge"}, (0.1, 0.2, 0.5, 1.04, 2.6)), ({"load_height": "edge", "load_point": "E"}, (0.1, 0.2, 0.494, 1.04, 1.2)))
+          ({"wagner_moments": 1}, (1.0,)), ({"load_height": "edge", "wagner_moments": 1}, (0.1, 0.2, 0.5, 1.04, 2.6)),
+          ({"load_height": "edge", "load_point": "E", "wagner_moments": 1}, (0.1, 0.2, 0.494, 1.04, 1.2)), ({"load_height": "edge"}, (0.1, 0.2, 0.5, 1.04, 2.6)), ({"load_height": "edge", "load_point": "E"}, (0.1, 0.2, 0.494, 1.04, 1.2)))
 
 
 def rows():

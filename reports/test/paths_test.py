@@ -1,0 +1,57 @@
+"""The page of equilibrium paths: curves beside the solids' points, conclusions with numbers, critical points of the snapping frames."""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+from reports import paths  # noqa: E402
+
+PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
+TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
+
+
+class Paths(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        results = os.path.join(cls.folder, "results.h5")
+        subprocess.run([PROGRAM, "verify", "-k", "snap_through and beamw_consistent or c_cantilever and collocation", "-o", results], capture_output=True, check=False)
+        cls.done = subprocess.run([sys.executable, "-m", "reports", results, TRUTHS, "-o", os.path.join(cls.folder, "site")], capture_output=True, text=True, check=False,
+                                  cwd=ROOT, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+        cls.page = (pathlib.Path(cls.folder) / "site" / "paths.html").read_text(encoding="utf-8") if cls.done.returncode == 0 else ""
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def test_figures(self):
+        self.assertEqual(self.done.returncode, 0, self.done.stderr)
+        for name in ("paths_cantilever", "paths_snap_through"):
+            self.assertIn(f"{name}.svg", self.page)
+            self.assertTrue((pathlib.Path(self.folder) / "site" / f"{name}.svg").is_file())
+
+    def test_limit_points_are_listed(self):
+        rows = re.findall(r"<td>limit point</td><td class=\"n\">(-?[\d.]+)</td><td class=\"n\">(-?[\d.]+)</td>", self.page)
+        self.assertEqual([float(load) for _, load in rows], [0.0103933, -0.0103933])
+
+    def test_conclusions_have_numbers(self):
+        shear = re.search(r"shear changes the load by ([^<]*)", self.page).group(1)
+        values = [float(v) for v in re.findall(r"([-+][\d.]+) %", shear)]
+        self.assertEqual(len(values), 3)
+        self.assertTrue(all(0.05 < abs(v) < 0.3 for v in values), values)
+
+    def test_curve_of_solids(self):
+        solid = paths.solid(TRUTHS, paths.EDGES["D"], "curve")
+        self.assertGreater(len(solid.w), 40)
+        self.assertAlmostEqual(solid.w[-1], 2.6)
+        self.assertIsNone(paths.solid(TRUTHS, "load_height=edge;w=1", "curve"))
+
+
+if __name__ == "__main__":
+    unittest.main()
