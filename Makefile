@@ -92,6 +92,10 @@ mutants: ## plant faults one by one; each must be noticed
 fuzz: all ## any bytes as every input the program reads (clang's libFuzzer)
 	@harness/tools/fuzz.sh $(BUILD)
 
+.PHONY: valgrind
+valgrind: all ## a small selection of verify under valgrind
+	@harness/tools/valgrind.sh $(BUILD)
+
 layers: ## check that includes point down only
 	@harness/tools/layers.sh
 
@@ -152,6 +156,9 @@ $(PROGRAM): $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) $(LIBRARY)
 
 $(BUILD)/%_test: $(BUILD)/%_test.o $(LIBRARY)
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
+
+# A test of what happens when memory runs out: allocations of our own code pass through it.
+$(BUILD)/harness/test/memory_test: LDFLAGS += -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=free,--wrap=strdup,--wrap=strndup
 
 $(TRUTHS): $(wildcard reference/tables/*.csv reference/extremes/*.csv reference/*.csv) reference/pack.py
 	@mkdir -p $(@D)

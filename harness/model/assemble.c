@@ -113,6 +113,16 @@ static status find_places(const model *m, mesh_pattern *p, fault *f)
     return STATUS_OK;
 }
 
+void assemble_pattern_free(mesh_pattern *p)
+{
+    free(p->matrix.column);
+    free(p->matrix.row);
+    free(p->start);
+    free(p->local);
+    free(p->place);
+    memset(p, 0, sizeof *p);
+}
+
 status model_pattern(model *m, int with_driven, const sparse **out, fault *f)
 {
     mesh_pattern *p = &m->pattern[with_driven];
@@ -125,6 +135,8 @@ status model_pattern(model *m, int with_driven, const sparse **out, fault *f)
     if (outcome == STATUS_OK)
         outcome = find_places(m, p, f);
     p->made = outcome == STATUS_OK;
+    if (!p->made)
+        assemble_pattern_free(p); /* the next analysis tries again */
     return outcome;
 }
 

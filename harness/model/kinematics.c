@@ -139,8 +139,11 @@ status model_state_alloc(const model *m, model_state **out, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory for a state");
     s->size = V * 10 + (size_t)m->warps + (size_t)m->scene->drivers + E * (size_t)(2 * m->strains + m->inner);
     s->block = calloc(s->size, sizeof *s->block);
-    if (s->block == NULL)
+    if (s->block == NULL) {
+        free(s);
+        *out = NULL;
         return fault_set(f, STATUS_FAULT, "out of memory for a state");
+    }
     s->u = s->block;
     s->q = s->u + 3 * V;
     s->angle = s->q + 4 * V;

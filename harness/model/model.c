@@ -108,14 +108,8 @@ void model_free(model *m)
 {
     if (m == NULL)
         return;
-    for (int i = 0; i < 2; i++) {
-        mesh_pattern *p = &m->pattern[i];
-        free(p->matrix.column);
-        free(p->matrix.row);
-        free(p->start);
-        free(p->local);
-        free(p->place);
-    }
+    for (int i = 0; i < 2; i++)
+        assemble_pattern_free(&m->pattern[i]);
     for (int i = 0; i < m->kinds; i++)
         free(m->kind[i].data);
     for (int i = 0; i < m->lines; i++)

@@ -117,6 +117,7 @@ void eliminate_matrix(const model *m, const model_state *s, const mesh_element *
 status spin_add(model *m, const node_state x[], int element, double path, double force[], double K[], fault *f);
 
 /* assemble.c */
+void assemble_pattern_free(mesh_pattern *p);
 void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out);
 void assemble_vector(const mesh_element *el, int coordinates, const double local[], double out[]);
 double *sparse_entry(sparse *a, int row, int column); /* NULL when not stored */

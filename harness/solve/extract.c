@@ -127,18 +127,21 @@ static void from_modes(const analysis_context *c, const scene_quantity *q, const
 {
     const int n = model_sizes(c->model).free;
     int order = 0;
+    fault f = {"out of memory for a mode"};
     double *x = calloc((size_t)(n + model_sizes(c->model).driven) + 1, sizeof *x);
-    for (int i = 0; i < o->positive && x != NULL; i++) {
+    status known = x != NULL ? STATUS_OK : STATUS_FAULT;
+    for (int i = 0; i < o->positive && known == STATUS_OK; i++) {
         mode_shape shape;
         memcpy(x, o->mode_positive + (size_t)i * (size_t)n, (size_t)n * sizeof *x);
-        if (mode_identify(c->model, c->scene, x, &shape, NULL) != STATUS_OK || !mode_in_family(q, &shape) || order++ < q->order)
+        known = mode_identify(c->model, c->scene, x, &shape, &f);
+        if (known != STATUS_OK || !mode_in_family(q, &shape) || order++ < q->order)
             continue;
         r->value = extract_scaled(q, o->value_positive[i] / TURN);
         free(x);
         return;
     }
     free(x);
-    extract_no_value(r, STATUS_OK, "the mesh has no mode of this kind");
+    extract_no_value(r, known, known == STATUS_OK ? "the mesh has no mode of this kind" : f.text);
 }
 
 static void from_linear(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)

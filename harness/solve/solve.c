@@ -92,8 +92,14 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
     memcpy(result->phase, model_phases(m)->seconds, sizeof result->phase);
     result->seconds_setup = c.setup;
     result->seconds_solve = seconds_now() - start - c.setup;
-    for (int i = 0; i < s->quantities; i++)
-        extract_quantity(&c, &s->quantity[i], &result->quantity[i]);
+    for (int i = 0; i < s->quantities; i++) {
+        quantity_result *q = &result->quantity[i];
+        extract_quantity(&c, &s->quantity[i], q);
+        if (q->status == STATUS_FAULT && result->status == STATUS_OK) {
+            result->status = STATUS_FAULT;
+            snprintf(result->reason, sizeof result->reason, "%s", q->reason);
+        }
+    }
     if (c.options->shapes > 0 && shapes_collect(&c, c.options->shapes, &result->shapes, f) != STATUS_OK)
         result->status = STATUS_FAULT;
     for (int i = 0; i < s->analyses; i++)

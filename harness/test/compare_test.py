@@ -50,6 +50,18 @@ class Compare(unittest.TestCase):
         done = self.compared(lambda file: None, "--threshold", "error=0,floor=0,work=0")
         self.assertEqual(done.returncode, 0, done.stdout)
 
+    def test_jobs(self):
+        """One process and several give the same bits."""
+        path = {}
+        for jobs in ("1", "2", "5"):
+            path[jobs] = os.path.join(self.folder.name, f"j{jobs}.h5")
+            done = run("verify", "-k", "elastica/default or c_column/default and beamw_consistent or sheet_wagner/default and sheet_third", "-j", jobs, "-o", path[jobs])
+            self.assertEqual(done.returncode, 0, done.stdout)
+        for jobs in ("2", "5"):
+            done = run("compare", path["1"], path[jobs], "--threshold", "error=0,floor=0,work=0")
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertIn("0 worse, 0 better, 0 changed, 0 gone, 0 new", done.stdout)
+
     def test_extra_work(self):
         for count in ("factorisations", "iterations", "strain_evaluations"):
             def change(file, count=count):

@@ -61,6 +61,22 @@ class Complete(Folder):
         process.wait(20)
         self.assertEqual(os.listdir(self.folder.name), [])
 
+    def test_killed(self):
+        """Whenever a run is killed, its file is the whole one, or not there."""
+        run(*SELECTION, "-o", self.path("whole.h5"))
+        whole = os.path.getsize(self.path("whole.h5"))
+        for delay in (0.005, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.08, 0.1, 0.15, 0.2, 0.3):
+            process = subprocess.Popen([PROGRAM, *SELECTION, "-o", self.path("r.h5")], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            try:
+                process.wait(delay)
+            except subprocess.TimeoutExpired:
+                process.kill()
+            process.wait(20)
+            if os.path.exists(self.path("r.h5")):
+                self.assertAlmostEqual(os.path.getsize(self.path("r.h5")), whole, delta=100)
+                self.assertEqual(run("compare", self.path("whole.h5"), self.path("r.h5"), "--threshold", "error=0,floor=0,work=0").returncode, 0)
+                os.remove(self.path("r.h5"))
+
     def test_nowhere(self):
         for option in ("-o", "--json", "--junit"):
             for place in (self.folder.name, self.path("none/r")):
