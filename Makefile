@@ -34,7 +34,7 @@ ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
-.PHONY: help all verify test stress bench bench-check bench-elements causes mutants layers asan tidy format format-check check clean report truths FORCE
+.PHONY: help all verify test newton stress bench bench-check bench-elements causes mutants layers asan tidy format format-check check clean report truths FORCE
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -53,7 +53,11 @@ all: $(PROGRAM) $(TRUTHS) ## build the program, the library and the packed truth
 
 report: all ## draw the report of the last verify into build/report/index.html
 	@test -f $(BUILD)/results.h5 || $(MAKE) --no-print-directory verify
+	@test $(BUILD)/newton.json -nt $(PROGRAM) || $(MAKE) --no-print-directory newton
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports $(BUILD)/results.h5 $(TRUTHS) -o $(BUILD)/report
+
+newton: all ## the two forms of Newton's method side by side, for the report; build/newton.json
+	@$(PYTHON) harness/tools/newton.py $(PROGRAM) -o $(BUILD)/newton.json
 
 stress: all ## drive every formulation to extremes; a table, and build/stress.json
 	@$(PROGRAM) stress --json $(BUILD)/stress.json $(STRESS)

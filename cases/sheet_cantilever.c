@@ -5,8 +5,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
-enum { MODES = SHEET_PARAMETERS, DENSITY, ROTARY };
-enum { STATIONS = 15, MOST_MODES = 6 };
+enum { MODES = SHEET_PARAMETERS, DENSITY, ROTARY, STATIONS };
+enum { MOST_STATIONS = 100, MOST_MODES = 6 };
 
 static const case_parameter parameters[] = {
     SHEET_TABLE(0),
@@ -14,6 +14,7 @@ static const case_parameter parameters[] = {
                "natural frequencies of the deflected sheet, its tip held along y and about z"},
     [DENSITY] = {"density", "kg/m^3", 7850, 1e-3, 1e6, NULL, "of the sheet"},
     [ROTARY] = {"rotary_inertia", "1", 1, 0, 1, NULL, "1: rotary and warping inertia, 0: translations and twist only"},
+    [STATIONS] = {"stations", "1", 15, 1, MOST_STATIONS, NULL, "states from rest to the deflection, at equal distances"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -73,10 +74,11 @@ static status build(const double value[], scene *s, fault *f)
     scene_drive(s, tip, SCENE_RZ, scene_add_driver(s, "tip_rotation", 2, path, none));
 
     const int path_analysis = scene_add_analysis(s, SCENE_STATIC);
-    double stations[STATIONS];
-    for (int i = 0; i < STATIONS; i++)
-        stations[i] = (i + 1.0) / STATIONS;
-    scene_set_stations(s, path_analysis, STATIONS, stations);
+    double station[MOST_STATIONS];
+    const int stations = (int)value[STATIONS];
+    for (int i = 0; i < stations; i++)
+        station[i] = (i + 1.0) / stations;
+    scene_set_stations(s, path_analysis, stations, station);
     const int compliance = scene_add_analysis(s, SCENE_COMPLIANCE);
     scene_analysis *c = scene_analysis_at(s, compliance);
     c->follows = path_analysis;

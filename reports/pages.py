@@ -19,6 +19,7 @@ PAGES = (
     "formulation",
     "pictures",
     "paths",
+    "newton",
 )
 
 _tasks = []  # of the run at hand; inherited by the processes of the pool, so that no record is copied

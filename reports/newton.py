@@ -1,0 +1,79 @@
+"""Newton's method in coordinates, strains and stresses at once beside displacements only: how far one step may go, and what it costs."""
+import functools
+import json
+import os
+
+from reports.style import plt
+
+NAVIGATION = [("newton.html", "Newton")]
+FORMS = ("mixed", "displacement")
+
+
+def read(path):
+    """What harness/tools/newton.py wrote, or None."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)
+    except (OSError, ValueError):
+        return None
+
+
+def largest(values, iterations):
+    """(largest value from which all smaller ones converged in one step, iterations there), or (None, None)."""
+    best = (None, None)
+    for value, count in zip(values, iterations):
+        if count is None:
+            break
+        best = (value, count)
+    return best
+
+
+def singles(data):
+    """[(case, [(contestant, unit, {form: (largest, iterations)}, tried)])]"""
+    cases = {}
+    for s in data["singles"]:
+        row = (f"{s['formulation']}, n = {s['elements']}", s["unit"], {form: largest(s["values"], s[form]) for form in FORMS}, s["values"][-1])
+        cases.setdefault(f"{s['case']}: {s['parameter']} in one step", []).append(row)
+    return list(cases.items())
+
+
+def contests(data):
+    """[(case, [(contestant, first steps, {form: summary})])]"""
+    cases = {}
+    for c in data["contests"]:
+        row = (f"{c['formulation']}, n = {c['elements']}", c["first_steps"], {form: c[form] for form in FORMS})
+        cases.setdefault(f"{c['case']} ({c['parameters']})", []).append(row)
+    return list(cases.items())
+
+
+def figure_of(case, histories):
+    """Each correction over the one before it: slope two."""
+    figure, axes = plt.subplots(figsize=(5.2, 4.2))
+    for marker, form in zip("o+", FORMS):
+        for h in (h for h in histories if h["form"] == form):
+            pairs = [(a, b) for s in h["steps"] for a, b in zip(s["corrections"], s["corrections"][1:]) if a and b and b > 1e-15]
+            if pairs:
+                axes.loglog(*zip(*pairs), marker, label=f"{h['formulation']}, {form}", fillstyle="none", linestyle="none")
+    axes.loglog([1e-7, 1], [1e-14, 1], "k--", linewidth=0.8, label="square")
+    axes.set_xlabel("correction")
+    axes.set_ylabel("the next one")
+    axes.set_title(case)
+    axes.legend(fontsize=7)
+    axes.grid(True, linewidth=0.3)
+    return figure
+
+
+def write(site):
+    data = read(os.path.join(os.path.dirname(site.results), "newton.json"))
+    if data is None:
+        site.write("newton.html", "newton.html", singles=[], contests=[], histories=[])
+        return
+    cases = {}
+    for h in data["histories"]:
+        cases.setdefault(h["case"], []).append(h)
+    drawn = [(case, site.image(figure_of(case, rows), f"newton_{case}"), rows) for case, rows in cases.items()]
+    site.write("newton.html", "newton.html", singles=singles(data), contests=contests(data), histories=drawn)
+
+
+def tasks(site):
+    return [functools.partial(write, site)]

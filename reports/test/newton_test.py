@@ -1,0 +1,54 @@
+"""The page about Newton's method: what is called the largest step, and a page without data."""
+import json
+import os
+import tempfile
+import unittest
+
+from reports import newton
+
+STEP = {"path": 1.0, "increment": 1.0, "iterations": 3, "rejected": 0, "corrections": [0.1, 0.01, 1e-4], "residuals": [1.0, None, 1e-6]}
+SUMMARY = {"status": "ok", "reason": "", "steps": 2, "rejected": 1, "iterations": 9, "most_iterations": 5}
+DATA = {"singles": [{"case": "sheet", "parameter": "tilt", "unit": "rad", "values": [0.1, 0.2, 0.3], "formulation": "beam", "elements": 2,
+                     "mixed": [3, 4, 5], "displacement": [5, None, 9]}],
+        "contests": [{"case": "sheet", "parameters": "", "formulation": "beam", "elements": 2, "first_steps": 4, "mixed": SUMMARY,
+                      "displacement": {**SUMMARY, "status": "not_converged", "reason": "Newton diverged"}}],
+        "histories": [{"case": "roll", "formulation": "beam", "elements": 2, "form": form, "status": "ok", "reason": "", "steps": [STEP]} for form in newton.FORMS]}
+
+
+class Site:
+    """What the page asks of a site."""
+
+    def __init__(self, folder):
+        self.results, self.pages, self.images = os.path.join(folder, "results.h5"), {}, []
+
+    def write(self, template, name, **context):
+        self.pages[name] = context
+
+    def image(self, figure, name):
+        self.images.append(name)
+        newton.plt.close(figure)
+        return name
+
+
+class Newton(unittest.TestCase):
+    def test_largest(self):
+        self.assertEqual(newton.largest([1, 2, 3], [4, 5, 6]), (3, 6))
+        self.assertEqual(newton.largest([1, 2, 3], [4, None, 6]), (1, 4))
+        self.assertEqual(newton.largest([1], [None]), (None, None))
+
+    def test_page(self):
+        with tempfile.TemporaryDirectory() as folder:
+            site = Site(folder)
+            newton.write(site)
+            self.assertEqual(site.pages["newton.html"]["singles"], [])
+            with open(os.path.join(folder, "newton.json"), "w", encoding="utf-8") as out:
+                json.dump(DATA, out)
+            newton.write(site)
+            page = site.pages["newton.html"]
+            self.assertEqual(page["singles"][0][1][0][2], {"mixed": (0.3, 5), "displacement": (0.1, 5)})
+            self.assertEqual(site.images, ["newton_roll"])
+            self.assertEqual(len(page["histories"][0][2]), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
