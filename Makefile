@@ -54,6 +54,7 @@ all: $(PROGRAM) $(TRUTHS) ## build the program, the library and the packed truth
 report: all ## draw the report of the last verify into build/report/index.html
 	@test -f $(BUILD)/results.h5 || $(MAKE) --no-print-directory verify
 	@test $(BUILD)/newton.json -nt $(PROGRAM) || $(MAKE) --no-print-directory newton
+	@test $(BUILD)/stress.json -nt $(PROGRAM) || $(PROGRAM) stress -o $(BUILD)/stress.txt --json $(BUILD)/stress.json
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports $(BUILD)/results.h5 $(TRUTHS) -o $(BUILD)/report
 
 newton: all ## the two forms of Newton's method side by side, for the report; build/newton.json

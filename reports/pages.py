@@ -20,6 +20,7 @@ PAGES = (
     "pictures",
     "paths",
     "newton",
+    "stability",
 )
 
 _tasks = []  # of the run at hand; inherited by the processes of the pool, so that no record is copied

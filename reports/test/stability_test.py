@@ -1,0 +1,46 @@
+"""The page of stability: what a sweep of extremes found is on it; without one it says so."""
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+from reports import stability
+from reports.site import Site
+
+PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
+TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
+
+
+class Stability(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        subprocess.run([PROGRAM, "verify", "-k", "warping_torsion and beamw", "-o", self.folder / "results.h5"], capture_output=True, check=False)
+
+    def page(self):
+        site = Site(self.folder / "results.h5", TRUTHS, self.folder / "site")
+        stability.write(site)
+        return (self.folder / "site" / "stability.html").read_text(encoding="utf-8")
+
+    def test_without_a_sweep(self):
+        self.assertIn("make stress", self.page())
+
+    def test_sweep(self):
+        done = subprocess.run([PROGRAM, "stress", "-k", "decay_free or twist_wagner", "--json", self.folder / "stress.json"], capture_output=True, check=False)
+        self.assertEqual(done.returncode, 0)
+        record = json.loads((self.folder / "stress.json").read_text(encoding="utf-8"))
+        page = self.page()
+        tried, survived = (sum(f[name] for f in record["formulations"]) for name in ("tried", "survived"))
+        self.assertIn(f"{tried} in all: {survived} survived", page)
+        self.assertLess(survived, tried)
+        self.assertTrue((self.folder / "site" / "stability_map.svg").is_file())
+        for o in record["outcomes"]:
+            if o["proof"]:
+                self.assertIn(o["proof"].split("'")[0], page)
+
+
+if __name__ == "__main__":
+    unittest.main()
