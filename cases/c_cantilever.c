@@ -17,7 +17,7 @@ static const case_parameter parameters[] = {
                      "where the web ends: at the corner of the centre line, or at the outer face of the flange"},
     [SHEAR] = {"shear", "1", 0, 0, 1, NULL, "1: flexible in shear, 0: shear-rigid"},
     [WAGNER] = {"wagner_moments", "1", 0, 0, 1, NULL, "1: with int y (y^2 + z^2) dA in the Wagner moments, 0: without, as J"},
-    [OMEGA] = {"omega", "rad/s", 0, 0, 0, NULL, "angular velocity about the vertical axis through the root"},
+    [OMEGA] = {"omega", "rad/s", 0, 0, 1e4, NULL, "angular velocity about the vertical axis through the root"},
     [DEFLECTION] = {"w", "m", 0.5, 1e-4, 5, NULL, "deflection of the load point up to which the load is followed"},
     [STEP] = {"step", "m", 0, 0, 5, NULL, "steps of w, all of this size; 0: steps that adapt"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},

@@ -5,12 +5,14 @@
 #include <string.h>
 
 #include "elements/exact/prestress.h"
+#include "elements/inertia/lumped.h"
 #include "elements/math/dense.h"
 
 enum { OPTION_STAGES, FEWEST = 3, OUTER = STAGES_OUTER };
 
 struct element_data {
     stages stages;
+    lumped_mass mass;
 };
 
 static const element_option options[] = {
@@ -43,6 +45,7 @@ static size_t data_size(const element_request *request)
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
+    out->mass = lumped_of(request->section, request->features, request->length);
     return stages_prepare(request, stage_count(request->options), &out->stages, f);
 }
 
@@ -158,13 +161,19 @@ static int strains(const double value[])
     return OUTER;
 }
 
+static status inertia(const element_data *d, const node_state x[], const element_spin *spin, inertia_output *out)
+{
+    return lumped_element(&d->mass, 2, x, spin, out);
+}
+
 const element_type element_collocation = {
     .name = "collocation",
     .summary = "geometrically exact beam with warping solved inside the element by Gauss collocation",
     .source = "ours; theory: Reissner, J. Appl. Math. Phys. 32 (1981); Simo, Comput. Methods Appl. Mech. Eng. 49 (1985)",
     .abi = ELEMENT_ABI,
     .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS |
-              FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_CURVATURE,
+              FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_CURVATURE | FEATURE_MASS |
+              FEATURE_ROTARY_INERTIA,
     .limits = 0,
     .options = options,
     .strains = strains,
@@ -177,4 +186,5 @@ const element_type element_collocation = {
     .update = update,
     .rest = rest,
     .geometric = geometric,
+    .inertia = inertia,
 };

@@ -2,12 +2,15 @@
  * integration, strains at the integration points. */
 #include "elements/exact/stiffness.h"
 #include "elements/exact/strain.h"
+#include "elements/inertia/lumped.h"
 
 enum { OPTION_NODES };
 
 struct element_data {
     strain_line line;
     stiffness stiffness;
+    lumped_mass mass;
+    int nodes;
 };
 
 static const element_option options[] = {
@@ -35,6 +38,8 @@ static status prepare(const element_request *request, element_data *out, fault *
 {
     const int count = nodes(request->options);
     const status outcome = stiffness_prepare(request, count, &out->stiffness, f);
+    out->mass = lumped_of(request->section, request->features, request->length);
+    out->nodes = count;
     if (outcome == STATUS_OK)
         strain_prepare(count, count - 1, request->length, request->curvature, count == 2 ? MEASURE_ANGLE : MEASURE_QUARTER,
                        &out->line);
@@ -57,6 +62,11 @@ static void geometric(const element_data *d, const double sigma[], double G[])
     stiffness_geometric(&d->stiffness, sigma, G);
 }
 
+static status inertia(const element_data *d, const node_state x[], const element_spin *spin, inertia_output *out)
+{
+    return lumped_element(&d->mass, d->nodes, x, spin, out);
+}
+
 const element_type element_geometrically_exact = {
     .name = "geometrically_exact",
     .summary = "geometrically exact beam with warping, two or three nodes, reduced integration",
@@ -64,7 +74,8 @@ const element_type element_geometrically_exact = {
               "rotations ours",
     .abi = ELEMENT_ABI,
     .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS |
-              FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_CURVATURE,
+              FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_CURVATURE | FEATURE_MASS |
+              FEATURE_ROTARY_INERTIA,
     .limits = 0,
     .options = options,
     .nodes = nodes,
@@ -74,4 +85,5 @@ const element_type element_geometrically_exact = {
     .strain = strain,
     .stress = stress,
     .geometric = geometric,
+    .inertia = inertia,
 };

@@ -60,3 +60,13 @@ void lumped_add(const lumped_mass *l, double share, const node_state *x, const e
         for (int k = 0; k < 3; k++)
             out->M[(at + 3 + i) * n + at + 3 + k] += share * l->rotary[0] * x->R[3 * i] * x->R[3 * k];
 }
+
+status lumped_element(const lumped_mass *whole, int nodes, const node_state x[], const element_spin *spin, inertia_output *out)
+{
+    static const double two[] = {0.5, 0.5}, three[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
+    const int n = NODE_COORDINATES * nodes;
+    moving_clear(n, out);
+    for (int k = 0; k < nodes; k++)
+        lumped_add(whole, (nodes == 2 ? two : three)[k], &x[k], spin, NODE_COORDINATES * k, n, out);
+    return STATUS_OK;
+}
