@@ -101,7 +101,8 @@ unsigned model_quantity_needs(const scene *s, int quantity)
 {
     const unsigned inertia = FEATURE_MASS | FEATURE_ROTARY_INERTIA;
     const int analysis = s->quantity[quantity].analysis;
-    const int moves = analysis >= 0 && (s->analysis[analysis].kind == SCENE_MODAL || s->analysis[analysis].kind == SCENE_ROTATION);
+    const int moves = analysis >= 0 && (s->analysis[analysis].kind == SCENE_MODAL || s->analysis[analysis].kind == SCENE_ROTATION ||
+                                        turns(&s->analysis[analysis]));
     return model_needs(s) & (moves ? ~0U : ~inertia);
 }
 
