@@ -34,7 +34,7 @@ ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
-.PHONY: help all verify test newton stress bench bench-check bench-elements causes mutants layers asan tidy format format-check check clean report truths FORCE
+.PHONY: help all verify test newton stress bench bench-check bench-mechanisms bench-elements causes mutants layers asan tidy format format-check check clean report truths FORCE
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -65,6 +65,10 @@ stress: all ## drive every formulation to extremes; a table, and build/stress.js
 
 bench: all ## time every formulation on every case into build/bench.h5
 	@$(PROGRAM) bench -o $(BUILD)/bench.h5
+
+bench-mechanisms: all ## joint and hexapod: growth with the elements, parts of an iteration, the dense baseline
+	@$(PROGRAM) bench spherical_joint -f sheet_third -f sheet_second -f collocation -n 1,2,4,8,16,32 --dense -o $(BUILD)/mechanisms_joint.h5
+	@$(PROGRAM) bench hexapod -f sheet_third -f sheet_second -f collocation -n 1,2 --dense -o $(BUILD)/mechanisms_hexapod.h5
 
 bench-check: all ## plant work of known size: comparisons must find it, and nothing else
 	@$(PYTHON) harness/tools/bench_check.py $(PROGRAM) -o $(BUILD)/bench_check.json

@@ -18,6 +18,7 @@ PAGES = (
     "case",
     "formulation",
     "pictures",
+    "mechanisms",
     "paths",
     "newton",
     "stability",

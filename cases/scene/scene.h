@@ -80,7 +80,7 @@ const char *scene_moments_name(scene_moments);
 
 typedef struct scene_analysis {
     scene_analysis_kind kind;
-    int follows;  /* analysis whose state(s) this one is about, or SCENE_NONE: the undeformed state */
+    int follows; /* analysis whose state(s) this one is about, or SCENE_NONE: the undeformed state */
     int stations; /* static, rotation: path parameter values to stop at, ascending; continuation: of the control coordinate, as met */
     double *path;
     int steps_between;       /* first try of load steps from one station to the next (adaptive from there); >= 1 */
@@ -107,7 +107,7 @@ typedef enum scene_quantity_kind {
     SCENE_COMPLIANCE_ENTRY, /* row, column of the 6 x 6 matrix */
     SCENE_STIFFNESS_ENTRY,  /* 1 / compliance entry (row, row) with only the non-held coordinates free */
     SCENE_CRITICAL_FACTOR,  /* order-th positive (sign +1) or negative (sign -1) load factor, counted from 0 */
-    SCENE_GROWTH,         /* rotation: largest rate of growth of a small motion [1/s]; 0: stable */
+    SCENE_GROWTH,           /* rotation: largest rate of growth of a small motion [1/s]; 0: stable */
     SCENE_FREQUENCY,        /* [Hz] by order among the modes of the wanted family and half-waves */
     SCENE_FACTOR_AT, /* continuation: load factor at the station `at` of the control coordinate, or all along (SCENE_CURVE) */
     SCENE_CRITICAL_POINT, /* continuation: the order-th point of kind `row` (scene_critical): load factor (column 0) or control coordinate (1) */

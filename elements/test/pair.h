@@ -26,7 +26,8 @@ static inline const element_data *data_of(const subject *s)
     return (const element_data *)s->store.bytes;
 }
 
-static inline void start_with(subject *s, const element_type *type, const section *c, double l0, unsigned features, twist_kind torsion)
+static inline void start_with(subject *s, const element_type *type, const section *c, double l0, unsigned features,
+                              twist_kind torsion)
 {
     double options[ELEMENT_MAX_OPTIONS] = {0};
     for (int i = 0; type->options != NULL && type->options[i].name != NULL; i++)

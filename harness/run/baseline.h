@@ -10,8 +10,8 @@ typedef struct baseline {
     clock_reading whole; /* of whole runs, where these are short enough; else rounds = 0 */
 } baseline;
 
-/* One more round beside those of the cell itself, whose run took so many iterations. */
-void baseline_round(const cell_request *own, long iterations, double floor, baseline *out);
+/* One more round beside those of the cell itself, which was solved with the result `cell`; nothing for linear or very large ones. */
+void baseline_round(const cell_request *own, const cell_result *cell, double floor, baseline *out);
 /* [s] of a run: measured, or the time of one iteration times their number (the iterations are the same); INFINITY: not measured. */
 double baseline_seconds(const baseline *b, long iterations);
 

@@ -17,7 +17,8 @@ static status run(const char *case_name, const element_type *type, const char *k
     request.type = case_find(case_name, &f);
     parameters_default(request.type, request.parameter);
     for (int i = 0; assignment[i] != NULL; i++)
-        gsl_test(parameters_set(request.type, assignment[i], request.parameter, &f) != STATUS_OK, "%s: %s", case_name, assignment[i]);
+        gsl_test(parameters_set(request.type, assignment[i], request.parameter, &f) != STATUS_OK, "%s: %s", case_name,
+                 assignment[i]);
     if (type != NULL)
         formulation_default(type, &chosen);
     else
@@ -62,8 +63,11 @@ static void few_iterations(void)
     static const struct {
         const char *case_name, *formulation;
         double most;
-    } path[] = {{"spherical_joint", "sheet_third", 3.5}, {"spherical_joint", "sheet_second", 3.5}, {"hexapod", "sheet_third", 3.5},
-                 {"hexapod", "sheet_second", 3.5},        {"sheet_cantilever", "sheet_third", 2.5}};
+    } path[] = {{"spherical_joint", "sheet_third", 3.5},
+                {"spherical_joint", "sheet_second", 3.5},
+                {"hexapod", "sheet_third", 3.5},
+                {"hexapod", "sheet_second", 3.5},
+                {"sheet_cantilever", "sheet_third", 2.5}};
     for (size_t i = 0; i < sizeof path / sizeof path[0]; i++) {
         cell_result r;
         gsl_test(run(path[i].case_name, NULL, path[i].formulation, 1, (const char *const[]){NULL}, &r) != STATUS_OK, "%s solved",
@@ -103,14 +107,14 @@ static void directions(void)
     static const struct {
         const char *formulation;
         double least, most; /* relative change */
-    } row[] = {{"sheet_second", 1e-3, 5e-3}, {"sheet_third", 1e-3, 5e-3}, {"collocation", 0, 1e-10}, {"geometrically_exact", 0, 1e-10}};
+    } row[] = {
+        {"sheet_second", 1e-3, 5e-3}, {"sheet_third", 1e-3, 5e-3}, {"collocation", 0, 1e-10}, {"geometrically_exact", 0, 1e-10}};
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         cell_result bodies, chained;
         run("spherical_joint", NULL, row[i].formulation, 1, (const char *const[]){"wagner=0", NULL}, &bodies);
         run("spherical_joint", NULL, row[i].formulation, 1, (const char *const[]){"wagner=0", "element_direction=chained", NULL},
             &chained);
-        const double change =
-            fabs(value_of(&chained, "support_stiffness_max") / value_of(&bodies, "support_stiffness_max") - 1);
+        const double change = fabs(value_of(&chained, "support_stiffness_max") / value_of(&bodies, "support_stiffness_max") - 1);
         gsl_test(!(change >= row[i].least && change <= row[i].most), "%s, one element: the direction changes %.1e",
                  row[i].formulation, change);
         cell_result_free(&bodies);
@@ -155,7 +159,8 @@ static void straight_column(scene *s, int stations, const double path[])
 static void inertia_counts_critical_loads(void)
 {
     const double pi = 3.14159265358979323846, weak = pi * pi / 4;
-    const double path[] = {0.9 * weak, 1.1 * weak, 3.9 * weak, 4.1 * weak, 8.8 * weak, 9.2 * weak, 24 * weak, 26 * weak, 35 * weak, 37 * weak};
+    const double path[] = {0.9 * weak, 1.1 * weak, 3.9 * weak, 4.1 * weak, 8.8 * weak,
+                           9.2 * weak, 24 * weak,  26 * weak,  35 * weak,  37 * weak};
     const int below[] = {0, 1, 1, 2, 2, 3, 3, 4, 4, 5}; /* weak plane 1, 9, 25, 49; strong plane 4, 36 */
     enum { STATIONS = sizeof below / sizeof below[0] };
     const char *const names[] = {"beamw_consistent", "collocation", "geometrically_exact"};
@@ -175,7 +180,8 @@ static void inertia_counts_critical_loads(void)
             outcome = solve_scene(&s, m, NULL, &r, &f);
         gsl_test(outcome != STATUS_OK || r.steps != STATIONS, "%s: the straight path beyond critical loads (%s)", names[k], f.text);
         for (int i = 0; i < STATIONS && outcome == STATUS_OK; i++)
-            gsl_test_int(r.step[i].negative_pivots, below[i], "%s: critical loads below %.1f of the first", names[k], path[i] / weak);
+            gsl_test_int(r.step[i].negative_pivots, below[i], "%s: critical loads below %.1f of the first", names[k],
+                         path[i] / weak);
         if (m != NULL)
             gsl_test_int((int)model_counters(m)->negative_pivots, 5, "%s: the most is counted", names[k]);
         solve_result_free(&r);

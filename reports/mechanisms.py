@@ -1,0 +1,139 @@
+"""The joint and the hexapod beside N sections 4.2 and 4.3: curves, relative times, growth, parts of an iteration, dense baseline.
+
+Times come from `make bench-mechanisms`, whose files lie beside the results."""
+import functools
+import math
+import os
+
+import h5py
+
+from reports.data import text
+from reports.plots import log_axes
+from reports.style import plt
+
+NAVIGATION = [("mechanisms.html", "mechanisms")]
+
+# N Fig. 8 and its text: formulation, elements per sheet, largest support stiffness in N/m, time relative to the first row
+PUBLISHED = (("sheet_third", 1, 9.77e5, 1.0), ("sheet_third", 2, 9.61e5, 3.3), ("sheet_second", 1, 10.95e5, 0.9), ("sheet_second", 2, 9.68e5, 3.1), ("sheet_second", 4, 9.63e5, 9.6))
+PUBLISHED_SHELL = 9.81e5                                                     # N Fig. 8, shell elements: another model
+PUBLISHED_SECONDS = {"spherical_joint": 2.45, "hexapod": 122.0}              # N, one third-order element per sheet
+PUBLISHED_FACTOR = 6.32                                                      # N section 4.3: two second-order elements against one of third order
+PARTS = ("elements", "assembly", "factorisation", "solution")
+QUANTITY = "support_stiffness_max"
+
+
+class Cell:
+    """One timed cell of a bench file."""
+
+    def __init__(self, case, key, group):
+        timing, attrs = group["timing"], group.attrs
+        self.case, self.key, self.n, self.free = case, key, int(attrs["elements_per_member"]), int(attrs["free"])
+        self.iterations, self.steps = int(attrs["iterations"]), int(attrs["load_steps"])
+        self.seconds = float(timing["as_is"][()].min())
+        self.parts = {p: float(timing.attrs[p]) / max(self.iterations, 1) for p in PARTS if p in timing.attrs}
+        self.dense_unknowns = int(timing.attrs.get("dense_unknowns", 0))
+        self.dense = float(timing.attrs.get("dense_seconds", math.nan))
+        self.dense_whole = bool(timing.attrs.get("dense_whole", 0))
+        self.value = next((float(row["value"]) for row in group["quantities"][()] if text(row["name"]) == QUANTITY), math.nan)
+
+
+def read_bench(path):
+    """Timed cells of the defaults in a file of `beamwork bench`, or none."""
+    if not os.path.exists(path):
+        return []
+    with h5py.File(path) as file:
+        return sorted((Cell(case, key, series[n]) for case, points in file["cases"].items() for key, series in points.get("default", {}).items() if isinstance(series, h5py.Group)
+                       for n in series if n != "verdicts" and "timing" in series[n] and "as_is" in series[n]["timing"]), key=lambda c: (c.case, c.key, c.n))
+
+
+def value_of(site, key, n, parameters):
+    """Largest stiffness of a cell in the results."""
+    case = site.case("spherical_joint")
+    for point in case.points if case else []:
+        if point.parameters == parameters:
+            return next((m.values.get(QUANTITY, math.nan) for s in point.series if s.key == key for m in s.meshes if m.n == n), math.nan)
+    return math.nan
+
+
+def comparison(site, cells):
+    """The published rows with ours. The published second-order element has no Wagner torque."""
+    at = {(c.key, c.n): c for c in cells if c.case == "spherical_joint"}
+    first = at.get(("sheet_third", 1))
+    rows = []
+    for key, n, maximum, time in PUBLISHED:
+        ours = value_of(site, key, n, "wagner=0" if key == "sheet_second" else "")
+        cell = at.get((key, n))
+        rows.append({"key": key, "n": n, "published": maximum, "ours": ours, "published_time": time, "seconds": cell.seconds if cell else math.nan,
+                     "time": cell.seconds / first.seconds if cell and first else math.nan})
+    return rows
+
+
+def curve_figure(site):
+    """Support stiffness around the turn: one and two elements against the converged beam and the published shell maximum."""
+    case = site.case("spherical_joint")
+    point = next((p for p in case.points if p.name == "default"), None) if case else None
+    wanted = (("collocation", 1), ("sheet_third", 1), ("sheet_third", 2), ("sheet_second", 1), ("sheet_second", 2))
+    meshes = {(s.key, m.n): m for s in point.series for m in s.meshes} if point else {}
+    lines = [(key, n, meshes[key, n].curves["support_stiffness_curve"]) for key, n in wanted if (key, n) in meshes and "support_stiffness_curve" in meshes[key, n].curves]
+    if not lines:
+        return None
+    figure, axes = plt.subplots(figsize=(7.2, 3.8))
+    for key, n, curve in lines:
+        style = site.styles.of(key)
+        style.update(marker=None, linestyle="-" if n == 1 else "--", linewidth=2.6 if key == "collocation" else 1.3, alpha=0.55 if key == "collocation" else 1)
+        axes.plot(curve[0], curve[1] / 1e5, label=f"{key}, {n} per sheet" + (" (converged beam model)" if key == "collocation" else ""), **style)
+    axes.axhline(PUBLISHED_SHELL / 1e5, color="0.3", linestyle=":", linewidth=1.2, label="N: maximum of shell elements (another model)")
+    axes.set_xlabel("azimuth of the tilt axis [rad]")
+    axes.set_ylabel("support stiffness [10$^5$ N/m]")
+    axes.legend(fontsize=7.5, loc="upper right", bbox_to_anchor=(1.55, 1))
+    return site.image(figure, "mechanisms_curve")
+
+
+def growth_figure(site, cells):
+    """Time of the whole curve against elements per sheet, and the parts of an iteration."""
+    joint = [c for c in cells if c.case == "spherical_joint"]
+    if not joint:
+        return None
+    figure, (left, right) = plt.subplots(1, 2, figsize=(10, 3.8))
+    for key in sorted({c.key for c in joint}):
+        mine = [c for c in joint if c.key == key]
+        left.plot([c.n for c in mine], [1e3 * c.seconds for c in mine], label=key, **site.styles.of(key))
+    third = [c for c in joint if c.key == "sheet_third"] or joint
+    left.plot([1, third[-1].n], [1e3 * third[0].seconds, 1e3 * third[0].seconds * third[-1].n], color="0.6", linewidth=0.8, zorder=0, label="linear")
+    log_axes(left, "elements per sheet", "milliseconds, 50 steps")
+    left.legend(fontsize=8)
+    below = [0] * len(third)
+    for part, colour in zip(PARTS, ("#0072B2", "#56B4E9", "#D55E00", "#E69F00")):
+        height = [1e6 * c.parts.get(part, 0) / c.n for c in third]
+        right.bar([str(c.n) for c in third], height, bottom=below, color=colour, label=part, width=0.65)
+        below = [b + h for b, h in zip(below, height)]
+    right.set_xlabel("elements per sheet")
+    right.set_ylabel("µs per iteration / elements per sheet")
+    right.set_title(third[0].key, fontsize=9)
+    right.grid(axis="x", visible=False)
+    right.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1, 1))
+    return site.image(figure, "mechanisms_growth")
+
+
+def factor_of_orders(cells):
+    """Time of two second-order elements against one of third order in the hexapod."""
+    at = {(c.key, c.n): c.seconds for c in cells if c.case == "hexapod"}
+    return at.get(("sheet_second", 2), math.nan) / at.get(("sheet_third", 1), math.nan)
+
+
+def write(site):
+    folder = os.path.dirname(os.path.abspath(site.results))
+    cells = read_bench(os.path.join(folder, "mechanisms_joint.h5")) + read_bench(os.path.join(folder, "mechanisms_hexapod.h5"))
+    reference = value_of(site, "collocation", 1, "")
+    site.write("mechanisms.html", "mechanisms.html", cells=cells, rows=comparison(site, cells), parts=PARTS, reference=reference, shell=PUBLISHED_SHELL, published_seconds=PUBLISHED_SECONDS,
+               published_factor=PUBLISHED_FACTOR, factor=factor_of_orders(cells), curve=curve_figure(site), growth=growth_figure(site, cells), drawn=[c.name for c in site.cases])
+
+
+def tasks(site):
+    return [functools.partial(write, site)]
+
+
+def section(_, case):
+    if case.name not in PUBLISHED_SECONDS:
+        return []
+    return [("Beside the paper", '<p>Published stiffnesses and times, growth with the elements and the dense baseline: <a href="mechanisms.html">mechanisms</a>.</p>')]
