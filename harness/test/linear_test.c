@@ -65,10 +65,27 @@ static int negative_eigenvalues(int n, const double A[])
     return count;
 }
 
+/* 1-norm condition of S A S with the roots of A's diagonal as 1/S, by the inverse. */
+static double scaled_condition(int n, const double A[])
+{
+    double scaled[MOST * MOST] = {0}, norm[2];
+    int pivot[MOST];
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            const double size = fabs(A[i * n + i] != 0 ? A[i * n + i] : 1) * fabs(A[j * n + j] != 0 ? A[j * n + j] : 1);
+            scaled[i * n + j] = A[i * n + j] / sqrt(size);
+        }
+    norm[0] = LAPACKE_dlange(LAPACK_ROW_MAJOR, '1', n, n, scaled, n);
+    LAPACKE_dgetrf(LAPACK_ROW_MAJOR, n, n, scaled, n, pivot);
+    LAPACKE_dgetri(LAPACK_ROW_MAJOR, n, scaled, n, pivot);
+    norm[1] = LAPACKE_dlange(LAPACK_ROW_MAJOR, '1', n, n, scaled, n);
+    return norm[0] * norm[1];
+}
+
 static void random_matrices(kind what, const char *name, double allowed)
 {
     unsigned long long seed = 2385;
-    double worst = 0, worst_refined = 0;
+    double worst = 0, worst_refined = 0, least_condition = INFINITY, most_condition = 0;
     int wrong_inertia = 0, failures = 0, most_negative = 0;
     for (int sample = 0; sample < 40; sample++) {
         const int n = 2 + sample * (MOST - 2) / 39;
@@ -88,6 +105,9 @@ static void random_matrices(kind what, const char *name, double allowed)
                 wrong_inertia += found != expected;
                 most_negative = found > most_negative ? found : most_negative;
             }
+            const double condition = factor_condition(fa, &s) / scaled_condition(n, A);
+            least_condition = fmin(least_condition, condition);
+            most_condition = fmax(most_condition, condition);
             for (int i = 0; i < n; i++)
                 b[i] = x[i] = matrices_random(&seed);
             factor_solve(fa, x);
@@ -99,6 +119,8 @@ static void random_matrices(kind what, const char *name, double allowed)
         factor_free(fa);
         matrices_free(&s);
     }
+    gsl_test(!(least_condition > 0.3 && most_condition < 1 + 1e-9), "%s: the condition is estimated as %.2f to %.2f of what it is",
+             name, least_condition, most_condition);
     gsl_test_int(failures, 0, "%s: all samples are factorised", name);
     if (what != UNSYMMETRIC)
         gsl_test_int(wrong_inertia, 0, "%s: negative pivots are the negative eigenvalues (up to %d)", name, most_negative);
