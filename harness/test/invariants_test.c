@@ -100,7 +100,7 @@ static void same(const case_type *type, const element_type *formulation_type, co
  * same continuum. */
 static void keep_all(const case_type *type, const element_type *e)
 {
-    static const int n[2] = {2, 8};
+    static const int n[2] = {4, 16};
     static answer lean, full;
     const scene_edit none = {SCENE_EDIT_NONE, 0};
     double apart[2] = {0, 0};
