@@ -31,9 +31,24 @@ static double limit_of(double p, const int n[3], const double v[3])
     return v[2] + (v[2] - v[1]) / (pow((double)n[2] / n[1], p) - 1);
 }
 
+/* Coarsest mesh from which on all triples show the order; those at the floor [same unit as v] show nothing. */
+static int range_of(int count, const int n[], const double v[], double order, double floor)
+{
+    const double apart = 0.5;
+    int from = 0;
+    for (int i = count - 3; i >= 0; i--) {
+        if (fabs(v[i + 2] - v[i + 1]) <= 30 * floor)
+            continue;
+        if (!(fabs(order_of(n + i, v + i) - order) <= apart))
+            break;
+        from = n[i];
+    }
+    return from;
+}
+
 convergence convergence_of(int count, const int n[], const double v[], double scale)
 {
-    convergence c = {CONVERGENCE_NONE, NAN, NAN, NAN, NAN};
+    convergence c = {CONVERGENCE_NONE, NAN, NAN, NAN, NAN, 0};
     if (count < 1)
         return c;
     const int last = count - 1;
@@ -45,6 +60,7 @@ convergence convergence_of(int count, const int n[], const double v[], double sc
         for (int i = last - 1; i >= 2 && isnan(c.order); i--)
             if (fabs(v[i] - v[i - 1]) > 30 * round_off * scale)
                 c.order = order_of(n + i - 2, v + i - 2);
+        c.from = range_of(count, n, v, c.order, round_off * scale);
         return c;
     }
     if (count < 3)
@@ -61,5 +77,7 @@ convergence convergence_of(int count, const int n[], const double v[], double sc
         c.order_uncertainty = fabs(p - before);
         c.limit_uncertainty = fmin(c.limit_uncertainty, fabs(c.limit - limit_of(before, n + last - 3, v + last - 3)));
     }
+    c.limit_uncertainty = fmax(c.limit_uncertainty, round_off * scale);
+    c.from = range_of(count, n, v, p, round_off * scale);
     return c;
 }

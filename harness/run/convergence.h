@@ -12,6 +12,7 @@ typedef struct convergence {
     convergence_kind kind;
     double limit, limit_uncertainty;
     double order, order_uncertainty; /* NAN where there is none */
+    int from; /* the asymptotic range: coarsest mesh from which on every three meshes show that order, within half of one; 0: none */
 } convergence;
 
 /* count values at ascending numbers of elements n; `scale` > 0: size of the value that relative errors refer to. */

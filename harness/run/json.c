@@ -145,6 +145,9 @@ static json_t *verdict_of(const sweep *s, const verdict *v)
     json_t *out = json_pack("{s:s,s:s,s:s,s:s,s:s,s:s,s:b}", "case", p->type->name, "parameters", p->text, "formulation",
                             one->formulation.key, "quantity", p->scene.quantity[v->quantity].name, "verdict", verdict_name(v->kind),
                             "expected", v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "?", "as_expected", v->matches);
+    char sentence[2 * FAULT_TEXT];
+    verdict_sentence(v, p->scene.quantity[v->quantity].least_order, sentence, sizeof sentence);
+    json_object_set_new(out, "message", json_string(sentence));
     json_object_set_new(out, "reason", json_string(v->reason));
     json_object_set_new(out, "value", json_number(v->finest));
     json_object_set_new(out, "limit", json_number(v->fit.limit));
@@ -155,7 +158,10 @@ static json_t *verdict_of(const sweep *s, const verdict *v)
     json_object_set_new(out, "truth_uncertainty", v->truth != NULL ? json_number(v->truth->uncertainty) : json_null());
     json_object_set_new(out, "truth_kind", v->truth != NULL ? json_string(v->truth->kind) : json_null());
     json_object_set_new(out, "error", json_number(v->error));
+    json_object_set_new(out, "model_truth", v->model_truth != NULL ? json_number(v->model_truth->value) : json_null());
+    json_object_set_new(out, "model_truth_kind", v->model_truth != NULL ? json_string(v->model_truth->kind) : json_null());
     json_object_set_new(out, "model_error", json_number(v->model_error));
+    json_object_set_new(out, "asymptotic_from", v->fit.from > 0 ? json_integer(v->fit.from) : json_null());
     json_object_set_new(out, "tolerance", json_number(v->tolerance));
     return out;
 }

@@ -29,6 +29,10 @@ static json_t *quantity_of(const sweep *s, const truths *t, int index, int q)
     verdict_reach(s, t, &v);
     json_t *out = json_pack("{s:s,s:s,s:s}", "name", p->scene.quantity[q].name, "unit", p->scene.quantity[q].unit, "verdict",
                             verdict_name(v.kind));
+    char sentence[2 * FAULT_TEXT];
+    verdict_sentence(&v, p->scene.quantity[q].least_order, sentence, sizeof sentence);
+    json_object_set_new(out, "message", json_string(sentence));
+    json_object_set_new(out, "asymptotic_from", v.fit.from > 0 ? json_integer(v.fit.from) : json_null());
     json_object_set_new(out, "limit", json_number(v.fit.limit));
     json_object_set_new(out, "limit_uncertainty", json_number(v.fit.limit_uncertainty));
     json_object_set_new(out, "order", json_number(v.fit.order));

@@ -63,10 +63,11 @@ static void write_verdict(FILE *to, const sweep *s, const verdict *v)
         escaped(to, v->reason);
         fprintf(to, "\"/>\n");
     } else if (!v->matches) {
-        fprintf(to, "   <failure message=\"%s, expected %s%s", verdict_name(v->kind),
-                v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict", v->reason[0] != '\0' ? ": " : "");
-        escaped(to, v->reason);
-        fprintf(to, "\"/>\n");
+        char sentence[2 * FAULT_TEXT];
+        verdict_sentence(v, p->scene.quantity[v->quantity].least_order, sentence, sizeof sentence);
+        fprintf(to, "   <failure message=\"");
+        escaped(to, sentence);
+        fprintf(to, "; expected %s\"/>\n", v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
     }
     fprintf(to, "  </testcase>\n");
 }

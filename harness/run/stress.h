@@ -31,8 +31,8 @@ typedef struct stress_outcome {
     int extreme, value, formulation, quantity; /* indices: table, its values, list of formulations, its quantities */
     int point, series, neighbours;             /* of the sweeps; neighbours: series of the other meshes, or -1 */
     stress_kind kind;
-    double x, result, reference, error; /* NAN: none; error relative */
-    double neighbour_error[STRESS_NEIGHBOURS];   /* on the other meshes; NAN: not needed, or no value */
+    double x, result, reference, error;        /* NAN: none; error relative */
+    double neighbour_error[STRESS_NEIGHBOURS]; /* on the other meshes; NAN: not needed, or no value */
     const stress_finding *finding;
     int as_expected;
     const char *reason;

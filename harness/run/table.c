@@ -96,6 +96,7 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
                         : q < r->quantities ? r->quantity[q].reason
                                             : r->reason);
             }
+            char sentence[2 * FAULT_TEXT];
             verdict_reach(s, t, &v);
             fprintf(to, "  limit ");
             value_or_dash(to, 22, 14, 'g', v.fit.limit);
@@ -103,8 +104,9 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
             value_or_dash(to, 1, 1, 'e', v.fit.limit_uncertainty);
             fprintf(to, ", order ");
             value_or_dash(to, 1, 3, 'f', v.fit.order);
+            verdict_sentence(&v, p->scene.quantity[q].least_order, sentence, sizeof sentence);
             if (row != NULL)
-                fprintf(to, ", %s %.14g: %s", row->kind, row->value, verdict_name(v.kind));
+                fprintf(to, ", %s %.14g: %s", row->kind, row->value, sentence);
             fputc('\n', to);
         }
     }
@@ -155,6 +157,8 @@ static void verdict_line(FILE *to, const sweep *s, const verdict *v, widths w)
         fprintf(to, "  << expected %s", v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
     else if (v->finding != NULL)
         fprintf(to, ", known");
+    if (isfinite(v->model_error))
+        fprintf(to, "; %+.3g %% from another model (%s)", 100 * v->model_error, v->model_truth->kind);
     fputc('\n', to);
     if (v->reason[0] != '\0')
         fprintf(to, "  %*s %.200s\n", w.formulation, "", v->reason);

@@ -2,6 +2,8 @@
 #ifndef BEAMWORK_VERDICT_H
 #define BEAMWORK_VERDICT_H
 
+#include <stddef.h>
+
 #include "harness/run/convergence.h"
 #include "harness/run/sweep.h"
 
@@ -53,6 +55,8 @@ typedef struct judgement {
 } judgement;
 
 const char *verdict_name(verdict_kind kind);
+/* The verdict in words: "converges to a wrong limit: +0.115 %". */
+void verdict_sentence(const verdict *v, double least_order, char *text, size_t size);
 /* What the series shows of the quantity, both given in v: kind, fit, errors, and as expected what holds without findings. */
 void verdict_reach(const sweep *s, const truths *t, verdict *v);
 /* FAULT when a truth has another unit than its quantity. whole: 1 when nothing was selected away, so that a finding nobody observed and a truth that

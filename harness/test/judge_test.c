@@ -96,6 +96,14 @@ static void expect(bench *b, verdict_kind kind, int code, const char *what)
     gsl_test_int(judgement_exit(&b->j), code, "%s: exit code", what);
 }
 
+/* The verdict in words. */
+static void says(const bench *b, const char *words_of_it)
+{
+    char sentence[2 * FAULT_TEXT];
+    verdict_sentence(&b->j.verdict[0], 2, sentence, sizeof sentence);
+    gsl_test(strcmp(sentence, words_of_it) != 0, "says '%s'", sentence);
+}
+
 static void kinds(void)
 {
     bench b;
@@ -103,9 +111,15 @@ static void kinds(void)
     bench_fill(&b, 3, 0.7, 2);
     expect(&b, VERDICT_PASS, 0, "right limit, right order, coarse meshes far off");
     gsl_test_rel(b.j.verdict[0].fit.order, 2, 1e-6, "its order");
+    gsl_test_int(b.j.verdict[0].fit.from, 2, "all meshes show it");
+    says(&b, "converges to the truth, order 2");
     bench_fill(&b, 3.003, 0.7, 2);
     expect(&b, VERDICT_WRONG_LIMIT, 1, "smooth convergence to +0.1 %");
     gsl_test_rel(b.j.verdict[0].error, 1e-3, 1e-9, "the error is the limit's");
+    says(&b, "converges to a wrong limit: +0.1 %");
+    bench_fill(&b, 3 * (1 - 0.00115), 0.7, 4);
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "fast convergence to -0.115 %");
+    says(&b, "converges to a wrong limit: -0.115 %");
     bench_fill(&b, 3 * (1 + 0.9e-4), 0.7, 2);
     expect(&b, VERDICT_PASS, 0, "limit just inside the tolerance");
     bench_fill(&b, 3 * (1 + 1.1e-4), 0.7, 2);
@@ -118,13 +132,16 @@ static void kinds(void)
     gsl_test(fabs(b.j.verdict[0].finest - 3) > 3e-4, "(it does: %.17g)", b.j.verdict[0].finest);
     bench_fill(&b, 3, 0.7, 1);
     expect(&b, VERDICT_LOW_ORDER, 1, "right limit, first order instead of second");
+    says(&b, "converges to the truth, but with order 1 instead of 2");
     bench_fill(&b, 3, 0.7, 1.8);
     expect(&b, VERDICT_PASS, 0, "an order within what finite meshes show");
     bench_fill(&b, 3, 1e-14, 1);
     expect(&b, VERDICT_PASS, 0, "at the round-off floor no order is asked for");
+    says(&b, "has converged to the truth: the last meshes differ by round-off only");
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 0.01 : -0.01);
     expect(&b, VERDICT_NOT_ASYMPTOTIC, 1, "alternating values");
+    says(&b, "shows no limit yet: the last two meshes differ by 0.02, the truth is -0.333 % away");
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 5e-5 : -5e-5);
     expect(&b, VERDICT_PASS, 0, "alternating values that stay inside the tolerance");
@@ -135,6 +152,7 @@ static void kinds(void)
     snprintf(b.quantity[4].reason, sizeof b.quantity[4].reason, "singular at path 0.3");
     expect(&b, VERDICT_DIVERGED, 1, "singular on the finest mesh");
     gsl_test(strcmp(b.j.verdict[0].reason, "singular at path 0.3") != 0, "with its reason");
+    says(&b, "has no value on the finest mesh: singular at path 0.3");
     b.quantity[4].status = STATUS_REFUSED;
     expect(&b, VERDICT_REFUSED, 1, "refused");
     bench_fill(&b, 3, 0.7, 2);

@@ -93,10 +93,10 @@ static void exhaust(const char *name, attempt *run, const void *what, int most)
         const status outcome = run(what, &value, &why);
         refused_call = 0;
         const int says_so = outcome == STATUS_FAULT || (outcome == STATUS_REFUSED && strstr(why.text, "memory") != NULL);
-        const int good = outcome == STATUS_OK ? value == right : says_so && why.text[0] != '\0' && strchr(why.text, '\n') == NULL;
+        const int good = outcome == STATUS_OK ? fabs(value - right) <= 1e-13 * fabs(right) : says_so && why.text[0] != '\0' && strchr(why.text, '\n') == NULL;
         bad_status += outcome != STATUS_OK && !says_so;
         bad_line += outcome != STATUS_OK && says_so && !good;
-        wrong += outcome == STATUS_OK && value != right;
+        wrong += outcome == STATUS_OK && !good;
         leaks += live != before;
         if ((!good || live != before) && worst[0] == '\0')
             snprintf(worst, sizeof worst, "call %ld of %ld: %s '%s', %ld live", k, all, status_name(outcome), why.text,
