@@ -24,7 +24,7 @@ status factor_alloc(const sparse *pattern, factor **out, fault *f)
     if (fa == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for factors");
     fa->n = pattern->n;
-    fa->counts.condition = 1;
+    fa->counts.condition = fa->counts.determinant = 1;
     fa->counts.negative_pivots = pattern->symmetric ? 0 : -1;
     if (fa->n == 0)
         return STATUS_OK;

@@ -171,6 +171,7 @@ static status judge_pivots(factor_symmetric *fs, factor_counts *counts, int *wea
     *ratio = INFINITY;
     for (int k = 0; k < fs->n; k++)
         counts->negative_pivots += fs->D[k] < 0;
+    counts->determinant = counts->negative_pivots % 2 == 0 ? 1 : -1;
     sum_terms(fs, counts->negative_pivots);
     for (int k = 0; k < fs->n; k++) {
         const double d = fabs(fs->D[k]), terms = fs->terms[k];

@@ -64,6 +64,29 @@ static status factor_anew(factor_unsymmetric *fu, const sparse *a, factor_counts
     return STATUS_OK;
 }
 
+/* Sign of a permutation: every member of a cycle but the first is one exchange. `done` is work space. */
+static int sign_of(int n, const int permutation[], double done[])
+{
+    int sign = 1;
+    for (int i = 0; i < n; i++)
+        done[i] = 0;
+    for (int i = 0; i < n; i++)
+        for (int k = i, length = 0; done[k] == 0; k = permutation[k], length++) {
+            done[k] = 1;
+            sign = length == 0 ? sign : -sign;
+        }
+    return sign;
+}
+
+/* P R^-1 A Q is block triangular with the pivots on its diagonal. */
+static int determinant_of(factor_unsymmetric *fu)
+{
+    int sign = sign_of(fu->n, fu->numeric->Pnum, fu->largest) * sign_of(fu->n, fu->symbolic->Q, fu->largest);
+    for (int k = 0; k < fu->n; k++)
+        sign = ((const double *)fu->numeric->Udiag)[k] < 0 ? -sign : sign;
+    return sign;
+}
+
 static status judge_pivots(factor_unsymmetric *fu, const sparse *a, factor_counts *counts, int *row, int *column, double *ratio)
 {
     const klu_numeric *u = fu->numeric;
@@ -99,6 +122,7 @@ status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a, facto
         if (outcome != STATUS_OK)
             return outcome;
     }
+    counts->determinant = determinant_of(fu);
     return judge_pivots(fu, a, counts, row, column, ratio);
 }
 

@@ -27,6 +27,7 @@ typedef struct factor_counts {
     double flops;        /* of one numeric factorisation */
     long factorisations; /* numeric ones, so far */
     int negative_pivots; /* symmetric only; else -1 */
+    int determinant;     /* its sign */
     double condition;    /* cheap estimate max|d|/min|d| */
 } factor_counts;
 

@@ -15,6 +15,7 @@ typedef struct path_point {
     double rate;            /* dfactor/ds with s in the model's metric */
     double *tangent;        /* [free + driven] dx/ds */
     int negative;           /* negative pivots of K; -1: not symmetric */
+    int determinant;        /* sign of det K */
 } path_point;
 
 /* Where a step goes: to this value of the control coordinate, or so far along the arc. */

@@ -1,7 +1,7 @@
 /* Critical points inside a step: where the tangent stiffness is singular, and what its null vector phi says.
  *
  * Along a path K x' = f' l', so at a critical point 0 = phi . K x' = (phi . f') l': either the load has an extremum (limit point)
- * or its work on phi is zero (bifurcation). */
+ * or its work on phi is zero (bifurcation). K need not be symmetric: phi is its left null vector. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,7 +35,7 @@ status continuation_add_event(continuation *p, const path_event *event, fault *f
     return STATUS_OK;
 }
 
-/* mode: eigenvector of K with the eigenvalue of least size, which is returned; K is factored in the present state. */
+/* mode: left eigenvector of K with the eigenvalue of least size, which is returned; K is factored in the present state. */
 static double least_eigenvalue(continuation *p)
 {
     double *x = p->mode, eigenvalue = NAN;
@@ -51,7 +51,7 @@ static double least_eigenvalue(continuation *p)
         const double length = sqrt(square);
         for (int k = 0; k < p->n.free; k++)
             x[k] = p->moved[k] = x[k] / length;
-        factor_solve(p->n.factor, x);
+        factor_solve_transposed(p->n.factor, x);
         for (int k = 0; k < p->n.free; k++)
             product += x[k] * p->moved[k];
         eigenvalue = 1 / product;
@@ -89,10 +89,13 @@ static status try_at(continuation *p, path_goal goal, int by_rate, bound *b, int
         outcome = continuation_look(p, p->moved, &p->trial, &record, f);
     if (outcome != STATUS_OK)
         return outcome;
-    *before = by_rate ? (p->trial.rate < 0) == (p->here.rate < 0) : p->trial.negative == p->here.negative;
+    *before = by_rate                ? (p->trial.rate < 0) == (p->here.rate < 0)
+              : p->here.negative < 0 ? p->trial.determinant == p->here.determinant
+                                     : p->trial.negative == p->here.negative;
     b->value = by_rate ? p->trial.rate : least_eigenvalue(p);
     /* Another eigenvalue may be the least one: its sign tells nothing of this point. */
-    if (!by_rate && (b->value > 0) != (*before == (p->next.negative > p->here.negative)))
+    const int falls = p->here.negative < 0 ? p->here.determinant > 0 : p->next.negative > p->here.negative;
+    if (!by_rate && (b->value > 0) != (*before == falls))
         b->value = NAN;
     return STATUS_OK;
 }
@@ -140,7 +143,7 @@ status continuation_critical(continuation *p, path_goal goal, int *jump, fault *
 {
     const int by_rate = (p->here.rate < 0) != (p->next.rate < 0);
     *jump = 0;
-    if (!by_rate && p->here.negative == p->next.negative)
+    if (!by_rate && p->here.negative == p->next.negative && p->here.determinant == p->next.determinant)
         return STATUS_OK;
     model_state_copy(p->c->model, p->n.state, p->end);
     status outcome = locate(p, goal, by_rate, jump, f);

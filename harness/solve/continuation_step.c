@@ -143,6 +143,7 @@ status continuation_look(continuation *p, const double along[], path_point *out,
     out->factor = model_state_path(p->n.state);
     out->control = control_value(p);
     out->negative = record->negative_pivots;
+    out->determinant = factor_count(p->n.factor).determinant;
     p->looked = 1;
     return STATUS_OK;
 }

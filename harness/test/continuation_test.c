@@ -64,7 +64,6 @@ static void limit_points(void)
 /* A perfect cantilever column, its least stiffness about z: bifurcations at P (1 - P/EA) = (2 k - 1)^2 pi^2 EI/(4 L^2). */
 static status build_column(const double value[], scene *s, fault *f)
 {
-    (void)value;
     (void)f;
     section_spec spec;
     section_spec_init(&spec);
@@ -81,6 +80,8 @@ static status build_column(const double value[], scene *s, fault *f)
     scene_add_member(s, root, tip, profile, y_axis);
     scene_hold_all(s, root);
     scene_add_load(s, SCENE_FORCE, tip, -1, 0, 0);
+    if (value[0] != 0) /* an unsymmetric pattern */
+        scene_add_load(s, SCENE_MOMENT, tip, 0, 0, 0);
     const int path = scene_add_analysis(s, SCENE_CONTINUATION);
     scene_set_stations(s, path, 1, &end);
     scene_analysis *a = scene_analysis_at(s, path);
@@ -92,12 +93,13 @@ static status build_column(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-static void bifurcations(void)
+static void bifurcations(const char *assignment)
 {
-    static const case_parameter none[] = {{NULL, NULL, 0, 0, 0, NULL, NULL}};
-    const case_type column = {.name = "column", .parameters = none, .build = build_column};
+    static const case_parameter table[] = {{"moment", "1", 0, 0, 1, NULL, "1: with a moment of no size"},
+                                           {NULL, NULL, 0, 0, 0, NULL, NULL}};
+    const case_type column = {.name = "column", .parameters = table, .build = build_column};
     const double pi = 3.14159265358979323846, EA = 100;
-    cell_result r = solve(&column, "collocation", 8, "");
+    cell_result r = solve(&column, "collocation", 8, assignment);
     gsl_test_int((int)r.solve.status, STATUS_OK, "the column is compressed to 0.7 of its length: %s", r.solve.reason);
     gsl_test(r.solve.events < 1, "a bifurcation is met");
     const double Euler = pi * pi / 4, exact = EA * (1 - sqrt(1 - 4 * Euler / EA)) / 2;
@@ -193,7 +195,8 @@ static void refusals(void)
 int main(void)
 {
     limit_points();
-    bifurcations();
+    bifurcations("moment=0");
+    bifurcations("moment=1");
     both_kinds();
     constant_steps();
     jump_ends_constant_steps();

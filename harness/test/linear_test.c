@@ -82,11 +82,23 @@ static double scaled_condition(int n, const double A[])
     return norm[0] * norm[1];
 }
 
+/* Sign of the determinant by Gaussian elimination. */
+static int determinant_sign(int n, const double A[])
+{
+    double copy[MOST * MOST];
+    int pivot[MOST], sign = 1;
+    memcpy(copy, A, (size_t)(n * n) * sizeof *copy);
+    LAPACKE_dgetrf(LAPACK_ROW_MAJOR, n, n, copy, n, pivot);
+    for (int i = 0; i < n; i++)
+        sign = (pivot[i] != i + 1) != (copy[i * n + i] < 0) ? -sign : sign;
+    return sign;
+}
+
 static void random_matrices(kind what, const char *name, double allowed)
 {
     unsigned long long seed = 2385;
     double worst = 0, worst_refined = 0, least_condition = INFINITY, most_condition = 0;
-    int wrong_inertia = 0, failures = 0, most_negative = 0;
+    int wrong_inertia = 0, wrong_sign = 0, failures = 0, most_negative = 0;
     for (int sample = 0; sample < 40; sample++) {
         const int n = 2 + sample * (MOST - 2) / 39;
         double A[MOST * MOST], b[MOST], x[MOST];
@@ -100,6 +112,7 @@ static void random_matrices(kind what, const char *name, double allowed)
             for (int i = 0; i < n * n; i++)
                 A[i] *= turn == 0 ? 1 : -0.3;
             failures += factor_numeric(fa, &s, NULL) != STATUS_OK;
+            wrong_sign += factor_count(fa).determinant != determinant_sign(n, A);
             if (what != UNSYMMETRIC) {
                 const int expected = negative_eigenvalues(n, A), found = factor_count(fa).negative_pivots;
                 wrong_inertia += found != expected;
@@ -122,6 +135,7 @@ static void random_matrices(kind what, const char *name, double allowed)
     gsl_test(!(least_condition > 0.3 && most_condition < 1 + 1e-9), "%s: the condition is estimated as %.2f to %.2f of what it is",
              name, least_condition, most_condition);
     gsl_test_int(failures, 0, "%s: all samples are factorised", name);
+    gsl_test_int(wrong_sign, 0, "%s: the sign of the determinant", name);
     if (what != UNSYMMETRIC)
         gsl_test_int(wrong_inertia, 0, "%s: negative pivots are the negative eigenvalues (up to %d)", name, most_negative);
     gsl_test(!(worst < allowed), "%s: as LAPACK within %.1f eps times the condition", name, worst);
