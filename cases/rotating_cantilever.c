@@ -91,6 +91,8 @@ static status build(const double value[], scene *s, fault *f)
     growth->near_zero = 1;
     growth->tolerance = 1e-4;
     growth->least_order = 1.8;
+    if (intervals > 0)
+        make_curve(scene_add_quantity(s, "growth_curve", "1", SCENE_GROWTH, rotation), omega);
     cantilever_quantity(s, "stretch", "1", rotation, tip, SCENE_UX, 1, 0);
     s->quantity[s->quantities - 1].tolerance = 1e-8;
     const int meshes[] = {2, 4, 8, 16, 32, 64};

@@ -20,6 +20,7 @@ PAGES = (
     "pictures",
     "mechanisms",
     "paths",
+    "campbell",
     "newton",
     "stability",
 )

@@ -109,8 +109,8 @@ def rows():
     yield from across(6, 1000, "hub_radius=1", 1)
     yield from across(1, 1000, "hub_radius=-2;omega_star=1", -2)
     yield "rotating_cantilever", "omega_star=5;slenderness=10", "stretch", stretch(5, 10), "1"
-    for omega, ratio in ((2, 1), (5, 4), (10, 4)):
-        at = f"axis=1.5707963267948966;omega_star={omega}" + (f";stiffness_ratio={ratio}" if ratio != 1 else "")
+    for omega, ratio, more in ((2, 1, ""), (5, 4, ";stiffness_ratio=4"), (10, 4, ";stations=41;stiffness_ratio=4")):
+        at = f"axis=1.5707963267948966;omega_star={omega}{more}"
         frequencies, growth = whirl(omega, ratio, 4)
         for i in range(4):
             yield "rotating_cantilever", at, f"whirl_{i + 1}", frequencies[i], "1"
