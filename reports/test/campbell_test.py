@@ -1,0 +1,49 @@
+"""The page of stationary rotation from a small run: its figures are there, and the curves end at the exact values."""
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from reports import campbell, data
+from reports.claims import Lookup
+from reports.test.report_test import PROGRAM, report
+
+
+class Campbell(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        results = os.path.join(cls.folder, "results.h5")
+        subprocess.run([PROGRAM, "verify", "-k", "rotating_cantilever and beamw_consistent", "-o", results], capture_output=True, check=False)
+        cls.done = report(results, os.path.join(cls.folder, "site"))
+        cls.look = Lookup(data.read_results(results)[1])
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def test_page(self):
+        self.assertEqual(self.done.returncode, 0, self.done.stderr)
+        page = (pathlib.Path(self.folder) / "site" / "rotation.html").read_text(encoding="utf-8")
+        for image in ("campbell_across.svg", "campbell_along.svg"):
+            self.assertIn(image, page)
+
+    def test_curves_pass_through_the_exact_values(self):
+        mesh = campbell.finest(self.look, campbell.CASE, campbell.ACROSS, campbell.KEY)
+        for name in ("flap_1", "lag_1", "flap_2"):
+            x, value = mesh.curves[f"{name}_curve"][:2]
+            for at, parameters in campbell.EXACT_AT.items():
+                exact = campbell.truth(self.look, campbell.CASE, parameters, name)
+                self.assertLess(abs(dict(zip(x.round(9), value))[at] / exact - 1), 2e-6, f"{name} at {at}")
+
+    def test_growth_between_the_critical_speeds_only(self):
+        mesh = campbell.finest(self.look, campbell.CASE, campbell.ALONG, campbell.KEY)
+        first = campbell.truth(self.look, campbell.CASE, campbell.EXACT_AT[0], "flap_1")
+        for omega, growth in zip(*mesh.curves["growth_curve"][:2]):
+            self.assertEqual(growth > 0, first < omega < 2 * first, f"at {omega}")
+
+
+if __name__ == "__main__":
+    unittest.main()
