@@ -10,8 +10,8 @@
 #include "elements/math/dense.h"
 
 enum { REFINEMENTS = 2 };
-/* Solutions are refined where round-off would take more than the last four digits. */
-static const double harmless_condition = 1e4;
+/* Solutions are refined where round-off would leave less than eight digits. */
+static const double harmless_condition = 1e8;
 
 static int is_released(const analysis_context *c, const scene_analysis *a, int coordinate)
 {
