@@ -18,6 +18,7 @@ static const struct {
     {"bench", cli_bench, "error against run time: the cheapest way to an error"},
     {"stress", cli_stress, "every formulation driven to extremes: a value with its error, or a named failure"},
     {"verify", cli_verify, "every formulation on every case, judged against stored truths"},
+    {"truth", cli_truth, "what is known of a case at a parameter point; derived on demand"},
     {"compare", cli_compare, "two stored runs: errors and work, worse and better; exit status like diff"},
 };
 enum { VERBS = sizeof verbs / sizeof verbs[0] };

@@ -104,6 +104,18 @@ class Answers(unittest.TestCase):
         two = run("verify", "-k", "warping_torsion", "-j", "2")
         self.assertEqual(one.stdout, two.stdout)
 
+    def test_truth(self):
+        """Stored at known points, derived at new ones, refused where no program can."""
+        stored, derived = run("truth", "elastica", "--set", "load=2"), run("truth", "elastica", "--set", "load=2.5")
+        self.assertEqual((stored.returncode, derived.returncode), (0, 0), derived.stderr)
+        for done in (stored, derived):
+            self.assertRegex(done.stdout, r"w_over_L +0\.[45]\d+ \+- \S+ +1 +exact +same +reference/derive/cantilevers.py")
+        self.assertEqual(run("truth", "elastica", "--set", "load=zwei").returncode, 2)
+        self.assertEqual(run("truth", "no_such_case").returncode, 2)
+        away = run("truth", "elastica", "--set", "load=2.5", BEAMWORK_REFERENCE="/nowhere")
+        self.assertEqual(away.returncode, 4)
+        self.assertEqual(len(away.stderr.strip().splitlines()), 1)
+
     def test_help(self):
         for verb in ("solve", "verify", "converge", "list"):
             done = run(verb, "--help", ASAN_OPTIONS="detect_leaks=0")  # the C library's argp leaves a byte when it exits

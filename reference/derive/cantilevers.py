@@ -25,8 +25,8 @@ def planar_angle(R):
     return math.atan2(R[1, 0], R[0, 0])
 
 
-def elastica():
-    for load in (1, 2, 5, 10):
+def elastica(loads=(1, 2, 5, 10)):
+    for load in loads:
         beam = Beam(1.0, EA=1e8, EIy=1.0, EIz=1.0, GJ=1.0)
         r, R = dead_load(beam, (0, load, 0), 10)
         at = "" if load == 1 else f"load={load}"
@@ -35,8 +35,8 @@ def elastica():
         yield "elastica", at, "theta", planar_angle(R), "rad", RELATIVE
 
 
-def shear_elastica():
-    for GA in (500, 50, 10):
+def shear_elastica(stiffnesses=(500, 50, 10)):
+    for GA in stiffnesses:
         beam = Beam(1.0, EA=1e9, EIy=10.0, EIz=10.0, GJ=10.0, fy=1 / GA, fz=1 / GA)
         r, _ = dead_load(beam, (0, 10, 0), 10)
         at = "" if GA == 500 else f"GA={GA}"
@@ -44,8 +44,8 @@ def shear_elastica():
         yield "shear_elastica", at, "v", r[1], "m", RELATIVE
 
 
-def geradin_cardona():
-    for load in (600e3, 300e3):
+def geradin_cardona(loads=(600e3, 300e3)):
+    for load in loads:
         beam = Beam(5.0, EA=4.8e8, EIy=9.346e6, EIz=9.346e6, GJ=1e6, fy=1 / 3.231e8, fz=1 / 3.231e8)
         r, R = dead_load(beam, (0, -load, 0), 10)
         at = "" if load == 600e3 else f"load={load:g}"
@@ -59,12 +59,12 @@ def square_torsion():
     return 1 / 3 - 64 / math.pi ** 5 * sum(math.tanh(n * math.pi / 2) / n ** 5 for n in range(1, 400, 2))
 
 
-def bend_45():
+def bend_45(torsions=("exact", "polar"), forces=(600, 300)):
     radius, angle, E, G = 100.0, math.pi / 4, 1e7, 5e6
-    for torsion in ("exact", "polar"):
+    for torsion in torsions:
         k, J = (5 / 6, square_torsion()) if torsion == "exact" else (1.0, 1 / 6)
         beam = Beam(radius * angle, EA=E, EIy=E / 12, EIz=E / 12, GJ=G * J, fy=1 / (k * G), fz=1 / (k * G), curvature=1 / radius)
-        for force in (600, 300):
+        for force in forces:
             r, _ = dead_load(beam, (0, 0, force), 20)
             at = [f"force={force}"] if force != 600 else []
             at += ["torsion=polar"] if torsion == "polar" else []
@@ -73,11 +73,11 @@ def bend_45():
                 yield "bend_45", ";".join(at), name, beam.length * r[i] - start[i], "m", RELATIVE
 
 
-def roll_up():
+def roll_up(all_turns=(1, 0.25, 2)):
     """A circle: the tip is at L sin(angle)/angle."""
-    for turns in (1, 0.25, 2):
+    for turns in all_turns:
         angle = 2 * math.pi * turns
-        value = 0.0 if turns >= 1 else math.sin(angle) / angle
+        value = 0.0 if turns >= 1 and turns == int(turns) else math.sin(angle) / angle
         yield "roll_up", "" if turns == 1 else f"turns={turns}", "tip_gap", value, "1", 1e-13
 
 
@@ -90,8 +90,8 @@ def wagner_strip(angle):
     yield "wagner_torsion", at, "shortening", L * (b ** 2 + t ** 2) / 24 * k ** 2, "m"
 
 
-def wagner_torsion():
-    for angle in (1.0, 0.5, 2.0):
+def wagner_torsion(angles=(1.0, 0.5, 2.0)):
+    for angle in angles:
         yield from wagner_strip(angle)
 
 

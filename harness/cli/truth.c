@@ -1,0 +1,100 @@
+#include <libgen.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "harness/cli/cli.h"
+#include "harness/run/derive.h"
+
+static void print_value(const char *quantity, double value, double uncertainty, const char *unit, const char *kind,
+                        const char *whose, const char *source, const char *note)
+{
+    printf("  %-28s %24.16g +- %-8.1e %-8s %-13s %-5s %s%s%s\n", quantity, value, uncertainty, unit, kind, whose, source,
+           note[0] != '\0' ? "; " : "", note);
+}
+
+/* Stored rows of this point; returns how many are of the continuum and of the same model. */
+static int print_stored(const truths *t, const case_type *type, const double parameter[])
+{
+    int continuum = 0, discrete = 0;
+    for (int i = 0; i < t->rows; i++) {
+        const truth *row = &t->row[i];
+        if (row->elements > 0 || !truth_holds(row, type, parameter))
+            continue;
+        print_value(row->quantity, row->value, row->uncertainty, row->unit, row->kind, row->model, row->source, row->convention);
+        continuum += strcmp(row->model, "same") == 0;
+    }
+    for (int i = 0; i < t->rows; i++) {
+        const truth *row = &t->row[i];
+        if (row->elements == 0 || !truth_holds(row, type, parameter))
+            continue;
+        if (discrete++ == 0)
+            printf("of single meshes\n");
+        char name[SCENE_NAME + CELL_KEY + 16];
+        snprintf(name, sizeof name, "%s, %s n=%d", row->quantity, row->formulation, row->elements);
+        print_value(name, row->value, row->uncertainty, row->unit, row->kind, row->model, row->source, row->convention);
+    }
+    return continuum;
+}
+
+/* BEAMWORK_REFERENCE, or reference/ of the clone in whose build folder the program is. */
+static void script_path(char *out, size_t size)
+{
+    char program[400] = "";
+    const char *given = getenv("BEAMWORK_REFERENCE");
+    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    if (given != NULL)
+        snprintf(out, size, "%s/derive/at.py", given);
+    else
+        snprintf(out, size, "%s/../reference/derive/at.py", length > 0 ? dirname(program) : ".");
+}
+
+static status print_derived(const case_type *type, const double parameter[], fault *f)
+{
+    char script[512], text[PARAMETERS_TEXT];
+    derived_value *value;
+    int count;
+    script_path(script, sizeof script);
+    parameters_text(type, parameter, text, sizeof text);
+    const status outcome = derive_values(script, type->name, text, &value, &count, f);
+    for (int i = 0; i < count; i++)
+        print_value(value[i].quantity, value[i].value, value[i].uncertainty, value[i].unit, "exact", "same", value[i].source,
+                    value[i].convention);
+    free(value);
+    return outcome;
+}
+
+int cli_truth(int count, char **arguments)
+{
+    static cli_request r;
+    truths t;
+    fault f = {""};
+    char text[PARAMETERS_TEXT];
+    cli_parse("truth", "CASE",
+              "Shows the truths of a parameter point: value, uncertainty, unit, kind, model, source. Where the tables have none of "
+              "the case's own model, the "
+              "deriving program is run to solve for them. Exit status: 0 shown, 1 none is stored and no program derives this case "
+              "or these parameters, "
+              "2 refused, 4 file, disk or memory.",
+              "sT", count, arguments, &r);
+    const case_type *type = cli_case(&r);
+    if (type == NULL)
+        return EXIT_REFUSED;
+    status outcome = truths_read(cli_truths_path(&r), &t, &f);
+    if (outcome != STATUS_OK)
+        return cli_fail(outcome, f.text);
+    parameters_text(type, r.parameter, text, sizeof text);
+    printf("%s%s%s\n", type->name, text[0] != '\0' ? ": " : "", text);
+    if (print_stored(&t, type, r.parameter) == 0) {
+        fflush(stdout);
+        outcome = print_derived(type, r.parameter, &f);
+    }
+    truths_free(&t);
+    if (fflush(stdout) != 0)
+        return cli_fail(STATUS_FAULT, "standard output cannot be written");
+    if (outcome == STATUS_OK)
+        return EXIT_AS_EXPECTED;
+    cli_fail(outcome, f.text);
+    return outcome == STATUS_REFUSED ? EXIT_DIFFERS : EXIT_FAULT;
+}

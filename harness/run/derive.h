@@ -1,0 +1,16 @@
+/* Truths at new parameter points, on demand: the deriving programs of reference/derive, which share nothing with this one, solve for them. */
+#ifndef BEAMWORK_DERIVE_H
+#define BEAMWORK_DERIVE_H
+
+#include "cases/scene/scene.h"
+
+typedef struct derived_value {
+    char quantity[SCENE_NAME], unit[16], convention[96], source[96];
+    double value, uncertainty; /* [unit] */
+} derived_value;
+
+/* Runs `script CASE PARAMETERS`. REFUSED with its line when no program derives the case or the parameters; FAULT when it could not be run or said
+ * something else. *out: malloced. */
+status derive_values(const char *script, const char *case_name, const char *parameters, derived_value **out, int *count, fault *f);
+
+#endif
