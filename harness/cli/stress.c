@@ -53,7 +53,11 @@ int cli_stress(int count, char **arguments)
                                     .formulations = r.formulations,
                                     .formulation = r.formulation,
                                     .progress = isatty(STDERR_FILENO) ? stderr : NULL};
-    status outcome = stress_run(&request, cli_truths_path(&r), &s, &f);
+    status outcome = output_try(r.output, &f);
+    if (outcome == STATUS_OK)
+        outcome = output_try(r.json, &f);
+    if (outcome == STATUS_OK)
+        outcome = stress_run(&request, cli_truths_path(&r), &s, &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
     outcome = write_out(&r, &s, &f);

@@ -46,18 +46,6 @@ static status write_all(const cli_request *r, const sweep *s, const judgement *j
     return outcome;
 }
 
-/* An output that cannot be written is noticed before anything is computed. */
-static status try_output(const char *path, fault *f)
-{
-    output probe;
-    if (path == NULL)
-        return STATUS_OK;
-    const status opened = output_open(path, &probe, f);
-    if (opened == STATUS_OK)
-        output_discard(&probe);
-    return opened;
-}
-
 int cli_verify(int count, char **arguments)
 {
     cli_request r;
@@ -72,11 +60,11 @@ int cli_verify(int count, char **arguments)
               "fokjJULPT", count, arguments, &r);
     if (r.case_name != NULL)
         return cli_fail(STATUS_REFUSED, "verify takes no case; select with -k");
-    status outcome = try_output(r.output, &f);
+    status outcome = output_try(r.output, &f);
     if (outcome == STATUS_OK)
-        outcome = try_output(r.json, &f);
+        outcome = output_try(r.json, &f);
     if (outcome == STATUS_OK)
-        outcome = try_output(r.junit, &f);
+        outcome = output_try(r.junit, &f);
     if (outcome == STATUS_OK)
         outcome = truths_read(cli_truths_path(&r), &t, &f);
     if (outcome != STATUS_OK)

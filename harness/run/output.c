@@ -46,3 +46,14 @@ status output_close(output *out, fault *f)
     }
     return STATUS_OK;
 }
+
+status output_try(const char *path, fault *f)
+{
+    output probe;
+    if (path == NULL)
+        return STATUS_OK;
+    const status opened = output_open(path, &probe, f);
+    if (opened == STATUS_OK)
+        output_discard(&probe);
+    return opened;
+}
