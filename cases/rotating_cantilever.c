@@ -83,6 +83,7 @@ static status build(const double value[], scene *s, fault *f)
         path[i] = intervals > 0 ? (double)i / intervals : 1;
     scene_set_stations(s, rotation, intervals + 1, path);
     scene_analysis *a = scene_analysis_at(s, rotation);
+    a->steps_between = value[AXIS] > 0 ? 8 : 1; /* an inclined axis bends the beam, which has more than one equilibrium then */
     a->omega[0] = omega * sin(value[AXIS]);
     a->omega[2] = omega * cos(value[AXIS]);
     a->omega_centre[0] = -value[HUB_RADIUS];
