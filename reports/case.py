@@ -1,38 +1,69 @@
-"""A page for each case: errors against work, curves, verdicts of every parameter point."""
+"""A page for each case: errors against work, the cheapest way to each error, curves, verdicts of every parameter point, failures, what was left out."""
 import functools
 import math
 
-from reports import data, plots
+from reports import answers, plots
+from reports.site import LEVELS
 
 NAVIGATION = []
-MOST_FIGURES, MOST_POINTS = 64, 3
+MOST_POINTS = 4      # parameter points with a figure
+MOST_PANELS = 24     # small figures of the other quantities
 
 
-def judged(point):
-    """Quantities of a point with a truth, in the order of the case."""
-    names = []
-    for series in point.series:
-        for v in series.verdicts:
-            if math.isfinite(v.truth) and v.quantity not in names:
-                names.append(v.quantity)
-    return names
-
-
-def figures_of(site, case):
-    """[(point, [(quantity, convergence svg)], [(quantity, curve svg)])]; every quantity of the defaults, the first of other points."""
-    out = []
-    for i, point in enumerate(case.points):
-        quantities = judged(point)[:MOST_FIGURES if i == 0 else 1 if i < MOST_POINTS else 0]
-        drawn = [(q, plots.convergence(site, point, q, f"{case.name}_{point.name}_{q}")) for q in quantities]
-        names = sorted({name for s in point.series for m in s.meshes for name in m.curves}) if i == 0 else []
-        curves = [(q, plots.curves(site, point, q, f"{case.name}_{point.name}_{q}_curve")) for q in names]
-        out.append((point, [d for d in drawn if d[1]], [c for c in curves if c[1]]))
+def figures_of(site, case, index):
+    """{kind: [(caption, file)]} of one parameter point."""
+    point = case.points[index]
+    name = f"{case.name}_{point.name}"
+    quantities = answers.judged(point)
+    out = {"main": [], "others": [], "model": [], "curves": []}
+    if index >= MOST_POINTS:
+        return out
+    if quantities:
+        drawn = plots.work_precision(site, point, quantities[0], f"{name}_{quantities[0]}")
+        out["main"] = [(quantities[0], drawn)] if drawn else []
+    others = [q for q in quantities[1:] if any(plots.finite(s, q) for s in point.series)][:MOST_PANELS]
+    if others and index == 0:
+        out["others"] = [(", ".join(others), plots.small_multiples(site, point, others, f"{name}_others"))]
+    modelled = [q for q in point.units if any(plots.finite(s, q, "model_errors") for s in point.series)][:MOST_PANELS]
+    if modelled:
+        out["model"] = [(", ".join(modelled), plots.small_multiples(site, point, modelled, f"{name}_model", "model_errors", "model error", "elements"))]
+    if index == 0:
+        names = sorted({q for s in point.series for m in s.meshes for q in m.curves})
+        out["curves"] = [(q, f) for q, f in ((q, plots.curves(site, point, q, f"{name}_{q}_curve")) for q in names) if f]
     return out
+
+
+def table_of(point, quantity):
+    """[(formulation, {level: (way, factor to the cheapest, undecided)})]: how soon each formulation is within each level."""
+    rows = {}
+    for level in LEVELS:
+        found = answers.ways(point, quantity, level)
+        for w in found:
+            rows.setdefault(w.key, {})[level] = (w, w.seconds / found[0].seconds, w is not found[0] and not answers.differ(w.clock, found[0].clock))
+    return sorted(rows.items(), key=lambda r: (-len(r[1]), min(w[0].seconds for w in r[1].values())))
+
+
+def cheapest_of(point):
+    """[(quantity, {level: ways})], with all quantities together first."""
+    names = answers.judged(point)
+    wanted = ([answers.ALL] if len(names) > 1 else []) + names
+    return [(q, {level: answers.ways(point, q, level) for level in LEVELS}) for q in wanted]
+
+
+def parts_of(site, case, index):
+    """What a page shows of one parameter point."""
+    point = case.points[index]
+    names = answers.judged(point)
+    return {"point": point, "figures": figures_of(site, case, index), "table": table_of(point, names[0]) if names else [], "quantity": names[0] if names else None,
+            "cheapest": cheapest_of(point), "front": answers.front(point, names[0]) if names else [], "failures": answers.failures(point), "savings": answers.savings(point),
+            "noise": sorted(100 * (m.clock.most / m.clock.least - 1) for s in point.series for m in s.meshes if m.clock.repeats > 1 and m.clock.least > 0),
+            "has_model": any(math.isfinite(v.model_error) for s in point.series for v in s.verdicts)}
 
 
 def write(site, case):
     sections = [found for section in site.sections for found in section(site, case)]
-    site.write("case.html", f"{case.name}.html", case=case, figures=figures_of(site, case), cheapest=data.cheapest, sections=sections)
+    site.write("case.html", f"{case.name}.html", case=case, parts=[parts_of(site, case, i) for i in range(len(case.points))], sections=sections, undecided=answers.undecided,
+               differ=answers.differ, timed=site.bench is not None)
 
 
 def tasks(site):

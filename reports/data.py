@@ -1,12 +1,40 @@
 """Reads results.h5 and truths.h5 into plain records. The schema is described in harness/README.md and reference/README.md."""
 import math
+import multiprocessing
 from dataclasses import dataclass, field
 
 import h5py
+import numpy as np
 
 
 class Unreadable(Exception):
     """A file that is missing, damaged or of another kind; the text names it."""
+
+
+@dataclass
+class Clock:
+    """Time of a cell: least of all repetitions, and the least and the greatest round; of a single run all three are the same."""
+    setup: float
+    solve: float
+    least: float
+    most: float
+    repeats: int
+    rounds: tuple = ()
+
+
+@dataclass
+class Kept:
+    """The same cell with nothing left out."""
+    clock: Clock
+    free: int
+
+
+@dataclass
+class Dense:
+    """The same cell by the published algorithm (newton=dense). whole: a run was timed, not one iteration times their number."""
+    seconds: float
+    unknowns: int
+    whole: bool
 
 
 @dataclass
@@ -15,14 +43,23 @@ class Mesh:
     n: int
     status: str
     reason: str
-    seconds: float
+    clock: Clock
     free: int
     iterations: int
     left_out: str
+    work: dict                                   # counter -> number
     values: dict = field(default_factory=dict)   # quantity -> value
-    errors: dict = field(default_factory=dict)   # quantity -> relative error
+    errors: dict = field(default_factory=dict)   # quantity -> relative error of discretisation
+    model_errors: dict = field(default_factory=dict)
+    reasons: dict = field(default_factory=dict)  # quantity -> why it has no value
     curves: dict = field(default_factory=dict)   # quantity -> (x, value, x name, x unit, unit)
-    steps: object = None
+    kept: Kept = None
+    parts: dict = field(default_factory=dict)   # part of Newton's iterations -> seconds
+    dense: Dense = None
+
+    @property
+    def seconds(self):
+        return self.clock.least
 
 
 @dataclass
@@ -34,12 +71,15 @@ class Verdict:
     kind: str
     reason: str
     proof: str
+    source: str
     truth: float
     limit: float
     order: float
     error: float
+    model_truth: float
     model_error: float
     tolerance: float
+    reach: dict   # level -> elements of the coarsest mesh from which on every mesh is within it
 
 
 @dataclass
@@ -75,51 +115,117 @@ def text(value):
     return value.decode() if isinstance(value, bytes) else str(value)
 
 
+COUNTERS = ("strain_evaluations", "stress_evaluations", "inertia_evaluations", "iterations", "load_steps", "rejected_steps", "factorisations", "solutions", "factor_entries", "factor_flops")
+REACH = {0.1: "reach_10", 0.01: "reach_1", 0.001: "reach_0.1", 0.0001: "reach_0.01"}
+
+
+def attributes(group, *names):
+    """Values of attributes, without what h5py does beyond (it matters for thousands of cells)."""
+    out = []
+    for name in names:
+        item = h5py.h5a.open(group.id, name.encode())
+        value = np.empty((), item.dtype)
+        item.read(value)
+        out.append(value[()])
+    return out
+
+
+def read_clock(row, prefix):
+    if not row[f"{prefix}repeats"]:
+        return None
+    rounds = [row[f"{prefix}round_{i}"] for i in range(1, 6)]
+    return Clock(row[f"{prefix}setup"], row[f"{prefix}solve"], min(rounds), max(rounds), int(row[f"{prefix}repeats"]), rounds)
+
+
+def read_timing(series, table):
+    """Replaces the times of single runs by those of a benchmark."""
+    columns = text(table.attrs["columns"]).split()
+    rows = {int(row[0]): dict(zip(columns, row)) for row in table[()].tolist()}
+    for mesh in series.meshes:
+        clock = read_clock(rows[mesh.n], "") if mesh.n in rows else None
+        kept = read_clock(rows[mesh.n], "all_") if mesh.n in rows else None
+        if mesh.n not in rows:
+            continue
+        mesh.parts = {name[:-5]: value for name, value in rows[mesh.n].items() if name.endswith("_part")}
+        if rows[mesh.n]["dense_unknowns"]:
+            mesh.dense = Dense(rows[mesh.n]["dense_seconds"], int(rows[mesh.n]["dense_unknowns"]), bool(rows[mesh.n]["dense_whole"]))
+        mesh.clock = clock or mesh.clock
+        mesh.kept = Kept(kept, int(rows[mesh.n]["all_free"])) if kept else None
+
+
+def read_curves(mesh, group):
+    for name, item in group.items():
+        x, value = item["x"], item["value"]
+        mesh.curves[name] = (x[()], value[()], text(x.attrs["name"]), text(x.attrs["unit"]), text(value.attrs["unit"]))
+
+
 def read_mesh(group, units):
-    attrs = group.attrs
-    mesh = Mesh(int(attrs["elements_per_member"]), text(attrs["status"]), text(attrs["reason"]), float(attrs["seconds_setup"]) + float(attrs["seconds_solve"]),
-                int(attrs["free"]), int(attrs["iterations"]), text(attrs["left_out"]))
+    n, status, reason, left_out, free, setup, solve, *counts = attributes(group, "elements_per_member", "status", "reason", "left_out", "free", "seconds_setup", "seconds_solve", *COUNTERS)
+    work = dict(zip(COUNTERS, map(float, counts)))
+    clock = Clock(float(setup), float(solve), float(setup + solve), float(setup + solve), 1)
+    mesh = Mesh(int(n), text(status), text(reason), clock, int(free), int(work["iterations"]), text(left_out), work)
     for row in group["quantities"][()]:
         name = text(row["name"])
-        mesh.values[name], mesh.errors[name], units[name] = float(row["value"]), float(row["error"]), text(row["unit"])
-    for name, item in group["curves"].items():
-        mesh.curves[name] = (item["x"][()], item["value"][()], text(item["x"].attrs["name"]), text(item["x"].attrs["unit"]), text(item["value"].attrs["unit"]))
-    mesh.steps = group["steps"][()]
+        mesh.values[name], mesh.errors[name], mesh.model_errors[name] = float(row["value"]), float(row["error"]), float(row["model_error"])
+        mesh.reasons[name], units[name] = text(row["reason"]), text(row["unit"])
     return mesh
 
 
-def read_verdicts(group):
-    columns = {name: group[name][()] for name in group}
+def read_verdicts(table):
     rows = []
-    for i in range(len(columns["quantity"])):
-        words = [text(columns[c][i]) for c in ("quantity", "verdict", "expected", "kind", "reason", "proof")]
-        numbers = [float(columns[c][i]) for c in ("truth", "limit", "order", "error", "model_error", "tolerance")]
-        rows.append(Verdict(*words, *numbers))
+    for row in table[()]:
+        words = [text(row[c]) for c in ("quantity", "verdict", "expected", "kind", "reason", "proof", "source")]
+        numbers = [float(row[c]) for c in ("truth", "limit", "order", "error", "model_truth", "model_error", "tolerance")]
+        rows.append(Verdict(*words, *numbers, {level: int(row[c]) for level, c in REACH.items() if math.isfinite(row[c])}))
     return rows
 
 
+def read_series(key, group, units, with_curves):
+    cells = sorted((int(name[1:]), name) for name in group if name[0] == "n" and name[1:].isdigit())
+    meshes = []
+    for _, name in cells:
+        cell = group[name]
+        meshes.append(read_mesh(cell, units))
+        if with_curves:
+            read_curves(meshes[-1], cell["curves"])
+    summary, source, missing = (text(t) for t in attributes(group, "summary", "source", "missing"))
+    out = Series(key, summary, source, missing, meshes, read_verdicts(group["verdicts"]))
+    if "timing" in group:
+        read_timing(out, group["timing"])
+    return out
+
+
 def read_point(name, group):
-    units, series = {}, []
-    for key, item in group.items():
-        meshes = sorted((read_mesh(item[m], units) for m in item if m != "verdicts"), key=lambda m: m.n)
-        series.append(Series(key, text(item.attrs["summary"]), text(item.attrs["source"]), text(item.attrs["missing"]), meshes, read_verdicts(item["verdicts"])))
+    """Curves are read at the defaults only."""
+    units = {}
+    series = [read_series(key, item, units, name == "default") for key, item in group.items()]
     return Point(name, text(group.attrs["parameters"]), sorted(series, key=lambda s: s.key), units)
 
 
+def opened(path):
+    """In memory: thousands of small pieces are read."""
+    return h5py.File(path, driver="core", backing_store=False)
+
+
+def read_case(path, name):
+    with opened(path) as file:
+        group = file["cases"][name]
+        points = [read_point(p, group[p]) for p in group]
+        points.sort(key=lambda p: (p.name != "default", p.parameters))
+        first = group[points[0].name].attrs
+        return Case(name, text(first["summary"]), text(first["source"]), points)
+
+
 def read_results(path):
-    """(environment {name: text}, [Case])"""
+    """(environment {name: text}, [Case]); cases are read side by side."""
     try:
         with h5py.File(path) as file:
             if text(file.attrs.get("schema", "")) != "beamwork-results":
                 raise Unreadable(f"{path}: not a file of results; 'make verify' writes one")
             environment = {name: text(value) for name, value in file.attrs.items()}
-            cases = []
-            for name, group in file["cases"].items():
-                points = [read_point(p, group[p]) for p in group]
-                points.sort(key=lambda p: (p.name != "default", p.parameters))
-                first = group[points[0].name].attrs
-                cases.append(Case(name, text(first["summary"]), text(first["source"]), points))
-            return environment, cases
+            names = list(file["cases"])
+        with multiprocessing.get_context("fork").Pool() as pool:
+            return environment, pool.starmap(read_case, [(path, name) for name in names], chunksize=1)
     except (OSError, KeyError) as why:
         raise Unreadable(f"{path}: cannot be read ({why}); 'make verify' writes it") from why
 
@@ -127,7 +233,7 @@ def read_results(path):
 def read_truth_counts(path):
     """{kind: rows} of the packed truths."""
     try:
-        with h5py.File(path) as file:
+        with h5py.File(path, driver="core", backing_store=False) as file:
             counts = {}
             for group in file["truths"].values():
                 for kind in group["kind"]:
@@ -137,13 +243,16 @@ def read_truth_counts(path):
         raise Unreadable(f"{path}: cannot be read ({why}); 'make all' packs it") from why
 
 
-def cheapest(point, quantity, levels):
-    """{level: (seconds, key, n)}: the least time in which a formulation is within the level from that mesh on."""
-    best = {}
-    for series in point.series:
-        for i, mesh in enumerate(series.meshes):
-            finer = [m.errors.get(quantity, math.nan) for m in series.meshes[i:]]
-            for level in levels:
-                if all(math.isfinite(e) and abs(e) <= level for e in finer) and (level not in best or mesh.seconds < best[level][0]):
-                    best[level] = (mesh.seconds, series.key, mesh.n)
-    return best
+def read_bench(path, cases):
+    """Times of a benchmark into the cells of the same name; returns its environment, or None where there is no such file."""
+    try:
+        with opened(path) as file:
+            for case in cases:
+                for point in case.points:
+                    for series in point.series:
+                        place = f"cases/{case.name}/{point.name}/{series.key}/timing"
+                        if place in file:
+                            read_timing(series, file[place])
+            return {name: text(value) for name, value in file.attrs.items()}
+    except (OSError, KeyError) as why:
+        raise Unreadable(f"{path}: cannot be read ({why}); 'make bench' writes it") from why

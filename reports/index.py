@@ -1,18 +1,21 @@
-"""First page: the cheapest way to each error, verdicts of all formulations, what the results were made with."""
+"""First page: the cheapest way to each error in every case, and the verdicts of all formulations."""
 import functools
 
-from reports import data, plots
-from reports.case import judged
-from reports.site import LEVELS
+from reports import answers, plots
+from reports.case import cheapest_of
 
 NAVIGATION = [("index.html", "beamwork")]
 
 
 def winners(case):
-    """The first judged quantity of the defaults and the cheapest way to each level."""
+    """For the defaults: [(quantity, {level: ways})] of the first judged quantity and of all together."""
     point = case.points[0]
-    names = judged(point)
-    return (names[0], data.cheapest(point, names[0], LEVELS)) if names else (None, {})
+    found = dict(cheapest_of(point))
+    names = answers.judged(point)
+    rows = [(names[0], found[names[0]])] if names else []
+    if answers.ALL in found:
+        rows.append((f"all {len(names)} quantities", found[answers.ALL]))
+    return rows
 
 
 def count_verdicts(cases):
@@ -39,8 +42,8 @@ def formulation_rows(cases):
 
 def write(site):
     column = site.case("c_column")
-    site.write("index.html", "index.html", cases=site.cases, about=site.about, kinds=site.kinds, counts=count_verdicts(site.cases), rows=formulation_rows(site.cases),
-               winners={c.name: winners(c) for c in site.cases}, column=plots.column_figure(site, column) if column else None)
+    site.write("index.html", "index.html", cases=site.cases, kinds=site.kinds, counts=count_verdicts(site.cases), rows=formulation_rows(site.cases), undecided=answers.undecided,
+               winners={c.name: winners(c) for c in site.cases}, timed=site.bench is not None, column=plots.column_figure(site, column) if column else None)
 
 
 def tasks(site):

@@ -5,9 +5,7 @@ import functools
 import math
 import os
 
-import h5py
-
-from reports.data import text
+from reports import data
 from reports.plots import log_axes
 from reports.style import plt
 
@@ -25,25 +23,22 @@ QUANTITY = "support_stiffness_max"
 class Cell:
     """One timed cell of a bench file."""
 
-    def __init__(self, case, key, group):
-        timing, attrs = group["timing"], group.attrs
-        self.case, self.key, self.n, self.free = case, key, int(attrs["elements_per_member"]), int(attrs["free"])
-        self.iterations, self.steps = int(attrs["iterations"]), int(attrs["load_steps"])
-        self.seconds = float(timing["as_is"][()].min())
-        self.parts = {p: float(timing.attrs[p]) / max(self.iterations, 1) for p in PARTS if p in timing.attrs}
-        self.dense_unknowns = int(timing.attrs.get("dense_unknowns", 0))
-        self.dense = float(timing.attrs.get("dense_seconds", math.nan))
-        self.dense_whole = bool(timing.attrs.get("dense_whole", 0))
-        self.value = next((float(row["value"]) for row in group["quantities"][()] if text(row["name"]) == QUANTITY), math.nan)
+    def __init__(self, case, key, mesh):
+        self.case, self.key, self.n, self.free = case, key, mesh.n, mesh.free
+        self.iterations, self.steps = mesh.iterations, int(mesh.work["load_steps"])
+        self.seconds = mesh.seconds
+        self.parts = {p: seconds / max(self.iterations, 1) for p, seconds in mesh.parts.items()}
+        self.dense_unknowns = mesh.dense.unknowns if mesh.dense else 0
+        self.dense = mesh.dense.seconds if mesh.dense else math.nan
+        self.dense_whole = bool(mesh.dense and mesh.dense.whole)
+        self.value = mesh.values.get(QUANTITY, math.nan)
 
 
-def read_bench(path):
+def read_bench(path, case):
     """Timed cells of the defaults in a file of `beamwork bench`, or none."""
     if not os.path.exists(path):
         return []
-    with h5py.File(path) as file:
-        return sorted((Cell(case, key, series[n]) for case, points in file["cases"].items() for key, series in points.get("default", {}).items() if isinstance(series, h5py.Group)
-                       for n in series if n != "verdicts" and "timing" in series[n] and "as_is" in series[n]["timing"]), key=lambda c: (c.case, c.key, c.n))
+    return [Cell(case, s.key, m) for s in data.read_case(path, case).points[0].series for m in s.meshes if m.clock.repeats > 1]
 
 
 def value_of(site, key, n, parameters):
@@ -123,7 +118,7 @@ def factor_of_orders(cells):
 
 def write(site):
     folder = os.path.dirname(os.path.abspath(site.results))
-    cells = read_bench(os.path.join(folder, "mechanisms_joint.h5")) + read_bench(os.path.join(folder, "mechanisms_hexapod.h5"))
+    cells = read_bench(os.path.join(folder, "mechanisms_joint.h5"), "spherical_joint") + read_bench(os.path.join(folder, "mechanisms_hexapod.h5"), "hexapod")
     reference = value_of(site, "collocation", 1, "")
     site.write("mechanisms.html", "mechanisms.html", cells=cells, rows=comparison(site, cells), parts=PARTS, reference=reference, shell=PUBLISHED_SHELL, published_seconds=PUBLISHED_SECONDS,
                published_factor=PUBLISHED_FACTOR, factor=factor_of_orders(cells), curve=curve_figure(site), growth=growth_figure(site, cells), drawn=[c.name for c in site.cases])

@@ -23,6 +23,8 @@ PAGES = (
     "campbell",
     "newton",
     "stability",
+    "printable",
+    "environment",
 )
 
 _tasks = []  # of the run at hand; inherited by the processes of the pool, so that no record is copied
@@ -32,9 +34,9 @@ def _run(index):
     _tasks[index]()
 
 
-def build(results, truths, folder):
+def build(results, truths, folder, bench=None):
     """Writes the whole site; returns the number of tasks."""
-    site = Site(results, truths, folder)
+    site = Site(results, truths, folder, bench)
     modules = [importlib.import_module(f"reports.{name}") for name in PAGES]
     for module in modules:
         site.navigation += module.NAVIGATION

@@ -1,96 +1,167 @@
-"""Figures: error against elements and against time, curves, the summary of all verdicts."""
+"""Figures: error against work, small multiples, model error, curves."""
 import math
 
 import numpy as np
-from matplotlib.ticker import NullFormatter, ScalarFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
 
+from reports import answers
 from reports.style import plt
 
-FLOOR = 1e-13
+FLOOR = 1e-13   # below it errors are round-off
+CEILING = 1e3   # above it a value is a divergence
 
 
-def log_axes(axes, xlabel, ylabel):
+def log_axis(axis, whole=False):
+    """Few ticks: whole numbers as such, else powers of ten."""
+    low, high = axis.get_view_interval()
+    decades = math.log10(high / low) if low > 0 else 6
+    if whole and decades < 2.2:
+        axis.set_major_locator(LogLocator(subs=(1, 2, 4, 8) if decades < 1.2 else (1, 2, 5)))
+    else:
+        axis.set_major_locator(LogLocator(numticks=7))
+    axis.set_minor_locator(NullLocator())
+    axis.set_minor_formatter(NullFormatter())
+    if whole:
+        axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
+
+
+def log_axes(axes, xlabel, ylabel, whole=False):
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel(xlabel)
     axes.set_ylabel(ylabel)
-    if "elements" in xlabel:
-        axes.set_xticks([1, 2, 4, 8, 16, 32, 64])
-        axes.xaxis.set_major_formatter(ScalarFormatter())
-        axes.xaxis.set_minor_formatter(NullFormatter())
+    log_axis(axes.xaxis, whole)
+    log_axis(axes.yaxis)
 
 
-def finite_errors(series, quantity):
-    return [(m, abs(m.errors[quantity])) for m in series.meshes if math.isfinite(m.errors.get(quantity, math.nan))]
+def clipped(error):
+    return min(max(abs(error), FLOOR), CEILING)
 
 
-def failures(series, quantity):
-    return [m for m in series.meshes if not math.isfinite(m.values.get(quantity, math.nan))]
+def finite(series, quantity, errors="errors"):
+    return [(m, clipped(getattr(m, errors)[quantity])) for m in series.meshes if math.isfinite(getattr(m, errors).get(quantity, math.nan))]
 
 
-def slope_triangle(axes, order, n, error):
-    """Reference slope through the last point of a series."""
-    x = np.array([n / 4, n])
-    axes.plot(x, error * (x / n) ** -order, color="0.6", linewidth=0.8, zorder=0)
-    axes.annotate(f"order {order:.0f}", (x[0], error * 4 ** order), fontsize=7, color="0.4")
+def work_of(point):
+    """(label, function of a mesh) of what the last panel counts: iterations, or elements evaluated where nothing iterates."""
+    iterates = any(m.iterations > 0 for s in point.series for m in s.meshes)
+    return ("Newton iterations", lambda m: m.iterations) if iterates else ("evaluations of elements", lambda m: m.work["strain_evaluations"] + m.work["stress_evaluations"])
 
 
-def convergence(site, point, quantity, name):
-    """Error against elements (left) and against seconds (right); failures are marked at the top."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.8), sharey=True)
-    drawn, best = False, None
+def panels_of(point):
+    """[(label, function of a mesh, whole numbers)] of the four panels."""
+    label, work = work_of(point)
+    return [("elements per member", lambda m: m.n, True), ("time [ms]: set-up and solution", lambda m: 1e3 * m.seconds, False), ("unknowns", lambda m: m.free, True), (label, work, True)]
+
+
+def tolerance_of(point, quantity):
     for series in point.series:
-        pairs = finite_errors(series, quantity)
-        if not pairs:
+        v = answers.verdict_of(series, quantity)
+        if v and v.truth and math.isfinite(v.truth) and math.isfinite(v.tolerance):
+            return v.tolerance / abs(v.truth)
+    return None
+
+
+def slope_triangle(axes, point, quantity):
+    """Order of the most accurate formulation beside its last points."""
+    best = None
+    for series in point.series:
+        pairs, v = finite(series, quantity), answers.verdict_of(series, quantity)
+        if len(pairs) > 2 and v and math.isfinite(v.order) and v.order > 0.5 and pairs[-1][1] > 30 * FLOOR and v.verdict == "pass" and (best is None or pairs[-1][1] < best[2]):
+            best = (round(v.order), pairs[-1][0].n, pairs[-1][1])
+    if best:
+        order, n, error = best
+        x = np.array([n / 3, n])
+        axes.plot(x, error / 3 * (x / n) ** -order, color="0.55", linewidth=0.8, zorder=0)
+        axes.annotate(f"order {order}", (x[0], error / 3 * 3 ** order), fontsize=7.5, color="0.35", ha="right")
+
+
+def draw_failures(panels, axes, point, quantity, styles):
+    """Crosses on the upper edge of every panel, where a cell has no value."""
+    shown = False
+    for series, mesh, _, _ in answers.failures(point):
+        if math.isfinite(mesh.values.get(quantity, math.nan)):
             continue
-        drawn = True
-        n, error = [m.n for m, _ in pairs], [max(e, FLOOR) for _, e in pairs]
-        style = site.styles.of(series.key)
-        left.plot(n, error, label=series.key, **style)
-        right.plot([max(m.seconds, 1e-6) for m, _ in pairs], error, **style)
-        order = next((v.order for v in series.verdicts if v.quantity == quantity), math.nan)
-        if math.isfinite(order) and len(n) > 2 and error[-1] > 10 * FLOOR and (best is None or error[-1] < best[2]):
-            best = (round(order), n[-1], error[-1])
+        for (_, where, _), one in zip(panels, axes):
+            if where(mesh) > 0:
+                one.plot([where(mesh)], [1], marker="x", markersize=6, color=styles.of(series.key)["color"], clip_on=False, linestyle="none", transform=one.get_xaxis_transform(), zorder=5)
+                shown = True
+    return shown
+
+
+def work_precision(site, point, quantity, name):
+    """Error against elements, time, unknowns and work; the front of time and error in grey; noise as horizontal bars. None when there is no error."""
+    panels = panels_of(point)
+    figure, axes = plt.subplots(1, len(panels), figsize=(13.5, 3.7), sharey=True)
+    drawn = [s for s in point.series if finite(s, quantity)]
     if not drawn:
         plt.close(figure)
         return None
-    span = left.get_xlim()
-    log_axes(left, "elements per member", "relative error")
-    left.set_xlim(0.9 * max(span[0], 1), 1.1 * span[1])
-    log_axes(right, "seconds (set-up and solution)", "")
-    if best and best[0] >= 1:
-        slope_triangle(left, *best)
-    top = left.get_ylim()[1]
-    for series in point.series:
-        for mesh in failures(series, quantity) if series.missing == "" else []:
-            left.plot([mesh.n], [top], marker="x", color=site.styles.of(series.key)["color"], clip_on=False, linestyle="none")
-    tolerance = next((v.tolerance / abs(v.truth) for s in point.series for v in s.verdicts if v.quantity == quantity and v.truth and math.isfinite(v.truth)), None)
+    for series in drawn:
+        pairs = finite(series, quantity)
+        for (_, where, _), one in zip(panels, axes):
+            one.plot([max(where(m), 1e-3) for m, _ in pairs], [e for _, e in pairs], label=series.key, **site.styles.of(series.key))
+        noisy = [(m, e) for m, e in pairs if m.clock.most > 1.02 * m.clock.least]
+        axes[1].hlines([e for _, e in noisy], [1e3 * m.clock.least for m, _ in noisy], [1e3 * m.clock.most for m, _ in noisy], color=site.styles.of(series.key)["color"], linewidth=2.5, alpha=0.35)
+    best = answers.front(point, quantity)
+    axes[1].step([1e3 * m.seconds for _, m in best], [clipped(m.errors[quantity]) for _, m in best], where="post", color="0.6", linewidth=4, alpha=0.35, zorder=0)
+    slope_triangle(axes[0], point, quantity)
+    for (label, _, whole), one in zip(panels, axes):
+        log_axes(one, label, "", whole)
+    axes[0].set_ylabel("relative error")
+    draw_failures(panels, axes, point, quantity, site.styles)
+    tolerance = tolerance_of(point, quantity)
     if tolerance:
-        for axes in (left, right):
-            axes.axhline(tolerance, color="0.5", linewidth=0.7, linestyle=(0, (2, 2)))
-        right.annotate("tolerance", (right.get_xlim()[1], tolerance), fontsize=7, color="0.4", ha="right", va="bottom")
-    right.legend(*left.get_legend_handles_labels(), loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize=8)
+        for one in axes:
+            one.axhline(tolerance, color="0.45", linewidth=0.8, linestyle=(0, (2, 2)), zorder=0)
+        axes[-1].annotate("tolerance", (1, tolerance), xycoords=("axes fraction", "data"), fontsize=7.5, color="0.35", ha="right", va="bottom")
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, 0.02), ncol=6, fontsize=8.5)
+    figure.subplots_adjust(left=0.05, right=0.995, wspace=0.06)
+    return site.image(figure, name)
+
+
+def small_multiples(site, point, quantities, name, errors="errors", ylabel="relative error", against="time"):
+    """One small panel for each quantity, error against time (or elements)."""
+    columns = min(4, len(quantities))
+    rows = math.ceil(len(quantities) / columns)
+    figure, axes = plt.subplots(rows, columns, figsize=(3.35 * columns, 2.45 * rows), squeeze=False, constrained_layout=True)
+    handles = {}
+    for one, quantity in zip(axes.flat, quantities):
+        for series in point.series:
+            pairs = finite(series, quantity, errors)
+            if pairs:
+                x = [1e3 * m.seconds if against == "time" else m.n for m, _ in pairs]
+                handles[series.key] = one.plot(x, [e for _, e in pairs], **{**site.styles.of(series.key), "markersize": 3.5})[0]
+        log_axes(one, "", "", against != "time")
+        one.set_title(quantity, fontsize=9)
+    for one in axes.flat[len(quantities):]:
+        one.set_visible(False)
+    for one in axes[:, 0]:
+        one.set_ylabel(ylabel)
+    for column in range(columns):
+        last = max(i for i in range(len(quantities)) if i % columns == column)
+        axes.flat[last].set_xlabel("time [ms]" if against == "time" else "elements per member")
+    figure.legend(handles.values(), handles.keys(), loc="upper center", bbox_to_anchor=(0.5, 0), ncol=min(6, 2 * columns), fontsize=8.5)
     return site.image(figure, name)
 
 
 def curves(site, point, quantity, name):
     """The curve of every formulation on its finest mesh."""
-    figure, axes = plt.subplots(figsize=(6, 3.6))
+    figure, axes = plt.subplots(figsize=(6.4, 3.6))
     labels = None
     for series in point.series:
-        meshes = [m for m in series.meshes if quantity in m.curves]
+        meshes = [m for m in series.meshes if quantity in m.curves and len(m.curves[quantity][0]) > 0]
         if not meshes:
             continue
         x, value, x_name, x_unit, unit = meshes[-1].curves[quantity]
-        style = {**site.styles.of(series.key), "marker": ""}
-        axes.plot(x, value, label=f"{series.key}, n = {meshes[-1].n}", **style)
+        axes.plot(x, value, label=f"{series.key}, n = {meshes[-1].n}", **{**site.styles.of(series.key), "markersize": 3}, markevery=max(1, len(x) // 12))
         labels = (f"{x_name} [{x_unit}]", f"{quantity} [{unit}]")
     if labels is None:
         plt.close(figure)
         return None
     axes.set_xlabel(labels[0])
     axes.set_ylabel(labels[1])
-    axes.legend(fontsize=7)
+    axes.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.01, 0.5))
     return site.image(figure, name)
 
 
@@ -102,12 +173,32 @@ def column_figure(site, case):
         series = next((s for s in point.series if s.key == key), None)
         if series is None:
             continue
-        pairs = finite_errors(series, "buckling_load")
+        pairs = finite(series, "buckling_load")
         axes.plot([m.n for m, _ in pairs], [e for _, e in pairs], label=key, **site.styles.of(key))
-        verdict = next(v for v in series.verdicts if v.quantity == "buckling_load")
+        verdict = answers.verdict_of(series, "buckling_load")
         axes.annotate(f"{verdict.verdict} ({100 * verdict.error:+.2g} %)" if verdict.verdict == "wrong limit" else verdict.verdict,
-                      (pairs[-1][0].n, pairs[-1][1]), textcoords="offset points", xytext=(4, 4), fontsize=8, color=site.styles.of(key)["color"])
-    log_axes(axes, "elements over the column", "relative error of the buckling load")
+                      (pairs[-1][0].n, pairs[-1][1]), textcoords="offset points", xytext=(4, 4), fontsize=8.5, color=site.styles.of(key)["color"])
     axes.set_xlim(1.8, 260)
+    log_axes(axes, "elements over the column", "relative error of the buckling load", True)
     axes.legend(loc="lower left")
     return site.image(figure, "column")
+
+
+def peers_figure(site, ours, others, name):
+    """ours: [(key, meshes)], others: {program: [row]} with unknowns, errors and milliseconds: errors against unknowns and time."""
+    figure, axes = plt.subplots(2, 2, figsize=(11, 7), sharey="row", constrained_layout=True)
+    for row, quantity in zip(axes, ("C_xx", "C_zz")):
+        for key, meshes in ours:
+            error = [clipped(m.errors[quantity]) for m in meshes]
+            row[0].plot([m.free for m in meshes], error, label=key, **site.styles.of(key))
+            row[1].plot([1e3 * m.clock.solve for m in meshes], error, **site.styles.of(key))
+        for i, (program, rows) in enumerate(others.items()):
+            style = {"color": str(0.15 + 0.08 * i), "marker": "sDv^<>ph"[i % 8], "markerfacecolor": "white", "linestyle": (0, (1, 1)), "linewidth": 1, "markersize": 6}
+            row[0].plot([r["unknowns"] for r in rows], [r[quantity] for r in rows], label=f"{program} (elsewhere)", **style)
+            row[1].plot([r["milliseconds"] for r in rows], [r[quantity] for r in rows], **style)
+        for one, label in zip(row, ("unknowns", "time of the solution [ms]; open marks: taken elsewhere")):
+            log_axes(one, label, "", label == "unknowns")
+            one.axhline(0.01, color="0.45", linewidth=0.8, linestyle=(0, (2, 2)), zorder=0)
+        row[0].set_ylabel(f"relative error of {quantity}")
+    figure.legend(*axes[0][0].get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, 0), ncol=3, fontsize=8.5)
+    return site.image(figure, name)

@@ -34,10 +34,11 @@ def file_of(key):
 
 
 class Site:
-    """One report. cases: data.Case records; about: environment of the results; kinds: truths by kind."""
+    """One report. cases: data.Case records; about, bench: environment of the results and of the times (None: no benchmark); kinds: truths by kind."""
 
-    def __init__(self, results, truths, folder):
+    def __init__(self, results, truths, folder, bench=None):
         self.about, self.cases = data.read_results(results)
+        self.bench = data.read_bench(bench, self.cases) if bench else None
         self.kinds = data.read_truth_counts(truths)
         self.results, self.truths, self.folder = results, truths, folder
         self.styles = Styles([s.key for c in self.cases for p in c.points for s in p.series])
@@ -46,7 +47,7 @@ class Site:
         loader = jinja2.FileSystemLoader(pathlib.Path(__file__).parent / "templates")
         self.templates = jinja2.Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
         self.templates.filters.update(number=number, percent=percent, seconds=seconds, file_of=file_of)
-        self.templates.globals.update(levels=LEVELS, navigation=self.navigation)
+        self.templates.globals.update(levels=LEVELS, navigation=self.navigation, colour=lambda key: self.styles.of(key)["color"], shape=self.styles.shape)
 
     def case(self, name):
         """The case of this name, or None."""
@@ -56,7 +57,7 @@ class Site:
         """Renders a template into a page of the site."""
         path = os.path.join(self.folder, name)
         with open(f"{path}.part", "w", encoding="utf-8") as out:
-            out.write(self.templates.get_template(template).render(**context))
+            out.write(self.templates.get_template(template).render(self_name=name, **context))
         os.replace(f"{path}.part", path)
 
     def image(self, figure, name):

@@ -81,32 +81,100 @@ static void verdict_fields(const sweep *s, const point *p, const verdict *v, con
     memcpy(number, values, sizeof values);
 }
 
-/* The verdicts of one series, [count]: parallel columns. */
+/* One row of the table: the texts, each as long as the longest of its column, then the numbers. */
+static hid_t verdict_type(int count, const char *const text[], size_t offset[TEXTS], size_t *size)
+{
+    size_t length[TEXTS];
+    *size = 0;
+    for (int k = 0; k < TEXTS; k++) {
+        length[k] = 1;
+        for (int i = 0; i < count; i++)
+            length[k] = strlen(text[TEXTS * i + k]) > length[k] ? strlen(text[TEXTS * i + k]) : length[k];
+        offset[k] = *size;
+        *size += length[k];
+    }
+    const hid_t type = H5Tcreate(H5T_COMPOUND, *size + NUMBERS * sizeof(double));
+    for (int k = 0; k < TEXTS; k++) {
+        const hid_t word = record_text_type(length[k]);
+        H5Tinsert(type, text_name[k], offset[k], word);
+        H5Tclose(word);
+    }
+    for (int k = 0; k < NUMBERS; k++)
+        H5Tinsert(type, number_name[k], *size + (size_t)k * sizeof(double), H5T_NATIVE_DOUBLE);
+    *size += NUMBERS * sizeof(double);
+    return type;
+}
+
+/* The verdicts of one series, [count]. */
 static void put_verdicts(record *r, hid_t at, const sweep *s, const point *p, int count, const verdict v[])
 {
-    const hid_t g = record_group(r, at, "verdicts");
-    const hsize_t size = (hsize_t)count;
-    const char **text = calloc(((size_t)count + 1) * TEXTS, sizeof(const char *)),
-               **column = calloc((size_t)count + 1, sizeof(const char *));
-    double *number = calloc((size_t)count + 1, NUMBERS * sizeof *number), *values = calloc((size_t)count + 1, sizeof *values);
-    r->bad |= text == NULL || column == NULL || number == NULL || values == NULL;
+    const char **text = calloc(((size_t)count + 1) * TEXTS, sizeof(const char *));
+    double number[NUMBERS];
+    size_t offset[TEXTS], size;
+    r->bad |= text == NULL;
     for (int i = 0; i < count && !r->bad; i++)
-        verdict_fields(s, p, &v[i], text + TEXTS * i, number + NUMBERS * i);
-    for (int k = 0; k < TEXTS && !r->bad; k++) {
-        for (int i = 0; i < count; i++)
-            column[i] = text[TEXTS * i + k];
-        record_texts(r, g, text_name[k], count, column);
+        verdict_fields(s, p, &v[i], text + TEXTS * i, number);
+    const hid_t type = verdict_type(r->bad ? 0 : count, text, offset, &size);
+    char *rows = calloc((size_t)count + 1, size);
+    r->bad |= rows == NULL;
+    for (int i = 0; i < count && !r->bad; i++) {
+        char *row = rows + (size_t)i * size;
+        verdict_fields(s, p, &v[i], text + TEXTS * i, number);
+        for (int k = 0; k < TEXTS; k++)
+            memcpy(row + offset[k], text[TEXTS * i + k], strlen(text[TEXTS * i + k]));
+        memcpy(row + size - sizeof number, number, sizeof number);
     }
-    for (int k = 0; k < NUMBERS && !r->bad; k++) {
-        for (int i = 0; i < count; i++)
-            values[i] = number[NUMBERS * i + k];
-        H5Dclose(record_values(r, g, number_name[k], 1, &size, values, NULL));
-    }
+    if (!r->bad)
+        record_table(r, at, "verdicts", type, count, rows);
+    H5Tclose(type);
+    free(rows);
     free(text);
-    free(column);
-    free(number);
-    free(values);
-    H5Gclose(g);
+}
+
+enum { READING = 3 + CLOCK_ROUNDS, TIMING = 2 + 2 * READING + PHASES + 4 };
+
+static void put_reading(const clock_reading *c, double column[READING])
+{
+    const double first[3] = {c->repeats, c->rounds > 0 ? c->setup : NAN, c->rounds > 0 ? c->solve : NAN};
+    memcpy(column, first, sizeof first);
+    for (int i = 0; i < CLOCK_ROUNDS; i++)
+        column[3 + i] = i < c->rounds ? c->round[i] : NAN;
+}
+
+/* Unknowns with nothing left out, seconds of the parts of an iteration, the dense baseline. */
+static void put_parts(const cell_timing *t, long iterations, double column[1 + PHASES + 4])
+{
+    const baseline *dense = &t->dense;
+    *column++ = t->free_keep_all;
+    for (int k = 0; k < PHASES; k++)
+        *column++ = t->phase[k];
+    *column++ = dense->unknowns;
+    *column++ = dense->unknowns > 0 ? dense->iteration : NAN;
+    *column++ = dense->unknowns > 0 ? baseline_seconds(dense, iterations) : NAN;
+    *column++ = dense->whole.rounds > 0; /* 0: one iteration times their number */
+}
+
+/* Of a benchmark: a row for each mesh. */
+static void put_timing(record *r, hid_t at, const series *one)
+{
+    const hsize_t size[2] = {(hsize_t)one->meshes, TIMING};
+    double *table = calloc((size_t)one->meshes + 1, TIMING * sizeof *table);
+    r->bad |= table == NULL;
+    for (int i = 0; i < one->meshes && table != NULL; i++) {
+        double *row = table + (size_t)TIMING * (size_t)i;
+        row[0] = one->mesh[i];
+        put_reading(&one->timing[i].as_is, row + 1);
+        put_reading(&one->timing[i].keep_all, row + 1 + READING);
+        put_parts(&one->timing[i], one->cell[i].counters.iterations, row + 1 + 2 * READING);
+    }
+    const hid_t set = record_values(r, at, "timing", 2, size, table, NULL);
+    record_text(
+        r, set, "columns",
+        "elements repeats setup solve round_1 round_2 round_3 round_4 round_5 all_repeats all_setup all_solve all_round_1 "
+        "all_round_2 all_round_3 all_round_4 all_round_5 all_free elements_part assembly_part factorisation_part solution_part "
+        "dense_unknowns dense_iteration dense_seconds dense_whole");
+    H5Dclose(set);
+    free(table);
 }
 
 /* One picture of a point is enough: that of the first formulation with a solution; its place becomes an attribute. */
@@ -141,11 +209,13 @@ static void put_series(record *r, hid_t cases, const sweep *all, int index, int 
     record_text(r, here, "missing", one->missing);
     if (v != NULL)
         put_verdicts(r, here, all, p, count, v);
+    if (one->timing != NULL)
+        put_timing(r, here, one);
     r->bad |= of == NULL;
     for (int i = 0; i < count && of != NULL; i++)
         of[v[i].quantity] = &v[i];
     for (int i = 0; i < one->meshes && one->missing[0] == '\0' && !r->bad; i++) {
-        store_cell(r, here, p, one->mesh[i], &one->cell[i], of, one->timing != NULL ? &one->timing[i] : NULL);
+        store_cell(r, here, p, one->mesh[i], &one->cell[i], of);
         put_picture(r, at_point, here, p, one, i);
     }
     free(of);

@@ -15,9 +15,8 @@ typedef struct store_row {
 } store_row;
 hid_t store_row_type(void); /* in memory and in the file */
 
-/* Group n<elements> below `at`; of[quantities]: the verdict on each, NULL where there is none; timing: of a benchmark, or NULL. */
-void store_cell(record *r, hid_t at, const point *p, int elements, const cell_result *cell, const verdict *const of[],
-                const cell_timing *timing);
+/* Group n<elements> below `at`; of[quantities]: the verdict on each, NULL where there is none. */
+void store_cell(record *r, hid_t at, const point *p, int elements, const cell_result *cell, const verdict *const of[]);
 /* Group `shapes` below `at`: centre lines, sections, bodies. */
 void store_shapes(record *r, hid_t at, const scene *sc, const shapes *s);
 /* Written beside and renamed: FAULT leaves nothing behind. */

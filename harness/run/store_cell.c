@@ -65,36 +65,6 @@ static void put_curve(record *r, hid_t curves, const scene_quantity *q, const cu
     H5Gclose(one);
 }
 
-/* Least times of every round. */
-static void put_reading(record *r, hid_t at, const char *name, const clock_reading *c)
-{
-    const hsize_t size = (hsize_t)c->rounds;
-    if (c->rounds == 0)
-        return;
-    const hid_t set = record_values(r, at, name, 1, &size, c->round, "s");
-    record_count(r, set, "repeats", c->repeats);
-    record_number(r, set, "seconds_setup", c->setup);
-    record_number(r, set, "seconds_solve", c->solve);
-    H5Dclose(set);
-}
-
-static void put_timing(record *r, hid_t at, const cell_timing *timing, long iterations)
-{
-    const hid_t g = record_group(r, at, "timing");
-    put_reading(r, g, "as_is", &timing->as_is);
-    put_reading(r, g, "keep_all", &timing->keep_all);
-    record_count(r, g, "free_keep_all", timing->free_keep_all);
-    for (int k = 0; k < PHASES; k++)
-        record_number(r, g, phase_name((phase)k), timing->phase[k]); /* [s] */
-    if (timing->dense.unknowns > 0) {
-        record_count(r, g, "dense_unknowns", timing->dense.unknowns);
-        record_number(r, g, "dense_iteration", timing->dense.iteration); /* [s] */
-        record_number(r, g, "dense_seconds", baseline_seconds(&timing->dense, iterations));
-        record_count(r, g, "dense_whole", timing->dense.whole.rounds > 0); /* 0: one iteration times their number */
-    }
-    H5Gclose(g);
-}
-
 hid_t store_row_type(void)
 {
     static const struct {
@@ -150,8 +120,7 @@ static void put_quantities(record *r, hid_t at, const point *p, const solve_resu
     H5Gclose(curves);
 }
 
-void store_cell(record *r, hid_t at, const point *p, int elements, const cell_result *cell, const verdict *const of[],
-                const cell_timing *timing)
+void store_cell(record *r, hid_t at, const point *p, int elements, const cell_result *cell, const verdict *const of[])
 {
     char name[32];
     snprintf(name, sizeof name, "n%d", elements);
@@ -165,7 +134,5 @@ void store_cell(record *r, hid_t at, const point *p, int elements, const cell_re
     store_matrices(r, mesh, &cell->solve);
     store_events(r, mesh, &cell->solve);
     put_quantities(r, mesh, p, &cell->solve, of);
-    if (timing != NULL)
-        put_timing(r, mesh, timing, cell->counters.iterations);
     H5Gclose(mesh);
 }

@@ -100,10 +100,10 @@ class Readable(Folder):
             point = file["cases/warping_torsion/default"]
             self.assertEqual(point.attrs["parameter_kL"], 1)
             for row in summary["verdicts"]:
-                columns = point[row["formulation"]]["verdicts"]
-                at = list(columns["quantity"].asstr()).index(row["quantity"])
-                self.assertEqual(columns["verdict"].asstr()[at], row["verdict"])
-                numpy.testing.assert_equal(columns["limit"][at], numpy.nan if row["limit"] is None else row["limit"])
+                table = point[row["formulation"]]["verdicts"][()]
+                at = list(table["quantity"]).index(row["quantity"].encode())
+                self.assertEqual(table["verdict"][at].decode(), row["verdict"])
+                numpy.testing.assert_equal(table["limit"][at], numpy.nan if row["limit"] is None else row["limit"])
             meshes = [group for group in point["beamw"].values() if "elements_per_member" in group.attrs]
             finest = max(meshes, key=lambda group: group.attrs["elements_per_member"])
             row = next(row for row in summary["verdicts"] if row["formulation"] == "beamw")

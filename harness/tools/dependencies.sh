@@ -24,8 +24,9 @@ find_missing() {
     for pair in h5py:python3-h5py matplotlib:python3-matplotlib jinja2:python3-jinja2 markdown:python3-markdown mpmath:python3-mpmath scipy:python3-scipy; do
         /usr/bin/python3 -c "import ${pair%%:*}" >/dev/null 2>&1 || need "${pair##*:}"
     done
-    # One test reads a file with VTK and is skipped without it.
+    # One test reads a file with VTK, one opens the report in a browser; both are skipped without.
     if can_install; then
+        command -v chromium >/dev/null 2>&1 || need chromium
         /usr/bin/python3 -c "import vtk" >/dev/null 2>&1 || need python3-vtk9
     fi
 }

@@ -44,7 +44,7 @@ class Report(unittest.TestCase):
     def test_pages(self):
         self.assertEqual(self.done.returncode, 0, self.done.stderr)
         names = os.listdir(os.path.join(self.folder, "site"))
-        for name in ("index.html", "errata.html", "warping_torsion.html", "formulation_beamw.html"):
+        for name in ("index.html", "errata.html", "claims.html", "environment.html", "convergence.html", "warping_torsion.html", "formulation_beamw.html"):
             self.assertIn(name, names)
 
     def test_links_resolve(self):
@@ -53,7 +53,11 @@ class Report(unittest.TestCase):
             links = Links()
             links.feed(page.read_text(encoding="utf-8"))
             for link in links.found:
-                self.assertTrue((site / link).is_file(), f"{page.name}: {link}")
+                name, _, anchor = link.partition("#")
+                target = site / name if name else page
+                self.assertTrue(target.is_file(), f"{page.name}: {link}")
+                if anchor:
+                    self.assertIn(f'id="{anchor}"', target.read_text(encoding="utf-8"), f"{page.name}: {link}")
 
     def test_figures_are_drawn(self):
         figures = list((pathlib.Path(self.folder) / "site").glob("*.svg"))

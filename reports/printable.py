@@ -1,0 +1,31 @@
+"""A convergence report on paper: every case on a sheet, to be printed or attached (A4; headless: chromium --print-to-pdf)."""
+import functools
+
+from reports import answers
+from reports.site import LEVELS
+
+NAVIGATION = [("convergence.html", "to print")]
+
+
+def sheet(case):
+    """The first judged quantity of the defaults: its figure, and for each formulation limit, order, errors, time to every level."""
+    point = case.points[0]
+    names = answers.judged(point)
+    if not names:
+        return None
+    quantity, rows = names[0], []
+    for series in point.series:
+        v = answers.verdict_of(series, quantity)
+        if v is not None and not series.missing:
+            rows.append((series.key, v, [answers.way(series, [quantity], level) for level in LEVELS]))
+    truth = next(v for _, v, _ in rows)
+    return {"case": case, "quantity": quantity, "unit": point.units[quantity], "image": f"{case.name}_{point.name}_{quantity}.svg", "rows": rows, "truth": truth}
+
+
+def write(site):
+    sheets = [s for s in map(sheet, site.cases) if s]
+    site.write("convergence.html", "convergence.html", sheets=sheets, about=site.about, bench=site.bench)
+
+
+def tasks(site):
+    return [functools.partial(write, site)]

@@ -1,0 +1,96 @@
+"""The report in a browser without a window: no console message, every image decoded, the printable report prints. Skipped where there is no Chromium."""
+import html
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
+TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+
+# All pages at once, each in a frame; what is wrong is written into the document.
+DRIVER = """<!DOCTYPE html><html><head><link rel="icon" href="data:,"></head><body><pre id="out"></pre>{frames}<script>
+addEventListener("load", () => {{
+  let out = [];
+  for (const frame of document.querySelectorAll("iframe")) {{
+    const inner = frame.contentDocument;
+    for (const image of inner.images) if (!image.complete || image.naturalWidth == 0) out.push("image " + image.src);
+    if (inner.documentElement.scrollWidth > inner.documentElement.clientWidth + 1) out.push("wider than the window: " + frame.src);
+  }}
+  document.getElementById("out").textContent = out.join("\\n") + "\\nseen " + document.querySelectorAll("iframe").length;
+}});
+</script></body></html>"""
+
+
+def chromium(folder, *arguments):
+    return subprocess.run([CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files", f"--user-data-dir={folder}/profile", "--enable-logging=stderr",
+                           "--window-size=1400,1000", *arguments], capture_output=True, text=True, check=False, timeout=180)
+
+
+def console(done):
+    return [line for line in done.stderr.splitlines() if "CONSOLE" in line]
+
+
+@unittest.skipUnless(CHROMIUM, "no Chromium here; apt-get install chromium")
+class Browser(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        results, bench = os.path.join(cls.folder, "results.h5"), os.path.join(cls.folder, "bench.h5")
+        cls.site = pathlib.Path(cls.folder) / "site"
+        subprocess.run([PROGRAM, "verify", "-k", "warping_torsion/default or elastica/default", "--shapes", "-o", results], capture_output=True, check=False)
+        subprocess.run([PROGRAM, "bench", "elastica", "-f", "collocation", "-f", "beamw", "-o", bench], capture_output=True, check=False)
+        done = subprocess.run([sys.executable, "-m", "reports", results, TRUTHS, "--bench", bench, "-o", str(cls.site)], capture_output=True, text=True, check=False, cwd=ROOT,
+                              env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+        if done.returncode != 0:
+            raise AssertionError(done.stderr)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def open_all(self, pages):
+        driver = self.site / "driver.html"
+        frames = "".join(f'<iframe width="1300" height="900" src="{html.escape(p.name)}"></iframe>' for p in pages)
+        driver.write_text(DRIVER.format(frames=frames), encoding="utf-8")
+        try:
+            done = chromium(self.folder, "--virtual-time-budget=60000", "--dump-dom", driver.as_uri())
+        finally:
+            driver.unlink()
+        return done, re.search(r'<pre id="out">(.*?)</pre>', done.stdout, re.S)
+
+    def test_pages(self):
+        pages = sorted(self.site.glob("*.html"))
+        self.assertGreater(len(pages), 8)
+        done, out = self.open_all(pages)
+        self.assertEqual(console(done), [])
+        self.assertIsNotNone(out, done.stderr[-2000:])
+        self.assertEqual(out.group(1).strip(), f"seen {len(pages)}")
+
+    def test_what_is_wrong_is_seen(self):
+        page = self.site / "planted.html"
+        page.write_text('<img src="nowhere.svg"><script>nothing()</script><div style="width:3000px">wide</div>', encoding="utf-8")
+        try:
+            done, out = self.open_all([page])
+        finally:
+            page.unlink()
+        self.assertTrue(any("nothing is not defined" in line for line in console(done)), done.stderr[-2000:])
+        self.assertIn("nowhere.svg", out.group(1))
+        self.assertIn("wider than the window", out.group(1))
+
+    def test_prints(self):
+        pdf = pathlib.Path(self.folder) / "convergence.pdf"
+        chromium(self.folder, "--no-pdf-header-footer", f"--print-to-pdf={pdf}", (self.site / "convergence.html").as_uri())
+        content = pdf.read_bytes()
+        self.assertTrue(content.startswith(b"%PDF"))
+        self.assertGreaterEqual(len(re.findall(rb"/Type\s*/Page\b", content)), 2)   # a sheet for each case
+
+
+if __name__ == "__main__":
+    unittest.main()
