@@ -117,18 +117,19 @@ static status visit(const reader *r, hid_t at, const char *prefix, visitor *each
     for (hsize_t i = 0; i < info.nlinks && outcome == STATUS_OK; i++) {
         if (H5Lget_name_by_idx(at, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name, H5P_DEFAULT) <= 0)
             return damaged(r, prefix);
-        const hid_t group = H5Gopen2(at, name, H5P_DEFAULT);
-        if (group < 0)
+        const hid_t here = H5Oopen(at, name, H5P_DEFAULT);
+        if (here < 0)
             return damaged(r, name);
-        outcome = each(r, group, name, prefix);
-        H5Gclose(group);
+        if (H5Iget_type(here) == H5I_GROUP) /* the others: tables of verdicts and times */
+            outcome = each(r, here, name, prefix);
+        H5Oclose(here);
     }
     return outcome;
 }
 
 static status visit_mesh(const reader *r, hid_t group, const char *name, const char *prefix)
 {
-    return name[0] == 'n' ? read_cell(r, group, prefix) : STATUS_OK; /* the others: verdicts */
+    return name[0] == 'n' ? read_cell(r, group, prefix) : STATUS_OK;
 }
 
 static status visit_formulation(const reader *r, hid_t group, const char *name, const char *prefix)
