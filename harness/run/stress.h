@@ -67,7 +67,7 @@ void stress_free(stress *s);
 int stress_exit(const stress *s);
 
 /* Parts of stress_run. */
-/* STRESS_MOST_POINTS points and more: one for every extreme and value, in order, with a series for every formulation. */
+/* A point for every extreme and value, in order, with a series for every formulation; an outcome for each of its quantities. */
 status stress_plan(const stress_request *request, stress *out, fault *f);
 status stress_findings_read(const char *path, stress *out, fault *f);
 void stress_expect(stress *s, int whole);

@@ -1,7 +1,7 @@
 /* The tangent of the free coordinates is factored once; what is released borders it:
  *   [ K  U ] [x]   [f]
  *   [ V  W ] [z] = [g],   S = W - V K^-1 U,   z = S^-1 (g - V K^-1 f),   x = K^-1 f - K^-1 U z. */
-#include "harness/solve/tangent.h"
+#include "harness/solve/bordered.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,7 +9,6 @@
 
 #include "elements/math/dense.h"
 
-enum { REFINEMENTS = 2 };
 /* Solutions are refined where round-off would leave less than eight digits. */
 static const double harmless_condition = 1e8;
 
@@ -37,7 +36,7 @@ static status border_alloc(const analysis_context *c, const scene_analysis *a, t
                                                                : STATUS_OK;
 }
 
-static int place_in_border(const border *b, int coordinate)
+int border_place(const border *b, int coordinate)
 {
     for (int i = 0; i < b->count; i++)
         if (b->coordinate[i] == coordinate)
@@ -53,8 +52,8 @@ static void fill_border(tangent *t)
     memset(b->W, 0, sizeof b->W);
     for (int j = 0; j < t->K.n; j++)
         for (int k = t->K.column[j]; k < t->K.column[j + 1]; k++) {
-            const int i = t->K.row[k], row = i >= t->free ? place_in_border(b, i) : -1,
-                      column = j >= t->free ? place_in_border(b, j) : -1;
+            const int i = t->K.row[k], row = i >= t->free ? border_place(b, i) : -1,
+                      column = j >= t->free ? border_place(b, j) : -1;
             const double value = t->K.value[k];
             if (i < t->free && column >= 0)
                 b->U[column * t->free + i] = value;
@@ -145,86 +144,7 @@ status tangent_at(analysis_context *c, const scene_analysis *a, const model_stat
 /* Coordinates of the node that move: free or released. */
 static int moves(const tangent *t, int k)
 {
-    return t->index[k] < t->free || place_in_border(&t->border, t->index[k]) >= 0;
-}
-
-static double dot(int n, const double a[], const double b[])
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
-}
-
-/* Factors of the bordered system. */
-typedef struct bordered {
-    double *Z; /* [count x free] K^-1 U */
-    double S[TANGENT_BORDER * TANGENT_BORDER];
-    int pivot[TANGENT_BORDER];
-    double *x, *load, *rest; /* [all] */
-} bordered;
-
-static status bordered_alloc(tangent *t, counters *n, bordered *out, fault *f)
-{
-    const border *b = &t->border;
-    const size_t all = (size_t)t->all + 1;
-    out->Z = calloc((size_t)(b->count * t->free) + 1, sizeof *out->Z);
-    out->x = calloc(3 * all, sizeof *out->x);
-    if (out->Z == NULL || out->x == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
-    out->load = out->x + all;
-    out->rest = out->load + all;
-    for (int i = 0; i < b->count; i++) {
-        memcpy(out->Z + i * t->free, b->U + i * t->free, (size_t)t->free * sizeof *out->Z);
-        factor_solve(t->factor, out->Z + i * t->free);
-        n->solutions++;
-    }
-    for (int i = 0; i < b->count; i++)
-        for (int j = 0; j < b->count; j++)
-            out->S[i * b->count + j] = b->W[i * b->count + j] - dot(t->free, b->V + i * t->free, out->Z + j * t->free);
-    return b->count > 0 && dense_lu(b->count, out->S, out->pivot) != 0
-               ? fault_set(f, STATUS_SINGULAR, "the structure is not held when the prescribed motion is released")
-               : STATUS_OK;
-}
-
-static void bordered_free(bordered *s)
-{
-    free(s->Z);
-    free(s->x);
-}
-
-/* In place; what is held or prescribed stays as it is. x: [all] */
-static void bordered_solve(tangent *t, counters *n, const bordered *s, double x[])
-{
-    const border *b = &t->border;
-    double z[TANGENT_BORDER];
-    factor_solve(t->factor, x);
-    n->solutions++;
-    for (int i = 0; i < b->count; i++)
-        z[i] = x[b->coordinate[i]] - dot(t->free, b->V + i * t->free, x);
-    if (b->count > 0)
-        dense_lu_solve(b->count, 1, s->S, s->pivot, z);
-    for (int i = 0; i < b->count; i++) {
-        for (int k = 0; k < t->free; k++)
-            x[k] -= s->Z[i * t->free + k] * z[i];
-        x[b->coordinate[i]] = z[i];
-    }
-}
-
-/* Iterative refinement with residuals whose stiff part comes from the element strains. */
-static void refine(const model *m, tangent *t, counters *n, const bordered *s)
-{
-    for (int r = 0; r < REFINEMENTS; r++) {
-        double *rest = s->rest;
-        memset(rest, 0, (size_t)t->all * sizeof *rest);
-        sparse_mul(&t->soft, s->x, rest);
-        model_stiff_part(m, t->state, s->x, rest);
-        for (int k = 0; k < t->all; k++)
-            rest[k] = k < t->free || place_in_border(&t->border, k) >= 0 ? s->load[k] - rest[k] : 0;
-        bordered_solve(t, n, s, rest);
-        for (int k = 0; k < t->all; k++)
-            s->x[k] += rest[k];
-    }
+    return t->index[k] < t->free || border_place(&t->border, t->index[k]) >= 0;
 }
 
 /* Response of the node to a unit load on one component. */
@@ -237,7 +157,7 @@ static void respond(const model *m, tangent *t, counters *n, int component, cons
     memcpy(s->x, s->load, (size_t)t->all * sizeof *s->x);
     bordered_solve(t, n, s, s->x);
     if (t->refined)
-        refine(m, t, n, s);
+        bordered_refine(m, t, n, s);
     for (int i = 0; i < TANGENT_COMPONENTS; i++) {
         response[i] = 0;
         for (int k = 0; k < t->coordinates; k++)

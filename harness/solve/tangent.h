@@ -15,6 +15,9 @@ typedef struct border {
     double W[TANGENT_BORDER * TANGENT_BORDER];
 } border;
 
+/* Index of a released coordinate, or -1. */
+int border_place(const border *b, int coordinate);
+
 typedef struct tangent {
     sparse K;      /* of all coordinates when something is released, else of the free ones */
     sparse inside; /* free x free */
@@ -24,7 +27,7 @@ typedef struct tangent {
     border border;
     int free, all;
     double *residual;
-    const model_state *state; /* of K */
+    const model_state *state;                   /* of K */
     int index[TANGENT_COMPONENTS], coordinates; /* the node's */
     double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS];
 } tangent;
