@@ -4,9 +4,25 @@
 #include "elements/beamw/prepare.h"
 #include "elements/beamw/screw.h"
 
+static const consistent_data *whole(const element_data *d)
+{
+    return (const consistent_data *)(const void *)d;
+}
+
+static size_t data_size(const element_request *request)
+{
+    (void)request;
+    return sizeof(consistent_data);
+}
+
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
-    return prepare_form(request, STIFFNESS_COUPLED, PREPARE_CONSISTENT, out, f);
+    return prepare_consistent(request, (consistent_data *)(void *)out, f);
+}
+
+static status stress(const element_data *d, const double e[], const double inner[], stress_output *out)
+{
+    return whole(d)->following ? follow_stress(&whole(d)->inside, e, out) : forms_stress(d, e, inner, out);
 }
 
 const element_type element_beamw_consistent = {
@@ -17,10 +33,10 @@ const element_type element_beamw_consistent = {
     .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_HARINGX | FEATURE_WAGNER_MOMENTS | FEATURE_WARPING |
               FEATURE_ECCENTRIC | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .options = prepare_options_consistent,
-    .data_size = forms_data_size,
+    .data_size = data_size,
     .prepare = prepare,
     .strain = screw_strain,
-    .stress = forms_stress,
+    .stress = stress,
     .geometric = forms_geometric,
     .inertia = inertia_of,
 };

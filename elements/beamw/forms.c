@@ -13,13 +13,12 @@ void forms_add_product(double Q[8 * 8], double c, const double a[8], const doubl
             Q[8 * i + j] += c * (a[i] * b[j] + b[i] * a[j]);
 }
 
-/* M <- T^T M T with T: e7 = e8 = e2. */
-static void follow_torsion(double M[8 * 8])
+void forms_merge_torsion(int n, double A[])
 {
     for (int pass = 0; pass < 2; pass++)
-        for (int i = 0; i < 8; i++)
+        for (int i = 0; i < n; i++)
             for (int k = 6; k < 8; k++) {
-                double *from = pass == 0 ? &M[8 * i + k] : &M[8 * k + i], *to = pass == 0 ? &M[8 * i + 1] : &M[8 * 1 + i];
+                double *from = pass == 0 ? &A[n * i + k] : &A[n * k + i], *to = pass == 0 ? &A[n * i + 1] : &A[n + i];
                 *to += *from;
                 *from = 0;
             }
@@ -27,9 +26,9 @@ static void follow_torsion(double M[8 * 8])
 
 void forms_drop_warping(element_data *d)
 {
-    follow_torsion(d->S);
+    forms_merge_torsion(FORMS_STRAINS, d->S);
     for (int i = 0; i < FORMS_MODIFIED; i++)
-        follow_torsion(d->Q[i]);
+        forms_merge_torsion(FORMS_STRAINS, d->Q[i]);
 }
 
 size_t forms_data_size(const element_request *request)

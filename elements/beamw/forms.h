@@ -27,7 +27,8 @@ struct element_data {
 /* Q += c (a b^T + b a^T): the quadratic c (a . e)(b . e). */
 void forms_add_product(double Q[8 * 8], double c, const double a[8], const double b[8]);
 
-/* Uniform torsion, where nothing warps: e7 and e8 follow e2. */
+/* Uniform torsion, where nothing warps: e7 and e8 follow e2.  A[n x n] <- T^T A T, and the same for a whole form. */
+void forms_merge_torsion(int n, double A[]);
 void forms_drop_warping(element_data *d);
 
 size_t forms_data_size(const element_request *);

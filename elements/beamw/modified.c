@@ -4,6 +4,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "elements/math/dense.h"
+
 typedef struct term {
     int mode, i, j; /* ebar_mode += c e_i e_j, counted from 1 as in the paper */
     double c;
@@ -51,10 +53,20 @@ void modified_printed(const section *c, unsigned features, element_data *d)
  * the fibre (Engesser, J) enters only when the squares of the shear strains are added to gamma_x, as J's kinematics does
  * (fibres_at below).  Proof and reduction to J Eq. 66: reference/derive/second_order.py. */
 
-/* Linear fields of J section 3.2 at a point, as functionals of e: rotation of the section against the middle of the element,
- * twist and bending rates [1/m], shear at the centroid, extension. */
+enum { N = MODIFIED_VARIABLES, Z = FORMS_STRAINS };
+
+/* Q += c (a b^T + b a^T). */
+static void add_product(double Q[N * N], double c, const double a[N], const double b[N])
+{
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++)
+            Q[N * i + j] += c * (a[i] * b[j] + b[i] * a[j]);
+}
+
+/* Linear fields of J section 3.2 at a point, as functionals of e and z: rotation of the section against the middle of the
+ * element, twist and bending rates [1/m], shear at the centroid, extension. */
 typedef struct point_fields {
-    double turn[3][8], rate[3][8], shear_y[8], shear_z[8], extension[8];
+    double turn[3][N], rate[3][N], shear_y[N], shear_z[N], extension[N];
 } point_fields;
 
 /* turn = rate of change times x - 1/2 plus what bends or twists unevenly; shear is constant at the shear centre. */
@@ -62,18 +74,20 @@ static void fields_at(const section *c, double l, double x, const twist *t, cons
 {
     const double bubble = x * (1 - x), odd = 1 - 2 * x;
     const twist_shapes shape = twist_at(t, x);
-    const double mean[3][8] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
-    for (int k = 0; k < 8; k++) {
-        const double bend[3] = {0, -6 * s->hg[1][k], 6 * s->hg[0][k]};
+    const double mean[3][N] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
+    for (int k = 0; k < N; k++) {
+        const int own = k >= Z; /* one of z: bending (y, z) and warping parts of h */
+        const double bend[3] = {0, k == Z + 1 ? -6 : 0, k == Z ? 6 : 0}, tw = k == Z + 2 ? l * l : 0;
+        const double A = own ? 0 : s->A[k], g[2] = {own ? -(k == Z) : s->h[0][k], own ? -(k == Z + 1) : s->h[1][k]};
         for (int i = 0; i < 3; i++) {
             out->turn[i][k] = mean[i][k] * (x - 0.5) + bend[i] * bubble;
             out->rate[i][k] = (mean[i][k] + bend[i] * odd) / l;
         }
-        const double uneven = (s->A[k] * shape.odd + s->tw[k] * shape.even) / (l * l);
-        out->turn[0][k] += (s->A[k] * shape.odd_integral + s->tw[k] * shape.even_integral) / l;
+        const double uneven = (A * shape.odd + tw * shape.even) / (l * l);
+        out->turn[0][k] += (A * shape.odd_integral + tw * shape.even_integral) / l;
         out->rate[0][k] += uneven;
-        out->shear_y[k] = s->g[0][k] - t->lag[0] * uneven + c->zs * out->rate[0][k];
-        out->shear_z[k] = s->g[1][k] - t->lag[1] * uneven - c->ys * out->rate[0][k];
+        out->shear_y[k] = g[0] - t->lag[0] * uneven + c->zs * out->rate[0][k];
+        out->shear_z[k] = g[1] - t->lag[1] * uneven - c->ys * out->rate[0][k];
         out->extension[k] = k == 0 ? 1 / l : 0;
     }
 }
@@ -81,7 +95,7 @@ static void fields_at(const section *c, double l, double x, const twist *t, cons
 /* Parts of second order of the strains of the Simo-Reissner beam, r' = R (e_x + gamma), R = exp(turn~): with w = turn,
  * kappa = w' - 1/2 w x w',  gamma = u' - w x e_x + 1/2 w x (w x e_x) - w x u'. */
 typedef struct point_strains {
-    double gamma[3][8 * 8], kappa[3][8 * 8];
+    double gamma[3][N * N], kappa[3][N * N];
 } point_strains;
 
 static void strains_at(const point_fields *f, point_strains *out)
@@ -89,19 +103,19 @@ static void strains_at(const point_fields *f, point_strains *out)
     memset(out, 0, sizeof *out);
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
-        forms_add_product(out->kappa[i], -0.5, f->turn[j], f->rate[k]);
-        forms_add_product(out->kappa[i], 0.5, f->turn[k], f->rate[j]);
+        add_product(out->kappa[i], -0.5, f->turn[j], f->rate[k]);
+        add_product(out->kappa[i], 0.5, f->turn[k], f->rate[j]);
     }
-    forms_add_product(out->gamma[0], 0.5, f->turn[1], f->turn[1]);
-    forms_add_product(out->gamma[0], 0.5, f->turn[2], f->turn[2]);
-    forms_add_product(out->gamma[0], 1, f->turn[2], f->shear_y);
-    forms_add_product(out->gamma[0], -1, f->turn[1], f->shear_z);
-    forms_add_product(out->gamma[1], -0.5, f->turn[0], f->turn[1]);
-    forms_add_product(out->gamma[1], 1, f->turn[0], f->shear_z);
-    forms_add_product(out->gamma[1], -1, f->turn[2], f->extension);
-    forms_add_product(out->gamma[2], -0.5, f->turn[0], f->turn[2]);
-    forms_add_product(out->gamma[2], -1, f->turn[0], f->shear_y);
-    forms_add_product(out->gamma[2], 1, f->turn[1], f->extension);
+    add_product(out->gamma[0], 0.5, f->turn[1], f->turn[1]);
+    add_product(out->gamma[0], 0.5, f->turn[2], f->turn[2]);
+    add_product(out->gamma[0], 1, f->turn[2], f->shear_y);
+    add_product(out->gamma[0], -1, f->turn[1], f->shear_z);
+    add_product(out->gamma[1], -0.5, f->turn[0], f->turn[1]);
+    add_product(out->gamma[1], 1, f->turn[0], f->shear_z);
+    add_product(out->gamma[1], -1, f->turn[2], f->extension);
+    add_product(out->gamma[2], -0.5, f->turn[0], f->turn[2]);
+    add_product(out->gamma[2], -1, f->turn[0], f->shear_y);
+    add_product(out->gamma[2], 1, f->turn[1], f->extension);
 }
 
 /* Fibres elongate by gamma_x + z kappa_y - y kappa_z and half the square of how far they lean to the section's normal: all of
@@ -111,29 +125,29 @@ static void fibres_at(const section *c, unsigned features, const point_fields *f
 {
     const double *kx = f->rate[0];
     if (features & FEATURE_HARINGX) {
-        forms_add_product(out->gamma[0], (c->ys * c->ys + c->zs * c->zs) / 2, kx, kx);
-        forms_add_product(out->kappa[1], -c->zs, kx, kx);
-        forms_add_product(out->kappa[2], c->ys, kx, kx);
+        add_product(out->gamma[0], (c->ys * c->ys + c->zs * c->zs) / 2, kx, kx);
+        add_product(out->kappa[1], -c->zs, kx, kx);
+        add_product(out->kappa[2], c->ys, kx, kx);
     } else {
-        forms_add_product(out->gamma[0], 0.5, f->shear_y, f->shear_y);
-        forms_add_product(out->gamma[0], 0.5, f->shear_z, f->shear_z);
-        forms_add_product(out->kappa[1], -1, f->shear_y, kx);
-        forms_add_product(out->kappa[2], -1, f->shear_z, kx);
+        add_product(out->gamma[0], 0.5, f->shear_y, f->shear_y);
+        add_product(out->gamma[0], 0.5, f->shear_z, f->shear_z);
+        add_product(out->kappa[1], -1, f->shear_y, kx);
+        add_product(out->kappa[2], -1, f->shear_z, kx);
     }
     if (features & FEATURE_TRAPEZE)
-        forms_add_product(out->gamma[0], c->Ip / c->A / 2, kx, kx);
+        add_product(out->gamma[0], c->Ip / c->A / 2, kx, kx);
     if (features & FEATURE_WAGNER_MOMENTS) {
-        forms_add_product(out->kappa[1], c->wagner_z / c->Iy / 2, kx, kx);
-        forms_add_product(out->kappa[2], -c->wagner_y / c->Iz / 2, kx, kx);
+        add_product(out->kappa[1], c->wagner_z / c->Iy / 2, kx, kx);
+        add_product(out->kappa[2], -c->wagner_y / c->Iz / 2, kx, kx);
     }
 }
 
-status modified_consistent(const section *c, unsigned features, const twist *t, const stiffness_fields *fields, element_data *d,
-                           fault *f)
+status modified_consistent(const section *c, unsigned features, double l, const twist *t, const stiffness_fields *fields,
+                           double Q[FORMS_MODIFIED][N * N], fault *f)
 {
-    const double l = d->l0;
     double x[TWIST_MAX_POINTS], w[TWIST_MAX_POINTS];
     const int points = twist_points(t, x, w, f);
+    memset(Q, 0, FORMS_MODIFIED * sizeof Q[0]);
     for (int p = 0; p < points; p++) {
         point_fields at;
         point_strains strain;
@@ -141,23 +155,36 @@ status modified_consistent(const section *c, unsigned features, const twist *t, 
         strains_at(&at, &strain);
         fibres_at(c, features, &at, &strain);
         const double ds = w[p] * l, to_q = (1 - x[p]) * l, from_p = x[p] * l;
-        for (int i = 0; i < 64; i++) {
-            d->Q[0][i] += ds * strain.gamma[0][i];
-            d->Q[1][i] += ds * l * strain.kappa[0][i];
-            d->Q[2][i] += ds * (to_q * strain.kappa[1][i] - strain.gamma[2][i]);
-            d->Q[3][i] += ds * (from_p * strain.kappa[1][i] + strain.gamma[2][i]);
-            d->Q[4][i] += ds * (to_q * strain.kappa[2][i] + strain.gamma[1][i]);
-            d->Q[5][i] += ds * (from_p * strain.kappa[2][i] - strain.gamma[1][i]);
+        for (int i = 0; i < N * N; i++) {
+            Q[0][i] += ds * strain.gamma[0][i];
+            Q[1][i] += ds * l * strain.kappa[0][i];
+            Q[2][i] += ds * (to_q * strain.kappa[1][i] - strain.gamma[2][i]);
+            Q[3][i] += ds * (from_p * strain.kappa[1][i] + strain.gamma[2][i]);
+            Q[4][i] += ds * (to_q * strain.kappa[2][i] + strain.gamma[1][i]);
+            Q[5][i] += ds * (from_p * strain.kappa[2][i] - strain.gamma[1][i]);
         }
     }
     /* The screw's share is in e already: -1/24 psi x (psi x U), what a straight chord is shorter than its arc. */
-    const double psi[3][8] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
-    forms_add_product(d->Q[0], -l / 24, psi[1], psi[1]);
-    forms_add_product(d->Q[0], -l / 24, psi[2], psi[2]);
+    const double psi[3][N] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
+    add_product(Q[0], -l / 24, psi[1], psi[1]);
+    add_product(Q[0], -l / 24, psi[2], psi[2]);
     for (int sign = -1; sign <= 1; sign += 2) {
-        forms_add_product(d->Q[sign < 0 ? 2 : 3], sign * l / 24, psi[0], psi[2]);
-        forms_add_product(d->Q[sign < 0 ? 5 : 4], sign * l / 24, psi[0], psi[1]);
+        add_product(Q[sign < 0 ? 2 : 3], sign * l / 24, psi[0], psi[2]);
+        add_product(Q[sign < 0 ? 5 : 4], sign * l / 24, psi[0], psi[1]);
     }
-    d->modified = 1;
     return points > 0 ? STATUS_OK : STATUS_FAULT;
+}
+
+/* Q of e alone: T^T Q T, T = (1, hg). */
+void modified_reduce(const stiffness_fields *fields, double Q[FORMS_MODIFIED][N * N], element_data *d)
+{
+    double T[N * FORMS_STRAINS] = {0}, work[N * FORMS_STRAINS];
+    for (int i = 0; i < FORMS_STRAINS; i++) {
+        T[(FORMS_STRAINS + 1) * i] = 1;
+        for (int k = 0; k < 3; k++)
+            T[FORMS_STRAINS * (Z + k) + i] = fields->hg[k][i];
+    }
+    for (int k = 0; k < FORMS_MODIFIED; k++)
+        dense_add_congruence(N, FORMS_STRAINS, T, Q[k], d->Q[k], work);
+    d->modified = 1;
 }

@@ -7,7 +7,7 @@
 #include "elements/beamw/modified.h"
 #include "elements/beamw/screw.h"
 
-enum { OPTION_MASS, OPTION_TORSION };
+enum { OPTION_MASS, OPTION_TORSION, OPTION_INSIDE };
 
 #define MASS_OPTION                                                                                                                \
     {                                                                                                                              \
@@ -24,31 +24,23 @@ const element_option prepare_options_consistent[] = {
     [OPTION_MASS] = MASS_OPTION,
     [OPTION_TORSION] = {"torsion", "cubic|hyperbolic", TWIST_CUBIC, 0, 1,
                         "twist along the element: J Eq. 38, or the exact functions of non-uniform torsion", 0},
+    [OPTION_INSIDE] = {"inside", "linear|following", 1, 0, 1,
+                       "bending, shear and warping inside the element: as without stress, or in equilibrium with it", 0},
     {NULL, NULL, 0, 0, 0, NULL, 0},
 };
 
-status prepare_form(const element_request *request, stiffness_shear shear, prepare_modes modes, element_data *out, fault *f)
+static status length_of(const element_request *request, fault *f)
 {
-    const section *c = request->section;
     if (!(request->length > 0) || !isfinite(request->length))
         return fault_set(f, STATUS_REFUSED, "element length %g m: it must be positive", request->length);
-    stiffness_fields fields;
-    memset(out, 0, sizeof *out);
-    out->l0 = request->length;
-    const int flexible = (request->features & FEATURE_SHEAR) != 0;
-    const twist t = twist_of(c, request->length, flexible,
-                             modes == PREPARE_CONSISTENT ? (twist_kind)request->options[OPTION_TORSION] : TWIST_CUBIC);
-    stiffness_of(c, request->length, flexible ? shear : STIFFNESS_RIGID, &t, &fields, out->S);
-    if (modes == PREPARE_PRINTED)
-        modified_printed(c, request->features, out);
-    else if (modes == PREPARE_CONSISTENT) {
-        screw_prepare(out);
-        const status made = modified_consistent(c, request->features, &t, &fields, out, f);
-        if (made != STATUS_OK)
-            return made;
-    }
+    return STATUS_OK;
+}
+
+/* Mass, uniform torsion, sizes. */
+static status finish(const element_request *request, const stiffness_fields *fields, element_data *out, fault *f)
+{
     if (request->features & FEATURE_MASS)
-        inertia_prepare(c, request->features, (inertia_kind)request->options[OPTION_MASS], &fields, out);
+        inertia_prepare(request->section, request->features, (inertia_kind)request->options[OPTION_MASS], fields, out);
     if (!(request->features & FEATURE_WARPING))
         forms_drop_warping(out);
     for (int i = 0; i < 64; i++)
@@ -56,4 +48,43 @@ status prepare_form(const element_request *request, stiffness_shear shear, prepa
             return fault_set(f, STATUS_REFUSED, "element of length %g m: its stiffness overflows; use fewer elements",
                              request->length);
     return STATUS_OK;
+}
+
+status prepare_form(const element_request *request, stiffness_shear shear, prepare_modes modes, element_data *out, fault *f)
+{
+    const section *c = request->section;
+    const status sound = length_of(request, f);
+    if (sound != STATUS_OK)
+        return sound;
+    stiffness_fields fields;
+    memset(out, 0, sizeof *out);
+    out->l0 = request->length;
+    const int flexible = (request->features & FEATURE_SHEAR) != 0;
+    const twist t = twist_of(c, request->length, flexible, TWIST_CUBIC);
+    stiffness_of(c, request->length, flexible ? shear : STIFFNESS_RIGID, &t, &fields, out->S);
+    if (modes == PREPARE_PRINTED)
+        modified_printed(c, request->features, out);
+    return finish(request, &fields, out, f);
+}
+
+status prepare_consistent(const element_request *request, consistent_data *out, fault *f)
+{
+    const section *c = request->section;
+    const status sound = length_of(request, f);
+    if (sound != STATUS_OK)
+        return sound;
+    const int flexible = (request->features & FEATURE_SHEAR) != 0, warping = (request->features & FEATURE_WARPING) != 0;
+    const twist t = twist_of(c, request->length, flexible, (twist_kind)request->options[OPTION_TORSION]);
+    stiffness_fields fields;
+    memset(out, 0, sizeof *out);
+    out->form.l0 = request->length;
+    out->following = request->options[OPTION_INSIDE] != 0;
+    stiffness_of(c, request->length, flexible ? STIFFNESS_COUPLED : STIFFNESS_RIGID, &t, &fields, out->form.S);
+    const status made = modified_consistent(c, request->features, request->length, &t, &fields, out->inside.Q, f);
+    if (made != STATUS_OK)
+        return made;
+    modified_reduce(&fields, out->inside.Q, &out->form);
+    follow_prepare(c, request->length, flexible, warping, &t, &fields, &out->inside);
+    screw_prepare(&out->form);
+    return finish(request, &fields, &out->form, f);
 }

@@ -26,12 +26,13 @@ static inline const element_data *data_of(const subject *s)
     return (const element_data *)s->store.bytes;
 }
 
+/* One option of all has another value than its default. */
 static inline void start_with(subject *s, const element_type *type, const section *c, double l0, unsigned features,
-                              twist_kind torsion)
+                              const char *option, double value)
 {
     double options[ELEMENT_MAX_OPTIONS] = {0};
     for (int i = 0; type->options != NULL && type->options[i].name != NULL; i++)
-        options[i] = strcmp(type->options[i].name, "torsion") == 0 ? torsion : type->options[i].value;
+        options[i] = strcmp(type->options[i].name, option) == 0 ? value : type->options[i].value;
     const element_request request = {.section = c, .length = l0, .features = features, .options = options};
     fault f;
     s->type = type;
@@ -41,7 +42,7 @@ static inline void start_with(subject *s, const element_type *type, const sectio
 
 static inline void start(subject *s, const element_type *type, const section *c, double l0, unsigned features)
 {
-    start_with(s, type, c, l0, features, TWIST_CUBIC);
+    start_with(s, type, c, l0, features, "", 0);
 }
 
 /* A sheet without warping shear, which N does not have: length 0.1 m, slender enough in neither direction to hide Phi. */

@@ -36,7 +36,7 @@ static void linear_stiffness(const section *c, double l0, twist_kind torsion, do
     const double none[N] = {0}, e[STRAINS] = {0};
     double J[STRAINS * N], S[STRAINS * STRAINS], work[STRAINS * N];
     node_state x[2];
-    start_with(&s, &element_beamw_consistent, c, l0, FEATURE_SHEAR | FEATURE_WARPING | FEATURE_ECCENTRIC, torsion);
+    start_with(&s, &element_beamw_consistent, c, l0, FEATURE_SHEAR | FEATURE_WARPING | FEATURE_ECCENTRIC, "torsion", torsion);
     place(l0, none, x);
     s.type->strain(data_of(&s), x, &(strain_output){.J = J});
     s.type->stress(data_of(&s), e, NULL, &(stress_output){.C = S});
