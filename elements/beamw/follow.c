@@ -40,9 +40,9 @@ void follow_prepare(const section *c, double l, int shear, int warping, const tw
 
 typedef struct inside {
     double y[N], q[3];
-    double B[E][N];               /* d(ebar)/dy */
-    double ebar[E], c[E];         /* and the stress dual to it */
-    double r[INNER];              /* of z, of q */
+    double B[E][N];                /* d(ebar)/dy */
+    double ebar[E], c[E];          /* and the stress dual to it */
+    double r[INNER];               /* of z, of q */
     double hessian[INNER * INNER]; /* of z, q */
 } inside;
 

@@ -17,7 +17,8 @@ typedef struct follow {
 } follow;
 
 /* Q of out is given; warping 0: e7 = e8 = e2, nothing warps. */
-void follow_prepare(const section *c, double l0, int shear, int warping, const twist *t, const stiffness_fields *fields, follow *out);
+void follow_prepare(const section *c, double l0, int shear, int warping, const twist *t, const stiffness_fields *fields,
+                    follow *out);
 
 /* As element_type.stress; NOT_CONVERGED where the inside has no equilibrium. */
 status follow_stress(const follow *d, const double e[FORMS_STRAINS], stress_output *out);

@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_BEAMW_FORMS_H
 #define BEAMWORK_BEAMW_FORMS_H
 
-#include "elements/exact/strain.h"
+#include "elements/element.h"
 #include "elements/inertia/lumped.h"
 
 enum {
@@ -18,7 +18,6 @@ struct element_data {
     double S[8 * 8];                                        /* [N/m] */
     double Q[FORMS_MODIFIED][8 * 8];                        /* [1/m], symmetric */
     int modified;                                           /* 0: every Q is zero */
-    strain_line line;                                       /* of the modes seen from the middle (screw.h) */
     lumped_mass lumped;                                     /* inertia of half the element */
     double field[FORMS_GAUSS][FORMS_FIELDS][FORMS_STRAINS]; /* functionals of e: see inertia.c */
     double share;                                           /* of the consistent mass: 0 lumped, 1 consistent, 1/2 averaged */

@@ -5,7 +5,6 @@
 
 #include "elements/beamw/inertia.h"
 #include "elements/beamw/modified.h"
-#include "elements/beamw/screw.h"
 
 enum { OPTION_MASS, OPTION_TORSION, OPTION_INSIDE };
 
@@ -85,6 +84,5 @@ status prepare_consistent(const element_request *request, consistent_data *out, 
         return made;
     modified_reduce(&fields, out->inside.Q, &out->form);
     follow_prepare(c, request->length, flexible, warping, &t, &fields, &out->inside);
-    screw_prepare(&out->form);
     return finish(request, &fields, &out->form, f);
 }

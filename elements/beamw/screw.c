@@ -1,14 +1,18 @@
-/* Two nodes and one point half way are what the geometrically exact elements measure: D - l0 e_x, D the chord in the axes of
- * the middle, and l0 psi.  On a screw D = (int from -1/2 to 1/2 of exp(x psi~) dx) U, so that with t = |psi|^2
- *   U = D + n(t) psi x (psi x D),  n = (1 - a/sin a)/t,  a = sqrt(t)/2. */
+/* With R half way between the triads of the nodes, D the chord in its axes and a = psi/2,
+ *   U = V^-1 D,  V = int from -1/2 to 1/2 of exp(x psi~) dx,  V^-1 = mu + nu a a^T,  mu = |a|/sin |a|, nu = (1 - mu)/|a|^2.
+ * Rates along a path of constant spatial velocities and spins, in the axes of the middle: v of q against p, s the mean of the
+ * nodes' spins and delta their difference.  The middle turns with w = s - tau/2 a x delta, tau = tan(|a|/2)/|a|, and
+ *   dpsi/dt = V^-1 delta,  dD/dt = v - w x D,  d(v, s, delta)/dt = -w x (v, s, delta). */
 #include "elements/beamw/screw.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/rotation.h"
 
-enum { STRAINS = 8, COORDINATES = 14, MEASURED = 6, POWERS = 12 };
+enum { STRAINS = 8, COORDINATES = 14, POWERS = 12 };
+enum { RP = 0, TP = 3, AP = 6, RQ = 7, TQ = 10, AQ = 13 };
 
 /* a/sin a = 1 + sum power[k] t^(k + 1) */
 static const double power[POWERS] = {
@@ -17,124 +21,292 @@ static const double power[POWERS] = {
     8.585996549822947e-15,  2.174864550325223e-16, 5.509000201462976e-18,  1.3954463022310702e-19,
 };
 
-/* n and its first and second derivative. */
-static void screw_factor(double t, double n[3])
+/* mu, nu, tau and their derivatives with respect to |a|^2. */
+typedef struct factors {
+    double mu[2], nu[3], tau[2];
+} factors;
+
+static factors factors_of(double square)
 {
-    if (t < 1) { /* the closed form cancels */
-        n[0] = n[1] = n[2] = 0;
+    factors f;
+    if (square < 0.25) { /* closed forms cancel */
+        const double t = 4 * square;
+        double n[3] = {0};
         for (int k = POWERS - 1; k >= 0; k--) {
             n[2] = n[2] * t + 2 * n[1];
             n[1] = n[1] * t + n[0];
             n[0] = n[0] * t - power[k];
         }
-        return;
+        f.nu[0] = 4 * n[0];
+        f.nu[1] = 16 * n[1];
+        f.nu[2] = 64 * n[2];
+        f.mu[0] = 1 - square * f.nu[0];
+        f.mu[1] = -f.nu[0] - square * f.nu[1];
+        /* square tau^2 - 2 mu tau + 1 = 0 */
+        const double cotangent = sqrt(f.mu[0] * f.mu[0] - square);
+        f.tau[0] = 1 / (f.mu[0] + cotangent);
+        f.tau[1] = f.tau[0] * (f.tau[0] - 2 * f.mu[1]) / (2 * cotangent);
+        return f;
     }
-    const double a = sqrt(t) / 2, s = sin(a), c = cos(a), p = (s - a * c) / (s * s);
+    const double a = sqrt(square), s = sin(a), c = cos(a), tangent = tan(a / 2), p = (s - a * c) / (s * s);
     const double slope = (a * s * s - 2 * c * (s - a * c)) / (s * s * s); /* of p, itself the slope of a/sin a */
-    n[0] = (1 - a / s) / t;
-    n[1] = -(p / (8 * a) + n[0]) / t;
-    n[2] = -((slope - p / a) / (64 * a * a) + 2 * n[1]) / t;
+    f.mu[0] = a / s;
+    f.mu[1] = p / (2 * a);
+    f.nu[0] = (1 - f.mu[0]) / square;
+    f.nu[1] = -(f.mu[1] + f.nu[0]) / square;
+    f.nu[2] = -((slope - p / a) / (4 * square) + 2 * f.nu[1]) / square;
+    f.tau[0] = tangent / a;
+    f.tau[1] = ((1 + tangent * tangent) / 2 - f.tau[0]) / (2 * square);
+    return f;
 }
 
-/* A screw as measured: D and psi, b = psi x (psi x D). */
 typedef struct screw {
-    double D[3], psi[3], n[3], b[3];
-    double along; /* psi . D */
+    double R[9]; /* of the middle */
+    double D[3], a[3], U[3];
+    double extension; /* D_x - l0 [m] */
+    double along;     /* a . D */
+    double T[9];      /* dU/dpsi; dU/dD is V^-1 */
+    double V[9];      /* V^-1 */
+    factors f;
 } screw;
 
-static screw screw_of(double l0, const double measured[MEASURED])
+static void half_way(const node_state x[2], screw *w)
+{
+    double between[9], q[4], psi[3], half[9];
+    mat3_transpose_mul(x[0].R, x[1].R, between);
+    rotation_from_matrix(between, q);
+    rotation_log(q, psi);
+    for (int i = 0; i < 3; i++)
+        w->a[i] = psi[i] / 2;
+    rotation_exp(w->a, q);
+    rotation_matrix(q, half);
+    mat3_mul(x[0].R, half, w->R);
+}
+
+static screw screw_of(double l0, const node_state x[2])
 {
     screw w;
+    double d[3], moved[3];
+    half_way(x, &w);
     for (int i = 0; i < 3; i++) {
-        w.D[i] = measured[i] + (i == 0 ? l0 : 0);
-        w.psi[i] = measured[3 + i] / l0;
+        moved[i] = x[1].u[i] - x[0].u[i];
+        d[i] = x[1].r[i] - x[0].r[i];
     }
-    const double t = vec3_dot(w.psi, w.psi);
-    screw_factor(t, w.n);
-    w.along = vec3_dot(w.psi, w.D);
-    for (int i = 0; i < 3; i++)
-        w.b[i] = w.psi[i] * w.along - t * w.D[i];
+    mat3_transpose_mul_vec(w.R, d, w.D);
+    /* D_x^2 - l0^2 without a difference of lengths: |d|^2 - l0^2 = (2 d - moved) . moved */
+    const double squares = 2 * vec3_dot(d, moved) - vec3_dot(moved, moved) - w.D[1] * w.D[1] - w.D[2] * w.D[2];
+    w.extension = w.D[0] > 0 ? squares / (w.D[0] + l0) : w.D[0] - l0;
+    const double square = vec3_dot(w.a, w.a);
+    w.f = factors_of(square);
+    w.along = vec3_dot(w.a, w.D);
+    for (int i = 0; i < 3; i++) {
+        const double across = w.a[i] * w.along - square * w.D[i]; /* a x (a x D) */
+        w.U[i] = (i == 0 ? w.extension : w.D[i]) + w.f.nu[0] * across;
+        for (int j = 0; j < 3; j++) {
+            const double turn = (i == j ? w.along : 0) + w.a[i] * w.D[j] - 2 * w.D[i] * w.a[j];
+            w.T[3 * i + j] = w.f.nu[0] * turn / 2 + w.f.nu[1] * across * w.a[j];
+            w.V[3 * i + j] = (i == j ? w.f.mu[0] : 0) + w.f.nu[0] * w.a[i] * w.a[j];
+        }
+    }
     return w;
 }
 
-/* T[3 x 6] = dU/d(measured). */
-static void translation_gradient(double l0, const screw *w, double T[3 * MEASURED])
+/* What works on the rates: sum of f . dU/dt + t . dpsi/dt = g . v + mean . s + difference . delta. */
+typedef struct work {
+    double g[3], t[3], m[3]; /* dual to D, to psi; m = D x g */
+    double p[3];             /* V^-1 t */
+    double mean[3], difference[3];
+} work;
+
+static work work_of(const screw *w, const double f[3], const double turn[3])
 {
-    const double t = vec3_dot(w->psi, w->psi);
+    work k;
+    double tf[3], side[3];
+    mat3_mul_vec(w->V, f, k.g); /* symmetric */
+    mat3_transpose_mul_vec(w->T, f, tf);
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            const double turn = (i == j ? w->along : 0) + w->psi[i] * w->D[j] - 2 * w->D[i] * w->psi[j];
-            T[MEASURED * i + j] = (i == j) + w->n[0] * (w->psi[i] * w->psi[j] - (i == j ? t : 0));
-            T[MEASURED * i + 3 + j] = (w->n[0] * turn + 2 * w->n[1] * w->b[i] * w->psi[j]) / l0;
-        }
+        k.t[i] = turn[i] + tf[i];
+    vec3_cross(w->D, k.g, k.m);
+    mat3_mul_vec(w->V, k.t, k.p);
+    vec3_cross(k.m, w->a, side);
+    for (int i = 0; i < 3; i++) {
+        k.mean[i] = -k.m[i];
+        k.difference[i] = k.p[i] + w->f.tau[0] / 2 * side[i];
+    }
+    return k;
 }
 
-/* W[6 x 6] = second derivatives of f . U with respect to what is measured. */
-static void translation_second(double l0, const screw *w, const double f[3], double W[MEASURED * MEASURED])
+/* Row [14] on the nodes' coordinates. */
+static void nodal_row(const screw *w, const work *k, double row[COORDINATES])
 {
-    const double t = vec3_dot(w->psi, w->psi), fD = vec3_dot(f, w->D), fp = vec3_dot(f, w->psi), fb = vec3_dot(f, w->b);
+    double force[3], mean[3], difference[3];
+    mat3_mul_vec(w->R, k->g, force);
+    mat3_mul_vec(w->R, k->mean, mean);
+    mat3_mul_vec(w->R, k->difference, difference);
+    for (int i = 0; i < 3; i++) {
+        row[RP + i] = -force[i];
+        row[RQ + i] = force[i];
+        row[TP + i] = mean[i] / 2 - difference[i];
+        row[TQ + i] = mean[i] / 2 + difference[i];
+    }
+    row[AP] = row[AQ] = 0;
+}
+
+/* Symmetric form in (v, s, delta); v meets v in nothing. */
+typedef struct form {
+    double vs[9], vd[9], ss[9], sd[9], dd[9];
+} form;
+
+static void skew(const double v[3], double A[9])
+{
+    const double cross[9] = {0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0};
+    memcpy(A, cross, sizeof cross);
+}
+
+/* Second derivatives of f . U with respect to (D, psi): bent [psi, psi], mixed [psi, D]. */
+static void second_of_translation(const screw *w, const double f[3], double bent[9], double mixed[9])
+{
+    const double square = vec3_dot(w->a, w->a), fD = vec3_dot(f, w->D), fa = vec3_dot(f, w->a),
+                 across = fa * w->along - square * fD;
     double turn[3];
     for (int i = 0; i < 3; i++)
-        turn[i] = f[i] * w->along + w->D[i] * fp - 2 * w->psi[i] * fD;
-    memset(W, 0, MEASURED * MEASURED * sizeof *W);
+        turn[i] = f[i] * w->along + w->D[i] * fa - 2 * w->a[i] * fD;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
-            const double p = w->psi[i], q = w->psi[j];
-            const double bent = w->n[0] * (f[i] * w->D[j] + w->D[i] * f[j] - (i == j ? 2 * fD : 0)) +
-                                2 * w->n[1] * (p * turn[j] + turn[i] * q + (i == j ? fb : 0)) + 4 * w->n[2] * fb * p * q;
-            const double mixed =
-                w->n[0] * (f[i] * q + (i == j ? fp : 0) - 2 * p * f[j]) + 2 * w->n[1] * p * (w->psi[j] * fp - t * f[j]);
-            W[MEASURED * (3 + i) + 3 + j] = bent / (l0 * l0);
-            W[MEASURED * (3 + i) + j] = W[MEASURED * j + 3 + i] = mixed / l0;
+            const double p = w->a[i], q = w->a[j];
+            bent[3 * i + j] = w->f.nu[0] / 4 * (f[i] * w->D[j] + w->D[i] * f[j] - (i == j ? 2 * fD : 0)) +
+                              w->f.nu[1] / 2 * (p * turn[j] + turn[i] * q + (i == j ? across : 0)) + w->f.nu[2] * across * p * q;
+            mixed[3 * i + j] =
+                w->f.nu[0] / 2 * (f[i] * q + (i == j ? fa : 0) - 2 * p * f[j]) + w->f.nu[1] * p * (q * fa - square * f[j]);
         }
 }
 
-/* Rows of e [8 x n] from those of U [3 x n] and of l0 psi and l0^2 a [8 x n, the first three not used]. */
-static void arrange(int n, const double U[], const double measured[], double e[])
+/* In v, w and delta; the blocks of w stand where those of s will. */
+static void form_of_middle(const screw *w, const work *k, const double f[3], form *out)
 {
-    for (int k = 0; k < n; k++) {
-        const double across[2] = {measured[4 * n + k] / 2, measured[5 * n + k] / 2};
-        e[k] = U[k];
-        e[1 * n + k] = measured[3 * n + k];
-        e[2 * n + k] = across[0] - U[2 * n + k];
-        e[3 * n + k] = across[0] + U[2 * n + k];
-        e[4 * n + k] = across[1] + U[1 * n + k];
-        e[5 * n + k] = across[1] - U[1 * n + k];
-        e[6 * n + k] = measured[6 * n + k];
-        e[7 * n + k] = measured[7 * n + k];
-    }
+    double bent[9], mixed[9], Dx[9], VM[9], VMD[9], VB[9], moment[9];
+    const factors *c = &w->f;
+    second_of_translation(w, f, bent, mixed);
+    skew(w->D, Dx);
+    skew(k->p, moment);
+    mat3_mul(w->V, mixed, VM);
+    mat3_mul(VM, Dx, VMD);
+    mat3_mul(w->V, bent, VB);
+    mat3_mul(VB, w->V, out->dd);
+    double gx[9], side[3];
+    skew(k->g, gx);
+    vec3_cross(k->m, w->a, side);
+    const double gD = vec3_dot(k->g, w->D), ma = vec3_dot(k->m, w->a), ta = vec3_dot(k->t, w->a);
+    const double c1 = (c->tau[1] + c->tau[0] * c->nu[0] / 2) / 4, c2 = (c->mu[1] + c->nu[0] * c->mu[0] / 2) / 2;
+    const double c3 = ta * (c->nu[1] + c->nu[0] * c->nu[0]), c4 = ta * c->nu[0] * c->mu[0] / 2;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            const int at = 3 * i + j, mirrored = 3 * j + i, same = i == j;
+            const double *a = w->a;
+            out->vs[at] = gx[mirrored];
+            out->vd[at] = VM[mirrored];
+            out->ss[at] = (k->g[i] * w->D[j] + w->D[i] * k->g[j]) / 2 - (same ? gD : 0);
+            out->sd[at] = VMD[mirrored] + (c->tau[0] / 2 * ((same ? ma : 0) - k->m[i] * a[j]) + moment[at]) / 2;
+            out->dd[at] += c1 * (a[i] * side[j] + side[i] * a[j]) + c2 * (a[i] * k->t[j] + k->t[i] * a[j]) + c3 * a[i] * a[j] +
+                           (same ? c4 : 0);
+        }
 }
 
-void screw_prepare(element_data *d)
+/* w = s + C delta, C = -tau/2 a~. */
+static void form_of_nodes(const screw *w, form *k)
 {
-    const double straight[3] = {0};
-    strain_prepare(2, 1, d->l0, straight, MEASURE_ANGLE, &d->line);
+    double C[9], vsC[9], ssC[9], CsC[9], Csd[9];
+    skew(w->a, C);
+    for (int i = 0; i < 9; i++)
+        C[i] *= -w->f.tau[0] / 2;
+    mat3_mul(k->vs, C, vsC);
+    mat3_mul(k->ss, C, ssC);
+    mat3_transpose_mul(C, ssC, CsC);
+    mat3_transpose_mul(C, k->sd, Csd);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            const int at = 3 * i + j, mirrored = 3 * j + i;
+            k->vd[at] += vsC[at];
+            k->sd[at] += ssC[at];
+            k->dd[at] += CsC[at] + Csd[at] + Csd[mirrored];
+        }
+}
+
+/* R A R^T. */
+static void turned(const double R[9], double A[9])
+{
+    double RA[9];
+    mat3_mul(R, A, RA);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            A[3 * i + j] = vec3_dot(RA + 3 * i, R + 3 * j);
+}
+
+static void nodal_form(const screw *w, form *k, double H[COORDINATES * COORDINATES])
+{
+    double *const blocks[] = {k->vs, k->vd, k->ss, k->sd, k->dd};
+    for (int b = 0; b < 5; b++)
+        turned(w->R, blocks[b]);
+    memset(H, 0, COORDINATES * COORDINATES * sizeof *H);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            const int at = 3 * i + j, mirrored = 3 * j + i, n = COORDINATES;
+            const double even = k->ss[at] / 4 + k->dd[at], odd = (k->sd[at] + k->sd[mirrored]) / 2;
+            const double across = k->ss[at] / 4 - k->dd[at] + (k->sd[at] - k->sd[mirrored]) / 2;
+            const double toward_p = k->vs[at] / 2 - k->vd[at], toward_q = k->vs[at] / 2 + k->vd[at];
+            H[(TP + i) * n + TP + j] = even - odd;
+            H[(TQ + i) * n + TQ + j] = even + odd;
+            H[(TP + i) * n + TQ + j] = H[(TQ + j) * n + TP + i] = across;
+            H[(RQ + i) * n + TP + j] = H[(TP + j) * n + RQ + i] = toward_p;
+            H[(RQ + i) * n + TQ + j] = H[(TQ + j) * n + RQ + i] = toward_q;
+            H[(RP + i) * n + TP + j] = H[(TP + j) * n + RP + i] = -toward_p;
+            H[(RP + i) * n + TQ + j] = H[(TQ + j) * n + RP + i] = -toward_q;
+        }
+}
+
+/* e from U less l0, from l0 psi and l0^2 a: rows of n. */
+static void arrange(int n, const double U[], const double turn[], double e[])
+{
+    for (int k = 0; k < n; k++) {
+        const double half[2] = {turn[n + k] / 2, turn[2 * n + k] / 2};
+        e[k] = U[k];
+        e[1 * n + k] = turn[k];
+        e[2 * n + k] = half[0] - U[2 * n + k];
+        e[3 * n + k] = half[0] + U[2 * n + k];
+        e[4 * n + k] = half[1] + U[1 * n + k];
+        e[5 * n + k] = half[1] - U[1 * n + k];
+    }
 }
 
 void screw_strain(const element_data *d, const node_state x[], strain_output *out)
 {
-    double measured[STRAINS], J[STRAINS * COORDINATES], T[3 * MEASURED], U[3 * COORDINATES];
-    strain_of(&d->line, x, &(strain_output){.e = measured, .J = J});
-    const screw w = screw_of(d->l0, measured);
+    const double l0 = d->l0;
+    const screw w = screw_of(l0, x);
     if (out->e != NULL) {
-        for (int i = 0; i < 3; i++)
-            U[i] = measured[i] + w.n[0] * w.b[i];
-        arrange(1, U, measured, out->e);
+        const double turn[3] = {2 * l0 * w.a[0], 2 * l0 * w.a[1], 2 * l0 * w.a[2]};
+        arrange(1, w.U, turn, out->e);
+        out->e[6] = l0 * l0 * x[0].a;
+        out->e[7] = l0 * l0 * x[1].a;
     }
-    if (out->J == NULL && (out->s == NULL || out->H == NULL))
-        return;
-    translation_gradient(d->l0, &w, T);
     if (out->J != NULL) {
-        dense_mul(3, MEASURED, COORDINATES, T, J, U);
-        arrange(COORDINATES, U, J, out->J);
+        double U[3 * COORDINATES], turn[3 * COORDINATES];
+        for (int i = 0; i < 3; i++) {
+            const double none[3] = {0}, f[3] = {i == 0, i == 1, i == 2}, t[3] = {l0 * f[0], l0 * f[1], l0 * f[2]};
+            const work translating = work_of(&w, f, none), turning = work_of(&w, none, t);
+            nodal_row(&w, &translating, U + COORDINATES * i);
+            nodal_row(&w, &turning, turn + COORDINATES * i);
+        }
+        memset(out->J, 0, STRAINS * COORDINATES * sizeof *out->J);
+        arrange(COORDINATES, U, turn, out->J);
+        out->J[6 * COORDINATES + AP] = out->J[7 * COORDINATES + AQ] = l0 * l0;
     }
-    if (out->s == NULL || out->H == NULL)
-        return;
-    const double *s = out->s, f[3] = {s[0], s[4] - s[5], s[3] - s[2]};
-    double dual[STRAINS] = {0, 0, 0, s[1], (s[2] + s[3]) / 2, (s[4] + s[5]) / 2, s[6], s[7]};
-    double W[MEASURED * MEASURED], work[MEASURED * COORDINATES];
-    dense_add_transpose_mul(MEASURED, 3, 1, T, f, dual);
-    strain_of(&d->line, x, &(strain_output){.s = dual, .H = out->H});
-    translation_second(d->l0, &w, f, W);
-    dense_add_congruence(MEASURED, COORDINATES, J, W, out->H, work);
+    if (out->s != NULL && out->H != NULL) {
+        const double *s = out->s, f[3] = {s[0], s[4] - s[5], s[3] - s[2]};
+        const double t[3] = {l0 * s[1], l0 / 2 * (s[2] + s[3]), l0 / 2 * (s[4] + s[5])};
+        const work k = work_of(&w, f, t);
+        form second;
+        form_of_middle(&w, &k, f, &second);
+        form_of_nodes(&w, &second);
+        nodal_form(&w, &second, out->H);
+    }
 }

@@ -8,8 +8,6 @@
 
 #include "elements/beamw/forms.h"
 
-void screw_prepare(element_data *d);
-
 /* As element_type.strain. */
 void screw_strain(const element_data *d, const node_state x[], strain_output *out);
 

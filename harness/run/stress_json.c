@@ -26,11 +26,12 @@ static json_t *outcome_of(const stress *s, const stress_outcome *o)
     json_t *neighbours = json_array();
     for (int i = 0; i < STRESS_NEIGHBOURS && o->neighbours >= 0; i++)
         json_array_append_new(neighbours, json_number(o->neighbour_error[i]));
-    json_t *out = json_pack("{s:s,s:f,s:s,s:s,s:s,s:i,s:s,s:b,s:I,s:s,s:s,s:o}", "extreme", e->name, "x", o->x, "parameters",
-                            s->first.point[o->point].text, "formulation", s->formulation[o->formulation].key, "quantity",
-                            e->quantity[o->quantity].name, "elements", s->first.series[o->series].mesh[0], "outcome",
-                            stress_name(o->kind), "as_expected", o->as_expected, "iterations", (json_int_t)c->counters.iterations,
-                            "reason", o->reason, "proof", o->finding != NULL ? o->finding->proof : "", "neighbour_errors", neighbours);
+    json_t *out =
+        json_pack("{s:s,s:f,s:s,s:s,s:s,s:i,s:s,s:b,s:I,s:s,s:s,s:o}", "extreme", e->name, "x", o->x, "parameters",
+                  s->first.point[o->point].text, "formulation", s->formulation[o->formulation].key, "quantity",
+                  e->quantity[o->quantity].name, "elements", s->first.series[o->series].mesh[0], "outcome", stress_name(o->kind),
+                  "as_expected", o->as_expected, "iterations", (json_int_t)c->counters.iterations, "reason", o->reason, "proof",
+                  o->finding != NULL ? o->finding->proof : "", "neighbour_errors", neighbours);
     json_object_set_new(out, "value", json_number(o->result));
     json_object_set_new(out, "reference", json_number(o->reference));
     json_object_set_new(out, "error", json_number(o->error));
