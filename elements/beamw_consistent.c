@@ -1,5 +1,6 @@
 /* BEAMW repaired: the whole of D in the stiffness, strains that see uniform shear of any size (elements/beamw/screw.h), and modified
- * modes from the strains of the Simo-Reissner beam over the full linear solution (elements/beamw/modified.c). */
+ * modes from the strains of the Simo-Reissner beam over the full linear solution (elements/beamw/modified.c); what bends, shears and
+ * warps inside the element follows its stress (elements/beamw/follow.c). */
 #include "elements/beamw/inertia.h"
 #include "elements/beamw/prepare.h"
 #include "elements/beamw/screw.h"

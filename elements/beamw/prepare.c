@@ -74,15 +74,16 @@ status prepare_consistent(const element_request *request, consistent_data *out, 
         return sound;
     const int flexible = (request->features & FEATURE_SHEAR) != 0, warping = (request->features & FEATURE_WARPING) != 0;
     const twist t = twist_of(c, request->length, flexible, (twist_kind)request->options[OPTION_TORSION]);
+    double Q[FORMS_MODIFIED][MODIFIED_VARIABLES * MODIFIED_VARIABLES];
     stiffness_fields fields;
     memset(out, 0, sizeof *out);
     out->form.l0 = request->length;
     out->following = request->options[OPTION_INSIDE] != 0;
     stiffness_of(c, request->length, flexible ? STIFFNESS_COUPLED : STIFFNESS_RIGID, &t, &fields, out->form.S);
-    const status made = modified_consistent(c, request->features, request->length, &t, &fields, out->inside.Q, f);
+    const status made = modified_consistent(c, request->features, request->length, &t, &fields, Q, f);
     if (made != STATUS_OK)
         return made;
-    modified_reduce(&fields, out->inside.Q, &out->form);
-    follow_prepare(c, request->length, flexible, warping, &t, &fields, &out->inside);
+    modified_reduce(&fields, Q, &out->form);
+    follow_prepare(c, request->length, flexible, warping, &t, &fields, Q, &out->inside);
     return finish(request, &fields, &out->form, f);
 }

@@ -69,21 +69,9 @@ static void add_square(double S[8 * 8], double k, const double a[8])
     forms_add_product(S, k / 2, a, a);
 }
 
-void stiffness_even(const section *c, double l, const twist *t, const stiffness_fields *f, double S[8 * 8])
-{
-    const double E = c->young, G = c->shear_modulus, l3 = l * l * l;
-    const double e1[8] = {1}, e2[8] = {0, 1}, sum_y[8] = {0, 0, 1, 1}, sum_z[8] = {0, 0, 0, 0, 1, 1};
-    memset(S, 0, 64 * sizeof(double));
-    add_square(S, E * c->A / l, e1);
-    add_square(S, E * c->Iy / l3, sum_y);
-    add_square(S, E * c->Iz / l3, sum_z);
-    add_square(S, G * c->It / l3, e2);
-    add_square(S, t->opposite, f->A);
-}
-
 void stiffness_of(const section *c, double l, stiffness_shear kind, const twist *t, stiffness_fields *f, double S[8 * 8])
 {
-    const double E = c->young;
+    const double E = c->young, G = c->shear_modulus, l3 = l * l * l;
     const double Ka[3] = {12 * E * c->Iz / l, 12 * E * c->Iy / l, t->uneven};
     double M[9], K[9];
     antisymmetric_functionals(c, l, f);
@@ -98,7 +86,13 @@ void stiffness_of(const section *c, double l, stiffness_shear kind, const twist 
     for (int k = 0; k < 8; k++)
         f->tw[k] = l * l * f->hg[W][k];
 
-    stiffness_even(c, l, t, f, S);
+    const double e1[8] = {1}, e2[8] = {0, 1}, sum_y[8] = {0, 0, 1, 1}, sum_z[8] = {0, 0, 0, 0, 1, 1};
+    memset(S, 0, 64 * sizeof(double));
+    add_square(S, E * c->A / l, e1);
+    add_square(S, E * c->Iy / l3, sum_y);
+    add_square(S, E * c->Iz / l3, sum_z);
+    add_square(S, G * c->It / l3, e2);
+    add_square(S, t->opposite, f->A);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             forms_add_product(S, K[3 * i + j] / 2, f->h[i], f->h[j]);

@@ -20,9 +20,6 @@ typedef struct stiffness_fields {
     double tw[8];    /* l0^2 hg_w */
 } stiffness_fields;
 
-/* S without the part of h. */
-void stiffness_even(const section *c, double l0, const twist *t, const stiffness_fields *fields, double S[8 * 8]);
-
 /* t: twist_of the same section, length and shear. */
 void stiffness_of(const section *c, double l0, stiffness_shear kind, const twist *t, stiffness_fields *fields, double S[8 * 8]);
 

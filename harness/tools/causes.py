@@ -29,7 +29,6 @@ LEFT_OUT = {  # what a formulation does with a feature
     "sheet_third": {"shear": "N Eqs. 37 and 50 leave shear out (ERRATA)"},
     "sheet_third_printed": {"shear": "N Eqs. 37 and 50 leave shear out (ERRATA)"},
     "sheet_second_consistent": {"shear": "shear angles kept to second order only"},
-    "beamw_consistent": {"shear": "a moment turned by the twist shears the section (ERRATA, measured here), which modes of second order do not see"},
 }
 KEEPS_SHEAR = ("sheet_second_consistent", "keeping shear in the compatibility equations")
 EXACT = ("collocation", "exact kinematics with shear angles of any size")
