@@ -1,4 +1,4 @@
-/* A cantilever that turns steadily: flap and lag frequencies, stretch of the end.  L = 1 m, EI = 1 N m^2, rho A = 1 kg/m, so that
+/* A cantilever that turns steadily: flap and lag frequencies, stretch of the end, force on the root [EI/L^2].  L = 1 m, EI = 1 N m^2, rho A = 1 kg/m, so that
  * frequencies are in sqrt(EI/(rho A L^4)).  The root is at a distance from the axis, which is normal to the beam or inclined
  * towards it; flap is motion in the plane of beam and axis, lag across it.  No shear, no rotary inertia. */
 #include <math.h>
@@ -96,6 +96,12 @@ static status build(const double value[], scene *s, fault *f)
         make_curve(scene_add_quantity(s, "growth_curve", "1", SCENE_GROWTH, rotation), omega);
     cantilever_quantity(s, "stretch", "1", rotation, tip, SCENE_UX, 1, 0);
     s->quantity[s->quantities - 1].tolerance = 1e-8;
+    scene_quantity *pull = scene_add_quantity(s, "root_force", "1", SCENE_REACTION, rotation);
+    pull->node = root;
+    pull->row = SCENE_UX;
+    pull->factor = -1;
+    pull->tolerance = 1e-6;
+    pull->least_order = 1.8;
     const int meshes[] = {2, 4, 8, 16, 32, 64};
     scene_meshes(s, 6, meshes);
     return STATUS_OK;
