@@ -2,7 +2,7 @@
 
 Units: L = 1, EI = 1, rho A = 1; EA = s^2 with s the slenderness L/sqrt(I/A), the root at x = R.  No shear, no rotary inertia.
 Equilibrium: stretch x' = 1 + N/EA, N' = -Omega^2 x: x = R cos kX + (1 + k R sin k) sin(kX)/(k cos k), k = Omega/s, hence the end
-stretch tan k/k - 1 + R (1/cos k - 1).
+stretch tan k/k - 1 + R (1/cos k - 1) and the force on the root s^2 (x'(0) - 1).
 Second order in w: 1/2 [N w'^2/x' + (w'/x')'^2]; flap: det(K - omega^2 M) = 0; lag adds -Omega^2 v and the Coriolis coupling
 with stretching, 2 Omega (u' v - u v').  s -> inf: w'''' - Omega^2/2 ((1 - X^2) w')' = omega^2 w, and lag^2 = flap^2 - Omega^2.
 Galerkin method with integrated Legendre polynomials; spectral, so that all digits are reached.
@@ -10,7 +10,7 @@ Axis along the beam: no stretch, and both planes have the modes of the beam at r
 lambda^4 + lambda^2 (a + b + 4 Omega^2) + a b = 0 with a = omega_j^2 - Omega^2, b = ratio omega_j^2 - Omega^2.
 """
 import numpy as np
-from mpmath import cos, cosh, findroot, mp, mpf, pi, sqrt, tan
+from mpmath import cos, cosh, findroot, mp, mpf, pi, sin, sqrt, tan
 from numpy.polynomial import legendre
 from scipy.linalg import eigh, eig
 
@@ -71,6 +71,11 @@ def stretch(omega, s, R=0):
     return tan(k) / k - 1 + R * (1 / cos(k) - 1)
 
 
+def root_force(omega, s, R=0):
+    k = mpf(omega) / s
+    return mpf(s) ** 2 * ((1 + k * R * sin(k)) / cos(k) - 1)
+
+
 def bending(count):
     """Natural frequencies of the cantilever at rest: cos(z) cosh(z) = -1, omega = z^2."""
     return [findroot(lambda z: cos(z) + 1 / cosh(z), (j + mpf(1) / 2) * pi + (mpf("0.3") if j == 0 else 0)) ** 2 for j in range(count)]
@@ -96,6 +101,7 @@ def across(omega, slenderness, at, R=0):
             yield "rotating_cantilever", at, f"{name}_{i + 1}", value, "1", RELATIVE
     if omega:
         yield "rotating_cantilever", at, "stretch", stretch(omega, slenderness, R), "1"
+        yield "rotating_cantilever", at, "root_force", root_force(omega, slenderness, R), "1"
     yield "rotating_cantilever", at, "growth", 0, "1"
 
 
@@ -108,7 +114,8 @@ def rows():
     yield from across(12, 1000, "omega_star=12;stations=13")
     yield from across(6, 1000, "hub_radius=1", 1)
     yield from across(1, 1000, "hub_radius=-2;omega_star=1", -2)
-    yield "rotating_cantilever", "omega_star=5;slenderness=10", "stretch", stretch(5, 10), "1"
+    for name, value in (("stretch", stretch(5, 10)), ("root_force", root_force(5, 10))):
+        yield "rotating_cantilever", "omega_star=5;slenderness=10", name, value, "1"
     for omega, ratio, more in ((2, 1, ""), (5, 4, ";stiffness_ratio=4"), (10, 4, ";stations=41;stiffness_ratio=4")):
         at = f"axis=1.5707963267948966;omega_star={omega}{more}"
         frequencies, growth = whirl(omega, ratio, 4)

@@ -7,7 +7,7 @@ import numpy as np
 from mpmath import besselj, findroot, mp, mpf, pi, sqrt
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
-from reference.derive import column, linear_buckling, rotating  # noqa: E402
+from reference.derive import channel_cantilever, channel_rotating, column, linear_buckling, rotating  # noqa: E402
 from reference.derive.section import section  # noqa: E402
 
 
@@ -62,19 +62,35 @@ class Buckling(unittest.TestCase):
 
 class Rotating(unittest.TestCase):
     def test_slender_limit_by_power_series(self):
-        """w'''' - Omega^2/2 ((1 - X^2) w')' = omega^2 w, w(0) = w'(0) = 0, w''(1) = w'''(1) = 0."""
-        def determinant(omega, Omega):
+        """w'''' - Omega^2 (T w')' = omega^2 w with T = R (1 - X) + (1 - X^2)/2, w(0) = w'(0) = 0, w''(1) = w'''(1) = 0."""
+        def determinant(omega, Omega, R):
             tall = []
             for start in ((0, 0, 1, 0), (0, 0, 0, 1)):
                 c = [mpf(v) for v in start]
                 for n in range(120):
-                    # [(1 - X^2) w']' = sum of (n + 2)(n + 1) c_(n+2) - n (n + 1) c_n
-                    c.append((Omega ** 2 / 2 * ((n + 2) * (n + 1) * c[n + 2] - n * (n + 1) * c[n]) + omega ** 2 * c[n]) / ((n + 1) * (n + 2) * (n + 3) * (n + 4)))
+                    tension = (n + 1) * ((R + mpf(1) / 2) * (n + 2) * c[n + 2] - R * (n + 1) * c[n + 1] - mpf(n) / 2 * c[n])
+                    c.append((Omega ** 2 * tension + omega ** 2 * c[n]) / ((n + 1) * (n + 2) * (n + 3) * (n + 4)))
                 tall.append((sum(n * (n - 1) * v for n, v in enumerate(c)), sum(n * (n - 1) * (n - 2) * v for n, v in enumerate(c))))
             return tall[0][0] * tall[1][1] - tall[0][1] * tall[1][0]
-        for Omega in (2, 12):
-            for value in rotating.flap(Omega, 1e7):
-                self.assertLess(abs(findroot(lambda w: determinant(w, mpf(Omega)), value) / value - 1), 1e-10)
+        for Omega, R in ((2, 0), (12, 0), (6, 1), (1, -2)):
+            for value in rotating.flap(Omega, 1e7, R=R):
+                self.assertLess(abs(findroot(lambda w: determinant(w, mpf(Omega), R), value) / value - 1), 1e-10)
+
+    def test_symmetric_shaft(self):
+        """In the turning frame whirling is omega_j +- Omega, beyond the critical speed too."""
+        rest = rotating.bending(3)
+        for Omega in (2, 5):
+            frequencies, growth = rotating.whirl(Omega, 1, 3)
+            self.assertEqual(growth, 0)
+            for found, value in zip(frequencies, sorted(abs(w + sign * Omega) for w in rest for sign in (-1, 1))):
+                self.assertLess(abs(found / value - 1), 1e-20)
+
+    def test_channel_at_rest(self):
+        """The program for the turning channel without rotation, against the one for the resting channel."""
+        force, lateral = channel_rotating.path((0.1,), 0)[0]
+        other, aside = channel_cantilever.path((0.1,))[0]
+        self.assertLess(abs(force / other - 1), 1e-8)
+        self.assertLess(abs(lateral / aside - 1), 1e-8)
 
     def test_lag_follows_from_flap(self):
         for Omega in (2, 6, 12):
