@@ -93,7 +93,8 @@ static void exhaust(const char *name, attempt *run, const void *what, int most)
         const status outcome = run(what, &value, &why);
         refused_call = 0;
         const int says_so = outcome == STATUS_FAULT || (outcome == STATUS_REFUSED && strstr(why.text, "memory") != NULL);
-        const int good = outcome == STATUS_OK ? fabs(value - right) <= 1e-13 * fabs(right) : says_so && why.text[0] != '\0' && strchr(why.text, '\n') == NULL;
+        const int good = outcome == STATUS_OK ? fabs(value - right) <= 1e-13 * fabs(right)
+                                              : says_so && why.text[0] != '\0' && strchr(why.text, '\n') == NULL;
         bad_status += outcome != STATUS_OK && !says_so;
         bad_line += outcome != STATUS_OK && says_so && !good;
         wrong += outcome == STATUS_OK && !good;
