@@ -1,9 +1,12 @@
 /* Clamped sheet flexure with a prescribed tip deflection and no tip rotation about z: compliance of the deformed sheet.
  * N section 4.1, Fig. 5. */
 #include "cases/shared/sheet.h"
+#include "cases/shared/sheet_prediction.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { MODES = SHEET_PARAMETERS, DENSITY, ROTARY, STATIONS };
 enum { MOST_STATIONS = 100, MOST_MODES = 6 };
@@ -61,6 +64,27 @@ static void add_frequencies(scene *s, int path, int count)
     }
 }
 
+/* N's closed-form solution beside the elements, where it speaks of them. */
+static void add_predictions(const double value[], scene *s)
+{
+    section c;
+    if (section_compute(&s->section[0], &c, NULL) != STATUS_OK)
+        return; /* model_alloc says why */
+    const sheet_prediction p = sheet_predict(&c, value[SHEET_LENGTH], value[SHEET_DEFLECTION], value[SHEET_TIP_WARPING] != 0,
+                                             value[SHEET_SHEAR] != 0, (scene_moments)value[SHEET_MOMENTS]);
+    const struct {
+        const char *name;
+        double value;
+    } known[] = {{"C_xx", p.C_xx}, {"C_ux_Fx", p.C_xx}, {"C_zz", p.C_zz}, {"C_uz_Fz", p.C_zz},
+                 {"u_x", p.u_x},   {"F_y", p.F_y},      {"M_z", p.M_z}};
+    for (int i = 0; i < s->quantities; i++)
+        for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
+            if (strcmp(s->quantity[i].name, known[k].name) == 0 && isfinite(known[k].value)) {
+                s->quantity[i].prediction = known[k].value;
+                s->quantity[i].predicted_by = sheet_prediction_source;
+            }
+}
+
 static status build(const double value[], scene *s, fault *f)
 {
     int root, tip;
@@ -94,6 +118,8 @@ static status build(const double value[], scene *s, fault *f)
     add_gated(s, "M_z", "N m", SCENE_REACTION, path_analysis, tip, SCENE_RZ);
     add_curve(s, "C_xx_curve", compliance, tip, SCENE_UX, value[SHEET_DEFLECTION]);
     add_curve(s, "C_zz_curve", compliance, tip, SCENE_UZ, value[SHEET_DEFLECTION]);
+    if (s->sections > 0)
+        add_predictions(value, s);
     if (value[MODES] > 0) {
         add_frequencies(s, path_analysis, (int)value[MODES]);
         s->needs |= value[ROTARY] != 0 ? SCENE_NEED_ROTARY_INERTIA : 0;

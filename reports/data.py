@@ -56,6 +56,7 @@ class Mesh:
     kept: Kept = None
     parts: dict = field(default_factory=dict)   # part of Newton's iterations -> seconds
     dense: Dense = None
+    predictions: dict = field(default_factory=dict)   # quantity -> value of an analytic model
 
     @property
     def seconds(self):
@@ -168,6 +169,10 @@ def read_mesh(group, units):
         name = text(row["name"])
         mesh.values[name], mesh.errors[name], mesh.model_errors[name] = float(row["value"]), float(row["error"]), float(row["model_error"])
         mesh.reasons[name], units[name] = text(row["reason"]), text(row["unit"])
+        if "prediction" in row.dtype.names and math.isfinite(row["prediction"]):
+            mesh.predictions[name] = float(row["prediction"])
+    for name, item in group["curves"].items():
+        mesh.curves[name] = (item["x"][()], item["value"][()], text(item["x"].attrs["name"]), text(item["x"].attrs["unit"]), text(item["value"].attrs["unit"]))
     return mesh
 
 

@@ -22,6 +22,7 @@ PAGES = (
     "paths",
     "campbell",
     "newton",
+    "predictions",
     "stability",
     "printable",
     "environment",

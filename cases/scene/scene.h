@@ -134,6 +134,8 @@ typedef struct scene_quantity {
     double near_zero;                    /* absolute scale for relative errors of values near zero; 0: |value| */
     double tolerance;                    /* relative, of the limit against the truth */
     double least_order;                  /* of convergence in the number of elements */
+    double prediction;                   /* [unit] of an analytic model with an error of its own: shown, never judged ... */
+    const char *predicted_by;            /* ... and its source; NULL: there is none */
     char x_name[SCENE_NAME], x_unit[16]; /* of a curve */
     int x_driver; /* curve: abscissa is this driver's value; SCENE_NONE: the path parameter times x_factor plus x_offset */
     double x_factor, x_offset;

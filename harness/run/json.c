@@ -100,6 +100,9 @@ static void add_quantities(json_t *root, const point *p, const solve_result *r, 
         if (!isfinite(v->value))
             json_object_set_new(one, "reason", json_string(v->reason[0] != '\0' ? v->reason : r->reason));
         json_object_set_new(one, "truths", truths_of(p, q, v->value, t));
+        const truth *row = t != NULL ? truth_of(t, p->type, p->parameter, q->name, "same") : NULL;
+        json_object_set_new(one, "prediction",
+                            json_prediction(q, row != NULL ? relative_error(q, q->prediction, row->value) : NAN));
         json_array_append_new(values, one);
     }
     json_object_set_new(root, "quantities", values);

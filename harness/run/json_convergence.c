@@ -40,6 +40,9 @@ static json_t *quantity_of(const sweep *s, const truths *t, int index, int q)
     json_object_set_new(out, "truth", json_number(v.truth != NULL ? v.truth->value : NAN));
     json_object_set_new(out, "error", json_number(v.error));
     json_object_set_new(out, "model_error", json_number(v.model_error));
+    const scene_quantity *asked = &p->scene.quantity[q];
+    json_object_set_new(out, "prediction",
+                        json_prediction(asked, v.truth != NULL ? relative_error(asked, asked->prediction, v.truth->value) : NAN));
     json_object_set_new(out, "meshes", meshes_of(p, one, q, v.truth));
     return out;
 }

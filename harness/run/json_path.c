@@ -15,6 +15,16 @@ json_t *json_numbers(int count, const double value[])
     return list;
 }
 
+json_t *json_prediction(const scene_quantity *q, double error)
+{
+    if (q->predicted_by == NULL)
+        return json_null();
+    json_t *out = json_pack("{s:s}", "source", q->predicted_by);
+    json_object_set_new(out, "value", json_number(q->prediction));
+    json_object_set_new(out, "error", json_number(error));
+    return out;
+}
+
 json_t *json_steps(const solve_result *r)
 {
     json_t *list = json_array();

@@ -11,7 +11,8 @@ enum { STORE_VERSION = 1 };
 /* One row of a mesh's quantities. */
 typedef struct store_row {
     char name[SCENE_NAME], unit[16], moments[16], status[16], reason[128];
-    double value, error, model_error, x, near_zero; /* near_zero: [unit] a value below it counts as zero */
+    double value, error, model_error, x, near_zero,
+        prediction; /* near_zero: [unit] a value below it counts as zero; prediction: or NAN */
 } store_row;
 hid_t store_row_type(void); /* in memory and in the file */
 

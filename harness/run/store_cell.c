@@ -79,7 +79,8 @@ hid_t store_row_type(void)
                  {"error", offsetof(store_row, error), 0},
                  {"model_error", offsetof(store_row, model_error), 0},
                  {"x", offsetof(store_row, x), 0},
-                 {"near_zero", offsetof(store_row, near_zero), 0}};
+                 {"near_zero", offsetof(store_row, near_zero), 0},
+                 {"prediction", offsetof(store_row, prediction), 0}};
     const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof(store_row));
     for (size_t i = 0; i < sizeof field / sizeof field[0]; i++) {
         const hid_t text = field[i].length > 0 ? record_text_type(field[i].length) : -1;
@@ -111,6 +112,7 @@ static void put_quantities(record *r, hid_t at, const point *p, const solve_resu
             of[i] != NULL && of[i]->model_truth != NULL ? relative_error(q, v->value, of[i]->model_truth->value) : NAN;
         row[i].x = v->x;
         row[i].near_zero = q->near_zero;
+        row[i].prediction = q->predicted_by != NULL ? q->prediction : NAN;
         if (v->curve.points > 0)
             put_curve(r, curves, q, &v->curve);
     }

@@ -36,6 +36,22 @@ static void value_or_dash(FILE *to, int width, int digits, char conversion, doub
         fprintf(to, "%*.*f", width, digits, value);
 }
 
+/* Analytic models beside the elements; they judge nothing. */
+static void table_predictions(FILE *to, const point *p, const truths *t)
+{
+    for (int i = 0; i < p->scene.quantities; i++) {
+        const scene_quantity *q = &p->scene.quantity[i];
+        const truth *row = t != NULL ? truth_of(t, p->type, p->parameter, q->name, "same") : NULL;
+        char name[SCENE_NAME + 16];
+        if (q->predicted_by == NULL)
+            continue;
+        snprintf(name, sizeof name, "prediction %s", q->name);
+        fprintf(to, "%-28s %24.15g %-10s", name, q->prediction, q->unit);
+        percent(to, row != NULL ? relative_error(q, q->prediction, row->value) : NAN);
+        fprintf(to, " %s, analytic\n", q->predicted_by);
+    }
+}
+
 void table_solution(FILE *to, const sweep *s, const truths *t)
 {
     const series *one = &s->series[0];
@@ -65,6 +81,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
         percent(to, row != NULL ? relative_error(q, v->value, row->value) : NAN);
         fprintf(to, "%s%s\n", row != NULL ? " against " : "", row != NULL ? row->kind : "");
     }
+    table_predictions(to, p, t);
     table_matrices(to, &c->solve);
     table_steps(to, &c->solve);
 }
@@ -108,6 +125,11 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
             if (row != NULL)
                 fprintf(to, ", %s %.14g: %s", row->kind, row->value, sentence);
             fputc('\n', to);
+            if (p->scene.quantity[q].predicted_by != NULL) {
+                fprintf(to, "  prediction%21.14g", p->scene.quantity[q].prediction);
+                percent(to, row != NULL ? relative_error(&p->scene.quantity[q], p->scene.quantity[q].prediction, row->value) : NAN);
+                fprintf(to, " %s, analytic\n", p->scene.quantity[q].predicted_by);
+            }
         }
     }
 }

@@ -1,0 +1,46 @@
+"""Analytic predictions beside single elements, on the pages of the cases that have some."""
+import math
+
+from markupsafe import Markup
+
+from reports.site import number, percent
+
+NAVIGATION = []
+MOST_POINTS = 6
+
+
+def tasks(site):
+    return []
+
+
+def truths_of(point):
+    """{quantity: exact value}"""
+    return {v.quantity: v.truth for s in point.series for v in s.verdicts if math.isfinite(v.truth)}
+
+
+def of_point(point):
+    """[(quantity, prediction, its error, [(formulation, error of its coarsest mesh)])]"""
+    known = truths_of(point)
+    coarsest = [(s.key, s.meshes[0]) for s in point.series if s.meshes]
+    predictions = {name: value for _, mesh in coarsest for name, value in mesh.predictions.items()}
+    return [(name, value, value / known[name] - 1 if known.get(name) else math.nan, [(key, mesh.n, mesh.errors.get(name, math.nan)) for key, mesh in coarsest])
+            for name, value in predictions.items()]
+
+
+def table(point):
+    rows = of_point(point)
+    keys = [(key, n) for key, n, _ in rows[0][3]]
+    head = "".join(Markup("<th class='n'>{}, n = {}</th>").format(key, n) for key, n in keys)
+    body = "".join(Markup("<tr><td>{}</td><td class='n'>{}</td><td class='n'><strong>{}</strong></td>").format(name, number(value, 8), percent(error))
+                   + "".join(Markup("<td class='n'>{}</td>").format(percent(e)) for _, _, e in errors) + Markup("</tr>") for name, value, error, errors in rows)
+    return (Markup("<h3>{}</h3>").format(point.parameters or "defaults")
+            + Markup(f"<div class='scroll'><table><tr><th></th><th class='n'>prediction</th><th class='n'>its error</th>{head}</tr>{body}</table></div>"))
+
+
+def section(site, case):
+    points = [p for p in case.points if any(m.predictions for s in p.series for m in s.meshes) and truths_of(p)][:MOST_POINTS]
+    if not points:
+        return []
+    about = Markup("<p>The closed-form solution is one element's potential, solved by hand: a prediction with an error of its own, which judges nothing. "
+                   "Errors against the exact beam, beside those of the coarsest mesh of each formulation.</p>")
+    return [("Analytic prediction", about + Markup("").join(table(p) for p in points))]
