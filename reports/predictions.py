@@ -30,11 +30,11 @@ def of_point(point):
 def table(point):
     rows = of_point(point)
     keys = [(key, n) for key, n, _ in rows[0][3]]
-    head = "".join(Markup("<th class='n'>{}, n = {}</th>").format(key, n) for key, n in keys)
-    body = "".join(Markup("<tr><td>{}</td><td class='n'>{}</td><td class='n'><strong>{}</strong></td>").format(name, number(value, 8), percent(error))
-                   + "".join(Markup("<td class='n'>{}</td>").format(percent(e)) for _, _, e in errors) + Markup("</tr>") for name, value, error, errors in rows)
+    head = Markup("").join(Markup("<th class='n'>{}, n = {}</th>").format(key, n) for key, n in keys)
+    body = Markup("").join(Markup("<tr><td>{}</td><td class='n'>{}</td><td class='n'><strong>{}</strong></td>").format(name, number(value, 8), percent(error))
+                   + Markup("").join(Markup("<td class='n'>{}</td>").format(percent(e)) for _, _, e in errors) + Markup("</tr>") for name, value, error, errors in rows)
     return (Markup("<h3>{}</h3>").format(point.parameters or "defaults")
-            + Markup(f"<div class='scroll'><table><tr><th></th><th class='n'>prediction</th><th class='n'>its error</th>{head}</tr>{body}</table></div>"))
+            + Markup("<div class='scroll'><table><tr><th></th><th class='n'>prediction</th><th class='n'>its error</th>{}</tr>{}</table></div>").format(head, body))
 
 
 def section(site, case):

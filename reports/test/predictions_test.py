@@ -23,6 +23,7 @@ class Predictions(unittest.TestCase):
         self.assertEqual(heading, "Analytic prediction")
         self.assertEqual(markup.count("<table>"), 1)
         self.assertIn("+5.0000 %", markup)
+        self.assertNotIn("&lt;", markup)
         self.assertEqual(predictions.section(None, data.Case("other", "", "", [point({})])), [])
 
 
