@@ -9,12 +9,6 @@
 
 enum { MOST_POINTS = 20000, MANY_ITERATIONS = 9, HALVINGS = 14 };
 
-/* The end of a step in doubt. */
-typedef struct rival {
-    model_state *state; /* NULL: none */
-    double factor;
-} rival;
-
 /* How an attempt ended. */
 typedef struct attempt {
     const char *doubt; /* NULL: sound */
@@ -115,27 +109,18 @@ static double next_size(const continuation *p, double size, double length, const
     return fmin(p->a->step_max, wanted < length ? wanted : fmax(size, wanted));
 }
 
-static status report_jump(continuation *p, const rival *r, double from, fault *f)
-{
-    const path_event event = {.kind = EVENT_BRANCH_JUMP,
-                              .analysis = p->analysis,
-                              .negative_before = p->here.negative,
-                              .negative_after = p->here.negative,
-                              .factor = p->here.factor,
-                              .control = p->here.control,
-                              .other_factor = r->factor,
-                              .measure = model_distance(p->c->model, p->n.state, r->state)};
-    const status outcome = continuation_add_event(p, &event, f);
-    if (outcome == STATUS_OK && p->a->constant_steps)
-        return fault_set(f, STATUS_NOT_CONVERGED,
-                         "the step from %g to %g m jumps to another branch (load factor %g, on this one %g): use smaller steps",
-                         from, p->here.control, r->factor, p->here.factor);
-    return outcome;
-}
-
 static double length_left(const continuation *p, path_goal goal, double gone)
 {
     return goal.by_arc ? goal.value - gone : fabs(goal.value - p->here.control);
+}
+
+/* The arc to a point depends on the steps to it: a rival that was not met so far may lie further on. */
+static int arrived(const continuation *p, path_goal goal, double station, const rival *r, double gone, double nearest)
+{
+    if (p->here.control == station)
+        return 1;
+    return length_left(p, goal, gone) <= 0 &&
+           (!goal.by_arc || r->state == NULL || nearest <= goal.value / 2 || gone >= 3 * goal.value);
 }
 
 /* From `here` to the goal in smaller steps. */
@@ -144,9 +129,10 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
     const double from = p->here.control, way = goal.value > from ? 1 : -1, smallest = ldexp(p->a->step, -HALVINGS);
     double gone = 0, nearest = INFINITY;
     int rejected = 1;
-    while (length_left(p, goal, gone) > 0 && p->here.control != station) {
-        const double left = length_left(p, goal, gone), length = *size * (1 + 1e-9) >= left ? left : *size;
-        const int last = length == left;
+    while (!arrived(p, goal, station, r, gone, nearest)) {
+        const double left = length_left(p, goal, gone);
+        const int last = left > 0 && *size * (1 + 1e-9) >= left;
+        const double length = last ? left : goal.by_arc ? fmin(*size, goal.value / 2) : *size;
         const path_goal part = {goal.by_arc, goal.by_arc ? length
                                              : last      ? goal.value
                                                          : from + way * (fabs(p->here.control - from) + length)};
@@ -170,11 +156,11 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
         if (outcome != STATUS_OK)
             return outcome;
         *size = next_size(p, *size, length, &t);
-        nearest = r->state == NULL ? 0 : fmin(nearest, model_distance(p->c->model, p->n.state, r->state));
-        if (last && !goal.by_arc)
-            nearest = r->state == NULL ? 0 : model_distance(p->c->model, p->n.state, r->state);
+        const double distance = r->state == NULL ? 0 : model_distance(p->c->model, p->n.state, r->state);
+        nearest = goal.by_arc ? fmin(nearest, distance) : distance;
     }
-    return r->state != NULL && nearest > (goal.by_arc ? goal.value / 2 : 1e-5) ? report_jump(p, r, from, f) : STATUS_OK;
+    return r->state != NULL && nearest > (goal.by_arc ? goal.value / 2 : 1e-5) ? continuation_report_jump(p, r, from, f)
+                                                                               : STATUS_OK;
 }
 
 /* One step to the goal, or several. */

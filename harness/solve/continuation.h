@@ -56,6 +56,15 @@ void continuation_go_back(continuation *);
  * turns relative to what is allowed. last_resort: several critical points may lie in one step, as it cannot be shorter. */
 const char *continuation_doubt(const continuation *, int last_resort, double *swing);
 
+/* The end of a step in doubt. */
+typedef struct rival {
+    model_state *state; /* NULL: none */
+    double factor;
+} rival;
+
+/* The step from the control coordinate `from` had led to the rival, the path leads here: an event, and with constant steps the end. */
+status continuation_report_jump(continuation *, const rival *, double from, fault *);
+
 /* continuation_critical.c: the critical points between `here` and `next`, if any, become events. The step was found with the goal.
  * *jump: 1 when the tangent stiffness changes its inertia without a critical point, which is another branch. */
 status continuation_critical(continuation *, path_goal, int *jump, fault *);

@@ -1,4 +1,4 @@
-/* Whether a step stayed on its branch. */
+/* Whether a step stayed on its branch, and what is said when it did not. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -28,4 +28,22 @@ const char *continuation_doubt(const continuation *p, int last_resort, double *s
     if (!last_resort && (pivots > 1 || (reversed && a->determinant == b->determinant)))
         return "the pivots of its tangent stiffness change by more than one critical point explains";
     return NULL;
+}
+
+status continuation_report_jump(continuation *p, const rival *r, double from, fault *f)
+{
+    const path_event event = {.kind = EVENT_BRANCH_JUMP,
+                              .analysis = p->analysis,
+                              .negative_before = p->here.negative,
+                              .negative_after = p->here.negative,
+                              .factor = p->here.factor,
+                              .control = p->here.control,
+                              .other_factor = r->factor,
+                              .measure = model_distance(p->c->model, p->n.state, r->state)};
+    const status outcome = continuation_add_event(p, &event, f);
+    if (outcome == STATUS_OK && p->a->constant_steps)
+        return fault_set(f, STATUS_NOT_CONVERGED,
+                         "the step from %g to %g m jumps to another branch (load factor %g, on this one %g): use smaller steps",
+                         from, p->here.control, r->factor, p->here.factor);
+    return outcome;
 }

@@ -172,6 +172,36 @@ static void jump_is_walked_around(void)
     cell_result_free(&r);
 }
 
+static status build_long_arcs(const double value[], scene *s, fault *f)
+{
+    const status outcome = case_find("lee_frame", f)->build(value, s, f);
+    s->analysis[0].constant_steps = 1;
+    s->analysis[0].step *= 5;
+    s->analysis[0].step_max *= 5;
+    return outcome;
+}
+
+/* Steps so long that each swings too far are walked again in smaller ones. Most led to the same branch and nothing has jumped;
+ * arcs of 0.5 meet another, on which the loaded point has swayed by 35 m and not by 94 m at the same deflection. */
+static void long_arcs(void)
+{
+    static const char *const step[] = {"step=0.02", "step=0.05", "step=0.15", "step=0.2"};
+    case_type type = *case_find("lee_frame", NULL);
+    type.build = build_long_arcs;
+    for (int i = 0; i < 4; i++) {
+        cell_result r = solve(&type, "beamw_consistent", 4, step[i]);
+        gsl_test_int((int)r.solve.status, STATUS_OK, "constant arcs, five times %s: %s", step[i], r.solve.reason);
+        gsl_test_int(r.solve.events, 2, "constant arcs, five times %s: two limit points", step[i]);
+        gsl_test_rel(value_of(&r, "limit_load_back"), -0.944210030, 1e-8, "constant arcs, five times %s: the same load", step[i]);
+        cell_result_free(&r);
+    }
+    cell_result r = solve(&type, "beamw_consistent", 4, "step=0.1");
+    gsl_test_int((int)r.solve.status, STATUS_NOT_CONVERGED, "constant arcs of 0.5: a jump ends the path: %s", r.solve.reason);
+    gsl_test(r.solve.events < 1 || r.solve.event[r.solve.events - 1].kind != EVENT_BRANCH_JUMP,
+             "constant arcs of 0.5: it is named");
+    cell_result_free(&r);
+}
+
 static void refusals(void)
 {
     scene s;
@@ -201,6 +231,7 @@ int main(void)
     constant_steps();
     jump_ends_constant_steps();
     jump_is_walked_around();
+    long_arcs();
     refusals();
     return gsl_test_summary();
 }
