@@ -43,13 +43,15 @@ static status measure(cli_request *r, truths *t, sweep *s, judgement *j, fault *
     const sweep_request request = {
         .select = r->select, .jobs = r->jobs, .formulations = r->formulations, .formulation = r->formulation, .progress = progress};
     status outcome = r->case_count > 0 ? plan_named(r, s, f) : sweep_plan(&request, t, s, f);
+    s->threads = r->threads;
     if (outcome == STATUS_OK)
         outcome = sweep_run(&request, s, f);
     if (outcome == STATUS_OK)
         outcome = judge(s, t, 0, j, f);
     if (outcome != STATUS_OK)
         return outcome;
-    clock_pin();
+    if (s->threads <= 1)
+        clock_pin();
     return timing_run(s, floor_seconds, r->dense, progress, f);
 }
 
@@ -81,7 +83,7 @@ int cli_bench(int count, char **arguments)
         "apart, with the error. Times whose rounds overlap are undecided. With --against: one cell in alternation with the same "
         "cell "
         "of another formulation or program, until the noise allows an answer.",
-        "+fnskFojTAXD", count, arguments, &r);
+        "+fnskFojTAXDt", count, arguments, &r);
     if (r.against != NULL)
         return cli_against(&r);
     if (r.case_count == 0 && (r.assignments > 0 || r.meshes > 0))

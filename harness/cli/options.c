@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
+#include "harness/model/team.h"
 #include "harness/run/registry.h"
 
 static const struct argp_option all_options[] = {
@@ -30,6 +31,7 @@ static const struct argp_option all_options[] = {
      0},
     {"markdown", 'M', "FILE", 0, "summary as Markdown, for a pull request", 0},
     {"against", 'A', "OTHER", 0, "compare in alternation with another formulation, or with another program (a path with a '/')", 0},
+    {"threads", 't', "N", 0, "threads that share the loop over elements (default 1); results are the same", 0},
     {"dense", 'D', NULL, 0, "time the published algorithm (newton=dense) beside every cell", 0},
     {"plant", 'X', "PERCENT", 0, "make the other slower by that much, to see whether the comparison finds it", 0},
     {"truths", 'T', "FILE", 0, "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)", 0},
@@ -140,6 +142,9 @@ static error_t take(int key, char *value, struct argp_state *state)
         return 0;
     case 'A':
         r->against = value;
+        return 0;
+    case 't':
+        r->threads = whole_number(value, "number of threads", 1, TEAM_MOST);
         return 0;
     case 'D':
         r->dense = 1;

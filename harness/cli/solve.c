@@ -53,6 +53,7 @@ static status solve_cell(const cli_request *r, sweep *s, fault *f)
     request.solve.newton = r->formulation[0].newton;
     request.solve.steps_between = r->steps;
     request.solve.shapes = r->shapes;
+    request.threads = r->threads;
     return cell_run(&request, &s->series[0].cell[0], f);
 }
 
@@ -63,7 +64,7 @@ int cli_solve(int count, char **arguments)
     fault f = {""};
     truths t = {0};
     cli_parse("solve", "CASE", "Solves one case with one formulation and one mesh and shows every quantity with its error.",
-              "fnsFoKSPT", count, arguments, &r);
+              "fnsFoKSPtT", count, arguments, &r);
     const case_type *type = cli_case(&r);
     if (type == NULL)
         return EXIT_REFUSED;

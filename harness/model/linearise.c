@@ -58,8 +58,6 @@ static status evaluate(model *m, const model_state *s, int i, const node_state x
     const status outcome =
         m->type->stress(data, e, &s->inner[(size_t)i * (size_t)m->inner],
                         &(stress_output){.sigma = w->sigma, .C = w->C, .memory = m->memory > 0 ? w->memory : NULL});
-    m->counters.strain_evaluations++;
-    m->counters.stress_evaluations++;
     for (int k = 0; k < m->strains; k++)
         w->gap[k] = deformed[k] - e[k];
     dense_mul_vec(m->strains, m->strains, w->C, w->gap, more);
@@ -128,33 +126,67 @@ static void add_columns(const model *m, const mesh_element *el, const double K[]
                     lin->column[c * (m->free + m->driven) + el->index[i]] += K[i * m->coordinates + j];
 }
 
+/* What the threads of a team share. */
+typedef struct shared_loop {
+    model *m;
+    const model_state *s;
+    int tangent;
+    double path;
+} shared_loop;
+
+static void element_part_of(const shared_loop *loop, int i, element_part *out)
+{
+    out->outcome = element_equations(loop->m, loop->s, i, loop->tangent, loop->path, out->force, out->K, &out->gap, &out->why);
+}
+
+static void fill_parts(void *context, int first, int end)
+{
+    const shared_loop *loop = context;
+    for (int i = first; i < end; i++)
+        element_part_of(loop, i, &loop->m->part[i]);
+}
+
+/* The element's equations into those of the model. */
+static void add_part(model *m, int i, element_part *part, const mesh_pattern *p, model_linearisation *lin)
+{
+    const mesh_element *el = &m->element[i];
+    if (lin->drive != NULL)
+        add_driven(m, el, lin->drive, part->K, part->force);
+    add_columns(m, el, part->K, lin);
+    phases_lap(&m->phases, PHASE_ELEMENTS);
+    for (int k = 0; k < m->coordinates; k++)
+        part->force[k] = -part->force[k];
+    assemble_vector(el, m->coordinates, part->force, lin->residual);
+    if (p != NULL)
+        assemble_matrix(p, i, part->K, lin->K);
+    phases_lap(&m->phases, PHASE_ASSEMBLY);
+    lin->incompatibility = fmax(lin->incompatibility, part->gap);
+}
+
 status model_linearise(model *m, const model_state *s, model_linearisation *lin, fault *f)
 {
-    double force[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
-    const int tangent = lin->K != NULL || lin->drive != NULL || lin->conditions > 0;
+    element_part own, *part = &own;
+    const shared_loop loop = {m, s, lin->K != NULL || lin->drive != NULL || lin->conditions > 0, lin->path};
     const mesh_pattern *p = lin->K == NULL ? NULL : &m->pattern[lin->K->row == m->pattern[1].matrix.row];
+    const int together = m->team != NULL && !m->spins; /* inertia counts its evaluations */
     memset(lin->residual, 0, (size_t)(m->free + m->driven) * sizeof *lin->residual);
     lin->incompatibility = 0;
     if (lin->conditions > 0)
         memset(lin->column, 0, (size_t)(lin->conditions * (m->free + m->driven)) * sizeof *lin->column);
     if (lin->K != NULL)
         sparse_zero(lin->K);
+    if (together)
+        team_run(m->team, m->elements, fill_parts, (void *)&loop);
     for (int i = 0; i < m->elements; i++) {
-        double gap = 0;
-        const status outcome = element_equations(m, s, i, tangent, lin->path, force, K, &gap, f);
-        if (outcome != STATUS_OK)
-            return outcome;
-        if (lin->drive != NULL)
-            add_driven(m, &m->element[i], lin->drive, K, force);
-        add_columns(m, &m->element[i], K, lin);
-        phases_lap(&m->phases, PHASE_ELEMENTS);
-        for (int k = 0; k < m->coordinates; k++)
-            force[k] = -force[k];
-        assemble_vector(&m->element[i], m->coordinates, force, lin->residual);
-        if (p != NULL)
-            assemble_matrix(p, i, K, lin->K);
-        phases_lap(&m->phases, PHASE_ASSEMBLY);
-        lin->incompatibility = fmax(lin->incompatibility, gap);
+        if (together)
+            part = &m->part[i];
+        else
+            element_part_of(&loop, i, part);
+        m->counters.strain_evaluations++;
+        m->counters.stress_evaluations++;
+        if (part->outcome != STATUS_OK)
+            return fault_set(f, part->outcome, "%s", part->why.text);
+        add_part(m, i, part, p, lin);
     }
     loads_add(m, s, lin->path, lin->residual);
     if (lin->K != NULL)

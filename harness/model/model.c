@@ -123,6 +123,8 @@ void model_free(model *m)
     free(m->first_element);
     free(m->driver_coordinate);
     free(m->work);
+    free(m->part);
+    team_free(m->team);
     model_state_free(m->rest);
     free(m);
 }
@@ -146,6 +148,22 @@ unsigned model_limits(const model *m)
 counters *model_counters(model *m)
 {
     return &m->counters;
+}
+
+/* Fewer elements than this are done before another thread is awake (measured on the joint and the hexapod). */
+enum { ELEMENTS_OF_A_THREAD = 32 };
+
+status model_set_threads(model *m, int threads, fault *f)
+{
+    if (threads > m->elements / ELEMENTS_OF_A_THREAD)
+        threads = m->elements / ELEMENTS_OF_A_THREAD;
+    team_free(m->team);
+    m->team = NULL;
+    if (threads > 1 && m->part == NULL)
+        m->part = malloc(((size_t)m->elements + 1) * sizeof *m->part);
+    if (threads > 1 && m->part == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the elements of %d threads", threads);
+    return team_alloc(threads, &m->team, f);
 }
 
 phases *model_phases(model *m)

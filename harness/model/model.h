@@ -89,6 +89,9 @@ void model_metric(const model *, double weight[]);
 double model_distance(const model *, const model_state *, const model_state *);
 double model_turn_between(const model *, const model_state *, const model_state *);
 
+/* Threads that share the loop over elements; one until this is called. Sums keep their order: results do not depend on it. */
+status model_set_threads(model *, int threads, fault *);
+
 unsigned model_limits(const model *); /* LIMIT_* of its formulation */
 /* Largest angle [rad] that an element's nodes have turned against each other, or against its chord, and that element. */
 double model_largest_turn(const model *, const model_state *, int *element_index);

@@ -3,6 +3,7 @@
 #define BEAMWORK_MODEL_PARTS_H
 
 #include "harness/model/model.h"
+#include "harness/model/team.h"
 
 enum { NONE = -1, VERTEX_COORDINATES = 6 };
 
@@ -47,6 +48,14 @@ typedef struct mesh_pattern {
     int *place; /* in matrix.value */
 } mesh_pattern;
 
+/* One element's equations in model coordinates. */
+typedef struct element_part {
+    status outcome;
+    fault why;
+    double gap; /* |D(x) - e|/l */
+    double force[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
+} element_part;
+
 struct model {
     const scene *scene;
     const element_type *type;
@@ -71,6 +80,8 @@ struct model {
     int spins, spin_follows_path;
     counters counters;
     phases phases;
+    team *team;         /* of the loop over elements; NULL: one thread */
+    element_part *part; /* [elements] what the team computes before it is added up in order; NULL without a team */
     int lines;
     char **line; /* what was left out */
 };

@@ -29,6 +29,8 @@ status cell_run(const cell_request *request, cell_result *out, fault *f)
     const model_request what = {&out->scene, request->formulation, request->option, request->elements, request->keep_all};
     if (outcome == STATUS_OK)
         outcome = model_alloc(&what, &m, f);
+    if (outcome == STATUS_OK)
+        outcome = model_set_threads(m, request->threads, f);
     if (outcome == STATUS_OK) {
         out->size = model_sizes(m);
         outcome = copy_left_out(m, out, f);

@@ -17,6 +17,7 @@ typedef struct cell_request {
     scene_edit edit; /* of the scene the parameters give */
     int elements;
     int keep_all;
+    int threads; /* of the loop over elements; 0, 1: one */
 } cell_request;
 
 typedef struct cell_result {

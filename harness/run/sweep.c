@@ -41,6 +41,7 @@ cell_request sweep_cell(const sweep *s, int series_index, int mesh)
     out.solve.steps_between = p->steps;
     out.solve.condition = p->condition;
     out.edit = p->edit;
+    out.threads = s->threads;
     if (p->text[0] == '\0' && mesh == one->meshes - 1)
         out.solve.shapes = s->shapes;
     return out;

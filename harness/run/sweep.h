@@ -44,6 +44,7 @@ typedef struct series {
 typedef struct sweep {
     const char *select; /* of the request: what it leaves out is not judged either; NULL: nothing is left out */
     int shapes;         /* of the request */
+    int threads;        /* of the loop over elements in every cell; 0, 1: one */
     int points, seriess;
     point *point;
     series *series;

@@ -42,6 +42,8 @@ static status compliance_at(analysis_context *c, const scene_analysis *a, const 
     const int count = tangent_movable(t, component), turns = count > 0 && component[count - 1] >= 3;
     for (int i = 0; i < count; i++)
         held &= ~(1u << component[i]);
+    for (int i = 3; i < 6 && tangent_turns_freely(t); i++)
+        reaction[i] = 0; /* where nothing is prescribed it is what Newton left over */
     if (turns && convention_changes(a->moments, reaction + 3))
         wanted = 0x3f;
     outcome = tangent_compliance(c, t, wanted, C, f);

@@ -183,6 +183,17 @@ status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, doub
     return outcome;
 }
 
+int tangent_turns_freely(const tangent *t)
+{
+    int turning = 0, all = 1;
+    for (int k = 0; k < t->coordinates; k++)
+        if (t->T[3 * t->coordinates + k] != 0 || t->T[4 * t->coordinates + k] != 0 || t->T[5 * t->coordinates + k] != 0) {
+            turning++;
+            all &= t->index[k] < t->free;
+        }
+    return turning == 3 && all;
+}
+
 int tangent_movable(const tangent *t, int component[TANGENT_COMPONENTS])
 {
     int count = 0;

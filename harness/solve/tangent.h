@@ -37,6 +37,8 @@ void tangent_free(tangent *t);
 /* reaction[6]: force and moment of the prescription on the node [N, N m]. */
 status tangent_at(analysis_context *c, const scene_analysis *a, const model_state *s, const double reaction[6], tangent *t,
                   fault *f);
+/* 1: all three rotations of the node are free, so that no moment of a prescription acts on it. */
+int tangent_turns_freely(const tangent *t);
 /* Components of the node that can move at all: their number. */
 int tangent_movable(const tangent *t, int component[TANGENT_COMPONENTS]);
 /* C[6 x 6] of the node with the reaction's moment semitangential; columns outside `wanted` stay zero. */

@@ -190,8 +190,35 @@ static void inertia_counts_critical_loads(void)
     }
 }
 
+/* Sums keep their order: two threads give the same bits and the same work. */
+static void threads_change_no_bit(void)
+{
+    const char *const names[] = {"sheet_third", "collocation", "geometrically_exact"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        cell_request request = {.elements = 1};
+        cell_result one, two;
+        formulation chosen;
+        fault f = {""};
+        request.type = case_find("hexapod", &f);
+        parameters_default(request.type, request.parameter);
+        formulation_parse(names[i], &chosen, &f);
+        request.formulation = chosen.type;
+        memcpy(request.option, chosen.option, sizeof request.option);
+        gsl_test(cell_run(&request, &one, &f) != STATUS_OK, "hexapod, %s, one thread", names[i]);
+        request.threads = 2;
+        gsl_test(cell_run(&request, &two, &f) != STATUS_OK, "hexapod, %s, two threads", names[i]);
+        for (int k = 0; k < one.solve.quantities; k++)
+            gsl_test(memcmp(&one.solve.quantity[k].value, &two.solve.quantity[k].value, sizeof(double)) != 0, "%s: the same %s",
+                     names[i], one.scene.quantity[k].name);
+        gsl_test(memcmp(&one.counters, &two.counters, sizeof one.counters) != 0, "%s: the same work", names[i]);
+        cell_result_free(&one);
+        cell_result_free(&two);
+    }
+}
+
 int main(void)
 {
+    threads_change_no_bit();
     from_rest_in_one_step();
     few_iterations();
     guesses_change_nothing();

@@ -47,6 +47,6 @@ fi
 mkdir -p "$(dirname "$flags")"
 {
     echo "DEP_CFLAGS := $(pkg-config --cflags gsl lapacke hdf5 arpack jansson | sed 's/-I/-isystem /g') -isystem /usr/include/suitesparse"
-    echo "DEP_LIBS := $(pkg-config --libs gsl lapacke hdf5 arpack jansson) -lklu -lbtf -lcolamd -lldl -lamd -lsuitesparseconfig -llapack -lblas -lm"
+    echo "DEP_LIBS := $(pkg-config --libs gsl lapacke hdf5 arpack jansson) -lklu -lbtf -lcolamd -lldl -lamd -lsuitesparseconfig -llapack -lblas -lpthread -lm"
 } >"$flags.new"
 mv "$flags.new" "$flags"
