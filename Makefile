@@ -44,7 +44,7 @@ help: ## this list
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 verify: all ## judge every formulation on every case against the stored truths
-	@$(PROGRAM) verify --shapes -o $(BUILD)/results.h5 --json $(BUILD)/verify.json --junit $(BUILD)/junit.xml $(VERIFY)
+	@$(PROGRAM) verify --shapes -o $(BUILD)/results.h5 --json $(BUILD)/verify.json --junit $(BUILD)/junit.xml --markdown $(BUILD)/verify.md $(VERIFY)
 
 test: all $(TESTS) layers ## run all tests; ends in "N passed, M failed"
 	@BEAMWORK=$(PROGRAM) BEAMWORK_TRUTHS=$(TRUTHS) harness/tools/run_tests.sh $(BUILD)/logs $(TESTS) -- $(sort $(PYTHON_TESTS))

@@ -4,6 +4,7 @@
 #include "harness/cli/cli.h"
 #include "harness/run/json.h"
 #include "harness/run/junit.h"
+#include "harness/run/markdown.h"
 #include "harness/run/output.h"
 #include "harness/run/store.h"
 #include "harness/run/table.h"
@@ -33,6 +34,16 @@ static status write_junit(const char *path, const sweep *s, const judgement *j, 
     return output_close(&file, f);
 }
 
+static status write_markdown(const char *path, const sweep *s, const judgement *j, const environment *e, fault *f)
+{
+    output file;
+    const status opened = output_open(path, &file, f);
+    if (opened != STATUS_OK)
+        return opened;
+    markdown_write(file.stream, s, j, e);
+    return output_close(&file, f);
+}
+
 static status write_all(const cli_request *r, const sweep *s, const judgement *j, fault *f)
 {
     const environment e = environment_now(r->jobs);
@@ -43,6 +54,8 @@ static status write_all(const cli_request *r, const sweep *s, const judgement *j
         outcome = write_json(r->json, s, j, &e, f);
     if (outcome == STATUS_OK && r->junit != NULL)
         outcome = write_junit(r->junit, s, j, f);
+    if (outcome == STATUS_OK && r->markdown != NULL)
+        outcome = write_markdown(r->markdown, s, j, &e, f);
     return outcome;
 }
 
@@ -57,7 +70,7 @@ int cli_verify(int count, char **arguments)
               "Judges every formulation on every case and parameter point that has a truth. Exit status: 0 every verdict as "
               "expected, 1 one differs, 2 refused, "
               "3 nothing was checked, 4 file, disk or memory.",
-              "fokjJULPT", count, arguments, &r);
+              "fokjJUMLPT", count, arguments, &r);
     if (r.case_name != NULL)
         return cli_fail(STATUS_REFUSED, "verify takes no case; select with -k");
     status outcome = output_try(r.output, &f);
@@ -65,6 +78,8 @@ int cli_verify(int count, char **arguments)
         outcome = output_try(r.json, &f);
     if (outcome == STATUS_OK)
         outcome = output_try(r.junit, &f);
+    if (outcome == STATUS_OK)
+        outcome = output_try(r.markdown, &f);
     if (outcome == STATUS_OK)
         outcome = truths_read(cli_truths_path(&r), &t, &f);
     if (outcome != STATUS_OK)

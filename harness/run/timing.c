@@ -3,15 +3,25 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const double longest_elsewhere = 0.05; /* [s] of one run */
+
+static int at_defaults(const sweep *s, const series *one)
+{
+    return strcmp(s->point[one->point].name, "default") == 0;
+}
+
+/* Beside the defaults a long cell keeps the time of its one run, and rounds are short. */
 static int can_run(const sweep *s, const series *one, int mesh)
 {
-    return one->missing[0] == '\0' && s->point[one->point].status == STATUS_OK && one->cell[mesh].solve.status != STATUS_FAULT;
+    const solve_result *r = &one->cell[mesh].solve;
+    return one->missing[0] == '\0' && s->point[one->point].status == STATUS_OK && r->status != STATUS_FAULT &&
+           (s->points == 1 || at_defaults(s, one) || r->seconds_setup + r->seconds_solve < longest_elsewhere);
 }
 
 /* The middle mesh that has a solution, or -1. */
 static int mesh_kept_whole(const sweep *s, const series *one)
 {
-    if (strcmp(s->point[one->point].name, "default") != 0)
+    if (!at_defaults(s, one))
         return -1;
     int mesh = one->meshes / 2;
     while (mesh > 0 && one->cell[mesh].solve.status != STATUS_OK)
@@ -63,14 +73,15 @@ static void round_of_series(sweep *s, int index, double floor, int dense)
 {
     series *one = &s->series[index];
     const int whole = mesh_kept_whole(s, one);
+    const double here = s->points == 1 || at_defaults(s, one) ? floor : 0;
     for (int i = 0; i < one->meshes; i++) {
         if (!can_run(s, one, i))
             continue;
         const cell_request request = sweep_cell(s, index, i);
-        clock_round(&request, floor, &one->timing[i].as_is);
+        clock_round(&request, here, &one->timing[i].as_is);
         if (i == whole)
             round_kept_whole(&request, floor, &one->timing[i]);
-        if (one->cell[i].counters.iterations > 0)
+        if (one->cell[i].counters.iterations > 0 && here > 0)
             read_phases(&request, &one->timing[i]);
         if (dense)
             baseline_round(&request, &one->cell[i], floor, &one->timing[i].dense);

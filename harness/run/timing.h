@@ -4,9 +4,9 @@
 
 #include "harness/run/sweep.h"
 
-/* floor: least [s] a round spends on a cell. What is left out is measured at the defaults of every case, on the middle mesh of
- * each formulation. Cells that crashed are not run again. */
-/* dense: the published algorithm is timed too. */
+/* floor: least [s] a round spends on a cell. Of several points the defaults are measured in full: there the parts of an iteration
+ * too, and what is left out, on the middle mesh of each formulation; elsewhere rounds are short and long cells keep the time of
+ * their one run. Cells that crashed are not run again. dense: the published algorithm is timed too. */
 status timing_run(sweep *s, double floor, int dense, FILE *progress, fault *f);
 
 #endif
