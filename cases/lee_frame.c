@@ -93,7 +93,7 @@ static status build(const double value[], scene *s, fault *f)
     a->step_max = 5 * value[STEP];
     add_quantities(value[PLANE] != 0, s, path, loaded);
     const int meshes[] = {4, 8, 16, 32, 64};
-    scene_meshes(s, 5, meshes);
+    scene_meshes(s, value[PLANE] != 0 ? 5 : 4, meshes);
     return STATUS_OK;
 }
 
