@@ -68,7 +68,7 @@ static void check_form_of(const element_type *type, const check_form *expected)
     } store;
     element_data *data = (element_data *)store.bytes;
     const section c = check_section();
-    const double lumped[1] = {0};
+    const double lumped[ELEMENT_MAX_OPTIONS] = {0};
     const element_request request = {.section = &c, .length = 300, .features = type->offers & ~FEATURE_HARINGX, .options = lumped};
     fault f;
     gsl_test(type->data_size(&request) > sizeof store, "%s: data fits", type->name);
@@ -95,7 +95,7 @@ static void linear_stiffness(const element_type *type, const section *c, double 
         unsigned char bytes[1 << 15];
     } store;
     element_data *data = (element_data *)store.bytes;
-    const double lumped[1] = {0}, e[8] = {0};
+    const double lumped[ELEMENT_MAX_OPTIONS] = {0}, e[8] = {0};
     const element_request request = {.section = c, .length = l, .features = type->offers & ~without, .options = lumped};
     fault f;
     gsl_test(type->prepare(&request, data, &f) != STATUS_OK, "%s: prepared", type->name);
@@ -117,7 +117,7 @@ static void one_element_is_exact(void)
         unsigned char bytes[1 << 15];
     } store;
     element_data *data = (element_data *)store.bytes;
-    const double lumped[1] = {0};
+    const double lumped[ELEMENT_MAX_OPTIONS] = {0};
     const element_request request = {.section = &c, .length = l, .features = FEATURE_WARPING | FEATURE_SHEAR, .options = lumped};
     fault f;
     element_beamw_consistent.prepare(&request, data, &f);
@@ -156,7 +156,7 @@ static void rigid_motion(void)
         unsigned char bytes[1 << 15];
     } store;
     element_data *data = (element_data *)store.bytes;
-    const double lumped[1] = {0}, l = 300, turn[3] = {0.7, -1.9, 2.3}, shift[3] = {231.7, -87.9, 512.3};
+    const double lumped[ELEMENT_MAX_OPTIONS] = {0}, l = 300, turn[3] = {0.7, -1.9, 2.3}, shift[3] = {231.7, -87.9, 512.3};
     const element_request request = {.section = &c, .length = l, .features = element_beamw.offers, .options = lumped};
     fault f;
     element_beamw.prepare(&request, data, &f);
