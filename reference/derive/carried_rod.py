@@ -27,7 +27,7 @@ def rod(turns, strain):
     moment, place = turned(angle, way, bend * strain), turned(angle, way, tip) - ex
     at = ";".join([f"turns={turns}"] * (turns != "1") + [f"strain={float(strain)}"] * (strain != 1))
     for (name, unit), value in zip(QUANTITIES, list(moment) + list(place)):
-        yield "carried_rod", at, name, value if abs(value) > mpf(10) ** -30 else mpf(0), unit, 1e-13
+        yield "carried_rod", at, name, value if abs(value) > mpf(10) ** -30 else mpf(0), unit
 
 
 def rows():
