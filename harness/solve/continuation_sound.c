@@ -4,7 +4,7 @@
 
 #include "harness/solve/continuation.h"
 
-static const double largest_swing = 0.5; /* [rad] between a tangent and the secant, in the metric */
+static const double largest_swing = 0.3; /* [rad] between a tangent and the secant, in the metric */
 static const double largest_turn = 0.25; /* [rad] of any node in one step */
 
 static double angle_to_secant(const continuation *p, const double tangent[], double length)
