@@ -2,12 +2,12 @@
 # Plants one fault at a time (mutants.list) into a copy of the project. Each must be noticed, with the right exit status, by the narrowest check that should:
 # a selection of 'verify', one test, 'compare' with a run before the fault, or a deriving program.
 # Writes WORK.json and ends in one line: N killed, M survived. Survivors are listed.
-# usage: mutants.sh [WORK [WORD]]     WORD: only the faults whose name has it
+# usage: [FROM=WORD] mutants.sh [WORK [WORD]]     WORD: only the faults whose name has it; FROM: leave out those before
 set -u
 here=$(pwd)
 work=${1:-build/mutants} only=${2:-}
 case $work in /*) ;; *) work=$here/$work ;; esac
-killed=0 survived=0 rows=
+killed=0 survived=0 rows= from=${FROM:-}
 rm -rf "$work"
 mkdir -p "$work/base"
 git ls-files | tar -cf - -T - | tar -xf - -C "$work/base"
@@ -40,11 +40,17 @@ check() {
     esac
 }
 
+# Is the fault asked for?
+wanted() {
+    case $1 in *"$from"*) from= ;; *) return 1 ;; esac
+    case $1 in *"$only"*) ;; *) return 1 ;; esac
+}
+
 # plant NAME FILE SED-EXPRESSION EXPECTED-STATUS CHECK...
 plant() {
     name=$1 file=$2 change=$3 expected=$4
     shift 4
-    case $name in *"$only"*) ;; *) return ;; esac
+    wanted "$name" || return
     cp -p "$work/base/$file" "$work/saved"
     sed -i -E "$change" "$work/base/$file"
     if cmp -s "$work/saved" "$work/base/$file"; then
@@ -65,7 +71,7 @@ plant() {
 damage() {
     name=$1 expected=$2
     shift 2
-    case $name in *"$only"*) ;; *) return ;; esac
+    wanted "$name" || return
     built all >"$work/log" 2>&1
     (check "$@") >"$work/log" 2>&1
     result "$name" "$expected" $? "$*"
