@@ -131,6 +131,26 @@ def attributes(group, *names):
     return out
 
 
+class Rows:
+    """Reads tables that all have the type of the first one, which h5py would work out again for each."""
+
+    def __init__(self):
+        self.type = self.memory = None
+
+    def read(self, group, name):
+        table = h5py.h5d.open(group.id, name)
+        if self.type is None:
+            self.type = h5py.Dataset(table).dtype
+            self.memory = h5py.h5t.py_create(self.type)
+        out = np.empty(table.shape, self.type)
+        if out.size:
+            table.read(h5py.h5s.ALL, h5py.h5s.ALL, out, self.memory)
+        return out.tolist()
+
+
+QUANTITIES = Rows()
+
+
 def read_clock(row, prefix):
     if not row[f"{prefix}repeats"]:
         return None
@@ -165,14 +185,15 @@ def read_mesh(group, units):
     work = dict(zip(COUNTERS, map(float, counts)))
     clock = Clock(float(setup), float(solve), float(setup + solve), float(setup + solve), 1)
     mesh = Mesh(int(n), text(status), text(reason), clock, int(free), int(work["iterations"]), text(left_out), work)
-    for row in group["quantities"][()]:
+    rows = QUANTITIES.read(group, b"quantities")
+    columns = QUANTITIES.type.names
+    for row in rows:
+        row = dict(zip(columns, row))
         name = text(row["name"])
-        mesh.values[name], mesh.errors[name], mesh.model_errors[name] = float(row["value"]), float(row["error"]), float(row["model_error"])
+        mesh.values[name], mesh.errors[name], mesh.model_errors[name] = row["value"], row["error"], row["model_error"]
         mesh.reasons[name], units[name] = text(row["reason"]), text(row["unit"])
-        if "prediction" in row.dtype.names and math.isfinite(row["prediction"]):
-            mesh.predictions[name] = float(row["prediction"])
-    for name, item in group["curves"].items():
-        mesh.curves[name] = (item["x"][()], item["value"][()], text(item["x"].attrs["name"]), text(item["x"].attrs["unit"]), text(item["value"].attrs["unit"]))
+        if math.isfinite(row.get("prediction", math.nan)):
+            mesh.predictions[name] = row["prediction"]
     return mesh
 
 
@@ -191,7 +212,7 @@ def read_series(key, group, units, with_curves):
     for _, name in cells:
         cell = group[name]
         meshes.append(read_mesh(cell, units))
-        if with_curves:
+        if with_curves or name == cells[-1][1]:
             read_curves(meshes[-1], cell["curves"])
     summary, source, missing = (text(t) for t in attributes(group, "summary", "source", "missing"))
     out = Series(key, summary, source, missing, meshes, read_verdicts(group["verdicts"]))
@@ -201,7 +222,7 @@ def read_series(key, group, units, with_curves):
 
 
 def read_point(name, group):
-    """Curves are read at the defaults only."""
+    """Curves of coarser meshes are read at the defaults only."""
     units = {}
     series = [read_series(key, item, units, name == "default") for key, item in group.items()]
     return Point(name, text(group.attrs["parameters"]), sorted(series, key=lambda s: s.key), units)
@@ -212,26 +233,49 @@ def opened(path):
     return h5py.File(path, driver="core", backing_store=False)
 
 
-def read_case(path, name):
+def read_case(path, name, bench=None):
+    """A case; with the times of a benchmark where one is given."""
     with opened(path) as file:
         group = file["cases"][name]
         points = [read_point(p, group[p]) for p in group]
         points.sort(key=lambda p: (p.name != "default", p.parameters))
         first = group[points[0].name].attrs
-        return Case(name, text(first["summary"]), text(first["source"]), points)
+        case = Case(name, text(first["summary"]), text(first["source"]), points)
+    if bench:
+        read_bench(bench, case)
+    return case
 
 
-def read_results(path):
-    """(environment {name: text}, [Case]); cases are read side by side."""
+def read_bench(path, case):
+    """Times of a benchmark into the cells of the same name."""
+    with opened(path) as file:
+        for point in case.points:
+            for series in point.series:
+                place = f"cases/{case.name}/{point.name}/{series.key}/timing"
+                if place in file:
+                    read_timing(series, file[place])
+
+
+def read_about(path):
+    """Environment {name: text} that a file of results was made in."""
     try:
         with h5py.File(path) as file:
             if text(file.attrs.get("schema", "")) != "beamwork-results":
-                raise Unreadable(f"{path}: not a file of results; 'make verify' writes one")
-            environment = {name: text(value) for name, value in file.attrs.items()}
+                raise Unreadable(f"{path}: not a file of results; 'make verify' and 'make bench' write them")
+            return {name: text(value) for name, value in file.attrs.items()}
+    except OSError as why:
+        raise Unreadable(f"{path}: cannot be read ({why}); 'make verify' writes build/results.h5, 'make bench' build/bench.h5") from why
+
+
+def read_results(path, bench=None):
+    """(environment, [Case]); cases are read side by side."""
+    environment = read_about(path)
+    try:
+        with h5py.File(path) as file:
             names = list(file["cases"])
         with multiprocessing.get_context("fork").Pool() as pool:
-            return environment, pool.starmap(read_case, [(path, name) for name in names], chunksize=1)
-    except (OSError, KeyError) as why:
+            return environment, pool.starmap(read_case, [(path, name, bench) for name in names], chunksize=1)
+    except (OSError, KeyError, ValueError) as why:
         raise Unreadable(f"{path}: cannot be read ({why}); 'make verify' writes it") from why
 
 
@@ -246,18 +290,3 @@ def read_truth_counts(path):
             return counts
     except (OSError, KeyError) as why:
         raise Unreadable(f"{path}: cannot be read ({why}); 'make all' packs it") from why
-
-
-def read_bench(path, cases):
-    """Times of a benchmark into the cells of the same name; returns its environment, or None where there is no such file."""
-    try:
-        with opened(path) as file:
-            for case in cases:
-                for point in case.points:
-                    for series in point.series:
-                        place = f"cases/{case.name}/{point.name}/{series.key}/timing"
-                        if place in file:
-                            read_timing(series, file[place])
-            return {name: text(value) for name, value in file.attrs.items()}
-    except (OSError, KeyError) as why:
-        raise Unreadable(f"{path}: cannot be read ({why}); 'make bench' writes it") from why

@@ -89,14 +89,27 @@ def draw_failures(panels, axes, point, quantity, styles):
     return shown
 
 
+def legend_height(entries, columns):
+    """In inches, of a legend below a figure."""
+    return 0.2 * math.ceil(entries / columns) + 0.1
+
+
+def finish(figure, legend, columns, left, right, top, bottom, **spacing):
+    """Margins in inches and a legend below: laid out by hand, since finding out takes as long as drawing."""
+    width, height = figure.get_size_inches()
+    handles, labels = legend
+    bottom += legend_height(len(labels), columns)
+    figure.subplots_adjust(left=left / width, right=1 - right / width, top=1 - top / height, bottom=bottom / height, **spacing)
+    figure.legend(handles, labels, loc="lower center", bbox_to_anchor=(0.5, 0), ncol=columns, fontsize=8.5, borderaxespad=0.2)
+
+
 def work_precision(site, point, quantity, name):
     """Error against elements, time, unknowns and work; the front of time and error in grey; noise as horizontal bars. None when there is no error."""
     panels = panels_of(point)
-    figure, axes = plt.subplots(1, len(panels), figsize=(13.5, 3.7), sharey=True)
     drawn = [s for s in point.series if finite(s, quantity)]
     if not drawn:
-        plt.close(figure)
         return None
+    figure, axes = plt.subplots(1, len(panels), figsize=(13.5, 3.75 + legend_height(len(drawn), 6)), sharey=True)
     for series in drawn:
         pairs = finite(series, quantity)
         for (_, where, _), one in zip(panels, axes):
@@ -115,17 +128,18 @@ def work_precision(site, point, quantity, name):
         for one in axes:
             one.axhline(tolerance, color="0.45", linewidth=0.8, linestyle=(0, (2, 2)), zorder=0)
         axes[-1].annotate("tolerance", (1, tolerance), xycoords=("axes fraction", "data"), fontsize=7.5, color="0.35", ha="right", va="bottom")
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, 0.02), ncol=6, fontsize=8.5)
-    figure.subplots_adjust(left=0.05, right=0.995, wspace=0.06)
-    return site.image(figure, name)
+    finish(figure, axes[0].get_legend_handles_labels(), 6, left=0.65, right=0.1, top=0.15, bottom=0.5, wspace=0.06)
+    return site.image(figure, name, tight=False)
 
 
 def small_multiples(site, point, quantities, name, errors="errors", ylabel="relative error", against="time"):
     """One small panel for each quantity, error against time (or elements)."""
     columns = min(4, len(quantities))
     rows = math.ceil(len(quantities) / columns)
-    figure, axes = plt.subplots(rows, columns, figsize=(3.35 * columns, 2.45 * rows), squeeze=False, constrained_layout=True)
-    handles = {}
+    handles = {s.key: None for s in point.series if any(finite(s, q, errors) for q in quantities)}
+    across = max(1, min(6, 2 * columns - 1))
+    size = (3.35 * columns + 0.3, 2.45 * rows + 0.3 + legend_height(len(handles), across))
+    figure, axes = plt.subplots(rows, columns, figsize=size, squeeze=False)
     for one, quantity in zip(axes.flat, quantities):
         for series in point.series:
             pairs = finite(series, quantity, errors)
@@ -141,8 +155,8 @@ def small_multiples(site, point, quantities, name, errors="errors", ylabel="rela
     for column in range(columns):
         last = max(i for i in range(len(quantities)) if i % columns == column)
         axes.flat[last].set_xlabel("time [ms]" if against == "time" else "elements per member")
-    figure.legend(handles.values(), handles.keys(), loc="upper center", bbox_to_anchor=(0.5, 0), ncol=min(6, 2 * columns), fontsize=8.5)
-    return site.image(figure, name)
+    finish(figure, (handles.values(), handles.keys()), across, left=0.75, right=0.1, top=0.25, bottom=0.5, wspace=0.3, hspace=0.5)
+    return site.image(figure, name, tight=False)
 
 
 def curves(site, point, quantity, name):

@@ -37,8 +37,8 @@ class Site:
     """One report. cases: data.Case records; about, bench: environment of the results and of the times (None: no benchmark); kinds: truths by kind."""
 
     def __init__(self, results, truths, folder, bench=None):
-        self.about, self.cases = data.read_results(results)
-        self.bench = data.read_bench(bench, self.cases) if bench else None
+        self.about, self.cases = data.read_results(results, bench)
+        self.bench = data.read_about(bench) if bench else None
         self.kinds = data.read_truth_counts(truths)
         self.results, self.truths, self.folder = results, truths, folder
         self.styles = Styles([s.key for c in self.cases for p in c.points for s in p.series])
@@ -60,8 +60,8 @@ class Site:
             out.write(self.templates.get_template(template).render(self_name=name, **context))
         os.replace(f"{path}.part", path)
 
-    def image(self, figure, name):
-        """Writes a figure as SVG and closes it; returns the file's name for a page's <img src>."""
-        figure.savefig(os.path.join(self.folder, f"{name}.svg"), metadata={"Date": None}, bbox_inches="tight")
+    def image(self, figure, name, tight=True):
+        """Writes a figure as SVG and closes it; returns the file's name for a page's <img src>. tight: cut to what is drawn, which draws it twice."""
+        figure.savefig(os.path.join(self.folder, f"{name}.svg"), metadata={"Date": None}, bbox_inches="tight" if tight else None)
         plt.close(figure)
         return f"{name}.svg"
