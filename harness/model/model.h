@@ -57,7 +57,7 @@ typedef struct counters {
     long iterations, steps, rejected_steps, factorisations, solutions;
     long factor_entries;
     double factor_flops;
-    long negative_pivots; /* most in one factorisation of a symmetric tangent */
+    long negative_pivots; /* most of a symmetric tangent at a state that was reached */
     double condition;     /* largest estimate of the solved systems (factor_condition), where it was asked for; else 0 */
 } counters;
 counters *model_counters(model *);

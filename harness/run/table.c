@@ -62,7 +62,8 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
             status_name(c->solve.status), c->solve.reason[0] != '\0' ? ": " : "", c->solve.reason, c->size.elements, c->size.free,
             c->counters.iterations, c->counters.factorisations, c->solve.seconds_setup, c->solve.seconds_solve);
     if (c->counters.negative_pivots > 0)
-        fprintf(to, "unstable: up to %ld negative pivots of the tangent\n", c->counters.negative_pivots);
+        fprintf(to, "unstable: up to %ld negative pivots of the tangent at a state that was reached\n",
+                c->counters.negative_pivots);
     for (int i = 0; i < c->left_out_lines; i++)
         fprintf(to, "left out: %s\n", c->left_out[i]);
     table_events(to, &c->solve);

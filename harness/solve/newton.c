@@ -178,7 +178,6 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
     count->factor_entries = counts.entries;
     count->factor_flops += counts.flops;
     record->negative_pivots = counts.negative_pivots;
-    count->negative_pivots = counts.negative_pivots > count->negative_pivots ? counts.negative_pivots : count->negative_pivots;
     record->incompatibility = lin.incompatibility;
     return STATUS_OK;
 }

@@ -23,8 +23,10 @@ status static_walk(newton *n, double target, double *increment, fault *f)
             if (stored != STATUS_OK)
                 return stored;
             count->steps++;
+            count->negative_pivots =
+                record.negative_pivots > count->negative_pivots ? record.negative_pivots : count->negative_pivots;
             if (n->trail != NULL)
-                trail_add(n->c->model, n->state, n->trail);
+                trail_add(n->c->model, n->state, record.iterations, n->trail);
             if (record.iterations <= EASY_ITERATIONS && !last && rejected == 0)
                 *increment *= 2;
             rejected = 0;

@@ -1,5 +1,7 @@
 #include "harness/solve/trail.h"
 
+enum { SMOOTH_ITERATIONS = 4 };
+
 status trail_alloc(const model *m, trail *t, fault *f)
 {
     status outcome = STATUS_OK;
@@ -21,8 +23,9 @@ void trail_forget(trail *t)
     t->count = 0;
 }
 
-void trail_add(const model *m, const model_state *s, trail *t)
+void trail_add(const model *m, const model_state *s, int iterations, trail *t)
 {
+    t->iterations = iterations;
     if (t->count == MODEL_EXTRAPOLATED) {
         model_state *oldest = t->at[0];
         for (int i = 1; i < MODEL_EXTRAPOLATED; i++)
@@ -35,6 +38,8 @@ void trail_add(const model *m, const model_state *s, trail *t)
 /* With as many states as go on smoothly; behind a bend the older ones are forgotten. */
 void trail_guess(const model *m, trail *t, double path, model_state *s)
 {
+    if (t->iterations > SMOOTH_ITERATIONS)
+        return;
     for (int first = 0; first + 1 < t->count; first++)
         if (model_state_extrapolate(m, t->count - first, (const model_state *const *)t->at + first, path, s))
             return;
