@@ -72,6 +72,7 @@ typedef struct element_request {
     unsigned features;     /* exactly what is to be active */
     const double *options; /* values in the order of type->options */
     double curvature[3];   /* initial torsion and curvatures kx, ky, kz [1/m] */
+    double strain[3];      /* initial elongation and shear strains gx, gy, gz of the stress-free element */
 } element_request;
 
 typedef struct element_data element_data; /* opaque; one per kind of element, shared by identical ones */

@@ -1,5 +1,7 @@
 /* The geometrically exact beam (Reissner, Simo) with warping, as general codes offer it: two or three nodes, reduced
  * integration, strains at the integration points. */
+#include <string.h>
+
 #include "elements/exact/stiffness.h"
 #include "elements/exact/strain.h"
 #include "elements/inertia/lumped.h"
@@ -43,6 +45,7 @@ static status prepare(const element_request *request, element_data *out, fault *
     if (outcome == STATUS_OK)
         strain_prepare(count, count - 1, request->length, request->curvature, count == 2 ? MEASURE_ANGLE : MEASURE_QUARTER,
                        &out->line);
+    memcpy(out->line.initial, request->strain, sizeof out->line.initial);
     return outcome;
 }
 

@@ -41,6 +41,7 @@ typedef struct scene_member {
     double y_axis[3];    /* direction of the y axis in which the section is described (its part across the member) */
     int warp_p, warp_q;  /* SCENE_WARP_FREE, SCENE_WARP_FIXED or a shared name */
     double curvature[3]; /* initial torsion, curvatures about local y and z [1/m]; position of interior nodes follows the arc */
+    double strain[3];    /* initial elongation and shear strains that would leave no stress: heat, a misfit */
     int divisions;       /* 0: the mesh's -n; else this many elements always */
 } scene_member;
 

@@ -17,6 +17,7 @@ status constants_of(const element_request *request, constants *out, fault *f)
     out->EIz = E * c->Iz;
     out->GJ = G * c->It;
     out->warping = (has & FEATURE_WARPING) != 0;
+    memcpy(out->initial, request->strain, sizeof out->initial);
     out->EIw = E * c->Iw / (l0 * l0);
     const double scale[3] = {1 / l0, 1 / l0, 1};
     for (int i = 0; i < 9 && (has & FEATURE_SHEAR); i++)

@@ -13,6 +13,7 @@ typedef struct constants {
     double ys, zs;                  /* shear centre */
     double trapeze, bend_y, bend_z; /* N, My, Mz see gamma_x, kappa_y, kappa_z plus these times kappa_x^2/2 */
     double torque;                  /* energy torque kappa_x^4 per length */
+    double initial[3];              /* strains gx, gy, gz without stress */
     int warping;
 } constants;
 

@@ -31,9 +31,9 @@ double stage_material(const constants *c, const double kappa[3], const double N[
     gradient[0] = eccentric + torsion * k + 4 * c->torque * k * k * k + T;
     gradient[1] = My;
     gradient[2] = Mz;
-    gradient[3] = -1 - N[0] / c->EA + c->trapeze * k * k / 2;
-    gradient[4] = -gy - c->zs * k - c->F[6] * T;
-    gradient[5] = -gz + c->ys * k - c->F[7] * T;
+    gradient[3] = -1 - c->initial[0] - N[0] / c->EA + c->trapeze * k * k / 2;
+    gradient[4] = -gy - c->initial[1] - c->zs * k - c->F[6] * T;
+    gradient[5] = -gz - c->initial[2] + c->ys * k - c->F[7] * T;
     memset(M, 0, 36 * sizeof *M);
     M[0] = torsion + (c->EIy * c->bend_y * c->bend_y + c->EIz * c->bend_z * c->bend_z + 12 * c->torque) * k * k;
     M[1] = M[6] = c->EIy * c->bend_y * k;
@@ -47,8 +47,9 @@ double stage_material(const constants *c, const double kappa[3], const double N[
     M[28] = -c->F[0];
     M[29] = M[34] = -c->F[1];
     M[35] = -c->F[4];
-    return -N[0] - N[0] * N[0] / (2 * c->EA) - (N[1] * gy + N[2] * gz) / 2 + eccentric * k + c->trapeze * N[0] * k * k / 2 +
-           My * ky / 2 + Mz * kz / 2 + c->GJ * k * k / 2 + c->torque * k * k * k * k;
+    const double initial = c->initial[0] * N[0] + c->initial[1] * N[1] + c->initial[2] * N[2];
+    return -N[0] - initial - N[0] * N[0] / (2 * c->EA) - (N[1] * gy + N[2] * gz) / 2 + eccentric * k +
+           c->trapeze * N[0] * k * k / 2 + My * ky / 2 + Mz * kz / 2 + c->GJ * k * k / 2 + c->torque * k * k * k * k;
 }
 
 void stage_rows(const stage *p, const double force[3], double D[6][STAGE_SPACE])

@@ -42,7 +42,7 @@ static void strains_at(const strain_line *line, int g, const point *p, const dou
     stretch(p->v, line->rest[g], y, dy, e);
     measure_of(line->rotation, p->kappa, psi, T);
     for (int i = 0; i < 3; i++) {
-        e[i] *= line->l0;
+        e[i] = line->l0 * (e[i] - line->initial[i]);
         e[3 + i] = line->l0 * (psi[i] - line->rest[g][3 + i]);
     }
 }

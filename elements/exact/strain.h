@@ -15,6 +15,7 @@ typedef struct strain_line {
     double l0; /* [m] */
     measure_kind rotation;
     double N[STRAIN_MAX_POINTS][ELEMENT_MAX_NODES], dN[STRAIN_MAX_POINTS][ELEMENT_MAX_NODES]; /* dN: per l0 */
+    double initial[3];                 /* gamma without stress, which the strains are less; strain_prepare leaves zero */
     double rest[STRAIN_MAX_POINTS][6]; /* R^T r' and l0 kappa undeformed, dimensionless */
 } strain_line;
 

@@ -32,7 +32,7 @@ status base_prepare(const element_request *request, base_shear shear, base_data 
         if (!isfinite(out->linear.S[i]))
             return fault_set(f, STATUS_REFUSED, "element of length %g m: its stiffness overflows; use fewer elements", l0);
     if (request->features & FEATURE_CURVATURE)
-        elastic_initial(&c, l0, request->curvature, out->initial);
+        elastic_initial(&c, out->linear.S, l0, request->curvature, request->strain, out->initial);
     if (request->features & FEATURE_MASS)
         inertia_prepare(request->section, request->features, INERTIA_LUMPED, NULL, &out->linear);
     return STATUS_OK;

@@ -68,6 +68,11 @@ static void add_bending(const element_request *r, double x, double ds, const fie
         for (int a = 0; a < V && initial; a++)
             out->b[i][ONE][a] -= ds * (Mz[i][a] * r->curvature[2] + (a == ONE ? My[i] * r->curvature[1] : 0));
     }
+    if (initial) { /* F_x = F~x, F_z = (M~yp + M~yq)/L; no F_y */
+        out->b[FX][ONE][ONE] -= ds * r->strain[0];
+        out->b[MYP][ONE][ONE] -= ds / r->length * r->strain[2];
+        out->b[MYQ][ONE][ONE] -= ds / r->length * r->strain[2];
+    }
 }
 
 static status add_torsion(const element_request *r, const double t[TORSION_MODES][TORSION_DEGREE + 1], sums *out, fault *f)

@@ -56,6 +56,9 @@ status third_prepare(const element_request *request, int printed, element_data *
     const status made = base_prepare(request, BASE_PRINTED, &out->base, f);
     if (made != STATUS_OK)
         return made;
+    if (request->strain[1] != 0)
+        return fault_set(f, STATUS_REFUSED, "initial shear strain %g along the thickness: N Eq. 50 knows none; leave it out",
+                         request->strain[1]);
     partial_inverse(request->length, fields_warp(request), out);
     return potential_prepare(request, printed, &out->potential, f);
 }

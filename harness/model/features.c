@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "elements/math/dense.h"
 #include "harness/model/parts.h"
 
 static const struct {
@@ -84,6 +85,8 @@ unsigned model_needs(const scene *s)
         {SCENE_NEED_WARPING, FEATURE_WARPING},
     };
     unsigned needs = needs_of_analyses(s);
+    for (int i = 0; i < s->members; i++)
+        needs |= vec3_norm(s->member[i].strain) > 0 ? FEATURE_CURVATURE : 0;
     for (size_t i = 0; i < sizeof map / sizeof map[0]; i++)
         if (s->needs & map[i].physics)
             needs |= map[i].feature;

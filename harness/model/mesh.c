@@ -117,25 +117,28 @@ static void scene_vertices(model *m)
     }
 }
 
-/* Index of the kind of element with this section, length and curvature; made when it is new. */
-static status kind_of(model *m, int profile, double length, const double curvature[3], int *out, fault *f)
+/* Index of the kind of element of a member with this length and curvature; made when it is new. */
+static status kind_of(model *m, const scene_member *member, double length, const double curvature[3], int *out, fault *f)
 {
+    const int profile = member->section;
     for (int i = 0; i < m->kinds; i++)
         if (m->kind[i].section == profile && fabs(m->kind[i].length - length) <= 1e-12 * length &&
             m->kind[i].curvature[0] == curvature[0] && m->kind[i].curvature[1] == curvature[1] &&
-            m->kind[i].curvature[2] == curvature[2]) {
+            m->kind[i].curvature[2] == curvature[2] && memcmp(m->kind[i].strain, member->strain, sizeof member->strain) == 0) {
             *out = i;
             return STATUS_OK;
         }
     mesh_kind *k = &m->kind[m->kinds];
     element_request request = {.section = &m->section[profile], .length = length, .options = m->options};
     memcpy(request.curvature, curvature, sizeof request.curvature);
+    memcpy(request.strain, member->strain, sizeof request.strain);
     const status outcome = features_of_section(m, profile, &request.features, f);
     if (outcome != STATUS_OK)
         return outcome;
     k->section = profile;
     k->length = length;
     memcpy(k->curvature, curvature, sizeof k->curvature);
+    memcpy(k->strain, member->strain, sizeof k->strain);
     k->data = calloc(1, m->type->data_size(&request));
     if (k->data == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for an element");
@@ -178,10 +181,10 @@ static status add_element(model *m, const arc *a, int member, int number, int n,
         for (int i = 1; i <= last; i++)
             memcpy(el->triad[i], el->triad[0], sizeof el->triad[0]);
         m->elements++;
-        return kind_of(m, m->scene->member[member].section, vec3_norm(between), straight, &el->kind, f);
+        return kind_of(m, &m->scene->member[member], vec3_norm(between), straight, &el->kind, f);
     }
     m->elements++;
-    return kind_of(m, m->scene->member[member].section, a->length / n, a->k, &el->kind, f);
+    return kind_of(m, &m->scene->member[member], a->length / n, a->k, &el->kind, f);
 }
 
 /* Warping slot of a member's end: shared by name, own, or none. */

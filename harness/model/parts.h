@@ -35,7 +35,7 @@ typedef struct mesh_element {
 /* What identical elements share. */
 typedef struct mesh_kind {
     int section;
-    double length, curvature[3];
+    double length, curvature[3], strain[3];
     element_data *data;
 } mesh_kind;
 
