@@ -2,7 +2,7 @@
 import math
 
 import numpy as np
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
 from reports import answers
 from reports.style import plt
@@ -15,7 +15,9 @@ def log_axis(axis, whole=False):
     """Few ticks: whole numbers as such, else powers of ten."""
     low, high = axis.get_view_interval()
     decades = math.log10(high / low) if low > 0 else 6
-    if whole and decades < 2.2:
+    if whole and decades < 0.7:
+        axis.set_major_locator(MaxNLocator(4))
+    elif whole and decades < 2.2:
         axis.set_major_locator(LogLocator(subs=(1, 2, 4, 8) if decades < 1.2 else (1, 2, 5)))
     else:
         axis.set_major_locator(LogLocator(numticks=7))
