@@ -16,9 +16,9 @@ def log_axis(axis, whole=False):
     low, high = axis.get_view_interval()
     decades = math.log10(high / low) if low > 0 else 6
     if whole and decades < 0.7:
-        axis.set_major_locator(MaxNLocator(4))
+        axis.set_major_locator(MaxNLocator(4, integer=True))
     elif whole and decades < 2.2:
-        axis.set_major_locator(LogLocator(subs=(1, 2, 4, 8) if decades < 1.2 else (1, 2, 5)))
+        axis.set_major_locator(LogLocator(subs=(1, 2, 4) if decades < 1.2 else (1, 2, 5)))
     else:
         axis.set_major_locator(LogLocator(numticks=7))
     axis.set_minor_locator(NullLocator())
