@@ -1,5 +1,6 @@
 #include "elements/inertia/lumped.h"
 
+#include <assert.h>
 #include <string.h>
 
 #include "elements/inertia/moving.h"
@@ -65,6 +66,7 @@ status lumped_element(const lumped_mass *whole, int nodes, const node_state x[],
 {
     static const double two[] = {0.5, 0.5}, three[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
     const int n = NODE_COORDINATES * nodes;
+    assert(nodes == 2 || nodes == 3);
     moving_clear(n, out);
     for (int k = 0; k < nodes; k++)
         lumped_add(whole, (nodes == 2 ? two : three)[k], &x[k], spin, NODE_COORDINATES * k, n, out);

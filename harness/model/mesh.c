@@ -117,14 +117,18 @@ static void scene_vertices(model *m)
     }
 }
 
+static int same_vector(const double a[3], const double b[3])
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
 /* Index of the kind of element of a member with this length and curvature; made when it is new. */
 static status kind_of(model *m, const scene_member *member, double length, const double curvature[3], int *out, fault *f)
 {
     const int profile = member->section;
     for (int i = 0; i < m->kinds; i++)
         if (m->kind[i].section == profile && fabs(m->kind[i].length - length) <= 1e-12 * length &&
-            m->kind[i].curvature[0] == curvature[0] && m->kind[i].curvature[1] == curvature[1] &&
-            m->kind[i].curvature[2] == curvature[2] && memcmp(m->kind[i].strain, member->strain, sizeof member->strain) == 0) {
+            same_vector(m->kind[i].curvature, curvature) && same_vector(m->kind[i].strain, member->strain)) {
             *out = i;
             return STATUS_OK;
         }

@@ -47,7 +47,7 @@ static int take_text(char **rest, char *to, size_t size)
     const char *field = strsep(rest, "\t");
     if (field == NULL || strlen(field) >= size)
         return 0;
-    strcpy(to, field);
+    snprintf(to, size, "%s", field);
     return 1;
 }
 

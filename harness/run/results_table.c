@@ -73,8 +73,8 @@ static int take(char *field[FIELDS], result_cell *cell)
         return 0;
     cell->elements = (int)elements;
     s->judged = (int)judged;
-    strcpy(cell->status, field[2]);
-    strcpy(s->quantity, field[9]);
+    snprintf(cell->status, sizeof cell->status, "%s", field[2]);
+    snprintf(s->quantity, sizeof s->quantity, "%s", field[9]);
     cell->name = strdup(field[0]);
     return cell->name != NULL;
 }

@@ -46,8 +46,10 @@ versus versus_judge(int pairs, const double a[], const double b[])
         if (ratio != NULL)
             ratio[i] = b[i] / a[i];
     }
-    if (ratio == NULL || pairs < 1)
+    if (ratio == NULL || pairs < 1) {
+        free(ratio);
         return out; /* undecided */
+    }
     qsort(ratio, (size_t)pairs, sizeof *ratio, ascending);
     const int k = rank_of_interval(pairs);
     out.ratio = (ratio[(pairs - 1) / 2] + ratio[pairs / 2]) / 2;

@@ -43,14 +43,15 @@ static status matrices_alloc(analysis_context *c, matrices *a, fault *f)
     const model_size size = model_sizes(c->model);
     const size_t all = (size_t)(size.free + size.driven) + 1;
     sparse *const each[] = {&a->K, &a->M, &a->G, &a->loads};
-    const sparse *pattern;
+    const sparse *pattern = NULL;
     const double begin = seconds_now();
     memset(a, 0, sizeof *a);
     a->residual = calloc(all, sizeof(double));
     a->x = calloc(all, sizeof(double));
     a->y = calloc(all, sizeof(double));
-    status outcome = a->residual != NULL && a->x != NULL && a->y != NULL ? model_pattern(c->model, 0, &pattern, f)
-                                                                         : fault_set(f, STATUS_FAULT, "out of memory for modes");
+    if (a->residual == NULL || a->x == NULL || a->y == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for modes");
+    status outcome = model_pattern(c->model, 0, &pattern, f);
     for (int i = 0; i < 4 && outcome == STATUS_OK; i++)
         outcome = sparse_alloc_like(pattern, each[i], f);
     if (outcome == STATUS_OK)
