@@ -47,7 +47,7 @@ verify: all ## judge every formulation on every case against the stored truths
 	@$(PROGRAM) verify --shapes -o $(BUILD)/results.h5 --json $(BUILD)/verify.json --junit $(BUILD)/junit.xml --markdown $(BUILD)/verify.md $(VERIFY)
 
 test: all $(TESTS) layers ## run all tests; ends in "N passed, M failed"
-	@BEAMWORK=$(PROGRAM) BEAMWORK_TRUTHS=$(TRUTHS) harness/tools/run_tests.sh $(BUILD)/logs $(TESTS) -- $(sort $(PYTHON_TESTS))
+	@BEAMWORK=$(PROGRAM) BEAMWORK_TRUTHS=$(TRUTHS) BEAMWORK_REFERENCE=$(CURDIR)/reference harness/tools/run_tests.sh $(BUILD)/logs $(TESTS) -- $(sort $(PYTHON_TESTS))
 
 all: $(PROGRAM) $(TRUTHS) ## build the program, the library and the packed truths
 

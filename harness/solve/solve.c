@@ -100,8 +100,10 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
             snprintf(result->reason, sizeof result->reason, "%s", q->reason);
         }
     }
+    const counters work = *model_counters(m); /* shapes are drawn, not solved for: they do not count */
     if (c.options->shapes > 0 && shapes_collect(&c, c.options->shapes, &result->shapes, f) != STATUS_OK)
         result->status = STATUS_FAULT;
+    *model_counters(m) = work;
     for (int i = 0; i < s->analyses; i++)
         outcome_free(&c.outcomes[i]);
     free(c.outcomes);
