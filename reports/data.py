@@ -221,10 +221,9 @@ def read_series(key, group, units, with_curves):
     return out
 
 
-def read_point(name, group):
-    """Curves of coarser meshes are read at the defaults only."""
+def read_point(name, group, with_curves):
     units = {}
-    series = [read_series(key, item, units, name == "default") for key, item in group.items()]
+    series = [read_series(key, item, units, with_curves) for key, item in group.items()]
     return Point(name, text(group.attrs["parameters"]), sorted(series, key=lambda s: s.key), units)
 
 
@@ -233,11 +232,14 @@ def opened(path):
     return h5py.File(path, driver="core", backing_store=False)
 
 
+DRAWN_EVERYWHERE = {"c_cantilever"}  # curves of coarser meshes away from the defaults are read only where a page draws them
+
+
 def read_case(path, name, bench=None):
     """A case; with the times of a benchmark where one is given."""
     with opened(path) as file:
         group = file["cases"][name]
-        points = [read_point(p, group[p]) for p in group]
+        points = [read_point(p, group[p], p == "default" or name in DRAWN_EVERYWHERE) for p in group]
         points.sort(key=lambda p: (p.name != "default", p.parameters))
         first = group[points[0].name].attrs
         case = Case(name, text(first["summary"]), text(first["source"]), points)

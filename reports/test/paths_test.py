@@ -35,6 +35,9 @@ class Paths(unittest.TestCase):
         for name in ("paths_cantilever", "paths_snap_through"):
             self.assertIn(f"{name}.svg", self.page)
             self.assertTrue((pathlib.Path(self.folder) / "site" / f"{name}.svg").is_file())
+        drawn = (pathlib.Path(self.folder) / "site" / "paths_cantilever.svg").read_text(encoding="utf-8")
+        for name in ("exact beam (collocation, n = 10)", "exact beam, with int y", "3-D solids"):
+            self.assertIn(name, drawn)
 
     def test_limit_points_are_listed(self):
         rows = re.findall(r"<td>limit point</td><td class=\"n\">(-?[\d.]+)</td><td class=\"n\">(-?[\d.]+)</td>", self.page)
