@@ -24,6 +24,7 @@ PAGES = (
     "newton",
     "predictions",
     "stability",
+    "checks",
     "printable",
     "environment",
 )
