@@ -13,7 +13,7 @@ TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
 
 class Checks(unittest.TestCase):
     def page(self, folder):
-        subprocess.run([sys.executable, "-B", "-m", "reports", os.path.join(folder, "results.h5"), TRUTHS, "-o", os.path.join(folder, "site")], check=True)
+        subprocess.run([sys.executable, "-B", "-m", "reports", os.path.join(folder, "results.h5"), TRUTHS, "-o", os.path.join(folder, "site")], check=True, capture_output=True)
         return (pathlib.Path(folder) / "site" / "checks.html").read_text(encoding="utf-8")
 
     def test_counts(self):
