@@ -16,11 +16,11 @@ BASE_CFLAGS := -std=c11 -D_GNU_SOURCE -I. -fno-math-errno -ffp-contract=off -fPI
 
 FORMULATIONS := $(sort $(wildcard elements/*.c))
 CASES := $(sort $(wildcard cases/*.c))
-LIBRARY_SOURCES := $(FORMULATIONS) $(CASES) $(sort $(wildcard elements/*/*.c cases/*/*.c harness/model/*.c harness/solve/*.c harness/run/*.c))
-LIBRARY_SOURCES := $(filter-out %_test.c elements/test/% cases/test/%,$(LIBRARY_SOURCES))
+LIBRARY_SOURCES := $(FORMULATIONS) $(CASES) $(sort $(wildcard elements/*/*.c cases/*/*.c harness/*/*.c))
+LIBRARY_SOURCES := $(filter-out elements/test/% cases/test/% harness/cli/% harness/fuzz/%,$(LIBRARY_SOURCES))
 PROGRAM_SOURCES := $(sort $(wildcard harness/cli/*.c))
-TEST_SOURCES := $(sort $(wildcard elements/test/*_test.c cases/test/*_test.c harness/test/*_test.c))
-PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py reports/test/*_test.py harness/test/*_test.py))))
+TEST_SOURCES := $(sort $(wildcard elements/test/*_test.c cases/test/*_test.c harness/*/test/*_test.c))
+PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py reports/test/*_test.py harness/*/test/*_test.py))))
 
 REGISTRY := $(BUILD)/registry.c
 LIBRARY := $(BUILD)/libbeamwork.a
@@ -73,10 +73,10 @@ bench-mechanisms: all ## joint and hexapod: growth with the elements, parts of a
 bench-check: all ## plant work of known size: comparisons must find it, and nothing else
 	@$(PYTHON) harness/tools/bench_check.py $(PROGRAM) -o $(BUILD)/bench_check.json
 
-bench-elements: all $(BUILD)/harness/test/element_time ## microseconds per element of every formulation
-	@$(BUILD)/harness/test/element_time
+bench-elements: all $(BUILD)/harness/model/test/element_time ## microseconds per element of every formulation
+	@$(BUILD)/harness/model/test/element_time
 
-$(BUILD)/harness/test/element_time: $(BUILD)/harness/test/element_time.o $(LIBRARY)
+$(BUILD)/harness/model/test/element_time: $(BUILD)/harness/model/test/element_time.o $(LIBRARY)
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
 
 # A former run shows change, never truth.
@@ -157,8 +157,8 @@ $(LIBRARY): $(OBJECTS) $(BUILD)/objects.list
 # What a build says of itself is compiled in one place only.
 $(BUILD)/identity: FORCE
 	@mkdir -p $(@D); echo '$(VERSION) $(COMMIT) $(CFLAGS)' | cmp -s - $@ || echo '$(VERSION) $(COMMIT) $(CFLAGS)' >$@
-$(BUILD)/harness/run/environment.o: $(BUILD)/identity
-$(BUILD)/harness/run/environment.o: DEFINES := -DBEAMWORK_VERSION='"$(VERSION)"' -DBEAMWORK_COMMIT='"$(COMMIT)"' -DBEAMWORK_CFLAGS='"$(CFLAGS)"'
+$(BUILD)/harness/catalogue/environment.o: $(BUILD)/identity
+$(BUILD)/harness/catalogue/environment.o: DEFINES := -DBEAMWORK_VERSION='"$(VERSION)"' -DBEAMWORK_COMMIT='"$(COMMIT)"' -DBEAMWORK_CFLAGS='"$(CFLAGS)"'
 
 $(PROGRAM): $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) $(LIBRARY)
 	$(call SAY,link $@)$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
@@ -167,7 +167,7 @@ $(BUILD)/%_test: $(BUILD)/%_test.o $(LIBRARY)
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
 
 # A test of what happens when memory runs out: allocations of our own code pass through it.
-$(BUILD)/harness/test/memory_test: LDFLAGS += -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=free,--wrap=strdup,--wrap=strndup
+$(BUILD)/harness/study/test/memory_test: LDFLAGS += -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=free,--wrap=strdup,--wrap=strndup
 
 $(TRUTHS): $(wildcard reference/tables/*.csv reference/extremes/*.csv reference/*.csv) reference/pack.py
 	@mkdir -p $(@D)

@@ -8,9 +8,9 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
-#include "harness/run/cell.h"
-#include "harness/run/clock.h"
-#include "harness/run/versus.h"
+#include "harness/study/cell.h"
+#include "harness/timing/clock.h"
+#include "harness/timing/versus.h"
 
 enum { COUNTS = 9, MOST_REPEATS = 10000 };
 static const char *const count_name[COUNTS] = {
@@ -19,7 +19,7 @@ static const char *const count_name[COUNTS] = {
 static const double budget_seconds = 3, lap_seconds = 0.002;
 
 typedef struct contestant {
-    char name[CELL_KEY + 512];
+    char name[FORMULATION_KEY + 512];
     cell_request request;
     const char *program;    /* NULL: in this process */
     const char **arguments; /* of the program, NULL-terminated */

@@ -2,12 +2,12 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "harness/catalogue/registry.h"
 #include "harness/cli/cli.h"
-#include "harness/run/csv.h"
-#include "harness/run/registry.h"
-#include "harness/run/store.h"
-#include "harness/run/table_timing.h"
-#include "harness/run/timing.h"
+#include "harness/record/csv.h"
+#include "harness/record/store.h"
+#include "harness/record/table_timing.h"
+#include "harness/timing/timing.h"
 
 static const double floor_seconds = 0.002; /* of each round for each cell */
 

@@ -4,8 +4,8 @@
 
 #include <argp.h>
 
-#include "harness/run/formulations.h"
-#include "harness/run/truths.h"
+#include "harness/catalogue/formulations.h"
+#include "harness/truth/truths.h"
 
 enum { EXIT_AS_EXPECTED = 0, EXIT_DIFFERS = 1, EXIT_REFUSED = 2, EXIT_NOTHING = 3, EXIT_FAULT = 4 };
 

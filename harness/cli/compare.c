@@ -1,9 +1,9 @@
 #include <stdio.h>
 
 #include "harness/cli/cli.h"
-#include "harness/run/comparison.h"
-#include "harness/run/output.h"
-#include "harness/run/sweep.h"
+#include "harness/record/comparison.h"
+#include "harness/record/output.h"
+#include "harness/study/sweep.h"
 
 /* As of diff. */
 enum { SAME = 0, DIFFERS = 1, TROUBLE = 2 };

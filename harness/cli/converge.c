@@ -3,10 +3,10 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
-#include "harness/run/csv.h"
-#include "harness/run/json.h"
-#include "harness/run/output.h"
-#include "harness/run/table.h"
+#include "harness/record/csv.h"
+#include "harness/record/json.h"
+#include "harness/record/output.h"
+#include "harness/record/table.h"
 
 static status write_form(FILE *to, const char *format, const sweep *s, const truths *t, fault *f)
 {

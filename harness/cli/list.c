@@ -1,8 +1,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "harness/catalogue/registry.h"
 #include "harness/cli/cli.h"
-#include "harness/run/registry.h"
 
 static void list_option(const element_option *o)
 {

@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "harness/catalogue/environment.h"
+#include "harness/catalogue/parameters.h"
 #include "harness/cli/cli.h"
-#include "harness/run/environment.h"
-#include "harness/run/parameters.h"
 
 static const struct {
     const char *name;

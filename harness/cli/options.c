@@ -4,9 +4,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "harness/algebra/team.h"
+#include "harness/catalogue/registry.h"
 #include "harness/cli/cli.h"
-#include "harness/model/team.h"
-#include "harness/run/registry.h"
 
 static const struct argp_option all_options[] = {
     {"formulation", 'f', "NAME[:KEY=VALUE,...]", 0, "formulation and its options; again for another, 'all' for every one", 0},

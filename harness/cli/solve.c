@@ -2,11 +2,11 @@
 #include <string.h>
 
 #include "harness/cli/cli.h"
-#include "harness/run/csv.h"
-#include "harness/run/json.h"
-#include "harness/run/output.h"
-#include "harness/run/store.h"
-#include "harness/run/table.h"
+#include "harness/record/csv.h"
+#include "harness/record/json.h"
+#include "harness/record/output.h"
+#include "harness/record/store.h"
+#include "harness/record/table.h"
 
 static status write_to(FILE *to, const cli_request *r, const sweep *s, const truths *t, fault *f)
 {

@@ -3,8 +3,8 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
-#include "harness/run/output.h"
-#include "harness/run/stress.h"
+#include "harness/extremes/stress.h"
+#include "harness/record/output.h"
 
 static status write_format(const char *format, FILE *to, const stress *s, fault *f)
 {

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
-#include "harness/run/derive.h"
+#include "harness/truth/derive.h"
 
 static void print_value(const char *quantity, double value, double uncertainty, const char *unit, const char *kind,
                         const char *whose, const char *source, const char *note)
@@ -31,7 +31,7 @@ static int print_stored(const truths *t, const case_type *type, const double par
             continue;
         if (discrete++ == 0)
             printf("of single meshes\n");
-        char name[SCENE_NAME + CELL_KEY + 16];
+        char name[SCENE_NAME + FORMULATION_KEY + 16];
         snprintf(name, sizeof name, "%s, %s n=%d", row->quantity, row->formulation, row->elements);
         print_value(name, row->value, row->uncertainty, row->unit, row->kind, row->model, row->source, row->convention);
     }

@@ -2,12 +2,12 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
-#include "harness/run/json.h"
-#include "harness/run/junit.h"
-#include "harness/run/markdown.h"
-#include "harness/run/output.h"
-#include "harness/run/store.h"
-#include "harness/run/table.h"
+#include "harness/record/json.h"
+#include "harness/record/junit.h"
+#include "harness/record/markdown.h"
+#include "harness/record/output.h"
+#include "harness/record/store.h"
+#include "harness/record/table.h"
 
 enum { PICTURED_STATES = 5 };
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/memory.h"
+#include "harness/algebra/memory.h"
 #include "harness/model/parts.h"
 
 static status compute_sections(model *m, fault *f)

@@ -17,8 +17,8 @@
 
 #include "cases/scene/scene.h"
 #include "elements/element.h"
-#include "harness/model/phases.h"
-#include "harness/model/sparse.h"
+#include "harness/algebra/phases.h"
+#include "harness/algebra/sparse.h"
 
 typedef struct model model;
 

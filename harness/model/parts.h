@@ -2,8 +2,8 @@
 #ifndef BEAMWORK_MODEL_PARTS_H
 #define BEAMWORK_MODEL_PARTS_H
 
+#include "harness/algebra/team.h"
 #include "harness/model/model.h"
-#include "harness/model/team.h"
 
 enum { NONE = -1, VERTEX_COORDINATES = 6 };
 

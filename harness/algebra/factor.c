@@ -1,0 +1,132 @@
+/* Symmetric: LDL^T; unsymmetric: LU; and the check that a weak pivot is more than round-off.
+ *
+ * With x = A^-1 e_i and y = A^-T e_k the number x_k = y^T A x is a sum of the terms y_i a_ij x_j, and rounding A changes it by
+ * about eps times the root of the sum of their squares: when that is as large as x_k itself, A is singular to working
+ * precision. (A free beam of n elements has a last pivot of eps n^2 times its diagonal entry and not of eps times it.) */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "harness/algebra/factor_symmetric.h"
+#include "harness/algebra/factor_unsymmetric.h"
+
+struct factor {
+    int n;
+    factor_symmetric *symmetric;     /* one of the two */
+    factor_unsymmetric *unsymmetric; /* NULL both: nothing to solve for */
+    factor_counts counts;
+    double *residual, *other; /* [n] */
+};
+
+status factor_alloc(const sparse *pattern, factor **out, fault *f)
+{
+    factor *fa = *out = calloc(1, sizeof *fa);
+    if (fa == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for factors");
+    fa->n = pattern->n;
+    fa->counts.condition = fa->counts.determinant = 1;
+    fa->counts.negative_pivots = pattern->symmetric ? 0 : -1;
+    if (fa->n == 0)
+        return STATUS_OK;
+    fa->residual = malloc((size_t)fa->n * sizeof *fa->residual);
+    fa->other = malloc((size_t)fa->n * sizeof *fa->other);
+    if (fa->residual == NULL || fa->other == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for factors");
+    return pattern->symmetric ? factor_symmetric_alloc(pattern, &fa->symmetric, &fa->counts, f)
+                              : factor_unsymmetric_alloc(pattern, &fa->unsymmetric, &fa->counts, f);
+}
+
+void factor_free(factor *fa)
+{
+    if (fa == NULL)
+        return;
+    factor_symmetric_free(fa->symmetric);
+    factor_unsymmetric_free(fa->unsymmetric);
+    free(fa->residual);
+    free(fa->other);
+    free(fa);
+}
+
+static void unit_vector(int n, int i, double e[])
+{
+    for (int k = 0; k < n; k++)
+        e[k] = 0;
+    e[i] = 1;
+}
+
+/* Part of x_column that is round-off, with x = A^-1 e_row. */
+static double lost_part(factor *fa, const sparse *a, int row, int column)
+{
+    double *x = fa->residual, *y = fa->residual, sum = 0;
+    unit_vector(fa->n, row, x);
+    factor_solve(fa, x);
+    if (fa->unsymmetric != NULL) {
+        y = fa->other;
+        unit_vector(fa->n, column, y);
+        factor_unsymmetric_solve_transposed(fa->unsymmetric, y);
+    }
+    const double scale = fabs(x[column]); /* of every term: a sum of squares of x alone may overflow */
+    for (int j = 0; j < fa->n; j++)
+        for (int k = a->column[j]; k < a->column[j + 1]; k++) {
+            const double term = y[a->row[k]] / scale * a->value[k] * x[j];
+            sum += (a->symmetric && a->row[k] != j ? 2 : 1) * term * term;
+        }
+    return DBL_EPSILON * sqrt(sum);
+}
+
+status factor_numeric(factor *fa, const sparse *a, fault *f)
+{
+    const double n = fa->n, lost = 0.25;
+    int row = 0, column = 0;
+    double ratio = 1;
+    status outcome = STATUS_OK;
+    fa->counts.factorisations++;
+    if (fa->symmetric != NULL) {
+        outcome = factor_symmetric_numeric(fa->symmetric, a, &fa->counts, &row, &ratio);
+        column = row;
+    } else if (fa->unsymmetric != NULL) {
+        outcome = factor_unsymmetric_numeric(fa->unsymmetric, a, &fa->counts, &row, &column, &ratio);
+    }
+    if (outcome == STATUS_OK && ratio <= n * n * n * DBL_EPSILON && !(lost_part(fa, a, row, column) < lost))
+        outcome = STATUS_SINGULAR;
+    if (outcome == STATUS_SINGULAR)
+        fault_set(f, outcome, "the stiffness matrix is singular: something is not held, or the structure is at a critical point");
+    else if (outcome == STATUS_FAULT)
+        fault_set(f, outcome, "out of memory for the factors of %d unknowns", fa->n);
+    return outcome;
+}
+
+void factor_solve(factor *fa, double x[])
+{
+    if (fa->symmetric != NULL)
+        factor_symmetric_solve(fa->symmetric, x);
+    else if (fa->unsymmetric != NULL)
+        factor_unsymmetric_solve(fa->unsymmetric, x);
+}
+
+void factor_solve_transposed(factor *fa, double x[])
+{
+    if (fa->unsymmetric != NULL)
+        factor_unsymmetric_solve_transposed(fa->unsymmetric, x);
+    else
+        factor_solve(fa, x);
+}
+
+void factor_solve_refined(factor *fa, const sparse *a, double x[])
+{
+    double *b = fa->other;
+    for (int i = 0; i < fa->n; i++)
+        b[i] = x[i];
+    factor_solve(fa, x);
+    sparse_mul(a, x, fa->residual);
+    for (int i = 0; i < fa->n; i++)
+        b[i] -= fa->residual[i];
+    factor_solve(fa, b);
+    for (int i = 0; i < fa->n; i++)
+        x[i] += b[i];
+}
+
+factor_counts factor_count(const factor *fa)
+{
+    return fa->counts;
+}

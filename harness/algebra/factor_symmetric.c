@@ -1,0 +1,207 @@
+/* The columns of L and the pivots are those of C = P A P^T with P from AMD. A pivot is d_k = a_kk - sum_j l_kj^2 d_j: when it
+ * is a rounding error of these terms, or when they dwarf the whole column of A, the digits of A are gone. */
+#include "harness/algebra/factor_symmetric.h"
+
+#include <amd.h>
+#include <float.h>
+#include <ldl.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct factor_symmetric {
+    int n;
+    int *integers;                         /* what the next ten arrays are parts of */
+    int *order, *inverse;                  /* [n] P: C(i, j) = A(order[i], order[j]) */
+    int *column, *row;                     /* [n + 1], [entries] upper triangle of C */
+    int *place;                            /* [entries] of A: position in C */
+    int *L_column;                         /* [n + 1] */
+    int *parent, *in_column, *mark, *path; /* [n] elimination tree and workspace of LDL */
+    double *numbers;                       /* what the next five arrays are parts of */
+    double *value;                         /* [entries] of C */
+    double *D, *work;                      /* [n] */
+    double *diagonal, *terms;              /* [n] |a_kk|, and |a_kk| + sum_j l_kj^2 |d_j| */
+    int *L_row;                            /* [L_column[n]] */
+    double *L_value;
+};
+
+/* Cuts the workspace into its arrays; 0 when memory ran out. */
+static int lay_out(factor_symmetric *fs, size_t n, size_t entries)
+{
+    fs->integers = malloc((6 * n + 2 * (n + 1) + 2 * entries) * sizeof *fs->integers);
+    fs->numbers = malloc((4 * n + entries + 1) * sizeof *fs->numbers);
+    if (fs->integers == NULL || fs->numbers == NULL)
+        return 0;
+    int **const lists[] = {&fs->order, &fs->inverse, &fs->parent, &fs->in_column, &fs->mark, &fs->path};
+    int *next = fs->integers;
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++, next += n)
+        *lists[i] = next;
+    fs->column = next;
+    fs->L_column = fs->column + n + 1;
+    fs->row = fs->L_column + n + 1;
+    fs->place = fs->row + entries;
+    fs->D = fs->numbers;
+    fs->work = fs->D + n;
+    fs->terms = fs->work + n;
+    fs->diagonal = fs->terms + n;
+    fs->value = fs->diagonal + n;
+    return 1;
+}
+
+static int max_int(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+static int min_int(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/* Upper triangle of P A P^T and where the entries of A go. */
+static void permute(const sparse *a, factor_symmetric *fs)
+{
+    const int n = a->n;
+    for (int j = 0; j <= n; j++)
+        fs->column[j] = 0;
+    for (int j = 0; j < n; j++)
+        for (int k = a->column[j]; k < a->column[j + 1]; k++)
+            fs->column[max_int(fs->inverse[a->row[k]], fs->inverse[j]) + 1]++;
+    for (int j = 0; j < n; j++) {
+        fs->column[j + 1] += fs->column[j];
+        fs->mark[j] = fs->column[j];
+    }
+    for (int j = 0; j < n; j++)
+        for (int k = a->column[j]; k < a->column[j + 1]; k++) {
+            const int i = fs->inverse[a->row[k]];
+            fs->place[k] = fs->mark[max_int(i, fs->inverse[j])]++;
+            fs->row[fs->place[k]] = min_int(i, fs->inverse[j]);
+        }
+}
+
+/* Elimination tree and fill. */
+static status analyse(factor_symmetric *fs, factor_counts *counts, fault *f)
+{
+    const int n = fs->n;
+    ldl_symbolic(n, fs->column, fs->row, fs->L_column, fs->parent, fs->in_column, fs->mark, NULL, NULL);
+    counts->entries = n;
+    counts->flops = 0;
+    for (int j = 0; j < n; j++) {
+        const double below = fs->in_column[j];
+        counts->entries += fs->in_column[j];
+        counts->flops += below * (below + 2);
+    }
+    if (counts->entries > INT_MAX)
+        return fault_set(f, STATUS_FAULT, "a factor of %ld entries is more than its indices can count", counts->entries);
+    const size_t fill = (size_t)fs->L_column[n] + 1;
+    fs->L_row = malloc(fill * sizeof *fs->L_row);
+    fs->L_value = malloc(fill * sizeof *fs->L_value);
+    if (fs->L_row == NULL || fs->L_value == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for %ld entries of a factor", counts->entries);
+    return STATUS_OK;
+}
+
+status factor_symmetric_alloc(const sparse *pattern, factor_symmetric **out, factor_counts *counts, fault *f)
+{
+    const int n = pattern->n;
+    factor_symmetric *fs = *out = calloc(1, sizeof *fs);
+    if (fs == NULL || !lay_out(fs, (size_t)n, (size_t)pattern->column[n]))
+        return fault_set(f, STATUS_FAULT, "out of memory for factors");
+    fs->n = n;
+    if (amd_order(n, pattern->column, pattern->row, fs->order, NULL, NULL) < AMD_OK)
+        return fault_set(f, STATUS_FAULT, "out of memory for ordering %d unknowns", n);
+    for (int i = 0; i < n; i++)
+        fs->inverse[fs->order[i]] = i;
+    permute(pattern, fs);
+    return analyse(fs, counts, f);
+}
+
+void factor_symmetric_free(factor_symmetric *fs)
+{
+    if (fs == NULL)
+        return;
+    free(fs->integers);
+    free(fs->numbers);
+    free(fs->L_row);
+    free(fs->L_value);
+    free(fs);
+}
+
+/* A to C. */
+static void load(factor_symmetric *fs, const sparse *a)
+{
+    for (int j = 0; j < fs->n; j++) {
+        fs->diagonal[fs->inverse[j]] = 0;
+        for (int k = a->column[j]; k < a->column[j + 1]; k++) {
+            fs->value[fs->place[k]] = a->value[k];
+            if (a->row[k] == j)
+                fs->diagonal[fs->inverse[j]] = fabs(a->value[k]);
+        }
+    }
+}
+
+/* Of row and column k of C. */
+static double largest_entry(const factor_symmetric *fs, int k)
+{
+    double largest = 0;
+    for (int j = k; j < fs->n; j++)
+        for (int i = fs->column[j]; i < fs->column[j + 1]; i++)
+            if (j == k || fs->row[i] == k)
+                largest = fmax(largest, fabs(fs->value[i]));
+    return largest;
+}
+
+/* While all pivots are positive the terms do not exceed a_kk; otherwise they are summed. */
+static void sum_terms(factor_symmetric *fs, int negative_pivots)
+{
+    memcpy(fs->terms, fs->diagonal, (size_t)fs->n * sizeof *fs->terms);
+    if (negative_pivots == 0)
+        return;
+    for (int j = 0; j < fs->n; j++)
+        for (int k = fs->L_column[j]; k < fs->L_column[j + 1]; k++)
+            fs->terms[fs->L_row[k]] += fs->L_value[k] * fs->L_value[k] * fabs(fs->D[j]);
+}
+
+static status judge_pivots(factor_symmetric *fs, factor_counts *counts, int *weakest, double *ratio)
+{
+    const double digits = 16 * DBL_EPSILON;
+    double largest = 0, smallest = INFINITY;
+    counts->negative_pivots = 0;
+    *ratio = INFINITY;
+    for (int k = 0; k < fs->n; k++)
+        counts->negative_pivots += fs->D[k] < 0;
+    counts->determinant = counts->negative_pivots % 2 == 0 ? 1 : -1;
+    sum_terms(fs, counts->negative_pivots);
+    for (int k = 0; k < fs->n; k++) {
+        const double d = fabs(fs->D[k]), terms = fs->terms[k];
+        if (!isfinite(d) || d <= digits * terms || (terms * digits >= fs->diagonal[k] && terms * digits >= largest_entry(fs, k)))
+            return STATUS_SINGULAR;
+        if (d < *ratio * terms) {
+            *ratio = d / terms;
+            *weakest = fs->order[k];
+        }
+        largest = fmax(largest, d);
+        smallest = fmin(smallest, d);
+    }
+    counts->condition = largest / smallest;
+    return STATUS_OK;
+}
+
+status factor_symmetric_numeric(factor_symmetric *fs, const sparse *a, factor_counts *counts, int *weakest, double *ratio)
+{
+    load(fs, a);
+    if (ldl_numeric(fs->n, fs->column, fs->row, fs->value, fs->L_column, fs->parent, fs->in_column, fs->L_row, fs->L_value, fs->D,
+                    fs->work, fs->path, fs->mark, NULL, NULL) != fs->n)
+        return STATUS_SINGULAR;
+    return judge_pivots(fs, counts, weakest, ratio);
+}
+
+void factor_symmetric_solve(factor_symmetric *fs, double x[])
+{
+    ldl_perm(fs->n, fs->work, x, fs->order);
+    ldl_lsolve(fs->n, fs->work, fs->L_column, fs->L_row, fs->L_value);
+    ldl_dsolve(fs->n, fs->work, fs->D);
+    ldl_ltsolve(fs->n, fs->work, fs->L_column, fs->L_row, fs->L_value);
+    ldl_permt(fs->n, x, fs->work, fs->order);
+}

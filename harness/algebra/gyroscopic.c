@@ -1,0 +1,259 @@
+#include "harness/algebra/gyroscopic.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/algebra/gyroscopic_count.h"
+#include "harness/algebra/ritz.h"
+
+enum { SPARE = 3, MAX_PASSES = 30, MAX_STARTS = 4, ROOM_PER_MODE = 16 };
+
+/* Of a residual, in parts of x^H K x: a frequency is off by its square. */
+static const double good_residual = 1e-8, bearable_residual = 1e-5;
+
+typedef struct solver {
+    const gyroscopic_problem *p;
+    gyroscopic_result *out;
+    double shift;    /* [1/s^2] S = K + shift M */
+    const sparse *S; /* K, or ... */
+    sparse shifted;  /* ... this */
+    subspace basis;
+    ritz pairs;
+    double *re, *im, *work; /* [free] */
+} solver;
+
+void gyroscopic_free(gyroscopic_result *r)
+{
+    free(r->frequency);
+    free(r->growth);
+    free(r->mode);
+    memset(r, 0, sizeof *r);
+}
+
+/* out_re + i out_im = sum_k c_k vector_k, times a complex number, added. */
+static void accumulate(const solver *s, const double *vectors, const double complex c[], double complex times)
+{
+    const size_t n = (size_t)s->basis.n;
+    for (int k = 0; k < s->pairs.size; k++) {
+        const double complex a = times * c[k];
+        for (size_t i = 0; i < n; i++) {
+            s->re[i] += creal(a) * vectors[(size_t)k * n + i];
+            s->im[i] += cimag(a) * vectors[(size_t)k * n + i];
+        }
+    }
+}
+
+static void clear(const solver *s)
+{
+    memset(s->re, 0, (size_t)s->basis.n * sizeof *s->re);
+    memset(s->im, 0, (size_t)s->basis.n * sizeof *s->im);
+}
+
+/* r^H S^-1 r for one half of a residual, which is replaced by S^-1 times itself. */
+static double solve_half(solver *s, double half[])
+{
+    memcpy(s->work, half, (size_t)s->basis.n * sizeof *half);
+    factor_solve(s->p->K_factor, half);
+    s->out->solutions++;
+    return fmax(0, dense_dot(s->basis.n, s->work, half));
+}
+
+/* Size of the residual of pair i; where it is large, the basis takes in S^-1 times it. */
+static double improve(solver *s, int i, int *grown)
+{
+    const double complex lambda = s->pairs.lambda[i], *c = s->pairs.c + (size_t)i * (size_t)s->basis.room;
+    clear(s);
+    accumulate(s, s->basis.SV, c, 1);
+    accumulate(s, s->basis.MV, c, lambda * lambda - s->shift);
+    accumulate(s, s->basis.GV, c, lambda);
+    const double size = sqrt(solve_half(s, s->re) + solve_half(s, s->im));
+    if (size > good_residual) {
+        *grown += subspace_add(&s->basis, s->re);
+        *grown += subspace_add(&s->basis, s->im);
+    }
+    return size;
+}
+
+/* Ritz pairs until `wanted` of them are good. */
+static status iterate(solver *s, int wanted, fault *f)
+{
+    for (int pass = 0;; pass++) {
+        const status outcome =
+            s->shift > 0 ? ritz_general(&s->basis, s->shift, &s->pairs, f) : ritz_hermitian(&s->basis, &s->pairs, f);
+        if (outcome != STATUS_OK)
+            return outcome;
+        double worst = 0;
+        int grown = 0;
+        for (int i = 0; i < s->pairs.count && i < wanted; i++)
+            worst = fmax(worst, improve(s, i, &grown));
+        if (worst <= good_residual)
+            return STATUS_OK;
+        if (grown == 0 || pass == MAX_PASSES)
+            return worst <= bearable_residual
+                       ? STATUS_OK
+                       : fault_set(f, STATUS_NOT_CONVERGED, "frequencies in a turning frame: residual %.1e with %d vectors", worst,
+                                   s->basis.count);
+    }
+}
+
+/* The first `count` modes without G go into the basis. */
+static status start(solver *s, int count, fault *f)
+{
+    eigen_result e = {0};
+    const eigen_problem problem = {.K = s->S, .A = s->p->M, .K_factor = s->p->K_factor, .sign = 1, .largest = count};
+    const status outcome = eigen_solve(&problem, &e, f);
+    for (int i = 0; i < e.positive.count && outcome == STATUS_OK; i++)
+        subspace_add(&s->basis, e.positive.mode + (size_t)i * (size_t)s->basis.n);
+    s->out->solutions += e.solutions;
+    s->out->factorisations += e.factorisations;
+    eigen_free(&e);
+    return outcome;
+}
+
+/* Frequencies below a gap between the wanted ones and the next, less those that are found; equal ones have no gap between them. */
+static status missing(solver *s, int wanted, int *number, fault *f)
+{
+    const double gap = 1e-6; /* relative */
+    int last = s->pairs.count - 1 < wanted ? s->pairs.count - 1 : wanted, below = 0;
+    *number = 0;
+    while (last > 0 && !(cabs(s->pairs.lambda[last]) > (1 + gap) * cabs(s->pairs.lambda[last - 1])))
+        last--;
+    if (s->shift > 0 || last <= 0)
+        return STATUS_OK;
+    const double omega = sqrt(cabs(s->pairs.lambda[last - 1]) * cabs(s->pairs.lambda[last]));
+    const status outcome = gyroscopic_count(s->p->K, s->p->M, s->p->G, omega, &below, f);
+    s->out->factorisations++;
+    *number = outcome == STATUS_OK && below > last ? below - last : 0;
+    return outcome;
+}
+
+/* K is indefinite: the least shift, in powers of ten, that makes it definite. */
+static status find_shift(solver *s, fault *f)
+{
+    const sparse *K = s->p->K, *M = s->p->M;
+    double k = 0, mass = 0;
+    status outcome = sparse_alloc_like(K, &s->shifted, f);
+    for (int j = 0; j < K->n; j++) {
+        k += fabs(K->value[K->column[j + 1] - 1]);
+        mass += M->value[M->column[j + 1] - 1];
+    }
+    for (s->shift = 1e-12 * k / mass; outcome == STATUS_OK; s->shift *= 10) {
+        if (s->shift > 1e3 * k / mass)
+            return fault_set(f, STATUS_REFUSED, "the stiffness is indefinite where there is no mass: no motion follows from it");
+        for (int i = 0; i < K->column[K->n]; i++)
+            s->shifted.value[i] = K->value[i] + s->shift * M->value[i];
+        outcome = factor_numeric(s->p->K_factor, &s->shifted, f);
+        s->out->factorisations++;
+        if (outcome == STATUS_SINGULAR) {
+            outcome = STATUS_OK;
+            continue;
+        }
+        if (outcome == STATUS_OK && factor_count(s->p->K_factor).negative_pivots == 0)
+            break;
+    }
+    s->S = &s->shifted;
+    return outcome;
+}
+
+/* The frequency as a quotient of quadratic forms, k - omega^2 m + omega g = 0: its error is the square of the mode's. */
+static double quotient(solver *s, double frequency)
+{
+    const int n = s->basis.n;
+    const double k = s->p->K_energy(s->p->context, s->re) + s->p->K_energy(s->p->context, s->im);
+    double m = 0, g = 0;
+    sparse_mul(s->p->M, s->re, s->work);
+    m += dense_dot(n, s->re, s->work);
+    sparse_mul(s->p->M, s->im, s->work);
+    m += dense_dot(n, s->im, s->work);
+    subspace_skew_mul(s->p->G, s->im, s->work);
+    g = -2 * dense_dot(n, s->re, s->work);
+    const double better = (g + sqrt(g * g + 4 * k * m)) / (2 * m);
+    return isfinite(better) ? better : frequency;
+}
+
+/* The phase that makes the real part as large as it can be. */
+static void turn_phase(const solver *s)
+{
+    double complex square = 0;
+    for (int i = 0; i < s->basis.n; i++)
+        square += (s->re[i] + I * s->im[i]) * (s->re[i] + I * s->im[i]);
+    const double complex phase = cexp(-I * carg(square) / 2);
+    for (int i = 0; i < s->basis.n; i++) {
+        const double complex x = phase * (s->re[i] + I * s->im[i]);
+        s->re[i] = creal(x);
+        s->im[i] = cimag(x);
+    }
+}
+
+static status hand_over(solver *s, fault *f)
+{
+    gyroscopic_result *r = s->out;
+    const size_t n = (size_t)r->n;
+    r->count = s->pairs.count < s->p->wanted ? s->pairs.count : s->p->wanted;
+    r->frequency = calloc((size_t)r->count + 1, sizeof(double));
+    r->growth = calloc((size_t)r->count + 1, sizeof(double));
+    r->mode = calloc((size_t)r->count * n + 1, sizeof(double));
+    if (r->frequency == NULL || r->growth == NULL || r->mode == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for %d modes", r->count);
+    for (int i = 0; i < r->count; i++) {
+        const double complex lambda = s->pairs.lambda[i];
+        clear(s);
+        accumulate(s, s->basis.V, s->pairs.c + (size_t)i * (size_t)s->basis.room, 1);
+        turn_phase(s);
+        r->frequency[i] = cimag(lambda);
+        if (fabs(creal(lambda)) > ritz_imaginary * cabs(lambda))
+            r->growth[i] = creal(lambda);
+        if (s->shift == 0 && s->p->K_energy != NULL)
+            r->frequency[i] = quotient(s, r->frequency[i]);
+        memcpy(r->mode + (size_t)i * n, s->re, n * sizeof(double));
+    }
+    return STATUS_OK;
+}
+
+static status solve(solver *s, fault *f)
+{
+    const int n = s->out->n;
+    status outcome = STATUS_OK;
+    int first = s->p->wanted + SPARE, lost = 1;
+    for (int attempt = 0; outcome == STATUS_OK && lost > 0; attempt++) {
+        if (attempt == MAX_STARTS)
+            return fault_set(f, STATUS_NOT_CONVERGED, "%d frequencies in a turning frame are missing", lost);
+        outcome = start(s, first < n ? first : n, f);
+        if (outcome == STATUS_OK)
+            outcome = iterate(s, s->p->wanted, f);
+        if (outcome == STATUS_OK)
+            outcome = missing(s, s->p->wanted, &lost, f);
+        first += 2 * lost + SPARE;
+    }
+    return outcome == STATUS_OK ? hand_over(s, f) : outcome;
+}
+
+status gyroscopic_solve(const gyroscopic_problem *p, gyroscopic_result *r, fault *f)
+{
+    const size_t n = (size_t)p->K->n;
+    solver s = {.p = p, .out = r, .S = p->K, .re = calloc(3 * n + 1, sizeof(double))};
+    memset(r, 0, sizeof *r);
+    r->n = (int)n;
+    r->negative = factor_count(p->K_factor).negative_pivots;
+    s.im = s.re + n;
+    s.work = s.im + n;
+    status outcome = s.re != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for modes");
+    if (r->negative < 0)
+        outcome =
+            fault_set(f, STATUS_REFUSED, "frequencies in a turning frame need a symmetric stiffness: no moments about fixed axes");
+    if (outcome == STATUS_OK && r->negative > 0)
+        outcome = find_shift(&s, f);
+    if (outcome == STATUS_OK)
+        outcome = subspace_alloc(&s.basis, s.S, p->M, p->G, ROOM_PER_MODE * (p->wanted + SPARE), f);
+    if (outcome == STATUS_OK)
+        outcome = ritz_alloc(&s.pairs, p->wanted + SPARE, &s.basis, f);
+    if (outcome == STATUS_OK && n > 0)
+        outcome = solve(&s, f);
+    subspace_free(&s.basis);
+    ritz_free(&s.pairs);
+    sparse_free_values(&s.shifted);
+    free(s.re);
+    return outcome;
+}

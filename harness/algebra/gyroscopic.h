@@ -1,0 +1,32 @@
+/* Small motions x exp(lambda t) in a frame that turns steadily: (lambda^2 M + lambda G + K) x = 0, K and M symmetric, G skew.
+ *
+ * With K positive definite every lambda = i omega is imaginary, whatever G is (Kelvin, Tait): projected on a real basis the
+ * problem is Hermitian, mu [x; y] = [-i G, R^T; R, 0] [x; y] with mu = 1/omega, M = R^T R and K the identity.  The basis starts
+ * with the modes without G and takes in K^-1 times the residuals; inertia counts the frequencies, so that none is missed.
+ * With K indefinite the projected problem is solved as it is, and lambda has a real part where a motion grows. */
+#ifndef BEAMWORK_GYROSCOPIC_H
+#define BEAMWORK_GYROSCOPIC_H
+
+#include "harness/algebra/eigen.h"
+
+typedef struct gyroscopic_problem {
+    const sparse *K, *M, *G; /* same symmetric pattern; of G the upper triangle is stored */
+    factor *K_factor;        /* factor_numeric done; its numbers are replaced where K is indefinite */
+    int wanted;              /* number of lowest modes */
+    eigen_form *K_energy;    /* x^T K x; NULL: from the matrix */
+    void *context;
+} gyroscopic_problem;
+
+typedef struct gyroscopic_result {
+    int n, count;      /* fewer than wanted when no more exist */
+    double *frequency; /* [count] lambda = growth + i frequency [1/s], ascending in size */
+    double *growth;    /* [count] zero where K is positive definite */
+    double *mode;      /* [count x n] real part, the larger one, of the motion */
+    int negative;      /* eigenvalues of K */
+    long solutions, factorisations;
+} gyroscopic_result;
+
+status gyroscopic_solve(const gyroscopic_problem *, gyroscopic_result *, fault *);
+void gyroscopic_free(gyroscopic_result *);
+
+#endif

@@ -1,0 +1,133 @@
+/* OP = K^-1 s A is symmetric in the inner product of K (ARPACK's mode 2). Known eigenvectors X are taken out by the projection
+ * I - X X^T K: a repeated eigenvalue, of which one starting vector shows one copy only, comes out one copy at a time. */
+#include "harness/algebra/lanczos.h"
+
+#include <arpack/arpack.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_RESTARTS = 300, EXTRA_VECTORS = 20, PARAMETERS = 11, POINTERS = 14 };
+
+/* Of a vector: Rayleigh's quotient squares it. */
+static const double tolerance = 1e-10;
+
+typedef struct workspace {
+    int n, wanted, vectors, size;
+    double *numbers, *start, *basis, *vector, *work, *value;
+    int *integers, *parameter, *pointer, *select;
+} workspace;
+
+static status workspace_alloc(workspace *w, int n, int wanted, int room, fault *f)
+{
+    memset(w, 0, sizeof *w);
+    w->n = n;
+    w->wanted = wanted;
+    w->vectors = 2 * wanted + EXTRA_VECTORS < room ? 2 * wanted + EXTRA_VECTORS : room;
+    w->size = w->vectors * (w->vectors + 8);
+    const size_t N = (size_t)n, vectors = (size_t)w->vectors;
+    w->numbers = malloc((N + N * vectors + 3 * N + (size_t)w->size + vectors) * sizeof *w->numbers);
+    w->integers = calloc(PARAMETERS + POINTERS + vectors, sizeof *w->integers);
+    if (w->numbers == NULL || w->integers == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for %d vectors of %d unknowns", w->vectors, n);
+    w->start = w->numbers;
+    w->basis = w->start + N;
+    w->vector = w->basis + N * vectors;
+    w->work = w->vector + 3 * N;
+    w->value = w->work + w->size;
+    w->parameter = w->integers;
+    w->pointer = w->parameter + PARAMETERS;
+    w->select = w->pointer + POINTERS;
+    return STATUS_OK;
+}
+
+static void workspace_free(workspace *w)
+{
+    free(w->numbers);
+    free(w->integers);
+}
+
+/* The same start every time, with a part of every mode. */
+static void fill_start(int n, double x[])
+{
+    unsigned long long seed = 0x9E3779B97F4A7C15ull;
+    for (int i = 0; i < n; i++) {
+        seed = seed * 6364136223846793005ull + 1442695040888963407ull;
+        x[i] = (double)(seed >> 11) / 9007199254740992.0 - 0.5;
+    }
+}
+
+/* x -= a-part of X, where each coefficient is measured with the dual vector. */
+static void take_out(int n, int known, const double *dual, const double *measured, const double *X, double x[])
+{
+    for (int k = 0; k < known; k++) {
+        const double *d = dual + (size_t)k * (size_t)n, *v = X + (size_t)k * (size_t)n;
+        double part = 0;
+        for (int i = 0; i < n; i++)
+            part += d[i] * measured[i];
+        for (int i = 0; i < n; i++)
+            x[i] -= part * v[i];
+    }
+}
+
+/* y = OP x; x becomes K y = s A x, as mode 2 wants it; both without their share of X. */
+static void apply(const lanczos_problem *p, double x[], double y[])
+{
+    const int n = p->K->n;
+    sparse_mul(p->A, x, y);
+    for (int i = 0; i < n; i++)
+        x[i] = y[i] *= p->sign;
+    factor_solve(p->K_factor, y);
+    take_out(n, p->known, p->KX, y, p->X, y);
+    take_out(n, p->known, p->X, x, p->KX, x);
+}
+
+/* Returns ARPACK's verdict: 0 when all wanted ones converged. */
+static int iterate(const lanczos_problem *p, workspace *w, long *solutions)
+{
+    int ido = 0, info = 1;
+    w->parameter[0] = 1;
+    w->parameter[2] = MAX_RESTARTS;
+    w->parameter[6] = 2;
+    for (;;) {
+        dsaupd_c(&ido, "G", w->n, "LA", w->wanted, tolerance, w->start, w->vectors, w->basis, w->n, w->parameter, w->pointer,
+                 w->vector, w->work, w->size, &info);
+        if (ido != 2 && ido != 1 && ido != -1)
+            return info;
+        double *x = &w->vector[w->pointer[0] - 1], *y = &w->vector[w->pointer[1] - 1];
+        if (ido == 2) {
+            sparse_mul(p->K, x, y);
+        } else {
+            apply(p, x, y);
+            (*solutions)++;
+        }
+    }
+}
+
+status lanczos_largest(const lanczos_problem *p, int wanted, double mu[], double x[], long *solutions, fault *f)
+{
+    const int n = p->K->n;
+    workspace w;
+    status outcome = workspace_alloc(&w, n, wanted, n - p->known, f);
+    if (outcome == STATUS_OK) {
+        fill_start(n, w.start);
+        take_out(n, p->known, p->KX, w.start, p->X, w.start);
+        const int info = iterate(p, &w, solutions);
+        if (info != 0)
+            outcome =
+                fault_set(f, STATUS_NOT_CONVERGED, "%d of %d eigenvalues found (ARPACK says %d)", w.parameter[4], wanted, info);
+    }
+    if (outcome == STATUS_OK) {
+        int info = 0;
+        dseupd_c(1, "A", w.select, w.value, w.basis, n, 0, "G", n, "LA", wanted, tolerance, w.start, w.vectors, w.basis, n,
+                 w.parameter, w.pointer, w.vector, w.work, w.size, &info);
+        if (info != 0)
+            outcome = fault_set(f, STATUS_NOT_CONVERGED, "the eigenvectors were not found (ARPACK says %d)", info);
+    }
+    for (int i = 0; i < wanted && outcome == STATUS_OK; i++) { /* ARPACK's are ascending */
+        const int from = wanted - 1 - i;
+        mu[i] = w.value[from];
+        memcpy(x + (size_t)i * (size_t)n, w.basis + (size_t)from * (size_t)n, (size_t)n * sizeof *x);
+    }
+    workspace_free(&w);
+    return outcome;
+}

@@ -1,0 +1,35 @@
+/* Candidates for the largest eigenvalues of s A x = mu K x: refined by Rayleigh's quotient, judged, sorted and counted. */
+#ifndef BEAMWORK_PAIRS_H
+#define BEAMWORK_PAIRS_H
+
+#include "harness/algebra/eigen.h"
+
+typedef struct pairs {
+    const eigen_problem *problem;
+    double sign; /* s: of the problem, reversed for the most negative values */
+    int n, count, room;
+    double *mu;          /* [room] descending */
+    double *matrix_mu;   /* [room] the same quotient of the matrices as they are, rounding errors of all elements included */
+    double *noise;       /* [room] part of it that rounding the sums changes */
+    double *stiffness;   /* [room] x^T K x as the caller evaluates it */
+    double *x, *Kx;      /* [room x n] x^T K x = 1 by the matrix */
+    double *work, *form; /* [n] each */
+    sparse shifted;      /* K - s A/mu; without values until it is needed */
+    factor *shifted_factor;
+} pairs;
+
+status pairs_alloc(pairs *p, const eigen_problem *problem, double sign, fault *f);
+void pairs_free(pairs *p);
+/* Size of the largest |mu|, from below, by a few powers of K^-1 A. */
+double pairs_scale(pairs *p, long *solutions);
+/* Takes in vectors x[count x n], whatever their length; those with mu <= least are dropped. */
+status pairs_add(pairs *p, int count, const double x[], double least, fault *f);
+/* Residual of candidate i and estimated error of its mu, both in parts of mu. One solution. */
+void pairs_judge(pairs *p, int i, double *residual, double *error);
+/* How many of the eigenvalues that lie clearly above the one of rank `wanted` (counted from 1) are not among the candidates.
+ * NOT_CONVERGED when there are fewer than candidates. */
+status pairs_missing(pairs *p, int wanted, int *missing, eigen_result *work, fault *f);
+/* How many eigenvalues are larger than s > 0. */
+status pairs_above(pairs *p, double s, int *above, eigen_result *work, fault *f);
+
+#endif

@@ -1,0 +1,122 @@
+/* The others spin for a moment before they sleep: the loops of one iteration follow each other within microseconds. */
+#include "harness/algebra/team.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+
+enum { SPINS = 2000 };
+
+typedef struct member {
+    team *team;
+    int index; /* 1 .. threads - 1; the caller is 0 */
+    pthread_t thread;
+} member;
+
+struct team {
+    int threads, started;
+    member member[TEAM_MOST];
+    pthread_mutex_t lock;
+    pthread_cond_t wake;
+    atomic_int round, left; /* round: changes when there is work; left: members that have not finished it */
+    int end;
+    int count;
+    team_work *work;
+    void *context;
+};
+
+static void do_part(const team *t, int index)
+{
+    const int first = (int)((long)t->count * index / t->threads), end = (int)((long)t->count * (index + 1) / t->threads);
+    if (first < end)
+        t->work(t->context, first, end);
+}
+
+static void wait_for_round(team *t, int seen)
+{
+    for (int i = 0; i < SPINS; i++)
+        if (atomic_load_explicit(&t->round, memory_order_acquire) != seen)
+            return;
+    pthread_mutex_lock(&t->lock);
+    while (atomic_load(&t->round) == seen)
+        pthread_cond_wait(&t->wake, &t->lock);
+    pthread_mutex_unlock(&t->lock);
+}
+
+static void *live(void *argument)
+{
+    const member *self = argument;
+    team *t = self->team;
+    for (int seen = 0;; seen++) {
+        wait_for_round(t, seen);
+        if (t->end)
+            return NULL;
+        do_part(t, self->index);
+        atomic_fetch_sub_explicit(&t->left, 1, memory_order_release);
+    }
+}
+
+static void announce(team *t)
+{
+    pthread_mutex_lock(&t->lock);
+    atomic_fetch_add(&t->round, 1);
+    pthread_cond_broadcast(&t->wake);
+    pthread_mutex_unlock(&t->lock);
+}
+
+status team_alloc(int threads, team **out, fault *f)
+{
+    *out = NULL;
+    if (threads <= 1)
+        return STATUS_OK;
+    team *t = calloc(1, sizeof *t);
+    if (t == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for threads");
+    t->threads = threads < TEAM_MOST ? threads : TEAM_MOST;
+    pthread_mutex_init(&t->lock, NULL);
+    pthread_cond_init(&t->wake, NULL);
+    for (int i = 1; i < t->threads; i++) {
+        t->member[i] = (member){.team = t, .index = i};
+        if (pthread_create(&t->member[i].thread, NULL, live, &t->member[i]) != 0)
+            break;
+        t->started++;
+    }
+    if (t->started + 1 < t->threads) {
+        team_free(t);
+        return fault_set(f, STATUS_FAULT, "cannot start %d threads", threads);
+    }
+    *out = t;
+    return STATUS_OK;
+}
+
+void team_free(team *t)
+{
+    if (t == NULL)
+        return;
+    t->end = 1;
+    announce(t);
+    for (int i = 1; i <= t->started; i++)
+        pthread_join(t->member[i].thread, NULL);
+    pthread_cond_destroy(&t->wake);
+    pthread_mutex_destroy(&t->lock);
+    free(t);
+}
+
+void team_run(team *t, int count, team_work *work, void *context)
+{
+    if (t == NULL) {
+        work(context, 0, count);
+        return;
+    }
+    t->count = count;
+    t->work = work;
+    t->context = context;
+    atomic_store(&t->left, t->threads - 1);
+    announce(t);
+    do_part(t, 0);
+    int spins = 0;
+    while (atomic_load_explicit(&t->left, memory_order_acquire) > 0)
+        if (++spins > SPINS)
+            sched_yield(); /* the parts are equal: it is a moment, unless there are fewer processors */
+}

@@ -1,0 +1,209 @@
+/* Eigenpairs against closed forms and against LAPACK: both signs, repeated and nearly equal values, singular and indefinite
+ * matrices. */
+#include <gsl/gsl_test.h>
+#include <stdio.h>
+
+#include "harness/algebra/lanczos.h"
+#include "harness/algebra/pairs.h"
+#include "harness/algebra/test/eigen_problems.h"
+
+/* Largest departure of X^T K X from the identity. */
+static double departure(const sparse *K, int count, const double *x)
+{
+    double worst = 0, *product = malloc((size_t)K->n * sizeof *product);
+    for (int i = 0; i < count; i++) {
+        sparse_mul(K, x + i * K->n, product);
+        for (int j = 0; j < count; j++) {
+            double sum = i == j ? -1 : 0;
+            for (int k = 0; k < K->n; k++)
+                sum += x[j * K->n + k] * product[k];
+            worst = fmax(worst, fabs(sum));
+        }
+    }
+    free(product);
+    return worst;
+}
+
+static void test_strings(int copies, int masses, double spread, int wanted, int iterate, double allowed)
+{
+    strings s;
+    eigen_result r = {0};
+    fault f = {""};
+    char name[80];
+    snprintf(name, sizeof name, "%d strings of %d, springs %g apart, %d wanted, %s", copies, masses, spread, wanted,
+             iterate ? "sparse" : "as it comes");
+    strings_init(&s, copies, masses, spread);
+    eigen_problem p = {.K = &s.K, .A = &s.M, .sign = 1, .largest = wanted, .iterate = iterate};
+    p.K_energy = strings_energy;
+    p.context = &s;
+    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_OK, "%s: %s", name, f.text);
+    gsl_test_int(r.positive.count, wanted, "%s: all found", name);
+    double worst = 0, residual = 0, error = 0;
+    for (int i = 0; i < r.positive.count; i++) {
+        worst = fmax(worst, fabs(r.positive.mu[i] / strings_exact(&s, i) - 1));
+        residual = fmax(residual, r.positive.residual[i]);
+        error = fmax(error, r.positive.error[i]);
+    }
+    gsl_test(!(worst < allowed), "%s: within %.1e", name, worst);
+    gsl_test(!(residual < 1e-8), "%s: residuals below %.1e", name, residual);
+    gsl_test(!(error < 1e-15), "%s: estimated errors below %.1e", name, error);
+    const double apart = departure(&s.K, r.positive.count, r.positive.mode);
+    gsl_test(!(apart < 1e-9), "%s: modes orthonormal within %.1e", name, apart);
+    eigen_free(&r);
+    strings_free(&s);
+}
+
+/* Indefinite A: the sparse way against the dense one. */
+static void test_both_signs(void)
+{
+    enum { NODES = 60, SIZE = 3, WANTED = 7 };
+    unsigned long long seed = 77;
+    sparse K = matrices_chain(NODES, SIZE), A = matrices_chain(NODES, SIZE);
+    for (int j = 0; j < K.n; j++)
+        for (int k = K.column[j]; k < K.column[j + 1]; k++) {
+            A.value[k] = matrices_random(&seed);
+            K.value[k] = K.row[k] == j ? 7 : matrices_random(&seed);
+        }
+    eigen_result sparse_way = {0}, again = {0}, dense_way = {0};
+    fault f = {""};
+    for (int sign = -1; sign <= 1; sign += 2) {
+        eigen_problem p = {.K = &K, .A = &A, .sign = sign, .largest = WANTED, .smallest = WANTED, .iterate = 1};
+        gsl_test_int((int)eigen_problems_solve(&p, &sparse_way, &f), STATUS_OK, "indefinite, sparse: %s", f.text);
+        gsl_test_int((int)eigen_problems_solve(&p, &again, &f), STATUS_OK, "indefinite, again: %s", f.text);
+        gsl_test(memcmp(again.positive.mode, sparse_way.positive.mode, (size_t)K.n * WANTED * sizeof(double)) != 0,
+                 "the same problem gives the same digits");
+        p.largest = p.smallest = K.n;
+        gsl_test_int((int)eigen_problems_solve(&p, &dense_way, &f), STATUS_OK, "indefinite, dense: %s", f.text);
+        gsl_test_int(dense_way.positive.count + dense_way.negative.count, K.n, "all eigenvalues have a sign");
+        for (int i = 0; i < WANTED; i++) {
+            gsl_test_rel(sparse_way.positive.mu[i], dense_way.positive.mu[i], 1e-13, "positive value %d", i);
+            gsl_test_rel(sparse_way.negative.mu[i], dense_way.negative.mu[i], 1e-13, "negative value %d", i);
+        }
+        eigen_free(&sparse_way);
+        eigen_free(&again);
+        eigen_free(&dense_way);
+    }
+    matrices_free(&K);
+    matrices_free(&A);
+}
+
+/* Two strings that only A couples, one with the slope of the other: every value is double and comes with both signs. */
+static void test_coupled_strings(int masses)
+{
+    enum { WANTED = 3 };
+    strings s;
+    eigen_result sparse_way = {0}, dense_way = {0};
+    fault f = {""};
+    strings_init(&s, 2, masses, 0);
+    sparse_zero(&s.M);
+    for (int i = 1; i < masses; i++) {
+        matrices_add(&s.M, 2 * (i - 1), 2 * i + 1, 1);
+        matrices_add(&s.M, 2 * i, 2 * (i - 1) + 1, -1);
+    }
+    eigen_problem p = {.K = &s.K, .A = &s.M, .sign = 1, .largest = WANTED, .smallest = WANTED, .iterate = 1};
+    gsl_test_int((int)eigen_problems_solve(&p, &sparse_way, &f), STATUS_OK, "coupled strings of %d, sparse: %s", masses, f.text);
+    gsl_test(sparse_way.positive.count != WANTED || sparse_way.negative.count != WANTED, "coupled strings of %d: all found",
+             masses);
+    p.largest = p.smallest = s.K.n;
+    gsl_test_int((int)eigen_problems_solve(&p, &dense_way, &f), STATUS_OK, "coupled strings of %d, dense: %s", masses, f.text);
+    for (int i = 0; i < WANTED && sparse_way.positive.count == WANTED && sparse_way.negative.count == WANTED; i++) {
+        gsl_test_rel(sparse_way.positive.mu[i], dense_way.positive.mu[i], 1e-12, "coupled strings: positive value %d", i);
+        gsl_test_rel(sparse_way.negative.mu[i], dense_way.negative.mu[i], 1e-12, "coupled strings: negative value %d", i);
+    }
+    eigen_free(&sparse_way);
+    eigen_free(&dense_way);
+    strings_free(&s);
+}
+
+/* A of rank 3 (two positive, one negative value): what does not exist is not found. */
+static void test_rank(int iterate)
+{
+    enum { MASSES = 150 };
+    strings s;
+    eigen_result r = {0};
+    fault f = {""};
+    strings_init(&s, 1, MASSES, 0);
+    sparse_zero(&s.M);
+    matrices_add(&s.M, 20, 20, 3);
+    matrices_add(&s.M, 70, 70, 5);
+    matrices_add(&s.M, 120, 120, -2);
+    eigen_problem p = {.K = &s.K, .A = &s.M, .sign = 1, .largest = 4, .smallest = 4, .iterate = iterate};
+    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_OK, "rank 3: %s", f.text);
+    gsl_test_int(r.positive.count, 2, "rank 3: two positive values exist");
+    gsl_test_int(r.negative.count, 1, "rank 3: one negative value exists");
+    eigen_free(&r);
+    sparse_zero(&s.M);
+    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_OK, "rank 0: %s", f.text);
+    gsl_test_int(r.positive.count + r.negative.count, 0, "rank 0: no value exists");
+    eigen_free(&r);
+    matrices_add(&s.K, 75, 75, -3);
+    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_REFUSED, "an indefinite stiffness is refused: %s", f.text);
+    eigen_free(&r);
+    strings_free(&s);
+}
+
+/* What happens when the iteration has found one copy of a repeated eigenvalue: the inertia says so, and the others come out of
+ * what that copy leaves. */
+static void test_missed_copies(void)
+{
+    enum { COPIES = 3, MASSES = 40, N = COPIES * MASSES };
+    strings s;
+    eigen_result work = {0};
+    pairs p;
+    double x[2 * N] = {0}, mu[2], all[COPIES * N] = {0};
+    int missing = -1, above = -1;
+    strings_init(&s, COPIES, MASSES, 0);
+    eigen_problem e = {.K = &s.K, .A = &s.M, .sign = 1, .largest = COPIES, .K_energy = strings_energy, .context = &s};
+    gsl_test(factor_alloc(e.K, &e.K_factor, NULL) != STATUS_OK || factor_numeric(e.K_factor, e.K, NULL) != STATUS_OK ||
+                 pairs_alloc(&p, &e, 1, NULL) != STATUS_OK,
+             "strings are factorised");
+    for (int c = 0; c < COPIES; c++)
+        for (int i = 0; i < MASSES; i++)
+            all[c * N + i * COPIES + c] = 1e5 * sin((i + 1) * MATRICES_PI / (MASSES + 1));
+    for (int i = 0; i < MASSES; i++) /* the second mode of one string */
+        x[i * COPIES] = sin(2 * (i + 1) * MATRICES_PI / (MASSES + 1));
+    const double first = strings_exact(&s, 0), second = strings_exact(&s, COPIES), scale = pairs_scale(&p, &work.solutions);
+    gsl_test(!(scale > 0.3 * first && scale < first * (1 + 1e-9)), "the largest eigenvalue is estimated from below (%g of it)",
+             scale / first);
+    pairs_above(&p, sqrt(first * second), &above, &work, NULL);
+    gsl_test_int(above, COPIES, "the inertia counts all copies");
+    gsl_test(pairs_add(&p, 1, x, 0, NULL) != STATUS_OK || pairs_add(&p, 1, all, 0, NULL) != STATUS_OK, "candidates are taken in");
+    gsl_test_rel(p.mu[0], first, 1e-14, "and sorted");
+    gsl_test_rel(p.mu[1], second, 1e-14, "by size");
+    gsl_test(pairs_missing(&p, 1, &missing, &work, NULL) != STATUS_OK || missing != 0, "the largest value is right with one copy");
+    gsl_test_int((int)pairs_missing(&p, 2, &missing, &work, NULL), STATUS_OK, "values that lie above the second one are counted");
+    gsl_test_int(missing, COPIES - 1, "and two are missing");
+    const lanczos_problem rest = {e.K, e.A, e.K_factor, 1, p.count, p.x, p.Kx};
+    gsl_test(lanczos_largest(&rest, 2, mu, x, &work.solutions, NULL) != STATUS_OK,
+             "Lanczos goes on where the candidates leave off");
+    gsl_test_rel(mu[0], first, 1e-12, "second copy");
+    gsl_test_rel(mu[1], first, 1e-12, "third copy");
+    gsl_test(pairs_add(&p, 2, x, 0, NULL) != STATUS_OK, "both are taken in");
+    gsl_test(pairs_missing(&p, COPIES + 1, &missing, &work, NULL) != STATUS_OK || missing != 0, "now nothing is missing");
+    const double apart = departure(&s.K, p.count, p.x);
+    gsl_test(!(apart < 1e-12), "candidates are orthonormal within %.1e", apart);
+    gsl_test(pairs_add(&p, 1, all, 0, NULL) != STATUS_OK, "the same vector again");
+    gsl_test_int((int)pairs_missing(&p, COPIES + 2, &missing, &work, NULL), STATUS_NOT_CONVERGED, "counts too many");
+    pairs_free(&p);
+    factor_free(e.K_factor);
+    strings_free(&s);
+}
+
+int main(void)
+{
+    static const double spreads[] = {0, 1e-12, 1e-9, 1e-7, 1e-4, 0.01};
+    for (size_t i = 0; i < sizeof spreads / sizeof spreads[0]; i++)
+        for (int copies = 1; copies <= 6; copies += copies == 1 ? 1 : 2)
+            for (int wanted = 1; wanted <= 13; wanted += 4)
+                test_strings(copies, 60, spreads[i], wanted, 1, spreads[i] < 1e-9 ? 1e-13 + copies * spreads[i] : 1e-13);
+    test_strings(6, 12, 0, 13, 0, 1e-13);
+    test_strings(1, 3000, 0, 12, 0, 1e-11);
+    test_strings(3, 1000, 0, 12, 0, 1e-11);
+    test_both_signs();
+    test_coupled_strings(60);
+    test_coupled_strings(61);
+    test_rank(0);
+    test_rank(1);
+    test_missed_copies();
+    return gsl_test_summary();
+}

@@ -1,0 +1,245 @@
+/* Sparse factors against LAPACK on random matrices, inertia, singular matrices of every kind, and the work that is counted. */
+#include <float.h>
+#include <gsl/gsl_test.h>
+#include <lapacke.h>
+#include <stdio.h>
+
+#include "harness/algebra/test/matrices.h"
+
+enum { MOST = 60 };
+
+typedef enum kind { DEFINITE, INDEFINITE, UNSYMMETRIC } kind;
+
+/* About four entries in every row beside the diagonal; rows and columns in units that differ by up to 1e3. */
+static void fill_random(int n, kind what, unsigned long long *seed, double A[])
+{
+    memset(A, 0, (size_t)(n * n) * sizeof *A);
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < 4; k++) {
+            const int j = (int)((matrices_random(seed) + 1) / 2 * n);
+            const double value = matrices_random(seed);
+            if (what == UNSYMMETRIC) {
+                A[i * n + j] += value;
+            } else if (i != j) { /* Laplacian: positive definite once the diagonal has more */
+                A[i * n + j] -= fabs(value);
+                A[j * n + i] -= fabs(value);
+                A[i * n + i] += fabs(value);
+                A[j * n + j] += fabs(value);
+            }
+        }
+    for (int i = 0; i < n; i++)
+        A[i * n + i] += what == DEFINITE ? 0.03 : what == INDEFINITE ? 4 * matrices_random(seed) : 1;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            A[i * n + j] *= (i % 3 == 0 ? 1e3 : 1) * (j % 3 == 0 ? 1e3 : 1);
+}
+
+/* Relative to the rounding error that elimination with pivoting makes. */
+static double distance_from_dense(int n, const double A[], const double x[], const double b[])
+{
+    double copy[MOST * MOST] = {0}, dense[MOST], worst = 0, scale = 0, norm, condition;
+    int pivot[MOST];
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            copy[i * n + j] = A[i * n + j] / ((i % 3 == 0 ? 1e3 : 1) * (j % 3 == 0 ? 1e3 : 1));
+    norm = LAPACKE_dlange(LAPACK_ROW_MAJOR, '1', n, n, copy, n);
+    for (int i = 0; i < n; i++)
+        dense[i] = b[i] / (i % 3 == 0 ? 1e3 : 1);
+    LAPACKE_dgesv(LAPACK_ROW_MAJOR, n, 1, copy, n, pivot, dense, 1);
+    LAPACKE_dgecon(LAPACK_ROW_MAJOR, '1', n, copy, n, norm, &condition);
+    for (int i = 0; i < n; i++) {
+        worst = fmax(worst, fabs(x[i] * (i % 3 == 0 ? 1e3 : 1) - dense[i]));
+        scale = fmax(scale, fabs(dense[i]));
+    }
+    return worst / scale * condition / DBL_EPSILON;
+}
+
+static int negative_eigenvalues(int n, const double A[])
+{
+    double copy[MOST * MOST], w[MOST];
+    int count = 0;
+    memcpy(copy, A, (size_t)(n * n) * sizeof *copy);
+    LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'N', 'U', n, copy, n, w);
+    for (int i = 0; i < n; i++)
+        count += w[i] < 0;
+    return count;
+}
+
+/* 1-norm condition of S A S with the roots of A's diagonal as 1/S, by the inverse. */
+static double scaled_condition(int n, const double A[])
+{
+    double scaled[MOST * MOST] = {0}, norm[2];
+    int pivot[MOST];
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            const double size = fabs(A[i * n + i] != 0 ? A[i * n + i] : 1) * fabs(A[j * n + j] != 0 ? A[j * n + j] : 1);
+            scaled[i * n + j] = A[i * n + j] / sqrt(size);
+        }
+    norm[0] = LAPACKE_dlange(LAPACK_ROW_MAJOR, '1', n, n, scaled, n);
+    LAPACKE_dgetrf(LAPACK_ROW_MAJOR, n, n, scaled, n, pivot);
+    LAPACKE_dgetri(LAPACK_ROW_MAJOR, n, scaled, n, pivot);
+    norm[1] = LAPACKE_dlange(LAPACK_ROW_MAJOR, '1', n, n, scaled, n);
+    return norm[0] * norm[1];
+}
+
+/* Sign of the determinant by Gaussian elimination. */
+static int determinant_sign(int n, const double A[])
+{
+    double copy[MOST * MOST];
+    int pivot[MOST], sign = 1;
+    memcpy(copy, A, (size_t)(n * n) * sizeof *copy);
+    LAPACKE_dgetrf(LAPACK_ROW_MAJOR, n, n, copy, n, pivot);
+    for (int i = 0; i < n; i++)
+        sign = (pivot[i] != i + 1) != (copy[i * n + i] < 0) ? -sign : sign;
+    return sign;
+}
+
+static void random_matrices(kind what, const char *name, double allowed)
+{
+    unsigned long long seed = 2385;
+    double worst = 0, worst_refined = 0, least_condition = INFINITY, most_condition = 0;
+    int wrong_inertia = 0, wrong_sign = 0, failures = 0, most_negative = 0;
+    for (int sample = 0; sample < 40; sample++) {
+        const int n = 2 + sample * (MOST - 2) / 39;
+        double A[MOST * MOST], b[MOST], x[MOST];
+        fill_random(n, what, &seed, A);
+        sparse s = matrices_from_dense(n, what != UNSYMMETRIC, A);
+        factor *fa;
+        failures += factor_alloc(&s, &fa, NULL) != STATUS_OK;
+        for (int turn = 0; turn < 2; turn++) { /* the second time with other numbers on the same pattern */
+            for (int k = 0; k < s.column[n]; k++)
+                s.value[k] *= turn == 0 ? 1 : -0.3;
+            for (int i = 0; i < n * n; i++)
+                A[i] *= turn == 0 ? 1 : -0.3;
+            failures += factor_numeric(fa, &s, NULL) != STATUS_OK;
+            wrong_sign += factor_count(fa).determinant != determinant_sign(n, A);
+            if (what != UNSYMMETRIC) {
+                const int expected = negative_eigenvalues(n, A), found = factor_count(fa).negative_pivots;
+                wrong_inertia += found != expected;
+                most_negative = found > most_negative ? found : most_negative;
+            }
+            const double condition = factor_condition(fa, &s) / scaled_condition(n, A);
+            least_condition = fmin(least_condition, condition);
+            most_condition = fmax(most_condition, condition);
+            for (int i = 0; i < n; i++)
+                b[i] = x[i] = matrices_random(&seed);
+            factor_solve(fa, x);
+            worst = fmax(worst, distance_from_dense(n, A, x, b));
+            factor_solve_refined(fa, &s, memcpy(x, b, sizeof x));
+            worst_refined = fmax(worst_refined, distance_from_dense(n, A, x, b));
+        }
+        gsl_test(factor_count(fa).entries < n || factor_count(fa).flops <= 0, "%s matrix of %d: work is counted", name, n);
+        factor_free(fa);
+        matrices_free(&s);
+    }
+    gsl_test(!(least_condition > 0.3 && most_condition < 1 + 1e-9), "%s: the condition is estimated as %.2f to %.2f of what it is",
+             name, least_condition, most_condition);
+    gsl_test_int(failures, 0, "%s: all samples are factorised", name);
+    gsl_test_int(wrong_sign, 0, "%s: the sign of the determinant", name);
+    if (what != UNSYMMETRIC)
+        gsl_test_int(wrong_inertia, 0, "%s: negative pivots are the negative eigenvalues (up to %d)", name, most_negative);
+    gsl_test(!(worst < allowed), "%s: as LAPACK within %.1f eps times the condition", name, worst);
+    gsl_test(!(worst_refined < 1), "%s: refined, within %.2f eps times the condition", name, worst_refined);
+}
+
+static status outcome_of(const sparse *s, fault *f)
+{
+    factor *fa;
+    status outcome = factor_alloc(s, &fa, f);
+    if (outcome == STATUS_OK)
+        outcome = factor_numeric(fa, s, f);
+    factor_free(fa);
+    return outcome;
+}
+
+static void small_singular_matrices(void)
+{
+    static const struct {
+        const char *name;
+        double A[9];
+        status expected;
+    } sample[] = {
+        {"a zero row", {1, 0, 0.3, 0, 0, 0, 0.3, 0, 2}, STATUS_SINGULAR},
+        {"two equal rows", {1, 0.7, 0.7, 0.7, 3, 3, 0.7, 3, 3}, STATUS_SINGULAR},
+        {"a number that is not one", {1, 0, 0, 0, NAN, 0.1, 0, 0.1, 2}, STATUS_SINGULAR},
+        {"an infinite number", {1, 0, 0, 0, INFINITY, 0.1, 0, 0.1, 2}, STATUS_SINGULAR},
+        {"the zero matrix", {0, 0, 0, 0, 0, 0, 0, 0, 0}, STATUS_SINGULAR},
+        {"tiny numbers", {1e-200, 0, 3e-201, 0, 1e-200, 0, 3e-201, 0, 2e-200}, STATUS_OK},
+        {"huge numbers", {1e200, 0, 3e199, 0, 1e200, 0, 3e199, 0, 2e200}, STATUS_OK},
+        {"digits to spare", {1, 1, 0, 1, 1 + 1e-12, 0, 0, 0, 1}, STATUS_OK},
+        {"no digits left", {1, 1, 0, 1, 1 + 4e-16, 0, 0, 0, 1}, STATUS_SINGULAR},
+    };
+    for (size_t i = 0; i < sizeof sample / sizeof sample[0]; i++)
+        for (int symmetric = 0; symmetric < 2; symmetric++) {
+            fault f = {""};
+            sparse s = matrices_from_dense(3, symmetric, sample[i].A);
+            gsl_test_int((int)outcome_of(&s, &f), (int)sample[i].expected, "%s (%s): %s", sample[i].name,
+                         symmetric ? "symmetric" : "unsymmetric", f.text);
+            matrices_free(&s);
+        }
+    const double growth[4] = {1e-17, 1, 1, 0};
+    sparse s = matrices_from_dense(2, 1, growth);
+    gsl_test_int((int)outcome_of(&s, NULL), STATUS_SINGULAR, "a pivot that is small beside its column destroys the digits");
+    matrices_free(&s);
+    s = matrices_from_dense(2, 0, growth);
+    gsl_test_int((int)outcome_of(&s, NULL), STATUS_OK, "and does no harm with row exchanges");
+    matrices_free(&s);
+}
+
+/* A beam of n elements with so many unknowns of its first node held. */
+static status beam_outcome(int n, int held, int unsymmetric)
+{
+    double k[16], g[16], m[16];
+    matrices_beam(1.0 / n, k, g, m);
+    sparse s = matrices_chain(n + 1, 2);
+    matrices_add_elements(&s, n, 2, 0, k);
+    for (int i = 0; i < held; i++)
+        matrices_add(&s, i, i, k[5 * i] * n);
+    if (unsymmetric) {
+        sparse full = matrices_both_triangles(&s);
+        matrices_free(&s);
+        s = full;
+    }
+    const status outcome = outcome_of(&s, NULL);
+    matrices_free(&s);
+    return outcome;
+}
+
+static void beams_that_are_not_held(void)
+{
+    for (int n = 1; n <= 2048; n *= 2)
+        for (int unsymmetric = 0; unsymmetric < 2; unsymmetric++) {
+            const char *kind_name = unsymmetric ? "LU" : "LDL";
+            gsl_test_int((int)beam_outcome(n, 0, unsymmetric), STATUS_SINGULAR, "%s: free beam of %d elements", kind_name, n);
+            gsl_test_int((int)beam_outcome(n, 1, unsymmetric), STATUS_SINGULAR, "%s: beam of %d elements that can turn", kind_name,
+                         n);
+            gsl_test_int((int)beam_outcome(n, 2, unsymmetric), STATUS_OK, "%s: cantilever of %d elements", kind_name, n);
+        }
+}
+
+static void nothing_to_solve(void)
+{
+    int column[1] = {0};
+    for (int symmetric = 0; symmetric < 2; symmetric++) {
+        const sparse none = {0, symmetric, column, NULL, NULL};
+        factor *fa;
+        gsl_test(factor_alloc(&none, &fa, NULL) != STATUS_OK || factor_numeric(fa, &none, NULL) != STATUS_OK,
+                 "no unknowns are no problem");
+        factor_solve(fa, NULL);
+        factor_solve_refined(fa, &none, NULL);
+        gsl_test_int(factor_count(fa).negative_pivots, symmetric ? 0 : -1, "of %s kind", symmetric ? "symmetric" : "unsymmetric");
+        factor_free(fa);
+    }
+    factor_free(NULL);
+}
+
+int main(void)
+{
+    random_matrices(DEFINITE, "definite", 1);
+    random_matrices(INDEFINITE, "indefinite", 20);
+    random_matrices(UNSYMMETRIC, "unsymmetric", 1);
+    small_singular_matrices();
+    beams_that_are_not_held();
+    nothing_to_solve();
+    return gsl_test_summary();
+}

@@ -1,0 +1,47 @@
+/* Threads that share a loop: every index once, whatever their number; thousands of rounds; threads that sleep are woken. */
+#include <gsl/gsl_test.h>
+#include <string.h>
+#include <time.h>
+
+#include "harness/algebra/team.h"
+
+enum { MOST = 1000 };
+
+static void add_one(void *context, int first, int end)
+{
+    int *visits = context;
+    for (int i = first; i < end; i++)
+        visits[i]++;
+}
+
+static void every_index_once(int threads)
+{
+    static const int counts[] = {0, 1, 2, 3, 7, 64, MOST};
+    int visits[MOST] = {0}, expected = 0;
+    team *t = NULL;
+    fault f = {""};
+    gsl_test(team_alloc(threads, &t, &f) != STATUS_OK, "%d threads (%s)", threads, f.text);
+    gsl_test((t == NULL) != (threads <= 1), "a team of one is none");
+    for (int round = 0; round < 2000; round++) {
+        const int count = counts[round % 7];
+        memset(visits, 0, sizeof visits);
+        team_run(t, count, add_one, visits);
+        for (int i = 0; i < MOST; i++)
+            expected += visits[i] == (i < count);
+        if (round % 500 == 0)
+            nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL); /* long enough for the others to fall asleep */
+    }
+    gsl_test_int(expected, 2000 * MOST, "%d threads: every index once in every round", threads);
+    team_free(t);
+}
+
+int main(void)
+{
+    for (int threads = 1; threads <= 4; threads++)
+        every_index_once(threads);
+    team *unused = NULL;
+    gsl_test(team_alloc(3, &unused, NULL) != STATUS_OK, "a team that is never used");
+    team_free(unused);
+    team_free(NULL);
+    return gsl_test_summary();
+}

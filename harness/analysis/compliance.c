@@ -1,0 +1,101 @@
+/* Compliance and stiffness of a node in a deformed state.  Prescribed motion that is released is replaced by its reactions: dead
+ * forces, and moments of the analysis' convention. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "harness/analysis/tangent.h"
+#include "harness/model/convention.h"
+
+/* Loads whose response some quantity asks for. */
+static unsigned wanted_columns(const analysis_context *c, int analysis)
+{
+    unsigned wanted = 0;
+    for (int i = 0; i < c->scene->quantities; i++) {
+        const scene_quantity *q = &c->scene->quantity[i];
+        if (q->analysis == analysis && (q->kind == SCENE_COMPLIANCE_ENTRY || q->kind == SCENE_STIFFNESS_ENTRY))
+            wanted |= 1u << q->column;
+    }
+    return wanted;
+}
+
+static void forget_columns(unsigned known, double C[36])
+{
+    for (int i = 0; i < 36; i++)
+        if (!(known >> i % 6 & 1u))
+            C[i] = NAN;
+}
+
+/* C and K [6 x 6]; columns of C that nothing asks for, and with them K, are not numbers. */
+static status compliance_at(analysis_context *c, const scene_analysis *a, const model_state *s, tangent *t, unsigned wanted,
+                            double C[36], double K[36], fault *f)
+{
+    double reaction[6], load[6];
+    int component[TANGENT_COMPONENTS];
+    unsigned held = 0x3f;
+    model_node_force(c->model, s, a->node, reaction);
+    model_node_load(c->model, s, a->node, load);
+    for (int i = 0; i < 6; i++)
+        reaction[i] -= load[i];
+    status outcome = tangent_at(c, a, s, reaction, t, f);
+    if (outcome != STATUS_OK)
+        return outcome;
+    const int count = tangent_movable(t, component), turns = count > 0 && component[count - 1] >= 3;
+    for (int i = 0; i < count; i++)
+        held &= ~(1u << component[i]);
+    for (int i = 3; i < 6 && tangent_turns_freely(t); i++)
+        reaction[i] = 0; /* where nothing is prescribed it is what Newton left over */
+    if (turns && convention_changes(a->moments, reaction + 3))
+        wanted = 0x3f;
+    outcome = tangent_compliance(c, t, wanted, C, f);
+    if (outcome == STATUS_OK && count > 0 && (wanted | held) == 0x3f)
+        return convention_apply(a->moments, count, component, reaction + 3, C, K, f);
+    forget_columns(wanted | held, C);
+    forget_columns(0, K);
+    return outcome;
+}
+
+static status matrices_alloc(solve_result *r, const scene_analysis *a, int stations, nodal_matrices **out, fault *f)
+{
+    nodal_matrices *more = realloc(r->matrices, ((size_t)r->matrix_sets + 1) * sizeof *more);
+    if (more == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
+    r->matrices = more;
+    *out = &more[r->matrix_sets++];
+    **out = (nodal_matrices){.node = a->node, .moments = a->moments};
+    (*out)->path = calloc((size_t)stations + 1, sizeof *(*out)->path);
+    (*out)->compliance = calloc((size_t)stations * 36 + 1, sizeof *(*out)->compliance);
+    (*out)->stiffness = calloc((size_t)stations * 36 + 1, sizeof *(*out)->stiffness);
+    return (*out)->path == NULL || (*out)->compliance == NULL || (*out)->stiffness == NULL
+               ? fault_set(f, STATUS_FAULT, "out of memory for a compliance")
+               : STATUS_OK;
+}
+
+status analysis_compliance(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+{
+    const scene_analysis *a = &c->scene->analysis[analysis];
+    const analysis_outcome *path = a->follows == SCENE_NONE ? NULL : &c->outcomes[a->follows];
+    const int reached = path != NULL ? path->reached : 1;
+    tangent t;
+    nodal_matrices *m = NULL;
+    o->stations = path != NULL ? path->stations : 1;
+    status result = tangent_alloc(c, a, &t, f);
+    if (result == STATUS_OK)
+        result = matrices_alloc(c->result, a, o->stations, &m, f);
+    if (result == STATUS_OK) {
+        o->compliance = m->compliance;
+        o->path = calloc((size_t)o->stations + 1, sizeof *o->path);
+        if (o->path == NULL)
+            result = fault_set(f, STATUS_FAULT, "out of memory for a compliance");
+    }
+    const unsigned wanted = wanted_columns(c, analysis);
+    for (int i = 0; i < reached && result == STATUS_OK; i++) {
+        const model_state *s = path != NULL ? path->state[i] : model_rest(c->model);
+        result = compliance_at(c, a, s, &t, wanted, m->compliance + 36 * (size_t)i, m->stiffness + 36 * (size_t)i, f);
+        if (result == STATUS_OK) {
+            o->path[i] = m->path[i] = path != NULL ? path->path[i] : 0;
+            m->stations = ++o->reached;
+        }
+    }
+    tangent_free(&t);
+    return result;
+}

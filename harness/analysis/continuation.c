@@ -1,0 +1,232 @@
+/* Continuation of an equilibrium path by displacement or arc length. A step that turns too far, or whose tangent stiffness changes
+ * more than one critical point explains, is walked again in smaller ones; where that ends elsewhere, the step had jumped. */
+#include "harness/analysis/continuation.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "harness/analysis/history.h"
+
+enum { MOST_POINTS = 20000, MANY_ITERATIONS = 9, HALVINGS = 14 };
+
+/* How an attempt ended. */
+typedef struct attempt {
+    const char *doubt; /* NULL: sound */
+    double swing;      /* relative to what is allowed */
+    step_record record;
+} attempt;
+
+static status add_point(continuation *p, fault *f)
+{
+    analysis_outcome *o = p->o;
+    if (o->points == p->room) {
+        const int room = p->room > 0 ? 2 * p->room : 64;
+        double *factors = realloc(o->factor, (size_t)room * sizeof *factors);
+        if (factors != NULL)
+            o->factor = factors;
+        double *controls = realloc(o->control, (size_t)room * sizeof *controls);
+        if (controls != NULL)
+            o->control = controls;
+        model_state **states = p->keeps_states ? realloc(o->point_state, (size_t)room * sizeof(model_state *)) : NULL;
+        if (states != NULL)
+            o->point_state = states;
+        if (factors == NULL || controls == NULL || (p->keeps_states && states == NULL))
+            return fault_set(f, STATUS_FAULT, "out of memory for a path");
+        p->room = room;
+    }
+    if (p->keeps_states) {
+        const status kept = model_state_alloc(p->c->model, &o->point_state[o->points], f);
+        if (kept != STATUS_OK)
+            return kept;
+        model_state_copy(p->c->model, p->n.state, o->point_state[o->points]);
+    }
+    o->factor[o->points] = p->here.factor;
+    o->control[o->points++] = p->here.control;
+    return STATUS_OK;
+}
+
+/* `next` becomes `here`. */
+static status accept(continuation *p, step_record *record, fault *f)
+{
+    const path_point before = p->here;
+    p->here = p->next;
+    p->next = before;
+    record->path = p->here.factor;
+    record->increment = p->here.factor - before.factor;
+    record->negative_pivots = p->here.negative;
+    model_counters(p->c->model)->steps++;
+    const status outcome = add_point(p, f);
+    return outcome == STATUS_OK ? newton_add_record(p->c->result, record, f) : outcome;
+}
+
+/* The first step goes where the control coordinate goes, with or against the load. */
+static void turn_start(continuation *p)
+{
+    if (p->o->points > 1 || continuation_dot(p, p->here.tangent, p->moved) >= 0)
+        return;
+    p->here.rate = -p->here.rate;
+    for (int k = 0; k < p->n.all; k++)
+        p->here.tangent[k] = -p->here.tangent[k];
+}
+
+/* Corrects and looks; not sound: the state is what was found, in doubt. A step along the arc ends at the station it would pass. */
+static status try_step(continuation *p, path_goal goal, double station, int last_resort, attempt *t, fault *f)
+{
+    model_state_copy(p->c->model, p->n.state, p->n.backup);
+    status outcome = continuation_correct(p, goal, &t->record, f);
+    if (outcome == STATUS_OK)
+        outcome = continuation_look(p, p->moved, &p->next, &t->record, f);
+    if (outcome == STATUS_OK && goal.by_arc && (p->here.control < station) != (p->next.control < station)) {
+        continuation_go_back(p);
+        history_drop_step(p->c->result, &t->record);
+        t->record = (step_record){.rejected = t->record.rejected};
+        return try_step(p, (path_goal){0, station}, station, last_resort, t, f);
+    }
+    if (outcome != STATUS_OK)
+        return outcome;
+    if (!goal.by_arc)
+        p->next.control = goal.value;
+    turn_start(p);
+    t->doubt = continuation_doubt(p, last_resort, &t->swing);
+    int jump = 0;
+    if (t->doubt == NULL)
+        outcome = continuation_critical(p, goal, &jump, f);
+    if (jump)
+        t->doubt = "the pivots of its tangent stiffness change without a critical point";
+    return outcome;
+}
+
+static void reject(continuation *p, const attempt *t)
+{
+    continuation_go_back(p);
+    history_drop_step(p->c->result, &t->record);
+    model_counters(p->c->model)->rejected_steps++;
+}
+
+static double next_size(const continuation *p, double size, double length, const attempt *t)
+{
+    const double wanted = length * fmin(2, fmax(0.5, 0.5 / t->swing)) * (t->record.iterations > MANY_ITERATIONS ? 0.5 : 1);
+    return fmin(p->a->step_max, wanted < length ? wanted : fmax(size, wanted));
+}
+
+static double length_left(const continuation *p, path_goal goal, double gone)
+{
+    return goal.by_arc ? goal.value - gone : fabs(goal.value - p->here.control);
+}
+
+/* The arc to a point depends on the steps to it: a rival that was not met so far may lie further on. */
+static int arrived(const continuation *p, path_goal goal, double station, const rival *r, double gone, double nearest)
+{
+    if (p->here.control == station)
+        return 1;
+    return length_left(p, goal, gone) <= 0 &&
+           (!goal.by_arc || r->state == NULL || nearest <= goal.value / 2 || gone >= 3 * goal.value);
+}
+
+/* From `here` to the goal in smaller steps. */
+static status retrace(continuation *p, path_goal goal, double station, const rival *r, double *size, fault *f)
+{
+    const double from = p->here.control, way = goal.value > from ? 1 : -1, smallest = ldexp(p->a->step, -HALVINGS);
+    double gone = 0, nearest = INFINITY;
+    int rejected = 1;
+    while (!arrived(p, goal, station, r, gone, nearest)) {
+        const double left = length_left(p, goal, gone);
+        const int last = left > 0 && *size * (1 + 1e-9) >= left;
+        const double length = last ? left : goal.by_arc ? fmin(*size, goal.value / 2) : *size;
+        const path_goal part = {goal.by_arc, goal.by_arc ? length
+                                             : last      ? goal.value
+                                                         : from + way * (fabs(p->here.control - from) + length)};
+        attempt t = {.record = {.rejected = rejected}};
+        fault why = {""};
+        status outcome = try_step(p, part, station, length <= smallest, &t, &why);
+        if (outcome == STATUS_FAULT)
+            return fault_set(f, outcome, "%s", why.text);
+        if (outcome != STATUS_OK || t.doubt != NULL) {
+            reject(p, &t);
+            rejected++;
+            if (length <= smallest)
+                return fault_set(f, STATUS_NOT_CONVERGED, "the path cannot be followed beyond %g m at load factor %g: %s",
+                                 p->here.control, p->here.factor, t.doubt != NULL ? t.doubt : why.text);
+            *size = length / 2;
+            continue;
+        }
+        rejected = 0;
+        gone += length;
+        outcome = accept(p, &t.record, f);
+        if (outcome != STATUS_OK)
+            return outcome;
+        *size = next_size(p, *size, length, &t);
+        const double distance = r->state == NULL ? 0 : model_distance(p->c->model, p->n.state, r->state);
+        nearest = goal.by_arc ? fmin(nearest, distance) : distance;
+    }
+    return r->state != NULL && nearest > (goal.by_arc ? goal.value / 2 : 1e-5) ? continuation_report_jump(p, r, from, f)
+                                                                               : STATUS_OK;
+}
+
+/* One step to the goal, or several. */
+static status reach(continuation *p, path_goal goal, double station, double *size, fault *f)
+{
+    attempt t = {0};
+    rival r = {NULL, 0};
+    const double length = length_left(p, goal, 0);
+    status outcome = try_step(p, goal, station, 0, &t, f);
+    if (outcome == STATUS_OK && t.doubt == NULL) {
+        *size = next_size(p, *size, length, &t);
+        return accept(p, &t.record, f);
+    }
+    if (outcome == STATUS_FAULT)
+        return outcome;
+    if (outcome == STATUS_OK) {
+        outcome = model_state_alloc(p->c->model, &r.state, f);
+        r.factor = model_state_path(p->n.state);
+        if (outcome == STATUS_OK)
+            model_state_copy(p->c->model, p->n.state, r.state);
+    }
+    reject(p, &t);
+    *size = length / 2;
+    if (outcome != STATUS_FAULT)
+        outcome = retrace(p, goal, station, &r, size, f);
+    model_state_free(r.state);
+    return outcome;
+}
+
+static status walk_to(continuation *p, double station, double *size, fault *f)
+{
+    while (p->here.control != station) {
+        if (p->o->points >= MOST_POINTS)
+            return fault_set(f, STATUS_NOT_CONVERGED, "%d points of the path and none at %g m", MOST_POINTS, station);
+        const double length = p->a->constant_steps ? p->a->step : *size, left = station - p->here.control;
+        const int last = length * (1 + 1e-9) >= fabs(left);
+        const path_goal goal = {p->a->by_arc, p->a->by_arc ? length : last ? station : p->here.control + copysign(length, left)};
+        const status outcome = reach(p, goal, station, size, f);
+        if (outcome != STATUS_OK)
+            return outcome;
+    }
+    return STATUS_OK;
+}
+
+/* Equilibrium without the proportional loads, and the tangent there. */
+static status start(continuation *p, fault *f)
+{
+    step_record record = {0};
+    status outcome = newton_to(&p->n, 0, &record, f);
+    if (outcome == STATUS_OK)
+        outcome = continuation_look(p, NULL, &p->here, &record, f);
+    return outcome == STATUS_OK ? add_point(p, f) : outcome;
+}
+
+status analysis_continuation(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+{
+    continuation p;
+    double size = c->scene->analysis[analysis].step;
+    status result = continuation_alloc(c, analysis, o, &p, f);
+    if (result == STATUS_OK)
+        result = start(&p, f);
+    for (int i = 0; i < p.a->stations && result == STATUS_OK; i++) {
+        result = walk_to(&p, p.a->path[i], &size, f);
+        if (result == STATUS_OK)
+            result = newton_keep(&p.n, o, p.a->path[i], f);
+    }
+    continuation_free(&p);
+    return result;
+}

@@ -1,0 +1,167 @@
+/* Critical points inside a step: where the tangent stiffness is singular, and what its null vector phi says.
+ *
+ * Along a path K x' = f' l', so at a critical point 0 = phi . K x' = (phi . f') l': either the load has an extremum (limit point)
+ * or its work on phi is zero (bifurcation). K need not be symmetric: phi is its left null vector. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/analysis/continuation.h"
+#include "harness/analysis/history.h"
+
+enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12 };
+static const double least_load_work = 1e-5; /* of a null vector that is not across the load */
+static const double closeness = 1e-10;      /* of a trial, relative to the step */
+
+/* One end of the interval in which the critical point lies. */
+typedef struct bound {
+    double at, value; /* part of the step; test function, NAN: unknown */
+} bound;
+
+const char *event_name(event_kind kind)
+{
+    static const char *const name[EVENT_KINDS] = {"limit point", "bifurcation", "branch jump"};
+    return name[kind];
+}
+
+status continuation_add_event(continuation *p, const path_event *event, fault *f)
+{
+    solve_result *r = p->c->result;
+    path_event *more = realloc(r->event, ((size_t)r->events + 1) * sizeof *more);
+    if (more == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for events");
+    r->event = more;
+    r->event[r->events++] = *event;
+    return STATUS_OK;
+}
+
+/* mode: left eigenvector of K with the eigenvalue of least size, which is returned; K is factored in the present state. */
+static double least_eigenvalue(continuation *p)
+{
+    double *x = p->mode, eigenvalue = NAN;
+    unsigned seed = 12345;
+    for (int k = 0; k < p->n.free; k++) {
+        seed = seed * 1103515245u + 12345u;
+        x[k] = 0.5 + (double)(seed >> 8 & 0xffff) / 65536;
+    }
+    for (int i = 0; i < INVERSE_ITERATIONS; i++) {
+        double square = 0, product = 0;
+        for (int k = 0; k < p->n.free; k++)
+            square += x[k] * x[k];
+        const double length = sqrt(square);
+        for (int k = 0; k < p->n.free; k++)
+            x[k] = p->moved[k] = x[k] / length;
+        factor_solve_transposed(p->n.factor, x);
+        for (int k = 0; k < p->n.free; k++)
+            product += x[k] * p->moved[k];
+        eigenvalue = 1 / product;
+    }
+    model_counters(p->c->model)->solutions += INVERSE_ITERATIONS;
+    return eigenvalue;
+}
+
+/* |phi . f'|/(|phi| |f'|), the lengths in the metric and in its dual. */
+static double load_work(continuation *p)
+{
+    const double *load = p->load;
+    double product = 0, square = 0;
+    for (int k = 0; k < p->n.free; k++) {
+        product += p->mode[k] * load[k];
+        square += load[k] != 0 && p->weight[k] > 0 ? load[k] * load[k] / p->weight[k] : 0;
+    }
+    return fabs(product) / sqrt(square * continuation_dot(p, p->mode, p->mode));
+}
+
+static path_goal part_of(const continuation *p, path_goal goal, double part)
+{
+    const double from = goal.by_arc ? 0 : p->here.control;
+    return (path_goal){goal.by_arc, from + part * (goal.value - from)};
+}
+
+/* The point at that part of the step; *before: 1 when it lies before the critical one. */
+static status try_at(continuation *p, path_goal goal, int by_rate, bound *b, int *before, fault *f)
+{
+    step_record record = {0};
+    continuation_go_back(p);
+    status outcome = continuation_correct(p, part_of(p, goal, b->at), &record, f);
+    history_drop_step(p->c->result, &record);
+    if (outcome == STATUS_OK)
+        outcome = continuation_look(p, p->moved, &p->trial, &record, f);
+    if (outcome != STATUS_OK)
+        return outcome;
+    *before = by_rate                ? (p->trial.rate < 0) == (p->here.rate < 0)
+              : p->here.negative < 0 ? p->trial.determinant == p->here.determinant
+                                     : p->trial.negative == p->here.negative;
+    b->value = by_rate ? p->trial.rate : least_eigenvalue(p);
+    /* Another eigenvalue may be the least one: its sign tells nothing of this point. */
+    const int falls = p->here.negative < 0 ? p->here.determinant > 0 : p->next.negative > p->here.negative;
+    if (!by_rate && (b->value > 0) != (*before == falls))
+        b->value = NAN;
+    return STATUS_OK;
+}
+
+/* Secant with Illinois' weights where both values are known, else the middle. */
+static double next_part(const bound *low, const bound *high)
+{
+    const double width = high->at - low->at;
+    const double secant = low->at + width * low->value / (low->value - high->value);
+    return isfinite(secant) && secant > low->at && secant < high->at ? secant : low->at + width / 2;
+}
+
+/* Narrows the interval; the state is then the critical point as near as it can be told. *gone: the test function has no zero. */
+static status locate(continuation *p, path_goal goal, int by_rate, int *gone, fault *f)
+{
+    bound low = {0, by_rate ? p->here.rate : NAN}, high = {1, by_rate ? p->next.rate : NAN};
+    double scale = by_rate ? fmax(fabs(low.value), fabs(high.value)) : 0, value = scale;
+    int last = 0;
+    for (int i = 0; i < MOST_TRIALS && high.at - low.at > closeness; i++) {
+        bound trial = {i % 8 == 7 ? (low.at + high.at) / 2 : next_part(&low, &high), NAN};
+        int before = 0;
+        const status outcome = try_at(p, goal, by_rate, &trial, &before, f);
+        if (outcome == STATUS_SINGULAR)
+            break;
+        if (outcome != STATUS_OK)
+            return outcome;
+        value = fabs(trial.value);
+        scale = fmax(scale, isfinite(value) ? value : 0);
+        if (value <= closeness * scale)
+            break;
+        if (i > 0 && before == last) {
+            if (before)
+                high.value /= 2;
+            else
+                low.value /= 2;
+        }
+        last = before;
+        *(before ? &low : &high) = trial;
+    }
+    *gone = value > 1e-3 * scale;
+    return STATUS_OK;
+}
+
+status continuation_critical(continuation *p, path_goal goal, int *jump, fault *f)
+{
+    const int by_rate = (p->here.rate < 0) != (p->next.rate < 0);
+    *jump = 0;
+    if (!by_rate && p->here.negative == p->next.negative && p->here.determinant == p->next.determinant)
+        return STATUS_OK;
+    model_state_copy(p->c->model, p->n.state, p->end);
+    status outcome = locate(p, goal, by_rate, jump, f);
+    path_event event = {.analysis = p->analysis,
+                        .negative_before = p->here.negative,
+                        .negative_after = p->next.negative,
+                        .factor = model_state_path(p->n.state),
+                        .control = model_component(p->c->model, p->n.state, p->a->control_node, p->a->control_component),
+                        .other_factor = NAN};
+    if (outcome == STATUS_OK && !*jump) {
+        least_eigenvalue(p);
+        event.measure = load_work(p);
+        event.kind = by_rate ? EVENT_LIMIT_POINT : EVENT_BIFURCATION;
+        *jump = !by_rate && event.measure > least_load_work;
+    }
+    if (outcome == STATUS_OK && !*jump)
+        outcome = continuation_add_event(p, &event, f);
+    model_state_copy(p->c->model, p->end, p->n.state);
+    p->looked = 0;
+    return outcome;
+}

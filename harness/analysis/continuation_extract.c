@@ -1,0 +1,67 @@
+/* Quantities of a continued path. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "harness/analysis/analysis.h"
+
+int continuation_keeps_states(const scene *s, int analysis)
+{
+    for (int i = 0; i < s->quantities; i++) {
+        const scene_quantity *q = &s->quantity[i];
+        if (q->analysis == analysis && q->kind == SCENE_COORDINATE && q->reduction == SCENE_CURVE)
+            return 1;
+    }
+    return 0;
+}
+
+static double abscissa(const scene_quantity *q, double control)
+{
+    return control * (q->x_factor != 0 ? q->x_factor : 1) + q->x_offset;
+}
+
+/* Load factor or coordinate against the control coordinate, at every point. */
+static void take_curve(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
+{
+    r->curve.x = calloc((size_t)o->points + 1, sizeof(double));
+    r->curve.value = calloc((size_t)o->points + 1, sizeof(double));
+    if (r->curve.x == NULL || r->curve.value == NULL) {
+        extract_no_value(r, STATUS_FAULT, "out of memory");
+        return;
+    }
+    r->curve.points = o->points;
+    for (int i = 0; i < o->points; i++) {
+        const double value =
+            q->kind == SCENE_FACTOR_AT ? o->factor[i] : model_component(c->model, o->point_state[i], q->node, q->row);
+        r->curve.x[i] = abscissa(q, o->control[i]);
+        r->curve.value[i] = extract_scaled(q, value);
+    }
+    r->value = o->points > 0 ? r->curve.value[o->points - 1] : NAN;
+    if (o->status != STATUS_OK)
+        extract_no_value(r, o->status, o->reason);
+}
+
+static void take_critical(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
+{
+    const event_kind kind = q->row == SCENE_LIMIT_POINT ? EVENT_LIMIT_POINT : EVENT_BIFURCATION;
+    int order = 0;
+    for (int i = 0; i < c->result->events; i++) {
+        const path_event *e = &c->result->event[i];
+        if (e->analysis != q->analysis || e->kind != kind || order++ < q->order)
+            continue;
+        r->value = extract_scaled(q, q->column == 0 ? e->factor : e->control);
+        r->x = abscissa(q, e->control);
+        return;
+    }
+    extract_no_value(r, o->status, o->status != STATUS_OK ? o->reason : "no such point on the path");
+}
+
+int extract_continuation(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
+{
+    if (q->kind == SCENE_CRITICAL_POINT)
+        take_critical(c, q, o, r);
+    else if (q->reduction == SCENE_CURVE && (q->kind == SCENE_FACTOR_AT || q->kind == SCENE_COORDINATE))
+        take_curve(c, q, o, r);
+    else
+        return 0;
+    return 1;
+}

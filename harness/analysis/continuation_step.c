@@ -1,0 +1,155 @@
+/* One point of a continued path: Newton under a constraint, and the tangent there. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/analysis/continuation.h"
+
+status continuation_alloc(analysis_context *c, int analysis, analysis_outcome *o, continuation *p, fault *f)
+{
+    memset(p, 0, sizeof *p);
+    p->c = c;
+    p->a = &c->scene->analysis[analysis];
+    p->o = o;
+    p->analysis = analysis;
+    p->keeps_states = continuation_keeps_states(c->scene, analysis);
+    if (c->options->newton == SOLVE_DENSE)
+        return fault_set(f, STATUS_REFUSED, "continuation needs a factored tangent; give newton=mixed or newton=displacement");
+    status outcome = newton_alloc(c, &p->n, f);
+    if (outcome == STATUS_OK)
+        outcome = newton_stations(o, p->a->stations, f);
+    if (outcome == STATUS_OK)
+        outcome = model_state_alloc(c->model, &p->end, f);
+    double **const vector[] = {&p->weight, &p->load,         &p->response,     &p->moved,
+                               &p->mode,   &p->here.tangent, &p->next.tangent, &p->trial.tangent};
+    for (size_t i = 0; i < sizeof vector / sizeof vector[0] && outcome == STATUS_OK; i++)
+        if ((*vector[i] = calloc((size_t)p->n.all + 1, sizeof(double))) == NULL)
+            outcome = fault_set(f, STATUS_FAULT, "out of memory for a path");
+    if (outcome == STATUS_OK)
+        model_metric(c->model, p->weight);
+    return outcome;
+}
+
+void continuation_free(continuation *p)
+{
+    newton_free(&p->n);
+    model_state_free(p->end);
+    free(p->weight);
+    free(p->load);
+    free(p->response);
+    free(p->moved);
+    free(p->mode);
+    free(p->here.tangent);
+    free(p->next.tangent);
+    free(p->trial.tangent);
+}
+
+double continuation_dot(const continuation *p, const double a[], const double b[])
+{
+    double sum = 0;
+    for (int k = 0; k < p->n.free; k++)
+        sum += p->weight[k] * a[k] * b[k];
+    return sum;
+}
+
+/* n.dx = K^-1 r and response = K^-1 f' in the present state. */
+static status directions(continuation *p, step_record *record, fault *f)
+{
+    model *m = p->c->model;
+    const double load = model_state_path(p->n.state);
+    if (p->looked)
+        return STATUS_OK;
+    const status outcome = newton_direction(&p->n, load, record, f);
+    if (outcome != STATUS_OK)
+        return outcome;
+    model_load_rate(m, p->n.state, load, p->load);
+    memset(p->response, 0, (size_t)p->n.all * sizeof *p->response);
+    memcpy(p->response, p->load, (size_t)p->n.free * sizeof *p->response);
+    factor_solve(p->n.factor, p->response);
+    model_counters(m)->solutions++;
+    return STATUS_OK;
+}
+
+static double control_value(const continuation *p)
+{
+    return model_component(p->c->model, p->n.state, p->a->control_node, p->a->control_component);
+}
+
+/* What the constraint still lacks. */
+static double gap_of(const continuation *p, path_goal goal)
+{
+    return goal.value - (goal.by_arc ? continuation_dot(p, p->here.tangent, p->moved) : control_value(p));
+}
+
+/* Its change with an increment of the coordinates. */
+static double change_of(const continuation *p, path_goal goal, const double dx[])
+{
+    if (goal.by_arc)
+        return continuation_dot(p, p->here.tangent, dx);
+    int index[6];
+    double T[36], sum = 0;
+    const int n = model_node_jacobian(p->c->model, p->n.state, p->a->control_node, 6, index, T);
+    for (int k = 0; k < n; k++)
+        sum += T[p->a->control_component * n + k] * dx[index[k]];
+    return sum;
+}
+
+status continuation_correct(continuation *p, path_goal goal, step_record *record, fault *f)
+{
+    newton *n = &p->n;
+    newton_watch watch = newton_watch_start;
+    memset(p->moved, 0, (size_t)n->all * sizeof *p->moved);
+    for (int done = 0; !done;) {
+        double correction = 0;
+        status outcome = directions(p, record, f);
+        if (outcome != STATUS_OK)
+            return outcome;
+        const double change = change_of(p, goal, p->response);
+        const double more = (gap_of(p, goal) - change_of(p, goal, n->dx)) / change;
+        if (!isfinite(more))
+            return fault_set(f, STATUS_NOT_CONVERGED, "the load does not move the control coordinate at factor %g",
+                             model_state_path(n->state));
+        double energy = 0;
+        for (int k = 0; k < n->free; k++) {
+            n->dx[k] += more * p->response[k];
+            p->moved[k] += n->dx[k];
+            energy += n->dx[k] * (n->residual[k] + more * p->load[k]);
+        }
+        n->energy = fabs(energy);
+        p->looked = 0;
+        const double load = model_state_path(n->state) + more;
+        outcome = newton_advance(n, load, &correction, record, f);
+        if (outcome == STATUS_OK)
+            outcome = newton_judge(n, &watch, load, correction, &done, f);
+        if (outcome != STATUS_OK)
+            return outcome;
+    }
+    return STATUS_OK;
+}
+
+status continuation_look(continuation *p, const double along[], path_point *out, step_record *record, fault *f)
+{
+    p->looked = 0;
+    const status outcome = directions(p, record, f);
+    if (outcome != STATUS_OK)
+        return outcome;
+    const double length = sqrt(continuation_dot(p, p->response, p->response));
+    if (!(length > 0) || !isfinite(length))
+        return fault_set(f, STATUS_SINGULAR, "the loads move nothing");
+    const double sign = along != NULL && continuation_dot(p, along, p->response) < 0 ? -1 : 1;
+    for (int k = 0; k < p->n.all; k++)
+        out->tangent[k] = sign * p->response[k] / length;
+    out->rate = sign / length;
+    out->factor = model_state_path(p->n.state);
+    out->control = control_value(p);
+    out->negative = record->negative_pivots;
+    out->determinant = factor_count(p->n.factor).determinant;
+    p->looked = 1;
+    return STATUS_OK;
+}
+
+void continuation_go_back(continuation *p)
+{
+    model_state_copy(p->c->model, p->n.backup, p->n.state);
+    p->looked = 0;
+}

@@ -1,0 +1,194 @@
+/* Quantities of a scene from the outcomes of its analyses. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/analysis/analysis.h"
+
+static const double TURN = 2 * 3.14159265358979323846; /* rad */
+
+void extract_no_value(quantity_result *r, status s, const char *reason)
+{
+    r->status = s;
+    r->value = NAN;
+    snprintf(r->reason, sizeof r->reason, "%s", reason);
+}
+
+double extract_scaled(const scene_quantity *q, double value)
+{
+    return (q->factor != 0 ? q->factor : 1) * value + q->offset;
+}
+
+/* Frequency [Hz] or growth [1/s] of a stationary rotation; NAN: no mode of this kind. */
+static double of_rotation(const scene_quantity *q, const rotation_modes *modes)
+{
+    double largest = 0;
+    int order = 0;
+    for (int i = 0; i < modes->count; i++) {
+        largest = fmax(largest, modes->growth[i]);
+        if (q->kind == SCENE_FREQUENCY && modes->growth[i] == 0 && mode_in_family(q, &modes->shape[i]) && order++ == q->order)
+            return modes->frequency[i] / TURN;
+    }
+    return q->kind == SCENE_GROWTH && modes->count > 0 ? largest : NAN;
+}
+
+/* Value of a quantity of the path at one station. */
+static double at_station(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, int i)
+{
+    double F[6], L[6];
+    switch (q->kind) {
+    case SCENE_COORDINATE:
+        return extract_scaled(q, model_component(c->model, o->state[i], q->node, q->row));
+    case SCENE_REACTION:
+        model_node_force(c->model, o->state[i], q->node, F);
+        model_node_load(c->model, o->state[i], q->node, L);
+        return extract_scaled(q, F[q->row] - L[q->row]);
+    case SCENE_COMPLIANCE_ENTRY:
+        return extract_scaled(q, o->compliance[36 * i + 6 * q->row + q->column]);
+    case SCENE_STIFFNESS_ENTRY:
+        return extract_scaled(q, 1 / o->compliance[36 * i + 6 * q->row + q->column]);
+    case SCENE_DRIVER_VALUE:
+        return extract_scaled(q, model_driver_value(c->model, o->state[i], q->row));
+    case SCENE_FREQUENCY:
+    case SCENE_GROWTH:
+        return o->modes != NULL ? extract_scaled(q, of_rotation(q, &o->modes[i])) : NAN;
+    case SCENE_CRITICAL_FACTOR:
+    case SCENE_FACTOR_AT:
+        return extract_scaled(q, model_state_path(o->state[i]));
+    case SCENE_CRITICAL_POINT:
+        break;
+    }
+    return NAN;
+}
+
+static double abscissa(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, int i)
+{
+    if (q->x_driver != SCENE_NONE && o->state != NULL)
+        return model_driver_value(c->model, o->state[i], q->x_driver);
+    return o->path[i] * (q->x_factor != 0 ? q->x_factor : 1) + q->x_offset;
+}
+
+static void take_curve(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
+{
+    r->curve.x = calloc((size_t)o->reached + 1, sizeof(double));
+    r->curve.value = calloc((size_t)o->reached + 1, sizeof(double));
+    if (r->curve.x == NULL || r->curve.value == NULL) {
+        extract_no_value(r, STATUS_FAULT, "out of memory");
+        return;
+    }
+    r->curve.points = o->reached;
+    for (int i = 0; i < o->reached; i++) {
+        r->curve.x[i] = abscissa(c, q, o, i);
+        r->curve.value[i] = at_station(c, q, o, i);
+    }
+    r->value = o->reached > 0 ? r->curve.value[o->reached - 1] : NAN;
+}
+
+static void from_path(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
+{
+    const int complete = o->reached == o->stations;
+    int chosen = -1;
+    for (int i = 0; i < o->reached; i++) {
+        const double value = q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ? at_station(c, q, o, i) : 0;
+        const int better = q->reduction == SCENE_MAX ? value > r->value : value < r->value;
+        const int here = q->reduction == SCENE_AT ? fabs(o->path[i] - q->at) <= 1e-12 * fmax(1, fabs(q->at)) : i == o->stations - 1;
+        if ((q->reduction == SCENE_MAX || q->reduction == SCENE_MIN) ? chosen < 0 || better : here) {
+            chosen = i;
+            r->value = value;
+        }
+    }
+    if (q->reduction == SCENE_CURVE) {
+        take_curve(c, q, o, r);
+        if (!complete)
+            extract_no_value(r, o->status, o->reason);
+        return;
+    }
+    if (chosen < 0 || (q->reduction != SCENE_AT && !complete)) {
+        extract_no_value(r, o->status != STATUS_OK ? o->status : STATUS_NOT_CONVERGED,
+                         o->status != STATUS_OK ? o->reason : "the path does not reach this station");
+        return;
+    }
+    r->value = at_station(c, q, o, chosen);
+    r->x = abscissa(c, q, o, chosen);
+}
+
+static void from_buckling(const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
+{
+    const int count = q->sign > 0 ? o->positive : o->negative;
+    if (q->order >= count)
+        extract_no_value(r, STATUS_OK,
+                         q->sign > 0 ? "no positive critical load of this order" : "no negative critical load of this order");
+    else
+        r->value = extract_scaled(q, (q->sign > 0 ? o->value_positive : o->value_negative)[q->order]);
+}
+
+static void from_modes(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
+{
+    const int n = model_sizes(c->model).free;
+    int order = 0;
+    fault f = {"out of memory for a mode"};
+    double *x = calloc((size_t)(n + model_sizes(c->model).driven) + 1, sizeof *x);
+    status known = x != NULL ? STATUS_OK : STATUS_FAULT;
+    for (int i = 0; i < o->positive && known == STATUS_OK; i++) {
+        mode_shape shape;
+        memcpy(x, o->mode_positive + (size_t)i * (size_t)n, (size_t)n * sizeof *x);
+        known = mode_identify(c->model, c->scene, x, &shape, &f);
+        if (known != STATUS_OK || !mode_in_family(q, &shape) || order++ < q->order)
+            continue;
+        r->value = extract_scaled(q, o->value_positive[i] / TURN);
+        free(x);
+        return;
+    }
+    free(x);
+    extract_no_value(r, known, known == STATUS_OK ? "the mesh has no mode of this kind" : f.text);
+}
+
+static void from_linear(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
+{
+    int index[6];
+    double T[36], sum = 0;
+    const int n = model_node_jacobian(c->model, NULL, q->node, 6, index, T);
+    for (int k = 0; k < n; k++)
+        sum += T[q->row * n + k] * o->x[index[k]];
+    if (q->kind == SCENE_COORDINATE)
+        r->value = extract_scaled(q, sum);
+    else
+        extract_no_value(r, STATUS_REFUSED, "a linear analysis gives coordinates only");
+}
+
+void extract_quantity(const analysis_context *c, const scene_quantity *q, quantity_result *r)
+{
+    const analysis_outcome *o = &c->outcomes[q->analysis];
+    memset(r, 0, sizeof *r);
+    if (o->status != STATUS_OK && o->reached == 0 && o->points == 0) {
+        extract_no_value(r, o->status, o->reason);
+        return;
+    }
+    switch (c->scene->analysis[q->analysis].kind) {
+    case SCENE_LINEAR:
+        from_linear(c, q, o, r);
+        break;
+    case SCENE_BUCKLING:
+        from_buckling(q, o, r);
+        break;
+    case SCENE_MODAL:
+        from_modes(c, q, o, r);
+        break;
+    case SCENE_CONTINUATION:
+        if (!extract_continuation(c, q, o, r))
+            from_path(c, q, o, r);
+        break;
+    case SCENE_STATIC:
+    case SCENE_COMPLIANCE:
+        from_path(c, q, o, r);
+        break;
+    case SCENE_ROTATION:
+        from_path(c, q, o, r);
+        if (o->modes != NULL && isnan(r->value) && r->status == STATUS_OK)
+            extract_no_value(r, STATUS_OK, "the mesh has no mode of this kind");
+        break;
+    }
+    if (r->status == STATUS_OK && !isfinite(r->value) && r->reason[0] == '\0')
+        extract_no_value(r, STATUS_SINGULAR, "the value is not finite");
+}

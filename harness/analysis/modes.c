@@ -1,0 +1,166 @@
+/* Family of a mode by the share of its kinetic-like measure: translations along the member, across it, and twist times the
+ * radius of gyration; half-waves by the sign changes of the leading component along the first member. */
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/rotation.h"
+#include "harness/analysis/analysis.h"
+
+enum { AXIAL, ALONG_Y, ALONG_Z, TWIST, MEASURES };
+
+/* Components of vertex motion in the member's axes: x, y, z and twist times r. */
+static void components(const double R[9], double radius, const double u[7], double out[MEASURES])
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = R[k] * u[0] + R[3 + k] * u[1] + R[6 + k] * u[2];
+    out[TWIST] = radius * (R[0] * u[3] + R[3] * u[4] + R[6] * u[5]);
+}
+
+/* value[MEASURES i] at vertex i. */
+static int count_half_waves(int vertices, const double *value)
+{
+    double largest = 0, last = 0;
+    int waves = 0;
+    for (int i = 0; i < vertices; i++)
+        largest = fmax(largest, fabs(value[MEASURES * i]));
+    for (int i = 0; i < vertices; i++) {
+        if (fabs(value[MEASURES * i]) <= 1e-6 * largest)
+            continue;
+        if (waves == 0 || value[MEASURES * i] * last < 0)
+            waves++;
+        last = value[MEASURES * i];
+    }
+    return waves;
+}
+
+/* Components of a mode at the vertices of all members, one after the other. */
+typedef struct motion {
+    int points, first_member; /* points of all members, and of the first */
+    double *part;             /* [points x MEASURES] */
+} motion;
+
+static int points_of(const model *m, const scene *s)
+{
+    int points = 0;
+    for (int member = 0; member < s->members; member++)
+        points += model_member_vertices(m, member, NULL);
+    return points;
+}
+
+static status motion_alloc(const model *m, const scene *s, const double mode[], motion *out, fault *f)
+{
+    const size_t vertices = (size_t)model_shape(m, NULL, NULL, NULL), points = (size_t)points_of(m, s);
+    double *u = malloc((vertices * 7 + 1) * sizeof *u);
+    int *index = malloc((vertices + 1) * sizeof *index);
+    out->points = 0;
+    out->first_member = s->members > 0 ? model_member_vertices(m, 0, NULL) : 0;
+    out->part = malloc((points * MEASURES + 1) * sizeof *out->part);
+    const int good = u != NULL && index != NULL && out->part != NULL;
+    if (good)
+        model_shape(m, mode, u, NULL);
+    for (int member = 0; member < s->members && good; member++) {
+        const scene_member *sm = &s->member[member];
+        const section *c = model_section(m, sm->section);
+        double d[3], R[9];
+        for (int i = 0; i < 3; i++)
+            d[i] = s->node[sm->q].position[i] - s->node[sm->p].position[i];
+        rotation_triad(d, sm->y_axis, R);
+        const int count = model_member_vertices(m, member, index);
+        for (int i = 0; i < count; i++)
+            components(R, sqrt(c->Ip / c->A), &u[7 * index[i]], &out->part[MEASURES * out->points++]);
+    }
+    free(u);
+    free(index);
+    return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for a mode");
+}
+
+status mode_identify(const model *m, const scene *s, const double mode[], mode_shape *out, fault *f)
+{
+    static const scene_family family[MEASURES] = {SCENE_AXIAL, SCENE_BENDING_Y, SCENE_BENDING_Z, SCENE_TORSION};
+    motion shape;
+    const status outcome = motion_alloc(m, s, mode, &shape, f);
+    double sum[MEASURES] = {0};
+    int leading = 0;
+    for (int i = 0; i < shape.points; i++)
+        for (int k = 0; k < MEASURES; k++)
+            sum[k] += shape.part[MEASURES * i + k] * shape.part[MEASURES * i + k];
+    for (int k = 1; k < MEASURES; k++)
+        leading = sum[k] > sum[leading] ? k : leading;
+    out->family = family[leading];
+    out->half_waves = count_half_waves(outcome == STATUS_OK ? shape.first_member : 0, shape.part + leading);
+    free(shape.part);
+    return outcome;
+}
+
+int mode_in_family(const scene_quantity *q, const mode_shape *shape)
+{
+    const int family =
+        q->family == SCENE_ANY || (q->family == SCENE_NOT_AXIAL ? shape->family != SCENE_AXIAL : shape->family == q->family);
+    return family && (q->half_waves == 0 || shape->half_waves == q->half_waves);
+}
+
+const char *mode_family_name(scene_family family)
+{
+    switch (family) {
+    case SCENE_AXIAL:
+        return "axial";
+    case SCENE_BENDING_Y:
+        return "bending along y";
+    case SCENE_BENDING_Z:
+        return "bending along z";
+    case SCENE_TORSION:
+        return "torsion";
+    case SCENE_ANY:
+    case SCENE_NOT_AXIAL:
+        break;
+    }
+    return "any";
+}
+
+/* mode <- combinations that make the part along z as small or as large as it can be beside the whole. */
+static status separate_cluster(const model *m, const scene *s, int count, size_t n, double *mode, fault *f)
+{
+    enum { MOST = 8 };
+    double A[MOST * MOST] = {0}, B[MOST * MOST] = {0}, w[MOST];
+    motion shape[MOST] = {{0}};
+    status outcome = STATUS_OK;
+    const int size = count < MOST ? count : MOST;
+    for (int i = 0; i < size && outcome == STATUS_OK; i++)
+        outcome = motion_alloc(m, s, mode + (size_t)i * n, &shape[i], f);
+    for (int i = 0; i < size && outcome == STATUS_OK; i++)
+        for (int j = 0; j < size; j++)
+            for (int k = 0; k < shape[i].points * MEASURES; k++) {
+                const double product = shape[i].part[k] * shape[j].part[k];
+                B[i * size + j] += product;
+                A[i * size + j] += k % MEASURES == ALONG_Z ? product : 0;
+            }
+    for (int i = 0; i < size; i++)
+        free(shape[i].part);
+    if (outcome != STATUS_OK || LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', size, A, size, B, size, w) != 0)
+        return outcome; /* modes that look alike at the vertices stay as they are */
+    for (size_t k = 0; k < n; k++) {
+        double old[MOST] = {0};
+        for (int i = 0; i < size; i++)
+            old[i] = mode[(size_t)i * n + k];
+        for (int i = 0; i < size; i++) {
+            mode[(size_t)i * n + k] = 0;
+            for (int j = 0; j < size; j++)
+                mode[(size_t)i * n + k] += A[i * size + j] * old[j];
+        }
+    }
+    return STATUS_OK;
+}
+
+status mode_separate(const model *m, const scene *s, int count, const double value[], size_t n, double *mode, fault *f)
+{
+    const double equal = 1e-8; /* relative */
+    status outcome = STATUS_OK;
+    for (int first = 0, last; first < count && outcome == STATUS_OK; first = last) {
+        for (last = first + 1; last < count && fabs(value[last] - value[first]) <= equal * fabs(value[first]); last++) {}
+        if (last - first > 1)
+            outcome = separate_cluster(m, s, last - first, n, mode + (size_t)first * n, f);
+    }
+    return outcome;
+}

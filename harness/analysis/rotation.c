@@ -1,0 +1,216 @@
+/* Stationary rotation: equilibrium in a frame that turns, at a rising angular velocity, and small motions about it with the
+ * gyroscopic, centrifugal and geometric terms (J Eq. 76: K0 + N0 + G0). */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/algebra/gyroscopic.h"
+#include "harness/analysis/newton.h"
+
+enum { OTHERS = 2 }; /* modes of other families that may lie between those wanted */
+
+/* The tangent's quadratic form, for quotients. */
+typedef struct form {
+    model *m;
+    const model_state *state;
+    const sparse *loads; /* what they add to K */
+    double *x, *y;       /* [free + driven], driven coordinates zero; [free] */
+    int free_count;
+} form;
+
+static double tangent_form(void *context, const double mode[])
+{
+    const form *f = context;
+    double energy, added = 0;
+    memcpy(f->x, mode, (size_t)f->free_count * sizeof *f->x);
+    if (model_tangent_energy2(f->m, f->state, model_state_path(f->state), f->x, &energy) != STATUS_OK)
+        return NAN;
+    sparse_mul(f->loads, mode, f->y);
+    for (int i = 0; i < f->free_count; i++)
+        added += mode[i] * f->y[i];
+    return energy + added;
+}
+
+/* Matrices on the pattern of the free coordinates, for all stations. */
+typedef struct matrices {
+    sparse K, M, G, loads;
+    factor *factor;
+    double *residual, *x, *y; /* [free + driven] */
+} matrices;
+
+static status matrices_alloc(analysis_context *c, matrices *a, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    const size_t all = (size_t)(size.free + size.driven) + 1;
+    sparse *const each[] = {&a->K, &a->M, &a->G, &a->loads};
+    const sparse *pattern = NULL;
+    const double begin = seconds_now();
+    memset(a, 0, sizeof *a);
+    a->residual = calloc(all, sizeof(double));
+    a->x = calloc(all, sizeof(double));
+    a->y = calloc(all, sizeof(double));
+    if (a->residual == NULL || a->x == NULL || a->y == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for modes");
+    status outcome = model_pattern(c->model, 0, &pattern, f);
+    for (int i = 0; i < 4 && outcome == STATUS_OK; i++)
+        outcome = sparse_alloc_like(pattern, each[i], f);
+    if (outcome == STATUS_OK)
+        outcome = factor_alloc(pattern, &a->factor, f);
+    c->setup += seconds_now() - begin;
+    return outcome;
+}
+
+static void matrices_free(matrices *a)
+{
+    sparse_free_values(&a->K);
+    sparse_free_values(&a->M);
+    sparse_free_values(&a->G);
+    sparse_free_values(&a->loads);
+    factor_free(a->factor);
+    free(a->residual);
+    free(a->x);
+    free(a->y);
+}
+
+static status linearise(analysis_context *c, const model_state *state, matrices *a, fault *f)
+{
+    const double path = model_state_path(state);
+    model_linearisation lin = {.path = path, .K = &a->K, .residual = a->residual};
+    status outcome = model_linearise(c->model, state, &lin, f);
+    if (outcome == STATUS_OK)
+        outcome = model_inertia(c->model, state, path, &a->M, &a->G, f);
+    model_load_stiffness(c->model, state, path, &a->loads);
+    if (outcome == STATUS_OK)
+        outcome = factor_numeric(a->factor, &a->K, f);
+    model_counters(c->model)->factorisations++;
+    return outcome;
+}
+
+/* Frequencies and families of the modes found. */
+static status identify(analysis_context *c, const gyroscopic_result *r, rotation_modes *out, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    const size_t n = (size_t)size.free, all = n + (size_t)size.driven, count = (size_t)r->count;
+    double *mode = calloc(count * all + 1, sizeof *mode);
+    out->frequency = calloc(2 * count + 1, sizeof(double));
+    out->shape = calloc(count + 1, sizeof *out->shape);
+    if (mode == NULL || out->frequency == NULL || out->shape == NULL) {
+        free(mode);
+        return fault_set(f, STATUS_FAULT, "out of memory for modes");
+    }
+    out->growth = out->frequency + count;
+    out->count = r->count;
+    for (size_t i = 0; i < count; i++) {
+        memcpy(mode + i * all, r->mode + i * n, n * sizeof *mode);
+        out->frequency[i] = r->frequency[i];
+        out->growth[i] = r->growth[i];
+    }
+    status outcome = mode_separate(c->model, c->scene, r->count, r->frequency, all, mode, f);
+    for (int i = 0; i < r->count && outcome == STATUS_OK; i++)
+        outcome = mode_identify(c->model, c->scene, mode + (size_t)i * all, &out->shape[i], f);
+    free(mode);
+    return outcome;
+}
+
+/* Do quantities of this analysis ask for modes: at all, or at every station and not only at the last? */
+static int asks_for_modes(const analysis_context *c, int analysis, int everywhere)
+{
+    for (int i = 0; i < c->scene->quantities; i++) {
+        const scene_quantity *q = &c->scene->quantity[i];
+        if (q->analysis == analysis && (q->kind == SCENE_FREQUENCY || q->kind == SCENE_GROWTH) &&
+            (!everywhere || q->reduction != SCENE_LAST))
+            return 1;
+    }
+    return 0;
+}
+
+/* How many modes to begin with. */
+static int modes_wanted(const analysis_context *c, int analysis)
+{
+    int wanted = c->scene->analysis[analysis].wanted;
+    for (int i = 0; i < c->scene->quantities; i++) {
+        const scene_quantity *q = &c->scene->quantity[i];
+        if (q->analysis == analysis && q->kind == SCENE_FREQUENCY && wanted < q->order + 1)
+            wanted = q->order + 1;
+    }
+    return wanted + OTHERS;
+}
+
+/* Is there a mode for every quantity of the analysis? */
+static int is_enough(const analysis_context *c, int analysis, const rotation_modes *modes)
+{
+    for (int i = 0; i < c->scene->quantities; i++) {
+        const scene_quantity *q = &c->scene->quantity[i];
+        int found = 0;
+        for (int k = 0; k < modes->count; k++)
+            found += modes->growth[k] == 0 && mode_in_family(q, &modes->shape[k]);
+        if (q->analysis == analysis && q->kind == SCENE_FREQUENCY && found <= q->order)
+            return 0;
+    }
+    return 1;
+}
+
+static void modes_free(rotation_modes *m)
+{
+    free(m->frequency);
+    free(m->shape);
+    memset(m, 0, sizeof *m);
+}
+
+void rotation_modes_free(rotation_modes modes[], int stations)
+{
+    for (int i = 0; i < stations && modes != NULL; i++)
+        modes_free(&modes[i]);
+    free(modes);
+}
+
+/* As many modes as it takes, if they exist: those of other families lie between. */
+static status modes_at(analysis_context *c, int analysis, const model_state *state, matrices *a, rotation_modes *out, fault *f)
+{
+    form about = {c->model, state, &a->loads, a->x, a->y, model_sizes(c->model).free};
+    gyroscopic_problem problem = {
+        .K = &a->K, .M = &a->M, .G = &a->G, .K_factor = a->factor, .K_energy = tangent_form, .context = &about};
+    int enough = 0;
+    status outcome = STATUS_OK;
+    for (problem.wanted = modes_wanted(c, analysis); outcome == STATUS_OK && !enough; problem.wanted *= 2) {
+        gyroscopic_result result = {0};
+        modes_free(out);
+        outcome = linearise(c, state, a, f);
+        if (outcome == STATUS_OK)
+            outcome = gyroscopic_solve(&problem, &result, f);
+        model_counters(c->model)->solutions += result.solutions;
+        model_counters(c->model)->factorisations += result.factorisations;
+        if (outcome == STATUS_OK)
+            outcome = identify(c, &result, out, f);
+        enough = outcome == STATUS_OK && (result.count < problem.wanted || is_enough(c, analysis, out));
+        gyroscopic_free(&result);
+    }
+    return outcome;
+}
+
+/* The first station where a small motion grows is named in the result. */
+static void note_instability(analysis_context *c, const rotation_modes *modes, double path)
+{
+    for (int i = 0; i < modes->count && c->result->reason[0] == '\0'; i++)
+        if (modes->growth[i] > 0)
+            snprintf(c->result->reason, sizeof c->result->reason, "unstable at path %g: %s, %s, grows with %.4g 1/s", path,
+                     mode_family_name(modes->shape[i].family), modes->frequency[i] > 0 ? "flutter" : "divergence",
+                     modes->growth[i]);
+}
+
+status analysis_rotation(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+{
+    matrices a = {0};
+    status outcome = analysis_static(c, analysis, o, f);
+    if (outcome != STATUS_OK || !asks_for_modes(c, analysis, 0))
+        return outcome;
+    o->modes = calloc((size_t)o->stations + 1, sizeof *o->modes);
+    outcome = o->modes != NULL ? matrices_alloc(c, &a, f) : fault_set(f, STATUS_FAULT, "out of memory for modes");
+    for (int i = asks_for_modes(c, analysis, 1) ? 0 : o->stations - 1; i < o->stations && outcome == STATUS_OK; i++) {
+        outcome = modes_at(c, analysis, o->state[i], &a, &o->modes[i], f);
+        if (outcome == STATUS_OK)
+            note_instability(c, &o->modes[i], o->path[i]);
+    }
+    matrices_free(&a);
+    return outcome;
+}

@@ -1,0 +1,84 @@
+/* Nonlinear equilibrium along a path, with steps that adapt. */
+#include "harness/analysis/history.h"
+#include "harness/analysis/newton.h"
+
+enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14 };
+
+status static_walk(newton *n, double target, double *increment, fault *f)
+{
+    counters *count = model_counters(n->c->model);
+    const double least = *increment / (1 << MAX_HALVINGS);
+    int rejected = 0;
+    while (model_state_path(n->state) < target) {
+        const double from = model_state_path(n->state);
+        const int last = from + *increment * (1 + 1e-9) >= target;
+        const double to = last ? target : from + *increment;
+        step_record record = {.path = to, .increment = to - from, .rejected = rejected};
+        model_state_copy(n->c->model, n->state, n->backup);
+        if (n->trail != NULL)
+            trail_guess(n->c->model, n->trail, to, n->state);
+        const status outcome = newton_to(n, to, &record, f);
+        if (outcome == STATUS_OK) {
+            const status stored = newton_add_record(n->c->result, &record, f);
+            if (stored != STATUS_OK)
+                return stored;
+            count->steps++;
+            count->negative_pivots =
+                record.negative_pivots > count->negative_pivots ? record.negative_pivots : count->negative_pivots;
+            if (n->trail != NULL)
+                trail_add(n->c->model, n->state, record.iterations, n->trail);
+            if (record.iterations <= EASY_ITERATIONS && !last && rejected == 0)
+                *increment *= 2;
+            rejected = 0;
+            continue;
+        }
+        history_drop_step(n->c->result, &record);
+        if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED || to - from <= least)
+            return outcome;
+        model_state_copy(n->c->model, n->backup, n->state);
+        if (n->trail != NULL)
+            trail_forget(n->trail);
+        count->rejected_steps++;
+        rejected++;
+        *increment = (to - from) / 2;
+    }
+    return STATUS_OK;
+}
+
+/* Iterations from the undeformed state, for their time; nothing moves, so that the next one is the same. */
+static status sample(newton *n, double path, fault *f)
+{
+    step_record record = {.path = path};
+    status outcome = STATUS_OK;
+    for (int i = 0; i < n->c->options->sample && outcome == STATUS_OK; i++)
+        outcome = newton_direction(n, path, &record, f);
+    return outcome;
+}
+
+status analysis_static(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+{
+    const scene_analysis *a = &c->scene->analysis[analysis];
+    newton n;
+    trail t = {0};
+    status result = newton_alloc(c, &n, f);
+    if (result == STATUS_OK)
+        result = trail_alloc(c->model, &t, f);
+    n.trail = &t;
+    if (result == STATUS_OK)
+        result = newton_stations(o, a->stations, f);
+    const int steps = c->options->steps_between > 0 ? c->options->steps_between : a->steps_between > 0 ? a->steps_between : 1;
+    if (result == STATUS_OK && c->options->sample > 0)
+        result = sample(&n, a->path[0], f);
+    for (int i = 0; i < a->stations && result == STATUS_OK && c->options->sample == 0; i++) {
+        const double from = i > 0 ? a->path[i - 1] : 0;
+        double increment = (a->path[i] - from) / steps;
+        result = static_walk(&n, a->path[i], &increment, f);
+        if (result == STATUS_OK && c->options->newton != SOLVE_DENSE)
+            count_condition(c, n.factor, &n.K);
+        if (result == STATUS_OK)
+            result = newton_keep(&n, o, a->path[i], f);
+    }
+    trail_free(&t);
+    newton_free(&n);
+    return result;
+}

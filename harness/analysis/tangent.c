@@ -1,0 +1,208 @@
+/* The tangent of the free coordinates is factored once; what is released borders it:
+ *   [ K  U ] [x]   [f]
+ *   [ V  W ] [z] = [g],   S = W - V K^-1 U,   z = S^-1 (g - V K^-1 f),   x = K^-1 f - K^-1 U z. */
+#include "harness/analysis/bordered.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+
+/* Solutions are refined where round-off would leave less than eight digits. */
+static const double harmless_condition = 1e8;
+
+static int is_released(const analysis_context *c, const scene_analysis *a, int coordinate)
+{
+    for (int k = 0; k < TANGENT_COMPONENTS; k++)
+        if ((a->released >> k & 1u) && model_coordinate(c->model, a->node, k) == coordinate)
+            return 1;
+    return 0;
+}
+
+static status border_alloc(const analysis_context *c, const scene_analysis *a, tangent *t, fault *f)
+{
+    border *b = &t->border;
+    const model_size size = model_sizes(c->model);
+    t->free = size.free;
+    t->all = size.free + size.driven;
+    for (int i = size.free; i < t->all; i++)
+        if (is_released(c, a, i))
+            b->coordinate[b->count++] = i;
+    b->U = calloc((size_t)(b->count * t->free) + 1, sizeof *b->U);
+    b->V = calloc((size_t)(b->count * t->free) + 1, sizeof *b->V);
+    t->residual = calloc((size_t)t->all + 1, sizeof *t->residual);
+    return b->U == NULL || b->V == NULL || t->residual == NULL ? fault_set(f, STATUS_FAULT, "out of memory for a compliance")
+                                                               : STATUS_OK;
+}
+
+int border_place(const border *b, int coordinate)
+{
+    for (int i = 0; i < b->count; i++)
+        if (b->coordinate[i] == coordinate)
+            return i;
+    return -1;
+}
+
+static void fill_border(tangent *t)
+{
+    border *b = &t->border;
+    memset(b->U, 0, (size_t)(b->count * t->free) * sizeof *b->U);
+    memset(b->V, 0, (size_t)(b->count * t->free) * sizeof *b->V);
+    memset(b->W, 0, sizeof b->W);
+    for (int j = 0; j < t->K.n; j++)
+        for (int k = t->K.column[j]; k < t->K.column[j + 1]; k++) {
+            const int i = t->K.row[k], row = i >= t->free ? border_place(b, i) : -1,
+                      column = j >= t->free ? border_place(b, j) : -1;
+            const double value = t->K.value[k];
+            if (i < t->free && column >= 0)
+                b->U[column * t->free + i] = value;
+            if (j < t->free && row >= 0)
+                b->V[row * t->free + j] = value;
+            if (row >= 0 && column >= 0)
+                b->W[row * b->count + column] = value;
+            if (t->K.symmetric && i < t->free && column >= 0)
+                b->V[column * t->free + i] = value;
+            if (t->K.symmetric && row >= 0 && column >= 0)
+                b->W[column * b->count + row] = value;
+        }
+}
+
+/* The free block: the first columns of the whole, whose driven rows come last. */
+static void copy_inside(tangent *t)
+{
+    if (t->inside.value == t->K.value)
+        return;
+    for (int j = 0; j < t->free; j++)
+        memcpy(&t->inside.value[t->inside.column[j]], &t->K.value[t->K.column[j]],
+               (size_t)(t->inside.column[j + 1] - t->inside.column[j]) * sizeof *t->inside.value);
+}
+
+status tangent_alloc(analysis_context *c, const scene_analysis *a, tangent *t, fault *f)
+{
+    const sparse *inside, *whole;
+    const double start = seconds_now();
+    memset(t, 0, sizeof *t);
+    status outcome = border_alloc(c, a, t, f);
+    const int with_driven = t->border.count > 0;
+    if (outcome == STATUS_OK)
+        outcome = model_pattern(c->model, 0, &inside, f);
+    if (outcome == STATUS_OK)
+        outcome = model_pattern(c->model, with_driven, &whole, f);
+    if (outcome == STATUS_OK)
+        outcome = sparse_alloc_like(whole, &t->K, f);
+    if (outcome == STATUS_OK && with_driven)
+        outcome = sparse_alloc_like(inside, &t->inside, f);
+    if (outcome == STATUS_OK && !with_driven)
+        t->inside = t->K;
+    if (outcome == STATUS_OK)
+        outcome = sparse_alloc_like(whole, &t->soft, f);
+    if (outcome == STATUS_OK)
+        outcome = factor_alloc(inside, &t->factor, f);
+    c->setup += seconds_now() - start;
+    return outcome;
+}
+
+void tangent_free(tangent *t)
+{
+    if (t->inside.value != t->K.value)
+        sparse_free_values(&t->inside);
+    sparse_free_values(&t->K);
+    sparse_free_values(&t->soft);
+    factor_free(t->factor);
+    free(t->border.U);
+    free(t->border.V);
+    free(t->residual);
+}
+
+status tangent_at(analysis_context *c, const scene_analysis *a, const model_state *s, const double reaction[6], tangent *t,
+                  fault *f)
+{
+    model_linearisation lin = {.path = model_state_path(s), .K = &t->K, .residual = t->residual};
+    status outcome = model_linearise(c->model, s, &lin, f);
+    if (outcome == STATUS_OK) {
+        model_release_moment(c->model, s, a->node, reaction + 3, &t->K);
+        copy_inside(t);
+        outcome = factor_numeric(t->factor, &t->inside, f);
+    }
+    t->state = s;
+    t->refined = outcome == STATUS_OK && factor_condition(t->factor, &t->inside) > harmless_condition;
+    if (t->refined) {
+        outcome = model_soft_part(c->model, s, &t->soft, f);
+        model_release_moment(c->model, s, a->node, reaction + 3, &t->soft);
+    }
+    counters *n = model_counters(c->model);
+    n->factorisations++;
+    const factor_counts counts = factor_count(t->factor);
+    n->factor_flops += counts.flops;
+    n->negative_pivots = counts.negative_pivots > n->negative_pivots ? counts.negative_pivots : n->negative_pivots;
+    fill_border(t);
+    t->coordinates = model_node_jacobian(c->model, s, a->node, TANGENT_COMPONENTS, t->index, t->T);
+    return outcome;
+}
+
+/* Coordinates of the node that move: free or released. */
+static int moves(const tangent *t, int k)
+{
+    return t->index[k] < t->free || border_place(&t->border, t->index[k]) >= 0;
+}
+
+/* Response of the node to a unit load on one component. */
+static void respond(const model *m, tangent *t, counters *n, int component, const bordered *s, double response[TANGENT_COMPONENTS])
+{
+    memset(s->load, 0, (size_t)t->all * sizeof *s->load);
+    for (int k = 0; k < t->coordinates; k++)
+        if (moves(t, k))
+            s->load[t->index[k]] = t->T[component * t->coordinates + k];
+    memcpy(s->x, s->load, (size_t)t->all * sizeof *s->x);
+    bordered_solve(t, n, s, s->x);
+    if (t->refined)
+        bordered_refine(m, t, n, s);
+    for (int i = 0; i < TANGENT_COMPONENTS; i++) {
+        response[i] = 0;
+        for (int k = 0; k < t->coordinates; k++)
+            response[i] += moves(t, k) ? t->T[i * t->coordinates + k] * s->x[t->index[k]] : 0;
+    }
+}
+
+status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, double C[36], fault *f)
+{
+    counters *n = model_counters(c->model);
+    bordered s = {0};
+    const status outcome = bordered_alloc(t, n, &s, f);
+    memset(C, 0, 36 * sizeof *C);
+    for (int j = 0; j < TANGENT_COMPONENTS && outcome == STATUS_OK; j++) {
+        double response[TANGENT_COMPONENTS];
+        if (!(wanted >> j & 1u))
+            continue;
+        respond(c->model, t, n, j, &s, response);
+        for (int i = 0; i < TANGENT_COMPONENTS; i++)
+            C[6 * i + j] = response[i];
+    }
+    bordered_free(&s);
+    return outcome;
+}
+
+int tangent_turns_freely(const tangent *t)
+{
+    int turning = 0, all = 1;
+    for (int k = 0; k < t->coordinates; k++)
+        if (t->T[3 * t->coordinates + k] != 0 || t->T[4 * t->coordinates + k] != 0 || t->T[5 * t->coordinates + k] != 0) {
+            turning++;
+            all &= t->index[k] < t->free;
+        }
+    return turning == 3 && all;
+}
+
+int tangent_movable(const tangent *t, int component[TANGENT_COMPONENTS])
+{
+    int count = 0;
+    for (int i = 0; i < TANGENT_COMPONENTS; i++) {
+        double size = 0;
+        for (int k = 0; k < t->coordinates; k++)
+            size += moves(t, k) ? fabs(t->T[i * t->coordinates + k]) : 0;
+        if (size > 0)
+            component[count++] = i;
+    }
+    return count;
+}

@@ -1,0 +1,47 @@
+/* Tangent of a structure in a deformed state about one node, where some of the node's prescribed motion is released: its
+ * reaction has become a load. */
+#ifndef BEAMWORK_TANGENT_H
+#define BEAMWORK_TANGENT_H
+
+#include "harness/analysis/analysis.h"
+
+enum { TANGENT_COMPONENTS = 6, TANGENT_BORDER = 12 };
+
+/* Released coordinates: driven ones that are free now. */
+typedef struct border {
+    int count;
+    int coordinate[TANGENT_BORDER];
+    double *U, *V; /* [count x free]: K_fr; K_rf */
+    double W[TANGENT_BORDER * TANGENT_BORDER];
+} border;
+
+/* Index of a released coordinate, or -1. */
+int border_place(const border *b, int coordinate);
+
+typedef struct tangent {
+    sparse K;      /* of all coordinates when something is released, else of the free ones */
+    sparse inside; /* free x free */
+    sparse soft;   /* like K, where solutions are refined: see model_soft_part */
+    int refined;   /* 1: the condition asks for it */
+    factor *factor;
+    border border;
+    int free, all;
+    double *residual;
+    const model_state *state;                   /* of K */
+    int index[TANGENT_COMPONENTS], coordinates; /* the node's */
+    double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS];
+} tangent;
+
+status tangent_alloc(analysis_context *c, const scene_analysis *a, tangent *t, fault *f);
+void tangent_free(tangent *t);
+/* reaction[6]: force and moment of the prescription on the node [N, N m]. */
+status tangent_at(analysis_context *c, const scene_analysis *a, const model_state *s, const double reaction[6], tangent *t,
+                  fault *f);
+/* 1: all three rotations of the node are free, so that no moment of a prescription acts on it. */
+int tangent_turns_freely(const tangent *t);
+/* Components of the node that can move at all: their number. */
+int tangent_movable(const tangent *t, int component[TANGENT_COMPONENTS]);
+/* C[6 x 6] of the node with the reaction's moment semitangential; columns outside `wanted` stay zero. */
+status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, double C[36], fault *f);
+
+#endif

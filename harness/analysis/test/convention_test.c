@@ -1,0 +1,137 @@
+/* Conventions of moments in the stiffness of a loaded node, and the records of Newton's method. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <string.h>
+
+#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/parameters.h"
+#include "harness/study/cell.h"
+
+/* Last station's matrices of a sheet case with collocation elements. */
+typedef struct matrices {
+    double C[36], K[36];
+} matrices;
+
+static void solve(const char *case_name, const char *const assignment[], const char *chosen, cell_result *out)
+{
+    cell_request request = {.type = case_find(case_name, NULL), .elements = 4};
+    formulation fm;
+    fault f = {""};
+    gsl_test(formulation_parse(chosen, &fm, &f) != STATUS_OK, "%s exists", chosen);
+    parameters_default(request.type, request.parameter);
+    for (int i = 0; assignment[i] != NULL; i++)
+        gsl_test(parameters_set(request.type, assignment[i], request.parameter, &f) != STATUS_OK, "%s", assignment[i]);
+    request.formulation = fm.type;
+    memcpy(request.option, fm.option, sizeof request.option);
+    request.solve.newton = fm.newton;
+    gsl_test(cell_run(&request, out, &f) != STATUS_OK, "%s solved: %s", case_name, f.text);
+}
+
+static matrices of(const char *case_name, const char *convention, const char *more, const char *and_more)
+{
+    const char *const assignment[] = {convention, more, and_more, NULL};
+    cell_result r;
+    matrices out = {{NAN}, {NAN}};
+    solve(case_name, assignment, "collocation", &r);
+    gsl_test(r.solve.matrix_sets != 1 || strcmp(strchr(convention, '=') + 1, scene_moments_name(r.solve.matrices[0].moments)) != 0,
+             "the result names %s", convention);
+    const nodal_matrices *m = &r.solve.matrices[0];
+    memcpy(out.C, m->compliance + 36 * (m->stations - 1), sizeof out.C);
+    memcpy(out.K, m->stiffness + 36 * (m->stations - 1), sizeof out.K);
+    cell_result_free(&r);
+    return out;
+}
+
+static double asymmetry(const double A[36])
+{
+    double largest = 0;
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < i; j++)
+            largest = fmax(largest, fabs(A[6 * i + j] - A[6 * j + i]) / sqrt(fabs(A[7 * i] * A[7 * j])));
+    return largest;
+}
+
+static void inverse(void)
+{
+    const matrices m = of("sheet_wagner", "moment_convention=spatial", NULL, NULL);
+    double worst = 0;
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++) {
+            double sum = i == j ? -1 : 0, size = 1;
+            for (int k = 0; k < 6; k++) {
+                sum += m.K[6 * i + k] * m.C[6 * k + j];
+                size += fabs(m.K[6 * i + k] * m.C[6 * k + j]);
+            }
+            worst = fmax(worst, fabs(sum) / size);
+        }
+    gsl_test(worst > 1e-12, "stiffness times compliance is the unit matrix: %.1e", worst);
+}
+
+/* N 4.1's cases: how much the convention matters. */
+static void sheets(void)
+{
+    const matrices near = of("sheet_cantilever", "moment_convention=spatial", NULL, NULL),
+                   near_sym = of("sheet_cantilever", "moment_convention=symmetrised", NULL, NULL),
+                   far = of("sheet_cantilever", "moment_convention=spatial", "tip_deflection=0.05", NULL),
+                   far_sym = of("sheet_cantilever", "moment_convention=symmetrised", "tip_deflection=0.05", NULL);
+    const int zz = 6 * 2 + 2;
+    gsl_test_abs(near_sym.C[zz] / near.C[zz] - 1, 3.31e-5, 1e-7, "C_zz at 0.15 L: symmetrised against spatial");
+    gsl_test_abs(far_sym.C[zz] / far.C[zz] - 1, 2.741e-3, 2e-6, "C_zz at 0.5 L: symmetrised against spatial");
+}
+
+static void reciprocity(void)
+{
+    const int ux_My = 4, thy_Fx = 6 * 4;
+    static const char *const tip[] = {"tip_warping=0", "tip_warping=1"}, *const wagner[] = {"wagner=1", "wagner=0"};
+    static const double apart[] = {0.14635, 0.31830}, changed[] = {0.07425, 0.15996};
+    for (int i = 0; i < 2; i++) {
+        const matrices spatial = of("sheet_wagner", "moment_convention=spatial", tip[i], wagner[i]),
+                       half = of("sheet_wagner", "moment_convention=semitangential", tip[i], wagner[i]),
+                       sym = of("sheet_wagner", "moment_convention=symmetrised", tip[i], wagner[i]);
+        gsl_test_abs(spatial.C[thy_Fx] / spatial.C[ux_My] - 1, apart[i], 1e-5, "%s, spatial: thy by Fx and ux by My", tip[i]);
+        gsl_test_abs(sym.C[ux_My] / spatial.C[ux_My] - 1, changed[i], 1e-5, "%s: ux by My, symmetrised against spatial", tip[i]);
+        gsl_test_rel(sym.C[thy_Fx], sym.C[ux_My], 1e-12, "%s, symmetrised: reciprocal", tip[i]);
+        gsl_test(asymmetry(sym.K) > 1e-13, "%s, symmetrised: %.1e", tip[i], asymmetry(sym.K));
+        gsl_test(asymmetry(half.C) > 1e-9, "%s: semitangential moments have a potential: %.1e", tip[i], asymmetry(half.C));
+        gsl_test(asymmetry(spatial.C) < 1e-2, "%s: spatial moments have none", tip[i]);
+        gsl_test_rel(half.C[ux_My], sym.C[ux_My], 1e-9, "%s: the symmetric part is the semitangential stiffness", tip[i]);
+    }
+}
+
+/* Corrections of the last step's iterations: each about the square of the one before. */
+static void quadratic(void)
+{
+    const char *const none[] = {NULL};
+    static const char *const newton[] = {"collocation", "collocation:newton=displacement"};
+    for (int k = 0; k < 2; k++) {
+        cell_result r;
+        solve("sheet_cantilever", none, newton[k], &r);
+        long sum = 0;
+        int ascending = 1;
+        for (int i = 0; i < r.solve.steps; i++) {
+            ascending &= r.solve.step[i].first == sum;
+            sum += r.solve.step[i].iterations;
+        }
+        gsl_test(sum != r.counters.iterations || sum != r.solve.iterations || !ascending, "%s: every iteration is recorded",
+                 newton[k]);
+        const step_record *last = &r.solve.step[r.solve.steps - 1];
+        const iteration_record *it = &r.solve.iteration[last->first];
+        gsl_test_abs(it[0].residual, 1, 0, "%s: residuals relative to the first", newton[k]);
+        gsl_test(it[last->iterations - 1].correction != last->correction || !(last->correction < 1e-8), "%s: converged", newton[k]);
+        for (int i = 2; i < last->iterations; i++) {
+            const double order = log(it[i].correction / it[0].correction) / log(it[i - 1].correction / it[0].correction);
+            gsl_test(!(it[i].correction < 1e-14) && !(order > 1.8), "%s: order %.2f of iteration %d", newton[k], order, i + 1);
+            gsl_test(!(it[i].residual < it[i - 1].residual), "%s: residual falls", newton[k]);
+        }
+        cell_result_free(&r);
+    }
+}
+
+int main(void)
+{
+    inverse();
+    sheets();
+    reciprocity();
+    quadratic();
+    return gsl_test_summary();
+}

@@ -1,0 +1,81 @@
+/* A beam that nothing holds: six motions of a rigid body at no frequency, then those of the free beam, (k_i L)^2 sqrt(EI/(rho A L^4)) with
+ * cos(k_i L) cosh(k_i L) = 1. The stiffness matrix is singular; its shift must leave no trace in the frequencies. */
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/parameters.h"
+#include "harness/study/cell.h"
+
+enum { MODES = 10, RIGID = 6 };
+static const double length = 2.385, thickness = 0.011, width = 0.017, young = 2.1e11, density = 7300; /* m, m, m, Pa, kg/m^3 */
+static const double root[2] = {4.7300407448627040, 7.8532046240958376};
+
+static status build(const double value[], scene *s, fault *f)
+{
+    const double y_axis[3] = {0, 1, 0};
+    section_spec spec;
+    (void)value;
+    (void)f;
+    section_spec_init(&spec);
+    spec.kind = SECTION_RECTANGLE;
+    spec.young = young;
+    spec.shear_modulus = young / 2.6;
+    spec.density = density;
+    spec.height = thickness;
+    spec.width = width;
+    const int profile = scene_add_section(s, &spec);
+    scene_add_member(s, scene_add_node(s, 0, 0, 0), scene_add_node(s, length, 0, 0), profile, y_axis);
+    const int modal = scene_add_analysis(s, SCENE_MODAL);
+    scene_analysis_at(s, modal)->wanted = MODES;
+    for (int i = 0; i < MODES; i++) {
+        char name[SCENE_NAME];
+        snprintf(name, sizeof name, "frequency_%d", i);
+        scene_quantity *q = scene_add_quantity(s, name, "Hz", SCENE_FREQUENCY, modal);
+        q->family = SCENE_ANY;
+        q->order = i;
+        q->tolerance = 1e-3;
+    }
+    return STATUS_OK;
+}
+
+static const case_parameter parameter[] = {{0}};
+static const case_type free_beam = {"free_beam", "a case of the test", "none", parameter, build};
+
+/* 0: bending about the weak axis, then about the strong one, then the second of each. */
+static double exact(int i)
+{
+    const double height = i % 2 == 0 ? thickness : width, k = root[i / 2] / length;
+    return k * k * sqrt(young * height * height / 12 / density) / (2 * M_PI);
+}
+
+static void frequencies(const char *name, int elements, double allowed)
+{
+    cell_request request = {.type = &free_beam, .elements = elements};
+    cell_result r;
+    formulation chosen;
+    fault f = {""};
+    gsl_test(formulation_parse(name, &chosen, &f) != STATUS_OK, "%s exists %s", name, f.text);
+    request.formulation = chosen.type;
+    memcpy(request.option, chosen.option, sizeof request.option);
+    gsl_test(cell_run(&request, &r, &f) != STATUS_OK, "%s solved: %s", name, f.text);
+    for (int i = 0; i < MODES && i < r.solve.quantities; i++) {
+        const double value = r.solve.quantity[i].value;
+        if (i < RIGID)
+            gsl_test_abs(value, 0, 1e-3 * exact(0), "%s: motion %d of a rigid body", name, i);
+        else
+            gsl_test_rel(value, exact(i - RIGID), allowed, "%s: frequency %d", name, i - RIGID);
+    }
+    gsl_test_int(r.solve.quantities, MODES, "all of them");
+    cell_result_free(&r);
+}
+
+int main(void)
+{
+    frequencies("beamw_vlasov", 32, 1e-5);
+    frequencies("beamw_first", 32, 1e-5);
+    return gsl_test_summary();
+}

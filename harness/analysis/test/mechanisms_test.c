@@ -1,0 +1,230 @@
+/* Mechanisms and unstable states: large turns in one step, few iterations, inertia of the tangent, both directions of elements. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <string.h>
+
+#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/parameters.h"
+#include "harness/catalogue/registry.h"
+#include "harness/study/cell.h"
+
+/* Solves a case with n elements; assignments end with NULL. The caller frees the result. */
+static status run(const char *case_name, const element_type *type, const char *key, int n, const char *const assignment[],
+                  cell_result *out)
+{
+    cell_request request = {.elements = n};
+    formulation chosen;
+    fault f = {""};
+    request.type = case_find(case_name, &f);
+    parameters_default(request.type, request.parameter);
+    for (int i = 0; assignment[i] != NULL; i++)
+        gsl_test(parameters_set(request.type, assignment[i], request.parameter, &f) != STATUS_OK, "%s: %s", case_name,
+                 assignment[i]);
+    if (type != NULL)
+        formulation_default(type, &chosen);
+    else
+        gsl_test(formulation_parse(key, &chosen, &f) != STATUS_OK, "%s exists", key);
+    request.formulation = chosen.type;
+    memcpy(request.option, chosen.option, sizeof request.option);
+    request.solve.newton = chosen.newton;
+    return cell_run(&request, out, &f);
+}
+
+static double value_of(const cell_result *r, const char *quantity)
+{
+    for (int i = 0; i < r->solve.quantities; i++)
+        if (strcmp(r->scene.quantity[i].name, quantity) == 0)
+            return r->solve.quantity[i].value;
+    return NAN;
+}
+
+/* N section 4: coordinates, strains and stresses at once reach 15 degrees from rest without steps between. */
+static void from_rest_in_one_step(void)
+{
+    const char *const once[] = {"steps=1", "wagner=0", NULL};
+    int runs = 0;
+    for (int i = 0; registry_formulations[i] != NULL; i++)
+        for (int n = 1; n <= 2; n++) {
+            cell_result r;
+            const char *name = registry_formulations[i]->name;
+            const status outcome = run("spherical_joint", registry_formulations[i], NULL, n, once, &r);
+            if (outcome != STATUS_REFUSED) {
+                runs++;
+                gsl_test(outcome != STATUS_OK || r.solve.steps != 1 || r.solve.step[0].rejected != 0,
+                         "%s, n = %d: 15 degrees in one step, nothing rejected", name, n);
+                gsl_test(!(r.counters.iterations <= 6), "%s, n = %d: in %ld iterations", name, n, r.counters.iterations);
+            }
+            cell_result_free(&r);
+        }
+    gsl_test(runs < 16, "%d cells turned at once", runs);
+}
+
+static void few_iterations(void)
+{
+    static const struct {
+        const char *case_name, *formulation;
+        double most;
+    } path[] = {{"spherical_joint", "sheet_third", 3.5},
+                {"spherical_joint", "sheet_second", 3.5},
+                {"hexapod", "sheet_third", 3.5},
+                {"hexapod", "sheet_second", 3.5},
+                {"sheet_cantilever", "sheet_third", 2.5}};
+    for (size_t i = 0; i < sizeof path / sizeof path[0]; i++) {
+        cell_result r;
+        gsl_test(run(path[i].case_name, NULL, path[i].formulation, 1, (const char *const[]){NULL}, &r) != STATUS_OK, "%s solved",
+                 path[i].case_name);
+        const double average = (double)r.counters.iterations / (double)r.counters.steps;
+        gsl_test(!(average <= path[i].most), "%s, %s: %.2f iterations a step", path[i].case_name, path[i].formulation, average);
+        cell_result_free(&r);
+    }
+}
+
+/* A guess of the next state saves iterations and changes no result: more steps between the stations reach the same. */
+static void guesses_change_nothing(void)
+{
+    const char *const defaults[] = {NULL};
+    cell_request request = {.elements = 1};
+    cell_result plain, halved;
+    fault f = {""};
+    formulation chosen;
+    gsl_test(run("spherical_joint", NULL, "sheet_third", 1, defaults, &plain) != STATUS_OK, "the curve");
+    request.type = case_find("spherical_joint", &f);
+    parameters_default(request.type, request.parameter);
+    formulation_parse("sheet_third", &chosen, &f);
+    request.formulation = chosen.type;
+    memcpy(request.option, chosen.option, sizeof request.option);
+    request.solve.steps_between = 3;
+    gsl_test(cell_run(&request, &halved, &f) != STATUS_OK, "the curve in three steps from azimuth to azimuth");
+    gsl_test(halved.counters.steps <= plain.counters.steps, "%ld and %ld steps", halved.counters.steps, plain.counters.steps);
+    for (int k = 0; k < plain.solve.quantities; k++)
+        gsl_test_rel(halved.solve.quantity[k].value, plain.solve.quantity[k].value, 1e-11, "%s", plain.scene.quantity[k].name);
+    cell_result_free(&plain);
+    cell_result_free(&halved);
+}
+
+/* Formulations that treat both ends alike do not notice which way the elements run; the others by a discretisation error. */
+static void directions(void)
+{
+    static const struct {
+        const char *formulation;
+        double least, most; /* relative change */
+    } row[] = {
+        {"sheet_second", 1e-3, 5e-3}, {"sheet_third", 1e-3, 5e-3}, {"collocation", 0, 1e-10}, {"geometrically_exact", 0, 1e-10}};
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        cell_result bodies, chained;
+        run("spherical_joint", NULL, row[i].formulation, 1, (const char *const[]){"wagner=0", NULL}, &bodies);
+        run("spherical_joint", NULL, row[i].formulation, 1, (const char *const[]){"wagner=0", "element_direction=chained", NULL},
+            &chained);
+        const double change = fabs(value_of(&chained, "support_stiffness_max") / value_of(&bodies, "support_stiffness_max") - 1);
+        gsl_test(!(change >= row[i].least && change <= row[i].most), "%s, one element: the direction changes %.1e",
+                 row[i].formulation, change);
+        cell_result_free(&bodies);
+        cell_result_free(&chained);
+    }
+}
+
+/* Largest stiffnesses with one element per sheet; independent prototype: 9.37, 9.720, 9.92 x 10^5 N/m. */
+static void fold_warping(void)
+{
+    static const char *const choice[3] = {"fold_warping=fixed", "fold_warping=shared", "fold_warping=free"};
+    double value[3];
+    for (int i = 0; i < 3; i++) {
+        cell_result r;
+        run("spherical_joint", NULL, "sheet_third", 1, (const char *const[]){choice[i], NULL}, &r);
+        value[i] = value_of(&r, "support_stiffness_max");
+        cell_result_free(&r);
+    }
+    gsl_test_rel(value[0], 9.37e5, 1e-3, "folds that do not warp");
+    gsl_test_rel(value[1], 9.720e5, 1e-4, "folds that share their warping");
+    gsl_test_rel(value[2], 9.92e5, 2e-3, "folds free to warp");
+}
+
+/* A cantilever of length 1 with EIy = 4 EIz = 4 under P = path [N], straight: its critical loads are (2k - 1)^2 pi^2 EI/4. */
+static void straight_column(scene *s, int stations, const double path[])
+{
+    section_spec spec;
+    const double y[3] = {0, 1, 0};
+    section_spec_init(&spec);
+    spec.kind = SECTION_CONSTANTS;
+    spec.young = spec.shear_modulus = 1;
+    spec.constants = (section){.young = 1, .shear_modulus = 1, .A = 1e8, .Iy = 4, .Iz = 1, .It = 10, .Ip = 5};
+    scene_init(s, "straight_column");
+    const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, 1, 0, 0);
+    scene_hold_all(s, root);
+    scene_add_member(s, root, tip, scene_add_section(s, &spec), y);
+    scene_add_load(s, SCENE_FORCE, tip, -1, 0, 0);
+    scene_set_stations(s, scene_add_analysis(s, SCENE_STATIC), stations, path);
+}
+
+/* Newton stays on the straight path, where the tangent has as many negative eigenvalues as there are critical loads below. */
+static void inertia_counts_critical_loads(void)
+{
+    const double pi = 3.14159265358979323846, weak = pi * pi / 4;
+    const double path[] = {0.9 * weak, 1.1 * weak, 3.9 * weak, 4.1 * weak, 8.8 * weak,
+                           9.2 * weak, 24 * weak,  26 * weak,  35 * weak,  37 * weak};
+    const int below[] = {0, 1, 1, 2, 2, 3, 3, 4, 4, 5}; /* weak plane 1, 9, 25, 49; strong plane 4, 36 */
+    enum { STATIONS = sizeof below / sizeof below[0] };
+    const char *const names[] = {"beamw_consistent", "collocation", "geometrically_exact"};
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
+        scene s;
+        model *m = NULL;
+        fault f = {""};
+        formulation chosen;
+        solve_result r = {0};
+        straight_column(&s, STATIONS, path);
+        formulation_parse(names[k], &chosen, &f);
+        const model_request what = {&s, chosen.type, chosen.option, 16, 0};
+        status outcome = scene_validate(&s, &f);
+        if (outcome == STATUS_OK)
+            outcome = model_alloc(&what, &m, &f);
+        if (outcome == STATUS_OK)
+            outcome = solve_scene(&s, m, NULL, &r, &f);
+        gsl_test(outcome != STATUS_OK || r.steps != STATIONS, "%s: the straight path beyond critical loads (%s)", names[k], f.text);
+        for (int i = 0; i < STATIONS && outcome == STATUS_OK; i++)
+            gsl_test_int(r.step[i].negative_pivots, below[i], "%s: critical loads below %.1f of the first", names[k],
+                         path[i] / weak);
+        if (m != NULL)
+            gsl_test_int((int)model_counters(m)->negative_pivots, 5, "%s: the most is counted", names[k]);
+        solve_result_free(&r);
+        model_free(m);
+        scene_free(&s);
+    }
+}
+
+/* Sums keep their order: two threads give the same bits and the same work. */
+static void threads_change_no_bit(void)
+{
+    const char *const names[] = {"sheet_third", "collocation", "geometrically_exact"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        cell_request request = {.elements = 1};
+        cell_result one, two;
+        formulation chosen;
+        fault f = {""};
+        request.type = case_find("hexapod", &f);
+        parameters_default(request.type, request.parameter);
+        formulation_parse(names[i], &chosen, &f);
+        request.formulation = chosen.type;
+        memcpy(request.option, chosen.option, sizeof request.option);
+        gsl_test(cell_run(&request, &one, &f) != STATUS_OK, "hexapod, %s, one thread", names[i]);
+        request.threads = 2;
+        gsl_test(cell_run(&request, &two, &f) != STATUS_OK, "hexapod, %s, two threads", names[i]);
+        for (int k = 0; k < one.solve.quantities; k++)
+            gsl_test(memcmp(&one.solve.quantity[k].value, &two.solve.quantity[k].value, sizeof(double)) != 0, "%s: the same %s",
+                     names[i], one.scene.quantity[k].name);
+        gsl_test(memcmp(&one.counters, &two.counters, sizeof one.counters) != 0, "%s: the same work", names[i]);
+        cell_result_free(&one);
+        cell_result_free(&two);
+    }
+}
+
+int main(void)
+{
+    threads_change_no_bit();
+    from_rest_in_one_step();
+    few_iterations();
+    guesses_change_nothing();
+    directions();
+    fold_warping();
+    inertia_counts_critical_loads();
+    return gsl_test_summary();
+}

@@ -1,0 +1,135 @@
+/* Outcomes of a sweep of extremes for people, and one line each for programs. */
+#include <math.h>
+#include <string.h>
+
+#include "harness/extremes/stress.h"
+#include "harness/record/csv.h"
+
+enum { NAME_WIDTH = 26, CELL_WIDTH = 15 };
+
+/* "1.2e-06", with a sign of what it is: ~ coarse, ! wrong, ? not expected. */
+static void cell_text(const stress_outcome *o, char *text, size_t size)
+{
+    static const char *const mark[STRESS_KINDS] = {[STRESS_COARSE] = "~", [STRESS_WRONG] = "!"};
+    const char *unexpected = o->as_expected ? "" : "?";
+    if (o->kind == STRESS_SKIP)
+        snprintf(text, size, "-");
+    else if (o->kind == STRESS_VALUE || o->kind == STRESS_COARSE || o->kind == STRESS_WRONG)
+        snprintf(text, size, "%.1e%s%s", fabs(o->error), mark[o->kind] != NULL ? mark[o->kind] : "", unexpected);
+    else
+        snprintf(text, size, "%s%s", stress_name(o->kind), unexpected);
+}
+
+static int is_same_line(const stress_outcome *a, const stress_outcome *b)
+{
+    return a->extreme == b->extreme && a->formulation == b->formulation && a->quantity == b->quantity;
+}
+
+static int runs_anywhere(const stress *s, int extreme_index, int formulation_index)
+{
+    for (int i = 0; i < s->outcomes; i++)
+        if (s->outcome[i].extreme == extreme_index && s->outcome[i].formulation == formulation_index &&
+            s->outcome[i].kind != STRESS_SKIP)
+            return 1;
+    return 0;
+}
+
+/* A line for every formulation that runs and every quantity: errors at all values of x, and the worst condition. */
+static void print_extreme(FILE *to, const stress *s, int index)
+{
+    const extreme *e = &extremes[index];
+    int first = 0;
+    while (first < s->outcomes && s->outcome[first].extreme != index)
+        first++;
+    if (first == s->outcomes)
+        return;
+    fprintf(to, "\n%s: %s\n  %s%s%s%s, %s\n  %-*s", e->name, e->summary, e->base, e->fixed[0] != '\0' ? " (" : "", e->fixed,
+            e->fixed[0] != '\0' ? ")" : "", e->judge == EXTREME_EXACT ? "against exact values" : "against its own value",
+            NAME_WIDTH + 14, e->x_name);
+    for (int k = 0; k < e->values; k++)
+        fprintf(to, " %*g", CELL_WIDTH, e->value[k]);
+    fprintf(to, "  condition\n");
+    for (int i = first; i < s->outcomes && s->outcome[i].extreme == index && s->outcome[i].value == s->outcome[first].value; i++) {
+        const stress_outcome *o = &s->outcome[i];
+        double condition = 0;
+        char text[64];
+        if (!runs_anywhere(s, index, o->formulation))
+            continue;
+        fprintf(to, "  %-*s%-14s", NAME_WIDTH, s->formulation[o->formulation].key, e->quantity[o->quantity].name);
+        for (int k = first; k < s->outcomes && s->outcome[k].extreme == index; k++)
+            if (is_same_line(o, &s->outcome[k])) {
+                cell_text(&s->outcome[k], text, sizeof text);
+                fprintf(to, " %*s", CELL_WIDTH, text);
+                condition = fmax(condition, stress_cell(s, &s->outcome[k])->counters.condition);
+            }
+        fprintf(to, "  %.0e\n", condition);
+    }
+}
+
+static void print_unexpected(FILE *to, const stress *s)
+{
+    for (int i = 0; i < s->outcomes; i++) {
+        const stress_outcome *o = &s->outcome[i];
+        const extreme *e = &extremes[o->extreme];
+        if (!o->as_expected)
+            fprintf(to, "unexpected: %s %s=%g %s %s: %s (error %.3g), expected %s; %s\n", e->name, e->x_name, o->x,
+                    s->formulation[o->formulation].key, e->quantity[o->quantity].name, stress_name(o->kind), o->error,
+                    o->finding != NULL ? o->finding->outcome : "a value", o->reason);
+    }
+    for (int i = 0; i < s->findings && s->unobserved > 0; i++)
+        if (s->finding[i].observed == 0)
+            fprintf(to, "not observed: %s from %g to %g %s %s: %s\n", s->finding[i].extreme, s->finding[i].from, s->finding[i].to,
+                    s->finding[i].formulation, s->finding[i].quantity, s->finding[i].outcome);
+}
+
+void stress_table(FILE *to, const stress *s)
+{
+    stress_count sum = {0};
+    for (int i = 0; extremes[i].name != NULL; i++)
+        print_extreme(to, s, i);
+    fprintf(to, "\nrelative errors; ~ coarse: falls with more elements; ! wrong; ? not expected; - skip\n\n");
+    print_unexpected(to, s);
+    fprintf(to, "%-*s%10s%10s%10s%16s%10s%10s\n", NAME_WIDTH, "extremes", "tried", "survived", "(coarse)", "named failures",
+            "wrong", "faults");
+    for (int i = 0; i < s->formulations; i++) {
+        const stress_count *c = &s->count[i];
+        fprintf(to, "%-*s%10d%10d%10d%16d%10d%10d\n", NAME_WIDTH, s->formulation[i].key, c->tried, c->survived, c->coarse, c->named,
+                c->wrong, c->faults);
+        sum.tried += c->tried;
+        sum.survived += c->survived;
+        sum.coarse += c->coarse;
+        sum.named += c->named;
+        sum.wrong += c->wrong;
+        sum.faults += c->faults;
+    }
+    fprintf(to, "%-*s%10d%10d%10d%16d%10d%10d\n", NAME_WIDTH, "all", sum.tried, sum.survived, sum.coarse, sum.named, sum.wrong,
+            sum.faults);
+    fprintf(to, "%d outcomes differ from the expected ones, %d findings not observed\n", s->unexpected, s->unobserved);
+}
+
+void stress_csv(FILE *to, const stress *s)
+{
+    fprintf(to, "extreme,group,case,parameters,x,formulation,elements,quantity,outcome,as_expected,value,reference,error,condition,"
+                "iterations,reason\n");
+    for (int i = 0; i < s->outcomes; i++) {
+        const stress_outcome *o = &s->outcome[i];
+        const extreme *e = &extremes[o->extreme];
+        const cell_result *c = stress_cell(s, o);
+        fprintf(to, "%s,", e->name);
+        csv_field(to, e->group, ",");
+        fprintf(to, "%s,", e->base);
+        csv_field(to, s->first.point[o->point].text, ",");
+        fprintf(to, "%g,", o->x);
+        csv_field(to, s->formulation[o->formulation].key, ",");
+        fprintf(to, "%d,%s,%s,%d", s->first.series[o->series].mesh[0], e->quantity[o->quantity].name, stress_name(o->kind),
+                o->as_expected);
+        const double number[] = {o->result, o->reference, o->error};
+        for (int k = 0; k < 3; k++)
+            if (isfinite(number[k]))
+                fprintf(to, ",%.17g", number[k]);
+            else
+                fputc(',', to);
+        fprintf(to, ",%.3g,%ld,", c->counters.condition, c->counters.iterations);
+        csv_field(to, o->reason, "\n");
+    }
+}

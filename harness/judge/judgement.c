@@ -1,0 +1,168 @@
+/* All verdicts of a sweep, what was expected of them, and what the gate says. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/judge/verdict.h"
+
+static const double agreement_least = 1e-6; /* relative, of a value against its own stored discrete value */
+
+static verdict_kind kind_of(const char *name)
+{
+    for (int i = 0; i < VERDICT_KINDS; i++)
+        if (strcmp(verdict_name((verdict_kind)i), name) == 0)
+            return (verdict_kind)i;
+    return VERDICT_KINDS; /* matches nothing */
+}
+
+/* The first finding that speaks of this verdict sets what is expected, limit included. */
+static void expect(const sweep *s, truths *t, verdict *v)
+{
+    const series *one = &s->series[v->series];
+    const point *p = &s->point[one->point];
+    v->matches = v->kind == v->expected;
+    if (v->kind == VERDICT_SKIP)
+        return;
+    for (int i = 0; i < t->findings; i++) {
+        finding *known = &t->finding[i];
+        if (!finding_holds(known, p->type, p->parameter, one->formulation.key, p->scene.quantity[v->quantity].name))
+            continue;
+        v->finding = known;
+        v->expected = kind_of(known->verdict);
+        v->matches = v->kind == v->expected;
+        if (v->matches && isfinite(known->limit) && !(fabs(v->fit.limit - known->limit) <= known->uncertainty)) {
+            v->matches = 0;
+            snprintf(v->reason, sizeof v->reason, "its limit differs from the finding's %.10g", known->limit);
+        }
+        known->observed += v->matches;
+        return;
+    }
+}
+
+static status add_agreement(const agreement *one, judgement *out, fault *f)
+{
+    agreement *more = realloc(out->agreement, (size_t)(out->agreements + 1) * sizeof *more);
+    if (more == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for agreements");
+    out->agreement = more;
+    more[out->agreements++] = *one;
+    out->disagreements += !one->good;
+    return STATUS_OK;
+}
+
+/* One series against the stored values of its own meshes. */
+static status compare_meshes(const sweep *s, const truths *t, int index, judgement *out, fault *f)
+{
+    const series *one = &s->series[index];
+    const point *p = &s->point[one->point];
+    status outcome = STATUS_OK;
+    for (int r = 0; r < t->rows && one->missing[0] == '\0'; r++) {
+        const truth *row = &t->row[r];
+        if (row->elements == 0 || strcmp(row->formulation, one->formulation.key) != 0 || !truth_holds(row, p->type, p->parameter))
+            continue;
+        for (int i = 0; i < one->meshes; i++)
+            for (int q = 0; q < p->scene.quantities && one->mesh[i] == row->elements && outcome == STATUS_OK; q++) {
+                if (strcmp(p->scene.quantity[q].name, row->quantity) != 0 || !sweep_selects(s, p, &one->formulation, row->quantity))
+                    continue;
+                const solve_result *result = &one->cell[i].solve;
+                const double value = q < result->quantities ? result->quantity[q].value : NAN;
+                const int good = fabs(value - row->value) <= fmax(row->uncertainty, agreement_least * fabs(row->value));
+                outcome = add_agreement(&(agreement){index, i, q, row, value, good}, out, f);
+            }
+    }
+    return outcome;
+}
+
+/* Truths that speak of this quantity, the ones ranked lower and of other models included. */
+static void mark_met(truths *t, const point *p, const formulation *chosen, const char *quantity, int judged)
+{
+    for (int i = 0; i < t->rows; i++) {
+        truth *row = &t->row[i];
+        if (strcmp(row->quantity, quantity) == 0 && truth_holds(row, p->type, p->parameter) &&
+            (row->elements == 0 || strcmp(row->formulation, chosen->key) == 0)) {
+            row->met = 1;
+            row->judged |= judged;
+        }
+    }
+}
+
+static status check_units(const sweep *s, const truths *t, fault *f)
+{
+    for (int i = 0; i < s->points; i++)
+        for (int r = 0; r < t->rows; r++)
+            for (int q = 0; q < s->point[i].scene.quantities && t->row[r].type == s->point[i].type; q++) {
+                const scene_quantity *here = &s->point[i].scene.quantity[q];
+                if (strcmp(here->name, t->row[r].quantity) == 0 && strcmp(here->unit, t->row[r].unit) != 0)
+                    return fault_set(f, STATUS_FAULT,
+                                     "case %s: %s is in '%s', its truth in '%s'; correct the table and build again",
+                                     s->point[i].type->name, here->name, here->unit, t->row[r].unit);
+            }
+    return STATUS_OK;
+}
+
+static void judge_quantity(const sweep *s, truths *t, int index, int quantity, judgement *out)
+{
+    const point *p = &s->point[s->series[index].point];
+    verdict *v = &out->verdict[out->verdicts++];
+    v->series = index;
+    v->quantity = quantity;
+    verdict_reach(s, t, v);
+    expect(s, t, v);
+    out->by_kind[v->kind]++;
+    out->judged += v->truth != NULL && v->kind != VERDICT_SKIP;
+    out->unexpected += !v->matches;
+    mark_met(t, p, &s->series[index].formulation, p->scene.quantity[quantity].name, v->kind != VERDICT_SKIP);
+}
+
+status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f)
+{
+    int count = 0;
+    memset(out, 0, sizeof *out);
+    for (int i = 0; i < t->findings; i++)
+        t->finding[i].observed = 0;
+    for (int i = 0; i < t->rows; i++)
+        t->row[i].met = t->row[i].judged = 0;
+    for (int i = 0; i < s->seriess; i++)
+        count += s->point[s->series[i].point].scene.quantities;
+    out->verdict = calloc((size_t)count + 1, sizeof *out->verdict);
+    if (out->verdict == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for verdicts");
+    status outcome = check_units(s, t, f);
+    for (int i = 0; i < s->seriess && outcome == STATUS_OK; i++) {
+        const series *one = &s->series[i];
+        const point *p = &s->point[one->point];
+        for (int q = 0; q < p->scene.quantities; q++) {
+            const scene_quantity *quantity = &p->scene.quantity[q];
+            if (quantity->reduction == SCENE_CURVE) /* drawn beside its truths; a point of it is judged by a quantity of its own */
+                mark_met(t, p, &one->formulation, quantity->name, one->missing[0] == '\0');
+            else if (sweep_selects(s, p, &one->formulation, quantity->name))
+                judge_quantity(s, t, i, q, out);
+        }
+        outcome = compare_meshes(s, t, i, out, f);
+    }
+    for (int i = 0; i < t->findings && whole; i++)
+        out->unobserved += t->finding[i].observed == 0;
+    for (int i = 0; i < t->rows && whole; i++) {
+        const truth *row = &t->row[i];
+        const int elsewhere = row->elements > 0 && formulation_find(row->formulation) == NULL;
+        out->unmet += !row->met && !elsewhere;
+        out->waiting += (row->met || elsewhere) && !row->judged;
+    }
+    out->unmet += whole ? t->strangers : 0;
+    return outcome;
+}
+
+void judgement_free(judgement *j)
+{
+    free(j->verdict);
+    free(j->agreement);
+    memset(j, 0, sizeof *j);
+}
+
+int judgement_exit(const judgement *j)
+{
+    if (j->judged + j->agreements == 0)
+        return 3;
+    return j->unexpected + j->disagreements + j->unobserved + j->unmet > 0 ? 1 : 0;
+}

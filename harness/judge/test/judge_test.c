@@ -1,0 +1,284 @@
+/* The judge on made-up series: every kind of verdict, the expected ones, stored values of meshes, and what the gate says. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/judge/verdict.h"
+
+enum { MESHES = 5 };
+static const int mesh[MESHES] = {2, 4, 8, 16, 32};
+
+static const case_parameter parameter[] = {{"length", "m", 2, 1, 9, NULL, "some length"}, {0}};
+
+static status no_build(const double value[], scene *s, fault *f)
+{
+    (void)value;
+    (void)s;
+    return fault_set(f, STATUS_FAULT, "not to be built");
+}
+
+static const case_type made_up = {"made_up", "a case of the test", "none", parameter, no_build};
+static const element_type element = {.name = "element", .abi = ELEMENT_ABI};
+
+/* One point, one series of five meshes, one quantity; the truth is 3, tolerance 1e-4, least order 2. */
+typedef struct bench {
+    sweep s;
+    point p;
+    series one;
+    cell_result cell[MESHES];
+    quantity_result quantity[MESHES];
+    truths t;
+    truth row[2];
+    finding known;
+    judgement j;
+} bench;
+
+static char words[][32] = {"load",        "N",   "exact", "same",      "test",  "",         "element",
+                           "wrong limit", "why", "kN",    "low order", "other", "published"};
+enum { LOAD, NEWTON, EXACT, SAME, TEST, NOTHING, ELEMENT, WRONG_LIMIT, WHY, KILONEWTON, LOW_ORDER, OTHER, PUBLISHED };
+
+static void bench_make(bench *b)
+{
+    memset(b, 0, sizeof *b);
+    b->p.type = &made_up;
+    b->p.parameter[0] = 2;
+    scene_init(&b->p.scene, "made_up");
+    scene_quantity *q = scene_add_quantity(&b->p.scene, "load", "N", SCENE_COORDINATE, 0);
+    q->tolerance = 1e-4;
+    q->least_order = 2;
+    b->one = (series){.formulation = {.type = &element, .key = "element"}, .meshes = MESHES, .cell = b->cell};
+    memcpy(b->one.mesh, mesh, sizeof mesh);
+    for (int i = 0; i < MESHES; i++) {
+        b->quantity[i].value = NAN;
+        b->cell[i].solve.quantities = 1;
+        b->cell[i].solve.quantity = &b->quantity[i];
+    }
+    b->s = (sweep){.points = 1, .seriess = 1, .point = &b->p, .series = &b->one};
+    b->row[0] = (truth){.type = &made_up,
+                        .parameter = {2},
+                        .formulation = words[NOTHING],
+                        .quantity = words[LOAD],
+                        .unit = words[NEWTON],
+                        .kind = words[EXACT],
+                        .model = words[SAME],
+                        .source = words[TEST],
+                        .value = 3};
+    b->t = (truths){.rows = 1, .row = b->row};
+}
+
+/* limit + size n^-order */
+static void bench_fill(bench *b, double limit, double size, double order)
+{
+    for (int i = 0; i < MESHES; i++)
+        b->quantity[i].value = limit + size * pow(mesh[i], -order);
+}
+
+static const verdict *bench_judge(bench *b)
+{
+    fault f = {""};
+    judgement_free(&b->j);
+    gsl_test(judge(&b->s, &b->t, 1, &b->j, &f) != STATUS_OK || b->j.verdicts != 1, "one verdict: %s", f.text);
+    return &b->j.verdict[0];
+}
+
+static void bench_free(bench *b)
+{
+    judgement_free(&b->j);
+    scene_free(&b->p.scene);
+}
+
+static void expect(bench *b, verdict_kind kind, int code, const char *what)
+{
+    const verdict *v = bench_judge(b);
+    gsl_test(v->kind != kind, "%s: %s", what, verdict_name(v->kind));
+    gsl_test_int(judgement_exit(&b->j), code, "%s: exit code", what);
+}
+
+/* The verdict in words. */
+static void says(const bench *b, const char *words_of_it)
+{
+    char sentence[2 * FAULT_TEXT];
+    verdict_sentence(&b->j.verdict[0], 2, sentence, sizeof sentence);
+    gsl_test(strcmp(sentence, words_of_it) != 0, "says '%s'", sentence);
+}
+
+static void kinds(void)
+{
+    bench b;
+    bench_make(&b);
+    bench_fill(&b, 3, 0.7, 2);
+    expect(&b, VERDICT_PASS, 0, "right limit, right order, coarse meshes far off");
+    gsl_test_rel(b.j.verdict[0].fit.order, 2, 1e-6, "its order");
+    gsl_test_int(b.j.verdict[0].fit.from, 2, "all meshes show it");
+    says(&b, "converges to the truth, order 2");
+    bench_fill(&b, 3.003, 0.7, 2);
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "smooth convergence to +0.1 %");
+    gsl_test_rel(b.j.verdict[0].error, 1e-3, 1e-9, "the error is the limit's");
+    says(&b, "converges to a wrong limit: +0.1 %");
+    bench_fill(&b, 3 * (1 - 0.00115), 0.7, 4);
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "fast convergence to -0.115 %");
+    says(&b, "converges to a wrong limit: -0.115 %");
+    bench_fill(&b, 3 * (1 + 0.9e-4), 0.7, 2);
+    expect(&b, VERDICT_PASS, 0, "limit just inside the tolerance");
+    bench_fill(&b, 3 * (1 + 1.1e-4), 0.7, 2);
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "limit just outside, and sharp");
+    for (int i = 0; i < MESHES; i++)
+        b.quantity[i].value += 2 * pow(mesh[i], -3);
+    expect(&b, VERDICT_NOT_ASYMPTOTIC, 1, "limit outside, but by less than twice its own uncertainty");
+    bench_fill(&b, 3 * (1 + 2e-4), -6e-4 * 1024 * 0.9, 2);
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "the finest mesh hits the truth on the way to another limit");
+    gsl_test(fabs(b.j.verdict[0].finest - 3) > 3e-4, "(it does: %.17g)", b.j.verdict[0].finest);
+    bench_fill(&b, 3, 0.7, 1);
+    expect(&b, VERDICT_LOW_ORDER, 1, "right limit, first order instead of second");
+    says(&b, "converges to the truth, but with order 1 instead of 2");
+    bench_fill(&b, 3, 0.7, 1.8);
+    expect(&b, VERDICT_PASS, 0, "an order within what finite meshes show");
+    bench_fill(&b, 3, 1e-14, 1);
+    expect(&b, VERDICT_PASS, 0, "at the round-off floor no order is asked for");
+    says(&b, "has converged to the truth: the last meshes differ by round-off only");
+    for (int i = 0; i < MESHES; i++)
+        b.quantity[i].value = 3 + (i % 2 ? 0.01 : -0.01);
+    expect(&b, VERDICT_NOT_ASYMPTOTIC, 1, "alternating values");
+    says(&b, "shows no limit yet: the last two meshes differ by 0.02, the truth is -0.333 % away");
+    for (int i = 0; i < MESHES; i++)
+        b.quantity[i].value = 3 + (i % 2 ? 5e-5 : -5e-5);
+    expect(&b, VERDICT_PASS, 0, "alternating values that stay inside the tolerance");
+    bench_fill(&b, 3, 0.7, 2);
+    b.quantity[4].value = NAN;
+    expect(&b, VERDICT_DIVERGED, 1, "no number on the finest mesh");
+    b.quantity[4].status = STATUS_SINGULAR;
+    snprintf(b.quantity[4].reason, sizeof b.quantity[4].reason, "singular at path 0.3");
+    expect(&b, VERDICT_DIVERGED, 1, "singular on the finest mesh");
+    gsl_test(strcmp(b.j.verdict[0].reason, "singular at path 0.3") != 0, "with its reason");
+    says(&b, "has no value on the finest mesh: singular at path 0.3");
+    b.quantity[4].status = STATUS_REFUSED;
+    expect(&b, VERDICT_REFUSED, 1, "refused");
+    bench_fill(&b, 3, 0.7, 2);
+    b.quantity[4].status = STATUS_OK;
+    b.quantity[0].value = NAN;
+    expect(&b, VERDICT_PASS, 0, "a coarse mesh without a value does not count");
+    b.one.meshes = 1;
+    b.quantity[0].value = 3;
+    expect(&b, VERDICT_NOT_ASYMPTOTIC, 1, "one mesh shows no limit, even if it is right");
+    bench_free(&b);
+}
+
+static void expectations(void)
+{
+    bench b;
+    bench_make(&b);
+    snprintf(b.one.missing, sizeof b.one.missing, "shear");
+    expect(&b, VERDICT_SKIP, 3, "nothing but skips: nothing was checked");
+    gsl_test_int(b.j.waiting, 1, "a truth that everybody skips waits");
+    b.one.missing[0] = '\0';
+    b.p.status = STATUS_REFUSED;
+    expect(&b, VERDICT_REFUSED, 1, "a point whose scene is refused");
+    b.p.status = STATUS_OK;
+    bench_fill(&b, 3.003, 0.7, 2);
+    b.known = (finding){.type = &made_up,
+                        .parameter = {2},
+                        .formulation = words[ELEMENT],
+                        .quantity = words[LOAD],
+                        .verdict = words[WRONG_LIMIT],
+                        .proof = words[WHY],
+                        .limit = 3.003,
+                        .uncertainty = 1e-6};
+    b.t.finding = &b.known;
+    b.t.findings = 1;
+    expect(&b, VERDICT_WRONG_LIMIT, 0, "a known wrong limit");
+    b.known.limit = 3.004;
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "a known wrong limit that has moved");
+    b.known.limit = NAN;
+    b.known.verdict = words[LOW_ORDER];
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "another defect than the known one");
+    b.known.verdict = words[WRONG_LIMIT];
+    bench_fill(&b, 3, 0.7, 2);
+    expect(&b, VERDICT_PASS, 1, "a known defect that is gone");
+    gsl_test_int(b.j.unobserved, 1, "is a finding nobody observed");
+    b.known.parameter[0] = 5;
+    expect(&b, VERDICT_PASS, 1, "so is a finding of another point");
+    b.t.findings = 0;
+    b.row[0].parameter[0] = 5;
+    expect(&b, VERDICT_NO_TRUTH, 3, "a truth of other parameters does not judge");
+    gsl_test_int(b.j.unmet, 1, "and is missed");
+    b.row[0].any[0] = 1;
+    expect(&b, VERDICT_PASS, 0, "a truth of any length does");
+    b.row[0].any[0] = 0;
+    b.row[0].parameter[0] = 2;
+    bench_fill(&b, 3.003, 0.7, 2);
+    b.row[0].uncertainty = 0.0028;
+    expect(&b, VERDICT_PASS, 0, "a limit within the tolerance and the truth's own uncertainty");
+    b.row[0].uncertainty = 0.0026;
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "and one beyond both");
+    b.row[0].uncertainty = 0;
+    bench_fill(&b, 3, 0.7, 2);
+    b.row[1] = b.row[0];
+    b.row[1].value = 3.003;
+    b.t.rows = 2;
+    for (int exact = 0; exact < 2; exact++) {
+        b.row[exact].kind = words[EXACT];
+        b.row[1 - exact].kind = words[PUBLISHED];
+        expect(&b, exact == 0 ? VERDICT_PASS : VERDICT_WRONG_LIMIT, exact,
+               "an exact truth judges, a published one that contradicts it does not");
+    }
+    b.row[0].kind = words[EXACT];
+    b.t.rows = 1;
+    b.row[0].model = words[OTHER];
+    expect(&b, VERDICT_NO_TRUTH, 3, "a truth of another model does not judge");
+    gsl_test_abs(b.j.verdict[0].model_error, 0, 1e-6, "it gives the model error");
+    b.row[0].model = words[SAME];
+    b.row[0].quantity = words[WHY];
+    expect(&b, VERDICT_NO_TRUTH, 3, "a truth of a quantity that does not exist");
+    gsl_test_int(b.j.unmet, 1, "is missed");
+    bench_free(&b);
+}
+
+static void stored_values(void)
+{
+    bench b;
+    fault f = {""};
+    bench_make(&b);
+    bench_fill(&b, 3, 0.7, 2);
+    b.row[1] = b.row[0];
+    b.row[1].formulation = words[ELEMENT];
+    b.row[1].elements = 4;
+    b.row[1].value = b.quantity[1].value * (1 + 0.9e-6);
+    b.t.rows = 2;
+    expect(&b, VERDICT_PASS, 0, "a mesh agrees with its stored value");
+    gsl_test_int(b.j.agreements, 1, "one stored value");
+    b.row[1].value = b.quantity[1].value * (1 + 1.1e-6);
+    expect(&b, VERDICT_PASS, 1, "a mesh differs from its stored value");
+    b.row[1].uncertainty = 1e-4;
+    expect(&b, VERDICT_PASS, 0, "by less than it was printed to");
+    b.quantity[1].value = NAN;
+    expect(&b, VERDICT_PASS, 1, "a mesh without a value does not agree");
+    b.row[0].unit = words[KILONEWTON];
+    judgement_free(&b.j);
+    gsl_test(judge(&b.s, &b.t, 1, &b.j, &f) != STATUS_FAULT || strstr(f.text, "kN") == NULL, "another unit: %s", f.text);
+    bench_free(&b);
+}
+
+static void selection(void)
+{
+    bench b;
+    fault f = {""};
+    bench_make(&b);
+    bench_fill(&b, 3, 0.7, 2);
+    b.s.select = "made_up and load";
+    expect(&b, VERDICT_PASS, 0, "a quantity is selected");
+    b.s.select = "not load";
+    judgement_free(&b.j);
+    gsl_test(judge(&b.s, &b.t, 0, &b.j, &f) != STATUS_OK || b.j.verdicts != 0 || judgement_exit(&b.j) != 3, "or left out");
+    bench_free(&b);
+}
+
+int main(void)
+{
+    kinds();
+    expectations();
+    stored_values();
+    selection();
+    return gsl_test_summary();
+}

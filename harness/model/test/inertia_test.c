@@ -1,0 +1,238 @@
+/* Inertia of every formulation that has one, with every mass it offers, with and without rotary inertia, in a strained state of an
+ * unsymmetric section (a rectangle where only that is possible): mass, symmetry, and what a turning frame does. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "harness/catalogue/registry.h"
+
+enum { MOST = ELEMENT_MAX_COORDINATES };
+
+typedef struct subject {
+    const element_type *type;
+    element_data *data;
+    section section;
+    double length; /* [m] */
+    int nodes, coordinates;
+    char name[96];
+} subject;
+
+static const element_spin turning = {.omega = {31.3, -17.9, 23.7}, .centre = {0.213, -0.147, 0.089}};
+
+static void test_section(const element_type *type, section *out)
+{
+    static const double point[4][2] = {{0, 0}, {0.031, 0}, {0.031, 0.057}, {0.012, 0.057}};
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.young = 210e9;
+    spec.shear_modulus = 80.7e9;
+    spec.density = 7850;
+    spec.kind = type->limits & (LIMIT_RECTANGLE | LIMIT_DOUBLY_SYMMETRIC) ? SECTION_RECTANGLE : SECTION_WALLS;
+    spec.width = 0.0371;
+    spec.height = 0.0123;
+    spec.points = 4;
+    spec.walls = 3;
+    memcpy(spec.point, point, sizeof point);
+    for (int i = 0; i < 3; i++) {
+        spec.wall[i].from = i;
+        spec.wall[i].to = i + 1;
+        spec.wall[i].thickness = 0.0013 + 0.0007 * i;
+    }
+    gsl_test(section_compute(&spec, out, NULL) != STATUS_OK, "%s: section", type->name);
+}
+
+static void prepare(const element_type *type, const double options[], unsigned features, subject *s)
+{
+    fault f = {""};
+    s->type = type;
+    s->length = 0.2385;
+    s->nodes = element_nodes(type, options);
+    s->coordinates = 7 * s->nodes;
+    test_section(type, &s->section);
+    const element_request request = {.section = &s->section, .length = s->length, .features = features, .options = options};
+    s->data = calloc(1, type->data_size(&request));
+    gsl_test(type->prepare(&request, s->data, &f) != STATUS_OK, "%s: prepared (%s)", type->name, f.text);
+}
+
+/* Increments of high entropy, of relative size `size`. */
+static void increments(const subject *s, double size, unsigned seed, double d[])
+{
+    unsigned long long state = seed * 2654435761ull + 12345;
+    for (int i = 0; i < s->coordinates; i++) {
+        state = state * 6364136223846793005ull + 1442695040888963407ull;
+        const double random = (double)(state >> 11) / 9007199254740992.0 - 0.5;
+        const int c = i % 7;
+        d[i] = size * random * (c < 3 ? s->length : c < 6 ? 1 : 1 / s->length);
+    }
+}
+
+static void undeformed(const subject *s, node_state x[])
+{
+    for (int k = 0; k < s->nodes; k++)
+        x[k] = (node_state){.r = {s->length * k / (s->nodes - 1)}, .R = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+}
+
+static void move(const subject *s, double times, const double d[], node_state x[])
+{
+    for (int k = 0; k < s->nodes; k++) {
+        double turn[3], q[4], T[9], R[9];
+        for (int i = 0; i < 3; i++) {
+            x[k].r[i] += times * d[7 * k + i];
+            x[k].u[i] += times * d[7 * k + i];
+            turn[i] = times * d[7 * k + 3 + i];
+        }
+        x[k].a += times * d[7 * k + 6];
+        rotation_exp(turn, q);
+        rotation_matrix(q, T);
+        mat3_mul(T, x[k].R, R);
+        memcpy(x[k].R, R, sizeof R);
+    }
+}
+
+static double dot(int n, const double a[], const double b[])
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+/* Largest |A[i][j] - sign A[j][i]| beside the largest entry. */
+static double departure(int n, const double A[], double sign)
+{
+    double worst = 0, largest = 0;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            worst = fmax(worst, fabs(A[i * n + j] - sign * A[j * n + i]));
+            largest = fmax(largest, fabs(A[i * n + j]));
+        }
+    return worst / largest;
+}
+
+static void at_rest(const subject *s, const node_state x[])
+{
+    double M[MOST * MOST], v[MOST] = {0}, Mv[MOST];
+    const double mass = s->section.density * s->section.A * s->length;
+    gsl_test(s->type->inertia(s->data, x, NULL, &(inertia_output){.M = M}) != STATUS_OK, "%s: mass matrix", s->name);
+    gsl_test(!(departure(s->coordinates, M, 1) < 1e-14), "%s: mass matrix is symmetric", s->name);
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < s->coordinates; i++)
+            v[i] = i % 7 == c;
+        dense_mul_vec(s->coordinates, s->coordinates, M, v, Mv);
+        gsl_test_rel(dot(s->coordinates, v, Mv), mass, 1e-13, "%s: total mass, direction %d", s->name, c);
+    }
+}
+
+/* The motion v of the frame itself has the kinetic energy 1/2 v^T M v = -V, and G v = -2 F. */
+static void own_motion(const subject *s, const node_state x[], int rotary, const inertia_output *out)
+{
+    const int n = s->coordinates;
+    double v[MOST] = {0}, Mv[MOST], Gv[MOST], worst = 0, largest = 0;
+    for (int k = 0; k < s->nodes; k++) {
+        const double r[3] = {x[k].r[0] - turning.centre[0], x[k].r[1] - turning.centre[1], x[k].r[2] - turning.centre[2]};
+        vec3_cross(turning.omega, r, v + 7 * k);
+        memcpy(v + 7 * k + 3, turning.omega, sizeof turning.omega);
+    }
+    dense_mul_vec(n, n, out->M, v, Mv);
+    dense_mul_vec(n, n, out->G, v, Gv);
+    if (rotary)
+        gsl_test_rel(dot(n, v, Mv) / 2, -*out->potential, 1e-13, "%s: the frame's own motion has the centrifugal energy", s->name);
+    for (int i = 0; i < n; i++) {
+        const double size = i % 7 < 3 ? 1 : s->length;
+        worst = fmax(worst, fabs(Gv[i] + 2 * out->force[i]) / size);
+        largest = fmax(largest, fabs(out->force[i]) / size);
+    }
+    gsl_test(!(worst <= 1e-13 * largest), "%s: the Coriolis force of the frame's own motion is twice the centrifugal force (%.1e)",
+             s->name, worst / largest);
+}
+
+/* F = -dV/dx and N = d2V/dx2 by differences along a line. */
+static void derivatives(const subject *s, const node_state x[], const inertia_output *out)
+{
+    enum { SAMPLES = 5 };
+    const int n = s->coordinates;
+    const double h = 2e-3;
+    double d[MOST], Nd[MOST], V[SAMPLES];
+    increments(s, 1, 37, d);
+    for (int k = 0; k < SAMPLES; k++) {
+        node_state at[ELEMENT_MAX_NODES];
+        memcpy(at, x, (size_t)s->nodes * sizeof *at);
+        move(s, (k - 2) * h, d, at);
+        s->type->inertia(s->data, at, &turning, &(inertia_output){.potential = &V[k]});
+    }
+    dense_mul_vec(n, n, out->N, d, Nd);
+    const double first = (V[0] - 8 * V[1] + 8 * V[3] - V[4]) / (12 * h);
+    const double second = (-V[0] + 16 * V[1] - 30 * V[2] + 16 * V[3] - V[4]) / (12 * h * h);
+    gsl_test_rel(-dot(n, out->force, d), first, 1e-8, "%s: centrifugal force is the gradient of its potential", s->name);
+    gsl_test_rel(dot(n, d, Nd), second, 1e-6, "%s: and its stiffness the second derivative", s->name);
+}
+
+static void turning_frame(const subject *s, const node_state x[], int rotary)
+{
+    double V, F[MOST], M[MOST * MOST], N[MOST * MOST], G[MOST * MOST];
+    inertia_output out = {.M = M, .potential = &V, .force = F, .N = N, .G = G};
+    gsl_test(s->type->inertia(s->data, x, &turning, &out) != STATUS_OK, "%s: inertia in a turning frame", s->name);
+    gsl_test(!(departure(s->coordinates, N, 1) < 1e-14), "%s: centrifugal stiffness is symmetric", s->name);
+    gsl_test(!(departure(s->coordinates, G, -1) < 1e-14), "%s: gyroscopic matrix is skew", s->name);
+    own_motion(s, x, rotary, &out);
+    derivatives(s, x, &out);
+}
+
+/* Which option is the mass, and how many choices it has. */
+static int mass_choices(const element_type *type, int *option)
+{
+    for (int i = 0; type->options != NULL && type->options[i].name != NULL; i++)
+        if (strcmp(type->options[i].name, "mass") == 0) {
+            *option = i;
+            int count = 1;
+            for (const char *c = type->options[i].choices; *c != '\0'; c++)
+                count += *c == '|';
+            return count;
+        }
+    *option = 0;
+    return 1;
+}
+
+static void check(const element_type *type, const double options[], int choice, unsigned left_out)
+{
+    subject s = {0};
+    double d[MOST];
+    node_state x[ELEMENT_MAX_NODES];
+    const unsigned features = type->offers & ~(unsigned)FEATURE_CURVATURE & ~left_out;
+    const int rotary = (features & FEATURE_ROTARY_INERTIA) != 0;
+    prepare(type, options, features, &s);
+    snprintf(s.name, sizeof s.name, "%s, mass %d%s%s", type->name, choice, rotary ? ", rotary" : "",
+             features & FEATURE_WARPING ? ", warping" : "");
+    undeformed(&s, x);
+    increments(&s, 0.05, 31, d);
+    move(&s, 1, d, x);
+    at_rest(&s, x);
+    turning_frame(&s, x, rotary);
+    free(s.data);
+}
+
+int main(void)
+{
+    static const unsigned left_out[] = {0, FEATURE_ROTARY_INERTIA, FEATURE_WARPING, FEATURE_WARPING | FEATURE_SHEAR};
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        const element_type *type = registry_formulations[i];
+        double options[ELEMENT_MAX_OPTIONS] = {0};
+        int option;
+        if (type->inertia == NULL || !(type->offers & FEATURE_MASS))
+            continue;
+        for (int k = 0; type->options != NULL && type->options[k].name != NULL; k++)
+            options[k] = type->options[k].value;
+        const int choices = mass_choices(type, &option);
+        for (int choice = 0; choice < choices; choice++) {
+            if (choices > 1)
+                options[option] = choice;
+            for (size_t k = 0; k < sizeof left_out / sizeof left_out[0]; k++)
+                check(type, options, choice, left_out[k]);
+        }
+    }
+    return gsl_test_summary();
+}

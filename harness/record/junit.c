@@ -1,0 +1,109 @@
+#include "harness/record/junit.h"
+
+#include <math.h>
+
+static void escaped(FILE *to, const char *text)
+{
+    for (; *text != '\0'; text++)
+        switch (*text) {
+        case '<':
+            fputs("&lt;", to);
+            break;
+        case '>':
+            fputs("&gt;", to);
+            break;
+        case '&':
+            fputs("&amp;", to);
+            break;
+        case '"':
+            fputs("&quot;", to);
+            break;
+        default:
+            fputc(*text, to);
+        }
+}
+
+static void property(FILE *to, const char *name, double value)
+{
+    if (isfinite(value))
+        fprintf(to, "   <property name=\"%s\" value=\"%.17g\"/>\n", name, value);
+}
+
+static double seconds_of(const series *one)
+{
+    double seconds = 0;
+    for (int i = 0; i < one->meshes; i++)
+        seconds += one->cell[i].solve.seconds_setup + one->cell[i].solve.seconds_solve;
+    return seconds;
+}
+
+static void open_test(FILE *to, const point *p)
+{
+    fprintf(to, "  <testcase classname=\"%s.", p->type->name);
+    escaped(to, p->text[0] != '\0' ? p->text : "default");
+}
+
+static void write_verdict(FILE *to, const sweep *s, const verdict *v)
+{
+    const series *one = &s->series[v->series];
+    const point *p = &s->point[one->point];
+    open_test(to, p);
+    fprintf(to, "\" name=\"%s %s\" time=\"%.6f\">\n   <properties>\n", one->formulation.key, p->scene.quantity[v->quantity].name,
+            seconds_of(one));
+    property(to, "value", v->finest);
+    property(to, "limit", v->fit.limit);
+    property(to, "order", v->fit.order);
+    property(to, "truth", v->truth != NULL ? v->truth->value : NAN);
+    property(to, "error", v->error);
+    property(to, "model_error", v->model_error);
+    property(to, "tolerance", v->tolerance);
+    fprintf(to, "   </properties>\n");
+    if (v->kind == VERDICT_SKIP) {
+        fprintf(to, "   <skipped message=\"");
+        escaped(to, v->reason);
+        fprintf(to, "\"/>\n");
+    } else if (!v->matches) {
+        char sentence[2 * FAULT_TEXT];
+        verdict_sentence(v, p->scene.quantity[v->quantity].least_order, sentence, sizeof sentence);
+        fprintf(to, "   <failure message=\"");
+        escaped(to, sentence);
+        fprintf(to, "; expected %s\"/>\n", v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
+    }
+    fprintf(to, "  </testcase>\n");
+}
+
+static void write_agreement(FILE *to, const sweep *s, const agreement *a)
+{
+    const series *one = &s->series[a->series];
+    const point *p = &s->point[one->point];
+    open_test(to, p);
+    fprintf(to, "\" name=\"%s n=%d %s (discrete)\">\n", one->formulation.key, one->mesh[a->mesh],
+            p->scene.quantity[a->quantity].name);
+    if (!a->good)
+        fprintf(to, "   <failure message=\"%.17g differs from the stored %.17g\"/>\n", a->value, a->truth->value);
+    fprintf(to, "  </testcase>\n");
+}
+
+static void write_ledger(FILE *to, const char *name, int failures, const char *what)
+{
+    fprintf(to, "  <testcase classname=\"ledger\" name=\"%s\">\n", name);
+    if (failures > 0)
+        fprintf(to, "   <failure message=\"%d %s\"/>\n", failures, what);
+    fprintf(to, "  </testcase>\n");
+}
+
+void junit_write(FILE *to, const sweep *s, const judgement *j)
+{
+    fprintf(to,
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n <testsuite name=\"beamwork\" tests=\"%d\" failures=\"%d\" "
+            "skipped=\"%d\">\n",
+            j->verdicts + j->agreements + 2, j->unexpected + j->disagreements + (j->unobserved > 0) + (j->unmet > 0),
+            j->by_kind[VERDICT_SKIP]);
+    for (int i = 0; i < j->verdicts; i++)
+        write_verdict(to, s, &j->verdict[i]);
+    for (int i = 0; i < j->agreements; i++)
+        write_agreement(to, s, &j->agreement[i]);
+    write_ledger(to, "findings", j->unobserved, "findings were not observed");
+    write_ledger(to, "truths", j->unmet, "truths speak of nothing that exists");
+    fprintf(to, " </testsuite>\n</testsuites>\n");
+}

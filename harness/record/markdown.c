@@ -1,0 +1,102 @@
+#include "harness/record/markdown.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MOST_ROWS = 50 }; /* a comment is read, not searched: the JSON has the rest */
+
+/* A cell of a table: bars and line ends would break it. */
+static void cell(FILE *to, const char *text)
+{
+    for (; *text != '\0'; text++)
+        if (*text == '|')
+            fputs("\\|", to);
+        else
+            fputc(*text == '\n' ? ' ' : *text, to);
+}
+
+static void number(FILE *to, double value)
+{
+    if (isfinite(value))
+        fprintf(to, " | %.6g", value);
+    else
+        fprintf(to, " | -");
+}
+
+static void write_verdict(FILE *to, const sweep *s, const verdict *v)
+{
+    const series *one = &s->series[v->series];
+    const point *p = &s->point[one->point];
+    fprintf(to, "| %s | ", p->type->name);
+    cell(to, p->text);
+    fprintf(to, " | `%s` | %s | **%s** | %s", one->formulation.key, p->scene.quantity[v->quantity].name, verdict_name(v->kind),
+            v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
+    number(to, v->fit.limit);
+    number(to, v->truth != NULL ? v->truth->value : NAN);
+    if (isfinite(v->error))
+        fprintf(to, " | %+.3g %% | ", 100 * v->error);
+    else
+        fprintf(to, " | - | ");
+    cell(to, v->reason);
+    fprintf(to, " |\n");
+}
+
+static void write_unexpected(FILE *to, const sweep *s, const judgement *j)
+{
+    int rows = 0;
+    if (j->unexpected == 0)
+        return;
+    fprintf(to, "\n| case | parameters | formulation | quantity | verdict | expected | limit | truth | error | reason |\n"
+                "|---|---|---|---|---|---|---:|---:|---:|---|\n");
+    for (int i = 0; i < j->verdicts && rows < MOST_ROWS; i++)
+        if (!j->verdict[i].matches) {
+            write_verdict(to, s, &j->verdict[i]);
+            rows++;
+        }
+    if (j->unexpected > rows)
+        fprintf(to, "\n… and %d more.\n", j->unexpected - rows);
+}
+
+/* One row for each formulation: its verdicts by kind. */
+static void write_formulations(FILE *to, const sweep *s, const judgement *j)
+{
+    fprintf(to, "\n| formulation");
+    for (int k = 0; k < VERDICT_KINDS; k++)
+        fprintf(to, " | %s", verdict_name((verdict_kind)k));
+    fprintf(to, " |\n|---");
+    for (int k = 0; k < VERDICT_KINDS; k++)
+        fprintf(to, "|---:");
+    fprintf(to, "|\n");
+    for (int first = 0; first < s->seriess; first++) {
+        const char *key = s->series[first].formulation.key;
+        int counts[VERDICT_KINDS] = {0}, before = 0;
+        for (int i = 0; i < first && !before; i++)
+            before = strcmp(s->series[i].formulation.key, key) == 0;
+        if (before)
+            continue;
+        for (int i = 0; i < j->verdicts; i++)
+            if (strcmp(s->series[j->verdict[i].series].formulation.key, key) == 0)
+                counts[j->verdict[i].kind]++;
+        fprintf(to, "| `%s`", key);
+        for (int k = 0; k < VERDICT_KINDS; k++)
+            fprintf(to, counts[k] > 0 ? " | %d" : " | ", counts[k]);
+        fprintf(to, " |\n");
+    }
+}
+
+void markdown_write(FILE *to, const sweep *s, const judgement *j, const environment *e)
+{
+    const int bad = j->unexpected > 0 || j->disagreements > 0 || j->unobserved > 0 || j->unmet > 0;
+    fprintf(to, "## beamwork: %s\n\n", j->judged == 0 ? "nothing was checked" : bad ? "not as expected" : "as expected");
+    fprintf(to, "%d verdicts against truths in %d cells: %d differ from the expected one; %d of %d stored discrete values agree",
+            j->judged, sweep_cells(s), j->unexpected, j->agreements - j->disagreements, j->agreements);
+    if (j->unobserved > 0)
+        fprintf(to, "; %d findings were not observed", j->unobserved);
+    if (j->unmet > 0)
+        fprintf(to, "; %d truths speak of nothing that exists", j->unmet);
+    fprintf(to, ". Commit %s, %s.\n", e->commit, e->compiler);
+    write_unexpected(to, s, j);
+    fprintf(to, "\n<details><summary>Verdicts by formulation</summary>\n");
+    write_formulations(to, s, j);
+    fprintf(to, "\n</details>\n");
+}

@@ -1,0 +1,12 @@
+/* Summary of a verification as Markdown, for the description of a pull request. */
+#ifndef BEAMWORK_MARKDOWN_H
+#define BEAMWORK_MARKDOWN_H
+
+#include <stdio.h>
+
+#include "harness/catalogue/environment.h"
+#include "harness/judge/verdict.h"
+
+void markdown_write(FILE *to, const sweep *s, const judgement *j, const environment *e);
+
+#endif

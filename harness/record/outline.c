@@ -1,0 +1,55 @@
+#include "harness/record/outline.h"
+
+#include <math.h>
+
+/* Corners of a wall of thickness t whose mid-line runs from a to b. */
+static void add_wall(outline *out, const double a[2], const double b[2], double t)
+{
+    const double length = hypot(b[0] - a[0], b[1] - a[1]);
+    const double across[2] = {-(b[1] - a[1]) / length * t / 2, (b[0] - a[0]) / length * t / 2};
+    double(*corner)[2] = out->corner[out->walls++];
+    for (int i = 0; i < 2; i++) {
+        corner[0][i] = a[i] + across[i];
+        corner[1][i] = a[i] - across[i];
+        corner[2][i] = b[i] - across[i];
+        corner[3][i] = b[i] + across[i];
+    }
+}
+
+static void principal(const section *s, const double point[2], double out[2])
+{
+    const double y = point[0] - s->centroid[0], z = point[1] - s->centroid[1], c = cos(s->axes_angle), d = sin(s->axes_angle);
+    out[0] = c * y + d * z;
+    out[1] = c * z - d * y;
+}
+
+/* The mid-line follows the longer side. */
+static void add_rectangle(outline *out, double height, double width)
+{
+    const double side[2] = {width < height ? height / 2 : 0, width < height ? 0 : width / 2};
+    add_wall(out, (double[2]){-side[0], -side[1]}, side, fmin(width, height));
+}
+
+status outline_of(const section_spec *spec, outline *out, fault *f)
+{
+    section s;
+    const status outcome = section_compute(spec, &s, f);
+    out->walls = 0;
+    out->equivalent = spec->kind == SECTION_CONSTANTS && !s.rectangle;
+    if (outcome != STATUS_OK)
+        return outcome;
+    for (int w = 0; w < spec->walls && spec->kind == SECTION_WALLS; w++) {
+        double a[2], b[2];
+        principal(&s, spec->point[spec->wall[w].from], a);
+        principal(&s, spec->point[spec->wall[w].to], b);
+        add_wall(out, a, b, spec->wall[w].thickness);
+    }
+    if (spec->kind == SECTION_WALLS)
+        return outcome;
+    const double ratio = sqrt(s.Iy / s.Iz); /* of width to height: Iy/Iz = (w/h)^2 */
+    if (out->equivalent)
+        add_rectangle(out, sqrt(s.A / ratio), sqrt(s.A * ratio));
+    else
+        add_rectangle(out, s.height, s.width);
+    return outcome;
+}

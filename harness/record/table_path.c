@@ -1,0 +1,74 @@
+#include "harness/record/table_path.h"
+
+#include <math.h>
+
+enum { MOST_STEPS = 40 };
+
+void table_steps(FILE *to, const solve_result *r)
+{
+    if (r->steps == 0)
+        return;
+    fprintf(to, "%4s %12s %12s %8s %10s  %s\n", "step", "path", "increment", "rejected", "iterations", "their corrections");
+    for (int i = 0; i < r->steps && i < MOST_STEPS; i++) {
+        const step_record *k = &r->step[i];
+        fprintf(to, "%4d %12.8g %12.4g %8d %10d ", i + 1, k->path, k->increment, k->rejected, k->iterations);
+        for (int j = 0; j < k->iterations; j++)
+            fprintf(to, " %.0e", r->iteration[k->first + j].correction);
+        fputc('\n', to);
+    }
+    if (r->steps > MOST_STEPS)
+        fprintf(to, "%4s %d more steps: --format json has them all\n", "", r->steps - MOST_STEPS);
+}
+
+static void matrix(FILE *to, const double value[36], const char *const row[6], const char *const column[6])
+{
+    fprintf(to, "%7s", "");
+    for (int j = 0; j < 6; j++)
+        fprintf(to, " %14s", column[j]);
+    fputc('\n', to);
+    for (int i = 0; i < 6; i++) {
+        fprintf(to, "%7s", row[i]);
+        for (int j = 0; j < 6; j++)
+            if (isfinite(value[6 * i + j]))
+                fprintf(to, " %14.7g", value[6 * i + j] + 0.0); /* no "-0" */
+            else
+                fprintf(to, " %14s", "-");
+        fputc('\n', to);
+    }
+}
+
+void table_matrices(FILE *to, const solve_result *r)
+{
+    static const char *const motion[] = {"ux", "uy", "uz", "thx", "thy", "thz"};
+    static const char *const load[] = {"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
+    for (int i = 0; i < r->matrix_sets; i++) {
+        const nodal_matrices *m = &r->matrices[i];
+        if (m->stations == 0)
+            continue;
+        const size_t last = 36 * (size_t)(m->stations - 1);
+        fprintf(to, "compliance of node %d at path %g, %s moments [SI]\n", m->node, m->path[m->stations - 1],
+                scene_moments_name(m->moments));
+        matrix(to, m->compliance + last, motion, load);
+        if (!isfinite(m->stiffness[last]))
+            continue;
+        fprintf(to, "stiffness\n");
+        matrix(to, m->stiffness + last, load, motion);
+    }
+}
+
+static void row_of_event(FILE *to, const path_event *e)
+{
+    fprintf(to, "%s at %.9g m, load factor %.9g", event_name(e->kind), e->control, e->factor);
+    if (e->kind == EVENT_BRANCH_JUMP)
+        fprintf(to, ": a step led to another branch with %.9g\n", e->other_factor);
+    else if (e->negative_before >= 0)
+        fprintf(to, ": negative pivots %d -> %d\n", e->negative_before, e->negative_after);
+    else
+        fputc('\n', to);
+}
+
+void table_events(FILE *to, const solve_result *r)
+{
+    for (int i = 0; i < r->events; i++)
+        row_of_event(to, &r->event[i]);
+}

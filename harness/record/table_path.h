@@ -1,0 +1,15 @@
+/* Load steps with their iterations, and matrices of nodes, as text. */
+#ifndef BEAMWORK_TABLE_PATH_H
+#define BEAMWORK_TABLE_PATH_H
+
+#include <stdio.h>
+
+#include "harness/analysis/solve.h"
+
+void table_steps(FILE *to, const solve_result *r);
+/* Critical points and branch jumps of continued paths. */
+void table_events(FILE *to, const solve_result *r);
+/* At the last station that was reached. */
+void table_matrices(FILE *to, const solve_result *r);
+
+#endif

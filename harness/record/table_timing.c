@@ -1,0 +1,156 @@
+#include "harness/record/table_timing.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "harness/judge/reach.h"
+
+/* First verdict of a series that has a truth, or NULL. */
+static const verdict *first_judged(const judgement *j, int series_index)
+{
+    for (int i = 0; i < j->verdicts; i++)
+        if (j->verdict[i].series == series_index && j->verdict[i].truth != NULL)
+            return &j->verdict[i];
+    return NULL;
+}
+
+static double error_on(const sweep *s, const verdict *v, int mesh)
+{
+    const series *one = &s->series[v->series];
+    const solve_result *r = &one->cell[mesh].solve;
+    return v->quantity < r->quantities
+               ? relative_error(&s->point[one->point].scene.quantity[v->quantity], r->quantity[v->quantity].value, v->truth->value)
+               : NAN;
+}
+
+static void row(FILE *to, const sweep *s, const series *one, const verdict *v, int mesh)
+{
+    const cell_result *c = &one->cell[mesh];
+    const clock_reading *t = &one->timing[mesh].as_is;
+    const double error = v != NULL ? error_on(s, v, mesh) : NAN;
+    fprintf(to, "  %-28s %5d %8d %10ld %12ld %9ld", one->formulation.key, one->mesh[mesh], c->size.free, c->counters.iterations,
+            c->counters.strain_evaluations, c->counters.factorisations);
+    if (t->rounds > 0)
+        fprintf(to, " %9.4g ms %9.4g ms %5.0f%%", 1e3 * t->setup, 1e3 * t->solve, 100 * (clock_most(t) / clock_least(t) - 1));
+    else
+        fprintf(to, " %12s %12s %6s", "-", "-", "-");
+    if (isfinite(error))
+        fprintf(to, "  %+.3e\n", error);
+    else
+        fprintf(to, "  %s\n", c->solve.reason[0] != '\0' ? c->solve.reason : "-");
+}
+
+static void rows(FILE *to, const sweep *s, const judgement *j, int at)
+{
+    fprintf(to, "  %-28s %5s %8s %10s %12s %9s %12s %12s %6s  %s\n", "formulation", "n", "unknowns", "iterations", "evaluations",
+            "factors", "set-up", "solution", "noise", "error");
+    for (int i = 0; i < s->seriess; i++)
+        for (int k = 0; k < s->series[i].meshes && s->series[i].point == at && s->series[i].missing[0] == '\0'; k++)
+            row(to, s, &s->series[i], first_judged(j, i), k);
+}
+
+/* Microseconds per iteration in each of its parts; the dense baseline where it was timed. */
+static void parts_of(FILE *to, const series *one, int mesh)
+{
+    const cell_timing *t = &one->timing[mesh];
+    const long iterations = one->cell[mesh].counters.iterations;
+    if (t->as_is.rounds == 0 || iterations == 0)
+        return;
+    fprintf(to, "  %-28s %5d ", one->formulation.key, one->mesh[mesh]);
+    for (int k = 0; k < PHASES; k++)
+        fprintf(to, " %14.4g", 1e6 * t->phase[k] / (double)iterations);
+    if (t->dense.whole.rounds > 0)
+        fprintf(to, "  dense %.4g ms", 1e3 * clock_least(&t->dense.whole));
+    else if (t->dense.unknowns > 0)
+        fprintf(to, "  dense %ld x %.4g ms", iterations, 1e3 * t->dense.iteration);
+    if (t->dense.unknowns > 0)
+        fprintf(to, " (%d unknowns): %.4g times ours", t->dense.unknowns,
+                baseline_seconds(&t->dense, iterations) / clock_least(&t->as_is));
+    fputc('\n', to);
+}
+
+static void parts(FILE *to, const sweep *s, int at)
+{
+    int iterative = 0;
+    for (int i = 0; i < s->seriess; i++)
+        for (int k = 0; k < s->series[i].meshes && s->series[i].point == at && s->series[i].missing[0] == '\0'; k++)
+            iterative |= s->series[i].cell[k].counters.iterations > 0;
+    if (!iterative)
+        return;
+    fprintf(to, "  %-28s %5s ", "microseconds per iteration", "n");
+    for (int k = 0; k < PHASES; k++)
+        fprintf(to, " %14s", phase_name((phase)k));
+    fputc('\n', to);
+    for (int i = 0; i < s->seriess; i++)
+        for (int k = 0; k < s->series[i].meshes && s->series[i].point == at && s->series[i].missing[0] == '\0'; k++)
+            parts_of(to, &s->series[i], k);
+}
+
+static const clock_reading *time_of(const sweep *s, const verdict *v, int mesh)
+{
+    return &s->series[v->series].timing[mesh].as_is;
+}
+
+/* Least time within the level among the formulations of a point, and those which the noise does not tell from it. */
+static void cheapest(FILE *to, const sweep *s, const judgement *j, int at, int quantity, double level)
+{
+    const verdict *best = NULL;
+    int best_mesh = -1;
+    for (int i = 0; i < j->verdicts; i++) {
+        const verdict *v = &j->verdict[i];
+        if (s->series[v->series].point != at || v->quantity != quantity)
+            continue;
+        const int mesh = reach_fastest(s, v, level);
+        if (mesh < 0 || time_of(s, v, mesh)->rounds == 0)
+            continue;
+        if (best == NULL || clock_least(time_of(s, v, mesh)) < clock_least(time_of(s, best, best_mesh))) {
+            best = v;
+            best_mesh = mesh;
+        }
+    }
+    fprintf(to, "  %s within %g %%: ", s->point[at].scene.quantity[quantity].name, 100 * level);
+    if (best == NULL) {
+        fprintf(to, "none\n");
+        return;
+    }
+    fprintf(to, "%s, n = %d, %.4g ms", s->series[best->series].formulation.key, s->series[best->series].mesh[best_mesh],
+            1e3 * clock_least(time_of(s, best, best_mesh)));
+    for (int i = 0, named = 0; i < j->verdicts; i++) {
+        const verdict *v = &j->verdict[i];
+        const int mesh = v != best && s->series[v->series].point == at && v->quantity == quantity ? reach_fastest(s, v, level) : -1;
+        if (mesh >= 0 && clock_compare(time_of(s, v, mesh), time_of(s, best, best_mesh)) == 0)
+            fprintf(to, "%s%s, n = %d", named++ == 0 ? " (undecided: " : "; ", s->series[v->series].formulation.key,
+                    s->series[v->series].mesh[mesh]);
+        if (i + 1 == j->verdicts && named > 0)
+            fprintf(to, ")");
+    }
+    fputc('\n', to);
+}
+
+static int has_truth(const sweep *s, const judgement *j, int at, int quantity)
+{
+    for (int i = 0; i < j->verdicts; i++)
+        if (s->series[j->verdict[i].series].point == at && j->verdict[i].quantity == quantity && j->verdict[i].truth != NULL)
+            return 1;
+    return 0;
+}
+
+void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh)
+{
+    for (int p = 0; p < s->points; p++) {
+        const point *here = &s->point[p];
+        int shown = 0;
+        if (!every_mesh && strcmp(here->name, "default") != 0)
+            continue;
+        fprintf(to, "%s%s%s\n", here->type->name, here->text[0] != '\0' ? " " : "", here->text);
+        if (every_mesh)
+            rows(to, s, j, p);
+        if (every_mesh)
+            parts(to, s, p);
+        for (int q = 0; q < here->scene.quantities && (every_mesh || shown == 0); q++)
+            for (int level = 0; level < REACH_LEVELS && has_truth(s, j, p, q); level++, shown = 1)
+                cheapest(to, s, j, p, q, reach_level[level]);
+        if (!shown)
+            fprintf(to, "  no truth\n");
+    }
+}

@@ -1,0 +1,74 @@
+/* All cells of a verification: series of meshes for every case, parameter point and formulation, run by several processes. */
+#ifndef BEAMWORK_SWEEP_H
+#define BEAMWORK_SWEEP_H
+
+#include <stdio.h>
+
+#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/select.h"
+#include "harness/study/cell.h"
+#include "harness/truth/truths.h"
+
+enum { SERIES_MAX_MESHES = 24 };
+
+typedef struct point {
+    const case_type *type;
+    double parameter[CASE_MAX_PARAMETERS];
+    char text[PARAMETERS_TEXT]; /* differences from the defaults */
+    char name[16];              /* "default" or the first digits of the hash */
+    scene_edit edit;            /* made to the scene of every cell */
+    int steps;                  /* load steps between stations; 0: the scene's */
+    int condition;              /* 1: estimate the condition of the tangents */
+    scene scene;                /* names, units, tolerances of the quantities */
+    status status;              /* of building the scene */
+    char reason[FAULT_TEXT];
+} point;
+
+typedef struct series {
+    int point;
+    formulation formulation;
+    char missing[200]; /* what the scene needs and the formulation does not offer; empty: it runs */
+    int meshes, mesh[SERIES_MAX_MESHES];
+    cell_result *cell;          /* [meshes]; their scenes are empty: the point has it */
+    struct cell_timing *timing; /* [meshes] of a benchmark (harness/timing); else NULL */
+} series;
+
+typedef struct sweep {
+    const char *select; /* of the request: what it leaves out is not judged either; NULL: nothing is left out */
+    int shapes;         /* of the request */
+    int threads;        /* of the loop over elements in every cell; 0, 1: one */
+    int points, seriess;
+    point *point;
+    series *series;
+} sweep;
+
+typedef struct sweep_request {
+    const char *select; /* expression over "case/point/formulation/quantity", or NULL */
+    int jobs;           /* processes, >= 1 */
+    int time_limit;     /* [s] of one cell, measured from outside; 0: none */
+    int formulations;   /* restrict to these, or 0: all */
+    const formulation *formulation;
+    int shapes;     /* most states of a path whose centre lines are kept, of the finest mesh at the defaults; 0: none */
+    FILE *progress; /* NULL: quiet */
+} sweep_request;
+
+/* Does the sweep's selection hold for a quantity? */
+int sweep_selects(const sweep *s, const point *p, const formulation *chosen, const char *quantity);
+
+/* Points: the defaults and every parameter point of a truth. */
+status sweep_plan(const sweep_request *request, const truths *t, sweep *out, fault *f);
+/* One point, the given formulations and meshes. */
+status sweep_plan_one(const case_type *type, const double value[], const formulation chosen[], int count, const int mesh[],
+                      int meshes, sweep *out, fault *f);
+/* A further point of a sweep that is planned by hand; its edit, steps and condition may be set before the run. */
+status sweep_add(sweep *s, const case_type *type, const double value[], const int mesh[], int meshes, fault *f);
+/* Series of the last point, on its scene's meshes. */
+status sweep_extend(sweep *s, const formulation chosen[], int count, fault *f);
+/* Runs every cell; a cell that fails or crashes is a result. Order of results does not depend on jobs. */
+status sweep_run(const sweep_request *request, sweep *s, fault *f);
+/* What running one mesh of a series means. */
+cell_request sweep_cell(const sweep *s, int series_index, int mesh);
+int sweep_cells(const sweep *s);
+void sweep_free(sweep *s);
+
+#endif

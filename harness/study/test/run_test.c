@@ -1,0 +1,204 @@
+/* Parameters, names, convergence, selection, truths. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "harness/catalogue/formulations.h"
+#include "harness/judge/convergence.h"
+#include "harness/study/sweep.h"
+
+static void parameters(void)
+{
+    fault f;
+    const case_type *c = case_find("c_column", &f);
+    double value[CASE_MAX_PARAMETERS], other[CASE_MAX_PARAMETERS];
+    int any[CASE_MAX_PARAMETERS];
+    char text[PARAMETERS_TEXT];
+    parameters_default(c, value);
+    gsl_test(parameters_set(c, "length=7.25", value, &f) != STATUS_OK, "a parameter is set");
+    gsl_test(parameters_set(c, "section_data=printed", value, &f) != STATUS_OK, "a choice is set");
+    static const char *const bad[] = {"length=-1", "length=nan",           "length=inf", "length=", "length",
+                                      "lengthh=1", "section_data=painted", "shear=0.5",  "=3",      ""};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
+        gsl_test(parameters_set(c, bad[i], value, &f) != STATUS_REFUSED || strchr(f.text, '\n') != NULL, "'%s' is refused: %s",
+                 bad[i], f.text);
+    parameters_text(c, value, text, sizeof text);
+    gsl_test(strcmp(text, "length=7.25;section_data=printed") != 0, "text of a point: %s", text);
+    gsl_test(parameters_parse(c, text, other, any, &f) != STATUS_OK ||
+                 parameters_hash(c, value, NULL) != parameters_hash(c, other, any),
+             "text and hash agree");
+    gsl_test(parameters_hash(c, value, NULL) == 0, "hash");
+    gsl_test(case_find("c_colum", &f) != NULL || strstr(f.text, "'c_column'") == NULL, "nearest case: %s", f.text);
+    formulation chosen;
+    gsl_test(formulation_parse("beamw:mass=consistent", &chosen, &f) != STATUS_OK || strcmp(chosen.key, "beamw") != 0,
+             "a default option is not in the key");
+    gsl_test(formulation_parse("beamw:mass=lumped", &chosen, &f) != STATUS_OK || strcmp(chosen.key, "beamw:mass=lumped") != 0,
+             "another is");
+    gsl_test(formulation_parse("beamw:mass=heavy", &chosen, &f) != STATUS_REFUSED, "refused: %s", f.text);
+    gsl_test(formulation_parse("beamv", &chosen, &f) != STATUS_REFUSED || strstr(f.text, "beamw") == NULL, "refused: %s", f.text);
+}
+
+static void convergences(void)
+{
+    const int n[] = {2, 4, 8, 16, 32};
+    double value[5];
+    for (int i = 0; i < 5; i++)
+        value[i] = 3 + 0.7 * pow(n[i], -2.5);
+    convergence c = convergence_of(5, n, value, 3);
+    gsl_test(c.kind != CONVERGENCE_ORDERLY, "orderly");
+    gsl_test_rel(c.order, 2.5, 1e-6, "order");
+    gsl_test_rel(c.limit, 3, 1e-10, "limit");
+    for (int i = 0; i < 5; i++)
+        value[i] = 3 + pow(n[i], -12.0);
+    c = convergence_of(5, n, value, 3);
+    gsl_test(c.kind != CONVERGENCE_FLOOR, "the round-off floor is recognised");
+    gsl_test_rel(c.limit, 3, 1e-12, "limit at the floor");
+    for (int i = 0; i < 5; i++)
+        value[i] = 3 + (i % 2 ? 0.1 : -0.1) / n[i];
+    gsl_test(convergence_of(5, n, value, 3).kind != CONVERGENCE_NONE, "alternating values show no order");
+    gsl_test(convergence_of(2, n, value, 3).kind != CONVERGENCE_NONE, "two meshes show no order");
+    const int uneven[] = {1, 3, 4, 20};
+    for (int i = 0; i < 4; i++)
+        value[i] = -5 + 2 * pow(uneven[i], -4.0);
+    c = convergence_of(4, uneven, value, 5);
+    gsl_test_rel(c.order, 4, 1e-6, "order on uneven meshes");
+}
+
+/* Values of one quantity along meshes that double. */
+static convergence doubled(int count, const double value[])
+{
+    static const int n[] = {2, 4, 8, 16, 32, 64};
+    return convergence_of(count, n, value, 1);
+}
+
+static void odd_sequences(void)
+{
+    const double constant[] = {1, 1, 1}, growing[] = {1, 1.1, 1.3, 1.7}, one[] = {1}, noisy[] = {1.5, 1.1, 1 + 4e-12, 1 - 6e-12};
+    gsl_test(doubled(3, constant).kind != CONVERGENCE_FLOOR || doubled(3, constant).limit != 1, "constant values are at the floor");
+    gsl_test(doubled(4, growing).kind != CONVERGENCE_NONE, "growing differences have no limit");
+    gsl_test(doubled(1, one).kind != CONVERGENCE_NONE || !isnan(doubled(1, one).limit_uncertainty), "one mesh has no limit");
+    gsl_test(doubled(0, one).kind != CONVERGENCE_NONE || !isnan(doubled(0, one).limit), "no mesh, no number");
+    gsl_test(doubled(4, noisy).kind != CONVERGENCE_FLOOR, "noise at the floor");
+    double value[6];
+    for (int i = 0; i < 6; i++)
+        value[i] = 1 - 0.3 * pow(2 << i, -2) + 0.2 * pow(2 << i, -4);
+    const convergence c = doubled(6, value);
+    gsl_test_abs(c.order, 2, 0.01, "order of the leading term");
+    gsl_test(!(fabs(c.order - 2) <= 2 * c.order_uncertainty), "within its own uncertainty (%g +- %g)", c.order,
+             c.order_uncertainty);
+    gsl_test(!(fabs(c.limit - 1) <= 2 * c.limit_uncertainty), "so is the limit (%g +- %g)", c.limit - 1, c.limit_uncertainty);
+}
+
+static unsigned next_random(unsigned *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return *state >> 10;
+}
+
+/* Pieces of right input put together at random: answered or refused in one line, never a crash or another status. */
+static void random_input(void)
+{
+    static const char *const piece[] = {
+        "length",
+        "=",
+        ";",
+        ":",
+        ",",
+        "*",
+        "|",
+        "-1",
+        "1e400",
+        "nan",
+        "7.25",
+        "section_data",
+        "printed",
+        "beamw",
+        "mass",
+        "lumped",
+        "newton",
+        "and",
+        "or",
+        "not",
+        " ",
+        "\t",
+        "%s%n",
+        "\xc3\xa4",
+        "",
+        "0x1p3",
+        "a_word_that_is_longer_than_any_buffer_might_expect_it_to_be_in_a_name_of_a_case_or_a_parameter_of_it"};
+    const case_type *c = case_find("c_column", NULL);
+    unsigned state = 1;
+    int wrong = 0;
+    for (int i = 0; i < 20000; i++) {
+        char text[2048] = "";
+        double value[CASE_MAX_PARAMETERS];
+        int any[CASE_MAX_PARAMETERS];
+        formulation chosen;
+        for (unsigned k = next_random(&state) % 12; k > 0; k--)
+            strcat(text, piece[next_random(&state) % (sizeof piece / sizeof piece[0])]);
+        fault f[4] = {{""}, {""}, {""}, {""}};
+        parameters_default(c, value);
+        const status outcome[4] = {parameters_set(c, text, value, &f[0]), formulation_parse(text, &chosen, &f[1]),
+                                   case_find(text, &f[2]) != NULL ? STATUS_OK : STATUS_REFUSED,
+                                   parameters_parse(c, text, value, any, &f[3])};
+        for (int k = 0; k < 4; k++)
+            wrong += outcome[k] != STATUS_OK &&
+                     (outcome[k] != STATUS_REFUSED || f[k].text[0] == '\0' || strchr(f[k].text, '\n') != NULL);
+        const int matches = select_matches(text, "c_column/default/beamw/buckling_load");
+        wrong += matches < -1 || matches > 1;
+        for (int k = 0; k < parameters_count(c); k++)
+            wrong += !(value[k] >= (c->parameters[k].choices != NULL ? 0 : c->parameters[k].min));
+    }
+    gsl_test_int(wrong, 0, "answers to 20000 random inputs that are neither a value nor a clear refusal");
+}
+
+static void selection(void)
+{
+    const char *text = "c_column/default/beamw";
+    gsl_test_int(select_matches("c_column", text), 1, "word");
+    gsl_test_int(select_matches("c_column and not beamw", text), 0, "and, not");
+    gsl_test_int(select_matches("hexapod or beamw", text), 1, "or");
+    gsl_test_int(select_matches("c_column beamw", text), 1, "side by side is and");
+    gsl_test_int(select_matches("and", text), -1, "malformed");
+    gsl_test_int(select_matches("c_column or", text), -1, "malformed");
+    gsl_test_int(select_matches("", text), -1, "empty");
+}
+
+static void truth_files(void)
+{
+    truths t;
+    fault f;
+    char path[] = "/tmp/beamwork-test-XXXXXX";
+    const int file = mkstemp(path);
+    gsl_test(truths_read("/nowhere/truths.h5", &t, &f) != STATUS_FAULT, "missing: %s", f.text);
+    gsl_test(file < 0 || write(file, "this is not HDF5", 16) != 16, "file written");
+    close(file);
+    gsl_test(truths_read(path, &t, &f) != STATUS_FAULT || strchr(f.text, '\n') != NULL, "foreign: %s", f.text);
+    unlink(path);
+    const char *real = getenv("BEAMWORK_TRUTHS");
+    if (real == NULL)
+        return;
+    gsl_test(truths_read(real, &t, &f) != STATUS_OK, "the packed truths are read (%s)", f.text);
+    double value[CASE_MAX_PARAMETERS];
+    const case_type *c = case_find("c_column", &f);
+    parameters_default(c, value);
+    const truth *row = truth_of(&t, c, value, "buckling_load", "same");
+    gsl_test(row == NULL, "the column has a truth");
+    if (row != NULL)
+        gsl_test_rel(row->value, 11942676.75772, 1e-12, "and it is exact before published");
+    truths_free(&t);
+}
+
+int main(void)
+{
+    parameters();
+    convergences();
+    odd_sequences();
+    random_input();
+    selection();
+    truth_files();
+    return gsl_test_summary();
+}

@@ -1,0 +1,58 @@
+#include "harness/timing/baseline.h"
+
+#include <math.h>
+#include <time.h>
+
+static const double longest = 1; /* [s] of a whole run; longer ones are counted from one iteration */
+enum { MOST_UNKNOWNS = 3000 };   /* 72 MB; a few seconds per iteration */
+
+/* Coordinates, strains and stresses. */
+static int unknowns_of(const cell_result *cell)
+{
+    return cell->size.free + 2 * cell->size.strains * cell->size.elements;
+}
+
+static double processor_seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void sample(const cell_request *dense, baseline *out)
+{
+    cell_request one = *dense;
+    cell_result cell;
+    fault f = {""};
+    double seconds = 0;
+    const double start = processor_seconds();
+    one.solve.sample = one.solve.phases = 1;
+    if (cell_run(&one, &cell, &f) == STATUS_OK) {
+        for (int k = 0; k < PHASES; k++)
+            seconds += cell.solve.phase[k];
+        seconds = fmin(seconds, processor_seconds() - start); /* a long one is interrupted now and then */
+        out->iteration = out->unknowns > 0 ? fmin(out->iteration, seconds) : seconds;
+        out->unknowns = unknowns_of(&cell);
+    }
+    cell_result_free(&cell);
+}
+
+void baseline_round(const cell_request *own, const cell_result *cell, double floor, baseline *out)
+{
+    const long iterations = cell->counters.iterations;
+    cell_request dense = *own;
+    dense.solve.newton = SOLVE_DENSE;
+    if (iterations == 0 || unknowns_of(cell) > MOST_UNKNOWNS)
+        return; /* a linear problem, or one too large */
+    if (out->unknowns == 0 || out->iteration < longest)
+        sample(&dense, out);
+    if (out->unknowns > 0 && out->iteration * (double)iterations <= longest)
+        clock_round(&dense, floor, &out->whole);
+}
+
+double baseline_seconds(const baseline *b, long iterations)
+{
+    if (b->whole.rounds > 0)
+        return clock_least(&b->whole);
+    return b->unknowns > 0 ? b->iteration * (double)iterations : INFINITY;
+}

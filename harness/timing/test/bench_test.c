@@ -1,0 +1,171 @@
+/* What a benchmark says of times: decided only where the noise allows it; work is counted the same every time. */
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <string.h>
+
+#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/registry.h"
+#include "harness/judge/reach.h"
+#include "harness/study/cell.h"
+#include "harness/timing/clock.h"
+#include "harness/timing/versus.h"
+
+enum { PAIRS = 101, TRIALS = 300 };
+
+/* A lap of 1.7 ms with the noise of a shared machine: mostly small, at times long, and drifting. */
+static double noisy(const gsl_rng *random, double drift)
+{
+    const double tail = gsl_ran_exponential(random, 1) * (gsl_rng_uniform(random) < 0.1 ? 0.5 : 0.01);
+    return 1.7e-3 * (1 + drift + tail + fabs(gsl_ran_gaussian(random, 0.03)));
+}
+
+static void count_outcomes(double slowdown, int outcomes[3])
+{
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    memset(outcomes, 0, 3 * sizeof *outcomes);
+    for (int trial = 0; trial < TRIALS; trial++) {
+        double a[PAIRS], b[PAIRS];
+        for (int i = 0; i < PAIRS; i++) {
+            const double drift = 0.4 * (1 + sin(0.07 * i + trial));
+            a[i] = noisy(random, drift);
+            b[i] = (1 + slowdown) * noisy(random, drift);
+        }
+        outcomes[versus_judge(PAIRS, a, b).outcome]++;
+    }
+    gsl_rng_free(random);
+}
+
+static void test_versus(void)
+{
+    int outcomes[3];
+    count_outcomes(0, outcomes);
+    gsl_test_int(outcomes[VERSUS_UNDECIDED], TRIALS, "noise alone is undecided");
+    count_outcomes(0.2, outcomes);
+    gsl_test_int(outcomes[VERSUS_SLOWER], TRIALS, "a slow-down of 20 %% is found");
+    count_outcomes(-1.0 / 6, outcomes);
+    gsl_test_int(outcomes[VERSUS_FASTER], TRIALS, "and seen from the other side");
+    const double few[10] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, twice[10] = {2, 2, 2, 2, 2, 2, 2, 2, 2, 2};
+    gsl_test_int(versus_judge(10, few, twice).outcome, VERSUS_UNDECIDED, "ten pairs cannot give 99.9 %% confidence");
+    gsl_test_int(versus_judge(0, few, twice).outcome, VERSUS_UNDECIDED, "no pair decides nothing");
+}
+
+/* The median of 101 draws: P(Binomial(101, 1/2) < 34) = 3.2e-4 and P(< 35) = 6.7e-4 enclose the tail of 5e-4. */
+static void test_interval(void)
+{
+    double a[PAIRS], b[PAIRS];
+    for (int i = 0; i < PAIRS; i++) {
+        a[i] = 1;
+        b[i] = 2 + i;
+    }
+    const versus v = versus_judge(PAIRS, a, b);
+    gsl_test_abs(v.ratio, 52, 1e-12, "median of the ratios");
+    gsl_test_abs(v.low, 2 + 33, 1e-12, "34th smallest is the lower end (binomial tail)");
+    gsl_test_abs(v.high, 2 + 67, 1e-12, "34th largest is the upper end");
+}
+
+static clock_reading reading(double first, double step)
+{
+    clock_reading c = {.rounds = CLOCK_ROUNDS};
+    for (int i = 0; i < CLOCK_ROUNDS; i++)
+        c.round[i] = first + step * ((3 * i) % CLOCK_ROUNDS);
+    return c;
+}
+
+static void test_compare(void)
+{
+    const clock_reading a = reading(1, 0.1), b = reading(1.41, 0.1), c = reading(1.39, 0.1);
+    const clock_reading never = {0};
+    gsl_test_abs(clock_least(&a), 1, 1e-15, "least of the rounds");
+    gsl_test_abs(clock_most(&a), 1.4, 1e-15, "slowest of the rounds");
+    gsl_test_int(clock_compare(&a, &b), -1, "all rounds faster");
+    gsl_test_int(clock_compare(&b, &a), 1, "all rounds slower");
+    gsl_test_int(clock_compare(&a, &c), 0, "rounds overlap: undecided");
+    gsl_test(isfinite(clock_least(&never)), "a cell that never ran has no time");
+}
+
+/* Errors 20 %, 0.5 %, 3 %, 0.2 %, 0.05 %: what counts is the coarsest mesh from which on all are within. */
+static void test_reach(void)
+{
+    const double error[5] = {0.2, -0.005, 0.03, 0.002, -0.0005};
+    scene_quantity quantity = {.tolerance = 1e-3};
+    point p = {.scene = {.quantities = 1, .quantity = &quantity}};
+    quantity_result value[5];
+    cell_result cell[5] = {{.size.free = 0}};
+    cell_timing timing[5];
+    series one = {.meshes = 5, .mesh = {1, 2, 4, 8, 16}, .cell = cell};
+    sweep s = {.points = 1, .seriess = 1, .point = &p, .series = &one};
+    truth row = {.value = 5};
+    verdict v = {.truth = &row};
+    for (int i = 0; i < 5; i++) {
+        value[i] = (quantity_result){.value = 5 * (1 + error[i])};
+        cell[i].solve.quantities = 1;
+        cell[i].solve.quantity = &value[i];
+        timing[i] = (cell_timing){.as_is = reading(i == 3 ? 1 : 2, 0.01)};
+    }
+    gsl_test_int(reach_mesh(&s, &v, 0.1), 1, "within 10 %% from the second mesh on");
+    gsl_test_int(reach_mesh(&s, &v, 0.01), 3, "an accidental hit of a coarse mesh does not count");
+    gsl_test_int(reach_mesh(&s, &v, 0.001), 4, "within 0.1 %% on the finest only");
+    gsl_test_int(reach_mesh(&s, &v, 0.0001), -1, "never within 0.01 %%");
+    one.timing = timing;
+    gsl_test_int(reach_fastest(&s, &v, 0.1), 3, "a finer mesh that is faster is the cheapest");
+    value[4].value = NAN;
+    gsl_test_int(reach_mesh(&s, &v, 0.1), -1, "a finest mesh without a value reaches nothing");
+}
+
+static void test_counts(void)
+{
+    cell_request request = {.elements = 3};
+    fault f = {""};
+    formulation chosen;
+    gsl_test(formulation_parse("sheet_third", &chosen, &f) != STATUS_OK, "formulation %s", f.text);
+    request.type = case_find("sheet_cantilever", &f);
+    request.formulation = chosen.type;
+    memcpy(request.option, chosen.option, sizeof request.option);
+    parameters_default(request.type, request.parameter);
+    counters first = {0};
+    for (int i = 0; i < 2; i++) {
+        cell_result cell;
+        gsl_test(cell_run(&request, &cell, &f) != STATUS_OK, "run %d %s", i, f.text);
+        if (i == 0)
+            first = cell.counters;
+        else
+            gsl_test(memcmp(&first, &cell.counters, sizeof first) != 0, "the same work is counted again");
+        cell_result_free(&cell);
+    }
+    request.solve.steps_between = 20; /* planted work */
+    cell_result more;
+    gsl_test(cell_run(&request, &more, &f) != STATUS_OK, "run with more steps %s", f.text);
+    gsl_test(more.counters.strain_evaluations <= first.strain_evaluations, "more steps are seen in the counts");
+    cell_result_free(&more);
+}
+
+static void test_rounds(void)
+{
+    cell_request request = {.elements = 2};
+    fault f = {""};
+    formulation chosen;
+    clock_reading c = {0};
+    gsl_test(formulation_parse("beamw", &chosen, &f) != STATUS_OK, "formulation %s", f.text);
+    request.type = case_find("c_column", &f);
+    request.formulation = chosen.type;
+    memcpy(request.option, chosen.option, sizeof request.option);
+    parameters_default(request.type, request.parameter);
+    for (int i = 0; i < CLOCK_ROUNDS + 2; i++)
+        clock_round(&request, 0, &c);
+    gsl_test_int(c.rounds, CLOCK_ROUNDS, "rounds end");
+    gsl_test_int(c.repeats, CLOCK_ROUNDS, "at least one repetition in each");
+    gsl_test(!(c.setup > 0 && c.solve > 0), "set-up and solution both take time");
+    gsl_test_rel(c.setup + c.solve, clock_least(&c), 1e-12, "both belong to the fastest repetition");
+}
+
+int main(void)
+{
+    test_versus();
+    test_interval();
+    test_compare();
+    test_reach();
+    test_counts();
+    test_rounds();
+    return gsl_test_summary();
+}

@@ -1,0 +1,99 @@
+#include "harness/timing/versus.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdlib.h>
+#include <time.h>
+
+enum { LEAST_PAIRS = 51, MOST_PAIRS = 1001, WARM_UP = 3 };
+static const double tail = 0.0005, least_difference = 0.02;
+
+const char *versus_name(versus_outcome o)
+{
+    switch (o) {
+    case VERSUS_FASTER:
+        return "faster";
+    case VERSUS_SLOWER:
+        return "slower";
+    case VERSUS_UNDECIDED:
+        break;
+    }
+    return "undecided";
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The median of n draws lies between the k-th smallest and the k-th largest but with probability 2 P(Binomial(n, 1/2) < k). */
+static int rank_of_interval(int pairs)
+{
+    int k = 0;
+    while (k < pairs / 2 && gsl_cdf_binomial_P((unsigned)k, 0.5, (unsigned)pairs) <= tail)
+        k++;
+    return k;
+}
+
+versus versus_judge(int pairs, const double a[], const double b[])
+{
+    versus out = {.pairs = pairs, .a = INFINITY, .b = INFINITY, .ratio = NAN, .low = 0, .high = INFINITY};
+    double *ratio = malloc(((size_t)pairs + 1) * sizeof *ratio);
+    for (int i = 0; i < pairs; i++) {
+        out.a = fmin(out.a, a[i]);
+        out.b = fmin(out.b, b[i]);
+        if (ratio != NULL)
+            ratio[i] = b[i] / a[i];
+    }
+    if (ratio == NULL || pairs < 1) {
+        free(ratio);
+        return out; /* undecided */
+    }
+    qsort(ratio, (size_t)pairs, sizeof *ratio, ascending);
+    const int k = rank_of_interval(pairs);
+    out.ratio = (ratio[(pairs - 1) / 2] + ratio[pairs / 2]) / 2;
+    if (k > 0) {
+        out.low = ratio[k - 1];
+        out.high = ratio[pairs - k];
+    }
+    if (out.low > 1 + least_difference)
+        out.outcome = VERSUS_SLOWER;
+    else if (out.high < 1 / (1 + least_difference))
+        out.outcome = VERSUS_FASTER;
+    free(ratio);
+    return out;
+}
+
+/* [s] that pass, starting a program included. */
+static double passing(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static status lap_pair(versus_lap *lap, void *a, void *b, int b_first, double *seconds_a, double *seconds_b, fault *f)
+{
+    const status first = b_first ? lap(b, seconds_b, f) : lap(a, seconds_a, f);
+    if (first != STATUS_OK)
+        return first;
+    return b_first ? lap(a, seconds_a, f) : lap(b, seconds_b, f);
+}
+
+status versus_run(versus_lap *lap, void *a, void *b, double budget, versus *out, fault *f)
+{
+    double seconds_a[MOST_PAIRS], seconds_b[MOST_PAIRS], least = INFINITY;
+    status outcome = STATUS_OK;
+    for (int i = 0; i < WARM_UP && outcome == STATUS_OK; i++) {
+        const double start = passing();
+        outcome = lap_pair(lap, a, b, i % 2, &seconds_a[0], &seconds_b[0], f);
+        least = fmin(least, passing() - start);
+    }
+    const int pairs = (int)fmax(LEAST_PAIRS, fmin(MOST_PAIRS, budget / least));
+    for (int i = 0; i < pairs && outcome == STATUS_OK; i++)
+        outcome = lap_pair(lap, a, b, i % 2, &seconds_a[i], &seconds_b[i], f);
+    if (outcome == STATUS_OK)
+        *out = versus_judge(pairs, seconds_a, seconds_b);
+    return outcome;
+}

@@ -1,0 +1,116 @@
+#include "harness/truth/derive.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { NOT_DERIVABLE = 3, LINE = 600 }; /* as of reference/derive/at.py */
+
+/* Its two streams as files. */
+typedef struct script {
+    pid_t process;
+    FILE *says, *complains;
+} script;
+
+static status start(const char *path, const char *case_name, const char *parameters, script *s, fault *f)
+{
+    int out[2] = {-1, -1}, error[2] = {-1, -1};
+    if (pipe(out) != 0 || pipe(error) != 0 || (s->process = fork()) < 0) {
+        for (int i = 0; i < 2; i++) {
+            close(out[i]);
+            close(error[i]);
+        }
+        return fault_set(f, STATUS_FAULT, "the deriving program cannot be started");
+    }
+    if (s->process == 0) {
+        dup2(out[1], STDOUT_FILENO);
+        dup2(error[1], STDERR_FILENO);
+        for (int i = 0; i < 2; i++) {
+            close(out[i]);
+            close(error[i]);
+        }
+        execl("/usr/bin/python3", "python3", "-B", path, case_name, parameters, (char *)NULL);
+        _exit(127);
+    }
+    close(out[1]);
+    close(error[1]);
+    s->says = fdopen(out[0], "r");
+    s->complains = fdopen(error[0], "r");
+    return s->says != NULL && s->complains != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "the deriving program cannot be read");
+}
+
+static int take_text(char **rest, char *to, size_t size)
+{
+    const char *field = strsep(rest, "\t");
+    if (field == NULL || strlen(field) >= size)
+        return 0;
+    snprintf(to, size, "%s", field);
+    return 1;
+}
+
+static int take_number(char **rest, double *to)
+{
+    const char *field = strsep(rest, "\t");
+    char *end;
+    if (field == NULL || *field == '\0')
+        return 0;
+    *to = strtod(field, &end);
+    return *end == '\0' && isfinite(*to);
+}
+
+static status read_lines(FILE *from, derived_value **out, int *count, fault *f)
+{
+    char line[LINE];
+    while (fgets(line, sizeof line, from) != NULL) {
+        derived_value *more = realloc(*out, ((size_t)*count + 1) * sizeof *more);
+        if (more == NULL)
+            return fault_set(f, STATUS_FAULT, "out of memory for derived values");
+        *out = more;
+        derived_value *v = &more[*count];
+        char *rest = line;
+        line[strcspn(line, "\n")] = '\0';
+        if (!take_text(&rest, v->quantity, sizeof v->quantity) || !take_number(&rest, &v->value) ||
+            !take_text(&rest, v->unit, sizeof v->unit) || !take_number(&rest, &v->uncertainty) ||
+            !take_text(&rest, v->convention, sizeof v->convention) || !take_text(&rest, v->source, sizeof v->source))
+            return fault_set(f, STATUS_FAULT, "the deriving program says '%.80s', which is not a value", line);
+        ++*count;
+    }
+    return STATUS_OK;
+}
+
+status derive_values(const char *path, const char *case_name, const char *parameters, derived_value **out, int *count, fault *f)
+{
+    script s = {0};
+    char complaint[LINE] = "", more[LINE];
+    int how = 0;
+    *out = NULL;
+    *count = 0;
+    if (access(path, R_OK) != 0)
+        return fault_set(f, STATUS_FAULT, "%.200s: the deriving programs are not here; run from a clone, or set BEAMWORK_REFERENCE",
+                         path);
+    status outcome = start(path, case_name, parameters, &s, f);
+    if (outcome == STATUS_OK)
+        outcome = read_lines(s.says, out, count, f);
+    while (s.complains != NULL && fgets(more, sizeof more, s.complains) != NULL)
+        memcpy(complaint, more, sizeof complaint); /* the last line says it */
+    complaint[strcspn(complaint, "\n")] = '\0';
+    if (s.says != NULL)
+        fclose(s.says);
+    if (s.complains != NULL)
+        fclose(s.complains);
+    if (s.process > 0)
+        waitpid(s.process, &how, 0);
+    if (outcome == STATUS_OK && WIFEXITED(how) && WEXITSTATUS(how) == NOT_DERIVABLE)
+        outcome = fault_set(f, STATUS_REFUSED, "%.300s", complaint);
+    else if (outcome == STATUS_OK && how != 0)
+        outcome = fault_set(f, STATUS_FAULT, "the deriving program failed: %.250s", complaint);
+    if (outcome != STATUS_OK) {
+        free(*out);
+        *out = NULL;
+        *count = 0;
+    }
+    return outcome;
+}

@@ -1,0 +1,42 @@
+/* Which truths and findings speak of a point, a formulation, a quantity. */
+#include <fnmatch.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/truth/truths.h"
+
+static int same_point(const case_type *type, const double value[], const double at[], const int any[])
+{
+    for (int i = 0; type->parameters[i].name != NULL; i++)
+        if (!any[i] && fabs(value[i] - at[i]) > 1e-14 * fabs(at[i]))
+            return 0;
+    return 1;
+}
+
+int truth_holds(const truth *row, const case_type *type, const double value[])
+{
+    return row->type == type && same_point(type, value, row->parameter, row->any);
+}
+
+int finding_holds(const finding *row, const case_type *type, const double value[], const char *key, const char *quantity)
+{
+    char bare[64];
+    snprintf(bare, sizeof bare, "%.*s", (int)strcspn(key, ":"), key);
+    return row->type == type && same_point(type, value, row->parameter, row->any) && fnmatch(row->quantity, quantity, 0) == 0 &&
+           (fnmatch(row->formulation, key, 0) == 0 || fnmatch(row->formulation, bare, 0) == 0);
+}
+
+const truth *truth_of(const truths *t, const case_type *type, const double value[], const char *quantity, const char *model)
+{
+    const truth *best = NULL;
+    for (int i = 0; i < t->rows; i++) {
+        const truth *row = &t->row[i];
+        const int fits = row->elements == 0 && row->formulation[0] == '\0' && strcmp(row->quantity, quantity) == 0 &&
+                         strcmp(row->model, model) == 0;
+        if (fits && truth_holds(row, type, value) &&
+            (best == NULL || choice_index(TRUTH_KINDS, row->kind) < choice_index(TRUTH_KINDS, best->kind)))
+            best = row;
+    }
+    return best;
+}

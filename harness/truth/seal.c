@@ -1,0 +1,72 @@
+#include "harness/truth/seal.h"
+
+#include <errno.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+/* CRC-32 of IEEE 802.3, as of zlib; a sum is begun with 0 and continued with the sum so far. */
+static uint32_t checksum(uint32_t sum, const unsigned char *data, size_t size)
+{
+    uint32_t table[256];
+    for (uint32_t i = 0; i < 256; i++) {
+        table[i] = i;
+        for (int bit = 0; bit < 8; bit++)
+            table[i] = table[i] & 1 ? 0xedb88320u ^ table[i] >> 1 : table[i] >> 1;
+    }
+    sum = ~sum;
+    for (size_t i = 0; i < size; i++)
+        sum = table[(sum ^ data[i]) & 255] ^ sum >> 8;
+    return ~sum;
+}
+
+static void write_line(size_t size, uint32_t sum, char out[SEAL_LENGTH + 1])
+{
+    snprintf(out, SEAL_LENGTH + 1, "beamwork-seal %016zx %08x\n", size, (unsigned)sum);
+}
+
+void seal_write(const void *data, size_t size, char out[SEAL_LENGTH + 1])
+{
+    write_line(size, checksum(0, data, size), out);
+}
+
+/* Sum of all but the last SEAL_LENGTH bytes, which are found in `tail`. -1: shorter than that. */
+static long read_body(FILE *from, uint32_t *sum, char tail[SEAL_LENGTH + 1])
+{
+    enum { PIECE = 1 << 18 };
+    static const size_t held = SEAL_LENGTH;
+    unsigned char buffer[SEAL_LENGTH + PIECE];
+    size_t have = 0, got;
+    long body = 0;
+    *sum = 0;
+    while ((got = fread(buffer + have, 1, PIECE, from)) > 0) {
+        have += got;
+        if (have <= held)
+            continue;
+        *sum = checksum(*sum, buffer, have - held);
+        body += (long)(have - held);
+        memmove(buffer, buffer + have - held, held);
+        have = held;
+    }
+    if (have < held || ferror(from))
+        return -1;
+    memcpy(tail, buffer, held);
+    tail[held] = '\0';
+    return body;
+}
+
+status seal_check(const char *path, fault *f)
+{
+    char tail[SEAL_LENGTH + 1], right[SEAL_LENGTH + 1];
+    uint32_t sum;
+    FILE *from = fopen(path, "rb");
+    if (from == NULL)
+        return fault_set(f, STATUS_FAULT, "%.120s: cannot be read (%s)", path, strerror(errno));
+    const long body = read_body(from, &sum, tail);
+    fclose(from);
+    write_line(body >= 0 ? (size_t)body : 0, sum, right);
+    return body >= 0 && strcmp(tail, right) == 0
+               ? STATUS_OK
+               : fault_set(f, STATUS_FAULT, "%.120s: not a file of this program, or cut short, damaged or altered; write it again",
+                           path);
+}

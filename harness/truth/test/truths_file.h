@@ -1,0 +1,123 @@
+/* Makes a small file of truths, right or wrong in one respect. */
+#ifndef BEAMWORK_TRUTHS_FILE_H
+#define BEAMWORK_TRUTHS_FILE_H
+
+#include <hdf5.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/catalogue/parameters.h"
+#include "harness/catalogue/registry.h"
+#include "harness/truth/seal.h"
+
+/* What a file is made with; the defaults are right. */
+typedef struct recipe {
+    const char *schema, *case_group, *kind, *model, *formulation, *parameters, *left_out_column, *finding_case;
+    int version, elements, short_column;
+    double value, uncertainty;
+    uint64_t hash_change;
+} recipe;
+
+static const recipe right = {.schema = "beamwork-truths",
+                             .kind = "exact",
+                             .model = "same",
+                             .formulation = "",
+                             .parameters = "",
+                             .left_out_column = "",
+                             .version = 1,
+                             .value = 3,
+                             .uncertainty = 1e-9};
+
+static void put(hid_t at, const char *name, hid_t type, hsize_t rows, const void *value)
+{
+    const hid_t space = H5Screate_simple(1, &rows, NULL);
+    const hid_t set = H5Dcreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value);
+    H5Dclose(set);
+    H5Sclose(space);
+}
+
+static void put_text(hid_t at, const recipe *r, const char *name, const char *text)
+{
+    char field[64] = "";
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, sizeof field);
+    snprintf(field, sizeof field, "%s", text);
+    if (strcmp(name, r->left_out_column) != 0)
+        put(at, name, type, 1, field);
+    H5Tclose(type);
+}
+
+static void put_truth(hid_t file, const recipe *r, const case_type *type)
+{
+    double value[CASE_MAX_PARAMETERS] = {0}, pair[2] = {r->value, r->value};
+    int any[CASE_MAX_PARAMETERS] = {0};
+    parameters_parse(type, r->parameters, value, any, NULL);
+    const uint64_t hash = parameters_hash(type, value, any) + r->hash_change;
+    const hid_t all = H5Gcreate2(file, "truths", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t at = H5Gcreate2(all, r->case_group != NULL ? r->case_group : type->name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    put_text(at, r, "parameters", r->parameters);
+    put_text(at, r, "formulation", r->formulation);
+    put_text(at, r, "quantity", "load");
+    put_text(at, r, "unit", "N");
+    put_text(at, r, "kind", r->kind);
+    put_text(at, r, "model", r->model);
+    put_text(at, r, "convention", "");
+    put_text(at, r, "source", "test");
+    put(at, "value", H5T_NATIVE_DOUBLE, 1, pair);
+    const double uncertainty[2] = {r->uncertainty, r->uncertainty};
+    put(at, "uncertainty", H5T_NATIVE_DOUBLE, r->short_column ? 2 : 1, uncertainty);
+    put(at, "elements", H5T_NATIVE_INT, 1, &r->elements);
+    put(at, "hash", H5T_NATIVE_UINT64, 1, &hash);
+    H5Gclose(at);
+    H5Gclose(all);
+}
+
+static void put_finding(hid_t file, const recipe *r, const case_type *type)
+{
+    const double limit = NAN;
+    const hid_t at = H5Gcreate2(file, "findings", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    put_text(at, r, "case", r->finding_case != NULL ? r->finding_case : type->name);
+    put_text(at, r, "parameters", "*");
+    put_text(at, r, "formulation", "some*");
+    put_text(at, r, "quantity", "lo?d");
+    put_text(at, r, "verdict", "wrong limit");
+    put_text(at, r, "proof", "test");
+    put(at, "limit", H5T_NATIVE_DOUBLE, 1, &limit);
+    put(at, "uncertainty", H5T_NATIVE_DOUBLE, 1, &limit);
+    H5Gclose(at);
+}
+
+static void truths_file_seal(const char *path)
+{
+    static char all[1 << 20];
+    char line[SEAL_LENGTH + 1];
+    FILE *file = fopen(path, "rb+");
+    const size_t size = fread(all, 1, sizeof all, file);
+    seal_write(all, size, line);
+    fseek(file, 0, SEEK_END);
+    fputs(line, file);
+    fclose(file);
+}
+
+static void truths_file_make(const char *path, const recipe *r)
+{
+    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), scalar = H5Screate(H5S_SCALAR);
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, strlen(r->schema) + 1);
+    hid_t a = H5Acreate2(file, "schema", type, scalar, H5P_DEFAULT, H5P_DEFAULT);
+    H5Awrite(a, type, r->schema);
+    H5Aclose(a);
+    a = H5Acreate2(file, "version", H5T_NATIVE_INT, scalar, H5P_DEFAULT, H5P_DEFAULT);
+    H5Awrite(a, H5T_NATIVE_INT, &r->version);
+    H5Aclose(a);
+    put_truth(file, r, registry_cases[0]);
+    put_finding(file, r, registry_cases[0]);
+    H5Tclose(type);
+    H5Sclose(scalar);
+    H5Fclose(file);
+    truths_file_seal(path);
+}
+
+#endif

@@ -1,0 +1,214 @@
+#include "harness/truth/truths.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/catalogue/registry.h"
+#include "harness/truth/columns.h"
+#include "harness/truth/findings.h"
+#include "harness/truth/seal.h"
+
+/* Parameters of a row, and whether they still mean what they meant when the table was packed. */
+static status check_row(const columns *r, const case_type *type, int i, const char *text, uint64_t hash, double value[], int any[])
+{
+    fault why = {""};
+    if (parameters_parse(type, text, value, any, &why) != STATUS_OK)
+        return fault_set(r->f, STATUS_FAULT, "%s: row %d of %s: %.200s", r->path, i + 1, r->name, why.text);
+    if (parameters_hash(type, value, any) != hash)
+        return fault_set(
+            r->f, STATUS_FAULT,
+            "%s: row %d of %s is stale: the defaults of the case have changed; correct reference/defaults.csv and its tables",
+            r->path, i + 1, r->name);
+    return STATUS_OK;
+}
+
+static int is_known(const char *word, const char *choices)
+{
+    return choice_index(choices, word) >= 0;
+}
+
+static status read_rows(const columns *r, const case_type *type, truth *row)
+{
+    static const columns_field field[] = {{"formulation", 1, offsetof(truth, formulation)},
+                                          {"quantity", 1, offsetof(truth, quantity)},
+                                          {"unit", 1, offsetof(truth, unit)},
+                                          {"kind", 1, offsetof(truth, kind)},
+                                          {"model", 1, offsetof(truth, model)},
+                                          {"convention", 1, offsetof(truth, convention)},
+                                          {"source", 1, offsetof(truth, source)},
+                                          {"value", 0, offsetof(truth, value)},
+                                          {"uncertainty", 0, offsetof(truth, uncertainty)}};
+    assert(r->rows >= 0);
+    char **parameters = calloc((size_t)r->rows + 1, sizeof *parameters);
+    uint64_t *hash = calloc((size_t)r->rows + 1, sizeof *hash);
+    int *elements = calloc((size_t)r->rows + 1, sizeof *elements);
+    status outcome = STATUS_OK;
+    if (parameters == NULL || hash == NULL || elements == NULL)
+        outcome = fault_set(r->f, STATUS_FAULT, "out of memory for truths");
+    for (size_t k = 0; k < sizeof field / sizeof field[0] && outcome == STATUS_OK; k++)
+        outcome = columns_read(r, &field[k], row, sizeof *row);
+    if (outcome == STATUS_OK)
+        outcome = columns_numbers(r, "elements", H5T_NATIVE_INT, elements);
+    if (outcome == STATUS_OK)
+        outcome = columns_numbers(r, "hash", H5T_NATIVE_UINT64, hash);
+    if (outcome == STATUS_OK)
+        outcome = columns_strings(r, "parameters", parameters);
+    for (int i = 0; i < r->rows && outcome == STATUS_OK; i++) {
+        row[i].type = type;
+        row[i].elements = elements[i];
+        outcome = check_row(r, type, i, parameters[i], hash[i], row[i].parameter, row[i].any);
+        const char *wrong = !isfinite(row[i].value)                                                   ? "value"
+                            : !isfinite(row[i].uncertainty) || row[i].uncertainty < 0                 ? "uncertainty"
+                            : elements[i] < 0 || (elements[i] > 0) != (row[i].formulation[0] != '\0') ? "elements"
+                            : !is_known(row[i].kind, TRUTH_KINDS)                                     ? "kind"
+                            : !is_known(row[i].model, "same|other")                                   ? "model"
+                                                                                                      : NULL;
+        if (outcome == STATUS_OK && wrong != NULL)
+            outcome = columns_broken(r, wrong);
+    }
+    for (int i = 0; i < r->rows && parameters != NULL; i++)
+        free(parameters[i]);
+    free(parameters);
+    free(hash);
+    free(elements);
+    return outcome;
+}
+
+static status read_case(const char *path, hid_t all, const case_type *type, truths *out, fault *f)
+{
+    columns r = {.path = path, .f = f};
+    snprintf(r.name, sizeof r.name, "%s", type->name);
+    if (H5Lexists(all, type->name, H5P_DEFAULT) <= 0)
+        return STATUS_OK; /* its verdicts will be "no truth" */
+    r.group = H5Gopen2(all, type->name, H5P_DEFAULT);
+    r.rows = r.group >= 0 ? columns_length(r.group, "value") : -1;
+    status outcome = r.rows < 0 ? columns_broken(&r, "value") : STATUS_OK;
+    truth *more = outcome == STATUS_OK ? realloc(out->row, (size_t)(out->rows + r.rows + 1) * sizeof *more) : NULL;
+    if (outcome == STATUS_OK && more == NULL)
+        outcome = fault_set(f, STATUS_FAULT, "out of memory for truths");
+    if (more != NULL) {
+        out->row = more;
+        memset(more + out->rows, 0, (size_t)r.rows * sizeof *more);
+        out->rows += r.rows;
+        outcome = read_rows(&r, type, more + out->rows - r.rows);
+    }
+    if (r.group >= 0)
+        H5Gclose(r.group);
+    return outcome;
+}
+
+/* Tables of cases that do not exist would otherwise never be missed. */
+static void find_strangers(hid_t all, truths *out)
+{
+    char name[64];
+    for (hsize_t i = 0; H5Lget_name_by_idx(all, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name, H5P_DEFAULT) > 0; i++) {
+        int known = 0;
+        for (int k = 0; registry_cases[k] != NULL; k++)
+            known |= strcmp(registry_cases[k]->name, name) == 0;
+        if (!known && out->strangers++ == 0)
+            snprintf(out->stranger, sizeof out->stranger, "%s", name);
+    }
+}
+
+/* Is it ours, and of this version? */
+static status check_schema(hid_t file, const char *path, fault *f)
+{
+    char name[64] = "";
+    int version = 0;
+    const hid_t schema = H5Aexists(file, "schema") > 0 ? H5Aopen(file, "schema", H5P_DEFAULT) : -1;
+    const hid_t type = schema >= 0 ? H5Aget_type(schema) : -1;
+    if (type >= 0 && H5Tget_class(type) == H5T_STRING && !H5Tis_variable_str(type) && H5Tget_size(type) < sizeof name)
+        H5Aread(schema, type, name);
+    const hid_t number = H5Aexists(file, "version") > 0 ? H5Aopen(file, "version", H5P_DEFAULT) : -1;
+    if (number >= 0)
+        H5Aread(number, H5T_NATIVE_INT, &version);
+    if (number >= 0)
+        H5Aclose(number);
+    if (type >= 0)
+        H5Tclose(type);
+    if (schema >= 0)
+        H5Aclose(schema);
+    if (strcmp(name, "beamwork-truths") != 0)
+        return fault_set(f, STATUS_FAULT, "%s: not a file of truths; build it with 'make all'", path);
+    if (version != TRUTHS_VERSION)
+        return fault_set(f, STATUS_FAULT, "%s: truths of version %d, this program reads %d; build it again ('make all')", path,
+                         version, TRUTHS_VERSION);
+    return STATUS_OK;
+}
+
+/* The tables of one group, one for every case. */
+static status read_tables(const char *path, hid_t file, const char *name, truths *out, fault *f)
+{
+    const hid_t all = H5Gopen2(file, name, H5P_DEFAULT);
+    if (all < 0)
+        return fault_set(f, STATUS_FAULT, "%s: no %s in it; build it again ('make all')", path, name);
+    status outcome = STATUS_OK;
+    for (int i = 0; registry_cases[i] != NULL && outcome == STATUS_OK; i++)
+        outcome = read_case(path, all, registry_cases[i], out, f);
+    if (outcome == STATUS_OK)
+        find_strangers(all, out);
+    H5Gclose(all);
+    return outcome;
+}
+
+/* FAULT, and below 0, when it is damaged or not ours. */
+static hid_t open_truths(const char *path, status *outcome, fault *f)
+{
+    *outcome = seal_check(path, f);
+    if (*outcome != STATUS_OK)
+        return -1;
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    *outcome = file >= 0 ? check_schema(file, path, f)
+                         : fault_set(f, STATUS_FAULT, "%s: cannot be read as HDF5; build it with 'make all'", path);
+    return file;
+}
+
+status truths_read(const char *path, truths *out, fault *f)
+{
+    status outcome;
+    memset(out, 0, sizeof *out);
+    const hid_t file = open_truths(path, &outcome, f);
+    if (outcome == STATUS_OK)
+        outcome = read_tables(path, file, "truths", out, f);
+    if (outcome == STATUS_OK)
+        outcome = findings_read(path, file, out, f);
+    if (file >= 0)
+        H5Fclose(file);
+    if (outcome != STATUS_OK)
+        truths_free(out);
+    return outcome;
+}
+
+status truths_read_extremes(const char *path, truths *out, fault *f)
+{
+    status outcome;
+    const hid_t file = open_truths(path, &outcome, f);
+    if (outcome == STATUS_OK)
+        outcome = read_tables(path, file, "extremes", out, f);
+    if (file >= 0)
+        H5Fclose(file);
+    return outcome;
+}
+
+void truths_free(truths *t)
+{
+    for (int i = 0; i < t->rows; i++) {
+        truth *r = &t->row[i];
+        char *const all[] = {r->formulation, r->quantity, r->unit, r->kind, r->model, r->convention, r->source};
+        for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+            free(all[k]);
+    }
+    for (int i = 0; i < t->findings; i++) {
+        finding *r = &t->finding[i];
+        char *const all[] = {r->formulation, r->quantity, r->verdict, r->proof};
+        for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+            free(all[k]);
+    }
+    free(t->row);
+    free(t->finding);
+    memset(t, 0, sizeof *t);
+}

@@ -1,0 +1,52 @@
+/* The packed truths and findings (reference/pack.py). */
+#ifndef BEAMWORK_TRUTHS_H
+#define BEAMWORK_TRUTHS_H
+
+#include <stdint.h>
+
+#include "cases/case.h"
+#include "harness/catalogue/parameters.h"
+
+enum { TRUTHS_VERSION = 1 };
+#define TRUTH_KINDS "exact|independent|consensus|published|reconstructed|experiment" /* the first known one judges */
+
+typedef struct truth {
+    const case_type *type;
+    double parameter[CASE_MAX_PARAMETERS];
+    int any[CASE_MAX_PARAMETERS]; /* 1: holds for any value */
+    char *formulation;            /* "": the continuum */
+    int elements;                 /* 0: the continuum */
+    char *quantity, *unit, *kind, *model, *convention, *source;
+    double value, uncertainty;
+    int met, judged; /* by the judge: a quantity it speaks of exists; not every formulation skips it */
+} truth;
+
+typedef struct finding {
+    const case_type *type;
+    double parameter[CASE_MAX_PARAMETERS];
+    int any[CASE_MAX_PARAMETERS];
+    char *formulation, *quantity, *verdict, *proof; /* formulation and quantity may hold * and ? */
+    double limit, uncertainty;                      /* NAN: not stated */
+    int observed;                                   /* counted by the judge */
+} finding;
+
+typedef struct truths {
+    int rows, findings;
+    truth *row;
+    finding *finding;
+    int strangers; /* cases of the file that the program does not have */
+    char stranger[64];
+} truths;
+
+/* FAULT for a missing, truncated or foreign file and for a stale row (its case's defaults have changed since). */
+status truths_read(const char *path, truths *out, fault *f);
+/* Adds the exact values at the extremes, which no verification runs. On failure the truths read before stay. */
+status truths_read_extremes(const char *path, truths *out, fault *f);
+void truths_free(truths *t);
+int truth_holds(const truth *row, const case_type *type, const double value[]);
+int finding_holds(const finding *row, const case_type *type, const double value[], const char *formulation_key,
+                  const char *quantity);
+/* The continuum's truth of the same model to judge by (exact before published), or NULL. */
+const truth *truth_of(const truths *t, const case_type *type, const double value[], const char *quantity, const char *model);
+
+#endif
