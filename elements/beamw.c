@@ -16,6 +16,8 @@ const element_type element_beamw = {
     .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_HARINGX | FEATURE_WARPING | FEATURE_ECCENTRIC |
               FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .limits = LIMIT_QUARTER_TURN,
+    .shear_theories = SHEAR_OWN,
+    .own_theory = "J Eq. 66: modified modes that see no shear (reference/ERRATA.md, J 58/62/66)",
     .options = prepare_options,
     .data_size = forms_data_size,
     .prepare = prepare,

@@ -33,6 +33,7 @@ const element_type element_beamw_consistent = {
     .abi = ELEMENT_ABI,
     .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_HARINGX | FEATURE_WAGNER_MOMENTS | FEATURE_WARPING |
               FEATURE_ECCENTRIC | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
+    .shear_theories = SHEAR_ENGESSER | SHEAR_HARINGX,
     .options = prepare_options_consistent,
     .data_size = data_size,
     .prepare = prepare,

@@ -15,6 +15,7 @@ const element_type element_beamw_first = {
     .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_HARINGX | FEATURE_WARPING | FEATURE_ECCENTRIC |
               FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .limits = LIMIT_QUARTER_TURN,
+    .shear_theories = SHEAR_ENGESSER,
     .options = prepare_options,
     .data_size = forms_data_size,
     .prepare = prepare,

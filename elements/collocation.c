@@ -25,6 +25,14 @@ static int stage_count(const double value[])
     return FEWEST + (int)value[OPTION_STAGES];
 }
 
+/* Frequencies: masses are lumped.  Linear buckling: a prestress changes the stiffness inside the element to first order only
+ * (elements/exact/prestress.h). */
+static element_order order(element_analysis analysis, const double value[])
+{
+    const int collocated = 2 * stage_count(value);
+    return (element_order){2, analysis == ELEMENT_STATICS ? collocated : 4};
+}
+
 /* F (3), x of the inner nodes (3 each). */
 static int inner_count(const double value[])
 {
@@ -175,7 +183,9 @@ const element_type element_collocation = {
               FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_CURVATURE | FEATURE_MASS |
               FEATURE_ROTARY_INERTIA,
     .limits = 0,
+    .shear_theories = SHEAR_HARINGX,
     .options = options,
+    .order = order,
     .strains = strains,
     .inner = inner_count,
     .memory = memory_count,

@@ -19,7 +19,7 @@
 #include "elements/math/status.h"
 #include "elements/section/section.h"
 
-enum { ELEMENT_ABI = 1 };
+enum { ELEMENT_ABI = 2 };
 enum {
     ELEMENT_MAX_NODES = 3,
     NODE_COORDINATES = 7,
@@ -55,6 +55,33 @@ enum element_limit {
     LIMIT_QUARTER_TURN = 1 << 6, /* strains are sines of the turn between the nodes: beyond pi/2 another state has the same ones */
     LIMIT_NO_STRESS_FREE_SHEAR = 1 << 5 /* shear-rigid by construction */
 };
+
+/* What a type offers in one direction only. `list` and `solve` show it; a scene in which it matters is not run. */
+enum element_lack {
+    LACKS_SHEAR_Y = 1 << 0 /* rigid in shear along y, though FEATURE_SHEAR is offered */
+};
+
+/* The theory of shear in stability that the equations of a type have, in bits; 0: rigid in shear.  A type is judged against the
+ * truth of its own theory, whatever a scene says; one that offers several takes that of the request's features. */
+enum shear_theory {
+    SHEAR_ENGESSER = 1 << 0, /* the axial force works on 1/2 (v'^2 + w'^2) of the fibre */
+    SHEAR_HARINGX = 1 << 1,  /* it works on the rotation of the section (Simo-Reissner) */
+    SHEAR_OWN = 1 << 2       /* neither: element_type.own_theory names it */
+};
+
+/* What an order of convergence depends on. */
+typedef enum element_analysis {
+    ELEMENT_STATICS,   /* equilibrium, linear or not, and what follows from its tangent (compliance, critical points of a path) */
+    ELEMENT_VIBRATION, /* whatever inertia has part in: frequencies, states that turn */
+    ELEMENT_BUCKLING,  /* linear: the geometric stiffness of a prestress */
+    ELEMENT_ANALYSES
+} element_analysis;
+
+/* Orders in the number of elements: the least that a smooth solution shows, and the highest that any quantity can show, where
+ * leading terms vanish.  Loads along members and masses of nodes are lumped: nothing that depends on them has more than two. */
+typedef struct element_order {
+    int least, highest;
+} element_order;
 
 /* A choice of the user: -f name:key=value. */
 typedef struct element_option {
@@ -122,7 +149,11 @@ typedef struct element_type {
     unsigned abi;                  /* ELEMENT_ABI */
     unsigned offers;               /* element_feature */
     unsigned limits;               /* element_limit */
+    unsigned lacks;                /* element_lack */
+    unsigned shear_theories;       /* shear_theory */
+    const char *own_theory;        /* of SHEAR_OWN, one line: what it is and where it is derived; else NULL */
     const element_option *options; /* ends with a NULL name; NULL: none */
+    element_order (*order)(element_analysis, const double options[]); /* NULL: least 2, highest 4 */
     /* Sizes may depend on the options (stages, nodes). */
     int (*nodes)(const double options[]);   /* NULL: 2 */
     int (*strains)(const double options[]); /* NULL: 8 */
@@ -144,6 +175,11 @@ typedef struct element_type {
     status (*inertia)(const element_data *, const node_state x[], const element_spin *, inertia_output *);
 } element_type;
 
+static inline element_order element_order_in(const element_type *t, element_analysis a, const double options[])
+{
+    const element_order usual = {2, 4};
+    return t->order ? t->order(a, options) : usual;
+}
 static inline int element_nodes(const element_type *t, const double options[])
 {
     return t->nodes ? t->nodes(options) : 2;

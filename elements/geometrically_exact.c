@@ -80,6 +80,7 @@ const element_type element_geometrically_exact = {
               FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_CURVATURE | FEATURE_MASS |
               FEATURE_ROTARY_INERTIA,
     .limits = 0,
+    .shear_theories = SHEAR_HARINGX,
     .options = options,
     .nodes = nodes,
     .strains = strains,

@@ -13,6 +13,7 @@ const element_type element_sheet_second_consistent = {
     .abi = ELEMENT_ABI,
     .offers = BASE_OFFERS & ~(unsigned)FEATURE_ENGESSER, /* Simo-Reissner: the section's rotation */
     .limits = BASE_LIMITS,
+    .shear_theories = SHEAR_HARINGX,
     .data_size = second_data_size,
     .prepare = prepare,
     .strain = base_strain,

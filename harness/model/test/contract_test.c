@@ -329,12 +329,30 @@ static void feature_subsets(const element_type *type)
     gsl_test(bad, "%s: every subset of its features gives finite stiffness (%d refused by name)", type->name, refused);
 }
 
+/* What a type says about itself does not contradict itself. */
+static void declarations(const element_type *type)
+{
+    const int flexible = (type->offers & FEATURE_SHEAR) != 0, own = (type->shear_theories & SHEAR_OWN) != 0;
+    gsl_test(flexible != (type->shear_theories != 0), "%s: flexible in shear, it has a theory of it", type->name);
+    gsl_test(own && type->shear_theories != SHEAR_OWN, "%s: a theory of its own is its only one", type->name);
+    gsl_test(own != (type->own_theory != NULL), "%s: a theory of its own has a name", type->name);
+    gsl_test((type->lacks & LACKS_SHEAR_Y) && !flexible, "%s: what is lacking in part is offered", type->name);
+    double options[ELEMENT_MAX_OPTIONS] = {0};
+    for (int i = 0; type->options != NULL && type->options[i].name != NULL; i++)
+        options[i] = type->options[i].value;
+    for (int a = 0; a < ELEMENT_ANALYSES; a++) {
+        const element_order order = element_order_in(type, (element_analysis)a, options);
+        gsl_test(order.least < 1 || order.highest < order.least, "%s: orders %d to %d", type->name, order.least, order.highest);
+    }
+}
+
 int main(void)
 {
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *type = registry_formulations[i];
         subject s;
         gsl_test(type->abi != ELEMENT_ABI, "%s: version of the interface", type->name);
+        declarations(type);
         gsl_test(!prepare(type, type->offers & ~(unsigned)FEATURE_CURVATURE, 1, &s), "%s: prepared", type->name);
         derivatives_of_strain(&s);
         derivatives_of_stress(&s);
