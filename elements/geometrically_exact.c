@@ -43,9 +43,8 @@ static status prepare(const element_request *request, element_data *out, fault *
     out->mass = lumped_of(request->section, request->features, request->length);
     out->nodes = count;
     if (outcome == STATUS_OK)
-        strain_prepare(count, count - 1, request->length, request->curvature, count == 2 ? MEASURE_ANGLE : MEASURE_QUARTER,
-                       &out->line);
-    memcpy(out->line.initial, request->strain, sizeof out->line.initial);
+        strain_prepare(count, count - 1, request->length, request->curvature, request->strain,
+                       count == 2 ? MEASURE_ANGLE : MEASURE_QUARTER, &out->line);
     return outcome;
 }
 

@@ -5,7 +5,9 @@
 
 #include "elements/exact/line.h"
 #include "elements/exact/sums.h"
+#include "elements/math/arc.h"
 #include "elements/math/dense.h"
+#include "elements/math/rotation.h"
 
 /* Without bimoments: amplitudes, if there are any, that nothing depends on. */
 static void no_warping(const stages *s, const double e[], stages_derivatives *out)
@@ -59,6 +61,22 @@ void stages_evaluate(const stages *s, const double e[], const double inner[], st
     out->gradient[s->unknowns + 7] += Sz[last + 1];
 }
 
+/* v -= what initial strains add to it, int R g in the axes half way: strains are counted from the arc without them. */
+static void less_initial_strain(const element_request *request, double v[3])
+{
+    double turn[3], back[3], added[3], q[4], R[9], middle[3];
+    for (int i = 0; i < 3; i++) {
+        turn[i] = request->curvature[i] * request->length;
+        back[i] = -turn[i] / 2;
+    }
+    arc_at(turn, request->strain, 1, added, q);
+    rotation_exp(back, q);
+    rotation_matrix(q, R);
+    mat3_mul_vec(R, added, middle);
+    for (int i = 0; i < 3; i++)
+        v[i] -= middle[i];
+}
+
 status stages_prepare(const element_request *request, int count, stages *out, fault *f)
 {
     double point[STAGES_MAX], at[STAGES_NODES];
@@ -69,7 +87,8 @@ status stages_prepare(const element_request *request, int count, stages *out, fa
         return outcome;
     out->stages = count;
     out->unknowns = 3 * count;
-    strain_prepare(2, 1, request->length, request->curvature, MEASURE_EIGHTH, &out->line);
+    const double none[3] = {0};
+    strain_prepare(2, 1, request->length, request->curvature, none, MEASURE_EIGHTH, &out->line);
     line_gauss(count, point, out->w);
     const double turn = vec3_norm(request->curvature) * request->length;
     for (int k = 0; k <= count; k++) {
@@ -81,16 +100,17 @@ status stages_prepare(const element_request *request, int count, stages *out, fa
     for (int i = 0; i < count; i++) {
         stage p;
         double axis[3];
-        const double unit[3] = {1, 0, 0}, none[3] = {0};
+        const double unit[3] = {1, 0, 0}, strained[3] = {1 + request->strain[0], request->strain[1], request->strain[2]};
         line_lagrange(count + 1, at, point[i], out->N[i], out->dN[i]);
         stage_at(count + 1, out->N[i], out->dN[i], out->rest_x[0], unit, none, &p);
         memcpy(out->rest_kappa[i], p.kappa, sizeof p.kappa);
         for (int j = 0; j < 3; j++)
             p.x[j] = -p.x[j];
-        turn_vector(&p.orientation, p.x, unit, axis); /* R e_x */
+        turn_vector(&p.orientation, p.x, strained, axis); /* R (e_x + g) */
         for (int j = 0; j < 3; j++)
             out->rest_v[j] += out->w[i] * axis[j];
     }
+    less_initial_strain(request, out->rest_v);
     out->warps = out->c.warping && out->c.EIw > 0;
     if (out->warps)
         warping_energy(&out->c, count, point, out->w, out->S);

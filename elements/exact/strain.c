@@ -6,6 +6,7 @@
 #include "elements/exact/line.h"
 #include "elements/exact/measure.h"
 #include "elements/exact/point.h"
+#include "elements/math/arc.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
@@ -42,7 +43,7 @@ static void strains_at(const strain_line *line, int g, const point *p, const dou
     stretch(p->v, line->rest[g], y, dy, e);
     measure_of(line->rotation, p->kappa, psi, T);
     for (int i = 0; i < 3; i++) {
-        e[i] = line->l0 * (e[i] - line->initial[i]);
+        e[i] = line->l0 * (e[i] - line->initial[g][i]);
         e[3 + i] = line->l0 * (psi[i] - line->rest[g][3 + i]);
     }
 }
@@ -176,46 +177,42 @@ void strain_of(const strain_line *line, const node_state x[], strain_output *out
     }
 }
 
-void strain_arc(const double curvature[3], double l0, double x, double r[3], double q[4])
+/* R^T r' and measures of rotation at the points, of nodes along the arc without stress. */
+static void observe_rest(strain_line *line, const double turn[3], const double e[3], const double at[],
+                         double rest[STRAIN_MAX_POINTS][6])
 {
-    const double turn[3] = {curvature[0] * l0 * x, curvature[1] * l0 * x, curvature[2] * l0 * x}, w = vec3_norm(turn);
-    const double e[3] = {1, 0, 0}, half = sin(w / 2);
-    /* (1 - cos w)/w^2 and (w - sin w)/w^3 */
-    const double a = w < 1e-4 ? 0.5 - w * w / 24 : 2 * half * half / (w * w);
-    const double b =
-        w < 0.3 ? (1 - w * w / 20 * (1 - w * w / 42 * (1 - w * w / 72 * (1 - w * w / 110)))) / 6 : (w - sin(w)) / (w * w * w);
-    double once[3], twice[3];
-    vec3_cross(turn, e, once);
-    vec3_cross(turn, once, twice);
-    for (int i = 0; i < 3; i++)
-        r[i] = x * (e[i] + a * once[i] + b * twice[i]);
-    rotation_exp(turn, q);
+    nodes s;
+    memset(s.u, 0, sizeof s.u);
+    for (int k = 0; k < line->nodes; k++)
+        arc_at(turn, e, at[k], s.r[k], s.q[k]);
+    for (int g = 0; g < line->points; g++) {
+        point p;
+        double y[3], dy[3], T[9];
+        observe(line, &s, g, &p, y, dy);
+        memcpy(rest[g], p.v, sizeof p.v);
+        measure_of(line->rotation, p.kappa, &rest[g][3], T);
+    }
 }
 
-void strain_prepare(int nodes_count, int points, double l0, const double curvature[3], measure_kind rotation, strain_line *line)
+void strain_prepare(int nodes_count, int points, double l0, const double curvature[3], const double strain[3],
+                    measure_kind rotation, strain_line *line)
 {
-    double x[STRAIN_MAX_POINTS], w[STRAIN_MAX_POINTS], at[ELEMENT_MAX_NODES];
-    nodes s;
+    const double turn[3] = {curvature[0] * l0, curvature[1] * l0, curvature[2] * l0}, along[3] = {1, 0, 0};
+    const double strained[3] = {1 + strain[0], strain[1], strain[2]};
+    double x[STRAIN_MAX_POINTS], w[STRAIN_MAX_POINTS], at[ELEMENT_MAX_NODES], without[STRAIN_MAX_POINTS][6];
     memset(line, 0, sizeof *line);
     line->nodes = nodes_count;
     line->points = points;
     line->l0 = l0;
     line->rotation = rotation;
-    for (int k = 0; k < nodes_count; k++) {
-        at[k] = (double)k / (nodes_count - 1);
-        strain_arc(curvature, l0, at[k], s.r[k], s.q[k]);
-    }
     line_gauss(points, x, w);
-    for (int g = 0; g < points; g++) {
-        point p;
-        double y[3], dy[3], psi[3], T[9];
+    for (int k = 0; k < nodes_count; k++)
+        at[k] = (double)k / (nodes_count - 1);
+    for (int g = 0; g < points; g++)
         line_lagrange(nodes_count, at, x[g], line->N[g], line->dN[g]);
-        memset(s.u, 0, sizeof s.u);
-        observe(line, &s, g, &p, y, dy);
-        measure_of(rotation, p.kappa, psi, T);
-        for (int i = 0; i < 3; i++) {
-            line->rest[g][i] = p.v[i];
-            line->rest[g][3 + i] = psi[i];
-        }
-    }
+    observe_rest(line, turn, along, at, line->rest);
+    observe_rest(line, turn, strained, at, without);
+    for (int g = 0; g < points; g++)
+        for (int i = 0; i < 3; i++)
+            line->initial[g][i] = without[g][i] - line->rest[g][i];
 }

@@ -15,16 +15,15 @@ typedef struct strain_line {
     double l0; /* [m] */
     measure_kind rotation;
     double N[STRAIN_MAX_POINTS][ELEMENT_MAX_NODES], dN[STRAIN_MAX_POINTS][ELEMENT_MAX_NODES]; /* dN: per l0 */
-    double initial[3];                 /* gamma without stress, which the strains are less; strain_prepare leaves zero */
-    double rest[STRAIN_MAX_POINTS][6]; /* R^T r' and l0 kappa undeformed, dimensionless */
+    double initial[STRAIN_MAX_POINTS][3]; /* what R^T r' is more than `rest` where the element is free of stress */
+    double rest[STRAIN_MAX_POINTS][6];    /* R^T r' and l0 kappa undeformed, dimensionless */
 } strain_line;
 
-/* Gauss points between evenly spaced nodes; curvature: initial, constant [1/m]. */
-void strain_prepare(int nodes, int points, double l0, const double curvature[3], measure_kind rotation, strain_line *line);
+/* Gauss points between evenly spaced nodes; initial curvature [1/m] and strain, constant: what the nodes of the stress-free
+ * element show at the points is no strain, whatever the arc. */
+void strain_prepare(int nodes, int points, double l0, const double curvature[3], const double strain[3], measure_kind rotation,
+                    strain_line *line);
 
 void strain_of(const strain_line *line, const node_state x[], strain_output *out);
-
-/* Undeformed position (per l0) and orientation at x l0 along an arc of constant curvature [1/m], in the axes at its start. */
-void strain_arc(const double curvature[3], double l0, double x, double r[3], double q[4]);
 
 #endif

@@ -31,8 +31,7 @@ status base_prepare(const element_request *request, base_shear shear, base_data 
     for (int i = 0; i < SHEET_STRAINS * SHEET_STRAINS; i++)
         if (!isfinite(out->linear.S[i]))
             return fault_set(f, STATUS_REFUSED, "element of length %g m: its stiffness overflows; use fewer elements", l0);
-    if (request->features & FEATURE_CURVATURE)
-        elastic_initial(&c, out->linear.S, l0, request->curvature, request->strain, out->initial);
+    strains_set_rest(request, &out->table);
     if (request->features & FEATURE_MASS)
         inertia_prepare(request->section, request->features, INERTIA_LUMPED, NULL, &out->linear);
     return STATUS_OK;

@@ -15,7 +15,6 @@ typedef struct base_data {
     element_data linear; /* S of N Eqs. 33-36, lumped inertia */
     strains_table table;
     wagner_term wagner;
-    double initial[SHEET_STRAINS]; /* stresses of initial torsion and curvature [N] */
 } base_data;
 
 /* What every one of them offers and is limited to. */

@@ -38,14 +38,3 @@ void elastic_stiffness(const section *c, double l0, double Phi_y, double Phi_z, 
     bending(c->young * c->Iy, l0, Phi_z, 2, S);
     bending(c->young * c->Iz, l0, Phi_y, 4, S);
 }
-
-void elastic_initial(const section *c, const double S[N * N], double l0, const double k[3], const double g[3], double initial[N])
-{
-    const double e[N] = {l0 * g[0], 0, -l0 * g[2], l0 * g[2], l0 * g[1], -l0 * g[1]}; /* integrals of the compatibility relations */
-    dense_mul_vec(N, N, S, e, initial);
-    initial[1] += c->shear_modulus * c->It * k[0] / l0;
-    for (int end = 0; end < 2; end++) {
-        initial[2 + end] += c->young * c->Iy * k[1] / l0;
-        initial[4 + end] += c->young * c->Iz * k[2] / l0;
-    }
-}

@@ -11,9 +11,4 @@ double elastic_phi_z(const section *c, double l0);
 /* S[8 x 8] [N/m]. */
 void elastic_stiffness(const section *c, double l0, double Phi_y, double Phi_z, double S[SHEET_STRAINS * SHEET_STRAINS]);
 
-/* Stresses that hold an element of initial torsion and curvatures k[3] [1/m] and strains g[3] straight and at its length:
- * sigma = S e - initial[8] [N] (N Eq. 52). */
-void elastic_initial(const section *c, const double S[SHEET_STRAINS * SHEET_STRAINS], double l0, const double k[3],
-                     const double g[3], double initial[SHEET_STRAINS]);
-
 #endif

@@ -8,7 +8,7 @@
 
 #include "elements/math/dense.h"
 
-void local_of(double l0, const node_state x[2], local_state *out)
+void local_of(double chord, const node_state x[2], local_state *out)
 {
     const double *p = x[0].R, *q = x[1].R;
     double d[3], moved[3], D[3], F[3][3], M[9];
@@ -29,7 +29,7 @@ void local_of(double l0, const node_state x[2], local_state *out)
     mat3_transpose_mul(out->F, q, M);
     const double m = sqrt(M[0] * M[0] + M[6] * M[6]);
     out->l = l;
-    out->q[LOCAL_U] = vec3_elongation(d, moved, l0);
+    out->q[LOCAL_U] = vec3_elongation(d, moved, chord);
     out->q[LOCAL_YP] = atan2(D[2], h);
     out->q[LOCAL_ZP] = atan2(-D[1], D[0]);
     out->q[LOCAL_YQ] = atan2(-M[6], M[0]);

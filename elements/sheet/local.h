@@ -22,8 +22,8 @@ typedef struct local_state {
     double tan_yp, sec_yp, cos_yq, sin_yq, tan_zq, sec_zq;
 } local_state;
 
-/* l0: initial length [m]. */
-void local_of(double l0, const node_state x[2], local_state *out);
+/* chord: initial distance of the nodes [m], from which the elongation is counted. */
+void local_of(double chord, const node_state x[2], local_state *out);
 
 /* R[8 x 11]: dq/dt = R rates. */
 void local_rates(const local_state *s, double R[LOCAL_COORDINATES * RATES]);

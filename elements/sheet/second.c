@@ -25,10 +25,10 @@ status second_stress(const element_data *data, const double e[], const double in
     if (out->energy != NULL) {
         *out->energy = 0;
         for (int i = 0; i < N; i++)
-            *out->energy += (sigma[i] / 2 - d->initial[i]) * e[i];
+            *out->energy += sigma[i] * e[i] / 2;
     }
-    for (int i = 0; i < N && out->sigma != NULL; i++)
-        out->sigma[i] = sigma[i] - d->initial[i];
+    if (out->sigma != NULL)
+        memcpy(out->sigma, sigma, sizeof sigma);
     if (out->C != NULL)
         memcpy(out->C, d->linear.S, sizeof d->linear.S);
     if (out->residual != NULL)

@@ -11,8 +11,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "elements/math/arc.h"
 #include "elements/math/dense.h"
 #include "elements/math/quadrature.h"
+#include "elements/math/rotation.h"
 #include "elements/sheet/fields.h"
 
 enum { N = LOCAL_COORDINATES, POINTS = 4 }; /* products of degree 7 at most: exact */
@@ -74,7 +76,6 @@ status strains_prepare(const element_request *request, double Phi_y, double Phi_
     const status made = quadrature_points(POINTS, x, w, f);
     if (made != STATUS_OK)
         return made;
-    out->l0 = l0;
     out->Lambda[N * 0 + LOCAL_U] = 1;
     out->Lambda[N * 1 + LOCAL_PX] = l0;
     out->Lambda[N * 2 + LOCAL_YP] = -l0;
@@ -163,10 +164,12 @@ void strains_evaluate(const strains_table *table, const node_state x[2], strain_
 {
     double e[SHEET_STRAINS], E[SHEET_STRAINS * N], R[N * RATES];
     local_state s;
-    local_of(table->l0, x, &s);
+    local_of(table->chord, x, &s);
+    s.q[LOCAL_WP] += table->torsion;
+    s.q[LOCAL_WQ] += table->torsion;
     gradient(table, s.q, e, E);
-    if (out->e != NULL)
-        memcpy(out->e, e, sizeof e);
+    for (int i = 0; i < SHEET_STRAINS && out->e != NULL; i++)
+        out->e[i] = e[i] - table->rest[i];
     const int second = out->s != NULL && out->H != NULL;
     if (out->J == NULL && !second)
         return;
@@ -184,4 +187,25 @@ void strains_evaluate(const strains_table *table, const node_state x[2], strain_
         local_add_second(&s, R, t, H);
         local_nodal_form(&s, H, out->H);
     }
+}
+
+void strains_set_rest(const element_request *request, strains_table *out)
+{
+    const double l0 = request->length, *k = request->curvature, *g = request->strain;
+    const double turn[3] = {k[0] * l0, k[1] * l0, k[2] * l0}, along[3] = {1, 0, 0}, strained[3] = {1 + g[0], g[1], g[2]};
+    double arc[3], unstressed[3], q[4], rest[SHEET_STRAINS];
+    node_state x[2];
+    memset(x, 0, sizeof x);
+    arc_at(turn, along, 1, arc, q);
+    arc_at(turn, strained, 1, unstressed, q);
+    for (int i = 0; i < 3; i++) {
+        x[1].r[i] = l0 * unstressed[i];
+        x[1].u[i] = l0 * (unstressed[i] - arc[i]);
+        x[0].R[4 * i] = 1;
+    }
+    rotation_matrix(q, x[1].R);
+    out->chord = l0 * vec3_norm(arc);
+    out->torsion = k[0];
+    strains_evaluate(out, x, &(strain_output){.e = rest});
+    memcpy(out->rest, rest, sizeof rest);
 }

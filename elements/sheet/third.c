@@ -16,6 +16,8 @@ typedef struct third_data {
     potential potential;
     double scale[N];
     double X[CURVED][N * N];
+    /* Of the potential with N Eq. 52 where the element is free of stress: it is less these. */
+    double rest_energy, rest_stress[N]; /* [J], [N] */
 } third_data;
 
 static const third_data *data_of(const element_data *d)
@@ -49,29 +51,18 @@ static void partial_inverse(double L, int warp, third_data *d)
     }
 }
 
-status third_prepare(const element_request *request, int printed, element_data *data, fault *f)
-{
-    third_data *out = (third_data *)(void *)data;
-    memset(out, 0, sizeof *out);
-    const status made = base_prepare(request, BASE_PRINTED, &out->base, f);
-    if (made != STATUS_OK)
-        return made;
-    if (request->strain[1] != 0)
-        return fault_set(f, STATUS_REFUSED, "initial shear strain %g along the thickness: N Eq. 50 knows none; leave it out",
-                         request->strain[1]);
-    partial_inverse(request->length, fields_warp(request), out);
-    return potential_prepare(request, printed, &out->potential, f);
-}
-
-/* x(e) and the rows that dx/de has beside its diagonal. */
+/* x(e), of strains counted from the undeformed arc, and the rows that dx/de has beside its diagonal. */
 static void invert(const third_data *d, const double e[N], double x[N], double row[CURVED][N])
 {
-    for (int k = 0; k < N; k++)
-        x[k] = d->scale[k] * e[k];
+    double whole[N];
+    for (int k = 0; k < N; k++) {
+        whole[k] = e[k] + d->base.table.rest[k];
+        x[k] = d->scale[k] * whole[k];
+    }
     for (int r = 0; r < CURVED; r++) {
-        dense_mul_vec(N, N, d->X[r], e, row[r]);
+        dense_mul_vec(N, N, d->X[r], whole, row[r]);
         for (int k = 0; k < N; k++)
-            x[curved[r]] += row[r][k] * e[k] / 2;
+            x[curved[r]] += row[r][k] * whole[k] / 2;
     }
 }
 
@@ -119,9 +110,13 @@ status third_stress(const element_data *data, const double e[], const double inn
     const status outcome = potential_evaluate(&d->potential, x, out->energy, first ? g : NULL, out->C != NULL ? h : NULL);
     if (outcome != STATUS_OK)
         return outcome;
-    if (out->sigma != NULL) {
+    for (int k = 0; k < N && out->sigma != NULL; k++)
+        out->sigma[k] =
+            d->scale[k] * g[k] + row[0][k] * g[curved[0]] + row[1][k] * g[curved[1]] + row[2][k] * g[curved[2]] - d->rest_stress[k];
+    if (out->energy != NULL) {
+        *out->energy -= d->rest_energy;
         for (int k = 0; k < N; k++)
-            out->sigma[k] = d->scale[k] * g[k] + row[0][k] * g[curved[0]] + row[1][k] * g[curved[1]] + row[2][k] * g[curved[2]];
+            *out->energy -= d->rest_stress[k] * e[k];
     }
     if (out->C != NULL)
         second_derivative(d, row, g, h, out->C);
@@ -131,7 +126,36 @@ status third_stress(const element_data *data, const double e[], const double inn
     return STATUS_OK;
 }
 
-/* At e = 0 along the strain v whose stress is sigma: x' = scale v, (dx/de)' = X v, C' by the product rule. */
+/* What is left of N Eq. 52 in the arc. */
+static status set_rest(const element_request *request, third_data *out, fault *f)
+{
+    const double none[N] = {0};
+    double energy, stress[N];
+    stress_output there = {.energy = &energy, .sigma = stress};
+    if (third_stress((const element_data *)(const void *)out, none, NULL, &there) != STATUS_OK)
+        return fault_set(f, STATUS_REFUSED, "element of length %g m: its initial curvature is too large; use more elements",
+                         request->length);
+    out->rest_energy = energy;
+    memcpy(out->rest_stress, stress, sizeof stress);
+    return STATUS_OK;
+}
+
+status third_prepare(const element_request *request, int printed, element_data *data, fault *f)
+{
+    third_data *out = (third_data *)(void *)data;
+    memset(out, 0, sizeof *out);
+    const status made = base_prepare(request, BASE_PRINTED, &out->base, f);
+    if (made != STATUS_OK)
+        return made;
+    if (request->strain[1] != 0)
+        return fault_set(f, STATUS_REFUSED, "initial shear strain %g along the thickness: N Eq. 50 knows none; leave it out",
+                         request->strain[1]);
+    partial_inverse(request->length, fields_warp(request), out);
+    const status complete = potential_prepare(request, printed, &out->potential, f);
+    return complete == STATUS_OK ? set_rest(request, out, f) : complete;
+}
+
+/* At e = 0 along the strain v whose stress is sigma: x' = (dx/de) v, (dx/de)' = X v, C' by the product rule. */
 void third_geometric(const element_data *data, const double sigma[], double G[])
 {
     const third_data *d = data_of(data);
@@ -151,17 +175,21 @@ void third_geometric(const element_data *data, const double sigma[], double G[])
     dense_lu_solve(N, 1, LU, pivot, v);
     for (int k = 0; k < N; k++)
         dx[k] = d->scale[k] * v[k];
+    for (int r = 0; r < CURVED; r++) {
+        for (int k = 0; k < N; k++)
+            dx[curved[r]] += row[r][k] * v[k];
+        dense_mul_vec(N, N, d->X[r], v, turning[r]);
+    }
     if (potential_third(&d->potential, x, dx, T) != STATUS_OK)
         return;
     dense_mul_vec(N, N, h, dx, along);
     second_derivative(d, row, along, T, G);
-    for (int r = 0; r < CURVED; r++)
-        dense_mul_vec(N, N, d->X[r], v, turning[r]);
+    multiply(d, row, h);
     for (int i = 0; i < N; i++)
         for (int k = 0; k < N; k++) {
             mixed[N * i + k] = 0;
             for (int r = 0; r < CURVED; r++)
-                mixed[N * i + k] += d->scale[i] * h[N * i + curved[r]] * turning[r][k];
+                mixed[N * i + k] += h[N * curved[r] + i] * turning[r][k];
         }
     for (int i = 0; i < N; i++)
         for (int k = 0; k < N; k++)

@@ -207,28 +207,6 @@ static void derivatives_of_stress(const element_type *type)
     free(data);
 }
 
-/* A uniformly twisted or bent element is free of stress when that is its initial shape. */
-static void initial_shape(const element_type *type)
-{
-    const double L = 0.1873, kx = 0.731, kz = 0.417, twist[3] = {kx, 0, 0}, bend[3] = {0, 0, kz}, L2 = L * L;
-    const double twisted[N] = {0, kx * L2, 0, 0, 0, 0, kx * L2, kx * L2}, bent[N] = {0, 0, 0, 0, kz * L2 / 2, kz * L2 / 2};
-    const section c = sheet_of(0.0912, 0.00217);
-    for (int shape = 0; shape < 2; shape++) {
-        const double *e = shape == 0 ? twisted : bent;
-        element_data *curved = prepare(type, &c, L, type->offers & ~(unsigned)FEATURE_WAGNER_TORQUE, shape == 0 ? twist : bend);
-        element_data *straight = prepare(type, &c, L, type->offers & ~(unsigned)(FEATURE_WAGNER_TORQUE | FEATURE_CURVATURE), NULL);
-        double sigma[N], loaded[N];
-        type->stress(curved, e, NULL, &(stress_output){.sigma = sigma});
-        type->stress(straight, e, NULL, &(stress_output){.sigma = loaded});
-        for (int i = 0; i < N; i++)
-            sigma[i] += loaded[i];
-        gsl_test(!(scaled_difference(N, sigma, loaded) < 1e-13), "%s: initial %s is free of stress (%.1e)", type->name,
-                 shape == 0 ? "torsion" : "curvature", scaled_difference(N, sigma, loaded));
-        free(curved);
-        free(straight);
-    }
-}
-
 /* What cannot be prepared is refused with its culprit. */
 static void refusals(const element_type *type)
 {
@@ -255,7 +233,6 @@ int main(void)
     for (int i = 0; i < TYPES; i++) {
         derivatives_of_strain(types[i]);
         derivatives_of_stress(types[i]);
-        initial_shape(types[i]);
         refusals(types[i]);
     }
     return gsl_test_summary();

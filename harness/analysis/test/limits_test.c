@@ -56,7 +56,7 @@ static double curved(const element_type *e, double curvature)
 /* Curvature to zero: the answer changes in proportion to it, down to where nothing is left of it. */
 static void nearly_straight(const element_type *e)
 {
-    const double straight = curved(e, 0), slope = (curved(e, 1e-4) - straight) / 1e-4;
+    const double straight = curved(e, 0), slope = (curved(e, 1e-4) - curved(e, -1e-4)) / 2e-4;
     gsl_test(!(fabs(slope) > 1e-3), "%s: an initial curvature matters (%.1e)", e->name, slope);
     for (int power = -5; power >= -15; power -= 2) {
         const double curvature = pow(10, power), change = curved(e, curvature) - straight;
