@@ -10,8 +10,8 @@
 #include "elements/math/dense.h"
 #include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
-#include "harness/run/formulations.h"
-#include "harness/run/registry.h"
+#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/registry.h"
 
 enum { STRAINS = ELEMENT_MAX_STRAINS, INNER = 64, MEMORY = 4096, ARCS = 60, POINTS = QUADRATURE_MAX_POINTS };
 

@@ -1,0 +1,179 @@
+/* No load, no drive, no initial strain: nothing moves and nothing pulls, in every case at every parameter point that is verified,
+ * for every formulation and every choice of its options that is judged.  What is checked is counted. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/catalogue/registry.h"
+#include "harness/study/sweep.h"
+
+enum { COMPONENTS = 6, CHOICES = 64 };
+/* Of the structure's size, one radian, and the stiffest force EA of its members: rounding of an arc's curvature in slender members. */
+static const double still = 1e-10, unstressed = 1e-12;
+
+typedef struct tally {
+    int points, checked, not_offered;
+} tally;
+
+static double dimension(const scene *s)
+{
+    double size = 0;
+    for (int i = 0; i < s->members; i++)
+        for (int k = 0; k < 3; k++)
+            size = fmax(size, fabs(s->node[s->member[i].p].position[k] - s->node[s->member[i].q].position[k]));
+    return size;
+}
+
+static double stiffest(const scene *s)
+{
+    double EA = 0;
+    for (int i = 0; i < s->sections; i++) {
+        section c;
+        if (section_compute(&s->section[i], &c, NULL) == STATUS_OK)
+            EA = fmax(EA, c.young * c.A);
+    }
+    return EA;
+}
+
+/* The structure alone: loads and drives are there, with value zero. */
+static void leave_alone(scene *s)
+{
+    for (int i = 0; i < s->loads; i++)
+        memset(s->load[i].vector, 0, sizeof s->load[i].vector);
+    for (int i = 0; i < s->drivers; i++)
+        for (int k = 0; k < s->driver[i].stations; k++)
+            if (s->driver[i].value != NULL)
+                s->driver[i].value[k] = 0;
+    for (int i = 0; i < s->members; i++)
+        memset(s->member[i].strain, 0, sizeof s->member[i].strain);
+    while (s->analyses > 0)
+        free(s->analysis[--s->analyses].path);
+    s->quantities = 0;
+}
+
+static int carries(const scene_node *n, int component)
+{
+    if (n->attached != SCENE_NONE)
+        return 0;
+    return component < 3 ? n->translation[component] != SCENE_FREE
+                         : n->rotation == SCENE_ROTATION_SPATIAL && n->angle[component - 3] != SCENE_FREE;
+}
+
+/* Every displacement and rotation, and every reaction. */
+static void ask_for_all(scene *s)
+{
+    const double end = 1;
+    const int path = scene_add_analysis(s, SCENE_STATIC);
+    scene_set_stations(s, path, 1, &end);
+    scene_analysis_at(s, path)->steps_between = 1;
+    for (int reaction = 0; reaction < 2; reaction++)
+        for (int node = 0; node < s->nodes; node++)
+            for (int c = 0; c < COMPONENTS; c++) {
+                if (reaction && !carries(&s->node[node], c))
+                    continue;
+                char name[SCENE_NAME];
+                snprintf(name, sizeof name, "%c%d_%d", reaction ? 'F' : 'u', c, node);
+                scene_quantity *q = scene_add_quantity(s, name, "1", reaction ? SCENE_REACTION : SCENE_COORDINATE, path);
+                q->node = node;
+                q->row = c;
+            }
+}
+
+/* Largest value, of its limit; and whose it is. */
+static double largest(const scene *s, const solve_result *r, const char **whose)
+{
+    const double size = dimension(s), EA = stiffest(s);
+    double worst = 0;
+    for (int i = 0; i < s->quantities; i++) {
+        const scene_quantity *q = &s->quantity[i];
+        const int turns = q->row >= 3;
+        const double limit = q->kind == SCENE_COORDINATE ? still * (turns ? 1 : size) : unstressed * EA * (turns ? size : 1);
+        const double value = r->quantity[i].status == STATUS_OK ? fabs(r->quantity[i].value) / limit : INFINITY;
+        if (!(value <= worst)) {
+            worst = value;
+            *whose = q->name;
+        }
+    }
+    return worst;
+}
+
+static void rests(const point *p, const formulation *chosen, int elements)
+{
+    const char *whose = "nothing";
+    scene s;
+    model *m = NULL;
+    solve_result r;
+    fault f = {""};
+    double worst = INFINITY;
+    scene_init(&s, p->type->name);
+    status outcome = p->type->build(p->parameter, &s, &f);
+    leave_alone(&s);
+    ask_for_all(&s);
+    const model_request what = {&s, chosen->type, chosen->option, elements, 0};
+    if (outcome == STATUS_OK)
+        outcome = model_alloc(&what, &m, &f);
+    if (outcome == STATUS_OK) {
+        outcome = solve_scene(&s, m, NULL, &r, &f);
+        worst = outcome == STATUS_OK ? largest(&s, &r, &whose) : INFINITY;
+        solve_result_free(&r);
+    }
+    gsl_test(!(worst <= 1), "%s/%s, %s, n = %d: at rest (%s: %.1e of its limit) %s", p->type->name,
+             p->text[0] != '\0' ? p->text : "default", chosen->key, elements, whose, worst, f.text);
+    model_free(m);
+    scene_free(&s);
+}
+
+/* The default and the choices that are judged. */
+static int choices_of(const element_type *type, formulation list[CHOICES])
+{
+    int count = 1;
+    formulation_default(type, &list[0]);
+    for (int k = 0; type->options != NULL && type->options[k].name != NULL; k++)
+        for (int choice = 0; type->options[k].judged != 0 && choice <= type->options[k].max && count < CHOICES; choice++)
+            count += formulation_choice(type, k, choice, &list[count]);
+    return count;
+}
+
+static void every_formulation(const point *p, tally *t)
+{
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        formulation list[CHOICES];
+        char words[200];
+        const int count = choices_of(registry_formulations[i], list);
+        if (model_missing(&p->scene, registry_formulations[i], words, sizeof words)) {
+            t->not_offered += count;
+            continue;
+        }
+        for (int k = 0; k < count; k++, t->checked++)
+            for (int elements = 1; elements <= 2; elements++)
+                rests(p, &list[k], elements);
+    }
+}
+
+int main(void)
+{
+    const char *path = getenv("BEAMWORK_TRUTHS") != NULL ? getenv("BEAMWORK_TRUTHS") : "build/truths.h5";
+    const sweep_request all = {0};
+    truths known;
+    sweep plan;
+    fault f = {""};
+    tally t = {0};
+    gsl_test(truths_read(path, &known, &f) != STATUS_OK, "truths: %s", f.text);
+    if (sweep_plan(&all, &known, &plan, &f) != STATUS_OK) {
+        gsl_test(1, "plan: %s", f.text);
+        return gsl_test_summary();
+    }
+    for (int i = 0; i < plan.points; i++) {
+        if (plan.point[i].status != STATUS_OK)
+            continue;
+        t.points++;
+        every_formulation(&plan.point[i], &t);
+    }
+    printf("%d points, %d formulations at rest, %d not offered\n", t.points, t.checked, t.not_offered);
+    gsl_test(t.checked < t.points, "%d points with %d formulations at rest, %d not offered", t.points, t.checked, t.not_offered);
+    sweep_free(&plan);
+    truths_free(&known);
+    return gsl_test_summary();
+}
