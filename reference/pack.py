@@ -10,13 +10,18 @@ import pathlib
 import sys
 import zlib
 
+VERSION = 2  # of the packed file; TRUTHS_VERSION of harness/run/truths.h
 HERE = pathlib.Path(__file__).resolve().parent
-COLUMNS = "case,parameters,formulation,elements,quantity,value,unit,uncertainty,kind,model,convention,source".split(",")
+COLUMNS = "case,parameters,formulation,theory,elements,quantity,at,value,unit,uncertainty,kind,model,convention,source".split(",")
 FINDING_COLUMNS = "case,parameters,formulation,quantity,verdict,limit,uncertainty,proof".split(",")
 EXTREME_COLUMNS = "extreme,from,to,formulation,quantity,outcome,proof".split(",")
 OUTCOMES = ("value", "coarse", "wrong", "not converged", "singular", "refused", "no value", "fault")
-KINDS = ("exact", "independent", "consensus", "published", "reconstructed", "experiment")
+KINDS = ("exact", "predicted", "independent", "consensus", "agreement", "published", "reconstructed", "experiment")
 MODELS = ("same", "other")
+THEORIES = ("", "engesser", "haringx")
+MOMENTS, ROTATIONS = ("", "spatial", "semitangential", "symmetrised"), ("", "vector", "RyRzRx")
+CONVENTIONS = tuple(f"{moment} {rotation}".strip() for moment in MOMENTS for rotation in ROTATIONS)
+TRUTH_FOLDERS = ("tables", "predicted")
 VERDICTS = ("pass", "wrong limit", "low order", "not asymptotic", "diverged", "refused", "skip", "no truth")
 
 
@@ -109,20 +114,46 @@ def check_truth(row, where, defaults):
     row["uncertainty"] = finite(row["uncertainty"], f"{where}: uncertainty")
     if row["uncertainty"] < 0:
         raise Refused(f"{where}: negative uncertainty")
+    row["at"] = finite(row["at"], f"{where}: at") if row["at"] else math.nan
     row["elements"] = count(row["elements"], where)
-    if bool(row["formulation"]) != (row["elements"] > 0):
+    if row["kind"] == "predicted" and (not row["formulation"] or row["elements"]):
+        raise Refused(f"{where}: a predicted limit needs a formulation and no elements")
+    if row["kind"] != "predicted" and bool(row["formulation"]) != (row["elements"] > 0):
         raise Refused(f"{where}: a discrete value needs formulation and elements, a value of the continuum neither")
     row["hash"] = parameter_hash(defaults[row["case"]], row["parameters"], where)
+    check_words(row, where, [name for name, _, _ in defaults[row["case"]]])
 
 
-def read_truths(folder, defaults):
+def check_words(row, where, names):
+    """theory and convention: words of the closed lists, and none that the row's parameters contradict."""
+    given = dict(item.split("=", 1) for item in row["parameters"].split(";") if "=" in item)
+    if row["theory"] not in THEORIES:
+        raise Refused(f"{where}: theory '{row['theory']}' is none of {'|'.join(THEORIES[1:])}")
+    stability = given.get("shear_stability", "engesser") if "shear_stability" in names else row["theory"]
+    if row["theory"] and row["theory"] != stability:
+        raise Refused(f"{where}: theory '{row['theory']}', but shear_stability={stability}")
+    if row["convention"] not in CONVENTIONS:
+        raise Refused(f"{where}: convention '{row['convention']}' is none of {'|'.join(CONVENTIONS[1:])}")
+    moments = row["convention"].split(" ")[0] if row["convention"].split(" ")[0] in MOMENTS else ""
+    asked = given.get("moment_convention", "spatial") if "moment_convention" in names and row["quantity"].startswith("C_") else moments
+    if moments != asked:
+        raise Refused(f"{where}: convention '{row['convention']}', but moment_convention={asked}")
+
+
+def truth_key(row):
+    """What tells a truth from all others; two programs must not derive the same exact value."""
+    return tuple("" if name == "source" and row["kind"] == "exact" else repr(row[name]) if name == "at" else row[name]
+                 for name in ("case", "hash", "formulation", "theory", "elements", "quantity", "at", "kind", "model", "convention", "source"))
+
+
+def read_truths(folders, defaults):
+    """{case: rows} of every table in the folders; one that does not exist is empty."""
     cases, seen, units = {}, {}, {}
-    for path in sorted(folder.glob("*.csv")):
+    for path in [path for folder in folders for path in sorted(folder.glob("*.csv"))]:
         for number, row in read_csv(path, COLUMNS):
-            where = f"{path.name}:{number}"
+            where = f"{path.parent.name}/{path.name}:{number}"
             check_truth(row, where, defaults)
-            key = (row["case"], row["hash"], row["formulation"], row["elements"], row["quantity"], row["kind"], row["model"], row["convention"],
-                   "" if row["kind"] == "exact" else row["source"])
+            key = truth_key(row)
             if key in seen:
                 raise Refused(f"{where}: the same row as {seen[key]}")
             seen[key] = where
@@ -193,15 +224,15 @@ def pack(folder, out):
     import h5py
     import numpy
     defaults = read_defaults(folder / "defaults.csv")
-    truths = read_truths(folder / "tables", defaults)
+    truths = read_truths([folder / name for name in TRUTH_FOLDERS], defaults)
     findings = read_findings(folder / "findings.csv", defaults)
-    extremes = read_truths(folder / "extremes", defaults)
+    extremes = read_truths([folder / "extremes"], defaults)
     extreme_findings = read_extreme_findings(folder / "extreme_findings.csv")
     temporary = f"{out}.part{os.getpid()}"
     try:
         with h5py.File(temporary, "w") as file:
             file.attrs["schema"] = numpy.bytes_("beamwork-truths")
-            file.attrs["version"] = 1
+            file.attrs["version"] = VERSION
             group = file.create_group("truths")
             for case, rows in sorted(truths.items()):
                 write_columns(group.create_group(case), rows, COLUMNS[1:] + ["hash"])

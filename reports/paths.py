@@ -42,18 +42,18 @@ class Event:
 
 
 def solid(truths, parameters, quantity):
-    """Rows of a curve: their abscissa stands in `convention`."""
+    """Rows of a curve: points at the abscissae `at`."""
     with h5py.File(truths) as file:
         if CASE not in file["truths"]:
             return None
         group = file["truths"][CASE]
-        columns = {name: [text(v) for v in group[name][()]] for name in ("parameters", "quantity", "convention", "source", "model")}
-        value = group["value"][()]
+        columns = {name: [text(v) for v in group[name][()]] for name in ("parameters", "quantity", "source", "model")}
+        value, at = group["value"][()], group["at"][()]
     rows = [i for i, q in enumerate(columns["quantity"]) if q == quantity and columns["model"][i] == "other"
             and canonical(columns["parameters"][i].replace("wagner_moments=*", "")) == canonical(parameters)]
     if not rows:
         return None
-    w = np.array([float(columns["convention"][i].split("=")[1]) for i in rows])
+    w = at[rows]
     order = np.argsort(w)
     return Solid(w[order], value[rows][order], columns["source"][rows[0]])
 

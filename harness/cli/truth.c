@@ -20,19 +20,19 @@ static int print_stored(const truths *t, const case_type *type, const double par
     int continuum = 0, discrete = 0;
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
-        if (row->elements > 0 || !truth_holds(row, type, parameter))
+        if (row->formulation[0] != '\0' || !truth_holds(row, type, parameter))
             continue;
         print_value(row->quantity, row->value, row->uncertainty, row->unit, row->kind, row->model, row->source, row->convention);
         continuum += strcmp(row->model, "same") == 0;
     }
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
-        if (row->elements == 0 || !truth_holds(row, type, parameter))
+        if (row->formulation[0] == '\0' || !truth_holds(row, type, parameter))
             continue;
         if (discrete++ == 0)
-            printf("of single meshes\n");
+            printf("of one formulation\n");
         char name[SCENE_NAME + FORMULATION_KEY + 16];
-        snprintf(name, sizeof name, "%s, %s n=%d", row->quantity, row->formulation, row->elements);
+        snprintf(name, sizeof name, row->elements > 0 ? "%s, %s n=%d" : "%s, %s", row->quantity, row->formulation, row->elements);
         print_value(name, row->value, row->uncertainty, row->unit, row->kind, row->model, row->source, row->convention);
     }
     return continuum;

@@ -80,7 +80,7 @@ static void mark_met(truths *t, const point *p, const formulation *chosen, const
     for (int i = 0; i < t->rows; i++) {
         truth *row = &t->row[i];
         if (strcmp(row->quantity, quantity) == 0 && truth_holds(row, p->type, p->parameter) &&
-            (row->elements == 0 || strcmp(row->formulation, chosen->key) == 0)) {
+            (row->formulation[0] == '\0' || strcmp(row->formulation, chosen->key) == 0)) {
             row->met = 1;
             row->judged |= judged;
         }
@@ -145,7 +145,7 @@ status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f)
         out->unobserved += t->finding[i].observed == 0;
     for (int i = 0; i < t->rows && whole; i++) {
         const truth *row = &t->row[i];
-        const int elsewhere = row->elements > 0 && formulation_find(row->formulation) == NULL;
+        const int elsewhere = row->formulation[0] != '\0' && formulation_find(row->formulation) == NULL;
         out->unmet += !row->met && !elsewhere;
         out->waiting += (row->met || elsewhere) && !row->judged;
     }

@@ -67,7 +67,7 @@ static json_t *truths_of(const point *p, const scene_quantity *q, double value, 
     json_t *list = json_array();
     for (int i = 0; t != NULL && i < t->rows; i++) {
         const truth *row = &t->row[i];
-        if (row->elements > 0 || row->formulation[0] != '\0' || strcmp(row->quantity, q->name) != 0 ||
+        if (row->formulation[0] != '\0' || row->on_curve || strcmp(row->quantity, q->name) != 0 ||
             !truth_holds(row, p->type, p->parameter))
             continue;
         json_t *one = json_pack("{s:s,s:s,s:s}", "kind", row->kind, "model", row->model, "source", row->source);

@@ -211,7 +211,7 @@ static void not_met(FILE *to, const judgement *j, const truths *t)
     for (int i = 0; i < t->rows && j->unmet > 0; i++) {
         const truth *row = &t->row[i];
         char text[PARAMETERS_TEXT];
-        if (row->met || (row->elements > 0 && formulation_find(row->formulation) == NULL))
+        if (row->met || (row->formulation[0] != '\0' && formulation_find(row->formulation) == NULL))
             continue;
         parameters_text(row->type, row->parameter, text, sizeof text);
         fprintf(to, "\ntruth of nothing that exists: %s %s, %s%s%s (%s)\n", row->type->name, text, row->quantity,

@@ -32,8 +32,8 @@ const truth *truth_of(const truths *t, const case_type *type, const double value
     const truth *best = NULL;
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
-        const int fits = row->elements == 0 && row->formulation[0] == '\0' && strcmp(row->quantity, quantity) == 0 &&
-                         strcmp(row->model, model) == 0;
+        const int fits = row->formulation[0] == '\0' && !row->on_curve && strcmp(row->kind, "agreement") != 0 &&
+                         strcmp(row->quantity, quantity) == 0 && strcmp(row->model, model) == 0;
         if (fits && truth_holds(row, type, value) &&
             (best == NULL || choice_index(TRUTH_KINDS, row->kind) < choice_index(TRUTH_KINDS, best->kind)))
             best = row;

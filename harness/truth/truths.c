@@ -30,15 +30,45 @@ static int is_known(const char *word, const char *choices)
     return choice_index(choices, word) >= 0;
 }
 
+static int is_known_or_empty(const char *word, const char *choices)
+{
+    return word[0] == '\0' || is_known(word, choices);
+}
+
+/* Are formulation and elements filled as the kind asks? */
+static int elements_fit(const truth *row)
+{
+    const int of_formulation = row->formulation[0] != '\0';
+    if (strcmp(row->kind, "predicted") == 0)
+        return of_formulation && row->elements == 0;
+    return row->elements >= 0 && (row->elements > 0) == of_formulation;
+}
+
+/* The first column that makes no sense, or NULL. */
+static const char *wrong_column(const truth *row)
+{
+    return !isfinite(row->value)                                    ? "value"
+           : !isfinite(row->uncertainty) || row->uncertainty < 0    ? "uncertainty"
+           : isinf(row->at)                                         ? "at"
+           : !is_known(row->kind, TRUTH_KINDS)                      ? "kind"
+           : !elements_fit(row)                                     ? "elements"
+           : !is_known(row->model, "same|other")                    ? "model"
+           : !is_known_or_empty(row->theory, TRUTH_THEORIES)        ? "theory"
+           : !is_known_or_empty(row->convention, TRUTH_CONVENTIONS) ? "convention"
+                                                                    : NULL;
+}
+
 static status read_rows(const columns *r, const case_type *type, truth *row)
 {
     static const columns_field field[] = {{"formulation", 1, offsetof(truth, formulation)},
+                                          {"theory", 1, offsetof(truth, theory)},
                                           {"quantity", 1, offsetof(truth, quantity)},
                                           {"unit", 1, offsetof(truth, unit)},
                                           {"kind", 1, offsetof(truth, kind)},
                                           {"model", 1, offsetof(truth, model)},
                                           {"convention", 1, offsetof(truth, convention)},
                                           {"source", 1, offsetof(truth, source)},
+                                          {"at", 0, offsetof(truth, at)},
                                           {"value", 0, offsetof(truth, value)},
                                           {"uncertainty", 0, offsetof(truth, uncertainty)}};
     assert(r->rows >= 0);
@@ -59,13 +89,9 @@ static status read_rows(const columns *r, const case_type *type, truth *row)
     for (int i = 0; i < r->rows && outcome == STATUS_OK; i++) {
         row[i].type = type;
         row[i].elements = elements[i];
+        row[i].on_curve = !isnan(row[i].at);
         outcome = check_row(r, type, i, parameters[i], hash[i], row[i].parameter, row[i].any);
-        const char *wrong = !isfinite(row[i].value)                                                   ? "value"
-                            : !isfinite(row[i].uncertainty) || row[i].uncertainty < 0                 ? "uncertainty"
-                            : elements[i] < 0 || (elements[i] > 0) != (row[i].formulation[0] != '\0') ? "elements"
-                            : !is_known(row[i].kind, TRUTH_KINDS)                                     ? "kind"
-                            : !is_known(row[i].model, "same|other")                                   ? "model"
-                                                                                                      : NULL;
+        const char *wrong = wrong_column(&row[i]);
         if (outcome == STATUS_OK && wrong != NULL)
             outcome = columns_broken(r, wrong);
     }
@@ -198,7 +224,7 @@ void truths_free(truths *t)
 {
     for (int i = 0; i < t->rows; i++) {
         truth *r = &t->row[i];
-        char *const all[] = {r->formulation, r->quantity, r->unit, r->kind, r->model, r->convention, r->source};
+        char *const all[] = {r->formulation, r->theory, r->quantity, r->unit, r->kind, r->model, r->convention, r->source};
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
             free(all[k]);
     }

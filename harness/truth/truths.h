@@ -7,16 +7,24 @@
 #include "cases/case.h"
 #include "harness/catalogue/parameters.h"
 
-enum { TRUTHS_VERSION = 1 };
-#define TRUTH_KINDS "exact|independent|consensus|published|reconstructed|experiment" /* the first known one judges */
+enum { TRUTHS_VERSION = 2 };
+/* The first known one judges; "agreement" never does.  "predicted": the limit that a formulation must have. */
+#define TRUTH_KINDS    "exact|predicted|independent|consensus|agreement|published|reconstructed|experiment"
+#define TRUTH_THEORIES "engesser|haringx" /* of shear in stability; "": the truth depends on none */
+/* What a moment does while its node turns, and how prescribed rotations combine. */
+#define TRUTH_CONVENTIONS                                                                                                          \
+    "vector|RyRzRx|spatial|spatial vector|spatial RyRzRx|semitangential|semitangential vector|semitangential RyRzRx|"              \
+    "symmetrised|symmetrised vector|symmetrised RyRzRx"
 
 typedef struct truth {
     const case_type *type;
     double parameter[CASE_MAX_PARAMETERS];
     int any[CASE_MAX_PARAMETERS]; /* 1: holds for any value */
     char *formulation;            /* "": the continuum */
-    int elements;                 /* 0: the continuum */
-    char *quantity, *unit, *kind, *model, *convention, *source;
+    int elements;                 /* 0: the continuum, or a limit (kind predicted) */
+    char *theory, *quantity, *unit, *kind, *model, *convention, *source;
+    int on_curve; /* 1: a point of a curve, at its abscissa `at` */
+    double at;
     double value, uncertainty;
     int met, judged; /* by the judge: a quantity it speaks of exists; not every formulation skips it */
 } truth;
@@ -46,7 +54,7 @@ void truths_free(truths *t);
 int truth_holds(const truth *row, const case_type *type, const double value[]);
 int finding_holds(const finding *row, const case_type *type, const double value[], const char *formulation_key,
                   const char *quantity);
-/* The continuum's truth of the same model to judge by (exact before published), or NULL. */
+/* The continuum's truth of that model to judge by (exact before published, no agreement, no point of a curve), or NULL. */
 const truth *truth_of(const truths *t, const case_type *type, const double value[], const char *quantity, const char *model);
 
 #endif

@@ -109,7 +109,7 @@ def twisted():
     half = math.sqrt(beam.GJ / beam.EIw) * beam.length / 2
     for angle in (0.1, 0.5, 1, 1.3, 1.4, 1.5):
         at = f"wagner=0;tip_deflection=0;tip_phi_z=0;tip_phi_x={decimal(angle)}"
-        yield "sheet_wagner", at, "M_x", beam.GJ * angle / beam.length / (1 - math.tanh(half) / half), "N m", 5e-13
+        yield "sheet_wagner", at, "M_x", beam.GJ * angle / beam.length / (1 - math.tanh(half) / half), "N m", 5e-13, "RyRzRx"
     for angle in (0.1, 1.4, 1.6, 3):
         yield from cantilevers.wagner_strip(angle)
 

@@ -9,6 +9,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
+from reference.derive import theory  # noqa: E402
 from reference.pack import COLUMNS, read_defaults  # noqa: E402
 
 FOLDERS = ("tables", "extremes")
@@ -53,8 +54,10 @@ def derived_rows(name):
         case, parameters, quantity, value, unit = given[:5]
         relative = given[5] if len(given) > 5 else 10.0 ** (1 - DIGITS) / 2
         uncertainty = abs(float(value)) * relative if float(value) != 0 else relative
-        yield dict(zip(COLUMNS, [case, parameters, "", "", quantity, as_text(value, relative), unit, "%.1e" % uncertainty, "exact", "same",
-                                 given[6] if len(given) > 6 else "", f"reference/derive/{name}.py"])), float(value)
+        row = {**dict.fromkeys(COLUMNS, ""), "case": case, "parameters": parameters, "quantity": quantity, "unit": unit, "kind": "exact", "model": "same",
+               "theory": theory.of(case, parameters, quantity), "value": as_text(value, relative), "uncertainty": "%.1e" % uncertainty,
+               "convention": given[6] if len(given) > 6 else "", "source": f"reference/derive/{name}.py"}
+        yield row, float(value)
 
 
 def write(names):
@@ -89,6 +92,8 @@ def differences(name, stored, seen, cases):
             lines.append(f"{key}: derived {value:.15g} {row['unit']}, not in the table")
         elif known["unit"] != row["unit"] or abs(value - float(known["value"])) > float(known["uncertainty"]):
             lines.append(f"{key}: derived {value:.15g} {row['unit']}, stored {known['value']} +- {known['uncertainty']} {known['unit']}")
+        elif any(known[name] != row[name] for name in ("theory", "convention")):
+            lines.append(f"{key}: stored as {known['theory']}, {known['convention']}; derived as {row['theory']}, {row['convention']}")
         else:
             agree += 1
     return agree, lines, waiting

@@ -61,7 +61,8 @@ def under_convention(C, moment, convention):
 def quantities(case, given, net, tip, entries):
     """Compliance with dead forces and moments of the case's convention; displacements and reactions."""
     convention = given.get("moment_convention", "spatial")
-    note = f"{convention} moments" + ("; R = Ry Rz Rx" if case == "sheet_wagner" else "")
+    turned = "RyRzRx" if case == "sheet_wagner" else ""
+    note = f"{convention} {turned}".strip()
     C = under_convention(net.response(1.0, tip, {tip: free}), net.force * net.length * tip.load[3:], convention)
     at = parameters(given)
     for i, j in entries:
@@ -70,13 +71,13 @@ def quantities(case, given, net, tip, entries):
     if case == "sheet_cantilever":
         yield case, at, "C_xx", C[0, 0], "m/N", RELATIVE, note
         yield case, at, "C_zz", C[2, 2], "m/N", RELATIVE, note
-    yield case, at, "u_x", net.length * (tip.x[0] - 1), "m", RELATIVE
+    yield case, at, "u_x", net.length * (tip.x[0] - 1), "m", RELATIVE, turned
     if case == "sheet_wagner":
-        yield case, at, "u_z", net.length * tip.x[2], "m", RELATIVE
-    yield case, at, "F_y", net.force * tip.load[1], "N", RELATIVE
+        yield case, at, "u_z", net.length * tip.x[2], "m", RELATIVE, turned
+    yield case, at, "F_y", net.force * tip.load[1], "N", RELATIVE, turned
     if case == "sheet_wagner":
-        yield case, at, "M_x", net.force * net.length * tip.load[3], "N m", RELATIVE
-    yield case, at, "M_z", net.force * net.length * tip.load[5], "N m", RELATIVE
+        yield case, at, "M_x", net.force * net.length * tip.load[3], "N m", RELATIVE, turned
+    yield case, at, "M_z", net.force * net.length * tip.load[5], "N m", RELATIVE, turned
 
 
 def cantilever(**given):

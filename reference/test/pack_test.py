@@ -1,6 +1,7 @@
 """The packing of truths: round trip, hash, and every refusal."""
 import csv
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -21,13 +22,21 @@ class Pack(unittest.TestCase):
         self.write("defaults.csv", ["case,parameter,value,choices", "beam,length,2,", "beam,ends,1,free|fixed"])
         self.write("findings.csv", [",".join(pack.FINDING_COLUMNS)])
         self.write("extreme_findings.csv", [",".join(pack.EXTREME_COLUMNS)])
-        self.row = ["beam", "length=3;ends=free", "", "", "load", "12.5", "N", "0.1", "exact", "same", "", "closed form"]
+        self.row = ["beam", "length=3;ends=free", "", "", "", "load", "", "12.5", "N", "0.1", "exact", "same", "", "closed form"]
 
     def tearDown(self):
         shutil.rmtree(self.folder)
 
     def write(self, name, lines):
         (self.folder / name).write_text("\n".join(lines) + "\n")
+
+    def packed(self, column, *rows):
+        """One column of what the rows are packed into."""
+        self.assertEqual(self.run_pack(*rows).returncode, 0)
+        with h5py.File(self.folder / "t.h5") as file:
+            values = list(file[f"truths/beam/{column}"][()])
+        (self.folder / "t.h5").unlink()
+        return values
 
     def run_pack(self, *rows):
         with open(self.folder / "tables" / "beam.csv", "w", newline="") as table:
@@ -72,9 +81,38 @@ class Pack(unittest.TestCase):
                              ("finite", {"value": "nan"}), ("finite", {"value": "inf"}), ("finite", {"value": ""}), ("finite", {"uncertainty": "nan"}),
                              ("negative", {"uncertainty": "-1"}), ("kind", {"kind": "guess"}), ("model", {"model": "similar"}), ("unit", {"unit": ""}), ("source", {"source": ""}),
                              ("discrete", {"formulation": "beamw"}), ("discrete", {"elements": "4"}), ("elements", {"formulation": "beamw", "elements": "four"}),
-                             ("elements", {"formulation": "beamw", "elements": "-2"})):
+                             ("elements", {"formulation": "beamw", "elements": "-2"}), ("theory", {"theory": "timoshenko"}), ("convention", {"convention": "spatial moments"}),
+                             ("convention", {"convention": "vector spatial"}), ("at", {"at": "half"}), ("predicted", {"kind": "predicted"}), ("discrete", {"kind": "agreement", "formulation": "beamw"}),
+                             ("predicted", {"kind": "predicted", "formulation": "beamw", "elements": "4"})):
             with self.subTest(word=word, **fields):
                 self.refused(word, self.changed(**fields))
+
+    def test_a_limit_of_one_formulation_is_read_from_its_own_folder(self):
+        (self.folder / "predicted").mkdir()
+        predicted = self.changed(kind="predicted", formulation="beamw", value="11")
+        self.write("predicted/beam.csv", [",".join(pack.COLUMNS), ",".join(predicted)])
+        self.assertEqual(self.packed("formulation", self.row), [b"", b"beamw"])
+        self.write("predicted/beam.csv", [",".join(pack.COLUMNS), ",".join(self.row)])
+        self.refused("the same row", self.row)
+
+    def test_points_of_a_curve_differ_in_their_abscissa(self):
+        at = self.packed("at", self.changed(at="0.5"), self.changed(at="0.6"), self.row)
+        self.assertEqual(at[:2], [0.5, 0.6])
+        self.assertNotEqual(at[2], at[2])
+        self.refused("the same row", self.changed(at="0.5"), self.changed(at="0.50"))
+
+    def test_theories_are_told_apart(self):
+        self.assertEqual(self.packed("theory", self.changed(theory="engesser"), self.changed(theory="haringx")), [b"engesser", b"haringx"])
+        self.refused("the same row", self.changed(theory="haringx"), self.changed(theory="haringx"))
+
+    def test_words_that_contradict_the_parameters(self):
+        self.write("defaults.csv", ["case,parameter,value,choices", "beam,length,2,", "beam,ends,1,free|fixed", "beam,shear_stability,0,engesser|haringx",
+                                    "beam,moment_convention,0,spatial|semitangential|symmetrised"])
+        self.refused("shear_stability", self.changed(theory="haringx"))
+        self.refused("shear_stability", self.changed(parameters="shear_stability=haringx", theory="engesser"))
+        self.refused("moment_convention", self.changed(quantity="C_xx"))
+        self.refused("moment_convention", self.changed(quantity="C_xx", convention="semitangential RyRzRx"))
+        self.assertEqual(self.run_pack(self.changed(parameters="shear_stability=haringx", theory="haringx"), self.changed(quantity="C_xx", convention="spatial RyRzRx")).returncode, 0)
 
     def test_refused_pairs(self):
         self.refused("the same row", self.row, self.row)
@@ -109,16 +147,25 @@ class Pack(unittest.TestCase):
         self.assertEqual((self.folder / "t.h5").read_bytes(), before)
 
 
+class Words(unittest.TestCase):
+    def test_the_program_knows_the_same_words(self):
+        text = (ROOT / "harness" / "run" / "truths.h").read_text(encoding="utf-8").replace("\\\n", "")
+        for name, words in (("KINDS", pack.KINDS), ("THEORIES", pack.THEORIES[1:]), ("CONVENTIONS", pack.CONVENTIONS[1:])):
+            quoted = re.search(rf'define TRUTH_{name}\s+((?:"[^"]*"\s*)+)', text)[1]
+            self.assertEqual("".join(re.findall(r'"([^"]*)"', quoted)).split("|"), list(words), name)
+        self.assertIn(f"TRUTHS_VERSION = {pack.VERSION} ", text)
+
+
 class Tables(unittest.TestCase):
     def test_tables_parse(self):
         defaults = pack.read_defaults(ROOT / "reference" / "defaults.csv")
-        truths = pack.read_truths(ROOT / "reference" / "tables", defaults)
+        truths = pack.read_truths([ROOT / "reference" / name for name in pack.TRUTH_FOLDERS], defaults)
         self.assertGreater(sum(len(rows) for rows in truths.values()), 300)
         pack.read_findings(ROOT / "reference" / "findings.csv", defaults)
 
     def test_every_exact_row_names_its_program(self):
         defaults = pack.read_defaults(ROOT / "reference" / "defaults.csv")
-        for rows in pack.read_truths(ROOT / "reference" / "tables", defaults).values():
+        for rows in pack.read_truths([ROOT / "reference" / name for name in pack.TRUTH_FOLDERS], defaults).values():
             for row in rows:
                 if row["kind"] == "exact":
                     self.assertTrue((ROOT / row["source"]).is_file(), row)

@@ -10,12 +10,14 @@
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
 #include "harness/truth/seal.h"
+#include "harness/truth/truths.h"
 
 /* What a file is made with; the defaults are right. */
 typedef struct recipe {
-    const char *schema, *case_group, *kind, *model, *formulation, *parameters, *left_out_column, *finding_case;
+    const char *schema, *case_group, *kind, *model, *theory, *convention, *formulation, *parameters, *left_out_column,
+        *finding_case;
     int version, elements, short_column;
-    double value, uncertainty;
+    double value, uncertainty, at;
     uint64_t hash_change;
 } recipe;
 
@@ -25,9 +27,12 @@ static const recipe right = {.schema = "beamwork-truths",
                              .formulation = "",
                              .parameters = "",
                              .left_out_column = "",
-                             .version = 1,
+                             .theory = "",
+                             .convention = "",
+                             .version = TRUTHS_VERSION,
                              .value = 3,
-                             .uncertainty = 1e-9};
+                             .uncertainty = 1e-9,
+                             .at = NAN};
 
 static void put(hid_t at, const char *name, hid_t type, hsize_t rows, const void *value)
 {
@@ -63,11 +68,13 @@ static void put_truth(hid_t file, const recipe *r, const case_type *type)
     put_text(at, r, "unit", "N");
     put_text(at, r, "kind", r->kind);
     put_text(at, r, "model", r->model);
-    put_text(at, r, "convention", "");
+    put_text(at, r, "theory", r->theory);
+    put_text(at, r, "convention", r->convention);
     put_text(at, r, "source", "test");
     put(at, "value", H5T_NATIVE_DOUBLE, 1, pair);
     const double uncertainty[2] = {r->uncertainty, r->uncertainty};
     put(at, "uncertainty", H5T_NATIVE_DOUBLE, r->short_column ? 2 : 1, uncertainty);
+    put(at, "at", H5T_NATIVE_DOUBLE, 1, &r->at);
     put(at, "elements", H5T_NATIVE_INT, 1, &r->elements);
     put(at, "hash", H5T_NATIVE_UINT64, 1, &hash);
     H5Gclose(at);

@@ -59,8 +59,8 @@ static void wrong_files(const char *path)
     r.schema = "beamwork-results";
     refused(path, "not a file of truths", r, "foreign schema");
     r = right;
-    r.version = 2;
-    refused(path, "version 2", r, "newer version");
+    r.version = TRUTHS_VERSION + 1;
+    refused(path, "version", r, "newer version");
     r = right;
     r.left_out_column = "unit";
     refused(path, "unit", r, "missing column");
@@ -88,6 +88,57 @@ static void wrong_files(const char *path)
     refused(path, "elements", r, "a mesh without a formulation");
     r.elements = -1;
     refused(path, "elements", r, "negative number of elements");
+    r = right;
+    r.kind = "predicted";
+    refused(path, "elements", r, "a predicted limit of no formulation");
+    r.formulation = "beamw";
+    r.elements = 4;
+    refused(path, "elements", r, "a predicted limit of one mesh");
+    r = right;
+    r.theory = "timoshenko";
+    refused(path, "theory", r, "unknown theory");
+    r = right;
+    r.convention = "spatial moments";
+    refused(path, "convention", r, "unknown convention");
+    r = right;
+    r.at = INFINITY;
+    refused(path, "at", r, "infinite abscissa");
+}
+
+/* Rows that no limit is judged by: of one formulation, of a curve, of no gate. */
+static void rows_that_do_not_judge(const char *path)
+{
+    recipe of_formulation = right, of_curve = right, agreed = right;
+    of_formulation.kind = "predicted";
+    of_formulation.formulation = "beamw";
+    of_curve.at = 0.5;
+    agreed.kind = "agreement";
+    const recipe all[] = {of_formulation, of_curve, agreed};
+    for (int i = 0; i < 3; i++) {
+        truths t;
+        fault f = {""};
+        double value[CASE_MAX_PARAMETERS] = {0};
+        truths_file_make(path, &all[i]);
+        parameters_default(registry_cases[0], value);
+        gsl_test(truths_read(path, &t, &f) != STATUS_OK || t.rows != 1, "row %d is read %s", i, f.text);
+        gsl_test(truth_of(&t, registry_cases[0], value, "load", "same") != NULL, "row %d judges nothing", i);
+        truths_free(&t);
+    }
+}
+
+static void new_columns(const char *path)
+{
+    recipe r = right;
+    truths t;
+    fault f = {""};
+    r.theory = "haringx";
+    r.convention = "spatial RyRzRx";
+    r.at = 0.5;
+    truths_file_make(path, &r);
+    gsl_test(truths_read(path, &t, &f) != STATUS_OK || strcmp(t.row[0].theory, r.theory) != 0 ||
+                 strcmp(t.row[0].convention, r.convention) != 0 || t.row[0].on_curve != 1 || t.row[0].at != 0.5,
+             "theory, convention and abscissa %s", f.text);
+    truths_free(&t);
 }
 
 /* Every length of a file but the whole one, in steps; and bits turned over: refused. */
@@ -160,6 +211,8 @@ int main(void)
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     good_file(path);
     wrong_files(path);
+    rows_that_do_not_judge(path);
+    new_columns(path);
     damaged_files(path);
     strangers(path);
     unlink(path);
