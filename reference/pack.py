@@ -10,7 +10,7 @@ import pathlib
 import sys
 import zlib
 
-VERSION = 2  # of the packed file; TRUTHS_VERSION of harness/run/truths.h
+VERSION = 2  # of the packed file; TRUTHS_VERSION of harness/truth/truths.h
 HERE = pathlib.Path(__file__).resolve().parent
 COLUMNS = "case,parameters,formulation,theory,elements,quantity,at,value,unit,uncertainty,kind,model,convention,source".split(",")
 FINDING_COLUMNS = "case,parameters,formulation,quantity,verdict,limit,uncertainty,proof".split(",")
