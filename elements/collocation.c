@@ -16,7 +16,7 @@ struct element_data {
 };
 
 static const element_option options[] = {
-    [OPTION_STAGES] = {"stages", "3|4|5|6|7|8", 2, 0, 5, "Gauss points inside an element: order twice their number", 0},
+    [OPTION_STAGES] = {"stages", "3|4|5|6|7|8", 2, 0, 5, "Gauss points inside an element: order twice their number in statics", 0},
     {NULL, NULL, 0, 0, 0, NULL, 0},
 };
 

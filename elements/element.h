@@ -150,6 +150,7 @@ typedef struct element_type {
     unsigned offers;               /* element_feature */
     unsigned limits;               /* element_limit */
     unsigned lacks;                /* element_lack */
+    const char *lacks_by;          /* the equations that leave it out; NULL: nothing is lacking */
     unsigned shear_theories;       /* shear_theory */
     const char *own_theory;        /* of SHEAR_OWN, one line: what it is and where it is derived; else NULL */
     const element_option *options; /* ends with a NULL name; NULL: none */

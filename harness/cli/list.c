@@ -15,6 +15,27 @@ static void list_option(const element_option *o)
     }
 }
 
+/* What it is judged by. */
+static void list_declarations(const element_type *t)
+{
+    static const char *const analysis[ELEMENT_ANALYSES] = {"statics", "vibration", "buckling"};
+    double options[ELEMENT_MAX_OPTIONS] = {0};
+    for (int k = 0; t->options != NULL && t->options[k].name != NULL; k++)
+        options[k] = t->options[k].value;
+    printf("  %-24s order:", "");
+    for (int a = 0; a < ELEMENT_ANALYSES; a++) {
+        const element_order order = element_order_in(t, (element_analysis)a, options);
+        printf(" %d to %d in %s%s", order.least, order.highest, analysis[a], a + 1 < ELEMENT_ANALYSES ? "," : "\n");
+    }
+    printf("  %-24s shear in stability: %s%s%s%s\n", "", t->shear_theories & SHEAR_ENGESSER ? "engesser" : "",
+           t->shear_theories == (SHEAR_ENGESSER | SHEAR_HARINGX) ? " or " : "", t->shear_theories & SHEAR_HARINGX ? "haringx" : "",
+           t->own_theory != NULL    ? t->own_theory
+           : t->shear_theories == 0 ? "none, rigid"
+                                    : "");
+    if (t->lacks & LACKS_SHEAR_Y)
+        printf("  %-24s lacks: shear flexibility along y (%s)\n", "", t->lacks_by);
+}
+
 static void list_formulations(void)
 {
     printf("formulations (-f NAME[:KEY=VALUE,...]); all take newton=%s\n", formulation_newtons);
@@ -24,6 +45,7 @@ static void list_formulations(void)
         for (unsigned bit = 1; bit <= FEATURE_CURVATURE; bit <<= 1)
             if (t->offers & bit)
                 printf(" %s%s", model_feature_name(bit), (t->offers & ~(2 * bit - 1)) != 0 ? "," : "\n");
+        list_declarations(t);
         for (int k = 0; t->options != NULL && t->options[k].name != NULL; k++)
             list_option(&t->options[k]);
     }
@@ -34,6 +56,18 @@ static void list_cases(void)
     printf("cases ('beamwork list CASE' shows parameters and quantities)\n");
     for (int i = 0; registry_cases[i] != NULL; i++)
         printf("  %-24s %s\n", registry_cases[i]->name, registry_cases[i]->summary);
+}
+
+static void list_offer(const scene *s, const element_type *type)
+{
+    char words[200];
+    const int missing = model_missing(s, type, words, sizeof words);
+    const int partly = !missing && model_lacks(s, type, words, sizeof words);
+    printf("  %-28s %s%s\n", type->name,
+           missing  ? "does not offer "
+           : partly ? "runs without "
+                    : "runs",
+           missing || partly ? words : "");
 }
 
 static int list_case(const case_type *type)
@@ -61,11 +95,8 @@ static int list_case(const case_type *type)
     for (int i = 0; i < s.quantities; i++)
         printf("  %-28s %s%s\n", s.quantity[i].name, s.quantity[i].unit, s.quantity[i].reduction == SCENE_CURVE ? " (curve)" : "");
     printf("formulations\n");
-    for (int i = 0; registry_formulations[i] != NULL && outcome == STATUS_OK; i++) {
-        char words[200];
-        const int missing = model_missing(&s, registry_formulations[i], words, sizeof words);
-        printf("  %-28s %s%s\n", registry_formulations[i]->name, missing ? "does not offer " : "runs", missing ? words : "");
-    }
+    for (int i = 0; registry_formulations[i] != NULL && outcome == STATUS_OK; i++)
+        list_offer(&s, registry_formulations[i]);
     scene_free(&s);
     return outcome == STATUS_OK ? EXIT_AS_EXPECTED : cli_fail(outcome, f.text);
 }

@@ -82,6 +82,8 @@ static status build(model *m, const model_request *request, fault *f)
         outcome = mesh_build(m, request->elements, f);
     if (outcome == STATUS_OK)
         outcome = coordinates_number(m, f);
+    if (outcome == STATUS_OK && model_lacks(request->scene, request->type, words, sizeof words))
+        outcome = model_note_left_out(m, f, "%s", words);
     if (outcome == STATUS_OK)
         outcome = allocate(m, f);
     return outcome;

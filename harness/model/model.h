@@ -39,6 +39,9 @@ unsigned model_needs(const scene *);
 /* Those of them that one quantity depends on: inertia only where it is a frequency or of a rotating structure. */
 unsigned model_quantity_needs(const scene *, int quantity);
 int model_missing(const scene *, const element_type *, char *words, int size);
+/* What the type offers in one direction only (element_lack) where the scene needs it, in words: 0: nothing, 1: so little of it
+ * that it is shown and not refused, 2: model_missing says so too. */
+int model_lacks(const scene *, const element_type *, char *words, int size);
 /* Comma-free words of a feature, for results: "warping", "shear", ... */
 const char *model_feature_name(unsigned bit);
 

@@ -336,6 +336,7 @@ static void declarations(const element_type *type)
     gsl_test(flexible != (type->shear_theories != 0), "%s: flexible in shear, it has a theory of it", type->name);
     gsl_test(own && type->shear_theories != SHEAR_OWN, "%s: a theory of its own is its only one", type->name);
     gsl_test(own != (type->own_theory != NULL), "%s: a theory of its own has a name", type->name);
+    gsl_test((type->lacks != 0) != (type->lacks_by != NULL), "%s: what is lacking has its equations", type->name);
     gsl_test((type->lacks & LACKS_SHEAR_Y) && !flexible, "%s: what is lacking in part is offered", type->name);
     double options[ELEMENT_MAX_OPTIONS] = {0};
     for (int i = 0; type->options != NULL && type->options[i].name != NULL; i++)

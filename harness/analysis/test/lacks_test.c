@@ -1,0 +1,95 @@
+/* Shear flexibility in both directions: a formulation that offers shear has it, or says that it lacks it; it is refused where that
+ * matters.  A member of any thickness whose ends do not turn, under a force across it: F l^3 (1 + Phi)/(12 EI). */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <string.h>
+
+#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/registry.h"
+#include "harness/analysis/solve.h"
+
+static const double length = 1, wide = 0.08, young = 2e11, shear_modulus = 8e10, share = 5.0 / 6;
+
+/* A tip that slides along `direction` only. */
+static void guided(scene *s, double across_y, double across_z, int direction)
+{
+    section_spec spec;
+    const double y_axis[3] = {0, 1, 0};
+    double force[3] = {0};
+    scene_init(s, "guided");
+    section_spec_init(&spec);
+    spec.kind = SECTION_RECTANGLE;
+    spec.young = young;
+    spec.shear_modulus = shear_modulus;
+    spec.width = across_z;
+    spec.height = across_y;
+    spec.shear_factor[0] = spec.shear_factor[1] = share;
+    spec.given.Iw = 0;
+    const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, length, 0, 0);
+    scene_add_member(s, root, tip, scene_add_section(s, &spec), y_axis);
+    scene_hold_all(s, root);
+    scene_hold(s, tip, SCENE_RX, SCENE_RZ);
+    force[direction] = 1;
+    scene_add_load(s, SCENE_FORCE, tip, force[0], force[1], force[2]);
+    s->needs |= SCENE_NEED_SHEAR;
+    scene_quantity *q = scene_add_quantity(s, "u", "m", SCENE_COORDINATE, scene_add_analysis(s, SCENE_LINEAR));
+    q->node = tip;
+    q->row = direction;
+}
+
+/* Deflection; NAN: refused, in words[200]. */
+static double deflection(const element_type *type, scene *s, char *words)
+{
+    formulation chosen;
+    model *m = NULL;
+    solve_result r;
+    fault f = {""};
+    double u = NAN;
+    formulation_default(type, &chosen);
+    const model_request what = {s, type, chosen.option, 2, 0};
+    const status made = model_alloc(&what, &m, &f);
+    memcpy(words, f.text, strlen(f.text) + 1);
+    if (made != STATUS_OK)
+        return NAN;
+    const status solved = solve_scene(s, m, NULL, &r, &f);
+    u = solved == STATUS_OK ? r.quantity[0].value : INFINITY;
+    solve_result_free(&r);
+    const char *const *line;
+    for (int i = model_left_out(m, &line) - 1; i >= 0; i--)
+        if (strstr(line[i], "along") != NULL)
+            memcpy(words, line[i], strlen(line[i]) + 1);
+    model_free(m);
+    return u;
+}
+
+static void one(const element_type *type, double thickness, int direction)
+{
+    scene s;
+    char words[FAULT_TEXT];
+    guided(&s, thickness, wide, direction);
+    const double depth = direction == 1 ? thickness : wide, breadth = direction == 1 ? wide : thickness;
+    const double EI = young * breadth * depth * depth * depth / 12, GA = share * shear_modulus * breadth * depth;
+    const double Phi = 12 * EI / (GA * length * length), exact = length * length * length / (12 * EI) * (1 + Phi);
+    const double Phi_y = young * thickness * thickness / (share * shear_modulus * length * length);
+    const double u = deflection(type, &s, words);
+    const int lacks = (type->lacks & LACKS_SHEAR_Y) != 0, refused = lacks && Phi_y > 0.01;
+    gsl_test(refused != isnan(u), "%s: %g of %g m thick, Phi_y = %.3g: %s", type->name, thickness, length, Phi_y, words);
+    gsl_test(lacks != (strstr(words, "along y") != NULL), "%s: %g m thick: what is lacking is said: '%s'", type->name, thickness,
+             words);
+    if (refused)
+        gsl_test(strstr(words, type->lacks_by) == NULL, "%s: with the equation that leaves it out: %s", type->name, words);
+    else
+        gsl_test_rel(u, exact, lacks && direction == 1 ? Phi : 1e-9, "%s: deflection along %c, %g m thick", type->name,
+                     "xyz"[direction], thickness);
+    scene_free(&s);
+}
+
+int main(void)
+{
+    static const double thickness[] = {0.001, 0.003, 0.01, 0.03, 0.05, 0.06, 0.1, 0.3};
+    for (int i = 0; registry_formulations[i] != NULL; i++)
+        for (size_t k = 0; k < sizeof thickness / sizeof *thickness && (registry_formulations[i]->offers & FEATURE_SHEAR); k++)
+            for (int direction = 1; direction <= 2; direction++)
+                one(registry_formulations[i], thickness[k], direction);
+    return gsl_test_summary();
+}
