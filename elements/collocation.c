@@ -25,8 +25,8 @@ static int stage_count(const double value[])
     return FEWEST + (int)value[OPTION_STAGES];
 }
 
-/* Frequencies: masses are lumped.  Linear buckling: a prestress changes the stiffness inside the element to first order only
- * (elements/exact/prestress.h). */
+/* Frequencies: masses are lumped.  Linear buckling: the inner unknowns are those of the element without stress
+ * (elements/exact/prestress.c). */
 static element_order order(element_analysis analysis, const double value[])
 {
     const int collocated = 2 * stage_count(value);
