@@ -5,8 +5,8 @@
  * written as the nodes' values between p and q plus functionals of the strains: v_c = lin(v) + nu_y . e and so on.  In the
  * deformed state the functionals go along the mean m_k of the nodes' unit vectors (ours):
  *   r = lin(r) + m_y (nu_y . e) + m_z (nu_z . e),  n_y = lin(n_y) + m_z (chi_x . e) - m_x (chi_z . e), ...
- * which are linear in e and in vectors fixed to the nodes: their first two derivatives are exact, and so is what derives from
- * the kinetic energy.  The error of the centrifugal force in the fields' second order vanishes with the fourth power of l. */
+ * and the displacement of warping a m_x, which are linear in e and in vectors fixed to the nodes: their first two derivatives
+ * are exact, and so is what derives from the kinetic energy.  The error of the centrifugal force in the fields' second order vanishes with the fourth power of l. */
 #include "elements/beamw/inertia.h"
 
 #include <string.h>
@@ -63,10 +63,12 @@ typedef struct configuration {
     inertia_output *out;
 } configuration;
 
+enum { POSITION = -1, NOTHING = -2 };
+
 /* y = lin(a vector of the nodes) + sum_k m_k (along[k] . e). */
 typedef struct interpolation {
     double mass, x;
-    int director;           /* -1: position */
+    int director;           /* unit vector, or one of the next */
     const double *along[3]; /* [8] functional, NULL: none */
     double sign[3];
 } interpolation;
@@ -79,7 +81,7 @@ static void linear_part(const configuration *c, const interpolation *y, moving_v
             if (y->director >= 0) {
                 fixed[node][i] = weight[node] * c->vector[node][y->director][i];
                 v->y[i] += fixed[node][i];
-            } else {
+            } else if (y->director == POSITION) {
                 T[N * i + 7 * node + i] = weight[node];
                 v->y[i] += weight[node] * (c->x[node].r[i] - (c->spin != NULL ? c->spin->centre[i] : 0));
             }
@@ -139,7 +141,7 @@ static void add_interpolated(configuration *c, const interpolation *y)
             add_curvature(c, F, k, y->sign[k], y->along[k], gradient[k]);
 }
 
-/* A scalar field whose rate has a mass and which no turning frame acts on. */
+/* A twist whose rate has a mass and which no turning frame acts on. */
 static void add_scalar(const configuration *c, double mass, const double row[N])
 {
     for (int i = 0; i < N && c->out->M != NULL; i++)
@@ -154,7 +156,7 @@ static void add_point(configuration *c, const element_data *d, int g)
     double row[N] = {0}, j[3];
     add_interpolated(c, &(interpolation){.mass = weight * d->lumped.mass,
                                          .x = x,
-                                         .director = -1,
+                                         .director = POSITION,
                                          .along = {NULL, d->field[g][NU_Y], d->field[g][NU_Z]},
                                          .sign = {0, 1, 1}});
     if (!d->lumped.turns) { /* the twist alone */
@@ -176,8 +178,12 @@ static void add_point(configuration *c, const element_data *d, int g)
         y.director = k;
         add_interpolated(c, &y);
     }
-    dense_add_transpose_mul(N, 8, 1, c->J, d->field[g][PSI], row);
-    add_scalar(c, weight * d->lumped.warping, row);
+    if (d->lumped.warping > 0)
+        add_interpolated(c, &(interpolation){.mass = weight * d->lumped.warping,
+                                             .x = x,
+                                             .director = NOTHING,
+                                             .along = {d->field[g][PSI], NULL, NULL},
+                                             .sign = {1, 0, 0}});
 }
 
 static void add_consistent(const element_data *d, const node_state x[2], const element_spin *spin, inertia_output *out)

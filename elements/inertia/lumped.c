@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "elements/inertia/moving.h"
+#include "elements/math/dense.h"
 
 lumped_mass lumped_of(const section *c, unsigned features, double length)
 {
@@ -48,16 +49,38 @@ static void add_rotation(const lumped_mass *l, double share, const node_state *x
     }
 }
 
+/* Warping moves the section along its normal by -omega a, in a turning frame away from the axis: a vector a n_X of mass rho Iw. */
+static void add_warping(double mass, const node_state *x, const element_spin *spin, int at, int n, inertia_output *out)
+{
+    enum { COLUMNS = 4, A = 3 };
+    const double normal[3] = {x->R[0], x->R[3], x->R[6]};
+    double T[3 * COLUMNS] = {0}, F[3], mixed[3];
+    moving_vector v = {.mass = mass, .at = at + 3, .columns = COLUMNS, .T = T};
+    for (int i = 0; i < 3; i++) {
+        v.y[i] = x->a * normal[i];
+        T[COLUMNS * i + A] = normal[i];
+    }
+    moving_turning(v.y, 0, COLUMNS, T);
+    moving_add(&v, spin, n, out, F);
+    if (out->N == NULL)
+        return;
+    moving_turn(F, v.y, at + 3, n, out->N);
+    vec3_cross(normal, F, mixed);
+    for (int i = 0; i < 3; i++) {
+        out->N[(at + 3 + i) * n + at + 6] -= mixed[i];
+        out->N[(at + 6) * n + at + 3 + i] -= mixed[i];
+    }
+}
+
 void lumped_add(const lumped_mass *l, double share, const node_state *x, const element_spin *spin, int at, int n,
                 inertia_output *out)
 {
     add_translation(share * l->mass, x, spin, at, n, out);
     if (l->turns)
         add_rotation(l, share, x, spin, at, n, out);
-    if (out->M == NULL)
-        return;
-    out->M[(n + 1) * (at + 6)] += share * l->warping;
-    for (int i = 0; i < 3 && !l->turns; i++)
+    if (l->warping > 0)
+        add_warping(share * l->warping, x, spin, at, n, out);
+    for (int i = 0; i < 3 && !l->turns && out->M != NULL; i++)
         for (int k = 0; k < 3; k++)
             out->M[(at + 3 + i) * n + at + 3 + k] += share * l->rotary[0] * x->R[3 * i] * x->R[3 * k];
 }

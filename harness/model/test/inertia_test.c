@@ -215,6 +215,42 @@ static void check(const element_type *type, const double options[], int choice, 
     free(s.data);
 }
 
+/* Centrifugal energy [J] of a uniformly twisted element whose amplitudes are its twist rate. */
+static double twisted_energy(const element_type *type, const double options[], unsigned features, double angle, subject *s)
+{
+    double d[MOST] = {0}, V = NAN;
+    node_state x[ELEMENT_MAX_NODES];
+    prepare(type, options, features, s);
+    undeformed(s, x);
+    for (int k = 0; k < s->nodes; k++) {
+        const double turn = angle * k / (s->nodes - 1), ys = s->section.ys, zs = s->section.zs;
+        d[7 * k + 1] = ys * (1 - cos(turn)) + zs * sin(turn); /* about the shear centre: nothing shears */
+        d[7 * k + 2] = zs * (1 - cos(turn)) - ys * sin(turn);
+        d[7 * k + 3] = turn;
+        d[7 * k + 6] = sin(angle) / s->length; /* e2 of BEAMW is a sine */
+    }
+    move(s, 1, d, x);
+    s->type->inertia(s->data, x, &turning, &(inertia_output){.potential = &V});
+    free(s->data);
+    return V;
+}
+
+/* Fibres that warping moves along the beam turn at another distance from the axis: -1/2 int rho (omega a)^2 |Omega x e_x|^2 dV. */
+static void warping_in_a_turning_frame(const element_type *type, const double options[], int choice)
+{
+    const double angle = 0.005;
+    const unsigned features = type->offers & ~(unsigned)FEATURE_CURVATURE;
+    subject s = {0};
+    if (!(features & FEATURE_WARPING) || !(features & FEATURE_ROTARY_INERTIA))
+        return;
+    snprintf(s.name, sizeof s.name, "%s, mass %d", type->name, choice);
+    const double with = twisted_energy(type, options, features, angle, &s);
+    const double without = twisted_energy(type, options, features & ~(unsigned)FEATURE_WARPING, angle, &s);
+    const double a = sin(angle) / s.length, *w = turning.omega;
+    const double expected = -s.section.density * s.section.Iw * s.length * a * a * (w[1] * w[1] + w[2] * w[2]) / 2;
+    gsl_test_rel(with - without, expected, 2e-4, "%s: centrifugal energy of warping", s.name);
+}
+
 int main(void)
 {
     static const unsigned left_out[] = {0, FEATURE_ROTARY_INERTIA, FEATURE_WARPING, FEATURE_WARPING | FEATURE_SHEAR};
@@ -232,6 +268,7 @@ int main(void)
                 options[option] = choice;
             for (size_t k = 0; k < sizeof left_out / sizeof left_out[0]; k++)
                 check(type, options, choice, left_out[k]);
+            warping_in_a_turning_frame(type, options, choice);
         }
     }
     return gsl_test_summary();
