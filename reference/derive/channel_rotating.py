@@ -1,8 +1,11 @@
 """The channel cantilever of J section 5.2 while it turns about the vertical axis through its root: force at given deflections.
 
 Beam and load as in channel_cantilever.py.  In the turning frame every piece of the line of centroids is pulled outward by
-rho A Omega^2 times its distance from the axis; no rotary inertia.  F' = -f and m0' = -r x f are integrated with the state of the
-beam (beam.py), by Chebyshev collocation of all intervals at once; Newton's method with derivatives by complex steps.
+f = rho A Omega^2 times its distance from the axis.  With rotary inertia the fibres are: at v = R (omega a, y, z) from the centroid
+they are pulled by rho Omega^2 P v more, P = I - e_z e_z^T, which gives the moment c = rho Omega^2 sum_k I_k d_k x P d_k about it
+(d_k the columns of R, I = (Iw a^2, Iz, Iy); int omega y, int omega z and int y z vanish) and does the work
+rho Iw a Omega^2 d_x . P d_x on da.  F' = -f, m0' = -r x f - c and B' = -Mw - that are integrated with the state of the beam
+(beam.py), by Chebyshev collocation of all intervals at once; Newton's method with derivatives by complex steps.
 """
 import numpy as np
 
@@ -18,12 +21,14 @@ RELATIVE = 1e-8
 class Turning:
     """Unknowns: states at all points, one after the other, and the force on the tip."""
 
-    def __init__(self, omega):
+    def __init__(self, omega, rotary=0):
         beam, self.half, self.web = channel_beam("overall", 0)
         self.force = beam.EIz / LENGTH ** 2
         self.beam = beam.scaled(LENGTH, self.force)
         area = beam.EA / 210e9
         self.pull = DENSITY * area * omega ** 2 * LENGTH ** 2 / self.force
+        turning = rotary * DENSITY * omega ** 2 / self.force  # times the moments of area: without a unit
+        self.moments, self.bimoments = turning * np.array([beam.EIz, beam.EIy]) / 210e9, turning * beam.EIw / 210e9 / LENGTH ** 2
         self.arm = np.array([0, self.web, self.half]) / LENGTH
         self.points, self.W = chebyshev(NODES)
         s = np.concatenate([[0.0]] + [(i + self.points[1:]) / INTERVALS for i in range(INTERVALS)])
@@ -33,7 +38,12 @@ class Turning:
 
     def slope(self, z):
         outward = self.pull * z[:3] * np.array([1, 1, 0])[:, None]
-        return np.concatenate([self.beam.slope(z[:9], z[9:]), -outward, -np.cross(z[:3], outward, axis=0)])
+        R, a = rotation(z[3:7]), z[7]
+        P = np.array([1, 1, 0])[:, None]
+        moment = sum(I * np.cross(R[:, k], P * R[:, k], axis=0) for k, I in enumerate((self.bimoments * a * a, *self.moments)))
+        y = self.beam.slope(z[:9], z[9:])
+        y[8] -= self.bimoments * a * np.sum(R[:, 0] * P * R[:, 0], axis=0)
+        return np.concatenate([y, -outward, -np.cross(z[:3], outward, axis=0) - moment])
 
     def ends(self, z0, z1, load, deflection):
         """Sixteen conditions: root clamped and unable to warp; force, moment, bimoment and deflection of the tip."""
@@ -79,9 +89,9 @@ class Turning:
         raise ArithmeticError(f"Newton's method did not converge at {deflection}")
 
 
-def path(deflections, omega):
+def path(deflections, omega, rotary=0):
     """(force [N], displacement of the loaded point along y [m]) at each deflection [m]."""
-    t = Turning(omega)
+    t = Turning(omega, rotary)
     out, at = [], 0.0
     for w in deflections:
         while at < w - 1e-12:
@@ -92,9 +102,9 @@ def path(deflections, omega):
 
 
 def rows():
-    for omega in (10, 20, 40):
-        deflections = (0.25, 0.5, 1.0)
-        for w, (force, lateral) in zip(deflections, path(deflections, omega)):
-            at = parameters({"omega": omega, **({"w": w} if w != 0.5 else {})})
+    deflections = (0.25, 0.5, 1.0)
+    for omega, rotary in ((10, 0), (20, 0), (40, 0), (20, 1), (40, 1)):
+        for w, (force, lateral) in zip(deflections, path(deflections, omega, rotary)):
+            at = parameters({"omega": omega, **({"w": w} if w != 0.5 else {}), **({"rotary_inertia": rotary} if rotary else {})})
             yield "c_cantilever", at, "load_at_w", force, "N", RELATIVE
             yield "c_cantilever", at, "lateral", lateral, "m", RELATIVE
