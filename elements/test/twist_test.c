@@ -91,6 +91,90 @@ static void hyperbolic_twist(void)
     gsl_test(!(halves_against_whole(&c, 0.3, TWIST_HYPERBOLIC) < 1e-10), "without Saint-Venant torsion both are");
 }
 
+/* Linear stiffness at rest K [14 x 14] and, along the nodes' displacement d [14], the energy of third order
+ * 1/2 sum_i s_i (d . H_i d + e . Q_i e), e = J d, s = S e: what a prestress of the same kind adds to the stiffness. */
+static double third_order(const section *c, double l0, twist_kind torsion, unsigned features, const double d[N])
+{
+    subject s;
+    const double none[N] = {0}, zero[STRAINS] = {0};
+    double J[STRAINS * N], S[STRAINS * STRAINS], e[STRAINS], sigma[STRAINS], G[STRAINS * STRAINS], H[N * N], energy = 0;
+    node_state x[2];
+    start_with(&s, &element_beamw_consistent, c, l0, features, "torsion", torsion);
+    place(l0, none, x);
+    s.type->strain(data_of(&s), x, &(strain_output){.J = J});
+    s.type->stress(data_of(&s), zero, NULL, &(stress_output){.C = S});
+    dense_mul_vec(STRAINS, N, J, d, e);
+    dense_mul_vec(STRAINS, STRAINS, S, e, sigma);
+    s.type->strain(data_of(&s), x, &(strain_output){.s = sigma, .H = H});
+    s.type->geometric(data_of(&s), sigma, G);
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++)
+            energy += d[i] * H[N * i + j] * d[j] / 2;
+    for (int i = 0; i < STRAINS; i++)
+        for (int j = 0; j < STRAINS; j++)
+            energy += e[i] * G[STRAINS * i + j] * e[j] / 2;
+    return energy;
+}
+
+/* The middle of two halves in linear equilibrium between displaced ends. */
+static void middle_of(const section *c, double l0, twist_kind torsion, const double p[7], const double q[7], double out[7])
+{
+    enum { M = 7 };
+    double half[N * N], A[M * M];
+    int pivot[M];
+    linear_stiffness(c, l0 / 2, torsion, half);
+    for (int i = 0; i < M; i++) {
+        out[i] = 0;
+        for (int j = 0; j < M; j++) {
+            A[M * i + j] = half[N * (M + i) + M + j] + half[N * i + j];
+            out[i] -= half[N * (M + i) + j] * p[j] + half[N * i + M + j] * q[j];
+        }
+    }
+    dense_lu(M, A, pivot);
+    dense_lu_solve(M, 1, A, pivot, out);
+}
+
+/* Energy of third order of two halves beside that of the whole, of the sizes of both: zero if and only if the geometric stiffness is
+ * integrated over the exact linear solution, since the middle node, being in equilibrium, may follow to first order only. */
+static double third_order_apart(const section *c, double l0, twist_kind torsion, unsigned features, unsigned seed)
+{
+    double d[N], halves[2][N], middle[7];
+    unsigned long long state = seed;
+    for (int i = 0; i < N; i++) {
+        state = state * 6364136223846793005ull + 1442695040888963407ull;
+        d[i] = ((double)(state >> 11) / 4503599627370496.0 - 1) * (i % 7 < 3 ? l0 : i % 7 < 6 ? 1 : 1 / l0);
+    }
+    middle_of(c, l0, torsion, d, d + 7, middle);
+    memcpy(halves[0], d, 7 * sizeof *d);
+    memcpy(halves[0] + 7, middle, sizeof middle);
+    memcpy(halves[1], middle, sizeof middle);
+    memcpy(halves[1] + 7, d + 7, 7 * sizeof *d);
+    const double first = third_order(c, l0 / 2, torsion, features, halves[0]),
+                 second = third_order(c, l0 / 2, torsion, features, halves[1]), whole = third_order(c, l0, torsion, features, d);
+    return fabs(first + second - whole) / (fabs(first) + fabs(second) + fabs(whole));
+}
+
+/* Buckling: under any prestress, with both theories of shear and all that couples. */
+static void hyperbolic_twist_under_stress(void)
+{
+    const section c = unsymmetric();
+    const unsigned all = FEATURE_SHEAR | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS;
+    const double lengths[] = {0.03, 0.1, 0.3, 3, 30};
+    for (int i = 0; i < 5; i++)
+        for (int haringx = 0; haringx < 2; haringx++) {
+            const unsigned features = all | (haringx ? FEATURE_HARINGX : FEATURE_ENGESSER);
+            double exact = 0, cubic = 0;
+            for (unsigned seed = 1; seed <= 10; seed++) {
+                exact = fmax(exact, third_order_apart(&c, lengths[i], TWIST_HYPERBOLIC, features, seed));
+                cubic = fmax(cubic, third_order_apart(&c, lengths[i], TWIST_CUBIC, features, seed));
+            }
+            gsl_test(!(exact < 1e-10 && cubic > 1e-8),
+                     "%g m, %s: geometric stiffness of one hyperbolic element is that of two (%.1e), "
+                     "of a cubic one not (%.1e)",
+                     lengths[i], haringx ? "haringx" : "engesser", exact, cubic);
+        }
+}
+
 /* Functions and points for every lambda: limits, means, squares in closed form. */
 static void twist_functions(void)
 {
@@ -133,6 +217,7 @@ static void twist_functions(void)
 int main(void)
 {
     hyperbolic_twist();
+    hyperbolic_twist_under_stress();
     twist_functions();
     return gsl_test_summary();
 }
