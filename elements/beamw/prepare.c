@@ -22,7 +22,7 @@ const element_option prepare_options[] = {
 const element_option prepare_options_consistent[] = {
     [OPTION_MASS] = MASS_OPTION,
     [OPTION_TORSION] = {"torsion", "cubic|hyperbolic", TWIST_CUBIC, 0, 1,
-                        "twist along the element: J Eq. 38, or the exact functions of non-uniform torsion", 0},
+                        "twist along the element: J Eq. 38, or the exact functions of non-uniform torsion", FEATURE_WARPING},
     [OPTION_INSIDE] = {"inside", "linear|following", 1, 0, 1,
                        "bending, shear and warping inside the element: as without stress, or in equilibrium with it", 0},
     {NULL, NULL, 0, 0, 0, NULL, 0},
