@@ -43,7 +43,7 @@ static status rectangle(const section_spec *s, section *out, fault *f)
     out->wagner_torque = pow(wide, 5) * thin / 1440;
     const int theory = s->shear_factor[0] > 0 || s->shear_factor[1] > 0;
     for (int i = 0; i < 2; i++)
-        out->F[4 * i] = 1 / ((theory ? s->shear_factor[i] : 5.0 / 6) * out->A);
+        out->F[4 * i] = 1 / ((s->shear_factor[i] > 0 ? s->shear_factor[i] : 5.0 / 6) * out->A);
     out->F[8] = theory ? 0 : 1 / (5.0 / 6 * thin * wide * wide * wide / 12);
     out->rectangle = 1;
     out->width = w;

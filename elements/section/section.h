@@ -46,7 +46,7 @@ typedef struct section_spec {
     } wall[SECTION_MAX_WALLS]; /* thickness [m] */
     int thickness_terms;       /* 1: add the t^3 terms of formulation notes section 2 (off for thin-walled work) */
     double width, height;      /* rectangle: along z and along y [m] */
-    double shear_factor[2];    /* rectangle: k for Qy and Qz; 0: 5/6 from the thickness terms */
+    double shear_factor[2];    /* rectangle: k for Qy and Qz; 0: 5/6 from the thickness terms; both 0: their warping shear too */
     int sheet_warping;         /* rectangle: Iw = w^3 t^3/144 (same) and It = exact Saint-Venant series in either case */
     section constants;         /* SECTION_CONSTANTS: taken as given; D or F must be given */
     /* Overrides applied after computing (a printed table's rounded values); NAN: keep what was computed. */

@@ -215,6 +215,43 @@ static void check(const element_type *type, const double options[], int choice, 
     free(s.data);
 }
 
+/* v^T M v of a straight element that turns about an axis through its first node at one radian a second. */
+static double turning_inertia(const element_type *type, const double options[], unsigned features, int axis, subject *s)
+{
+    double M[MOST * MOST], v[MOST] = {0}, Mv[MOST], omega[3] = {0};
+    node_state x[ELEMENT_MAX_NODES];
+    omega[axis] = 1;
+    prepare(type, options, features, s);
+    undeformed(s, x);
+    for (int k = 0; k < s->nodes; k++) {
+        vec3_cross(omega, x[k].r, v + 7 * k);
+        memcpy(v + 7 * k + 3, omega, sizeof omega);
+    }
+    s->type->inertia(s->data, x, NULL, &(inertia_output){.M = M});
+    dense_mul_vec(s->coordinates, s->coordinates, M, v, Mv);
+    free(s->data);
+    return dot(s->coordinates, v, Mv);
+}
+
+/* Of a rigid rotation: rho l (Ip, Iy, Iz), each about its own axis, beside what the masses on the line have. */
+static void moments_of_inertia(const element_type *type, const double options[], int choice)
+{
+    const unsigned features = type->offers & ~(unsigned)FEATURE_CURVATURE;
+    subject s = {0};
+    if (!(features & FEATURE_ROTARY_INERTIA))
+        return;
+    snprintf(s.name, sizeof s.name, "%s, mass %d", type->name, choice);
+    for (int axis = 0; axis < 3; axis++) {
+        const double whole = turning_inertia(type, options, features, axis, &s);
+        const double line = turning_inertia(type, options, features & ~(unsigned)FEATURE_ROTARY_INERTIA, axis, &s);
+        const section *c = &s.section;
+        const double moment = c->density * s.length * (axis == 0 ? c->Ip : axis == 1 ? c->Iy : c->Iz);
+        gsl_test_rel(whole - (axis == 0 ? 0 : line), moment, 1e-10, "%s: moment of inertia about %c", s.name, "xyz"[axis]);
+        if (axis == 0)
+            gsl_test_rel(line, moment, 1e-12, "%s: the twist has inertia always", s.name);
+    }
+}
+
 /* Centrifugal energy [J] of a uniformly twisted element whose amplitudes are its twist rate. */
 static double twisted_energy(const element_type *type, const double options[], unsigned features, double angle, subject *s)
 {
@@ -269,6 +306,7 @@ int main(void)
             for (size_t k = 0; k < sizeof left_out / sizeof left_out[0]; k++)
                 check(type, options, choice, left_out[k]);
             warping_in_a_turning_frame(type, options, choice);
+            moments_of_inertia(type, options, choice);
         }
     }
     return gsl_test_summary();

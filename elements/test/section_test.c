@@ -1,0 +1,155 @@
+/* Section constants that two descriptions share: a rectangle and a wall of its thickness, at any angle; walls with their thickness
+ * and the area itself. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stddef.h>
+
+#include "elements/math/quadrature.h"
+#include "elements/section/section.h"
+
+static section_spec start_spec(section_kind kind)
+{
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = kind;
+    spec.young = 2e11;
+    spec.shear_modulus = 8e10;
+    return spec;
+}
+
+static section computed(const section_spec *spec)
+{
+    section c = {0};
+    fault f = {""};
+    gsl_test(section_compute(spec, &c, &f) != STATUS_OK, "section: %s", f.text);
+    return c;
+}
+
+/* One wall of length h and thickness t whose middle is at (y, z), turned by `angle` from the y axis. */
+static section wall_section(double h, double t, double y, double z, double angle)
+{
+    section_spec spec = start_spec(SECTION_WALLS);
+    spec.points = 2;
+    spec.walls = 1;
+    for (int i = 0; i < 2; i++) {
+        spec.point[i][0] = y + (i - 0.5) * h * cos(angle);
+        spec.point[i][1] = z + (i - 0.5) * h * sin(angle);
+        spec.wall[0].to = 1;
+    }
+    spec.wall[0].thickness = t;
+    spec.thickness_terms = 1;
+    return computed(&spec);
+}
+
+static section rectangle(double width, double height, double ky, double kz)
+{
+    section_spec spec = start_spec(SECTION_RECTANGLE);
+    spec.width = width;
+    spec.height = height;
+    spec.shear_factor[0] = ky;
+    spec.shear_factor[1] = kz;
+    return computed(&spec);
+}
+
+/* Without given factors: shear and warping shear of a wall. Its long side is y; the rectangle's is z where it is wide. */
+static void rectangle_is_a_wall(double h, double t)
+{
+    const section wall = wall_section(h, t, 0, 0, 0), wide = rectangle(h, t, 0, 0), high = rectangle(t, h, 0, 0);
+    gsl_test_rel(wide.A, wall.A, 1e-14, "area of %g x %g", h, t);
+    gsl_test_rel(wide.Iy, wall.Iz, 1e-13, "stiff bending");
+    gsl_test_rel(wide.Iz, wall.Iy, 1e-13, "soft bending");
+    gsl_test_rel(wide.Iw, wall.Iw, 1e-13, "warping constant of %g x %g", h, t);
+    gsl_test_rel(wide.F[0], wall.F[4], 1e-13, "shear across the wall");
+    gsl_test_rel(wide.F[4], wall.F[0], 1e-13, "shear along the wall");
+    gsl_test_rel(wide.F[8], wall.F[8], 1e-13, "warping shear of %g x %g", h, t);
+    gsl_test_rel(high.F[8], wide.F[8], 1e-14, "warping shear knows no side");
+    gsl_test_rel(high.Iw, wide.Iw, 1e-14, "nor does warping");
+    gsl_test_rel(wide.D[8] * wide.F[8], 1, 1e-14, "rigidity of warping shear");
+}
+
+static void given_factors(void)
+{
+    const section one = rectangle(0.1, 0.02, 0.85, 0), none = rectangle(0.1, 0.02, 0, 0), both = rectangle(0.1, 0.02, 0.85, 0.85);
+    gsl_test_rel(one.F[0], both.F[0], 1e-14, "a factor that is given counts");
+    gsl_test_rel(one.F[4], none.F[4], 1e-14, "the one beside it is 5/6");
+    gsl_test(one.F[8] != 0 || both.F[8] != 0, "with given factors there is no warping shear");
+}
+
+/* A wall anywhere at any angle has the principal axes and constants of its rectangle. */
+static void turned_wall(void)
+{
+    const double h = 0.13, t = 0.017;
+    const section straight = wall_section(h, t, 0, 0, 0);
+    for (int i = -8; i <= 8; i++) {
+        const double angle = 0.19 * i;
+        const section c = wall_section(h, t, 0.3, -0.2, angle);
+        gsl_test_rel(fmax(c.Iy, c.Iz), straight.Iz, 1e-12, "turned by %g: stiff bending", angle);
+        gsl_test_rel(fmin(c.Iy, c.Iz), straight.Iy, 1e-12, "soft bending");
+        gsl_test_rel(c.Iw, straight.Iw, 1e-12, "warping constant");
+        gsl_test_rel(c.F[8], straight.F[8], 1e-12, "warping shear");
+        gsl_test_rel(fmin(c.F[0], c.F[4]), fmin(straight.F[0], straight.F[4]), 1e-12, "shear");
+        gsl_test_abs(hypot(c.ys, c.zs), 0, 1e-14, "shear centre in the middle");
+    }
+}
+
+/* int (y, z, 1)(y, z, 1)^T dA over walls of their thickness, by quadrature, in wall coordinates. */
+static void area_moments(const section_spec *s, double sum[3][3])
+{
+    enum { N = 4 };
+    double x[N], w[N];
+    quadrature_points(N, x, w, NULL);
+    for (int i = 0; i < 9; i++)
+        sum[i / 3][i % 3] = 0;
+    for (int k = 0; k < s->walls; k++) {
+        const double *p = s->point[s->wall[k].from], *q = s->point[s->wall[k].to], t = s->wall[k].thickness;
+        const double along[2] = {q[0] - p[0], q[1] - p[1]}, length = hypot(along[0], along[1]);
+        for (int i = 0; i < N * N; i++) {
+            const double u = x[i / N], v = (x[i % N] - 0.5) * t / length;
+            const double point[3] = {p[0] + u * along[0] - v * along[1], p[1] + u * along[1] + v * along[0], 1};
+            for (int j = 0; j < 9; j++)
+                sum[j / 3][j % 3] += w[i / N] * w[i % N] * t * length * point[j / 3] * point[j % 3];
+        }
+    }
+}
+
+/* Second moments with thickness terms are those of the area. */
+static void thick_walls(void)
+{
+    static const double point[4][2] = {{0, 0}, {0.05, 0.01}, {0.05, 0.08}, {0.02, 0.1}};
+    section_spec spec = start_spec(SECTION_WALLS);
+    spec.points = 4;
+    spec.walls = 3;
+    spec.thickness_terms = 1;
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 2; k++)
+            spec.point[i][k] = point[i][k];
+    for (int i = 0; i < 3; i++) {
+        spec.wall[i].from = i;
+        spec.wall[i].to = i + 1;
+        spec.wall[i].thickness = 0.004 + 0.003 * i;
+    }
+    const section c = computed(&spec);
+    double m[3][3];
+    area_moments(&spec, m);
+    const double yc = m[0][2] / m[2][2], zc = m[1][2] / m[2][2];
+    const double yy = m[0][0] - m[2][2] * yc * yc, zz = m[1][1] - m[2][2] * zc * zc, yz = m[0][1] - m[2][2] * yc * zc;
+    const double mean = (yy + zz) / 2, radius = hypot((yy - zz) / 2, yz);
+    gsl_test_rel(c.A, m[2][2], 1e-13, "area of thick walls");
+    gsl_test_rel(c.centroid[0], yc, 1e-12, "centroid, y");
+    gsl_test_rel(c.centroid[1], zc, 1e-12, "centroid, z");
+    gsl_test_rel(fmax(c.Iy, c.Iz), mean + radius, 1e-12, "larger second moment of thick walls");
+    gsl_test_rel(fmin(c.Iy, c.Iz), mean - radius, 1e-12, "smaller second moment of thick walls");
+    gsl_test_rel(c.Ip, yy + zz, 1e-12, "polar moment of thick walls");
+    const double a = c.axes_angle, about_y = yy * cos(a) * cos(a) + zz * sin(a) * sin(a) + 2 * yz * sin(a) * cos(a);
+    gsl_test_rel(c.Iz, about_y, 1e-12, "Iz belongs to the y axis that was found");
+}
+
+int main(void)
+{
+    rectangle_is_a_wall(0.1, 0.02);
+    rectangle_is_a_wall(0.1, 0.0003);
+    given_factors();
+    turned_wall();
+    thick_walls();
+    return gsl_test_summary();
+}
