@@ -197,6 +197,14 @@ class ThirdOrder(unittest.TestCase):
             self.assertLess(np.max(np.abs(residual / rate ** 4 - f(X))), 1e-12)
             self.assertGreater(np.max(np.abs(residual - f(X))), 0.5)
 
+    def test_initial_strains_of_an_arc(self):
+        """N Eq. 37 along a plane arc of turn psi, in which N Eq. 52 has no initial elongation."""
+        for psi in (0.05, 0.2, math.pi / 4):
+            u, zp, zq = 2 * math.sin(psi / 2) / psi - 1, -psi / 2, psi / 2  # per L
+            elongation = u + (2 * zp ** 2 - zp * zq + 2 * zq ** 2) / 30
+            self.assertAlmostEqual(elongation / (psi ** 4 / 1920), 1, delta=psi ** 2 / 100)
+        self.assertAlmostEqual(elongation, 2.0e-4, delta=0.05e-4)
+
     def test_sign_of_the_shear_strain(self):
         """g_z = +(u_z' + phi_y) in N Eqs. 16, 20 and 25; Eq. 11 has the opposite."""
         Phi, yp, yq = 0.8, 0.3, 0.5
