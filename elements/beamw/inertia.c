@@ -6,7 +6,8 @@
  * deformed state the functionals go along the mean m_k of the nodes' unit vectors (ours):
  *   r = lin(r) + m_y (nu_y . e) + m_z (nu_z . e),  n_y = lin(n_y) + m_z (chi_x . e) - m_x (chi_z . e), ...
  * and the displacement of warping a m_x, which are linear in e and in vectors fixed to the nodes: their first two derivatives
- * are exact, and so is what derives from the kinetic energy.  The error of the centrifugal force in the fields' second order vanishes with the fourth power of l. */
+ * are exact, and so is what derives from the kinetic energy.  The error of the centrifugal force in the fields' second order
+ * vanishes with the fourth power of l. */
 #include "elements/beamw/inertia.h"
 
 #include <string.h>

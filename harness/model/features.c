@@ -135,7 +135,11 @@ int model_missing(const scene *s, const element_type *type, char *words, int siz
             used += snprintf(words + used, (size_t)(size - used), "%s%s", used > 0 ? ", " : "", names[i].name);
     if (missing != 0)
         return 1;
-    return limit_hit(s, type, words, size) || model_lacks(s, type, words, size) > 1;
+    if (limit_hit(s, type, words, size) || model_lacks(s, type, words, size) > 1)
+        return 1;
+    if (size > 0)
+        words[0] = '\0';
+    return 0;
 }
 
 /* What elements of one section are asked for. */

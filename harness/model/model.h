@@ -38,7 +38,7 @@ void model_free(model *);
 unsigned model_needs(const scene *);
 /* Those of them that one quantity depends on: inertia only where it is a frequency or of a rotating structure. */
 unsigned model_quantity_needs(const scene *, int quantity);
-int model_missing(const scene *, const element_type *, char *words, int size);
+int model_missing(const scene *, const element_type *, char *words, int size); /* words are empty if and only if it is 0 */
 /* What the type offers in one direction only (element_lack) where the scene needs it, in words: 0: nothing, 1: so little of it
  * that it is shown and not refused, 2: model_missing says so too. */
 int model_lacks(const scene *, const element_type *, char *words, int size);

@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "harness/analysis/solve.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
-#include "harness/analysis/solve.h"
 
 static const double length = 1, wide = 0.08, young = 2e11, shear_modulus = 8e10, share = 5.0 / 6;
 
@@ -67,6 +67,8 @@ static void one(const element_type *type, double thickness, int direction)
     scene s;
     char words[FAULT_TEXT];
     guided(&s, thickness, wide, direction);
+    char missing[200];
+    const int runs = !model_missing(&s, type, missing, sizeof missing);
     const double depth = direction == 1 ? thickness : wide, breadth = direction == 1 ? wide : thickness;
     const double EI = young * breadth * depth * depth * depth / 12, GA = share * shear_modulus * breadth * depth;
     const double Phi = 12 * EI / (GA * length * length), exact = length * length * length / (12 * EI) * (1 + Phi);
@@ -74,6 +76,8 @@ static void one(const element_type *type, double thickness, int direction)
     const double u = deflection(type, &s, words);
     const int lacks = (type->lacks & LACKS_SHEAR_Y) != 0, refused = lacks && Phi_y > 0.01;
     gsl_test(refused != isnan(u), "%s: %g of %g m thick, Phi_y = %.3g: %s", type->name, thickness, length, Phi_y, words);
+    gsl_test(runs != !refused || runs != (missing[0] == '\0'), "%s: %g m thick: what is missing: '%s'", type->name, thickness,
+             missing);
     gsl_test(lacks != (strstr(words, "along y") != NULL), "%s: %g m thick: what is lacking is said: '%s'", type->name, thickness,
              words);
     if (refused)

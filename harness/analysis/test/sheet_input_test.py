@@ -60,7 +60,7 @@ class BadInput(unittest.TestCase):
 
 
 class Extremes(unittest.TestCase):
-    """L/w 0.5 to 20, w/t 10 to 1000, u_y to 0.5 L: an answer, or the reason why there is none."""
+    """L/w 0.5 to 20, w/t 10 to 1000, u_y to 0.5 L: an answer, or the reason why there is none.  Sheets too thick for N Eq. 50 are refused."""
 
     def test_answer_or_reason(self):
         answers = 0
@@ -68,7 +68,8 @@ class Extremes(unittest.TestCase):
             for formulation in ("sheet_third", "collocation", "geometrically_exact", "beamw_consistent"):
                 done = solve("sheet_cantilever", formulation, 4, f"length={length}", f"thickness={0.1 / slenderness}", f"tip_deflection={deflection * length}")
                 at = (formulation, length, slenderness, deflection, done.stderr)
-                self.assertIn(done.returncode, (0, 1), at)
+                Phi = 2.6 / (13 / 15.3) * (0.1 / slenderness / length) ** 2  # nu = 0.3, k = 10 (1 + nu)/(12 + 11 nu)
+                self.assertIn(done.returncode, (2,) if formulation == "sheet_third" and Phi > 0.01 else (0, 1), at)
                 if done.returncode == 0:
                     answers += 1
                     values = {q["name"]: q["value"] for q in json.loads(done.stdout)["quantities"]}
