@@ -10,8 +10,8 @@
 
 static const double length = 1, wide = 0.08, young = 2e11, shear_modulus = 8e10, share = 5.0 / 6;
 
-/* A tip that slides along `direction` only. */
-static void guided(scene *s, double across_y, double across_z, int direction)
+/* A tip that slides along `direction` only; a beam described by so many members. */
+static void guided(scene *s, double across_y, double across_z, int direction, int members)
 {
     section_spec spec;
     const double y_axis[3] = {0, 1, 0};
@@ -25,8 +25,14 @@ static void guided(scene *s, double across_y, double across_z, int direction)
     spec.height = across_y;
     spec.shear_factor[0] = spec.shear_factor[1] = share;
     spec.given.Iw = 0;
-    const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, length, 0, 0);
-    scene_add_member(s, root, tip, scene_add_section(s, &spec), y_axis);
+    const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, length, 0, 0), profile = scene_add_section(s, &spec);
+    int last = root;
+    for (int i = 1; i < members; i++) {
+        const int next = scene_add_node(s, length * i / members, 0, 0);
+        scene_add_member(s, last, next, profile, y_axis);
+        last = next;
+    }
+    scene_add_member(s, last, tip, profile, y_axis);
     scene_hold_all(s, root);
     scene_hold(s, tip, SCENE_RX, SCENE_RZ);
     force[direction] = 1;
@@ -62,11 +68,11 @@ static double deflection(const element_type *type, scene *s, char *words)
     return u;
 }
 
-static void one(const element_type *type, double thickness, int direction)
+static void one(const element_type *type, double thickness, int direction, int members)
 {
     scene s;
     char words[FAULT_TEXT];
-    guided(&s, thickness, wide, direction);
+    guided(&s, thickness, wide, direction, members);
     char missing[200];
     const int runs = !model_missing(&s, type, missing, sizeof missing);
     const double depth = direction == 1 ? thickness : wide, breadth = direction == 1 ? wide : thickness;
@@ -94,6 +100,7 @@ int main(void)
     for (int i = 0; registry_formulations[i] != NULL; i++)
         for (size_t k = 0; k < sizeof thickness / sizeof *thickness && (registry_formulations[i]->offers & FEATURE_SHEAR); k++)
             for (int direction = 1; direction <= 2; direction++)
-                one(registry_formulations[i], thickness[k], direction);
+                for (int members = 1; members <= 3; members += 2)
+                    one(registry_formulations[i], thickness[k], direction, members);
     return gsl_test_summary();
 }
