@@ -43,6 +43,7 @@ static void test_section(const element_type *type, section *out)
         spec.wall[i].thickness = 0.0013 + 0.0007 * i;
     }
     gsl_test(section_compute(&spec, out, NULL) != STATUS_OK, "%s: section", type->name);
+    out->Iw = out->A * pow(0.2, 4); /* so that warping is as large as what is compared with it */
 }
 
 static void prepare(const element_type *type, const double options[], unsigned features, subject *s)
