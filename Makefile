@@ -46,12 +46,12 @@ help: ## this list
 verify: all ## judge every formulation on every case against the stored truths
 	@$(PROGRAM) verify --shapes -o $(BUILD)/results.h5 --json $(BUILD)/verify.json --junit $(BUILD)/junit.xml --markdown $(BUILD)/verify.md $(VERIFY)
 
-test: all $(TESTS) layers ## run all tests; ends in "N passed, M failed"
-	@BEAMWORK=$(PROGRAM) BEAMWORK_TRUTHS=$(TRUTHS) BEAMWORK_REFERENCE=$(CURDIR)/reference harness/tools/run_tests.sh $(BUILD)/logs $(TESTS) -- $(sort $(PYTHON_TESTS))
+test: all needs-test $(TESTS) layers ## run all tests; ends in "N passed, M failed" (and ", K skipped")
+	@BEAMWORK="$(PROGRAM)" BEAMWORK_TRUTHS="$(TRUTHS)" BEAMWORK_REFERENCE="$(CURDIR)/reference" harness/tools/run_tests.sh $(BUILD)/logs $(TESTS) -- $(sort $(PYTHON_TESTS))
 
 all: $(PROGRAM) $(TRUTHS) ## build the program, the library and the packed truths
 
-report: all ## draw the report of the last verify into build/report/index.html
+report: all needs-report ## draw the report of the last verify into build/report/index.html
 	@test -f $(BUILD)/results.h5 || $(MAKE) --no-print-directory verify
 	@test $(BUILD)/newton.json -nt $(PROGRAM) || $(MAKE) --no-print-directory newton
 	@test $(BUILD)/stress.json -nt $(PROGRAM) || $(PROGRAM) stress -o $(BUILD)/stress.txt --json $(BUILD)/stress.json
@@ -88,7 +88,7 @@ compare: ## errors and work of the last verify against the committed ones
 baseline: verify ## accept the errors and work of now: review the diff
 	@$(PROGRAM) compare $(BUILD)/results.h5 -o $(BASELINE)
 
-truths: ## derive every exact row again and compare it with reference/tables
+truths: needs-truths ## derive every exact row again and compare it with reference/tables
 	@$(PYTHON) reference/derive/rederive.py
 
 causes: verify ## find by experiment why a verdict is not `pass`; rewrites the proofs in reference/findings.csv
@@ -109,7 +109,7 @@ layers: ## check that includes point down only
 	@harness/tools/layers.sh
 
 asan: ## tests under the address and undefined-behaviour sanitizers
-	@$(MAKE) --no-print-directory BUILD=$(BUILD)/asan CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer" test
+	@$(MAKE) --no-print-directory BUILD="$(BUILD)/asan" CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer" test
 
 tidy: ## clang-tidy, findings are errors
 	@clang-tidy --quiet --warnings-as-errors='*' $(LIBRARY_SOURCES) $(PROGRAM_SOURCES) -- $(BASE_CFLAGS) $(DEP_CFLAGS) -DBEAMWORK_VERSION='""' -DBEAMWORK_COMMIT='""' -DBEAMWORK_CFLAGS='""'
@@ -127,7 +127,12 @@ clean: ## remove what was built
 	@rm -rf $(BUILD)
 
 $(BUILD)/flags.mk: harness/tools/dependencies.sh
-	@CC="$(CC)" harness/tools/dependencies.sh $@
+	@CC="$(CC)" harness/tools/dependencies.sh build "$@"
+
+# What a command needs beside the program; what single tests need is never installed.
+.PHONY: needs-report needs-test needs-truths
+needs-report needs-test needs-truths:
+	@harness/tools/dependencies.sh $(@:needs-%=%)
 
 $(REGISTRY): FORCE
 	@harness/tools/registry.sh $@ $(FORMULATIONS) $(CASES)
@@ -170,6 +175,7 @@ $(BUILD)/%_test: $(BUILD)/%_test.o $(LIBRARY)
 $(BUILD)/harness/study/test/memory_test: LDFLAGS += -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=free,--wrap=strdup,--wrap=strndup
 
 $(TRUTHS): $(wildcard reference/tables/*.csv reference/predicted/*.csv reference/extremes/*.csv reference/*.csv) reference/pack.py
+	@harness/tools/dependencies.sh verify
 	@mkdir -p $(@D)
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) reference/pack.py -o $@
 

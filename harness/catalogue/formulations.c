@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/catalogue/number.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
 
@@ -132,9 +133,10 @@ static status set_option(formulation *out, const char *name, const char *value, 
         out->option[i] = index;
         return STATUS_OK;
     }
-    char *end;
-    const double number = strtod(value, &end);
-    if (end == value || *end != '\0' || !(number >= o[i].min && number <= o[i].max) || number != floor(number))
+    const char *end;
+    double number;
+    if (!number_read(value, &end, &number) || *end != '\0' || !(number >= o[i].min && number <= o[i].max) ||
+        number != floor(number))
         return fault_set(f, STATUS_REFUSED, "option %s of %s: '%s'; give a whole number from %g to %g", name, out->type->name,
                          value, o[i].min, o[i].max);
     out->option[i] = number;
@@ -148,17 +150,25 @@ status formulation_parse(const char *text, formulation *out, fault *f)
         return fault_set(f, STATUS_REFUSED, "formulation '%.40s...': too long", text);
     snprintf(copy, sizeof copy, "%s", text);
     char *colon = strchr(copy, ':'), *rest = NULL;
+    const char *given[ELEMENT_MAX_OPTIONS + 1];
+    int count = 0;
     if (colon != NULL)
         *colon = '\0';
     const element_type *type = formulation_find(copy);
     if (type == NULL)
         return unknown(f, "formulation", copy, nearest_name(copy, formulation_name, NULL));
     formulation_default(type, out);
-    for (char *one = colon != NULL ? strtok_r(colon + 1, ",", &rest) : NULL; one != NULL; one = strtok_r(NULL, ",", &rest)) {
+    rest = colon != NULL ? colon + 1 : NULL;
+    for (char *one = strsep(&rest, ","); one != NULL; one = strsep(&rest, ",")) {
         char *equals = strchr(one, '=');
         if (equals == NULL)
-            return fault_set(f, STATUS_REFUSED, "option '%s': write it as key=value", one);
+            return fault_set(f, STATUS_REFUSED, "option '%s' of %s: write it as key=value, joined by single commas", one, copy);
         *equals = '\0';
+        for (int i = 0; i < count; i++)
+            if (strcmp(given[i], one) == 0)
+                return fault_set(f, STATUS_REFUSED, "option %s of %s is given twice; give it one value", one, copy);
+        if (count <= ELEMENT_MAX_OPTIONS)
+            given[count++] = one;
         const status outcome = set_option(out, one, equals + 1, f);
         if (outcome != STATUS_OK)
             return outcome;

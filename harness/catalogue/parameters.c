@@ -1,5 +1,7 @@
 #include "harness/catalogue/parameters.h"
 
+#include "harness/catalogue/number.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -92,10 +94,10 @@ static status set_value(const case_parameter *p, const char *text, double *value
         *value = index;
         return STATUS_OK;
     }
-    char *end;
-    const double number = strtod(text, &end);
-    if (end == text || *end != '\0' || !isfinite(number))
-        return fault_set(f, STATUS_REFUSED, "parameter %s: '%s' is not a finite number", p->name, text);
+    const char *end;
+    double number;
+    if (!number_read(text, &end, &number) || *end != '\0')
+        return fault_set(f, STATUS_REFUSED, "parameter %s: '%.60s' is not a finite number, or too small for one", p->name, text);
     if (number < p->min || number > p->max)
         return fault_set(f, STATUS_REFUSED, "parameter %s = %g %s is outside its range %g .. %g", p->name, number, p->unit, p->min,
                          p->max);

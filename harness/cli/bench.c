@@ -88,7 +88,9 @@ int cli_bench(int count, char **arguments)
         return cli_against(&r);
     if (r.case_count == 0 && (r.assignments > 0 || r.meshes > 0))
         return cli_fail(STATUS_REFUSED, "--set and -n are of a case: name it");
-    status outcome = truths_read(cli_truths_path(&r), &t, &f);
+    status outcome = cli_check_files(&r, 1, cli_truths_path(&r), &f);
+    if (outcome == STATUS_OK)
+        outcome = truths_read(cli_truths_path(&r), &t, &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
     outcome = measure(&r, &t, &s, &j, &f);

@@ -7,7 +7,7 @@
 #include "harness/catalogue/formulations.h"
 #include "harness/truth/truths.h"
 
-enum { EXIT_AS_EXPECTED = 0, EXIT_DIFFERS = 1, EXIT_REFUSED = 2, EXIT_NOTHING = 3, EXIT_FAULT = 4 };
+enum { EXIT_AS_EXPECTED = 0, EXIT_DIFFERS = 1, EXIT_REFUSED = 2, EXIT_NOTHING = 3, EXIT_FAULT = 4, EXIT_INTERRUPTED = 5 };
 
 enum { CLI_MAX_CASES = 64, CLI_MAX_FORMULATIONS = 64, CLI_MAX_MESHES = 24 };
 
@@ -28,7 +28,9 @@ typedef struct cli_request {
     int dense;      /* 1: the dense baseline is timed too */
     int time_limit; /* [s] of a cell; 0: none */
     int shapes;     /* states of a path whose shapes are stored; 0: none */
-    double plant;   /* share of its time that is added to every run of the other */
+    char given[32]; /* keys of the options with one value that were given */
+    int given_count;
+    double plant; /* share of its time that is added to every run of the other */
 } cli_request;
 
 typedef int cli_verb(int count, char **arguments);
@@ -39,10 +41,15 @@ void cli_parse(const char *verb, const char *arguments_doc, const char *doc, con
                cli_request *out);
 /* The case of the request with its parameters, or NULL after a message. */
 const case_type *cli_case(cli_request *r);
+/* Every output can be written and is a file of its own, and none is an input: looked at before the work begins.
+ * whole_file: -o is HDF5. truths_path: NULL where no truths are read. */
+status cli_check_files(const cli_request *r, int whole_file, const char *truths_path, fault *f);
 /* Two contestants in alternation (bench --against). */
 int cli_against(cli_request *r);
 /* Default place of the packed truths: BEAMWORK_TRUTHS, or truths.h5 beside the program. */
 const char *cli_truths_path(const cli_request *r);
+/* At the end of the program: the exit code, or EXIT_FAULT when standard output could not be written. */
+int cli_finish(int code);
 /* One line on stderr; the exit code that belongs to a status. */
 int cli_fail(status s, const char *text);
 

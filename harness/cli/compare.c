@@ -67,6 +67,8 @@ int cli_compare(int count, char **arguments)
     if (outcome == STATUS_OK && r.select != NULL && select_matches(r.select, "") < 0)
         outcome = fault_set(&f, STATUS_REFUSED, "selection '%.100s' is malformed; write words joined by and, or, not", r.select);
     if (outcome == STATUS_OK)
+        outcome = cli_check_files(&r, 0, NULL, &f);
+    if (outcome == STATUS_OK)
         outcome = results_read(r.case_name, &before, &f);
     if (outcome == STATUS_OK && r.second != NULL)
         outcome = results_read(r.second, &after, &f);

@@ -50,7 +50,9 @@ int cli_converge(int count, char **arguments)
         return EXIT_REFUSED;
     if (r.formulations == 0)
         return cli_fail(STATUS_REFUSED, "which formulation? Give -f, or -f all; 'beamwork list formulations' shows them");
-    status outcome = truths_read(cli_truths_path(&r), &t, &f);
+    status outcome = cli_check_files(&r, 0, cli_truths_path(&r), &f);
+    if (outcome == STATUS_OK)
+        outcome = truths_read(cli_truths_path(&r), &t, &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
     outcome = sweep_plan_one(type, r.parameter, r.formulation, r.formulations, r.mesh, r.meshes, &s, &f);

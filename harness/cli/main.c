@@ -1,7 +1,9 @@
 /* beamwork VERB ...: see --help. */
 #include <gsl/gsl_errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/resource.h>
 
 #include "harness/catalogue/environment.h"
 #include "harness/catalogue/parameters.h"
@@ -37,7 +39,8 @@ static int help(void)
         printf("  %-10s %s\n", verbs[i].name, verbs[i].summary);
     printf("\n  --version  versions of the program and its libraries\n\n"
            "exit status: 0 as expected; 1 a verdict differs (solve: not converged or singular); 2 refused input;\n"
-           "             3 nothing was checked; 4 file, disk or memory\n\n"
+           "             3 nothing was checked; 4 file, disk or memory; 5 interrupted: what was judged is in *.partial.*\n"
+           "             (compare, as diff: 0 the same, 1 different, 2 trouble)\n\n"
            "example: beamwork converge c_column -f beamw -f beamw_consistent -n 2,4,8,16,32\n");
     return EXIT_AS_EXPECTED;
 }
@@ -49,9 +52,8 @@ static int version(void)
     return EXIT_AS_EXPECTED;
 }
 
-int main(int count, char **arguments)
+static int run(int count, char **arguments)
 {
-    gsl_set_error_handler_off();
     if (count < 2 || strcmp(arguments[1], "--help") == 0 || strcmp(arguments[1], "help") == 0)
         return help();
     if (strcmp(arguments[1], "--version") == 0)
@@ -64,4 +66,24 @@ int main(int count, char **arguments)
     snprintf(text, sizeof text, "unknown verb '%.60s'%s%s%s; 'beamwork --help' shows them all", arguments[1],
              near != NULL ? ", did you mean '" : "", near != NULL ? near : "", near != NULL ? "'?" : "");
     return cli_fail(STATUS_REFUSED, text);
+}
+
+/* A stack that is too small ends a program without a word: it is raised as far as we may. 1: it is large enough. */
+static int stack_suffices(void)
+{
+    enum { LEAST = 1 << 20 }; /* [bytes] */
+    struct rlimit stack;
+    if (getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= LEAST)
+        return 1;
+    stack.rlim_cur = stack.rlim_max < LEAST ? stack.rlim_max : LEAST;
+    return setrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur >= LEAST;
+}
+
+int main(int count, char **arguments)
+{
+    if (!stack_suffices())
+        return cli_fail(STATUS_FAULT, "the stack is limited to less than 1 MB; allow more with 'ulimit -s 8192'");
+    gsl_set_error_handler_off();
+    signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error of writing, told in one line */
+    return cli_finish(run(count, arguments));
 }

@@ -1,4 +1,5 @@
 #include <errno.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +8,8 @@
 #include "harness/algebra/team.h"
 #include "harness/catalogue/registry.h"
 #include "harness/cli/cli.h"
+
+enum { KEY_USAGE = 256 };
 
 static const struct argp_option all_options[] = {
     {"formulation", 'f', "NAME[:KEY=VALUE,...]", 0, "formulation and its options; again for another, 'all' for every one", 0},
@@ -35,6 +38,8 @@ static const struct argp_option all_options[] = {
     {"dense", 'D', NULL, 0, "time the published algorithm (newton=dense) beside every cell", 0},
     {"plant", 'X', "PERCENT", 0, "make the other slower by that much, to see whether the comparison finds it", 0},
     {"truths", 'T', "FILE", 0, "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)", 0},
+    {"help", '?', NULL, 0, "this list", -1},
+    {"usage", KEY_USAGE, NULL, 0, "the options in short", -1},
     {0},
 };
 
@@ -57,8 +62,7 @@ static int whole_number(const char *text, const char *what, long least, long mos
 
 static void add_meshes(cli_request *r, char *list)
 {
-    char *rest = NULL;
-    for (char *one = strtok_r(list, ",", &rest); one != NULL; one = strtok_r(NULL, ",", &rest)) {
+    for (char *one = strsep(&list, ","); one != NULL; one = strsep(&list, ",")) {
         if (r->meshes == CLI_MAX_MESHES)
             refuse("too many meshes; give at most 24");
         r->mesh[r->meshes++] = whole_number(one, "number of elements", 1, 10000000);
@@ -74,8 +78,50 @@ static void add_formulation(cli_request *r, const char *text)
         return;
     if (r->formulations == CLI_MAX_FORMULATIONS)
         refuse("too many formulations");
-    if (formulation_parse(text, &r->formulation[r->formulations++], &f) != STATUS_OK)
+    if (formulation_parse(text, &r->formulation[r->formulations], &f) != STATUS_OK)
         refuse(f.text);
+    for (int i = 0; i < r->formulations; i++)
+        if (strcmp(r->formulation[i].key, r->formulation[r->formulations].key) == 0)
+            refuse("a formulation is given twice; give it once");
+    r->formulations++;
+}
+
+static void add_assignment(cli_request *r, const char *text)
+{
+    const size_t name = strcspn(text, "=");
+    char message[160];
+    if (r->assignments == CASE_MAX_PARAMETERS)
+        refuse("too many parameters");
+    for (int i = 0; i < r->assignments; i++)
+        if (strcspn(r->assignment[i], "=") == name && strncmp(r->assignment[i], text, name) == 0) {
+            snprintf(message, sizeof message, "--set %.*s is given twice; give it one value", (int)(name < 60 ? name : 60), text);
+            refuse(message);
+        }
+    r->assignment[r->assignments++] = text;
+}
+
+/* An option that takes one value has it once; lists (-f, -n, --set) and switches may be given again. */
+static void refuse_again(cli_request *r, int key, const struct argp_state *state)
+{
+    const struct argp_option *o = state->root_argp->options;
+    char message[160];
+    while (o->name != NULL && o->key != key)
+        o++;
+    if (o->name == NULL || o->arg == NULL || strchr("fns", key) != NULL)
+        return;
+    for (int i = 0; i < r->given_count; i++)
+        if (r->given[i] == key) {
+            snprintf(message, sizeof message, "--%s is given twice; give it one value", o->name);
+            refuse(message);
+        }
+    r->given[r->given_count++] = (char)key;
+}
+
+/* As argp's own, but an output that cannot be written is told. */
+static void show_help(const struct argp_state *state, unsigned what)
+{
+    argp_state_help(state, stdout, what & ~(unsigned)(ARGP_HELP_EXIT_OK | ARGP_HELP_EXIT_ERR));
+    exit(cli_finish(EXIT_AS_EXPECTED));
 }
 
 static void add_case(cli_request *r, const char *name)
@@ -90,7 +136,14 @@ static void add_case(cli_request *r, const char *name)
 static error_t take(int key, char *value, struct argp_state *state)
 {
     cli_request *r = state->input;
+    refuse_again(r, key, state);
     switch (key) {
+    case '?':
+        show_help(state, ARGP_HELP_STD_HELP);
+        return 0;
+    case KEY_USAGE:
+        show_help(state, ARGP_HELP_USAGE);
+        return 0;
     case 'f':
         add_formulation(r, value);
         return 0;
@@ -98,9 +151,7 @@ static error_t take(int key, char *value, struct argp_state *state)
         add_meshes(r, value);
         return 0;
     case 's':
-        if (r->assignments == CASE_MAX_PARAMETERS)
-            refuse("too many parameters");
-        r->assignment[r->assignments++] = value;
+        add_assignment(r, value);
         return 0;
     case 'F':
         if (strcmp(value, "text") != 0 && strcmp(value, "json") != 0 && strcmp(value, "csv") != 0)
@@ -170,7 +221,7 @@ void cli_parse(const char *verb, const char *arguments_doc, const char *doc, con
     char name[64];
     int n = 0;
     for (int i = 0; all_options[i].name != NULL; i++)
-        if (strchr(keys, all_options[i].key) != NULL)
+        if (all_options[i].key == '?' || all_options[i].key == KEY_USAGE || strchr(keys, all_options[i].key) != NULL)
             chosen[n++] = all_options[i];
     const struct argp parser = {.options = chosen, .parser = take, .args_doc = arguments_doc, .doc = doc};
     memset(out, 0, sizeof *out);
@@ -181,7 +232,7 @@ void cli_parse(const char *verb, const char *arguments_doc, const char *doc, con
     snprintf(name, sizeof name, "beamwork %s", verb);
     arguments[0] = name;
     argp_err_exit_status = EXIT_REFUSED;
-    argp_parse(&parser, count, arguments, 0, NULL, out);
+    argp_parse(&parser, count, arguments, ARGP_NO_HELP, NULL, out);
 }
 
 const case_type *cli_case(cli_request *r)
@@ -207,18 +258,26 @@ const case_type *cli_case(cli_request *r)
 
 const char *cli_truths_path(const cli_request *r)
 {
-    static char beside[512];
+    static char beside[PATH_MAX + 16];
     if (r->truths != NULL)
         return r->truths;
     if (getenv("BEAMWORK_TRUTHS") != NULL)
         return getenv("BEAMWORK_TRUTHS");
-    const ssize_t length = readlink("/proc/self/exe", beside, sizeof beside - 16);
+    const ssize_t length = readlink("/proc/self/exe", beside, PATH_MAX);
     if (length <= 0)
         return "truths.h5";
     beside[length] = '\0';
     char *slash = strrchr(beside, '/');
     snprintf(slash + 1, 16, "truths.h5");
     return beside;
+}
+
+int cli_finish(int code)
+{
+    const int told = code == EXIT_REFUSED || code == EXIT_FAULT; /* that line is enough */
+    if ((fflush(stdout) == 0 && !ferror(stdout)) || told)
+        return code;
+    return cli_fail(STATUS_FAULT, "standard output cannot be written");
 }
 
 int cli_fail(status s, const char *text)

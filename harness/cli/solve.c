@@ -25,6 +25,8 @@ static status write_out(const cli_request *r, const sweep *s, const truths *t, f
     if (r->shapes > 0) {
         const environment e = environment_now(1);
         table_solution(stdout, s, t);
+        if (fflush(stdout) != 0)
+            return fault_set(f, STATUS_FAULT, "standard output cannot be written");
         return store_write_solution(r->output, s, &e, f);
     }
     if (r->output == NULL) {
@@ -74,7 +76,10 @@ int cli_solve(int count, char **arguments)
         return cli_fail(STATUS_REFUSED, "how many elements per member? Give one -n");
     if (r.shapes > 0 && r.output == NULL)
         return cli_fail(STATUS_REFUSED, "--shapes: into which file? Give -o FILE");
-    status outcome = truths_read(cli_truths_path(&r), &t, &f);
+    status outcome = cli_check_files(&r, r.shapes > 0, cli_truths_path(&r), &f);
+    if (outcome != STATUS_OK)
+        return cli_fail(outcome, f.text);
+    outcome = truths_read(cli_truths_path(&r), &t, &f);
     if (outcome != STATUS_OK && r.truths == NULL) /* a solution needs none: say so and go on */
         fprintf(stderr, "beamwork: without truths: %s\n", f.text);
     else if (outcome != STATUS_OK)

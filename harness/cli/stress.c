@@ -53,9 +53,7 @@ int cli_stress(int count, char **arguments)
                                     .formulations = r.formulations,
                                     .formulation = r.formulation,
                                     .progress = isatty(STDERR_FILENO) ? stderr : NULL};
-    status outcome = output_try(r.output, &f);
-    if (outcome == STATUS_OK)
-        outcome = output_try(r.json, &f);
+    status outcome = cli_check_files(&r, 0, cli_truths_path(&r), &f);
     if (outcome == STATUS_OK)
         outcome = stress_run(&request, cli_truths_path(&r), &s, &f);
     if (outcome != STATUS_OK)

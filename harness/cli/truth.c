@@ -1,4 +1,5 @@
 #include <libgen.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,23 +40,23 @@ static int print_stored(const truths *t, const case_type *type, const double par
 }
 
 /* BEAMWORK_REFERENCE, or reference/ of the clone in whose build folder the program is. */
-static void script_path(char *out, size_t size)
+static status script_path(char out[PATH_MAX], fault *f)
 {
-    char program[400] = "";
+    char program[PATH_MAX] = "";
     const char *given = getenv("BEAMWORK_REFERENCE");
-    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (given != NULL)
-        snprintf(out, size, "%s/derive/at.py", given);
-    else
-        snprintf(out, size, "%s/../reference/derive/at.py", length > 0 ? dirname(program) : ".");
+    const ssize_t found = readlink("/proc/self/exe", program, sizeof program - 1);
+    const char *folder = given != NULL ? given : found > 0 ? dirname(program) : ".";
+    const int length = snprintf(out, PATH_MAX, "%s%s/derive/at.py", folder, given != NULL ? "" : "/../reference");
+    return length < PATH_MAX ? STATUS_OK : fault_set(f, STATUS_FAULT, "%.60s...: the path is too long", folder);
 }
 
 static status print_derived(const case_type *type, const double parameter[], fault *f)
 {
-    char script[512], text[PARAMETERS_TEXT];
+    char script[PATH_MAX], text[PARAMETERS_TEXT];
     derived_value *value;
     int count;
-    script_path(script, sizeof script);
+    if (script_path(script, f) != STATUS_OK)
+        return STATUS_FAULT;
     parameters_text(type, parameter, text, sizeof text);
     const status outcome = derive_values(script, type->name, text, &value, &count, f);
     for (int i = 0; i < count; i++)

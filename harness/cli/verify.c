@@ -1,3 +1,4 @@
+#include <limits.h>
 #include <stdio.h>
 #include <unistd.h>
 
@@ -44,19 +45,75 @@ static status write_markdown(const char *path, const sweep *s, const judgement *
     return output_close(&file, f);
 }
 
+/* Where each file goes: of an interrupted run, under names that say so. */
+typedef struct places {
+    char output[PATH_MAX], json[PATH_MAX], junit[PATH_MAX], markdown[PATH_MAX];
+} places;
+
+static status place_one(const char *path, int partial, char out[PATH_MAX], fault *f)
+{
+    out[0] = '\0';
+    if (path == NULL)
+        return STATUS_OK;
+    if (partial)
+        return output_partial(path, out, f);
+    snprintf(out, PATH_MAX, "%s", path);
+    return STATUS_OK;
+}
+
+static status place_all(const cli_request *r, int partial, places *out, fault *f)
+{
+    status outcome = place_one(r->output, partial, out->output, f);
+    if (outcome == STATUS_OK)
+        outcome = place_one(r->json, partial, out->json, f);
+    if (outcome == STATUS_OK)
+        outcome = place_one(r->junit, partial, out->junit, f);
+    return outcome == STATUS_OK ? place_one(r->markdown, partial, out->markdown, f) : outcome;
+}
+
 static status write_all(const cli_request *r, const sweep *s, const judgement *j, fault *f)
 {
     const environment e = environment_now(r->jobs);
-    status outcome = STATUS_OK;
-    if (r->output != NULL)
-        outcome = store_write(r->output, s, j, &e, f);
-    if (outcome == STATUS_OK && r->json != NULL)
-        outcome = write_json(r->json, s, j, &e, f);
-    if (outcome == STATUS_OK && r->junit != NULL)
-        outcome = write_junit(r->junit, s, j, f);
-    if (outcome == STATUS_OK && r->markdown != NULL)
-        outcome = write_markdown(r->markdown, s, j, &e, f);
+    places to;
+    status outcome = place_all(r, s->unfinished > 0, &to, f);
+    if (outcome == STATUS_OK && to.output[0] != '\0')
+        outcome = store_write(to.output, s, j, &e, f);
+    if (outcome == STATUS_OK && to.json[0] != '\0')
+        outcome = write_json(to.json, s, j, &e, f);
+    if (outcome == STATUS_OK && to.junit[0] != '\0')
+        outcome = write_junit(to.junit, s, j, f);
+    if (outcome == STATUS_OK && to.markdown[0] != '\0')
+        outcome = write_markdown(to.markdown, s, j, &e, f);
     return outcome;
+}
+
+static status judge_and_write(const cli_request *r, const sweep *s, truths *t, judgement *j, fault *f)
+{
+    const int whole = r->select == NULL && r->formulations == 0 && s->unfinished == 0;
+    const status judged = judge(s, t, whole, j, f);
+    if (judged != STATUS_OK)
+        return judged;
+    table_verdicts(stdout, s, j, t);
+    return fflush(stdout) == 0 ? write_all(r, s, j, f) : fault_set(f, STATUS_FAULT, "standard output cannot be written");
+}
+
+/* What the exit code does not say by itself. */
+static int tell(const cli_request *r, const sweep *s, const judgement *j)
+{
+    const char *file = r->output != NULL ? r->output : r->json != NULL ? r->json : r->junit != NULL ? r->junit : r->markdown;
+    char partial[PATH_MAX];
+    if (s->unfinished > 0) {
+        fprintf(stderr, "beamwork: interrupted: %d cells were not done; what was judged is ", s->unfinished);
+        if (file != NULL && output_partial(file, partial, NULL) == STATUS_OK)
+            fprintf(stderr, "in %s\n", partial);
+        else
+            fprintf(stderr, "above\n");
+        return EXIT_INTERRUPTED;
+    }
+    const int code = judgement_exit(j);
+    if (code == EXIT_NOTHING)
+        fprintf(stderr, "beamwork: nothing was checked: no verdict against a truth; see 'beamwork list' and -k\n");
+    return code;
 }
 
 int cli_verify(int count, char **arguments)
@@ -68,18 +125,12 @@ int cli_verify(int count, char **arguments)
     fault f = {""};
     cli_parse("verify", "",
               "Judges every formulation on every case and parameter point that has a truth. Exit status: 0 every verdict as "
-              "expected, 1 one differs, 2 refused, "
-              "3 nothing was checked, 4 file, disk or memory.",
+              "expected, 1 one differs, 2 refused, 3 nothing was checked, 4 file, disk or memory, 5 interrupted (Ctrl-C, SIGTERM): "
+              "what was judged until then is in files named .partial",
               "fokjJUMLPT", count, arguments, &r);
     if (r.case_name != NULL)
         return cli_fail(STATUS_REFUSED, "verify takes no case; select with -k");
-    status outcome = output_try(r.output, &f);
-    if (outcome == STATUS_OK)
-        outcome = output_try(r.json, &f);
-    if (outcome == STATUS_OK)
-        outcome = output_try(r.junit, &f);
-    if (outcome == STATUS_OK)
-        outcome = output_try(r.markdown, &f);
+    status outcome = cli_check_files(&r, 1, cli_truths_path(&r), &f);
     if (outcome == STATUS_OK)
         outcome = truths_read(cli_truths_path(&r), &t, &f);
     if (outcome != STATUS_OK)
@@ -87,6 +138,7 @@ int cli_verify(int count, char **arguments)
     const sweep_request request = {.select = r.select,
                                    .jobs = r.jobs,
                                    .time_limit = r.time_limit,
+                                   .interruptible = 1,
                                    .formulations = r.formulations,
                                    .formulation = r.formulation,
                                    .shapes = r.shapes < PICTURED_STATES ? r.shapes : PICTURED_STATES,
@@ -95,15 +147,8 @@ int cli_verify(int count, char **arguments)
     if (outcome == STATUS_OK)
         outcome = sweep_run(&request, &s, &f);
     if (outcome == STATUS_OK)
-        outcome = judge(&s, &t, r.select == NULL && r.formulations == 0, &j, &f);
-    if (outcome == STATUS_OK) {
-        table_verdicts(stdout, &s, &j, &t);
-        outcome =
-            fflush(stdout) == 0 ? write_all(&r, &s, &j, &f) : fault_set(&f, STATUS_FAULT, "standard output cannot be written");
-    }
-    const int code = outcome != STATUS_OK ? cli_fail(outcome, f.text) : judgement_exit(&j);
-    if (outcome == STATUS_OK && code == EXIT_NOTHING)
-        fprintf(stderr, "beamwork: nothing was checked: no verdict against a truth; see 'beamwork list' and -k\n");
+        outcome = judge_and_write(&r, &s, &t, &j, &f);
+    const int code = outcome != STATUS_OK ? cli_fail(outcome, f.text) : tell(&r, &s, &j);
     judgement_free(&j);
     sweep_free(&s);
     truths_free(&t);

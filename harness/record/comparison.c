@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/catalogue/number.h"
 #include "harness/study/sweep.h"
 
 const char *const comparison_kind_names[COMPARISON_KINDS] = {"worse", "better", "changed", "gone", "new"};
@@ -14,19 +15,21 @@ status comparison_limits_parse(const char *text, comparison_limits *out, fault *
         const char *name;
         double *value;
     } known[] = {{"error", &out->error}, {"floor", &out->floor}, {"work", &out->work}};
-    for (const char *at = text; *at != '\0';) {
+    int given[sizeof known / sizeof known[0]] = {0}, more = 1;
+    for (const char *at = text; more;) {
         const size_t length = strcspn(at, ","), name = strcspn(at, "=");
         double *value = NULL;
         for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
             if (name < length && strlen(known[i].name) == name && strncmp(known[i].name, at, name) == 0)
-                value = known[i].value;
-        char *end = NULL;
-        const double number = value != NULL ? strtod(at + name + 1, &end) : NAN;
-        if (value == NULL || end == at + name + 1 || end != at + length || !isfinite(number) || number < 0)
+                value = given[i]++ == 0 ? known[i].value : NULL;
+        const char *end = at;
+        double number = -1;
+        if (value == NULL || !number_read(at + name + 1, &end, &number) || end != at + length || number < 0)
             return fault_set(f, STATUS_REFUSED,
-                             "threshold '%.40s': write error=R,floor=R,work=R with numbers that are not negative", at);
+                             "threshold '%.40s': write error=R,floor=R,work=R, each once, with numbers that are not negative", at);
         *value = number;
-        at += length + (at[length] == ',');
+        more = at[length] == ',';
+        at += length + (size_t)more;
     }
     return STATUS_OK;
 }

@@ -191,6 +191,7 @@ status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const e
         json_pack("{s:i,s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:i,s:i,s:i}", "schema", 1, "program_version", e->version, "commit", e->commit,
                   "compiler", e->compiler, "clock", e->clock, "cells", sweep_cells(s), "judged", j->judged, "unexpected",
                   j->unexpected, "disagreements", j->disagreements, "unobserved_findings", j->unobserved, "unmet_truths", j->unmet);
+    json_object_set_new(root, "unfinished_cells", json_integer(s->unfinished));
     json_object_set_new(root, "counts", counts);
     json_object_set_new(root, "verdicts", list);
     json_object_set_new(root, "discrete", discrete);

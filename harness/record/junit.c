@@ -43,6 +43,12 @@ static void open_test(FILE *to, const point *p)
     escaped(to, p->text[0] != '\0' ? p->text : "default");
 }
 
+/* A skip that was not expected is a failure. */
+static int is_skipped(const verdict *v)
+{
+    return v->kind == VERDICT_SKIP && v->matches;
+}
+
 static void write_verdict(FILE *to, const sweep *s, const verdict *v)
 {
     const series *one = &s->series[v->series];
@@ -58,7 +64,7 @@ static void write_verdict(FILE *to, const sweep *s, const verdict *v)
     property(to, "model_error", v->model_error);
     property(to, "tolerance", v->tolerance);
     fprintf(to, "   </properties>\n");
-    if (v->kind == VERDICT_SKIP) {
+    if (is_skipped(v)) {
         fprintf(to, "   <skipped message=\"");
         escaped(to, v->reason);
         fprintf(to, "\"/>\n");
@@ -84,6 +90,24 @@ static void write_agreement(FILE *to, const sweep *s, const agreement *a)
     fprintf(to, "  </testcase>\n");
 }
 
+typedef struct junit_counts {
+    int tests, failures, skipped;
+} junit_counts;
+
+/* Of what will be written, by the same rules. */
+static junit_counts count_all(const sweep *s, const judgement *j)
+{
+    junit_counts c = {.tests = j->verdicts + j->agreements + 2 + (s->unfinished > 0),
+                      .failures = (j->unobserved > 0) + (j->unmet > 0) + (s->unfinished > 0)};
+    for (int i = 0; i < j->verdicts; i++) {
+        c.skipped += is_skipped(&j->verdict[i]);
+        c.failures += !j->verdict[i].matches;
+    }
+    for (int i = 0; i < j->agreements; i++)
+        c.failures += !j->agreement[i].good;
+    return c;
+}
+
 static void write_ledger(FILE *to, const char *name, int failures, const char *what)
 {
     fprintf(to, "  <testcase classname=\"ledger\" name=\"%s\">\n", name);
@@ -94,16 +118,18 @@ static void write_ledger(FILE *to, const char *name, int failures, const char *w
 
 void junit_write(FILE *to, const sweep *s, const judgement *j)
 {
+    const junit_counts c = count_all(s, j);
     fprintf(to,
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n <testsuite name=\"beamwork\" tests=\"%d\" failures=\"%d\" "
             "skipped=\"%d\">\n",
-            j->verdicts + j->agreements + 2, j->unexpected + j->disagreements + (j->unobserved > 0) + (j->unmet > 0),
-            j->by_kind[VERDICT_SKIP]);
+            c.tests, c.failures, c.skipped);
     for (int i = 0; i < j->verdicts; i++)
         write_verdict(to, s, &j->verdict[i]);
     for (int i = 0; i < j->agreements; i++)
         write_agreement(to, s, &j->agreement[i]);
     write_ledger(to, "findings", j->unobserved, "findings were not observed");
     write_ledger(to, "truths", j->unmet, "truths speak of nothing that exists");
+    if (s->unfinished > 0)
+        write_ledger(to, "run", s->unfinished, "cells were not done: the run was interrupted");
     fprintf(to, " </testsuite>\n</testsuites>\n");
 }

@@ -87,9 +87,14 @@ static void write_formulations(FILE *to, const sweep *s, const judgement *j)
 void markdown_write(FILE *to, const sweep *s, const judgement *j, const environment *e)
 {
     const int bad = j->unexpected > 0 || j->disagreements > 0 || j->unobserved > 0 || j->unmet > 0;
-    fprintf(to, "## beamwork: %s\n\n", j->judged == 0 ? "nothing was checked" : bad ? "not as expected" : "as expected");
+    fprintf(to, "## beamwork: %s%s\n\n", s->unfinished > 0 ? "interrupted; until then " : "",
+            j->judged == 0 ? "nothing was checked"
+            : bad          ? "not as expected"
+                           : "as expected");
     fprintf(to, "%d verdicts against truths in %d cells: %d differ from the expected one; %d of %d stored discrete values agree",
             j->judged, sweep_cells(s), j->unexpected, j->agreements - j->disagreements, j->agreements);
+    if (s->unfinished > 0)
+        fprintf(to, "; %d cells were not done", s->unfinished);
     if (j->unobserved > 0)
         fprintf(to, "; %d findings were not observed", j->unobserved);
     if (j->unmet > 0)

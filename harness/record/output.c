@@ -1,28 +1,94 @@
 #include "harness/record/output.h"
 
 #include <errno.h>
+#include <fcntl.h>
+#include <stdint.h>
 #include <string.h>
+#include <sys/random.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-status output_temporary(const char *path, char *temporary, int size, fault *f)
+enum { MOST_TRIES = 100, LEAF = 100 }; /* [bytes] of the name that a temporary name begins with */
+
+static status fail(const char *path, int why, fault *f)
 {
-    const int length = snprintf(temporary, (size_t)size, "%s.part%ld", path, (long)getpid());
-    return length < size ? STATUS_OK : fault_set(f, STATUS_FAULT, "%.60s...: the path is too long", path);
+    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another place", path, strerror(why));
+}
+
+/* A new file in the folder of `path` under a name that nobody can guess; -1 and errno. */
+static int create_beside(const char *path, char temporary[PATH_MAX])
+{
+    const char *leaf = place_leaf(path);
+    for (int i = 0; i < MOST_TRIES; i++) {
+        uint64_t word = 0;
+        if (getrandom(&word, sizeof word, 0) != (ssize_t)sizeof word)
+            return -1;
+        const int length =
+            snprintf(temporary, PATH_MAX, "%.*s%.*s.part-%016llx", (int)(leaf - path), path, LEAF, leaf, (unsigned long long)word);
+        if (length >= PATH_MAX) {
+            errno = ENAMETOOLONG;
+            return -1;
+        }
+        const int file = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (file >= 0 || errno != EEXIST)
+            return file;
+    }
+    return -1;
+}
+
+/* Owner (where we may) and permissions of the file that will be replaced. */
+static void keep_permissions(const place *to, int file)
+{
+    if (to->kind == PLACE_FILE && (fchown(file, to->owner, to->group) != 0 || fchmod(file, to->mode) != 0))
+        fchmod(file, to->mode);
+}
+
+static int open_stream(const place *to)
+{
+    if (to->descriptor < 0)
+        return open(to->path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
+    fflush(to->descriptor == STDOUT_FILENO ? stdout : stderr); /* what was said before stays before */
+    return dup(to->descriptor);
+}
+
+static status check_form(const char *path, const place *to, output_form form, fault *f)
+{
+    if (to->kind == PLACE_FOLDER)
+        return fail(path, EISDIR, f);
+    if (to->kind == PLACE_STREAM && form == OUTPUT_WHOLE_FILE)
+        return fault_set(f, STATUS_REFUSED, "%.200s is %s; HDF5 needs a regular file: give the name of one", path,
+                         to->descriptor >= 0 ? "where standard output or error goes" : "a pipe or a device");
+    if (to->kind != PLACE_FREE && access(to->path, W_OK) != 0)
+        return fail(path, errno, f);
+    return STATUS_OK;
+}
+
+static status open_as(const char *path, output_form form, output *out, fault *f)
+{
+    memset(out, 0, sizeof *out);
+    status outcome = place_find(path, &out->to, f);
+    if (outcome == STATUS_OK)
+        outcome = check_form(path, &out->to, form, f);
+    if (outcome != STATUS_OK)
+        return outcome;
+    const int direct = out->to.kind == PLACE_STREAM;
+    const int file = direct ? open_stream(&out->to) : create_beside(out->to.path, out->temporary);
+    out->stream = file >= 0 ? fdopen(file, "w") : NULL;
+    if (out->stream == NULL)
+        return fail(path, errno, f);
+    if (!direct)
+        keep_permissions(&out->to, file);
+    return STATUS_OK;
 }
 
 status output_open(const char *path, output *out, fault *f)
 {
-    memset(out, 0, sizeof *out);
-    if (strlen(path) >= sizeof out->path)
-        return fault_set(f, STATUS_FAULT, "%.60s...: the path is too long", path);
-    snprintf(out->path, sizeof out->path, "%s", path);
-    const status named = output_temporary(path, out->temporary, sizeof out->temporary, f);
-    if (named != STATUS_OK)
-        return named;
-    out->stream = fopen(out->temporary, "w");
-    return out->stream != NULL
-               ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another place", path, strerror(errno));
+    return open_as(path, OUTPUT_TEXT, out, f);
+}
+
+status output_open_whole(const char *path, output *out, fault *f)
+{
+    return open_as(path, OUTPUT_WHOLE_FILE, out, f);
 }
 
 void output_discard(output *out)
@@ -30,30 +96,63 @@ void output_discard(output *out)
     if (out->stream != NULL)
         fclose(out->stream);
     out->stream = NULL;
-    unlink(out->temporary);
+    if (out->temporary[0] != '\0')
+        unlink(out->temporary);
+}
+
+/* Onto the disk, where there is one; what cannot be synchronised (a pipe, a device) needs no such thing. */
+static int is_stored(FILE *stream)
+{
+    if (ferror(stream) || fflush(stream) != 0)
+        return 0;
+    return fsync(fileno(stream)) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
 }
 
 status output_close(output *out, fault *f)
 {
-    const int bad =
-        ferror(out->stream) | (fflush(out->stream) != 0) | (fsync(fileno(out->stream)) != 0 && errno != EINVAL && errno != EROFS);
-    const int closed = fclose(out->stream);
+    errno = 0;
+    int good = is_stored(out->stream);
+    int why = good ? 0 : errno;
+    const int closed = fclose(out->stream) == 0;
+    why = good && !closed ? errno : why;
+    good = good && closed;
     out->stream = NULL;
-    if (bad || closed != 0 || rename(out->temporary, out->path) != 0) {
-        const char *why = strerror(errno);
-        unlink(out->temporary);
-        return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); nothing was left", out->path, why);
+    if (good && out->temporary[0] != '\0' && rename(out->temporary, out->to.path) != 0) {
+        good = 0;
+        why = errno;
     }
+    if (good)
+        return STATUS_OK;
+    output_discard(out);
+    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s)%s", out->to.path, why != 0 ? strerror(why) : "no room",
+                     out->temporary[0] != '\0' ? "; nothing was left" : "");
+}
+
+status output_try(const char *path, output_form form, place *where, fault *f)
+{
+    char temporary[PATH_MAX];
+    status outcome = place_find(path, where, f);
+    if (outcome == STATUS_OK)
+        outcome = check_form(path, where, form, f);
+    if (outcome != STATUS_OK || where->kind == PLACE_STREAM) /* opening a pipe would wake its reader */
+        return outcome;
+    const int file = create_beside(where->path, temporary);
+    if (file < 0)
+        return fail(path, errno, f);
+    close(file);
+    unlink(temporary);
     return STATUS_OK;
 }
 
-status output_try(const char *path, fault *f)
+status output_partial(const char *path, char partial[PATH_MAX], fault *f)
 {
-    output probe;
-    if (path == NULL)
+    place to;
+    const char *leaf = place_leaf(path), *dot = strrchr(leaf, '.');
+    if (place_find(path, &to, f) == STATUS_OK && to.kind == PLACE_STREAM) {
+        memcpy(partial, path, strlen(path) + 1);
         return STATUS_OK;
-    const status opened = output_open(path, &probe, f);
-    if (opened == STATUS_OK)
-        output_discard(&probe);
-    return opened;
+    }
+    const size_t stem = dot != NULL && dot > leaf ? (size_t)(dot - path) : strlen(path);
+    const int length = snprintf(partial, PATH_MAX, "%.*s.partial%s", (int)stem, path, path + stem);
+    return length < PATH_MAX ? STATUS_OK : fail(path, ENAMETOOLONG, f);
 }

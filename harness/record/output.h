@@ -1,23 +1,30 @@
-/* Text files that appear complete or not at all: written beside, then renamed. */
+/* Files that appear complete or not at all: written beside, then renamed onto the place that links
+ * lead to. Pipes and devices are written to directly, and take text only. */
 #ifndef BEAMWORK_OUTPUT_H
 #define BEAMWORK_OUTPUT_H
 
 #include <stdio.h>
 
-#include "elements/math/status.h"
+#include "harness/record/place.h"
+
+/* A whole file needs a regular file: it is read at any place, not from its beginning to its end. */
+typedef enum output_form { OUTPUT_TEXT, OUTPUT_WHOLE_FILE } output_form;
 
 typedef struct output {
     FILE *stream;
-    char path[480], temporary[512];
+    place to;
+    char temporary[PATH_MAX]; /* empty: written directly */
 } output;
 
-status output_open(const char *path, output *out, fault *f);
+status output_open(const char *path, output *out, fault *f); /* text */
+status output_open_whole(const char *path, output *out, fault *f);
 /* Flushes and renames; every error is found here. On failure nothing is left. */
 status output_close(output *out, fault *f);
 void output_discard(output *out);
-/* An output that cannot be written is noticed before anything is computed. path NULL: nothing to write. */
-status output_try(const char *path, fault *f);
-/* Name of the temporary beside `path`. FAULT when the path is too long. */
-status output_temporary(const char *path, char *temporary, int size, fault *f);
+/* An output that cannot be written is noticed before anything is computed: REFUSED what is no name or
+ * takes no such form, FAULT what cannot be written. *where: the place, for comparison with others. */
+status output_try(const char *path, output_form form, place *where, fault *f);
+/* "results.partial.h5" of "results.h5": of a run that was interrupted. A stream keeps its name. */
+status output_partial(const char *path, char partial[PATH_MAX], fault *f);
 
 #endif

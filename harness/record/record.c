@@ -37,7 +37,7 @@ static status write_image(record *r, const char *path, fault *f)
         free(image);
         return fault_set(f, STATUS_FAULT, "%.200s: no memory for the file's image", path);
     }
-    status outcome = output_open(path, &file, f);
+    status outcome = output_open_whole(path, &file, f);
     if (outcome == STATUS_OK) {
         char seal[SEAL_LENGTH + 1];
         seal_write(image, (size_t)size, seal);

@@ -231,6 +231,7 @@ status store_write(const char *path, const sweep *all, const judgement *j, const
     if (opened != STATUS_OK)
         return opened;
     put_environment(&r, e);
+    record_count(&r, r.file, "unfinished_cells", all->unfinished);
     const hid_t cases = record_group(&r, r.file, "cases");
     int first = 0; /* verdicts come in the order of the series */
     for (int i = 0; i < all->seriess && !r.bad; i++) {

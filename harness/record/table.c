@@ -259,7 +259,10 @@ void table_verdicts(FILE *to, const sweep *s, const judgement *j, const truths *
     disagreements(to, s, j);
     failed_cells(to, s);
     not_met(to, j, t);
-    fprintf(to, "\n%d cells; %d verdicts against truths:", sweep_cells(s), j->judged);
+    fprintf(to, "\n%d cells; ", sweep_cells(s));
+    if (s->unfinished > 0)
+        fprintf(to, "interrupted, %d more were not done; ", s->unfinished);
+    fprintf(to, "%d verdicts against truths:", j->judged);
     for (int k = 0; k < VERDICT_KINDS; k++)
         fprintf(to, "%s %d %s", k > 0 ? "," : "", j->by_kind[k], verdict_name((verdict_kind)k));
     fprintf(to, "\n%d of %d stored discrete values agree; %d verdicts differ from the expected one; %d findings not observed\n",

@@ -214,14 +214,18 @@ int sweep_cells(const sweep *s)
     return cells;
 }
 
+void series_free(series *one)
+{
+    for (int k = 0; k < one->meshes && one->cell != NULL; k++)
+        cell_result_free(&one->cell[k]);
+    free(one->cell);
+    free(one->timing);
+}
+
 void sweep_free(sweep *s)
 {
-    for (int i = 0; i < s->seriess; i++) {
-        for (int k = 0; k < s->series[i].meshes && s->series[i].cell != NULL; k++)
-            cell_result_free(&s->series[i].cell[k]);
-        free(s->series[i].cell);
-        free(s->series[i].timing);
-    }
+    for (int i = 0; i < s->seriess; i++)
+        series_free(&s->series[i]);
     for (int i = 0; i < s->points; i++)
         scene_free(&s->point[i].scene);
     free(s->point);

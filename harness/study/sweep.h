@@ -37,6 +37,7 @@ typedef struct sweep {
     const char *select; /* of the request: what it leaves out is not judged either; NULL: nothing is left out */
     int shapes;         /* of the request */
     int threads;        /* of the loop over elements in every cell; 0, 1: one */
+    int unfinished;     /* cells that an interrupted run left; series that need them are gone */
     int points, seriess;
     point *point;
     series *series;
@@ -45,7 +46,8 @@ typedef struct sweep {
 typedef struct sweep_request {
     const char *select; /* expression over "case/point/formulation/quantity", or NULL */
     int jobs;           /* processes, >= 1 */
-    int time_limit;     /* [s] of one cell, measured from outside; 0: none */
+    int time_limit;     /* [s] of one cell, measured by its process and from outside; 0: none */
+    int interruptible;  /* 1: who asks to end (Ctrl-C) ends the run, and what is finished is kept */
     int formulations;   /* restrict to these, or 0: all */
     const formulation *formulation;
     int shapes;     /* most states of a path whose centre lines are kept, of the finest mesh at the defaults; 0: none */
@@ -69,6 +71,7 @@ status sweep_run(const sweep_request *request, sweep *s, fault *f);
 /* What running one mesh of a series means. */
 cell_request sweep_cell(const sweep *s, int series_index, int mesh);
 int sweep_cells(const sweep *s);
+void series_free(series *);
 void sweep_free(sweep *s);
 
 #endif

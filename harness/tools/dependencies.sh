@@ -1,8 +1,20 @@
 #!/bin/sh
-# Checks what the build needs, installs what is missing (as root, on Debian),
-# or prints the one command that does. Then writes the compiler's flags to $1.
+# Checks what one command needs, installs what is missing (as root, on Debian), or prints the one line that does.
+# What only single tests use (chromium, python3-vtk9) is asked for by nobody: those tests are skipped by name.
+# usage: dependencies.sh build FLAGS.mk     the compiler's part: libraries; writes their flags
+#        dependencies.sh verify|report|test|truths
 set -eu
-flags=$1
+command=$1
+python=${PYTHON:-/usr/bin/python3}
+
+case $command in
+build) modules= ;;
+verify) modules="h5py numpy" ;;
+report) modules="h5py numpy scipy matplotlib jinja2 markdown" ;;
+truths) modules="numpy scipy mpmath" ;;
+test) modules="h5py numpy scipy matplotlib jinja2 markdown mpmath" ;;
+*) echo "dependencies.sh: unknown command '$command'; give build, verify, report, truths or test" >&2; exit 2 ;;
+esac
 
 packages=
 need() { packages="$packages $1"; }
@@ -11,8 +23,7 @@ have_header() { printf '#include <%s>\n' "$1" | ${CC:-cc} -E -I/usr/include/suit
 
 can_install() { [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null 2>&1; }
 
-find_missing() {
-    packages=
+find_libraries() {
     command -v pkg-config >/dev/null 2>&1 || need pkg-config
     have_header stdio.h || need libc6-dev
     have_header gsl/gsl_integration.h || need libgsl-dev
@@ -21,29 +32,31 @@ find_missing() {
     have_header klu.h || need libsuitesparse-dev
     pkg-config --exists arpack 2>/dev/null || need libarpack2-dev
     pkg-config --exists jansson 2>/dev/null || need libjansson-dev
-    for pair in h5py:python3-h5py matplotlib:python3-matplotlib jinja2:python3-jinja2 markdown:python3-markdown mpmath:python3-mpmath scipy:python3-scipy; do
-        /usr/bin/python3 -c "import ${pair%%:*}" >/dev/null 2>&1 || need "${pair##*:}"
+}
+
+find_missing() {
+    packages=
+    [ "$command" != build ] || find_libraries
+    for module in $modules; do
+        "$python" -I -c "import importlib.util, sys; sys.exit(importlib.util.find_spec('$module') is None)" >/dev/null 2>&1 ||
+            need "python3-$module"
     done
-    # One test reads a file with VTK, one opens the report in a browser; both are skipped without.
-    if can_install; then
-        command -v chromium >/dev/null 2>&1 || need chromium
-        /usr/bin/python3 -c "import vtk" >/dev/null 2>&1 || need python3-vtk9
-    fi
 }
 
 find_missing
-if [ -n "$packages" ]; then
-    if can_install; then
-        echo "beamwork: installing$packages"
-        { apt-get update -q && DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $packages; } >&2
-        find_missing
-    fi
-    if [ -n "$packages" ]; then
-        echo "beamwork: missing$packages. Run: sudo apt-get install$packages" >&2
-        exit 1
-    fi
+if [ -n "$packages" ] && can_install; then
+    echo "beamwork: installing$packages" >&2
+    { apt-get update -q && DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends \
+        -o DPkg::Lock::Timeout=600 $packages; } >&2
+    find_missing
 fi
+if [ -n "$packages" ]; then
+    echo "beamwork: missing$packages. Run: sudo apt-get install$packages" >&2
+    exit 1
+fi
+[ "$command" = build ] || exit 0
 
+flags=$2
 mkdir -p "$(dirname "$flags")"
 {
     echo "DEP_CFLAGS := $(pkg-config --cflags gsl lapacke hdf5 arpack jansson | sed 's/-I/-isystem /g') -isystem /usr/include/suitesparse"

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+static const char python[] = "/usr/bin/python3";
 enum { NOT_DERIVABLE = 3, LINE = 600 }; /* as of reference/derive/at.py */
 
 /* Its two streams as files. */
@@ -32,7 +33,9 @@ static status start(const char *path, const char *case_name, const char *paramet
             close(out[i]);
             close(error[i]);
         }
-        execl("/usr/bin/python3", "python3", "-B", path, case_name, parameters, (char *)NULL);
+        /* By its full name: it takes its libraries from beside the name it is called by, looked up in PATH; and isolated
+         * (-I) from the environment of whoever works in a virtual one. */
+        execl(python, python, "-I", "-B", path, case_name, parameters, (char *)NULL);
         _exit(127);
     }
     close(out[1]);

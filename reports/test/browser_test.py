@@ -37,7 +37,7 @@ def console(done):
     return [line for line in done.stderr.splitlines() if "CONSOLE" in line]
 
 
-@unittest.skipUnless(CHROMIUM, "no Chromium here; apt-get install chromium")
+@unittest.skipUnless(CHROMIUM, "needs chromium")
 class Browser(unittest.TestCase):
     @classmethod
     def setUpClass(cls):

@@ -104,7 +104,7 @@ class Solution(unittest.TestCase):
         reader.Update()
         return reader.GetOutput()
 
-    @unittest.skipIf(vtk is None, "python3-vtk9 is not installed")
+    @unittest.skipIf(vtk is None, "needs python3-vtk9")
     def test_vtk(self):
         """VTK reads one state: lines and walls with their fields."""
         file, shapes, _ = self.solve("spherical_joint", "sheet_third", 1, "--shapes=1")

@@ -1,35 +1,49 @@
-/* Sweeps in several processes: the same answers whatever the number of jobs, crashes as results; files that cannot be written. */
-#include <dirent.h>
+/* Sweeps in several processes: the same answers whatever the number of jobs; crashes and endless cells as results; no
+ * process outlives the one that started it; who asks to end keeps what is finished. Nothing here depends on the machine's
+ * speed: every step waits for an event, and END only bounds a test that would never end. */
 #include <gsl/gsl_test.h>
-#include <math.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "harness/catalogue/registry.h"
-#include "harness/record/output.h"
-#include "harness/record/record.h"
+#include "harness/study/interrupt.h"
 #include "harness/study/sweep.h"
-#include "harness/study/wire.h"
 
-enum { KILLED = 1, ENDED, HANGING };
+enum { END = 900 }; /* [s] */
+enum { SOUND = 0, KILLED, ENDED, HANGING, STOPPED };
 static const case_parameter parameter[] = {{"end", "1", 0, 0, 9, NULL, "how the process of a cell ends"},
                                            {"parent", "1", 0, 0, 1e12, NULL, "the process that may build the scene"},
+                                           {"says", "1", 0, 0, 1e6, NULL, "where a cell that never ends says its process"},
                                            {0}};
+
+static void never_end(int says)
+{
+    const pid_t self = getpid();
+    if (says > 0 && write(says, &self, sizeof self) != (ssize_t)sizeof self)
+        _exit(4);
+    for (;;)
+        pause();
+}
 
 /* The first case of the registry in the planning process; in a cell's process, the end that is asked for. */
 static status build(const double value[], scene *s, fault *f)
 {
     double defaults[CASE_MAX_PARAMETERS] = {0};
-    if (getpid() != (pid_t)value[1] && value[0] == KILLED)
+    const int end = getpid() != (pid_t)value[1] ? (int)value[0] : SOUND;
+    if (end == KILLED)
         raise(SIGKILL);
-    if (getpid() != (pid_t)value[1] && value[0] == ENDED)
+    if (end == ENDED)
         _exit(3);
-    while (getpid() != (pid_t)value[1] && value[0] == HANGING)
-        pause();
+    if (end == HANGING)
+        never_end((int)value[2]);
+    if (end == STOPPED) /* its own alarm has to wait */
+        raise(SIGSTOP);
     parameters_default(registry_cases[0], defaults);
     return registry_cases[0]->build(defaults, s, f);
 }
@@ -59,8 +73,9 @@ static void crashes(double end, int jobs, const char *reason)
     static const int mesh[] = {1, 2, 3};
     const double value[CASE_MAX_PARAMETERS] = {end, (double)getpid()};
     const formulation chosen = runner();
-    const sweep_request request = {.jobs = jobs, .time_limit = 1};
-    const status expected = end == HANGING ? STATUS_TIME_LIMIT : STATUS_FAULT;
+    const int endless = end == HANGING || end == STOPPED;
+    const sweep_request request = {.jobs = jobs, .time_limit = endless ? 1 : 0};
+    const status expected = endless ? STATUS_TIME_LIMIT : STATUS_FAULT;
     sweep s;
     fault f = {""};
     gsl_test(sweep_plan_one(&crashing, value, &chosen, 1, mesh, 3, &s, &f) != STATUS_OK, "planned %s", f.text);
@@ -107,122 +122,162 @@ static void jobs(void)
     sweep_free(&s[1]);
 }
 
-/* Every truncation of a cell's bytes is noticed and leaves nothing behind. */
-static void wires(void)
-{
-    static char bytes[1 << 20];
-    double x[2] = {1, 2}, y[2] = {3, NAN};
-    char first[] = "first", second[] = "", *lines[2] = {first, second};
-    quantity_result quantity[2] = {{.value = 7, .curve = {2, x, y}}, {.value = NAN, .reason = "none"}};
-    step_record step[3] = {{.path = 0.1}, {.path = 0.2}, {.path = 0.3}};
-    const cell_result cell = {
-        .left_out_lines = 2, .left_out = lines, .solve = {.quantities = 2, .quantity = quantity, .steps = 3, .step = step}};
-    cell_result back;
-    FILE *file = tmpfile();
-    gsl_test(file == NULL || wire_write(file, &cell) != 0, "written");
-    rewind(file);
-    const size_t size = fread(bytes, 1, sizeof bytes, file);
-    rewind(file);
-    gsl_test(wire_read(file, &back) != 0 || back.solve.quantities != 2 || back.solve.quantity[0].value != 7 ||
-                 back.solve.quantity[0].curve.value[0] != 3 || back.solve.step[2].path != 0.3 ||
-                 strcmp(back.left_out[0], "first") != 0,
-             "and read");
-    cell_result_free(&back);
-    fclose(file);
-    int accepted = 0;
-    for (size_t cut = 1; cut < size; cut += 7) {
-        file = fmemopen(bytes, cut, "rb");
-        accepted += wire_read(file, &back) == 0 || back.solve.quantity != NULL || back.left_out != NULL;
-        fclose(file);
-    }
-    gsl_test_int(accepted, 0, "truncated cells that were accepted");
-}
+/* A process that runs a sweep of cells that never end, and what they say of themselves. */
+typedef struct family {
+    pid_t parent;
+    int says;
+} family;
 
-static int entries(const char *folder)
+/* Child: its exit code is 0 when `sound` cells, then endless ones, gave what the request asks for. */
+static int run_endless(const sweep_request *request, int sound, int says)
 {
-    int count = 0;
-    DIR *d = opendir(folder);
-    for (struct dirent *e = d != NULL ? readdir(d) : NULL; e != NULL; e = readdir(d))
-        count += e->d_name[0] != '.';
-    if (d != NULL)
-        closedir(d);
-    return count;
-}
-
-/* Is it there, complete, for whoever reads it? */
-static int readable(const char *path, int count)
-{
-    hsize_t size = 0;
-    double last = 0;
-    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), set = H5Dopen2(file, "ramp", H5P_DEFAULT),
-                space = H5Dget_space(set);
-    double *value = calloc((size_t)count, sizeof *value);
-    if (H5Sget_simple_extent_dims(space, &size, NULL) == 1 && size == (hsize_t)count &&
-        H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0)
-        last = value[count - 1];
-    free(value);
-    H5Sclose(space);
-    H5Dclose(set);
-    H5Fclose(file);
-    return last == count - 1;
-}
-
-static void write_record(const char *path, const char *folder, int good, const char *what)
-{
-    enum { COUNT = 10000 };
-    static double ramp[COUNT];
-    const hsize_t size = COUNT;
-    for (int i = 0; i < COUNT; i++)
-        ramp[i] = i;
-    record r;
+    static const int mesh[] = {1, 2, 3};
+    const double good[CASE_MAX_PARAMETERS] = {SOUND, (double)getpid()},
+                 endless[CASE_MAX_PARAMETERS] = {HANGING, (double)getpid(), says};
+    const formulation chosen = runner();
+    sweep s = {0};
     fault f = {""};
-    const int before = entries(folder);
-    gsl_test(record_open(&r, &f) != STATUS_OK, "opened %s", f.text);
-    H5Dclose(record_values(&r, r.file, "ramp", 1, &size, ramp, "m"));
-    const status outcome = record_close(&r, path, &f);
-    gsl_test(good ? outcome != STATUS_OK : outcome != STATUS_FAULT || strchr(f.text, '\n') != NULL, "%s: %s", what, f.text);
-    gsl_test_int(entries(folder) - before, good, "%s: files left", what);
-    gsl_test(good && !readable(path, COUNT), "%s: the file can be read", what);
+    status outcome = STATUS_OK;
+    if (sound)
+        outcome = sweep_add(&s, &crashing, good, mesh, 3, &f) | sweep_extend(&s, &chosen, 1, &f);
+    outcome |= sweep_add(&s, &crashing, endless, mesh, 3, &f) | sweep_extend(&s, &chosen, 1, &f);
+    if (outcome != STATUS_OK || sweep_run(request, &s, &f) != STATUS_OK)
+        return 1;
+    int right = request->interruptible ? s.seriess == sound && s.unfinished == 3 : s.seriess == 1 + sound && s.unfinished == 0;
+    for (int i = 0; i < s.seriess; i++)
+        for (int k = 0; k < 3; k++)
+            right = right && (s.series[i].cell[k].solve.status == STATUS_TIME_LIMIT) == (i >= sound) &&
+                    (s.series[i].cell[k].solve.quantities > 0) == (i < sound);
+    sweep_free(&s);
+    return right ? 0 : 2;
 }
 
-static void write_failures(void)
+static family begin_family(const sweep_request *request, int sound)
 {
-    char folder[] = "/tmp/beamwork-sweep-XXXXXX", path[80], nowhere[80];
-    gsl_test(mkdtemp(folder) == NULL, "a folder");
-    snprintf(path, sizeof path, "%s/r.h5", folder);
-    snprintf(nowhere, sizeof nowhere, "%s/none/r.h5", folder);
-    struct rlimit kept, small;
-    getrlimit(RLIMIT_FSIZE, &kept);
-    small = kept;
-    small.rlim_cur = 20000; /* [bytes]: as a disk that is full after that many */
-    signal(SIGXFSZ, SIG_IGN);
-    setrlimit(RLIMIT_FSIZE, &small);
-    write_record(path, folder, 0, "no room");
-    setrlimit(RLIMIT_FSIZE, &kept);
-    write_record(nowhere, folder, 0, "no folder");
-    write_record(folder, folder, 0, "a folder instead of a file");
-    write_record(path, folder, 1, "room");
-    output o;
-    fault f;
-    setrlimit(RLIMIT_FSIZE, &small);
-    gsl_test(output_open(path, &o, &f) != STATUS_OK, "text opened");
-    for (int i = 0; i < 10000; i++)
-        fputs("0123456789", o.stream);
-    gsl_test(output_close(&o, &f) != STATUS_FAULT, "no room for text: %s", f.text);
-    setrlimit(RLIMIT_FSIZE, &kept);
-    gsl_test_int(entries(folder), 1, "the file of before is still there, and nothing else");
-    unlink(path);
-    rmdir(folder);
+    int ends[2];
+    family out = {-1, -1};
+    if (pipe(ends) != 0 || (out.parent = fork()) < 0)
+        return out;
+    if (out.parent == 0) {
+        close(ends[0]);
+        _exit(run_endless(request, sound, ends[1]));
+    }
+    close(ends[1]);
+    out.says = ends[0];
+    return out;
+}
+
+/* The process of a cell that has begun; 0: all who could say so are gone; -1: nothing happens. */
+static pid_t next_cell(const family *of)
+{
+    struct pollfd end = {.fd = of->says, .events = POLLIN};
+    pid_t process = 0;
+    if (poll(&end, 1, 1000 * END) <= 0)
+        return -1;
+    return read(of->says, &process, sizeof process) == (ssize_t)sizeof process ? process : 0;
+}
+
+static int exit_code(pid_t process)
+{
+    int how = 0;
+    return waitpid(process, &how, 0) == process && WIFEXITED(how) ? WEXITSTATUS(how) : -1;
+}
+
+/* Whoever is killed takes his workers along. */
+static void orphans(void)
+{
+    const sweep_request request = {.jobs = 2};
+    const family of = begin_family(&request, 0);
+    const pid_t first = next_cell(&of), second = next_cell(&of);
+    gsl_test(first <= 0 || second <= 0 || first == second, "two workers are at their cells");
+    kill(of.parent, SIGKILL);
+    exit_code(of.parent);
+    gsl_test_int(next_cell(&of), 0, "nobody holds the pipe any more: the workers went with their parent");
+    close(of.says);
+}
+
+static char state_of(pid_t process)
+{
+    char path[64], state = 'X';
+    snprintf(path, sizeof path, "/proc/%ld/stat", (long)process);
+    FILE *file = fopen(path, "r");
+    if (file == NULL || fscanf(file, "%*d (%*[^)]) %c", &state) != 1)
+        state = 'X';
+    if (file != NULL)
+        fclose(file);
+    return state;
+}
+
+/* A worker keeps the limit when nobody looks at it. */
+static void own_limit(void)
+{
+    const sweep_request request = {.jobs = 1, .time_limit = 1};
+    const family of = begin_family(&request, 0);
+    const pid_t cell = next_cell(&of);
+    gsl_test(cell <= 0, "a worker is at its cell");
+    kill(of.parent, SIGSTOP);
+    char state = 'R';
+    for (int i = 0; i < 100 * END && cell > 0 && state != 'X' && state != 'Z'; i++) {
+        nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+        state = state_of(cell);
+    }
+    gsl_test(state != 'X' && state != 'Z', "it has ended while its parent is stopped (%c)", state);
+    kill(of.parent, SIGCONT);
+    gsl_test_int(exit_code(of.parent), 0, "and its parent says that the limit was reached");
+    close(of.says);
+}
+
+/* Asked to end, a run keeps the series that are finished, and only those. */
+static void interrupted(int number)
+{
+    const sweep_request request = {.jobs = 1, .interruptible = 1};
+    const family of = begin_family(&request, 1);
+    gsl_test(next_cell(&of) <= 0, "three cells are done, the fourth has begun");
+    kill(of.parent, number);
+    gsl_test_int(exit_code(of.parent), 0, "signal %d: one series of two is left, three cells are not done", number);
+    gsl_test_int(next_cell(&of), 0, "signal %d: no worker is left", number);
+    close(of.says);
+}
+
+static int is_asked(const interrupt *i)
+{
+    struct pollfd end = {.fd = i->descriptor, .events = POLLIN};
+    return poll(&end, 1, 0) > 0;
+}
+
+/* What is ignored (nohup) is no request; afterwards everything is as before. */
+static void requests(void)
+{
+    interrupt i;
+    sigset_t after;
+    interrupt_begin(&i);
+    gsl_test(i.descriptor < 0 || is_asked(&i), "nobody asks");
+    raise(SIGTERM);
+    gsl_test(!is_asked(&i), "somebody does, and is not obeyed at once");
+    interrupt_end(&i);
+    signal(SIGHUP, SIG_IGN);
+    interrupt_begin(&i);
+    raise(SIGHUP);
+    gsl_test(is_asked(&i), "an ignored signal is no request");
+    interrupt_end(&i);
+    signal(SIGHUP, SIG_DFL);
+    sigprocmask(SIG_SETMASK, NULL, &after);
+    gsl_test(sigismember(&after, SIGINT) || sigismember(&after, SIGTERM), "the mask is the one of before");
 }
 
 int main(void)
 {
+    alarm(END);
     crashes(KILLED, 1, "crashed with signal 9");
     crashes(KILLED, 2, "crashed with signal 9");
     crashes(ENDED, 2, "its process ended with status 3");
     crashes(HANGING, 3, "time limit: no result after 1 s");
+    crashes(STOPPED, 2, "time limit: no result after 1 s");
+    orphans();
+    own_limit();
+    interrupted(SIGINT);
+    interrupted(SIGTERM);
+    requests();
     jobs();
-    wires();
-    write_failures();
     return gsl_test_summary();
 }

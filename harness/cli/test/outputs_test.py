@@ -1,0 +1,166 @@
+"""Where outputs go: through links, into pipes and devices, never onto an input or onto each other, and no work before that is sure."""
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import threading
+import unittest
+
+from harness.cli.test.program import PROGRAM, TEXT, TRUTHS, WHOLE, WORK, run
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def refused(self, code, word, *arguments, **options):
+        done = run(*arguments, **options)
+        self.assertEqual(done.returncode, code, (arguments, done))
+        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+        self.assertIn(word, done.stderr)
+        self.assertEqual(done.stdout, "", "nothing was computed")
+
+    def stored(self, name):
+        path = self.folder / name
+        self.assertEqual(run("verify", *WORK["verify"], "-o", path).returncode, 0)
+        return path
+
+
+class Places(Folder):
+    def test_no_places(self):
+        """Every output of every verb, before anything is computed."""
+        for verb, work in WORK.items():
+            for option in [(o,) for o in TEXT[verb]] + ([WHOLE[verb]] if WHOLE[verb] else []):
+                self.refused(2, "without a name", verb, *work, *option, "")
+                self.refused(4, "cannot be written", verb, *work, *option, self.folder)
+                self.refused(4, "cannot be written", verb, *work, *option, self.folder / "none" / "file")
+                self.refused(4, "cannot be written", verb, *work, *option, "x" * 300)
+                self.refused(4, "cannot be written", verb, *work, *option, "/tmp/" + "x/" * 3000)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_whole_files(self):
+        """HDF5 into what is no regular file is refused, and that stays what it is."""
+        fifo = self.folder / "fifo"
+        os.mkfifo(fifo)
+        for verb, option in WHOLE.items():
+            for place in (fifo, "/dev/stdout", "/dev/null") if option else ():
+                self.refused(2, "regular file", verb, *WORK[verb], *option, place)
+        self.assertTrue(fifo.is_fifo())
+
+    def test_pipes(self):
+        """Text goes into a pipe with a name as it would go into a file."""
+        for verb, options in TEXT.items():
+            for option in options:
+                fifo, file, got = self.folder / "fifo", self.folder / "file", []
+                os.mkfifo(fifo)
+                reader = threading.Thread(target=lambda got=got, fifo=fifo: got.append(fifo.read_text(encoding="utf-8")))
+                reader.start()
+                done = run(verb, *WORK[verb], option, fifo)
+                reader.join()
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertTrue(fifo.is_fifo())
+                self.assertEqual(run(verb, *WORK[verb], option, file).returncode, 0)
+                self.assertEqual(len(got[0].splitlines()), len(file.read_text(encoding="utf-8").splitlines()), (verb, option))
+                fifo.unlink()
+
+    def test_standard_output(self):
+        """/dev/stdout is a pipe, or a file that keeps what is in it already."""
+        work = ("converge", *WORK["converge"], "--format", "csv")  # which has no times
+        piped = run(*work, "-o", "/dev/stdout")
+        plain = run(*work)
+        self.assertEqual(piped.stdout, plain.stdout)
+        file = self.folder / "file"
+        subprocess.run(f"{{ echo before; '{PROGRAM}' {' '.join(work)} -o /dev/stdout; echo after; }} >'{file}'", shell=True, check=True)
+        self.assertEqual(file.read_text(encoding="utf-8"), "before\n" + plain.stdout + "after\n")
+        with open(file, "w", encoding="utf-8") as out:
+            self.assertEqual(run("verify", *WORK["verify"], "-o", file, stdout=out).returncode, 2)
+
+    def test_links(self):
+        """The target is replaced, not the link."""
+        target, link = self.folder / "target", self.folder / "link"
+        target.write_text("before", encoding="utf-8")
+        link.symlink_to("target")
+        self.assertEqual(run("verify", *WORK["verify"], "-o", link).returncode, 0)
+        self.assertTrue(link.is_symlink() and not target.is_symlink())
+        self.assertEqual(run("compare", target, link).returncode, 0)
+
+
+class Twice(Folder):
+    def names(self, name):
+        """One file under other words."""
+        path = self.folder / name
+        link = self.folder / f"link_of_{name}"
+        link.unlink(missing_ok=True)
+        link.symlink_to(name)
+        yield path
+        yield f"{self.folder}/./{name}"
+        yield link
+        if path.exists():
+            hard = self.folder / f"hard_{name}"
+            hard.unlink(missing_ok=True)
+            os.link(path, hard)
+            yield hard
+
+    def test_outputs(self):
+        for there in (False, True):
+            first = self.folder / "a"
+            if there:
+                first.write_text("before", encoding="utf-8")
+            for name in self.names("a"):
+                for one, other in (("-o", "--json"), ("--json", "--junit"), ("--junit", "--markdown"), ("-o", "--markdown")):
+                    self.refused(2, "are the same file", "verify", *WORK["verify"], one, first, other, name)
+                self.refused(2, "are the same file", "stress", *WORK["stress"], "-o", first, "--json", name)
+            self.assertEqual(first.read_text(encoding="utf-8") if there else first.exists(), "before" if there else False)
+
+    def test_two_devices(self):
+        done = run("verify", *WORK["verify"], "--json", "/dev/null", "--junit", "/dev/null")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_compared_file(self):
+        path = self.stored("run.h5")
+        before = path.read_bytes()
+        for name in self.names("run.h5"):
+            self.refused(2, "which is read", "compare", path, "-o", name)
+            self.assertEqual(path.read_bytes(), before)
+
+    def test_truths(self):
+        truths = self.folder / "truths.h5"
+        shutil.copy(TRUTHS, truths)
+        before = truths.read_bytes()
+        for name in self.names("truths.h5"):
+            for verb, work in WORK.items():
+                for option in [(o,) for o in TEXT[verb]] + ([WHOLE[verb]] if WHOLE[verb] else []):
+                    self.refused(2, "which is read", verb, *work, "--truths", truths, *option, name)
+        self.assertEqual(truths.read_bytes(), before)
+
+    def test_program(self):
+        """A copy of it: a test that fails must not cost the build."""
+        program = self.folder / "beamwork"
+        shutil.copy(PROGRAM, program)
+        before = program.read_bytes()
+        self.refused(2, "which is read", "verify", *WORK["verify"], "--truths", TRUTHS, "-o", program, program=program)
+        self.assertEqual(program.read_bytes(), before)
+
+
+class LongPaths(Folder):
+    def test_clone(self):
+        """A clone in a folder whose name is longer than any buffer of old: truths, derivations and outputs are found."""
+        deep = self.folder
+        while len(str(deep)) < 3000:
+            deep = deep / ("d" * 200)
+        (deep / "build").mkdir(parents=True)
+        program = deep / "build" / "beamwork"
+        shutil.copy(PROGRAM, program)
+        shutil.copy(TRUTHS, deep / "build" / "truths.h5")
+        (deep / "reference").symlink_to(pathlib.Path(__file__).resolve().parents[3] / "reference")
+        alone = {k: v for k, v in os.environ.items() if not k.startswith("BEAMWORK")}
+        for arguments in (("verify", *WORK["verify"], "-o", deep / "r.h5"), ("truth", "elastica", "--set", "load=2.5"), ("compare", deep / "r.h5", deep / "r.h5")):
+            done = run(*arguments, program=program, env=alone)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
