@@ -30,7 +30,7 @@ def solve(program, case, parameters, formulation, n, steps):
     """The solution as JSON, or None with the reason."""
     sets = [word for p in parameters.split(";") if p for word in ("--set", p)]
     command = [program, "solve", case, "-f", formulation, "-n", n, "--format", "json", *sets, *(["--steps", str(steps)] if steps else [])]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode not in (0, 1) or not done.stdout:
         raise SystemExit(f"newton.py: {' '.join(command)}: {done.stderr.strip()}")
     return json.loads(done.stdout)

@@ -30,7 +30,7 @@ addEventListener("load", () => {{
 
 def chromium(folder, *arguments):
     return subprocess.run([CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files", f"--user-data-dir={folder}/profile", "--enable-logging=stderr",
-                           "--window-size=1400,1000", *arguments], capture_output=True, text=True, check=False, timeout=180)
+                           "--window-size=1400,1000", *arguments], capture_output=True, text=True, check=False)
 
 
 def console(done):

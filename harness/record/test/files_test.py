@@ -4,6 +4,8 @@ import io
 import json
 import os
 import pathlib
+import pty
+import re
 import resource
 import signal
 import subprocess
@@ -51,31 +53,25 @@ class Complete(Folder):
             self.assertEqual(pathlib.Path(self.path(name)).read_bytes(), b"before")
         self.assertEqual(sorted(os.listdir(self.folder.name)), sorted(wanted.values()))
 
-    def test_interrupted(self):
-        """A run that is ended from outside leaves no file."""
-        process = subprocess.Popen([PROGRAM, "verify", "-o", self.path("r.h5")], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        try:
-            process.wait(0.3)
-        except subprocess.TimeoutExpired:
-            process.terminate()
-        process.wait(20)
-        self.assertEqual(os.listdir(self.folder.name), [])
-
     def test_killed(self):
-        """Whenever a run is killed, its file is the whole one, or not there."""
+        """Whenever a run is killed, its file is the whole one, or not there: before the work, while it is written, behind it."""
         run(*SELECTION, "-o", self.path("whole.h5"))
         whole = os.path.getsize(self.path("whole.h5"))
-        for delay in (0.005, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.08, 0.1, 0.15, 0.2, 0.3):
-            process = subprocess.Popen([PROGRAM, *SELECTION, "-o", self.path("r.h5")], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            try:
-                process.wait(delay)
-            except subprocess.TimeoutExpired:
-                process.kill()
-            process.wait(20)
+        for look in range(24):
+            process = subprocess.Popen([PROGRAM, *SELECTION, "-o", self.path("r.h5")], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+            if look % 2 == 1:
+                process.stdout.read(1)   # the work is done, the file comes next
+            for _ in range(40 * (look // 2)):
+                if os.path.exists(self.path("r.h5")) or process.poll() is not None:
+                    break
+            process.kill()
+            process.communicate()
             if os.path.exists(self.path("r.h5")):
                 self.assertAlmostEqual(os.path.getsize(self.path("r.h5")), whole, delta=100)
                 self.assertEqual(run("compare", self.path("whole.h5"), self.path("r.h5"), "--threshold", "error=0,floor=0,work=0").returncode, 0)
-                os.remove(self.path("r.h5"))
+            for left in os.listdir(self.folder.name):
+                if left != "whole.h5":
+                    os.remove(self.path(left))
 
     def test_nowhere(self):
         for option in ("-o", "--json", "--junit"):
@@ -84,6 +80,73 @@ class Complete(Folder):
                 self.assertEqual(done.returncode, 4, done)
                 self.assertIn("cannot be written", done.stderr)
         self.assertEqual(os.listdir(self.folder.name), [])
+
+
+class Interrupted(Folder):
+    """Who asks to end (Ctrl-C, SIGTERM) has what was judged until then, under names that say so."""
+
+    def started(self, cells, *arguments):
+        """A run that has done so many cells: it says so to a terminal."""
+        terminal, end = pty.openpty()
+        self.addCleanup(os.close, terminal)
+        process = subprocess.Popen([PROGRAM, "verify", *arguments], stdout=subprocess.PIPE, stderr=end, start_new_session=True)
+        os.close(end)
+        said = b""
+        while max((int(n) for n in re.findall(rb"(\d+)/\d+ ", said)), default=0) < cells:
+            said += os.read(terminal, 4096)
+        return process, terminal
+
+    def ended(self, process, terminal):
+        out = process.communicate()[0].decode()
+        return out, os.read(terminal, 65536).decode()
+
+    def check_partial(self, number, group):
+        files = {"-o": "r.h5", "--json": "v.json", "--junit": "j.xml", "--markdown": "v"}
+        process, terminal = self.started(60, "-j", "2", *(word for option, name in files.items() for word in (option, self.path(name))))
+        (os.killpg if group else os.kill)(process.pid, number)
+        out, said = self.ended(process, terminal)
+        self.assertEqual(process.returncode, 5, said)
+        self.assertIn("r.partial.h5", said)
+        self.assertIn("interrupted", out)
+        self.assertEqual(sorted(os.listdir(self.folder.name)), ["j.partial.xml", "r.partial.h5", "v.partial", "v.partial.json"])
+        self.assertIn("interrupted", pathlib.Path(self.path("v.partial")).read_text(encoding="utf-8"))
+        suite = xml.etree.ElementTree.parse(self.path("j.partial.xml")).getroot()[0]
+        self.assertEqual(int(suite.get("failures")), len(suite.findall("testcase/failure")))
+        self.assertGreater(int(suite.get("failures")), 0)
+        self.check_content(json.loads(pathlib.Path(self.path("v.partial.json")).read_text(encoding="utf-8")))
+        for name in os.listdir(self.folder.name):
+            os.remove(self.path(name))
+
+    def check_content(self, summary):
+        """Every verdict there is the one of a run that was left alone."""
+        self.assertGreater(summary["unfinished_cells"], 0)
+        self.assertGreater(len(summary["verdicts"]), 0)
+        with h5py.File(self.path("r.partial.h5")) as file:
+            self.assertEqual(file.attrs["unfinished_cells"], summary["unfinished_cells"])
+        case = summary["verdicts"][0]["case"]
+        name = f"{case}/{summary['verdicts'][0]['parameters'] or 'default'}"
+        run("verify", "-k", name.replace(";", " and "), "--json", self.path("whole.json"))
+        whole = json.loads(pathlib.Path(self.path("whole.json")).read_text(encoding="utf-8"))
+        self.assertEqual(whole["unfinished_cells"], 0)
+        key = ("case", "parameters", "formulation", "quantity")
+        of = {tuple(row[k] for k in key): row for row in whole["verdicts"]}
+        both = [(row, of[tuple(row[k] for k in key)]) for row in summary["verdicts"] if tuple(row[k] for k in key) in of]
+        self.assertGreater(len(both), 0)
+        for here, there in both:
+            self.assertEqual(here, there)
+
+    def test_asked(self):
+        self.check_partial(signal.SIGINT, group=True)    # a terminal asks everybody, workers too
+        self.check_partial(signal.SIGTERM, group=False)
+
+    def test_ignored(self):
+        """nohup: what is ignored ends nothing."""
+        process = subprocess.Popen([PROGRAM, *SELECTION, "-o", self.path("r.h5")], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
+        process.send_signal(signal.SIGINT)
+        process.communicate()
+        self.assertEqual(process.returncode, 0)
+        self.assertEqual(os.listdir(self.folder.name), ["r.h5"])
 
 
 class Readable(Folder):
@@ -109,6 +172,29 @@ class Readable(Folder):
             row = next(row for row in summary["verdicts"] if row["formulation"] == "beamw")
             self.assertEqual(finest["quantities"]["value"][0], row["value"])
             self.assertEqual(finest["quantities"]["unit"][0].decode(), "1")
+
+    def test_reached(self):
+        """Elements from which on every error is within a level, against the errors in the same file."""
+        run("verify", "-k", "elastica/default or warping_torsion/default", "-o", self.path("r.h5"))
+        seen = set()
+        with h5py.File(self.path("r.h5")) as file:
+            for case in ("elastica", "warping_torsion"):
+                for series in file[f"cases/{case}/default"].values():
+                    seen |= self.check_reached(series) if "verdicts" in series else set()
+        self.assertGreater(len(seen), 3)
+
+    def check_reached(self, series):
+        meshes = sorted((int(g.attrs["elements_per_member"]), g["quantities"][()]) for g in series.values() if "elements_per_member" in g.attrs)
+        seen = set()
+        for row in series["verdicts"][()]:
+            if not meshes or numpy.isnan(row["truth"]):
+                continue
+            error = [(n, float(q["value"][list(q["name"]).index(row["quantity"])]) / row["truth"] - 1) for n, q in meshes]
+            for column, level in (("reach_10", 0.1), ("reach_1", 0.01), ("reach_0.1", 1e-3), ("reach_0.01", 1e-4)):
+                right = next((n for i, (n, _) in enumerate(error) if all(abs(e) <= level for _, e in error[i:])), numpy.nan)
+                numpy.testing.assert_equal(row[column], right, f"{series.name} {row['quantity']} {column}")
+                seen.add(right)
+        return seen
 
     def test_csv(self):
         done = run("converge", "warping_torsion", "-f", "beamw", "-f", "beamw_vlasov", "-n", "4,2,8", "--format", "csv")

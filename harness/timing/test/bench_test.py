@@ -13,7 +13,7 @@ PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
 
 
 def run(*arguments):
-    return subprocess.run([PROGRAM, "bench", *arguments], capture_output=True, text=True, check=False, timeout=120)
+    return subprocess.run([PROGRAM, "bench", *arguments], capture_output=True, text=True, check=False)
 
 
 class Bench(unittest.TestCase):

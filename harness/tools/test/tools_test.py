@@ -1,0 +1,142 @@
+"""What each command asks of a machine, and how the runner counts: with a machine that has nothing, and with tests that are made up."""
+import os
+import pathlib
+import subprocess
+import tempfile
+import textwrap
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+TOOLS = ROOT / "harness" / "tools"
+COMMANDS = ("build", "verify", "report", "test", "truths")
+OPTIONAL = ("chromium", "vtk")  # of single tests: nobody installs them
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def script(self, name, *lines):
+        path = self.folder / name
+        path.write_text("#!/bin/sh\n" + "\n".join(lines) + "\n", encoding="ascii")
+        path.chmod(0o755)
+
+
+class Dependencies(Folder):
+    """Every program that could find something finds nothing; apt-get writes down what it is asked for."""
+
+    def setUp(self):
+        super().setUp()
+        for name in ("cc", "pkg-config", "python3"):
+            self.script(name, "exit 1")
+        self.script("apt-get", f'echo "$@" >>"{self.folder}/asked"')
+
+    def needs(self, command, user):
+        self.script("id", f"echo {user}")
+        asked = self.folder / "asked"
+        asked.unlink(missing_ok=True)
+        done = subprocess.run([TOOLS / "dependencies.sh", command, self.folder / "flags.mk"], capture_output=True, text=True, check=False,
+                              env={"PATH": f"{self.folder}:{os.environ['PATH']}", "PYTHON": str(self.folder / "python3"), "CC": "cc"})
+        self.assertEqual(done.returncode, 1, "what was missing still is")
+        self.assertIn("Run: sudo apt-get install", done.stderr.splitlines()[-1])
+        packages = set(done.stderr.splitlines()[-1].partition("apt-get install")[2].split())
+        return packages, asked.read_text(encoding="ascii") if asked.exists() else ""
+
+    def test_packages(self):
+        needs = {command: self.needs(command, 0)[0] for command in COMMANDS}
+        self.assertTrue({"libgsl-dev", "libhdf5-dev", "libjansson-dev"} <= needs["build"])
+        self.assertFalse(any(name.startswith("python3") for name in needs["build"]))
+        self.assertEqual(needs["verify"], {"python3-h5py", "python3-numpy"})
+        self.assertTrue({"python3-matplotlib", "python3-jinja2", "python3-markdown"} <= needs["report"])
+        self.assertIn("python3-mpmath", needs["truths"])
+        self.assertTrue(needs["report"] | needs["truths"] | needs["verify"] <= needs["test"])
+
+    def test_nobody_installs_what_single_tests_need(self):
+        for command in COMMANDS:
+            packages, asked = self.needs(command, 0)
+            self.assertIn("install", asked)
+            for name in OPTIONAL:
+                self.assertNotIn(name, asked)
+                self.assertFalse(any(name in package for package in packages))
+
+    def test_only_root_installs(self):
+        for command in COMMANDS:
+            self.assertEqual(self.needs(command, 1000)[1], "")
+
+    def test_every_import_is_asked_for(self):
+        """Modules that the packer, the derivations and the reports import belong to somebody."""
+        own = {"reference", "reports", "harness"}
+        for command, folders in (("verify", ["reference/pack.py"]), ("truths", ["reference/derive"]), ("report", ["reports"])):
+            have = {package.removeprefix("python3-") for package in self.needs(command, 1000)[0]} | {"mpl_toolkits", "markupsafe"}
+            for folder in folders:
+                for path in [ROOT / folder] if folder.endswith(".py") else (ROOT / folder).glob("*.py"):
+                    self.assertLessEqual(foreign_imports(path) - own, have, path)
+
+
+def foreign_imports(path):
+    """Top-level names of what a file imports anywhere, without Python's own."""
+    import ast
+    import sys
+    names = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name.partition(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.level == 0:
+            names.add(node.module.partition(".")[0])
+    return names - set(sys.stdlib_module_names)
+
+
+class Runner(Folder):
+    def tests(self, *lines):
+        package = self.folder / "room"
+        package.mkdir(exist_ok=True)
+        (package / "__init__.py").touch()
+        body = textwrap.indent("\n".join(lines), "    ")
+        (package / "made_up_test.py").write_text(f"import unittest\n\n\nclass T(unittest.TestCase):\n{body}\n", encoding="ascii")
+
+    def run_tests(self, *programs, python=("room",)):
+        return subprocess.run([TOOLS / "run_tests.sh", self.folder / "logs", *programs, "--", *python], capture_output=True, text=True, check=False,
+                              cwd=self.folder)
+
+    def test_counts(self):
+        self.script("a_test", "echo PASS: one; echo PASS: two")
+        self.tests("def test_good(self):", '    """With words."""', "@unittest.skip('needs chromium')", "def test_skipped(self):", '    """Says what."""',
+                   "@unittest.skip(\"needs a 'thing'\")", "def test_skipped_too(self):", "    pass")
+        done = self.run_tests(self.folder / "a_test")
+        lines = done.stdout.splitlines()
+        self.assertEqual((done.returncode, lines[-1]), (0, "3 passed, 0 failed, 2 skipped"), done)
+        self.assertIn("SKIP room.made_up_test.T.test_skipped: needs chromium", lines)
+        self.assertIn("SKIP room.made_up_test.T.test_skipped_too: needs a 'thing'", lines)
+
+    def test_failures(self):
+        self.tests("def test_good(self):", "    pass")
+        self.assertEqual(self.run_tests().stdout.splitlines()[-1], "1 passed, 0 failed")
+        for wrong in ("echo FAIL: this", "echo PASS: that; exit 3", "exit 0", "echo PASS: that; kill -9 $$"):
+            self.script("a_test", wrong)
+            done = self.run_tests(self.folder / "a_test")
+            self.assertEqual(done.returncode, 1, wrong)
+            self.assertIn(" 1 failed", done.stdout.splitlines()[-1])
+        for wrong in ("    self.fail()", "    raise OSError"):
+            self.tests("def test_bad(self):", wrong)
+            done = self.run_tests()
+            self.assertEqual((done.returncode, done.stdout.splitlines()[-1]), (1, "0 passed, 1 failed"))
+
+    def test_class_that_is_skipped(self):
+        self.tests("@classmethod", "def setUpClass(cls):", "    raise unittest.SkipTest('needs a lake')", "def test_one(self):", "    pass")
+        done = self.run_tests()
+        self.assertEqual((done.returncode, done.stdout.splitlines()[-1]), (0, "0 passed, 0 failed, 1 skipped"), done)
+        self.assertIn("needs a lake", done.stdout)
+
+    def test_spaces(self):
+        """Everything under a path with spaces."""
+        self.folder = self.folder / "a b"
+        self.folder.mkdir()
+        self.script("a_test", "echo PASS: one")
+        self.tests("def test_good(self):", "    pass")
+        self.assertEqual(self.run_tests(self.folder / "a_test").stdout.splitlines()[-1], "2 passed, 0 failed")
+
+
+if __name__ == "__main__":
+    unittest.main()
