@@ -3,14 +3,32 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
+
+/* A line that is too long loses its middle (of a long path): culprit and remedy stand at its ends. */
+static void shorten(const char *line, size_t length, char text[FAULT_TEXT])
+{
+    static const char gap[] = " ... ";
+    const size_t room = FAULT_TEXT - sizeof gap, tail = room / 2, head = room - tail;
+    memcpy(text, line, head);
+    memcpy(text + head, gap, sizeof gap - 1);
+    memcpy(text + head + sizeof gap - 1, line + length - tail, tail + 1);
+}
 
 status fault_set(fault *f, status s, const char *format, ...)
 {
     if (f != NULL) {
+        enum { LONGEST = 8192 }; /* two paths and their words */
+        char line[LONGEST];
         va_list arguments;
         va_start(arguments, format);
-        vsnprintf(f->text, sizeof f->text, format, arguments);
+        vsnprintf(line, sizeof line, format, arguments);
         va_end(arguments);
+        const size_t length = strlen(line);
+        if (length < FAULT_TEXT)
+            memcpy(f->text, line, length + 1);
+        else
+            shorten(line, length, f->text);
     }
     return s;
 }
