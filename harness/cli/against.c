@@ -187,6 +187,8 @@ int cli_against(cli_request *r)
     fault f = {""};
     if (r->case_count != 1 || r->formulations != 1 || r->meshes < 1 || r->meshes > 2)
         return cli_fail(STATUS_REFUSED, "--against compares one cell: give one CASE, one -f and one -n (or two: A's and B's)");
+    if (r->output != NULL)
+        return cli_fail(STATUS_REFUSED, "--against writes no file; leave -o away, or give --format json");
     const case_type *type = cli_case(r);
     if (type == NULL)
         return EXIT_REFUSED;

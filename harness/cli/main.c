@@ -71,11 +71,11 @@ static int run(int count, char **arguments)
 /* A stack that is too small ends a program without a word: it is raised as far as we may. 1: it is large enough. */
 static int stack_suffices(void)
 {
-    enum { LEAST = 1 << 20 }; /* [bytes] */
+    enum { LEAST = 1 << 20, USUAL = 1 << 23 }; /* [bytes] */
     struct rlimit stack;
     if (getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= LEAST)
         return 1;
-    stack.rlim_cur = stack.rlim_max < LEAST ? stack.rlim_max : LEAST;
+    stack.rlim_cur = stack.rlim_max < USUAL ? stack.rlim_max : USUAL;
     return setrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur >= LEAST;
 }
 

@@ -62,6 +62,7 @@ class Bench(unittest.TestCase):
 
     def test_refusals(self):
         for arguments in (("nonsense",), ("-n", "2"), ("elastica", "--against", "beamw"), ("elastica", "-f", "beamw", "-n", "1", "--against", "nonsense"),
+                          ("elastica", "-f", "beamw", "-n", "1", "--against", "beamw_first", "-o", "x.h5"),
                           ("elastica", "-f", "beamw", "-n", "1", "--against", "./x", "--plant", "20")):
             done = run(*arguments)
             self.assertEqual(done.returncode, 2, arguments)
