@@ -1,4 +1,5 @@
-"""Words of the command line that say two things or nothing, and a machine that gives too little: one line and the documented code."""
+"""Words of the command line that say two things or nothing, and a machine that gives too little:
+one line and the documented code."""
 import os
 import pathlib
 import re
@@ -11,7 +12,8 @@ import unittest
 from harness.cli.test.program import PROGRAM, VERBS, WORK, run
 
 LISTS = ("formulation", "elements", "set")  # may be given again
-HELP = {**os.environ, "ASAN_OPTIONS": "detect_leaks=0"}  # the C library's argp leaves a byte when it exits
+# the C library's argp leaves a byte when it exits
+HELP = {**os.environ, "ASAN_OPTIONS": "detect_leaks=0"}
 
 
 class Words(unittest.TestCase):
@@ -25,7 +27,8 @@ class Words(unittest.TestCase):
         """Every option with one value of every verb, as its help lists them."""
         seen = 0
         for verb in VERBS:
-            for name in re.findall(r"--([a-z-]+)(?:=|\[=)[A-Z]", run(verb, "--help", env=HELP).stdout) + ["format"] * (verb == "solve"):
+            shown = run(verb, "--help", env=HELP).stdout
+            for name in re.findall(r"--([a-z-]+)\[?=[A-Za-z]", shown):
                 if name in LISTS:
                     continue
                 value = {"format": "text", "against": "beamw"}.get(name, "3")
@@ -35,25 +38,35 @@ class Words(unittest.TestCase):
 
     def test_parameters_twice(self):
         for verb in ("solve", "converge", "bench"):
-            self.refused("given twice", verb, "elastica", "-f", "beamw", "-n", "2", "--set", "load=1", "--set", "load=1")
-            self.refused("given twice", verb, "elastica", "-f", "beamw", "-n", "2", "--set", "load=1", "--set", "load")
+            self.refused("given twice", verb, "elastica", "-f", "beamw", "-n", "2", "--set",
+                         "load=1", "--set", "load=1")
+            self.refused("given twice", verb, "elastica", "-f", "beamw", "-n", "2", "--set",
+                         "load=1", "--set", "load")
         self.refused("given twice", "truth", "elastica", "--set", "load=1", "--set", "load=2")
-        self.refused("given twice", "solve", "elastica", "-n", "2", "-f", "beamw:mass=lumped,mass=consistent")
-        self.refused("given twice", "solve", "elastica", "-n", "2", "-f", "beamw:newton=mixed,newton=mixed")
-        self.refused("given twice", "converge", "elastica", "-n", "2", "-f", "beamw", "-f", "beamw:mass=consistent")
+        self.refused("given twice", "solve", "elastica", "-n", "2", "-f",
+                     "beamw:mass=lumped,mass=consistent")
+        self.refused("given twice", "solve", "elastica", "-n", "2", "-f",
+                     "beamw:newton=mixed,newton=mixed")
+        self.refused("given twice", "converge", "elastica", "-n", "2", "-f", "beamw", "-f",
+                     "beamw:mass=consistent")
 
     def test_commas(self):
         for stray in (",{}", "{},", ",", "{0},,{0}", ""):
-            self.refused("number of elements", "converge", "elastica", "-f", "beamw", "-n", stray.format("2"))
+            self.refused("number of elements", "converge", "elastica", "-f", "beamw", "-n",
+                         stray.format("2"))
             if stray != "":
-                self.refused("option", "converge", "elastica", "-n", "2", "-f", "beamw:" + stray.format("mass=lumped"))
-            self.refused("threshold", "compare", "old.h5", "new.h5", "--threshold", stray.format("error=1"))
+                self.refused("option", "converge", "elastica", "-n", "2", "-f",
+                             "beamw:" + stray.format("mass=lumped"))
+            self.refused("threshold", "compare", "old.h5", "new.h5", "--threshold",
+                         stray.format("error=1"))
         self.refused("option", "converge", "elastica", "-n", "2", "-f", "beamw:")
 
     def test_numbers(self):
         """What a double cannot hold is no value: neither zero nor infinity."""
-        for text in ("1e-400", "-1e-400", "1e400", "1e-320", "1e999999999999", "0x1p-2000", "nan", "inf", "1,5", "1e", "", " "):
-            self.refused("parameter load", "solve", "elastica", "-f", "beamw", "-n", "1", "--set", f"load={text}")
+        for text in ("1e-400", "-1e-400", "1e400", "1e-320", "1e999999999999", "0x1p-2000", "nan",
+                     "inf", "1,5", "1e", "", " "):
+            self.refused("parameter load", "solve", "elastica", "-f", "beamw", "-n", "1", "--set",
+                         f"load={text}")
             self.refused("threshold", "compare", "old.h5", "new.h5", "--threshold", f"error={text}")
 
 
@@ -68,14 +81,17 @@ class Machine(unittest.TestCase):
     @unittest.skipUnless(os.path.exists("/dev/full"), "needs /dev/full")
     def test_full_disk(self):
         """Whatever is shown: not shown is not well."""
-        shown = [("--help",), ("help",), ("--version",), (), ("list",), ("list", "cases"), ("list", "formulations"), ("list", "elastica"),
-                 ("truth", "elastica"), *((verb, *work) for verb, work in WORK.items()), *((verb, "--help") for verb in VERBS),
+        shown = [("--help",), ("help",), ("--version",), (), ("list",), ("list", "cases"),
+                 ("list", "formulations"), ("list", "elastica"),
+                 ("truth", "elastica"), *((verb, *work) for verb, work in WORK.items()),
+                 *((verb, "--help") for verb in VERBS),
                  *((verb, "--usage") for verb in VERBS)]
         for arguments in shown:
             with open("/dev/full", "w", encoding="ascii") as full:
                 done = run(*arguments, stdout=full, env=HELP)
             self.assertEqual(done.returncode, 4, (arguments, done))
-            self.assertEqual(done.stderr.strip(), "beamwork: standard output cannot be written", arguments)
+            self.assertEqual(done.stderr.strip(), "beamwork: standard output cannot be written",
+                             arguments)
 
     def test_small_files(self):
         """ulimit -f, without anybody who ignores its signal."""
@@ -85,7 +101,8 @@ class Machine(unittest.TestCase):
         with open(self.folder / "list", "w", encoding="ascii") as file:
             done = run("list", stdout=file, preexec_fn=limit)
         self.assertEqual((done.returncode, len(done.stderr.splitlines())), (4, 1), done)
-        for verb, option in (("verify", "-o"), ("verify", "--json"), ("converge", "-o"), ("stress", "--json")):
+        for verb, option in (("verify", "-o"), ("verify", "--json"), ("converge", "-o"),
+                             ("stress", "--json")):
             more = ("--format", "json") if verb == "converge" else ()
             done = run(verb, *WORK[verb], *more, option, self.folder / "out", preexec_fn=limit)
             self.assertEqual((done.returncode, len(done.stderr.splitlines())), (4, 1), done)
@@ -100,12 +117,14 @@ class Machine(unittest.TestCase):
                 def limit(size=size * 1024, hard=hard):
                     resource.setrlimit(resource.RLIMIT_STACK, (size, size if hard else 2 ** 23))
                 done = run("verify", *WORK["verify"], preexec_fn=limit)
-                self.assertEqual((done.returncode, len(done.stderr.splitlines())), (4, 1) if hard else (0, 0), (size, hard, done))
+                told = (done.returncode, len(done.stderr.splitlines()))
+                self.assertEqual(told, (4, 1) if hard else (0, 0), (size, hard, done))
                 self.assertTrue(not hard or "ulimit -s" in done.stderr)
 
 
 class OtherPythons(unittest.TestCase):
-    """Who works in a virtual environment, or with a Python of his own, has the truths derived all the same."""
+    """Who works in a virtual environment, or with a Python of his own, has the truths derived all
+    the same."""
 
     def derived(self, **environment):
         done = run("truth", "elastica", "--set", "load=2.5", env={**os.environ, **environment})
@@ -121,8 +140,10 @@ class OtherPythons(unittest.TestCase):
 
     def test_virtual_environment(self):
         self.python.symlink_to("/usr/bin/python3")
-        (self.folder / "pyvenv.cfg").write_text("home = /usr/bin\ninclude-system-site-packages = false\n", encoding="ascii")
-        missing = subprocess.run([self.python, "-c", "import mpmath"], capture_output=True, check=False)
+        settings = "home = /usr/bin\ninclude-system-site-packages = false\n"
+        (self.folder / "pyvenv.cfg").write_text(settings, encoding="ascii")
+        missing = subprocess.run([self.python, "-c", "import mpmath"], capture_output=True,
+                                 check=False)
         self.assertNotEqual(missing.returncode, 0, "an environment that has nothing")
         path = f"{self.folder}/bin:{os.environ['PATH']}"
         self.derived(PATH=path, VIRTUAL_ENV=str(self.folder))
@@ -134,7 +155,8 @@ class OtherPythons(unittest.TestCase):
         self.derived(PATH=f"{self.folder}/bin:{os.environ['PATH']}")
 
     def test_environment_of_python(self):
-        (self.folder / "mpmath.py").write_text("raise ImportError('not this one')\n", encoding="ascii")
+        (self.folder / "mpmath.py").write_text("raise ImportError('not this one')\n",
+                                               encoding="ascii")
         self.derived(PYTHONPATH=str(self.folder))
         self.derived(PYTHONHOME=str(self.folder))
         self.derived(PYTHONSTARTUP="/nowhere", PYTHONSAFEPATH="1")

@@ -1,4 +1,5 @@
-"""Where outputs go: through links, into pipes and devices, never onto an input or onto each other, and no work before that is sure."""
+"""Where outputs go: through links, into pipes and devices, never onto an input or onto each
+other, and no work before that is sure."""
 import os
 import pathlib
 import re
@@ -42,7 +43,8 @@ class Places(Folder):
             for option in [(o,) for o in TEXT[verb]] + ([WHOLE[verb]] if WHOLE[verb] else []):
                 self.refused(2, "without a name", verb, *work, *option, "")
                 self.refused(4, "cannot be written", verb, *work, *option, self.folder)
-                self.refused(4, "cannot be written", verb, *work, *option, self.folder / "none" / "file")
+                self.refused(4, "cannot be written", verb, *work, *option,
+                             self.folder / "none" / "file")
                 self.refused(4, "cannot be written", verb, *work, *option, "x" * 300)
                 self.refused(4, "cannot be written", verb, *work, *option, "/tmp/" + "x/" * 3000)
         self.assertEqual(os.listdir(self.folder), [])
@@ -62,14 +64,16 @@ class Places(Folder):
             for option in options:
                 fifo, file, got = self.folder / "fifo", self.folder / "file", []
                 os.mkfifo(fifo)
-                reader = threading.Thread(target=lambda got=got, fifo=fifo: got.append(fifo.read_text(encoding="utf-8")))
+                reader = threading.Thread(target=lambda got=got,
+                                          fifo=fifo: got.append(fifo.read_text(encoding="utf-8")))
                 reader.start()
                 done = run(verb, *WORK[verb], option, fifo)
                 reader.join()
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertTrue(fifo.is_fifo())
                 self.assertEqual(run(verb, *WORK[verb], option, file).returncode, 0)
-                self.assertEqual(len(got[0].splitlines()), len(file.read_text(encoding="utf-8").splitlines()), (verb, option))
+                self.assertEqual(len(got[0].splitlines()),
+                                 len(file.read_text(encoding="utf-8").splitlines()), (verb, option))
                 fifo.unlink()
 
     def test_standard_output(self):
@@ -79,8 +83,10 @@ class Places(Folder):
         plain = run(*work).stdout
         self.assertEqual(shape(piped), shape(plain))
         file = self.folder / "file"
-        subprocess.run(f"{{ echo before; '{PROGRAM}' {' '.join(work)} -o /dev/stdout; echo after; }} >'{file}'", shell=True, check=True)
-        self.assertEqual(shape(file.read_text(encoding="utf-8")), shape("before\n" + plain + "after\n"))
+        inside = f"echo before; '{PROGRAM}' {' '.join(work)} -o /dev/stdout; echo after"
+        subprocess.run(f"{{ {inside}; }} >'{file}'", shell=True, check=True)
+        self.assertEqual(shape(file.read_text(encoding="utf-8")),
+                         shape("before\n" + plain + "after\n"))
         with open(file, "w", encoding="utf-8") as out:
             self.assertEqual(run("verify", *WORK["verify"], "-o", file, stdout=out).returncode, 2)
 
@@ -116,10 +122,14 @@ class Twice(Folder):
             if there:
                 first.write_text("before", encoding="utf-8")
             for name in self.names("a"):
-                for one, other in (("-o", "--json"), ("--json", "--junit"), ("--junit", "--markdown"), ("-o", "--markdown")):
-                    self.refused(2, "are the same file", "verify", *WORK["verify"], one, first, other, name)
-                self.refused(2, "are the same file", "stress", *WORK["stress"], "-o", first, "--json", name)
-            self.assertEqual(first.read_text(encoding="utf-8") if there else first.exists(), "before" if there else False)
+                for one, other in (("-o", "--json"), ("--json", "--junit"),
+                                   ("--junit", "--markdown"), ("-o", "--markdown")):
+                    self.refused(2, "are the same file", "verify", *WORK["verify"], one, first,
+                                 other, name)
+                self.refused(2, "are the same file", "stress", *WORK["stress"], "-o", first,
+                             "--json", name)
+            self.assertEqual(first.read_text(encoding="utf-8") if there else first.exists(),
+                             "before" if there else False)
 
     def test_two_devices(self):
         done = run("verify", *WORK["verify"], "--json", "/dev/null", "--junit", "/dev/null")
@@ -147,13 +157,15 @@ class Twice(Folder):
         program = self.folder / "beamwork"
         shutil.copy(PROGRAM, program)
         before = program.read_bytes()
-        self.refused(2, "which is read", "verify", *WORK["verify"], "--truths", TRUTHS, "-o", program, program=program)
+        self.refused(2, "which is read", "verify", *WORK["verify"], "--truths", TRUTHS, "-o",
+                     program, program=program)
         self.assertEqual(program.read_bytes(), before)
 
 
 class LongPaths(Folder):
     def test_clone(self):
-        """A clone in a folder whose name is longer than any buffer of old: truths, derivations and outputs are found."""
+        """A clone in a folder whose name is longer than any buffer of old: truths, derivations
+        and outputs are found."""
         deep = self.folder
         while len(str(deep)) < 3000:
             deep = deep / ("d" * 200)
@@ -163,7 +175,9 @@ class LongPaths(Folder):
         shutil.copy(TRUTHS, deep / "build" / "truths.h5")
         (deep / "reference").symlink_to(pathlib.Path(__file__).resolve().parents[3] / "reference")
         alone = {k: v for k, v in os.environ.items() if not k.startswith("BEAMWORK")}
-        for arguments in (("verify", *WORK["verify"], "-o", deep / "r.h5"), ("truth", "elastica", "--set", "load=2.5"), ("compare", deep / "r.h5", deep / "r.h5")):
+        for arguments in (("verify", *WORK["verify"], "-o", deep / "r.h5"),
+                          ("truth", "elastica", "--set", "load=2.5"),
+                          ("compare", deep / "r.h5", deep / "r.h5")):
             done = run(*arguments, program=program, env=alone)
             self.assertEqual(done.returncode, 0, done.stderr)
 

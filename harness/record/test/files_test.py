@@ -40,6 +40,9 @@ class Folder(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder.name, name)
 
+    def text(self, name):
+        return pathlib.Path(self.path(name)).read_text(encoding="utf-8")
+
 
 class Complete(Folder):
     def test_full_disk(self):
@@ -54,11 +57,13 @@ class Complete(Folder):
         self.assertEqual(sorted(os.listdir(self.folder.name)), sorted(wanted.values()))
 
     def test_killed(self):
-        """Whenever a run is killed, its file is the whole one, or not there: before the work, while it is written, behind it."""
+        """Whenever a run is killed, its file is the whole one, or not there: before the work,
+        while it is written, behind it."""
         run(*SELECTION, "-o", self.path("whole.h5"))
         whole = os.path.getsize(self.path("whole.h5"))
         for look in range(24):
-            process = subprocess.Popen([PROGRAM, *SELECTION, "-o", self.path("r.h5")], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+            process = subprocess.Popen([PROGRAM, *SELECTION, "-o", self.path("r.h5")],
+                                       stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
             if look % 2 == 1:
                 process.stdout.read(1)   # the work is done, the file comes next
             for _ in range(40 * (look // 2)):
@@ -89,7 +94,8 @@ class Interrupted(Folder):
         """A run that has done so many cells: it says so to a terminal."""
         terminal, end = pty.openpty()
         self.addCleanup(os.close, terminal)
-        process = subprocess.Popen([PROGRAM, "verify", *arguments], stdout=subprocess.PIPE, stderr=end, start_new_session=True)
+        process = subprocess.Popen([PROGRAM, "verify", *arguments], stdout=subprocess.PIPE,
+                                   stderr=end, start_new_session=True)
         os.close(end)
         said = b""
         while max((int(n) for n in re.findall(rb"(\d+)/\d+ ", said)), default=0) < cells:
@@ -102,18 +108,21 @@ class Interrupted(Folder):
 
     def check_partial(self, number, group):
         files = {"-o": "r.h5", "--json": "v.json", "--junit": "j.xml", "--markdown": "v"}
-        process, terminal = self.started(60, "-j", "2", *(word for option, name in files.items() for word in (option, self.path(name))))
+        process, terminal = self.started(60, "-j", "2",
+                                         *(word for option, name in files.items()
+                                           for word in (option, self.path(name))))
         (os.killpg if group else os.kill)(process.pid, number)
         out, said = self.ended(process, terminal)
         self.assertEqual(process.returncode, 5, said)
         self.assertIn("r.partial.h5", said)
         self.assertIn("interrupted", out)
-        self.assertEqual(sorted(os.listdir(self.folder.name)), ["j.partial.xml", "r.partial.h5", "v.partial", "v.partial.json"])
-        self.assertIn("interrupted", pathlib.Path(self.path("v.partial")).read_text(encoding="utf-8"))
+        self.assertEqual(sorted(os.listdir(self.folder.name)),
+                         ["j.partial.xml", "r.partial.h5", "v.partial", "v.partial.json"])
+        self.assertIn("interrupted", self.text("v.partial"))
         suite = xml.etree.ElementTree.parse(self.path("j.partial.xml")).getroot()[0]
         self.assertEqual(int(suite.get("failures")), len(suite.findall("testcase/failure")))
         self.assertGreater(int(suite.get("failures")), 0)
-        self.check_content(json.loads(pathlib.Path(self.path("v.partial.json")).read_text(encoding="utf-8")))
+        self.check_content(json.loads(self.text("v.partial.json")))
         for name in os.listdir(self.folder.name):
             os.remove(self.path(name))
 
@@ -126,11 +135,12 @@ class Interrupted(Folder):
         case = summary["verdicts"][0]["case"]
         name = f"{case}/{summary['verdicts'][0]['parameters'] or 'default'}"
         run("verify", "-k", name.replace(";", " and "), "--json", self.path("whole.json"))
-        whole = json.loads(pathlib.Path(self.path("whole.json")).read_text(encoding="utf-8"))
+        whole = json.loads(self.text("whole.json"))
         self.assertEqual(whole["unfinished_cells"], 0)
         key = ("case", "parameters", "formulation", "quantity")
         of = {tuple(row[k] for k in key): row for row in whole["verdicts"]}
-        both = [(row, of[tuple(row[k] for k in key)]) for row in summary["verdicts"] if tuple(row[k] for k in key) in of]
+        both = [(row, of[tuple(row[k] for k in key)]) for row in summary["verdicts"]
+                if tuple(row[k] for k in key) in of]
         self.assertGreater(len(both), 0)
         for here, there in both:
             self.assertEqual(here, there)
@@ -141,7 +151,8 @@ class Interrupted(Folder):
 
     def test_ignored(self):
         """nohup: what is ignored ends nothing."""
-        process = subprocess.Popen([PROGRAM, *SELECTION, "-o", self.path("r.h5")], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        process = subprocess.Popen([PROGRAM, *SELECTION, "-o", self.path("r.h5")],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
         process.send_signal(signal.SIGINT)
         process.communicate()
@@ -174,7 +185,8 @@ class Readable(Folder):
             self.assertEqual(finest["quantities"]["unit"][0].decode(), "1")
 
     def test_reached(self):
-        """Elements from which on every error is within a level, against the errors in the same file."""
+        """Elements from which on every error is within a level, against the errors in the same
+        file."""
         run("verify", "-k", "elastica/default or warping_torsion/default", "-o", self.path("r.h5"))
         seen = set()
         with h5py.File(self.path("r.h5")) as file:
@@ -184,15 +196,20 @@ class Readable(Folder):
         self.assertGreater(len(seen), 3)
 
     def check_reached(self, series):
-        meshes = sorted((int(g.attrs["elements_per_member"]), g["quantities"][()]) for g in series.values() if "elements_per_member" in g.attrs)
+        meshes = sorted((int(g.attrs["elements_per_member"]), g["quantities"][()])
+                        for g in series.values() if "elements_per_member" in g.attrs)
         seen = set()
         for row in series["verdicts"][()]:
             if not meshes or numpy.isnan(row["truth"]):
                 continue
-            error = [(n, float(q["value"][list(q["name"]).index(row["quantity"])]) / row["truth"] - 1) for n, q in meshes]
-            for column, level in (("reach_10", 0.1), ("reach_1", 0.01), ("reach_0.1", 1e-3), ("reach_0.01", 1e-4)):
-                right = next((n for i, (n, _) in enumerate(error) if all(abs(e) <= level for _, e in error[i:])), numpy.nan)
-                numpy.testing.assert_equal(row[column], right, f"{series.name} {row['quantity']} {column}")
+            value = [(n, q["value"][list(q["name"]).index(row["quantity"])]) for n, q in meshes]
+            error = [(n, float(v) / row["truth"] - 1) for n, v in value]
+            for column, level in (("reach_10", 0.1), ("reach_1", 0.01), ("reach_0.1", 1e-3),
+                                  ("reach_0.01", 1e-4)):
+                right = next((n for i, (n, _) in enumerate(error)
+                              if all(abs(e) <= level for _, e in error[i:])), numpy.nan)
+                numpy.testing.assert_equal(row[column], right,
+                                           f"{series.name} {row['quantity']} {column}")
                 seen.add(right)
         return seen
 

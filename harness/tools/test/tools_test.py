@@ -1,4 +1,5 @@
-"""What each command asks of a machine, and how the runner counts: with a machine that has nothing, and with tests that are made up."""
+"""What each command asks of a machine, and how the runner counts: with a machine that has
+nothing, and with tests that are made up."""
 import os
 import pathlib
 import subprocess
@@ -25,7 +26,8 @@ class Folder(unittest.TestCase):
 
 
 class Dependencies(Folder):
-    """Every program that could find something finds nothing; apt-get writes down what it is asked for."""
+    """Every program that could find something finds nothing; apt-get writes down what it is asked
+    for."""
 
     def setUp(self):
         super().setUp()
@@ -37,8 +39,10 @@ class Dependencies(Folder):
         self.script("id", f"echo {user}")
         asked = self.folder / "asked"
         asked.unlink(missing_ok=True)
-        done = subprocess.run([TOOLS / "dependencies.sh", command, self.folder / "flags.mk"], capture_output=True, text=True, check=False,
-                              env={"PATH": f"{self.folder}:{os.environ['PATH']}", "PYTHON": str(self.folder / "python3"), "CC": "cc"})
+        done = subprocess.run([TOOLS / "dependencies.sh", command, self.folder / "flags.mk"],
+                              capture_output=True, text=True, check=False,
+                              env={"PATH": f"{self.folder}:{os.environ['PATH']}",
+                                   "PYTHON": str(self.folder / "python3"), "CC": "cc"})
         self.assertEqual(done.returncode, 1, "what was missing still is")
         self.assertIn("Run: sudo apt-get install", done.stderr.splitlines()[-1])
         packages = set(done.stderr.splitlines()[-1].partition("apt-get install")[2].split())
@@ -49,7 +53,8 @@ class Dependencies(Folder):
         self.assertTrue({"libgsl-dev", "libhdf5-dev", "libjansson-dev"} <= needs["build"])
         self.assertFalse(any(name.startswith("python3") for name in needs["build"]))
         self.assertEqual(needs["verify"], {"python3-h5py", "python3-numpy"})
-        self.assertTrue({"python3-matplotlib", "python3-jinja2", "python3-markdown"} <= needs["report"])
+        self.assertTrue({"python3-matplotlib", "python3-jinja2",
+                         "python3-markdown"} <= needs["report"])
         self.assertIn("python3-mpmath", needs["truths"])
         self.assertTrue(needs["report"] | needs["truths"] | needs["verify"] <= needs["test"])
 
@@ -68,10 +73,13 @@ class Dependencies(Folder):
     def test_every_import_is_asked_for(self):
         """Modules that the packer, the derivations and the reports import belong to somebody."""
         own = {"reference", "reports", "harness"}
-        for command, folders in (("verify", ["reference/pack.py"]), ("truths", ["reference/derive"]), ("report", ["reports"])):
-            have = {package.removeprefix("python3-") for package in self.needs(command, 1000)[0]} | {"mpl_toolkits", "markupsafe"}
+        for command, folders in (("verify", ["reference/pack.py"]),
+                                 ("truths", ["reference/derive"]), ("report", ["reports"])):
+            have = {package.removeprefix("python3-")
+                    for package in self.needs(command, 1000)[0]} | {"mpl_toolkits", "markupsafe"}
             for folder in folders:
-                for path in [ROOT / folder] if folder.endswith(".py") else (ROOT / folder).glob("*.py"):
+                one = folder.endswith(".py")
+                for path in [ROOT / folder] if one else (ROOT / folder).glob("*.py"):
                     self.assertLessEqual(foreign_imports(path) - own, have, path)
 
 
@@ -94,15 +102,19 @@ class Runner(Folder):
         package.mkdir(exist_ok=True)
         (package / "__init__.py").touch()
         body = textwrap.indent("\n".join(lines), "    ")
-        (package / "made_up_test.py").write_text(f"import unittest\n\n\nclass T(unittest.TestCase):\n{body}\n", encoding="ascii")
+        text = f"import unittest\n\n\nclass T(unittest.TestCase):\n{body}\n"
+        (package / "made_up_test.py").write_text(text, encoding="ascii")
 
     def run_tests(self, *programs, python=("room",)):
-        return subprocess.run([TOOLS / "run_tests.sh", self.folder / "logs", *programs, "--", *python], capture_output=True, text=True, check=False,
+        return subprocess.run([TOOLS / "run_tests.sh", self.folder / "logs", *programs, "--",
+                               *python], capture_output=True, text=True, check=False,
                               cwd=self.folder)
 
     def test_counts(self):
         self.script("a_test", "echo PASS: one; echo PASS: two")
-        self.tests("def test_good(self):", '    """With words."""', "@unittest.skip('needs chromium')", "def test_skipped(self):", '    """Says what."""',
+        self.tests("def test_good(self):", '    """With words."""',
+                   "@unittest.skip('needs chromium')", "def test_skipped(self):",
+                   '    """Says what."""',
                    "@unittest.skip(\"needs a 'thing'\")", "def test_skipped_too(self):", "    pass")
         done = self.run_tests(self.folder / "a_test")
         lines = done.stdout.splitlines()
@@ -113,7 +125,8 @@ class Runner(Folder):
     def test_failures(self):
         self.tests("def test_good(self):", "    pass")
         self.assertEqual(self.run_tests().stdout.splitlines()[-1], "1 passed, 0 failed")
-        for wrong in ("echo FAIL: this", "echo PASS: that; exit 3", "exit 0", "echo PASS: that; kill -9 $$"):
+        for wrong in ("echo FAIL: this", "echo PASS: that; exit 3", "exit 0",
+                      "echo PASS: that; kill -9 $$"):
             self.script("a_test", wrong)
             done = self.run_tests(self.folder / "a_test")
             self.assertEqual(done.returncode, 1, wrong)
@@ -121,12 +134,15 @@ class Runner(Folder):
         for wrong in ("    self.fail()", "    raise OSError"):
             self.tests("def test_bad(self):", wrong)
             done = self.run_tests()
-            self.assertEqual((done.returncode, done.stdout.splitlines()[-1]), (1, "0 passed, 1 failed"))
+            self.assertEqual((done.returncode, done.stdout.splitlines()[-1]),
+                             (1, "0 passed, 1 failed"))
 
     def test_class_that_is_skipped(self):
-        self.tests("@classmethod", "def setUpClass(cls):", "    raise unittest.SkipTest('needs a lake')", "def test_one(self):", "    pass")
+        self.tests("@classmethod", "def setUpClass(cls):",
+                   "    raise unittest.SkipTest('needs a lake')", "def test_one(self):", "    pass")
         done = self.run_tests()
-        self.assertEqual((done.returncode, done.stdout.splitlines()[-1]), (0, "0 passed, 0 failed, 1 skipped"), done)
+        self.assertEqual((done.returncode, done.stdout.splitlines()[-1]),
+                         (0, "0 passed, 0 failed, 1 skipped"), done)
         self.assertIn("needs a lake", done.stdout)
 
     def test_spaces(self):
@@ -135,7 +151,8 @@ class Runner(Folder):
         self.folder.mkdir()
         self.script("a_test", "echo PASS: one")
         self.tests("def test_good(self):", "    pass")
-        self.assertEqual(self.run_tests(self.folder / "a_test").stdout.splitlines()[-1], "2 passed, 0 failed")
+        self.assertEqual(self.run_tests(self.folder / "a_test").stdout.splitlines()[-1],
+                         "2 passed, 0 failed")
 
 
 if __name__ == "__main__":
