@@ -28,7 +28,7 @@ def finest(look, case, parameters, key):
 def truth(look, case, parameters, quantity):
     """The stored exact value, or NaN."""
     point = look.points.get((case, canonical(parameters)))
-    return next((v.truth for s in (point.series if point else []) for v in s.verdicts if v.quantity == quantity and v.kind == "exact"), math.nan)
+    return next((v.truth for s in (point.series if point else []) for v in s.verdicts if v.quantity == quantity and v.truth_kind == "exact"), math.nan)
 
 
 def draw_across(site, look):

@@ -1,10 +1,9 @@
-"""Reads results.h5 and truths.h5 into plain records. The schema is described in harness/README.md and reference/README.md."""
+"""Reads results.h5 and truths.h5 into plain records. `beamwork schema` describes the tables, whose columns keep their names here."""
 import math
 import multiprocessing
 from dataclasses import dataclass, field
 
 import h5py
-import numpy as np
 
 
 class Unreadable(Exception):
@@ -65,11 +64,11 @@ class Mesh:
 
 @dataclass
 class Verdict:
-    """One line of the judge."""
+    """One line of the judge: columns of the table `verdicts`."""
     quantity: str
     verdict: str
     expected: str
-    kind: str
+    truth_kind: str
     reason: str
     proof: str
     source: str
@@ -116,154 +115,120 @@ def text(value):
     return value.decode() if isinstance(value, bytes) else str(value)
 
 
-COUNTERS = ("strain_evaluations", "stress_evaluations", "inertia_evaluations", "iterations", "load_steps", "rejected_steps", "factorisations", "solutions", "factor_entries", "factor_flops")
 REACH = {0.1: "reach_10", 0.01: "reach_1", 0.001: "reach_0.1", 0.0001: "reach_0.01"}
+SCHEMA, VERSION = "beamwork-results", 2
 
 
-def attributes(group, *names):
-    """Values of attributes, without what h5py does beyond (it matters for thousands of cells)."""
-    out = []
-    for name in names:
-        item = h5py.h5a.open(group.id, name.encode())
-        value = np.empty((), item.dtype)
-        item.read(value)
-        out.append(value[()])
-    return out
+def column(values):
+    """A column as plain numbers or texts."""
+    return [value.decode() for value in values.tolist()] if values.dtype.kind == "S" else values.tolist()
 
 
-class Rows:
-    """Reads tables that all have the type of the first one, which h5py would work out again for each."""
-
-    def __init__(self):
-        self.type = self.memory = None
-
-    def read(self, group, name):
-        table = h5py.h5d.open(group.id, name)
-        if self.type is None:
-            self.type = h5py.Dataset(table).dtype
-            self.memory = h5py.h5t.py_create(self.type)
-        out = np.empty(table.shape, self.type)
-        if out.size:
-            table.read(h5py.h5s.ALL, h5py.h5s.ALL, out, self.memory)
-        return out.tolist()
+def rows(group, name):
+    """[{column: value}] of a table."""
+    table = group[name][()]
+    return [dict(zip(table.dtype.names, row)) for row in zip(*(column(table[c]) for c in table.dtype.names))]
 
 
-QUANTITIES = Rows()
+def of_series(row):
+    return row["point"], row["formulation"]
 
 
-def read_clock(row, prefix):
+def of_mesh(row):
+    return row["point"], row["formulation"], row["elements"]
+
+
+def read_clock(row, prefix, setup, solve):
     if not row[f"{prefix}repeats"]:
         return None
     rounds = [row[f"{prefix}round_{i}"] for i in range(1, 6)]
-    return Clock(row[f"{prefix}setup"], row[f"{prefix}solve"], min(rounds), max(rounds), int(row[f"{prefix}repeats"]), rounds)
+    return Clock(row[setup], row[solve], min(rounds), max(rounds), row[f"{prefix}repeats"], rounds)
 
 
-def read_timing(series, table):
+def read_timings(group, meshes):
     """Replaces the times of single runs by those of a benchmark."""
-    columns = text(table.attrs["columns"]).split()
-    rows = {int(row[0]): dict(zip(columns, row)) for row in table[()].tolist()}
-    for mesh in series.meshes:
-        clock = read_clock(rows[mesh.n], "") if mesh.n in rows else None
-        kept = read_clock(rows[mesh.n], "all_") if mesh.n in rows else None
-        if mesh.n not in rows:
+    for row in rows(group, "timings"):
+        mesh = meshes.get(of_mesh(row))
+        if mesh is None:
             continue
-        mesh.parts = {name[:-5]: value for name, value in rows[mesh.n].items() if name.endswith("_part")}
-        if rows[mesh.n]["dense_unknowns"]:
-            mesh.dense = Dense(rows[mesh.n]["dense_seconds"], int(rows[mesh.n]["dense_unknowns"]), bool(rows[mesh.n]["dense_whole"]))
-        mesh.clock = clock or mesh.clock
-        mesh.kept = Kept(kept, int(rows[mesh.n]["all_free"])) if kept else None
+        mesh.parts = {part: row[f"seconds_{part}"] for part in ("elements", "assembly", "factorisation", "solution")}
+        if row["dense_unknowns"]:
+            mesh.dense = Dense(row["dense_seconds"], row["dense_unknowns"], row["dense_whole"])
+        mesh.clock = read_clock(row, "", "seconds_setup", "seconds_solve") or mesh.clock
+        kept = read_clock(row, "keep_all_", "keep_all_setup", "keep_all_solve")
+        mesh.kept = Kept(kept, row["keep_all_free"]) if kept else None
 
 
-def read_curves(mesh, group):
-    for name, item in group.items():
-        x, value = item["x"], item["value"]
-        mesh.curves[name] = (x[()], value[()], text(x.attrs["name"]), text(x.attrs["unit"]), text(value.attrs["unit"]))
+def read_cell(row):
+    setup, solve = row["seconds_setup"], row["seconds_solve"]
+    work = {name: float(value) for name, value in row.items() if isinstance(value, (int, float))}
+    clock = Clock(setup, solve, setup + solve, setup + solve, 1)
+    return Mesh(row["elements"], row["status"], row["reason"], clock, row["free"], row["iterations"], row["left_out"], work)
 
 
-def read_mesh(group, units):
-    n, status, reason, left_out, free, setup, solve, *counts = attributes(group, "elements_per_member", "status", "reason", "left_out", "free", "seconds_setup", "seconds_solve", *COUNTERS)
-    work = dict(zip(COUNTERS, map(float, counts)))
-    clock = Clock(float(setup), float(solve), float(setup + solve), float(setup + solve), 1)
-    mesh = Mesh(int(n), text(status), text(reason), clock, int(free), int(work["iterations"]), text(left_out), work)
-    rows = QUANTITIES.read(group, b"quantities")
-    columns = QUANTITIES.type.names
-    for row in rows:
-        row = dict(zip(columns, row))
-        name = text(row["name"])
+def read_meshes(group):
+    """{(point, formulation, elements): Mesh} with what each found, {point: {quantity: unit}}"""
+    meshes, units = {of_mesh(row): read_cell(row) for row in rows(group, "cells")}, {}
+    for row in rows(group, "quantities"):
+        mesh, name = meshes[of_mesh(row)], row["quantity"]
         mesh.values[name], mesh.errors[name], mesh.model_errors[name] = row["value"], row["error"], row["model_error"]
-        mesh.reasons[name], units[name] = text(row["reason"]), text(row["unit"])
-        if math.isfinite(row.get("prediction", math.nan)):
+        mesh.reasons[name] = row["reason"]
+        units.setdefault(row["point"], {})[name] = row["unit"]
+        if math.isfinite(row["prediction"]):
             mesh.predictions[name] = row["prediction"]
-    return mesh
+    x, value = group["curve_x"][()], group["curve_value"][()]
+    for row in rows(group, "curves"):
+        part = slice(row["first"], row["first"] + row["points"])
+        meshes[of_mesh(row)].curves[row["quantity"]] = (x[part], value[part], row["x_name"], row["x_unit"], row["unit"])
+    return meshes, units
 
 
-def read_verdicts(table):
-    rows = []
-    for row in table[()]:
-        words = [text(row[c]) for c in ("quantity", "verdict", "expected", "kind", "reason", "proof", "source")]
-        numbers = [float(row[c]) for c in ("truth", "limit", "order", "error", "model_truth", "model_error", "tolerance")]
-        rows.append(Verdict(*words, *numbers, {level: int(row[c]) for level, c in REACH.items() if math.isfinite(row[c])}))
-    return rows
+def read_verdict(row):
+    own = {name: row[name] for name in Verdict.__dataclass_fields__ if name != "reach"}
+    return Verdict(**own, reach={level: row[name] for level, name in REACH.items() if row[name]})
 
 
-def read_series(key, group, units, with_curves):
-    cells = sorted((int(name[1:]), name) for name in group if name[0] == "n" and name[1:].isdigit())
-    meshes = []
-    for _, name in cells:
-        cell = group[name]
-        meshes.append(read_mesh(cell, units))
-        if with_curves or name == cells[-1][1]:
-            read_curves(meshes[-1], cell["curves"])
-    summary, source, missing = (text(t) for t in attributes(group, "summary", "source", "missing"))
-    out = Series(key, summary, source, missing, meshes, read_verdicts(group["verdicts"]))
-    if "timing" in group:
-        read_timing(out, group["timing"])
-    return out
-
-
-def read_point(name, group, with_curves):
-    units = {}
-    series = [read_series(key, item, units, with_curves) for key, item in group.items()]
-    return Point(name, text(group.attrs["parameters"]), sorted(series, key=lambda s: s.key), units)
-
-
-def opened(path):
-    """In memory: thousands of small pieces are read."""
-    return h5py.File(path, driver="core", backing_store=False)
-
-
-DRAWN_EVERYWHERE = {"c_cantilever"}  # curves of coarser meshes away from the defaults are read only where a page draws them
+def read_points(group, meshes, units):
+    series, points = {}, []
+    for row in rows(group, "series"):
+        series[of_series(row)] = Series(row["formulation"], row["summary"], row["source"], row["missing"], [], [])
+    for (point, key, _), mesh in sorted(meshes.items()):
+        series[point, key].meshes.append(mesh)
+    for row in rows(group, "verdicts"):
+        series[of_series(row)].verdicts.append(read_verdict(row))
+    for row in rows(group, "points"):
+        own = sorted((s for (point, _), s in series.items() if point == row["point"]), key=lambda s: s.key)
+        points.append(Point(row["point"], row["parameters"], own, units.get(row["point"], {})))
+    return sorted(points, key=lambda p: (p.name != "default", p.parameters))
 
 
 def read_case(path, name, bench=None):
     """A case; with the times of a benchmark where one is given."""
-    with opened(path) as file:
+    with h5py.File(path) as file:
         group = file["cases"][name]
-        points = [read_point(p, group[p], p == "default" or name in DRAWN_EVERYWHERE) for p in group]
-        points.sort(key=lambda p: (p.name != "default", p.parameters))
-        first = group[points[0].name].attrs
-        case = Case(name, text(first["summary"]), text(first["source"]), points)
+        meshes, units = read_meshes(group)
+        read_timings(group, meshes)
+        case = Case(name, text(group.attrs["summary"]), text(group.attrs["source"]), read_points(group, meshes, units))
     if bench:
-        read_bench(bench, case)
+        read_bench(bench, name, meshes)
     return case
 
 
-def read_bench(path, case):
+def read_bench(path, name, meshes):
     """Times of a benchmark into the cells of the same name."""
-    with opened(path) as file:
-        for point in case.points:
-            for series in point.series:
-                place = f"cases/{case.name}/{point.name}/{series.key}/timing"
-                if place in file:
-                    read_timing(series, file[place])
+    with h5py.File(path) as file:
+        if name in file["cases"]:
+            read_timings(file["cases"][name], meshes)
 
 
 def read_about(path):
     """Environment {name: text} that a file of results was made in."""
     try:
         with h5py.File(path) as file:
-            if text(file.attrs.get("schema", "")) != "beamwork-results":
+            if text(file.attrs.get("schema", "")) != SCHEMA:
                 raise Unreadable(f"{path}: not a file of results; 'make verify' and 'make bench' write them")
+            if file.attrs["schema_version"] != VERSION:
+                raise Unreadable(f"{path}: results of version {file.attrs['schema_version']}, the report reads {VERSION}; write it again with 'make verify' or 'make bench'")
             return {name: text(value) for name, value in file.attrs.items()}
     except OSError as why:
         raise Unreadable(f"{path}: cannot be read ({why}); 'make verify' writes build/results.h5, 'make bench' build/bench.h5") from why

@@ -7,7 +7,7 @@ import h5py
 import numpy as np
 
 from reports.claims import Lookup, canonical
-from reports.data import text
+from reports.data import of_mesh, rows, text
 from reports.style import plt
 
 NAVIGATION = [("paths.html", "paths")]
@@ -19,7 +19,6 @@ EXACT, COARSE = "collocation", 10
 WAGNER = "wagner_moments=1"    # with the part of the Wagner moments that J leaves out
 SHEAR = ((1.0, ""), (2.5, ""), (1.0, "load_point=E;"))
 SNAPS = ("lee_frame", "snap_through")
-EVENTS = ("limit point", "bifurcation", "branch jump")
 
 
 @dataclasses.dataclass
@@ -60,9 +59,9 @@ def solid(truths, parameters, quantity):
 
 def events(site, case, point, key, n):
     with h5py.File(site.results) as file:
-        name = f"cases/{case}/{point}/{key}/n{n}/events"
-        table = file[name][()] if name in file else []
-    return [Event(EVENTS[int(row[0])], int(row[2]), int(row[3]), row[4], row[5], row[6]) for row in table]
+        found = rows(file["cases"][case], "events")
+    return [Event(e["event"], e["negative_before"], e["negative_after"], e["factor"], e["control"], e["other_factor"])
+            for e in found if of_mesh(e) == (point, key, n)]
 
 
 def draw_curve(ax, mesh, quantity, scale, label, style):

@@ -58,16 +58,15 @@ def matrices(q):
 def read(site, case):
     """Shapes of a case's defaults, or None when the results hold none."""
     with h5py.File(site.results) as file:
-        point = file[f"cases/{case.name}/default"] if f"cases/{case.name}/default" in file else None
-        if point is None or "shapes" not in point.attrs:
+        place = f"cases/{case.name}/shapes/default"
+        if place not in file:
             return None
-        place = text(point.attrs["shapes"])
-        g = point[place]
+        g = file[place]
         sections = [g["sections"][str(i)] for i in range(len(g["sections"]))]
         equivalent = [bool(s.attrs["equivalent"]) for s in sections]
         size = np.linalg.norm(np.ptp(g["position"][0], axis=0))
         walls = [s[()] * min(1, SYMBOL * size / np.abs(s[()]).max()) if symbol else s[()] for s, symbol in zip(sections, equivalent)]
-        return Shapes(place.split("/", maxsplit=1)[0], int(g.parent.attrs["elements_per_member"]), g["members"][()], g["first_point"][()], g["bodies"][:, 0], g["bodies"][:, 1],
+        return Shapes(text(g.attrs["formulation"]), int(g.attrs["elements"]), g["members"][()], g["first_point"][()], g["bodies"][:, 0], g["bodies"][:, 1],
                       walls, equivalent, [text(k) for k in g["kind"]], g["value"][()],
                       g["position"][()], matrices(g["orientation"][()]), g["nodes"][()])
 

@@ -8,14 +8,12 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
+#include "harness/record/schema.h"
 #include "harness/study/cell.h"
 #include "harness/timing/clock.h"
 #include "harness/timing/versus.h"
 
-enum { COUNTS = 9, MOST_REPEATS = 10000 };
-static const char *const count_name[COUNTS] = {
-    "free",           "iterations", "strain_evaluations", "stress_evaluations", "inertia_evaluations",
-    "factorisations", "solutions",  "factor_entries",     "factor_flops"};
+enum { MOST_REPEATS = 10000 };
 static const double budget_seconds = 3, lap_seconds = 0.002;
 
 typedef struct contestant {
@@ -25,22 +23,30 @@ typedef struct contestant {
     const char **arguments; /* of the program, NULL-terminated */
     int repeats;            /* in one lap */
     double plant;           /* share of its time added to every lap */
-    double count[COUNTS];
+    int counts;
+    const schema_field *counted[SCHEMA_MOST_FIELDS]; /* size and work: what a cell counts */
+    double count[SCHEMA_MOST_FIELDS];
 } contestant;
 
-static void count_cell(const cell_result *cell, double count[COUNTS])
+/* The pure numbers of a cell's record. */
+static void set_counted(contestant *c)
 {
-    const counters *k = &cell->counters;
-    const double all[COUNTS] = {cell->size.free,
-                                (double)k->iterations,
-                                (double)k->strain_evaluations,
-                                (double)k->stress_evaluations,
-                                (double)k->inertia_evaluations,
-                                (double)k->factorisations,
-                                (double)k->solutions,
-                                (double)k->factor_entries,
-                                k->factor_flops};
-    memcpy(count, all, sizeof all);
+    const schema_field *list[SCHEMA_MOST_FIELDS];
+    const int fields = schema_fields(&record_cell, 0, list);
+    for (int i = 0; i < fields; i++)
+        if (strcmp(list[i]->unit, "1") == 0)
+            c->counted[c->counts++] = list[i];
+}
+
+static void count_cell(contestant *c, cell_result *cell)
+{
+    const series one = {.meshes = 1, .mesh = {c->request.elements}, .cell = cell};
+    const subject s = {.series = &one, .record = cell};
+    for (int i = 0; i < c->counts; i++) {
+        field_value v;
+        field_read(&s, c->counted[i], &v);
+        c->count[i] = c->counted[i]->kind == FIELD_DOUBLE ? *v.numbers : (double)v.whole;
+    }
 }
 
 static status lap_here(contestant *c, double *seconds, fault *f)
@@ -49,7 +55,7 @@ static status lap_here(contestant *c, double *seconds, fault *f)
     for (int i = 0; i < c->repeats; i++) {
         cell_result cell;
         const status outcome = cell_run(&c->request, &cell, f);
-        count_cell(&cell, c->count);
+        count_cell(c, &cell);
         cell_result_free(&cell);
         if (outcome != STATUS_OK)
             return outcome;
@@ -65,11 +71,11 @@ static status lap_here(contestant *c, double *seconds, fault *f)
 static status read_lap(contestant *c, FILE *from, double *seconds, fault *f)
 {
     json_error_t where;
-    json_t *root = json_loadf(from, 0, &where), *clock = json_object_get(root, "seconds"),
-           *work = json_object_get(root, "counters");
-    *seconds = json_number_value(json_object_get(clock, "setup")) + json_number_value(json_object_get(clock, "solve"));
-    for (int i = 0; i < COUNTS; i++)
-        c->count[i] = json_number_value(json_object_get(work, count_name[i]));
+    json_t *root = json_loadf(from, 0, &where), *cell = json_object_get(root, record_cell.name);
+    *seconds =
+        json_number_value(json_object_get(cell, "seconds_setup")) + json_number_value(json_object_get(cell, "seconds_solve"));
+    for (int i = 0; i < c->counts; i++)
+        c->count[i] = json_number_value(json_object_get(cell, c->counted[i]->name));
     json_decref(root);
     return *seconds > 0 ? STATUS_OK : fault_set(f, STATUS_FAULT, "%s: its 'solve --format json' tells no seconds", c->program);
 }
@@ -156,9 +162,9 @@ static void show(const contestant *a, const contestant *b, const versus *v)
     printf("A  %-40s %10.4g ms\nB  %-40s %10.4g ms\n", a->name, 1e3 * v->a / a->repeats, b->name, 1e3 * v->b / b->repeats);
     printf("B takes %.4f times as long as A (%.4f to %.4f with 99.9 %% confidence, %d pairs): %s\n", v->ratio, v->low, v->high,
            v->pairs, versus_name(v->outcome));
-    for (int i = 0; i < COUNTS; i++)
+    for (int i = 0; i < a->counts; i++)
         if (a->count[i] != b->count[i]) {
-            printf("%s %s %.10g against %.10g", same ? "work differs:" : ",", count_name[i], a->count[i], b->count[i]);
+            printf("%s %s %.10g against %.10g", same ? "work differs:" : ",", a->counted[i]->name, a->count[i], b->count[i]);
             same = 0;
         }
     printf(same ? "the same work\n" : "\n");
@@ -167,8 +173,8 @@ static void show(const contestant *a, const contestant *b, const versus *v)
 static void show_json(const contestant *a, const contestant *b, const versus *v)
 {
     json_t *work = json_array();
-    for (int i = 0; i < COUNTS; i++)
-        json_array_append_new(work, json_pack("{s:s,s:f,s:f}", "name", count_name[i], "a", a->count[i], "b", b->count[i]));
+    for (int i = 0; i < a->counts; i++)
+        json_array_append_new(work, json_pack("{s:s,s:f,s:f}", "name", a->counted[i]->name, "a", a->count[i], "b", b->count[i]));
     json_t *root = json_pack("{s:s,s:s,s:f,s:f,s:f,s:f,s:f,s:i,s:s,s:o}", "a", a->name, "b", b->name, "seconds_a",
                              v->a / a->repeats, "seconds_b", v->b / b->repeats, "ratio", v->ratio, "low", v->low, "high", v->high,
                              "pairs", v->pairs, "outcome", versus_name(v->outcome), "work", work);
@@ -203,6 +209,8 @@ int cli_against(cli_request *r)
     } else {
         return cli_fail(STATUS_REFUSED, f.text);
     }
+    set_counted(&a);
+    set_counted(&b);
     clock_pin();
     status outcome = set_repeats(&a, &b, &f);
     if (outcome == STATUS_OK)

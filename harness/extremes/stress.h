@@ -3,7 +3,7 @@
 #define BEAMWORK_STRESS_H
 
 #include "cases/extremes/extreme.h"
-#include "harness/study/sweep.h"
+#include "harness/record/schema.h"
 
 typedef enum stress_kind {
     STRESS_VALUE,  /* within the extreme's tolerance */
@@ -74,6 +74,8 @@ void stress_expect(stress *s, int whole);
 const cell_result *stress_cell(const stress *s, const stress_outcome *o);
 
 /* Writers. */
+extern const record_type record_extreme;
+subject stress_subject(const stress *s, const stress_outcome *o); /* of record_extreme */
 void stress_table(FILE *to, const stress *s);
 void stress_csv(FILE *to, const stress *s);
 status stress_json(FILE *to, const stress *s, fault *f);

@@ -1,10 +1,7 @@
-#include <math.h>
-#include <string.h>
-
 #include "harness/catalogue/environment.h"
 #include "harness/extremes/stress.h"
 #include "harness/record/json.h"
-#include "harness/record/json_path.h"
+#include "harness/record/schema_json.h"
 
 static json_t *extreme_of(const extreme *e)
 {
@@ -19,26 +16,6 @@ static json_t *extreme_of(const extreme *e)
                      quantities);
 }
 
-static json_t *outcome_of(const stress *s, const stress_outcome *o)
-{
-    const extreme *e = &extremes[o->extreme];
-    const cell_result *c = stress_cell(s, o);
-    json_t *neighbours = json_array();
-    for (int i = 0; i < STRESS_NEIGHBOURS && o->neighbours >= 0; i++)
-        json_array_append_new(neighbours, json_number(o->neighbour_error[i]));
-    json_t *out =
-        json_pack("{s:s,s:f,s:s,s:s,s:s,s:i,s:s,s:b,s:I,s:s,s:s,s:o}", "extreme", e->name, "x", o->x, "parameters",
-                  s->first.point[o->point].text, "formulation", s->formulation[o->formulation].key, "quantity",
-                  e->quantity[o->quantity].name, "elements", s->first.series[o->series].mesh[0], "outcome", stress_name(o->kind),
-                  "as_expected", o->as_expected, "iterations", (json_int_t)c->counters.iterations, "reason", o->reason, "proof",
-                  o->finding != NULL ? o->finding->proof : "", "neighbour_errors", neighbours);
-    json_object_set_new(out, "value", json_number(o->result));
-    json_object_set_new(out, "reference", json_number(o->reference));
-    json_object_set_new(out, "error", json_number(o->error));
-    json_object_set_new(out, "condition", c->counters.condition > 0 ? json_number(c->counters.condition) : json_null());
-    return out;
-}
-
 status stress_json(FILE *to, const stress *s, fault *f)
 {
     const environment e = environment_now(1);
@@ -51,10 +28,12 @@ status stress_json(FILE *to, const stress *s, fault *f)
                                                 c->tried, "survived", c->survived, "coarse", c->coarse, "named_failures", c->named,
                                                 "wrong", c->wrong, "faults", c->faults));
     }
-    for (int i = 0; i < s->outcomes; i++)
-        json_array_append_new(outcomes, outcome_of(s, &s->outcome[i]));
-    json_t *root = json_pack("{s:i,s:s,s:s,s:s,s:i,s:i,s:o,s:o,s:o}", "schema", 1, "program_version", e.version, "commit", e.commit,
-                             "clock", e.clock, "unexpected", s->unexpected, "unobserved_findings", s->unobserved, "extremes", table,
-                             "formulations", counts, "outcomes", outcomes);
+    for (int i = 0; i < s->outcomes; i++) {
+        const subject one = stress_subject(s, &s->outcome[i]);
+        json_add_record(outcomes, &record_extreme, &one, KEY_AROUND);
+    }
+    json_t *root = json_pack("{s:i,s:s,s:s,s:s,s:i,s:i,s:o,s:o,s:o}", "schema_version", SCHEMA_VERSION, "program_version",
+                             e.version, "commit", e.commit, "clock", e.clock, "unexpected", s->unexpected, "unobserved_findings",
+                             s->unobserved, "extremes", table, "formulations", counts, record_extreme.table, outcomes);
     return json_finish(root, to, f);
 }

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "harness/extremes/stress.h"
-#include "harness/record/csv.h"
+#include "harness/record/schema_csv.h"
 
 enum { NAME_WIDTH = 26, CELL_WIDTH = 15 };
 
@@ -109,27 +109,10 @@ void stress_table(FILE *to, const stress *s)
 
 void stress_csv(FILE *to, const stress *s)
 {
-    fprintf(to, "extreme,group,case,parameters,x,formulation,elements,quantity,outcome,as_expected,value,reference,error,condition,"
-                "iterations,reason\n");
+    csv_part row = {.type = &record_extreme};
+    csv_head(to, 1, &row);
     for (int i = 0; i < s->outcomes; i++) {
-        const stress_outcome *o = &s->outcome[i];
-        const extreme *e = &extremes[o->extreme];
-        const cell_result *c = stress_cell(s, o);
-        fprintf(to, "%s,", e->name);
-        csv_field(to, e->group, ",");
-        fprintf(to, "%s,", e->base);
-        csv_field(to, s->first.point[o->point].text, ",");
-        fprintf(to, "%g,", o->x);
-        csv_field(to, s->formulation[o->formulation].key, ",");
-        fprintf(to, "%d,%s,%s,%d", s->first.series[o->series].mesh[0], e->quantity[o->quantity].name, stress_name(o->kind),
-                o->as_expected);
-        const double number[] = {o->result, o->reference, o->error};
-        for (int k = 0; k < 3; k++)
-            if (isfinite(number[k]))
-                fprintf(to, ",%.17g", number[k]);
-            else
-                fputc(',', to);
-        fprintf(to, ",%.3g,%ld,", c->counters.condition, c->counters.iterations);
-        csv_field(to, o->reason, "\n");
+        row.s = stress_subject(s, &s->outcome[i]);
+        csv_line(to, 1, &row);
     }
 }

@@ -7,8 +7,6 @@
 #include "harness/judge/verdict.h"
 #include "harness/timing/timing.h"
 
-/* A field that may hold commas or quotes, and what follows it. */
-void csv_field(FILE *to, const char *text, const char *end);
 void csv_solution(FILE *to, const sweep *s);
 void csv_convergence(FILE *to, const sweep *s, const truths *t);
 /* Of a benchmark: a row for every cell and judged quantity. */

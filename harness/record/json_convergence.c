@@ -1,54 +1,41 @@
-#include <math.h>
-
+#include "harness/record/gather.h"
 #include "harness/record/json.h"
-#include "harness/record/json_path.h"
+#include "harness/record/schema_json.h"
 
-static json_t *meshes_of(const point *p, const series *one, int q, const truth *row)
+/* Of one quantity on every mesh: what was found, and the cell it was found by. */
+static json_t *meshes_of(const gathering *g, int series_index, int quantity)
 {
-    json_t *list = json_array();
-    for (int k = 0; k < one->meshes; k++) {
-        const solve_result *r = &one->cell[k].solve;
-        const double value = q < r->quantities ? r->quantity[q].value : NAN;
-        json_t *mesh = json_pack("{s:i,s:i}", "elements", one->mesh[k], "free", one->cell[k].size.free);
-        json_object_set_new(mesh, "value", json_number(value));
-        json_object_set_new(mesh, "error",
-                            json_number(row != NULL ? relative_error(&p->scene.quantity[q], value, row->value) : NAN));
-        json_object_set_new(mesh, "seconds", json_number(r->seconds_setup + r->seconds_solve));
-        if (!isfinite(value))
-            json_object_set_new(mesh, "reason", json_string(q < r->quantities ? r->quantity[q].reason : r->reason));
-        json_array_append_new(list, mesh);
+    json_t *all = json_array();
+    for (int k = 0; k < g->sweep->series[series_index].meshes; k++) {
+        subjects list = {0};
+        const subject cell = gather_cell(g, series_index, k);
+        json_t *one = json_record(&record_cell, &cell, KEY);
+        gather_mesh(g, &record_quantity, series_index, k, &list);
+        for (int i = 0; i < list.count; i++) {
+            json_t *found = list.row[i].index == quantity ? json_record(&record_quantity, &list.row[i], 0) : NULL;
+            json_object_update(one, found);
+            json_decref(found);
+        }
+        json_array_append_new(all, one);
+        subjects_free(&list);
     }
-    return list;
+    return all;
 }
 
-static json_t *quantity_of(const sweep *s, const truths *t, int index, int q)
+static json_t *quantity_of(const gathering *g, int series_index, int quantity)
 {
-    const series *one = &s->series[index];
-    const point *p = &s->point[one->point];
-    verdict v = {.series = index, .quantity = q};
-    verdict_reach(s, t, &v);
-    json_t *out = json_pack("{s:s,s:s,s:s}", "name", p->scene.quantity[q].name, "unit", p->scene.quantity[q].unit, "verdict",
-                            verdict_name(v.kind));
-    char sentence[2 * FAULT_TEXT];
-    verdict_sentence(&v, p->scene.quantity[q].least_order, sentence, sizeof sentence);
-    json_object_set_new(out, "message", json_string(sentence));
-    json_object_set_new(out, "asymptotic_from", v.fit.from > 0 ? json_integer(v.fit.from) : json_null());
-    json_object_set_new(out, "limit", json_number(v.fit.limit));
-    json_object_set_new(out, "limit_uncertainty", json_number(v.fit.limit_uncertainty));
-    json_object_set_new(out, "order", json_number(v.fit.order));
-    json_object_set_new(out, "order_uncertainty", json_number(v.fit.order_uncertainty));
-    json_object_set_new(out, "truth", json_number(v.truth != NULL ? v.truth->value : NAN));
-    json_object_set_new(out, "error", json_number(v.error));
-    json_object_set_new(out, "model_error", json_number(v.model_error));
-    const scene_quantity *asked = &p->scene.quantity[q];
-    json_object_set_new(out, "prediction",
-                        json_prediction(asked, v.truth != NULL ? relative_error(asked, asked->prediction, v.truth->value) : NAN));
-    json_object_set_new(out, "meshes", meshes_of(p, one, q, v.truth));
+    verdict v = {.series = series_index, .quantity = quantity};
+    verdict_reach(g->sweep, g->truths, &v);
+    v.matches = v.kind == v.expected;
+    const subject s = gather_verdict(g, &v);
+    json_t *out = json_record(&record_verdict, &s, 0);
+    json_object_set_new(out, "meshes", meshes_of(g, series_index, quantity));
     return out;
 }
 
 status json_write_convergence(FILE *to, const sweep *s, const truths *t, fault *f)
 {
+    const gathering g = {s, NULL, t};
     json_t *all = json_array();
     for (int i = 0; i < s->seriess; i++) {
         const series *one = &s->series[i];
@@ -56,9 +43,11 @@ status json_write_convergence(FILE *to, const sweep *s, const truths *t, fault *
         json_t *quantities = json_array();
         for (int q = 0; q < p->scene.quantities && one->missing[0] == '\0'; q++)
             if (p->scene.quantity[q].reduction != SCENE_CURVE)
-                json_array_append_new(quantities, quantity_of(s, t, i, q));
-        json_array_append_new(all, json_pack("{s:s,s:s,s:s,s:s,s:o}", "case", p->type->name, "parameters", p->text, "formulation",
-                                             one->formulation.key, "not_offered", one->missing, "quantities", quantities));
+                json_array_append_new(quantities, quantity_of(&g, i, q));
+        const subject here = {.sweep = s, .point = p, .series = one, .record = one};
+        json_t *out = json_record(&record_series, &here, KEY_AROUND);
+        json_object_set_new(out, record_quantity.table, quantities);
+        json_array_append_new(all, out);
     }
-    return json_finish(json_pack("{s:i,s:o}", "schema", 1, "series", all), to, f);
+    return json_finish(json_pack("{s:i,s:o}", "schema_version", SCHEMA_VERSION, record_series.table, all), to, f);
 }

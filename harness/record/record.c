@@ -6,7 +6,7 @@
 #include "harness/record/output.h"
 #include "harness/truth/seal.h"
 
-enum { GROWTH = 1 << 22 }; /* [bytes] by which the file in memory grows */
+enum { GROWTH = 1 << 22, MOST_RANKS = 4 }; /* GROWTH: [bytes] by which the file in memory grows */
 
 static void check(record *r, int good)
 {
@@ -71,6 +71,7 @@ hid_t record_text_type(size_t length)
 {
     const hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, length > 0 ? length : 1);
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
     H5Tset_cset(type, H5T_CSET_UTF8);
     return type;
 }
@@ -118,14 +119,35 @@ void record_ascii(record *r, hid_t at, const char *name, const char *text)
     H5Tclose(type);
 }
 
+/* Of a data set: large ones are compressed, in pieces along their first dimension. */
+static hid_t layout_of(hid_t type, int rank, const hsize_t size[])
+{
+    enum { LEAST = 4096, PIECE = 1 << 20, LEVEL = 3 }; /* [bytes]; of deflate */
+    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+    hsize_t piece[MOST_RANKS], line = H5Tget_size(type);
+    for (int i = 1; i < rank; i++) {
+        piece[i] = size[i];
+        line *= size[i];
+    }
+    if (rank == 0 || line == 0 || line * size[0] < LEAST)
+        return layout;
+    piece[0] = PIECE / line > 0 ? PIECE / line : 1;
+    piece[0] = piece[0] < size[0] ? piece[0] : size[0];
+    H5Pset_chunk(layout, rank, piece);
+    H5Pset_shuffle(layout);
+    H5Pset_deflate(layout, LEVEL);
+    return layout;
+}
+
 hid_t record_array(record *r, hid_t at, const char *name, hid_t type, int rank, const hsize_t size[], const void *value)
 {
-    const hid_t space = rank > 0 ? H5Screate_simple(rank, size, NULL) : r->scalar;
-    const hid_t set = r->bad ? -1 : H5Dcreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t space = rank > 0 ? H5Screate_simple(rank, size, NULL) : r->scalar, layout = layout_of(type, rank, size);
+    const hid_t set = r->bad ? -1 : H5Dcreate2(at, name, type, space, H5P_DEFAULT, layout, H5P_DEFAULT);
     int empty = 0;
     for (int i = 0; i < rank; i++)
         empty |= size[i] == 0;
     check(r, set >= 0 && (empty || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0));
+    H5Pclose(layout);
     if (rank > 0)
         H5Sclose(space);
     return set;
@@ -139,27 +161,45 @@ hid_t record_values(record *r, hid_t at, const char *name, int rank, const hsize
     return set;
 }
 
-void record_table(record *r, hid_t at, const char *name, hid_t type, int count, const void *row)
+hid_t record_table(record *r, hid_t at, const char *name, hid_t type, int count, const void *row)
 {
     const hsize_t size = (hsize_t)count;
-    const hid_t space = H5Screate_simple(1, &size, NULL);
-    const hid_t set = r->bad ? -1 : H5Dcreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    check(r, set >= 0 && (count == 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, row) >= 0));
-    H5Dclose(set);
-    H5Sclose(space);
+    return record_array(r, at, name, type, 1, &size, row);
+}
+
+/* text[count] side by side, each as long as the longest; its length. NULL: out of memory. */
+static char *side_by_side(int count, const char *const text[], size_t *longest)
+{
+    *longest = 1;
+    for (int i = 0; i < count; i++)
+        *longest = strlen(text[i]) > *longest ? strlen(text[i]) : *longest;
+    char *all = calloc((size_t)count + 1, *longest);
+    for (int i = 0; i < count && all != NULL; i++)
+        memcpy(all + (size_t)i * *longest, text[i], strlen(text[i]));
+    return all;
 }
 
 void record_texts(record *r, hid_t at, const char *name, int count, const char *const text[])
 {
-    size_t longest = 1;
-    for (int i = 0; i < count; i++)
-        longest = strlen(text[i]) > longest ? strlen(text[i]) : longest;
-    char *all = calloc((size_t)count + 1, longest);
+    size_t longest;
+    char *all = side_by_side(count, text, &longest);
     const hid_t type = record_text_type(longest);
-    for (int i = 0; i < count && all != NULL; i++)
-        memcpy(all + (size_t)i * longest, text[i], strlen(text[i]));
     check(r, all != NULL);
-    record_table(r, at, name, type, count, all);
+    H5Dclose(record_table(r, at, name, type, count, all));
     free(all);
     H5Tclose(type);
+}
+
+void record_text_list(record *r, hid_t at, const char *name, int count, const char *const text[])
+{
+    size_t longest;
+    char *all = side_by_side(count, text, &longest);
+    const hsize_t size = (hsize_t)count;
+    const hid_t type = record_text_type(longest), space = H5Screate_simple(1, &size, NULL);
+    const hid_t a = r->bad || all == NULL ? -1 : H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    check(r, a >= 0 && H5Awrite(a, type, all) >= 0);
+    H5Aclose(a);
+    H5Sclose(space);
+    H5Tclose(type);
+    free(all);
 }

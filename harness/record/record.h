@@ -20,19 +20,21 @@ status record_close(record *r, const char *path, fault *f);
 hid_t record_group(record *r, hid_t at, const char *name);
 /* Attributes. */
 void record_text(record *r, hid_t at, const char *name, const char *text);
+/* An attribute text[count]. */
+void record_text_list(record *r, hid_t at, const char *name, int count, const char *const text[]);
 void record_number(record *r, hid_t at, const char *name, double value);
 void record_count(record *r, hid_t at, const char *name, long value);
 /* Two whole numbers; a text in ASCII of exactly its length (what VTK expects). */
 void record_version(record *r, hid_t at, const char *name, const int version[2]);
 void record_ascii(record *r, hid_t at, const char *name, const char *text);
-/* New data set of any type; the caller closes it with H5Dclose. */
+/* New data set of any type, compressed where it is large; the caller closes it with H5Dclose. */
 hid_t record_array(record *r, hid_t at, const char *name, hid_t type, int rank, const hsize_t size[], const void *value);
 /* New data set of rank 0 to 3 with its unit (NULL: none); the caller closes it with H5Dclose. */
 hid_t record_values(record *r, hid_t at, const char *name, int rank, const hsize_t size[], const double value[], const char *unit);
 /* UTF-8 of a fixed length; the caller closes it with H5Tclose. */
 hid_t record_text_type(size_t length);
-/* New data set row[count] of the given type. */
-void record_table(record *r, hid_t at, const char *name, hid_t type, int count, const void *row);
+/* New data set row[count] of the given type; the caller closes it with H5Dclose. */
+hid_t record_table(record *r, hid_t at, const char *name, hid_t type, int count, const void *row);
 /* New data set text[count]. */
 void record_texts(record *r, hid_t at, const char *name, int count, const char *const text[]);
 

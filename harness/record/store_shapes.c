@@ -1,4 +1,4 @@
-/* Centre lines of a cell in the result file. Layout: harness/README.md. */
+/* Centre lines of a cell in the result file: README.md of this room. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -93,9 +93,9 @@ static void put_sections(record *r, hid_t at, const scene *sc)
     H5Gclose(all);
 }
 
-void store_shapes(record *r, hid_t at, const scene *sc, const shapes *s)
+hid_t store_shapes(record *r, hid_t at, const char *name, const scene *sc, const shapes *s)
 {
-    const hid_t here = record_group(r, at, "shapes");
+    const hid_t here = record_group(r, at, name);
     const hsize_t size[3] = {(hsize_t)s->states, (hsize_t)s->nodes, 3};
     put_structure(r, here, sc);
     put_sections(r, here, sc);
@@ -107,5 +107,5 @@ void store_shapes(record *r, hid_t at, const scene *sc, const shapes *s)
     put_columns(r, here, "moment", s, 10, 3, "N m", "Mx My Mz");
     put_columns(r, here, "bimoment", s, 13, 1, "N m^2", "B");
     H5Dclose(record_values(r, here, "nodes", 3, size, s->node, "m"));
-    H5Gclose(here);
+    return here;
 }

@@ -1,7 +1,132 @@
 #include "harness/study/wire.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* A cell's result is a tree of arrays that records point to; records and elements are sent as they stand in memory, and the
+ * addresses in them replaced by those of their own arrays. A new array is one line in the tables below; a new number none. */
+typedef struct branch branch;
+struct branch {
+    size_t pointer, size;               /* of the address in the record; of an element [bytes] */
+    size_t (*elements)(const void *of); /* by the counts of the record; NULL: a text, which ends with its first zero */
+    const branch *parts;                /* arrays of each element; NULL: none */
+};
+
+static size_t at_least_0(int n)
+{
+    return n > 0 ? (size_t)n : 0;
+}
+
+static size_t curve_points(const void *of)
+{
+    return at_least_0(((const quantity_result *)of)->curve.points);
+}
+
+static size_t stations(const void *of)
+{
+    return at_least_0(((const nodal_matrices *)of)->stations);
+}
+
+static size_t entries(const void *of)
+{
+    return 36 * stations(of);
+}
+
+static size_t lines(const void *of)
+{
+    return at_least_0(((const cell_result *)of)->left_out_lines);
+}
+
+static size_t quantities(const void *of)
+{
+    return at_least_0(((const cell_result *)of)->solve.quantities);
+}
+
+static size_t steps(const void *of)
+{
+    return at_least_0(((const cell_result *)of)->solve.steps);
+}
+
+static size_t iterations(const void *of)
+{
+    return at_least_0(((const cell_result *)of)->solve.iterations);
+}
+
+static size_t events(const void *of)
+{
+    return at_least_0(((const cell_result *)of)->solve.events);
+}
+
+static size_t matrix_sets(const void *of)
+{
+    return at_least_0(((const cell_result *)of)->solve.matrix_sets);
+}
+
+static const shapes *shapes_of(const void *of)
+{
+    return &((const cell_result *)of)->solve.shapes;
+}
+
+static size_t shape_states(const void *of)
+{
+    return at_least_0(shapes_of(of)->states);
+}
+
+static size_t shape_members(const void *of)
+{
+    return shape_states(of) > 0 ? at_least_0(shapes_of(of)->members) + 1 : 0;
+}
+
+static size_t shape_points(const void *of)
+{
+    return shape_states(of) * at_least_0(shapes_of(of)->points);
+}
+
+static size_t shape_nodes(const void *of)
+{
+    return 3 * shape_states(of) * at_least_0(shapes_of(of)->nodes);
+}
+
+static const branch of_line[] = {{0, sizeof(char), NULL, NULL}, {0}};
+static const branch of_quantity[] = {{offsetof(quantity_result, curve.x), sizeof(double), curve_points, NULL},
+                                     {offsetof(quantity_result, curve.value), sizeof(double), curve_points, NULL},
+                                     {0}};
+static const branch of_matrices[] = {{offsetof(nodal_matrices, path), sizeof(double), stations, NULL},
+                                     {offsetof(nodal_matrices, compliance), sizeof(double), entries, NULL},
+                                     {offsetof(nodal_matrices, stiffness), sizeof(double), entries, NULL},
+                                     {0}};
+static const branch of_cell[] = {{offsetof(cell_result, left_out), sizeof(char *), lines, of_line},
+                                 {offsetof(cell_result, solve.quantity), sizeof(quantity_result), quantities, of_quantity},
+                                 {offsetof(cell_result, solve.step), sizeof(step_record), steps, NULL},
+                                 {offsetof(cell_result, solve.iteration), sizeof(iteration_record), iterations, NULL},
+                                 {offsetof(cell_result, solve.event), sizeof(path_event), events, NULL},
+                                 {offsetof(cell_result, solve.matrices), sizeof(nodal_matrices), matrix_sets, of_matrices},
+                                 {offsetof(cell_result, solve.shapes.first), sizeof(int), shape_members, NULL},
+                                 {offsetof(cell_result, solve.shapes.state), sizeof(shape_state), shape_states, NULL},
+                                 {offsetof(cell_result, solve.shapes.point), sizeof(centreline_point), shape_points, NULL},
+                                 {offsetof(cell_result, solve.shapes.node), sizeof(double), shape_nodes, NULL},
+                                 {0}};
+
+static void *address(const void *record, const branch *b)
+{
+    void *out;
+    memcpy(&out, (const char *)record + b->pointer, sizeof out);
+    return out;
+}
+
+static void set_address(void *record, const branch *b, const void *to)
+{
+    memcpy((char *)record + b->pointer, &to, sizeof to);
+}
+
+static size_t elements(const void *record, const branch *b)
+{
+    const char *text = address(record, b);
+    if (b->elements != NULL)
+        return b->elements(record);
+    return text != NULL ? strlen(text) + 1 : 0;
+}
 
 static int put(FILE *to, const void *data, size_t size)
 {
@@ -13,123 +138,90 @@ static int get(FILE *from, void *data, size_t size)
     return size == 0 || fread(data, size, 1, from) == 1 ? 0 : -1;
 }
 
-static int put_shapes(FILE *to, const shapes *s)
+/* Every array behind its length. */
+static int put_parts(FILE *to, const void *record, const branch parts[])
 {
-    const size_t states = (size_t)s->states;
-    if (states == 0)
-        return 0;
-    return put(to, s->first, ((size_t)s->members + 1) * sizeof *s->first) | put(to, s->state, states * sizeof *s->state) |
-           put(to, s->point, states * (size_t)s->points * sizeof *s->point) |
-           put(to, s->node, states * 3 * (size_t)s->nodes * sizeof *s->node);
+    for (const branch *b = parts; b->size > 0; b++) {
+        const char *array = address(record, b);
+        const size_t count = array != NULL ? elements(record, b) : 0;
+        if (put(to, &count, sizeof count) != 0 || put(to, array, count * b->size) != 0)
+            return -1;
+        for (size_t i = 0; i < count && b->parts != NULL; i++)
+            if (put_parts(to, array + i * b->size, b->parts) != 0)
+                return -1;
+    }
+    return 0;
+}
+
+/* The addresses are those of the other process. */
+static void forget(void *record, const branch parts[])
+{
+    for (const branch *b = parts; b->size > 0; b++)
+        set_address(record, b, NULL);
+}
+
+/* NULL: out of memory, the stream ended, or it is damaged. */
+static char *get_array(FILE *from, const branch *b, size_t count)
+{
+    enum { LARGEST = 1 << 28 }; /* [bytes] a count beyond this is damage */
+    char *out = count < LARGEST / b->size ? calloc(count + 1, b->size) : NULL;
+    if (out != NULL && get(from, out, count * b->size) == 0 && (b->elements != NULL || out[count - 1] == '\0'))
+        return out;
+    free(out);
+    return NULL;
+}
+
+static int get_parts(FILE *from, void *record, const branch parts[])
+{
+    for (const branch *b = parts; b->size > 0; b++) {
+        size_t count = 0;
+        if (get(from, &count, sizeof count) != 0 || (b->elements != NULL && b->elements(record) != count))
+            return -1;
+        if (count == 0)
+            continue;
+        char *array = get_array(from, b, count);
+        if (array == NULL)
+            return -1;
+        set_address(record, b, array);
+        for (size_t i = 0; i < count && b->parts != NULL; i++)
+            forget(array + i * b->size, b->parts);
+        for (size_t i = 0; i < count && b->parts != NULL; i++)
+            if (get_parts(from, array + i * b->size, b->parts) != 0)
+                return -1;
+    }
+    return 0;
+}
+
+static void free_parts(void *record, const branch parts[])
+{
+    for (const branch *b = parts; b->size > 0; b++) {
+        char *array = address(record, b);
+        const size_t count = array != NULL && b->parts != NULL ? elements(record, b) : 0;
+        for (size_t i = 0; i < count; i++)
+            free_parts(array + i * b->size, b->parts);
+        free(array);
+    }
 }
 
 int wire_write(FILE *to, const cell_result *cell)
 {
-    const solve_result *s = &cell->solve;
-    int bad = put(to, &cell->size, sizeof cell->size) | put(to, &cell->counters, sizeof cell->counters) | put(to, s, sizeof *s) |
-              put(to, &cell->left_out_lines, sizeof cell->left_out_lines);
-    for (int i = 0; i < cell->left_out_lines && !bad; i++) {
-        const size_t length = strlen(cell->left_out[i]) + 1;
-        bad = put(to, &length, sizeof length) | put(to, cell->left_out[i], length);
-    }
-    bad |= put(to, s->quantity, (size_t)s->quantities * sizeof *s->quantity) |
-           put(to, s->step, (size_t)s->steps * sizeof *s->step) | put(to, s->event, (size_t)s->events * sizeof *s->event) |
-           put(to, s->iteration, (size_t)s->iterations * sizeof *s->iteration) |
-           put(to, s->matrices, (size_t)s->matrix_sets * sizeof *s->matrices);
-    for (int i = 0; i < s->matrix_sets && !bad; i++) {
-        const nodal_matrices *m = &s->matrices[i];
-        const size_t matrices = 36 * (size_t)m->stations * sizeof(double);
-        bad = put(to, m->path, (size_t)m->stations * sizeof(double)) | put(to, m->compliance, matrices) |
-              put(to, m->stiffness, matrices);
-    }
-    for (int i = 0; i < s->quantities && !bad; i++) {
-        const size_t bytes = (size_t)s->quantity[i].curve.points * sizeof(double);
-        bad = put(to, s->quantity[i].curve.x, bytes) | put(to, s->quantity[i].curve.value, bytes);
-    }
-    return bad || put_shapes(to, &s->shapes) != 0 || fflush(to) != 0 ? -1 : 0;
-}
-
-static void *array(FILE *from, size_t count, size_t size, int *bad)
-{
-    enum { LARGEST = 1 << 28 }; /* [bytes] a count beyond this is damage */
-    void *out = count < LARGEST / size ? calloc(count + 1, size) : NULL;
-    if (out == NULL || get(from, out, count * size) != 0)
-        *bad = 1;
-    return out;
-}
-
-/* The counts have been read; the arrays follow. */
-static int get_shapes(FILE *from, shapes *s)
-{
-    const size_t states = (size_t)s->states;
-    if (states == 0)
-        return 0;
-    if (shapes_alloc(s, NULL) != STATUS_OK)
+    if (put(to, cell, sizeof *cell) != 0 || put_parts(to, cell, of_cell) != 0)
         return -1;
-    return get(from, s->first, ((size_t)s->members + 1) * sizeof *s->first) | get(from, s->state, states * sizeof *s->state) |
-           get(from, s->point, states * (size_t)s->points * sizeof *s->point) |
-           get(from, s->node, states * 3 * (size_t)s->nodes * sizeof *s->node);
-}
-
-static void read_matrices(FILE *from, int sets, solve_result *s, int *bad)
-{
-    s->matrices = array(from, (size_t)sets, sizeof *s->matrices, bad);
-    s->matrix_sets = 0; /* those whose addresses are of this process */
-    for (int i = 0; i < sets && !*bad; i++) {
-        nodal_matrices *m = &s->matrices[i];
-        const size_t stations = (size_t)m->stations;
-        m->path = m->compliance = m->stiffness = NULL;
-        s->matrix_sets++;
-        m->path = array(from, stations, sizeof(double), bad);
-        m->compliance = array(from, 36 * stations, sizeof(double), bad);
-        m->stiffness = array(from, 36 * stations, sizeof(double), bad);
-    }
-}
-
-static int read_cell(FILE *from, cell_result *cell)
-{
-    solve_result *s = &cell->solve;
-    int lines = 0, bad = get(from, &cell->size, sizeof cell->size) | get(from, &cell->counters, sizeof cell->counters);
-    solve_result head = {0};
-    if (bad || get(from, &head, sizeof head) != 0 || get(from, &lines, sizeof lines) != 0 || head.quantities < 0 ||
-        head.steps < 0 || head.events < 0 || head.iterations < 0 || head.matrix_sets < 0 || lines < 0)
-        return -1;
-    cell->left_out = calloc((size_t)lines + 1, sizeof *cell->left_out);
-    for (int i = 0; i < lines && !bad && cell->left_out != NULL; i++) {
-        size_t length = 0;
-        bad = get(from, &length, sizeof length) != 0;
-        cell->left_out[cell->left_out_lines++] = bad ? NULL : array(from, length, 1, &bad);
-    }
-    quantity_result *quantity = bad ? NULL : array(from, (size_t)head.quantities, sizeof *quantity, &bad);
-    for (int i = 0; i < head.quantities && quantity != NULL; i++)
-        quantity[i].curve.x = quantity[i].curve.value = NULL; /* addresses of the other process */
-    head.shapes.first = NULL;                                 /* the arrays are the other process's */
-    head.shapes.state = NULL;
-    head.shapes.point = NULL;
-    head.shapes.node = NULL;
-    *s = head;
-    s->quantity = quantity;
-    s->quantities = quantity != NULL ? head.quantities : 0;
-    s->matrices = NULL;
-    s->matrix_sets = 0;
-    s->step = bad ? NULL : array(from, (size_t)head.steps, sizeof *s->step, &bad);
-    s->event = bad ? NULL : array(from, (size_t)head.events, sizeof *s->event, &bad);
-    s->iteration = bad ? NULL : array(from, (size_t)head.iterations, sizeof *s->iteration, &bad);
-    if (!bad)
-        read_matrices(from, head.matrix_sets, s, &bad);
-    for (int i = 0; i < s->quantities && !bad; i++) {
-        const size_t points = (size_t)s->quantity[i].curve.points;
-        s->quantity[i].curve.x = points > 0 ? array(from, points, sizeof(double), &bad) : NULL;
-        s->quantity[i].curve.value = points > 0 ? array(from, points, sizeof(double), &bad) : NULL;
-    }
-    return bad || cell->left_out == NULL || get_shapes(from, &s->shapes) != 0 ? -1 : 0;
+    return fflush(to) == 0 ? 0 : -1;
 }
 
 int wire_read(FILE *from, cell_result *cell)
 {
     memset(cell, 0, sizeof *cell);
-    const int outcome = read_cell(from, cell);
-    if (outcome != 0)
-        cell_result_free(cell); /* nothing half-read is left */
-    return outcome;
+    if (get(from, cell, sizeof *cell) != 0) {
+        memset(cell, 0, sizeof *cell);
+        return -1;
+    }
+    forget(cell, of_cell);
+    memset(&cell->scene, 0, sizeof cell->scene); /* it stays with the point */
+    if (get_parts(from, cell, of_cell) == 0)
+        return 0;
+    free_parts(cell, of_cell);
+    memset(cell, 0, sizeof *cell); /* nothing half-read is left */
+    return -1;
 }

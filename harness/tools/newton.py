@@ -36,17 +36,25 @@ def solve(program, case, parameters, formulation, n, steps):
     return json.loads(done.stdout)
 
 
+def steps_of(result):
+    """Load steps, each with the corrections of its iterations."""
+    corrections = [[] for _ in result["steps"]]
+    for iteration in result["iterations"]:
+        corrections[iteration["step"]].append(iteration["correction"])
+    return [{**step, "corrections": own} for step, own in zip(result["steps"], corrections)]
+
+
 def summary(result):
     steps = result["steps"]
-    return {"status": result["status"], "reason": result["reason"], "iterations": result["counters"]["iterations"], "steps": len(steps),
-            "rejected": result["counters"]["rejected_steps"], "largest_step": max((s["increment"] for s in steps), default=0.0),
+    return {"status": result["cell"]["status"], "reason": result["cell"]["reason"], "iterations": result["cell"]["iterations"], "steps": len(steps),
+            "rejected": result["cell"]["rejected_steps"], "largest_step": max((s["increment"] for s in steps), default=0.0),
             "most_iterations": max((s["iterations"] for s in steps), default=0), "reached": steps[-1]["path"] if steps else 0.0}
 
 
 def single(program, case, parameters, formulation, n):
     """Iterations of the one step, or None if it did not converge as a whole."""
     result = solve(program, case, parameters, formulation, n, 1)
-    return result["steps"][0]["iterations"] if result["status"] == "ok" and result["counters"]["rejected_steps"] == 0 else None
+    return result["steps"][0]["iterations"] if result["cell"]["status"] == "ok" and result["cell"]["rejected_steps"] == 0 else None
 
 
 def main():
@@ -71,7 +79,7 @@ def main():
         for form in FORMS:
             result = solve(given.program, case, parameters, f"{formulation}:newton={form}", n, steps)
             histories.append({"case": case, "parameters": parameters, "formulation": formulation, "elements": int(n), "form": form,
-                              "status": result["status"], "reason": result["reason"], "steps": result["steps"]})
+                              "status": result["cell"]["status"], "reason": result["cell"]["reason"], "steps": steps_of(result)})
     with open(given.o, "w", encoding="utf-8") as out:
         json.dump({"singles": singles, "contests": contests, "histories": histories}, out, indent=1)
 

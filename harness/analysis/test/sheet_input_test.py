@@ -72,7 +72,7 @@ class Extremes(unittest.TestCase):
                 self.assertIn(done.returncode, (2,) if formulation == "sheet_third" and Phi > 0.01 else (0, 1), at)
                 if done.returncode == 0:
                     answers += 1
-                    values = {q["name"]: q["value"] for q in json.loads(done.stdout)["quantities"]}
+                    values = {q["quantity"]: q["value"] for q in json.loads(done.stdout)["quantities"]}
                     self.assertTrue(all(v is not None and math.isfinite(v) for v in values.values()), at)
                     self.assertGreater(values["C_xx"], 0, at)
                     self.assertGreater(values["C_zz"], 0, at)

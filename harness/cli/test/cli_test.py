@@ -75,11 +75,11 @@ class Answers(unittest.TestCase):
         done = run("solve", "c_column", "-f", "beamw", "-n", "2", "--set", "section_data=printed", "--format", "json")
         self.assertEqual(done.returncode, 0, done.stderr)
         result = json.loads(done.stdout)
-        self.assertEqual(result["schema"], 1)
+        self.assertEqual(result["schema_version"], 2)
         self.assertEqual(result["parameters"]["section_data"], "printed")
         load = result["quantities"][0]
         self.assertAlmostEqual(load["value"] / 12858745.038, 1, delta=1e-9)
-        self.assertTrue(any(t["kind"] == "exact" for t in load["truths"]))
+        self.assertTrue(any(t["truth_kind"] == "exact" for t in load["truths"]))
 
     def test_gate(self):
         """A finding that is deleted from the ledger turns the gate red."""

@@ -24,14 +24,14 @@ class Forms(unittest.TestCase):
         for one in series:
             for quantity in one["quantities"]:
                 for mesh in quantity["meshes"]:
-                    row = rows[one["formulation"], quantity["name"], mesh["elements"]]
+                    row = rows[one["formulation"], quantity["quantity"], mesh["elements"]]
                     self.assertEqual(float(row["value"]), mesh["value"])
                     self.assertEqual(float(row["error"]), mesh["error"])
                     seen += 1
         self.assertEqual(seen, len(rows))
 
     def test_limit_order_and_verdict(self):
-        one = {q["name"]: q for q in json.loads(converge("json"))["series"][0]["quantities"]}["w_over_L"]
+        one = {q["quantity"]: q for q in json.loads(converge("json"))["series"][0]["quantities"]}["w_over_L"]
         self.assertEqual(one["verdict"], "pass")
         self.assertAlmostEqual(one["order"], 2, delta=0.05)
         self.assertLess(abs(one["error"]), 1e-4)

@@ -7,12 +7,26 @@ import tempfile
 import unittest
 
 import h5py
-import numpy
-
 from reference.pack import seal
 
 PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
-CELL = "cases/warping_torsion/default/beamw/n4"
+TABLES = "cases/warping_torsion"
+
+
+def of_cell(table):
+    """Rows of a table that belong to one cell."""
+    return (table["point"] == b"default") & (table["formulation"] == b"beamw") & (table["elements"] == 4)
+
+
+def altered(file, name, change):
+    """A table of which change(rows of the cell) was made; fewer rows where it returns False."""
+    group, rows = file[TABLES], file[TABLES][name][()]
+    own = of_cell(rows)
+    part = rows[own]
+    keep = change(part)
+    rows[own] = part
+    del group[name]
+    group[name] = rows[~own] if keep is False else rows
 
 
 def run(*arguments):
@@ -65,23 +79,27 @@ class Compare(unittest.TestCase):
     def test_extra_work(self):
         for count in ("factorisations", "iterations", "strain_evaluations"):
             def change(file, count=count):
-                attributes = file[CELL].attrs
-                attributes.modify(count, 2 * attributes[count] + 1)
+                def more(rows):
+                    rows[count] = 2 * rows[count] + 1
+                altered(file, "cells", more)
             self.check(1, ["worse    warping_torsion/default/beamw n=4", " 1 worse, 0 better"], change)
-        self.assertEqual(self.compared(lambda file: file[CELL].attrs.modify("factorisations", 2), "--threshold", "work=1").returncode, 0)
+
+        def two(rows):
+            rows["factorisations"] = 2
+        self.assertEqual(self.compared(lambda file: altered(file, "cells", two), "--threshold", "work=1").returncode, 0)
 
     def test_less_work(self):
         def change(file):
-            cell = file[CELL]
-            cell.attrs.modify("strain_evaluations", cell.attrs["strain_evaluations"] // 2)
+            def half(rows):
+                rows["strain_evaluations"] //= 2
+            altered(file, "cells", half)
         self.check(1, ["better   warping_torsion/default/beamw n=4: evaluations", "0 worse, 1 better"], change)
 
     def errors(self, factor):
         def change(file):
-            table = file[CELL]["quantities"]
-            rows = table[...]
-            rows["error"] *= factor
-            table[...] = rows
+            def scaled(rows):
+                rows["error"] *= factor
+            altered(file, "quantities", scaled)
         return change
 
     def test_errors(self):
@@ -92,10 +110,15 @@ class Compare(unittest.TestCase):
 
     def test_cells(self):
         def gone(file):
-            del file[CELL]
+            altered(file, "cells", lambda rows: False)
+            altered(file, "quantities", lambda rows: False)
 
         def failed(file):
-            file[CELL].attrs["status"] = numpy.bytes_("singular")
+            group, rows = file[TABLES], file[TABLES]["cells"][()]
+            wider = rows.astype([(name, "S12" if name == "status" else rows.dtype[name]) for name in rows.dtype.names])
+            wider["status"][of_cell(wider)] = b"singular"
+            del group["cells"]
+            group["cells"] = wider
         self.check(1, ["gone     warping_torsion/default/beamw n=4"], gone)
         self.check(1, ["worse    warping_torsion/default/beamw n=4: ok -> singular"], failed)
         self.compared(gone)
@@ -126,10 +149,45 @@ class Compare(unittest.TestCase):
 
     def test_damaged_cell(self):
         def change(file):
-            del file[CELL]["quantities"]
+            del file[TABLES]["quantities"]
         done = self.compared(change)
         self.assertEqual(done.returncode, 2)
-        self.assertIn("warping_torsion/default/beamw is missing or damaged", done.stderr)
+        self.assertIn("warping_torsion/quantities is missing or damaged", done.stderr)
+
+    def test_strange_tables(self):
+        """Columns that are missing or of another type, rows that belong nowhere."""
+        def drop(name, column):
+            def change(file):
+                rows = file[TABLES][name][()]
+                del file[TABLES][name]
+                file[TABLES][name] = rows[[c for c in rows.dtype.names if c != column]]
+            return change
+
+        def texts(file):
+            rows = file[TABLES]["quantities"][()]
+            del file[TABLES]["quantities"]
+            file[TABLES]["quantities"] = rows.astype([(c, "S30" if c == "value" else rows.dtype[c]) for c in rows.dtype.names])
+
+        def homeless(file):
+            altered(file, "cells", lambda rows: False)
+
+        def pointless(file):
+            rows = file[TABLES]["points"][()]
+            del file[TABLES]["points"]
+            file[TABLES]["points"] = rows[:0]
+        for change in (drop("cells", "iterations"), drop("cells", "elements"), drop("quantities", "error"), drop("points", "point"), texts, homeless, pointless):
+            done = self.compared(change)
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+            self.assertIn("damaged", done.stderr)
+
+    def test_versions(self):
+        """A file of a later version is refused with one line."""
+        def later(file):
+            file.attrs.modify("schema_version", 3)
+        done = self.compared(later)
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn("results of version 3, this program reads 2", done.stderr)
 
 
 if __name__ == "__main__":

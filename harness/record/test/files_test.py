@@ -168,21 +168,20 @@ class Readable(Folder):
         suite = xml.etree.ElementTree.parse(self.path("j.xml")).getroot()[0]
         self.assertEqual(int(suite.get("tests")), len(suite))
         self.assertEqual(int(suite.get("failures")), 0)
-        self.assertEqual(len(suite), len(summary["verdicts"]) + len(summary["discrete"]) + 2)
+        self.assertEqual(len(suite), len(summary["verdicts"]) + len(summary["agreements"]) + 2)
         with h5py.File(self.path("r.h5")) as file:
             self.assertEqual(file.attrs["schema"], b"beamwork-results")
-            point = file["cases/warping_torsion/default"]
-            self.assertEqual(point.attrs["parameter_kL"], 1)
+            case = file["cases/warping_torsion"]
+            points, table, values = case["points"][()], case["verdicts"][()], case["quantities"][()]
+            self.assertEqual(points["kL"][points["point"] == b"default"], [1])
             for row in summary["verdicts"]:
-                table = point[row["formulation"]]["verdicts"][()]
-                at = list(table["quantity"]).index(row["quantity"].encode())
+                at = numpy.flatnonzero((table["formulation"] == row["formulation"].encode()) & (table["quantity"] == row["quantity"].encode()))[0]
                 self.assertEqual(table["verdict"][at].decode(), row["verdict"])
                 numpy.testing.assert_equal(table["limit"][at], numpy.nan if row["limit"] is None else row["limit"])
-            meshes = [group for group in point["beamw"].values() if "elements_per_member" in group.attrs]
-            finest = max(meshes, key=lambda group: group.attrs["elements_per_member"])
             row = next(row for row in summary["verdicts"] if row["formulation"] == "beamw")
-            self.assertEqual(finest["quantities"]["value"][0], row["value"])
-            self.assertEqual(finest["quantities"]["unit"][0].decode(), "1")
+            finest = max(values[values["formulation"] == b"beamw"], key=lambda value: value["elements"])
+            self.assertEqual(finest["value"], row["value"])
+            self.assertEqual(finest["unit"], b"1")
 
     def test_reached(self):
         """Elements from which on every error is within a level, against the errors in the same

@@ -1,0 +1,89 @@
+/* Records of parameter points, of series of meshes and of one mesh: size, work, times. */
+#include <string.h>
+
+#include "harness/record/schema_keys.h"
+
+static void get_type(const subject *s, field_value *out)
+{
+    field_text(out, s->series->formulation.type->name);
+}
+
+static void get_summary(const subject *s, field_value *out)
+{
+    field_text(out, s->series->formulation.type->summary);
+}
+
+static void get_source(const subject *s, field_value *out)
+{
+    field_text(out, s->series->formulation.type->source);
+}
+
+static void get_features(const subject *s, field_value *out)
+{
+    size_t used = 0;
+    out->room[0] = '\0';
+    for (unsigned bit = 1; bit <= FEATURE_CURVATURE; bit <<= 1)
+        if (subject_cell(s)->size.features & bit)
+            used +=
+                (size_t)snprintf(out->room + used, sizeof out->room - used, "%s%s", used > 0 ? ", " : "", model_feature_name(bit));
+    out->text = out->room;
+}
+
+/* Lines that no longer fit end the text. */
+static void get_left_out(const subject *s, field_value *out)
+{
+    const cell_result *cell = subject_cell(s);
+    size_t used = 0;
+    out->room[0] = '\0';
+    for (int i = 0; i < cell->left_out_lines && used + strlen(cell->left_out[i]) + 3 < sizeof out->room; i++)
+        used += (size_t)sprintf(out->room + used, "%s%s", i > 0 ? "; " : "", cell->left_out[i]);
+    out->text = out->room;
+}
+
+static const schema_field fields_of_point[] = {
+    {"parameters", "", FIELD_TEXT, "where they differ from the defaults", AT(point, text)},
+    {"status", "", FIELD_ENUM, "of building the scene", AT(point, status), .word = word_of_status, .words = STATUSES},
+    {"reason", "", FIELD_TEXT, "why it was refused", AT(point, reason)},
+    {0}};
+const record_type record_point = {"point", "points", "a case with the values of its parameters", {keys_of_point, fields_of_point}};
+
+static const schema_field fields_of_series[] = {
+    {"type", "", FIELD_TEXT, "name of the formulation", .get = get_type},
+    {"summary", "", FIELD_TEXT, "what it is", .get = get_summary},
+    {"source", "", FIELD_TEXT, "where it is published", .get = get_source},
+    {"missing", "", FIELD_TEXT, "what the case needs and it does not offer: it was not run", AT(series, missing)},
+    {0}};
+const record_type record_series = {
+    "series", "series", "a formulation on the meshes of a point", {keys_of_point, keys_of_series, fields_of_series}};
+
+static const schema_field fields_of_cell[] = {
+    {"status", "", FIELD_ENUM, "ok, or how it failed", AT(cell_result, solve.status), .word = word_of_status, .words = STATUSES},
+    {"reason", "", FIELD_TEXT, "why it failed", AT(cell_result, solve.reason)},
+    {"elements_total", "1", FIELD_INT, "elements of the whole structure", AT(cell_result, size.elements)},
+    {"free", "1", FIELD_INT, "unknown coordinates", AT(cell_result, size.free)},
+    {"driven", "1", FIELD_INT, "prescribed coordinates", AT(cell_result, size.driven)},
+    {"features", "", FIELD_TEXT, "physics that the model has", .get = get_features},
+    {"left_out", "", FIELD_TEXT, "coordinates that were left out, and why", .get = get_left_out},
+    {"seconds_setup", "s", FIELD_DOUBLE, "of the processor, in one run: set-up", AT(cell_result, solve.seconds_setup)},
+    {"seconds_solve", "s", FIELD_DOUBLE, "of the processor, in one run: the rest", AT(cell_result, solve.seconds_solve)},
+    {0}};
+
+/* A new counter is one line here. */
+static const schema_field fields_of_work[] = {
+    {"strain_evaluations", "1", FIELD_LONG, "deformation functions of elements", AT(cell_result, counters.strain_evaluations)},
+    {"stress_evaluations", "1", FIELD_LONG, "stress functions of elements", AT(cell_result, counters.stress_evaluations)},
+    {"inertia_evaluations", "1", FIELD_LONG, "mass matrices of elements", AT(cell_result, counters.inertia_evaluations)},
+    {"iterations", "1", FIELD_LONG, "Newton iterations, rejected steps included", AT(cell_result, counters.iterations)},
+    {"load_steps", "1", FIELD_LONG, "load steps that were kept", AT(cell_result, counters.steps)},
+    {"rejected_steps", "1", FIELD_LONG, "load steps that were tried in vain", AT(cell_result, counters.rejected_steps)},
+    {"factorisations", "1", FIELD_LONG, "factorisations of matrices", AT(cell_result, counters.factorisations)},
+    {"solutions", "1", FIELD_LONG, "right-hand sides solved for", AT(cell_result, counters.solutions)},
+    {"factor_entries", "1", FIELD_LONG, "entries of the last factor", AT(cell_result, counters.factor_entries)},
+    {"factor_flops", "1", FIELD_DOUBLE, "operations of all factorisations", AT(cell_result, counters.factor_flops)},
+    {"negative_pivots", "1", FIELD_LONG, "most of a symmetric tangent at a state that was reached",
+     AT(cell_result, counters.negative_pivots)},
+    {0}};
+const record_type record_cell = {"cell",
+                                 "cells",
+                                 "a formulation on one mesh: size, work, times",
+                                 {keys_of_point, keys_of_series, key_of_mesh, fields_of_cell, fields_of_work}};

@@ -1,0 +1,20 @@
+/* Records as lines of CSV: full precision, empty where there is no number. */
+#ifndef BEAMWORK_SCHEMA_CSV_H
+#define BEAMWORK_SCHEMA_CSV_H
+
+#include <stdio.h>
+
+#include "harness/record/schema.h"
+
+/* A line is made of several records of one subject each; of fields of the same name the first stands. Matrices are left out. */
+typedef struct csv_part {
+    const record_type *type;
+    subject s;
+} csv_part;
+
+/* A field that may hold commas or quotes, and what follows it. */
+void csv_field(FILE *to, const char *text, const char *end);
+void csv_head(FILE *to, int parts, const csv_part part[]);
+void csv_line(FILE *to, int parts, const csv_part part[]);
+
+#endif

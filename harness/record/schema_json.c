@@ -1,0 +1,92 @@
+#include "harness/record/schema_json.h"
+
+#include <math.h>
+
+json_t *json_number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+json_t *json_numbers(int count, const double value[])
+{
+    json_t *list = json_array();
+    for (int i = 0; i < count; i++)
+        json_array_append_new(list, json_number(value[i]));
+    return list;
+}
+
+/* A square matrix row by row. */
+static json_t *matrix(int count, const double value[])
+{
+    const int size = (int)lround(sqrt(count));
+    json_t *rows = json_array();
+    for (int i = 0; i < size; i++)
+        json_array_append_new(rows, json_numbers(size, value + size * i));
+    return rows;
+}
+
+static json_t *json_of(const schema_field *which, const field_value *v)
+{
+    switch (which->kind) {
+    case FIELD_INT:
+    case FIELD_LONG:
+        return json_integer(v->whole);
+    case FIELD_FLAG:
+        return json_boolean(v->whole);
+    case FIELD_DOUBLE:
+        return which->count > 0 ? matrix(which->count, v->numbers) : json_number(*v->numbers);
+    case FIELD_TEXT:
+    case FIELD_ENUM:
+    case FIELD_KINDS:
+        break;
+    }
+    return json_string(v->text);
+}
+
+json_t *json_record(const record_type *type, const subject *s, int keys)
+{
+    const schema_field *list[SCHEMA_MOST_FIELDS];
+    const int count = schema_fields(type, keys, list);
+    json_t *out = json_object();
+    for (int i = 0; i < count; i++) {
+        field_value v;
+        field_read(s, list[i], &v);
+        json_object_set_new(out, list[i]->name, json_of(list[i], &v));
+    }
+    return out;
+}
+
+void json_add_record(json_t *list, const record_type *type, const subject *s, int keys)
+{
+    json_array_append_new(list, json_record(type, s, keys));
+}
+
+static json_t *json_field(const schema_field *which)
+{
+    json_t *out = json_pack("{s:s,s:s,s:s,s:s,s:b}", "name", which->name, "kind", field_kind_name(which->kind), "unit", which->unit,
+                            "summary", which->summary, "key", which->key != 0);
+    json_t *words = json_array();
+    for (int i = 0; i < which->words; i++)
+        json_array_append_new(words, json_string(which->word(i)));
+    if (which->words > 0)
+        json_object_set(out, "words", words);
+    if (which->count > 0)
+        json_object_set_new(out, "count", json_integer(which->count));
+    json_decref(words);
+    return out;
+}
+
+json_t *json_schema(void)
+{
+    json_t *records = json_array();
+    for (int i = 0; record_types[i] != NULL; i++) {
+        const schema_field *list[SCHEMA_MOST_FIELDS];
+        const int count = schema_fields(record_types[i], KEY_AROUND, list);
+        json_t *fields = json_array();
+        for (int k = 0; k < count; k++)
+            json_array_append_new(fields, json_field(list[k]));
+        json_array_append_new(records, json_pack("{s:s,s:s,s:s,s:o}", "record", record_types[i]->name, "table",
+                                                 record_types[i]->table, "summary", record_types[i]->summary, "fields", fields));
+    }
+    return json_pack("{s:s,s:i,s:o}", "schema", SCHEMA_NAME, "schema_version", SCHEMA_VERSION, "records", records);
+}

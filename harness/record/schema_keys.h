@@ -1,0 +1,23 @@
+/* Where a record belongs: the first fields of the tables of schema_*.c, and what these share. */
+#ifndef BEAMWORK_SCHEMA_KEYS_H
+#define BEAMWORK_SCHEMA_KEYS_H
+
+#include <stddef.h>
+
+#include "harness/record/schema.h"
+
+extern const schema_field keys_of_point[];     /* case, parameter point */
+extern const schema_field keys_of_series[];    /* its parameters, formulation */
+extern const schema_field key_of_mesh[];       /* elements of each member */
+extern const schema_field names_of_quantity[]; /* its name and unit */
+
+enum { STATUSES = STATUS_TIME_LIMIT + 1 };
+/* ENUM fields: their words. */
+const char *word_of_status(int status);
+const char *word_of_moments(int convention);
+
+/* Of the quantity that s->index counts. */
+const scene_quantity *subject_quantity(const subject *s);
+const cell_result *subject_cell(const subject *s);
+
+#endif

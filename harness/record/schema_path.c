@@ -1,0 +1,181 @@
+/* Records of what a cell found and of the way there: quantities, curves, load steps, iterations, events, matrices. */
+#include <math.h>
+
+#include "harness/record/schema_keys.h"
+
+static void get_moments(const subject *s, field_value *out)
+{
+    field_text(out, scene_convention(&s->point->scene, subject_quantity(s)));
+}
+
+static void get_truth(const subject *s, field_value *out)
+{
+    field_number(out, s->truth != NULL ? s->truth->value : NAN);
+}
+
+static double error_of(const subject *s, double value, const truth *against)
+{
+    return against != NULL ? relative_error(subject_quantity(s), value, against->value) : NAN;
+}
+
+static void get_error(const subject *s, field_value *out)
+{
+    field_number(out, error_of(s, ((const quantity_result *)s->record)->value, s->truth));
+}
+
+static void get_model_error(const subject *s, field_value *out)
+{
+    field_number(out, error_of(s, ((const quantity_result *)s->record)->value, s->model_truth));
+}
+
+static void get_near_zero(const subject *s, field_value *out)
+{
+    field_number(out, subject_quantity(s)->near_zero);
+}
+
+static double predicted(const subject *s)
+{
+    return subject_quantity(s)->predicted_by != NULL ? subject_quantity(s)->prediction : NAN;
+}
+
+static void get_prediction(const subject *s, field_value *out)
+{
+    field_number(out, predicted(s));
+}
+
+static void get_prediction_error(const subject *s, field_value *out)
+{
+    field_number(out, isfinite(predicted(s)) ? error_of(s, predicted(s), s->truth) : NAN);
+}
+
+static void get_predicted_by(const subject *s, field_value *out)
+{
+    field_text(out, subject_quantity(s)->predicted_by);
+}
+
+static const schema_field fields_of_quantity[] = {
+    {"moments", "", FIELD_TEXT, "what a moment does while its node turns", .get = get_moments},
+    {"status", "", FIELD_ENUM, "ok: there is a value", AT(quantity_result, status), .word = word_of_status, .words = STATUSES},
+    {"reason", "", FIELD_TEXT, "why there is none", AT(quantity_result, reason)},
+    {"value", UNIT_OF_QUANTITY, FIELD_DOUBLE, "the value", AT(quantity_result, value)},
+    {"truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of the same continuum model", .get = get_truth},
+    {"error", "1", FIELD_DOUBLE, "(value - truth)/|truth|, by near_zero where that is larger", .get = get_error},
+    {"model_error", "1", FIELD_DOUBLE, "the same against the truth of another model", .get = get_model_error},
+    {"x", "x_unit", FIELD_DOUBLE, "where a maximum or minimum was found", AT(quantity_result, x)},
+    {"near_zero", UNIT_OF_QUANTITY, FIELD_DOUBLE, "values below it count as zero", .get = get_near_zero},
+    {"prediction", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of an analytic model, not judged", .get = get_prediction},
+    {"prediction_error", "1", FIELD_DOUBLE, "of the prediction against the truth", .get = get_prediction_error},
+    {"predicted_by", "", FIELD_TEXT, "source of the prediction", .get = get_predicted_by},
+    {0}};
+const record_type record_quantity = {"quantity",
+                                     "quantities",
+                                     "a value that a cell was asked for",
+                                     {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_quantity}};
+
+static void get_x_name(const subject *s, field_value *out)
+{
+    field_text(out, subject_quantity(s)->x_name);
+}
+
+static void get_x_unit(const subject *s, field_value *out)
+{
+    field_text(out, subject_quantity(s)->x_unit);
+}
+
+static void get_first(const subject *s, field_value *out)
+{
+    out->whole = s->group;
+}
+
+static const schema_field fields_of_curve[] = {
+    {"x_name", "", FIELD_TEXT, "name of the abscissa", .get = get_x_name},
+    {"x_unit", "", FIELD_TEXT, "its unit", .get = get_x_unit},
+    {"first", "1", FIELD_INT, "where its points begin in the arrays curve_x and curve_value", .get = get_first},
+    {"points", "1", FIELD_INT, "how many there are", AT(quantity_result, curve.points)},
+    {0}};
+const record_type record_curve = {"curve",
+                                  "curves",
+                                  "a quantity along a path; its points stand in arrays",
+                                  {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_curve}};
+
+static void get_index(const subject *s, field_value *out)
+{
+    out->whole = s->index;
+}
+
+static void get_group(const subject *s, field_value *out)
+{
+    out->whole = s->group;
+}
+
+static const schema_field fields_of_step[] = {
+    {"step", "1", FIELD_INT, "its number, from 0", .get = get_index},
+    {"path", "1", FIELD_DOUBLE, "path parameter that was reached", AT(step_record, path)},
+    {"increment", "1", FIELD_DOUBLE, "of the path parameter", AT(step_record, increment)},
+    {"iterations", "1", FIELD_INT, "until the criterion was met", AT(step_record, iterations)},
+    {"rejected", "1", FIELD_INT, "tries of longer steps before it", AT(step_record, rejected)},
+    {"negative_pivots", "1", FIELD_INT, "of the tangent; -1: not symmetric", AT(step_record, negative_pivots)},
+    {"residual", "1", FIELD_DOUBLE, "before its last iteration, by the first", AT(step_record, residual)},
+    {"correction", "1", FIELD_DOUBLE, "of its last iteration", AT(step_record, correction)},
+    {"incompatibility", "1", FIELD_DOUBLE, "max |D(x) - e|/l before it", AT(step_record, incompatibility)},
+    {"energy", "J", FIELD_DOUBLE, "r . K^-1 r of the first iteration", AT(step_record, energy)},
+    {0}};
+const record_type record_step = {
+    "step", "steps", "a load step that was kept", {keys_of_point, keys_of_series, key_of_mesh, fields_of_step}};
+
+static const schema_field fields_of_iteration[] = {
+    {"step", "1", FIELD_INT, "that it belongs to", .get = get_group},
+    {"iteration", "1", FIELD_INT, "its number in the step, from 0", .get = get_index},
+    {"residual", "1", FIELD_DOUBLE, "sqrt(r . K^-1 r) before it, by the first", AT(iteration_record, residual)},
+    {"correction", "1", FIELD_DOUBLE, "what it changed", AT(iteration_record, correction)},
+    {"incompatibility", "1", FIELD_DOUBLE, "max |D(x) - e|/l before it", AT(iteration_record, incompatibility)},
+    {0}};
+const record_type record_iteration = {
+    "iteration", "iterations", "an iteration of a load step", {keys_of_point, keys_of_series, key_of_mesh, fields_of_iteration}};
+
+static const char *word_of_event(int kind)
+{
+    return event_name((event_kind)kind);
+}
+
+static const schema_field fields_of_event[] = {
+    {"event", "", FIELD_ENUM, "what happened", AT(path_event, kind), .word = word_of_event, .words = EVENT_KINDS},
+    {"analysis", "1", FIELD_INT, "of the scene", AT(path_event, analysis)},
+    {"negative_before", "1", FIELD_INT, "negative pivots; -1: not symmetric", AT(path_event, negative_before)},
+    {"negative_after", "1", FIELD_INT, "the same behind it", AT(path_event, negative_after)},
+    {"factor", "1", FIELD_DOUBLE, "of the loads", AT(path_event, factor)},
+    {"control", "m", FIELD_DOUBLE, "coordinate that the path is controlled by", AT(path_event, control)},
+    {"other_factor", "1", FIELD_DOUBLE, "of a jump: on the other branch", AT(path_event, other_factor)},
+    {"measure", "1", FIELD_DOUBLE, "work of the loads on the null vector; of a jump: distance of the branches",
+     AT(path_event, measure)},
+    {0}};
+const record_type record_event = {
+    "event", "events", "what a continued path met", {keys_of_point, keys_of_series, key_of_mesh, fields_of_event}};
+
+static void get_path(const subject *s, field_value *out)
+{
+    out->numbers = ((const nodal_matrices *)s->record)->path + s->index;
+}
+
+static void get_compliance(const subject *s, field_value *out)
+{
+    out->numbers = ((const nodal_matrices *)s->record)->compliance + 36 * (size_t)s->index;
+}
+
+static void get_stiffness(const subject *s, field_value *out)
+{
+    out->numbers = ((const nodal_matrices *)s->record)->stiffness + 36 * (size_t)s->index;
+}
+
+static const schema_field fields_of_matrix[] = {
+    {"node", "1", FIELD_INT, "of the scene", AT(nodal_matrices, node)},
+    {"moments", "", FIELD_ENUM, "what a moment does while its node turns", AT(nodal_matrices, moments), .word = word_of_moments,
+     .words = SCENE_MOMENTS_SYMMETRISED + 1},
+    {"path", "1", FIELD_DOUBLE, "path parameter of the state", .get = get_path},
+    {"compliance", "SI", FIELD_DOUBLE, "ux uy uz thx thy thz by Fx Fy Fz Mx My Mz", .get = get_compliance, .count = 36},
+    {"stiffness", "SI", FIELD_DOUBLE, "its inverse", .get = get_stiffness, .count = 36},
+    {0}};
+const record_type record_matrix = {"matrix",
+                                   "matrices",
+                                   "small motions of a node at a station of a path",
+                                   {keys_of_point, keys_of_series, key_of_mesh, fields_of_matrix}};

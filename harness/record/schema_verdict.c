@@ -1,0 +1,103 @@
+/* Records of the judge: verdicts and agreements with stored discrete values. */
+#include <math.h>
+
+#include "harness/judge/reach.h"
+#include "harness/record/schema_keys.h"
+
+static const char *word_of_verdict(int kind)
+{
+    return verdict_name((verdict_kind)kind);
+}
+
+static void get_message(const subject *s, field_value *out)
+{
+    verdict_sentence(s->verdict, subject_quantity(s)->least_order, out->room, sizeof out->room);
+    out->text = out->room;
+}
+
+static void get_proof(const subject *s, field_value *out)
+{
+    field_text(out, s->verdict->finding != NULL ? s->verdict->finding->proof : "");
+}
+
+static void get_source(const subject *s, field_value *out)
+{
+    field_text(out, s->truth != NULL ? s->truth->source : "");
+}
+
+static void get_kind(const subject *s, field_value *out)
+{
+    field_text(out, s->truth != NULL ? s->truth->kind : "");
+}
+
+static void get_model_kind(const subject *s, field_value *out)
+{
+    field_text(out, s->model_truth != NULL ? s->model_truth->kind : "");
+}
+
+static void get_truth(const subject *s, field_value *out)
+{
+    field_number(out, s->truth != NULL ? s->truth->value : NAN);
+}
+
+static void get_uncertainty(const subject *s, field_value *out)
+{
+    field_number(out, s->truth != NULL ? s->truth->uncertainty : NAN);
+}
+
+static void get_model_truth(const subject *s, field_value *out)
+{
+    field_number(out, s->model_truth != NULL ? s->model_truth->value : NAN);
+}
+
+/* The offset is the index of the level. */
+static void get_reach(const subject *s, field_value *out)
+{
+    const int mesh = reach_mesh(s->sweep, s->verdict, reach_level[out->of->offset]);
+    out->whole = mesh >= 0 ? s->series->mesh[mesh] : 0;
+}
+
+/* A new field of a verdict is one line here. */
+static const schema_field fields_of_verdict[] = {
+    {"verdict", "", FIELD_ENUM, "of the judge", AT(verdict, kind), .word = word_of_verdict, .words = VERDICT_KINDS},
+    {"expected", "", FIELD_ENUM, "of it: pass, or what a finding says", AT(verdict, expected), .word = word_of_verdict,
+     .words = VERDICT_KINDS},
+    {"as_expected", "", FIELD_FLAG, "the gate is red where it is not", AT(verdict, matches)},
+    {"message", "", FIELD_TEXT, "the verdict in words", .get = get_message},
+    {"reason", "", FIELD_TEXT, "why it was skipped, refused, has no value", AT(verdict, reason)},
+    {"proof", "", FIELD_TEXT, "of the finding that expects it", .get = get_proof},
+    {"value", UNIT_OF_QUANTITY, FIELD_DOUBLE, "on the finest mesh", AT(verdict, finest)},
+    {"limit", UNIT_OF_QUANTITY, FIELD_DOUBLE, "for infinitely many elements", AT(verdict, fit.limit)},
+    {"limit_uncertainty", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of it", AT(verdict, fit.limit_uncertainty)},
+    {"order", "1", FIELD_DOUBLE, "of convergence in the number of elements", AT(verdict, fit.order)},
+    {"order_uncertainty", "1", FIELD_DOUBLE, "of it", AT(verdict, fit.order_uncertainty)},
+    {"asymptotic_from", "1", FIELD_INT, "elements from which on it is orderly; 0: none", AT(verdict, fit.from)},
+    {"truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of the same continuum model", .get = get_truth},
+    {"truth_uncertainty", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of it", .get = get_uncertainty},
+    {"truth_kind", "", FIELD_TEXT, "exact, independent, ...", .get = get_kind},
+    {"source", "", FIELD_TEXT, "of the truth", .get = get_source},
+    {"error", "1", FIELD_DOUBLE, "of the limit against the truth", AT(verdict, error)},
+    {"tolerance", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of it, uncertainty included", AT(verdict, tolerance)},
+    {"model_truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of another model: never judged by", .get = get_model_truth},
+    {"model_truth_kind", "", FIELD_TEXT, "exact, independent, ...", .get = get_model_kind},
+    {"model_error", "1", FIELD_DOUBLE, "of the limit against it", AT(verdict, model_error)},
+    {"reach_10", "1", FIELD_INT, "elements from which on every mesh is within 10 %; 0: none", .get = get_reach},
+    {"reach_1", "1", FIELD_INT, "the same, 1 %", .offset = 1, .get = get_reach},
+    {"reach_0.1", "1", FIELD_INT, "the same, 0.1 %", .offset = 2, .get = get_reach},
+    {"reach_0.01", "1", FIELD_INT, "the same, 0.01 %", .offset = 3, .get = get_reach},
+    {0}};
+const record_type record_verdict = {"verdict",
+                                    "verdicts",
+                                    "what the judge says of a quantity over the meshes",
+                                    {keys_of_point, keys_of_series, names_of_quantity, fields_of_verdict}};
+
+static const schema_field fields_of_agreement[] = {
+    {"value", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of the cell", AT(agreement, value)},
+    {"truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "stored for this formulation and mesh", .get = get_truth},
+    {"source", "", FIELD_TEXT, "of the truth", .get = get_source},
+    {"agrees", "", FIELD_FLAG, "within the truth's uncertainty", AT(agreement, good)},
+    {0}};
+const record_type record_agreement = {"agreement",
+                                      "agreements",
+                                      "a value of one mesh against its own stored value",
+                                      {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_agreement}};

@@ -1,0 +1,88 @@
+#include "harness/record/table_reader.h"
+
+#include <stdlib.h>
+
+enum { MOST_ROWS = 50000000 };
+static const size_t most_bytes = (size_t)1 << 31;
+
+static hid_t memory_type(const table_column *c)
+{
+    if (c->kind == FIELD_INT)
+        return H5Tcopy(H5T_NATIVE_INT);
+    if (c->kind == FIELD_LONG)
+        return H5Tcopy(H5T_NATIVE_LONG);
+    if (c->kind == FIELD_DOUBLE)
+        return H5Tcopy(H5T_NATIVE_DOUBLE);
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, c->room);
+    H5Tset_cset(type, H5T_CSET_UTF8);
+    return type;
+}
+
+/* Has the stored type such a column? */
+static int has_column(hid_t stored, const table_column *c)
+{
+    const int index = H5Tget_member_index(stored, c->name);
+    const hid_t type = index >= 0 ? H5Tget_member_type(stored, (unsigned)index) : -1;
+    const H5T_class_t class = type >= 0 ? H5Tget_class(type) : H5T_NO_CLASS;
+    int good = 0;
+    if (c->kind == FIELD_INT || c->kind == FIELD_LONG)
+        good = class == H5T_INTEGER;
+    else if (c->kind == FIELD_DOUBLE)
+        good = class == H5T_FLOAT;
+    else
+        good = class == H5T_STRING && H5Tis_variable_str(type) == 0 && H5Tget_size(type) < c->room;
+    if (type >= 0)
+        H5Tclose(type);
+    return good;
+}
+
+/* The type of a row in memory, or -1. */
+static hid_t row_type(hid_t stored, int columns, const table_column column[], size_t size)
+{
+    if (stored < 0 || H5Tget_class(stored) != H5T_COMPOUND)
+        return -1;
+    for (int i = 0; i < columns; i++)
+        if (!has_column(stored, &column[i]))
+            return -1;
+    const hid_t type = H5Tcreate(H5T_COMPOUND, size);
+    for (int i = 0; i < columns; i++) {
+        const hid_t one = memory_type(&column[i]);
+        H5Tinsert(type, column[i].name, column[i].offset, one);
+        H5Tclose(one);
+    }
+    return type;
+}
+
+static int read_rows(hid_t set, hid_t type, hid_t stored, size_t size, void **rows)
+{
+    hsize_t count = 0;
+    const hid_t space = H5Dget_space(set);
+    const int good = space >= 0 && H5Sget_simple_extent_ndims(space) == 1 && H5Sget_simple_extent_dims(space, &count, NULL) == 1 &&
+                     count <= MOST_ROWS && count * (size + H5Tget_size(stored)) <= most_bytes;
+    if (space >= 0)
+        H5Sclose(space);
+    *rows = good ? calloc((size_t)count + 1, size) : NULL;
+    if (*rows == NULL || (count > 0 && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, *rows) < 0))
+        return -1;
+    return (int)count;
+}
+
+int table_read(hid_t at, const char *name, int columns, const table_column column[], size_t size, void **rows)
+{
+    *rows = NULL;
+    const hid_t set = H5Lexists(at, name, H5P_DEFAULT) > 0 ? H5Dopen2(at, name, H5P_DEFAULT) : -1;
+    const hid_t stored = set >= 0 ? H5Dget_type(set) : -1, type = row_type(stored, columns, column, size);
+    const int count = type >= 0 ? read_rows(set, type, stored, size, rows) : -1;
+    if (count < 0) {
+        free(*rows);
+        *rows = NULL;
+    }
+    if (type >= 0)
+        H5Tclose(type);
+    if (stored >= 0)
+        H5Tclose(stored);
+    if (set >= 0)
+        H5Dclose(set);
+    return count;
+}

@@ -1,0 +1,20 @@
+/* Reading columns of a table of HDF5 into rows of one's own. Nothing is believed of the file. */
+#ifndef BEAMWORK_TABLE_READER_H
+#define BEAMWORK_TABLE_READER_H
+
+#include <hdf5.h>
+#include <stddef.h>
+
+#include "harness/record/schema.h"
+
+/* Into a member of the row: INT, LONG, DOUBLE, or a text of at most room - 1 bytes (an ENUM is stored as its word). */
+typedef struct table_column {
+    const char *name;
+    field_kind kind;
+    size_t offset, room; /* room: of a text */
+} table_column;
+
+/* Rows of `size` bytes, which the caller frees; their number. -1: the table, a column of that kind, or memory is missing. */
+int table_read(hid_t at, const char *name, int columns, const table_column column[], size_t size, void **rows);
+
+#endif
