@@ -5,35 +5,33 @@
 enum { MOST_ROWS = 50000000 };
 static const size_t most_bytes = (size_t)1 << 31;
 
-static hid_t memory_type(const table_column *c)
+/* In memory, of a stored member of the type; -1: it is of another kind. */
+static hid_t memory_type(hid_t member, const table_column *c)
 {
-    if (c->kind == FIELD_INT)
-        return H5Tcopy(H5T_NATIVE_INT);
-    if (c->kind == FIELD_LONG)
-        return H5Tcopy(H5T_NATIVE_LONG);
+    const H5T_class_t class = H5Tget_class(member);
+    if (c->kind == FIELD_INT || c->kind == FIELD_LONG)
+        return class == H5T_INTEGER ? H5Tcopy(c->kind == FIELD_INT ? H5T_NATIVE_INT : H5T_NATIVE_LONG) : -1;
     if (c->kind == FIELD_DOUBLE)
-        return H5Tcopy(H5T_NATIVE_DOUBLE);
+        return class == H5T_FLOAT ? H5Tcopy(H5T_NATIVE_DOUBLE) : -1;
+    if (class != H5T_STRING || H5Tis_variable_str(member) != 0 || H5Tget_size(member) >= c->room)
+        return -1;
     const hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, c->room);
-    H5Tset_cset(type, H5T_CSET_UTF8);
+    H5Tset_cset(type, H5Tget_cset(member)); /* the library does not convert from ASCII to UTF-8 */
     return type;
 }
 
-/* Has the stored type such a column? */
-static int has_column(hid_t stored, const table_column *c)
+/* 0: the stored type has no such column. */
+static int add_column(hid_t type, hid_t stored, const table_column *c)
 {
     const int index = H5Tget_member_index(stored, c->name);
-    const hid_t type = index >= 0 ? H5Tget_member_type(stored, (unsigned)index) : -1;
-    const H5T_class_t class = type >= 0 ? H5Tget_class(type) : H5T_NO_CLASS;
-    int good = 0;
-    if (c->kind == FIELD_INT || c->kind == FIELD_LONG)
-        good = class == H5T_INTEGER;
-    else if (c->kind == FIELD_DOUBLE)
-        good = class == H5T_FLOAT;
-    else
-        good = class == H5T_STRING && H5Tis_variable_str(type) == 0 && H5Tget_size(type) < c->room;
-    if (type >= 0)
-        H5Tclose(type);
+    const hid_t member = index >= 0 ? H5Tget_member_type(stored, (unsigned)index) : -1;
+    const hid_t own = member >= 0 ? memory_type(member, c) : -1;
+    const int good = own >= 0 && H5Tinsert(type, c->name, c->offset, own) >= 0;
+    if (own >= 0)
+        H5Tclose(own);
+    if (member >= 0)
+        H5Tclose(member);
     return good;
 }
 
@@ -42,15 +40,12 @@ static hid_t row_type(hid_t stored, int columns, const table_column column[], si
 {
     if (stored < 0 || H5Tget_class(stored) != H5T_COMPOUND)
         return -1;
-    for (int i = 0; i < columns; i++)
-        if (!has_column(stored, &column[i]))
-            return -1;
     const hid_t type = H5Tcreate(H5T_COMPOUND, size);
-    for (int i = 0; i < columns; i++) {
-        const hid_t one = memory_type(&column[i]);
-        H5Tinsert(type, column[i].name, column[i].offset, one);
-        H5Tclose(one);
-    }
+    for (int i = 0; i < columns; i++)
+        if (!add_column(type, stored, &column[i])) {
+            H5Tclose(type);
+            return -1;
+        }
     return type;
 }
 
