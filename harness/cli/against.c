@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
-#include "harness/record/schema.h"
+#include "harness/schema/schema.h"
 #include "harness/study/cell.h"
 #include "harness/timing/clock.h"
 #include "harness/timing/versus.h"

@@ -34,7 +34,7 @@ typedef struct cli_request {
 } cli_request;
 
 typedef int cli_verb(int count, char **arguments);
-cli_verb cli_list, cli_solve, cli_verify, cli_converge, cli_bench, cli_stress, cli_compare, cli_truth;
+cli_verb cli_list, cli_solve, cli_verify, cli_converge, cli_bench, cli_stress, cli_compare, cli_truth, cli_schema;
 
 /* Options shared by the verbs; a verb lists the keys it takes, and '+' when it takes several cases. Errors are printed and end the program with EXIT_REFUSED. */
 void cli_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys, int count, char **arguments,

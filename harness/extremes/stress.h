@@ -3,7 +3,7 @@
 #define BEAMWORK_STRESS_H
 
 #include "cases/extremes/extreme.h"
-#include "harness/record/schema.h"
+#include "harness/schema/schema.h"
 
 typedef enum stress_kind {
     STRESS_VALUE,  /* within the extreme's tolerance */

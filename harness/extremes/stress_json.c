@@ -1,7 +1,7 @@
 #include "harness/catalogue/environment.h"
 #include "harness/extremes/stress.h"
 #include "harness/record/json.h"
-#include "harness/record/schema_json.h"
+#include "harness/record/json_record.h"
 
 static json_t *extreme_of(const extreme *e)
 {

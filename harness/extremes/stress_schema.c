@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "harness/extremes/stress.h"
-#include "harness/record/schema_keys.h"
+#include "harness/schema/fields_keys.h"
 
 static const stress_outcome *outcome_of(const subject *s)
 {

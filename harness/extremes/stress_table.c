@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "harness/extremes/stress.h"
-#include "harness/record/schema_csv.h"
+#include "harness/record/csv_record.h"
 
 enum { NAME_WIDTH = 26, CELL_WIDTH = 15 };
 

@@ -1,7 +1,7 @@
 #include "harness/record/csv.h"
 
-#include "harness/record/gather.h"
-#include "harness/record/schema_csv.h"
+#include "harness/record/csv_record.h"
+#include "harness/schema/gather.h"
 
 void csv_solution(FILE *to, const sweep *s)
 {

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/record/gather.h"
-#include "harness/record/schema_json.h"
+#include "harness/record/json_record.h"
+#include "harness/schema/gather.h"
 
 static json_t *parameters_of(const point *p)
 {

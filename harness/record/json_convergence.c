@@ -1,6 +1,6 @@
-#include "harness/record/gather.h"
 #include "harness/record/json.h"
-#include "harness/record/schema_json.h"
+#include "harness/record/json_record.h"
+#include "harness/schema/gather.h"
 
 /* Of one quantity on every mesh: what was found, and the cell it was found by. */
 static json_t *meshes_of(const gathering *g, int series_index, int quantity)

@@ -4,7 +4,8 @@
 #include <string.h>
 
 #include "harness/record/results.h"
-#include "harness/record/results_hdf5.h"
+#include "harness/record/results_version1.h"
+#include "harness/record/table_reader.h"
 
 enum { NAME = 200, PARAMETERS = 600, MOST_VALUES = 100000 };
 

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/record/gather.h"
-#include "harness/record/schema_hdf5.h"
+#include "harness/record/record_rows.h"
 #include "harness/record/vtkhdf.h"
+#include "harness/schema/gather.h"
 
 static void put_environment(record *r, const environment *e)
 {

@@ -1,6 +1,7 @@
 #include "harness/record/table_reader.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 enum { MOST_ROWS = 50000000 };
 static const size_t most_bytes = (size_t)1 << 31;
@@ -80,4 +81,33 @@ int table_read(hid_t at, const char *name, int columns, const table_column colum
     if (set >= 0)
         H5Dclose(set);
     return count;
+}
+
+int attribute_text(hid_t at, const char *name, char *text, size_t size)
+{
+    const hid_t a = H5Aexists(at, name) > 0 ? H5Aopen(at, name, H5P_DEFAULT) : -1;
+    const hid_t type = a >= 0 ? H5Aget_type(a) : -1, space = a >= 0 ? H5Aget_space(a) : -1;
+    const int good = type >= 0 && H5Tget_class(type) == H5T_STRING && !H5Tis_variable_str(type) && H5Tget_size(type) < size &&
+                     H5Sget_simple_extent_npoints(space) == 1;
+    memset(text, 0, size);
+    const int read = good && H5Aread(a, type, text) >= 0;
+    if (space >= 0)
+        H5Sclose(space);
+    if (type >= 0)
+        H5Tclose(type);
+    if (a >= 0)
+        H5Aclose(a);
+    return read;
+}
+
+int attribute_count(hid_t at, const char *name, long *out)
+{
+    const hid_t a = H5Aexists(at, name) > 0 ? H5Aopen(at, name, H5P_DEFAULT) : -1;
+    const hid_t space = a >= 0 ? H5Aget_space(a) : -1;
+    const int good = space >= 0 && H5Sget_simple_extent_npoints(space) == 1 && H5Aread(a, H5T_NATIVE_LONG, out) >= 0;
+    if (space >= 0)
+        H5Sclose(space);
+    if (a >= 0)
+        H5Aclose(a);
+    return good;
 }

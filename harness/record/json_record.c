@@ -1,4 +1,4 @@
-#include "harness/record/schema_json.h"
+#include "harness/record/json_record.h"
 
 #include <math.h>
 
@@ -65,28 +65,21 @@ static json_t *json_field(const schema_field *which)
 {
     json_t *out = json_pack("{s:s,s:s,s:s,s:s,s:b}", "name", which->name, "kind", field_kind_name(which->kind), "unit", which->unit,
                             "summary", which->summary, "key", which->key != 0);
+    json_object_set_new(out, "said_around", json_boolean(which->key == KEY_AROUND));
     json_t *words = json_array();
     for (int i = 0; i < which->words; i++)
         json_array_append_new(words, json_string(which->word(i)));
-    if (which->words > 0)
-        json_object_set(out, "words", words);
-    if (which->count > 0)
-        json_object_set_new(out, "count", json_integer(which->count));
-    json_decref(words);
+    json_object_set_new(out, "words", words);
+    json_object_set_new(out, "count", json_integer(which->count > 0 ? which->count : 1));
     return out;
 }
 
-json_t *json_schema(void)
+json_t *json_record_type(const record_type *type)
 {
-    json_t *records = json_array();
-    for (int i = 0; record_types[i] != NULL; i++) {
-        const schema_field *list[SCHEMA_MOST_FIELDS];
-        const int count = schema_fields(record_types[i], KEY_AROUND, list);
-        json_t *fields = json_array();
-        for (int k = 0; k < count; k++)
-            json_array_append_new(fields, json_field(list[k]));
-        json_array_append_new(records, json_pack("{s:s,s:s,s:s,s:o}", "record", record_types[i]->name, "table",
-                                                 record_types[i]->table, "summary", record_types[i]->summary, "fields", fields));
-    }
-    return json_pack("{s:s,s:i,s:o}", "schema", SCHEMA_NAME, "schema_version", SCHEMA_VERSION, "records", records);
+    const schema_field *list[SCHEMA_MOST_FIELDS];
+    const int count = schema_fields(type, KEY_AROUND, list);
+    json_t *fields = json_array();
+    for (int i = 0; i < count; i++)
+        json_array_append_new(fields, json_field(list[i]));
+    return json_pack("{s:s,s:s,s:s,s:o}", "record", type->name, "table", type->table, "summary", type->summary, "fields", fields);
 }

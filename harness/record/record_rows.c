@@ -1,4 +1,4 @@
-#include "harness/record/schema_hdf5.h"
+#include "harness/record/record_rows.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,4 @@
-#include "harness/record/schema.h"
-
-const record_type *const record_types[] = {&record_point,   &record_series,    &record_cell,  &record_quantity, &record_curve,
-                                           &record_step,    &record_iteration, &record_event, &record_matrix,   &record_timing,
-                                           &record_verdict, &record_agreement, NULL};
+#include "harness/schema/schema.h"
 
 int schema_fields(const record_type *type, int keys, const schema_field *out[SCHEMA_MOST_FIELDS])
 {

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "harness/judge/reach.h"
-#include "harness/record/schema_keys.h"
+#include "harness/schema/fields_keys.h"
 
 static const char *word_of_verdict(int kind)
 {

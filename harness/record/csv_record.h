@@ -1,10 +1,10 @@
 /* Records as lines of CSV: full precision, empty where there is no number. */
-#ifndef BEAMWORK_SCHEMA_CSV_H
-#define BEAMWORK_SCHEMA_CSV_H
+#ifndef BEAMWORK_CSV_RECORD_H
+#define BEAMWORK_CSV_RECORD_H
 
 #include <stdio.h>
 
-#include "harness/record/schema.h"
+#include "harness/schema/schema.h"
 
 /* A line is made of several records of one subject each; of fields of the same name the first stands. Matrices are left out. */
 typedef struct csv_part {

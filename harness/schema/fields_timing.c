@@ -1,7 +1,7 @@
 /* Records of benchmarks. */
 #include <math.h>
 
-#include "harness/record/schema_keys.h"
+#include "harness/schema/fields_keys.h"
 #include "harness/timing/timing.h"
 
 static const cell_timing *timing_of(const subject *s)

@@ -1,4 +1,4 @@
-#include "harness/record/schema_keys.h"
+#include "harness/schema/fields_keys.h"
 
 static void get_case(const subject *s, field_value *out)
 {

@@ -1,10 +1,10 @@
-/* Where a record belongs: the first fields of the tables of schema_*.c, and what these share. */
-#ifndef BEAMWORK_SCHEMA_KEYS_H
-#define BEAMWORK_SCHEMA_KEYS_H
+/* Where a record belongs: the first fields of the tables of fields_*.c, and what these share. */
+#ifndef BEAMWORK_FIELDS_KEYS_H
+#define BEAMWORK_FIELDS_KEYS_H
 
 #include <stddef.h>
 
-#include "harness/record/schema.h"
+#include "harness/schema/schema.h"
 
 extern const schema_field keys_of_point[];     /* case, parameter point */
 extern const schema_field keys_of_series[];    /* its parameters, formulation */

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_GATHER_H
 #define BEAMWORK_GATHER_H
 
-#include "harness/record/schema.h"
+#include "harness/schema/schema.h"
 
 typedef struct subjects {
     int count, room;

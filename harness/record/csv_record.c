@@ -1,4 +1,4 @@
-#include "harness/record/schema_csv.h"
+#include "harness/record/csv_record.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "harness/record/gather.h"
+#include "harness/schema/gather.h"
 
 #include <stdlib.h>
 #include <string.h>

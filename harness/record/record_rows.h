@@ -1,9 +1,9 @@
 /* Records as rows of a typed, compressed table; units and summaries of the columns are its attributes. */
-#ifndef BEAMWORK_SCHEMA_HDF5_H
-#define BEAMWORK_SCHEMA_HDF5_H
+#ifndef BEAMWORK_RECORD_ROWS_H
+#define BEAMWORK_RECORD_ROWS_H
 
 #include "harness/record/record.h"
-#include "harness/record/schema.h"
+#include "harness/schema/schema.h"
 
 /* New table `name` below `at`; texts have the length of the longest in their column. */
 void record_rows(record *r, hid_t at, const char *name, int fields, const schema_field *const list[], int count,

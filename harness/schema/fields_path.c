@@ -1,7 +1,7 @@
 /* Records of what a cell found and of the way there: quantities, curves, load steps, iterations, events, matrices. */
 #include <math.h>
 
-#include "harness/record/schema_keys.h"
+#include "harness/schema/fields_keys.h"
 
 static void get_moments(const subject *s, field_value *out)
 {
