@@ -19,6 +19,7 @@ EXACT, COARSE = "collocation", 10
 WAGNER = "wagner_moments=1"    # with the part of the Wagner moments that J leaves out
 SHEAR = ((1.0, ""), (2.5, ""), (1.0, "load_point=E;"))
 SNAPS = ("lee_frame", "snap_through")
+EVENTS = ("limit point", "bifurcation", "branch jump")
 
 
 @dataclasses.dataclass

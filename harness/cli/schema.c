@@ -9,7 +9,7 @@
 
 static const char about[] =
     "HDF5; the last line of the file, behind it, holds its length and checksum. Attributes of the root: schema, schema_version,\n"
-    "program_version, commit, compiler, flags, libraries, processor, clock (UTC), threads. Below /cases/CASE (attributes: "
+    "program_version, commit, compiler, flags, libraries, processor, clock (UTC), threads, unfinished_cells (of an interrupted run). Below /cases/CASE (attributes: "
     "summary,\n"
     "source) stands a table for each kind of record; attributes of a table: units and summaries of its columns, in their order.\n"
     "The same names stand in JSON and CSV; fields marked * are said there only, in HDF5 by what is around them. Numbers that\n"

@@ -36,16 +36,6 @@ static void get_condition(const subject *s, field_value *out)
     field_number(out, condition > 0 ? condition : NAN);
 }
 
-static void get_iterations(const subject *s, field_value *out)
-{
-    out->whole = subject_cell(s)->counters.iterations;
-}
-
-static void get_reason(const subject *s, field_value *out)
-{
-    field_text(out, outcome_of(s)->reason);
-}
-
 static void get_proof(const subject *s, field_value *out)
 {
     field_text(out, outcome_of(s)->finding != NULL ? outcome_of(s)->finding->proof : "");
@@ -71,8 +61,8 @@ static const schema_field fields_of_outcome[] = {
     {"neighbour_error_1", "1", FIELD_DOUBLE, "on another mesh, where it was needed", AT(stress_outcome, neighbour_error[0])},
     {"neighbour_error_2", "1", FIELD_DOUBLE, "on the one that has more elements", AT(stress_outcome, neighbour_error[1])},
     {"condition", "1", FIELD_DOUBLE, "estimate of the tangent's", .get = get_condition},
-    {"iterations", "1", FIELD_LONG, "of Newton", .get = get_iterations},
-    {"reason", "", FIELD_TEXT, "why there is no value", .get = get_reason},
+    {"iterations", "1", FIELD_LONG, "of Newton", OF(CELL, cell_result, counters.iterations)},
+    {"reason", "", FIELD_TEXT, "why there is no value", TEXT_OF(RECORD, stress_outcome, reason)},
     {"proof", "", FIELD_TEXT, "of the finding that expects it", .get = get_proof},
     {0}};
 const record_type record_extreme = {"extreme",

@@ -3,21 +3,6 @@
 
 #include "harness/schema/fields_keys.h"
 
-static void get_type(const subject *s, field_value *out)
-{
-    field_text(out, s->series->formulation.type->name);
-}
-
-static void get_summary(const subject *s, field_value *out)
-{
-    field_text(out, s->series->formulation.type->summary);
-}
-
-static void get_source(const subject *s, field_value *out)
-{
-    field_text(out, s->series->formulation.type->source);
-}
-
 static void get_features(const subject *s, field_value *out)
 {
     size_t used = 0;
@@ -48,9 +33,9 @@ static const schema_field fields_of_point[] = {
 const record_type record_point = {"point", "points", "a case with the values of its parameters", {keys_of_point, fields_of_point}};
 
 static const schema_field fields_of_series[] = {
-    {"type", "", FIELD_TEXT, "name of the formulation", .get = get_type},
-    {"summary", "", FIELD_TEXT, "what it is", .get = get_summary},
-    {"source", "", FIELD_TEXT, "where it is published", .get = get_source},
+    {"type", "", FIELD_TEXT, "name of the formulation", TEXT_OF(FORMULATION, element_type, name)},
+    {"summary", "", FIELD_TEXT, "what it is", TEXT_OF(FORMULATION, element_type, summary)},
+    {"source", "", FIELD_TEXT, "where it is published", TEXT_OF(FORMULATION, element_type, source)},
     {"missing", "", FIELD_TEXT, "what the case needs and it does not offer: it was not run", AT(series, missing)},
     {0}};
 const record_type record_series = {

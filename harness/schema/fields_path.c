@@ -8,11 +8,6 @@ static void get_moments(const subject *s, field_value *out)
     field_text(out, scene_convention(&s->point->scene, subject_quantity(s)));
 }
 
-static void get_truth(const subject *s, field_value *out)
-{
-    field_number(out, s->truth != NULL ? s->truth->value : NAN);
-}
-
 static double error_of(const subject *s, double value, const truth *against)
 {
     return against != NULL ? relative_error(subject_quantity(s), value, against->value) : NAN;
@@ -26,11 +21,6 @@ static void get_error(const subject *s, field_value *out)
 static void get_model_error(const subject *s, field_value *out)
 {
     field_number(out, error_of(s, ((const quantity_result *)s->record)->value, s->model_truth));
-}
-
-static void get_near_zero(const subject *s, field_value *out)
-{
-    field_number(out, subject_quantity(s)->near_zero);
 }
 
 static double predicted(const subject *s)
@@ -48,49 +38,29 @@ static void get_prediction_error(const subject *s, field_value *out)
     field_number(out, isfinite(predicted(s)) ? error_of(s, predicted(s), s->truth) : NAN);
 }
 
-static void get_predicted_by(const subject *s, field_value *out)
-{
-    field_text(out, subject_quantity(s)->predicted_by);
-}
-
 static const schema_field fields_of_quantity[] = {
     {"moments", "", FIELD_TEXT, "what a moment does while its node turns", .get = get_moments},
     {"status", "", FIELD_ENUM, "ok: there is a value", AT(quantity_result, status), .word = word_of_status, .words = STATUSES},
     {"reason", "", FIELD_TEXT, "why there is none", AT(quantity_result, reason)},
     {"value", UNIT_OF_QUANTITY, FIELD_DOUBLE, "the value", AT(quantity_result, value)},
-    {"truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of the same continuum model", .get = get_truth},
+    {"truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of the same continuum model", OF(TRUTH, truth, value)},
     {"error", "1", FIELD_DOUBLE, "(value - truth)/|truth|, by near_zero where that is larger", .get = get_error},
     {"model_error", "1", FIELD_DOUBLE, "the same against the truth of another model", .get = get_model_error},
     {"x", "x_unit", FIELD_DOUBLE, "where a maximum or minimum was found", AT(quantity_result, x)},
-    {"near_zero", UNIT_OF_QUANTITY, FIELD_DOUBLE, "values below it count as zero", .get = get_near_zero},
+    {"near_zero", UNIT_OF_QUANTITY, FIELD_DOUBLE, "values below it count as zero", OF(QUANTITY, scene_quantity, near_zero)},
     {"prediction", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of an analytic model, not judged", .get = get_prediction},
     {"prediction_error", "1", FIELD_DOUBLE, "of the prediction against the truth", .get = get_prediction_error},
-    {"predicted_by", "", FIELD_TEXT, "source of the prediction", .get = get_predicted_by},
+    {"predicted_by", "", FIELD_TEXT, "source of the prediction", TEXT_OF(QUANTITY, scene_quantity, predicted_by)},
     {0}};
 const record_type record_quantity = {"quantity",
                                      "quantities",
                                      "a value that a cell was asked for",
                                      {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_quantity}};
 
-static void get_x_name(const subject *s, field_value *out)
-{
-    field_text(out, subject_quantity(s)->x_name);
-}
-
-static void get_x_unit(const subject *s, field_value *out)
-{
-    field_text(out, subject_quantity(s)->x_unit);
-}
-
-static void get_first(const subject *s, field_value *out)
-{
-    out->whole = s->group;
-}
-
 static const schema_field fields_of_curve[] = {
-    {"x_name", "", FIELD_TEXT, "name of the abscissa", .get = get_x_name},
-    {"x_unit", "", FIELD_TEXT, "its unit", .get = get_x_unit},
-    {"first", "1", FIELD_INT, "where its points begin in the arrays curve_x and curve_value", .get = get_first},
+    {"x_name", "", FIELD_TEXT, "name of the abscissa", OF(QUANTITY, scene_quantity, x_name)},
+    {"x_unit", "", FIELD_TEXT, "its unit", OF(QUANTITY, scene_quantity, x_unit)},
+    {"first", "1", FIELD_INT, "where its points begin in the arrays curve_x and curve_value", OF(SUBJECT, subject, group)},
     {"points", "1", FIELD_INT, "how many there are", AT(quantity_result, curve.points)},
     {0}};
 const record_type record_curve = {"curve",
@@ -98,18 +68,8 @@ const record_type record_curve = {"curve",
                                   "a quantity along a path; its points stand in arrays",
                                   {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_curve}};
 
-static void get_index(const subject *s, field_value *out)
-{
-    out->whole = s->index;
-}
-
-static void get_group(const subject *s, field_value *out)
-{
-    out->whole = s->group;
-}
-
 static const schema_field fields_of_step[] = {
-    {"step", "1", FIELD_INT, "its number, from 0", .get = get_index},
+    {"step", "1", FIELD_INT, "its number, from 0", OF(SUBJECT, subject, index)},
     {"path", "1", FIELD_DOUBLE, "path parameter that was reached", AT(step_record, path)},
     {"increment", "1", FIELD_DOUBLE, "of the path parameter", AT(step_record, increment)},
     {"iterations", "1", FIELD_INT, "until the criterion was met", AT(step_record, iterations)},
@@ -124,8 +84,8 @@ const record_type record_step = {
     "step", "steps", "a load step that was kept", {keys_of_point, keys_of_series, key_of_mesh, fields_of_step}};
 
 static const schema_field fields_of_iteration[] = {
-    {"step", "1", FIELD_INT, "that it belongs to", .get = get_group},
-    {"iteration", "1", FIELD_INT, "its number in the step, from 0", .get = get_index},
+    {"step", "1", FIELD_INT, "that it belongs to", OF(SUBJECT, subject, group)},
+    {"iteration", "1", FIELD_INT, "its number in the step, from 0", OF(SUBJECT, subject, index)},
     {"residual", "1", FIELD_DOUBLE, "sqrt(r . K^-1 r) before it, by the first", AT(iteration_record, residual)},
     {"correction", "1", FIELD_DOUBLE, "what it changed", AT(iteration_record, correction)},
     {"incompatibility", "1", FIELD_DOUBLE, "max |D(x) - e|/l before it", AT(iteration_record, incompatibility)},

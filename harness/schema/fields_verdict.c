@@ -20,36 +20,6 @@ static void get_proof(const subject *s, field_value *out)
     field_text(out, s->verdict->finding != NULL ? s->verdict->finding->proof : "");
 }
 
-static void get_source(const subject *s, field_value *out)
-{
-    field_text(out, s->truth != NULL ? s->truth->source : "");
-}
-
-static void get_kind(const subject *s, field_value *out)
-{
-    field_text(out, s->truth != NULL ? s->truth->kind : "");
-}
-
-static void get_model_kind(const subject *s, field_value *out)
-{
-    field_text(out, s->model_truth != NULL ? s->model_truth->kind : "");
-}
-
-static void get_truth(const subject *s, field_value *out)
-{
-    field_number(out, s->truth != NULL ? s->truth->value : NAN);
-}
-
-static void get_uncertainty(const subject *s, field_value *out)
-{
-    field_number(out, s->truth != NULL ? s->truth->uncertainty : NAN);
-}
-
-static void get_model_truth(const subject *s, field_value *out)
-{
-    field_number(out, s->model_truth != NULL ? s->model_truth->value : NAN);
-}
-
 /* The offset is the index of the level. */
 static void get_reach(const subject *s, field_value *out)
 {
@@ -72,14 +42,14 @@ static const schema_field fields_of_verdict[] = {
     {"order", "1", FIELD_DOUBLE, "of convergence in the number of elements", AT(verdict, fit.order)},
     {"order_uncertainty", "1", FIELD_DOUBLE, "of it", AT(verdict, fit.order_uncertainty)},
     {"asymptotic_from", "1", FIELD_INT, "elements from which on it is orderly; 0: none", AT(verdict, fit.from)},
-    {"truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of the same continuum model", .get = get_truth},
-    {"truth_uncertainty", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of it", .get = get_uncertainty},
-    {"truth_kind", "", FIELD_TEXT, "exact, independent, ...", .get = get_kind},
-    {"source", "", FIELD_TEXT, "of the truth", .get = get_source},
+    {"truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of the same continuum model", OF(TRUTH, truth, value)},
+    {"truth_uncertainty", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of it", OF(TRUTH, truth, uncertainty)},
+    {"truth_kind", "", FIELD_TEXT, "exact, independent, ...", TEXT_OF(TRUTH, truth, kind)},
+    {"source", "", FIELD_TEXT, "of the truth", TEXT_OF(TRUTH, truth, source)},
     {"error", "1", FIELD_DOUBLE, "of the limit against the truth", AT(verdict, error)},
     {"tolerance", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of it, uncertainty included", AT(verdict, tolerance)},
-    {"model_truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of another model: never judged by", .get = get_model_truth},
-    {"model_truth_kind", "", FIELD_TEXT, "exact, independent, ...", .get = get_model_kind},
+    {"model_truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of another model: never judged by", OF(MODEL_TRUTH, truth, value)},
+    {"model_truth_kind", "", FIELD_TEXT, "exact, independent, ...", TEXT_OF(MODEL_TRUTH, truth, kind)},
     {"model_error", "1", FIELD_DOUBLE, "of the limit against it", AT(verdict, model_error)},
     {"reach_10", "1", FIELD_INT, "elements from which on every mesh is within 10 %; 0: none", .get = get_reach},
     {"reach_1", "1", FIELD_INT, "the same, 1 %", .offset = 1, .get = get_reach},
@@ -93,8 +63,8 @@ const record_type record_verdict = {"verdict",
 
 static const schema_field fields_of_agreement[] = {
     {"value", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of the cell", AT(agreement, value)},
-    {"truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "stored for this formulation and mesh", .get = get_truth},
-    {"source", "", FIELD_TEXT, "of the truth", .get = get_source},
+    {"truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "stored for this formulation and mesh", OF(TRUTH, truth, value)},
+    {"source", "", FIELD_TEXT, "of the truth", TEXT_OF(TRUTH, truth, source)},
     {"agrees", "", FIELD_FLAG, "within the truth's uncertainty", AT(agreement, good)},
     {0}};
 const record_type record_agreement = {"agreement",

@@ -80,14 +80,16 @@ static void compare_with(const gathering *g, int series_index, subject *s)
         s->truth = truth_of(g->truths, s->point->type, s->point->parameter, s->point->scene.quantity[s->index].name, "same");
 }
 
-/* Of one mesh; `s` is the subject of the cell. */
-static void add_cell(const solve_result *r, subject s, subjects *out)
+/* An array of records of one mesh. */
+static void add_array(subject s, int count, const void *array, size_t size, subjects *out)
 {
-    (void)r;
-    add(out, &s);
+    for (s.index = 0; s.index < count; s.index++) {
+        s.record = (const char *)array + (size_t)s.index * size;
+        add(out, &s);
+    }
 }
 
-static void add_curves(const solve_result *r, subject s, subjects *out)
+static void add_curves(subject s, const solve_result *r, subjects *out)
 {
     const subject *last = out->count > 0 ? &out->row[out->count - 1] : NULL;
     s.group = last != NULL ? last->group + ((const quantity_result *)last->record)->curve.points : 0;
@@ -99,49 +101,7 @@ static void add_curves(const solve_result *r, subject s, subjects *out)
     }
 }
 
-static void add_steps(const solve_result *r, subject s, subjects *out)
-{
-    for (s.index = 0; s.index < r->steps; s.index++) {
-        s.record = &r->step[s.index];
-        add(out, &s);
-    }
-}
-
-static void add_iterations(const solve_result *r, subject s, subjects *out)
-{
-    for (s.group = 0; s.group < r->steps; s.group++)
-        for (s.index = 0; s.index < r->step[s.group].iterations; s.index++) {
-            s.record = &r->iteration[r->step[s.group].first + s.index];
-            add(out, &s);
-        }
-}
-
-static void add_events(const solve_result *r, subject s, subjects *out)
-{
-    for (s.index = 0; s.index < r->events; s.index++) {
-        s.record = &r->event[s.index];
-        add(out, &s);
-    }
-}
-
-static void add_matrices(const solve_result *r, subject s, subjects *out)
-{
-    for (int i = 0; i < r->matrix_sets; i++)
-        for (s.index = 0; s.index < r->matrices[i].stations; s.index++) {
-            s.record = &r->matrices[i];
-            add(out, &s);
-        }
-}
-
-static void add_timing(const solve_result *r, subject s, subjects *out)
-{
-    (void)r;
-    s.record = s.series->timing != NULL ? &s.series->timing[s.mesh] : NULL;
-    if (s.record != NULL)
-        add(out, &s);
-}
-
-static void add_quantities(const gathering *g, int series_index, const solve_result *r, subject s, subjects *out)
+static void add_quantities(const gathering *g, int series_index, subject s, const solve_result *r, subjects *out)
 {
     for (s.index = 0; s.index < r->quantities; s.index++) {
         s.record = &r->quantity[s.index];
@@ -150,22 +110,38 @@ static void add_quantities(const gathering *g, int series_index, const solve_res
     }
 }
 
-static const struct {
-    const record_type *type;
-    void (*add)(const solve_result *r, subject cell, subjects *out);
-} of_mesh[] = {
-    {&record_cell, add_cell},    {&record_curve, add_curves},    {&record_step, add_steps},   {&record_iteration, add_iterations},
-    {&record_event, add_events}, {&record_matrix, add_matrices}, {&record_timing, add_timing}};
+static void add_iterations(subject s, const solve_result *r, subjects *out)
+{
+    for (s.group = 0; s.group < r->steps; s.group++)
+        add_array(s, r->step[s.group].iterations, r->iteration + r->step[s.group].first, sizeof *r->iteration, out);
+}
+
+static void add_matrices(subject s, const solve_result *r, subjects *out)
+{
+    for (int i = 0; i < r->matrix_sets; i++)
+        add_array(s, r->matrices[i].stations, &r->matrices[i], 0, out); /* one record, read station by station */
+}
 
 void gather_mesh(const gathering *g, const record_type *type, int series_index, int mesh, subjects *out)
 {
     const subject cell = gather_cell(g, series_index, mesh);
     const solve_result *r = &cell.series->cell[mesh].solve;
-    if (type == &record_quantity)
-        add_quantities(g, series_index, r, cell, out);
-    for (size_t i = 0; i < sizeof of_mesh / sizeof of_mesh[0]; i++)
-        if (of_mesh[i].type == type)
-            of_mesh[i].add(r, cell, out);
+    if (type == &record_cell)
+        add(out, &cell);
+    else if (type == &record_quantity)
+        add_quantities(g, series_index, cell, r, out);
+    else if (type == &record_curve)
+        add_curves(cell, r, out);
+    else if (type == &record_step)
+        add_array(cell, r->steps, r->step, sizeof *r->step, out);
+    else if (type == &record_iteration)
+        add_iterations(cell, r, out);
+    else if (type == &record_event)
+        add_array(cell, r->events, r->event, sizeof *r->event, out);
+    else if (type == &record_matrix)
+        add_matrices(cell, r, out);
+    else if (type == &record_timing && cell.series->timing != NULL)
+        add_array(cell, 1, &cell.series->timing[mesh], 0, out);
 }
 
 static void gather_series(const gathering *g, const record_type *type, int index, subjects *out)

@@ -1,5 +1,7 @@
 #include "harness/schema/schema.h"
 
+#include <math.h>
+
 int schema_fields(const record_type *type, int keys, const schema_field *out[SCHEMA_MOST_FIELDS])
 {
     int count = 0;
@@ -21,17 +23,44 @@ void field_number(field_value *out, double number)
     out->numbers = &out->number;
 }
 
-static void read_member(const void *at, field_kind kind, field_value *out)
+static const void *base_of(const subject *s, field_base base)
 {
-    switch (kind) {
+    switch (base) {
+    case BASE_RECORD:
+        return s->record;
+    case BASE_SUBJECT:
+        return s;
+    case BASE_POINT:
+        return s->point;
+    case BASE_CASE:
+        return s->point->type;
+    case BASE_SERIES:
+        return s->series;
+    case BASE_FORMULATION:
+        return s->series->formulation.type;
+    case BASE_CELL:
+        return &s->series->cell[s->mesh];
+    case BASE_QUANTITY:
+        return &s->point->scene.quantity[s->index];
+    case BASE_TRUTH:
+        return s->truth;
+    case BASE_MODEL_TRUTH:
+        return s->model_truth;
+    }
+    return NULL;
+}
+
+static void read_member(const char *at, const schema_field *which, field_value *out)
+{
+    switch (which->kind) {
     case FIELD_LONG:
         out->whole = *(const long *)at;
         break;
     case FIELD_DOUBLE:
-        out->numbers = at;
+        out->numbers = (const double *)at;
         break;
     case FIELD_TEXT:
-        out->text = at;
+        field_text(out, which->address ? *(const char *const *)at : at);
         break;
     case FIELD_INT:
     case FIELD_FLAG:
@@ -41,13 +70,23 @@ static void read_member(const void *at, field_kind kind, field_value *out)
     }
 }
 
+static void no_value(field_value *out)
+{
+    out->whole = 0;
+    field_text(out, "");
+    field_number(out, NAN);
+}
+
 void field_read(const subject *s, const schema_field *which, field_value *out)
 {
+    const char *base = which->get == NULL ? base_of(s, which->base) : NULL;
     out->of = which;
     if (which->get != NULL)
         which->get(s, out);
+    else if (base != NULL)
+        read_member(base + which->offset, which, out);
     else
-        read_member((const char *)s->record + which->offset, which->kind, out);
+        no_value(out);
     if (which->kind == FIELD_ENUM)
         out->text = out->whole >= 0 && out->whole < which->words ? which->word((int)out->whole) : "?";
 }

@@ -23,14 +23,28 @@ typedef struct subject {
     const point *point;
     const series *series;
     int mesh;           /* of the series */
-    const void *record; /* what the offsets of the fields refer to */
+    const void *record; /* what most offsets refer to */
     int index;          /* among its like: of a quantity, a step, an iteration, a station */
-    int group;          /* step that an iteration belongs to */
+    int group;          /* step that an iteration belongs to; first point of a curve */
     const verdict *verdict;
     const truth *truth, *model_truth; /* that a quantity is compared with */
 } subject;
 
 /* The member that the kind names is set. */
+/* What surrounds a record: offsets may refer to it. */
+typedef enum field_base {
+    BASE_RECORD,
+    BASE_SUBJECT,
+    BASE_POINT,
+    BASE_CASE, /* case_type */
+    BASE_SERIES,
+    BASE_FORMULATION, /* element_type */
+    BASE_CELL,
+    BASE_QUANTITY, /* scene_quantity that the index counts */
+    BASE_TRUTH,
+    BASE_MODEL_TRUTH
+} field_base;
+
 typedef struct schema_field schema_field;
 typedef struct field_value {
     const schema_field *of;
@@ -47,8 +61,10 @@ struct schema_field {
     const char *name, *unit; /* "1": a number without; "": not a number */
     field_kind kind;
     const char *summary;
-    size_t offset;            /* into the record */
-    field_getter *get;        /* NULL: what stands at the offset */
+    field_base base; /* that the offset refers to; where it is NULL there is no value */
+    size_t offset;
+    int address;              /* 1: a TEXT of which the address stands there */
+    field_getter *get;        /* derived: instead of what stands at the offset */
     const char *(*word)(int); /* ENUM: its words ... */
     int words;                /* ... 0 to words - 1 */
     int count;                /* DOUBLE: numbers of an array (a square matrix); 0: a single one */
@@ -57,6 +73,9 @@ struct schema_field {
 
 /* What stands in a member of the record. */
 #define AT(type, member) .offset = offsetof(type, member)
+/* In a member of what surrounds it; the same, the address of a text. */
+#define OF(place, type, member)      .base = BASE_##place, .offset = offsetof(type, member)
+#define TEXT_OF(place, type, member) OF(place, type, member), .address = 1
 
 /* Tables end with a field without name. */
 enum { RECORD_PARTS = 5 };

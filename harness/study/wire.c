@@ -8,105 +8,36 @@
  * addresses in them replaced by those of their own arrays. A new array is one line in the tables below; a new number none. */
 typedef struct branch branch;
 struct branch {
-    size_t pointer, size;               /* of the address in the record; of an element [bytes] */
-    size_t (*elements)(const void *of); /* by the counts of the record; NULL: a text, which ends with its first zero */
-    const branch *parts;                /* arrays of each element; NULL: none */
+    size_t pointer, size; /* of the address in the record; of an element [bytes] */
+    size_t count, times;  /* ints in the record whose product counts the elements; count 0: a text; times 0: none */
+    size_t each, more;    /* elements for each of the product, and besides */
+    const branch *parts;  /* arrays of each element; NULL: none */
 };
 
-static size_t at_least_0(int n)
-{
-    return n > 0 ? (size_t)n : 0;
-}
-
-static size_t curve_points(const void *of)
-{
-    return at_least_0(((const quantity_result *)of)->curve.points);
-}
-
-static size_t stations(const void *of)
-{
-    return at_least_0(((const nodal_matrices *)of)->stations);
-}
-
-static size_t entries(const void *of)
-{
-    return 36 * stations(of);
-}
-
-static size_t lines(const void *of)
-{
-    return at_least_0(((const cell_result *)of)->left_out_lines);
-}
-
-static size_t quantities(const void *of)
-{
-    return at_least_0(((const cell_result *)of)->solve.quantities);
-}
-
-static size_t steps(const void *of)
-{
-    return at_least_0(((const cell_result *)of)->solve.steps);
-}
-
-static size_t iterations(const void *of)
-{
-    return at_least_0(((const cell_result *)of)->solve.iterations);
-}
-
-static size_t events(const void *of)
-{
-    return at_least_0(((const cell_result *)of)->solve.events);
-}
-
-static size_t matrix_sets(const void *of)
-{
-    return at_least_0(((const cell_result *)of)->solve.matrix_sets);
-}
-
-static const shapes *shapes_of(const void *of)
-{
-    return &((const cell_result *)of)->solve.shapes;
-}
-
-static size_t shape_states(const void *of)
-{
-    return at_least_0(shapes_of(of)->states);
-}
-
-static size_t shape_members(const void *of)
-{
-    return shape_states(of) > 0 ? at_least_0(shapes_of(of)->members) + 1 : 0;
-}
-
-static size_t shape_points(const void *of)
-{
-    return shape_states(of) * at_least_0(shapes_of(of)->points);
-}
-
-static size_t shape_nodes(const void *of)
-{
-    return 3 * shape_states(of) * at_least_0(shapes_of(of)->nodes);
-}
-
-static const branch of_line[] = {{0, sizeof(char), NULL, NULL}, {0}};
-static const branch of_quantity[] = {{offsetof(quantity_result, curve.x), sizeof(double), curve_points, NULL},
-                                     {offsetof(quantity_result, curve.value), sizeof(double), curve_points, NULL},
+#define CELL(member)     offsetof(cell_result, member)
+#define SOLVE(member)    offsetof(cell_result, solve.member)
+#define QUANTITY(member) offsetof(quantity_result, member)
+#define MATRICES(member) offsetof(nodal_matrices, member)
+static const branch of_line[] = {{0, sizeof(char), 0, 0, 1, 0, NULL}, {0}};
+static const branch of_quantity[] = {{QUANTITY(curve.x), sizeof(double), QUANTITY(curve.points), 0, 1, 0, NULL},
+                                     {QUANTITY(curve.value), sizeof(double), QUANTITY(curve.points), 0, 1, 0, NULL},
                                      {0}};
-static const branch of_matrices[] = {{offsetof(nodal_matrices, path), sizeof(double), stations, NULL},
-                                     {offsetof(nodal_matrices, compliance), sizeof(double), entries, NULL},
-                                     {offsetof(nodal_matrices, stiffness), sizeof(double), entries, NULL},
+static const branch of_matrices[] = {{MATRICES(path), sizeof(double), MATRICES(stations), 0, 1, 0, NULL},
+                                     {MATRICES(compliance), sizeof(double), MATRICES(stations), 0, 36, 0, NULL},
+                                     {MATRICES(stiffness), sizeof(double), MATRICES(stations), 0, 36, 0, NULL},
                                      {0}};
-static const branch of_cell[] = {{offsetof(cell_result, left_out), sizeof(char *), lines, of_line},
-                                 {offsetof(cell_result, solve.quantity), sizeof(quantity_result), quantities, of_quantity},
-                                 {offsetof(cell_result, solve.step), sizeof(step_record), steps, NULL},
-                                 {offsetof(cell_result, solve.iteration), sizeof(iteration_record), iterations, NULL},
-                                 {offsetof(cell_result, solve.event), sizeof(path_event), events, NULL},
-                                 {offsetof(cell_result, solve.matrices), sizeof(nodal_matrices), matrix_sets, of_matrices},
-                                 {offsetof(cell_result, solve.shapes.first), sizeof(int), shape_members, NULL},
-                                 {offsetof(cell_result, solve.shapes.state), sizeof(shape_state), shape_states, NULL},
-                                 {offsetof(cell_result, solve.shapes.point), sizeof(centreline_point), shape_points, NULL},
-                                 {offsetof(cell_result, solve.shapes.node), sizeof(double), shape_nodes, NULL},
-                                 {0}};
+static const branch of_cell[] = {
+    {CELL(left_out), sizeof(char *), CELL(left_out_lines), 0, 1, 0, of_line},
+    {SOLVE(quantity), sizeof(quantity_result), SOLVE(quantities), 0, 1, 0, of_quantity},
+    {SOLVE(step), sizeof(step_record), SOLVE(steps), 0, 1, 0, NULL},
+    {SOLVE(iteration), sizeof(iteration_record), SOLVE(iterations), 0, 1, 0, NULL},
+    {SOLVE(event), sizeof(path_event), SOLVE(events), 0, 1, 0, NULL},
+    {SOLVE(matrices), sizeof(nodal_matrices), SOLVE(matrix_sets), 0, 1, 0, of_matrices},
+    {SOLVE(shapes.first), sizeof(int), SOLVE(shapes.members), 0, 1, 1, NULL},
+    {SOLVE(shapes.state), sizeof(shape_state), SOLVE(shapes.states), 0, 1, 0, NULL},
+    {SOLVE(shapes.point), sizeof(centreline_point), SOLVE(shapes.states), SOLVE(shapes.points), 1, 0, NULL},
+    {SOLVE(shapes.node), sizeof(double), SOLVE(shapes.states), SOLVE(shapes.nodes), 3, 0, NULL},
+    {0}};
 
 static void *address(const void *record, const branch *b)
 {
@@ -120,12 +51,19 @@ static void set_address(void *record, const branch *b, const void *to)
     memcpy((char *)record + b->pointer, &to, sizeof to);
 }
 
+static size_t whole_at(const void *record, size_t offset)
+{
+    int out;
+    memcpy(&out, (const char *)record + offset, sizeof out);
+    return out > 0 ? (size_t)out : 0;
+}
+
 static size_t elements(const void *record, const branch *b)
 {
-    const char *text = address(record, b);
-    if (b->elements != NULL)
-        return b->elements(record);
-    return text != NULL ? strlen(text) + 1 : 0;
+    const char *text = b->count == 0 ? address(record, b) : NULL;
+    if (b->count == 0)
+        return text != NULL ? strlen(text) + 1 : 0;
+    return b->each * whole_at(record, b->count) * (b->times > 0 ? whole_at(record, b->times) : 1) + b->more;
 }
 
 static int put(FILE *to, const void *data, size_t size)
@@ -165,7 +103,7 @@ static char *get_array(FILE *from, const branch *b, size_t count)
 {
     enum { LARGEST = 1 << 28 }; /* [bytes] a count beyond this is damage */
     char *out = count < LARGEST / b->size ? calloc(count + 1, b->size) : NULL;
-    if (out != NULL && get(from, out, count * b->size) == 0 && (b->elements != NULL || out[count - 1] == '\0'))
+    if (out != NULL && get(from, out, count * b->size) == 0 && (b->count != 0 || out[count - 1] == '\0'))
         return out;
     free(out);
     return NULL;
@@ -175,7 +113,9 @@ static int get_parts(FILE *from, void *record, const branch parts[])
 {
     for (const branch *b = parts; b->size > 0; b++) {
         size_t count = 0;
-        if (get(from, &count, sizeof count) != 0 || (b->elements != NULL && b->elements(record) != count))
+        if (get(from, &count, sizeof count) != 0)
+            return -1;
+        if (b->count != 0 && count != elements(record, b) && (count != 0 || elements(record, b) > b->more))
             return -1;
         if (count == 0)
             continue;

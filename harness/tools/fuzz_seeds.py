@@ -36,8 +36,9 @@ def truths(scratch):
     (scratch / "tables").mkdir()
     for name in ("defaults.csv", "tables/wagner_torsion.csv", "tables/roll_up.csv"):
         shutil.copy(ROOT / "reference" / name, scratch / name)
-    findings = (ROOT / "reference" / "findings.csv").read_text(encoding="utf-8").splitlines()
-    (scratch / "findings.csv").write_text("\n".join(findings[:3]) + "\n", encoding="utf-8")
+    for name in ("findings.csv", "extreme_findings.csv"):
+        lines = (ROOT / "reference" / name).read_text(encoding="utf-8").splitlines()
+        (scratch / name).write_text("\n".join(lines[:3]) + "\n", encoding="utf-8")
     subprocess.run([sys.executable, ROOT / "reference" / "pack.py", "-o", scratch / "t.h5", "--folder", scratch], check=True, stdout=subprocess.DEVNULL)
     yield (scratch / "t.h5").read_bytes()
 
