@@ -141,6 +141,8 @@ status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f)
         }
         outcome = compare_meshes(s, t, i, out, f);
     }
+    if (outcome == STATUS_OK)
+        outcome = judge_coverage(s, out, f);
     for (int i = 0; i < t->findings && whole; i++)
         out->unobserved += t->finding[i].observed == 0;
     for (int i = 0; i < t->rows && whole; i++) {
@@ -157,6 +159,7 @@ void judgement_free(judgement *j)
 {
     free(j->verdict);
     free(j->agreement);
+    free(j->coverage);
     memset(j, 0, sizeof *j);
 }
 

@@ -220,6 +220,7 @@ void sweep_free(sweep *s)
         for (int k = 0; k < s->series[i].meshes && s->series[i].cell != NULL; k++)
             cell_result_free(&s->series[i].cell[k]);
         free(s->series[i].cell);
+        free(s->series[i].noise);
         free(s->series[i].timing);
     }
     for (int i = 0; i < s->points; i++)
