@@ -29,7 +29,6 @@ static void add_moment(scene *s, int buckling, const char *name, int order)
 {
     scene_quantity *q = scene_add_quantity(s, name, "N m", SCENE_CRITICAL_FACTOR, buckling);
     q->order = order;
-    q->tolerance = 1e-4;
     q->least_order = 1.8;
 }
 

@@ -42,7 +42,6 @@ static scene_quantity *add_stiffness(scene *s, const char *name, int analysis, i
     q->node = effector;
     q->row = q->column = SCENE_UZ;
     q->reduction = reduction;
-    q->tolerance = 1e-3;
     q->least_order = 1.5;
     return q;
 }

@@ -1,4 +1,5 @@
 #include <stdio.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
@@ -8,6 +9,7 @@
 #include "harness/record/output.h"
 #include "harness/record/store.h"
 #include "harness/record/table.h"
+#include "harness/study/noise.h"
 
 enum { PICTURED_STATES = 5 };
 
@@ -59,6 +61,18 @@ static status write_all(const cli_request *r, const sweep *s, const judgement *j
     return outcome;
 }
 
+/* The finest meshes again where the verdicts may turn on their noise. */
+static status measure_noise(const sweep_request *request, const truths *t, sweep *s, fault *f)
+{
+    char *wanted = malloc((size_t)s->seriess + 1);
+    if (wanted == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for noise");
+    judge_doubts(s, t, wanted);
+    const status outcome = noise_measure(request, wanted, s, f);
+    free(wanted);
+    return outcome;
+}
+
 int cli_verify(int count, char **arguments)
 {
     cli_request r;
@@ -94,6 +108,8 @@ int cli_verify(int count, char **arguments)
     outcome = sweep_plan(&request, &t, &s, &f);
     if (outcome == STATUS_OK)
         outcome = sweep_run(&request, &s, &f);
+    if (outcome == STATUS_OK)
+        outcome = measure_noise(&request, &t, &s, &f);
     if (outcome == STATUS_OK)
         outcome = judge(&s, &t, r.select == NULL && r.formulations == 0, &j, &f);
     if (outcome == STATUS_OK) {

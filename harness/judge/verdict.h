@@ -79,6 +79,8 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
 const truth *verdict_truth(const truths *t, const point *p, const formulation *chosen, int quantity);
 /* What the series shows of the quantity, both given in v: kind, fit, errors, and as expected what holds without findings. */
 void verdict_reach(const sweep *s, const truths *t, verdict *v);
+/* Series whose verdicts may turn on the noise of their finest mesh, which is then worth measuring: wanted[seriess], 0 or 1. */
+void judge_doubts(const sweep *s, const truths *t, char wanted[]);
 /* FAULT when a truth has another unit than its quantity. whole: 1 when nothing was selected away, so that a finding nobody observed and a truth that
  * speaks of nothing are failures. */
 status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f);
