@@ -73,8 +73,8 @@ static status build(const double value[], scene *s, fault *f)
     curve->x_offset = -curve->x_factor; /* station 1 is azimuth 0 */
     snprintf(curve->x_name, sizeof curve->x_name, "azimuth");
     snprintf(curve->x_unit, sizeof curve->x_unit, "rad");
-    const int meshes[] = {1, 2, 4, 8};
-    scene_meshes(s, 4, meshes);
+    const int meshes[] = {1, 2, 4, 8, 16};
+    scene_meshes(s, 5, meshes);
     return STATUS_OK;
 }
 

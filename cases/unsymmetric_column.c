@@ -82,8 +82,8 @@ static status build(const double value[], scene *s, fault *f)
     const int loading = scene_add_analysis(s, SCENE_LINEAR), modal = scene_add_analysis(s, SCENE_MODAL);
     scene_analysis_at(s, modal)->follows = value[AXIAL_LOAD] != 0 ? loading : SCENE_NONE;
     add_frequencies(s, modal);
-    const int meshes[] = {2, 4, 8, 16, 32};
-    scene_meshes(s, 5, meshes);
+    const int meshes[] = {2, 4, 8, 16, 32, 64};
+    scene_meshes(s, 6, meshes);
     return STATUS_OK;
 }
 

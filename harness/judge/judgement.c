@@ -118,7 +118,7 @@ static void judge_quantity(const sweep *s, truths *t, int index, int quantity, j
 /* Is a last change so small that noise may be all of it, or the verdict open? */
 static int noise_may_decide(const sweep *s, const truths *t, int index, int quantity)
 {
-    const double small_change = 1e-6;
+    const double small_change = 1e-7;
     verdict v = {.series = index, .quantity = quantity};
     verdict_reach(s, t, &v);
     if (v.truth == NULL || isnan(v.fit.limit) || isnan(v.fit.last_change))

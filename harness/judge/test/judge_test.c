@@ -247,6 +247,28 @@ static void predictions(void)
     bench_free(&b);
 }
 
+/* Noise is worth measuring where the last change is tiny or the verdict open, and there is a truth. */
+static void doubtful_noise(void)
+{
+    bench b;
+    char wanted[1];
+    bench_make(&b);
+    bench_fill(&b, 3, 0.07, 2);
+    judge_doubts(&b.s, &b.t, wanted);
+    gsl_test_int(wanted[0], 0, "a limit that noise cannot touch");
+    bench_fill(&b, 3, 1e-7, 2);
+    judge_doubts(&b.s, &b.t, wanted);
+    gsl_test_int(wanted[0], 1, "changes that may be noise");
+    for (int i = 0; i < MESHES; i++)
+        b.quantity[i].value = 3 + (i % 2 ? 0.01 : -0.01);
+    judge_doubts(&b.s, &b.t, wanted);
+    gsl_test_int(wanted[0], 1, "an open verdict");
+    b.t.rows = 0;
+    judge_doubts(&b.s, &b.t, wanted);
+    gsl_test_int(wanted[0], 0, "nothing to judge by");
+    bench_free(&b);
+}
+
 /* A formulation is judged by the truth of its own theory of shear, whatever the scene asks for. */
 static void theories(void)
 {
@@ -429,6 +451,7 @@ int main(void)
     doubts();
     failures();
     predictions();
+    doubtful_noise();
     theories();
     publications();
     coverages();
