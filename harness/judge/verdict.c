@@ -88,9 +88,8 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
 /* Is the order both known and too low?  Changes that the truth's own uncertainty hides say nothing. */
 static int order_is_low(const scene_quantity *q, const verdict *v)
 {
-    const double told = v->truth->uncertainty + 10 * v->fit.noise;
     return v->fit.kind == LIMIT_ASYMPTOTIC && v->fit.order + v->fit.order_uncertainty < q->least_order - order_slack &&
-           v->fit.last_change > told;
+           v->fit.last_change > v->truth->uncertainty;
 }
 
 static int is_predicted(const verdict *v)

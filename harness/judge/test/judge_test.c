@@ -184,9 +184,16 @@ static void doubts(void)
         b.quantity[i].value = 3 + (i % 2 ? 1e-6 : -1e-6);
     expect(&b, VERDICT_PASS, 0, "alternating values that surely stay inside the tolerance");
     says(&b, "agrees with the truth within the tolerance, without an order");
-    bench_fill(&b, 3.003, 0.7, 2);
+    bench_fill(&b, 4, 0.01, 2);
     b.one.meshes = 3;
     expect(&b, VERDICT_UNDECIDED, 1, "three meshes never say that a limit is wrong");
+    b.one.meshes = MESHES;
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "more do");
+    for (int i = 0; i < MESHES; i++)
+        b.quantity[i].value = 3 + (i % 2 ? 1 : -1) * pow(4, -i);
+    bench_judge(&b);
+    gsl_test_rel(b.j.verdict[0].fit.limit_uncertainty, 3 * (1.0 / 256 + 1.0 / 64), 1e-6,
+                 "without an order the case's own reduces former changes");
     b.one.meshes = 1;
     b.quantity[0].value = 3;
     expect(&b, VERDICT_UNDECIDED, 1, "one mesh shows no limit, even if it is right");
