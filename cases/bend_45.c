@@ -47,7 +47,6 @@ static status build(const double value[], scene *s, fault *f)
         scene_quantity *q = scene_add_quantity(s, name[i], "m", SCENE_COORDINATE, path);
         q->node = tip;
         q->row = i;
-        q->tolerance = 1e-5;
         q->least_order = 1.8;
     }
     const int meshes[] = {1, 2, 4, 8, 16, 32};

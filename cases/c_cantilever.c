@@ -66,12 +66,10 @@ static void add_path(const double value[], scene *s, int node)
     a->constant_steps = step > 0;
     a->omega[2] = value[OMEGA];
     scene_quantity *at = scene_add_quantity(s, "load_at_w", "N", SCENE_FACTOR_AT, loading);
-    at->tolerance = 1e-4;
     at->least_order = 1.8;
     scene_quantity *lateral = scene_add_quantity(s, "lateral", "m", SCENE_COORDINATE, loading);
     lateral->node = node;
     lateral->row = SCENE_UY;
-    lateral->tolerance = 1e-4;
     lateral->least_order = 1.8;
     for (int i = 0; i < 2; i++) {
         scene_quantity *curve = i == 0 ? scene_add_quantity(s, "curve", "N", SCENE_FACTOR_AT, loading)

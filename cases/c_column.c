@@ -26,7 +26,6 @@ static status build(const double value[], scene *s, fault *f)
     const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
     scene_analysis_at(s, buckling)->wanted = 1;
     scene_quantity *load = scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
-    load->tolerance = 1e-5;
     load->least_order = 1.8;
 
     const int modal = scene_add_analysis(s, SCENE_MODAL);
@@ -37,7 +36,6 @@ static status build(const double value[], scene *s, fault *f)
         scene_quantity *frequency = scene_add_quantity(s, name, "Hz", SCENE_FREQUENCY, modal);
         frequency->family = SCENE_NOT_AXIAL;
         frequency->order = i;
-        frequency->tolerance = 1e-3;
         frequency->least_order = 1.8;
     }
     return STATUS_OK;

@@ -51,7 +51,6 @@ static status build(const double value[], scene *s, fault *f)
         q->node = tip;
         q->row = SCENE_RX + i;
         q->near_zero = 1;
-        q->tolerance = 1e-5;
         q->least_order = 1.8;
     }
     for (int i = 0; i < 3; i++) {

@@ -84,7 +84,6 @@ static void add_stiffnesses(scene *s, int compliance, int platform, const double
         scene_quantity *q = scene_add_quantity(s, name, "N/m", SCENE_STIFFNESS_ENTRY, compliance);
         q->node = platform;
         q->row = q->column = SCENE_UZ;
-        q->tolerance = 1e-3;
         q->least_order = 1.5;
         q->reduction = i < steps ? SCENE_AT : SCENE_CURVE;
         q->at = i < steps ? station[i] : 0;
@@ -126,9 +125,8 @@ static status build(const double value[], scene *s, fault *f)
     add_stiffnesses(s, compliance, platform, station + 1, steps);
     scene_quantity *first = scene_add_quantity(s, "crank_angle", "rad", SCENE_DRIVER_VALUE, lifting);
     first->row = angle;
-    first->tolerance = 1e-4;
-    const int meshes[] = {1, 2, 3};
-    scene_meshes(s, 3, meshes);
+    const int meshes[] = {1, 2, 4, 8};
+    scene_meshes(s, 4, meshes);
     return STATUS_OK;
 }
 

@@ -58,7 +58,6 @@ static status build(const double value[], scene *s, fault *f)
     scene_analysis_at(s, buckling)->wanted = 1;
     scene_analysis_at(s, buckling)->follows = path;
     scene_quantity *q = scene_add_quantity(s, "load_factor", "1", SCENE_CRITICAL_FACTOR, buckling);
-    q->tolerance = 1e-4;
     q->least_order = 1.8;
     const int meshes[] = {1, 2, 4, 8, 16, 32};
     scene_meshes(s, 6, meshes);

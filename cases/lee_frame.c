@@ -49,13 +49,11 @@ static void add_quantities(int plane, scene *s, int path, int node)
         q->order = i % 2;
         q->column = i / 2;
         q->factor = i < 2 ? 1 : -1;
-        q->tolerance = i < 2 ? 1e-5 : 1e-4;
         q->least_order = 1.8;
     }
     scene_quantity *q = plane ? NULL : scene_add_quantity(s, "bifurcation_load", "N", SCENE_CRITICAL_POINT, path);
     if (q != NULL) {
         q->row = SCENE_BIFURCATION;
-        q->tolerance = 1e-4;
         q->least_order = 1.8;
     }
     for (int i = 0; i < 2; i++) {

@@ -17,7 +17,6 @@ static void add_moment(scene *s, int buckling, const char *name, int sign)
 {
     scene_quantity *q = scene_add_quantity(s, name, "N m", SCENE_CRITICAL_FACTOR, buckling);
     q->sign = sign;
-    q->tolerance = 1e-5;
     q->least_order = 1.8;
 }
 

@@ -29,7 +29,6 @@ static void add_moment(scene *s, int buckling, const char *name, int order)
 {
     scene_quantity *q = scene_add_quantity(s, name, "N m", SCENE_CRITICAL_FACTOR, buckling);
     q->order = order;
-    q->tolerance = 1e-4;
     q->least_order = 1.8;
 }
 
@@ -59,8 +58,8 @@ static status build(const double value[], scene *s, fault *f)
     scene_analysis_at(s, buckling)->wanted = 2;
     add_moment(s, buckling, "critical_moment", 0);
     add_moment(s, buckling, "critical_moment_2", 1);
-    const int meshes[] = {2, 4, 8, 16, 32};
-    scene_meshes(s, 5, meshes);
+    const int meshes[] = {2, 4, 8, 16, 32, 64};
+    scene_meshes(s, 6, meshes);
     return STATUS_OK;
 }
 

@@ -31,7 +31,6 @@ static scene_quantity *add_frequency(scene *s, const char *stem, int order, cons
     q->family = family;
     q->order = order;
     q->factor = two_pi;
-    q->tolerance = 1e-4;
     q->least_order = 1.8;
     return q;
 }
@@ -90,17 +89,14 @@ static status build(const double value[], scene *s, fault *f)
     add_frequencies(s, rotation, omega, intervals > 0, value[AXIS] > 1.5);
     scene_quantity *growth = scene_add_quantity(s, "growth", "1", SCENE_GROWTH, rotation);
     growth->near_zero = 1;
-    growth->tolerance = 1e-4;
     growth->least_order = 1.8;
     if (intervals > 0)
         make_curve(scene_add_quantity(s, "growth_curve", "1", SCENE_GROWTH, rotation), omega);
     cantilever_quantity(s, "stretch", "1", rotation, tip, SCENE_UX, 1, 0);
-    s->quantity[s->quantities - 1].tolerance = 1e-8;
     scene_quantity *pull = scene_add_quantity(s, "root_force", "1", SCENE_REACTION, rotation);
     pull->node = root;
     pull->row = SCENE_UX;
     pull->factor = -1;
-    pull->tolerance = 1e-6;
     pull->least_order = 1.8;
     const int meshes[] = {2, 4, 8, 16, 32, 64};
     scene_meshes(s, 6, meshes);

@@ -37,7 +37,6 @@ static status build(const double value[], scene *s, fault *f)
     const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
     scene_analysis_at(s, buckling)->wanted = 1;
     scene_quantity *load = scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
-    load->tolerance = 1e-5;
     load->least_order = 1.8;
     const int meshes[] = {2, 4, 8, 16, 32};
     scene_meshes(s, 5, meshes);

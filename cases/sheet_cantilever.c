@@ -33,7 +33,6 @@ static void add_gated(scene *s, const char *name, const char *unit, scene_quanti
     q->node = node;
     q->row = row;
     q->column = row;
-    q->tolerance = 1e-4;
     q->least_order = 1.8;
 }
 
@@ -59,7 +58,6 @@ static void add_frequencies(scene *s, int path, int count)
         snprintf(name, sizeof name, "frequency_%d", i + 1);
         scene_quantity *q = scene_add_quantity(s, name, "Hz", SCENE_FREQUENCY, modal);
         q->order = i;
-        q->tolerance = 1e-4;
         q->least_order = 1.8;
     }
 }
@@ -112,7 +110,7 @@ static status build(const double value[], scene *s, fault *f)
 
     add_gated(s, "C_xx", "m/N", SCENE_COMPLIANCE_ENTRY, compliance, tip, SCENE_UX);
     add_gated(s, "C_zz", "m/N", SCENE_COMPLIANCE_ENTRY, compliance, tip, SCENE_UZ);
-    sheet_add_compliance(s, compliance, tip, entries, sizeof entries / sizeof entries[0], 1e-4);
+    sheet_add_compliance(s, compliance, tip, entries, sizeof entries / sizeof entries[0]);
     add_gated(s, "u_x", "m", SCENE_COORDINATE, path_analysis, tip, SCENE_UX);
     add_gated(s, "F_y", "N", SCENE_REACTION, path_analysis, tip, SCENE_UY);
     add_gated(s, "M_z", "N m", SCENE_REACTION, path_analysis, tip, SCENE_RZ);

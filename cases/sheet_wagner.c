@@ -60,7 +60,7 @@ static status build(const double value[], scene *s, fault *f)
         entries[i][0] = k / 6;
         entries[i][1] = k % 6;
     }
-    sheet_add_compliance(s, compliance, tip, (const int(*)[2])entries, 36, 1e-3);
+    sheet_add_compliance(s, compliance, tip, (const int(*)[2])entries, 36);
     static const struct {
         const char *name, *unit;
         scene_quantity_kind kind;
@@ -73,7 +73,6 @@ static status build(const double value[], scene *s, fault *f)
         scene_quantity *q = scene_add_quantity(s, motions[i].name, motions[i].unit, motions[i].kind, path_analysis);
         q->node = tip;
         q->row = motions[i].row;
-        q->tolerance = 1e-3;
         q->least_order = 1.8;
     }
     return STATUS_OK;

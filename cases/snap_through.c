@@ -37,17 +37,14 @@ static void add_quantities(scene *s, int path, int apex, double height)
         scene_quantity *load = scene_add_quantity(s, name[i], "N", SCENE_CRITICAL_POINT, path);
         load->row = SCENE_LIMIT_POINT;
         load->order = i;
-        load->tolerance = 1e-8;
     }
     scene_quantity *deflection = scene_add_quantity(s, "deflection_at_limit", "m", SCENE_CRITICAL_POINT, path);
     deflection->row = SCENE_LIMIT_POINT;
     deflection->column = 1;
     deflection->factor = -1;
-    deflection->tolerance = 1e-6;
     scene_quantity *inverted = scene_add_quantity(s, "load_inverted", "N", SCENE_FACTOR_AT, path);
     inverted->reduction = SCENE_AT;
     inverted->at = -2.5 * height;
-    inverted->tolerance = 1e-8;
     scene_quantity *curve = scene_add_quantity(s, "curve", "N", SCENE_FACTOR_AT, path);
     curve->node = apex;
     curve->reduction = SCENE_CURVE;
@@ -78,8 +75,8 @@ static status build(const double value[], scene *s, fault *f)
     a->step = value[STEP];
     a->step_max = 5 * value[STEP];
     add_quantities(s, path, apex, height);
-    const int meshes[] = {1, 2, 4};
-    scene_meshes(s, 3, meshes);
+    const int meshes[] = {1, 2, 4, 8};
+    scene_meshes(s, 4, meshes);
     return STATUS_OK;
 }
 

@@ -42,7 +42,6 @@ static scene_quantity *add_stiffness(scene *s, const char *name, int analysis, i
     q->node = effector;
     q->row = q->column = SCENE_UZ;
     q->reduction = reduction;
-    q->tolerance = 1e-3;
     q->least_order = 1.5;
     return q;
 }
@@ -74,8 +73,8 @@ static status build(const double value[], scene *s, fault *f)
     curve->x_offset = -curve->x_factor; /* station 1 is azimuth 0 */
     snprintf(curve->x_name, sizeof curve->x_name, "azimuth");
     snprintf(curve->x_unit, sizeof curve->x_unit, "rad");
-    const int meshes[] = {1, 2, 4, 8};
-    scene_meshes(s, 4, meshes);
+    const int meshes[] = {1, 2, 4, 8, 16};
+    scene_meshes(s, 5, meshes);
     return STATUS_OK;
 }
 

@@ -51,7 +51,6 @@ static void add_frequencies(scene *s, int modal)
         scene_quantity *frequency = scene_add_quantity(s, name, "Hz", SCENE_FREQUENCY, modal);
         frequency->family = SCENE_NOT_AXIAL;
         frequency->order = i;
-        frequency->tolerance = 1e-4;
         frequency->least_order = 1.8;
     }
 }
@@ -79,13 +78,12 @@ static status build(const double value[], scene *s, fault *f)
     scene_quantity *critical = scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
     critical->sign = load > 0 ? 1 : -1;
     critical->factor = load;
-    critical->tolerance = 1e-5;
     critical->least_order = 1.8;
     const int loading = scene_add_analysis(s, SCENE_LINEAR), modal = scene_add_analysis(s, SCENE_MODAL);
     scene_analysis_at(s, modal)->follows = value[AXIAL_LOAD] != 0 ? loading : SCENE_NONE;
     add_frequencies(s, modal);
-    const int meshes[] = {2, 4, 8, 16, 32};
-    scene_meshes(s, 5, meshes);
+    const int meshes[] = {2, 4, 8, 16, 32, 64};
+    scene_meshes(s, 6, meshes);
     return STATUS_OK;
 }
 

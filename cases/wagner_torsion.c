@@ -42,12 +42,10 @@ static status build(const double value[], scene *s, fault *f)
     scene_quantity *moment = scene_add_quantity(s, "moment", "N m", SCENE_REACTION, twisting);
     moment->node = tip;
     moment->row = SCENE_RX;
-    moment->tolerance = 1e-6;
     scene_quantity *shortening = scene_add_quantity(s, "shortening", "m", SCENE_COORDINATE, twisting);
     shortening->node = tip;
     shortening->row = SCENE_UX;
     shortening->factor = -1;
-    shortening->tolerance = 1e-6;
     const int meshes[] = {1, 2, 4, 8};
     scene_meshes(s, 4, meshes);
     return STATUS_OK;

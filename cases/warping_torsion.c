@@ -41,7 +41,6 @@ static status build(const double value[], scene *s, fault *f)
     twist->node = tip;
     twist->row = SCENE_RX;
     twist->factor = spec.shear_modulus * spec.constants.It / length;
-    twist->tolerance = 1e-6;
     twist->least_order = 3.5;
     const int meshes[] = {1, 2, 4, 8, 16, 32};
     scene_meshes(s, 6, meshes);

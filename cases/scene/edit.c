@@ -1,4 +1,5 @@
 #include "cases/scene/edit.h"
+#include "cases/scene/unit.h"
 
 #include <stddef.h>
 
@@ -85,7 +86,9 @@ status scene_edit_apply(scene *s, const scene_edit *edit, fault *f)
     case SCENE_EDIT_REVERSE:
         return reverse(s, f);
     case SCENE_EDIT_SPLIT:
-        return split(s, edit->fraction, f);
+        return split(s, edit->amount, f);
+    case SCENE_EDIT_UNIT:
+        return scene_change_unit(s, edit->amount, f);
     }
     return STATUS_OK;
 }

@@ -204,6 +204,7 @@ scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit,
     q->analysis = analysis;
     q->node = q->x_driver = SCENE_NONE;
     q->sign = 1;
+    q->tolerance = SCENE_TOLERANCE;
     return q;
 }
 

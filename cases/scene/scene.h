@@ -12,6 +12,9 @@
 
 enum { SCENE_NONE = -1, SCENE_NAME = 48 };
 
+/* Of a limit, relative: what engineers ask of a model. A limit of its own within it is seen all the same, by its uncertainty. */
+#define SCENE_TOLERANCE 1e-3
+
 /* Components of a node: three translations, three rotations (fixed axes). */
 enum { SCENE_UX, SCENE_UY, SCENE_UZ, SCENE_RX, SCENE_RY, SCENE_RZ };
 
@@ -133,7 +136,7 @@ typedef struct scene_quantity {
     double at;                           /* path value for SCENE_AT, controlled value for SCENE_FACTOR_AT */
     double factor, offset;               /* reported value = factor * extracted value + offset (factor 0 means 1) */
     double near_zero;                    /* absolute scale for relative errors of values near zero; 0: |value| */
-    double tolerance;                    /* relative, of the limit against the truth */
+    double tolerance;                    /* relative, of the limit against the truth: SCENE_TOLERANCE unless a case says why not */
     double least_order;                  /* of convergence in the number of elements */
     double prediction;                   /* [unit] of an analytic model with an error of its own: shown, never judged ... */
     const char *predicted_by;            /* ... and its source; NULL: there is none */
@@ -188,7 +191,8 @@ int scene_add_unknown_driver(scene *s, const char *name, int node, int component
 int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y, double z);
 int scene_add_analysis(scene *s, scene_analysis_kind kind);
 int scene_set_stations(scene *s, int analysis, int stations, const double path[]);
-/* The new quantity, to be filled further: name, unit, kind and analysis are set, nodes and drivers SCENE_NONE, sign 1, the rest 0. */
+/* The new quantity, to be filled further: name, unit, kind and analysis are set, nodes and drivers SCENE_NONE, sign 1,
+ * tolerance SCENE_TOLERANCE, the rest 0. */
 scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit, scene_quantity_kind kind, int analysis);
 /* Entry of a list, to be filled further; never NULL. */
 scene_node *scene_node_at(scene *s, int index);

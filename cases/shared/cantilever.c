@@ -43,6 +43,5 @@ void cantilever_quantity(scene *s, const char *name, const char *unit, int analy
     q->row = row;
     q->factor = factor;
     q->offset = offset;
-    q->tolerance = 1e-5;
     q->least_order = 1.8;
 }

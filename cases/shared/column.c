@@ -34,7 +34,7 @@ status column_build(const case_parameter parameters[], const double value[], sce
     if (value[COLUMN_SHEAR] != 0)
         s->needs |= SCENE_NEED_SHEAR | (value[COLUMN_STABILITY] == 0 ? SCENE_NEED_ENGESSER : SCENE_NEED_HARINGX);
     s->needs |= SCENE_NEED_TRAPEZE;
-    const int meshes[] = {2, 4, 8, 16, 32, 64};
-    scene_meshes(s, 6, meshes);
+    const int meshes[] = {2, 4, 8, 16, 32, 64, 128};
+    scene_meshes(s, 7, meshes);
     return STATUS_OK;
 }

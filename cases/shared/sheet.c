@@ -40,12 +40,12 @@ status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f
         s->needs |= SCENE_NEED_TRAPEZE;
     if (value[SHEET_WAGNER] != 0)
         s->needs |= SCENE_NEED_WAGNER_TORQUE;
-    const int meshes[] = {1, 2, 3, 4, 8, 16, 32};
-    scene_meshes(s, 7, meshes);
+    const int meshes[] = {1, 2, 3, 4, 8, 16, 32, 64};
+    scene_meshes(s, 8, meshes);
     return STATUS_OK;
 }
 
-void sheet_add_compliance(scene *s, int analysis, int tip, const int (*entries)[2], int count, double tolerance)
+void sheet_add_compliance(scene *s, int analysis, int tip, const int (*entries)[2], int count)
 {
     static const char *const response[] = {"ux", "uy", "uz", "thx", "thy", "thz"};
     static const char *const load[] = {"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
@@ -58,7 +58,6 @@ void sheet_add_compliance(scene *s, int analysis, int tip, const int (*entries)[
         q->node = tip;
         q->row = row;
         q->column = column;
-        q->tolerance = tolerance;
         q->least_order = 1.8;
     }
 }

@@ -1,5 +1,6 @@
 #include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
@@ -9,6 +10,7 @@
 #include "harness/record/output.h"
 #include "harness/record/store.h"
 #include "harness/record/table.h"
+#include "harness/study/noise.h"
 
 enum { PICTURED_STATES = 5 };
 
@@ -116,6 +118,18 @@ static int tell(const cli_request *r, const sweep *s, const judgement *j)
     return code;
 }
 
+/* The finest meshes again where the verdicts may turn on their noise. */
+static status measure_noise(const sweep_request *request, const truths *t, sweep *s, fault *f)
+{
+    char *wanted = malloc((size_t)s->seriess + 1);
+    if (wanted == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for noise");
+    judge_doubts(s, t, wanted);
+    const status outcome = noise_measure(request, wanted, s, f);
+    free(wanted);
+    return outcome;
+}
+
 int cli_verify(int count, char **arguments)
 {
     cli_request r;
@@ -146,6 +160,8 @@ int cli_verify(int count, char **arguments)
     outcome = sweep_plan(&request, &t, &s, &f);
     if (outcome == STATUS_OK)
         outcome = sweep_run(&request, &s, &f);
+    if (outcome == STATUS_OK)
+        outcome = s.unfinished == 0 ? measure_noise(&request, &t, &s, &f) : STATUS_OK;
     if (outcome == STATUS_OK)
         outcome = judge_and_write(&r, &s, &t, &j, &f);
     const int code = outcome != STATUS_OK ? cli_fail(outcome, f.text) : tell(&r, &s, &j);

@@ -115,6 +115,28 @@ static void judge_quantity(const sweep *s, truths *t, int index, int quantity, j
     mark_met(t, p, &s->series[index].formulation, p->scene.quantity[quantity].name, v->kind != VERDICT_SKIP);
 }
 
+/* Is a last change so small that noise may be all of it, or the verdict open? */
+static int noise_may_decide(const sweep *s, const truths *t, int index, int quantity)
+{
+    const double small_change = 1e-7;
+    verdict v = {.series = index, .quantity = quantity};
+    verdict_reach(s, t, &v);
+    if (v.truth == NULL || isnan(v.fit.limit) || isnan(v.fit.last_change))
+        return 0;
+    return v.kind == VERDICT_UNDECIDED || v.fit.last_change <= small_change * fmax(fabs(v.finest), fabs(v.truth->value));
+}
+
+void judge_doubts(const sweep *s, const truths *t, char wanted[])
+{
+    for (int i = 0; i < s->seriess; i++) {
+        const point *p = &s->point[s->series[i].point];
+        wanted[i] = 0;
+        for (int q = 0; q < p->scene.quantities && !wanted[i]; q++)
+            wanted[i] = p->scene.quantity[q].reduction != SCENE_CURVE &&
+                        sweep_selects(s, p, &s->series[i].formulation, p->scene.quantity[q].name) && noise_may_decide(s, t, i, q);
+    }
+}
+
 status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f)
 {
     int count = 0;
@@ -141,6 +163,8 @@ status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f)
         }
         outcome = compare_meshes(s, t, i, out, f);
     }
+    if (outcome == STATUS_OK)
+        outcome = judge_coverage(s, out, f);
     for (int i = 0; i < t->findings && whole; i++)
         out->unobserved += t->finding[i].observed == 0;
     for (int i = 0; i < t->rows && whole; i++) {
@@ -157,6 +181,7 @@ void judgement_free(judgement *j)
 {
     free(j->verdict);
     free(j->agreement);
+    free(j->coverage);
     memset(j, 0, sizeof *j);
 }
 

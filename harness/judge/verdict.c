@@ -5,9 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const names[VERDICT_KINDS] = {"pass",     "wrong limit", "low order", "not asymptotic",
-                                                 "diverged", "refused",     "skip",      "no truth"};
+static const char *const names[VERDICT_KINDS] = {"pass",      "biased",    "wrong limit", "wrong limit, as predicted",
+                                                 "low order", "undecided", "diverged",    "refused",
+                                                 "skip",      "no truth"};
 static const double order_slack = 0.3; /* an order seen on finite meshes is not sharper */
+static const double surely = 3;        /* so many uncertainties from the truth, a limit is another one */
 
 const char *verdict_name(verdict_kind kind)
 {
@@ -25,83 +27,176 @@ double relative_error(const scene_quantity *q, double value, double truth_value)
     return scale > 0 ? (value - truth_value) / scale : value - truth_value;
 }
 
-/* Values of the meshes that have one, and the first failure. */
+/* Values of all meshes, and how the finest one failed. */
 typedef struct history {
-    int count, n[SERIES_MAX_MESHES];
-    double value[SERIES_MAX_MESHES];
-    status failure; /* of the finest mesh */
+    int n[SERIES_MAX_MESHES];
+    double value[SERIES_MAX_MESHES]; /* NAN: none */
+    status failure;                  /* of the finest mesh */
     const char *reason;
 } history;
 
+static status failure_of(const solve_result *r, const quantity_result *q)
+{
+    if (q != NULL && q->status == STATUS_OK && isfinite(q->value))
+        return STATUS_OK;
+    if (q != NULL && q->status != STATUS_OK)
+        return q->status;
+    return r->status != STATUS_OK ? r->status : STATUS_NOT_CONVERGED;
+}
+
 static history history_of(const series *s, int quantity)
 {
-    history h = {.failure = STATUS_OK, .reason = ""};
+    history h = {.failure = STATUS_NOT_CONVERGED, .reason = ""};
     for (int i = 0; i < s->meshes; i++) {
         const solve_result *r = &s->cell[i].solve;
         const quantity_result *q = quantity < r->quantities ? &r->quantity[quantity] : NULL;
-        const int good = q != NULL && q->status == STATUS_OK && isfinite(q->value);
-        h.failure = good                                  ? STATUS_OK
-                    : q != NULL && q->status != STATUS_OK ? q->status
-                    : r->status != STATUS_OK              ? r->status
-                                                          : STATUS_NOT_CONVERGED;
-        h.reason = good ? "" : q != NULL && q->reason[0] != '\0' ? q->reason : r->reason;
-        if (good) {
-            h.n[h.count] = s->mesh[i];
-            h.value[h.count++] = q->value;
-        }
+        h.failure = failure_of(r, q);
+        h.reason = h.failure == STATUS_OK ? "" : q != NULL && q->reason[0] != '\0' ? q->reason : r->reason;
+        h.n[i] = s->mesh[i];
+        h.value[i] = h.failure == STATUS_OK ? q->value : NAN;
     }
     return h;
 }
 
-/* Is the order that the last meshes show both known and too low?  Differences that the truth's own uncertainty hides, or
- * orders that still change from mesh to mesh, say nothing. */
-static int order_is_low(const scene_quantity *q, const verdict *v, const history *h)
+static element_analysis analysis_of(const scene *s, const scene_quantity *q)
 {
-    const int settled = h->count == 3 || isfinite(v->fit.order_uncertainty);
-    const double doubt = h->count == 3 ? 0 : v->fit.order_uncertainty;
-    return v->fit.kind == CONVERGENCE_ORDERLY && settled && v->fit.order + doubt < q->least_order - order_slack &&
-           fabs(v->finest - h->value[h->count - 2]) > v->truth->uncertainty;
+    const scene_analysis *a = &s->analysis[q->analysis];
+    const int turns = a->omega[0] != 0 || a->omega[1] != 0 || a->omega[2] != 0;
+    if (a->kind == SCENE_MODAL || a->kind == SCENE_ROTATION || turns)
+        return ELEMENT_VIBRATION;
+    return a->kind == SCENE_BUCKLING ? ELEMENT_BUCKLING : ELEMENT_STATICS;
 }
 
-/* Against the truth. */
-static verdict_kind compare(const scene_quantity *q, const verdict *v, const history *h)
+mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int left_out)
 {
-    const double limit = fabs(v->fit.limit - v->truth->value);
-    if (v->fit.kind == CONVERGENCE_NONE) /* no limit: the last two meshes must both be there */
-        return h->count > 1 && limit + v->fit.limit_uncertainty <= v->tolerance ? VERDICT_PASS : VERDICT_NOT_ASYMPTOTIC;
-    if (limit > v->tolerance)
-        return limit <= v->tolerance + 2 * v->fit.limit_uncertainty ? VERDICT_NOT_ASYMPTOTIC : VERDICT_WRONG_LIMIT;
-    return order_is_low(q, v, h) ? VERDICT_LOW_ORDER : VERDICT_PASS;
+    const series *one = &s->series[series_index];
+    const scene *here = &s->point[one->point].scene;
+    const scene_quantity *q = &here->quantity[quantity];
+    const history h = history_of(one, quantity);
+    const element_analysis analysis = q->analysis < here->analyses ? analysis_of(here, q) : ELEMENT_STATICS;
+    const element_order order = element_order_in(one->formulation.type, analysis, one->formulation.option);
+    const limit_sequence sequence = {.count = one->meshes - left_out,
+                                     .n = h.n,
+                                     .value = h.value,
+                                     .noise = one->noise != NULL ? one->noise[quantity] : NAN,
+                                     .nominal_order = fmax(1, ceil(q->least_order)),
+                                     .highest_order = order.highest,
+                                     .near_zero = q->near_zero};
+    return limit_of(&sequence);
+}
+
+/* Is the order both known and too low?  Changes that the truth's own uncertainty hides say nothing. */
+static int order_is_low(const scene_quantity *q, const verdict *v)
+{
+    return v->fit.kind == LIMIT_ASYMPTOTIC && v->fit.order + v->fit.order_uncertainty < q->least_order - order_slack &&
+           v->fit.last_change > v->truth->uncertainty;
+}
+
+static int is_predicted(const verdict *v)
+{
+    return v->predicted != NULL &&
+           fabs(v->fit.limit - v->predicted->value) <= surely * v->fit.limit_uncertainty + v->predicted->uncertainty;
+}
+
+/* Against the truth.  A bias is as much a statement about the truth: it is not stated of one whose uncertainty is an estimate. */
+static verdict_kind compare(const scene_quantity *q, const verdict *v)
+{
+    const double error = fabs(v->fit.limit - v->truth->value), doubt = v->fit.limit_uncertainty;
+    const int known = strcmp(v->truth->kind, "exact") == 0;
+    if (!(error + doubt <= v->tolerance)) {
+        const int wrong = error - doubt > v->tolerance && v->fit.meshes > 3;
+        return !wrong ? VERDICT_UNDECIDED : is_predicted(v) ? VERDICT_AS_PREDICTED : VERDICT_WRONG_LIMIT;
+    }
+    if (known && error > surely * doubt + v->truth->uncertainty)
+        return is_predicted(v) ? VERDICT_AS_PREDICTED : VERDICT_BIASED;
+    return order_is_low(q, v) ? VERDICT_LOW_ORDER : VERDICT_PASS;
+}
+
+/* Words of truth.theory that the formulation is judged by; NULL: any.  A form whose modes see no shear has no theory that
+ * anything else follows: its limits are shown against what there is. */
+static const char *theories_of(const scene *s, const element_type *type)
+{
+    switch (model_theory(s, type)) {
+    case SHEAR_ENGESSER:
+        return "engesser";
+    case SHEAR_HARINGX:
+        return "haringx";
+    default:
+        return NULL;
+    }
+}
+
+const truth *verdict_truth(const truths *t, const point *p, const formulation *chosen, int quantity)
+{
+    return truth_of_theory(t, p->type, p->parameter, p->scene.quantity[quantity].name, "same",
+                           theories_of(&p->scene, chosen->type));
+}
+
+static void find_truths(const sweep *s, const truths *t, verdict *v)
+{
+    const series *one = &s->series[v->series];
+    const point *p = &s->point[one->point];
+    const char *name = p->scene.quantity[v->quantity].name;
+    v->truth = verdict_truth(t, p, &one->formulation, v->quantity);
+    v->model_truth = truth_of(t, p->type, p->parameter, name, "other");
+    if (v->truth == NULL && v->model_truth == NULL)
+        v->model_truth = truth_of(t, p->type, p->parameter, name, "same"); /* of another theory of shear */
+    v->predicted = truth_predicted(t, p->type, p->parameter, name, one->formulation.key);
+}
+
+/* A published value of the same model and theory, ranked below the truth, that the limit cannot be. */
+static const truth *contradiction(const sweep *s, const truths *t, const verdict *v)
+{
+    const series *one = &s->series[v->series];
+    const point *p = &s->point[one->point];
+    const char *theories = theories_of(&p->scene, one->formulation.type);
+    for (int i = 0; i < t->rows; i++) {
+        const truth *row = &t->row[i];
+        if (strcmp(row->kind, "published") == 0 && row->formulation[0] == '\0' && !row->on_curve && row != v->truth &&
+            strcmp(row->quantity, p->scene.quantity[v->quantity].name) == 0 && strcmp(row->model, "same") == 0 &&
+            (theories == NULL || row->theory[0] == '\0' || strcmp(row->theory, theories) == 0) &&
+            truth_holds(row, p->type, p->parameter) &&
+            fabs(v->fit.limit - row->value) > v->fit.limit_uncertainty + row->uncertainty)
+            return row;
+    }
+    return NULL;
+}
+
+/* What keeps the series from being judged at all. 1: something does. */
+static int is_hindered(const sweep *s, verdict *v)
+{
+    const series *one = &s->series[v->series];
+    const point *p = &s->point[one->point];
+    if (one->missing[0] != '\0') {
+        v->kind = v->expected = VERDICT_SKIP;
+        snprintf(v->reason, sizeof v->reason, "does not offer %s", one->missing);
+        return 1;
+    }
+    if (p->status != STATUS_OK) {
+        v->kind = p->status == STATUS_REFUSED ? VERDICT_REFUSED : VERDICT_DIVERGED;
+        snprintf(v->reason, sizeof v->reason, "%s", p->reason);
+        return 1;
+    }
+    const history h = history_of(one, v->quantity);
+    if (h.failure == STATUS_OK)
+        return 0;
+    v->kind = h.failure == STATUS_REFUSED ? VERDICT_REFUSED : VERDICT_DIVERGED;
+    snprintf(v->reason, sizeof v->reason, "%s", h.reason);
+    return 1;
 }
 
 void verdict_reach(const sweep *s, const truths *t, verdict *v)
 {
     const series *one = &s->series[v->series];
-    const point *p = &s->point[one->point];
-    const scene_quantity *q = &p->scene.quantity[v->quantity];
-    v->finest = v->error = v->model_error = v->fit.limit = v->fit.limit_uncertainty = v->fit.order = v->fit.order_uncertainty = NAN;
-    v->truth = truth_of(t, p->type, p->parameter, q->name, "same");
-    v->model_truth = truth_of(t, p->type, p->parameter, q->name, "other");
+    const scene_quantity *q = &s->point[one->point].scene.quantity[v->quantity];
+    v->finest = v->error = v->model_error = v->tolerance = NAN;
+    v->fit = (mesh_limit){.limit = NAN, .limit_uncertainty = NAN, .order = NAN, .order_uncertainty = NAN, .last_change = NAN};
     v->expected = VERDICT_PASS;
-    if (one->missing[0] != '\0') {
-        v->kind = v->expected = VERDICT_SKIP;
-        snprintf(v->reason, sizeof v->reason, "does not offer %s", one->missing);
+    find_truths(s, t, v);
+    if (is_hindered(s, v))
         return;
-    }
-    if (p->status != STATUS_OK) {
-        v->kind = p->status == STATUS_REFUSED ? VERDICT_REFUSED : VERDICT_DIVERGED;
-        snprintf(v->reason, sizeof v->reason, "%s", p->reason);
-        return;
-    }
-    const history h = history_of(one, v->quantity);
-    const int last = h.count - 1;
-    if (h.failure != STATUS_OK || h.count == 0) {
-        v->kind = h.failure == STATUS_REFUSED ? VERDICT_REFUSED : VERDICT_DIVERGED;
-        snprintf(v->reason, sizeof v->reason, "%s", h.reason);
-        return;
-    }
-    v->finest = h.value[last];
-    v->fit = convergence_of(h.count, h.n, h.value, scale_of(q, v->truth != NULL ? v->truth->value : v->finest));
+    v->finest = one->cell[one->meshes - 1].solve.quantity[v->quantity].value;
+    v->fit = verdict_limit(s, v->series, v->quantity, 0);
     if (v->model_truth != NULL)
         v->model_error = relative_error(q, v->fit.limit, v->model_truth->value);
     if (v->truth == NULL) {
@@ -109,6 +204,11 @@ void verdict_reach(const sweep *s, const truths *t, verdict *v)
         return;
     }
     v->tolerance = q->tolerance * scale_of(q, v->truth->value) + v->truth->uncertainty;
-    v->error = relative_error(q, v->fit.kind == CONVERGENCE_NONE ? v->finest : v->fit.limit, v->truth->value);
-    v->kind = compare(q, v, &h);
+    v->error = relative_error(q, v->fit.limit, v->truth->value);
+    v->below_digits = fabs(v->fit.limit - v->truth->value) <= v->truth->uncertainty;
+    v->kind = compare(q, v);
+    if (v->kind == VERDICT_PASS || v->kind == VERDICT_LOW_ORDER)
+        v->contradicted = contradiction(s, t, v);
+    if (v->predicted != NULL && v->kind == VERDICT_WRONG_LIMIT)
+        snprintf(v->reason, sizeof v->reason, "its limit is not the predicted %.10g", v->predicted->value);
 }

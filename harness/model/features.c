@@ -100,6 +100,28 @@ unsigned model_needs(const scene *s)
     return needs;
 }
 
+static unsigned theory_features(unsigned theories)
+{
+    return (theories & SHEAR_ENGESSER ? FEATURE_ENGESSER : 0) | (theories & SHEAR_HARINGX ? FEATURE_HARINGX : 0);
+}
+
+unsigned model_needs_of(const scene *s, const element_type *type)
+{
+    const unsigned theories = FEATURE_ENGESSER | FEATURE_HARINGX, needs = model_needs(s),
+                   has = theory_features(type->shear_theories);
+    return (needs & theories) == 0 || (needs & theories & has) != 0 ? needs : (needs & ~theories) | has;
+}
+
+unsigned model_theory(const scene *s, const element_type *type)
+{
+    const unsigned needs = model_needs_of(s, type);
+    if (!(needs & FEATURE_SHEAR))
+        return 0;
+    if (type->shear_theories & SHEAR_OWN)
+        return SHEAR_OWN;
+    return needs & FEATURE_ENGESSER ? SHEAR_ENGESSER : needs & FEATURE_HARINGX ? SHEAR_HARINGX : 0;
+}
+
 unsigned model_quantity_needs(const scene *s, int quantity)
 {
     const unsigned inertia = FEATURE_MASS | FEATURE_ROTARY_INERTIA;
@@ -126,7 +148,7 @@ static int limit_hit(const scene *s, const element_type *type, char *words, int 
 
 int model_missing(const scene *s, const element_type *type, char *words, int size)
 {
-    const unsigned missing = model_needs(s) & ~type->offers;
+    const unsigned missing = model_needs_of(s, type) & ~type->offers;
     int used = 0;
     if (size > 0)
         words[0] = '\0';

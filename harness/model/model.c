@@ -69,7 +69,7 @@ static status build(model *m, const model_request *request, fault *f)
     if (outcome == STATUS_OK && model_missing(request->scene, request->type, words, sizeof words))
         return fault_set(f, STATUS_REFUSED, "formulation %s does not offer %s, which scene %s needs", request->type->name, words,
                          request->scene->name);
-    m->features = model_needs(request->scene) | (request->type->offers & FEATURE_CURVATURE);
+    m->features = model_needs_of(request->scene, request->type) | (request->type->offers & FEATURE_CURVATURE);
     if (m->keep_all)
         m->features |= FEATURE_WARPING | FEATURE_ECCENTRIC;
     choose_options(m, request->options);

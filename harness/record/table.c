@@ -170,7 +170,7 @@ static void verdict_line(FILE *to, const sweep *s, const verdict *v, widths w)
     fprintf(to, "  %-*s %-*s ", w.formulation, one->formulation.key, w.quantity, q->name);
     value_or_dash(to, 15, 9, 'g', v->finest);
     fputc(' ', to);
-    value_or_dash(to, 15, 9, 'g', v->fit.kind == CONVERGENCE_NONE ? NAN : v->fit.limit);
+    value_or_dash(to, 15, 9, 'g', v->fit.limit);
     value_or_dash(to, 6, 2, 'f', v->fit.order);
     fputc(' ', to);
     value_or_dash(to, 15, 9, 'g', v->truth != NULL ? v->truth->value : NAN);

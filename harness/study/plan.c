@@ -219,6 +219,7 @@ void series_free(series *one)
     for (int k = 0; k < one->meshes && one->cell != NULL; k++)
         cell_result_free(&one->cell[k]);
     free(one->cell);
+    free(one->noise);
     free(one->timing);
 }
 

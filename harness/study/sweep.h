@@ -30,6 +30,7 @@ typedef struct series {
     char missing[200]; /* what the scene needs and the formulation does not offer; empty: it runs */
     int meshes, mesh[SERIES_MAX_MESHES];
     cell_result *cell;          /* [meshes]; their scenes are empty: the point has it */
+    double *noise;              /* [quantities] relative, of the finest mesh (harness/study/noise.h); NULL: not measured */
     struct cell_timing *timing; /* [meshes] of a benchmark (harness/timing); else NULL */
 } series;
 

@@ -14,6 +14,14 @@ static int same_point(const case_type *type, const double value[], const double 
     return 1;
 }
 
+/* Is the pattern that of a formulation's key, or of its name without options? */
+static int is_of_formulation(const char *pattern, const char *key)
+{
+    char bare[64];
+    snprintf(bare, sizeof bare, "%.*s", (int)strcspn(key, ":"), key);
+    return fnmatch(pattern, key, 0) == 0 || fnmatch(pattern, bare, 0) == 0;
+}
+
 int truth_holds(const truth *row, const case_type *type, const double value[])
 {
     return row->type == type && same_point(type, value, row->parameter, row->any);
@@ -21,22 +29,38 @@ int truth_holds(const truth *row, const case_type *type, const double value[])
 
 int finding_holds(const finding *row, const case_type *type, const double value[], const char *key, const char *quantity)
 {
-    char bare[64];
-    snprintf(bare, sizeof bare, "%.*s", (int)strcspn(key, ":"), key);
     return row->type == type && same_point(type, value, row->parameter, row->any) && fnmatch(row->quantity, quantity, 0) == 0 &&
-           (fnmatch(row->formulation, key, 0) == 0 || fnmatch(row->formulation, bare, 0) == 0);
+           is_of_formulation(row->formulation, key);
 }
 
 const truth *truth_of(const truths *t, const case_type *type, const double value[], const char *quantity, const char *model)
+{
+    return truth_of_theory(t, type, value, quantity, model, NULL);
+}
+
+const truth *truth_of_theory(const truths *t, const case_type *type, const double value[], const char *quantity, const char *model,
+                             const char *theories)
 {
     const truth *best = NULL;
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
         const int fits = row->formulation[0] == '\0' && !row->on_curve && strcmp(row->kind, "agreement") != 0 &&
                          strcmp(row->quantity, quantity) == 0 && strcmp(row->model, model) == 0;
-        if (fits && truth_holds(row, type, value) &&
+        const int follows = theories == NULL || row->theory[0] == '\0' || choice_index(theories, row->theory) >= 0;
+        if (fits && follows && truth_holds(row, type, value) &&
             (best == NULL || choice_index(TRUTH_KINDS, row->kind) < choice_index(TRUTH_KINDS, best->kind)))
             best = row;
     }
     return best;
+}
+
+const truth *truth_predicted(const truths *t, const case_type *type, const double value[], const char *quantity, const char *key)
+{
+    for (int i = 0; i < t->rows; i++) {
+        const truth *row = &t->row[i];
+        if (strcmp(row->kind, "predicted") == 0 && !row->on_curve && strcmp(row->quantity, quantity) == 0 &&
+            truth_holds(row, type, value) && is_of_formulation(row->formulation, key))
+            return row;
+    }
+    return NULL;
 }

@@ -56,5 +56,10 @@ int finding_holds(const finding *row, const case_type *type, const double value[
                   const char *quantity);
 /* The continuum's truth of that model to judge by (exact before published, no agreement, no point of a curve), or NULL. */
 const truth *truth_of(const truths *t, const case_type *type, const double value[], const char *quantity, const char *model);
+/* The same among truths that follow one of the theories of shear (words separated by |), or depend on none; NULL: any. */
+const truth *truth_of_theory(const truths *t, const case_type *type, const double value[], const char *quantity, const char *model,
+                             const char *theories);
+/* The limit that a formulation (its key, or its name whatever the options) must have there, or NULL. */
+const truth *truth_predicted(const truths *t, const case_type *type, const double value[], const char *quantity, const char *key);
 
 #endif

@@ -83,6 +83,7 @@ static void every_case(const element_type *e)
         keep_all(type, e);
         if (!(e->limits & LIMIT_ORDER_DEPENDENT)) /* by a discretisation error, which the sweep of extremes shows */
             same(type, e, "the other order of nodes changes nothing", 2, 2, (scene_edit){SCENE_EDIT_REVERSE, 0}, 1e-8);
+        same(type, e, "another unit of length changes nothing", 2, 2, (scene_edit){SCENE_EDIT_UNIT, 1000}, 1e-8);
         ask(type, short_path(type), e, 1, 0, (scene_edit){SCENE_EDIT_NONE, 0}, &whole);
         if (whole.members == 1)
             same(type, e, "two members of two elements are one of four", 4, 2, (scene_edit){SCENE_EDIT_SPLIT, 0.5}, 1e-8);

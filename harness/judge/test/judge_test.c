@@ -35,9 +35,26 @@ typedef struct bench {
     judgement j;
 } bench;
 
-static char words[][32] = {"load",        "N",   "exact", "same",      "test",  "",         "element",
-                           "wrong limit", "why", "kN",    "low order", "other", "published"};
-enum { LOAD, NEWTON, EXACT, SAME, TEST, NOTHING, ELEMENT, WRONG_LIMIT, WHY, KILONEWTON, LOW_ORDER, OTHER, PUBLISHED };
+static char words[][32] = {"load", "N",  "exact",     "same",  "test",      "",          "element",  "wrong limit",
+                           "why",  "kN", "low order", "other", "published", "predicted", "engesser", "haringx"};
+enum {
+    LOAD,
+    NEWTON,
+    EXACT,
+    SAME,
+    TEST,
+    NOTHING,
+    ELEMENT,
+    WRONG_LIMIT,
+    WHY,
+    KILONEWTON,
+    LOW_ORDER,
+    OTHER,
+    PUBLISHED,
+    PREDICTED,
+    ENGESSER,
+    HARINGX
+};
 
 static void bench_make(bench *b)
 {
@@ -59,6 +76,7 @@ static void bench_make(bench *b)
     b->row[0] = (truth){.type = &made_up,
                         .parameter = {2},
                         .formulation = words[NOTHING],
+                        .theory = words[NOTHING],
                         .quantity = words[LOAD],
                         .unit = words[NEWTON],
                         .kind = words[EXACT],
@@ -104,14 +122,14 @@ static void says(const bench *b, const char *words_of_it)
     gsl_test(strcmp(sentence, words_of_it) != 0, "says '%s'", sentence);
 }
 
-static void kinds(void)
+static void limits(void)
 {
     bench b;
     bench_make(&b);
     bench_fill(&b, 3, 0.7, 2);
     expect(&b, VERDICT_PASS, 0, "right limit, right order, coarse meshes far off");
     gsl_test_rel(b.j.verdict[0].fit.order, 2, 1e-6, "its order");
-    gsl_test_int(b.j.verdict[0].fit.from, 2, "all meshes show it");
+    gsl_test_int(b.j.verdict[0].fit.from, 4, "the four finest meshes show it");
     says(&b, "converges to the truth, order 2");
     bench_fill(&b, 3.003, 0.7, 2);
     expect(&b, VERDICT_WRONG_LIMIT, 1, "smooth convergence to +0.1 %");
@@ -120,31 +138,83 @@ static void kinds(void)
     bench_fill(&b, 3 * (1 - 0.00115), 0.7, 4);
     expect(&b, VERDICT_WRONG_LIMIT, 1, "fast convergence to -0.115 %");
     says(&b, "converges to a wrong limit: -0.115 %");
-    bench_fill(&b, 3 * (1 + 0.9e-4), 0.7, 2);
-    expect(&b, VERDICT_PASS, 0, "limit just inside the tolerance");
-    bench_fill(&b, 3 * (1 + 1.1e-4), 0.7, 2);
+    bench_fill(&b, 3 * (1 + 0.8e-4), 0.7, 2);
+    expect(&b, VERDICT_BIASED, 1, "limit within the tolerance, and sharp");
+    says(&b, "has a limit of its own within the tolerance: +0.008 %");
+    bench_fill(&b, 3 * (1 + 1.2e-4), 0.7, 2);
     expect(&b, VERDICT_WRONG_LIMIT, 1, "limit just outside, and sharp");
-    for (int i = 0; i < MESHES; i++)
-        b.quantity[i].value += 2 * pow(mesh[i], -3);
-    expect(&b, VERDICT_NOT_ASYMPTOTIC, 1, "limit outside, but by less than twice its own uncertainty");
     bench_fill(&b, 3 * (1 + 2e-4), -6e-4 * 1024 * 0.9, 2);
     expect(&b, VERDICT_WRONG_LIMIT, 1, "the finest mesh hits the truth on the way to another limit");
     gsl_test(fabs(b.j.verdict[0].finest - 3) > 3e-4, "(it does: %.17g)", b.j.verdict[0].finest);
-    bench_fill(&b, 3, 0.7, 1);
+    for (int i = 0; i < MESHES; i++)
+        b.quantity[i].value = 3.05 + 1e-5 * (i % 2 ? 1 : -1);
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "values without an order, that have settled elsewhere");
+    gsl_test(isfinite(b.j.verdict[0].fit.order) || !isfinite(b.j.verdict[0].fit.limit_uncertainty) || b.j.verdict[0].fit.from == 0,
+             "and say how well their limit is known, and from which meshes");
+    bench_free(&b);
+}
+
+static void orders(void)
+{
+    bench b;
+    bench_make(&b);
+    bench_fill(&b, 3, 0.07, 1);
     expect(&b, VERDICT_LOW_ORDER, 1, "right limit, first order instead of second");
     says(&b, "converges to the truth, but with order 1 instead of 2");
+    b.row[0].uncertainty = 0.05;
+    expect(&b, VERDICT_PASS, 0, "changes that the truth's own uncertainty hides show no order");
+    b.row[0].uncertainty = 0;
     bench_fill(&b, 3, 0.7, 1.8);
     expect(&b, VERDICT_PASS, 0, "an order within what finite meshes show");
     bench_fill(&b, 3, 1e-14, 1);
     expect(&b, VERDICT_PASS, 0, "at the round-off floor no order is asked for");
-    says(&b, "has converged to the truth: the last meshes differ by round-off only");
+    says(&b, "has converged to the truth: the last meshes differ by noise only");
+    bench_free(&b);
+}
+
+static void doubts(void)
+{
+    bench b;
+    bench_make(&b);
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 0.01 : -0.01);
-    expect(&b, VERDICT_NOT_ASYMPTOTIC, 1, "alternating values");
-    says(&b, "shows no limit yet: the last two meshes differ by 0.02, the truth is -0.333 % away");
+    expect(&b, VERDICT_UNDECIDED, 1, "alternating values");
+    says(&b, "undecided: its limit is -0.333 % off, known to 0.06 only (oscillating, 5 meshes)");
     for (int i = 0; i < MESHES; i++)
-        b.quantity[i].value = 3 + (i % 2 ? 5e-5 : -5e-5);
-    expect(&b, VERDICT_PASS, 0, "alternating values that stay inside the tolerance");
+        b.quantity[i].value = 3 + (i % 2 ? 1e-6 : -1e-6);
+    expect(&b, VERDICT_PASS, 0, "alternating values that surely stay inside the tolerance");
+    says(&b, "agrees with the truth within the tolerance, without an order");
+    bench_fill(&b, 4, 0.01, 2);
+    b.one.meshes = 3;
+    expect(&b, VERDICT_UNDECIDED, 1, "three meshes never say that a limit is wrong");
+    b.one.meshes = MESHES;
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "more do");
+    for (int i = 0; i < MESHES; i++)
+        b.quantity[i].value = 3 + (i % 2 ? 1 : -1) * pow(4, -i);
+    bench_judge(&b);
+    gsl_test_rel(b.j.verdict[0].fit.limit_uncertainty, 3 * (1.0 / 256 + 1.0 / 64), 1e-6,
+                 "without an order the case's own reduces former changes");
+    b.one.meshes = 1;
+    b.quantity[0].value = 3;
+    expect(&b, VERDICT_UNDECIDED, 1, "one mesh shows no limit, even if it is right");
+    says(&b, "undecided: one mesh shows no limit");
+    b.one.meshes = MESHES;
+    bench_fill(&b, 3 * (1 + 1e-9), 1e-7, 1);
+    b.row[0].uncertainty = 4e-9;
+    expect(&b, VERDICT_PASS, 0, "a limit that the truth's own digits do not tell from it");
+    says(&b, "converges to the truth, order 1; the difference is below the truth's digits");
+    double noise[1] = {1e-3};
+    bench_fill(&b, 3 * (1 + 2e-4), 0.7, 2);
+    b.one.noise = noise;
+    b.row[0].uncertainty = 0;
+    expect(&b, VERDICT_UNDECIDED, 1, "noise that was measured hides a wrong limit");
+    bench_free(&b);
+}
+
+static void failures(void)
+{
+    bench b;
+    bench_make(&b);
     bench_fill(&b, 3, 0.7, 2);
     b.quantity[4].value = NAN;
     expect(&b, VERDICT_DIVERGED, 1, "no number on the finest mesh");
@@ -159,9 +229,116 @@ static void kinds(void)
     b.quantity[4].status = STATUS_OK;
     b.quantity[0].value = NAN;
     expect(&b, VERDICT_PASS, 0, "a coarse mesh without a value does not count");
-    b.one.meshes = 1;
-    b.quantity[0].value = 3;
-    expect(&b, VERDICT_NOT_ASYMPTOTIC, 1, "one mesh shows no limit, even if it is right");
+    bench_free(&b);
+}
+
+static void predictions(void)
+{
+    bench b;
+    bench_make(&b);
+    bench_fill(&b, 3.003, 0.7, 2);
+    b.row[1] = b.row[0];
+    b.row[1].kind = words[PREDICTED];
+    b.row[1].formulation = words[ELEMENT];
+    b.row[1].value = 3.003;
+    b.row[1].uncertainty = 1e-8;
+    b.t.rows = 2;
+    expect(&b, VERDICT_AS_PREDICTED, 1, "a wrong limit that was derived");
+    says(&b, "converges to the limit that was derived for it, 3.003: +0.1 % from the truth");
+    b.row[1].value = 3.0041;
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "another wrong limit than the one that was derived");
+    gsl_test(strstr(b.j.verdict[0].reason, "3.0041") == NULL, "says which: %s", b.j.verdict[0].reason);
+    b.row[1].value = 3.003;
+    b.row[1].formulation = words[WHY];
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "a limit derived for another formulation");
+    bench_free(&b);
+}
+
+/* Noise is worth measuring where the last change is tiny or the verdict open, and there is a truth. */
+static void doubtful_noise(void)
+{
+    bench b;
+    char wanted[1];
+    bench_make(&b);
+    bench_fill(&b, 3, 0.07, 2);
+    judge_doubts(&b.s, &b.t, wanted);
+    gsl_test_int(wanted[0], 0, "a limit that noise cannot touch");
+    bench_fill(&b, 3, 1e-7, 2);
+    judge_doubts(&b.s, &b.t, wanted);
+    gsl_test_int(wanted[0], 1, "changes that may be noise");
+    for (int i = 0; i < MESHES; i++)
+        b.quantity[i].value = 3 + (i % 2 ? 0.01 : -0.01);
+    judge_doubts(&b.s, &b.t, wanted);
+    gsl_test_int(wanted[0], 1, "an open verdict");
+    b.t.rows = 0;
+    judge_doubts(&b.s, &b.t, wanted);
+    gsl_test_int(wanted[0], 0, "nothing to judge by");
+    bench_free(&b);
+}
+
+/* A formulation is judged by the truth of its own theory of shear, whatever the scene asks for. */
+static void theories(void)
+{
+    bench b;
+    bench_make(&b);
+    element_type haringx = element;
+    haringx.offers = FEATURE_SHEAR | FEATURE_HARINGX;
+    haringx.shear_theories = SHEAR_HARINGX;
+    b.one.formulation.type = &haringx;
+    b.p.scene.needs = SCENE_NEED_SHEAR | SCENE_NEED_ENGESSER;
+    bench_fill(&b, 3.003, 0.7, 2);
+    b.row[0].theory = words[ENGESSER];
+    expect(&b, VERDICT_NO_TRUTH, 3, "a truth of another theory does not judge");
+    gsl_test_rel(b.j.verdict[0].model_error, 1e-3, 1e-6, "the models differ");
+    says(&b, "no truth of its theory of shear; its limit is +0.1 % from that of engesser");
+    b.row[1] = b.row[0];
+    b.row[1].theory = words[HARINGX];
+    b.row[1].value = 3.003;
+    b.t.rows = 2;
+    expect(&b, VERDICT_PASS, 0, "one of its own does");
+    haringx.shear_theories = SHEAR_ENGESSER | SHEAR_HARINGX;
+    haringx.offers |= FEATURE_ENGESSER;
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "of two theories the one that is asked for");
+    haringx.shear_theories = SHEAR_OWN;
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "one of its own is shown against what there is");
+    bench_free(&b);
+}
+
+static void publications(void)
+{
+    bench b;
+    bench_make(&b);
+    bench_fill(&b, 3, 0.7, 2);
+    b.row[1] = b.row[0];
+    b.row[1].kind = words[PUBLISHED];
+    b.row[1].value = 3.01;
+    b.row[1].uncertainty = 0.005;
+    b.t.rows = 2;
+    expect(&b, VERDICT_PASS, 0, "an exact truth judges beside a published one");
+    gsl_test(b.j.verdict[0].contradicted != &b.row[1], "which the limit contradicts");
+    b.row[1].uncertainty = 0.011;
+    expect(&b, VERDICT_PASS, 0, "a published value with fewer digits");
+    gsl_test(b.j.verdict[0].contradicted != NULL, "is not contradicted");
+    bench_free(&b);
+}
+
+/* How many limits of exact truths lie within their uncertainty, also without the finest meshes. */
+static void coverages(void)
+{
+    bench b;
+    bench_make(&b);
+    bench_fill(&b, 3, 0.7, 2);
+    expect(&b, VERDICT_PASS, 0, "a series");
+    gsl_test_int(b.j.coverages, 1, "of one formulation");
+    for (int k = 0; k < COVERAGE_MESHES; k++)
+        gsl_test(b.j.coverage[0].series[k] != (k < MESHES - 2) || b.j.coverage[0].covered[k] != (k < MESHES - 2),
+                 "without %d meshes: %d of %d", k, b.j.coverage[0].covered[k], b.j.coverage[0].series[k]);
+    bench_fill(&b, 3.001, 0.7, 2);
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "another limit");
+    gsl_test_int(b.j.coverage[0].covered[0], 0, "is not covered");
+    b.row[0].kind = words[PUBLISHED];
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "a truth that is not exact");
+    gsl_test_int(b.j.coverages, 0, "says nothing of coverage");
     bench_free(&b);
 }
 
@@ -208,7 +385,7 @@ static void expectations(void)
     b.row[0].any[0] = 0;
     b.row[0].parameter[0] = 2;
     bench_fill(&b, 3.003, 0.7, 2);
-    b.row[0].uncertainty = 0.0028;
+    b.row[0].uncertainty = 0.0029;
     expect(&b, VERDICT_PASS, 0, "a limit within the tolerance and the truth's own uncertainty");
     b.row[0].uncertainty = 0.0026;
     expect(&b, VERDICT_WRONG_LIMIT, 1, "and one beyond both");
@@ -276,7 +453,15 @@ static void selection(void)
 
 int main(void)
 {
-    kinds();
+    limits();
+    orders();
+    doubts();
+    failures();
+    predictions();
+    doubtful_noise();
+    theories();
+    publications();
+    coverages();
     expectations();
     stored_values();
     selection();

@@ -51,7 +51,7 @@ int main(void)
     text = written(&s, &j);
     holds(text, "## beamwork: as expected");
     gsl_test(strstr(text, "**wrong limit**") != NULL, "nothing differs: no table of differences");
-    holds(text, "| `beam:option=2` |  | 1 |");
+    holds(text, "| `beam:option=2` |  |  | 1 |");
     free(text);
 
     j.unobserved = 3;

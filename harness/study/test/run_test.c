@@ -1,4 +1,4 @@
-/* Parameters, names, convergence, selection, truths. */
+/* Parameters, names, selection, truths. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "harness/catalogue/formulations.h"
-#include "harness/judge/convergence.h"
 #include "harness/study/sweep.h"
 
 static void parameters(void)
@@ -39,57 +38,6 @@ static void parameters(void)
              "another is");
     gsl_test(formulation_parse("beamw:mass=heavy", &chosen, &f) != STATUS_REFUSED, "refused: %s", f.text);
     gsl_test(formulation_parse("beamv", &chosen, &f) != STATUS_REFUSED || strstr(f.text, "beamw") == NULL, "refused: %s", f.text);
-}
-
-static void convergences(void)
-{
-    const int n[] = {2, 4, 8, 16, 32};
-    double value[5];
-    for (int i = 0; i < 5; i++)
-        value[i] = 3 + 0.7 * pow(n[i], -2.5);
-    convergence c = convergence_of(5, n, value, 3);
-    gsl_test(c.kind != CONVERGENCE_ORDERLY, "orderly");
-    gsl_test_rel(c.order, 2.5, 1e-6, "order");
-    gsl_test_rel(c.limit, 3, 1e-10, "limit");
-    for (int i = 0; i < 5; i++)
-        value[i] = 3 + pow(n[i], -12.0);
-    c = convergence_of(5, n, value, 3);
-    gsl_test(c.kind != CONVERGENCE_FLOOR, "the round-off floor is recognised");
-    gsl_test_rel(c.limit, 3, 1e-12, "limit at the floor");
-    for (int i = 0; i < 5; i++)
-        value[i] = 3 + (i % 2 ? 0.1 : -0.1) / n[i];
-    gsl_test(convergence_of(5, n, value, 3).kind != CONVERGENCE_NONE, "alternating values show no order");
-    gsl_test(convergence_of(2, n, value, 3).kind != CONVERGENCE_NONE, "two meshes show no order");
-    const int uneven[] = {1, 3, 4, 20};
-    for (int i = 0; i < 4; i++)
-        value[i] = -5 + 2 * pow(uneven[i], -4.0);
-    c = convergence_of(4, uneven, value, 5);
-    gsl_test_rel(c.order, 4, 1e-6, "order on uneven meshes");
-}
-
-/* Values of one quantity along meshes that double. */
-static convergence doubled(int count, const double value[])
-{
-    static const int n[] = {2, 4, 8, 16, 32, 64};
-    return convergence_of(count, n, value, 1);
-}
-
-static void odd_sequences(void)
-{
-    const double constant[] = {1, 1, 1}, growing[] = {1, 1.1, 1.3, 1.7}, one[] = {1}, noisy[] = {1.5, 1.1, 1 + 4e-12, 1 - 6e-12};
-    gsl_test(doubled(3, constant).kind != CONVERGENCE_FLOOR || doubled(3, constant).limit != 1, "constant values are at the floor");
-    gsl_test(doubled(4, growing).kind != CONVERGENCE_NONE, "growing differences have no limit");
-    gsl_test(doubled(1, one).kind != CONVERGENCE_NONE || !isnan(doubled(1, one).limit_uncertainty), "one mesh has no limit");
-    gsl_test(doubled(0, one).kind != CONVERGENCE_NONE || !isnan(doubled(0, one).limit), "no mesh, no number");
-    gsl_test(doubled(4, noisy).kind != CONVERGENCE_FLOOR, "noise at the floor");
-    double value[6];
-    for (int i = 0; i < 6; i++)
-        value[i] = 1 - 0.3 * pow(2 << i, -2) + 0.2 * pow(2 << i, -4);
-    const convergence c = doubled(6, value);
-    gsl_test_abs(c.order, 2, 0.01, "order of the leading term");
-    gsl_test(!(fabs(c.order - 2) <= 2 * c.order_uncertainty), "within its own uncertainty (%g +- %g)", c.order,
-             c.order_uncertainty);
-    gsl_test(!(fabs(c.limit - 1) <= 2 * c.limit_uncertainty), "so is the limit (%g +- %g)", c.limit - 1, c.limit_uncertainty);
 }
 
 static unsigned next_random(unsigned *state)
@@ -195,8 +143,6 @@ static void truth_files(void)
 int main(void)
 {
     parameters();
-    convergences();
-    odd_sequences();
     random_input();
     selection();
     truth_files();

@@ -1,0 +1,68 @@
+/* Deep simply supported beam, 10 m of 2 x 2 m: shear and rotary inertia in bending, and torsional and extensional frequencies
+ * among them. NAFEMS test FV5. */
+#include "cases/case.h"
+
+#include <stddef.h>
+#include <stdio.h>
+
+enum { TORSION, SHEAR, ROTARY_INERTIA };
+enum { FREQUENCIES = 9 };
+
+static const case_parameter parameters[] = {
+    [TORSION] = {"torsion", "", 0, 0, 0, "polar|exact",
+                 "polar: J = a^4/6, as the published values; exact: Saint-Venant's of the square"},
+    [SHEAR] = {"shear", "1", 1, 0, 1, NULL, "1: flexible in shear, k = 5/6; 0: shear-rigid"},
+    [ROTARY_INERTIA] = {"rotary_inertia", "1", 1, 0, 1, NULL, "1: rotary inertia, 0: translations only"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+static int square(const double value[], scene *s)
+{
+    const double side = 2;
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = SECTION_RECTANGLE;
+    spec.young = 200e9;
+    spec.shear_modulus = spec.young / 2.6;
+    spec.density = 8000;
+    spec.width = spec.height = side;
+    spec.shear_factor[0] = spec.shear_factor[1] = 5.0 / 6;
+    spec.given.Iw = 0; /* uniform torsion */
+    if (value[TORSION] == 0)
+        spec.given.It = side * side * side * side / 6;
+    return scene_add_section(s, &spec);
+}
+
+static status build(const double value[], scene *s, fault *f)
+{
+    (void)f;
+    const double y_axis[3] = {0, 1, 0}, length = 10;
+    const int profile = square(value, s), a = scene_add_node(s, 0, 0, 0), b = scene_add_node(s, length, 0, 0);
+    scene_add_member(s, a, b, profile, y_axis);
+    scene_hold(s, a, SCENE_UX, SCENE_RX);
+    scene_hold(s, b, SCENE_UY, SCENE_UZ);
+    if (value[SHEAR] != 0)
+        s->needs |= SCENE_NEED_SHEAR | SCENE_NEED_HARINGX;
+    if (value[ROTARY_INERTIA] != 0)
+        s->needs |= SCENE_NEED_ROTARY_INERTIA;
+    const int modal = scene_add_analysis(s, SCENE_MODAL);
+    scene_analysis_at(s, modal)->wanted = FREQUENCIES;
+    for (int i = 0; i < FREQUENCIES; i++) {
+        char name[SCENE_NAME];
+        snprintf(name, sizeof name, "frequency_%d", i + 1);
+        scene_quantity *q = scene_add_quantity(s, name, "Hz", SCENE_FREQUENCY, modal);
+        q->order = i;
+        q->least_order = 1.8;
+    }
+    const int meshes[] = {2, 4, 8, 16, 32, 64};
+    scene_meshes(s, 6, meshes);
+    return STATUS_OK;
+}
+
+const case_type case_deep_beam = {
+    .name = "deep_beam",
+    .summary = "deep simply supported beam: frequencies in bending, torsion and extension",
+    .source = "NAFEMS, Selected Benchmarks for Natural Frequency Analysis (1987), test FV5; closed form of the Timoshenko beam",
+    .parameters = parameters,
+    .build = build,
+};

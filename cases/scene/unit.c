@@ -1,0 +1,159 @@
+#include "cases/scene/unit.h"
+
+#include <math.h>
+#include <stddef.h>
+
+/* Each number times x to the power of its length. */
+typedef struct scaled {
+    double *number;
+    int power;
+} scaled;
+
+static void scale(size_t count, const scaled list[], double x)
+{
+    for (size_t i = 0; i < count; i++)
+        *list[i].number *= pow(x, list[i].power);
+}
+
+#define SCALE(list, x) scale(sizeof(list) / sizeof(list)[0], list, x)
+
+static void scale_vector(double v[3], double factor)
+{
+    for (int i = 0; i < 3; i++)
+        v[i] *= factor;
+}
+
+static void scale_constants(section *c, double x)
+{
+    const scaled list[] = {{&c->young, -2},      {&c->shear_modulus, -2},
+                           {&c->density, -4},    {&c->A, 2},
+                           {&c->Iy, 4},          {&c->Iz, 4},
+                           {&c->It, 4},          {&c->Iw, 6},
+                           {&c->ys, 1},          {&c->zs, 1},
+                           {&c->Ip, 4},          {&c->wagner_y, 5},
+                           {&c->wagner_z, 5},    {&c->wagner_torque, 6},
+                           {&c->width, 1},       {&c->height, 1},
+                           {&c->centroid[0], 1}, {&c->centroid[1], 1}};
+    SCALE(list, x);
+    for (int i = 0; i < 9; i++) { /* order y, z, omega */
+        const int power = 2 + (i / 3 == 2) + (i % 3 == 2);
+        c->D[i] *= pow(x, power);
+        c->F[i] *= pow(x, -power);
+    }
+}
+
+static void scale_section(section_spec *spec, double x)
+{
+    const scaled list[] = {{&spec->young, -2},    {&spec->shear_modulus, -2}, {&spec->density, -4}, {&spec->width, 1},
+                           {&spec->height, 1},    {&spec->given.Iw, 6},       {&spec->given.ys, 1}, {&spec->given.zs, 1},
+                           {&spec->given.Dy, 2},  {&spec->given.Dz, 2},       {&spec->given.Dw, 4}, {&spec->given.Dyz, 2},
+                           {&spec->given.Dyw, 3}, {&spec->given.Dzw, 3},      {&spec->given.It, 4}, {&spec->given.Ip, 4}};
+    SCALE(list, x);
+    for (int i = 0; i < spec->points; i++)
+        for (int k = 0; k < 2; k++)
+            spec->point[i][k] *= x;
+    for (int i = 0; i < spec->walls; i++)
+        spec->wall[i].thickness *= x;
+    scale_constants(&spec->constants, x);
+}
+
+/* 1: the driver moves translations, or is found from one; 0: angles only; -1: both. */
+static int is_length(const scene *s, int driver)
+{
+    int lengths = 0, angles = 0;
+    for (int i = 0; i < s->nodes; i++)
+        for (int k = 0; k < 3; k++) {
+            lengths += s->node[i].translation[k] == driver;
+            angles += s->node[i].angle[k] == driver;
+        }
+    for (int i = 0; i < s->drivers; i++)
+        if (s->driver[i].value == NULL && s->driver[i].condition_driver == driver)
+            *(s->driver[i].condition_component <= SCENE_UZ ? &lengths : &angles) += 1;
+    return lengths > 0 && angles > 0 ? -1 : lengths > 0;
+}
+
+static status scale_drivers(scene *s, double x, fault *f)
+{
+    for (int i = 0; i < s->drivers; i++) {
+        const int length = is_length(s, i);
+        if (length < 0)
+            return fault_set(f, STATUS_REFUSED, "driver '%s' moves lengths and angles: it has no unit of length",
+                             s->driver[i].name);
+        for (int k = 0; k < s->driver[i].stations && s->driver[i].value != NULL && length; k++)
+            s->driver[i].value[k] *= x;
+    }
+    return STATUS_OK;
+}
+
+static void scale_load(scene_load *load, double x)
+{
+    if (load->kind == SCENE_MOMENT)
+        scale_vector(load->vector, x);
+    if (load->kind == SCENE_DISTRIBUTED)
+        scale_vector(load->vector, 1 / x);
+}
+
+static void scale_analysis(scene_analysis *a, double x)
+{
+    scale_vector(a->omega_centre, x);
+    if (a->kind != SCENE_CONTINUATION)
+        return;
+    for (int i = 0; i < a->stations; i++) /* of the control coordinate, a translation */
+        a->path[i] *= x;
+    if (!a->by_arc) {
+        a->step *= x;
+        a->step_max *= x;
+    }
+}
+
+/* Power of length in what is extracted. */
+static int power_of(const scene *s, const scene_quantity *q)
+{
+    const int translates = q->row <= SCENE_UZ, force = q->column <= SCENE_UZ;
+    switch (q->kind) {
+    case SCENE_COORDINATE:
+        return translates;
+    case SCENE_REACTION:
+        return !translates;
+    case SCENE_COMPLIANCE_ENTRY:
+        return translates - !force;
+    case SCENE_STIFFNESS_ENTRY:
+        return translates ? -1 : 1;
+    case SCENE_CRITICAL_POINT:
+        return q->column == 1;
+    case SCENE_DRIVER_VALUE:
+        return is_length(s, q->row);
+    case SCENE_CRITICAL_FACTOR:
+    case SCENE_GROWTH:
+    case SCENE_FREQUENCY:
+    case SCENE_FACTOR_AT:
+        break;
+    }
+    return 0;
+}
+
+static void scale_quantity(const scene *s, scene_quantity *q, double x)
+{
+    q->factor = (q->factor != 0 ? q->factor : 1) * pow(x, -power_of(s, q));
+    if (q->analysis >= 0 && q->analysis < s->analyses && s->analysis[q->analysis].kind == SCENE_CONTINUATION)
+        q->at *= x;
+}
+
+status scene_change_unit(scene *s, double x, fault *f)
+{
+    if (!(x > 0 && isfinite(x)))
+        return fault_set(f, STATUS_REFUSED, "no unit of length has %g of it to the metre; give a positive number", x);
+    for (int i = 0; i < s->sections; i++)
+        scale_section(&s->section[i], x);
+    for (int i = 0; i < s->nodes; i++)
+        scale_vector(s->node[i].position, x);
+    for (int i = 0; i < s->members; i++)
+        scale_vector(s->member[i].curvature, 1 / x);
+    for (int i = 0; i < s->loads; i++)
+        scale_load(&s->load[i], x);
+    for (int i = 0; i < s->analyses; i++)
+        scale_analysis(&s->analysis[i], x);
+    for (int i = 0; i < s->quantities; i++)
+        scale_quantity(s, &s->quantity[i], x);
+    return scale_drivers(s, x, f);
+}

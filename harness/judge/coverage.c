@@ -1,0 +1,46 @@
+/* How often limits lie within their uncertainty of an exact truth. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/judge/verdict.h"
+
+static coverage *row_of(judgement *j, const element_type *type, fault *f)
+{
+    for (int i = 0; i < j->coverages; i++)
+        if (j->coverage[i].type == type)
+            return &j->coverage[i];
+    coverage *more = realloc(j->coverage, (size_t)(j->coverages + 1) * sizeof *more);
+    if (more == NULL) {
+        fault_set(f, STATUS_FAULT, "out of memory for coverages");
+        return NULL;
+    }
+    j->coverage = more;
+    more[j->coverages] = (coverage){.type = type};
+    return &more[j->coverages++];
+}
+
+static void count(const sweep *s, const verdict *v, coverage *row)
+{
+    for (int k = 0; k < COVERAGE_MESHES && k < s->series[v->series].meshes; k++) {
+        const mesh_limit l = verdict_limit(s, v->series, v->quantity, k);
+        if (l.meshes < 3)
+            continue;
+        row->series[k]++;
+        row->covered[k] += fabs(l.limit - v->truth->value) <= l.limit_uncertainty + v->truth->uncertainty;
+    }
+}
+
+status judge_coverage(const sweep *s, judgement *out, fault *f)
+{
+    for (int i = 0; i < out->verdicts; i++) {
+        const verdict *v = &out->verdict[i];
+        if (v->truth == NULL || strcmp(v->truth->kind, "exact") != 0 || isnan(v->fit.limit))
+            continue;
+        coverage *row = row_of(out, s->series[v->series].formulation.type, f);
+        if (row == NULL)
+            return STATUS_FAULT;
+        count(s, v, row);
+    }
+    return STATUS_OK;
+}

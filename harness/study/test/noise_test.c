@@ -1,0 +1,81 @@
+/* Noise of a finest mesh: measured where it is wanted, twice the larger difference, and nothing but rounding. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <string.h>
+
+#include "harness/catalogue/registry.h"
+#include "harness/study/noise.h"
+
+static const sweep_request request = {.jobs = 2};
+
+/* All formulations on one case, meshes of one and two elements; the series of formulations that do not run stay empty. */
+static int plan(const case_type *type, sweep *s)
+{
+    static const int mesh[] = {1, 2};
+    formulation all[64];
+    double value[CASE_MAX_PARAMETERS] = {0};
+    int count = 0;
+    fault f = {""};
+    parameters_default(type, value);
+    while (registry_formulations[count] != NULL) {
+        formulation_default(registry_formulations[count], &all[count]);
+        count++;
+    }
+    const status outcome = sweep_plan_one(type, value, all, count, mesh, 2, s, &f);
+    gsl_test(outcome != STATUS_OK || sweep_run(&request, s, &f) != STATUS_OK, "%s: %s", type->name, f.text);
+    return count;
+}
+
+/* Rounding only, also of formulations that answer to the order of nodes. */
+static void rounding(const case_type *type)
+{
+    sweep s;
+    fault f = {""};
+    char wanted[64];
+    memset(wanted, 1, sizeof wanted);
+    wanted[0] = 0;
+    const int count = plan(type, &s);
+    double largest = 0;
+    int measured = 0;
+    gsl_test(noise_measure(&request, wanted, &s, &f) != STATUS_OK, "%s: measured %s", type->name, f.text);
+    gsl_test(s.series[0].noise != NULL, "not where it is not wanted");
+    for (int i = 1; i < count; i++)
+        for (int q = 0; q < s.point[0].scene.quantities && s.series[i].noise != NULL; q++)
+            if (isfinite(s.series[i].noise[q])) {
+                measured++;
+                largest = fmax(largest, s.series[i].noise[q]);
+            }
+    gsl_test(measured == 0 || !(largest > 0 && largest < 1e-6), "%s: %d values, largest noise %.1e", type->name, measured, largest);
+    gsl_test_int(noise_cells(&s), 2 * (sweep_cells(&s) / 2 - (s.series[0].missing[0] == '\0')), "two cells for each series");
+    sweep_free(&s);
+}
+
+/* A value that was changed by hand differs from both repetitions by that much. */
+static void size_of_it(const case_type *type)
+{
+    sweep s;
+    fault f = {""};
+    char wanted[64];
+    memset(wanted, 1, sizeof wanted);
+    const int count = plan(type, &s);
+    int i = 0;
+    while (i + 1 < count && s.series[i].missing[0] != '\0')
+        i++;
+    quantity_result *finest = &s.series[i].cell[1].solve.quantity[0];
+    finest->value *= 1 + 1e-3;
+    gsl_test(noise_measure(&request, wanted, &s, &f) != STATUS_OK, "measured %s", f.text);
+    gsl_test_rel(s.series[i].noise[0], 2e-3 / (1 + 1e-3), 1e-4, "twice the larger difference");
+    finest->value = NAN;
+    gsl_test(noise_measure(&request, wanted, &s, &f) != STATUS_OK || isfinite(s.series[i].noise[0]), "no value has no noise");
+    sweep_free(&s);
+}
+
+int main(void)
+{
+    fault f = {""};
+    static const char *const base[] = {"elastica", "bend_45", "shear_column", "wagner_torsion"};
+    for (size_t i = 0; i < sizeof base / sizeof base[0]; i++)
+        rounding(case_find(base[i], &f));
+    size_of_it(case_find("elastica", &f));
+    return gsl_test_summary();
+}

@@ -1,0 +1,57 @@
+"""Flexural-torsional buckling of a fork-ended equal angle, one half-wave k = n pi/l at a time, 3 x 3; rigid in shear.
+
+Unknowns: amplitudes of v_s, w_s (shear centre) and phi, all times sin kx.  The stress is -P/A - P y_a y/Iz - P z_a z/Iy of an
+axial force P at (y_a, z_a), or -M z/Iy of end moments M; it works on the slopes v' = v_s' - (z - zs) phi',
+w' = w_s' + (y - ys) phi' of the fibres (Vlasov, Thin-walled Elastic Beams, 1961, chapter V).  Section: code_aster V3.01.103.
+"""
+from mpmath import eigsy, matrix, mp, mpf, pi, sqrt
+
+mp.dps = 40
+E, L = mpf("2.1e11"), mpf("1.2")
+G = E / mpf("2.6")
+A, IY, IZ, IT, IW = mpf("1856e-6"), mpf("4167339e-12"), mpf("1045547e-12"), mpf("39595e-12"), mpf("44398819e-18")
+YS, WAGNER_Y = mpf("41.012e-3"), mpf("-84948392e-15")  # zs = 0, int z (y^2 + z^2) dA = 0: y is an axis of symmetry
+POINTS = {"centroid": (0, 0), "shear_centre": (YS, 0), "leg": (0, YS)}
+HALF_WAVES, LOADS = 12, 3
+
+
+def stiffness(k, warping):
+    return [E * IZ * k ** 4, E * IY * k ** 4, (E * IW * k ** 4 if warping else 0) + G * IT * k ** 2]
+
+
+def work(k, force, y, z, polar):
+    """Of stresses with resultants `force`, first moments y and z, and second moment `polar` about the centroid."""
+    m = matrix(3, 3)
+    m[0, 0] = m[1, 1] = force
+    m[0, 2] = m[2, 0] = -z
+    m[1, 2] = m[2, 1] = y - force * YS
+    m[2, 2] = polar - 2 * YS * y + force * YS ** 2
+    return k ** 2 * m
+
+
+def factors(k, warping, stress):
+    """Positive critical factors of one half-wave."""
+    roots = [sqrt(s) for s in stiffness(k, warping)]
+    b = work(k, *stress)
+    scaled = matrix(3, 3)
+    for i in range(3):
+        for j in range(3):
+            scaled[i, j] = b[i, j] / roots[i] / roots[j]
+    return [1 / v for v in eigsy(scaled, eigvals_only=True) if v > mpf(10) ** -30]
+
+
+def stress_of(load):
+    if load == "moment":
+        return mpf(0), mpf(0), mpf(1), mpf(0)
+    y, z = POINTS[load]
+    return mpf(1), mpf(y), mpf(z), (IY + IZ) / A + y * WAGNER_Y / IZ
+
+
+def rows():
+    for load in ("centroid", "shear_centre", "leg", "moment"):
+        for warping in (1, 0):
+            given = {**({} if load == "centroid" else {"load": load}), **({} if warping else {"warping": 0})}
+            all_factors = sorted(v for n in range(1, HALF_WAVES + 1) for v in factors(n * pi / L, warping, stress_of(load)))
+            for i in range(LOADS):
+                name, unit = ("critical_moment", "N m") if load == "moment" else ("critical_load", "N")
+                yield "angle_column", ";".join(f"{k}={v}" for k, v in given.items()), f"{name}_{i + 1}", all_factors[i], unit

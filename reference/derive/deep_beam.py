@@ -1,0 +1,51 @@
+"""Frequencies of a simply supported Timoshenko beam of square section, held axially and in torsion at one end only.
+
+Bending, k = n pi/l: amplitudes of w (sin kx) and of the section's turn t (cos kx),
+  strain  EI (k t)^2 + kGA (k w - t)^2        kinetic  rho (A w^2 + I t^2)
+and both planes alike; torsion and extension: (2n - 1) c/(4 l), c^2 = GJ/(rho Ip) or E/rho.
+J of the square by Saint-Venant's series: a^4 (1/3 - 64/pi^5 sum_odd tanh(n pi/2)/n^5).
+"""
+from mpmath import inf, mp, mpf, nsum, pi, sqrt, tanh
+
+mp.dps = 40
+E, RHO, LENGTH, SIDE, SHEAR_FACTOR = mpf("200e9"), mpf(8000), mpf(10), mpf(2), mpf(5) / 6
+G, A, I = E / mpf("2.6"), SIDE ** 2, SIDE ** 4 / 12
+FREQUENCIES, HALF_WAVES = 9, 12
+
+
+def bending(n, shear, rotary):
+    """Squares of the angular frequencies of n half-waves."""
+    k = n * pi / LENGTH
+    if not shear:
+        return [E * I * k ** 4 / (RHO * (A + (I * k ** 2 if rotary else 0)))]
+    s = SHEAR_FACTOR * G * A
+    if not rotary:  # t follows: t = s k/(EI k^2 + s) w
+        return [E * I * k ** 4 * s / (E * I * k ** 2 + s) / (RHO * A)]
+    # RHO A RHO I x^2 - (s k^2 RHO I + (EI k^2 + s) RHO A) x + s EI k^4 = 0
+    a, b, c = RHO * A * RHO * I, s * k ** 2 * RHO * I + (E * I * k ** 2 + s) * RHO * A, s * E * I * k ** 4
+    root = sqrt(b ** 2 - 4 * a * c)
+    return [(b - root) / (2 * a), (b + root) / (2 * a)]
+
+
+def torsion_constant(exact):
+    if not exact:
+        return SIDE ** 4 / 6
+    series = nsum(lambda m: tanh((2 * m + 1) * pi / 2) / (2 * m + 1) ** 5, [0, inf])
+    return SIDE ** 4 * (mpf(1) / 3 - 64 / pi ** 5 * series)
+
+
+def frequencies(exact_torsion, shear, rotary):
+    found = [sqrt(x) / (2 * pi) for n in range(1, HALF_WAVES) for x in bending(n, shear, rotary) for _ in "yz"]
+    if shear and rotary:  # no half-wave at all: the sections turn in pure shear
+        found += [sqrt(SHEAR_FACTOR * G * A / (RHO * I)) / (2 * pi)] * 2
+    twist = sqrt(G * torsion_constant(exact_torsion) / (RHO * 2 * I))
+    for n in range(1, HALF_WAVES):
+        found += [(2 * n - 1) * speed / (4 * LENGTH) for speed in (twist, sqrt(E / RHO))]
+    return sorted(found)[:FREQUENCIES]
+
+
+def rows():
+    for given in ({}, {"torsion": "exact"}, {"shear": 0}, {"shear": 0, "rotary_inertia": 0}):
+        at = ";".join(f"{k}={v}" for k, v in given.items())
+        for i, value in enumerate(frequencies("torsion" in given, given.get("shear", 1), given.get("rotary_inertia", 1))):
+            yield "deep_beam", at, f"frequency_{i + 1}", value, "Hz"
