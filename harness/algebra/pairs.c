@@ -101,7 +101,7 @@ static void sort_last(pairs *p)
 
 int pairs_is_rounding(const pairs *p, double energy, const double x[])
 {
-    const double sure = 16; /* a sum of errors is seldom beyond four times what is expected of it */
+    const double sure = 128; /* inside an element it passes through eliminations of its own */
     const eigen_problem *e = p->problem;
     return e->A_rounding != NULL && fabs(energy) <= sure * e->A_rounding(e->context, x);
 }
