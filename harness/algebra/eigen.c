@@ -3,16 +3,19 @@
 #include <float.h>
 #include <lapacke.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "harness/algebra/lanczos.h"
 #include "harness/algebra/pairs.h"
+#include "harness/algebra/polish.h"
 
 enum { DENSE_UP_TO = 80, SPARE = 2, MAX_PASSES = 8 };
+enum { DENSE_AT_LAST_UP_TO = 700 }; /* where the iteration ends early: seconds, and the answer */
 
-/* Of an eigenvalue, in parts of itself. */
-static const double largest_error = 1e-6;
+/* Of an eigenvalue, in parts of itself: beyond it no digit is worth telling. */
+static const double largest_error = 1e-2;
 
 /* Part of the largest size of an eigenvalue below which none is looked for by iteration. */
 static const double negligible = 1e-9;
@@ -61,20 +64,20 @@ static status solve_dense(const eigen_problem *e, double mu[], double x[], fault
                      : fault_set(f, STATUS_NOT_CONVERGED, "a dense eigenvalue problem of %d unknowns: LAPACK says %d", n, info);
 }
 
-/* Candidates of both sides at once. */
-static status both_dense(pairs *up, int largest, pairs *down, int smallest, fault *f)
+/* Candidates of one or both sides (NULL: not asked for) from all eigenvectors. */
+static status add_dense(pairs *const side[2], const int wanted[2], fault *f)
 {
-    const size_t n = (size_t)up->n;
-    const int from_top = largest < up->n ? largest : up->n, from_bottom = smallest < up->n ? smallest : up->n;
+    const pairs *any = side[0] != NULL ? side[0] : side[1];
+    const size_t n = (size_t)any->n;
     double *mu = calloc(n, sizeof *mu), *x = calloc(n * n, sizeof *x);
     status outcome = mu == NULL || x == NULL ? fault_set(f, STATUS_FAULT, "out of memory for an eigenvalue problem") : STATUS_OK;
     if (outcome == STATUS_OK)
-        outcome = solve_dense(up->problem, mu, x, f);
-    if (outcome == STATUS_OK) {
-        const double least = least_of(up->n, fmax(fabs(mu[0]), fabs(mu[n - 1])));
-        outcome = pairs_add(up, from_top, x + (n - (size_t)from_top) * n, least, f);
-        if (outcome == STATUS_OK)
-            outcome = pairs_add(down, from_bottom, x, least, f);
+        outcome = solve_dense(any->problem, mu, x, f);
+    for (int i = 0; i < 2 && outcome == STATUS_OK; i++) {
+        const double least = least_of(any->n, fmax(fabs(mu[0]), fabs(mu[n - 1])));
+        const size_t count = (size_t)(wanted[i] < any->n ? wanted[i] : any->n);
+        if (side[i] != NULL) /* the most positive ones come last */
+            outcome = pairs_add(side[i], (int)count, i == 0 ? x + (n - count) * n : x, least, f);
     }
     free(mu);
     free(x);
@@ -88,11 +91,12 @@ static status run_lanczos(pairs *p, int wanted, double least, long *solutions, f
     const lanczos_problem l = {e->K, e->A, e->K_factor, p->sign, p->count, p->x, p->Kx};
     const int room = p->n - p->count - 1, count = wanted < room ? wanted : room;
     double *mu = malloc((size_t)count * sizeof *mu), *x = malloc((size_t)count * (size_t)p->n * sizeof *x);
+    int found = 0;
     status outcome = mu == NULL || x == NULL ? fault_set(f, STATUS_FAULT, "out of memory for %d eigenvectors", count) : STATUS_OK;
     if (outcome == STATUS_OK)
-        outcome = lanczos_largest(&l, count, mu, x, solutions, f);
+        outcome = lanczos_largest(&l, count, &found, mu, x, solutions, f);
     if (outcome == STATUS_OK)
-        outcome = pairs_add(p, count, x, least, f);
+        outcome = pairs_add(p, found, x, least, f);
     free(mu);
     free(x);
     return outcome;
@@ -116,13 +120,9 @@ static status count_existing(pairs *p, int enough, double scale, double least, i
     return STATUS_OK;
 }
 
-/* Candidates of one side, until the inertia says that no eigenvalue above the last wanted one is missing. */
-static status one_sparse(pairs *p, int wanted, eigen_result *r, fault *f)
+/* Candidates until the inertia says that no eigenvalue above the last wanted one is missing. */
+static status fill(pairs *p, int wanted, double scale, double least, eigen_result *r, fault *f)
 {
-    const double scale = wanted > 0 ? pairs_scale(p, &r->solutions) : 0;
-    if (scale == 0)
-        return STATUS_OK;
-    const double least = fmax(negligible * scale, least_of(p->n, scale));
     int exist;
     status outcome = count_existing(p, wanted + SPARE, scale, least, &exist, r, f);
     const int asked = wanted < exist ? wanted : exist;
@@ -138,21 +138,113 @@ static status one_sparse(pairs *p, int wanted, eigen_result *r, fault *f)
     return outcome;
 }
 
+/* Of candidates that are not all, those that are the first ones stay. */
+static status keep_first(pairs *p, eigen_result *r, fault *f)
+{
+    int missing = 1;
+    while (p->count > 0) {
+        const status outcome = pairs_missing(p, p->count, &missing, r, f);
+        if (outcome == STATUS_FAULT || (outcome == STATUS_OK && missing == 0))
+            return outcome;
+        p->count--;
+    }
+    return STATUS_OK;
+}
+
+/* One side (0: the most positive) by iteration; densely where that ends early and the problem is small. */
+static status one_sparse(pairs *p, int side, int wanted, eigen_side *out, eigen_result *r, fault *f)
+{
+    const double scale = wanted > 0 ? pairs_scale(p, &r->solutions) : 0;
+    fault why = {""};
+    out->rounding += wanted > 0 && scale == 0;
+    if (scale == 0)
+        return STATUS_OK;
+    out->status = fill(p, wanted, scale, fmax(negligible * scale, least_of(p->n, scale)), r, &why);
+    if (out->status == STATUS_NOT_CONVERGED && p->n <= DENSE_AT_LAST_UP_TO) {
+        p->count = 0;
+        out->status = add_dense((pairs *[]){side == 0 ? p : NULL, side == 0 ? NULL : p}, (int[]){wanted, wanted}, &why);
+    }
+    if (out->status == STATUS_OK)
+        return STATUS_OK;
+    snprintf(out->reason, sizeof out->reason, "%s", why.text);
+    return out->status == STATUS_FAULT ? fault_set(f, STATUS_FAULT, "%s", why.text) : keep_first(p, r, f);
+}
+
+/* Leaves out what is rounding of A alone: with one such value all smaller ones are, for so much rounding moves any of them. It
+ * is asked of the largest, and where a value is small beside it. */
+static void drop_rounding(pairs *p, eigen_side *out)
+{
+    const double suspect = 1e-6; /* of the largest */
+    for (int i = 0; i < p->count; i++)
+        if ((i == 0 || p->mu[i] < suspect * p->mu[0]) &&
+            pairs_is_rounding(p, p->mu[i] * p->stiffness[i], p->x + (size_t)i * (size_t)p->n)) {
+            out->rounding = p->count - i;
+            p->count = i;
+        }
+}
+
+/* Residuals and errors of the first `count`; the largest error. */
+static double judge(pairs *p, int count, eigen_side *out, long *solutions)
+{
+    double largest = 0;
+    for (int i = 0; i < count; i++, (*solutions)++) {
+        pairs_judge(p, i, &out->residual[i], &out->error[i]);
+        largest = fmax(largest, out->error[i]);
+    }
+    return largest;
+}
+
+/* Where assembling K has moved the eigenvalues, its errors are in the vectors too. */
+static status improve(pairs *p, int count, eigen_side *out, eigen_result *r, fault *f)
+{
+    enum { SWEEPS = 3 };
+    const double bearable = 1e-6; /* values are off by its square, and what their distance makes of it */
+    const double good = 1e-8;
+    if (p->problem->K_product == NULL || pairs_departure(p, count) <= bearable) {
+        judge(p, count, out, &r->solutions);
+        return STATUS_OK;
+    }
+    status outcome = pairs_refine(p, count, f);
+    for (int sweep = 0; sweep < SWEEPS && outcome == STATUS_OK; sweep++) {
+        outcome = polish(p, &r->solutions, f);
+        if (outcome != STATUS_OK || judge(p, count, out, &r->solutions) <= good)
+            break;
+    }
+    return outcome;
+}
+
+/* What has no digits has no value. */
+static void take_out_lost(pairs *p, int count, eigen_side *out)
+{
+    const double noticeable = 1e-9; /* part of K that assembling it has changed */
+    const int rounded = p->problem->K_rounding != NULL && pairs_departure(p, count) > noticeable;
+    for (int i = 0; i < count; i++) {
+        const double *x = p->x + (size_t)i * (size_t)p->n;
+        if (rounded)
+            out->error[i] += p->problem->K_rounding(p->problem->context, x) / p->stiffness[i];
+        if (out->error[i] <= largest_error)
+            continue;
+        p->mu[i] = NAN;
+        if (out->status == STATUS_OK)
+            snprintf(out->reason, sizeof out->reason, "eigenvalue %d of %d unknowns is lost in round-off (error %.1e): refine less",
+                     i + 1, p->n, out->error[i]);
+        out->status = STATUS_NOT_CONVERGED;
+    }
+}
+
 /* The best of the candidates become the result. */
-static status hand_over(pairs *p, int wanted, eigen_side *out, long *solutions, fault *f)
+static status hand_over(pairs *p, int wanted, eigen_side *out, eigen_result *r, fault *f)
 {
     const size_t n = (size_t)p->n;
+    drop_rounding(p, out);
     const int count = p->count < wanted ? p->count : wanted;
     out->residual = calloc((size_t)count + 1, sizeof *out->residual);
     out->error = calloc((size_t)count + 1, sizeof *out->error);
     if (out->residual == NULL || out->error == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for %d eigenvalues", count);
-    for (int i = 0; i < count; i++, (*solutions)++) {
-        pairs_judge(p, i, &out->residual[i], &out->error[i]);
-        if (!(out->error[i] <= largest_error))
-            return fault_set(f, STATUS_NOT_CONVERGED, "eigenvalue %d of %d unknowns is lost in round-off (error %.1e): refine less",
-                             i + 1, p->n, out->error[i]);
-    }
+    if (improve(p, count, out, r, f) != STATUS_OK)
+        return STATUS_FAULT;
+    take_out_lost(p, count, out);
     for (int i = 0; i < count; i++) {
         for (size_t k = 0; k < n; k++)
             p->x[(size_t)i * n + k] /= sqrt(p->stiffness[i]);
@@ -170,16 +262,19 @@ static status solve(const eigen_problem *e, pairs *up, pairs *down, eigen_result
     const int most = (e->largest > e->smallest ? e->largest : e->smallest) + SPARE + 1;
     status outcome;
     if ((r->n <= DENSE_UP_TO && !e->iterate) || most >= r->n) {
-        outcome = both_dense(up, e->largest, down, e->smallest, f);
+        outcome = add_dense((pairs *[]){up, down}, (int[]){e->largest, e->smallest}, f);
     } else {
-        outcome = one_sparse(up, e->largest, r, f);
+        outcome = one_sparse(up, 0, e->largest, &r->positive, r, f);
         if (outcome == STATUS_OK)
-            outcome = one_sparse(down, e->smallest, r, f);
+            outcome = one_sparse(down, 1, e->smallest, &r->negative, r, f);
     }
     if (outcome == STATUS_OK)
-        outcome = hand_over(up, e->largest, &r->positive, &r->solutions, f);
+        outcome = hand_over(up, e->largest, &r->positive, r, f);
     if (outcome == STATUS_OK)
-        outcome = hand_over(down, e->smallest, &r->negative, &r->solutions, f);
+        outcome = hand_over(down, e->smallest, &r->negative, r, f);
+    const eigen_side *worse = r->positive.status != STATUS_OK ? &r->positive : &r->negative;
+    if (outcome == STATUS_OK && worse->status != STATUS_OK)
+        outcome = fault_set(f, worse->status, "%s", worse->reason);
     return outcome;
 }
 

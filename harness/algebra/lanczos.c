@@ -7,6 +7,7 @@
 #include <string.h>
 
 enum { MAX_RESTARTS = 300, EXTRA_VECTORS = 20, PARAMETERS = 11, POINTERS = 14 };
+enum { ENDED_EARLY = 1, CONVERGED = 4 }; /* ARPACK's verdict; where it tells how many values have converged */
 
 /* Of a vector: Rayleigh's quotient squares it. */
 static const double tolerance = 1e-10;
@@ -103,7 +104,7 @@ static int iterate(const lanczos_problem *p, workspace *w, long *solutions)
     }
 }
 
-status lanczos_largest(const lanczos_problem *p, int wanted, double mu[], double x[], long *solutions, fault *f)
+status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double x[], long *solutions, fault *f)
 {
     const int n = p->K->n;
     workspace w;
@@ -112,9 +113,9 @@ status lanczos_largest(const lanczos_problem *p, int wanted, double mu[], double
         fill_start(n, w.start);
         take_out(n, p->known, p->KX, w.start, p->X, w.start);
         const int info = iterate(p, &w, solutions);
-        if (info != 0)
-            outcome =
-                fault_set(f, STATUS_NOT_CONVERGED, "%d of %d eigenvalues found (ARPACK says %d)", w.parameter[4], wanted, info);
+        *found = info == 0 ? wanted : w.parameter[CONVERGED];
+        if (info != 0 && (info != ENDED_EARLY || *found == 0))
+            outcome = fault_set(f, STATUS_NOT_CONVERGED, "%d of %d eigenvalues found (ARPACK says %d)", *found, wanted, info);
     }
     if (outcome == STATUS_OK) {
         int info = 0;
@@ -123,8 +124,8 @@ status lanczos_largest(const lanczos_problem *p, int wanted, double mu[], double
         if (info != 0)
             outcome = fault_set(f, STATUS_NOT_CONVERGED, "the eigenvectors were not found (ARPACK says %d)", info);
     }
-    for (int i = 0; i < wanted && outcome == STATUS_OK; i++) { /* ARPACK's are ascending */
-        const int from = wanted - 1 - i;
+    for (int i = 0; outcome == STATUS_OK && i < *found; i++) { /* ARPACK's are ascending */
+        const int from = *found - 1 - i;
         mu[i] = w.value[from];
         memcpy(x + (size_t)i * (size_t)n, w.basis + (size_t)from * (size_t)n, (size_t)n * sizeof *x);
     }

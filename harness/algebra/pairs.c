@@ -27,7 +27,7 @@ status pairs_alloc(pairs *p, const eigen_problem *problem, double sign, fault *f
 
 void pairs_free(pairs *p)
 {
-    void *const all[] = {p->mu, p->matrix_mu, p->noise, p->stiffness, p->x, p->Kx, p->work, p->form};
+    void *const all[] = {p->mu, p->matrix_mu, p->noise, p->stiffness, p->x, p->Kx, p->work, p->form, p->correction};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         free(all[i]);
     sparse_free_values(&p->shifted);
@@ -99,13 +99,54 @@ static void sort_last(pairs *p)
     }
 }
 
-/* y = K^-1 s A x. */
-static void apply(pairs *p, const double x[], double y[])
+int pairs_is_rounding(const pairs *p, double energy, const double x[])
+{
+    const double sure = 128; /* inside an element it passes through eliminations of its own */
+    const eigen_problem *e = p->problem;
+    return e->A_rounding != NULL && fabs(energy) <= sure * e->A_rounding(e->context, x);
+}
+
+double pairs_departure(const pairs *p, int count)
+{
+    double largest = 0;
+    for (int i = 0; i < count && i < p->count; i++)
+        largest = fmax(largest, fabs(p->stiffness[i] - 1));
+    return largest;
+}
+
+status pairs_refine(pairs *p, int count, fault *f)
+{
+    enum { MOST = 12 };
+    const double departure = pairs_departure(p, count), left = 1e-6;
+    double error = departure;
+    for (p->refinements = 1; p->refinements < MOST && (error *= departure) > left; p->refinements++) {}
+    if (p->correction == NULL)
+        p->correction = malloc((size_t)p->n * sizeof *p->correction);
+    return p->correction != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for refined solutions");
+}
+
+/* y += K^-1 (s A x - K y), with K y from the elements: what is left falls by the part of K that assembling it has changed. */
+static void refine(pairs *p, const double x[], double y[])
+{
+    const eigen_problem *e = p->problem;
+    double *r = p->correction;
+    e->K_product(e->context, y, r);
+    sparse_mul(e->A, x, p->form);
+    for (int i = 0; i < p->n; i++)
+        r[i] = p->sign * p->form[i] - r[i];
+    factor_solve(e->K_factor, r);
+    for (int i = 0; i < p->n; i++)
+        y[i] += r[i];
+}
+
+void pairs_apply(pairs *p, const double x[], double y[])
 {
     sparse_mul(p->problem->A, x, y);
     for (int i = 0; i < p->n; i++)
         y[i] *= p->sign;
     factor_solve(p->problem->K_factor, y);
+    for (int pass = 0; p->correction != NULL && pass < p->refinements; pass++)
+        refine(p, x, y);
 }
 
 double pairs_scale(pairs *p, long *solutions)
@@ -123,12 +164,12 @@ double pairs_scale(pairs *p, long *solutions)
             x[i] /= size;
         before = size > 0;
         if (power < POWERS) {
-            apply(p, x, p->work);
+            pairs_apply(p, x, p->work);
             memcpy(x, p->work, (size_t)p->n * sizeof *x);
             (*solutions)++;
         }
     }
-    return largest;
+    return pairs_is_rounding(p, largest, x) ? 0 : largest;
 }
 
 status pairs_add(pairs *p, int count, const double x[], double least, fault *f)
@@ -168,7 +209,7 @@ void pairs_judge(pairs *p, int i, double *residual, double *error)
 {
     const double mu = p->mu[i], *x = p->x + (size_t)i * (size_t)p->n;
     double *y = p->work;
-    apply(p, x, y);
+    pairs_apply(p, x, y);
     for (int k = 0; k < p->n; k++)
         y[k] -= mu * x[k];
     const double square = K_form(p, y) / (p->stiffness[i] * mu * mu);

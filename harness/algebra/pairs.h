@@ -14,14 +14,24 @@ typedef struct pairs {
     double *stiffness;   /* [room] x^T K x as the caller evaluates it */
     double *x, *Kx;      /* [room x n] x^T K x = 1 by the matrix */
     double *work, *form; /* [n] each */
+    int refinements;     /* of every solution */
+    double *correction;  /* [n] while solutions are refined, else NULL */
     sparse shifted;      /* K - s A/mu; without values until it is needed */
     factor *shifted_factor;
 } pairs;
 
 status pairs_alloc(pairs *p, const eigen_problem *problem, double sign, fault *f);
 void pairs_free(pairs *p);
-/* Size of the largest |mu|, from below, by a few powers of K^-1 A. */
+/* Size of the largest |mu|, from below, by a few powers of K^-1 A; 0 where A is nothing but rounding. */
 double pairs_scale(pairs *p, long *solutions);
+/* 1: rounding alone makes x^T A x as large as `energy`. */
+int pairs_is_rounding(const pairs *p, double energy, const double x[]);
+/* Largest part of x^T K x that assembling K has changed, of the first `count` candidates. */
+double pairs_departure(const pairs *p, int count);
+/* From here on K^-1 A x is what K_product says: refined until the present departure leaves 1e-6 of it. */
+status pairs_refine(pairs *p, int count, fault *f);
+/* y = K^-1 s A x. */
+void pairs_apply(pairs *p, const double x[], double y[]);
 /* Takes in vectors x[count x n], whatever their length; those with mu <= least are dropped. */
 status pairs_add(pairs *p, int count, const double x[], double least, fault *f);
 /* Residual of candidate i and estimated error of its mu, both in parts of mu. One solution. */

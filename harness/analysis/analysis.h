@@ -2,7 +2,18 @@
 #ifndef BEAMWORK_ANALYSIS_H
 #define BEAMWORK_ANALYSIS_H
 
+#include "harness/algebra/eigen.h"
 #include "harness/analysis/solve.h"
+
+/* Critical loads of one sign, ascending in size, or frequencies [rad/s], ascending; with their modes. */
+typedef struct outcome_side {
+    int count;
+    double *value, *mode; /* [count] NAN: lost in round-off; [count x free] */
+    double *error;        /* [count] estimate of what iteration and round-off leave, in parts of the value; NULL: there is none */
+    status status;        /* NOT_CONVERGED: ... */
+    char reason[FAULT_TEXT]; /* ... why there are no more, or some are lost */
+} outcome_side;
+void outcome_take(eigen_side *from, outcome_side *to);
 
 typedef struct analysis_outcome {
     status status;
@@ -17,9 +28,8 @@ typedef struct analysis_outcome {
     int points;
     double *factor, *control;
     model_state **point_state; /* [points]; NULL unless a curve of coordinates is wanted */
-    /* buckling, modal, rotation: eigenvalues with their modes; buckling: load factors, ascending in size */
-    int positive, negative;
-    double *value_positive, *value_negative, *mode_positive, *mode_negative; /* modes [count x free] */
+    /* buckling, modal; what was found stays where the analysis failed */
+    outcome_side positive, negative;
     /* compliance: of the six components at the node, at every station [stations x 36]; rows of held components are zero, columns that nothing asks for NAN; belongs to
      * the result */
     const double *compliance;

@@ -76,14 +76,11 @@ status equilibrium_modal(analysis_context *c, int analysis, analysis_outcome *o,
         result = eigen_solve(&p, &e, f);
         count_work(c, &e);
     }
-    if (result == STATUS_OK) {
-        for (int i = 0; i < e.positive.count; i++)
-            e.positive.mu[i] = 1 / sqrt(e.positive.mu[i]);
-        o->positive = e.positive.count;
-        o->value_positive = e.positive.mu;
-        o->mode_positive = e.positive.mode;
-        e.positive.mu = e.positive.mode = NULL;
+    for (int i = 0; i < e.positive.count; i++) {
+        e.positive.mu[i] = 1 / sqrt(e.positive.mu[i]);
+        e.positive.error[i] /= 2; /* the root's */
     }
+    outcome_take(&e.positive, &o->positive);
     eigen_free(&e);
     sparse_free_values(&M);
     newton_free(&n);
@@ -219,11 +216,9 @@ status equilibrium_buckling(analysis_context *c, int analysis, analysis_outcome 
     if (result == STATUS_OK)
         result = find_critical(&s, f);
     if (result == STATUS_OK) {
-        o->positive = 1;
-        o->value_positive = s.found.positive.mu;
-        o->mode_positive = s.found.positive.mode;
-        *o->value_positive = s.estimate;
-        s.found.positive.mu = s.found.positive.mode = NULL;
+        outcome_take(&s.found.positive, &o->positive);
+        *o->positive.value = s.estimate;
+        *o->positive.error = 0; /* that of the eigenvalue is not the estimate's */
     }
     search_free(&s);
     return result;

@@ -113,14 +113,33 @@ static void from_path(const analysis_context *c, const scene_quantity *q, const 
     r->x = abscissa(c, q, o, chosen);
 }
 
+/* Value i of a side, or why it has none. */
+static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, int i, double unit, quantity_result *r)
+{
+    if (isnan(side->value[i])) {
+        extract_no_value(r, side->status, side->reason);
+        return;
+    }
+    r->value = extract_scaled(q, side->value[i] / unit);
+    r->rounding = side->error != NULL ? side->error[i] : 0;
+}
+
 static void from_buckling(const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
 {
-    const int count = q->sign > 0 ? o->positive : o->negative;
-    if (q->order >= count)
-        extract_no_value(r, STATUS_OK,
-                         q->sign > 0 ? "no positive critical load of this order" : "no negative critical load of this order");
+    const outcome_side *side = q->sign > 0 ? &o->positive : &o->negative;
+    const char *sign = q->sign > 0 ? "positive" : "negative";
+    char why[FAULT_TEXT];
+    if (q->order < side->count) {
+        take_eigenvalue(q, side, q->order, 1, r);
+        return;
+    }
+    if (side->status != STATUS_OK)
+        snprintf(why, sizeof why, "%s", side->reason);
+    else if (side->reason[0] != '\0')
+        snprintf(why, sizeof why, "no %s load%s: %.250s", sign, side->count > 0 ? " of this order" : "", side->reason);
     else
-        r->value = extract_scaled(q, (q->sign > 0 ? o->value_positive : o->value_negative)[q->order]);
+        snprintf(why, sizeof why, "no %s critical load of this order", sign);
+    extract_no_value(r, side->status, why);
 }
 
 static void from_modes(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
@@ -130,18 +149,24 @@ static void from_modes(const analysis_context *c, const scene_quantity *q, const
     fault f = {"out of memory for a mode"};
     double *x = calloc((size_t)(n + model_sizes(c->model).driven) + 1, sizeof *x);
     status known = x != NULL ? STATUS_OK : STATUS_FAULT;
-    for (int i = 0; i < o->positive && known == STATUS_OK; i++) {
+    const outcome_side *side = &o->positive;
+    for (int i = 0; i < side->count && known == STATUS_OK; i++) {
         mode_shape shape;
-        memcpy(x, o->mode_positive + (size_t)i * (size_t)n, (size_t)n * sizeof *x);
+        memcpy(x, side->mode + (size_t)i * (size_t)n, (size_t)n * sizeof *x);
         known = mode_identify(c->model, c->scene, x, &shape, &f);
         if (known != STATUS_OK || !mode_in_family(q, &shape) || order++ < q->order)
             continue;
-        r->value = extract_scaled(q, o->value_positive[i] / TURN);
+        take_eigenvalue(q, side, i, TURN, r);
         free(x);
         return;
     }
     free(x);
-    extract_no_value(r, known, known == STATUS_OK ? "the mesh has no mode of this kind" : f.text);
+    if (known != STATUS_OK)
+        extract_no_value(r, known, f.text);
+    else if (side->status != STATUS_OK)
+        extract_no_value(r, side->status, side->reason);
+    else
+        extract_no_value(r, STATUS_OK, "the mesh has no mode of this kind");
 }
 
 static void from_linear(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
@@ -161,7 +186,9 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
 {
     const analysis_outcome *o = &c->outcomes[q->analysis];
     memset(r, 0, sizeof *r);
-    if (o->status != STATUS_OK && o->reached == 0 && o->points == 0) {
+    const int partly =
+        o->positive.count + o->negative.count > 0 || o->positive.status != STATUS_OK || o->negative.status != STATUS_OK;
+    if (o->status != STATUS_OK && o->reached == 0 && o->points == 0 && !partly) {
         extract_no_value(r, o->status, o->reason);
         return;
     }

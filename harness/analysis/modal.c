@@ -3,9 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/dense.h"
 #include "harness/algebra/eigen.h"
 #include "harness/analysis/analysis.h"
 #include "harness/analysis/equilibrium.h"
+#include "harness/analysis/linear_forms.h"
 
 int modal_wanted(const analysis_context *c, int analysis)
 {
@@ -19,27 +21,50 @@ int modal_wanted(const analysis_context *c, int analysis)
     return wanted + others;
 }
 
-/* Strain energy from the element strains, and the shift's share. */
+/* K of the modes: of the structure, its prestress and the shift. */
 typedef struct forms {
-    model *m;
-    const sparse *M;
-    double shift;  /* [1/s^2] */
-    double *x, *y; /* [free + driven] driven coordinates: zero; [free] */
-    int free_count;
-    const double *sigma; /* prestress [elements x strains], or NULL */
+    linear_forms of;
+    int prestressed;
+    sparse M, G;  /* G of the prestress; no values: there is none */
+    double shift; /* [1/s^2] */
+    double *work; /* [free] */
 } forms;
 
 static double stiffness_form(void *context, const double mode[])
 {
-    const forms *f = context;
-    double mass = 0;
-    memcpy(f->x, mode, (size_t)f->free_count * sizeof *f->x);
+    forms *f = context;
+    double sum = linear_forms_stiffness(&f->of, mode);
+    if (f->prestressed)
+        sum += linear_forms_geometric(&f->of, mode);
+    if (f->shift > 0) {
+        sparse_mul(&f->M, mode, f->work);
+        sum += f->shift * dense_dot(f->of.free, mode, f->work);
+    }
+    return sum;
+}
+
+static double stiffness_rounding(void *context, const double mode[])
+{
+    forms *f = context;
+    return linear_forms_stiffness_rounding(&f->of, mode);
+}
+
+/* y += times A x */
+static void add_product(const forms *f, const sparse *A, double times, const double x[], double y[])
+{
+    sparse_mul(A, x, f->work);
+    for (int i = 0; i < f->of.free; i++)
+        y[i] += times * f->work[i];
+}
+
+static void stiffness_product(void *context, const double mode[], double y[])
+{
+    forms *f = context;
+    linear_forms_product(&f->of, mode, y);
+    if (f->prestressed)
+        add_product(f, &f->G, 1, mode, y);
     if (f->shift > 0)
-        sparse_mul(f->M, mode, f->y);
-    for (int i = 0; i < f->free_count && f->shift > 0; i++)
-        mass += mode[i] * f->y[i];
-    const double prestress = f->sigma != NULL ? model_geometric_energy2(f->m, f->sigma, f->x) : 0;
-    return model_strain_energy2(f->m, f->x) + prestress + f->shift * mass;
+        add_product(f, &f->M, f->shift, mode, y);
 }
 
 /* Moves the modes into the outcome, with omega^2 = 1/mu - shift; what is a rounding error of the shift moves as a rigid body. */
@@ -48,11 +73,9 @@ static void keep(const forms *about, eigen_side *side, analysis_outcome *o)
     for (int i = 0; i < side->count; i++) {
         const double square = 1 / side->mu[i] - about->shift;
         side->mu[i] = square <= 1e-9 * about->shift ? 0 : sqrt(square);
+        side->error[i] /= 2; /* the root's */
     }
-    o->positive = side->count;
-    o->value_positive = side->mu;
-    o->mode_positive = side->mode;
-    side->mu = side->mode = NULL;
+    outcome_take(side, &o->positive);
 }
 
 /* A structure that is not held has K singular: K + shift M is not. */
@@ -70,26 +93,45 @@ static status shifted_system(analysis_context *c, linear_system *s, const sparse
     return factor_numeric(s->factor, &s->K, f);
 }
 
-/* K += G of the stresses of the linear analysis that is followed; sigma is the caller's. */
-static status add_prestress(analysis_context *c, int follows, linear_system *s, double **sigma, fault *f)
+/* K += G of the stresses of the linear analysis that is followed. */
+static status add_prestress(analysis_context *c, int follows, linear_system *s, forms *about, fault *f)
 {
     const model_size size = model_sizes(c->model);
-    sparse G = {0};
-    *sigma = calloc((size_t)size.elements * (size_t)size.strains + 1, sizeof **sigma);
-    status outcome = *sigma == NULL ? fault_set(f, STATUS_FAULT, "out of memory for prestress") : STATUS_OK;
-    if (outcome == STATUS_OK && (c->scene->analysis[follows].kind != SCENE_LINEAR || c->outcomes[follows].x == NULL))
-        outcome = fault_set(f, STATUS_REFUSED, "frequencies of a loaded structure follow a linear analysis that has been solved");
+    const double *x = c->outcomes[follows].x;
+    if (c->scene->analysis[follows].kind != SCENE_LINEAR || x == NULL)
+        return fault_set(f, STATUS_REFUSED, "frequencies of a loaded structure follow a linear analysis that has been solved");
+    about->prestressed = 1;
+    memcpy(about->of.load_x, x, (size_t)(size.free + size.driven) * sizeof *x);
+    status outcome = linear_forms_load(&about->of, f);
     if (outcome == STATUS_OK)
-        outcome = model_linear_stresses(c->model, c->outcomes[follows].x, *sigma, f);
+        outcome = sparse_alloc_like(&s->K, &about->G, f);
     if (outcome == STATUS_OK)
-        outcome = sparse_alloc_like(&s->K, &G, f);
-    if (outcome == STATUS_OK)
-        outcome = model_geometric_stiffness(c->model, *sigma, &G, f);
+        outcome = model_geometric_stiffness(c->model, about->of.sigma, &about->G, f);
     for (int i = 0; i < s->K.column[s->K.n] && outcome == STATUS_OK; i++)
-        s->K.value[i] += G.value[i];
-    sparse_free_values(&G);
+        s->K.value[i] += about->G.value[i];
     model_counters(c->model)->factorisations++;
     return outcome == STATUS_OK ? factor_numeric(s->factor, &s->K, f) : outcome;
+}
+
+/* K with its factors, and M; K of a structure that is not held is shifted. */
+static status assemble(analysis_context *c, int follows, linear_system *s, forms *about, fault *f)
+{
+    status result = linear_system_alloc(c, s, f);
+    int singular = result == STATUS_SINGULAR;
+    if (result != STATUS_OK && !singular)
+        return result;
+    result = linear_forms_alloc(c->model, &s->K, &about->of, f);
+    if (result == STATUS_OK && follows != SCENE_NONE && !singular)
+        result = add_prestress(c, follows, s, about, f);
+    singular |= result == STATUS_SINGULAR;
+    if (result == STATUS_OK || result == STATUS_SINGULAR)
+        result = sparse_alloc_like(&s->K, &about->M, f);
+    about->work = calloc((size_t)s->K.n + 1, sizeof *about->work);
+    if (result == STATUS_OK && about->work == NULL)
+        result = fault_set(f, STATUS_FAULT, "out of memory for modes");
+    if (result == STATUS_OK)
+        result = model_inertia(c->model, NULL, 0, &about->M, NULL, f);
+    return result == STATUS_OK && singular ? shifted_system(c, s, &about->M, &about->shift, f) : result;
 }
 
 status analysis_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
@@ -97,45 +139,30 @@ status analysis_modal(analysis_context *c, int analysis, analysis_outcome *o, fa
     const int follows = c->scene->analysis[analysis].follows;
     if (follows != SCENE_NONE && c->scene->analysis[follows].kind == SCENE_STATIC)
         return equilibrium_modal(c, analysis, o, f);
-    const model_size size = model_sizes(c->model);
-    const size_t all = (size_t)(size.free + size.driven) + 1;
-    linear_system s;
-    sparse M = {0};
+    linear_system s = {0};
     eigen_result e = {0};
-    forms about = {c->model, &M, 0, calloc(all, sizeof(double)), calloc(all, sizeof(double)), size.free, NULL};
-    double *sigma = NULL;
-    status result = linear_system_alloc(c, &s, f);
-    if (result == STATUS_OK && follows != SCENE_NONE)
-        result = add_prestress(c, follows, &s, &sigma, f);
-    about.sigma = sigma;
-    const int singular = result == STATUS_SINGULAR;
-    if (result == STATUS_OK || singular)
-        result = sparse_alloc_like(&s.K, &M, f);
-    if (result == STATUS_OK && (about.x == NULL || about.y == NULL))
-        result = fault_set(f, STATUS_FAULT, "out of memory for modes");
-    if (result == STATUS_OK)
-        result = model_inertia(c->model, NULL, 0, &M, NULL, f);
-    if (result == STATUS_OK && singular)
-        result = shifted_system(c, &s, &M, &about.shift, f);
+    forms about = {0};
+    status result = assemble(c, follows, &s, &about, f);
     if (result == STATUS_OK) {
         const eigen_problem p = {.K = &s.K,
-                                 .A = &M,
+                                 .A = &about.M,
                                  .K_factor = s.factor,
                                  .sign = 1,
                                  .largest = modal_wanted(c, analysis),
                                  .K_energy = stiffness_form,
+                                 .K_rounding = stiffness_rounding,
+                                 .K_product = stiffness_product,
                                  .context = &about};
         result = eigen_solve(&p, &e, f);
         model_counters(c->model)->solutions += e.solutions;
         model_counters(c->model)->factorisations += e.factorisations;
     }
-    if (result == STATUS_OK)
-        keep(&about, &e.positive, o);
+    keep(&about, &e.positive, o);
     eigen_free(&e);
     linear_system_free(&s);
-    sparse_free_values(&M);
-    free(about.x);
-    free(about.y);
-    free(sigma);
+    linear_forms_free(&about.of);
+    sparse_free_values(&about.M);
+    sparse_free_values(&about.G);
+    free(about.work);
     return result;
 }

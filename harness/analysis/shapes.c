@@ -43,8 +43,8 @@ static int count_of(const analysis_outcome *o, int most)
 {
     if (o->state != NULL)
         return least(o->reached, most);
-    return (o->x != NULL) + least(o->positive, SHAPES_MODES) * (o->mode_positive != NULL) +
-           least(o->negative, SHAPES_MODES) * (o->mode_negative != NULL);
+    return (o->x != NULL) + least(o->positive.count, SHAPES_MODES) * (o->positive.mode != NULL) +
+           least(o->negative.count, SHAPES_MODES) * (o->negative.mode != NULL);
 }
 
 static void keep(const analysis_context *c, shapes *s, const shape_state *what, const model_state *state)
@@ -95,18 +95,17 @@ static status keep_linear(const analysis_context *c, int analysis, shapes *s, fa
 }
 
 /* mode[count x free] */
-static status keep_modes(const analysis_context *c, int analysis, int count, const double mode[], const double value[], shapes *s,
-                         fault *f)
+static status keep_modes(const analysis_context *c, int analysis, const outcome_side *side, shapes *s, fault *f)
 {
     const model_size size = model_sizes(c->model);
     const size_t n = (size_t)size.free;
     const int buckling = c->scene->analysis[analysis].kind == SCENE_BUCKLING;
     double *x = calloc(n + (size_t)size.driven + 1, sizeof *x);
     status outcome = x != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for the shape of a mode");
-    for (int i = 0; i < least(count, SHAPES_MODES) && outcome == STATUS_OK && mode != NULL; i++) {
+    for (int i = 0; i < least(side->count, SHAPES_MODES) && outcome == STATUS_OK && side->mode != NULL; i++) {
         shape_state what = {buckling ? SHAPE_BUCKLING : SHAPE_MODE, analysis,
-                            buckling ? value[i] : value[i] / (2 * 3.14159265358979323846), 0};
-        memcpy(x, mode + n * (size_t)i, n * sizeof *x);
+                            buckling ? side->value[i] : side->value[i] / (2 * 3.14159265358979323846), 0};
+        memcpy(x, side->mode + n * (size_t)i, n * sizeof *x);
         outcome = keep_displaced(c, &what, x, NULL, s, f);
     }
     free(x);
@@ -126,9 +125,9 @@ static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
         if (o->x != NULL)
             outcome = keep_linear(c, i, s, f);
         if (outcome == STATUS_OK)
-            outcome = keep_modes(c, i, o->positive, o->mode_positive, o->value_positive, s, f);
+            outcome = keep_modes(c, i, &o->positive, s, f);
         if (outcome == STATUS_OK)
-            outcome = keep_modes(c, i, o->negative, o->mode_negative, o->value_negative, s, f);
+            outcome = keep_modes(c, i, &o->negative, s, f);
     }
     return outcome;
 }

@@ -26,11 +26,26 @@ void outcome_free(analysis_outcome *o)
     free(o->x);
     free(o->factor);
     free(o->control);
-    free(o->value_positive);
-    free(o->value_negative);
-    free(o->mode_positive);
-    free(o->mode_negative);
+    outcome_side *const sides[] = {&o->positive, &o->negative};
+    for (int i = 0; i < 2; i++) {
+        free(sides[i]->value);
+        free(sides[i]->mode);
+        free(sides[i]->error);
+    }
     rotation_modes_free(o->modes, o->stations);
+}
+
+void outcome_take(eigen_side *from, outcome_side *to)
+{
+    to->count = from->count;
+    to->value = from->mu;
+    to->mode = from->mode;
+    to->error = from->error;
+    to->status = from->status;
+    snprintf(to->reason, sizeof to->reason, "%s", from->reason);
+    if (from->rounding > 0 && from->status == STATUS_OK)
+        snprintf(to->reason, sizeof to->reason, "geometric stiffness is round-off");
+    from->mu = from->mode = from->error = NULL;
 }
 
 static analysis_function *function_of(scene_analysis_kind kind)

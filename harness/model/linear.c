@@ -1,4 +1,6 @@
 /* Linear analyses about the undeformed state, and quadratic forms taken from the strains: they cost no digits on fine meshes. */
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -123,6 +125,47 @@ status model_geometric_stiffness(model *m, const double sigma[], sparse *out, fa
     return STATUS_OK;
 }
 
+/* Sums of the absolute terms of J x and, of S times them, of the stresses of one element. */
+static void linear_terms(model *m, int i, const double x[], double strain[], double stress[])
+{
+    linear_element l;
+    double local[ELEMENT_MAX_COORDINATES];
+    linear_of(m, i, &l);
+    kinematics_local(m, m->rest, &m->element[i], x, local);
+    for (int k = 0; k < m->strains; k++) {
+        strain[k] = 0;
+        for (int j = 0; j < m->coordinates; j++)
+            strain[k] += fabs(l.J[k * m->coordinates + j] * local[j]);
+    }
+    for (int k = 0; k < m->strains; k++) {
+        stress[k] = 0;
+        for (int j = 0; j < m->strains; j++)
+            stress[k] += fabs(l.S[k * m->strains + j]) * strain[j];
+    }
+}
+
+/* Strains are off by the rounding of their terms, S by that of its entries: errors of all elements alike, so they add up. */
+double model_strain_rounding(model *m, const double x[])
+{
+    double sum = 0;
+    for (int i = 0; i < m->elements; i++) {
+        linear_element l;
+        double e[ELEMENT_MAX_STRAINS], terms[ELEMENT_MAX_STRAINS], ignored[ELEMENT_MAX_STRAINS];
+        linear_of(m, i, &l);
+        linear_strains(m, i, &l, x, e);
+        linear_terms(m, i, x, terms, ignored);
+        for (int k = 0; k < m->strains; k++) {
+            double sigma = 0, sigma_terms = 0;
+            for (int j = 0; j < m->strains; j++) {
+                sigma += l.S[k * m->strains + j] * e[j];
+                sigma_terms += fabs(l.S[k * m->strains + j] * e[j]);
+            }
+            sum += DBL_EPSILON * (2 * fabs(sigma) * terms[k] + fabs(e[k]) * sigma_terms);
+        }
+    }
+    return sum;
+}
+
 double model_strain_energy2(model *m, const double x[])
 {
     double sum = 0;
@@ -136,29 +179,53 @@ double model_strain_energy2(model *m, const double x[])
     return sum;
 }
 
+/* x^T (sum sigma_i H_i + J^T G(sigma) J) x of one element. */
+static double geometric_energy2(model *m, int i, const double sigma[], const double x[])
+{
+    double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], G[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
+    double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0}, local[ELEMENT_MAX_COORDINATES],
+                                                             e[ELEMENT_MAX_STRAINS];
+    geometric_of(m, i, sigma, H, G, J);
+    kinematics_local(m, m->rest, &m->element[i], x, local);
+    dense_mul_vec(m->strains, m->coordinates, J, local, e);
+    const double inside = dense_quadratic(m->strains, G, e);
+    if (m->element[i].plain)
+        return inside + dense_quadratic(m->coordinates, H, local);
+    /* Second derivatives of offsets and sequences act in the model's coordinates. */
+    double own[ELEMENT_MAX_COORDINATES];
+    for (int k = 0; k < m->coordinates; k++)
+        own[k] = m->element[i].index[k] == NONE ? 0 : x[m->element[i].index[k]];
+    dense_add_transpose_mul(m->coordinates, m->strains, 1, J, sigma, force);
+    eliminate_matrix(m, m->rest, &m->element[i], force, H);
+    return inside + dense_quadratic(m->coordinates, H, own);
+}
+
 double model_geometric_energy2(model *m, const double sigma[], const double x[])
 {
     double sum = 0;
-    for (int i = 0; i < m->elements; i++) {
-        double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], G[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
-        double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0},
-                                                                 local[ELEMENT_MAX_COORDINATES], e[ELEMENT_MAX_STRAINS];
-        const double *s = &sigma[(size_t)i * (size_t)m->strains];
-        geometric_of(m, i, s, H, G, J);
-        kinematics_local(m, m->rest, &m->element[i], x, local);
-        dense_mul_vec(m->strains, m->coordinates, J, local, e);
-        sum += dense_quadratic(m->strains, G, e);
-        if (m->element[i].plain) {
-            sum += dense_quadratic(m->coordinates, H, local);
-            continue;
-        }
-        /* Second derivatives of offsets and sequences act in the model's coordinates. */
-        double own[ELEMENT_MAX_COORDINATES];
-        for (int k = 0; k < m->coordinates; k++)
-            own[k] = m->element[i].index[k] == NONE ? 0 : x[m->element[i].index[k]];
-        dense_add_transpose_mul(m->coordinates, m->strains, 1, J, s, force);
-        eliminate_matrix(m, m->rest, &m->element[i], force, H);
-        sum += dense_quadratic(m->coordinates, H, own);
-    }
+    for (int i = 0; i < m->elements; i++)
+        sum += geometric_energy2(m, i, &sigma[(size_t)i * (size_t)m->strains], x);
     return sum;
+}
+
+/* The form is linear in the stresses: what is missing there is its own rounding. The stresses' is that of the terms they are
+ * made of, in whatever direction it falls: it has the size of a stress `other` of all kinds at once. */
+double model_geometric_rounding(model *m, const double load_x[], const double sigma[], const double x[])
+{
+    double square = 0;
+    for (int i = 0; i < m->elements; i++) {
+        const double *s = &sigma[(size_t)i * (size_t)m->strains];
+        double terms[ELEMENT_MAX_STRAINS], other[ELEMENT_MAX_STRAINS], both[ELEMENT_MAX_STRAINS], largest = 0;
+        linear_terms(m, i, load_x, both, terms);
+        for (int k = 0; k < m->strains; k++)
+            largest = fmax(largest, terms[k]);
+        for (int k = 0; k < m->strains; k++) {
+            other[k] = largest * sin(1 + 2.3 * k);
+            both[k] = s[k] + other[k];
+        }
+        const double of_other = geometric_energy2(m, i, other, x), of_both = geometric_energy2(m, i, both, x);
+        const double missing = fabs(of_both - of_other - geometric_energy2(m, i, s, x)) + DBL_EPSILON * fabs(of_other);
+        square += missing * missing;
+    }
+    return sqrt(square);
 }

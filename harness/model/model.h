@@ -172,8 +172,11 @@ void model_linear_forces(model *, const double sigma[], double f[]);            
 status model_geometric_stiffness(model *, const double sigma[], sparse *G,
                                  fault *); /* sum sigma H + J^T G(sigma) J; offsets included */
 /* Quadratic forms from the element strains, free of the cancellation of x^T (K x): error eps n^2 instead of eps n^4. */
-double model_strain_energy2(model *, const double x[]); /* x^T K x = sum (Jx)^T S (Jx) */
+double model_strain_energy2(model *, const double x[]);  /* x^T K x = sum (Jx)^T S (Jx) */
+double model_strain_rounding(model *, const double x[]); /* what rounding may change in it */
 double model_geometric_energy2(model *, const double sigma[], const double x[]);
+/* Size of what rounding changes in it, with sigma the stresses of the displacements load_x[free + driven]. */
+double model_geometric_rounding(model *, const double load_x[], const double sigma[], const double x[]);
 /* Loads at factor 1 as a vector on the free coordinates. */
 status model_reference_load(model *, double f[], fault *);
 

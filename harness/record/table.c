@@ -80,7 +80,10 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
         }
         fprintf(to, "%-28s %24.15g %-10s", q->name, v->value, q->unit);
         percent(to, row != NULL ? relative_error(q, v->value, row->value) : NAN);
-        fprintf(to, "%s%s\n", row != NULL ? " against " : "", row != NULL ? row->kind : "");
+        fprintf(to, "%s%s", row != NULL ? " against " : "", row != NULL ? row->kind : "");
+        if (v->rounding > 1e-9)
+            fprintf(to, ", round-off %.1e", v->rounding);
+        fputc('\n', to);
     }
     table_predictions(to, p, t);
     table_matrices(to, &c->solve);

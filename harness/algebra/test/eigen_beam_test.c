@@ -118,8 +118,83 @@ static void test_beam(int elements, double allowed)
     beam_free(&b);
 }
 
+/* The matrix of the test has lost digits, its elements have not. */
+typedef struct spoilt {
+    const sparse *K; /* as it should be */
+    double rounding; /* of x^T K x, in parts of it */
+} spoilt;
+
+static double spoilt_energy(void *context, const double x[])
+{
+    const spoilt *s = context;
+    double sum = 0, *y = malloc((size_t)s->K->n * sizeof *y);
+    sparse_mul(s->K, x, y);
+    for (int i = 0; i < s->K->n; i++)
+        sum += x[i] * y[i];
+    free(y);
+    return sum;
+}
+
+static double spoilt_rounding(void *context, const double x[])
+{
+    return ((const spoilt *)context)->rounding * spoilt_energy(context, x);
+}
+
+static void spoilt_product(void *context, const double x[], double y[])
+{
+    sparse_mul(((const spoilt *)context)->K, x, y);
+}
+
+/* Whatever assembling K has changed, the answer is that of the elements; and an error that is told is the error. */
+static void test_spoilt(double part)
+{
+    enum { ELEMENTS = 60, WANTED = 5 };
+    beam b;
+    sparse good = {0};
+    eigen_result exact = {0}, r = {0};
+    fault f = {""};
+    beam_init(&b, ELEMENTS);
+    eigen_problem p = {.K = &b.K, .A = &b.G, .sign = 1, .largest = WANTED};
+    gsl_test_int((int)eigen_problems_solve(&p, &exact, &f), STATUS_OK, "column as it should be: %s", f.text);
+    gsl_test_int((int)sparse_alloc_like(&b.K, &good, &f), STATUS_OK, "copy");
+    memcpy(good.value, b.K.value, (size_t)b.K.column[b.K.n] * sizeof *good.value);
+    for (int j = 0; j < b.K.n; j++)
+        for (int k = b.K.column[j]; k < b.K.column[j + 1]; k++)
+            if (b.K.row[k] == j && j % 2 == 1) /* turning meets a spring of its own, stiffer along the column */
+                b.K.value[k] += part * 20 * b.h * (1 + 3.0 * j / b.K.n);
+    spoilt context = {&good, 1e-4};
+    p.K_energy = spoilt_energy;
+    p.context = &context;
+    for (int refined = 0; refined < 2; refined++) {
+        p.K_product = refined ? spoilt_product : NULL;
+        p.K_rounding = refined ? spoilt_rounding : NULL;
+        const status outcome = eigen_problems_solve(&p, &r, &f);
+        gsl_test(refined && outcome != STATUS_OK, "K spoilt by %g: %s", part, f.text);
+        double worst = 0;
+        for (int i = 0; i < r.positive.count; i++) {
+            worst = fmax(worst, fabs(r.positive.mu[i] / exact.positive.mu[i] - 1));
+            gsl_test(refined && !(r.positive.error[i] >= 1e-4 && r.positive.error[i] < 1.1e-4),
+                     "the error that is told is that of the form and not of the matrix: %.2e", r.positive.error[i]);
+        }
+        gsl_test_int(r.positive.count, WANTED, "all are found");
+        gsl_test(refined ? !(worst < 1e-7) : part >= 1e-2 && worst < 1e-6, "K spoilt by %g, %s: off by %.1e", part,
+                 refined ? "refined" : "as it is", worst);
+        eigen_free(&r);
+    }
+    context.rounding = 0.5;
+    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_NOT_CONVERGED, "no digit is left: %s", f.text);
+    gsl_test(r.positive.count != WANTED || !isnan(r.positive.mu[0]), "and no value given");
+    eigen_free(&r);
+    eigen_free(&exact);
+    sparse_free_values(&good);
+    beam_free(&b);
+}
+
 int main(void)
 {
+    test_spoilt(1e-4);
+    test_spoilt(1e-2);
+    test_spoilt(0.05);
     test_beam(12, 1e-12);
     test_beam(600, 1e-12);
     test_beam(2000, 3e-9);

@@ -151,7 +151,7 @@ static void test_missed_copies(void)
     eigen_result work = {0};
     pairs p;
     double x[2 * N] = {0}, mu[2], all[COPIES * N] = {0};
-    int missing = -1, above = -1;
+    int missing = -1, above = -1, found = 0;
     strings_init(&s, COPIES, MASSES, 0);
     eigen_problem e = {.K = &s.K, .A = &s.M, .sign = 1, .largest = COPIES, .K_energy = strings_energy, .context = &s};
     gsl_test(factor_alloc(e.K, &e.K_factor, NULL) != STATUS_OK || factor_numeric(e.K_factor, e.K, NULL) != STATUS_OK ||
@@ -174,7 +174,7 @@ static void test_missed_copies(void)
     gsl_test_int((int)pairs_missing(&p, 2, &missing, &work, NULL), STATUS_OK, "values that lie above the second one are counted");
     gsl_test_int(missing, COPIES - 1, "and two are missing");
     const lanczos_problem rest = {e.K, e.A, e.K_factor, 1, p.count, p.x, p.Kx};
-    gsl_test(lanczos_largest(&rest, 2, mu, x, &work.solutions, NULL) != STATUS_OK,
+    gsl_test(lanczos_largest(&rest, 2, &found, mu, x, &work.solutions, NULL) != STATUS_OK || found != 2,
              "Lanczos goes on where the candidates leave off");
     gsl_test_rel(mu[0], first, 1e-12, "second copy");
     gsl_test_rel(mu[1], first, 1e-12, "third copy");
@@ -189,8 +189,87 @@ static void test_missed_copies(void)
     strings_free(&s);
 }
 
+/* x^T A x, not to be had of one sign. */
+typedef struct broken {
+    const sparse *A;
+    double sign;
+} broken;
+
+static double broken_energy(void *context, const double x[])
+{
+    const broken *b = context;
+    double sum = 0, *y = malloc((size_t)b->A->n * sizeof *y);
+    sparse_mul(b->A, x, y);
+    for (int i = 0; i < b->A->n; i++)
+        sum += x[i] * y[i];
+    free(y);
+    return b->sign * sum < 0 ? NAN : sum;
+}
+
+/* Values of both signs, of which those of one sign are lost as soon as they are found: the other side is found all the same, as
+ * if it alone had been asked for, and the side that is not says so. */
+static void test_sides_apart(void)
+{
+    enum { N = 800, WANTED = 4 };
+    strings s;
+    strings_init(&s, 1, N, 0);
+    for (int i = N / 2; i < N; i++)
+        matrices_add(&s.M, i, i, -2.5);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        broken b = {&s.M, sign};
+        eigen_result alone = {0}, r = {0};
+        fault f = {""};
+        eigen_problem p = {.K = &s.K, .A = &s.M, .sign = sign, .largest = WANTED};
+        gsl_test_int((int)eigen_problems_solve(&p, &alone, &f), STATUS_OK, "one side alone: %s", f.text);
+        p.smallest = WANTED;
+        p.A_energy = broken_energy;
+        p.context = &b;
+        gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_NOT_CONVERGED, "the whole is no success");
+        gsl_test_int((int)r.positive.status, STATUS_OK, "the side that can be found is found: %s", r.positive.reason);
+        gsl_test_int(r.positive.count, WANTED, "all of it");
+        for (int i = 0; i < r.positive.count && i < alone.positive.count; i++)
+            gsl_test_rel(r.positive.mu[i], alone.positive.mu[i], 1e-14, "value %d is that of one side alone", i);
+        gsl_test_int((int)r.negative.status, STATUS_NOT_CONVERGED, "the other one is not: %s", r.negative.reason);
+        gsl_test(r.negative.reason[0] == '\0' || strcmp(r.negative.reason, f.text) != 0, "and says so: %s", f.text);
+        gsl_test_int(r.negative.count, 0, "and gives none");
+        eigen_free(&r);
+        eigen_free(&alone);
+    }
+    strings_free(&s);
+}
+
+static double much(void *context, const double x[])
+{
+    (void)x;
+    return *(const double *)context;
+}
+
+/* What the caller says of rounding decides what is a value, and how many digits it has. */
+static void test_rounding(int iterate)
+{
+    enum { MASSES = 120, WANTED = 3 };
+    strings s;
+    strings_init(&s, 1, MASSES, 0);
+    for (int all = 0; all < 2; all++) {
+        double size = all ? 1e9 : 1e-9;
+        eigen_result r = {0};
+        fault f = {""};
+        eigen_problem p = {.K = &s.K, .A = &s.M, .sign = 1, .largest = WANTED, .smallest = WANTED, .iterate = iterate};
+        p.A_rounding = much;
+        p.context = &size;
+        gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_OK, "rounding of %g: %s", size, f.text);
+        gsl_test_int(r.positive.count, all ? 0 : WANTED, "rounding of %g: values that are more", size);
+        gsl_test(all != (r.positive.rounding > 0), "rounding of %g: the others are counted", size);
+        eigen_free(&r);
+    }
+    strings_free(&s);
+}
+
 int main(void)
 {
+    test_sides_apart();
+    test_rounding(0);
+    test_rounding(1);
     static const double spreads[] = {0, 1e-12, 1e-9, 1e-7, 1e-4, 0.01};
     for (size_t i = 0; i < sizeof spreads / sizeof spreads[0]; i++)
         for (int copies = 1; copies <= 6; copies += copies == 1 ? 1 : 2)

@@ -1,0 +1,203 @@
+/* Frequencies whose answer is known, for every formulation that has inertia: equal ones of a square bar, the axial ones between
+ * them, motions of a rigid body, and those of a bar that is stretched or compressed. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/analysis/solve.h"
+#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/registry.h"
+
+enum { MODES = 10, ELEMENTS = 24, RIGID = 6 };
+
+/* A square bar along an oblique direction, slender enough for theories of shear and rotary inertia to agree. */
+static const double young = 2e11, density = 7800, side = 0.01, length = 1;
+static const double direction[3] = {2.0 / 3, -1.0 / 3, 2.0 / 3}, y_axis[3] = {0.1, 1, 0.05};
+
+typedef struct request {
+    int held;            /* 1: at one end, 0: nowhere */
+    double force;        /* at the free end, along the bar ... */
+    double arm;          /* ... or on a rigid arm beyond it [m] */
+    scene_family family; /* of all quantities */
+} request;
+
+typedef struct answer {
+    status status;
+    char reason[FAULT_TEXT];
+    double value[MODES];
+} answer;
+
+static void make(scene *s, const request *what)
+{
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = SECTION_RECTANGLE;
+    spec.young = young;
+    spec.shear_modulus = young / 2.6;
+    spec.density = density;
+    spec.width = spec.height = side;
+    const int root = scene_add_node(s, 0, 0, 0);
+    const int tip = scene_add_node(s, length * direction[0], length * direction[1], length * direction[2]);
+    scene_add_member(s, root, tip, scene_add_section(s, &spec), y_axis);
+    if (what->held)
+        scene_hold_all(s, root);
+    int state = SCENE_NONE;
+    if (what->force != 0) {
+        const double at = length + what->arm;
+        const int end = what->arm == 0 ? tip : scene_add_attached(s, tip, at * direction[0], at * direction[1], at * direction[2]);
+        scene_add_load(s, SCENE_FORCE, end, what->force * direction[0], what->force * direction[1], what->force * direction[2]);
+        state = scene_add_analysis(s, SCENE_LINEAR);
+    }
+    const int modal = scene_add_analysis(s, SCENE_MODAL);
+    scene_analysis_at(s, modal)->follows = state;
+    for (int i = 0; i < MODES; i++) {
+        char name[SCENE_NAME];
+        snprintf(name, sizeof name, "frequency_%d", i + 1);
+        scene_quantity *q = scene_add_quantity(s, name, "Hz", SCENE_FREQUENCY, modal);
+        q->family = what->family;
+        q->order = i;
+    }
+}
+
+/* 0: the formulation does not offer it. */
+static int ask(const element_type *e, const request *what, answer *out)
+{
+    scene s;
+    model *m = NULL;
+    solve_result r = {0};
+    formulation chosen;
+    fault f = {""};
+    memset(out, 0, sizeof *out);
+    formulation_default(e, &chosen);
+    scene_init(&s, "bar");
+    make(&s, what);
+    const model_request wanted = {.scene = &s, .type = e, .options = chosen.option, .elements = ELEMENTS};
+    out->status = model_alloc(&wanted, &m, &f);
+    const int offered = out->status != STATUS_REFUSED;
+    if (out->status == STATUS_OK)
+        out->status = solve_scene(&s, m, NULL, &r, &f);
+    snprintf(out->reason, sizeof out->reason, "%s", f.text);
+    for (int i = 0; i < r.quantities; i++)
+        out->value[i] = r.quantity[i].value;
+    gsl_test(offered && out->status != STATUS_OK, "%s: solved (%s)", e->name, out->reason);
+    solve_result_free(&r);
+    model_free(m);
+    scene_free(&s);
+    return offered && out->status == STATUS_OK;
+}
+
+/* f = (k L)^2/(2 pi L^2) sqrt(E I/(rho A)). */
+static double bending(double root)
+{
+    return root * root / (2 * M_PI * length * length) * sqrt(young * side * side / (12 * density));
+}
+
+static const double clamped[] = {1.8751040687, 4.6940911330, 7.8547574382, 10.995540735, 14.137168391};
+static const double loose[] = {4.7300407449, 7.8532046241};
+
+/* Bending in pairs; the axial one, c/(4 L), and that of torsion lie between them and are not counted where they are not meant. */
+static void cantilever(const element_type *e)
+{
+    answer any, axial, across;
+    const request all = {1, 0, 0, SCENE_ANY}, along = {1, 0, 0, SCENE_AXIAL}, not_along = {1, 0, 0, SCENE_NOT_AXIAL};
+    if (!ask(e, &all, &any))
+        return;
+    for (int i = 0; i < 8; i++)
+        gsl_test_rel(any.value[i], bending(clamped[i / 2]), 2e-2, "%s: frequency %d of bending", e->name, i + 1);
+    for (int i = 1; i < 8; i += 2)
+        gsl_test_rel(any.value[i], any.value[i - 1], 1e-7, "%s: frequencies %d and %d are equal", e->name, i, i + 1);
+    if (!ask(e, &along, &axial) || !ask(e, &not_along, &across))
+        return;
+    const double first = sqrt(young / density) / (4 * length);
+    gsl_test_rel(axial.value[0], first, 2e-3, "%s: the axial frequency", e->name);
+    int at_axial = 0, at_across = 0;
+    for (int i = 0; i < MODES; i++) {
+        const int is_axial = axial.value[at_axial] <= across.value[at_across];
+        gsl_test_rel(any.value[i], is_axial ? axial.value[at_axial] : across.value[at_across], 1e-9,
+                     "%s: frequency %d is that of one of the families", e->name, i + 1);
+        at_axial += is_axial;
+        at_across += !is_axial;
+    }
+}
+
+static void nothing_held(const element_type *e)
+{
+    answer a;
+    const request free_bar = {0, 0, 0, SCENE_ANY};
+    if (!ask(e, &free_bar, &a))
+        return;
+    for (int i = 0; i < RIGID; i++)
+        gsl_test_abs(a.value[i], 0, 1e-3 * bending(loose[0]), "%s: motion %d of a rigid body", e->name, i + 1);
+    for (int i = RIGID; i < MODES; i++)
+        gsl_test_rel(a.value[i], bending(loose[(i - RIGID) / 2]), 1e-2, "%s: frequency %d of the free bar", e->name, i + 1 - RIGID);
+}
+
+/* With t = T/(EI): w = A (cosh ax - cos bx) + B (sinh ax/a - sin bx/b), a^2 - b^2 = t, a^2 b^2 = k^4; at the free end no moment, and
+ * no force across the bar's first direction. Zero where k^2 sqrt(EI/(rho A)) is a frequency. */
+static double determinant(double t, double k)
+{
+    const double root = sqrt(t * t / 4 + k * k * k * k), a = sqrt(root + t / 2), b = sqrt(root - t / 2);
+    const double C = cosh(a), S = sinh(a), c = cos(b), s = sin(b);
+    return (a * a * C + b * b * c) * (b * b * C + a * a * c) - a * b * (a * S + b * s) * (b * S - a * s);
+}
+
+/* The least root k, scanned for and bisected; the bar's length is 1. */
+static double first_root(double t)
+{
+    const double step = 1e-3;
+    double k = step;
+    while (determinant(t, k) * determinant(t, k + step) > 0)
+        k += step;
+    double low = k, high = k + step;
+    for (int i = 0; i < 100; i++) {
+        const double middle = (low + high) / 2;
+        *(determinant(t, low) * determinant(t, middle) > 0 ? &low : &high) = middle;
+    }
+    return low;
+}
+
+/* Compressed nearly to Euler's load, to half of it, and stretched by half of it and by twenty times as much. */
+static void loaded(const element_type *e)
+{
+    static const double part[] = {-0.999, -0.5, 0.5, 20};
+    gsl_test_rel(first_root(0), clamped[0], 1e-9, "the equation gives the bar without load");
+    for (int i = 0; i < 4; i++) {
+        answer a;
+        const double t = part[i] * M_PI * M_PI / (4 * length * length);
+        const request state = {1, t * young * pow(side, 4) / 12, 0, SCENE_ANY};
+        if (!(e->offers & FEATURE_GEOMETRIC) || !ask(e, &state, &a))
+            return;
+        const double square = pow(a.value[0] / bending(clamped[0]), 2), exact = pow(first_root(t) / clamped[0], 4);
+        gsl_test_abs(square, exact, 2e-3 * fmax(1, exact), "%s: square of the first frequency at %g of Euler's load", e->name,
+                     part[i]);
+        gsl_test_rel(a.value[1], a.value[0], 1e-6, "%s: the second is equal", e->name);
+    }
+}
+
+/* On an arm as long as the bar the critical load is k^2 EI with k tan k = 1: there the frequency vanishes, and not at another. */
+static void loaded_on_arm(const element_type *e)
+{
+    const double critical = 0.86033358901937976 * 0.86033358901937976 * young * pow(side, 4) / 12;
+    answer below;
+    const request state = {1, -0.999 * critical, length, SCENE_ANY};
+    if (!(e->offers & FEATURE_GEOMETRIC) || !ask(e, &state, &below))
+        return;
+    gsl_test_abs(pow(below.value[0] / bending(clamped[0]), 2), 0, 5e-3, "%s: the frequency vanishes at the critical load of an arm",
+                 e->name);
+}
+
+int main(void)
+{
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        const element_type *e = registry_formulations[i];
+        answer a;
+        const request all = {1, 0, 0, SCENE_ANY};
+        gsl_test((e->offers & FEATURE_MASS) && !ask(e, &all, &a), "%s offers inertia and solves nothing", e->name);
+        cantilever(e);
+        nothing_held(e);
+        loaded(e);
+        loaded_on_arm(e);
+    }
+    return gsl_test_summary();
+}
