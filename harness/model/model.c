@@ -136,6 +136,11 @@ model_size model_sizes(const model *m)
     return (model_size){m->elements, m->vertices, m->free, m->driven, m->strains, m->inner, m->features};
 }
 
+double model_length(const model *m)
+{
+    return m->size;
+}
+
 int model_left_out(const model *m, const char *const **lines)
 {
     *lines = (const char *const *)m->line;

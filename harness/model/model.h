@@ -50,6 +50,7 @@ typedef struct model_size {
     unsigned features;
 } model_size;
 model_size model_sizes(const model *);
+double model_length(const model *); /* longest member [m]: displacements are small or large beside it */
 
 /* What was left out, one line each ("warping coordinates of 12 ends: nothing warps there"). */
 int model_left_out(const model *, const char *const **lines);
