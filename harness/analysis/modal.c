@@ -6,6 +6,7 @@
 #include "harness/algebra/eigen.h"
 #include "harness/analysis/analysis.h"
 #include "harness/analysis/equilibrium.h"
+#include "harness/analysis/singular.h"
 
 int modal_wanted(const analysis_context *c, int analysis)
 {
@@ -67,7 +68,7 @@ static status shifted_system(analysis_context *c, linear_system *s, const sparse
     for (int i = 0; i < M->column[M->n]; i++)
         s->K.value[i] += *shift * M->value[i];
     model_counters(c->model)->factorisations++;
-    return factor_numeric(s->factor, &s->K, f);
+    return analysis_factor(c, s->factor, &s->K, f);
 }
 
 /* K += G of the stresses of the linear analysis that is followed; sigma is the caller's. */
@@ -89,7 +90,7 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
         s->K.value[i] += G.value[i];
     sparse_free_values(&G);
     model_counters(c->model)->factorisations++;
-    return outcome == STATUS_OK ? factor_numeric(s->factor, &s->K, f) : outcome;
+    return outcome == STATUS_OK ? analysis_factor(c, s->factor, &s->K, f) : outcome;
 }
 
 status analysis_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f)

@@ -9,6 +9,7 @@
 #include "elements/math/dense.h"
 #include "harness/algebra/memory.h"
 #include "harness/analysis/history.h"
+#include "harness/analysis/singular.h"
 
 enum { MAX_ITERATIONS = 30 };
 static const double default_criterion = 1e-8; /* largest correction, dimensionless: the next one would be its square */
@@ -96,7 +97,7 @@ static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
     phases *p = model_phases(n->c->model);
     status outcome = model_linearise(n->c->model, n->state, lin, f);
     if (outcome == STATUS_OK)
-        outcome = factor_numeric(n->factor, &n->K, f);
+        outcome = analysis_factor(n->c, n->factor, &n->K, f);
     phases_lap(p, PHASE_FACTORISATION);
     if (outcome != STATUS_OK)
         return outcome;
@@ -138,6 +139,7 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
     phases_lap(model_phases(m), PHASE_ASSEMBLY);
     const int singular = LAPACKE_dgesv(LAPACK_COL_MAJOR, (int)size, 1, n->dense, (int)size, n->pivot, n->unknown, (int)size) != 0;
     phases_lap(model_phases(m), PHASE_FACTORISATION);
+    n->c->singular = singular;
     if (singular)
         return fault_set(f, STATUS_SINGULAR, "the uncondensed system is singular");
     memcpy(n->dx, n->unknown, (size_t)n->free * sizeof *n->dx);

@@ -2,6 +2,7 @@
  *   [ K  U ] [x]   [f]
  *   [ V  W ] [z] = [g],   S = W - V K^-1 U,   z = S^-1 (g - V K^-1 f),   x = K^-1 f - K^-1 U z. */
 #include "harness/analysis/bordered.h"
+#include "harness/analysis/singular.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -123,7 +124,7 @@ status tangent_at(analysis_context *c, const scene_analysis *a, const model_stat
     if (outcome == STATUS_OK) {
         model_release_moment(c->model, s, a->node, reaction + 3, &t->K);
         copy_inside(t);
-        outcome = factor_numeric(t->factor, &t->inside, f);
+        outcome = analysis_factor(c, t->factor, &t->inside, f);
     }
     t->state = s;
     t->refined = outcome == STATUS_OK && factor_condition(t->factor, &t->inside) > harmless_condition;

@@ -106,6 +106,12 @@ status model_alloc(const model_request *request, model **out, fault *f)
     return outcome;
 }
 
+status model_coarse(const model *m, model **out, fault *f)
+{
+    const model_request request = {m->scene, m->type, m->options, 1, m->keep_all};
+    return model_alloc(&request, out, f);
+}
+
 void model_free(model *m)
 {
     if (m == NULL)
