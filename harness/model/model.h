@@ -50,6 +50,7 @@ typedef struct model_size {
     unsigned features;
 } model_size;
 model_size model_sizes(const model *);
+int model_kinds(const model *); /* elements that differ in section, length, initial curvature or strain */
 /* The same with one element per member. */
 status model_coarse(const model *, model **, fault *);
 /* 1: the supports leave a part of the undeformed structure loose: a node of it, and a rigid motion (displacement of that node [m], turn
