@@ -61,12 +61,11 @@ def quantities(given):
     net, arm, turned = hinge(sizes)
     net.solve((0.5, 1.0))
     C = compliance(net, arm, turned, rotation in TILTS_FREE, convention)
-    note = f"{convention} moments"
     yield "moment", net.force * net.length * arm.load[5], "N m", RELATIVE
     for i, name in enumerate(("shift_x", "shift_y")):
         yield name, net.length * arm.x[i], "m", RELATIVE
     for i, name in enumerate(("k_x", "k_y", "k_z", "k_tilt_x", "k_tilt_y")[:len(C)]):
-        yield name, 1 / C[i, i], "N/m" if i < 3 else "N m/rad", RELATIVE, note
+        yield name, 1 / C[i, i], "N/m" if i < 3 else "N m/rad", RELATIVE, convention
 
 
 def rows():
