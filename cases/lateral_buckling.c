@@ -37,8 +37,11 @@ static status build(const double value[], scene *s, fault *f)
     scene_member_at(s, first)->warp_p = supported ? SCENE_WARP_FREE : SCENE_WARP_FIXED;
     scene_member_at(s, first)->warp_q = scene_member_at(s, second)->warp_p = middle;
     if (supported) {
-        scene_hold(s, start, SCENE_UX, SCENE_RX);
-        scene_hold(s, end, SCENE_UY, SCENE_RX);
+        const double x_axis[3] = {1, 0, 0}, z_axis[3] = {0, 0, 1};
+        scene_hold(s, start, SCENE_UX, SCENE_UZ);
+        scene_hold(s, end, SCENE_UY, SCENE_UZ);
+        scene_fork(s, start, x_axis, z_axis);
+        scene_fork(s, end, x_axis, z_axis);
     } else {
         scene_hold_all(s, start);
     }

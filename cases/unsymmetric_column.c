@@ -61,11 +61,13 @@ static status build(const double value[], scene *s, fault *f)
     section_spec spec;
     branched_section(value, &spec);
     const int profile = scene_add_section(s, &spec);
-    const double y_axis[3] = {0, 1, 0}, load = value[AXIAL_LOAD] != 0 ? value[AXIAL_LOAD] : 1;
+    const double x_axis[3] = {1, 0, 0}, y_axis[3] = {0, 1, 0}, load = value[AXIAL_LOAD] != 0 ? value[AXIAL_LOAD] : 1;
     const int foot = scene_add_node(s, 0, 0, 0), head = scene_add_node(s, value[LENGTH], 0, 0);
     scene_add_member(s, foot, head, profile, y_axis);
-    scene_hold(s, foot, SCENE_UX, SCENE_RX);
-    scene_hold(s, head, SCENE_UY, SCENE_RX);
+    scene_hold(s, foot, SCENE_UX, SCENE_UZ);
+    scene_hold(s, head, SCENE_UY, SCENE_UZ);
+    scene_fork(s, foot, x_axis, y_axis);
+    scene_fork(s, head, x_axis, y_axis);
     scene_add_load(s, SCENE_FORCE, head, -load, 0, 0);
     s->needs |= SCENE_NEED_TRAPEZE;
     if (value[SHEAR] != 0)

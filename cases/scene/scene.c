@@ -229,6 +229,14 @@ void scene_drive(scene *s, int node, int component, int driver)
     *component_of(scene_node_at(s, node), component) = driver;
 }
 
+void scene_fork(scene *s, int node, const double axis[3], const double web[3])
+{
+    scene_node *n = scene_node_at(s, node);
+    n->rotation = SCENE_ROTATION_FORK;
+    memcpy(n->axis[0], axis, sizeof n->axis[0]);
+    memcpy(n->axis[1], web, sizeof n->axis[1]);
+}
+
 void scene_meshes(scene *s, int count, const int mesh[])
 {
     s->meshes = count < 16 ? count : 16;

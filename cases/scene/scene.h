@@ -27,7 +27,8 @@ enum { SCENE_FREE = -1, SCENE_HELD = -2 };
 typedef enum scene_rotation {
     SCENE_ROTATION_SPATIAL,  /* three increments about fixed axes, each free or held (all held: clamped) */
     SCENE_ROTATION_SEQUENCE, /* R = exp(axis_1 t_1) exp(axis_2 t_2) exp(axis_3 t_3); each angle free, held or driven */
-    SCENE_ROTATION_VECTOR    /* rotation vector = its three drivers' values: prescribed entirely, any path */
+    SCENE_ROTATION_VECTOR,   /* rotation vector = its three drivers' values: prescribed entirely, any path */
+    SCENE_ROTATION_FORK      /* no turn about the section's own axis, the other two free: see scene_fork */
 } scene_rotation;
 
 typedef struct scene_node {
@@ -36,7 +37,7 @@ typedef struct scene_node {
     int translation[3]; /* SCENE_FREE, SCENE_HELD or a driver */
     scene_rotation rotation;
     int angle[3];      /* SCENE_FREE, SCENE_HELD or a driver: of the spatial components, the angles or the vector */
-    double axis[3][3]; /* of the sequence; a zero axis ends it */
+    double axis[3][3]; /* of the sequence; a zero axis ends it. Of a fork: the section's own axis, and the web's direction */
 } scene_node;
 
 typedef struct scene_member {
@@ -202,6 +203,11 @@ scene_analysis *scene_analysis_at(scene *s, int index);
 void scene_hold(scene *s, int node, int first, int last); /* components SCENE_UX .. SCENE_RZ, inclusive */
 void scene_hold_all(scene *s, int node);
 void scene_drive(scene *s, int node, int component, int driver); /* a translation, or a spatial rotation component */
+/* A fork: its guides stand on both sides of the web, and their normal n = web x axis is fixed.  The web stays between them, R web . n = 0,
+ * whichever way the section is bent: R = exp(n t_1) exp(web t_2).  While the bending is in the plane of axis and web, the section does not
+ * turn about its own present axis, R axis, and the fork's moment is along it.  (A held SCENE_RX is a moment along the fixed x axis.)
+ * axis, web: of the undeformed section, at right angles, of any length.  Translations are held by themselves. */
+void scene_fork(scene *s, int node, const double axis[3], const double web[3]);
 /* Convention of moments that a quantity depends on, or NULL. */
 const char *scene_convention(const scene *s, const scene_quantity *q);
 void scene_meshes(scene *s, int count, const int mesh[]);

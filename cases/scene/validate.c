@@ -3,6 +3,42 @@
 #include <string.h>
 
 #include "cases/scene/scene.h"
+#include "elements/math/dense.h"
+
+/* Does a straight member of the node run along the direction, or a curved one end there?  Also 1 when no member ends there. */
+static int has_member_along(const scene *s, int node, const double direction[3])
+{
+    int ends = 0, along = 0;
+    for (int i = 0; i < s->members; i++) {
+        const scene_member *m = &s->member[i];
+        if (m->p < 0 || m->q < 0 || m->p >= s->nodes || m->q >= s->nodes || (m->p != node && m->q != node))
+            continue;
+        double d[3];
+        for (int k = 0; k < 3; k++)
+            d[k] = s->node[m->q].position[k] - s->node[m->p].position[k];
+        ends++;
+        along |= vec3_norm(m->curvature) > 0 || fabs(vec3_dot(d, direction)) >= (1 - 1e-9) * vec3_norm(d) * vec3_norm(direction);
+    }
+    return along || ends == 0;
+}
+
+/* The fork decides about all rotations, and its axis is that of a member. */
+static status check_fork(const scene *s, int i, fault *f)
+{
+    const scene_node *n = &s->node[i];
+    const double *axis = n->axis[0], *web = n->axis[1], lengths = vec3_norm(axis) * vec3_norm(web);
+    for (int k = 0; k < 3; k++)
+        if (n->angle[k] != SCENE_FREE)
+            return fault_set(f, STATUS_REFUSED,
+                             "node %d: contradictory supports, a fork and R%c %s; take one away, or give a sequence of angles", i,
+                             "XYZ"[k], n -> angle[k] == SCENE_HELD ? "held" : "driven");
+    if (!(lengths > 0) || !(fabs(vec3_dot(axis, web)) <= 1e-9 * lengths))
+        return fault_set(f, STATUS_REFUSED, "node %d: axis and web of its fork are not at right angles; give two that are", i);
+    if (!has_member_along(s, i, axis))
+        return fault_set(f, STATUS_REFUSED, "node %d: no member there runs along the axis of its fork; give the member's direction",
+                         i);
+    return STATUS_OK;
+}
 
 static status check_node(const scene *s, int i, fault *f)
 {
@@ -15,6 +51,11 @@ static status check_node(const scene *s, int i, fault *f)
             return fault_set(f, STATUS_REFUSED, "node %d: moved by a driver that does not exist", i);
         if (n->rotation == SCENE_ROTATION_VECTOR && n->angle[k] < 0)
             return fault_set(f, STATUS_REFUSED, "node %d: a prescribed rotation vector needs three drivers", i);
+    }
+    if (n->rotation == SCENE_ROTATION_FORK) {
+        const status outcome = check_fork(s, i, f);
+        if (outcome != STATUS_OK)
+            return outcome;
     }
     if (n->attached == SCENE_NONE)
         return STATUS_OK;

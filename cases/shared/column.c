@@ -29,8 +29,11 @@ status column_build(const case_parameter parameters[], const double value[], sce
     ends[0] = scene_add_node(s, 0, 0, 0);
     ends[1] = scene_add_node(s, value[COLUMN_LENGTH], 0, 0);
     scene_add_member(s, ends[0], ends[1], profile, y_axis);
-    scene_hold(s, ends[0], SCENE_UX, SCENE_RX);
-    scene_hold(s, ends[1], SCENE_UY, SCENE_RX);
+    const double x_axis[3] = {1, 0, 0};
+    scene_hold(s, ends[0], SCENE_UX, SCENE_UZ);
+    scene_hold(s, ends[1], SCENE_UY, SCENE_UZ);
+    for (int i = 0; i < 2; i++)
+        scene_fork(s, ends[i], x_axis, y_axis); /* moments are about z */
     if (value[COLUMN_SHEAR] != 0)
         s->needs |= SCENE_NEED_SHEAR | (value[COLUMN_STABILITY] == 0 ? SCENE_NEED_ENGESSER : SCENE_NEED_HARINGX);
     s->needs |= SCENE_NEED_TRAPEZE;

@@ -1,6 +1,7 @@
 /* Small dense algebra: plain loops in the order that runs along rows. */
 #include "elements/math/dense.h"
 
+#include <float.h>
 #include <string.h>
 
 void dense_mul(int m, int k, int n, const double *restrict A, const double *restrict B, double *restrict C)
@@ -152,6 +153,19 @@ int dense_lu(int n, double *A, int pivot[])
         }
     }
     return 0;
+}
+
+int dense_lu_regular(int n, double *A, int pivot[])
+{
+    const int failed = dense_lu(n, A, pivot);
+    for (int j = 0; j < n && failed == 0; j++) {
+        double terms = fabs(A[j * n + j]);
+        for (int k = 0; k < j; k++)
+            terms += fabs(A[j * n + k] * A[k * n + j]);
+        if (!(fabs(A[j * n + j]) > 16 * n * DBL_EPSILON * terms))
+            return j + 1;
+    }
+    return failed;
 }
 
 void dense_lu_solve(int n, int m, const double *LU, const int pivot[], double *B)

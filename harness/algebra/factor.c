@@ -90,7 +90,7 @@ status factor_numeric(factor *fa, const sparse *a, fault *f)
     if (outcome == STATUS_OK && ratio <= n * n * n * DBL_EPSILON && !(lost_part(fa, a, row, column) < lost))
         outcome = STATUS_SINGULAR;
     if (outcome == STATUS_SINGULAR)
-        fault_set(f, outcome, "the stiffness matrix is singular: something is not held, or the structure is at a critical point");
+        fault_set(f, outcome, "the stiffness matrix is singular");
     else if (outcome == STATUS_FAULT)
         fault_set(f, outcome, "out of memory for the factors of %d unknowns", fa->n);
     return outcome;

@@ -44,6 +44,7 @@ typedef struct analysis_context {
     solve_result *result;       /* step records go here */
     analysis_outcome *outcomes; /* [analyses], those before the present one are complete */
     double setup;               /* [s] spent on patterns and symbolic factorisation */
+    int singular;               /* 1: the last factorisation failed */
 } analysis_context;
 
 typedef status analysis_function(analysis_context *, int analysis, analysis_outcome *, fault *);

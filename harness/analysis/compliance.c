@@ -30,8 +30,7 @@ static status compliance_at(analysis_context *c, const scene_analysis *a, const 
                             double C[36], double K[36], fault *f)
 {
     double reaction[6], load[6];
-    int component[TANGENT_COMPONENTS];
-    unsigned held = 0x3f;
+    movable motions;
     model_node_force(c->model, s, a->node, reaction);
     model_node_load(c->model, s, a->node, load);
     for (int i = 0; i < 6; i++)
@@ -39,16 +38,14 @@ static status compliance_at(analysis_context *c, const scene_analysis *a, const 
     status outcome = tangent_at(c, a, s, reaction, t, f);
     if (outcome != STATUS_OK)
         return outcome;
-    const int count = tangent_movable(t, component), turns = count > 0 && component[count - 1] >= 3;
-    for (int i = 0; i < count; i++)
-        held &= ~(1u << component[i]);
-    for (int i = 3; i < 6 && tangent_turns_freely(t); i++)
-        reaction[i] = 0; /* where nothing is prescribed it is what Newton left over */
+    tangent_movable(c->model, t, &motions);
+    tangent_prescribed(t, reaction + 3);
+    const unsigned turns = motions.components & 0x38, held = 0x3f & ~motions.components;
     if (turns && convention_changes(a->moments, reaction + 3))
         wanted = 0x3f;
-    outcome = tangent_compliance(c, t, wanted, C, f);
-    if (outcome == STATUS_OK && count > 0 && (wanted | held) == 0x3f)
-        return convention_apply(a->moments, count, component, reaction + 3, C, K, f);
+    outcome = tangent_compliance(c, t, wanted, motions.components, C, f);
+    if (outcome == STATUS_OK && motions.count > 0 && (wanted | held) == 0x3f)
+        return convention_apply(a->moments, &motions, reaction + 3, C, K, f);
     forget_columns(wanted | held, C);
     forget_columns(0, K);
     return outcome;

@@ -9,6 +9,7 @@
 
 #include "harness/algebra/eigen.h"
 #include "harness/analysis/newton.h"
+#include "harness/analysis/singular.h"
 
 enum { MAX_STATES = 60, POINTS = 3 };
 static const double first_step = 0.1; /* of the path so far */
@@ -131,7 +132,7 @@ static status take_state(search *s, fault *f)
     eigen_free(&s->found);
     for (int i = 0; i < s->scale.column[s->scale.n]; i++)
         s->n.K.value[i] += s->shift * s->scale.value[i];
-    status outcome = s->shift > 0 ? factor_numeric(s->n.factor, &s->n.K, f) : STATUS_OK;
+    status outcome = s->shift > 0 ? analysis_factor(s->n.c, s->n.factor, &s->n.K, f) : STATUS_OK;
     if (outcome == STATUS_OK)
         outcome = eigen_solve(&p, &s->found, f);
     count_work(s->n.c, &s->found);

@@ -1,8 +1,10 @@
 /* Linear statics about the undeformed state. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "harness/analysis/analysis.h"
+#include "harness/analysis/singular.h"
 
 void count_condition(const analysis_context *c, factor *fa, const sparse *K)
 {
@@ -27,7 +29,7 @@ status linear_system_alloc(analysis_context *c, linear_system *out, fault *f)
     if (outcome == STATUS_OK)
         outcome = model_linear_stiffness(c->model, &out->K, f);
     if (outcome == STATUS_OK)
-        outcome = factor_numeric(out->factor, &out->K, f);
+        outcome = analysis_factor(c, out->factor, &out->K, f);
     if (outcome == STATUS_OK) {
         counters *n = model_counters(c->model);
         const factor_counts counts = factor_count(out->factor);
@@ -59,34 +61,72 @@ static status residual_of(analysis_context *c, const double load[], const double
     return STATUS_OK;
 }
 
-/* Iterative refinement with residuals from the strains. */
-enum { REFINEMENTS = 2 };
+/* Iterative refinement with residuals from the strains: twice always, and on as long as it helps where digits are still missing. */
+enum { REFINEMENTS = 2, MOST_REFINEMENTS = 30 };
+static const double sure_digits = 1e-9; /* of the last correction beside the solution */
+
+static double weighted_size(int n, const double weight[], const double x[])
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += weight[i] * x[i] * x[i];
+    return sqrt(sum);
+}
+
+typedef struct refinement {
+    double *load, *r, *weight; /* [free + driven] */
+    double *sigma;             /* [elements x strains] */
+} refinement;
+
+static status refinement_alloc(analysis_context *c, refinement *w, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    const size_t all = (size_t)(size.free + size.driven) + 1;
+    w->load = calloc(3 * all, sizeof *w->load);
+    w->sigma = calloc((size_t)size.elements * (size_t)size.strains + 1, sizeof *w->sigma);
+    if (w->load == NULL || w->sigma == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a linear solution");
+    w->r = w->load + all;
+    w->weight = w->r + all;
+    model_metric(c->model, w->weight);
+    return model_reference_load(c->model, w->load, f);
+}
+
+static status refine(analysis_context *c, linear_system *s, refinement *w, double x[], fault *f)
+{
+    const int n = model_sizes(c->model).free;
+    double last = INFINITY;
+    for (int i = 0; i <= MOST_REFINEMENTS; i++) {
+        const status outcome = residual_of(c, w->load, x, w->sigma, w->r, f);
+        if (outcome != STATUS_OK)
+            return outcome;
+        factor_solve(s->factor, w->r);
+        model_counters(c->model)->solutions++;
+        for (int k = 0; k < n; k++)
+            x[k] += w->r[k];
+        const double correction = weighted_size(n, w->weight, w->r) / weighted_size(n, w->weight, x);
+        if (i >= REFINEMENTS && !(correction > sure_digits))
+            return STATUS_OK;
+        if (i > REFINEMENTS && !(correction < last / 2))
+            break;
+        last = correction;
+    }
+    c->singular = 1;
+    return fault_set(f, STATUS_SINGULAR, "the linear solution is lost in round-off");
+}
 
 status linear_system_solve(analysis_context *c, linear_system *s, double x[], fault *f)
 {
     const model_size size = model_sizes(c->model);
-    const size_t all = (size_t)(size.free + size.driven) + 1;
-    double *load = calloc(all, sizeof *load), *r = calloc(all, sizeof *r);
-    double *sigma = calloc((size_t)size.elements * (size_t)size.strains, sizeof *sigma);
-    status outcome =
-        load == NULL || r == NULL || sigma == NULL ? fault_set(f, STATUS_FAULT, "out of memory for a linear solution") : STATUS_OK;
-    if (outcome == STATUS_OK)
-        outcome = model_reference_load(c->model, load, f);
-    memset(x, 0, all * sizeof *x - sizeof *x);
+    refinement w = {0};
+    status outcome = refinement_alloc(c, &w, f);
+    memset(x, 0, (size_t)(size.free + size.driven) * sizeof *x);
     if (outcome == STATUS_OK)
         model_drive(c->model, model_rest(c->model), 1, x);
-    for (int i = 0; i <= REFINEMENTS && outcome == STATUS_OK; i++) {
-        outcome = residual_of(c, load, x, sigma, r, f);
-        if (outcome != STATUS_OK)
-            break;
-        factor_solve(s->factor, r);
-        model_counters(c->model)->solutions++;
-        for (int k = 0; k < size.free; k++)
-            x[k] += r[k];
-    }
-    free(load);
-    free(r);
-    free(sigma);
+    if (outcome == STATUS_OK)
+        outcome = refine(c, s, &w, x, f);
+    free(w.load);
+    free(w.sigma);
     return outcome;
 }
 

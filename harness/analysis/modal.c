@@ -8,6 +8,7 @@
 #include "harness/analysis/analysis.h"
 #include "harness/analysis/equilibrium.h"
 #include "harness/analysis/linear_forms.h"
+#include "harness/analysis/singular.h"
 
 int modal_wanted(const analysis_context *c, int analysis)
 {
@@ -90,7 +91,7 @@ static status shifted_system(analysis_context *c, linear_system *s, const sparse
     for (int i = 0; i < M->column[M->n]; i++)
         s->K.value[i] += *shift * M->value[i];
     model_counters(c->model)->factorisations++;
-    return factor_numeric(s->factor, &s->K, f);
+    return analysis_factor(c, s->factor, &s->K, f);
 }
 
 /* K += G of the stresses of the linear analysis that is followed. */
@@ -110,7 +111,7 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
     for (int i = 0; i < s->K.column[s->K.n] && outcome == STATUS_OK; i++)
         s->K.value[i] += about->G.value[i];
     model_counters(c->model)->factorisations++;
-    return outcome == STATUS_OK ? factor_numeric(s->factor, &s->K, f) : outcome;
+    return outcome == STATUS_OK ? analysis_factor(c, s->factor, &s->K, f) : outcome;
 }
 
 /* K with its factors, and M; K of a structure that is not held is shifted. */

@@ -18,6 +18,15 @@ static void components(const double R[9], double radius, const double u[7], doub
     out[TWIST] = radius * (R[0] * u[3] + R[3] * u[4] + R[6] * u[5]);
 }
 
+/* Where the vertices stay in place: turns of the section about z and y times r, and warping times r^2. */
+static void turns(const double R[9], double radius, const double u[7], double out[MEASURES])
+{
+    out[AXIAL] = 0;
+    out[ALONG_Y] = radius * (R[2] * u[3] + R[5] * u[4] + R[8] * u[5]);
+    out[ALONG_Z] = -radius * (R[1] * u[3] + R[4] * u[4] + R[7] * u[5]);
+    out[TWIST] = radius * radius * u[6];
+}
+
 /* value[MEASURES i] at vertex i. */
 static int count_half_waves(int vertices, const double *value)
 {
@@ -39,6 +48,7 @@ static int count_half_waves(int vertices, const double *value)
 typedef struct motion {
     int points, first_member; /* points of all members, and of the first */
     double *part;             /* [points x MEASURES] */
+    double *turn;             /* the same of what the sections do in place */
 } motion;
 
 static int points_of(const model *m, const scene *s)
@@ -56,7 +66,8 @@ static status motion_alloc(const model *m, const scene *s, const double mode[], 
     int *index = malloc((vertices + 1) * sizeof *index);
     out->points = 0;
     out->first_member = s->members > 0 ? model_member_vertices(m, 0, NULL) : 0;
-    out->part = malloc((points * MEASURES + 1) * sizeof *out->part);
+    out->part = malloc((2 * points * MEASURES + 1) * sizeof *out->part);
+    out->turn = out->part + points * MEASURES;
     const int good = u != NULL && index != NULL && out->part != NULL;
     if (good)
         model_shape(m, mode, u, NULL);
@@ -68,28 +79,52 @@ static status motion_alloc(const model *m, const scene *s, const double mode[], 
             d[i] = s->node[sm->q].position[i] - s->node[sm->p].position[i];
         rotation_triad(d, sm->y_axis, R);
         const int count = model_member_vertices(m, member, index);
-        for (int i = 0; i < count; i++)
-            components(R, sqrt(c->Ip / c->A), &u[7 * index[i]], &out->part[MEASURES * out->points++]);
+        for (int i = 0; i < count; i++, out->points++) {
+            const double radius = sqrt(c->Ip / c->A);
+            components(R, radius, &u[7 * index[i]], &out->part[MEASURES * out->points]);
+            turns(R, radius, &u[7 * index[i]], &out->turn[MEASURES * out->points]);
+        }
     }
     free(u);
     free(index);
     return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for a mode");
 }
 
+/* Sums of squares over the points. */
+static void squares(int points, const double *part, double sum[MEASURES])
+{
+    memset(sum, 0, MEASURES * sizeof *sum);
+    for (int i = 0; i < points; i++)
+        for (int k = 0; k < MEASURES; k++)
+            sum[k] += part[MEASURES * i + k] * part[MEASURES * i + k];
+}
+
+static int largest_of(const double sum[MEASURES])
+{
+    int leading = 0;
+    for (int k = 1; k < MEASURES; k++)
+        leading = sum[k] > sum[leading] ? k : leading;
+    return leading;
+}
+
+/* Motion of the vertices below this part of that of the sections in place, in squares, is round-off. */
+static const double in_place_part = 1e-16;
+
 status mode_identify(const model *m, const scene *s, const double mode[], mode_shape *out, fault *f)
 {
     static const scene_family family[MEASURES] = {SCENE_AXIAL, SCENE_BENDING_Y, SCENE_BENDING_Z, SCENE_TORSION};
     motion shape;
     const status outcome = motion_alloc(m, s, mode, &shape, f);
-    double sum[MEASURES] = {0};
-    int leading = 0;
-    for (int i = 0; i < shape.points; i++)
-        for (int k = 0; k < MEASURES; k++)
-            sum[k] += shape.part[MEASURES * i + k] * shape.part[MEASURES * i + k];
-    for (int k = 1; k < MEASURES; k++)
-        leading = sum[k] > sum[leading] ? k : leading;
+    double moved[MEASURES], turned[MEASURES], all = 0, in_place = 0;
+    squares(shape.points, shape.part, moved);
+    squares(shape.points, shape.turn, turned);
+    for (int k = 0; k < MEASURES; k++) {
+        all += moved[k];
+        in_place += turned[k];
+    }
+    const int stays = !(all > in_place_part * in_place), leading = largest_of(stays ? turned : moved);
     out->family = family[leading];
-    out->half_waves = count_half_waves(outcome == STATUS_OK ? shape.first_member : 0, shape.part + leading);
+    out->half_waves = count_half_waves(outcome == STATUS_OK ? shape.first_member : 0, (stays ? shape.turn : shape.part) + leading);
     free(shape.part);
     return outcome;
 }

@@ -9,6 +9,7 @@
 #include "elements/math/dense.h"
 #include "harness/algebra/memory.h"
 #include "harness/analysis/history.h"
+#include "harness/analysis/singular.h"
 
 enum { MAX_ITERATIONS = 30 };
 static const double default_criterion = 1e-8; /* largest correction, dimensionless: the next one would be its square */
@@ -27,9 +28,12 @@ status newton_alloc(analysis_context *c, newton *n, fault *f)
     n->residual = calloc((size_t)n->all + 1, sizeof *n->residual);
     n->dx = calloc((size_t)n->all + 1, sizeof *n->dx);
     n->column = calloc((size_t)(MODEL_MAX_CONDITIONS * n->all) + 1, sizeof *n->column);
-    status outcome = n->residual == NULL || n->dx == NULL || n->column == NULL
+    n->weight = calloc((size_t)n->all + 1, sizeof *n->weight);
+    status outcome = n->residual == NULL || n->dx == NULL || n->column == NULL || n->weight == NULL
                          ? fault_set(f, STATUS_FAULT, "out of memory for a static solution")
                          : STATUS_OK;
+    if (outcome == STATUS_OK)
+        model_metric(c->model, n->weight);
     if (outcome == STATUS_OK)
         outcome = model_pattern(c->model, 0, &pattern, f);
     if (outcome == STATUS_OK)
@@ -49,6 +53,7 @@ void newton_free(newton *n)
     free(n->residual);
     free(n->dx);
     free(n->column);
+    free(n->weight);
     free(n->dense);
     free(n->unknown);
     free(n->pivot);
@@ -58,19 +63,35 @@ void newton_free(newton *n)
     model_state_free(n->backup);
 }
 
+/* 1: what a driver moves of its condition's coordinates is more than the round-off of all that it moves. */
+static int drives(const newton *n, int count, const model_condition condition[], const double column[])
+{
+    const double round_off = 1e-12;
+    double conditioned = 0, all = 0;
+    for (int k = 0; k < n->free; k++)
+        all = fmax(all, n->weight[k] * column[k] * column[k]);
+    for (int r = 0; r < count; r++)
+        conditioned = fmax(conditioned,
+                           n->weight[condition[r].coordinate] * column[condition[r].coordinate] * column[condition[r].coordinate]);
+    return conditioned > round_off * round_off * all;
+}
+
 /* Unknown drivers: their increments make the conditions hold; dx of the free coordinates follows. */
 static status meet_conditions(newton *n, int count, const model_condition condition[], fault *f)
 {
     double A[MODEL_MAX_CONDITIONS * MODEL_MAX_CONDITIONS], b[MODEL_MAX_CONDITIONS];
     int pivot[MODEL_MAX_CONDITIONS];
-    for (int c = 0; c < count; c++)
+    int moved = 1;
+    for (int c = 0; c < count; c++) {
         factor_solve(n->factor, n->column + c * n->all);
+        moved &= drives(n, count, condition, n->column + c * n->all);
+    }
     for (int r = 0; r < count; r++) {
         b[r] = n->dx[condition[r].coordinate] - condition[r].increment;
         for (int c = 0; c < count; c++)
             A[r * count + c] = n->column[c * n->all + condition[r].coordinate];
     }
-    if (count > 0 && dense_lu(count, A, pivot) != 0)
+    if (!moved || dense_lu_regular(count, A, pivot) != 0)
         return fault_set(f, STATUS_SINGULAR, "an unknown driver does not move the coordinate of its condition");
     dense_lu_solve(count, 1, A, pivot, b);
     for (int c = 0; c < count; c++) {
@@ -96,7 +117,7 @@ static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
     phases *p = model_phases(n->c->model);
     status outcome = model_linearise(n->c->model, n->state, lin, f);
     if (outcome == STATUS_OK)
-        outcome = factor_numeric(n->factor, &n->K, f);
+        outcome = analysis_factor(n->c, n->factor, &n->K, f);
     phases_lap(p, PHASE_FACTORISATION);
     if (outcome != STATUS_OK)
         return outcome;
@@ -138,6 +159,7 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
     phases_lap(model_phases(m), PHASE_ASSEMBLY);
     const int singular = LAPACKE_dgesv(LAPACK_COL_MAJOR, (int)size, 1, n->dense, (int)size, n->pivot, n->unknown, (int)size) != 0;
     phases_lap(model_phases(m), PHASE_FACTORISATION);
+    n->c->singular = singular;
     if (singular)
         return fault_set(f, STATUS_SINGULAR, "the uncondensed system is singular");
     memcpy(n->dx, n->unknown, (size_t)n->free * sizeof *n->dx);

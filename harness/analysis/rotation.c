@@ -6,6 +6,7 @@
 
 #include "harness/algebra/gyroscopic.h"
 #include "harness/analysis/newton.h"
+#include "harness/analysis/singular.h"
 
 enum { OTHERS = 2 }; /* modes of other families that may lie between those wanted */
 
@@ -81,7 +82,7 @@ static status linearise(analysis_context *c, const model_state *state, matrices 
         outcome = model_inertia(c->model, state, path, &a->M, &a->G, f);
     model_load_stiffness(c->model, state, path, &a->loads);
     if (outcome == STATUS_OK)
-        outcome = factor_numeric(a->factor, &a->K, f);
+        outcome = analysis_factor(c, a->factor, &a->K, f);
     model_counters(c->model)->factorisations++;
     return outcome;
 }

@@ -6,6 +6,7 @@
 #include <time.h>
 
 #include "harness/analysis/analysis.h"
+#include "harness/analysis/singular.h"
 
 double seconds_now(void)
 {
@@ -80,7 +81,10 @@ static void run_analyses(analysis_context *c)
         model_set_spin(c->model, a->omega, a->omega_centre, a->kind == SCENE_ROTATION);
         if (c->options->sample > 0 && a->kind != SCENE_STATIC)
             continue;
+        c->singular = 0;
         o->status = run != NULL ? run(c, i, o, &f) : fault_set(&f, STATUS_REFUSED, "analysis %d: not available", i);
+        if (o->status == STATUS_SINGULAR && c->singular)
+            singular_explain(c, &f);
         snprintf(o->reason, sizeof o->reason, "%s", f.text);
         if (o->status != STATUS_OK && c->result->status == STATUS_OK) {
             c->result->status = o->status;

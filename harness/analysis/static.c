@@ -2,7 +2,7 @@
 #include "harness/analysis/history.h"
 #include "harness/analysis/newton.h"
 
-enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14 };
+enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
 
 status static_walk(newton *n, double target, double *increment, fault *f)
 {
@@ -33,7 +33,9 @@ status static_walk(newton *n, double target, double *increment, fault *f)
             continue;
         }
         history_drop_step(n->c->result, &record);
-        if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED || to - from <= least)
+        /* Shorter steps meet the same matrix, but for the stiffness of the loads. */
+        const int hopeless = outcome == STATUS_SINGULAR && record.iterations == 0 && rejected >= SINGULAR_STARTS;
+        if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED || to - from <= least || hopeless)
             return outcome;
         model_state_copy(n->c->model, n->backup, n->state);
         if (n->trail != NULL)

@@ -2,6 +2,7 @@
  *   [ K  U ] [x]   [f]
  *   [ V  W ] [z] = [g],   S = W - V K^-1 U,   z = S^-1 (g - V K^-1 f),   x = K^-1 f - K^-1 U z. */
 #include "harness/analysis/bordered.h"
+#include "harness/analysis/singular.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -123,7 +124,7 @@ status tangent_at(analysis_context *c, const scene_analysis *a, const model_stat
     if (outcome == STATUS_OK) {
         model_release_moment(c->model, s, a->node, reaction + 3, &t->K);
         copy_inside(t);
-        outcome = factor_numeric(t->factor, &t->inside, f);
+        outcome = analysis_factor(c, t->factor, &t->inside, f);
     }
     t->state = s;
     t->refined = outcome == STATUS_OK && factor_condition(t->factor, &t->inside) > harmless_condition;
@@ -165,7 +166,7 @@ static void respond(const model *m, tangent *t, counters *n, int component, cons
     }
 }
 
-status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, double C[36], fault *f)
+status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsigned components, double C[36], fault *f)
 {
     counters *n = model_counters(c->model);
     bordered s = {0};
@@ -173,36 +174,47 @@ status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, doub
     memset(C, 0, 36 * sizeof *C);
     for (int j = 0; j < TANGENT_COMPONENTS && outcome == STATUS_OK; j++) {
         double response[TANGENT_COMPONENTS];
-        if (!(wanted >> j & 1u))
+        if (!(wanted & components & 1u << j))
             continue;
         respond(c->model, t, n, j, &s, response);
         for (int i = 0; i < TANGENT_COMPONENTS; i++)
-            C[6 * i + j] = response[i];
+            C[6 * i + j] = components >> i & 1u ? response[i] : 0;
     }
     bordered_free(&s);
     return outcome;
 }
 
-int tangent_turns_freely(const tangent *t)
+/* The columns of T of coordinates that `wanted` says: [6 x n], and n. */
+static int columns_of(const tangent *t, int (*wanted)(const tangent *, int), double out[])
 {
-    int turning = 0, all = 1;
+    int n = 0;
     for (int k = 0; k < t->coordinates; k++)
-        if (t->T[3 * t->coordinates + k] != 0 || t->T[4 * t->coordinates + k] != 0 || t->T[5 * t->coordinates + k] != 0) {
-            turning++;
-            all &= t->index[k] < t->free;
+        n += wanted(t, k);
+    for (int k = 0, at = 0; k < t->coordinates; k++)
+        if (wanted(t, k)) {
+            for (int i = 0; i < TANGENT_COMPONENTS; i++)
+                out[i * n + at] = t->T[i * t->coordinates + k];
+            at++;
         }
-    return turning == 3 && all;
+    return n;
 }
 
-int tangent_movable(const tangent *t, int component[TANGENT_COMPONENTS])
+static int is_free(const tangent *t, int k)
 {
-    int count = 0;
-    for (int i = 0; i < TANGENT_COMPONENTS; i++) {
-        double size = 0;
-        for (int k = 0; k < t->coordinates; k++)
-            size += moves(t, k) ? fabs(t->T[i * t->coordinates + k]) : 0;
-        if (size > 0)
-            component[count++] = i;
-    }
-    return count;
+    return t->index[k] < t->free;
+}
+
+void tangent_prescribed(const tangent *t, double moment[3])
+{
+    double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS], rest[3];
+    const int n = columns_of(t, is_free, T);
+    movable_prescribed(n, T, moment, rest);
+    memcpy(moment, rest, sizeof rest);
+}
+
+void tangent_movable(const model *m, const tangent *t, movable *out)
+{
+    double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS];
+    const int n = columns_of(t, moves, T);
+    movable_of(n, T, model_length(m), out);
 }

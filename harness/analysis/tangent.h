@@ -4,6 +4,7 @@
 #define BEAMWORK_TANGENT_H
 
 #include "harness/analysis/analysis.h"
+#include "harness/model/movable.h"
 
 enum { TANGENT_COMPONENTS = 6, TANGENT_BORDER = 12 };
 
@@ -37,11 +38,12 @@ void tangent_free(tangent *t);
 /* reaction[6]: force and moment of the prescription on the node [N, N m]. */
 status tangent_at(analysis_context *c, const scene_analysis *a, const model_state *s, const double reaction[6], tangent *t,
                   fault *f);
-/* 1: all three rotations of the node are free, so that no moment of a prescription acts on it. */
-int tangent_turns_freely(const tangent *t);
-/* Components of the node that can move at all: their number. */
-int tangent_movable(const tangent *t, int component[TANGENT_COMPONENTS]);
-/* C[6 x 6] of the node with the reaction's moment semitangential; columns outside `wanted` stay zero. */
-status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, double C[36], fault *f);
+/* Takes out of the reaction's moment what acts along free turns: there is no prescription that exerts it. */
+void tangent_prescribed(const tangent *t, double moment[3]);
+/* Motions that the node can make at all. */
+void tangent_movable(const model *m, const tangent *t, movable *out);
+/* C[6 x 6] of the node with the reaction's moment semitangential; columns outside `wanted`, and rows and columns of what is not
+ * among the `components` that can move, stay zero. */
+status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsigned components, double C[36], fault *f);
 
 #endif

@@ -7,13 +7,14 @@
 #define BEAMWORK_CONVENTION_H
 
 #include "cases/scene/scene.h"
+#include "harness/model/movable.h"
 
 /* Does the convention change the semitangential stiffness?  Then one column of the compliance depends on all the others. */
 int convention_changes(scene_moments convention, const double m[3]);
 
 /* C[6 x 6] of the semitangential moment, complete in the components that can move, becomes that of the convention, and
- * K[6 x 6] is its inverse on them; where nothing changes C keeps all its digits.  m[3]: moment on the node [N m].  Rows and columns of held components: zero. */
-status convention_apply(scene_moments convention, int count, const int component[], const double m[3], double C[36], double K[36],
-                        fault *f);
+ * K[6 x 6] is its inverse on the motions the node can make; where nothing changes C keeps all its digits.  m[3]: moment on the node [N m].
+ * Rows and columns of held components: zero.  SINGULAR: C has no inverse there, beside its round-off. */
+status convention_apply(scene_moments convention, const movable *motions, const double m[3], double C[36], double K[36], fault *f);
 
 #endif

@@ -30,8 +30,8 @@ static int motion_of(const model *m, int vertex, int component)
         return SCENE_FREE;
     const scene_node *n = &m->scene->node[vertex];
     const int motion = component < SCENE_RX ? n->translation[component] : n->angle[component - SCENE_RX];
-    const int absent =
-        component >= SCENE_RX && n->rotation == SCENE_ROTATION_SEQUENCE && component - SCENE_RX >= m->vertex[vertex].angles;
+    const int sequence = n->rotation == SCENE_ROTATION_SEQUENCE || n->rotation == SCENE_ROTATION_FORK,
+              absent = component >= SCENE_RX && sequence && component - SCENE_RX >= m->vertex[vertex].angles;
     return absent ? SCENE_HELD : motion;
 }
 

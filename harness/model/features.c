@@ -39,6 +39,16 @@ static int is_eccentric(const section *c)
     return hypot(c->ys, c->zs) > 1e-12 * sqrt(c->Ip / c->A);
 }
 
+/* Shear flexibilities off the diagonal, beyond the round-off of those on it. */
+static int is_coupled(const section *c)
+{
+    static const int row[3] = {0, 0, 1}, column[3] = {1, 2, 2};
+    int coupled = 0;
+    for (int k = 0; k < 3; k++)
+        coupled |= fabs(c->F[3 * row[k] + column[k]]) > 1e-12 * sqrt(c->F[4 * row[k]] * c->F[4 * column[k]]);
+    return coupled;
+}
+
 static int turns(const scene_analysis *a)
 {
     return a->omega[0] != 0 || a->omega[1] != 0 || a->omega[2] != 0;
@@ -139,8 +149,7 @@ static int limit_hit(const scene *s, const element_type *type, char *words, int 
             continue;
         if ((type->limits & LIMIT_RECTANGLE) && !c.rectangle)
             return snprintf(words, (size_t)size, "sections other than rectangles") > 0;
-        const double off = fabs(c.F[1]) + fabs(c.F[2]) + fabs(c.F[5]);
-        if ((type->limits & LIMIT_DOUBLY_SYMMETRIC) && (is_eccentric(&c) || off != 0))
+        if ((type->limits & LIMIT_DOUBLY_SYMMETRIC) && (is_eccentric(&c) || is_coupled(&c)))
             return snprintf(words, (size_t)size, "sections that are not doubly symmetric") > 0;
     }
     return 0;

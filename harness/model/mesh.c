@@ -96,6 +96,15 @@ static int divisions(const scene *s, int member, int elements)
     return s->member[member].divisions > 0 ? s->member[member].divisions : elements;
 }
 
+/* Of a sequence's next angle; any length. */
+static void add_axis(const double axis[3], mesh_vertex *v)
+{
+    const double length = vec3_norm(axis);
+    for (int k = 0; k < 3; k++)
+        v->axis[v->angles][k] = axis[k] / length;
+    v->angles++;
+}
+
 static void scene_vertices(model *m)
 {
     const scene *s = m->scene;
@@ -108,12 +117,14 @@ static void scene_vertices(model *m)
             v->offset[k] = n->position[k] - s->node[v->body].position[k];
             v->vector_driver[k] = n->rotation == SCENE_ROTATION_VECTOR ? n->angle[k] : NONE;
         }
-        while (n->rotation == SCENE_ROTATION_SEQUENCE && v->angles < 3 && vec3_norm(n->axis[v->angles]) > 0) {
-            const double length = vec3_norm(n->axis[v->angles]);
-            for (int k = 0; k < 3; k++)
-                v->axis[v->angles][k] = n->axis[v->angles][k] / length;
-            v->angles++;
+        if (n->rotation == SCENE_ROTATION_FORK) {
+            double normal[3]; /* of the guides */
+            vec3_cross(n->axis[1], n->axis[0], normal);
+            add_axis(normal, v);
+            add_axis(n->axis[1], v);
         }
+        while (n->rotation == SCENE_ROTATION_SEQUENCE && v->angles < 3 && vec3_norm(n->axis[v->angles]) > 0)
+            add_axis(n->axis[v->angles], v);
     }
 }
 

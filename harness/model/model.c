@@ -106,6 +106,17 @@ status model_alloc(const model_request *request, model **out, fault *f)
     return outcome;
 }
 
+int model_kinds(const model *m)
+{
+    return m->kinds;
+}
+
+status model_coarse(const model *m, model **out, fault *f)
+{
+    const model_request request = {m->scene, m->type, m->options, 1, m->keep_all};
+    return model_alloc(&request, out, f);
+}
+
 void model_free(model *m)
 {
     if (m == NULL)
@@ -134,6 +145,11 @@ void model_free(model *m)
 model_size model_sizes(const model *m)
 {
     return (model_size){m->elements, m->vertices, m->free, m->driven, m->strains, m->inner, m->features};
+}
+
+double model_length(const model *m)
+{
+    return m->size;
 }
 
 int model_left_out(const model *m, const char *const **lines)

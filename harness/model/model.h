@@ -54,6 +54,13 @@ typedef struct model_size {
     unsigned features;
 } model_size;
 model_size model_sizes(const model *);
+int model_kinds(const model *); /* elements that differ in section, length, initial curvature or strain */
+/* The same with one element per member. */
+status model_coarse(const model *, model **, fault *);
+/* 1: the supports leave a part of the undeformed structure loose: a node of it, and a rigid motion (displacement of that node [m], turn
+ * [rad], of any size) that they allow. Coordinates that are driven are held. */
+int model_loose_part(const model *, int *node, double motion[6]);
+double model_length(const model *); /* longest member [m]: displacements are small or large beside it */
 
 /* What was left out, one line each ("warping coordinates of 12 ends: nothing warps there"). */
 int model_left_out(const model *, const char *const **lines);

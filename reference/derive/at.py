@@ -105,6 +105,11 @@ def hexapod(given):
     yield "crank_angle", curve[-1][1], "rad", legs.RELATIVE
 
 
+def cross_flexure(given):
+    from reference.derive import cross_flexure as hinge
+    yield from hinge.quantities(given)
+
+
 def rotating_cantilever(given):
     from reference.derive import rotating
     for row in rotating.across(number(given, "omega_star", 6), number(given, "slenderness", 1000), "", number(given, "hub_radius", 0)):
@@ -126,6 +131,7 @@ SOLVERS = {
     "sheet_wagner": (SHEET + ("tip_phi_z", "tip_phi_x"), sheet_case("sheet_wagner", "twisted"), "sheets"),
     "spherical_joint": (("length", "width", "thickness", "young", "poisson", "fold_angle", "radius", "azimuth", "tilt", "steps", "fold_warping", "wagner"), spherical_joint, "joint"),
     "hexapod": (HEXAPOD, hexapod, "hexapod"),
+    "cross_flexure": (("length", "width", "thickness", "pitch", "half_angle", "young", "poisson", "angle", "rotation", "moment_convention"), cross_flexure, "cross_flexure"),
     "elastica": (("load",), cantilever("elastica", ("load", 1)), "cantilevers"),
     "shear_elastica": (("GA",), cantilever("shear_elastica", ("GA", 500)), "cantilevers"),
     "geradin_cardona": (("load",), cantilever("geradin_cardona", ("load", 600e3)), "cantilevers"),

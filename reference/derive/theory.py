@@ -4,7 +4,7 @@ Engesser: the axial force works on the slope of the line of centroids; Haringx: 
 geometrically exact beam (column.py gives both energies).  Without shear, or where nothing is stressed, both agree.
 """
 
-LARGE_DISPLACEMENT = ("bend_45", "geradin_cardona", "hexapod", "shear_elastica", "spherical_joint")  # always flexible in shear
+LARGE_DISPLACEMENT = ("bend_45", "cross_flexure", "geradin_cardona", "hexapod", "shear_elastica", "spherical_joint")  # always flexible in shear
 SHEAR_DEFAULT = {"c_cantilever": "0", "moment_buckling": "0"}
 
 

@@ -1,8 +1,10 @@
 /* Conventions of moments in the stiffness of a loaded node, and the records of Newton's method. */
 #include <gsl/gsl_test.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "elements/math/rotation.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/study/cell.h"
@@ -127,8 +129,141 @@ static void quadratic(void)
     }
 }
 
+enum { TILTED = CASE_MAX_PARAMETERS - 1, TURNED = CASE_MAX_PARAMETERS - 2 };
+
+static const double turn_of_axes[3] = {0.7, -1.1, 0.4};
+
+static void turn_vector(const double q[4], double v[3])
+{
+    rotation_apply(q, v, v);
+}
+
+/* The cross-flexure hinge under a force at an offset that tilts its arm; the whole scene in other axes when wanted. */
+static status tilted_hinge(const double value[], scene *s, fault *f)
+{
+    double q[4];
+    const status outcome = case_find("cross_flexure", NULL)->build(value, s, f);
+    const int arm = 0, edge = scene_add_attached(s, arm, 0.01, 0.02, 0);
+    scene_add_load(s, SCENE_FORCE, edge, value[TILTED], -2 * value[TILTED], 20 * value[TILTED]);
+    rotation_exp(turn_of_axes, q);
+    if (value[TURNED] == 0)
+        return outcome;
+    for (int i = 0; i < s->nodes; i++) {
+        turn_vector(q, s->node[i].position);
+        for (int k = 0; k < 3; k++)
+            turn_vector(q, s->node[i].axis[k]);
+    }
+    for (int i = 0; i < s->members; i++)
+        turn_vector(q, s->member[i].y_axis);
+    for (int i = 0; i < s->loads; i++)
+        turn_vector(q, s->load[i].vector);
+    return outcome;
+}
+
+static matrices of_hinge(const char *rotation, const char *convention, double force, int in_other_axes)
+{
+    case_type type = *case_find("cross_flexure", NULL);
+    cell_request request = {.type = &type, .elements = 2};
+    formulation fm;
+    fault f = {""};
+    cell_result r;
+    matrices out = {{NAN}, {NAN}};
+    formulation_parse("collocation", &fm, &f);
+    parameters_default(&type, request.parameter);
+    gsl_test(parameters_set(&type, rotation, request.parameter, &f) != STATUS_OK ||
+                 parameters_set(&type, convention, request.parameter, &f) != STATUS_OK,
+             "%s, %s", rotation, convention);
+    request.parameter[TILTED] = force;
+    request.parameter[TURNED] = in_other_axes;
+    type.build = tilted_hinge;
+    request.formulation = fm.type;
+    memcpy(request.option, fm.option, sizeof request.option);
+    gsl_test(cell_run(&request, &r, &f) != STATUS_OK, "%s, %s solved: %s", rotation, convention, f.text);
+    const nodal_matrices *m = &r.solve.matrices[0];
+    memcpy(out.C, m->compliance + 36 * (m->stations - 1), sizeof out.C);
+    memcpy(out.K, m->stiffness + 36 * (m->stations - 1), sizeof out.K);
+    cell_result_free(&r);
+    return out;
+}
+
+/* B = Q A Q^T by blocks of three. */
+static void in_other_axes(const double A[36], double B[36])
+{
+    double q[4], Q[9];
+    rotation_exp(turn_of_axes, q);
+    rotation_matrix(q, Q);
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++) {
+            B[6 * i + j] = 0;
+            for (int k = 0; k < 3; k++)
+                for (int l = 0; l < 3; l++)
+                    B[6 * i + j] += Q[3 * (i % 3) + k] * A[6 * (i / 3 * 3 + k) + j / 3 * 3 + l] * Q[3 * (j % 3) + l];
+        }
+}
+
+/* Largest difference of a block of three beside its largest entry. */
+static double block_difference(const double A[36], const double B[36])
+{
+    double worst = 0;
+    for (int block = 0; block < 4; block++) {
+        double apart = 0, size = 0;
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) {
+                const int at = 6 * (block / 2 * 3 + i) + block % 2 * 3 + j;
+                apart = fmax(apart, fabs(A[at] - B[at]));
+                size = fmax(size, fabs(B[at]));
+                if (isnan(A[at]) || isnan(B[at]))
+                    return INFINITY;
+            }
+        worst = size > 0 ? fmax(worst, apart / size) : worst;
+    }
+    return worst;
+}
+
+/* Turns that are partly free span a plane that lies askew in other axes, and in a tilted state. */
+static void partly_free_turns(void)
+{
+    static const char *const rotation[] = {"rotation=hinge", "rotation=first", "rotation=last", "rotation=between"},
+                             *const convention[] = {"moment_convention=spatial", "moment_convention=symmetrised"};
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 2; k++)
+            for (int tilted = 0; tilted < 2; tilted++) {
+                const matrices here = of_hinge(rotation[i], convention[k], 0.5 * tilted, 0),
+                               there = of_hinge(rotation[i], convention[k], 0.5 * tilted, 1);
+                matrices expected;
+                in_other_axes(here.C, expected.C);
+                in_other_axes(here.K, expected.K);
+                gsl_test(!(block_difference(there.C, expected.C) <= 1e-7), "%s, %s%s: compliance in other axes: %.1e", rotation[i],
+                         convention[k], tilted ? ", tilted" : "", block_difference(there.C, expected.C));
+                gsl_test(!(block_difference(there.K, expected.K) <= 1e-7), "%s, %s%s: stiffness in other axes: %.1e", rotation[i],
+                         convention[k], tilted ? ", tilted" : "", block_difference(there.K, expected.K));
+            }
+}
+
+/* The plane is known to round-off, at every angle another one. */
+static void at_every_angle(void)
+{
+    for (int i = -20; i <= 20; i++) {
+        char angle[40];
+        double value[3];
+        static const char *const rotation[] = {"rotation=hinge", "rotation=first", "rotation=last"};
+        snprintf(angle, sizeof angle, "angle=%.17g", i / 23.0);
+        for (int k = 0; k < 3; k++) {
+            const char *const assignment[] = {rotation[k], angle, NULL};
+            cell_result r;
+            solve("cross_flexure", assignment, "sheet_third", &r);
+            value[k] = r.solve.matrices[0].compliance[36 * (r.solve.matrices[0].stations - 1)];
+            cell_result_free(&r);
+        }
+        gsl_test_rel(value[1], value[0], 1e-8, "%s: tilts do not matter along x", angle);
+        gsl_test_rel(value[2], value[0], 1e-8, "%s: nor which turn is prescribed", angle);
+    }
+}
+
 int main(void)
 {
+    partly_free_turns();
+    at_every_angle();
     inverse();
     sheets();
     reciprocity();

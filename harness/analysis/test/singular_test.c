@@ -1,0 +1,248 @@
+/* A stiffness matrix that cannot be factored: what is not held is told from what is lost in round-off, and nothing wrong is reported as an answer. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/parameters.h"
+#include "harness/catalogue/registry.h"
+#include "harness/study/cell.h"
+
+/* Two beams along x, the second beside the first and held by itself; loads along z. */
+static void two_beams(scene *s)
+{
+    const double y[3] = {0, 1, 0}, end = 1;
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = SECTION_CONSTANTS;
+    spec.young = spec.shear_modulus = 1;
+    spec.constants = (section){.young = 1, .shear_modulus = 1, .A = 1e4, .Iy = 4, .Iz = 1, .It = 1, .Ip = 5};
+    scene_init(s, "two_beams");
+    const int profile = scene_add_section(s, &spec);
+    for (int i = 0; i < 2; i++) {
+        const int first = scene_add_node(s, 0, i, 0), last = scene_add_node(s, 2, i, 0);
+        scene_add_member(s, first, last, profile, y);
+        scene_add_load(s, SCENE_FORCE, last, 0, 0, 0.01);
+    }
+    scene_hold_all(s, 0);
+    scene_hold_all(s, 2);
+    scene_set_stations(s, scene_add_analysis(s, SCENE_STATIC), 1, &end);
+}
+
+static void let_go(scene *s, int node, int first, int last)
+{
+    for (int k = first; k <= last; k++)
+        *(k < SCENE_RX ? &scene_node_at(s, node)->translation[k] : &scene_node_at(s, node)->angle[k - SCENE_RX]) = SCENE_FREE;
+}
+
+/* Each lets the second beam go in one way: what its motion is. */
+static void everywhere(scene *s)
+{
+    let_go(s, 2, SCENE_UX, SCENE_RZ);
+}
+static void along(scene *s)
+{
+    let_go(s, 2, SCENE_UX, SCENE_UX);
+}
+static void about_itself(scene *s)
+{
+    let_go(s, 2, SCENE_RX, SCENE_RX);
+}
+static void about_a_hinge(scene *s)
+{
+    let_go(s, 2, SCENE_RY, SCENE_RY);
+}
+static void between_hinges(scene *s) /* held at both ends, free to turn about the line between them */
+{
+    let_go(s, 2, SCENE_RX, SCENE_RZ);
+    scene_hold(s, 3, SCENE_UX, SCENE_UZ);
+}
+static void between_forks(scene *s) /* nothing holds it along x */
+{
+    const double x[3] = {1, 0, 0}, z[3] = {0, 0, 1};
+    let_go(s, 2, SCENE_UX, SCENE_RZ);
+    scene_hold(s, 2, SCENE_UY, SCENE_UZ);
+    scene_hold(s, 3, SCENE_UY, SCENE_UZ);
+    scene_fork(s, 2, x, z);
+    scene_fork(s, 3, x, z);
+}
+static void held_by_forks(scene *s)
+{
+    between_forks(s);
+    scene_hold(s, 3, SCENE_UX, SCENE_UX);
+}
+static void nothing(scene *s)
+{
+    (void)s;
+}
+
+/* motion: its components, largest 1; all zero: held. */
+static const struct {
+    const char *what;
+    void (*change)(scene *);
+    double motion[6];
+    int any; /* several motions are loose: which one is named does not matter */
+} changes[] = {
+    {"all is held", nothing, {0}, 0},
+    {"nothing holds it", everywhere, {0}, 1},
+    {"free along x", along, {1, 0, 0, 0, 0, 0}, 0},
+    {"free to turn about itself", about_itself, {0, 0, 0, 1, 0, 0}, 0},
+    {"a hinge at its root", about_a_hinge, {0, 0, 0, 0, 1, 0}, 0},
+    {"hinges at both ends", between_hinges, {0, 0, 0, 1, 0, 0}, 0},
+    {"forks that slide", between_forks, {1, 0, 0, 0, 0, 0}, 0},
+    {"forks that are held", held_by_forks, {0}, 0},
+};
+
+static void supports(const char *formulation_text, int elements)
+{
+    for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
+        const double *expected = changes[i].motion;
+        const int loose = changes[i].any || vec3_norm(expected) + vec3_norm(expected + 3) > 0;
+        double motion[6] = {0}, largest = 0;
+        int node = -1;
+        scene s;
+        model *m = NULL;
+        solve_result r = {0};
+        formulation fm;
+        fault f = {""};
+        two_beams(&s);
+        changes[i].change(&s);
+        formulation_parse(formulation_text, &fm, &f);
+        const model_request what = {&s, fm.type, fm.option, elements, 0};
+        gsl_test(scene_validate(&s, &f) != STATUS_OK || model_alloc(&what, &m, &f) != STATUS_OK, "%s: %s", changes[i].what, f.text);
+        gsl_test_int(model_loose_part(m, &node, motion), loose, "%s", changes[i].what);
+        gsl_test(loose && node != 2, "%s: node %d is named", changes[i].what, node);
+        for (int k = 0; k < 6; k++)
+            largest = fmax(largest, fabs(motion[k]));
+        for (int k = 0; k < 6 && loose && !changes[i].any; k++)
+            gsl_test(!(fabs(fabs(motion[k]) / largest - expected[k]) <= 1e-9), "%s: component %d of the motion is %g",
+                     changes[i].what, k, motion[k] / largest);
+        const status outcome = solve_scene(&s, m, NULL, &r, &f);
+        gsl_test_int((int)outcome, loose ? STATUS_SINGULAR : STATUS_OK, "%s, %s: %s", changes[i].what, formulation_text, f.text);
+        gsl_test(loose && strstr(f.text, "node 2 is not held") == NULL, "%s: the culprit is named: %s", changes[i].what, f.text);
+        solve_result_free(&r);
+        model_free(m);
+        scene_free(&s);
+    }
+}
+
+static status run(const char *case_name, const char *formulation_text, int elements, const char *assignment, cell_result *out,
+                  fault *f)
+{
+    cell_request request = {.type = case_find(case_name, f), .elements = elements};
+    formulation fm;
+    parameters_default(request.type, request.parameter);
+    if (assignment[0] != '\0')
+        gsl_test(parameters_set(request.type, assignment, request.parameter, f) != STATUS_OK, "%s", assignment);
+    formulation_parse(formulation_text, &fm, f);
+    request.formulation = fm.type;
+    memcpy(request.option, fm.option, sizeof request.option);
+    return cell_run(&request, out, f);
+}
+
+/* Every case is held: round-off is never called a missing support. */
+static void all_cases_are_held(void)
+{
+    for (int i = 0; registry_cases[i] != NULL; i++) {
+        scene s;
+        model *m = NULL;
+        double value[CASE_MAX_PARAMETERS] = {0}, motion[6];
+        int node = -1, tried = 0;
+        fault f = {""};
+        scene_init(&s, registry_cases[i]->name);
+        parameters_default(registry_cases[i], value);
+        gsl_test(registry_cases[i]->build(value, &s, &f) != STATUS_OK, "%s: %s", s.name, f.text);
+        for (int k = 0; registry_formulations[k] != NULL && !tried; k++) {
+            const model_request what = {&s, registry_formulations[k], NULL, 2, 0};
+            tried = model_alloc(&what, &m, &f) == STATUS_OK;
+        }
+        gsl_test(!tried || model_loose_part(m, &node, motion), "%s is held (node %d)", s.name, node);
+        model_free(m);
+        scene_free(&s);
+    }
+}
+
+/* Stiffnesses 1e-20 apart, and as many elements: no support is blamed, and no number is given for an answer. */
+static void round_off(void)
+{
+    static const struct {
+        const char *case_name, *formulation, *assignment, *quantity;
+        int elements;
+        double exact;
+    } row[] = {{"sheet_cantilever", "beamw_consistent", "thickness=1e-10", "C_xx", 16, NAN},
+               {"sheet_cantilever", "geometrically_exact", "thickness=1e-10", "C_xx", 16, NAN},
+               {"warping_torsion", "beamw_vlasov", "", "twist_ratio", 20000, 0.23840584404423515}};
+    int lost = 0;
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        cell_result r;
+        fault f = {""};
+        const status outcome = run(row[i].case_name, row[i].formulation, row[i].elements, row[i].assignment, &r, &f);
+        gsl_test(strstr(f.text, "not held") != NULL || strstr(f.text, "critical") != NULL, "%s, n = %d: %s", row[i].case_name,
+                 row[i].elements, f.text);
+        gsl_test(outcome == STATUS_SINGULAR && strstr(f.text, "round-off") == NULL, "%s, n = %d: the cause is named: %s",
+                 row[i].case_name, row[i].elements, f.text);
+        gsl_test(outcome != STATUS_OK && outcome != STATUS_SINGULAR && outcome != STATUS_NOT_CONVERGED, "%s: a named failure",
+                 row[i].case_name);
+        for (int k = 0; k < r.solve.quantities && outcome == STATUS_OK; k++)
+            if (strcmp(r.scene.quantity[k].name, row[i].quantity) == 0 && !isnan(row[i].exact))
+                gsl_test_rel(r.solve.quantity[k].value, row[i].exact, 1e-5, "%s: an answer is right", row[i].case_name);
+        lost += outcome == STATUS_SINGULAR;
+        cell_result_free(&r);
+    }
+    gsl_test(lost < 2, "%d were lost in round-off", lost);
+}
+
+/* A V of equal arms, divided differently: what drives its apex along its axis moves it across by round-off, and cannot meet a condition there. */
+static void driver_that_moves_nothing(double half_angle, int condition_component)
+{
+    const double c = cos(half_angle), d = sin(half_angle), z[3] = {0, 0, 1}, path[2] = {0, 1}, value[2] = {0, 0.01}, end = 1;
+    const int meets = condition_component == SCENE_UX;
+    scene s;
+    model *m = NULL;
+    solve_result r = {0};
+    formulation fm;
+    fault f = {""};
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = SECTION_CONSTANTS;
+    spec.young = spec.shear_modulus = 1;
+    spec.constants = (section){.young = 1, .shear_modulus = 1, .A = 1e4, .Iy = 4, .Iz = 1, .It = 1, .Ip = 5};
+    scene_init(&s, "v");
+    const int profile = scene_add_section(&s, &spec), apex = scene_add_node(&s, c, 0, 0), tip = scene_add_node(&s, c + 0.3, 0, 0);
+    for (int i = 0; i < 2; i++) {
+        const int root = scene_add_node(&s, 0, i == 0 ? d : -d, 0);
+        scene_hold_all(&s, root);
+        scene_member_at(&s, scene_add_member(&s, root, apex, profile, z))->divisions = i == 0 ? 1 : 3;
+    }
+    scene_add_member(&s, apex, tip, profile, z);
+    const int known = scene_add_driver(&s, "known", 2, path, value);
+    scene_drive(&s, apex, condition_component, known);
+    scene_drive(&s, tip, SCENE_UX, scene_add_unknown_driver(&s, "unknown", apex, condition_component, known));
+    scene_set_stations(&s, scene_add_analysis(&s, SCENE_STATIC), 1, &end);
+    formulation_parse("collocation", &fm, &f);
+    const model_request what = {&s, fm.type, fm.option, 1, 0};
+    gsl_test(scene_validate(&s, &f) != STATUS_OK || model_alloc(&what, &m, &f) != STATUS_OK, "V: %s", f.text);
+    const status outcome = solve_scene(&s, m, NULL, &r, &f);
+    gsl_test_int((int)outcome, meets ? STATUS_OK : STATUS_SINGULAR, "V of %g, condition on %d: %s", half_angle, condition_component,
+                 f.text);
+    gsl_test(!meets && strstr(f.text, "does not move") == NULL, "the cause is named: %s", f.text);
+    solve_result_free(&r);
+    model_free(m);
+    scene_free(&s);
+}
+
+int main(void)
+{
+    static const double half_angle[] = {0.3, 0.61, 0.87, 1.13};
+    for (size_t i = 0; i < sizeof half_angle / sizeof half_angle[0]; i++) {
+        driver_that_moves_nothing(half_angle[i], SCENE_UX);
+        driver_that_moves_nothing(half_angle[i], SCENE_UY);
+    }
+    supports("beamw_consistent", 2);
+    supports("collocation", 4);
+    supports("geometrically_exact", 3);
+    all_cases_are_held();
+    round_off();
+    return gsl_test_summary();
+}

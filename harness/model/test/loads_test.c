@@ -1,0 +1,225 @@
+/* Loads on nodes of a rigid body in a turned state, against the work they do: forces and moments at an offset, their stiffness, their
+ * rates along the path. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "harness/catalogue/registry.h"
+#include "harness/model/model.h"
+
+enum { MOST = 40 };
+enum { FREE_TURNS, THREE_ANGLES, TWO_ANGLES, FORK, BODIES };
+static const char *const body_name[] = {"free turns", "three angles", "two angles", "a fork"};
+
+/* A beam from a clamp to a body, which a load acts on beside its own node. */
+static void beam_and_body(int body, scene_load_kind kind, scene *s)
+{
+    const double y[3] = {0, 1, 0}, x[3] = {1, 0, 0}, z[3] = {0, 0, 1}, end = 1;
+    static const double sequence[3][3] = {{0, 0, 1}, {0.6, 0.8, 0}, {1, 0, 0}};
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = SECTION_CONSTANTS;
+    spec.young = spec.shear_modulus = 1;
+    spec.constants = (section){.young = 1, .shear_modulus = 1, .A = 1e3, .Iy = 2, .Iz = 1, .It = 1, .Ip = 3};
+    scene_init(s, "beam_and_body");
+    const int root = scene_add_node(s, 0, 0, 0), node = scene_add_node(s, 1, 0, 0),
+              edge = scene_add_attached(s, node, 1.3, -0.4, 0.25);
+    scene_hold_all(s, root);
+    scene_add_member(s, root, node, scene_add_section(s, &spec), y);
+    if (body == THREE_ANGLES || body == TWO_ANGLES) {
+        scene_node *n = scene_node_at(s, node);
+        n->rotation = SCENE_ROTATION_SEQUENCE;
+        memcpy(n->axis, sequence, (body == THREE_ANGLES ? 3 : 2) * sizeof n->axis[0]);
+    } else if (body == FORK) {
+        scene_fork(s, node, x, z);
+    }
+    scene_add_load(s, kind, edge, 0.7, -1.1, 0.4);
+    scene_set_stations(s, scene_add_analysis(s, SCENE_STATIC), 1, &end);
+}
+
+typedef struct subject {
+    scene scene;
+    model *m;
+    model_state *turned, *moved;
+    int n; /* free coordinates */
+} subject;
+
+static void move(const subject *s, const model_state *from, const double dx[], model_state *to)
+{
+    double residual[MOST];
+    fault f = {""};
+    model_linearisation lin = {.path = 1, .residual = residual};
+    model_state_copy(s->m, from, to);
+    gsl_test(model_linearise(s->m, to, &lin, &f) != STATUS_OK, "linearised: %s", f.text);
+    model_advance(s->m, to, dx, 1);
+}
+
+/* A state far from rest, turned about no special axis. */
+static void prepare(int body, scene_load_kind kind, subject *s)
+{
+    fault f = {""};
+    double dx[MOST];
+    beam_and_body(body, kind, &s->scene);
+    int i = 0;
+    for (; strcmp(registry_formulations[i]->name, "geometrically_exact") != 0; i++) {}
+    const model_request what = {&s->scene, registry_formulations[i], NULL, 1, 0};
+    gsl_test(scene_validate(&s->scene, &f) != STATUS_OK || model_alloc(&what, &s->m, &f) != STATUS_OK, "%s: %s", body_name[body],
+             f.text);
+    model_state_alloc(s->m, &s->turned, &f);
+    model_state_alloc(s->m, &s->moved, &f);
+    s->n = model_sizes(s->m).free;
+    for (int k = 0; k < s->n; k++)
+        dx[k] = 0.5 * sin(1.7 * k + 0.4);
+    move(s, model_rest(s->m), dx, s->turned);
+}
+
+static void release(subject *s)
+{
+    model_state_free(s->turned);
+    model_state_free(s->moved);
+    model_free(s->m);
+    scene_free(&s->scene);
+}
+
+/* Generalised loads of the path's end. */
+static void loads_of(const subject *s, double out[])
+{
+    double without[MOST];
+    fault f = {""};
+    model_linearisation with = {.path = 1, .residual = out}, none = {.path = 0, .residual = without};
+    model_linearise(s->m, s->turned, &with, &f);
+    model_linearise(s->m, s->turned, &none, &f);
+    for (int k = 0; k < s->n; k++)
+        out[k] -= without[k];
+}
+
+/* Displacement of the loaded node less that of the turned state, and its turn since. */
+static void motion_of(const subject *s, const double dx[], double d[3], double turn[3])
+{
+    double r[3], at[3], q[4], from[4];
+    move(s, s->turned, dx, s->moved);
+    model_frame(s->m, s->turned, 2, at, from);
+    model_frame(s->m, s->moved, 2, r, q);
+    for (int i = 0; i < 3; i++)
+        d[i] = r[i] - at[i];
+    rotation_between(from, q, turn);
+}
+
+/* Work of the load's first order: of a force all of it. */
+static double work_of(const subject *s, const double dx[])
+{
+    const scene_load *load = &s->scene.load[0];
+    double d[3], turn[3];
+    motion_of(s, dx, d, turn);
+    return vec3_dot(load->vector, load->kind == SCENE_FORCE ? d : turn);
+}
+
+static const double step = 1e-3;
+
+static double work_at(const subject *s, int i, double hi, int j, double hj)
+{
+    double dx[MOST] = {0};
+    dx[i] += hi;
+    if (j >= 0)
+        dx[j] += hj;
+    return work_of(s, dx);
+}
+
+/* Five points: the error is of the fourth order. */
+static double slope(const subject *s, int k)
+{
+    return (8 * (work_at(s, k, step, -1, 0) - work_at(s, k, -step, -1, 0)) -
+            (work_at(s, k, 2 * step, -1, 0) - work_at(s, k, -2 * step, -1, 0))) /
+           (12 * step);
+}
+
+static void conjugate(int body, scene_load_kind kind)
+{
+    subject s;
+    double load[MOST], F[6], at[3], edge[3], q[4], arm[3], moment[3];
+    prepare(body, kind, &s);
+    loads_of(&s, load);
+    for (int k = 0; k < s.n; k++)
+        gsl_test(!(fabs(load[k] - slope(&s, k)) <= 1e-9), "%s, %s: load %d is %.12g, its work rises by %.12g", body_name[body],
+                 kind == SCENE_FORCE ? "force" : "moment", k, load[k], slope(&s, k));
+    model_frame(s.m, s.turned, 1, at, q);
+    model_frame(s.m, s.turned, 2, edge, q);
+    for (int i = 0; i < 3; i++)
+        arm[i] = edge[i] - at[i];
+    vec3_cross(arm, s.scene.load[0].vector, moment);
+    model_node_load(s.m, s.turned, 1, F);
+    for (int i = 0; i < 3; i++) {
+        const double v = s.scene.load[0].vector[i], force = kind == SCENE_FORCE ? v : 0, m = kind == SCENE_FORCE ? moment[i] : v;
+        gsl_test(!(fabs(F[i] - force) <= 1e-14) || !(fabs(F[3 + i] - m) <= 1e-14), "%s: force and moment on the body: %g, %g",
+                 body_name[body], F[i], F[3 + i]);
+    }
+    release(&s);
+}
+
+/* A dead force has a potential: its stiffness is the second derivative of the work, with the sign of K. */
+static void stiffness(int body)
+{
+    subject s;
+    fault f = {""};
+    const sparse *pattern;
+    sparse K;
+    prepare(body, SCENE_FORCE, &s);
+    gsl_test(model_pattern(s.m, 0, &pattern, &f) != STATUS_OK || sparse_alloc_like(pattern, &K, &f) != STATUS_OK, "pattern");
+    model_load_stiffness(s.m, s.turned, 1, &K);
+    double largest = 0;
+    for (int j = 0; j < s.n; j++)
+        for (int k = K.column[j]; k < K.column[j + 1]; k++) {
+            const int i = K.row[k];
+            const double h = step, mixed = work_at(&s, i, h, j, h) - work_at(&s, i, h, j, -h) - work_at(&s, i, -h, j, h) +
+                                           work_at(&s, i, -h, j, -h);
+            gsl_test(!(fabs(K.value[k] + mixed / (4 * h * h)) <= 1e-5), "%s: stiffness (%d, %d) of a force: %.8g, not %.8g",
+                     body_name[body], i, j, K.value[k], -mixed / (4 * h * h));
+            largest = fmax(largest, fabs(K.value[k]));
+        }
+    gsl_test(!(largest > 0.1), "%s: the force has a stiffness: %g", body_name[body], largest);
+    sparse_free_values(&K);
+    release(&s);
+}
+
+/* Factor 0, 2, 1 at path 0, 1, 3: the rate at a station is that of what follows, and nothing changes outside. */
+static void rates(void)
+{
+    static const double path[] = {0, 1, 3}, value[] = {0, 2, 1};
+    static const struct {
+        double path, rate;
+    } row[] = {{-1, 0}, {0, 2}, {0.5, 2}, {1, -0.5}, {2, -0.5}, {3, 0}, {4, 0}};
+    subject s;
+    double unit[MOST], out[MOST];
+    prepare(FREE_TURNS, SCENE_FORCE, &s);
+    loads_of(&s, unit);
+    model_load_rate(s.m, s.turned, 0.3, out);
+    for (int k = 0; k < s.n; k++)
+        gsl_test_abs(out[k], unit[k], 1e-11, "proportional load: its rate is itself");
+    scene_load *load = &s.scene.load[0];
+    load->stations = 3;
+    load->path = malloc(sizeof path);
+    load->factor = malloc(sizeof value);
+    memcpy(load->path, path, sizeof path);
+    memcpy(load->factor, value, sizeof value);
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        model_load_rate(s.m, s.turned, row[i].path, out);
+        for (int k = 0; k < s.n; k++)
+            gsl_test(!(fabs(out[k] - row[i].rate * unit[k]) <= 1e-11), "rate at path %g: %g of the load, not %g", row[i].path,
+                     out[k] / unit[k], row[i].rate);
+    }
+    release(&s);
+}
+
+int main(void)
+{
+    for (int body = 0; body < BODIES; body++) {
+        conjugate(body, SCENE_FORCE);
+        conjugate(body, SCENE_MOMENT);
+        stiffness(body);
+    }
+    rates();
+    return gsl_test_summary();
+}

@@ -1,0 +1,77 @@
+"""Cross-flexure hinge: three leaves cross at their middles, pi - 2 half_angle apart from x, the outer two in one direction; the arm turns about z.
+
+One body, the arm, whose turn about z is given; its tilts are held (rotation hinge, vector) or free (first, last, between: which of three
+turns the drive's is makes no difference in a plane state).  A unit load acts on the arm while it cannot turn about z: the moment of the
+drive, along z, keeps the other two components of a dead moment (spatial moments), or follows the tilt (K changes by m~/2 on the tilts).
+"""
+import math
+
+import numpy as np
+
+from reference.derive.network import Network, clamped
+from reference.derive.sheets import parameters, sheet
+
+RELATIVE = 1e-9  # the stiffness of a leaf along itself, beside the forces that bend it
+SIZES = {"length": 0.06, "width": 0.01, "thickness": 0.3e-3, "pitch": 0.012, "half_angle": math.pi / 4, "young": 200e9, "poisson": 0.3, "angle": 0.35}
+TILTS_FREE = ("first", "last", "between")
+
+
+def hinge(given, intervals=4, nodes=14):
+    """Network and its arm."""
+    value = {**SIZES, **given}
+    beam = sheet(**{k: value[k] for k in ("length", "width", "thickness", "young", "poisson")})
+    net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=intervals, nodes=nodes)
+    turned = clamped((0.0, 0.0, 0.0), lambda level: (0.0, 0.0, level * value["angle"]))
+
+    def conditions(level, x, R, force, moment, numbers):
+        return np.concatenate([force, turned(level, x, R, force, moment, numbers)[3:]])
+    arm = net.body((0, 0, 0), conditions)
+    for i in range(3):
+        a = value["half_angle"] if i == 1 else math.pi - value["half_angle"]
+        along = np.array([math.cos(a), math.sin(a), 0])
+        start = -along * beam.length / 2 + np.array([0, 0, (i - 1) * value["pitch"]])
+        base = net.body(start, clamped(tuple(start / net.length)))
+        axes = np.column_stack([along, [-along[1], along[0], 0], [0, 0, 1]])
+        net.member(beam, base, arm, start, axes, ("fixed", "fixed"))
+    return net, arm, turned
+
+
+def compliance(net, arm, turned, tilts_free, convention):
+    """[5, 5] of (ux, uy, uz, thx, thy) with the tilts free, else [3, 3], in SI."""
+    def tilting(level, x, R, force, moment, numbers):
+        return np.concatenate([force, moment[:2], turned(level, x, R, force, moment, numbers)[5:]])
+    C = net.response(1.0, arm, {arm: tilting} if tilts_free else {})
+    if not tilts_free:
+        return C[:3, :3]
+    # the part of m~ on the tilts alone
+    C = C[:5, :5]
+    K = np.linalg.inv(C)
+    moment = net.force * net.length * arm.load[5]
+    half = np.array([[0.0, -moment], [moment, 0.0]]) / 2
+    if convention == "semitangential":
+        K[3:, 3:] += half
+    elif convention == "symmetrised":
+        K = (K + K.T) / 2
+    return C if convention == "spatial" else np.linalg.inv(K)
+
+
+def quantities(given):
+    sizes = {k: float(v) for k, v in given.items() if k in SIZES}
+    convention, rotation = given.get("moment_convention", "spatial"), given.get("rotation", "hinge")
+    net, arm, turned = hinge(sizes)
+    net.solve((0.5, 1.0))
+    C = compliance(net, arm, turned, rotation in TILTS_FREE, convention)
+    yield "moment", net.force * net.length * arm.load[5], "N m", RELATIVE
+    for i, name in enumerate(("shift_x", "shift_y")):
+        yield name, net.length * arm.x[i], "m", RELATIVE
+    for i, name in enumerate(("k_x", "k_y", "k_z", "k_tilt_x", "k_tilt_y")[:len(C)]):
+        yield name, 1 / C[i, i], "N/m" if i < 3 else "N m/rad", RELATIVE, convention
+
+
+def rows():
+    points = [{}, {"angle": 0.01}, {"angle": 0.3490658503988659}, {"half_angle": 0.5, "angle": -0.2, "pitch": 0.03}]
+    points += [{"rotation": rotation} for rotation in ("vector", *TILTS_FREE)]
+    points += [{"rotation": "first", "moment_convention": convention} for convention in ("semitangential", "symmetrised")]
+    for given in points:
+        for row in quantities(given):
+            yield "cross_flexure", parameters(given), *row
