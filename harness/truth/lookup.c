@@ -27,12 +27,17 @@ int finding_holds(const finding *row, const case_type *type, const double value[
            (fnmatch(row->formulation, key, 0) == 0 || fnmatch(row->formulation, bare, 0) == 0);
 }
 
+int truth_gates(const truth *row)
+{
+    return strcmp(row->kind, "agreement") != 0 && strcmp(row->kind, "unrepeatable") != 0;
+}
+
 const truth *truth_of(const truths *t, const case_type *type, const double value[], const char *quantity, const char *model)
 {
     const truth *best = NULL;
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
-        const int fits = row->formulation[0] == '\0' && !row->on_curve && strcmp(row->kind, "agreement") != 0 &&
+        const int fits = row->formulation[0] == '\0' && !row->on_curve && (truth_gates(row) || strcmp(model, "same") != 0) &&
                          strcmp(row->quantity, quantity) == 0 && strcmp(row->model, model) == 0;
         if (fits && truth_holds(row, type, value) &&
             (best == NULL || choice_index(TRUTH_KINDS, row->kind) < choice_index(TRUTH_KINDS, best->kind)))
