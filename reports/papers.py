@@ -4,7 +4,7 @@ import functools
 import math
 
 from reports import data
-from reports.claims import Lookup
+from reports.claims import Lookup, canonical
 from reports.site import ROOT, number, percent
 
 NAVIGATION = [("papers.html", "papers")]
@@ -27,7 +27,8 @@ def measured(look, truths, row):
     value, error, other = look.value(*cell), look.error(*cell), data.read_other_model(truths, row["case"], row["parameters"], row["quantity"])
     if not math.isfinite(value):
         return ""
-    words = [number(value)] + ([f"{percent(error)} from the exact beam"] if math.isfinite(error) else [])
+    unit = look.points[row["case"], canonical(row["parameters"])].units.get(row["quantity"], "")
+    words = [f"{number(value)} {'' if unit == '1' else unit}".strip()] + ([f"{percent(error)} from the exact beam"] if math.isfinite(error) else [])
     return ", ".join(words + ([f"{percent(value / other - 1)} from plate or solid"] if math.isfinite(other) else []))
 
 
