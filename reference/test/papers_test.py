@@ -1,4 +1,4 @@
-"""The papers figure by figure: every item has a row, every row a status, a reason where it needs one, and a case that exists."""
+"""The papers figure by figure: every item has a row, with status, reason and an existing case."""
 import csv
 import pathlib
 import unittest
@@ -7,8 +7,23 @@ from reference import pack
 
 REFERENCE = pathlib.Path(__file__).resolve().parents[1]
 STATUSES = ("reproduced", "partly", "not reproducible", "contradicted")
-ITEMS = {("J", item) for item in ("Table 1", "Table 2", "Table 3", "Table 4", "Fig. 10", "Fig. 11", "Fig. 12", "Fig. 13", "App. A")} | {
-    ("N", item) for item in ("Table 1", "Fig. 5", "Fig. 6", "Fig. 8", "Fig. 10", "Sec. 4.1", "App. A", "App. B")}
+ITEMS = {
+    ("J", item)
+    for item in (
+        "Table 1",
+        "Table 2",
+        "Table 3",
+        "Table 4",
+        "Fig. 10",
+        "Fig. 11",
+        "Fig. 12",
+        "Fig. 13",
+        "App. A",
+    )
+} | {
+    ("N", item)
+    for item in ("Table 1", "Fig. 5", "Fig. 6", "Fig. 8", "Fig. 10", "Sec. 4.1", "App. A", "App. B")
+}
 
 
 def rows():
@@ -34,7 +49,11 @@ class Papers(unittest.TestCase):
 
     def test_contradicted_numbers_are_errata(self):
         errata = (REFERENCE / "ERRATA.md").read_text(encoding="utf-8")
-        for r in (r for r in rows() if r["status"] == "contradicted" and r["item"].startswith(("Table", "App"))):
+        for r in (
+            r
+            for r in rows()
+            if r["status"] == "contradicted" and r["item"].startswith(("Table", "App"))
+        ):
             self.assertIn(f"{r['paper']} {r['item']}", errata, r)
 
 

@@ -1,4 +1,4 @@
-"""Published numbers against the exact ones of the same model: reference/ERRATA.md lists every contradiction, and no other."""
+"""Published numbers against exact ones: reference/ERRATA.md lists every contradiction, no other."""
 import csv
 import pathlib
 import unittest
@@ -11,7 +11,11 @@ def rows_of(kind):
     found = []
     for path in sorted((REFERENCE / "tables").glob("*.csv")):
         with open(path, newline="", encoding="utf-8") as table:
-            found += [row for row in csv.DictReader(table) if row["kind"] == kind and row["model"] == "same" and not row["formulation"]]
+            found += [
+                row
+                for row in csv.DictReader(table)
+                if row["kind"] == kind and row["model"] == "same" and not row["formulation"]
+            ]
     return found
 
 
@@ -20,19 +24,27 @@ def place(row):
 
 
 def contradictions():
-    """{(case, parameters, quantity): (published, exact)} that differ by more than both uncertainties."""
+    """{(case, parameters, quantity): (published, exact)} that differ beyond both uncertainties."""
     exact, found = {place(row): row for row in rows_of("exact")}, {}
     for row in rows_of("published"):
         known = exact.get(place(row))
-        if known and abs(float(row["value"]) - float(known["value"])) > float(row["uncertainty"]) + float(known["uncertainty"]):
+        if known and abs(float(row["value"]) - float(known["value"])) > float(
+            row["uncertainty"]
+        ) + float(known["uncertainty"]):
             found[place(row)[:3]] = float(row["value"]), float(known["value"])
     return found
 
 
 def listed():
     """{(case, parameters, quantity): (published, exact as printed there)}"""
-    section = (REFERENCE / "ERRATA.md").read_text(encoding="utf-8").split(HEADING)[1].split("\n## ")[0]
-    lines = [[cell.strip().strip("`") for cell in line.strip("|").split("|")] for line in section.splitlines() if line.startswith("|")]
+    section = (
+        (REFERENCE / "ERRATA.md").read_text(encoding="utf-8").split(HEADING)[1].split("\n## ")[0]
+    )
+    lines = [
+        [cell.strip().strip("`") for cell in line.strip("|").split("|")]
+        for line in section.splitlines()
+        if line.startswith("|")
+    ]
     return {(cells[1], cells[2], cells[3]): (float(cells[4]), cells[5]) for cells in lines[2:]}
 
 
@@ -48,13 +60,19 @@ class Published(unittest.TestCase):
         for where, (published, exact) in contradictions().items():
             said, digits = listed()[where]
             self.assertEqual(said, published, where)
-            self.assertLessEqual(abs(float(digits) - exact), 0.5 * 10.0 ** -len(digits.partition(".")[2]), where)
+            self.assertLessEqual(
+                abs(float(digits) - exact), 0.5 * 10.0 ** -len(digits.partition(".")[2]), where
+            )
 
     def test_bounds_of_converged_values_stand_on_the_exact_ones(self):
         exact, count = {place(row)[:4]: row["value"] for row in rows_of("exact")}, 0
         for path in (REFERENCE / "tables").glob("*.csv"):
             with open(path, newline="", encoding="utf-8") as table:
-                for row in (row for row in csv.DictReader(table) if "of the converged value" in row["source"]):
+                for row in (
+                    row
+                    for row in csv.DictReader(table)
+                    if "of the converged value" in row["source"]
+                ):
                     self.assertEqual(row["value"], exact[place(row)[:4]], row)
                     count += 1
         self.assertGreater(count, 0)

@@ -1,4 +1,4 @@
-"""The solids: meshes fill their volume, the tangent of a rigid end is that of its resultant, known limits of a sheet and of a channel."""
+"""The solids: meshes fill their volume, tangents are those of the resultant, known limits."""
 import contextlib
 import csv
 import io
@@ -19,13 +19,17 @@ needs_ccx = unittest.skipUnless(deck.available(), f"{deck.PROGRAM} is not instal
 
 def volume(grid):
     """Of bricks along the axes."""
-    low, high = (grid.nodes[grid.elements[:, BRICK.index(corner)]] for corner in ((0, 0, 0), (2, 2, 2)))
+    low, high = (
+        grid.nodes[grid.elements[:, BRICK.index(corner)]] for corner in ((0, 0, 0), (2, 2, 2))
+    )
     return np.prod(high - low, axis=1).sum()
 
 
 class Meshes(unittest.TestCase):
     def test_a_channel_has_its_area(self):
-        area = 2 * channel.WIDTH * channel.FLANGE + (channel.HEIGHT - 2 * channel.FLANGE) * channel.WEB
+        area = (
+            2 * channel.WIDTH * channel.FLANGE + (channel.HEIGHT - 2 * channel.FLANGE) * channel.WEB
+        )
         for mesh in channel.MESHES:
             self.assertAlmostEqual(volume(channel.channel(*mesh)), area * channel.LENGTH, places=12)
 
@@ -39,7 +43,9 @@ class Meshes(unittest.TestCase):
     def test_spin(self):
         phi, change = np.array([0.3, -0.2, 0.5]), np.array([1e-6, 2e-6, -1e-6])
         turn = (turned(phi + change) - turned(phi - change)) / 2 @ turned(phi).T
-        np.testing.assert_allclose([turn[2, 1], turn[0, 2], turn[1, 0]], spin(phi) @ change, rtol=1e-8)
+        np.testing.assert_allclose(
+            [turn[2, 1], turn[0, 2], turn[1, 0]], spin(phi) @ change, rtol=1e-8
+        )
 
 
 class Rows(unittest.TestCase):
@@ -81,16 +87,21 @@ class Sheet(unittest.TestCase):
         for i, step in ((0, 2e-6), (2, 5e-6), (3, 1e-3), (5, 1e-3)):
             force, moment, _ = self.sheet.state(motion + step * np.eye(6)[i])
             back, back_moment, _ = self.sheet.state(motion - step * np.eye(6)[i])
-            slope = (np.concatenate([force, moment]) - np.concatenate([back, back_moment])) / (2 * step)
+            slope = (np.concatenate([force, moment]) - np.concatenate([back, back_moment])) / (
+                2 * step
+            )
             self.assertLess(np.max(np.abs(slope - K[:, i]) / (scale * scale[i])), 1e-3, i)
 
     def test_at_rest(self):
-        """No force; a symmetric stiffness; along the sheet E A/L, up to nu^2/(1 - nu^2) more since its ends cannot contract."""
+        """No force; a symmetric stiffness; along the sheet E A/L and up to nu^2/(1 - nu^2) more.
+
+        Its ends cannot contract.
+        """
         force, moment, K = self.sheet.state(np.zeros(6))
         self.assertLess(np.max(np.abs(np.concatenate([force, moment]))), 1e-6)
         np.testing.assert_allclose(K, K.T, atol=1e-6 * np.max(np.abs(K)))
         ratio = K[0, 0] * sheet.LENGTH / (sheet.YOUNG * sheet.WIDTH * sheet.THICKNESS)
-        self.assertTrue(1 < ratio < 1 / (1 - sheet.POISSON ** 2), ratio)
+        self.assertTrue(1 < ratio < 1 / (1 - sheet.POISSON**2), ratio)
 
     def test_anticlastic_stiffening(self):
         """N 4.1: 7.8 % between beam and plate in three stiffnesses of the straight sheet."""

@@ -1,9 +1,30 @@
 """Structured meshes of bricks with 20 nodes, from boxes of a common lattice."""
 import numpy as np
 
-# Corners, then middles of the edges of the lower face, of the upper face and between them, in half steps of the lattice.
-BRICK = ((0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2), (1, 0, 0), (2, 1, 0), (1, 2, 0), (0, 1, 0),
-         (1, 0, 2), (2, 1, 2), (1, 2, 2), (0, 1, 2), (0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1))
+# Corners, then middles of the edges of the lower face, of the upper face and between them, in half
+# steps of the lattice.
+BRICK = (
+    (0, 0, 0),
+    (2, 0, 0),
+    (2, 2, 0),
+    (0, 2, 0),
+    (0, 0, 2),
+    (2, 0, 2),
+    (2, 2, 2),
+    (0, 2, 2),
+    (1, 0, 0),
+    (2, 1, 0),
+    (1, 2, 0),
+    (0, 1, 0),
+    (1, 0, 2),
+    (2, 1, 2),
+    (1, 2, 2),
+    (0, 1, 2),
+    (0, 0, 1),
+    (2, 0, 1),
+    (2, 2, 1),
+    (0, 2, 1),
+)
 
 
 def graded(elements):
@@ -20,7 +41,7 @@ class Grid:
     """nodes [count, 3] m, elements [count, 20]; both are counted from zero."""
 
     def __init__(self, xs, ys, zs, wanted=lambda i, j, k: True):
-        """Stations of corners along each axis [m]; wanted: which cells of the lattice are filled."""
+        """Stations of corners along each axis [m]; wanted: which cells are filled."""
         axes, number, nodes = [halved(np.asarray(a, dtype=float)) for a in (xs, ys, zs)], {}, []
 
         def node(place):
@@ -30,7 +51,9 @@ class Grid:
             return number[place]
 
         cells = [c for c in np.ndindex(len(xs) - 1, len(ys) - 1, len(zs) - 1) if wanted(*c)]
-        self.elements = np.array([[node(tuple(2 * i + d for i, d in zip(c, offset))) for offset in BRICK] for c in cells])
+        self.elements = np.array(
+            [[node(tuple(2 * i + d for i, d in zip(c, offset))) for offset in BRICK] for c in cells]
+        )
         self.nodes = np.array(nodes)
 
     def at(self, axis, value):

@@ -1,6 +1,7 @@
-"""What a rigid end does to a solid: the motion of its face, the resultant on it, the tangent of both.
+"""What a rigid end does to a solid: the motion of its face, the resultant on it, their tangent.
 
-A shell's edge: the face moves as a rigid body, but its thickness is free to change; the directions of the face turn with it.
+A shell's edge: the face moves as a rigid body, but its thickness is free to change; the directions
+of the face turn with it.
 """
 import numpy as np
 from scipy.sparse import identity, lil_matrix
@@ -19,14 +20,21 @@ def spin(vector):
     phi, x = np.linalg.norm(vector), cross_matrix(np.asarray(vector, dtype=float))
     if phi < 1e-8:
         return np.eye(3) + x / 2
-    return np.eye(3) + (1 - np.cos(phi)) / phi ** 2 * x + (phi - np.sin(phi)) / phi ** 3 * (x @ x)
+    return np.eye(3) + (1 - np.cos(phi)) / phi**2 * x + (phi - np.sin(phi)) / phi**3 * (x @ x)
 
 
 class Tip:
-    """A face of nodes [indices] about a point; `middle` holds its nodes that may not move along the thickness, its axis 1."""
+    """A face of nodes [indices] about a point.
+
+    `middle` holds its nodes that may not move along the thickness, its axis 1.
+    """
 
     def __init__(self, grid, nodes, middle, point):
-        self.nodes, self.middle, self.point = list(nodes), set(middle), np.asarray(point, dtype=float)
+        self.nodes, self.middle, self.point = (
+            list(nodes),
+            set(middle),
+            np.asarray(point, dtype=float),
+        )
         self.arms = {n: grid.nodes[n] - self.point for n in self.nodes}
 
     def held(self, node):
@@ -35,7 +43,11 @@ class Tip:
 
     def boundary(self, translation, R):
         """Cards: the face's directions, and the motion along them."""
-        cards = "*TRANSFORM,NSET=TIP,TYPE=R\n" + ",".join("%.12e" % a for a in np.concatenate([R[:, 0], R[:, 1]])) + "\n"
+        cards = (
+            "*TRANSFORM,NSET=TIP,TYPE=R\n"
+            + ",".join("%.12e" % a for a in np.concatenate([R[:, 0], R[:, 1]]))
+            + "\n"
+        )
         motion = "*BOUNDARY\n"
         for n in self.nodes:
             along = R.T @ (np.asarray(translation) + R @ self.arms[n] - self.arms[n])
@@ -45,10 +57,12 @@ class Tip:
     def resultant(self, displacements, forces, translation, R):
         """(force [N], moment about the displaced point [N m]) on the face."""
         arms = self.displaced(displacements, translation, R)
-        return sum(forces[n] for n in self.nodes), sum(np.cross(arms[n], forces[n]) for n in self.nodes)
+        return sum(forces[n] for n in self.nodes), sum(
+            np.cross(arms[n], forces[n]) for n in self.nodes
+        )
 
     def displaced(self, displacements, translation, R):
-        """Arms of the nodes: rigid but along the thickness, where the printed displacements (7 digits) say."""
+        """Arms: rigid but along the thickness, where the printed displacements (7 digits) say."""
         out = {n: R @ self.arms[n] for n in self.nodes}
         for n in set(self.nodes) - self.middle:
             moved = displacements[n] - np.asarray(translation) + self.arms[n] - out[n]
@@ -56,9 +70,10 @@ class Tip:
         return out
 
     def stiffness(self, tangent, displacements, forces, translation, R):
-        """d(force, spatial moment)/d(translation, spin) [6, 6]; tangent: deck.tangent, in fixed directions.
+        """d(force, spatial moment)/d(translation, spin) [6, 6]; tangent: of deck.tangent.
 
-        Along the thickness a node is free: its force there stays zero while the direction turns, so that it changes in fixed axes.
+        Along the thickness a node is free: its force there stays zero while the direction turns,
+        so that it changes in fixed axes.
         """
         K, places = tangent
         index = {p: i for i, p in enumerate(places)}
@@ -71,12 +86,14 @@ class Tip:
                 motion[index[n, d]] = np.concatenate([R[:, d], np.cross(arms[n], R[:, d])])
                 load[index[n, d], 3:] = -np.cross(R[:, d], forces[n])
         rest = np.setdiff1d(np.arange(len(places)), prescribed)
-        motion[rest] = splu(K[rest][:, rest].tocsc()).solve(load[rest] - K[rest][:, prescribed] @ motion[prescribed])
+        motion[rest] = splu(K[rest][:, rest].tocsc()).solve(
+            load[rest] - K[rest][:, prescribed] @ motion[prescribed]
+        )
         load[prescribed] = (K @ motion)[prescribed]
         return self.change(index, R, arms, forces, motion, load)
 
     def change(self, index, R, arms, forces, motion, load):
-        """The resultant's change [6, 6]: of the forces, and of the arms of those that act already."""
+        """The resultant's change [6, 6]: of forces, and of the arms of those that act already."""
         out = np.zeros((6, 6))
         for n in self.nodes:
             rows = [index[n, d] for d in range(3)]
@@ -87,7 +104,7 @@ class Tip:
         return out
 
     def directions(self, index, R):
-        """[n, n]: columns are the directions of the turned face at its nodes, the fixed ones elsewhere."""
+        """[n, n]: columns: directions of the turned face at its nodes, else the fixed ones."""
         out = lil_matrix(identity(len(index)))
         for n in self.nodes:
             rows = [index[n, d] for d in range(3)]
