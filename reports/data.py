@@ -246,6 +246,25 @@ def read_results(path, bench=None):
         raise Unreadable(f"{path}: cannot be read ({why}); 'make verify' writes it") from why
 
 
+def holds(parameters, at):
+    """Does a truth with these parameters, `*` for any value, hold at a point?  Both are `name=value;...`."""
+    said = dict(item.split("=", 1) for item in parameters.split(";") if item)
+    there = dict(item.split("=", 1) for item in at.split(";") if item)
+    return all(value == "*" or there.get(name) == value for name, value in said.items()) and all(name in said for name in there)
+
+
+def read_other_model(path, case, parameters, quantity):
+    """Value of another model (plate, solid) at a parameter point, or NaN."""
+    with h5py.File(path) as file:
+        group = file["truths"].get(case)
+        names = ("parameters", "quantity", "model", "formulation")
+        rows = zip(*([text(v) for v in group[name][()]] for name in names)) if group else ()
+        for i, (at, of, model, formulation) in enumerate(rows):
+            if model == "other" and not formulation and of == quantity and holds(at, parameters):
+                return float(group["value"][i])
+    return math.nan
+
+
 def read_truth_counts(path):
     """{kind: rows} of the packed truths."""
     try:

@@ -14,6 +14,7 @@ from reports.site import Site
 PAGES = (
     "index",
     "claims",
+    "papers",
     "errata",
     "case",
     "formulation",

@@ -59,7 +59,8 @@ static status compare_meshes(const sweep *s, const truths *t, int index, judgeme
     status outcome = STATUS_OK;
     for (int r = 0; r < t->rows && one->missing[0] == '\0'; r++) {
         const truth *row = &t->row[r];
-        if (row->elements == 0 || strcmp(row->formulation, one->formulation.key) != 0 || !truth_holds(row, p->type, p->parameter))
+        if (row->elements == 0 || !truth_gates(row) || strcmp(row->formulation, one->formulation.key) != 0 ||
+            !truth_holds(row, p->type, p->parameter))
             continue;
         for (int i = 0; i < one->meshes; i++)
             for (int q = 0; q < p->scene.quantities && one->mesh[i] == row->elements && outcome == STATUS_OK; q++) {

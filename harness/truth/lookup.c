@@ -33,6 +33,11 @@ int finding_holds(const finding *row, const case_type *type, const double value[
            is_of_formulation(row->formulation, key);
 }
 
+int truth_gates(const truth *row)
+{
+    return strcmp(row->kind, "agreement") != 0 && strcmp(row->kind, "unrepeatable") != 0;
+}
+
 const truth *truth_of(const truths *t, const case_type *type, const double value[], const char *quantity, const char *model)
 {
     return truth_of_theory(t, type, value, quantity, model, NULL);
@@ -44,7 +49,7 @@ const truth *truth_of_theory(const truths *t, const case_type *type, const doubl
     const truth *best = NULL;
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
-        const int fits = row->formulation[0] == '\0' && !row->on_curve && strcmp(row->kind, "agreement") != 0 &&
+        const int fits = row->formulation[0] == '\0' && !row->on_curve && (truth_gates(row) || strcmp(model, "same") != 0) &&
                          strcmp(row->quantity, quantity) == 0 && strcmp(row->model, model) == 0;
         const int follows = theories == NULL || row->theory[0] == '\0' || choice_index(theories, row->theory) >= 0;
         if (fits && follows && truth_holds(row, type, value) &&

@@ -8,8 +8,8 @@
 #include "harness/catalogue/parameters.h"
 
 enum { TRUTHS_VERSION = 2 };
-/* The first known one judges; "agreement" never does.  "predicted": the limit that a formulation must have. */
-#define TRUTH_KINDS    "exact|predicted|independent|consensus|agreement|published|reconstructed|experiment"
+/* The first known one judges; truth_gates says which ones may.  "predicted": the limit that a formulation must have. */
+#define TRUTH_KINDS    "exact|predicted|independent|consensus|agreement|published|reconstructed|experiment|unrepeatable"
 #define TRUTH_THEORIES "engesser|haringx" /* of shear in stability; "": the truth depends on none */
 /* What a moment does while its node turns, and how prescribed rotations combine. */
 #define TRUTH_CONVENTIONS                                                                                                          \
@@ -54,7 +54,9 @@ void truths_free(truths *t);
 int truth_holds(const truth *row, const case_type *type, const double value[]);
 int finding_holds(const finding *row, const case_type *type, const double value[], const char *formulation_key,
                   const char *quantity);
-/* The continuum's truth of that model to judge by (exact before published, no agreement, no point of a curve), or NULL. */
+/* May a verdict rest on it?  Not on an agreement of formulations, nor on a figure that nobody can compute again. */
+int truth_gates(const truth *row);
+/* The continuum's truth of that model (exact before published, no point of a curve), or NULL.  One of the same model gates. */
 const truth *truth_of(const truths *t, const case_type *type, const double value[], const char *quantity, const char *model);
 /* The same among truths that follow one of the theories of shear (words separated by |), or depend on none; NULL: any. */
 const truth *truth_of_theory(const truths *t, const case_type *type, const double value[], const char *quantity, const char *model,

@@ -1,6 +1,7 @@
-"""Derives every exact row again and compares it with reference/tables and reference/extremes.
+"""Derives every exact row, and the rows from solids, again and compares them with reference/tables and reference/extremes.
 
-usage: rederive.py [--write] [PROGRAM...]     --write replaces the exact rows of the programs' cases; review the diff.
+usage: rederive.py [--write] [--all] [PROGRAM...]     --write replaces the rows of the programs; review the diff.
+--all: every point of the solids (half an hour), not only the first ones.  Without CalculiX they are skipped, by name.
 """
 import csv
 import importlib
@@ -10,6 +11,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 from reference.derive import theory  # noqa: E402
+from reference.derive.solids import deck  # noqa: E402
 from reference.pack import COLUMNS, read_defaults  # noqa: E402
 
 FOLDERS = ("tables", "extremes")
@@ -26,8 +28,9 @@ def read_table(path):
 
 
 def programs(names):
-    """Every module here with a function rows()."""
-    found = sorted(p.stem for p in (ROOT / "reference" / "derive").glob("*.py") if "\ndef rows(" in p.read_text(encoding="utf-8"))
+    """Every module here with a function rows(); those of solids, which need another program, as solids.NAME."""
+    here = ROOT / "reference" / "derive"
+    found = sorted(".".join(p.relative_to(here).with_suffix("").parts) for p in here.rglob("*.py") if "\ndef rows(" in p.read_text(encoding="utf-8"))
     unknown = [n for n in names if n not in found]
     if unknown:
         raise SystemExit(f"rederive.py: no program '{unknown[0]}'; there are {', '.join(found)}")
@@ -48,44 +51,55 @@ def as_text(value, relative):
     return nstr(mpf(value), digits, min_fixed=-4, max_fixed=14, strip_zeros=False)
 
 
-def derived_rows(name):
-    """A program yields (case, parameters, quantity, value, unit[, relative uncertainty[, convention]])."""
-    for given in importlib.import_module(f"reference.derive.{name}").rows():
+def is_solid(name):
+    return name.startswith("solids.")
+
+
+def derived_rows(name, everything):
+    """A program yields (case, parameters, quantity, value, unit[, relative uncertainty[, convention[, at]]])."""
+    module = importlib.import_module(f"reference.derive.{name}")
+    kind, model = ("independent", "other") if is_solid(name) else ("exact", "same")
+    for given in module.rows(everything) if is_solid(name) else module.rows():
         case, parameters, quantity, value, unit = given[:5]
         relative = given[5] if len(given) > 5 else 10.0 ** (1 - DIGITS) / 2
         uncertainty = abs(float(value)) * relative if float(value) != 0 else relative
-        row = {**dict.fromkeys(COLUMNS, ""), "case": case, "parameters": parameters, "quantity": quantity, "unit": unit, "kind": "exact", "model": "same",
-               "theory": theory.of(case, parameters, quantity), "value": as_text(value, relative), "uncertainty": "%.1e" % uncertainty,
-               "convention": given[6] if len(given) > 6 else "", "source": f"reference/derive/{name}.py"}
+        row = {**dict.fromkeys(COLUMNS, ""), "case": case, "parameters": parameters, "quantity": quantity, "unit": unit, "kind": kind, "model": model,
+               "theory": "" if is_solid(name) else theory.of(case, parameters, quantity), "at": given[7] if len(given) > 7 else "",
+               "value": as_text(value, relative), "uncertainty": "%.1e" % uncertainty,
+               "convention": given[6] if len(given) > 6 else "", "source": f"reference/derive/{name.replace('.', '/')}.py"}
         yield row, float(value)
+
+
+def key_of(folder, row):
+    return folder, row["case"], canonical(row["parameters"]), row["quantity"], row["at"], row["kind"]
 
 
 def write(names):
     derived, cases = {}, read_defaults(ROOT / "reference" / "defaults.csv")
     for name in names:
-        for row, _ in derived_rows(name):
+        for row, _ in derived_rows(name, everything=True):
             if row["case"] not in cases:
                 raise SystemExit(f"rederive.py: {name} knows case {row['case']}, reference/defaults.csv does not; add its parameters there first")
             derived.setdefault((folder_of(name), row["case"]), []).append(row)
     for (folder, case), rows in derived.items():
         path = ROOT / "reference" / folder / f"{case}.csv"
         replaced = {row["source"] for row in rows}
-        kept = [row for row in (read_table(path) if path.exists() else []) if row["kind"] != "exact" or row["source"] not in replaced]
+        kept = [row for row in (read_table(path) if path.exists() else []) if row["source"] not in replaced]
         with open(path, "w", newline="", encoding="utf-8") as table:
             writer = csv.DictWriter(table, COLUMNS, lineterminator="\n")
             writer.writeheader()
             writer.writerows(rows + kept)
-        print(f"{path.name}: {len(rows)} exact rows, {len(kept)} others")
+        print(f"{path.name}: {len(rows)} derived rows, {len(kept)} others")
 
 
-def differences(name, stored, seen, cases):
+def differences(name, stored, seen, cases, everything):
     """(rows that agree, lines that say what differs, rows of cases that do not exist yet) of one program."""
     agree, lines, waiting = 0, [], 0
-    for row, value in derived_rows(name):
+    for row, value in derived_rows(name, everything):
         if row["case"] not in cases:
             waiting += 1
             continue
-        key = (folder_of(name), row["case"], canonical(row["parameters"]), row["quantity"])
+        key = key_of(folder_of(name), row)
         seen.add(key)
         known = stored.get(key)
         if known is None:
@@ -99,31 +113,40 @@ def differences(name, stored, seen, cases):
     return agree, lines, waiting
 
 
-def compare(names, everything):
+def read_stored():
+    """{key: row} of every row that a program derives."""
     stored = {}
     for path in sorted(p for folder in FOLDERS for p in (ROOT / "reference" / folder).glob("*.csv")):
-        stored.update({(path.parent.name, row["case"], canonical(row["parameters"]), row["quantity"]): row for row in read_table(path) if row["kind"] == "exact"})
-    seen, agree, differ, cases = set(), 0, 0, read_defaults(ROOT / "reference" / "defaults.csv")
+        stored.update({key_of(path.parent.name, row): row for row in read_table(path) if row["source"].startswith("reference/derive/")})
+    return stored
+
+
+def compare(names, whole, everything):
+    """Exit status; whole: every program is asked, so that a row that none of them derives is missed."""
+    stored, seen, agree, differ, cases = read_stored(), set(), 0, 0, read_defaults(ROOT / "reference" / "defaults.csv")
     for name in names:
-        good, lines, waiting = differences(name, stored, seen, cases)
+        if is_solid(name) and not deck.available():
+            print(f"{name:<24} skipped: {deck.PROGRAM} is not installed (Debian package calculix-ccx)")
+            continue
+        good, lines, waiting = differences(name, stored, seen, cases, everything)
         agree, differ = agree + good, differ + len(lines)
         later = f" {waiting:5d} wait for their case" if waiting else ""
         print(f"{name:<24} {good:5d} rows agree {len(lines):5d} differ{later}", flush=True)
         for line in lines:
             print(f"  {line}")
-    for key in [k for k in stored if everything and k not in seen]:
+    for key in [k for k, row in stored.items() if whole and k not in seen and (everything or row["kind"] == "exact")]:
         differ += 1
-        print(f"  {key}: exact, but no program derives it")
+        print(f"  {key}: {stored[key]['kind']}, but no program derives it")
     print(f"{agree} rows agree, {differ} differ")
     return 1 if differ or agree == 0 else 0
 
 
 def main(arguments):
-    names = [a for a in arguments if a != "--write"]
+    names = [a for a in arguments if a not in ("--write", "--all")]
     if "--write" in arguments:
         write(programs(names))
         return 0
-    return compare(programs(names), not names)
+    return compare(programs(names), not names, "--all" in arguments)
 
 
 if __name__ == "__main__":

@@ -1,15 +1,26 @@
-"""Which theory of shear in stability a truth of a case's own model follows; sources: the programs that derive it.
+"""Which theory of shear in stability a truth of a case's own model follows.
 
-Engesser: the axial force works on the slope of the line of centroids; Haringx: on the section's rotation, as in the
-geometrically exact beam (column.py gives both energies).  Without shear, or where nothing is stressed, both agree.
+Engesser: the axial force works on the slope of the line of centroids; Haringx: on the section's
+rotation, as in the geometrically exact beam (column.py gives both energies).  Without shear, or
+where nothing is stressed, both agree.  Sources: the programs that derive the truths.
 """
 
-LARGE_DISPLACEMENT = ("bend_45", "cross_flexure", "geradin_cardona", "hexapod", "shear_elastica", "spherical_joint")  # always flexible in shear
+LARGE_DISPLACEMENT = (
+    "bend_45",
+    "cross_flexure",
+    "geradin_cardona",
+    "hexapod",
+    "shear_elastica",
+    "spherical_joint",
+)  # always flexible in shear
 SHEAR_DEFAULT = {"c_cantilever": "0", "moment_buckling": "0"}
 
 
 def of(case, parameters, quantity):
-    """'engesser', 'haringx', or '' where the value depends on neither; parameters: `name=value;...` that differ from the defaults."""
+    """'engesser', 'haringx', or '' where the value depends on neither.
+
+    parameters: `name=value;...` that differ from the defaults.
+    """
     given = dict(item.split("=", 1) for item in parameters.split(";") if "=" in item)
     if float(given.get("shear", SHEAR_DEFAULT.get(case, "1"))) == 0:
         return ""
@@ -18,9 +29,15 @@ def of(case, parameters, quantity):
     if case == "c_cantilever":
         return "haringx"
     if case in ("sheet_cantilever", "sheet_wagner"):
-        bent = {float(given.get("tip_deflection", "0.015")), float(given.get("tip_phi_z", "0.15" if case == "sheet_wagner" else "0"))}
+        bent = {
+            float(given.get("tip_deflection", "0.015")),
+            float(given.get("tip_phi_z", "0.15" if case == "sheet_wagner" else "0")),
+        }
         return "haringx" if bent != {0.0} else ""
-    loaded = quantity.startswith("buckling") or float(given.get("axial_load", "5000" if case == "unsymmetric_column" else "0")) != 0
+    loaded = (
+        quantity.startswith("buckling")
+        or float(given.get("axial_load", "5000" if case == "unsymmetric_column" else "0")) != 0
+    )
     if case in ("c_column", "moment_buckling", "shear_column", "unsymmetric_column") and loaded:
         return given.get("shear_stability", "engesser")
     return ""

@@ -35,8 +35,8 @@ typedef struct bench {
     judgement j;
 } bench;
 
-static char words[][32] = {"load", "N",  "exact",     "same",  "test",      "",          "element",  "wrong limit",
-                           "why",  "kN", "low order", "other", "published", "predicted", "engesser", "haringx"};
+static char words[][32] = {"load", "N",         "exact", "same",      "test",      "",         "element", "wrong limit", "why",
+                           "kN",   "low order", "other", "published", "predicted", "engesser", "haringx", "unrepeatable"};
 enum {
     LOAD,
     NEWTON,
@@ -53,7 +53,8 @@ enum {
     PUBLISHED,
     PREDICTED,
     ENGESSER,
-    HARINGX
+    HARINGX,
+    UNREPEATABLE
 };
 
 static void bench_make(bench *b)
@@ -431,6 +432,10 @@ static void stored_values(void)
     expect(&b, VERDICT_PASS, 0, "by less than it was printed to");
     b.quantity[1].value = NAN;
     expect(&b, VERDICT_PASS, 1, "a mesh without a value does not agree");
+    b.row[1].kind = words[UNREPEATABLE];
+    expect(&b, VERDICT_PASS, 0, "a figure that nobody can compute again");
+    gsl_test_int(b.j.agreements, 0, "is compared with nothing");
+    b.row[1].kind = words[EXACT];
     b.row[0].unit = words[KILONEWTON];
     judgement_free(&b.j);
     gsl_test(judge(&b.s, &b.t, 1, &b.j, &f) != STATUS_FAULT || strstr(f.text, "kN") == NULL, "another unit: %s", f.text);

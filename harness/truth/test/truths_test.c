@@ -108,13 +108,14 @@ static void wrong_files(const char *path)
 /* Rows that no limit is judged by: of one formulation, of a curve, of no gate. */
 static void rows_that_do_not_judge(const char *path)
 {
-    recipe of_formulation = right, of_curve = right, agreed = right;
+    recipe of_formulation = right, of_curve = right, agreed = right, unrepeatable = right;
     of_formulation.kind = "predicted";
     of_formulation.formulation = "beamw";
     of_curve.at = 0.5;
     agreed.kind = "agreement";
-    const recipe all[] = {of_formulation, of_curve, agreed};
-    for (int i = 0; i < 3; i++) {
+    unrepeatable.kind = "unrepeatable";
+    const recipe all[] = {of_formulation, of_curve, agreed, unrepeatable};
+    for (int i = 0; i < 4; i++) {
         truths t;
         fault f = {""};
         double value[CASE_MAX_PARAMETERS] = {0};

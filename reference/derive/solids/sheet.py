@@ -1,0 +1,197 @@
+"""The sheet flexure as a plate: one face held, the other moved as a shell's edge; its compliance.
+
+C3D20R, graded towards all edges.  Held face: no displacement normal to it and along its width;
+along the thickness its middle alone is held.  The tip's motion is a translation and one rotation
+vector; what is free of it follows from zero force, or zero work of the moment.
+Moments are spatial: dead about fixed axes (reference/README.md).
+"""
+import tempfile
+
+import numpy as np
+
+from reference.derive.solids import deck
+from reference.derive.solids.grid import Grid, graded
+from reference.derive.solids.tip import Tip, spin, turned
+
+LENGTH, WIDTH, THICKNESS, YOUNG, POISSON = 0.1, 0.1, 0.00225, 200e9, 0.3
+MESHES = (8, 2), (8, 1), (12, 2)  # elements along each edge, layers: coarse, thin, fine
+DEFLECTIONS, TWISTS = (0.001, 0.005, 0.01, 0.015), (0.05, 0.1, 0.15)
+# A plate has none of the beam's choices.
+ANY = "tip_warping=*;warping=*;shear=*;trapeze=*;wagner=*;shear_factor=*"
+BENT = (
+    ("C_ux_Fx", 0, 0),
+    ("C_xx", 0, 0),
+    ("C_uy_Fy", 1, 1),
+    ("C_uy_Mz", 1, 5),
+    ("C_thz_Fy", 5, 1),
+    ("C_uz_Fz", 2, 2),
+    ("C_zz", 2, 2),
+    ("C_thx_Mx", 3, 3),
+    ("C_thy_My", 4, 4),
+    ("C_thz_Mz", 5, 5),
+)
+TWISTED = (
+    ("C_ux_My", 0, 4),
+    ("C_thy_Fx", 4, 0),
+    ("C_ux_Fx", 0, 0),
+    ("C_uz_Fz", 2, 2),
+    ("C_thx_Mx", 3, 3),
+    ("C_thy_My", 4, 4),
+)
+UNITS = {
+    "u_x": "m",
+    "F_y": "N",
+    "C_ux_Fx": "m/N",
+    "C_xx": "m/N",
+    "C_uy_Fy": "m/N",
+    "C_uz_Fz": "m/N",
+    "C_zz": "m/N",
+    "C_uy_Mz": "1/N",
+    "C_ux_My": "1/N",
+    "C_thz_Fy": "rad/N",
+    "C_thy_Fx": "rad/N",
+    "C_thx_Mx": "rad/(N m)",
+    "C_thy_My": "rad/(N m)",
+    "C_thz_Mz": "rad/(N m)",
+}
+
+
+class Sheet:
+    def __init__(self, elements, layers, folder):
+        """elements: along the length and along the width."""
+        ys = THICKNESS * (np.arange(layers + 1) / layers - 0.5)
+        self.grid, self.folder = (
+            Grid(LENGTH * graded(elements), ys, WIDTH * (graded(elements) - 0.5)),
+            folder,
+        )
+        face, root = self.grid.at(0, LENGTH), self.grid.at(0, 0)
+        middle = set(self.grid.at(1, 0))
+        self.tip = Tip(self.grid, face, middle & set(face), (LENGTH, 0, 0))
+        self.head = (
+            deck.mesh(self.grid, "C3D20R", deck.elastic(YOUNG, POISSON))
+            + deck.node_set("TIP", face)
+            + deck.node_set("ROOT", root)
+        )
+        self.head += deck.node_set("ROOTMIDDLE", sorted(middle & set(root)))
+
+    def state(self, motion):
+        """(force, spatial moment, stiffness [6, 6]) at a tip's motion [6].
+
+        The motion is a translation [m] and a rotation vector [rad].
+        """
+        R = turned(motion[3:])
+        directions, moved = self.tip.boundary(motion[:3], R)
+        root = "ROOT,1,1\nROOT,3,3\nROOTMIDDLE,2,2\n"
+        text = (
+            self.head
+            + directions
+            + "*BOUNDARY\n"
+            + root
+            + "*STEP,NLGEOM,INC=200\n*STATIC,SOLVER=SPOOLES\n0.25,1.,1e-4,0.5\n"
+            + deck.CONTROLS
+            + moved
+        )
+        text += "*NODE PRINT,NSET=TIP,GLOBAL=YES,FREQUENCY=1000\nU,RF\n*END STEP\n"
+        text += (
+            "*STEP,PERTURBATION\n*FREQUENCY,SOLVER=MATRIXSTORAGE\n1\n*BOUNDARY,OP=NEW\n"
+            + root
+            + "*END STEP\n"
+        )
+        path = deck.run(self.folder, "sheet", text)
+        u, f = deck.printed(path, "displacements")[-1], deck.printed(path, "forces")[-1]
+        force, moment = self.tip.resultant(u, f, motion[:3], R)
+        return force, moment, self.tip.stiffness(deck.tangent(path), u, f, motion[:3], R)
+
+
+def solve(sheet, motion, free, steps=8):
+    """(motion, force, moment, compliance [6, 6]) where loads of the free components do no work.
+
+    motion [6] is the start.
+    """
+    motion = np.array(motion, dtype=float)
+    for _ in range(steps):
+        force, moment, K = sheet.state(motion)
+        T = np.eye(6)
+        T[3:, 3:] = spin(motion[3:])
+        change = np.linalg.solve(
+            (T.T @ K @ T)[np.ix_(free, free)], -(T.T @ np.concatenate([force, moment]))[free]
+        )
+        if np.max(np.abs(change)) < 1e-8 * LENGTH:
+            return motion, force, moment, np.linalg.inv(K)
+        motion[free] += change
+    raise deck.Failed(f"sheet: its free end is not found in {steps} steps")
+
+
+def compared(run):
+    """{name: (value, relative uncertainty)} of run(elements, layers).
+
+    What either refinement still changes is uncertain.
+    """
+    coarse, thin, fine = [run(*mesh) for mesh in MESHES]
+    return {
+        name: (value, (abs(value - coarse[name]) + abs(thin[name] - coarse[name])) / abs(value))
+        for name, value in fine.items()
+    }
+
+
+def bent(deflection, mesh):
+    """Values of sheet_cantilever at a tip deflection [m]."""
+    with tempfile.TemporaryDirectory() as folder:
+        motion, force, _, C = solve(
+            Sheet(*mesh, folder), [-0.6 * deflection**2 / LENGTH, deflection, 0, 0, 0, 0], [0]
+        )
+    values = {name: C[i, j] for name, i, j in BENT}
+    return {**values, "u_x": motion[0], "F_y": force[1]}
+
+
+def twisted(angle, mesh):
+    """Values of sheet_wagner at a twist [rad]; the start is near the beam's solution."""
+    start = [
+        -1.29e-3 - 4.7e-3 * angle**2,
+        0.015,
+        0.0125 * angle**2,
+        angle,
+        0.0875 * angle,
+        0.15,
+    ]
+    with tempfile.TemporaryDirectory() as folder:
+        C = solve(Sheet(*mesh, folder), start, [0, 2, 4])[3]
+    return {name: C[i, j] for name, i, j in TWISTED}
+
+
+def rows(everything=True):
+    """(case, parameters, quantity, value, unit, relative uncertainty, convention).
+
+    Not everything: the defaults of both cases.
+    """
+    for deflection in DEFLECTIONS if everything else DEFLECTIONS[-1:]:
+        at = ";".join([f"tip_deflection={deflection:g}"] * (deflection != 0.015) + [ANY])
+        for name, (value, relative) in compared(lambda *mesh, w=deflection: bent(w, mesh)).items():
+            yield "sheet_cantilever", at, name, value, UNITS[
+                name
+            ], relative, "spatial" if name.startswith("C_") else ""
+    for angle in TWISTS if everything else TWISTS[-1:]:
+        at = ";".join([f"tip_phi_x={angle:g}"] * (angle != 0.15) + [ANY])
+        for name, (value, relative) in compared(
+            lambda *mesh, phi=angle: twisted(phi, mesh)
+        ).items():
+            yield "sheet_wagner", at, name, value, UNITS[name], relative, "spatial vector"
+
+
+def anticlastic(mesh=MESHES[0]):
+    """How much softer the beam is in F_y/u_y, F_y/phi_z and M_z/phi_z at rest (N 4.1).
+
+    Relative to the plate.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        plate = Sheet(*mesh, folder).state(np.zeros(6))[2][np.ix_((1, 5), (1, 5))]
+    inertia, area = (
+        WIDTH * THICKNESS**3 / 12,
+        10 * (1 + POISSON) / (12 + 11 * POISSON) * WIDTH * THICKNESS,
+    )
+    shear = LENGTH / (YOUNG / (2 * (1 + POISSON)) * area)
+    bending = (
+        LENGTH / (YOUNG * inertia) * np.array([[LENGTH**2 / 3, LENGTH / 2], [LENGTH / 2, 1]])
+    )
+    beam = np.linalg.inv(bending + np.diag([shear, 0]))
+    return [1 - beam[i, j] / plate[i, j] for i, j in ((0, 0), (0, 1), (1, 1))]

@@ -1,0 +1,82 @@
+"""Published numbers against exact ones: reference/ERRATA.md lists every contradiction, no other."""
+import csv
+import pathlib
+import unittest
+
+REFERENCE = pathlib.Path(__file__).resolve().parents[1]
+HEADING = "## Published numbers that contradict exact ones"
+
+
+def rows_of(kind):
+    found = []
+    for path in sorted((REFERENCE / "tables").glob("*.csv")):
+        with open(path, newline="", encoding="utf-8") as table:
+            found += [
+                row
+                for row in csv.DictReader(table)
+                if row["kind"] == kind and row["model"] == "same" and not row["formulation"]
+            ]
+    return found
+
+
+def place(row):
+    return row["case"], row["parameters"], row["quantity"], row["at"], row["theory"]
+
+
+def contradictions():
+    """{(case, parameters, quantity): (published, exact)} that differ beyond both uncertainties."""
+    exact, found = {place(row): row for row in rows_of("exact")}, {}
+    for row in rows_of("published"):
+        known = exact.get(place(row))
+        if known and abs(float(row["value"]) - float(known["value"])) > float(
+            row["uncertainty"]
+        ) + float(known["uncertainty"]):
+            found[place(row)[:3]] = float(row["value"]), float(known["value"])
+    return found
+
+
+def listed():
+    """{(case, parameters, quantity): (published, exact as printed there)}"""
+    section = (
+        (REFERENCE / "ERRATA.md").read_text(encoding="utf-8").split(HEADING)[1].split("\n## ")[0]
+    )
+    lines = [
+        [cell.strip().strip("`") for cell in line.strip("|").split("|")]
+        for line in section.splitlines()
+        if line.startswith("|")
+    ]
+    return {(cells[1], cells[2], cells[3]): (float(cells[4]), cells[5]) for cells in lines[2:]}
+
+
+class Published(unittest.TestCase):
+    def test_there_are_some(self):
+        exact = {place(row) for row in rows_of("exact")}
+        self.assertGreaterEqual(sum(place(row) in exact for row in rows_of("published")), 16)
+
+    def test_every_contradiction_is_listed_and_no_other(self):
+        self.assertEqual(set(contradictions()), set(listed()))
+
+    def test_the_list_has_their_values(self):
+        for where, (published, exact) in contradictions().items():
+            said, digits = listed()[where]
+            self.assertEqual(said, published, where)
+            self.assertLessEqual(
+                abs(float(digits) - exact), 0.5 * 10.0 ** -len(digits.partition(".")[2]), where
+            )
+
+    def test_bounds_of_converged_values_stand_on_the_exact_ones(self):
+        exact, count = {place(row)[:4]: row["value"] for row in rows_of("exact")}, 0
+        for path in (REFERENCE / "tables").glob("*.csv"):
+            with open(path, newline="", encoding="utf-8") as table:
+                for row in (
+                    row
+                    for row in csv.DictReader(table)
+                    if "of the converged value" in row["source"]
+                ):
+                    self.assertEqual(row["value"], exact[place(row)[:4]], row)
+                    count += 1
+        self.assertGreater(count, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
