@@ -59,11 +59,11 @@ def square_torsion():
     return 1 / 3 - 64 / math.pi ** 5 * sum(math.tanh(n * math.pi / 2) / n ** 5 for n in range(1, 400, 2))
 
 
-def bend_45(torsions=("exact", "polar"), forces=(600, 300)):
+def bend_45(torsions=("exact", "polar"), forces=(600, 300), form=lambda beam: beam):
     radius, angle, E, G = 100.0, math.pi / 4, 1e7, 5e6
     for torsion in torsions:
         k, J = (5 / 6, square_torsion()) if torsion == "exact" else (1.0, 1 / 6)
-        beam = Beam(radius * angle, EA=E, EIy=E / 12, EIz=E / 12, GJ=G * J, fy=1 / (k * G), fz=1 / (k * G), curvature=1 / radius)
+        beam = form(Beam(radius * angle, EA=E, EIy=E / 12, EIz=E / 12, GJ=G * J, fy=1 / (k * G), fz=1 / (k * G), curvature=1 / radius))
         for force in forces:
             r, _ = dead_load(beam, (0, 0, force), 20)
             at = [f"force={force}"] if force != 600 else []

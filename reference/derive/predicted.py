@@ -50,6 +50,13 @@ def geradin_cardona():
             yield name, *row[:5], RELATIVE
 
 
+def bend_45():
+    """Arcs, which the sheet elements know."""
+    for name in SHEETS:
+        for row in cantilevers.bend_45(form=as_printed(name)):
+            yield name, *row[:5], RELATIVE
+
+
 BENT = ({}, {"tip_deflection": 0.05}, {"tip_deflection": 0.001}, {"shear": 0}, {"width": 0.02},
         {"warping": 0, "trapeze": 0, "shear_factor": 0.8333333333333334}, {"thickness": 0.0005},
         {"thickness": 0.0001, "tip_deflection": 0.05}, {"length": 0.05, "tip_deflection": 0.0075},
@@ -182,6 +189,7 @@ def square_columns():
 CLOSED_FORMS = {"c_column": (channel_columns,), "moment_buckling": (channels_under_moments,),
                 "unsymmetric_column": (unsymmetric_columns,), "shear_column": (square_columns,)}
 BEAMS = {"shear_elastica": (shear_elastica,), "geradin_cardona": (geradin_cardona,),
+         "bend_45": (bend_45,),
          "sheet_cantilever": (bent_sheets, vibrating_sheets), "sheet_wagner": (twisted_sheets,),
          "spherical_joint": (joints,), "c_cantilever": (channels,)}
 CASES = {**CLOSED_FORMS, **BEAMS}
