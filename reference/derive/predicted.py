@@ -120,15 +120,19 @@ def channel_rows(name, given, deflections, points, relative):
 def channels():
     """Without the Wagner moments that none of them offers."""
     for name in JONKER:
-        form = as_printed(name)
         for given, w in channel_cantilever.POINTS:
             if not given.get("wagner_moments"):
-                points = channel_cantilever.path(w, form=form, **given)
+                points = channel_cantilever.path(w, form=as_printed(name), **given)
                 yield from channel_rows(name, given, w, points, channel_cantilever.RELATIVE)
-        for omega in (10, 20, 40):
-            w = (0.25, 0.5, 1.0)
-            points = channel_rotating.path(w, omega, form=form)
-            yield from channel_rows(name, {"omega": omega}, w, points, channel_rotating.RELATIVE)
+
+
+def turning_channels():
+    w = (0.25, 0.5, 1.0)
+    for name in JONKER:
+        for omega, rotary in ((10, 0), (20, 0), (40, 0), (20, 1), (40, 1)):
+            given = {"omega": omega, **({"rotary_inertia": rotary} if rotary else {})}
+            points = channel_rotating.path(w, omega, rotary, form=as_printed(name))
+            yield from channel_rows(name, given, w, points, channel_rotating.RELATIVE)
 
 
 CHANNEL_COLUMNS = ({}, {"length": 3}, {"length": 12}, {"section_data": "printed"},
@@ -191,7 +195,7 @@ CLOSED_FORMS = {"c_column": (channel_columns,), "moment_buckling": (channels_und
 BEAMS = {"shear_elastica": (shear_elastica,), "geradin_cardona": (geradin_cardona,),
          "bend_45": (bend_45,),
          "sheet_cantilever": (bent_sheets, vibrating_sheets), "sheet_wagner": (twisted_sheets,),
-         "spherical_joint": (joints,), "c_cantilever": (channels,)}
+         "spherical_joint": (joints,), "c_cantilever": (channels, turning_channels)}
 CASES = {**CLOSED_FORMS, **BEAMS}
 
 
