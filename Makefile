@@ -88,8 +88,9 @@ compare: ## errors and work of the last verify against the committed ones
 baseline: verify ## accept the errors and work of now: review the diff
 	@$(PROGRAM) compare $(BUILD)/results.h5 -o $(BASELINE)
 
-truths: needs-truths ## derive every exact row again, and solids where CalculiX is installed; compare with reference/tables
+truths: needs-truths ## derive every exact and predicted row again, and solids where CalculiX is installed; compare with reference/
 	@$(PYTHON) reference/derive/rederive.py
+	@$(PYTHON) reference/derive/predicted.py
 
 causes: verify ## find by experiment why a verdict is not `pass`; rewrites the proofs in reference/findings.csv
 	@$(PYTHON) harness/tools/causes.py $(PROGRAM) $(BUILD)/verify.json

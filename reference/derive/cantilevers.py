@@ -25,9 +25,9 @@ def planar_angle(R):
     return math.atan2(R[1, 0], R[0, 0])
 
 
-def elastica(loads=(1, 2, 5, 10)):
+def elastica(loads=(1, 2, 5, 10), form=lambda beam: beam):
     for load in loads:
-        beam = Beam(1.0, EA=1e8, EIy=1.0, EIz=1.0, GJ=1.0)
+        beam = form(Beam(1.0, EA=1e8, EIy=1.0, EIz=1.0, GJ=1.0))
         r, R = dead_load(beam, (0, load, 0), 10)
         at = "" if load == 1 else f"load={load}"
         yield "elastica", at, "w_over_L", r[1], "1", RELATIVE
@@ -35,18 +35,18 @@ def elastica(loads=(1, 2, 5, 10)):
         yield "elastica", at, "theta", planar_angle(R), "rad", RELATIVE
 
 
-def shear_elastica(stiffnesses=(500, 50, 10)):
+def shear_elastica(stiffnesses=(500, 50, 10), form=lambda beam: beam):
     for GA in stiffnesses:
-        beam = Beam(1.0, EA=1e9, EIy=10.0, EIz=10.0, GJ=10.0, fy=1 / GA, fz=1 / GA)
+        beam = form(Beam(1.0, EA=1e9, EIy=10.0, EIz=10.0, GJ=10.0, fy=1 / GA, fz=1 / GA))
         r, _ = dead_load(beam, (0, 10, 0), 10)
         at = "" if GA == 500 else f"GA={GA}"
         yield "shear_elastica", at, "u", r[0] - 1, "m", RELATIVE
         yield "shear_elastica", at, "v", r[1], "m", RELATIVE
 
 
-def geradin_cardona(loads=(600e3, 300e3)):
+def geradin_cardona(loads=(600e3, 300e3), form=lambda beam: beam):
     for load in loads:
-        beam = Beam(5.0, EA=4.8e8, EIy=9.346e6, EIz=9.346e6, GJ=1e6, fy=1 / 3.231e8, fz=1 / 3.231e8)
+        beam = form(Beam(5.0, EA=4.8e8, EIy=9.346e6, EIz=9.346e6, GJ=1e6, fy=1 / 3.231e8, fz=1 / 3.231e8))
         r, R = dead_load(beam, (0, -load, 0), 10)
         at = "" if load == 600e3 else f"load={load:g}"
         yield "geradin_cardona", at, "tip_x", 5 * r[0], "m", RELATIVE
@@ -59,11 +59,11 @@ def square_torsion():
     return 1 / 3 - 64 / math.pi ** 5 * sum(math.tanh(n * math.pi / 2) / n ** 5 for n in range(1, 400, 2))
 
 
-def bend_45(torsions=("exact", "polar"), forces=(600, 300)):
+def bend_45(torsions=("exact", "polar"), forces=(600, 300), form=lambda beam: beam):
     radius, angle, E, G = 100.0, math.pi / 4, 1e7, 5e6
     for torsion in torsions:
         k, J = (5 / 6, square_torsion()) if torsion == "exact" else (1.0, 1 / 6)
-        beam = Beam(radius * angle, EA=E, EIy=E / 12, EIz=E / 12, GJ=G * J, fy=1 / (k * G), fz=1 / (k * G), curvature=1 / radius)
+        beam = form(Beam(radius * angle, EA=E, EIy=E / 12, EIz=E / 12, GJ=G * J, fy=1 / (k * G), fz=1 / (k * G), curvature=1 / radius))
         for force in forces:
             r, _ = dead_load(beam, (0, 0, force), 20)
             at = [f"force={force}"] if force != 600 else []

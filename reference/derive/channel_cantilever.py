@@ -27,9 +27,10 @@ def channel_beam(sizes, shear, wagner_moments=0):
     return beam, float(SIZES[sizes][0]) / 2, float(s.points[1][0])
 
 
-def path(deflections, sizes="overall", load_point="D", load_height="corner", shear=0, wagner_moments=0, intervals=6, nodes=11):
+def path(deflections, sizes="overall", load_point="D", load_height="corner", shear=0, wagner_moments=0, intervals=6, nodes=11, form=lambda beam: beam):
     """(force [N], displacement of the loaded point along y [m]) at each deflection [m], in small steps so that no branch is jumped."""
     beam, half, web = channel_beam(sizes, shear, wagner_moments)
+    beam = form(beam)
     half += FLANGE / 2 if load_height == "edge" else 0
     net = Network(LENGTH, beam.EIz / LENGTH ** 2, numbers=[0.0], intervals=intervals, nodes=nodes)
     arm = np.array([0, web, half if load_point == "D" else -half]) / LENGTH

@@ -21,10 +21,10 @@ RELATIVE = 1e-8
 class Turning:
     """Unknowns: states at all points, one after the other, and the force on the tip."""
 
-    def __init__(self, omega, rotary=0):
+    def __init__(self, omega, rotary, form):
         beam, self.half, self.web = channel_beam("overall", 0)
         self.force = beam.EIz / LENGTH ** 2
-        self.beam = beam.scaled(LENGTH, self.force)
+        self.beam = form(beam).scaled(LENGTH, self.force)
         area = beam.EA / 210e9
         self.pull = DENSITY * area * omega ** 2 * LENGTH ** 2 / self.force
         turning = rotary * DENSITY * omega ** 2 / self.force  # times the moments of area: without a unit
@@ -89,9 +89,9 @@ class Turning:
         raise ArithmeticError(f"Newton's method did not converge at {deflection}")
 
 
-def path(deflections, omega, rotary=0):
+def path(deflections, omega, rotary=0, form=lambda beam: beam):
     """(force [N], displacement of the loaded point along y [m]) at each deflection [m]."""
-    t = Turning(omega, rotary)
+    t = Turning(omega, rotary, form)
     out, at = [], 0.0
     for w in deflections:
         while at < w - 1e-12:

@@ -108,7 +108,7 @@ def buckling_load(s, length, shear, haringx):
     return best
 
 
-def frequencies(s, length, shear, rotary, count, load=0, haringx=False):
+def frequencies(s, length, shear, rotary, count, load=0, haringx=False, prestress=_prestress):
     """Under an axial compression `load`, about the undeformed state."""
     found = []
     if shear and rotary:  # no half-wave at all: sections turn and warp in pure shear
@@ -119,7 +119,7 @@ def frequencies(s, length, shear, rotary, count, load=0, haringx=False):
         found += [1 / sqrt(nu) / (2 * pi) for nu in _ratios(s.G * inverse(s.F), mass)]
     for n in range(1, 30):
         k = n * pi / length
-        for nu in _ratios(_strain(s, k, shear) - load * _prestress(s, k, shear, int(haringx)), _kinetic(s, k, shear, rotary)):
+        for nu in _ratios(_strain(s, k, shear) - load * prestress(s, k, shear, int(haringx)), _kinetic(s, k, shear, rotary)):
             if nu > mpf(10) ** -30:
                 found.append(1 / sqrt(nu) / (2 * pi))
     return sorted(found)[:count]

@@ -136,13 +136,13 @@ def held_tip(vibration, y, p, free_warping):
     return rows[:6]
 
 
-def sheet_frequencies(count, given):
-    """Hz, of the sheet held at its deflected tip."""
+def sheet_frequencies(count, given, form=lambda beam: beam):
+    """Hz, of the sheet held at its deflected tip; form: see sheets.cantilever."""
     deflection = given.get("tip_deflection", 0.015) / given.get("length", 0.1)
 
     def conditions(level, x, R, force, moment, numbers):
         return np.array([x[1] - level * deflection, R[1, 0], force[0], force[2], moment[0], moment[1]])
-    net, _ = clamped_sheet(given, conditions)
+    net, _ = clamped_sheet(given, conditions, form)
     net.solve(np.linspace(0.1, 1, 10) if deflection > 0.2 else (0.5, 1.0))
     width, thickness, length, density = given.get("width", 0.1), given.get("thickness", 0.00225), given.get("length", 0.1), given.get("density", 7850.0)
     beam = sheet(**given)

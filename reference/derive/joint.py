@@ -63,9 +63,9 @@ def turned(given):
     return vector
 
 
-def stiffness_curve(intervals=4, nodes=10, **given):
+def stiffness_curve(intervals=4, nodes=10, form=lambda beam: beam, **given):
     """(undeformed, [at every azimuth]) in N/m."""
-    beam = sheet_of(given)
+    beam = form(sheet_of(given))
     net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=intervals, nodes=nodes)
     vector = turned(given)
     place = clamped((0.0, 0.0, 0.0), vector)

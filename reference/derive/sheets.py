@@ -39,9 +39,9 @@ def parameters(given):
     return ";".join(f"{k}={v}" for k, v in given.items())
 
 
-def clamped_sheet(given, conditions):
-    """Network of one sheet; its tip obeys conditions."""
-    beam = sheet(**given)
+def clamped_sheet(given, conditions, form=lambda beam: beam):
+    """Network of one sheet; its tip obeys conditions; form: see cantilever."""
+    beam = form(sheet(**given))
     net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=max(4, round(2 * beam.length / given.get("width", 0.1))), nodes=14)
     root, tip = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body((beam.length, 0, 0), conditions)
     net.member(beam, root, tip, (0, 0, 0), np.eye(3), ("fixed", "free" if given.get("tip_warping") else "fixed"))
@@ -80,25 +80,25 @@ def quantities(case, given, net, tip, entries):
     yield case, at, "M_z", net.force * net.length * tip.load[5], "N m", RELATIVE, turned
 
 
-def cantilever(**given):
-    """u_y prescribed, no rotation about z; all else free."""
+def cantilever(form=lambda beam: beam, **given):
+    """u_y prescribed, no rotation about z; all else free; form turns the beam into another one, as predicted.py does."""
     deflection = given.get("tip_deflection", 0.015) / given.get("length", 0.1)
 
     def conditions(level, x, R, force, moment, numbers):
         return np.array([x[1] - level * deflection, R[1, 0], force[0], force[2], moment[0], moment[1]])
-    net, tip = clamped_sheet(given, conditions)
+    net, tip = clamped_sheet(given, conditions, form)
     net.solve(np.linspace(0.1, 1, 10) if deflection > 0.2 else (0.5, 1.0))
     yield from quantities("sheet_cantilever", given, net, tip, PLANAR)
 
 
-def twisted(**given):
+def twisted(form=lambda beam: beam, **given):
     """sheet_wagner: R = Ry Rz Rx, phi_y free with zero moment about the fixed y axis."""
     phi_x, phi_z, deflection = given.get("tip_phi_x", 0.15), given.get("tip_phi_z", 0.15), given.get("tip_deflection", 0.015) / given.get("length", 0.1)
 
     def conditions(level, x, R, force, moment, numbers):
         bend, twist = min(level, 1.0), max(level - 1.0, 0.0)
         return np.array([x[1] - bend * deflection, R[1, 0] - math.sin(bend * phi_z), R[1, 2] + math.tan(twist * phi_x) * R[1, 1], force[0], force[2], moment[1]])
-    net, tip = clamped_sheet({"wagner": 1, **given}, conditions)
+    net, tip = clamped_sheet({"wagner": 1, **given}, conditions, form)
     net.solve([0.5, 1.0] + [1 + i / 5 for i in range(1, 6)] if phi_x else (0.5, 1.0))
     yield from quantities("sheet_wagner", given, net, tip, [(i, j) for i in range(6) for j in range(6)])
 

@@ -3,10 +3,12 @@ import math
 import pathlib
 import sys
 import unittest
+from fractions import Fraction
 
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+from reference.derive import second_order  # noqa: E402
 from reference.derive.beam import exponential, rotation  # noqa: E402
 from reference.derive.column import channel_data  # noqa: E402
 
@@ -157,15 +159,41 @@ class Modified(unittest.TestCase):
             self.assertAlmostEqual(self.elongation(e, Phi, 0.0), (Vs ** 2 / 3 + Vt ** 2 / 5) / 2, delta=1e-9)
             self.assertGreater(abs(self.elongation(e, Phi, 0.0) / printed - 1), 0.2)
 
+    @staticmethod
+    def sum66(e3, e4):
+        return (2 * e3 ** 2 + e3 * e4 + 2 * e4 ** 2) / 30
+
     def test_eccentric_shear_centre(self):
-        """The exact integral in closed form; the extra term -(ys^2 + zs^2) e2^2/10 of J Eq. 66 is not in it, even without shear."""
+        """The exact integral in closed form for any shear and twist; J Eq. 66 has neither."""
         ys, e = 0.7, {2: 0.6, 3: 0.8, 4: -0.5, 7: 0.4, 8: -0.3}
         for Phi in (0.0, 2.0):
             tw = (e[2] - (e[7] + e[8]) / 2) / (1 + Phi)
             Ws, Wt = (e[3] + e[4]) / 2 - ys * (e[7] - e[8]) / 2, (e[3] - e[4] - 2 * ys * e[2]) / (2 * (1 + Phi)) + ys * tw
             self.assertAlmostEqual(self.elongation(e, Phi, ys), (Ws ** 2 / 3 + Wt ** 2 / 5) / 2, delta=1e-9)
-            printed = (2 * e[3] ** 2 + e[3] * e[4] + 2 * e[4] ** 2) / 30 - ys ** 2 * e[2] ** 2 / 10
-            self.assertGreater(abs(self.elongation(e, Phi, ys) - printed), 0.01)
+            self.assertGreater(abs(self.elongation(e, Phi, ys) - self.sum66(e[3], e[4]) + ys ** 2 * e[2] ** 2 / 10), 0.01)
+
+    def test_term_of_an_eccentric_shear_centre(self):
+        """Uniform twist without shear: no term in strains of the shear centre; in J's e a product of twist and bending, which the printed
+        square replaces where there is no bending."""
+        ys, e2 = 0.7, 0.6
+        for e3, e4, alone in ((0.8, -0.5, False), (ys * e2, -ys * e2, True)):
+            exact = self.elongation({2: e2, 3: e3, 4: e4, 7: e2, 8: e2}, 0.0, ys)
+            self.assertAlmostEqual(exact, self.sum66(e3 - ys * e2, e4 + ys * e2), delta=1e-9)
+            self.assertAlmostEqual(exact, self.sum66(e3, e4) + ys ** 2 * e2 ** 2 / 10 - ys * (e3 - e4) * e2 / 10, delta=1e-9)
+            printed = self.sum66(e3, e4) - ys ** 2 * e2 ** 2 / 10
+            self.assertEqual(abs(exact - printed) < 1e-9, alone)
+            self.assertEqual(abs(exact - printed) > 0.01, not alone)
+
+    def test_twist_of_an_eccentric_beam(self):
+        """e2bar - e2 of the repaired modes (second_order.py) without shear is e4s e5s - e3s e6s; printed with J's e."""
+        length, (ys, zs) = second_order.L, (Fraction(2, 7), Fraction(-5, 9))
+        e = [Fraction(k, 11) for k in (0, 3, -4, 7, 2, 5, 3, 3)]  # uniform twist
+        shift = [0, 0, -ys, ys, -zs, zs, 0, 0]
+        s = [a + b * e[1] / length for a, b in zip(e, shift)]
+        hg = ((s[4] - s[5]) / (2 * length), (s[3] - s[2]) / (2 * length))
+        right = second_order.all_modes(e, hg, (Fraction(0), Fraction(0)), Fraction(0), 0, (ys, zs))[1]
+        self.assertEqual(right, (s[3] * s[4] - s[2] * s[5]) / length)
+        self.assertNotEqual(right, (e[3] * e[4] - e[2] * e[5]) / length)
 
     def test_table_1(self):
         """D with D_w = 3.65e6 mm^4 as printed is indefinite; with 3.65e9 and by shear flow it is positive definite."""

@@ -1,0 +1,297 @@
+"""Limits that printed formulations must have under refinement and that are not the exact ones.
+
+usage: predicted.py [--write] [CASE...]     derives reference/predicted/CASE.csv; compares or writes
+
+The beam that a formulation converges to (predicted_strains.py, predicted_beam.py) takes the place
+of the exact one in the programs that derive exact values; predicted_column.py has the half-waves.
+What agrees with the exact value is no prediction and is left out.  shear_stability=*: these
+formulations have one form of the second order, whatever theory a case asks for.
+"""
+import csv
+import pathlib
+import sys
+
+from mpmath import mpf
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+from reference.derive import cantilevers, channel_cantilever, channel_rotating, column  # noqa: E402
+from reference.derive import equilibrium, joint, rederive, sheets  # noqa: E402
+from reference.derive.predicted_beam import Printed  # noqa: E402
+from reference.derive.predicted_column import (  # noqa: E402
+    compression, critical, moment, pinned_square)
+from reference.pack import COLUMNS  # noqa: E402
+
+WORDS = [name for name in COLUMNS if name not in ("value", "uncertainty")]
+FOLDER = ROOT / "reference" / "predicted"
+SOURCE = "reference/derive/predicted.py"
+RELATIVE, CLOSED = 1e-9, 1e-12  # of beams (proved in predicted_test.py) and of closed forms
+SAME = 1e-6  # what lies so near the exact value is no prediction
+JONKER = ("beamw", "beamw_first")
+SHEETS = ("sheet_second", "sheet_third", "sheet_second_consistent")
+ALIASES = {"sheet_third": ("sheet_third_printed",)}  # the sign of u_y in N Eq. 49: of higher order
+
+
+def as_printed(name):
+    return lambda beam: Printed(beam, name)
+
+
+def shear_elastica():
+    """GA = 10: J's beams end on the way, sheet_second_consistent shears to a right angle."""
+    for name in JONKER + SHEETS:
+        stiffnesses = (500, 50, 10) if name in ("sheet_second", "sheet_third") else (500, 50)
+        for row in cantilevers.shear_elastica(stiffnesses, form=as_printed(name)):
+            yield name, *row[:5], RELATIVE
+
+
+def geradin_cardona():
+    for name in JONKER + SHEETS:
+        for row in cantilevers.geradin_cardona(form=as_printed(name)):
+            yield name, *row[:5], RELATIVE
+
+
+def bend_45():
+    """Arcs, which the sheet elements know."""
+    for name in SHEETS:
+        for row in cantilevers.bend_45(form=as_printed(name)):
+            yield name, *row[:5], RELATIVE
+
+
+BENT = ({}, {"tip_deflection": 0.05}, {"tip_deflection": 0.001}, {"shear": 0}, {"width": 0.02},
+        {"warping": 0, "trapeze": 0, "shear_factor": 0.8333333333333334}, {"thickness": 0.0005},
+        {"thickness": 0.0001, "tip_deflection": 0.05}, {"length": 0.05, "tip_deflection": 0.0075},
+        {"length": 0.5, "tip_deflection": 0.25}, {"length": 2, "tip_deflection": 0.3},
+        {"tip_deflection": 0.005}, {"tip_deflection": 0.01}, {"tip_warping": 1},
+        {"tip_deflection": 0.05, "tip_warping": 1}, {"tip_deflection": 0.005, "tip_warping": 1},
+        {"tip_deflection": 0.01, "tip_warping": 1},
+        {"length": 0.05, "tip_deflection": 0.025, "tip_warping": 1},
+        {"moment_convention": "semitangential"}, {"moment_convention": "symmetrised"})
+VIBRATING = ({}, {"tip_deflection": 0.05}, {"tip_warping": 1})
+WITHOUT_TORQUE = ({"wagner": 0}, {"wagner": 0, "tip_warping": 1}, {"wagner": 0, "tip_phi_x": 0.05},
+                  {"wagner": 0, "tip_phi_x": 0.1})
+WITH_TORQUE = ({}, {"tip_warping": 1}, {"tip_phi_x": 0.05}, {"tip_phi_x": 0.1},
+               {"moment_convention": "semitangential"}, {"moment_convention": "symmetrised"},
+               {"tip_warping": 1, "moment_convention": "symmetrised"})
+
+
+def bent_sheets():
+    for name in JONKER + SHEETS:
+        for given in BENT:
+            for row in sheets.cantilever(form=as_printed(name), **given):
+                yield name, *row[:5], RELATIVE, *row[6:]
+
+
+def vibrating_sheets():
+    for name in JONKER + SHEETS:
+        for given in VIBRATING:
+            at = sheets.parameters({"modes": 3, **given})
+            values = equilibrium.sheet_frequencies(3, given, form=as_printed(name))
+            for i, value in enumerate(values):
+                yield name, "sheet_cantilever", at, f"frequency_{i + 1}", value, "Hz", RELATIVE
+
+
+def twisted_sheets():
+    """J's elements have no Wagner torque."""
+    for name in JONKER + SHEETS:
+        for given in WITHOUT_TORQUE + (WITH_TORQUE if name in SHEETS else ()):
+            for row in sheets.twisted(form=as_printed(name), **given):
+                yield name, *row[:5], RELATIVE, *row[6:]
+
+
+def joints():
+    """One formulation each: a minute apiece."""
+    for given, name in (({}, "sheet_second"), ({"wagner": 0}, "beamw_first")):
+        _, curve = joint.stiffness_curve(form=as_printed(name), **given)
+        at = sheets.parameters(given)
+        for side, value in (("max", max(curve)), ("min", min(curve))):
+            yield name, "spherical_joint", at, f"support_stiffness_{side}", value, "N/m", RELATIVE
+
+
+def channel_rows(name, given, deflections, points, relative):
+    """Without shear beamw_vlasov is beamw."""
+    names = (name, "beamw_vlasov") if name == "beamw" and not given.get("shear") else (name,)
+    for w, values in zip(deflections, points):
+        at = sheets.parameters({**given, "w": w} if w != 0.5 else given)
+        for one in names:
+            for quantity, value, unit in zip(("load_at_w", "lateral"), values, ("N", "m")):
+                yield one, "c_cantilever", at, quantity, value, unit, relative
+
+
+def channels():
+    """Without the Wagner moments that none of them offers."""
+    for name in JONKER:
+        for given, w in channel_cantilever.POINTS:
+            if not given.get("wagner_moments"):
+                points = channel_cantilever.path(w, form=as_printed(name), **given)
+                yield from channel_rows(name, given, w, points, channel_cantilever.RELATIVE)
+
+
+def turning_channels():
+    w = (0.25, 0.5, 1.0)
+    for name in JONKER:
+        for omega, rotary in ((10, 0), (20, 0), (40, 0), (20, 1), (40, 1)):
+            given = {"omega": omega, **({"rotary_inertia": rotary} if rotary else {})}
+            points = channel_rotating.path(w, omega, rotary, form=as_printed(name))
+            yield from channel_rows(name, given, w, points, channel_rotating.RELATIVE)
+
+
+CHANNEL_COLUMNS = ({}, {"length": 3}, {"length": 12}, {"section_data": "printed"},
+                   {"web_thickness": "0.01"}, {"length": 4, "height": "0.9", "width": "0.3"})
+UNSYMMETRIC_COLUMNS = ({}, {"axial_load": 0}, {"length": "0.6", "axial_load": 100000},
+                       {"length": 1, "axial_load": -50000})
+SQUARE = {"length": 1, "side": "0.02", "young": 70 * 10 ** 9, "shear_modulus": 27 * 10 ** 9}
+SQUARE_COLUMNS = ({}, {"shear_modulus": 27 * 10 ** 8}, {"shear_modulus": 7 * 10 ** 7},
+                  {"length": "0.1"}, {"length": "0.1", "shear_modulus": 27 * 10 ** 8},
+                  {"length": "0.1", "shear_modulus": 7 * 10 ** 7},
+                  {"length": "0.7", "side": "0.09", "young": 12 * 10 ** 9,
+                   "shear_modulus": 5 * 10 ** 8})
+
+
+def at_any_theory(given):
+    return sheets.parameters({**given, "shear_stability": "*"} if given.get("shear", 1) else given)
+
+
+def channel_columns():
+    for given in [{**at, **rigid} for at in CHANNEL_COLUMNS for rigid in ({}, {"shear": 0})]:
+        sizes = {k: v for k, v in given.items() if k in ("height", "width", "web_thickness")}
+        s = column.channel_data(given.get("section_data") == "printed", **sizes)
+        length, shear = mpf(given.get("length", 6)), given.get("shear", 1)
+        for name in JONKER:
+            load = critical(s, length, shear, compression, name == "beamw")[1]
+            yield name, "c_column", at_any_theory(given), "buckling_load", load, "N", CLOSED
+
+
+def channels_under_moments():
+    at = at_any_theory({"shear": 1, "wagner_moments": 0})
+    for name in JONKER:
+        found = critical(column.channel_data(), mpf(6), 1, moment, name == "beamw")
+        for side, value in zip(("negative", "positive"), found):
+            yield name, "moment_buckling", at, f"buckling_moment_{side}", value, "N m", CLOSED
+
+
+def unsymmetric_columns():
+    s = column.branched()
+    for name in JONKER:
+        for given in UNSYMMETRIC_COLUMNS:
+            at, eq66 = at_any_theory(given), name == "beamw"
+            length, load = mpf(given.get("length", 3)), given.get("axial_load", 5000)
+            if load >= 0:
+                value = critical(s, length, 1, compression, eq66)[1]
+                yield name, "unsymmetric_column", at, "buckling_load", value, "N", CLOSED
+            found = column.frequencies(s, length, 1, 1, 6, load, eq66, compression)
+            for i, value in enumerate(found):
+                yield name, "unsymmetric_column", at, f"frequency_{i + 1}", value, "Hz", CLOSED
+
+
+def square_columns():
+    for given in SQUARE_COLUMNS:
+        for name in ("beamw", "sheet_second", "sheet_third", "beamw_first"):
+            value = pinned_square(**{**SQUARE, **given}, eq66=name != "beamw_first")
+            yield name, "shear_column", at_any_theory(given), "buckling_load", value, "N", CLOSED
+
+
+CLOSED_FORMS = {"c_column": (channel_columns,), "moment_buckling": (channels_under_moments,),
+                "unsymmetric_column": (unsymmetric_columns,), "shear_column": (square_columns,)}
+BEAMS = {"shear_elastica": (shear_elastica,), "geradin_cardona": (geradin_cardona,),
+         "bend_45": (bend_45,),
+         "sheet_cantilever": (bent_sheets, vibrating_sheets), "sheet_wagner": (twisted_sheets,),
+         "spherical_joint": (joints,), "c_cantilever": (channels, turning_channels)}
+CASES = {**CLOSED_FORMS, **BEAMS}
+
+
+def predictions(cases=CASES):
+    """(formulation, case, parameters, quantity, value, unit, uncertainty/value[, convention])."""
+    for family in (one for case in cases for one in CASES[case]):
+        for name, *rest in family():
+            for one in (name, *ALIASES.get(name, ())):
+                yield (one, *rest)
+
+
+def exact_values():
+    """{(case, parameters, quantity): values}, one for each theory of shear."""
+    found = {}
+    for path in (ROOT / "reference" / "tables").glob("*.csv"):
+        for row in rederive.read_table(path):
+            if row["kind"] == "exact" and not row.get("at"):
+                key = row["case"], rederive.canonical(row["parameters"]), row["quantity"]
+                found.setdefault(key, []).append(float(row["value"]))
+    return found
+
+
+def row_of(given):
+    name, case, parameters, quantity, value, unit, relative = given[:7]
+    filled = {"case": case, "parameters": parameters, "formulation": name, "quantity": quantity,
+              "value": rederive.as_text(value, relative), "unit": unit, "kind": "predicted",
+              "uncertainty": "%.1e" % (abs(float(value)) * relative), "model": "same",
+              "convention": given[7] if len(given) > 7 else "", "source": SOURCE}
+    return {**dict.fromkeys(COLUMNS, ""), **filled}
+
+
+def rows(cases=CASES):
+    """Those of points and quantities that have exact values, and differ from all of them."""
+    exact = exact_values()
+    for given in predictions(cases):
+        point = rederive.canonical(given[2].replace("shear_stability=*", ""))
+        known = exact.get((given[1], point, given[3]), [])
+        if known and all(abs(float(given[4]) - value) > SAME * abs(value) for value in known):
+            yield row_of(given)
+
+
+def key_of(row):
+    return row["case"], rederive.canonical(row["parameters"]), row["formulation"], row["quantity"]
+
+
+def stored_rows(cases=CASES):
+    paths = [FOLDER / f"{case}.csv" for case in cases]
+    tables = [rederive.read_table(path) for path in paths if path.exists()]
+    return {key_of(row): row for table in tables for row in table}
+
+
+def write(derived):
+    FOLDER.mkdir(exist_ok=True)
+    for case in sorted({row["case"] for row in derived}):
+        with open(FOLDER / f"{case}.csv", "w", newline="", encoding="utf-8") as table:
+            writer = csv.DictWriter(table, COLUMNS, lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(row for row in derived if row["case"] == case)
+
+
+def difference(row, known):
+    """One line, or None where both agree."""
+    if known is None:
+        return f"derived {row['value']} {row['unit']}, not stored"
+    gap = abs(float(row["value"]) - float(known["value"]))
+    if gap <= float(known["uncertainty"]) and all(known[name] == row[name] for name in WORDS):
+        return None
+    values = [f"{one['value']} +- {one['uncertainty']} {one['unit']}" for one in (row, known)]
+    return f"derived {values[0]}, stored {values[1]}, or another word differs"
+
+
+def differences(derived, cases):
+    """Lines that say what differs from the stored rows of the cases."""
+    stored = stored_rows(cases)
+    for row in derived:
+        line = difference(row, stored.pop(key_of(row), None))
+        if line:
+            yield f"{key_of(row)}: {line}"
+    yield from (f"{key}: stored, but not derived" for key in stored)
+
+
+def main(arguments):
+    cases = [a for a in arguments if a != "--write"] or list(CASES)
+    unknown = [case for case in cases if case not in CASES]
+    if unknown:
+        raise SystemExit(f"predicted.py: nothing for '{unknown[0]}', only for {', '.join(CASES)}")
+    derived = list(rows(cases))
+    if "--write" in arguments:
+        write(derived)
+        return 0
+    lines = list(differences(derived, cases))
+    for line in lines:
+        print(line)
+    print(f"{len(derived)} predicted rows, {len(lines)} differ")
+    return 1 if lines or not derived else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
