@@ -4,6 +4,7 @@ usage: pack.py -o FILE     Layout: reference/README.md.  The file appears comple
 """
 import argparse
 import csv
+import fnmatch
 import math
 import os
 import pathlib
@@ -13,7 +14,7 @@ import zlib
 VERSION = 2  # of the packed file; TRUTHS_VERSION of harness/truth/truths.h
 HERE = pathlib.Path(__file__).resolve().parent
 COLUMNS = "case,parameters,formulation,theory,elements,quantity,at,value,unit,uncertainty,kind,model,convention,source".split(",")
-FINDING_COLUMNS = "case,parameters,formulation,quantity,verdict,limit,uncertainty,proof".split(",")
+FINDING_COLUMNS = "rule,formulations,cases,condition,quantities,verdicts,largest_error,predicted,cause,proof".split(",")
 EXTREME_COLUMNS = "extreme,from,to,formulation,quantity,outcome,proof".split(",")
 OUTCOMES = ("value", "coarse", "wrong", "not converged", "singular", "refused", "no value", "fault")
 KINDS = ("exact", "predicted", "independent", "consensus", "agreement", "published", "reconstructed", "experiment", "unrepeatable")
@@ -22,7 +23,7 @@ THEORIES = ("", "engesser", "haringx")
 MOMENTS, ROTATIONS = ("", "spatial", "semitangential", "symmetrised"), ("", "vector", "RyRzRx")
 CONVENTIONS = tuple(f"{moment} {rotation}".strip() for moment in MOMENTS for rotation in ROTATIONS)
 TRUTH_FOLDERS = ("tables", "predicted")
-VERDICTS = ("pass", "wrong limit", "low order", "not asymptotic", "diverged", "refused", "skip", "no truth")
+VERDICTS = ("biased", "wrong limit", "wrong limit, as predicted", "undecided", "low order", "diverged", "refused")
 
 
 class Refused(Exception):
@@ -165,23 +166,29 @@ def read_truths(folders, defaults):
 
 
 def read_findings(path, defaults):
+    """Rules of the ledger: one for each cause, each readable in a line."""
     rows, seen = [], {}
     for number, row in read_csv(path, FINDING_COLUMNS):
         where = f"{path.name}:{number}"
-        if row["case"] not in defaults:
-            raise Refused(f"{where}: unknown case '{row['case']}'")
-        if row["verdict"] not in VERDICTS:
-            raise Refused(f"{where}: unknown verdict '{row['verdict']}'")
-        if not row["proof"]:
-            raise Refused(f"{where}: a finding needs its proof")
-        key = (row["case"], parameter_hash(defaults[row["case"]], row["parameters"], where), row["formulation"], row["quantity"])
-        if key in seen:
-            raise Refused(f"{where}: the same finding as {seen[key]}")
-        seen[key] = where
-        for name in ("limit", "uncertainty"):
-            row[name] = finite(row[name], f"{where}: {name}") if row[name] else math.nan
-        if bool(row["limit"] == row["limit"]) != bool(row["uncertainty"] >= 0):
-            raise Refused(f"{where}: a limit and its uncertainty are given together or not at all")
+        if not row["rule"] or " " in row["rule"]:
+            raise Refused(f"{where}: rule '{row['rule']}' must be one word")
+        if row["rule"] in seen:
+            raise Refused(f"{where}: the same rule as {seen[row['rule']]}")
+        seen[row["rule"]] = where
+        for name in ("formulations", "cases", "quantities", "verdicts", "cause", "proof"):
+            if not row[name]:
+                raise Refused(f"{where}: a finding needs {name}")
+        for case in row["cases"].split():
+            if not fnmatch.filter(defaults, case):
+                raise Refused(f"{where}: unknown case '{case}'")
+        for verdict in row["verdicts"].split("|"):
+            if verdict not in VERDICTS:
+                raise Refused(f"{where}: verdict '{verdict}' is none of {', '.join(VERDICTS)}")
+        for word in row["predicted"].split():
+            if word.partition("/")[0] not in defaults or not word.partition("/")[2]:
+                raise Refused(f"{where}: prediction '{word}' is not case/quantity")
+        text = row["largest_error"]
+        row["largest_error"] = finite(text, f"{where}: largest_error") if text else math.nan
         rows.append(row)
     return rows
 
@@ -205,7 +212,7 @@ def write_columns(group, rows, columns):
     import numpy
     for name in columns:
         values = [row[name] for row in rows]
-        if values and not isinstance(values[0], str) or name in ("limit", "uncertainty", "from", "to"):
+        if values and not isinstance(values[0], str) or name in ("largest_error", "from", "to"):
             kind = {"elements": "i4", "hash": "u8"}.get(name, "f8")
             group.create_dataset(name, data=numpy.array(values, dtype=kind))
         else:

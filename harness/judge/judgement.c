@@ -8,36 +8,40 @@
 
 static const double agreement_least = 1e-6; /* relative, of a value against its own stored discrete value */
 
-static verdict_kind kind_of(const char *name)
+static int is_beyond(const rule *r, const verdict *v)
 {
-    for (int i = 0; i < VERDICT_KINDS; i++)
-        if (strcmp(verdict_name((verdict_kind)i), name) == 0)
-            return (verdict_kind)i;
-    return VERDICT_KINDS; /* matches nothing */
+    return isfinite(v->error) && isfinite(r->largest_error) && fabs(v->error) > r->largest_error;
 }
 
-/* The first finding that speaks of this verdict sets what is expected, limit included. */
+/* What is not a pass is expected where exactly one rule of the ledger speaks of it. */
 static void expect(const sweep *s, truths *t, verdict *v)
 {
     const series *one = &s->series[v->series];
     const point *p = &s->point[one->point];
+    const char *quantity = p->scene.quantity[v->quantity].name;
+    const rule_subject subject = {p->type,  p->parameter,         model_needs(&p->scene), one->formulation.key,
+                                  quantity, verdict_name(v->kind)};
     v->matches = v->kind == v->expected;
-    if (v->kind == VERDICT_SKIP)
-        return;
-    for (int i = 0; i < t->findings; i++) {
-        finding *known = &t->finding[i];
-        if (!finding_holds(known, p->type, p->parameter, one->formulation.key, p->scene.quantity[v->quantity].name))
+    for (int i = 0; i < t->rules && !v->matches; i++) {
+        rule *r = &t->rule[i];
+        if (!rule_holds(r, &subject))
             continue;
-        v->finding = known;
-        v->expected = kind_of(known->verdict);
-        v->matches = v->kind == v->expected;
-        if (v->matches && isfinite(known->limit) && !(fabs(v->fit.limit - known->limit) <= known->uncertainty)) {
-            v->matches = 0;
-            snprintf(v->reason, sizeof v->reason, "its limit differs from the finding's %.10g", known->limit);
+        if (v->rule != NULL) {
+            snprintf(v->reason, sizeof v->reason, "two findings speak of it: %.60s and %.60s", v->rule->name, r->name);
+            v->expected = VERDICT_PASS;
+            return;
         }
-        known->observed += v->matches;
-        return;
+        v->rule = r;
+        r->observed++;
+        if (v->kind == VERDICT_AS_PREDICTED)
+            rule_foretell(r, &subject);
+        if (is_beyond(r, v))
+            snprintf(v->reason, sizeof v->reason, "its error of %.3g is beyond the %.3g of finding %.60s", v->error,
+                     r->largest_error, r->name);
+        else
+            v->expected = v->kind;
     }
+    v->matches = v->kind == v->expected;
 }
 
 static status add_agreement(const agreement *one, judgement *out, fault *f)
@@ -142,8 +146,10 @@ status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f)
 {
     int count = 0;
     memset(out, 0, sizeof *out);
-    for (int i = 0; i < t->findings; i++)
-        t->finding[i].observed = 0;
+    for (int i = 0; i < t->rules; i++) {
+        t->rule[i].observed = 0;
+        t->rule[i].foretold = 0;
+    }
     for (int i = 0; i < t->rows; i++)
         t->row[i].met = t->row[i].judged = 0;
     for (int i = 0; i < s->seriess; i++)
@@ -166,8 +172,8 @@ status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f)
     }
     if (outcome == STATUS_OK)
         outcome = judge_coverage(s, out, f);
-    for (int i = 0; i < t->findings && whole; i++)
-        out->unobserved += t->finding[i].observed == 0;
+    for (int i = 0; i < t->rules && whole; i++)
+        out->unobserved += !rule_is_observed(&t->rule[i]);
     for (int i = 0; i < t->rows && whole; i++) {
         const truth *row = &t->row[i];
         const int elsewhere = row->formulation[0] != '\0' && formulation_find(row->formulation) == NULL;

@@ -35,7 +35,7 @@ typedef struct verdict {
     double tolerance;   /* absolute, uncertainty of the truth included */
     int below_digits;   /* 1: the limit differs from the truth by less than the truth is uncertain */
     int matches;        /* 1: verdict as expected */
-    const finding *finding;
+    const rule *rule;   /* the one that explains what is not a pass; NULL: none */
     char reason[FAULT_TEXT];
 } verdict;
 
@@ -65,7 +65,7 @@ typedef struct judgement {
     int unexpected; /* verdicts that differ from the expected one */
     int disagreements;
     int judged;     /* verdicts that compare with a truth */
-    int unobserved; /* findings that no verdict showed (whole runs only) */
+    int unobserved; /* rules of the ledger that no verdict showed, or predictions of theirs (whole runs only) */
     int unmet;      /* truths that speak of no case, point or quantity there is (whole runs only) */
     int waiting;    /* truths that every formulation skips, or of a formulation that is not here (whole runs only) */
 } judgement;
@@ -77,11 +77,11 @@ void verdict_sentence(const verdict *v, double least_order, char *text, size_t s
 mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int left_out);
 /* The truth that a formulation is judged by: of the same model and of its own theory of shear; or NULL. */
 const truth *verdict_truth(const truths *t, const point *p, const formulation *chosen, int quantity);
-/* What the series shows of the quantity, both given in v: kind, fit, errors, and as expected what holds without findings. */
+/* What the series shows of the quantity, both given in v: kind, fit, errors, and as expected what holds without the ledger. */
 void verdict_reach(const sweep *s, const truths *t, verdict *v);
 /* Series whose verdicts may turn on the noise of their finest mesh, which is then worth measuring: wanted[seriess], 0 or 1. */
 void judge_doubts(const sweep *s, const truths *t, char wanted[]);
-/* FAULT when a truth has another unit than its quantity. whole: 1 when nothing was selected away, so that a finding nobody observed and a truth that
+/* FAULT when a truth has another unit than its quantity. whole: 1 when nothing was selected away, so that a rule nobody observed and a truth that
  * speaks of nothing are failures. */
 status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f);
 /* Fills the coverages from the verdicts. */

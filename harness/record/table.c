@@ -181,8 +181,8 @@ static void verdict_line(FILE *to, const sweep *s, const verdict *v, widths w)
     fprintf(to, "  %s", verdict_name(v->kind));
     if (!v->matches)
         fprintf(to, "  << expected %s", v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
-    else if (v->finding != NULL)
-        fprintf(to, ", known");
+    else if (v->rule != NULL)
+        fprintf(to, ", %s", v->rule->name);
     if (isfinite(v->model_error))
         fprintf(to, "; %+.3g %% from another model (%s)", 100 * v->model_error, v->model_truth->kind);
     fputc('\n', to);
@@ -206,11 +206,11 @@ static void disagreements(FILE *to, const sweep *s, const judgement *j)
 /* What a whole run should have met and did not. */
 static void not_met(FILE *to, const judgement *j, const truths *t)
 {
-    for (int i = 0; i < t->findings && j->unobserved > 0; i++)
-        if (t->finding[i].observed == 0)
-            fprintf(to, "\nfinding not observed: %s, %s, %s: %s\n",
-                    t->finding[i].type != NULL ? t->finding[i].type->name : "unknown case", t->finding[i].formulation,
-                    t->finding[i].quantity, t->finding[i].verdict);
+    for (int i = 0; i < t->rules && j->unobserved > 0; i++)
+        if (!rule_is_observed(&t->rule[i]))
+            fprintf(to, "\nfinding %s %s (%s; %s; %s)\n", t->rule[i].name,
+                    t->rule[i].observed == 0 ? "was not observed" : "names a prediction that no verdict met",
+                    t->rule[i].formulations, t->rule[i].cases, t->rule[i].quantities);
     for (int i = 0; i < t->rows && j->unmet > 0; i++) {
         const truth *row = &t->row[i];
         char text[PARAMETERS_TEXT];

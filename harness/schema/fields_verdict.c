@@ -15,9 +15,34 @@ static void get_message(const subject *s, field_value *out)
     out->text = out->room;
 }
 
+static void get_finding(const subject *s, field_value *out)
+{
+    field_text(out, s->verdict->rule != NULL ? s->verdict->rule->name : "");
+}
+
+static void get_cause(const subject *s, field_value *out)
+{
+    field_text(out, s->verdict->rule != NULL ? s->verdict->rule->cause : "");
+}
+
 static void get_proof(const subject *s, field_value *out)
 {
-    field_text(out, s->verdict->finding != NULL ? s->verdict->finding->proof : "");
+    field_text(out, s->verdict->rule != NULL ? s->verdict->rule->proof : "");
+}
+
+static const char *word_of_limit(int kind)
+{
+    return limit_kind_name((limit_kind)kind);
+}
+
+static void get_predicted(const subject *s, field_value *out)
+{
+    field_number(out, s->verdict->predicted != NULL ? s->verdict->predicted->value : (double)NAN);
+}
+
+static void get_contradicted(const subject *s, field_value *out)
+{
+    field_number(out, s->verdict->contradicted != NULL ? s->verdict->contradicted->value : (double)NAN);
 }
 
 /* The offset is the index of the level. */
@@ -35,10 +60,18 @@ static const schema_field fields_of_verdict[] = {
     {"as_expected", "", FIELD_FLAG, "the gate is red where it is not", AT(verdict, matches)},
     {"message", "", FIELD_TEXT, "the verdict in words", .get = get_message},
     {"reason", "", FIELD_TEXT, "why it was skipped, refused, has no value", AT(verdict, reason)},
-    {"proof", "", FIELD_TEXT, "of the finding that expects it", .get = get_proof},
+    {"finding", "", FIELD_TEXT, "the rule of the ledger that expects it", .get = get_finding},
+    {"cause", "", FIELD_TEXT, "that the finding names", .get = get_cause},
+    {"proof", "", FIELD_TEXT, "of the cause", .get = get_proof},
     {"value", UNIT_OF_QUANTITY, FIELD_DOUBLE, "on the finest mesh", AT(verdict, finest)},
     {"limit", UNIT_OF_QUANTITY, FIELD_DOUBLE, "for infinitely many elements", AT(verdict, fit.limit)},
     {"limit_uncertainty", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of it", AT(verdict, fit.limit_uncertainty)},
+    {"limit_kind", "", FIELD_ENUM, "what the sequence of meshes looks like", AT(verdict, fit.kind), .word = word_of_limit,
+     .words = LIMIT_KINDS},
+    {"noise", UNIT_OF_QUANTITY, FIELD_DOUBLE, "that was reckoned with", AT(verdict, fit.noise)},
+    {"predicted", UNIT_OF_QUANTITY, FIELD_DOUBLE, "limit derived for this formulation", .get = get_predicted},
+    {"contradicted", UNIT_OF_QUANTITY, FIELD_DOUBLE, "published value that the limit contradicts", .get = get_contradicted},
+    {"below_digits", "", FIELD_FLAG, "the error is below the truth's own digits", AT(verdict, below_digits)},
     {"order", "1", FIELD_DOUBLE, "of convergence in the number of elements", AT(verdict, fit.order)},
     {"order_uncertainty", "1", FIELD_DOUBLE, "of it", AT(verdict, fit.order_uncertainty)},
     {"asymptotic_from", "1", FIELD_INT, "elements from which on it is orderly; 0: none", AT(verdict, fit.from)},

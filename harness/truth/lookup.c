@@ -1,4 +1,4 @@
-/* Which truths and findings speak of a point, a formulation, a quantity. */
+/* Which truths speak of a point, a formulation, a quantity. */
 #include <fnmatch.h>
 #include <math.h>
 #include <stdio.h>
@@ -25,12 +25,6 @@ static int is_of_formulation(const char *pattern, const char *key)
 int truth_holds(const truth *row, const case_type *type, const double value[])
 {
     return row->type == type && same_point(type, value, row->parameter, row->any);
-}
-
-int finding_holds(const finding *row, const case_type *type, const double value[], const char *key, const char *quantity)
-{
-    return row->type == type && same_point(type, value, row->parameter, row->any) && fnmatch(row->quantity, quantity, 0) == 0 &&
-           is_of_formulation(row->formulation, key);
 }
 
 int truth_gates(const truth *row)

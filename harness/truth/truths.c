@@ -8,7 +8,6 @@
 
 #include "harness/catalogue/registry.h"
 #include "harness/truth/columns.h"
-#include "harness/truth/findings.h"
 #include "harness/truth/seal.h"
 
 /* Parameters of a row, and whether they still mean what they meant when the table was packed. */
@@ -201,7 +200,7 @@ status truths_read(const char *path, truths *out, fault *f)
     if (outcome == STATUS_OK)
         outcome = read_tables(path, file, "truths", out, f);
     if (outcome == STATUS_OK)
-        outcome = findings_read(path, file, out, f);
+        outcome = rules_read(path, file, &out->rule, &out->rules, f);
     if (file >= 0)
         H5Fclose(file);
     if (outcome != STATUS_OK)
@@ -228,13 +227,7 @@ void truths_free(truths *t)
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
             free(all[k]);
     }
-    for (int i = 0; i < t->findings; i++) {
-        finding *r = &t->finding[i];
-        char *const all[] = {r->formulation, r->quantity, r->verdict, r->proof};
-        for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
-            free(all[k]);
-    }
+    rules_free(t->rule, t->rules);
     free(t->row);
-    free(t->finding);
     memset(t, 0, sizeof *t);
 }

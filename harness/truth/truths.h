@@ -6,6 +6,7 @@
 
 #include "cases/case.h"
 #include "harness/catalogue/parameters.h"
+#include "harness/truth/rules.h"
 
 enum { TRUTHS_VERSION = 2 };
 /* The first known one judges; truth_gates says which ones may.  "predicted": the limit that a formulation must have. */
@@ -29,19 +30,10 @@ typedef struct truth {
     int met, judged; /* by the judge: a quantity it speaks of exists; not every formulation skips it */
 } truth;
 
-typedef struct finding {
-    const case_type *type;
-    double parameter[CASE_MAX_PARAMETERS];
-    int any[CASE_MAX_PARAMETERS];
-    char *formulation, *quantity, *verdict, *proof; /* formulation and quantity may hold * and ? */
-    double limit, uncertainty;                      /* NAN: not stated */
-    int observed;                                   /* counted by the judge */
-} finding;
-
 typedef struct truths {
-    int rows, findings;
+    int rows, rules;
     truth *row;
-    finding *finding;
+    rule *rule;    /* the ledger */
     int strangers; /* cases of the file that the program does not have */
     char stranger[64];
 } truths;
@@ -52,8 +44,6 @@ status truths_read(const char *path, truths *out, fault *f);
 status truths_read_extremes(const char *path, truths *out, fault *f);
 void truths_free(truths *t);
 int truth_holds(const truth *row, const case_type *type, const double value[]);
-int finding_holds(const finding *row, const case_type *type, const double value[], const char *formulation_key,
-                  const char *quantity);
 /* May a verdict rest on it?  Not on an agreement of formulations, nor on a figure that nobody can compute again. */
 int truth_gates(const truth *row);
 /* The continuum's truth of that model (exact before published, no point of a curve), or NULL.  One of the same model gates. */

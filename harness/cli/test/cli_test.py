@@ -82,7 +82,7 @@ class Answers(unittest.TestCase):
         self.assertTrue(any(t["truth_kind"] == "exact" for t in load["truths"]))
 
     def test_gate(self):
-        """A finding that is deleted from the ledger turns the gate red."""
+        """A rule that is taken out of the ledger turns the gate red."""
         import h5py
         folder = tempfile.mkdtemp()
         try:
@@ -91,7 +91,7 @@ class Answers(unittest.TestCase):
             selection = ("verify", "-k", "c_column and section_data=printed and beamw", "--truths", path)
             self.assertEqual(run(*selection).returncode, 0)
             with h5py.File(path, "r+") as file:
-                file["findings/quantity"][...] = b"gone"
+                file["findings/quantities"][...] = b"gone"
             seal(path)
             done = run(*selection)
             self.assertEqual(done.returncode, 1)

@@ -31,12 +31,13 @@ typedef struct bench {
     quantity_result quantity[MESHES];
     truths t;
     truth row[2];
-    finding known;
+    rule known, twice[2];
     judgement j;
 } bench;
 
-static char words[][32] = {"load", "N",         "exact", "same",      "test",      "",         "element", "wrong limit", "why",
-                           "kN",   "low order", "other", "published", "predicted", "engesser", "haringx", "unrepeatable"};
+static char words[][32] = {"load",        "N",       "exact",        "same",      "test",        "",          "element",
+                           "wrong limit", "why",     "kN",           "low order", "other",       "published", "predicted",
+                           "engesser",    "haringx", "unrepeatable", "made_up",   "made_up/load"};
 enum {
     LOAD,
     NEWTON,
@@ -54,7 +55,9 @@ enum {
     PREDICTED,
     ENGESSER,
     HARINGX,
-    UNREPEATABLE
+    UNREPEATABLE,
+    MADE_UP,
+    LOAD_OF_IT
 };
 
 static void bench_make(bench *b)
@@ -355,29 +358,36 @@ static void expectations(void)
     expect(&b, VERDICT_REFUSED, 1, "a point whose scene is refused");
     b.p.status = STATUS_OK;
     bench_fill(&b, 3.003, 0.7, 2);
-    b.known = (finding){.type = &made_up,
-                        .parameter = {2},
-                        .formulation = words[ELEMENT],
-                        .quantity = words[LOAD],
-                        .verdict = words[WRONG_LIMIT],
-                        .proof = words[WHY],
-                        .limit = 3.003,
-                        .uncertainty = 1e-6};
-    b.t.finding = &b.known;
-    b.t.findings = 1;
+    b.known = (rule){.name = words[WHY],
+                     .formulations = words[ELEMENT],
+                     .cases = words[MADE_UP],
+                     .condition = words[NOTHING],
+                     .quantities = words[LOAD],
+                     .verdicts = words[WRONG_LIMIT],
+                     .predicted = words[NOTHING],
+                     .largest_error = 0.002};
+    b.t.rule = &b.known;
+    b.t.rules = 1;
     expect(&b, VERDICT_WRONG_LIMIT, 0, "a known wrong limit");
-    b.known.limit = 3.004;
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "a known wrong limit that has moved");
-    b.known.limit = NAN;
-    b.known.verdict = words[LOW_ORDER];
+    b.known.largest_error = 0.0009;
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "a wrong limit that is farther off than its cause explains");
+    b.known.largest_error = NAN;
+    b.known.verdicts = words[LOW_ORDER];
     expect(&b, VERDICT_WRONG_LIMIT, 1, "another defect than the known one");
-    b.known.verdict = words[WRONG_LIMIT];
+    b.known.verdicts = words[WRONG_LIMIT];
+    b.twice[0] = b.twice[1] = b.known;
+    b.t.rule = b.twice;
+    b.t.rules = 2;
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "two rules for one verdict");
+    b.t.rule = &b.known;
+    b.t.rules = 1;
+    b.known.predicted = words[LOAD_OF_IT];
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "a rule whose prediction no verdict met");
+    b.known.predicted = words[NOTHING];
     bench_fill(&b, 3, 0.7, 2);
     expect(&b, VERDICT_PASS, 1, "a known defect that is gone");
-    gsl_test_int(b.j.unobserved, 1, "is a finding nobody observed");
-    b.known.parameter[0] = 5;
-    expect(&b, VERDICT_PASS, 1, "so is a finding of another point");
-    b.t.findings = 0;
+    gsl_test_int(b.j.unobserved, 1, "is a rule nobody observed");
+    b.t.rules = 0;
     b.row[0].parameter[0] = 5;
     expect(&b, VERDICT_NO_TRUTH, 3, "a truth of other parameters does not judge");
     gsl_test_int(b.j.unmet, 1, "and is missed");

@@ -14,8 +14,8 @@
 
 /* What a file is made with; the defaults are right. */
 typedef struct recipe {
-    const char *schema, *case_group, *kind, *model, *theory, *convention, *formulation, *parameters, *left_out_column,
-        *finding_case;
+    const char *schema, *case_group, *kind, *model, *theory, *convention, *formulation, *parameters, *left_out_column, *rule_cases,
+        *condition, *predicted;
     int version, elements, short_column;
     double value, uncertainty, at;
     uint64_t hash_change;
@@ -81,18 +81,26 @@ static void put_truth(hid_t file, const recipe *r, const case_type *type)
     H5Gclose(all);
 }
 
-static void put_finding(hid_t file, const recipe *r, const case_type *type)
+/* "" where the recipe says nothing else. */
+static const char *or_else(const char *given, const char *usual)
 {
-    const double limit = NAN;
+    return given != NULL ? given : usual;
+}
+
+static void put_rule(hid_t file, const recipe *r, const case_type *type)
+{
+    const double largest = 0.1;
     const hid_t at = H5Gcreate2(file, "findings", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    put_text(at, r, "case", r->finding_case != NULL ? r->finding_case : type->name);
-    put_text(at, r, "parameters", "*");
-    put_text(at, r, "formulation", "some*");
-    put_text(at, r, "quantity", "lo?d");
-    put_text(at, r, "verdict", "wrong limit");
+    put_text(at, r, "rule", "made_up");
+    put_text(at, r, "formulations", "some* another:mass=lumped");
+    put_text(at, r, "cases", or_else(r->rule_cases, type->name));
+    put_text(at, r, "condition", or_else(r->condition, ""));
+    put_text(at, r, "quantities", "lo?d");
+    put_text(at, r, "verdicts", "low order|wrong limit");
+    put_text(at, r, "predicted", or_else(r->predicted, ""));
+    put_text(at, r, "cause", "test");
     put_text(at, r, "proof", "test");
-    put(at, "limit", H5T_NATIVE_DOUBLE, 1, &limit);
-    put(at, "uncertainty", H5T_NATIVE_DOUBLE, 1, &limit);
+    put(at, "largest_error", H5T_NATIVE_DOUBLE, 1, &largest);
     H5Gclose(at);
 }
 
@@ -120,7 +128,7 @@ static void truths_file_make(const char *path, const recipe *r)
     H5Awrite(a, H5T_NATIVE_INT, &r->version);
     H5Aclose(a);
     put_truth(file, r, registry_cases[0]);
-    put_finding(file, r, registry_cases[0]);
+    put_rule(file, r, registry_cases[0]);
     H5Tclose(type);
     H5Sclose(scalar);
     H5Fclose(file);

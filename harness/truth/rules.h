@@ -1,0 +1,46 @@
+/* The ledger (reference/findings.csv): what is expected although it is not a pass, one rule for each cause. */
+#ifndef BEAMWORK_RULES_H
+#define BEAMWORK_RULES_H
+
+#include <hdf5.h>
+
+#include "cases/case.h"
+
+/* Lists are words separated by blanks, in which * and ? stand for anything; one of them must fit. */
+typedef struct rule {
+    char *name;         /* one word */
+    char *formulations; /* list: name with options ("beamw:mass=lumped"), or the bare name */
+    char *cases;        /* list */
+    char *condition;    /* terms joined by ';', all of which must hold; see rule_holds */
+    char *quantities;   /* list */
+    char *verdicts;     /* "wrong limit|undecided" */
+    char *predicted;    /* list of "case/quantity" whose limit is predicted; empty: none */
+    char *cause, *proof;
+    double largest_error; /* relative, of the limit; beyond it the rule does not explain */
+    int observed;         /* by the judge: verdicts it explains */
+    unsigned foretold;    /* by the judge: bits of the predictions that were met */
+} rule;
+
+/* What a rule may speak of. */
+typedef struct rule_subject {
+    const case_type *type;
+    const double *parameter;
+    unsigned features; /* enum element_feature: what the scene needs */
+    const char *formulation, *quantity, *verdict;
+} rule_subject;
+
+/* A term of the condition is a feature that the scene needs ("shear", "not shear") or compares a
+ * parameter of the case ("omega>0", "load=tip|mid", "tip_deflection!=0.015", also < <= >=); one that
+ * the case does not have does not hold. */
+int rule_holds(const rule *, const rule_subject *);
+
+/* Notes that a verdict met a prediction which the rule names. */
+void rule_foretell(rule *, const rule_subject *);
+/* Has a verdict shown it, and verdicts all its predictions? */
+int rule_is_observed(const rule *);
+
+/* FAULT names a column that is damaged, or a rule whose condition means nothing. */
+status rules_read(const char *path, hid_t file, rule **out, int *count, fault *f);
+void rules_free(rule *, int count);
+
+#endif
