@@ -99,6 +99,20 @@ class Schema(unittest.TestCase):
         self.assertGreater(len(jumps), 0)
         self.assertEqual(set(jumps[0]), set(self.names("events", keys=False)))
 
+    def test_parameters(self):
+        """Columns of points are the parameters of the case, with their units and values."""
+        path = os.path.join(self.folder.name, "s.h5")
+        sets = ("solve", "sheet_cantilever", "-f", "sheet_third", "-n", "1", "--set", "width=0.07", "--set", "tip_warping=1")
+        run(*sets, "--shapes=1", "-o", path)
+        parameters = json.loads(run(*sets, "--format", "json"))["parameters"]
+        with h5py.File(path) as file:
+            points = file["cases/sheet_cantilever/points"]
+            units = dict(zip(points.dtype.names, points.attrs["units"]))
+            row = {name: points[name][0] for name in points.dtype.names[len(self.names("points", around=False)):]}
+        self.assertEqual(list(row), list(parameters))
+        self.assertEqual({name: v.decode() if isinstance(v, bytes) else v for name, v in row.items()}, parameters)
+        self.assertEqual((units["length"], row["width"]), (b"m", 0.07))
+
     def test_json_of_convergence(self):
         for series in json.loads(run("converge", "elastica", "-f", "collocation", "-n", "1,2,4", "--format", "json"))["series"]:
             self.assertEqual(set(series) - {"quantities"}, set(self.names("series")))
