@@ -9,7 +9,8 @@
 
 static const char about[] =
     "HDF5; the last line of the file, behind it, holds its length and checksum. Attributes of the root: schema, schema_version,\n"
-    "program_version, commit, compiler, flags, libraries, processor, clock (UTC), threads, unfinished_cells (of an interrupted run). Below /cases/CASE (attributes: "
+    "program_version, commit, compiler, flags, libraries, processor, clock (UTC), threads, unfinished_cells (of an interrupted "
+    "run). Below /cases/CASE (attributes: "
     "summary,\n"
     "source) stands a table for each kind of record; attributes of a table: units and summaries of its columns, in their order.\n"
     "The same names stand in JSON and CSV; fields marked * are said there only, in HDF5 by what is around them. Numbers that\n"
@@ -44,6 +45,7 @@ static status write_json(fault *f)
     json_t *records = json_array();
     for (int i = 0; record_types[i] != NULL; i++)
         json_array_append_new(records, json_record_type(record_types[i]));
+    json_array_append_new(records, json_record_type(&record_truth));
     json_array_append_new(records, json_record_type(&record_extreme));
     return json_finish(json_pack("{s:s,s:i,s:o}", "schema", SCHEMA_NAME, "schema_version", SCHEMA_VERSION, "records", records),
                        stdout, f);
@@ -64,6 +66,7 @@ int cli_schema(int count, char **arguments)
     printf("%s, version %d\n%s", SCHEMA_NAME, SCHEMA_VERSION, about);
     for (int i = 0; record_types[i] != NULL; i++)
         show("/cases/CASE/", record_types[i]);
+    show("solve --format json, ", &record_truth);
     show("stress --json, ", &record_extreme);
     return fflush(stdout) == 0 ? EXIT_AS_EXPECTED : cli_fail(STATUS_FAULT, "standard output cannot be written");
 }

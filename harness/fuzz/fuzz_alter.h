@@ -37,8 +37,8 @@ static hid_t alter_type(unsigned what, unsigned size)
     } else if (what % 7 == 4) {
         H5Tclose(type);
         type = H5Tcreate(H5T_COMPOUND, 16);
-        H5Tinsert(type, size & 1 ? "value" : "name", 0, H5T_NATIVE_DOUBLE);
-        H5Tinsert(type, size & 2 ? "error" : "status", 8, H5T_NATIVE_LONG);
+        H5Tinsert(type, size & 1 ? "value" : "point", 0, H5T_NATIVE_DOUBLE);
+        H5Tinsert(type, size & 2 ? "error" : "elements", 8, H5T_NATIVE_LONG);
     } else if (what % 7 == 5) {
         H5Tclose(type);
         type = H5Tarray_create2(H5T_NATIVE_DOUBLE, 1, &three);
@@ -80,16 +80,41 @@ static void alter_data(hid_t file, const char *name, unsigned what, unsigned siz
     H5Tclose(type);
 }
 
-static void alter_values(hid_t file, const char *name, unsigned what)
+/* One column of a table, in memory: numbers, or texts of eight bytes. */
+static hid_t alter_column(hid_t set, unsigned what)
+{
+    const hid_t stored = H5Dget_type(set);
+    const unsigned member = what % (unsigned)H5Tget_nmembers(stored);
+    char *name = H5Tget_member_name(stored, member);
+    const hid_t column = H5Tget_member_type(stored, member), type = H5Tcreate(H5T_COMPOUND, 8);
+    const int is_text = H5Tget_class(column) == H5T_STRING;
+    const hid_t own = H5Tcopy(is_text ? H5T_C_S1 : H5T_NATIVE_DOUBLE);
+    if (is_text) {
+        H5Tset_size(own, 8);
+        H5Tset_cset(own, H5Tget_cset(column));
+    }
+    H5Tinsert(type, name, 0, own);
+    H5free_memory(name);
+    H5Tclose(own);
+    H5Tclose(column);
+    H5Tclose(stored);
+    return type;
+}
+
+static void alter_values(hid_t file, const char *name, unsigned what, unsigned where)
 {
     static const double odd[] = {0, -1, 1e308, 1e-320, 4294967296.0, -9e18};
     static double values[4096];
     const hid_t set = H5Oexists_by_name(file, name, H5P_DEFAULT) > 0 ? H5Dopen2(file, name, H5P_DEFAULT) : -1;
-    const hid_t space = set >= 0 ? H5Dget_space(set) : -1;
+    const hid_t space = set >= 0 ? H5Dget_space(set) : -1, stored = set >= 0 ? H5Dget_type(set) : -1;
+    const int is_table = stored >= 0 && H5Tget_class(stored) == H5T_COMPOUND;
+    const hid_t type = is_table ? alter_column(set, where) : H5Tcopy(H5T_NATIVE_DOUBLE);
     for (int i = 0; i < 4096; i++)
         values[i] = odd[what % 6];
     if (space >= 0 && H5Sget_simple_extent_npoints(space) <= 4096)
-        H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
+        H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
+    H5Tclose(type);
+    H5Tclose(stored);
     H5Sclose(space);
     H5Dclose(set);
 }
@@ -113,7 +138,7 @@ static void alter_step(hid_t file, const alter_list *list, const uint8_t step[AL
         alter_attribute(file, name, step[2], step[3]);
         break;
     case 4:
-        alter_values(file, name, step[2]);
+        alter_values(file, name, step[2], step[3]);
         break;
     case 5:
         snprintf(longer, sizeof longer, "%s%0*d", name, step[2] * 2 + 1, step[3]);

@@ -10,7 +10,7 @@ typedef struct column {
     int part;
 } column;
 
-void csv_field(FILE *to, const char *text, const char *end)
+static void csv_field(FILE *to, const char *text)
 {
     fputc('"', to);
     for (; *text != '\0'; text++) {
@@ -18,7 +18,7 @@ void csv_field(FILE *to, const char *text, const char *end)
             fputc('"', to);
         fputc(*text, to);
     }
-    fprintf(to, "\"%s", end);
+    fputc('"', to);
 }
 
 static int known(const column out[], int count, const char *name)
@@ -44,23 +44,14 @@ static int columns_of(int parts, const csv_part part[], column out[MOST_COLUMNS]
 
 static void write_value(FILE *to, const schema_field *which, const field_value *v)
 {
-    switch (which->kind) {
-    case FIELD_INT:
-    case FIELD_LONG:
-    case FIELD_FLAG:
-        fprintf(to, "%ld", v->whole);
-        return;
-    case FIELD_DOUBLE:
-        if (isfinite(*v->numbers))
-            fprintf(to, "%.17g", *v->numbers);
-        return;
-    case FIELD_TEXT:
-        csv_field(to, v->text, "");
-        return;
-    case FIELD_ENUM:
-    case FIELD_KINDS:
+    if (which->kind == FIELD_TEXT)
+        csv_field(to, v->text);
+    else if (which->kind == FIELD_ENUM)
         fputs(v->text, to);
-    }
+    else if (which->kind != FIELD_DOUBLE)
+        fprintf(to, "%ld", v->whole);
+    else if (isfinite(*v->numbers))
+        fprintf(to, "%.17g", *v->numbers);
 }
 
 void csv_head(FILE *to, int parts, const csv_part part[])

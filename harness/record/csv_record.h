@@ -12,8 +12,6 @@ typedef struct csv_part {
     subject s;
 } csv_part;
 
-/* A field that may hold commas or quotes, and what follows it. */
-void csv_field(FILE *to, const char *text, const char *end);
 void csv_head(FILE *to, int parts, const csv_part part[]);
 void csv_line(FILE *to, int parts, const csv_part part[]);
 

@@ -45,19 +45,15 @@ static json_t *options_of(const formulation *fm)
 static json_t *truths_of(const subject *s, const truths *t)
 {
     const point *p = s->point;
-    const scene_quantity *q = &p->scene.quantity[s->index];
-    const double value = ((const quantity_result *)s->record)->value;
+    subject one = *s;
     json_t *list = json_array();
     for (int i = 0; t != NULL && i < t->rows; i++) {
         const truth *row = &t->row[i];
-        if (row->formulation[0] != '\0' || row->on_curve || strcmp(row->quantity, q->name) != 0 ||
+        if (row->formulation[0] != '\0' || row->on_curve || strcmp(row->quantity, p->scene.quantity[s->index].name) != 0 ||
             !truth_holds(row, p->type, p->parameter))
             continue;
-        json_t *one = json_pack("{s:s,s:s,s:s}", "truth_kind", row->kind, "model", row->model, "source", row->source);
-        json_object_set_new(one, "truth", json_number(row->value));
-        json_object_set_new(one, "truth_uncertainty", json_number(row->uncertainty));
-        json_object_set_new(one, "error", json_number(relative_error(q, value, row->value)));
-        json_array_append_new(list, one);
+        one.truth = row;
+        json_add_record(list, &record_truth, &one, 0);
     }
     return list;
 }

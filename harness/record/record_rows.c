@@ -10,23 +10,13 @@ typedef struct column {
     size_t offset, size;
 } column;
 
-static size_t fixed_size(const schema_field *which)
+/* [bytes] of one value; of a text: those of the longest in its column. */
+static const size_t size_of_kind[FIELD_KINDS] = {
+    [FIELD_INT] = sizeof(int), [FIELD_LONG] = sizeof(long), [FIELD_DOUBLE] = sizeof(double), [FIELD_FLAG] = 1};
+
+static size_t times(const schema_field *which)
 {
-    switch (which->kind) {
-    case FIELD_INT:
-        return sizeof(int);
-    case FIELD_LONG:
-        return sizeof(long);
-    case FIELD_DOUBLE:
-        return sizeof(double) * (size_t)(which->count > 0 ? which->count : 1);
-    case FIELD_FLAG:
-        return 1;
-    case FIELD_TEXT:
-    case FIELD_ENUM:
-    case FIELD_KINDS:
-        break;
-    }
-    return 0;
+    return which->count > 0 ? (size_t)which->count : 1;
 }
 
 static size_t longest_text(const schema_field *which, int count, const subject row[])
@@ -46,7 +36,7 @@ static size_t lay_out(int fields, const schema_field *const list[], int count, c
 {
     size_t size = 0;
     for (int i = 0; i < fields; i++) {
-        const size_t fixed = fixed_size(list[i]);
+        const size_t fixed = size_of_kind[list[i]->kind] * times(list[i]);
         out[i] = (column){list[i], size, fixed > 0 ? fixed : longest_text(list[i], count, row)};
         size += out[i].size;
     }
@@ -65,21 +55,13 @@ static hid_t boolean_type(void)
 static hid_t type_of(const column *c)
 {
     const hsize_t side = (hsize_t)lround(sqrt(c->field->count)), square[2] = {side, side};
-    switch (c->field->kind) {
-    case FIELD_INT:
-        return H5Tcopy(H5T_NATIVE_INT);
-    case FIELD_LONG:
-        return H5Tcopy(H5T_NATIVE_LONG);
-    case FIELD_DOUBLE:
-        return c->field->count > 0 ? H5Tarray_create2(H5T_NATIVE_DOUBLE, 2, square) : H5Tcopy(H5T_NATIVE_DOUBLE);
-    case FIELD_FLAG:
-        return boolean_type();
-    case FIELD_TEXT:
-    case FIELD_ENUM:
-    case FIELD_KINDS:
-        break;
-    }
-    return record_text_type(c->size);
+    if (c->field->count > 0)
+        return H5Tarray_create2(H5T_NATIVE_DOUBLE, 2, square);
+    if (c->field->kind == FIELD_INT || c->field->kind == FIELD_LONG)
+        return H5Tcopy(c->field->kind == FIELD_INT ? H5T_NATIVE_INT : H5T_NATIVE_LONG);
+    if (c->field->kind == FIELD_DOUBLE)
+        return H5Tcopy(H5T_NATIVE_DOUBLE);
+    return c->field->kind == FIELD_FLAG ? boolean_type() : record_text_type(c->size);
 }
 
 static hid_t row_type(int fields, const column list[], size_t size)
@@ -98,24 +80,16 @@ static void pack(const column *c, const subject *s, char *to)
     field_value v;
     field_read(s, c->field, &v);
     const int whole = (int)v.whole;
-    switch (c->field->kind) {
-    case FIELD_INT:
+    if (c->field->kind == FIELD_INT)
         memcpy(to, &whole, sizeof whole);
-        return;
-    case FIELD_LONG:
+    else if (c->field->kind == FIELD_LONG)
         memcpy(to, &v.whole, sizeof v.whole);
-        return;
-    case FIELD_DOUBLE:
+    else if (c->field->kind == FIELD_DOUBLE)
         memcpy(to, v.numbers, c->size);
-        return;
-    case FIELD_FLAG:
+    else if (c->field->kind == FIELD_FLAG)
         *to = (char)(v.whole != 0);
-        return;
-    case FIELD_TEXT:
-    case FIELD_ENUM:
-    case FIELD_KINDS:
+    else
         memcpy(to, v.text, strlen(v.text));
-    }
 }
 
 static void put_attributes(record *r, hid_t set, int fields, const schema_field *const list[])

@@ -39,9 +39,9 @@ static int parameter_fields(const case_type *type, schema_field out[CASE_MAX_PAR
     int i = 0;
     for (; type->parameters[i].name != NULL; i++) {
         const case_parameter *p = &type->parameters[i];
-        out[i] = (schema_field){p->name, p->unit, FIELD_DOUBLE, p->summary, (size_t)i, .get = get_parameter};
+        out[i] = (schema_field){p->name, p->unit, FIELD_DOUBLE, p->summary, .offset = (size_t)i, .get = get_parameter};
         if (p->choices != NULL)
-            out[i] = (schema_field){p->name, "", FIELD_TEXT, p->summary, (size_t)i, .get = get_choice};
+            out[i] = (schema_field){p->name, "", FIELD_TEXT, p->summary, .offset = (size_t)i, .get = get_choice};
     }
     return i;
 }

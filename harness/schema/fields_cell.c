@@ -54,19 +54,19 @@ static const schema_field fields_of_cell[] = {
     {0}};
 
 /* A new counter is one line here. */
+#define WORK(counter) AT(cell_result, counters.counter)
 static const schema_field fields_of_work[] = {
-    {"strain_evaluations", "1", FIELD_LONG, "deformation functions of elements", AT(cell_result, counters.strain_evaluations)},
-    {"stress_evaluations", "1", FIELD_LONG, "stress functions of elements", AT(cell_result, counters.stress_evaluations)},
-    {"inertia_evaluations", "1", FIELD_LONG, "mass matrices of elements", AT(cell_result, counters.inertia_evaluations)},
-    {"iterations", "1", FIELD_LONG, "Newton iterations, rejected steps included", AT(cell_result, counters.iterations)},
-    {"load_steps", "1", FIELD_LONG, "load steps that were kept", AT(cell_result, counters.steps)},
-    {"rejected_steps", "1", FIELD_LONG, "load steps that were tried in vain", AT(cell_result, counters.rejected_steps)},
-    {"factorisations", "1", FIELD_LONG, "factorisations of matrices", AT(cell_result, counters.factorisations)},
-    {"solutions", "1", FIELD_LONG, "right-hand sides solved for", AT(cell_result, counters.solutions)},
-    {"factor_entries", "1", FIELD_LONG, "entries of the last factor", AT(cell_result, counters.factor_entries)},
-    {"factor_flops", "1", FIELD_DOUBLE, "operations of all factorisations", AT(cell_result, counters.factor_flops)},
-    {"negative_pivots", "1", FIELD_LONG, "most of a symmetric tangent at a state that was reached",
-     AT(cell_result, counters.negative_pivots)},
+    {"strain_evaluations", "1", FIELD_LONG, "deformation functions of elements", WORK(strain_evaluations)},
+    {"stress_evaluations", "1", FIELD_LONG, "stress functions of elements", WORK(stress_evaluations)},
+    {"inertia_evaluations", "1", FIELD_LONG, "mass matrices of elements", WORK(inertia_evaluations)},
+    {"iterations", "1", FIELD_LONG, "Newton iterations, rejected steps included", WORK(iterations)},
+    {"load_steps", "1", FIELD_LONG, "load steps that were kept", WORK(steps)},
+    {"rejected_steps", "1", FIELD_LONG, "load steps that were tried in vain", WORK(rejected_steps)},
+    {"factorisations", "1", FIELD_LONG, "factorisations of matrices", WORK(factorisations)},
+    {"solutions", "1", FIELD_LONG, "right-hand sides solved for", WORK(solutions)},
+    {"factor_entries", "1", FIELD_LONG, "entries of the last factor", WORK(factor_entries)},
+    {"factor_flops", "1", FIELD_DOUBLE, "operations of all factorisations", WORK(factor_flops)},
+    {"negative_pivots", "1", FIELD_LONG, "most of a symmetric tangent at a state that was reached", WORK(negative_pivots)},
     {0}};
 const record_type record_cell = {"cell",
                                  "cells",

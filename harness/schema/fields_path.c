@@ -57,6 +57,16 @@ const record_type record_quantity = {"quantity",
                                      "a value that a cell was asked for",
                                      {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_quantity}};
 
+static const schema_field fields_of_truth[] = {
+    {"truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "its value", OF(TRUTH, truth, value)},
+    {"truth_uncertainty", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of it", OF(TRUTH, truth, uncertainty)},
+    {"truth_kind", "", FIELD_TEXT, "exact, independent, ...", TEXT_OF(TRUTH, truth, kind)},
+    {"model", "", FIELD_TEXT, "same: the continuum of the case; other: another", TEXT_OF(TRUTH, truth, model)},
+    {"source", "", FIELD_TEXT, "of the truth", TEXT_OF(TRUTH, truth, source)},
+    {"error", "1", FIELD_DOUBLE, "of the value against it", .get = get_error},
+    {0}};
+const record_type record_truth = {"truth", "truths", "what is known of a quantity", {fields_of_truth}};
+
 static const schema_field fields_of_curve[] = {
     {"x_name", "", FIELD_TEXT, "name of the abscissa", OF(QUANTITY, scene_quantity, x_name)},
     {"x_unit", "", FIELD_TEXT, "its unit", OF(QUANTITY, scene_quantity, x_unit)},

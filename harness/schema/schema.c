@@ -52,22 +52,12 @@ static const void *base_of(const subject *s, field_base base)
 
 static void read_member(const char *at, const schema_field *which, field_value *out)
 {
-    switch (which->kind) {
-    case FIELD_LONG:
-        out->whole = *(const long *)at;
-        break;
-    case FIELD_DOUBLE:
+    if (which->kind == FIELD_DOUBLE)
         out->numbers = (const double *)at;
-        break;
-    case FIELD_TEXT:
+    else if (which->kind == FIELD_TEXT)
         field_text(out, which->address ? *(const char *const *)at : at);
-        break;
-    case FIELD_INT:
-    case FIELD_FLAG:
-    case FIELD_ENUM:
-    case FIELD_KINDS:
-        out->whole = *(const int *)at;
-    }
+    else
+        out->whole = which->kind == FIELD_LONG ? *(const long *)at : *(const int *)at;
 }
 
 static void no_value(field_value *out)

@@ -88,6 +88,7 @@ typedef struct record_type {
 extern const record_type record_point, record_series, record_cell, record_quantity, record_curve, record_step, record_iteration,
     record_event, record_matrix, record_timing, record_verdict, record_agreement;
 extern const record_type *const record_types[]; /* all of them; ends with NULL */
+extern const record_type record_truth;          /* of a quantity, in JSON only */
 
 /* Pointers to the fields whose key is at most `keys`, in order; their number. */
 int schema_fields(const record_type *type, int keys, const schema_field *out[SCHEMA_MOST_FIELDS]);

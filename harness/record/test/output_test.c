@@ -70,7 +70,7 @@ static void write_failures(void)
     struct rlimit kept, small;
     getrlimit(RLIMIT_FSIZE, &kept);
     small = kept;
-    small.rlim_cur = 20000; /* [bytes]: as a disk that is full after that many */
+    small.rlim_cur = 1000; /* [bytes], fewer than a compressed file has: a disk that is full */
     signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &small);
     write_record(path, folder, 0, "no room");

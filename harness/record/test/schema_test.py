@@ -14,6 +14,7 @@ import h5py
 
 PROGRAM = os.path.abspath(os.environ.get("BEAMWORK", "build/beamwork"))
 ROOT = pathlib.Path(__file__).resolve().parents[3]
+JSON_ONLY = ("outcomes", "truths")
 KINDS = {"int": "i4", "long": "i8", "double": "f8", "flag": "b1", "text": "S", "enum": "S"}
 
 
@@ -55,14 +56,14 @@ class Schema(unittest.TestCase):
                 self.assertEqual((file.attrs["schema"].decode(), file.attrs["schema_version"]), (self.schema["schema"], self.schema["schema_version"]))
                 for case in file["cases"].values():
                     for table, fields in self.records.items():
-                        if table != "outcomes":
+                        if table not in JSON_ONLY:
                             self.check_table(case[table], [f for f in fields if not f["said_around"]])
 
     def test_every_table_is_seen(self):
         """What the other tests walk over is not empty."""
         with h5py.File(self.results) as file:
             for table in self.records:
-                if table not in ("outcomes", "timings", "agreements", "matrices"):
+                if table not in (*JSON_ONLY, "timings", "agreements", "matrices"):
                     self.assertGreater(sum(len(case[table]) for case in file["cases"].values()), 0, table)
         with h5py.File(self.bench) as file:
             self.assertEqual(len(file["cases/elastica/timings"]), 2)
@@ -95,9 +96,24 @@ class Schema(unittest.TestCase):
             self.assertGreater(len(record[table]), 0, table)
             for row in record[table]:
                 self.assertEqual(set(row) - more, set(self.names(table, keys=False)), table)
+        self.assertEqual(set(record["quantities"][0]["truths"][0]), set(self.names("truths")))
         jumps = json.loads(run("solve", "lee_frame", "-f", "collocation", "-n", "4", "--format", "json"))["events"]
         self.assertGreater(len(jumps), 0)
         self.assertEqual(set(jumps[0]), set(self.names("events", keys=False)))
+
+    def test_parameters(self):
+        """Columns of points are the parameters of the case, with their units and values."""
+        path = os.path.join(self.folder.name, "s.h5")
+        sets = ("solve", "sheet_cantilever", "-f", "sheet_third", "-n", "1", "--set", "width=0.07", "--set", "tip_warping=1")
+        run(*sets, "--shapes=1", "-o", path)
+        parameters = json.loads(run(*sets, "--format", "json"))["parameters"]
+        with h5py.File(path) as file:
+            points = file["cases/sheet_cantilever/points"]
+            units = dict(zip(points.dtype.names, points.attrs["units"]))
+            row = {name: points[name][0] for name in points.dtype.names[len(self.names("points", around=False)):]}
+        self.assertEqual(list(row), list(parameters))
+        self.assertEqual({name: v.decode() if isinstance(v, bytes) else v for name, v in row.items()}, parameters)
+        self.assertEqual((units["length"], row["width"]), (b"m", 0.07))
 
     def test_json_of_convergence(self):
         for series in json.loads(run("converge", "elastica", "-f", "collocation", "-n", "1,2,4", "--format", "json"))["series"]:

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/catalogue/registry.h"
 #include "harness/schema/schema.h"
 #include "harness/study/wire.h"
 
@@ -34,6 +35,17 @@ static void well_formed(const record_type *type)
         gsl_test((f->kind == FIELD_ENUM) != (f->word != NULL && f->words > 0), "%s.%s has words", type->name, f->name);
         gsl_test(f->count > 0 && f->kind != FIELD_DOUBLE, "%s.%s: an array has numbers", type->name, f->name);
     }
+}
+
+/* Parameters are columns of the points too. */
+static void parameters_differ(const case_type *type)
+{
+    const schema_field *list[SCHEMA_MOST_FIELDS];
+    const int count = schema_fields(&record_point, KEY_AROUND, list);
+    for (int i = 0; type->parameters[i].name != NULL; i++)
+        for (int k = 0; k < count; k++)
+            gsl_test(strcmp(type->parameters[i].name, list[k]->name) == 0, "%s: parameter %s beside a field", type->name,
+                     list[k]->name);
 }
 
 /* A value that no other field has, into what stands at the offset. */
@@ -134,6 +146,8 @@ int main(void)
 {
     for (int i = 0; record_types[i] != NULL; i++)
         well_formed(record_types[i]);
+    for (int i = 0; registry_cases[i] != NULL; i++)
+        parameters_differ(registry_cases[i]);
     pipe_carries_all();
     return gsl_test_summary();
 }
