@@ -1,5 +1,6 @@
-/* Cross-flexure hinge: three leaves cross at their middles, the outer two in the same direction; the arm turns about z.  Its support stiffness
- * in the turned state, whichever way the turn is prescribed: the turn alone, with the two tilts held or free, and as a rotation vector. */
+/* Cross-flexure hinge: three leaves cross at their middles, the outer two in the same direction;
+ * the arm turns about z.  Its support stiffness in the turned state, whichever way the turn is
+ * prescribed: the turn alone, with the two tilts held or free, and as a rotation vector. */
 #include "cases/case.h"
 #include "cases/shared/sheet.h"
 

@@ -85,6 +85,14 @@ static void take_curve(const analysis_context *c, const scene_quantity *q, const
     r->value = o->reached > 0 ? r->curve.value[o->reached - 1] : NAN;
 }
 
+/* Why a path ends before a station: the reason of the analysis that is followed. */
+static const char *reason_of_path(const analysis_context *c, const scene_quantity *q)
+{
+    const int follows = c->scene->analysis[q->analysis].follows;
+    return follows != SCENE_NONE && c->outcomes[follows].status != STATUS_OK ? c->outcomes[follows].reason
+                                                                             : "the path does not reach this station";
+}
+
 static void from_path(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
 {
     const int complete = o->reached == o->stations;
@@ -106,7 +114,7 @@ static void from_path(const analysis_context *c, const scene_quantity *q, const 
     }
     if (chosen < 0 || (q->reduction != SCENE_AT && !complete)) {
         extract_no_value(r, o->status != STATUS_OK ? o->status : STATUS_NOT_CONVERGED,
-                         o->status != STATUS_OK ? o->reason : "the path does not reach this station");
+                         o->status != STATUS_OK ? o->reason : reason_of_path(c, q));
         return;
     }
     r->value = at_station(c, q, o, chosen);

@@ -26,8 +26,8 @@ static void name_motion(int node, const double motion[6], double length, fault *
               turns ? "turn about" : "move along", v[0] / size, v[1] / size, v[2] / size);
 }
 
-/* How far apart the stiffnesses of K's coordinates are, displacements in units of the structure's length: a structure that turns mixes
- * them.  1 when memory ran out. */
+/* How far apart the stiffnesses of K's coordinates are, displacements in units of the structure's
+ * length: a structure that turns mixes them.  1 when memory ran out. */
 static double spread(const model *m, const sparse *K)
 {
     const model_size size = model_sizes(m);

@@ -6,8 +6,9 @@
 
 /* The numeric factors of K, and into the context whether they exist. */
 status analysis_factor(analysis_context *c, factor *fa, const sparse *K, fault *f);
-/* After the last factorisation failed: the fault with its cause.  A part that the supports leave loose; digits lost in round-off, because of many
- * elements or of stiffnesses far apart; else a critical point.  Work done for it is not counted. */
+/* After the last factorisation failed: the fault with its cause.  A part that the supports leave
+ * loose; digits lost in round-off, because of many elements or of stiffnesses far apart; else a
+ * critical point.  Work done for it is not counted. */
 void singular_explain(analysis_context *c, fault *f);
 
 #endif

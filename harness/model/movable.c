@@ -16,7 +16,8 @@ static double dot(int n, const double a[], const double b[])
     return sum;
 }
 
-/* column <- column without its part along the `count` orthonormal vectors, twice for orthogonality. */
+/* column <- column without its part along the `count` orthonormal vectors, twice for
+ * orthogonality. */
 static void take_out(int n, int count, double (*basis)[N], double column[])
 {
     for (int pass = 0; pass < 2; pass++)
@@ -27,7 +28,8 @@ static void take_out(int n, int count, double (*basis)[N], double column[])
         }
 }
 
-/* Pivoted Gram-Schmidt: orthonormal vectors that span `count` columns of unit length. Returns the rank. */
+/* Pivoted Gram-Schmidt: orthonormal vectors that span `count` columns of unit length. Returns the
+ * rank. */
 static int orthonormal(int n, int count, double (*column)[N], double (*basis)[N])
 {
     int rank = 0;
@@ -51,7 +53,8 @@ static int orthonormal(int n, int count, double (*column)[N], double (*basis)[N]
     return rank;
 }
 
-/* Columns of T with unit length, displacements in units of `length`; those that cancel to nothing are left out. */
+/* Columns of T with unit length, displacements in units of `length`; those that cancel to nothing
+ * are left out. */
 static int unit_columns(int columns, const double *T, double length, double (*column)[N])
 {
     int count = 0;

@@ -1,5 +1,6 @@
-/* The motions [6: displacement, turn] that a node can make: the span of the columns of its Jacobian.  Axes that are computed are known to
- * round-off only, so that dimensions are decided beside the size of the columns and never by comparison with zero. */
+/* The motions [6: displacement, turn] that a node can make: the span of the columns of its
+ * Jacobian.  Axes that are computed are known to round-off only, so that dimensions are decided
+ * beside the size of the columns and never by comparison with zero. */
 #ifndef BEAMWORK_MOVABLE_H
 #define BEAMWORK_MOVABLE_H
 
@@ -10,10 +11,11 @@ typedef struct movable {
     double dual[36]; /* [count x 6] dual span = 1: the least combination of components that gives a basis vector's share */
 } movable;
 
-/* T[6 x columns]: columns of motions, of order 1 in displacements per displacement or turns per angle.  length [m] > 0: of the structure. */
+/* T[6 x columns]: columns of motions, of order 1 in displacements per displacement or turns per
+ * angle.  length [m] > 0: of the structure. */
 void movable_of(int columns, const double *T, double length, movable *out);
-/* out[3] = m without its part along the turns among the columns of T: along these nothing is prescribed, and a moment there is what
- * Newton's method left over. */
+/* out[3] = m without its part along the turns among the columns of T: along these nothing is
+ * prescribed, and a moment there is what Newton's method left over. */
 void movable_prescribed(int columns, const double *T, const double m[3], double out[3]);
 
 #endif

@@ -1,5 +1,5 @@
-/* Which parts of the structure its supports leave loose: rigid motions of what is joined together, found from the supports alone and so
- * whatever the stiffness. */
+/* Which parts of the structure its supports leave loose: rigid motions of what is joined together,
+ * found from the supports alone and so whatever the stiffness. */
 #include <lapacke.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +10,8 @@
 
 enum { N = 6 };
 
-/* Least eigenvalue of the supports' squares beside the largest: held points closer to each other than its root times the length count as one. */
+/* Least eigenvalue of the supports' squares beside the largest: held points closer to each other
+ * than its root times the length count as one. */
 static const double loose = 1e-14;
 
 static int root_of(const int part[], int vertex)

@@ -1,8 +1,11 @@
-"""Cross-flexure hinge: three leaves cross at their middles, pi - 2 half_angle apart from x, the outer two in one direction; the arm turns about z.
+"""Cross-flexure hinge: three leaves cross at their middles, half_angle and pi - half_angle from x,
+the outer two in one direction; the arm turns about z.
 
-One body, the arm, whose turn about z is given; its tilts are held (rotation hinge, vector) or free (first, last, between: which of three
-turns the drive's is makes no difference in a plane state).  A unit load acts on the arm while it cannot turn about z: the moment of the
-drive, along z, keeps the other two components of a dead moment (spatial moments), or follows the tilt (K changes by m~/2 on the tilts).
+One body, the arm, whose turn about z is given; its tilts are held (rotation hinge, vector) or free
+(first, last, between: which of three turns the drive's is makes no difference in a plane state).  A
+unit load acts on the arm while it cannot turn about z: the moment of the drive, along z, keeps the
+other two components of a dead moment (spatial moments), or follows the tilt (semitangential: K
+changes by m~/2 on the tilts; symmetrised: its symmetric part).
 """
 import math
 
@@ -12,7 +15,8 @@ from reference.derive.network import Network, clamped
 from reference.derive.sheets import parameters, sheet
 
 RELATIVE = 1e-9  # the stiffness of a leaf along itself, beside the forces that bend it
-SIZES = {"length": 0.06, "width": 0.01, "thickness": 0.3e-3, "pitch": 0.012, "half_angle": math.pi / 4, "young": 200e9, "poisson": 0.3, "angle": 0.35}
+SIZES = {"length": 0.06, "width": 0.01, "thickness": 0.3e-3, "pitch": 0.012,
+         "half_angle": math.pi / 4, "young": 200e9, "poisson": 0.3, "angle": 0.35}
 TILTS_FREE = ("first", "last", "between")
 
 
@@ -43,7 +47,6 @@ def compliance(net, arm, turned, tilts_free, convention):
     C = net.response(1.0, arm, {arm: tilting} if tilts_free else {})
     if not tilts_free:
         return C[:3, :3]
-    # the part of m~ on the tilts alone
     C = C[:5, :5]
     K = np.linalg.inv(C)
     moment = net.force * net.length * arm.load[5]

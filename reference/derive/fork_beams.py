@@ -1,14 +1,19 @@
 """Lateral-torsional buckling of fork-ended beams from their bent state: the linearised Kirchhoff rod about plane bending.
 
-Plane state, bent by theta about y, triad nX = (cos, 0, -sin)(theta), nY = y, nZ = (sin, 0, cos)(theta).  One end is free along x, so that the
-force in a section is vertical, F = -(P/2 - q s) ez (a force P in the middle: q = 0), with N = F . nX:
-  x' = (1 + N/EA) cos theta,   EIy theta' = My,   My' = (1 + N/EA) cos theta Fz;   My(0) = 0, theta(1/2) = 0 (symmetry).
-Neighbouring state: displacement v along y, spin psi = phi nX + chi nZ, moment dm in fixed axes (m_x, 0, m_z).  With dF = 0 (dead
-loads, a mode that is symmetric about the middle) and dm = (dMx - chi My) nX + (dMz + phi My) nZ:
-  v' = (1 + N/EA) chi,   chi' = phi theta' + dMz/EIz,   phi' = kx - chi theta',   m_x' = -v' Fz,   m_z' = 0,
+Plane state, bent by theta about y, triad nX = (cos, 0, -sin)(theta), nY = y,
+nZ = (sin, 0, cos)(theta).  One end is free along x, so that the force in a section is vertical,
+F = -(P/2 - q s) ez (a force P in the middle: q = 0), with N = F . nX:
+  x' = (1 + N/EA) cos theta,   EIy theta' = My,   My' = (1 + N/EA) cos theta Fz;
+  My(0) = 0, theta(1/2) = 0 (symmetry).
+Neighbouring state: displacement v along y, spin psi = phi nX + chi nZ, moment dm in fixed axes
+(m_x, 0, m_z).  With dF = 0 (dead loads, a mode that is symmetric about the middle) and
+dm = (dMx - chi My) nX + (dMz + phi My) nZ:
+  v' = (1 + N/EA) chi,   chi' = phi theta' + dMz/EIz,   phi' = kx - chi theta',
+  m_x' = -v' Fz,   m_z' = 0,
   dMx = GJ kx (K = 0), else kx = a, EIw a' = B, B' = -(dMx - GJ a).
-Fork: two guides normal to y hold the web, which the section's z axis follows: nZ . y = 0, so that phi = 0, and its reaction is a moment
-along nX: v = phi = 0, dm . nZ = 0, B = 0.  Middle: chi = 0, m_x = 0, a = 0.  The determinant of these vanishes at the critical load.
+Fork: two guides normal to y hold the web, which the section's z axis follows: nZ . y = 0, so that
+phi = 0, and its reaction is a moment along nX: v = phi = 0, dm . nZ = 0, B = 0.  Middle: chi = 0,
+m_x = 0, a = 0.  The determinant of these vanishes at the critical load.
 (A spin held about the fixed x axis, cos(theta) phi + sin(theta) chi = 0, is another support.)
 """
 import functools
@@ -34,7 +39,8 @@ def _slopes(s, y, P, q, ratio, K):
     kx = a if K else dMx
     dv = stretch * chi
     zero = 0 * v
-    out[FIRST:] = np.concatenate([dv, kx - chi * bend, phi * bend + dMz, -dv * Fz, zero, B * K if K else zero, a - dMx if K else zero])
+    warping = [B * K, a - dMx] if K else [zero, zero]
+    out[FIRST:] = np.concatenate([dv, kx - chi * bend, phi * bend + dMz, -dv * Fz, zero] + warping)
     return out
 
 
@@ -51,7 +57,9 @@ def _start(theta, K):
 
 def _middle(theta, P, q, ratio, K, tolerance=1e-13):
     """theta in the middle, and the fields there [FIELDS, solutions]."""
-    y = solve_ivp(_slopes, (0, 0.5), _start(theta, K), method="DOP853", rtol=tolerance, atol=tolerance * 1e-2, args=(P, q, ratio, K)).y[:, -1]
+    path = solve_ivp(_slopes, (0, 0.5), _start(theta, K), method="DOP853", rtol=tolerance,
+                     atol=tolerance * 1e-2, args=(P, q, ratio, K))
+    y = path.y[:, -1]
     return y[THETA], y[FIRST:].reshape(FIELDS, -1)
 
 
@@ -100,4 +108,5 @@ def row(load, ratio, K, bracket):
 def rows():
     for load, ratio, K, bracket in CRITICAL:
         at = ([f"K={K:g}"] if K else []) + [f"load={load}", "prebuckling=included", f"ratio={ratio:g}"]
-        yield "lateral_buckling", ";".join(at), "load_factor", row(load, ratio, K, bracket), "1", RELATIVE
+        value = row(load, ratio, K, bracket)
+        yield "lateral_buckling", ";".join(at), "load_factor", value, "1", RELATIVE

@@ -1,5 +1,6 @@
-/* Forks: the web stays between the guides however the beam is bent, the reaction turns with the section, and nothing depends on the axes in
- * which the scene is written.  A rotation held about a fixed axis fails all three. */
+/* Forks: the web stays between the guides however the beam is bent, the reaction turns with the
+ * section, and nothing depends on the axes in which the scene is written.  A rotation held about a
+ * fixed axis fails all three. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -11,7 +12,8 @@
 
 enum { MOVED = 0, MOMENT = 3, TURN = 6, VALUES = 9 }; /* of the middle, on the first fork, of the first fork */
 
-/* Both ends in forks, translations held, a force in the middle; everything turned by Q from: beam along x, web along z. */
+/* Both ends in forks, translations held, a force in the middle; everything turned by Q from: beam
+ * along x, web along z. */
 static void bent_beam(const double Q[9], const double force[3], scene *s)
 {
     static const char *const name[VALUES] = {"u0", "u1", "u2", "M0", "M1", "M2", "t0", "t1", "t2"};
@@ -76,7 +78,8 @@ static int solve(const element_type *type, const double Q[9], const double force
 
 static const double straight[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/* In a state bent in both planes the web is at right angles to the guides' normal, and their moment to web and normal. */
+/* In a state bent in both planes the web is at right angles to the guides' normal, and their
+ * moment to web and normal. */
 static int web_between_guides(const element_type *type)
 {
     const double force[3] = {0, 0.6, -6}, normal[3] = {0, -1, 0}, z[3] = {0, 0, 1};

@@ -1,4 +1,5 @@
-/* A stiffness matrix that cannot be factored: what is not held is told from what is lost in round-off, and nothing wrong is reported as an answer. */
+/* A stiffness matrix that cannot be factored: what is not held is told from what is lost in
+ * round-off, and nothing wrong is reported as an answer. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -163,7 +164,8 @@ static void all_cases_are_held(void)
     }
 }
 
-/* Stiffnesses 1e-20 apart, and as many elements: no support is blamed, and no number is given for an answer. */
+/* Stiffnesses 1e-20 apart, and as many elements: no support is blamed, and no number is given for
+ * an answer. */
 static void round_off(void)
 {
     static const struct {
@@ -193,7 +195,8 @@ static void round_off(void)
     gsl_test(lost < 2, "%d were lost in round-off", lost);
 }
 
-/* A V of equal arms, divided differently: what drives its apex along its axis moves it across by round-off, and cannot meet a condition there. */
+/* A V of equal arms, divided differently: what drives its apex along its axis moves it across by
+ * round-off, and cannot meet a condition there. */
 static void driver_that_moves_nothing(double half_angle, int condition_component)
 {
     const double c = cos(half_angle), d = sin(half_angle), z[3] = {0, 0, 1}, path[2] = {0, 1}, value[2] = {0, 0.01}, end = 1;

@@ -110,7 +110,8 @@ static void arcs(const element_type *type)
         gsl_test_int(kinds, 2, "%s: arcs to either side", type->name);
 }
 
-/* Without load and initial strain nothing is stressed: an element that takes another's length would be. */
+/* Without load and initial strain nothing is stressed: an element that takes another's length
+ * would be. */
 static void lengths(const element_type *type)
 {
     static const double apart[] = {1e-3, 1e-6, 1e-9, 1e-11};

@@ -1,5 +1,5 @@
-/* Loads on nodes of a rigid body in a turned state, against the work they do: forces and moments at an offset, their stiffness, their
- * rates along the path. */
+/* Loads on nodes of a rigid body in a turned state, against the work they do: forces and moments
+ * at an offset, their stiffness, their rates along the path. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -159,7 +159,8 @@ static void conjugate(int body, scene_load_kind kind)
     release(&s);
 }
 
-/* A dead force has a potential: its stiffness is the second derivative of the work, with the sign of K. */
+/* A dead force has a potential: its stiffness is the second derivative of the work, with the sign
+ * of K. */
 static void stiffness(int body)
 {
     subject s;
@@ -184,7 +185,8 @@ static void stiffness(int body)
     release(&s);
 }
 
-/* Factor 0, 2, 1 at path 0, 1, 3: the rate at a station is that of what follows, and nothing changes outside. */
+/* Factor 0, 2, 1 at path 0, 1, 3: the rate at a station is that of what follows, and nothing
+ * changes outside. */
 static void rates(void)
 {
     static const double path[] = {0, 1, 3}, value[] = {0, 2, 1};

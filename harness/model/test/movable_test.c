@@ -1,4 +1,5 @@
-/* Dimensions of motions are those of exact axes, whatever round-off and units do to the computed ones. */
+/* Dimensions of motions are those of exact axes, whatever round-off and units do to the computed
+ * ones. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -13,8 +14,8 @@ static double random_number(unsigned *state)
     return 2.0 * (*state >> 8) / (1u << 24) - 1;
 }
 
-/* Columns of T: `shifts` displacements along the axes, then turns about unit axes in a plane (or in space) of random orientation, seen at an
- * offset of about `length`. */
+/* Columns of T: `shifts` displacements along the axes, then turns about unit axes in a plane (or
+ * in space) of random orientation, seen at an offset of about `length`. */
 static int fill(unsigned *state, int shifts, int turns, int in_plane, double length, double T[36])
 {
     const int columns = shifts + turns;
@@ -86,7 +87,8 @@ static void dimensions(void)
     }
 }
 
-/* Two turns span the plane of x and y but for round-off: whole components, the third stays exactly out. */
+/* Two turns span the plane of x and y but for round-off: whole components, the third stays exactly
+ * out. */
 static void whole_components(void)
 {
     const double c = cos(0.35), s = sin(0.35), T[12] = {0, 0, 0, 0, 0, 0, -s, c, c, s, 1e-17, -3e-17};
@@ -108,7 +110,8 @@ static void nothing(void)
     gsl_test(v.count != 0, "no coordinates: %d dimensions", v.count);
 }
 
-/* Free turns exert no moment: what is left is across them, and exactly nothing when they span space. */
+/* Free turns exert no moment: what is left is across them, and exactly nothing when they span
+ * space. */
 static void prescribed_moment(void)
 {
     unsigned state = 3;
