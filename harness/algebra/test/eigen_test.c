@@ -245,21 +245,22 @@ static double much(void *context, const double x[])
 }
 
 /* What the caller says of rounding decides what is a value, and how many digits it has. */
-static void test_rounding(int iterate)
+static void test_rounding(int masses)
 {
-    enum { MASSES = 120, WANTED = 3 };
+    enum { WANTED = 3 };
     strings s;
-    strings_init(&s, 1, MASSES, 0);
+    strings_init(&s, 1, masses, 0);
     for (int all = 0; all < 2; all++) {
         double size = all ? 1e9 : 1e-9;
         eigen_result r = {0};
         fault f = {""};
-        eigen_problem p = {.K = &s.K, .A = &s.M, .sign = 1, .largest = WANTED, .smallest = WANTED, .iterate = iterate};
+        eigen_problem p = {.K = &s.K, .A = &s.M, .sign = 1, .largest = WANTED, .smallest = WANTED};
         p.A_rounding = much;
         p.context = &size;
         gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_OK, "rounding of %g: %s", size, f.text);
         gsl_test_int(r.positive.count, all ? 0 : WANTED, "rounding of %g: values that are more", size);
         gsl_test(all != (r.positive.rounding > 0), "rounding of %g: the others are counted", size);
+        gsl_test(all && r.factorisations > 0, "rounding of %g: nothing is looked for in it", size);
         eigen_free(&r);
     }
     strings_free(&s);
@@ -268,8 +269,8 @@ static void test_rounding(int iterate)
 int main(void)
 {
     test_sides_apart();
-    test_rounding(0);
-    test_rounding(1);
+    test_rounding(40);
+    test_rounding(120);
     static const double spreads[] = {0, 1e-12, 1e-9, 1e-7, 1e-4, 0.01};
     for (size_t i = 0; i < sizeof spreads / sizeof spreads[0]; i++)
         for (int copies = 1; copies <= 6; copies += copies == 1 ? 1 : 2)
