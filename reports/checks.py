@@ -24,8 +24,17 @@ def counted(cases):
     return rows
 
 
+def coverage(cases):
+    """{formulation: [(covered, series) without the 0, 1, ... finest meshes]} over all cases."""
+    sums = {}
+    for row in (row for case in cases for row in case.coverages):
+        covered, series = sums.setdefault(row["formulation"], {}).get(row["left_out"], (0, 0))
+        sums[row["formulation"]][row["left_out"]] = covered + row["covered"], series + row["series"]
+    return {name: [without[k] for k in sorted(without)] for name, without in sorted(sums.items())}
+
+
 def write(site):
-    site.write("checks.html", "checks.html", rows=counted(site.cases), counts=count_verdicts(site.cases), kinds=site.kinds, mutants=stored(site, "mutants.json"), fuzz=stored(site, "fuzz.json"))
+    site.write("checks.html", "checks.html", rows=counted(site.cases), counts=count_verdicts(site.cases), coverage=coverage(site.cases), kinds=site.kinds, mutants=stored(site, "mutants.json"), fuzz=stored(site, "fuzz.json"))
 
 
 def tasks(site):

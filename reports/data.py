@@ -109,6 +109,7 @@ class Case:
     summary: str
     source: str
     points: list
+    coverages: list = field(default_factory=list)   # rows: formulation, left_out, series, covered
 
 
 def text(value):
@@ -208,7 +209,7 @@ def read_case(path, name, bench=None):
         group = file["cases"][name]
         meshes, units = read_meshes(group)
         read_timings(group, meshes)
-        case = Case(name, text(group.attrs["summary"]), text(group.attrs["source"]), read_points(group, meshes, units))
+        case = Case(name, text(group.attrs["summary"]), text(group.attrs["source"]), read_points(group, meshes, units), rows(group, "coverages"))
     if bench:
         read_bench(bench, name, meshes)
     return case

@@ -5,10 +5,12 @@
 
 #include "harness/judge/verdict.h"
 
-static coverage *row_of(judgement *j, const element_type *type, fault *f)
+/* Of the series' case and formulation. */
+static coverage *row_of(const sweep *s, judgement *j, const series *one, fault *f)
 {
+    const case_type *of = s->point[one->point].type;
     for (int i = 0; i < j->coverages; i++)
-        if (j->coverage[i].type == type)
+        if (j->coverage[i].type == one->formulation.type && j->coverage[i].of == of)
             return &j->coverage[i];
     coverage *more = realloc(j->coverage, (size_t)(j->coverages + 1) * sizeof *more);
     if (more == NULL) {
@@ -16,7 +18,7 @@ static coverage *row_of(judgement *j, const element_type *type, fault *f)
         return NULL;
     }
     j->coverage = more;
-    more[j->coverages] = (coverage){.type = type};
+    more[j->coverages] = (coverage){.of = of, .type = one->formulation.type, .point = one->point};
     return &more[j->coverages++];
 }
 
@@ -37,7 +39,7 @@ status judge_coverage(const sweep *s, judgement *out, fault *f)
         const verdict *v = &out->verdict[i];
         if (v->truth == NULL || strcmp(v->truth->kind, "exact") != 0 || isnan(v->fit.limit))
             continue;
-        coverage *row = row_of(out, s->series[v->series].formulation.type, f);
+        coverage *row = row_of(s, out, &s->series[v->series], f);
         if (row == NULL)
             return STATUS_FAULT;
         count(s, v, row);

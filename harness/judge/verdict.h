@@ -49,10 +49,12 @@ typedef struct agreement {
 
 enum { COVERAGE_MESHES = 4 };
 
-/* How often the limits of a formulation lie within their uncertainty of an exact truth, without the k finest meshes: the check
+/* How often the limits of a formulation on a case lie within their uncertainty of an exact truth, without the k finest meshes: the check
  * of the uncertainties themselves. A formulation with limits of its own covers less: that is no fault of the uncertainties. */
 typedef struct coverage {
+    const case_type *of;
     const element_type *type;
+    int point;                                             /* the first of the case in the sweep */
     int series[COVERAGE_MESHES], covered[COVERAGE_MESHES]; /* [k]; series with three meshes or more left */
 } coverage;
 

@@ -6,6 +6,7 @@
 
 #include "harness/record/json_record.h"
 #include "harness/schema/gather.h"
+#include "harness/study/noise.h"
 
 static json_t *parameters_of(const point *p)
 {
@@ -131,7 +132,7 @@ status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
 status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const environment *e, fault *f)
 {
     const gathering g = {s, j, NULL};
-    json_t *verdicts = json_array(), *agreements = json_array(), *counts = json_object();
+    json_t *verdicts = json_array(), *agreements = json_array(), *coverages = json_array(), *counts = json_object();
     for (int i = 0; i < j->verdicts; i++) {
         const subject one = gather_verdict(&g, &j->verdict[i]);
         json_add_record(verdicts, &record_verdict, &one, KEY_AROUND);
@@ -140,15 +141,22 @@ status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const e
         const subject one = gather_agreement(&g, &j->agreement[i]);
         json_add_record(agreements, &record_agreement, &one, KEY_AROUND);
     }
+    for (int i = 0; i < j->coverages; i++)
+        for (int k = 0; k < COVERAGE_MESHES; k++) {
+            const subject one = gather_coverage(&g, &j->coverage[i], k);
+            json_add_record(coverages, &record_coverage, &one, KEY_AROUND);
+        }
     for (int k = 0; k < VERDICT_KINDS; k++)
         json_object_set_new(counts, verdict_name((verdict_kind)k), json_integer(j->by_kind[k]));
-    json_t *root = json_pack("{s:i,s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:i,s:i,s:i}", "schema_version", SCHEMA_VERSION, "program_version",
-                             e->version, "commit", e->commit, "compiler", e->compiler, "clock", e->clock, "cells", sweep_cells(s),
-                             "judged", j->judged, "unexpected", j->unexpected, "disagreements", j->disagreements,
-                             "unobserved_findings", j->unobserved, "unmet_truths", j->unmet);
+    json_t *root =
+        json_pack("{s:i,s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:i,s:i,s:i,s:i}", "schema_version", SCHEMA_VERSION, "program_version",
+                  e->version, "commit", e->commit, "compiler", e->compiler, "clock", e->clock, "cells", sweep_cells(s),
+                  "noise_cells", noise_cells(s), "judged", j->judged, "unexpected", j->unexpected, "disagreements",
+                  j->disagreements, "unobserved_findings", j->unobserved, "unmet_truths", j->unmet);
     json_object_set_new(root, "unfinished_cells", json_integer(s->unfinished));
     json_object_set_new(root, "counts", counts);
     json_object_set_new(root, record_verdict.table, verdicts);
     json_object_set_new(root, record_agreement.table, agreements);
+    json_object_set_new(root, record_coverage.table, coverages);
     return json_finish(root, to, f);
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "harness/record/table_path.h"
+#include "harness/study/noise.h"
 
 static void row_of_series(FILE *to, const sweep *s, int index)
 {
@@ -71,7 +72,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     for (int i = 0; i < c->solve.quantities; i++) {
         const scene_quantity *q = &p->scene.quantity[i];
         const quantity_result *v = &c->solve.quantity[i];
-        const truth *row = t != NULL ? truth_of(t, p->type, p->parameter, q->name, "same") : NULL;
+        const truth *row = t != NULL ? verdict_truth(t, p, &one->formulation, i) : NULL;
         if (q->reduction == SCENE_CURVE)
             continue;
         if (v->status != STATUS_OK || !isfinite(v->value)) {
@@ -101,7 +102,7 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
             continue;
         }
         for (int q = 0; q < p->scene.quantities; q++) {
-            const truth *row = truth_of(t, p->type, p->parameter, p->scene.quantity[q].name, "same");
+            const truth *row = verdict_truth(t, p, &one->formulation, q);
             verdict v = {.series = i, .quantity = q};
             if (p->scene.quantity[q].reduction == SCENE_CURVE)
                 continue;
@@ -241,6 +242,48 @@ static void failed_cells(FILE *to, const sweep *s)
         }
 }
 
+/* How often the limits of each formulation hold what they promise, over all cases. */
+static void coverage_lines(FILE *to, const judgement *j)
+{
+    if (j->coverages > 0)
+        fprintf(to, "\nlimits within their uncertainty of exact truths, also without the 1, 2, 3 finest meshes\n");
+    for (int i = 0; i < j->coverages; i++) {
+        coverage sum = {.type = j->coverage[i].type};
+        int before = 0;
+        for (int k = 0; k < j->coverages; k++) {
+            before |= k < i && j->coverage[k].type == sum.type;
+            for (int m = 0; m < COVERAGE_MESHES && j->coverage[k].type == sum.type; m++) {
+                sum.series[m] += j->coverage[k].series[m];
+                sum.covered[m] += j->coverage[k].covered[m];
+            }
+        }
+        if (before)
+            continue;
+        fprintf(to, "  %-24s", sum.type->name);
+        for (int m = 0; m < COVERAGE_MESHES; m++)
+            fprintf(to, "  %4d of %4d", sum.covered[m], sum.series[m]);
+        fputc('\n', to);
+    }
+}
+
+/* Published values that limits cannot be which agree with the truth; each is said once. */
+static void contradictions(FILE *to, const sweep *s, const judgement *j)
+{
+    for (int i = 0; i < j->verdicts; i++) {
+        const verdict *v = &j->verdict[i];
+        const point *p = &s->point[s->series[v->series].point];
+        int count = 0, before = 0;
+        for (int k = 0; k < j->verdicts && v->contradicted != NULL; k++) {
+            count += j->verdict[k].contradicted == v->contradicted;
+            before |= k < i && j->verdict[k].contradicted == v->contradicted;
+        }
+        if (count > 0 && !before)
+            fprintf(to, "\n%s%s%s, %s: the published %.10g +- %.1g is contradicted by %d limits, the first %.10g (%s)\n",
+                    p->type->name, p->text[0] != '\0' ? ": " : "", p->text, v->contradicted->quantity, v->contradicted->value,
+                    v->contradicted->uncertainty, count, v->fit.limit, s->series[v->series].formulation.key);
+    }
+}
+
 void table_verdicts(FILE *to, const sweep *s, const judgement *j, const truths *t)
 {
     int last_point = -1, last_series = -1;
@@ -260,9 +303,11 @@ void table_verdicts(FILE *to, const sweep *s, const judgement *j, const truths *
         last_series = v->series;
     }
     disagreements(to, s, j);
+    contradictions(to, s, j);
     failed_cells(to, s);
     not_met(to, j, t);
-    fprintf(to, "\n%d cells; ", sweep_cells(s));
+    coverage_lines(to, j);
+    fprintf(to, "\n%d cells, %d more for their noise; ", sweep_cells(s), noise_cells(s));
     if (s->unfinished > 0)
         fprintf(to, "interrupted, %d more were not done; ", s->unfinished);
     fprintf(to, "%d verdicts against truths:", j->judged);

@@ -45,6 +45,26 @@ static void get_contradicted(const subject *s, field_value *out)
     field_number(out, s->verdict->contradicted != NULL ? s->verdict->contradicted->value : (double)NAN);
 }
 
+static const char *word_of_limit(int kind)
+{
+    return limit_kind_name((limit_kind)kind);
+}
+
+static void get_predicted(const subject *s, field_value *out)
+{
+    field_number(out, s->verdict->predicted != NULL ? s->verdict->predicted->value : NAN);
+}
+
+static void get_contradicted(const subject *s, field_value *out)
+{
+    field_number(out, s->verdict->contradicted != NULL ? s->verdict->contradicted->value : NAN);
+}
+
+static void get_noise_measured(const subject *s, field_value *out)
+{
+    out->whole = s->series->noise != NULL && isfinite(s->series->noise[s->index]);
+}
+
 /* The offset is the index of the level. */
 static void get_reach(const subject *s, field_value *out)
 {
@@ -74,15 +94,23 @@ static const schema_field fields_of_verdict[] = {
     {"below_digits", "", FIELD_FLAG, "the error is below the truth's own digits", AT(verdict, below_digits)},
     {"order", "1", FIELD_DOUBLE, "of convergence in the number of elements", AT(verdict, fit.order)},
     {"order_uncertainty", "1", FIELD_DOUBLE, "of it", AT(verdict, fit.order_uncertainty)},
-    {"asymptotic_from", "1", FIELD_INT, "elements from which on it is orderly; 0: none", AT(verdict, fit.from)},
+    {"limit_kind", "", FIELD_ENUM, "what the meshes look like", AT(verdict, fit.kind), .word = word_of_limit, .words = LIMIT_KINDS},
+    {"asymptotic_from", "1", FIELD_INT, "coarsest mesh that the limit rests on; 0: none", AT(verdict, fit.from)},
+    {"noise", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of the value on the finest mesh, as reckoned with", AT(verdict, fit.noise)},
+    {"noise_measured", "", FIELD_FLAG, "the finest mesh was run again in other words", .get = get_noise_measured},
     {"truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of the same continuum model", OF(TRUTH, truth, value)},
     {"truth_uncertainty", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of it", OF(TRUTH, truth, uncertainty)},
     {"truth_kind", "", FIELD_TEXT, "exact, independent, ...", TEXT_OF(TRUTH, truth, kind)},
+    {"theory", "", FIELD_TEXT, "of shear in stability that the truth follows", TEXT_OF(TRUTH, truth, theory)},
     {"source", "", FIELD_TEXT, "of the truth", TEXT_OF(TRUTH, truth, source)},
+    {"below_digits", "", FIELD_FLAG, "the error is less than the truth is uncertain", AT(verdict, below_digits)},
+    {"predicted", UNIT_OF_QUANTITY, FIELD_DOUBLE, "limit that was derived for the formulation", .get = get_predicted},
+    {"contradicted", UNIT_OF_QUANTITY, FIELD_DOUBLE, "published value that the limit cannot be", .get = get_contradicted},
     {"error", "1", FIELD_DOUBLE, "of the limit against the truth", AT(verdict, error)},
     {"tolerance", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of it, uncertainty included", AT(verdict, tolerance)},
-    {"model_truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of another model: never judged by", OF(MODEL_TRUTH, truth, value)},
+    {"model_truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of another model or theory: never judged by", OF(MODEL_TRUTH, truth, value)},
     {"model_truth_kind", "", FIELD_TEXT, "exact, independent, ...", TEXT_OF(MODEL_TRUTH, truth, kind)},
+    {"model_theory", "", FIELD_TEXT, "of shear in stability that it follows", TEXT_OF(MODEL_TRUTH, truth, theory)},
     {"model_error", "1", FIELD_DOUBLE, "of the limit against it", AT(verdict, model_error)},
     {"reach_10", "1", FIELD_INT, "elements from which on every mesh is within 10 %; 0: none", .get = get_reach},
     {"reach_1", "1", FIELD_INT, "the same, 1 %", .offset = 1, .get = get_reach},
@@ -104,3 +132,28 @@ const record_type record_agreement = {"agreement",
                                       "agreements",
                                       "a value of one mesh against its own stored value",
                                       {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_agreement}};
+
+static void get_formulation(const subject *s, field_value *out)
+{
+    field_text(out, ((const coverage *)s->record)->type->name);
+}
+
+static void get_series(const subject *s, field_value *out)
+{
+    out->whole = ((const coverage *)s->record)->series[s->index];
+}
+
+static void get_covered(const subject *s, field_value *out)
+{
+    out->whole = ((const coverage *)s->record)->covered[s->index];
+}
+
+static const schema_field fields_of_coverage[] = {
+    {"case", "", FIELD_TEXT, "name of the case", TEXT_OF(CASE, case_type, name), .key = KEY_AROUND},
+    {"formulation", "", FIELD_TEXT, "name, whatever its options", .get = get_formulation, .key = KEY},
+    {"left_out", "1", FIELD_INT, "finest meshes that were not used", OF(SUBJECT, subject, index), .key = KEY},
+    {"series", "1", FIELD_INT, "with an exact truth and three meshes", .get = get_series},
+    {"covered", "1", FIELD_INT, "of them, whose limit is within its uncertainty of the truth", .get = get_covered},
+    {0}};
+const record_type record_coverage = {
+    "coverage", "coverages", "how often limits lie within their uncertainty of exact truths", {fields_of_coverage}};

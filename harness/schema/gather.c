@@ -52,6 +52,11 @@ subject gather_agreement(const gathering *g, const agreement *a)
     return out;
 }
 
+subject gather_coverage(const gathering *g, const coverage *c, int left_out)
+{
+    return (subject){.sweep = g->sweep, .point = &g->sweep->point[c->point], .record = c, .index = left_out};
+}
+
 /* Verdicts come in the order of the series: index of the first one of it or of a later one. */
 static int first_verdict(const judgement *j, int series_index)
 {
@@ -77,7 +82,7 @@ static void compare_with(const gathering *g, int series_index, subject *s)
             s->model_truth = j->verdict[i].model_truth;
         }
     if (j == NULL && g->truths != NULL)
-        s->truth = truth_of(g->truths, s->point->type, s->point->parameter, s->point->scene.quantity[s->index].name, "same");
+        s->truth = verdict_truth(g->truths, s->point, &s->series->formulation, s->index);
 }
 
 /* An array of records of one mesh. */
@@ -183,12 +188,23 @@ static void gather_agreements(const gathering *g, const case_type *of, subjects 
     }
 }
 
+static void gather_coverages(const gathering *g, const case_type *of, subjects *out)
+{
+    for (int i = 0; g->judged != NULL && i < g->judged->coverages; i++)
+        for (int k = 0; k < COVERAGE_MESHES && g->judged->coverage[i].of == of; k++) {
+            const subject s = gather_coverage(g, &g->judged->coverage[i], k);
+            add(out, &s);
+        }
+}
+
 void gather_case(const gathering *g, const record_type *type, const case_type *of, subjects *out)
 {
     if (type == &record_point)
         gather_points(g, of, out);
     if (type == &record_agreement)
         gather_agreements(g, of, out);
+    if (type == &record_coverage)
+        gather_coverages(g, of, out);
     for (int i = 0; i < g->sweep->seriess; i++)
         if (g->sweep->point[g->sweep->series[i].point].type == of)
             gather_series(g, type, i, out);

@@ -24,6 +24,7 @@ void gather_mesh(const gathering *g, const record_type *type, int series_index, 
 subject gather_cell(const gathering *g, int series_index, int mesh);
 subject gather_verdict(const gathering *g, const verdict *v);
 subject gather_agreement(const gathering *g, const agreement *a);
+subject gather_coverage(const gathering *g, const coverage *c, int left_out);
 void subjects_free(subjects *list);
 
 #endif

@@ -23,6 +23,7 @@ class Checks(unittest.TestCase):
             self.assertIn("make mutants", page)
             self.assertIn("make fuzz", page)
             self.assertIn("1 pass", page)
+            self.assertRegex(page, r"beamw_vlasov</a></td>(<td class=\"n\">100.0 %</td><td class=\"n small\">1</td>){4}")
             fault = {"fault": "a sign", "check": "test x", "expected": "1", "exit": "0", "killed": False}
             (pathlib.Path(folder) / "mutants.json").write_text(json.dumps({"killed": 1, "survived": 1, "mutants": [fault, {**fault, "killed": True}]}), encoding="utf-8")
             (pathlib.Path(folder) / "fuzz.json").write_text(json.dumps({"executions": 12, "findings": 0, "inputs": [{"input": "words", "executions": 12, "finding": False}]}), encoding="utf-8")
