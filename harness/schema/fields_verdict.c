@@ -37,21 +37,6 @@ static const char *word_of_limit(int kind)
 
 static void get_predicted(const subject *s, field_value *out)
 {
-    field_number(out, s->verdict->predicted != NULL ? s->verdict->predicted->value : (double)NAN);
-}
-
-static void get_contradicted(const subject *s, field_value *out)
-{
-    field_number(out, s->verdict->contradicted != NULL ? s->verdict->contradicted->value : (double)NAN);
-}
-
-static const char *word_of_limit(int kind)
-{
-    return limit_kind_name((limit_kind)kind);
-}
-
-static void get_predicted(const subject *s, field_value *out)
-{
     field_number(out, s->verdict->predicted != NULL ? s->verdict->predicted->value : NAN);
 }
 
@@ -86,12 +71,6 @@ static const schema_field fields_of_verdict[] = {
     {"value", UNIT_OF_QUANTITY, FIELD_DOUBLE, "on the finest mesh", AT(verdict, finest)},
     {"limit", UNIT_OF_QUANTITY, FIELD_DOUBLE, "for infinitely many elements", AT(verdict, fit.limit)},
     {"limit_uncertainty", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of it", AT(verdict, fit.limit_uncertainty)},
-    {"limit_kind", "", FIELD_ENUM, "what the sequence of meshes looks like", AT(verdict, fit.kind), .word = word_of_limit,
-     .words = LIMIT_KINDS},
-    {"noise", UNIT_OF_QUANTITY, FIELD_DOUBLE, "that was reckoned with", AT(verdict, fit.noise)},
-    {"predicted", UNIT_OF_QUANTITY, FIELD_DOUBLE, "limit derived for this formulation", .get = get_predicted},
-    {"contradicted", UNIT_OF_QUANTITY, FIELD_DOUBLE, "published value that the limit contradicts", .get = get_contradicted},
-    {"below_digits", "", FIELD_FLAG, "the error is below the truth's own digits", AT(verdict, below_digits)},
     {"order", "1", FIELD_DOUBLE, "of convergence in the number of elements", AT(verdict, fit.order)},
     {"order_uncertainty", "1", FIELD_DOUBLE, "of it", AT(verdict, fit.order_uncertainty)},
     {"limit_kind", "", FIELD_ENUM, "what the meshes look like", AT(verdict, fit.kind), .word = word_of_limit, .words = LIMIT_KINDS},

@@ -85,7 +85,8 @@ status noise_measure(const sweep_request *request, const char wanted[], sweep *s
     if (outcome == STATUS_OK && again.seriess > 0)
         outcome = sweep_run(&quiet, &again, f);
     int next = 0;
-    for (int i = 0; i < s->seriess && outcome == STATUS_OK; i++)
+    s->unfinished += again.unfinished; /* then nothing is measured: series are missing */
+    for (int i = 0; i < s->seriess && outcome == STATUS_OK && again.unfinished == 0; i++)
         if (can_repeat(s, i, wanted)) {
             outcome = take(&again, next, &s->point[s->series[i].point], &s->series[i], f);
             next += REPETITIONS;
