@@ -25,7 +25,7 @@ static const char about[] =
 static void show_field(const schema_field *which)
 {
     printf("  %-20s %-7s %-7s %s", which->name, which->key == KEY_AROUND ? "text *" : field_kind_name(which->kind),
-           strcmp(which->unit, UNIT_OF_QUANTITY) == 0 ? "[unit]" : which->unit, which->summary);
+           strcmp(which->unit, OWN_UNIT) == 0 ? "[unit]" : which->unit, which->summary);
     for (int i = 0; i < which->words; i++)
         printf("%s%s", i > 0 ? ", " : " (", which->word(i));
     printf(which->words > 0 ? ")\n" : "\n");

@@ -9,8 +9,8 @@ static void get_features(const subject *s, field_value *out)
     out->room[0] = '\0';
     for (unsigned bit = 1; bit <= FEATURE_CURVATURE; bit <<= 1)
         if (subject_cell(s)->size.features & bit)
-            used +=
-                (size_t)snprintf(out->room + used, sizeof out->room - used, "%s%s", used > 0 ? ", " : "", model_feature_name(bit));
+            used += (size_t)snprintf(out->room + used, sizeof out->room - used, "%s%s",
+                                     used > 0 ? ", " : "", model_feature_name(bit));
     out->text = out->room;
 }
 
@@ -20,45 +20,60 @@ static void get_left_out(const subject *s, field_value *out)
     const cell_result *cell = subject_cell(s);
     size_t used = 0;
     out->room[0] = '\0';
-    for (int i = 0; i < cell->left_out_lines && used + strlen(cell->left_out[i]) + 3 < sizeof out->room; i++)
+    for (int i = 0;
+         i < cell->left_out_lines && used + strlen(cell->left_out[i]) + 3 < sizeof out->room; i++)
         used += (size_t)sprintf(out->room + used, "%s%s", i > 0 ? "; " : "", cell->left_out[i]);
     out->text = out->room;
 }
 
 static const schema_field fields_of_point[] = {
     {"parameters", "", FIELD_TEXT, "where they differ from the defaults", AT(point, text)},
-    {"status", "", FIELD_ENUM, "of building the scene", AT(point, status), .word = word_of_status, .words = STATUSES},
+    {"status", "", FIELD_ENUM, "of building the scene", AT(point, status), .word = word_of_status,
+     .words = STATUSES},
     {"reason", "", FIELD_TEXT, "why it was refused", AT(point, reason)},
     {0}};
-const record_type record_point = {"point", "points", "a case with the values of its parameters", {keys_of_point, fields_of_point}};
+const record_type record_point = {"point",
+                                  "points",
+                                  "a case with the values of its parameters",
+                                  {keys_of_point, fields_of_point}};
 
 static const schema_field fields_of_series[] = {
     {"type", "", FIELD_TEXT, "name of the formulation", TEXT_OF(FORMULATION, element_type, name)},
     {"summary", "", FIELD_TEXT, "what it is", TEXT_OF(FORMULATION, element_type, summary)},
     {"source", "", FIELD_TEXT, "where it is published", TEXT_OF(FORMULATION, element_type, source)},
-    {"missing", "", FIELD_TEXT, "what the case needs and it does not offer: it was not run", AT(series, missing)},
+    {"missing", "", FIELD_TEXT, "what the case needs and it does not offer: it was not run",
+     AT(series, missing)},
     {0}};
-const record_type record_series = {
-    "series", "series", "a formulation on the meshes of a point", {keys_of_point, keys_of_series, fields_of_series}};
+const record_type record_series = {"series",
+                                   "series",
+                                   "a formulation on the meshes of a point",
+                                   {keys_of_point, keys_of_series, fields_of_series}};
 
+#define CELL(member) AT(cell_result, member)
 static const schema_field fields_of_cell[] = {
-    {"status", "", FIELD_ENUM, "ok, or how it failed", AT(cell_result, solve.status), .word = word_of_status, .words = STATUSES},
-    {"reason", "", FIELD_TEXT, "why it failed", AT(cell_result, solve.reason)},
-    {"elements_total", "1", FIELD_INT, "elements of the whole structure", AT(cell_result, size.elements)},
-    {"free", "1", FIELD_INT, "unknown coordinates", AT(cell_result, size.free)},
-    {"driven", "1", FIELD_INT, "prescribed coordinates", AT(cell_result, size.driven)},
+    {"status", "", FIELD_ENUM, "ok, or how it failed", CELL(solve.status), .word = word_of_status,
+     .words = STATUSES},
+    {"reason", "", FIELD_TEXT, "why it failed", CELL(solve.reason)},
+    {"elements_total", "1", FIELD_INT, "elements of the whole structure", CELL(size.elements)},
+    {"free", "1", FIELD_INT, "unknown coordinates", CELL(size.free)},
+    {"driven", "1", FIELD_INT, "prescribed coordinates", CELL(size.driven)},
     {"features", "", FIELD_TEXT, "physics that the model has", .get = get_features},
     {"left_out", "", FIELD_TEXT, "coordinates that were left out, and why", .get = get_left_out},
-    {"seconds_setup", "s", FIELD_DOUBLE, "of the processor, in one run: set-up", AT(cell_result, solve.seconds_setup)},
-    {"seconds_solve", "s", FIELD_DOUBLE, "of the processor, in one run: the rest", AT(cell_result, solve.seconds_solve)},
+    {"seconds_setup", "s", FIELD_DOUBLE, "of the processor, in one run: set-up",
+     CELL(solve.seconds_setup)},
+    {"seconds_solve", "s", FIELD_DOUBLE, "of the processor, in one run: the rest",
+     CELL(solve.seconds_solve)},
     {0}};
 
 /* A new counter is one line here. */
 #define WORK(counter) AT(cell_result, counters.counter)
 static const schema_field fields_of_work[] = {
-    {"strain_evaluations", "1", FIELD_LONG, "deformation functions of elements", WORK(strain_evaluations)},
-    {"stress_evaluations", "1", FIELD_LONG, "stress functions of elements", WORK(stress_evaluations)},
-    {"inertia_evaluations", "1", FIELD_LONG, "mass matrices of elements", WORK(inertia_evaluations)},
+    {"strain_evaluations", "1", FIELD_LONG, "deformation functions of elements",
+     WORK(strain_evaluations)},
+    {"stress_evaluations", "1", FIELD_LONG, "stress functions of elements",
+     WORK(stress_evaluations)},
+    {"inertia_evaluations", "1", FIELD_LONG, "mass matrices of elements",
+     WORK(inertia_evaluations)},
     {"iterations", "1", FIELD_LONG, "Newton iterations, rejected steps included", WORK(iterations)},
     {"load_steps", "1", FIELD_LONG, "load steps that were kept", WORK(steps)},
     {"rejected_steps", "1", FIELD_LONG, "load steps that were tried in vain", WORK(rejected_steps)},
@@ -66,9 +81,11 @@ static const schema_field fields_of_work[] = {
     {"solutions", "1", FIELD_LONG, "right-hand sides solved for", WORK(solutions)},
     {"factor_entries", "1", FIELD_LONG, "entries of the last factor", WORK(factor_entries)},
     {"factor_flops", "1", FIELD_DOUBLE, "operations of all factorisations", WORK(factor_flops)},
-    {"negative_pivots", "1", FIELD_LONG, "most of a symmetric tangent at a state that was reached", WORK(negative_pivots)},
+    {"negative_pivots", "1", FIELD_LONG, "most of a symmetric tangent at a state that was reached",
+     WORK(negative_pivots)},
     {0}};
-const record_type record_cell = {"cell",
-                                 "cells",
-                                 "a formulation on one mesh: size, work, times",
-                                 {keys_of_point, keys_of_series, key_of_mesh, fields_of_cell, fields_of_work}};
+const record_type record_cell = {
+    "cell",
+    "cells",
+    "a formulation on one mesh: size, work, times",
+    {keys_of_point, keys_of_series, key_of_mesh, fields_of_cell, fields_of_work}};

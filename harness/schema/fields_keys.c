@@ -7,20 +7,24 @@ static void get_elements(const subject *s, field_value *out)
 
 const schema_field keys_of_point[] = {
     {"case", "", FIELD_TEXT, "name of the case", TEXT_OF(CASE, case_type, name), .key = KEY_AROUND},
-    {"point", "", FIELD_TEXT, "default, or the first digits of the parameters' hash", OF(POINT, point, name), .key = KEY},
+    {"point", "", FIELD_TEXT, "default, or the first digits of the parameters' hash",
+     OF(POINT, point, name), .key = KEY},
     {0}};
 
 const schema_field keys_of_series[] = {
-    {"parameters", "", FIELD_TEXT, "where they differ from the defaults", OF(POINT, point, text), .key = KEY_AROUND},
-    {"formulation", "", FIELD_TEXT, "name, options that differ from their defaults", OF(SERIES, series, formulation.key),
-     .key = KEY},
+    {"parameters", "", FIELD_TEXT, "where they differ from the defaults", OF(POINT, point, text),
+     .key = KEY_AROUND},
+    {"formulation", "", FIELD_TEXT, "name, options that differ from their defaults",
+     OF(SERIES, series, formulation.key), .key = KEY},
     {0}};
 
-const schema_field key_of_mesh[] = {{"elements", "1", FIELD_INT, "elements of each member", .get = get_elements, .key = KEY}, {0}};
+const schema_field key_of_mesh[] = {
+    {"elements", "1", FIELD_INT, "elements of each member", .get = get_elements, .key = KEY}, {0}};
 
-const schema_field names_of_quantity[] = {{"quantity", "", FIELD_TEXT, "name of the quantity", OF(QUANTITY, scene_quantity, name)},
-                                          {"unit", "", FIELD_TEXT, "of its value", OF(QUANTITY, scene_quantity, unit)},
-                                          {0}};
+const schema_field names_of_quantity[] = {
+    {"quantity", "", FIELD_TEXT, "name of the quantity", OF(QUANTITY, scene_quantity, name)},
+    {"unit", "", FIELD_TEXT, "of its value", OF(QUANTITY, scene_quantity, unit)},
+    {0}};
 
 const char *word_of_status(int value)
 {

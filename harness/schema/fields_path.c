@@ -1,4 +1,4 @@
-/* Records of what a cell found and of the way there: quantities, curves, load steps, iterations, events, matrices. */
+/* Records of what a cell found and of the way there. */
 #include <math.h>
 
 #include "harness/schema/fields_keys.h"
@@ -38,89 +38,116 @@ static void get_prediction_error(const subject *s, field_value *out)
     field_number(out, isfinite(predicted(s)) ? error_of(s, predicted(s), s->truth) : NAN);
 }
 
+#define VALUE(member) AT(quantity_result, member)
 static const schema_field fields_of_quantity[] = {
     {"moments", "", FIELD_TEXT, "what a moment does while its node turns", .get = get_moments},
-    {"status", "", FIELD_ENUM, "ok: there is a value", AT(quantity_result, status), .word = word_of_status, .words = STATUSES},
-    {"reason", "", FIELD_TEXT, "why there is none", AT(quantity_result, reason)},
-    {"value", UNIT_OF_QUANTITY, FIELD_DOUBLE, "the value", AT(quantity_result, value)},
-    {"truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of the same continuum model", OF(TRUTH, truth, value)},
-    {"error", "1", FIELD_DOUBLE, "(value - truth)/|truth|, by near_zero where that is larger", .get = get_error},
-    {"model_error", "1", FIELD_DOUBLE, "the same against the truth of another model", .get = get_model_error},
-    {"x", "x_unit", FIELD_DOUBLE, "where a maximum or minimum was found", AT(quantity_result, x)},
-    {"near_zero", UNIT_OF_QUANTITY, FIELD_DOUBLE, "values below it count as zero", OF(QUANTITY, scene_quantity, near_zero)},
-    {"prediction", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of an analytic model, not judged", .get = get_prediction},
-    {"prediction_error", "1", FIELD_DOUBLE, "of the prediction against the truth", .get = get_prediction_error},
-    {"predicted_by", "", FIELD_TEXT, "source of the prediction", TEXT_OF(QUANTITY, scene_quantity, predicted_by)},
+    {"status", "", FIELD_ENUM, "ok: there is a value", VALUE(status), .word = word_of_status,
+     .words = STATUSES},
+    {"reason", "", FIELD_TEXT, "why there is none", VALUE(reason)},
+    {"value", OWN_UNIT, FIELD_DOUBLE, "the value", VALUE(value)},
+    {"truth", OWN_UNIT, FIELD_DOUBLE, "of the same continuum model", OF(TRUTH, truth, value)},
+    {"error", "1", FIELD_DOUBLE, "(value - truth)/|truth|, by near_zero where that is larger",
+     .get = get_error},
+    {"model_error", "1", FIELD_DOUBLE, "the same against the truth of another model",
+     .get = get_model_error},
+    {"x", "x_unit", FIELD_DOUBLE, "where a maximum or minimum was found", VALUE(x)},
+    {"near_zero", OWN_UNIT, FIELD_DOUBLE, "values below it count as zero",
+     OF(QUANTITY, scene_quantity, near_zero)},
+    {"prediction", OWN_UNIT, FIELD_DOUBLE, "of an analytic model, not judged",
+     .get = get_prediction},
+    {"prediction_error", "1", FIELD_DOUBLE, "of the prediction against the truth",
+     .get = get_prediction_error},
+    {"predicted_by", "", FIELD_TEXT, "source of the prediction",
+     TEXT_OF(QUANTITY, scene_quantity, predicted_by)},
     {0}};
-const record_type record_quantity = {"quantity",
-                                     "quantities",
-                                     "a value that a cell was asked for",
-                                     {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_quantity}};
+const record_type record_quantity = {
+    "quantity",
+    "quantities",
+    "a value that a cell was asked for",
+    {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_quantity}};
 
 static const schema_field fields_of_truth[] = {
-    {"truth", UNIT_OF_QUANTITY, FIELD_DOUBLE, "its value", OF(TRUTH, truth, value)},
-    {"truth_uncertainty", UNIT_OF_QUANTITY, FIELD_DOUBLE, "of it", OF(TRUTH, truth, uncertainty)},
+    {"truth", OWN_UNIT, FIELD_DOUBLE, "its value", OF(TRUTH, truth, value)},
+    {"truth_uncertainty", OWN_UNIT, FIELD_DOUBLE, "of it", OF(TRUTH, truth, uncertainty)},
     {"truth_kind", "", FIELD_TEXT, "exact, independent, ...", TEXT_OF(TRUTH, truth, kind)},
-    {"model", "", FIELD_TEXT, "same: the continuum of the case; other: another", TEXT_OF(TRUTH, truth, model)},
+    {"model", "", FIELD_TEXT, "same: the continuum of the case; other: another",
+     TEXT_OF(TRUTH, truth, model)},
     {"source", "", FIELD_TEXT, "of the truth", TEXT_OF(TRUTH, truth, source)},
     {"error", "1", FIELD_DOUBLE, "of the value against it", .get = get_error},
     {0}};
-const record_type record_truth = {"truth", "truths", "what is known of a quantity", {fields_of_truth}};
+const record_type record_truth = {
+    "truth", "truths", "what is known of a quantity", {fields_of_truth}};
 
 static const schema_field fields_of_curve[] = {
     {"x_name", "", FIELD_TEXT, "name of the abscissa", OF(QUANTITY, scene_quantity, x_name)},
     {"x_unit", "", FIELD_TEXT, "its unit", OF(QUANTITY, scene_quantity, x_unit)},
-    {"first", "1", FIELD_INT, "where its points begin in the arrays curve_x and curve_value", OF(SUBJECT, subject, group)},
-    {"points", "1", FIELD_INT, "how many there are", AT(quantity_result, curve.points)},
+    {"first", "1", FIELD_INT, "where its points begin in the arrays curve_x and curve_value",
+     OF(SUBJECT, subject, group)},
+    {"points", "1", FIELD_INT, "how many there are", VALUE(curve.points)},
     {0}};
-const record_type record_curve = {"curve",
-                                  "curves",
-                                  "a quantity along a path; its points stand in arrays",
-                                  {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_curve}};
+const record_type record_curve = {
+    "curve",
+    "curves",
+    "a quantity along a path; its points stand in arrays",
+    {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_curve}};
 
+#define STEP(member) AT(step_record, member)
 static const schema_field fields_of_step[] = {
     {"step", "1", FIELD_INT, "its number, from 0", OF(SUBJECT, subject, index)},
-    {"path", "1", FIELD_DOUBLE, "path parameter that was reached", AT(step_record, path)},
-    {"increment", "1", FIELD_DOUBLE, "of the path parameter", AT(step_record, increment)},
-    {"iterations", "1", FIELD_INT, "until the criterion was met", AT(step_record, iterations)},
-    {"rejected", "1", FIELD_INT, "tries of longer steps before it", AT(step_record, rejected)},
-    {"negative_pivots", "1", FIELD_INT, "of the tangent; -1: not symmetric", AT(step_record, negative_pivots)},
-    {"residual", "1", FIELD_DOUBLE, "before its last iteration, by the first", AT(step_record, residual)},
-    {"correction", "1", FIELD_DOUBLE, "of its last iteration", AT(step_record, correction)},
-    {"incompatibility", "1", FIELD_DOUBLE, "max |D(x) - e|/l before it", AT(step_record, incompatibility)},
-    {"energy", "J", FIELD_DOUBLE, "r . K^-1 r of the first iteration", AT(step_record, energy)},
+    {"path", "1", FIELD_DOUBLE, "path parameter that was reached", STEP(path)},
+    {"increment", "1", FIELD_DOUBLE, "of the path parameter", STEP(increment)},
+    {"iterations", "1", FIELD_INT, "until the criterion was met", STEP(iterations)},
+    {"rejected", "1", FIELD_INT, "tries of longer steps before it", STEP(rejected)},
+    {"negative_pivots", "1", FIELD_INT, "of the tangent; -1: not symmetric", STEP(negative_pivots)},
+    {"residual", "1", FIELD_DOUBLE, "before its last iteration, by the first", STEP(residual)},
+    {"correction", "1", FIELD_DOUBLE, "of its last iteration", STEP(correction)},
+    {"incompatibility", "1", FIELD_DOUBLE, "max |D(x) - e|/l before it", STEP(incompatibility)},
+    {"energy", "J", FIELD_DOUBLE, "r . K^-1 r of the first iteration", STEP(energy)},
     {0}};
-const record_type record_step = {
-    "step", "steps", "a load step that was kept", {keys_of_point, keys_of_series, key_of_mesh, fields_of_step}};
+const record_type record_step = {"step",
+                                 "steps",
+                                 "a load step that was kept",
+                                 {keys_of_point, keys_of_series, key_of_mesh, fields_of_step}};
 
+#define ITERATION(member) AT(iteration_record, member)
 static const schema_field fields_of_iteration[] = {
     {"step", "1", FIELD_INT, "that it belongs to", OF(SUBJECT, subject, group)},
     {"iteration", "1", FIELD_INT, "its number in the step, from 0", OF(SUBJECT, subject, index)},
-    {"residual", "1", FIELD_DOUBLE, "sqrt(r . K^-1 r) before it, by the first", AT(iteration_record, residual)},
-    {"correction", "1", FIELD_DOUBLE, "what it changed", AT(iteration_record, correction)},
-    {"incompatibility", "1", FIELD_DOUBLE, "max |D(x) - e|/l before it", AT(iteration_record, incompatibility)},
+    {"residual", "1", FIELD_DOUBLE, "sqrt(r . K^-1 r) before it, by the first",
+     ITERATION(residual)},
+    {"correction", "1", FIELD_DOUBLE, "what it changed", ITERATION(correction)},
+    {"incompatibility", "1", FIELD_DOUBLE, "max |D(x) - e|/l before it",
+     ITERATION(incompatibility)},
     {0}};
 const record_type record_iteration = {
-    "iteration", "iterations", "an iteration of a load step", {keys_of_point, keys_of_series, key_of_mesh, fields_of_iteration}};
+    "iteration",
+    "iterations",
+    "an iteration of a load step",
+    {keys_of_point, keys_of_series, key_of_mesh, fields_of_iteration}};
 
 static const char *word_of_event(int kind)
 {
     return event_name((event_kind)kind);
 }
 
+#define EVENT(member) AT(path_event, member)
 static const schema_field fields_of_event[] = {
-    {"event", "", FIELD_ENUM, "what happened", AT(path_event, kind), .word = word_of_event, .words = EVENT_KINDS},
-    {"analysis", "1", FIELD_INT, "of the scene", AT(path_event, analysis)},
-    {"negative_before", "1", FIELD_INT, "negative pivots; -1: not symmetric", AT(path_event, negative_before)},
-    {"negative_after", "1", FIELD_INT, "the same behind it", AT(path_event, negative_after)},
-    {"factor", "1", FIELD_DOUBLE, "of the loads", AT(path_event, factor)},
-    {"control", "m", FIELD_DOUBLE, "coordinate that the path is controlled by", AT(path_event, control)},
-    {"other_factor", "1", FIELD_DOUBLE, "of a jump: on the other branch", AT(path_event, other_factor)},
-    {"measure", "1", FIELD_DOUBLE, "work of the loads on the null vector; of a jump: distance of the branches",
-     AT(path_event, measure)},
+    {"event", "", FIELD_ENUM, "what happened", EVENT(kind), .word = word_of_event,
+     .words = EVENT_KINDS},
+    {"analysis", "1", FIELD_INT, "of the scene", EVENT(analysis)},
+    {"negative_before", "1", FIELD_INT, "negative pivots; -1: not symmetric",
+     EVENT(negative_before)},
+    {"negative_after", "1", FIELD_INT, "the same behind it", EVENT(negative_after)},
+    {"factor", "1", FIELD_DOUBLE, "of the loads", EVENT(factor)},
+    {"control", "m", FIELD_DOUBLE, "coordinate that the path is controlled by", EVENT(control)},
+    {"other_factor", "1", FIELD_DOUBLE, "of a jump: on the other branch", EVENT(other_factor)},
+    {"measure", "1", FIELD_DOUBLE,
+     "work of the loads on the null vector; of a jump: distance of the branches", EVENT(measure)},
     {0}};
-const record_type record_event = {
-    "event", "events", "what a continued path met", {keys_of_point, keys_of_series, key_of_mesh, fields_of_event}};
+const record_type record_event = {"event",
+                                  "events",
+                                  "what a continued path met",
+                                  {keys_of_point, keys_of_series, key_of_mesh, fields_of_event}};
 
 static void get_path(const subject *s, field_value *out)
 {
@@ -139,10 +166,11 @@ static void get_stiffness(const subject *s, field_value *out)
 
 static const schema_field fields_of_matrix[] = {
     {"node", "1", FIELD_INT, "of the scene", AT(nodal_matrices, node)},
-    {"moments", "", FIELD_ENUM, "what a moment does while its node turns", AT(nodal_matrices, moments), .word = word_of_moments,
-     .words = SCENE_MOMENTS_SYMMETRISED + 1},
+    {"moments", "", FIELD_ENUM, "what a moment does while its node turns",
+     AT(nodal_matrices, moments), .word = word_of_moments, .words = SCENE_MOMENTS_SYMMETRISED + 1},
     {"path", "1", FIELD_DOUBLE, "path parameter of the state", .get = get_path},
-    {"compliance", "SI", FIELD_DOUBLE, "ux uy uz thx thy thz by Fx Fy Fz Mx My Mz", .get = get_compliance, .count = 36},
+    {"compliance", "SI", FIELD_DOUBLE, "ux uy uz thx thy thz by Fx Fy Fz Mx My Mz",
+     .get = get_compliance, .count = 36},
     {"stiffness", "SI", FIELD_DOUBLE, "its inverse", .get = get_stiffness, .count = 36},
     {0}};
 const record_type record_matrix = {"matrix",

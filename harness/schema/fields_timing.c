@@ -50,7 +50,9 @@ static void get_dense_iteration(const subject *s, field_value *out)
 static void get_dense_seconds(const subject *s, field_value *out)
 {
     const baseline *dense = &timing_of(s)->dense;
-    field_number(out, dense->unknowns > 0 ? baseline_seconds(dense, subject_cell(s)->counters.iterations) : NAN);
+    field_number(out, dense->unknowns > 0
+                          ? baseline_seconds(dense, subject_cell(s)->counters.iterations)
+                          : NAN);
 }
 
 static void get_dense_whole(const subject *s, field_value *out)
@@ -58,38 +60,56 @@ static void get_dense_whole(const subject *s, field_value *out)
     out->whole = timing_of(s)->dense.whole.rounds > 0;
 }
 
+#define TIMES(member) AT(cell_timing, member)
 static const schema_field fields_of_readings[] = {
-    {"repeats", "1", FIELD_INT, "runs; 0: not measured", AT(cell_timing, as_is.repeats)},
-    {"seconds_setup", "s", FIELD_DOUBLE, "of the fastest: set-up", AT(cell_timing, as_is.setup), .get = get_measured},
-    {"seconds_solve", "s", FIELD_DOUBLE, "of the fastest: the rest", AT(cell_timing, as_is.solve), .get = get_measured},
+    {"repeats", "1", FIELD_INT, "runs; 0: not measured", TIMES(as_is.repeats)},
+    {"seconds_setup", "s", FIELD_DOUBLE, "of the fastest: set-up", TIMES(as_is.setup),
+     .get = get_measured},
+    {"seconds_solve", "s", FIELD_DOUBLE, "of the fastest: the rest", TIMES(as_is.solve),
+     .get = get_measured},
     {"seconds_least", "s", FIELD_DOUBLE, "both together in the fastest round", .get = get_least},
     {"seconds_most", "s", FIELD_DOUBLE, "both together in the slowest round", .get = get_most},
-    {"round_1", "s", FIELD_DOUBLE, "both together in a round", AT(cell_timing, as_is.round[0]), .get = get_round},
-    {"round_2", "s", FIELD_DOUBLE, "both together in a round", AT(cell_timing, as_is.round[1]), .get = get_round},
-    {"round_3", "s", FIELD_DOUBLE, "both together in a round", AT(cell_timing, as_is.round[2]), .get = get_round},
-    {"round_4", "s", FIELD_DOUBLE, "both together in a round", AT(cell_timing, as_is.round[3]), .get = get_round},
-    {"round_5", "s", FIELD_DOUBLE, "both together in a round", AT(cell_timing, as_is.round[4]), .get = get_round},
-    {"keep_all_repeats", "1", FIELD_INT, "the same with nothing left out", AT(cell_timing, keep_all.repeats)},
-    {"keep_all_setup", "s", FIELD_DOUBLE, "set-up", AT(cell_timing, keep_all.setup), .get = get_measured},
-    {"keep_all_solve", "s", FIELD_DOUBLE, "the rest", AT(cell_timing, keep_all.solve), .get = get_measured},
-    {"keep_all_round_1", "s", FIELD_DOUBLE, "both together in a round", AT(cell_timing, keep_all.round[0]), .get = get_round},
-    {"keep_all_round_2", "s", FIELD_DOUBLE, "both together in a round", AT(cell_timing, keep_all.round[1]), .get = get_round},
-    {"keep_all_round_3", "s", FIELD_DOUBLE, "both together in a round", AT(cell_timing, keep_all.round[2]), .get = get_round},
-    {"keep_all_round_4", "s", FIELD_DOUBLE, "both together in a round", AT(cell_timing, keep_all.round[3]), .get = get_round},
-    {"keep_all_round_5", "s", FIELD_DOUBLE, "both together in a round", AT(cell_timing, keep_all.round[4]), .get = get_round},
-    {"keep_all_free", "1", FIELD_INT, "unknowns with nothing left out", AT(cell_timing, free_keep_all)},
+    {"round_1", "s", FIELD_DOUBLE, "both together in a round", TIMES(as_is.round[0]),
+     .get = get_round},
+    {"round_2", "s", FIELD_DOUBLE, "both together in a round", TIMES(as_is.round[1]),
+     .get = get_round},
+    {"round_3", "s", FIELD_DOUBLE, "both together in a round", TIMES(as_is.round[2]),
+     .get = get_round},
+    {"round_4", "s", FIELD_DOUBLE, "both together in a round", TIMES(as_is.round[3]),
+     .get = get_round},
+    {"round_5", "s", FIELD_DOUBLE, "both together in a round", TIMES(as_is.round[4]),
+     .get = get_round},
+    {"keep_all_repeats", "1", FIELD_INT, "the same with nothing left out", TIMES(keep_all.repeats)},
+    {"keep_all_setup", "s", FIELD_DOUBLE, "set-up", TIMES(keep_all.setup), .get = get_measured},
+    {"keep_all_solve", "s", FIELD_DOUBLE, "the rest", TIMES(keep_all.solve), .get = get_measured},
+    {"keep_all_round_1", "s", FIELD_DOUBLE, "both together in a round", TIMES(keep_all.round[0]),
+     .get = get_round},
+    {"keep_all_round_2", "s", FIELD_DOUBLE, "both together in a round", TIMES(keep_all.round[1]),
+     .get = get_round},
+    {"keep_all_round_3", "s", FIELD_DOUBLE, "both together in a round", TIMES(keep_all.round[2]),
+     .get = get_round},
+    {"keep_all_round_4", "s", FIELD_DOUBLE, "both together in a round", TIMES(keep_all.round[3]),
+     .get = get_round},
+    {"keep_all_round_5", "s", FIELD_DOUBLE, "both together in a round", TIMES(keep_all.round[4]),
+     .get = get_round},
+    {"keep_all_free", "1", FIELD_INT, "unknowns with nothing left out", TIMES(free_keep_all)},
     {0}};
 static const schema_field fields_of_parts[] = {
-    {"seconds_elements", "s", FIELD_DOUBLE, "of Newton's iterations: elements", AT(cell_timing, phase[PHASE_ELEMENTS])},
-    {"seconds_assembly", "s", FIELD_DOUBLE, "assembly", AT(cell_timing, phase[PHASE_ASSEMBLY])},
-    {"seconds_factorisation", "s", FIELD_DOUBLE, "factorisation", AT(cell_timing, phase[PHASE_FACTORISATION])},
-    {"seconds_solution", "s", FIELD_DOUBLE, "solution", AT(cell_timing, phase[PHASE_SOLUTION])},
-    {"dense_unknowns", "1", FIELD_INT, "of the published algorithm; 0: not measured", AT(cell_timing, dense.unknowns)},
+    {"seconds_elements", "s", FIELD_DOUBLE, "of Newton's iterations: elements",
+     TIMES(phase[PHASE_ELEMENTS])},
+    {"seconds_assembly", "s", FIELD_DOUBLE, "assembly", TIMES(phase[PHASE_ASSEMBLY])},
+    {"seconds_factorisation", "s", FIELD_DOUBLE, "factorisation",
+     TIMES(phase[PHASE_FACTORISATION])},
+    {"seconds_solution", "s", FIELD_DOUBLE, "solution", TIMES(phase[PHASE_SOLUTION])},
+    {"dense_unknowns", "1", FIELD_INT, "of the published algorithm; 0: not measured",
+     TIMES(dense.unknowns)},
     {"dense_iteration", "s", FIELD_DOUBLE, "its fastest iteration", .get = get_dense_iteration},
     {"dense_seconds", "s", FIELD_DOUBLE, "all of its iterations", .get = get_dense_seconds},
-    {"dense_whole", "", FIELD_FLAG, "whole runs were timed, not one iteration times their number", .get = get_dense_whole},
+    {"dense_whole", "", FIELD_FLAG, "whole runs were timed, not one iteration times their number",
+     .get = get_dense_whole},
     {0}};
-const record_type record_timing = {"timing",
-                                   "timings",
-                                   "repeated runs of a cell",
-                                   {keys_of_point, keys_of_series, key_of_mesh, fields_of_readings, fields_of_parts}};
+const record_type record_timing = {
+    "timing",
+    "timings",
+    "repeated runs of a cell",
+    {keys_of_point, keys_of_series, key_of_mesh, fields_of_readings, fields_of_parts}};

@@ -22,7 +22,8 @@ static void add(subjects *list, const subject *one)
 static subject series_subject(const gathering *g, int index)
 {
     const series *one = &g->sweep->series[index];
-    return (subject){.sweep = g->sweep, .point = &g->sweep->point[one->point], .series = one, .record = one};
+    return (subject){
+        .sweep = g->sweep, .point = &g->sweep->point[one->point], .series = one, .record = one};
 }
 
 subject gather_cell(const gathering *g, int series_index, int mesh)
@@ -54,7 +55,8 @@ subject gather_agreement(const gathering *g, const agreement *a)
 
 subject gather_coverage(const gathering *g, const coverage *c, int left_out)
 {
-    return (subject){.sweep = g->sweep, .point = &g->sweep->point[c->point], .record = c, .index = left_out};
+    return (subject){
+        .sweep = g->sweep, .point = &g->sweep->point[c->point], .record = c, .index = left_out};
 }
 
 /* Verdicts come in the order of the series: index of the first one of it or of a later one. */
@@ -97,7 +99,8 @@ static void add_array(subject s, int count, const void *array, size_t size, subj
 static void add_curves(subject s, const solve_result *r, subjects *out)
 {
     const subject *last = out->count > 0 ? &out->row[out->count - 1] : NULL;
-    s.group = last != NULL ? last->group + ((const quantity_result *)last->record)->curve.points : 0;
+    s.group =
+        last != NULL ? last->group + ((const quantity_result *)last->record)->curve.points : 0;
     for (s.index = 0; s.index < r->quantities; s.index++) {
         s.record = &r->quantity[s.index];
         if (r->quantity[s.index].curve.points > 0)
@@ -106,7 +109,8 @@ static void add_curves(subject s, const solve_result *r, subjects *out)
     }
 }
 
-static void add_quantities(const gathering *g, int series_index, subject s, const solve_result *r, subjects *out)
+static void add_quantities(const gathering *g, int series_index, subject s, const solve_result *r,
+                           subjects *out)
 {
     for (s.index = 0; s.index < r->quantities; s.index++) {
         s.record = &r->quantity[s.index];
@@ -118,16 +122,19 @@ static void add_quantities(const gathering *g, int series_index, subject s, cons
 static void add_iterations(subject s, const solve_result *r, subjects *out)
 {
     for (s.group = 0; s.group < r->steps; s.group++)
-        add_array(s, r->step[s.group].iterations, r->iteration + r->step[s.group].first, sizeof *r->iteration, out);
+        add_array(s, r->step[s.group].iterations, r->iteration + r->step[s.group].first,
+                  sizeof *r->iteration, out);
 }
 
 static void add_matrices(subject s, const solve_result *r, subjects *out)
 {
     for (int i = 0; i < r->matrix_sets; i++)
-        add_array(s, r->matrices[i].stations, &r->matrices[i], 0, out); /* one record, read station by station */
+        add_array(s, r->matrices[i].stations, &r->matrices[i], 0,
+                  out); /* one record, read station by station */
 }
 
-void gather_mesh(const gathering *g, const record_type *type, int series_index, int mesh, subjects *out)
+void gather_mesh(const gathering *g, const record_type *type, int series_index, int mesh,
+                 subjects *out)
 {
     const subject cell = gather_cell(g, series_index, mesh);
     const solve_result *r = &cell.series->cell[mesh].solve;
@@ -158,7 +165,8 @@ static void gather_series(const gathering *g, const record_type *type, int index
         gather_mesh(g, type, index, i, out);
     if (type != &record_verdict || g->judged == NULL)
         return;
-    for (int i = first_verdict(g->judged, index); i < g->judged->verdicts && g->judged->verdict[i].series == index; i++) {
+    for (int i = first_verdict(g->judged, index);
+         i < g->judged->verdicts && g->judged->verdict[i].series == index; i++) {
         const subject one = gather_verdict(g, &g->judged->verdict[i]);
         add(out, &one);
     }

@@ -10,7 +10,8 @@ typedef struct subjects {
     int bad; /* 1: out of memory */
 } subjects;
 
-/* Truths that quantities are compared with: those of the verdicts, or where nothing was judged the stored ones; both may be NULL. */
+/* Truths that quantities are compared with: those of the verdicts; where nothing was judged the
+ * stored ones. Both may be NULL. */
 typedef struct gathering {
     const sweep *sweep;
     const judgement *judged;
@@ -20,7 +21,8 @@ typedef struct gathering {
 /* Adds the records of all series of a case. */
 void gather_case(const gathering *g, const record_type *type, const case_type *of, subjects *out);
 /* Adds those of one mesh; a kind that a mesh has none of adds nothing. */
-void gather_mesh(const gathering *g, const record_type *type, int series_index, int mesh, subjects *out);
+void gather_mesh(const gathering *g, const record_type *type, int series_index, int mesh,
+                 subjects *out);
 subject gather_cell(const gathering *g, int series_index, int mesh);
 subject gather_verdict(const gathering *g, const verdict *v);
 subject gather_agreement(const gathering *g, const agreement *a);

@@ -6,7 +6,8 @@ int schema_fields(const record_type *type, int keys, const schema_field *out[SCH
 {
     int count = 0;
     for (int p = 0; p < RECORD_PARTS && type->part[p] != NULL; p++)
-        for (const schema_field *one = type->part[p]; one->name != NULL && count < SCHEMA_MOST_FIELDS; one++)
+        for (const schema_field *one = type->part[p];
+             one->name != NULL && count < SCHEMA_MOST_FIELDS; one++)
             if (one->key <= keys)
                 out[count++] = one;
     return count;
@@ -78,7 +79,8 @@ void field_read(const subject *s, const schema_field *which, field_value *out)
     else
         no_value(out);
     if (which->kind == FIELD_ENUM)
-        out->text = out->whole >= 0 && out->whole < which->words ? which->word((int)out->whole) : "?";
+        out->text =
+            out->whole >= 0 && out->whole < which->words ? which->word((int)out->whole) : "?";
 }
 
 const char *field_kind_name(field_kind kind)

@@ -1,5 +1,5 @@
-/* One schema for all records: a table of fields for each kind of record, from which HDF5, JSON, CSV and
- * `beamwork schema` are written, with the same names in all of them. A new field is one line of a table. */
+/* One schema for all records: a table of fields for each kind of record, from which HDF5, JSON, CSV
+ * and `beamwork schema` are written, with the same names. A new field is one line of a table. */
 #ifndef BEAMWORK_SCHEMA_H
 #define BEAMWORK_SCHEMA_H
 
@@ -10,12 +10,21 @@
 enum { SCHEMA_VERSION = 2, SCHEMA_MOST_FIELDS = 96, FIELD_ROOM = 2048 };
 #define SCHEMA_NAME "beamwork-results"
 /* Of a number that is in the unit which the record's own field `unit` names. */
-#define UNIT_OF_QUANTITY "unit"
+#define OWN_UNIT "unit"
 
-/* Of a field that says where the record belongs. KEY_AROUND: only where nothing around the record says so (CSV, lists of JSON). */
+/* Of a field that says where the record belongs. KEY_AROUND: only where nothing around the record
+ * says so (CSV, lists of JSON). */
 enum { KEY = 1, KEY_AROUND = 2 };
 
-typedef enum field_kind { FIELD_INT, FIELD_LONG, FIELD_DOUBLE, FIELD_FLAG, FIELD_TEXT, FIELD_ENUM, FIELD_KINDS } field_kind;
+typedef enum field_kind {
+    FIELD_INT,
+    FIELD_LONG,
+    FIELD_DOUBLE,
+    FIELD_FLAG,
+    FIELD_TEXT,
+    FIELD_ENUM,
+    FIELD_KINDS
+} field_kind;
 
 /* A record in its surroundings; what does not apply is NULL (numbers: 0). */
 typedef struct subject {
@@ -30,7 +39,6 @@ typedef struct subject {
     const truth *truth, *model_truth; /* that a quantity is compared with */
 } subject;
 
-/* The member that the kind names is set. */
 /* What surrounds a record: offsets may refer to it. */
 typedef enum field_base {
     BASE_RECORD,
@@ -46,6 +54,7 @@ typedef enum field_base {
 } field_base;
 
 typedef struct schema_field schema_field;
+/* The member that the kind names is set. */
 typedef struct field_value {
     const schema_field *of;
     long whole;            /* INT, LONG, FLAG, ENUM */
@@ -85,8 +94,9 @@ typedef struct record_type {
 } record_type;
 
 /* A series of meshes, one mesh of it, what it found and how, its time, what the judge says. */
-extern const record_type record_point, record_series, record_cell, record_quantity, record_curve, record_step, record_iteration,
-    record_event, record_matrix, record_timing, record_verdict, record_agreement, record_coverage;
+extern const record_type record_point, record_series, record_cell, record_quantity, record_curve,
+    record_step, record_iteration, record_event, record_matrix, record_timing, record_verdict,
+    record_agreement, record_coverage;
 extern const record_type *const record_types[]; /* all of them; ends with NULL */
 extern const record_type record_truth;          /* of a quantity, in JSON only */
 

@@ -11,7 +11,8 @@
 
 static int is_name(const char *text)
 {
-    return text[0] >= 'a' && text[0] <= 'z' && strspn(text, "abcdefghijklmnopqrstuvwxyz_0123456789.") == strlen(text);
+    return text[0] >= 'a' && text[0] <= 'z' &&
+           strspn(text, "abcdefghijklmnopqrstuvwxyz_0123456789.") == strlen(text);
 }
 
 static int is_number(const schema_field *f)
@@ -23,17 +24,22 @@ static void well_formed(const record_type *type)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
     const int count = schema_fields(type, KEY_AROUND, list);
-    gsl_test(count < 2 || count >= SCHEMA_MOST_FIELDS, "%s has fields, and none is lost", type->name);
+    gsl_test(count < 2 || count >= SCHEMA_MOST_FIELDS, "%s has fields, and none is lost",
+             type->name);
     for (int i = 0; i < count; i++) {
         const schema_field *f = list[i];
         int twice = 0;
         for (int k = 0; k < i; k++)
             twice |= strcmp(list[k]->name, f->name) == 0;
         gsl_test(twice || !is_name(f->name), "%s.%s is a name of its own", type->name, f->name);
-        gsl_test(f->summary == NULL || f->summary[0] == '\0', "%s.%s says what it is", type->name, f->name);
-        gsl_test(is_number(f) != (f->unit[0] != '\0'), "%s.%s has a unit when it is a number", type->name, f->name);
-        gsl_test((f->kind == FIELD_ENUM) != (f->word != NULL && f->words > 0), "%s.%s has words", type->name, f->name);
-        gsl_test(f->count > 0 && f->kind != FIELD_DOUBLE, "%s.%s: an array has numbers", type->name, f->name);
+        gsl_test(f->summary == NULL || f->summary[0] == '\0', "%s.%s says what it is", type->name,
+                 f->name);
+        gsl_test(is_number(f) != (f->unit[0] != '\0'), "%s.%s has a unit when it is a number",
+                 type->name, f->name);
+        gsl_test((f->kind == FIELD_ENUM) != (f->word != NULL && f->words > 0), "%s.%s has words",
+                 type->name, f->name);
+        gsl_test(f->count > 0 && f->kind != FIELD_DOUBLE, "%s.%s: an array has numbers", type->name,
+                 f->name);
     }
 }
 
@@ -44,8 +50,8 @@ static void parameters_differ(const case_type *type)
     const int count = schema_fields(&record_point, KEY_AROUND, list);
     for (int i = 0; type->parameters[i].name != NULL; i++)
         for (int k = 0; k < count; k++)
-            gsl_test(strcmp(type->parameters[i].name, list[k]->name) == 0, "%s: parameter %s beside a field", type->name,
-                     list[k]->name);
+            gsl_test(strcmp(type->parameters[i].name, list[k]->name) == 0,
+                     "%s: parameter %s beside a field", type->name, list[k]->name);
 }
 
 /* A value that no other field has, into what stands at the offset. */
@@ -70,7 +76,8 @@ static int same(const void *a, const void *b, const schema_field *f)
     field_read(&right, f, &y);
     if (f->kind == FIELD_DOUBLE)
         return *x.numbers == *y.numbers;
-    return f->kind == FIELD_TEXT || f->kind == FIELD_ENUM ? strcmp(x.text, y.text) == 0 : x.whole == y.whole;
+    return f->kind == FIELD_TEXT || f->kind == FIELD_ENUM ? strcmp(x.text, y.text) == 0
+                                                          : x.whole == y.whole;
 }
 
 static void plant_all(const record_type *type, void *record)
@@ -88,7 +95,8 @@ static void all_same(const record_type *type, const void *a, const void *b)
     const int count = schema_fields(type, 0, list);
     for (int i = 0; i < count; i++)
         if (list[i]->get == NULL && list[i]->base == BASE_RECORD)
-            gsl_test(!same(a, b, list[i]), "%s.%s comes through the pipe", type->name, list[i]->name);
+            gsl_test(!same(a, b, list[i]), "%s.%s comes through the pipe", type->name,
+                     list[i]->name);
 }
 
 /* One record of each kind that a cell holds, all of it different, matrices and curves too. */
@@ -117,7 +125,8 @@ static void pipe_carries_all(void)
     matrices.path = &path;
     matrices.compliance = compliance;
     matrices.stiffness = stiffness;
-    cell.solve.quantities = cell.solve.steps = cell.solve.iterations = cell.solve.events = cell.solve.matrix_sets = 1;
+    cell.solve.quantities = cell.solve.steps = cell.solve.iterations = cell.solve.events =
+        cell.solve.matrix_sets = 1;
     cell.solve.quantity = &quantity;
     cell.solve.step = &step;
     cell.solve.iteration = &iteration;
@@ -133,10 +142,12 @@ static void pipe_carries_all(void)
     all_same(&record_iteration, &iteration, back.solve.iteration);
     all_same(&record_event, &event, back.solve.event);
     all_same(&record_matrix, &matrices, back.solve.matrices);
-    gsl_test(memcmp(back.solve.matrices->compliance, compliance, sizeof compliance) != 0, "compliance");
+    gsl_test(memcmp(back.solve.matrices->compliance, compliance, sizeof compliance) != 0,
+             "compliance");
     gsl_test(memcmp(back.solve.matrices->stiffness, stiffness, sizeof stiffness) != 0, "stiffness");
     gsl_test(back.solve.matrices->path[0] != path, "path");
-    gsl_test(back.solve.quantity->curve.x[1] != 2 || back.solve.quantity->curve.value[1] != 4, "curve");
+    gsl_test(back.solve.quantity->curve.x[1] != 2 || back.solve.quantity->curve.value[1] != 4,
+             "curve");
     gsl_test(strcmp(back.left_out[0], line) != 0, "what was left out");
     cell_result_free(&back);
     fclose(file);
