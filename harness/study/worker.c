@@ -8,7 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "harness/study/wire.h"
+#include "harness/study/serialise.h"
 
 static double now(void)
 {
@@ -70,7 +70,7 @@ static void work(const workload *w, int self, int to)
         b->since[self] = now();
         b->at[self] = i;
         run_task(w, i, &cell);
-        if (fwrite(&i, sizeof i, 1, out) != 1 || wire_write(out, &cell) != 0)
+        if (fwrite(&i, sizeof i, 1, out) != 1 || serialise_write(out, &cell) != 0)
             break;
         b->at[self] = -1;
         cell_result_free(&cell);
@@ -113,7 +113,7 @@ static void mark_done(workload *w, int i)
 int worker_receive(workload *w, worker *from)
 {
     int i = 0;
-    if (fread(&i, sizeof i, 1, from->from) != 1 || i < 0 || i >= w->count || wire_read(from->from, cell_of(w, i)) != 0)
+    if (fread(&i, sizeof i, 1, from->from) != 1 || i < 0 || i >= w->count || serialise_read(from->from, cell_of(w, i)) != 0)
         return -1;
     mark_done(w, i);
     return i;

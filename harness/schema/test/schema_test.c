@@ -7,7 +7,7 @@
 
 #include "harness/catalogue/registry.h"
 #include "harness/schema/schema.h"
-#include "harness/study/wire.h"
+#include "harness/study/serialise.h"
 
 static int is_name(const char *text)
 {
@@ -133,9 +133,9 @@ static void pipe_carries_all(void)
     cell.solve.event = &event;
     cell.solve.matrices = &matrices;
     FILE *file = tmpfile();
-    gsl_test(wire_write(file, &cell) != 0, "written");
+    gsl_test(serialise_write(file, &cell) != 0, "written");
     rewind(file);
-    gsl_test(wire_read(file, &back) != 0, "read");
+    gsl_test(serialise_read(file, &back) != 0, "read");
     all_same(&record_cell, &cell, &back);
     all_same(&record_quantity, &quantity, back.solve.quantity);
     all_same(&record_step, &step, back.solve.step);

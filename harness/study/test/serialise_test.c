@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/study/wire.h"
+#include "harness/study/serialise.h"
 
 typedef struct dice {
     uint64_t state;
@@ -381,12 +381,12 @@ static void round_trips(dice *d)
     difference first = {NULL};
     for (int i = 0; i < CELLS && file != NULL; i++) {
         sent[i] = random_cell(d);
-        unwritten += wire_write(file, &sent[i]) != 0;
+        unwritten += serialise_write(file, &sent[i]) != 0;
     }
     rewind(file);
     for (int i = 0; i < CELLS; i++) { /* one behind the other, as a worker sends them */
         cell_result got;
-        unread += wire_read(file, &got) != 0;
+        unread += serialise_read(file, &got) != 0;
         const difference here = compare_cells(&sent[i], &got);
         if (first.name == NULL)
             first = here;
@@ -406,9 +406,9 @@ static void empty_cell(void)
     const cell_result sent = {.solve = {.status = STATUS_SINGULAR, .reason = "nothing"}};
     cell_result got;
     FILE *file = tmpfile();
-    gsl_test(file == NULL || wire_write(file, &sent) != 0, "sent");
+    gsl_test(file == NULL || serialise_write(file, &sent) != 0, "sent");
     rewind(file);
-    gsl_test(wire_read(file, &got) != 0 || compare_cells(&sent, &got).name != NULL, "an empty cell arrives");
+    gsl_test(serialise_read(file, &got) != 0 || compare_cells(&sent, &got).name != NULL, "an empty cell arrives");
     cell_result_free(&got);
     fclose(file);
 }
@@ -430,16 +430,16 @@ static void truncated(dice *d, int pictured)
     char *bytes = NULL;
     size_t size = 0;
     FILE *file = open_memstream(&bytes, &size);
-    gsl_test(file == NULL || wire_write(file, &sent) != 0 || fclose(file) != 0, "written");
+    gsl_test(file == NULL || serialise_write(file, &sent) != 0 || fclose(file) != 0, "written");
     int accepted = 0, left = 0;
     for (size_t cut = 0; cut < size; cut++) {
         file = cut > 0 ? fmemopen(bytes, cut, "rb") : fopen("/dev/null", "rb");
-        accepted += wire_read(file, &got) == 0;
+        accepted += serialise_read(file, &got) == 0;
         left += !is_empty(&got);
         fclose(file);
     }
     file = fmemopen(bytes, size, "rb");
-    gsl_test(wire_read(file, &got) != 0, "the whole is read");
+    gsl_test(serialise_read(file, &got) != 0, "the whole is read");
     fclose(file);
     cell_result_free(&got);
     cell_result_free(&sent);

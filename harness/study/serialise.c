@@ -1,4 +1,4 @@
-#include "harness/study/wire.h"
+#include "harness/study/serialise.h"
 
 #include <stddef.h>
 #include <stdlib.h>
@@ -143,14 +143,14 @@ static void free_parts(void *record, const branch parts[])
     }
 }
 
-int wire_write(FILE *to, const cell_result *cell)
+int serialise_write(FILE *to, const cell_result *cell)
 {
     if (put(to, cell, sizeof *cell) != 0 || put_parts(to, cell, of_cell) != 0)
         return -1;
     return fflush(to) == 0 ? 0 : -1;
 }
 
-int wire_read(FILE *from, cell_result *cell)
+int serialise_read(FILE *from, cell_result *cell)
 {
     memset(cell, 0, sizeof *cell);
     if (get(from, cell, sizeof *cell) != 0) {

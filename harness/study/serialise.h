@@ -1,0 +1,12 @@
+/* A cell's result as bytes, so that a process can hand it to its parent. */
+#ifndef BEAMWORK_SERIALISE_H
+#define BEAMWORK_SERIALISE_H
+
+#include <stdio.h>
+
+#include "harness/study/cell.h"
+
+int serialise_write(FILE *to, const cell_result *cell); /* 0, or -1 */
+int serialise_read(FILE *from, cell_result *cell);      /* 0, or -1: the stream ended or is damaged */
+
+#endif
