@@ -1,12 +1,12 @@
 /* Alters a good HDF5 file as the bytes say: links and attributes deleted, renamed, replaced by others of another kind, type or shape, cycles. The
- * result is a proper, sealed file with contents that nobody expects. (Damaged files are refused by their seal.) */
+ * result is a proper file, its checksum right, with contents that nobody expects. (Damaged files are refused by their checksum.) */
 #ifndef BEAMWORK_FUZZ_ALTER_H
 #define BEAMWORK_FUZZ_ALTER_H
 
 #include <hdf5.h>
 
 #include "harness/fuzz/fuzz_file.h"
-#include "harness/truth/seal.h"
+#include "harness/truth/checksum.h"
 
 enum { ALTER_OBJECTS = 400, ALTER_NAME = 200, ALTER_BYTES = 1 << 20, ALTER_STEP = 4 };
 
@@ -159,7 +159,7 @@ static const char *alter_file(const uint8_t *data, size_t size)
     static char all[ALTER_BYTES];
     static size_t length;
     static alter_list list;
-    char seal[SEAL_LENGTH + 1];
+    char line[CHECKSUM_LENGTH + 1];
     if (length == 0) {
         FILE *base = fopen(getenv("FUZZ_BASE") != NULL ? getenv("FUZZ_BASE") : "", "rb");
         fuzz_must(base != NULL, "FUZZ_BASE names a good file");
@@ -178,9 +178,9 @@ static const char *alter_file(const uint8_t *data, size_t size)
     FILE *again = fopen(path, "rb+");
     static char altered[2 * ALTER_BYTES];
     const size_t now = fread(altered, 1, sizeof altered, again);
-    seal_write(altered, now, seal);
+    checksum_write(altered, now, line);
     fseek(again, 0, SEEK_END);
-    fputs(seal, again);
+    fputs(line, again);
     fclose(again);
     return path;
 }

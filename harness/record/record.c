@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/record/output.h"
-#include "harness/truth/seal.h"
+#include "harness/truth/checksum.h"
 
 enum { GROWTH = 1 << 22, MOST_RANKS = 4 }; /* GROWTH: [bytes] by which the file in memory grows */
 
@@ -39,10 +39,10 @@ static status write_image(record *r, const char *path, fault *f)
     }
     status outcome = output_open_whole(path, &file, f);
     if (outcome == STATUS_OK) {
-        char seal[SEAL_LENGTH + 1];
-        seal_write(image, (size_t)size, seal);
+        char line[CHECKSUM_LENGTH + 1];
+        checksum_write(image, (size_t)size, line);
         fwrite(image, 1, (size_t)size, file.stream); /* the stream remembers an error until it is closed */
-        fputs(seal, file.stream);
+        fputs(line, file.stream);
         outcome = output_close(&file, f);
     }
     free(image);

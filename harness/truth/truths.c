@@ -8,7 +8,7 @@
 
 #include "harness/catalogue/registry.h"
 #include "harness/truth/columns.h"
-#include "harness/truth/seal.h"
+#include "harness/truth/checksum.h"
 
 /* Parameters of a row, and whether they still mean what they meant when the table was packed. */
 static status check_row(const columns *r, const case_type *type, int i, const char *text, uint64_t hash, double value[], int any[])
@@ -182,7 +182,7 @@ static status read_tables(const char *path, hid_t file, const char *name, truths
 /* FAULT, and below 0, when it is damaged or not ours. */
 static hid_t open_truths(const char *path, status *outcome, fault *f)
 {
-    *outcome = seal_check(path, f);
+    *outcome = checksum_check(path, f);
     if (*outcome != STATUS_OK)
         return -1;
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);

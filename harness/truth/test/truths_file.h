@@ -9,7 +9,7 @@
 
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
-#include "harness/truth/seal.h"
+#include "harness/truth/checksum.h"
 #include "harness/truth/truths.h"
 
 /* What a file is made with; the defaults are right. */
@@ -104,13 +104,13 @@ static void put_rule(hid_t file, const recipe *r, const case_type *type)
     H5Gclose(at);
 }
 
-static void truths_file_seal(const char *path)
+static void truths_file_checksum(const char *path)
 {
     static char all[1 << 20];
-    char line[SEAL_LENGTH + 1];
+    char line[CHECKSUM_LENGTH + 1];
     FILE *file = fopen(path, "rb+");
     const size_t size = fread(all, 1, sizeof all, file);
-    seal_write(all, size, line);
+    checksum_write(all, size, line);
     fseek(file, 0, SEEK_END);
     fputs(line, file);
     fclose(file);
@@ -132,7 +132,7 @@ static void truths_file_make(const char *path, const recipe *r)
     H5Tclose(type);
     H5Sclose(scalar);
     H5Fclose(file);
-    truths_file_seal(path);
+    truths_file_checksum(path);
 }
 
 #endif

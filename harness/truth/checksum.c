@@ -1,4 +1,4 @@
-#include "harness/truth/seal.h"
+#include "harness/truth/checksum.h"
 
 #include <errno.h>
 #include <stdint.h>
@@ -20,22 +20,22 @@ static uint32_t checksum(uint32_t sum, const unsigned char *data, size_t size)
     return ~sum;
 }
 
-static void write_line(size_t size, uint32_t sum, char out[SEAL_LENGTH + 1])
+static void write_line(size_t size, uint32_t sum, char out[CHECKSUM_LENGTH + 1])
 {
-    snprintf(out, SEAL_LENGTH + 1, "beamwork-seal %016zx %08x\n", size, (unsigned)sum);
+    snprintf(out, CHECKSUM_LENGTH + 1, "beamwork-seal %016zx %08x\n", size, (unsigned)sum);
 }
 
-void seal_write(const void *data, size_t size, char out[SEAL_LENGTH + 1])
+void checksum_write(const void *data, size_t size, char out[CHECKSUM_LENGTH + 1])
 {
     write_line(size, checksum(0, data, size), out);
 }
 
-/* Sum of all but the last SEAL_LENGTH bytes, which are found in `tail`. -1: shorter than that. */
-static long read_body(FILE *from, uint32_t *sum, char tail[SEAL_LENGTH + 1])
+/* Sum of all but the last CHECKSUM_LENGTH bytes, which are found in `tail`. -1: shorter than that. */
+static long read_body(FILE *from, uint32_t *sum, char tail[CHECKSUM_LENGTH + 1])
 {
     enum { PIECE = 1 << 18 };
-    static const size_t held = SEAL_LENGTH;
-    unsigned char buffer[SEAL_LENGTH + PIECE];
+    static const size_t held = CHECKSUM_LENGTH;
+    unsigned char buffer[CHECKSUM_LENGTH + PIECE];
     size_t have = 0, got;
     long body = 0;
     *sum = 0;
@@ -55,9 +55,9 @@ static long read_body(FILE *from, uint32_t *sum, char tail[SEAL_LENGTH + 1])
     return body;
 }
 
-status seal_check(const char *path, fault *f)
+status checksum_check(const char *path, fault *f)
 {
-    char tail[SEAL_LENGTH + 1], right[SEAL_LENGTH + 1];
+    char tail[CHECKSUM_LENGTH + 1], right[CHECKSUM_LENGTH + 1];
     uint32_t sum;
     FILE *from = fopen(path, "rb");
     if (from == NULL)

@@ -1,16 +1,16 @@
 /* The last line of a file of ours: its length and checksum. What is cut short, damaged or altered is noticed before the HDF5 library reads it,
  * which trusts what it finds (version 1.10 reads beyond its buffers in damaged files). */
-#ifndef BEAMWORK_SEAL_H
-#define BEAMWORK_SEAL_H
+#ifndef BEAMWORK_CHECKSUM_H
+#define BEAMWORK_CHECKSUM_H
 
 #include <stddef.h>
 
 #include "elements/math/status.h"
 
-enum { SEAL_LENGTH = 40 }; /* "beamwork-seal %016zx %08x\n" */
+enum { CHECKSUM_LENGTH = 40 }; /* "beamwork-seal %016zx %08x\n" */
 
-void seal_write(const void *data, size_t size, char out[SEAL_LENGTH + 1]);
+void checksum_write(const void *data, size_t size, char out[CHECKSUM_LENGTH + 1]);
 /* FAULT: missing, foreign, or not what was written. */
-status seal_check(const char *path, fault *f);
+status checksum_check(const char *path, fault *f);
 
 #endif
