@@ -66,7 +66,7 @@ stress: all ## drive every formulation to extremes; a table, and build/stress.js
 bench: all ## time every formulation on every case into build/bench.h5
 	@$(PROGRAM) bench -o $(BUILD)/bench.h5
 
-bench-mechanisms: all ## joint and hexapod: growth with the elements, parts of an iteration, the dense baseline
+bench-mechanisms: all ## joint and hexapod: growth with the elements, parts of an iteration, the dense reference
 	@$(PROGRAM) bench spherical_joint -f sheet_third -f sheet_second -f collocation -n 1,2,4,8,16,32 --dense -o $(BUILD)/mechanisms_joint.h5
 	@$(PROGRAM) bench hexapod -f sheet_third -f sheet_second -f collocation -n 1,2 --dense -o $(BUILD)/mechanisms_hexapod.h5
 

@@ -25,7 +25,7 @@ typedef struct cli_request {
     const char *format, *output, *json, *junit, *markdown, *truths, *select, *threshold, *against;
     int jobs, keep_all, steps;
     int threads;    /* of the loop over elements */
-    int dense;      /* 1: the dense baseline is timed too */
+    int dense;      /* 1: the dense reference is timed too */
     int time_limit; /* [s] of a cell; 0: none */
     int shapes;     /* states of a path whose shapes are stored; 0: none */
     char given[32]; /* keys of the options with one value that were given */

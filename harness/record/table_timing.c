@@ -49,7 +49,7 @@ static void rows(FILE *to, const sweep *s, const judgement *j, int at)
             row(to, s, &s->series[i], first_judged(j, i), k);
 }
 
-/* Microseconds per iteration in each of its parts; the dense baseline where it was timed. */
+/* Microseconds per iteration in each of its parts; the dense reference where it was timed. */
 static void parts_of(FILE *to, const series *one, int mesh)
 {
     const cell_timing *t = &one->timing[mesh];
@@ -65,7 +65,7 @@ static void parts_of(FILE *to, const series *one, int mesh)
         fprintf(to, "  dense %ld x %.4g ms", iterations, 1e3 * t->dense.iteration);
     if (t->dense.unknowns > 0)
         fprintf(to, " (%d unknowns): %.4g times ours", t->dense.unknowns,
-                baseline_seconds(&t->dense, iterations) / clock_least(&t->as_is));
+                dense_reference_seconds(&t->dense, iterations) / clock_least(&t->as_is));
     fputc('\n', to);
 }
 

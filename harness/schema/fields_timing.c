@@ -43,15 +43,15 @@ static void get_most(const subject *s, field_value *out)
 
 static void get_dense_iteration(const subject *s, field_value *out)
 {
-    const baseline *dense = &timing_of(s)->dense;
+    const dense_reference *dense = &timing_of(s)->dense;
     field_number(out, dense->unknowns > 0 ? dense->iteration : NAN);
 }
 
 static void get_dense_seconds(const subject *s, field_value *out)
 {
-    const baseline *dense = &timing_of(s)->dense;
+    const dense_reference *dense = &timing_of(s)->dense;
     field_number(out, dense->unknowns > 0
-                          ? baseline_seconds(dense, subject_cell(s)->counters.iterations)
+                          ? dense_reference_seconds(dense, subject_cell(s)->counters.iterations)
                           : NAN);
 }
 

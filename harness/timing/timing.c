@@ -84,7 +84,7 @@ static void round_of_series(sweep *s, int index, double floor, int dense)
         if (one->cell[i].counters.iterations > 0 && here > 0)
             read_phases(&request, &one->timing[i]);
         if (dense)
-            baseline_round(&request, &one->cell[i], floor, &one->timing[i].dense);
+            dense_reference_round(&request, &one->cell[i], floor, &one->timing[i].dense);
     }
 }
 

@@ -3,7 +3,7 @@
 #define BEAMWORK_TIMING_H
 
 #include "harness/study/sweep.h"
-#include "harness/timing/baseline.h"
+#include "harness/timing/dense_reference.h"
 #include "harness/timing/clock.h"
 
 /* Repeated runs of a cell, as it is and with nothing left out (--keep-all). */
@@ -11,7 +11,7 @@ typedef struct cell_timing {
     clock_reading as_is, keep_all; /* rounds = 0: not measured */
     int free_keep_all;             /* unknowns when nothing is left out */
     double phase[PHASES];          /* [s] in the iterations of one run more, in which the clock is read between their parts */
-    baseline dense;                /* when asked for */
+    dense_reference dense;                /* when asked for */
 } cell_timing;
 
 /* floor: least [s] a round spends on a cell. Of several points the defaults are measured in full: there the parts of an iteration

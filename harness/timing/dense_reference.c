@@ -1,4 +1,4 @@
-#include "harness/timing/baseline.h"
+#include "harness/timing/dense_reference.h"
 
 #include <math.h>
 #include <time.h>
@@ -19,7 +19,7 @@ static double processor_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void sample(const cell_request *dense, baseline *out)
+static void sample(const cell_request *dense, dense_reference *out)
 {
     cell_request one = *dense;
     cell_result cell;
@@ -37,7 +37,7 @@ static void sample(const cell_request *dense, baseline *out)
     cell_result_free(&cell);
 }
 
-void baseline_round(const cell_request *own, const cell_result *cell, double floor, baseline *out)
+void dense_reference_round(const cell_request *own, const cell_result *cell, double floor, dense_reference *out)
 {
     const long iterations = cell->counters.iterations;
     cell_request dense = *own;
@@ -50,7 +50,7 @@ void baseline_round(const cell_request *own, const cell_result *cell, double flo
         clock_round(&dense, floor, &out->whole);
 }
 
-double baseline_seconds(const baseline *b, long iterations)
+double dense_reference_seconds(const dense_reference *b, long iterations)
 {
     if (b->whole.rounds > 0)
         return clock_least(&b->whole);
