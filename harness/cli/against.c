@@ -11,7 +11,7 @@
 #include "harness/schema/schema.h"
 #include "harness/study/cell.h"
 #include "harness/timing/clock.h"
-#include "harness/timing/versus.h"
+#include "harness/timing/against.h"
 
 enum { MOST_REPEATS = 10000 };
 static const double budget_seconds = 3, lap_seconds = 0.002;
@@ -156,12 +156,12 @@ static void set_program(contestant *c, const cli_request *r, const char *program
     snprintf(c->name, sizeof c->name, "%.500s", program);
 }
 
-static void show(const contestant *a, const contestant *b, const versus *v)
+static void show(const contestant *a, const contestant *b, const against *v)
 {
     int same = 1;
     printf("A  %-40s %10.4g ms\nB  %-40s %10.4g ms\n", a->name, 1e3 * v->a / a->repeats, b->name, 1e3 * v->b / b->repeats);
     printf("B takes %.4f times as long as A (%.4f to %.4f with 99.9 %% confidence, %d pairs): %s\n", v->ratio, v->low, v->high,
-           v->pairs, versus_name(v->outcome));
+           v->pairs, against_name(v->outcome));
     for (int i = 0; i < a->counts; i++)
         if (a->count[i] != b->count[i]) {
             printf("%s %s %.10g against %.10g", same ? "work differs:" : ",", a->counted[i]->name, a->count[i], b->count[i]);
@@ -170,14 +170,14 @@ static void show(const contestant *a, const contestant *b, const versus *v)
     printf(same ? "the same work\n" : "\n");
 }
 
-static void show_json(const contestant *a, const contestant *b, const versus *v)
+static void show_json(const contestant *a, const contestant *b, const against *v)
 {
     json_t *work = json_array();
     for (int i = 0; i < a->counts; i++)
         json_array_append_new(work, json_pack("{s:s,s:f,s:f}", "name", a->counted[i]->name, "a", a->count[i], "b", b->count[i]));
     json_t *root = json_pack("{s:s,s:s,s:f,s:f,s:f,s:f,s:f,s:i,s:s,s:o}", "a", a->name, "b", b->name, "seconds_a",
                              v->a / a->repeats, "seconds_b", v->b / b->repeats, "ratio", v->ratio, "low", v->low, "high", v->high,
-                             "pairs", v->pairs, "outcome", versus_name(v->outcome), "work", work);
+                             "pairs", v->pairs, "outcome", against_name(v->outcome), "work", work);
     json_dumpf(root, stdout, JSON_INDENT(1));
     putchar('\n');
     json_decref(root);
@@ -189,7 +189,7 @@ int cli_against(cli_request *r)
     const char *arguments[2][MOST_ARGUMENTS];
     char elements[2][16];
     formulation other;
-    versus answer;
+    against answer;
     fault f = {""};
     if (r->case_count != 1 || r->formulations != 1 || r->meshes < 1 || r->meshes > 2)
         return cli_fail(STATUS_REFUSED, "--against compares one cell: give one CASE, one -f and one -n (or two: A's and B's)");
@@ -214,7 +214,7 @@ int cli_against(cli_request *r)
     clock_pin();
     status outcome = set_repeats(&a, &b, &f);
     if (outcome == STATUS_OK)
-        outcome = versus_run(lap, &a, &b, budget_seconds, &answer, &f);
+        outcome = against_run(lap, &a, &b, budget_seconds, &answer, &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
     (r->format[0] == 'j' ? show_json : show)(&a, &b, &answer);

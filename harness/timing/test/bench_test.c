@@ -9,7 +9,7 @@
 #include "harness/judge/reach.h"
 #include "harness/study/cell.h"
 #include "harness/timing/clock.h"
-#include "harness/timing/versus.h"
+#include "harness/timing/against.h"
 
 enum { PAIRS = 101, TRIALS = 300 };
 
@@ -31,23 +31,23 @@ static void count_outcomes(double slowdown, int outcomes[3])
             a[i] = noisy(random, drift);
             b[i] = (1 + slowdown) * noisy(random, drift);
         }
-        outcomes[versus_judge(PAIRS, a, b).outcome]++;
+        outcomes[against_judge(PAIRS, a, b).outcome]++;
     }
     gsl_rng_free(random);
 }
 
-static void test_versus(void)
+static void test_against(void)
 {
     int outcomes[3];
     count_outcomes(0, outcomes);
-    gsl_test_int(outcomes[VERSUS_UNDECIDED], TRIALS, "noise alone is undecided");
+    gsl_test_int(outcomes[AGAINST_UNDECIDED], TRIALS, "noise alone is undecided");
     count_outcomes(0.2, outcomes);
-    gsl_test_int(outcomes[VERSUS_SLOWER], TRIALS, "a slow-down of 20 %% is found");
+    gsl_test_int(outcomes[AGAINST_SLOWER], TRIALS, "a slow-down of 20 %% is found");
     count_outcomes(-1.0 / 6, outcomes);
-    gsl_test_int(outcomes[VERSUS_FASTER], TRIALS, "and seen from the other side");
+    gsl_test_int(outcomes[AGAINST_FASTER], TRIALS, "and seen from the other side");
     const double few[10] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, twice[10] = {2, 2, 2, 2, 2, 2, 2, 2, 2, 2};
-    gsl_test_int(versus_judge(10, few, twice).outcome, VERSUS_UNDECIDED, "ten pairs cannot give 99.9 %% confidence");
-    gsl_test_int(versus_judge(0, few, twice).outcome, VERSUS_UNDECIDED, "no pair decides nothing");
+    gsl_test_int(against_judge(10, few, twice).outcome, AGAINST_UNDECIDED, "ten pairs cannot give 99.9 %% confidence");
+    gsl_test_int(against_judge(0, few, twice).outcome, AGAINST_UNDECIDED, "no pair decides nothing");
 }
 
 /* The median of 101 draws: P(Binomial(101, 1/2) < 34) = 3.2e-4 and P(< 35) = 6.7e-4 enclose the tail of 5e-4. */
@@ -58,7 +58,7 @@ static void test_interval(void)
         a[i] = 1;
         b[i] = 2 + i;
     }
-    const versus v = versus_judge(PAIRS, a, b);
+    const against v = against_judge(PAIRS, a, b);
     gsl_test_abs(v.ratio, 52, 1e-12, "median of the ratios");
     gsl_test_abs(v.low, 2 + 33, 1e-12, "34th smallest is the lower end (binomial tail)");
     gsl_test_abs(v.high, 2 + 67, 1e-12, "34th largest is the upper end");
@@ -161,7 +161,7 @@ static void test_rounds(void)
 
 int main(void)
 {
-    test_versus();
+    test_against();
     test_interval();
     test_compare();
     test_reach();

@@ -1,4 +1,4 @@
-#include "harness/timing/versus.h"
+#include "harness/timing/against.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -8,14 +8,14 @@
 enum { LEAST_PAIRS = 51, MOST_PAIRS = 1001, WARM_UP = 3 };
 static const double tail = 0.0005, least_difference = 0.02;
 
-const char *versus_name(versus_outcome o)
+const char *against_name(against_outcome o)
 {
     switch (o) {
-    case VERSUS_FASTER:
+    case AGAINST_FASTER:
         return "faster";
-    case VERSUS_SLOWER:
+    case AGAINST_SLOWER:
         return "slower";
-    case VERSUS_UNDECIDED:
+    case AGAINST_UNDECIDED:
         break;
     }
     return "undecided";
@@ -36,9 +36,9 @@ static int rank_of_interval(int pairs)
     return k;
 }
 
-versus versus_judge(int pairs, const double a[], const double b[])
+against against_judge(int pairs, const double a[], const double b[])
 {
-    versus out = {.pairs = pairs, .a = INFINITY, .b = INFINITY, .ratio = NAN, .low = 0, .high = INFINITY};
+    against out = {.pairs = pairs, .a = INFINITY, .b = INFINITY, .ratio = NAN, .low = 0, .high = INFINITY};
     double *ratio = malloc(((size_t)pairs + 1) * sizeof *ratio);
     for (int i = 0; i < pairs; i++) {
         out.a = fmin(out.a, a[i]);
@@ -58,9 +58,9 @@ versus versus_judge(int pairs, const double a[], const double b[])
         out.high = ratio[pairs - k];
     }
     if (out.low > 1 + least_difference)
-        out.outcome = VERSUS_SLOWER;
+        out.outcome = AGAINST_SLOWER;
     else if (out.high < 1 / (1 + least_difference))
-        out.outcome = VERSUS_FASTER;
+        out.outcome = AGAINST_FASTER;
     free(ratio);
     return out;
 }
@@ -73,7 +73,7 @@ static double passing(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static status lap_pair(versus_lap *lap, void *a, void *b, int b_first, double *seconds_a, double *seconds_b, fault *f)
+static status lap_pair(against_lap *lap, void *a, void *b, int b_first, double *seconds_a, double *seconds_b, fault *f)
 {
     const status first = b_first ? lap(b, seconds_b, f) : lap(a, seconds_a, f);
     if (first != STATUS_OK)
@@ -81,7 +81,7 @@ static status lap_pair(versus_lap *lap, void *a, void *b, int b_first, double *s
     return b_first ? lap(a, seconds_a, f) : lap(b, seconds_b, f);
 }
 
-status versus_run(versus_lap *lap, void *a, void *b, double budget, versus *out, fault *f)
+status against_run(against_lap *lap, void *a, void *b, double budget, against *out, fault *f)
 {
     double seconds_a[MOST_PAIRS], seconds_b[MOST_PAIRS], least = INFINITY;
     status outcome = STATUS_OK;
@@ -94,6 +94,6 @@ status versus_run(versus_lap *lap, void *a, void *b, double budget, versus *out,
     for (int i = 0; i < pairs && outcome == STATUS_OK; i++)
         outcome = lap_pair(lap, a, b, i % 2, &seconds_a[i], &seconds_b[i], f);
     if (outcome == STATUS_OK)
-        *out = versus_judge(pairs, seconds_a, seconds_b);
+        *out = against_judge(pairs, seconds_a, seconds_b);
     return outcome;
 }
