@@ -3,18 +3,18 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
-#include "harness/extremes/stress.h"
+#include "harness/extremes/extreme_sweep.h"
 #include "harness/record/output.h"
 
-static status write_format(const char *format, FILE *to, const stress *s, fault *f)
+static status write_format(const char *format, FILE *to, const extreme_sweep *s, fault *f)
 {
     if (strcmp(format, "json") == 0)
-        return stress_json(to, s, f);
-    (strcmp(format, "csv") == 0 ? stress_csv : stress_table)(to, s);
+        return extreme_json(to, s, f);
+    (strcmp(format, "csv") == 0 ? extreme_table_csv : extreme_table)(to, s);
     return STATUS_OK;
 }
 
-static status write_file(const char *path, const char *format, const stress *s, fault *f)
+static status write_file(const char *path, const char *format, const extreme_sweep *s, fault *f)
 {
     output file;
     status outcome = output_open(path, &file, f);
@@ -27,7 +27,7 @@ static status write_file(const char *path, const char *format, const stress *s, 
     return outcome;
 }
 
-static status write_out(const cli_request *r, const stress *s, fault *f)
+static status write_out(const cli_request *r, const extreme_sweep *s, fault *f)
 {
     status outcome = r->output != NULL ? write_file(r->output, r->format, s, f) : write_format(r->format, stdout, s, f);
     if (outcome == STATUS_OK && fflush(stdout) != 0)
@@ -38,7 +38,7 @@ static status write_out(const cli_request *r, const stress *s, fault *f)
 int cli_stress(int count, char **arguments)
 {
     cli_request r;
-    stress s;
+    extreme_sweep s;
     fault f = {""};
     cli_parse(
         "stress", "",
@@ -48,20 +48,20 @@ int cli_stress(int count, char **arguments)
         "fokjJFT", count, arguments, &r);
     if (r.case_name != NULL)
         return cli_fail(STATUS_REFUSED, "stress takes no case; select with -k");
-    const stress_request request = {.select = r.select,
+    const extreme_request request = {.select = r.select,
                                     .jobs = r.jobs,
                                     .formulations = r.formulations,
                                     .formulation = r.formulation,
                                     .progress = isatty(STDERR_FILENO) ? stderr : NULL};
     status outcome = cli_check_files(&r, 0, cli_truths_path(&r), &f);
     if (outcome == STATUS_OK)
-        outcome = stress_run(&request, cli_truths_path(&r), &s, &f);
+        outcome = extreme_sweep_run(&request, cli_truths_path(&r), &s, &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
     outcome = write_out(&r, &s, &f);
-    const int code = outcome != STATUS_OK ? cli_fail(outcome, f.text) : stress_exit(&s);
+    const int code = outcome != STATUS_OK ? cli_fail(outcome, f.text) : extreme_sweep_exit(&s);
     if (outcome == STATUS_OK && code == EXIT_NOTHING)
         fprintf(stderr, "beamwork: nothing was tried; see 'beamwork list' and -k\n");
-    stress_free(&s);
+    extreme_sweep_free(&s);
     return code;
 }

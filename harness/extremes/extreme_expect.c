@@ -4,18 +4,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/extremes/stress.h"
+#include "harness/extremes/extreme_sweep.h"
 #include "harness/truth/columns.h"
 
-status stress_findings_read(const char *path, stress *out, fault *f)
+status extreme_expect_read(const char *path, extreme_sweep *out, fault *f)
 {
-    static const columns_field field[] = {{"extreme", 1, offsetof(stress_finding, extreme)},
-                                          {"formulation", 1, offsetof(stress_finding, formulation)},
-                                          {"quantity", 1, offsetof(stress_finding, quantity)},
-                                          {"outcome", 1, offsetof(stress_finding, outcome)},
-                                          {"proof", 1, offsetof(stress_finding, proof)},
-                                          {"from", 0, offsetof(stress_finding, from)},
-                                          {"to", 0, offsetof(stress_finding, to)}};
+    static const columns_field field[] = {{"extreme", 1, offsetof(extreme_finding, extreme)},
+                                          {"formulation", 1, offsetof(extreme_finding, formulation)},
+                                          {"quantity", 1, offsetof(extreme_finding, quantity)},
+                                          {"outcome", 1, offsetof(extreme_finding, outcome)},
+                                          {"proof", 1, offsetof(extreme_finding, proof)},
+                                          {"from", 0, offsetof(extreme_finding, from)},
+                                          {"to", 0, offsetof(extreme_finding, to)}};
     columns r = {.path = path, .name = "extreme_findings", .f = f};
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     r.group = file >= 0 ? H5Gopen2(file, r.name, H5P_DEFAULT) : -1;
@@ -35,7 +35,7 @@ status stress_findings_read(const char *path, stress *out, fault *f)
     return outcome;
 }
 
-static int speaks_of(const stress_finding *row, const stress *s, const stress_outcome *o)
+static int speaks_of(const extreme_finding *row, const extreme_sweep *s, const extreme_outcome *o)
 {
     const extreme *e = &extremes[o->extreme];
     const double slack = 1e-9; /* 1e-4 of a table and pow(10, -4) */
@@ -44,50 +44,50 @@ static int speaks_of(const stress_finding *row, const stress *s, const stress_ou
            fnmatch(row->quantity, e->quantity[o->quantity].name, 0) == 0;
 }
 
-static int is_good(stress_kind kind)
+static int is_good(outcome_kind kind)
 {
-    return kind == STRESS_VALUE || kind == STRESS_COARSE;
+    return kind == OUTCOME_VALUE || kind == OUTCOME_COARSE;
 }
 
 /* From the best of a cell to the worst. */
-static int badness(stress_kind kind)
+static int badness(outcome_kind kind)
 {
-    static const int rank[STRESS_KINDS] = {
-        [STRESS_VALUE] = 1,    [STRESS_COARSE] = 2,   [STRESS_REFUSED] = 3, [STRESS_NOT_CONVERGED] = 3,
-        [STRESS_SINGULAR] = 3, [STRESS_NO_VALUE] = 3, [STRESS_WRONG] = 4,   [STRESS_FAULT] = 5};
+    static const int rank[OUTCOME_KINDS] = {
+        [OUTCOME_VALUE] = 1,    [OUTCOME_COARSE] = 2,   [OUTCOME_REFUSED] = 3, [OUTCOME_NOT_CONVERGED] = 3,
+        [OUTCOME_SINGULAR] = 3, [OUTCOME_NO_VALUE] = 3, [OUTCOME_WRONG] = 4,   [OUTCOME_FAULT] = 5};
     return rank[kind];
 }
 
 /* Outcomes of one cell follow each other. */
-static void count_cells(stress *s)
+static void count_cells(extreme_sweep *s)
 {
     for (int i = 0; i < s->outcomes;) {
-        stress_count *c = &s->count[s->outcome[i].formulation];
-        stress_kind worst = s->outcome[i].kind;
+        extreme_count *c = &s->count[s->outcome[i].formulation];
+        outcome_kind worst = s->outcome[i].kind;
         const int cell = s->outcome[i].series;
         for (; i < s->outcomes && s->outcome[i].series == cell; i++)
             worst = badness(s->outcome[i].kind) > badness(worst) ? s->outcome[i].kind : worst;
-        c->tried += worst != STRESS_SKIP;
+        c->tried += worst != OUTCOME_SKIP;
         c->survived += is_good(worst);
-        c->coarse += worst == STRESS_COARSE;
+        c->coarse += worst == OUTCOME_COARSE;
         c->named += badness(worst) == 3;
-        c->wrong += worst == STRESS_WRONG;
-        c->faults += worst == STRESS_FAULT;
+        c->wrong += worst == OUTCOME_WRONG;
+        c->faults += worst == OUTCOME_FAULT;
     }
 }
 
-void stress_expect(stress *s, int whole)
+void extreme_expect(extreme_sweep *s, int whole)
 {
     for (int i = 0; i < s->outcomes; i++) {
-        stress_outcome *o = &s->outcome[i];
+        extreme_outcome *o = &s->outcome[i];
         o->finding = NULL;
-        for (int k = 0; k < s->findings && o->finding == NULL && o->kind != STRESS_SKIP; k++)
+        for (int k = 0; k < s->findings && o->finding == NULL && o->kind != OUTCOME_SKIP; k++)
             if (speaks_of(&s->finding[k], s, o)) {
                 o->finding = &s->finding[k];
                 s->finding[k].observed++;
             }
-        o->as_expected = o->kind == STRESS_SKIP ||
-                         (o->finding != NULL ? strcmp(o->finding->outcome, stress_name(o->kind)) == 0 : is_good(o->kind));
+        o->as_expected = o->kind == OUTCOME_SKIP ||
+                         (o->finding != NULL ? strcmp(o->finding->outcome, outcome_name(o->kind)) == 0 : is_good(o->kind));
         s->unexpected += !o->as_expected;
     }
     for (int k = 0; k < s->findings && whole; k++)
@@ -95,7 +95,7 @@ void stress_expect(stress *s, int whole)
     count_cells(s);
 }
 
-int stress_exit(const stress *s)
+int extreme_sweep_exit(const extreme_sweep *s)
 {
     int tried = 0;
     for (int i = 0; i < s->formulations; i++)
@@ -103,10 +103,10 @@ int stress_exit(const stress *s)
     return tried == 0 ? 3 : s->unexpected > 0 || s->unobserved > 0 ? 1 : 0;
 }
 
-void stress_free(stress *s)
+void extreme_sweep_free(extreme_sweep *s)
 {
     for (int i = 0; i < s->findings; i++) {
-        stress_finding *r = &s->finding[i];
+        extreme_finding *r = &s->finding[i];
         char *const all[] = {r->extreme, r->formulation, r->quantity, r->outcome, r->proof};
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
             free(all[k]);

@@ -2,40 +2,40 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/extremes/stress.h"
+#include "harness/extremes/extreme_sweep.h"
 #include "harness/record/csv_record.h"
 
 enum { NAME_WIDTH = 26, CELL_WIDTH = 15 };
 
 /* "1.2e-06", with a sign of what it is: ~ coarse, ! wrong, ? not expected. */
-static void cell_text(const stress_outcome *o, char *text, size_t size)
+static void cell_text(const extreme_outcome *o, char *text, size_t size)
 {
-    static const char *const mark[STRESS_KINDS] = {[STRESS_COARSE] = "~", [STRESS_WRONG] = "!"};
+    static const char *const mark[OUTCOME_KINDS] = {[OUTCOME_COARSE] = "~", [OUTCOME_WRONG] = "!"};
     const char *unexpected = o->as_expected ? "" : "?";
-    if (o->kind == STRESS_SKIP)
+    if (o->kind == OUTCOME_SKIP)
         snprintf(text, size, "-");
-    else if (o->kind == STRESS_VALUE || o->kind == STRESS_COARSE || o->kind == STRESS_WRONG)
+    else if (o->kind == OUTCOME_VALUE || o->kind == OUTCOME_COARSE || o->kind == OUTCOME_WRONG)
         snprintf(text, size, "%.1e%s%s", fabs(o->error), mark[o->kind] != NULL ? mark[o->kind] : "", unexpected);
     else
-        snprintf(text, size, "%s%s", stress_name(o->kind), unexpected);
+        snprintf(text, size, "%s%s", outcome_name(o->kind), unexpected);
 }
 
-static int is_same_line(const stress_outcome *a, const stress_outcome *b)
+static int is_same_line(const extreme_outcome *a, const extreme_outcome *b)
 {
     return a->extreme == b->extreme && a->formulation == b->formulation && a->quantity == b->quantity;
 }
 
-static int runs_anywhere(const stress *s, int extreme_index, int formulation_index)
+static int runs_anywhere(const extreme_sweep *s, int extreme_index, int formulation_index)
 {
     for (int i = 0; i < s->outcomes; i++)
         if (s->outcome[i].extreme == extreme_index && s->outcome[i].formulation == formulation_index &&
-            s->outcome[i].kind != STRESS_SKIP)
+            s->outcome[i].kind != OUTCOME_SKIP)
             return 1;
     return 0;
 }
 
 /* A line for every formulation that runs and every quantity: errors at all values of x, and the worst condition. */
-static void print_extreme(FILE *to, const stress *s, int index)
+static void print_extreme(FILE *to, const extreme_sweep *s, int index)
 {
     const extreme *e = &extremes[index];
     int first = 0;
@@ -50,7 +50,7 @@ static void print_extreme(FILE *to, const stress *s, int index)
         fprintf(to, " %*g", CELL_WIDTH, e->value[k]);
     fprintf(to, "  condition\n");
     for (int i = first; i < s->outcomes && s->outcome[i].extreme == index && s->outcome[i].value == s->outcome[first].value; i++) {
-        const stress_outcome *o = &s->outcome[i];
+        const extreme_outcome *o = &s->outcome[i];
         double condition = 0;
         char text[64];
         if (!runs_anywhere(s, index, o->formulation))
@@ -60,20 +60,20 @@ static void print_extreme(FILE *to, const stress *s, int index)
             if (is_same_line(o, &s->outcome[k])) {
                 cell_text(&s->outcome[k], text, sizeof text);
                 fprintf(to, " %*s", CELL_WIDTH, text);
-                condition = fmax(condition, stress_cell(s, &s->outcome[k])->counters.condition);
+                condition = fmax(condition, outcome_cell(s, &s->outcome[k])->counters.condition);
             }
         fprintf(to, "  %.0e\n", condition);
     }
 }
 
-static void print_unexpected(FILE *to, const stress *s)
+static void print_unexpected(FILE *to, const extreme_sweep *s)
 {
     for (int i = 0; i < s->outcomes; i++) {
-        const stress_outcome *o = &s->outcome[i];
+        const extreme_outcome *o = &s->outcome[i];
         const extreme *e = &extremes[o->extreme];
         if (!o->as_expected)
             fprintf(to, "unexpected: %s %s=%g %s %s: %s (error %.3g), expected %s; %s\n", e->name, e->x_name, o->x,
-                    s->formulation[o->formulation].key, e->quantity[o->quantity].name, stress_name(o->kind), o->error,
+                    s->formulation[o->formulation].key, e->quantity[o->quantity].name, outcome_name(o->kind), o->error,
                     o->finding != NULL ? o->finding->outcome : "a value", o->reason);
     }
     for (int i = 0; i < s->findings && s->unobserved > 0; i++)
@@ -82,9 +82,9 @@ static void print_unexpected(FILE *to, const stress *s)
                     s->finding[i].formulation, s->finding[i].quantity, s->finding[i].outcome);
 }
 
-void stress_table(FILE *to, const stress *s)
+void extreme_table(FILE *to, const extreme_sweep *s)
 {
-    stress_count sum = {0};
+    extreme_count sum = {0};
     for (int i = 0; extremes[i].name != NULL; i++)
         print_extreme(to, s, i);
     fprintf(to, "\nrelative errors; ~ coarse: falls with more elements; ! wrong; ? not expected; - skip\n\n");
@@ -92,7 +92,7 @@ void stress_table(FILE *to, const stress *s)
     fprintf(to, "%-*s%10s%10s%10s%16s%10s%10s\n", NAME_WIDTH, "extremes", "tried", "survived", "(coarse)", "named failures",
             "wrong", "faults");
     for (int i = 0; i < s->formulations; i++) {
-        const stress_count *c = &s->count[i];
+        const extreme_count *c = &s->count[i];
         fprintf(to, "%-*s%10d%10d%10d%16d%10d%10d\n", NAME_WIDTH, s->formulation[i].key, c->tried, c->survived, c->coarse, c->named,
                 c->wrong, c->faults);
         sum.tried += c->tried;
@@ -107,12 +107,12 @@ void stress_table(FILE *to, const stress *s)
     fprintf(to, "%d outcomes differ from the expected ones, %d findings not observed\n", s->unexpected, s->unobserved);
 }
 
-void stress_csv(FILE *to, const stress *s)
+void extreme_table_csv(FILE *to, const extreme_sweep *s)
 {
     csv_part row = {.type = &record_extreme};
     csv_head(to, 1, &row);
     for (int i = 0; i < s->outcomes; i++) {
-        row.s = stress_subject(s, &s->outcome[i]);
+        row.s = extreme_record_subject(s, &s->outcome[i]);
         csv_line(to, 1, &row);
     }
 }

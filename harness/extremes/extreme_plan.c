@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/catalogue/registry.h"
-#include "harness/extremes/stress.h"
+#include "harness/extremes/extreme_sweep.h"
 
 /* Decimal fractions as a table of truths has them. */
 static double to_15_digits(double value)
@@ -40,14 +40,14 @@ static void set_knob(const extreme *e, double x, point *p)
         p->edit = (scene_edit){SCENE_EDIT_REVERSE, 0};
 }
 
-static int is_selected(const stress_request *request, const extreme *e, const formulation *chosen)
+static int is_selected(const extreme_request *request, const extreme *e, const formulation *chosen)
 {
     char text[3 * SCENE_NAME + FORMULATION_KEY];
     snprintf(text, sizeof text, "%s/%s/%s/%s", e->name, e->group, e->base, chosen->key);
     return request->select == NULL || select_matches(request->select, text) > 0;
 }
 
-static status list_formulations(const stress_request *request, stress *out, fault *f)
+static status list_formulations(const extreme_request *request, extreme_sweep *out, fault *f)
 {
     int all = 0;
     while (registry_formulations[all] != NULL)
@@ -75,18 +75,18 @@ static int quantity_index(const scene *s, const char *name)
 }
 
 /* One outcome for every quantity of the series just planned. */
-static status add_outcomes(stress *out, int extreme_index, int value, int formulation_index, fault *f)
+static status add_outcomes(extreme_sweep *out, int extreme_index, int value, int formulation_index, fault *f)
 {
     const extreme *e = &extremes[extreme_index];
     const int last = out->first.points - 1;
-    stress_outcome *more = realloc(out->outcome, (size_t)(out->outcomes + EXTREME_MAX_QUANTITIES) * sizeof *more);
+    extreme_outcome *more = realloc(out->outcome, (size_t)(out->outcomes + EXTREME_MAX_QUANTITIES) * sizeof *more);
     if (more == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for outcomes");
     out->outcome = more;
     for (int q = 0; q < EXTREME_MAX_QUANTITIES && e->quantity[q].name != NULL; q++) {
         if (quantity_index(&out->first.point[last].scene, e->quantity[q].name) < 0)
             return fault_set(f, STATUS_FAULT, "extreme %s: case %s has no quantity %s", e->name, e->base, e->quantity[q].name);
-        out->outcome[out->outcomes++] = (stress_outcome){.extreme = extreme_index,
+        out->outcome[out->outcomes++] = (extreme_outcome){.extreme = extreme_index,
                                                          .value = value,
                                                          .formulation = formulation_index,
                                                          .quantity = q,
@@ -99,7 +99,7 @@ static status add_outcomes(stress *out, int extreme_index, int value, int formul
     return STATUS_OK;
 }
 
-static status plan_value(const stress_request *request, stress *out, int extreme_index, int value, fault *f)
+static status plan_value(const extreme_request *request, extreme_sweep *out, int extreme_index, int value, fault *f)
 {
     const extreme *e = &extremes[extreme_index];
     const double x = e->value[value];
@@ -121,7 +121,7 @@ static status plan_value(const stress_request *request, stress *out, int extreme
     return outcome;
 }
 
-status stress_plan(const stress_request *request, stress *out, fault *f)
+status extreme_plan(const extreme_request *request, extreme_sweep *out, fault *f)
 {
     if (request->select != NULL && select_matches(request->select, "") < 0)
         return fault_set(f, STATUS_REFUSED, "selection '%.100s' is malformed; write words joined by and, or, not", request->select);

@@ -1,5 +1,5 @@
 #include "harness/catalogue/environment.h"
-#include "harness/extremes/stress.h"
+#include "harness/extremes/extreme_sweep.h"
 #include "harness/record/json.h"
 #include "harness/record/json_record.h"
 
@@ -16,20 +16,20 @@ static json_t *extreme_of(const extreme *e)
                      quantities);
 }
 
-status stress_json(FILE *to, const stress *s, fault *f)
+status extreme_json(FILE *to, const extreme_sweep *s, fault *f)
 {
     const environment e = environment_now(1);
     json_t *table = json_array(), *counts = json_array(), *outcomes = json_array();
     for (int i = 0; extremes[i].name != NULL; i++)
         json_array_append_new(table, extreme_of(&extremes[i]));
     for (int i = 0; i < s->formulations; i++) {
-        const stress_count *c = &s->count[i];
+        const extreme_count *c = &s->count[i];
         json_array_append_new(counts, json_pack("{s:s,s:i,s:i,s:i,s:i,s:i,s:i}", "formulation", s->formulation[i].key, "tried",
                                                 c->tried, "survived", c->survived, "coarse", c->coarse, "named_failures", c->named,
                                                 "wrong", c->wrong, "faults", c->faults));
     }
     for (int i = 0; i < s->outcomes; i++) {
-        const subject one = stress_subject(s, &s->outcome[i]);
+        const subject one = extreme_record_subject(s, &s->outcome[i]);
         json_add_record(outcomes, &record_extreme, &one, KEY_AROUND);
     }
     json_t *root = json_pack("{s:i,s:s,s:s,s:s,s:i,s:i,s:o,s:o,s:o}", "schema_version", SCHEMA_VERSION, "program_version",
