@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "harness/cli/cli.h"
-#include "harness/extremes/extreme_sweep.h"
+#include "harness/extremes/extreme_record.h"
 #include "harness/record/json.h"
 #include "harness/record/json_record.h"
 

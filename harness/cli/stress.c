@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
-#include "harness/extremes/extreme_sweep.h"
+#include "harness/extremes/extreme_json.h"
+#include "harness/extremes/extreme_run.h"
+#include "harness/extremes/extreme_table.h"
 #include "harness/record/output.h"
 
 static status write_format(const char *format, FILE *to, const extreme_sweep *s, fault *f)
@@ -29,7 +31,8 @@ static status write_file(const char *path, const char *format, const extreme_swe
 
 static status write_out(const cli_request *r, const extreme_sweep *s, fault *f)
 {
-    status outcome = r->output != NULL ? write_file(r->output, r->format, s, f) : write_format(r->format, stdout, s, f);
+    status outcome = r->output != NULL ? write_file(r->output, r->format, s, f)
+                                       : write_format(r->format, stdout, s, f);
     if (outcome == STATUS_OK && fflush(stdout) != 0)
         outcome = fault_set(f, STATUS_FAULT, "standard output cannot be written");
     return outcome == STATUS_OK && r->json != NULL ? write_file(r->json, "json", s, f) : outcome;
@@ -40,22 +43,23 @@ int cli_stress(int count, char **arguments)
     cli_request r;
     extreme_sweep s;
     fault f = {""};
-    cli_parse(
-        "stress", "",
-        "Drives every formulation to the extremes where numbers become unstable, and judges every answer: a value, coarse, a "
-        "named failure, or wrong. Exit status: 0 all as expected, 1 one differs, 2 refused, 3 nothing was tried, 4 file, disk "
-        "or memory.",
-        "fokjJFT", count, arguments, &r);
+    cli_parse("stress", "",
+              "Drives every formulation to the extremes where numbers become unstable, and judges "
+              "every answer: a value, coarse, a "
+              "named failure, or wrong. Exit status: 0 all as expected, 1 one differs, 2 refused, "
+              "3 nothing was tried, 4 file, disk "
+              "or memory.",
+              "fokjJFT", count, arguments, &r);
     if (r.case_name != NULL)
         return cli_fail(STATUS_REFUSED, "stress takes no case; select with -k");
     const extreme_request request = {.select = r.select,
-                                    .jobs = r.jobs,
-                                    .formulations = r.formulations,
-                                    .formulation = r.formulation,
-                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
+                                     .jobs = r.jobs,
+                                     .formulations = r.formulations,
+                                     .formulation = r.formulation,
+                                     .progress = isatty(STDERR_FILENO) ? stderr : NULL};
     status outcome = cli_check_files(&r, 0, cli_truths_path(&r), &f);
     if (outcome == STATUS_OK)
-        outcome = extreme_sweep_run(&request, cli_truths_path(&r), &s, &f);
+        outcome = extreme_run(&request, cli_truths_path(&r), &s, &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
     outcome = write_out(&r, &s, &f);

@@ -1,10 +1,10 @@
-/* Which cells a sweep of extremes consists of. */
+#include "harness/extremes/extreme_plan.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "harness/catalogue/registry.h"
-#include "harness/extremes/extreme_sweep.h"
 
 /* Decimal fractions as a table of truths has them. */
 static double to_15_digits(double value)
@@ -14,7 +14,8 @@ static double to_15_digits(double value)
     return strtod(text, NULL);
 }
 
-static status set_parameters(const extreme *e, const case_type *type, double x, double value[], fault *f)
+static status set_parameters(const extreme *e, const case_type *type, double x, double value[],
+                             fault *f)
 {
     fault why = {""};
     parameters_default(type, value);
@@ -23,7 +24,8 @@ static status set_parameters(const extreme *e, const case_type *type, double x, 
     for (int i = 0; i < EXTREME_MAX_SETTINGS && e->setting[i].parameter != NULL; i++) {
         const extreme_setting *s = &e->setting[i];
         char assignment[96];
-        snprintf(assignment, sizeof assignment, "%s=%.17g", s->parameter, to_15_digits(s->offset + s->factor * pow(x, s->power)));
+        snprintf(assignment, sizeof assignment, "%s=%.17g", s->parameter,
+                 to_15_digits(s->offset + s->factor * pow(x, s->power)));
         if (parameters_set(type, assignment, value, &why) != STATUS_OK)
             return fault_set(f, STATUS_FAULT, "extreme %s: %.200s", e->name, why.text);
     }
@@ -75,59 +77,64 @@ static int quantity_index(const scene *s, const char *name)
 }
 
 /* One outcome for every quantity of the series just planned. */
-static status add_outcomes(extreme_sweep *out, int extreme_index, int value, int formulation_index, fault *f)
+static status add_outcomes(extreme_sweep *out, int extreme_index, int value, int formulation_index,
+                           fault *f)
 {
     const extreme *e = &extremes[extreme_index];
     const int last = out->first.points - 1;
-    extreme_outcome *more = realloc(out->outcome, (size_t)(out->outcomes + EXTREME_MAX_QUANTITIES) * sizeof *more);
+    extreme_outcome *more =
+        realloc(out->outcome, (size_t)(out->outcomes + EXTREME_MAX_QUANTITIES) * sizeof *more);
     if (more == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for outcomes");
     out->outcome = more;
     for (int q = 0; q < EXTREME_MAX_QUANTITIES && e->quantity[q].name != NULL; q++) {
         if (quantity_index(&out->first.point[last].scene, e->quantity[q].name) < 0)
-            return fault_set(f, STATUS_FAULT, "extreme %s: case %s has no quantity %s", e->name, e->base, e->quantity[q].name);
+            return fault_set(f, STATUS_FAULT, "extreme %s: case %s has no quantity %s", e->name,
+                             e->base, e->quantity[q].name);
         out->outcome[out->outcomes++] = (extreme_outcome){.extreme = extreme_index,
-                                                         .value = value,
-                                                         .formulation = formulation_index,
-                                                         .quantity = q,
-                                                         .point = last,
-                                                         .series = out->first.seriess - 1,
-                                                         .neighbours = -1,
-                                                         .x = e->value[value],
-                                                         .reason = ""};
+                                                          .value = value,
+                                                          .formulation = formulation_index,
+                                                          .quantity = q,
+                                                          .point = last,
+                                                          .series = out->first.seriess - 1,
+                                                          .neighbours = -1,
+                                                          .x = e->value[value],
+                                                          .reason = ""};
     }
     return STATUS_OK;
 }
 
-static status plan_value(const extreme_request *request, extreme_sweep *out, int extreme_index, int value, fault *f)
+static status plan_value(const extreme_request *request, extreme_sweep *out, int extreme_index,
+                         int value, fault *f)
 {
     const extreme *e = &extremes[extreme_index];
     const double x = e->value[value];
     const case_type *type = case_find(e->base, f);
     double parameter[CASE_MAX_PARAMETERS] = {0};
-    status outcome = type != NULL ? set_parameters(e, type, x, parameter, f) : STATUS_FAULT;
     const int mesh = e->knob == EXTREME_ELEMENTS ? (int)x : e->elements;
-    if (outcome == STATUS_OK)
-        outcome = sweep_add(&out->first, type, parameter, &mesh, 1, f);
-    if (outcome == STATUS_OK)
-        set_knob(e, x, &out->first.point[out->first.points - 1]);
-    for (int i = 0; i < out->formulations && outcome == STATUS_OK; i++) {
+    if (type == NULL)
+        return STATUS_FAULT;
+    TRY(set_parameters(e, type, x, parameter, f));
+    TRY(sweep_add(&out->first, type, parameter, &mesh, 1, f));
+    set_knob(e, x, &out->first.point[out->first.points - 1]);
+    for (int i = 0; i < out->formulations; i++) {
         if (!is_selected(request, e, &out->formulation[i]))
             continue;
-        outcome = sweep_extend(&out->first, &out->formulation[i], 1, f);
-        if (outcome == STATUS_OK)
-            outcome = add_outcomes(out, extreme_index, value, i, f);
+        TRY(sweep_extend(&out->first, &out->formulation[i], 1, f));
+        TRY(add_outcomes(out, extreme_index, value, i, f));
     }
-    return outcome;
+    return STATUS_OK;
 }
 
 status extreme_plan(const extreme_request *request, extreme_sweep *out, fault *f)
 {
     if (request->select != NULL && select_matches(request->select, "") < 0)
-        return fault_set(f, STATUS_REFUSED, "selection '%.100s' is malformed; write words joined by and, or, not", request->select);
-    status outcome = list_formulations(request, out, f);
+        return fault_set(f, STATUS_REFUSED,
+                         "selection '%.100s' is malformed; write words joined by and, or, not",
+                         request->select);
+    TRY(list_formulations(request, out, f));
     for (int i = 0; extremes[i].name != NULL; i++)
-        for (int k = 0; k < extremes[i].values && outcome == STATUS_OK; k++)
-            outcome = plan_value(request, out, i, k, f);
-    return outcome;
+        for (int k = 0; k < extremes[i].values; k++)
+            TRY(plan_value(request, out, i, k, f));
+    return STATUS_OK;
 }

@@ -1,7 +1,7 @@
-/* The record of an outcome, for JSON and CSV. */
+#include "harness/extremes/extreme_record.h"
+
 #include <math.h>
 
-#include "harness/extremes/extreme_sweep.h"
 #include "harness/schema/fields_keys.h"
 
 static const extreme_outcome *outcome_of(const subject *s)
@@ -46,31 +46,41 @@ static const char *word_of_outcome(int kind)
     return outcome_name((outcome_kind)kind);
 }
 
-static const schema_field fields_of_place[] = {{"extreme", "", FIELD_TEXT, "name of the extreme", .get = get_extreme},
-                                               {"group", "", FIELD_TEXT, "of extremes", .get = get_group},
-                                               {"case", "", FIELD_TEXT, "that is driven there", .get = get_base},
-                                               {"x", "1", FIELD_DOUBLE, "what it is driven to", AT(extreme_outcome, x)},
-                                               {0}};
+static const schema_field fields_of_place[] = {
+    {"extreme", "", FIELD_TEXT, "name of the extreme", .get = get_extreme},
+    {"group", "", FIELD_TEXT, "of extremes", .get = get_group},
+    {"case", "", FIELD_TEXT, "that is driven there", .get = get_base},
+    {"x", "1", FIELD_DOUBLE, "what it is driven to", AT(extreme_outcome, x)},
+    {0}};
 static const schema_field fields_of_outcome[] = {
     {"quantity", "", FIELD_TEXT, "name of the quantity", .get = get_quantity},
-    {"outcome", "", FIELD_ENUM, "of the run", AT(extreme_outcome, kind), .word = word_of_outcome, .words = OUTCOME_KINDS},
-    {"as_expected", "", FIELD_FLAG, "a value, coarse, or what a finding says", AT(extreme_outcome, as_expected)},
+    {"outcome", "", FIELD_ENUM, "of the run", AT(extreme_outcome, kind), .word = word_of_outcome,
+     .words = OUTCOME_KINDS},
+    {"as_expected", "", FIELD_FLAG, "a value, coarse, or what a finding says",
+     AT(extreme_outcome, as_expected)},
     {"value", "unit", FIELD_DOUBLE, "that came out", AT(extreme_outcome, result)},
-    {"reference", "unit", FIELD_DOUBLE, "exact value, or that without the extreme", AT(extreme_outcome, reference)},
+    {"reference", "unit", FIELD_DOUBLE, "exact value, or that without the extreme",
+     AT(extreme_outcome, reference)},
     {"error", "1", FIELD_DOUBLE, "relative", AT(extreme_outcome, error)},
-    {"neighbour_error_1", "1", FIELD_DOUBLE, "on another mesh, where it was needed", AT(extreme_outcome, neighbour_error[0])},
-    {"neighbour_error_2", "1", FIELD_DOUBLE, "on the one that has more elements", AT(extreme_outcome, neighbour_error[1])},
+    {"neighbour_error_1", "1", FIELD_DOUBLE, "on another mesh, where it was needed",
+     AT(extreme_outcome, neighbour_error[0])},
+    {"neighbour_error_2", "1", FIELD_DOUBLE, "on the one that has more elements",
+     AT(extreme_outcome, neighbour_error[1])},
     {"condition", "1", FIELD_DOUBLE, "estimate of the tangent's", .get = get_condition},
     {"iterations", "1", FIELD_LONG, "of Newton", OF(CELL, cell_result, counters.iterations)},
     {"reason", "", FIELD_TEXT, "why there is no value", TEXT_OF(RECORD, extreme_outcome, reason)},
     {"proof", "", FIELD_TEXT, "of the finding that expects it", .get = get_proof},
     {0}};
-const record_type record_extreme = {"extreme",
-                                    "outcomes",
-                                    "a formulation at a value of an extreme",
-                                    {fields_of_place, keys_of_series, key_of_mesh, fields_of_outcome}};
+const record_type record_extreme = {
+    "extreme",
+    "outcomes",
+    "a formulation at a value of an extreme",
+    {fields_of_place, keys_of_series, key_of_mesh, fields_of_outcome}};
 
 subject extreme_record_subject(const extreme_sweep *s, const extreme_outcome *o)
 {
-    return (subject){.sweep = &s->first, .point = &s->first.point[o->point], .series = &s->first.series[o->series], .record = o};
+    return (subject){.sweep = &s->first,
+                     .point = &s->first.point[o->point],
+                     .series = &s->first.series[o->series],
+                     .record = o};
 }

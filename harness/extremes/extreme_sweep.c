@@ -4,23 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/judge/verdict.h"
-
-static const char *const names[OUTCOME_KINDS] = {"value",   "coarse",   "wrong", "not converged", "singular",
-                                                "refused", "no value", "fault", "skip"};
-enum { enough_elements = 16 }; /* from here on the neighbours are coarser meshes, else finer ones */
-
-const char *outcome_name(outcome_kind kind)
-{
-    return kind >= 0 && kind < OUTCOME_KINDS ? names[kind] : "?";
-}
-
-const cell_result *outcome_cell(const extreme_sweep *s, const extreme_outcome *o)
+const cell_result *extreme_sweep_cell(const extreme_sweep *s, const extreme_outcome *o)
 {
     return &s->first.series[o->series].cell[0];
 }
 
-static const scene_quantity *quantity_of(const extreme_sweep *s, const extreme_outcome *o)
+const scene_quantity *extreme_sweep_quantity(const extreme_sweep *s, const extreme_outcome *o)
 {
     const scene *all = &s->first.point[o->point].scene;
     for (int i = 0; i < all->quantities; i++)
@@ -29,201 +18,58 @@ static const scene_quantity *quantity_of(const extreme_sweep *s, const extreme_o
     return NULL;
 }
 
-static const quantity_result *result_of(const extreme_sweep *s, const extreme_outcome *o, const cell_result *cell)
+const quantity_result *extreme_sweep_result(const extreme_sweep *s, const extreme_outcome *o,
+                                            const cell_result *cell)
 {
-    const ptrdiff_t index = quantity_of(s, o) - s->first.point[o->point].scene.quantity;
+    const ptrdiff_t index = extreme_sweep_quantity(s, o) - s->first.point[o->point].scene.quantity;
     return index < cell->solve.quantities ? &cell->solve.quantity[index] : NULL;
 }
 
-/* Value on the first mesh (refinement 0) or on a neighbouring one; NAN: there is none. */
-static double value_of(const extreme_sweep *s, const extreme_outcome *o, int refinement)
+double extreme_sweep_value(const extreme_sweep *s, const extreme_outcome *o, int refinement)
 {
     if (refinement > 0 && o->neighbours < 0)
         return NAN;
-    const cell_result *cell = refinement == 0 ? outcome_cell(s, o) : &s->neighbours.series[o->neighbours].cell[refinement - 1];
-    const quantity_result *r = result_of(s, o, cell);
+    const cell_result *cell = refinement == 0
+                                  ? extreme_sweep_cell(s, o)
+                                  : &s->neighbours.series[o->neighbours].cell[refinement - 1];
+    const quantity_result *r = extreme_sweep_result(s, o, cell);
     return r != NULL && r->status == STATUS_OK ? r->value : NAN;
 }
 
-/* The outcome of the same formulation and quantity at the x that others are compared with. */
-static extreme_outcome *base_of(const extreme_sweep *s, const extreme_outcome *o)
+extreme_outcome *extreme_sweep_base(const extreme_sweep *s, const extreme_outcome *o)
 {
     for (int i = 0; i < s->outcomes; i++) {
         extreme_outcome *b = &s->outcome[i];
-        if (b->extreme == o->extreme && b->formulation == o->formulation && b->quantity == o->quantity &&
-            b->x == extremes[o->extreme].same_as)
+        if (b->extreme == o->extreme && b->formulation == o->formulation &&
+            b->quantity == o->quantity && b->x == extremes[o->extreme].same_as)
             return b;
     }
     return NULL;
 }
 
-/* What the value should be, and how well that is known (relative). */
-static double reference_of(const extreme_sweep *s, const truths *t, const extreme_outcome *o, int refinement, double *uncertainty)
+int extreme_sweep_exit(const extreme_sweep *s)
 {
-    const extreme *e = &extremes[o->extreme];
-    const point *p = &s->first.point[o->point];
-    *uncertainty = 0;
-    if (e->judge == EXTREME_SAME) {
-        const extreme_outcome *base = base_of(s, o);
-        const double power = e->quantity[o->quantity].power;
-        return base != NULL ? value_of(s, base, refinement) * pow(o->x / e->same_as, power) : NAN;
-    }
-    const truth *row = truth_of(t, p->type, p->parameter, e->quantity[o->quantity].name, "same");
-    if (row != NULL && row->value != 0)
-        *uncertainty = fabs(row->uncertainty / row->value);
-    return row != NULL ? row->value : NAN;
+    int tried = 0;
+    for (int i = 0; i < s->formulations; i++)
+        tried += s->count[i].tried;
+    if (tried == 0)
+        return 3;
+    return s->unexpected > 0 || s->unobserved > 0;
 }
 
-static outcome_kind failure_of(status s)
+void extreme_sweep_free(extreme_sweep *s)
 {
-    switch (s) {
-    case STATUS_NOT_CONVERGED:
-        return OUTCOME_NOT_CONVERGED;
-    case STATUS_SINGULAR:
-        return OUTCOME_SINGULAR;
-    case STATUS_REFUSED:
-        return OUTCOME_REFUSED;
-    case STATUS_OK:
-    case STATUS_FAULT:
-    case STATUS_TIME_LIMIT:
-        break;
+    for (int i = 0; i < s->findings; i++) {
+        extreme_finding *r = &s->finding[i];
+        char *const all[] = {r->extreme, r->formulation, r->quantity, r->outcome, r->proof};
+        for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+            free(all[k]);
     }
-    return OUTCOME_FAULT;
-}
-
-/* From the first mesh alone: a value, a failure, or wrong until other meshes are seen. */
-static status judge_first(const extreme_sweep *s, const truths *t, extreme_outcome *o, fault *f)
-{
-    const extreme *e = &extremes[o->extreme];
-    const series *one = &s->first.series[o->series];
-    const point *p = &s->first.point[o->point];
-    double uncertainty;
-    o->result = o->error = NAN;
-    for (int i = 0; i < EXTREME_NEIGHBOURS; i++)
-        o->neighbour_error[i] = NAN;
-    o->reference = reference_of(s, t, o, 0, &uncertainty);
-    if (e->judge == EXTREME_EXACT && !isfinite(o->reference))
-        return fault_set(f, STATUS_FAULT, "extreme %s: no exact value of %s at %s; derive it (reference/derive/extremes.py)",
-                         e->name, e->quantity[o->quantity].name, p->text);
-    if (one->missing[0] != '\0') {
-        o->kind = OUTCOME_SKIP;
-        o->reason = one->missing;
-        return STATUS_OK;
-    }
-    const quantity_result *r = result_of(s, o, &one->cell[0]);
-    if (p->status != STATUS_OK || r == NULL || r->status != STATUS_OK || !isfinite(r->value)) {
-        const status why = p->status != STATUS_OK ? p->status : r != NULL ? r->status : one->cell[0].solve.status;
-        o->kind = why == STATUS_OK ? OUTCOME_NO_VALUE : failure_of(why);
-        o->reason = p->status != STATUS_OK ? p->reason : r != NULL ? r->reason : one->cell[0].solve.reason;
-        return STATUS_OK;
-    }
-    o->result = r->value;
-    o->error = relative_error(quantity_of(s, o), o->result, o->reference);
-    if (e->judge == EXTREME_SAME && !isfinite(o->reference)) {
-        o->kind = OUTCOME_WRONG;
-        o->reason = "there is nothing to compare with: the base has no value";
-        return STATUS_OK;
-    }
-    o->kind = fabs(o->error) <= e->tolerance + uncertainty ? OUTCOME_VALUE : OUTCOME_WRONG;
-    return STATUS_OK;
-}
-
-/* Does the error fall as a discretisation error does: to the finest mesh, by order 0.5 at least? */
-static void judge_neighbours(const extreme_sweep *s, const truths *t, extreme_outcome *o)
-{
-    const int *mesh = s->neighbours.series[o->neighbours].mesh, own = s->first.series[o->series].mesh[0];
-    double size[EXTREME_NEIGHBOURS + 1], elements[EXTREME_NEIGHBOURS + 1];
-    int count = 0, placed = 0;
-    for (int i = 0; i <= EXTREME_NEIGHBOURS; i++) { /* meshes that have a value, coarse to fine */
-        if (!placed && (i == EXTREME_NEIGHBOURS || own < mesh[i])) {
-            elements[count] = own;
-            size[count++] = fabs(o->error);
-            placed = 1;
-        }
-        if (i == EXTREME_NEIGHBOURS)
-            break;
-        double uncertainty;
-        const double reference = reference_of(s, t, o, i + 1, &uncertainty), value = value_of(s, o, i + 1);
-        o->neighbour_error[i] = relative_error(quantity_of(s, o), value, reference);
-        if (isfinite(o->neighbour_error[i])) {
-            elements[count] = mesh[i];
-            size[count++] = fabs(o->neighbour_error[i]);
-        }
-    }
-    const int last = count - 1;
-    if (count > 1 && size[last] <= size[last - 1] && size[last] <= size[0] * sqrt(elements[0] / elements[last])) {
-        o->kind = OUTCOME_COARSE;
-    } else {
-        o->kind = OUTCOME_WRONG;
-        o->reason = "the error does not fall with more elements";
-    }
-}
-
-/* A series of neighbouring meshes for the cell of an outcome, once. */
-static status refine(extreme_sweep *s, extreme_outcome *o, fault *f)
-{
-    const series *one = &s->first.series[o->series];
-    const point *p = &s->first.point[o->point];
-    if (o->neighbours >= 0)
-        return STATUS_OK;
-    const int n = one->mesh[0], coarser = n >= enough_elements;
-    const int mesh[EXTREME_NEIGHBOURS] = {coarser ? n / 4 : 2 * n, coarser ? n / 2 : 4 * n};
-    status outcome = sweep_add(&s->neighbours, p->type, p->parameter, mesh, EXTREME_NEIGHBOURS, f);
-    if (outcome == STATUS_OK) {
-        point *near = &s->neighbours.point[s->neighbours.points - 1];
-        near->edit = p->edit;
-        near->steps = p->steps;
-        outcome = sweep_extend(&s->neighbours, &one->formulation, 1, f);
-    }
-    for (int i = 0; i < s->outcomes && outcome == STATUS_OK; i++)
-        if (s->outcome[i].series == o->series)
-            s->outcome[i].neighbours = s->neighbours.seriess - 1;
-    return outcome;
-}
-
-static status look_closer(const extreme_request *request, extreme_sweep *s, const truths *t, fault *f)
-{
-    const sweep_request run = {.jobs = request->jobs, .progress = request->progress};
-    status outcome = STATUS_OK;
-    for (int i = 0; i < s->outcomes && outcome == STATUS_OK; i++) {
-        extreme_outcome *o = &s->outcome[i];
-        if (o->kind != OUTCOME_WRONG || !isfinite(o->error))
-            continue;
-        outcome = refine(s, o, f);
-        extreme_outcome *base = extremes[o->extreme].judge == EXTREME_SAME ? base_of(s, o) : NULL;
-        if (outcome == STATUS_OK && base != NULL)
-            outcome = refine(s, base, f);
-    }
-    if (outcome == STATUS_OK && s->neighbours.seriess > 0)
-        outcome = sweep_run(&run, &s->neighbours, f);
-    for (int i = 0; i < s->outcomes && outcome == STATUS_OK; i++)
-        if (s->outcome[i].kind == OUTCOME_WRONG && isfinite(s->outcome[i].error))
-            judge_neighbours(s, t, &s->outcome[i]);
-    return outcome;
-}
-
-status extreme_sweep_run(const extreme_request *request, const char *path, extreme_sweep *out, fault *f)
-{
-    truths t = {0};
-    memset(out, 0, sizeof *out);
-    status outcome = truths_read(path, &t, f);
-    if (outcome == STATUS_OK)
-        outcome = truths_read_extremes(path, &t, f);
-    if (outcome == STATUS_OK)
-        outcome = extreme_expect_read(path, out, f);
-    if (outcome == STATUS_OK)
-        outcome = extreme_plan(request, out, f);
-    const sweep_request run = {.jobs = request->jobs, .progress = request->progress};
-    if (outcome == STATUS_OK && out->outcomes > 0)
-        outcome = sweep_run(&run, &out->first, f);
-    for (int i = 0; i < out->outcomes && outcome == STATUS_OK; i++)
-        outcome = judge_first(out, &t, &out->outcome[i], f);
-    if (outcome == STATUS_OK)
-        outcome = look_closer(request, out, &t, f);
-    if (outcome == STATUS_OK)
-        extreme_expect(out, request->select == NULL && request->formulations == 0);
-    truths_free(&t);
-    if (outcome != STATUS_OK)
-        extreme_sweep_free(out);
-    return outcome;
+    sweep_free(&s->first);
+    sweep_free(&s->neighbours);
+    free(s->finding);
+    free(s->formulation);
+    free(s->outcome);
+    free(s->count);
+    memset(s, 0, sizeof *s);
 }

@@ -1,8 +1,9 @@
-/* Outcomes of a sweep of extremes for people, and one line each for programs. */
+#include "harness/extremes/extreme_table.h"
+
 #include <math.h>
 #include <string.h>
 
-#include "harness/extremes/extreme_sweep.h"
+#include "harness/extremes/extreme_record.h"
 #include "harness/record/csv_record.h"
 
 enum { NAME_WIDTH = 26, CELL_WIDTH = 15 };
@@ -15,54 +16,70 @@ static void cell_text(const extreme_outcome *o, char *text, size_t size)
     if (o->kind == OUTCOME_SKIP)
         snprintf(text, size, "-");
     else if (o->kind == OUTCOME_VALUE || o->kind == OUTCOME_COARSE || o->kind == OUTCOME_WRONG)
-        snprintf(text, size, "%.1e%s%s", fabs(o->error), mark[o->kind] != NULL ? mark[o->kind] : "", unexpected);
+        snprintf(text, size, "%.1e%s%s", fabs(o->error), mark[o->kind] != NULL ? mark[o->kind] : "",
+                 unexpected);
     else
         snprintf(text, size, "%s%s", outcome_name(o->kind), unexpected);
 }
 
 static int is_same_line(const extreme_outcome *a, const extreme_outcome *b)
 {
-    return a->extreme == b->extreme && a->formulation == b->formulation && a->quantity == b->quantity;
+    return a->extreme == b->extreme && a->formulation == b->formulation &&
+           a->quantity == b->quantity;
 }
 
 static int runs_anywhere(const extreme_sweep *s, int extreme_index, int formulation_index)
 {
     for (int i = 0; i < s->outcomes; i++)
-        if (s->outcome[i].extreme == extreme_index && s->outcome[i].formulation == formulation_index &&
-            s->outcome[i].kind != OUTCOME_SKIP)
+        if (s->outcome[i].extreme == extreme_index &&
+            s->outcome[i].formulation == formulation_index && s->outcome[i].kind != OUTCOME_SKIP)
             return 1;
     return 0;
 }
 
-/* A line for every formulation that runs and every quantity: errors at all values of x, and the worst condition. */
-static void print_extreme(FILE *to, const extreme_sweep *s, int index)
+static void print_head(FILE *to, const extreme *e)
 {
-    const extreme *e = &extremes[index];
-    int first = 0;
-    while (first < s->outcomes && s->outcome[first].extreme != index)
-        first++;
-    if (first == s->outcomes)
-        return;
-    fprintf(to, "\n%s: %s\n  %s%s%s%s, %s\n  %-*s", e->name, e->summary, e->base, e->fixed[0] != '\0' ? " (" : "", e->fixed,
-            e->fixed[0] != '\0' ? ")" : "", e->judge == EXTREME_EXACT ? "against exact values" : "against its own value",
+    char fixed[PARAMETERS_TEXT] = "";
+    if (e->fixed[0] != '\0')
+        snprintf(fixed, sizeof fixed, " (%s)", e->fixed);
+    fprintf(to, "\n%s: %s\n  %s%s, %s\n  %-*s", e->name, e->summary, e->base, fixed,
+            e->judge == EXTREME_EXACT ? "against exact values" : "against its own value",
             NAME_WIDTH + 14, e->x_name);
     for (int k = 0; k < e->values; k++)
         fprintf(to, " %*g", CELL_WIDTH, e->value[k]);
     fprintf(to, "  condition\n");
-    for (int i = first; i < s->outcomes && s->outcome[i].extreme == index && s->outcome[i].value == s->outcome[first].value; i++) {
+}
+
+/* Errors of a formulation and quantity at all values of x, and the worst condition. */
+static void print_line(FILE *to, const extreme_sweep *s, const extreme_outcome *o)
+{
+    double condition = 0;
+    fprintf(to, "  %-*s%-14s", NAME_WIDTH, s->formulation[o->formulation].key,
+            extremes[o->extreme].quantity[o->quantity].name);
+    for (int k = 0; k < s->outcomes; k++)
+        if (is_same_line(o, &s->outcome[k])) {
+            char text[64];
+            cell_text(&s->outcome[k], text, sizeof text);
+            fprintf(to, " %*s", CELL_WIDTH, text);
+            condition = fmax(condition, extreme_sweep_cell(s, &s->outcome[k])->counters.condition);
+        }
+    fprintf(to, "  %.0e\n", condition);
+}
+
+/* A line for every formulation that runs and every quantity. */
+static void print_extreme(FILE *to, const extreme_sweep *s, int index)
+{
+    const extreme_outcome *first = NULL;
+    for (int i = 0; i < s->outcomes; i++) {
         const extreme_outcome *o = &s->outcome[i];
-        double condition = 0;
-        char text[64];
-        if (!runs_anywhere(s, index, o->formulation))
+        if (o->extreme != index)
             continue;
-        fprintf(to, "  %-*s%-14s", NAME_WIDTH, s->formulation[o->formulation].key, e->quantity[o->quantity].name);
-        for (int k = first; k < s->outcomes && s->outcome[k].extreme == index; k++)
-            if (is_same_line(o, &s->outcome[k])) {
-                cell_text(&s->outcome[k], text, sizeof text);
-                fprintf(to, " %*s", CELL_WIDTH, text);
-                condition = fmax(condition, outcome_cell(s, &s->outcome[k])->counters.condition);
-            }
-        fprintf(to, "  %.0e\n", condition);
+        if (first == NULL) {
+            first = o;
+            print_head(to, &extremes[index]);
+        }
+        if (o->value == first->value && runs_anywhere(s, index, o->formulation))
+            print_line(to, s, o);
     }
 }
 
@@ -72,14 +89,16 @@ static void print_unexpected(FILE *to, const extreme_sweep *s)
         const extreme_outcome *o = &s->outcome[i];
         const extreme *e = &extremes[o->extreme];
         if (!o->as_expected)
-            fprintf(to, "unexpected: %s %s=%g %s %s: %s (error %.3g), expected %s; %s\n", e->name, e->x_name, o->x,
-                    s->formulation[o->formulation].key, e->quantity[o->quantity].name, outcome_name(o->kind), o->error,
+            fprintf(to, "unexpected: %s %s=%g %s %s: %s (error %.3g), expected %s; %s\n", e->name,
+                    e->x_name, o->x, s->formulation[o->formulation].key,
+                    e->quantity[o->quantity].name, outcome_name(o->kind), o->error,
                     o->finding != NULL ? o->finding->outcome : "a value", o->reason);
     }
     for (int i = 0; i < s->findings && s->unobserved > 0; i++)
         if (s->finding[i].observed == 0)
-            fprintf(to, "not observed: %s from %g to %g %s %s: %s\n", s->finding[i].extreme, s->finding[i].from, s->finding[i].to,
-                    s->finding[i].formulation, s->finding[i].quantity, s->finding[i].outcome);
+            fprintf(to, "not observed: %s from %g to %g %s %s: %s\n", s->finding[i].extreme,
+                    s->finding[i].from, s->finding[i].to, s->finding[i].formulation,
+                    s->finding[i].quantity, s->finding[i].outcome);
 }
 
 void extreme_table(FILE *to, const extreme_sweep *s)
@@ -87,14 +106,15 @@ void extreme_table(FILE *to, const extreme_sweep *s)
     extreme_count sum = {0};
     for (int i = 0; extremes[i].name != NULL; i++)
         print_extreme(to, s, i);
-    fprintf(to, "\nrelative errors; ~ coarse: falls with more elements; ! wrong; ? not expected; - skip\n\n");
+    fprintf(to, "\nrelative errors; ~ coarse: falls with more elements; ! wrong; ? not expected; - "
+                "skip\n\n");
     print_unexpected(to, s);
-    fprintf(to, "%-*s%10s%10s%10s%16s%10s%10s\n", NAME_WIDTH, "extremes", "tried", "survived", "(coarse)", "named failures",
-            "wrong", "faults");
+    fprintf(to, "%-*s%10s%10s%10s%16s%10s%10s\n", NAME_WIDTH, "extremes", "tried", "survived",
+            "(coarse)", "named failures", "wrong", "faults");
     for (int i = 0; i < s->formulations; i++) {
         const extreme_count *c = &s->count[i];
-        fprintf(to, "%-*s%10d%10d%10d%16d%10d%10d\n", NAME_WIDTH, s->formulation[i].key, c->tried, c->survived, c->coarse, c->named,
-                c->wrong, c->faults);
+        fprintf(to, "%-*s%10d%10d%10d%16d%10d%10d\n", NAME_WIDTH, s->formulation[i].key, c->tried,
+                c->survived, c->coarse, c->named, c->wrong, c->faults);
         sum.tried += c->tried;
         sum.survived += c->survived;
         sum.coarse += c->coarse;
@@ -102,9 +122,10 @@ void extreme_table(FILE *to, const extreme_sweep *s)
         sum.wrong += c->wrong;
         sum.faults += c->faults;
     }
-    fprintf(to, "%-*s%10d%10d%10d%16d%10d%10d\n", NAME_WIDTH, "all", sum.tried, sum.survived, sum.coarse, sum.named, sum.wrong,
-            sum.faults);
-    fprintf(to, "%d outcomes differ from the expected ones, %d findings not observed\n", s->unexpected, s->unobserved);
+    fprintf(to, "%-*s%10d%10d%10d%16d%10d%10d\n", NAME_WIDTH, "all", sum.tried, sum.survived,
+            sum.coarse, sum.named, sum.wrong, sum.faults);
+    fprintf(to, "%d outcomes differ from the expected ones, %d findings not observed\n",
+            s->unexpected, s->unobserved);
 }
 
 void extreme_table_csv(FILE *to, const extreme_sweep *s)

@@ -1,0 +1,18 @@
+/* Which cells a sweep of extremes consists of. */
+#ifndef BEAMWORK_EXTREME_PLAN_H
+#define BEAMWORK_EXTREME_PLAN_H
+
+#include "harness/extremes/extreme_sweep.h"
+
+typedef struct extreme_request {
+    const char *select; /* expression over "name/group/case/formulation", or NULL */
+    int jobs, formulations;
+    const formulation *formulation; /* restrict to these; 0: all */
+    FILE *progress;
+} extreme_request;
+
+/* A point for every extreme and value, in order, with a series for every formulation; an outcome
+ * for each of its quantities. */
+status extreme_plan(const extreme_request *request, extreme_sweep *out, fault *f);
+
+#endif

@@ -1,0 +1,12 @@
+/* The record of an outcome, for JSON and CSV. */
+#ifndef BEAMWORK_EXTREME_RECORD_H
+#define BEAMWORK_EXTREME_RECORD_H
+
+#include "harness/extremes/extreme_sweep.h"
+#include "harness/schema/schema.h"
+
+extern const record_type record_extreme;
+subject extreme_record_subject(const extreme_sweep *s,
+                               const extreme_outcome *o); /* of record_extreme */
+
+#endif
