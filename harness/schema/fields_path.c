@@ -51,6 +51,8 @@ static const schema_field fields_of_quantity[] = {
     {"model_error", "1", FIELD_DOUBLE, "the same against the truth of another model",
      .get = get_model_error},
     {"x", "x_unit", FIELD_DOUBLE, "where a maximum or minimum was found", VALUE(x)},
+    {"rounding", "1", FIELD_DOUBLE, "estimate of its round-off, by the value; 0: none was made",
+     VALUE(rounding)},
     {"near_zero", OWN_UNIT, FIELD_DOUBLE, "values below it count as zero",
      OF(QUANTITY, scene_quantity, near_zero)},
     {"prediction", OWN_UNIT, FIELD_DOUBLE, "of an analytic model, not judged",
