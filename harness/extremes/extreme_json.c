@@ -5,18 +5,16 @@
 #include "harness/record/json.h"
 #include "harness/record/json_record.h"
 
+/* Beside its fields: the values of x, and the quantities that are looked at. */
 static json_t *extreme_of(const extreme *e)
 {
-    json_t *quantities = json_array(), *values = json_array();
+    const subject one = {.record = e};
+    json_t *out = json_record(&record_extreme, &one, KEY_AROUND), *quantities = json_array();
     for (int i = 0; i < EXTREME_MAX_QUANTITIES && e->quantity[i].name != NULL; i++)
         json_array_append_new(quantities, json_string(e->quantity[i].name));
-    for (int i = 0; i < e->values; i++)
-        json_array_append_new(values, json_real(e->value[i]));
-    return json_pack("{s:s,s:s,s:s,s:s,s:s,s:s,s:s,s:s,s:f,s:o,s:o}", "name", e->name, "group",
-                     e->group, "summary", e->summary, "case", e->base, "fixed", e->fixed, "x_name",
-                     e->x_name, "x_unit", e->x_unit, "judge",
-                     e->judge == EXTREME_EXACT ? "exact" : "same", "tolerance", e->tolerance,
-                     "values", values, "quantities", quantities);
+    json_object_set_new(out, "values", json_numbers(e->values, e->value));
+    json_object_set_new(out, "quantities", quantities);
+    return out;
 }
 
 status extreme_json(FILE *to, const extreme_sweep *s, fault *f)
@@ -26,20 +24,17 @@ status extreme_json(FILE *to, const extreme_sweep *s, fault *f)
     for (int i = 0; extremes[i].name != NULL; i++)
         json_array_append_new(table, extreme_of(&extremes[i]));
     for (int i = 0; i < s->formulations; i++) {
-        const extreme_count *c = &s->count[i];
-        json_array_append_new(
-            counts, json_pack("{s:s,s:i,s:i,s:i,s:i,s:i,s:i}", "formulation", s->formulation[i].key,
-                              "tried", c->tried, "survived", c->survived, "coarse", c->coarse,
-                              "named_failures", c->named, "wrong", c->wrong, "faults", c->faults));
+        const subject one = {.record = &s->count[i]};
+        json_add_record(counts, &record_extreme_count, &one, KEY_AROUND);
     }
     for (int i = 0; i < s->outcomes; i++) {
         const subject one = extreme_record_subject(s, &s->outcome[i]);
-        json_add_record(outcomes, &record_extreme, &one, KEY_AROUND);
+        json_add_record(outcomes, &record_outcome, &one, KEY_AROUND);
     }
     json_t *root =
         json_pack("{s:i,s:s,s:s,s:s,s:i,s:i,s:o,s:o,s:o}", "schema_version", SCHEMA_VERSION,
                   "program_version", e.version, "commit", e.commit, "clock", e.clock, "unexpected",
-                  s->unexpected, "unobserved_findings", s->unobserved, "extremes", table,
-                  "formulations", counts, record_extreme.table, outcomes);
+                  s->unexpected, "unobserved_findings", s->unobserved, record_extreme.table, table,
+                  record_extreme_count.table, counts, record_outcome.table, outcomes);
     return json_finish(root, to, f);
 }

@@ -64,6 +64,7 @@ static status list_formulations(const extreme_request *request, extreme_sweep *o
             out->formulation[i] = request->formulation[i];
         else
             formulation_default(registry_formulations[i], &out->formulation[i]);
+        out->count[i].formulation = out->formulation[i].key;
     }
     return STATUS_OK;
 }

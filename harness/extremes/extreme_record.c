@@ -71,11 +71,49 @@ static const schema_field fields_of_outcome[] = {
     {"reason", "", FIELD_TEXT, "why there is no value", TEXT_OF(RECORD, extreme_outcome, reason)},
     {"proof", "", FIELD_TEXT, "of the finding that expects it", .get = get_proof},
     {0}};
-const record_type record_extreme = {
-    "extreme",
+const record_type record_outcome = {
+    "outcome",
     "outcomes",
     "a formulation at a value of an extreme",
     {fields_of_place, keys_of_series, key_of_mesh, fields_of_outcome}};
+
+static const char *word_of_judge(int judge)
+{
+    return judge == EXTREME_EXACT ? "exact" : "same";
+}
+
+static const schema_field fields_of_extreme[] = {
+    {"name", "", FIELD_TEXT, "of the extreme", TEXT_OF(RECORD, extreme, name)},
+    {"group", "", FIELD_TEXT, "the same kind of it on several cases",
+     TEXT_OF(RECORD, extreme, group)},
+    {"summary", "", FIELD_TEXT, "what is driven", TEXT_OF(RECORD, extreme, summary)},
+    {"case", "", FIELD_TEXT, "that is driven there", TEXT_OF(RECORD, extreme, base)},
+    {"fixed", "", FIELD_TEXT, "parameters beside the defaults", TEXT_OF(RECORD, extreme, fixed)},
+    {"x_name", "", FIELD_TEXT, "what it is driven to", TEXT_OF(RECORD, extreme, x_name)},
+    {"x_unit", "", FIELD_TEXT, "its unit", TEXT_OF(RECORD, extreme, x_unit)},
+    {"judge", "", FIELD_ENUM, "an exact value, or the value at another x", AT(extreme, judge),
+     .word = word_of_judge, .words = EXTREME_SAME + 1},
+    {"tolerance", "1", FIELD_DOUBLE, "relative, of a value", AT(extreme, tolerance)},
+    {0}};
+const record_type record_extreme = {
+    "extreme", "extremes", "what cases are driven to", {fields_of_extreme}};
+
+static const schema_field fields_of_count[] = {
+    {"tried", "1", FIELD_INT, "cells: an extreme at one x, as bad as its worst quantity",
+     AT(extreme_count, tried)},
+    {"survived", "1", FIELD_INT, "of them, with values or coarse", AT(extreme_count, survived)},
+    {"coarse", "1", FIELD_INT, "of these, coarse", AT(extreme_count, coarse)},
+    {"named_failures", "1", FIELD_INT, "not converged, singular, refused, no value",
+     AT(extreme_count, named)},
+    {"wrong", "1", FIELD_INT, "numbers that are neither", AT(extreme_count, wrong)},
+    {"faults", "1", FIELD_INT, "crashed, or out of memory", AT(extreme_count, faults)},
+    {0}};
+static const schema_field key_of_count[] = {
+    {"formulation", "", FIELD_TEXT, "name, options that differ from their defaults",
+     TEXT_OF(RECORD, extreme_count, formulation), .key = KEY},
+    {0}};
+const record_type record_extreme_count = {
+    "count", "formulations", "what became of a formulation", {key_of_count, fields_of_count}};
 
 subject extreme_record_subject(const extreme_sweep *s, const extreme_outcome *o)
 {

@@ -8,6 +8,7 @@
 
 /* Of one formulation; a cell is an extreme at one value of x, and as bad as its worst quantity. */
 typedef struct extreme_count {
+    const char *formulation; /* its key */
     int tried, survived, coarse, named, wrong, faults;
 } extreme_count;
 

@@ -83,6 +83,30 @@ static void print_extreme(FILE *to, const extreme_sweep *s, int index)
     }
 }
 
+static void print_count(FILE *to, const extreme_count *c)
+{
+    fprintf(to, "%-*s%10d%10d%10d%16d%10d%10d\n", NAME_WIDTH, c->formulation, c->tried, c->survived,
+            c->coarse, c->named, c->wrong, c->faults);
+}
+
+static void print_counts(FILE *to, const extreme_sweep *s)
+{
+    extreme_count sum = {.formulation = "all"};
+    fprintf(to, "%-*s%10s%10s%10s%16s%10s%10s\n", NAME_WIDTH, "extremes", "tried", "survived",
+            "(coarse)", "named failures", "wrong", "faults");
+    for (int i = 0; i < s->formulations; i++) {
+        const extreme_count *c = &s->count[i];
+        print_count(to, c);
+        sum.tried += c->tried;
+        sum.survived += c->survived;
+        sum.coarse += c->coarse;
+        sum.named += c->named;
+        sum.wrong += c->wrong;
+        sum.faults += c->faults;
+    }
+    print_count(to, &sum);
+}
+
 static void print_unexpected(FILE *to, const extreme_sweep *s)
 {
     for (int i = 0; i < s->outcomes; i++) {
@@ -103,34 +127,19 @@ static void print_unexpected(FILE *to, const extreme_sweep *s)
 
 void extreme_table(FILE *to, const extreme_sweep *s)
 {
-    extreme_count sum = {0};
     for (int i = 0; extremes[i].name != NULL; i++)
         print_extreme(to, s, i);
-    fprintf(to, "\nrelative errors; ~ coarse: falls with more elements; ! wrong; ? not expected; - "
-                "skip\n\n");
+    fprintf(to, "\nrelative errors; ~ coarse: falls with more elements; ! wrong; ? not expected; "
+                "- skip\n\n");
     print_unexpected(to, s);
-    fprintf(to, "%-*s%10s%10s%10s%16s%10s%10s\n", NAME_WIDTH, "extremes", "tried", "survived",
-            "(coarse)", "named failures", "wrong", "faults");
-    for (int i = 0; i < s->formulations; i++) {
-        const extreme_count *c = &s->count[i];
-        fprintf(to, "%-*s%10d%10d%10d%16d%10d%10d\n", NAME_WIDTH, s->formulation[i].key, c->tried,
-                c->survived, c->coarse, c->named, c->wrong, c->faults);
-        sum.tried += c->tried;
-        sum.survived += c->survived;
-        sum.coarse += c->coarse;
-        sum.named += c->named;
-        sum.wrong += c->wrong;
-        sum.faults += c->faults;
-    }
-    fprintf(to, "%-*s%10d%10d%10d%16d%10d%10d\n", NAME_WIDTH, "all", sum.tried, sum.survived,
-            sum.coarse, sum.named, sum.wrong, sum.faults);
+    print_counts(to, s);
     fprintf(to, "%d outcomes differ from the expected ones, %d findings not observed\n",
             s->unexpected, s->unobserved);
 }
 
 void extreme_table_csv(FILE *to, const extreme_sweep *s)
 {
-    csv_part row = {.type = &record_extreme};
+    csv_part row = {.type = &record_outcome};
     csv_head(to, 1, &row);
     for (int i = 0; i < s->outcomes; i++) {
         row.s = extreme_record_subject(s, &s->outcome[i]);

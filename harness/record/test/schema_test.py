@@ -15,7 +15,7 @@ import h5py
 PROGRAM = os.path.abspath(os.environ.get("BEAMWORK", "build/beamwork"))
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 KEYS = ("point", "formulation", "elements")
-JSON_ONLY = ("outcomes", "truths")
+JSON_ONLY = ("extremes", "formulations", "outcomes", "truths")
 KINDS = {"int": "i4", "long": "i8", "double": "f8", "flag": "b", "text": "S", "enum": "S"}
 
 
@@ -162,7 +162,10 @@ class Schema(unittest.TestCase):
     def test_stress(self):
         arguments = ("stress", "-k", "thin", "-f", "sheet_third")
         record = json.loads(run(*arguments, "--format", "json"))
-        self.assertEqual(sorted(record["outcomes"][0]), sorted(self.names("outcomes")))
+        besides = {"extremes": {"values", "quantities"}}
+        for table in ("extremes", "formulations", "outcomes"):
+            self.assertEqual(set(record[table][0]) - besides.get(table, set()),
+                             set(self.names(table)), table)
         head = next(csv.reader(io.StringIO(run(*arguments, "--format", "csv"))))
         self.assertEqual(head, self.names("outcomes"))
 
