@@ -16,7 +16,8 @@ static void read_processor(char *out, int size)
     snprintf(out, (size_t)size, "unknown");
     while (cpu != NULL && fgets(line, sizeof line, cpu) != NULL)
         if (strncmp(line, "model name", 10) == 0 && strchr(line, ':') != NULL) {
-            snprintf(out, (size_t)size, "%.*s", (int)strcspn(strchr(line, ':') + 2, "\n"), strchr(line, ':') + 2);
+            snprintf(out, (size_t)size, "%.*s", (int)strcspn(strchr(line, ':') + 2, "\n"),
+                     strchr(line, ':') + 2);
             break;
         }
     if (cpu != NULL)
@@ -25,7 +26,10 @@ static void read_processor(char *out, int size)
 
 environment environment_now(int threads)
 {
-    environment e = {.version = BEAMWORK_VERSION, .commit = BEAMWORK_COMMIT, .flags = BEAMWORK_CFLAGS, .threads = threads};
+    environment e = {.version = BEAMWORK_VERSION,
+                     .commit = BEAMWORK_COMMIT,
+                     .flags = BEAMWORK_CFLAGS,
+                     .threads = threads};
 #if defined(__clang__)
     e.compiler = "clang " __clang_version__;
 #else
@@ -35,9 +39,11 @@ environment environment_now(int threads)
     int lapack[3] = {0};
     H5get_libversion(&major, &minor, &release);
     LAPACK_ilaver(&lapack[0], &lapack[1], &lapack[2]);
-    snprintf(e.libraries, sizeof e.libraries, "GSL %s, LAPACK %d.%d.%d, HDF5 %u.%u.%u, SuiteSparse %d.%d.%d, jansson %s",
-             gsl_version, lapack[0], lapack[1], lapack[2], major, minor, release, SUITESPARSE_MAIN_VERSION, SUITESPARSE_SUB_VERSION,
-             SUITESPARSE_SUBSUB_VERSION, jansson_version_str());
+    snprintf(e.libraries, sizeof e.libraries,
+             "GSL %s, LAPACK %d.%d.%d, HDF5 %u.%u.%u, SuiteSparse %d.%d.%d, jansson %s",
+             gsl_version, lapack[0], lapack[1], lapack[2], major, minor, release,
+             SUITESPARSE_MAIN_VERSION, SUITESPARSE_SUB_VERSION, SUITESPARSE_SUBSUB_VERSION,
+             jansson_version_str());
     read_processor(e.processor, sizeof e.processor);
     const time_t now = time(NULL);
     struct tm utc;

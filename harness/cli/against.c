@@ -1,5 +1,6 @@
-/* bench --against: one cell in alternation with the same cell of another formulation (in this process) or of another program
- * (both are started anew for every lap and say their own time and work as JSON). */
+/* bench --against: one cell in alternation with the same cell of another formulation (in this
+ * process) or of another program (both are started anew for every lap and say their own time and
+ * work as JSON). */
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,8 +11,8 @@
 #include "harness/cli/cli.h"
 #include "harness/schema/schema.h"
 #include "harness/study/cell.h"
-#include "harness/timing/clock.h"
 #include "harness/timing/against.h"
+#include "harness/timing/clock.h"
 
 enum { MOST_REPEATS = 10000 };
 static const double budget_seconds = 3, lap_seconds = 0.002;
@@ -72,12 +73,14 @@ static status read_lap(contestant *c, FILE *from, double *seconds, fault *f)
 {
     json_error_t where;
     json_t *root = json_loadf(from, 0, &where), *cell = json_object_get(root, record_cell.name);
-    *seconds =
-        json_number_value(json_object_get(cell, "seconds_setup")) + json_number_value(json_object_get(cell, "seconds_solve"));
+    *seconds = json_number_value(json_object_get(cell, "seconds_setup")) +
+               json_number_value(json_object_get(cell, "seconds_solve"));
     for (int i = 0; i < c->counts; i++)
         c->count[i] = json_number_value(json_object_get(cell, c->counted[i]->name));
     json_decref(root);
-    return *seconds > 0 ? STATUS_OK : fault_set(f, STATUS_FAULT, "%s: its 'solve --format json' tells no seconds", c->program);
+    return *seconds > 0 ? STATUS_OK
+                        : fault_set(f, STATUS_FAULT,
+                                    "%s: its 'solve --format json' tells no seconds", c->program);
 }
 
 static status lap_elsewhere(contestant *c, double *seconds, fault *f)
@@ -95,8 +98,9 @@ static status lap_elsewhere(contestant *c, double *seconds, fault *f)
     }
     close(ends[1]);
     FILE *from = fdopen(ends[0], "r");
-    const status outcome =
-        from != NULL ? read_lap(c, from, seconds, f) : fault_set(f, STATUS_FAULT, "cannot read from %s", c->program);
+    const status outcome = from != NULL
+                               ? read_lap(c, from, seconds, f)
+                               : fault_set(f, STATUS_FAULT, "cannot read from %s", c->program);
     if (from != NULL)
         fclose(from);
     waitpid(child, &how, 0);
@@ -123,13 +127,16 @@ static status set_repeats(contestant *a, contestant *b, fault *f)
     }
     const double shorter = first < second ? first : second;
     if (a->program == NULL && shorter < lap_seconds)
-        a->repeats = b->repeats = lap_seconds / shorter < MOST_REPEATS ? 1 + (int)(lap_seconds / shorter) : MOST_REPEATS;
+        a->repeats = b->repeats =
+            lap_seconds / shorter < MOST_REPEATS ? 1 + (int)(lap_seconds / shorter) : MOST_REPEATS;
     return outcome;
 }
 
-static void set_request(contestant *c, const cli_request *r, const case_type *type, const formulation *chosen, int elements)
+static void set_request(contestant *c, const cli_request *r, const case_type *type,
+                        const formulation *chosen, int elements)
 {
-    c->request = (cell_request){.type = type, .formulation = chosen->type, .elements = elements, .keep_all = r->keep_all};
+    c->request = (cell_request){
+        .type = type, .formulation = chosen->type, .elements = elements, .keep_all = r->keep_all};
     memcpy(c->request.parameter, r->parameter, sizeof c->request.parameter);
     memcpy(c->request.option, chosen->option, sizeof c->request.option);
     c->request.solve.newton = chosen->newton;
@@ -143,7 +150,9 @@ static void set_program(contestant *c, const cli_request *r, const char *program
 {
     int n = 0;
     snprintf(elements, 16, "%d", r->mesh[0]);
-    const char *const first[] = {program, "solve", r->case_name, "--format", "json", "-f", r->formulation[0].key, "-n", elements};
+    const char *const first[] = {program, "solve", r->case_name,          "--format",
+                                 "json",  "-f",    r->formulation[0].key, "-n",
+                                 elements};
     for (size_t i = 0; i < sizeof first / sizeof first[0]; i++)
         arguments[n++] = first[i];
     for (int i = 0; i < r->assignments; i++) {
@@ -159,12 +168,14 @@ static void set_program(contestant *c, const cli_request *r, const char *program
 static void show(const contestant *a, const contestant *b, const against *v)
 {
     int same = 1;
-    printf("A  %-40s %10.4g ms\nB  %-40s %10.4g ms\n", a->name, 1e3 * v->a / a->repeats, b->name, 1e3 * v->b / b->repeats);
-    printf("B takes %.4f times as long as A (%.4f to %.4f with 99.9 %% confidence, %d pairs): %s\n", v->ratio, v->low, v->high,
-           v->pairs, against_name(v->outcome));
+    printf("A  %-40s %10.4g ms\nB  %-40s %10.4g ms\n", a->name, 1e3 * v->a / a->repeats, b->name,
+           1e3 * v->b / b->repeats);
+    printf("B takes %.4f times as long as A (%.4f to %.4f with 99.9 %% confidence, %d pairs): %s\n",
+           v->ratio, v->low, v->high, v->pairs, against_name(v->outcome));
     for (int i = 0; i < a->counts; i++)
         if (a->count[i] != b->count[i]) {
-            printf("%s %s %.10g against %.10g", same ? "work differs:" : ",", a->counted[i]->name, a->count[i], b->count[i]);
+            printf("%s %s %.10g against %.10g", same ? "work differs:" : ",", a->counted[i]->name,
+                   a->count[i], b->count[i]);
             same = 0;
         }
     printf(same ? "the same work\n" : "\n");
@@ -174,9 +185,11 @@ static void show_json(const contestant *a, const contestant *b, const against *v
 {
     json_t *work = json_array();
     for (int i = 0; i < a->counts; i++)
-        json_array_append_new(work, json_pack("{s:s,s:f,s:f}", "name", a->counted[i]->name, "a", a->count[i], "b", b->count[i]));
-    json_t *root = json_pack("{s:s,s:s,s:f,s:f,s:f,s:f,s:f,s:i,s:s,s:o}", "a", a->name, "b", b->name, "seconds_a",
-                             v->a / a->repeats, "seconds_b", v->b / b->repeats, "ratio", v->ratio, "low", v->low, "high", v->high,
+        json_array_append_new(work, json_pack("{s:s,s:f,s:f}", "name", a->counted[i]->name, "a",
+                                              a->count[i], "b", b->count[i]));
+    json_t *root = json_pack("{s:s,s:s,s:f,s:f,s:f,s:f,s:f,s:i,s:s,s:o}", "a", a->name, "b",
+                             b->name, "seconds_a", v->a / a->repeats, "seconds_b",
+                             v->b / b->repeats, "ratio", v->ratio, "low", v->low, "high", v->high,
                              "pairs", v->pairs, "outcome", against_name(v->outcome), "work", work);
     json_dumpf(root, stdout, JSON_INDENT(1));
     putchar('\n');
@@ -192,15 +205,20 @@ int cli_against(cli_request *r)
     against answer;
     fault f = {""};
     if (r->case_count != 1 || r->formulations != 1 || r->meshes < 1 || r->meshes > 2)
-        return cli_fail(STATUS_REFUSED, "--against compares one cell: give one CASE, one -f and one -n (or two: A's and B's)");
+        return cli_fail(
+            STATUS_REFUSED,
+            "--against compares one cell: give one CASE, one -f and one -n (or two: A's and B's)");
     if (r->output != NULL)
-        return cli_fail(STATUS_REFUSED, "--against writes no file; leave -o away, or give --format json");
+        return cli_fail(STATUS_REFUSED,
+                        "--against writes no file; leave -o away, or give --format json");
     const case_type *type = cli_case(r);
     if (type == NULL)
         return EXIT_REFUSED;
     if (strchr(r->against, '/') != NULL) {
         if (r->plant > 0 || r->meshes != 1)
-            return cli_fail(STATUS_REFUSED, "--plant and a second mesh are for another formulation in the same program");
+            return cli_fail(
+                STATUS_REFUSED,
+                "--plant and a second mesh are for another formulation in the same program");
         set_program(&a, r, "/proc/self/exe", elements[0], arguments[0]);
         set_program(&b, r, r->against, elements[1], arguments[1]);
     } else if (formulation_parse(r->against, &other, &f) == STATUS_OK) {

@@ -11,12 +11,15 @@
 
 static const double floor_seconds = 0.002; /* of each round for each cell */
 
-/* The named cases at the parameters given, with the formulations and meshes given (or all, and the case's). */
+/* The named cases at the parameters given, with the formulations and meshes given (or all, and the
+ * case's). */
 static status plan_named(cli_request *r, sweep *s, fault *f)
 {
     formulation all[CLI_MAX_FORMULATIONS];
     int count = 0;
-    for (int i = 0; r->formulations == 0 && registry_formulations[i] != NULL && count < CLI_MAX_FORMULATIONS; i++)
+    for (int i = 0;
+         r->formulations == 0 && registry_formulations[i] != NULL && count < CLI_MAX_FORMULATIONS;
+         i++)
         formulation_default(registry_formulations[i], &all[count++]);
     status outcome = STATUS_OK;
     for (int i = 0; i < r->case_count && outcome == STATUS_OK; i++) {
@@ -32,7 +35,8 @@ static status plan_named(cli_request *r, sweep *s, fault *f)
         if (here != NULL && here->status != STATUS_OK)
             outcome = fault_set(f, here->status, "%s", here->reason);
         if (outcome == STATUS_OK)
-            outcome = sweep_extend(s, r->formulations > 0 ? r->formulation : all, r->formulations > 0 ? r->formulations : count, f);
+            outcome = sweep_extend(s, r->formulations > 0 ? r->formulation : all,
+                                   r->formulations > 0 ? r->formulations : count, f);
     }
     return outcome;
 }
@@ -40,8 +44,11 @@ static status plan_named(cli_request *r, sweep *s, fault *f)
 static status measure(cli_request *r, truths *t, sweep *s, judgement *j, fault *f)
 {
     FILE *progress = isatty(STDERR_FILENO) ? stderr : NULL;
-    const sweep_request request = {
-        .select = r->select, .jobs = r->jobs, .formulations = r->formulations, .formulation = r->formulation, .progress = progress};
+    const sweep_request request = {.select = r->select,
+                                   .jobs = r->jobs,
+                                   .formulations = r->formulations,
+                                   .formulation = r->formulation,
+                                   .progress = progress};
     status outcome = r->case_count > 0 ? plan_named(r, s, f) : sweep_plan(&request, t, s, f);
     s->threads = r->threads;
     if (outcome == STATUS_OK)
@@ -75,15 +82,17 @@ int cli_bench(int count, char **arguments)
     judgement j = {0};
     fault f = {""};
     clock_single_thread(arguments - 1); /* main passes what follows the program's name */
-    cli_parse(
-        "bench", "[CASE...]",
-        "Times every formulation and mesh of the cases named (or, without one, of all cases at all parameter points that have a "
-        "truth, selected with -k): the least of enough repetitions in five alternating rounds on one processor, set-up and "
-        "solution "
-        "apart, with the error. Times whose rounds overlap are undecided. With --against: one cell in alternation with the same "
-        "cell "
-        "of another formulation or program, until the noise allows an answer.",
-        "+fnskFojTAXDt", count, arguments, &r);
+    cli_parse("bench", "[CASE...]",
+              "Times every formulation and mesh of the cases named (or, without one, of all cases "
+              "at all parameter points that have a "
+              "truth, selected with -k): the least of enough repetitions in five alternating "
+              "rounds on one processor, set-up and "
+              "solution "
+              "apart, with the error. Times whose rounds overlap are undecided. With --against: "
+              "one cell in alternation with the same "
+              "cell "
+              "of another formulation or program, until the noise allows an answer.",
+              "+fnskFojTAXDt", count, arguments, &r);
     if (r.against != NULL)
         return cli_against(&r);
     if (r.case_count == 0 && (r.assignments > 0 || r.meshes > 0))

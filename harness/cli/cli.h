@@ -7,7 +7,14 @@
 #include "harness/catalogue/formulations.h"
 #include "harness/truth/truths.h"
 
-enum { EXIT_AS_EXPECTED = 0, EXIT_DIFFERS = 1, EXIT_REFUSED = 2, EXIT_NOTHING = 3, EXIT_FAULT = 4, EXIT_INTERRUPTED = 5 };
+enum {
+    EXIT_AS_EXPECTED = 0,
+    EXIT_DIFFERS = 1,
+    EXIT_REFUSED = 2,
+    EXIT_NOTHING = 3,
+    EXIT_FAULT = 4,
+    EXIT_INTERRUPTED = 5
+};
 
 enum { CLI_MAX_CASES = 64, CLI_MAX_FORMULATIONS = 64, CLI_MAX_MESHES = 24 };
 
@@ -34,21 +41,24 @@ typedef struct cli_request {
 } cli_request;
 
 typedef int cli_verb(int count, char **arguments);
-cli_verb cli_list, cli_solve, cli_verify, cli_converge, cli_bench, cli_stress, cli_compare, cli_truth, cli_schema;
+cli_verb cli_list, cli_solve, cli_verify, cli_converge, cli_bench, cli_stress, cli_compare,
+    cli_truth, cli_schema;
 
-/* Options shared by the verbs; a verb lists the keys it takes, and '+' when it takes several cases. Errors are printed and end the program with EXIT_REFUSED. */
-void cli_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys, int count, char **arguments,
-               cli_request *out);
+/* Options shared by the verbs; a verb lists the keys it takes, and '+' when it takes several cases.
+ * Errors are printed and end the program with EXIT_REFUSED. */
+void cli_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys,
+               int count, char **arguments, cli_request *out);
 /* The case of the request with its parameters, or NULL after a message. */
 const case_type *cli_case(cli_request *r);
-/* Every output can be written and is a file of its own, and none is an input: looked at before the work begins.
- * whole_file: -o is HDF5. truths_path: NULL where no truths are read. */
+/* Every output can be written and is a file of its own, and none is an input: looked at before the
+ * work begins. whole_file: -o is HDF5. truths_path: NULL where no truths are read. */
 status cli_check_files(const cli_request *r, int whole_file, const char *truths_path, fault *f);
 /* Two contestants in alternation (bench --against). */
 int cli_against(cli_request *r);
 /* Default place of the packed truths: BEAMWORK_TRUTHS, or truths.h5 beside the program. */
 const char *cli_truths_path(const cli_request *r);
-/* At the end of the program: the exit code, or EXIT_FAULT when standard output could not be written. */
+/* At the end of the program: the exit code, or EXIT_FAULT when standard output could not be
+ * written. */
 int cli_finish(int code);
 /* One line on stderr; the exit code that belongs to a status. */
 int cli_fail(status s, const char *text);

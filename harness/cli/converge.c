@@ -24,8 +24,9 @@ static status write_out(const cli_request *r, const sweep *s, const truths *t, f
     output file;
     if (r->output == NULL) {
         const status written = write_form(stdout, r->format, s, t, f);
-        return written != STATUS_OK || fflush(stdout) == 0 ? written
-                                                           : fault_set(f, STATUS_FAULT, "standard output cannot be written");
+        return written != STATUS_OK || fflush(stdout) == 0
+                   ? written
+                   : fault_set(f, STATUS_FAULT, "standard output cannot be written");
     }
     status outcome = output_open(r->output, &file, f);
     if (outcome != STATUS_OK)
@@ -43,29 +44,36 @@ int cli_converge(int count, char **arguments)
     sweep s;
     truths t;
     fault f = {""};
-    cli_parse("converge", "CASE", "Solves one case on several meshes and shows errors, observed order and the limit.", "fnsFojT",
-              count, arguments, &r);
+    cli_parse("converge", "CASE",
+              "Solves one case on several meshes and shows errors, observed order and the limit.",
+              "fnsFojT", count, arguments, &r);
     const case_type *type = cli_case(&r);
     if (type == NULL)
         return EXIT_REFUSED;
     if (r.formulations == 0)
-        return cli_fail(STATUS_REFUSED, "which formulation? Give -f, or -f all; 'beamwork list formulations' shows them");
+        return cli_fail(
+            STATUS_REFUSED,
+            "which formulation? Give -f, or -f all; 'beamwork list formulations' shows them");
     status outcome = cli_check_files(&r, 0, cli_truths_path(&r), &f);
     if (outcome == STATUS_OK)
         outcome = truths_read(cli_truths_path(&r), &t, &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
-    outcome = sweep_plan_one(type, r.parameter, r.formulation, r.formulations, r.mesh, r.meshes, &s, &f);
+    outcome =
+        sweep_plan_one(type, r.parameter, r.formulation, r.formulations, r.mesh, r.meshes, &s, &f);
     if (outcome != STATUS_OK) {
         truths_free(&t);
         return cli_fail(outcome, f.text);
     }
-    const sweep_request request = {.jobs = r.jobs, .progress = isatty(STDERR_FILENO) ? stderr : NULL};
+    const sweep_request request = {.jobs = r.jobs,
+                                   .progress = isatty(STDERR_FILENO) ? stderr : NULL};
     outcome = sweep_run(&request, &s, &f);
     if (outcome == STATUS_OK)
         outcome = write_out(&r, &s, &t, &f);
     const int nothing = sweep_cells(&s) == 0;
     sweep_free(&s);
     truths_free(&t);
-    return outcome != STATUS_OK ? cli_fail(outcome, f.text) : nothing ? EXIT_NOTHING : EXIT_AS_EXPECTED;
+    return outcome != STATUS_OK ? cli_fail(outcome, f.text)
+           : nothing            ? EXIT_NOTHING
+                                : EXIT_AS_EXPECTED;
 }

@@ -1,4 +1,5 @@
-/* The files of a command line, before the work begins: can each be written, and is each a file of its own? */
+/* The files of a command line, before the work begins: can each be written, and is each a file of
+ * its own? */
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -18,9 +19,11 @@ static status check_inputs(const named_place *out, const char *const input[INPUT
 {
     for (int i = 0; i < INPUTS; i++) {
         place in;
-        if (input[i] != NULL && input[i][0] != '\0' && place_find(input[i], &in, NULL) == STATUS_OK && place_same(&in, &out->where))
-            return fault_set(f, STATUS_REFUSED, "%s %.100s would replace %.100s, which is read; give it another name", out->option,
-                             out->path, input[i]);
+        if (input[i] != NULL && input[i][0] != '\0' &&
+            place_find(input[i], &in, NULL) == STATUS_OK && place_same(&in, &out->where))
+            return fault_set(f, STATUS_REFUSED,
+                             "%s %.100s would replace %.100s, which is read; give it another name",
+                             out->option, out->path, input[i]);
     }
     return STATUS_OK;
 }
@@ -29,19 +32,21 @@ static status check_pair(const named_place *a, const named_place *b, fault *f)
 {
     if (!place_same(&a->where, &b->where) || a->where.shared)
         return STATUS_OK;
-    return fault_set(f, STATUS_REFUSED, "%s %.100s and %s %.100s are the same file; give them two names", a->option, a->path,
-                     b->option, b->path);
+    return fault_set(f, STATUS_REFUSED,
+                     "%s %.100s and %s %.100s are the same file; give them two names", a->option,
+                     a->path, b->option, b->path);
 }
 
 status cli_check_files(const cli_request *r, int whole_file, const char *truths_path, fault *f)
 {
-    named_place out[OUTPUTS] = {{.option = "-o", .path = r->output, .form = whole_file ? OUTPUT_WHOLE_FILE : OUTPUT_TEXT},
-                                {.option = "--json", .path = r->json},
-                                {.option = "--junit", .path = r->junit},
-                                {.option = "--markdown", .path = r->markdown}};
+    named_place out[OUTPUTS] = {
+        {.option = "-o", .path = r->output, .form = whole_file ? OUTPUT_WHOLE_FILE : OUTPUT_TEXT},
+        {.option = "--json", .path = r->json},
+        {.option = "--junit", .path = r->junit},
+        {.option = "--markdown", .path = r->markdown}};
     const int is_path = r->against != NULL && strchr(r->against, '/') != NULL;
-    const char *const input[INPUTS] = {truths_path, r->most_arguments == 2 ? r->case_name : NULL, r->second,
-                                       is_path ? r->against : "/proc/self/exe"};
+    const char *const input[INPUTS] = {truths_path, r->most_arguments == 2 ? r->case_name : NULL,
+                                       r->second, is_path ? r->against : "/proc/self/exe"};
     status outcome = STATUS_OK;
     for (int i = 0; i < OUTPUTS && outcome == STATUS_OK; i++) {
         if (out[i].path == NULL)

@@ -9,9 +9,11 @@ static void list_option(const element_option *o)
     char text[64];
     if (o->choices != NULL) {
         choice_name(o->choices, (int)o->value, text, sizeof text);
-        printf("  %-24s option %s=%s (default %s): %s\n", "", o->name, o->choices, text, o->summary);
+        printf("  %-24s option %s=%s (default %s): %s\n", "", o->name, o->choices, text,
+               o->summary);
     } else {
-        printf("  %-24s option %s=%g..%g (default %g): %s\n", "", o->name, o->min, o->max, o->value, o->summary);
+        printf("  %-24s option %s=%g..%g (default %g): %s\n", "", o->name, o->min, o->max, o->value,
+               o->summary);
     }
 }
 
@@ -25,10 +27,13 @@ static void list_declarations(const element_type *t)
     printf("  %-24s order:", "");
     for (int a = 0; a < ELEMENT_ANALYSES; a++) {
         const element_order order = element_order_in(t, (element_analysis)a, options);
-        printf(" %d to %d in %s%s", order.least, order.highest, analysis[a], a + 1 < ELEMENT_ANALYSES ? "," : "\n");
+        printf(" %d to %d in %s%s", order.least, order.highest, analysis[a],
+               a + 1 < ELEMENT_ANALYSES ? "," : "\n");
     }
-    printf("  %-24s shear in stability: %s%s%s%s\n", "", t->shear_theories & SHEAR_ENGESSER ? "engesser" : "",
-           t->shear_theories == (SHEAR_ENGESSER | SHEAR_HARINGX) ? " or " : "", t->shear_theories & SHEAR_HARINGX ? "haringx" : "",
+    printf("  %-24s shear in stability: %s%s%s%s\n", "",
+           t->shear_theories & SHEAR_ENGESSER ? "engesser" : "",
+           t->shear_theories == (SHEAR_ENGESSER | SHEAR_HARINGX) ? " or " : "",
+           t->shear_theories & SHEAR_HARINGX ? "haringx" : "",
            t->own_theory != NULL    ? t->own_theory
            : t->shear_theories == 0 ? "none, rigid"
                                     : "");
@@ -41,10 +46,12 @@ static void list_formulations(void)
     printf("formulations (-f NAME[:KEY=VALUE,...]); all take newton=%s\n", formulation_newtons);
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *t = registry_formulations[i];
-        printf("  %-24s %s\n  %-24s source: %s\n  %-24s offers:", t->name, t->summary, "", t->source, "");
+        printf("  %-24s %s\n  %-24s source: %s\n  %-24s offers:", t->name, t->summary, "",
+               t->source, "");
         for (unsigned bit = 1; bit <= FEATURE_CURVATURE; bit <<= 1)
             if (t->offers & bit)
-                printf(" %s%s", model_feature_name(bit), (t->offers & ~(2 * bit - 1)) != 0 ? "," : "\n");
+                printf(" %s%s", model_feature_name(bit),
+                       (t->offers & ~(2 * bit - 1)) != 0 ? "," : "\n");
         list_declarations(t);
         for (int k = 0; t->options != NULL && t->options[k].name != NULL; k++)
             list_option(&t->options[k]);
@@ -75,7 +82,8 @@ static int list_case(const case_type *type)
     double value[CASE_MAX_PARAMETERS] = {0};
     scene s;
     fault f;
-    printf("%s: %s\nsource: %s\nparameters (--set NAME=VALUE)\n", type->name, type->summary, type->source);
+    printf("%s: %s\nsource: %s\nparameters (--set NAME=VALUE)\n", type->name, type->summary,
+           type->source);
     for (int i = 0; type->parameters[i].name != NULL; i++) {
         const case_parameter *p = &type->parameters[i];
         char text[64];
@@ -93,7 +101,8 @@ static int list_case(const case_type *type)
         outcome = scene_validate(&s, &f);
     printf("quantities\n");
     for (int i = 0; i < s.quantities; i++)
-        printf("  %-28s %s%s\n", s.quantity[i].name, s.quantity[i].unit, s.quantity[i].reduction == SCENE_CURVE ? " (curve)" : "");
+        printf("  %-28s %s%s\n", s.quantity[i].name, s.quantity[i].unit,
+               s.quantity[i].reduction == SCENE_CURVE ? " (curve)" : "");
     printf("formulations\n");
     for (int i = 0; registry_formulations[i] != NULL && outcome == STATUS_OK; i++)
         list_offer(&s, registry_formulations[i]);
@@ -105,13 +114,15 @@ int cli_list(int count, char **arguments)
 {
     cli_request r;
     cli_parse("list", "[cases|formulations|CASE]",
-              "Shows what there is: cases with their parameters and quantities, formulations with their options.", "", count,
-              arguments, &r);
+              "Shows what there is: cases with their parameters and quantities, formulations with "
+              "their options.",
+              "", count, arguments, &r);
     if (r.case_name == NULL || strcmp(r.case_name, "cases") == 0)
         list_cases();
     if (r.case_name == NULL || strcmp(r.case_name, "formulations") == 0)
         list_formulations();
-    if (r.case_name == NULL || strcmp(r.case_name, "cases") == 0 || strcmp(r.case_name, "formulations") == 0)
+    if (r.case_name == NULL || strcmp(r.case_name, "cases") == 0 ||
+        strcmp(r.case_name, "formulations") == 0)
         return EXIT_AS_EXPECTED;
     const case_type *type = cli_case(&r);
     return type != NULL ? list_case(type) : EXIT_REFUSED;

@@ -18,11 +18,13 @@ static const struct {
     {"solve", cli_solve, "one case, one formulation, one mesh"},
     {"converge", cli_converge, "one case on several meshes: errors, order, limit"},
     {"bench", cli_bench, "error against run time: the cheapest way to an error"},
-    {"stress", cli_stress, "every formulation driven to extremes: a value with its error, or a named failure"},
+    {"stress", cli_stress,
+     "every formulation driven to extremes: a value with its error, or a named failure"},
     {"verify", cli_verify, "every formulation on every case, judged against stored truths"},
     {"truth", cli_truth, "what is known of a case at a parameter point; derived on demand"},
     {"schema", cli_schema, "what the result file consists of: tables, columns, units"},
-    {"compare", cli_compare, "two stored runs: errors and work, worse and better; exit status like diff"},
+    {"compare", cli_compare,
+     "two stored runs: errors and work, worse and better; exit status like diff"},
 };
 enum { VERBS = sizeof verbs / sizeof verbs[0] };
 
@@ -34,13 +36,16 @@ static const char *verb_name(const void *context, int i)
 
 static int help(void)
 {
-    printf("beamwork: verification and benchmark of three-dimensional beam finite elements\n\nusage: beamwork VERB [OPTION...]; "
+    printf("beamwork: verification and benchmark of three-dimensional beam finite "
+           "elements\n\nusage: beamwork VERB [OPTION...]; "
            "'beamwork VERB --help' shows its options\n\n");
     for (int i = 0; i < VERBS; i++)
         printf("  %-10s %s\n", verbs[i].name, verbs[i].summary);
     printf("\n  --version  versions of the program and its libraries\n\n"
-           "exit status: 0 as expected; 1 a verdict differs (solve: not converged or singular); 2 refused input;\n"
-           "             3 nothing was checked; 4 file, disk or memory; 5 interrupted: what was judged is in *.partial.*\n"
+           "exit status: 0 as expected; 1 a verdict differs (solve: not converged or singular); 2 "
+           "refused input;\n"
+           "             3 nothing was checked; 4 file, disk or memory; 5 interrupted: what was "
+           "judged is in *.partial.*\n"
            "             (compare, as diff: 0 the same, 1 different, 2 trouble)\n\n"
            "example: beamwork converge c_column -f beamw -f beamw_consistent -n 2,4,8,16,32\n");
     return EXIT_AS_EXPECTED;
@@ -49,7 +54,8 @@ static int help(void)
 static int version(void)
 {
     const environment e = environment_now(1);
-    printf("beamwork %s (%s)\n%s, flags %s\n%s\n", e.version, e.commit, e.compiler, e.flags, e.libraries);
+    printf("beamwork %s (%s)\n%s, flags %s\n%s\n", e.version, e.commit, e.compiler, e.flags,
+           e.libraries);
     return EXIT_AS_EXPECTED;
 }
 
@@ -64,12 +70,14 @@ static int run(int count, char **arguments)
             return verbs[i].run(count - 1, arguments + 1);
     char text[200];
     const char *near = nearest_name(arguments[1], verb_name, NULL);
-    snprintf(text, sizeof text, "unknown verb '%.60s'%s%s%s; 'beamwork --help' shows them all", arguments[1],
-             near != NULL ? ", did you mean '" : "", near != NULL ? near : "", near != NULL ? "'?" : "");
+    snprintf(text, sizeof text, "unknown verb '%.60s'%s%s%s; 'beamwork --help' shows them all",
+             arguments[1], near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
+             near != NULL ? "'?" : "");
     return cli_fail(STATUS_REFUSED, text);
 }
 
-/* A stack that is too small ends a program without a word: it is raised as far as we may. 1: it is large enough. */
+/* A stack that is too small ends a program without a word: it is raised as far as we may. 1: it is
+ * large enough. */
 static int stack_suffices(void)
 {
     enum { LEAST = 1 << 20, USUAL = 1 << 23 }; /* [bytes] */
@@ -83,8 +91,10 @@ static int stack_suffices(void)
 int main(int count, char **arguments)
 {
     if (!stack_suffices())
-        return cli_fail(STATUS_FAULT, "the stack is limited to less than 1 MB; allow more with 'ulimit -s 8192'");
+        return cli_fail(STATUS_FAULT,
+                        "the stack is limited to less than 1 MB; allow more with 'ulimit -s 8192'");
     gsl_set_error_handler_off();
-    signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error of writing, told in one line */
+    /* a file that may not grow is an error of writing, told in one line */
+    signal(SIGXFSZ, SIG_IGN);
     return cli_finish(run(count, arguments));
 }

@@ -12,32 +12,43 @@
 enum { KEY_USAGE = 256 };
 
 static const struct argp_option all_options[] = {
-    {"formulation", 'f', "NAME[:KEY=VALUE,...]", 0, "formulation and its options; again for another, 'all' for every one", 0},
+    {"formulation", 'f', "NAME[:KEY=VALUE,...]", 0,
+     "formulation and its options; again for another, 'all' for every one", 0},
     {"elements", 'n', "N[,N...]", 0, "elements per member", 0},
     {"set", 's', "NAME=VALUE", 0, "value of a case parameter (SI); again for another", 0},
     {"format", 'F', "text|json|csv", 0, "form of the output (default text)", 0},
-    {"output", 'o', "FILE", 0, "write there instead of to standard output (verify: results as HDF5)", 0},
+    {"output", 'o', "FILE", 0,
+     "write there instead of to standard output (verify: results as HDF5)", 0},
     {"keep-all", 'K', NULL, 0, "leave nothing out: same answer, more work", 0},
     {"steps", 'S', "N", 0, "load steps between two stations of a path, to begin with", 0},
-    {"select", 'k', "EXPRESSION", 0, "words joined by and, or, not; looked for in case/parameters/formulation/quantity", 0},
+    {"select", 'k', "EXPRESSION", 0,
+     "words joined by and, or, not; looked for in case/parameters/formulation/quantity", 0},
     {"jobs", 'j', "N", 0, "processes (default: one for each processor)", 0},
-    {"time-limit", 'L', "SECONDS", 0, "of one cell (default 120, 0: none); a cell that exceeds it is a failure of that name", 0},
+    {"time-limit", 'L', "SECONDS", 0,
+     "of one cell (default 120, 0: none); a cell that exceeds it is a failure of that name", 0},
     {"json", 'J', "FILE", 0, "verdicts as JSON", 0},
     {"junit", 'U', "FILE", 0, "verdicts as JUnit XML", 0},
     {"threshold", 'h', "NAME=R[,NAME=R]", 0,
-     "changes that count (default error=0.01,floor=1e-8,work=0.02): of an error relative to itself, of a value relative to its "
+     "changes that count (default error=0.01,floor=1e-8,work=0.02): of an error relative to "
+     "itself, of a value relative to its "
      "truth, of a count relative to itself",
      0},
     {"shapes", 'P', "STATES", OPTION_ARG_OPTIONAL,
-     "store centre lines, sections and resultants of at most so many states of a path (solve: all, and -o FILE becomes HDF5 for "
+     "store centre lines, sections and resultants of at most so many states of a path (solve: all, "
+     "and -o FILE becomes HDF5 for "
      "ParaView; verify: 5)",
      0},
     {"markdown", 'M', "FILE", 0, "summary as Markdown, for a pull request", 0},
-    {"against", 'A', "OTHER", 0, "compare in alternation with another formulation, or with another program (a path with a '/')", 0},
-    {"threads", 't', "N", 0, "threads that share the loop over elements (default 1); results are the same", 0},
+    {"against", 'A', "OTHER", 0,
+     "compare in alternation with another formulation, or with another program (a path with a '/')",
+     0},
+    {"threads", 't', "N", 0,
+     "threads that share the loop over elements (default 1); results are the same", 0},
     {"dense", 'D', NULL, 0, "time the published algorithm (newton=dense) beside every cell", 0},
-    {"plant", 'X', "PERCENT", 0, "make the other slower by that much, to see whether the comparison finds it", 0},
-    {"truths", 'T', "FILE", 0, "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)", 0},
+    {"plant", 'X', "PERCENT", 0,
+     "make the other slower by that much, to see whether the comparison finds it", 0},
+    {"truths", 'T', "FILE", 0,
+     "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)", 0},
     {"help", '?', NULL, 0, "this list", -1},
     {"usage", KEY_USAGE, NULL, 0, "the options in short", -1},
     {0},
@@ -54,7 +65,8 @@ static int whole_number(const char *text, const char *what, long least, long mos
     errno = 0;
     const long value = strtol(text, &end, 10);
     if (end == text || *end != '\0' || errno != 0 || value < least || value > most) {
-        snprintf(message, sizeof message, "%s '%.40s': give a whole number from %ld to %ld", what, text, least, most);
+        snprintf(message, sizeof message, "%s '%.40s': give a whole number from %ld to %ld", what,
+                 text, least, most);
         refuse(message);
     }
     return (int)value;
@@ -72,7 +84,9 @@ static void add_meshes(cli_request *r, char *list)
 static void add_formulation(cli_request *r, const char *text)
 {
     fault f;
-    for (int i = 0; strcmp(text, "all") == 0 && registry_formulations[i] != NULL && r->formulations < CLI_MAX_FORMULATIONS; i++)
+    for (int i = 0; strcmp(text, "all") == 0 && registry_formulations[i] != NULL &&
+                    r->formulations < CLI_MAX_FORMULATIONS;
+         i++)
         formulation_default(registry_formulations[i], &r->formulation[r->formulations++]);
     if (strcmp(text, "all") == 0)
         return;
@@ -94,13 +108,15 @@ static void add_assignment(cli_request *r, const char *text)
         refuse("too many parameters");
     for (int i = 0; i < r->assignments; i++)
         if (strcspn(r->assignment[i], "=") == name && strncmp(r->assignment[i], text, name) == 0) {
-            snprintf(message, sizeof message, "--set %.*s is given twice; give it one value", (int)(name < 60 ? name : 60), text);
+            snprintf(message, sizeof message, "--set %.*s is given twice; give it one value",
+                     (int)(name < 60 ? name : 60), text);
             refuse(message);
         }
     r->assignment[r->assignments++] = text;
 }
 
-/* An option that takes one value has it once; lists (-f, -n, --set) and switches may be given again. */
+/* An option that takes one value has it once; lists (-f, -n, --set) and switches may be given
+ * again. */
 static void refuse_again(cli_request *r, int key, const struct argp_state *state)
 {
     const struct argp_option *o = state->root_argp->options;
@@ -183,7 +199,8 @@ static error_t take(int key, char *value, struct argp_state *state)
         r->junit = value;
         return 0;
     case 'P':
-        r->shapes = value != NULL ? whole_number(value, "number of states", 1, SHAPES_ALL) : SHAPES_ALL;
+        r->shapes =
+            value != NULL ? whole_number(value, "number of states", 1, SHAPES_ALL) : SHAPES_ALL;
         return 0;
     case 'T':
         r->truths = value;
@@ -214,20 +231,24 @@ static error_t take(int key, char *value, struct argp_state *state)
     }
 }
 
-void cli_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys, int count, char **arguments,
-               cli_request *out)
+void cli_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys,
+               int count, char **arguments, cli_request *out)
 {
     struct argp_option chosen[sizeof all_options / sizeof all_options[0]] = {{0}};
     char name[64];
     int n = 0;
     for (int i = 0; all_options[i].name != NULL; i++)
-        if (all_options[i].key == '?' || all_options[i].key == KEY_USAGE || strchr(keys, all_options[i].key) != NULL)
+        if (all_options[i].key == '?' || all_options[i].key == KEY_USAGE ||
+            strchr(keys, all_options[i].key) != NULL)
             chosen[n++] = all_options[i];
-    const struct argp parser = {.options = chosen, .parser = take, .args_doc = arguments_doc, .doc = doc};
+    const struct argp parser = {
+        .options = chosen, .parser = take, .args_doc = arguments_doc, .doc = doc};
     memset(out, 0, sizeof *out);
     out->time_limit = 120;
     out->format = "text";
-    out->most_arguments = strchr(keys, '+') != NULL ? CLI_MAX_CASES : strchr(keys, '2') != NULL ? 2 : 1;
+    out->most_arguments = strchr(keys, '+') != NULL   ? CLI_MAX_CASES
+                          : strchr(keys, '2') != NULL ? 2
+                                                      : 1;
     out->jobs = (int)sysconf(_SC_NPROCESSORS_ONLN);
     snprintf(name, sizeof name, "beamwork %s", verb);
     arguments[0] = name;

@@ -31,8 +31,9 @@ static status write_out(const cli_request *r, const sweep *s, const truths *t, f
     }
     if (r->output == NULL) {
         const status written = write_to(stdout, r, s, t, f);
-        return written == STATUS_OK && fflush(stdout) != 0 ? fault_set(f, STATUS_FAULT, "standard output cannot be written")
-                                                           : written;
+        return written == STATUS_OK && fflush(stdout) != 0
+                   ? fault_set(f, STATUS_FAULT, "standard output cannot be written")
+                   : written;
     }
     status outcome = output_open(r->output, &file, f);
     if (outcome != STATUS_OK)
@@ -48,8 +49,10 @@ static status write_out(const cli_request *r, const sweep *s, const truths *t, f
 static status solve_cell(const cli_request *r, sweep *s, fault *f)
 {
     const point *p = &s->point[0];
-    cell_request request = {
-        .type = p->type, .formulation = r->formulation[0].type, .elements = r->mesh[0], .keep_all = r->keep_all};
+    cell_request request = {.type = p->type,
+                            .formulation = r->formulation[0].type,
+                            .elements = r->mesh[0],
+                            .keep_all = r->keep_all};
     memcpy(request.parameter, p->parameter, sizeof request.parameter);
     memcpy(request.option, r->formulation[0].option, sizeof request.option);
     request.solve.newton = r->formulation[0].newton;
@@ -65,13 +68,16 @@ int cli_solve(int count, char **arguments)
     sweep s;
     fault f = {""};
     truths t = {0};
-    cli_parse("solve", "CASE", "Solves one case with one formulation and one mesh and shows every quantity with its error.",
+    cli_parse("solve", "CASE",
+              "Solves one case with one formulation and one mesh and shows every quantity with its "
+              "error.",
               "fnsFoKSPtT", count, arguments, &r);
     const case_type *type = cli_case(&r);
     if (type == NULL)
         return EXIT_REFUSED;
     if (r.formulations != 1)
-        return cli_fail(STATUS_REFUSED, "which formulation? Give one -f; 'beamwork list formulations' shows them");
+        return cli_fail(STATUS_REFUSED,
+                        "which formulation? Give one -f; 'beamwork list formulations' shows them");
     if (r.meshes != 1)
         return cli_fail(STATUS_REFUSED, "how many elements per member? Give one -n");
     if (r.shapes > 0 && r.output == NULL)

@@ -8,11 +8,11 @@
 #include "harness/cli/cli.h"
 #include "harness/truth/derive.h"
 
-static void print_value(const char *quantity, double value, double uncertainty, const char *unit, const char *kind,
-                        const char *whose, const char *source, const char *note)
+static void print_value(const char *quantity, double value, double uncertainty, const char *unit,
+                        const char *kind, const char *whose, const char *source, const char *note)
 {
-    printf("  %-28s %24.16g +- %-8.1e %-8s %-13s %-5s %s%s%s\n", quantity, value, uncertainty, unit, kind, whose, source,
-           note[0] != '\0' ? "; " : "", note);
+    printf("  %-28s %24.16g +- %-8.1e %-8s %-13s %-5s %s%s%s\n", quantity, value, uncertainty, unit,
+           kind, whose, source, note[0] != '\0' ? "; " : "", note);
 }
 
 /* Stored rows of this point; returns how many are of the continuum and of the same model. */
@@ -23,7 +23,8 @@ static int print_stored(const truths *t, const case_type *type, const double par
         const truth *row = &t->row[i];
         if (row->formulation[0] != '\0' || !truth_holds(row, type, parameter))
             continue;
-        print_value(row->quantity, row->value, row->uncertainty, row->unit, row->kind, row->model, row->source, row->convention);
+        print_value(row->quantity, row->value, row->uncertainty, row->unit, row->kind, row->model,
+                    row->source, row->convention);
         continuum += strcmp(row->model, "same") == 0;
     }
     for (int i = 0; i < t->rows; i++) {
@@ -33,8 +34,10 @@ static int print_stored(const truths *t, const case_type *type, const double par
         if (discrete++ == 0)
             printf("of one formulation\n");
         char name[SCENE_NAME + FORMULATION_KEY + 16];
-        snprintf(name, sizeof name, row->elements > 0 ? "%s, %s n=%d" : "%s, %s", row->quantity, row->formulation, row->elements);
-        print_value(name, row->value, row->uncertainty, row->unit, row->kind, row->model, row->source, row->convention);
+        snprintf(name, sizeof name, row->elements > 0 ? "%s, %s n=%d" : "%s, %s", row->quantity,
+                 row->formulation, row->elements);
+        print_value(name, row->value, row->uncertainty, row->unit, row->kind, row->model,
+                    row->source, row->convention);
     }
     return continuum;
 }
@@ -46,8 +49,10 @@ static status script_path(char out[PATH_MAX], fault *f)
     const char *given = getenv("BEAMWORK_REFERENCE");
     const ssize_t found = readlink("/proc/self/exe", program, sizeof program - 1);
     const char *folder = given != NULL ? given : found > 0 ? dirname(program) : ".";
-    const int length = snprintf(out, PATH_MAX, "%s%s/derive/at.py", folder, given != NULL ? "" : "/../reference");
-    return length < PATH_MAX ? STATUS_OK : fault_set(f, STATUS_FAULT, "%.60s...: the path is too long", folder);
+    const int length =
+        snprintf(out, PATH_MAX, "%s%s/derive/at.py", folder, given != NULL ? "" : "/../reference");
+    return length < PATH_MAX ? STATUS_OK
+                             : fault_set(f, STATUS_FAULT, "%.60s...: the path is too long", folder);
 }
 
 static status print_derived(const case_type *type, const double parameter[], fault *f)
@@ -60,8 +65,8 @@ static status print_derived(const case_type *type, const double parameter[], fau
     parameters_text(type, parameter, text, sizeof text);
     const status outcome = derive_values(script, type->name, text, &value, &count, f);
     for (int i = 0; i < count; i++)
-        print_value(value[i].quantity, value[i].value, value[i].uncertainty, value[i].unit, "exact", "same", value[i].source,
-                    value[i].convention);
+        print_value(value[i].quantity, value[i].value, value[i].uncertainty, value[i].unit, "exact",
+                    "same", value[i].source, value[i].convention);
     free(value);
     return outcome;
 }
@@ -73,9 +78,11 @@ int cli_truth(int count, char **arguments)
     fault f = {""};
     char text[PARAMETERS_TEXT];
     cli_parse("truth", "CASE",
-              "Shows the truths of a parameter point: value, uncertainty, unit, kind, model, source. Where the tables have none of "
+              "Shows the truths of a parameter point: value, uncertainty, unit, kind, model, "
+              "source. Where the tables have none of "
               "the case's own model, the "
-              "deriving program is run to solve for them. Exit status: 0 shown, 1 none is stored and no program derives this case "
+              "deriving program is run to solve for them. Exit status: 0 shown, 1 none is stored "
+              "and no program derives this case "
               "or these parameters, "
               "2 refused, 4 file, disk or memory.",
               "sT", count, arguments, &r);

@@ -14,7 +14,8 @@
 
 enum { PICTURED_STATES = 5 };
 
-static status write_json(const char *path, const sweep *s, const judgement *j, const environment *e, fault *f)
+static status write_json(const char *path, const sweep *s, const judgement *j, const environment *e,
+                         fault *f)
 {
     output file;
     status outcome = output_open(path, &file, f);
@@ -37,7 +38,8 @@ static status write_junit(const char *path, const sweep *s, const judgement *j, 
     return output_close(&file, f);
 }
 
-static status write_markdown(const char *path, const sweep *s, const judgement *j, const environment *e, fault *f)
+static status write_markdown(const char *path, const sweep *s, const judgement *j,
+                             const environment *e, fault *f)
 {
     output file;
     const status opened = output_open(path, &file, f);
@@ -89,23 +91,29 @@ static status write_all(const cli_request *r, const sweep *s, const judgement *j
     return outcome;
 }
 
-static status judge_and_write(const cli_request *r, const sweep *s, truths *t, judgement *j, fault *f)
+static status judge_and_write(const cli_request *r, const sweep *s, truths *t, judgement *j,
+                              fault *f)
 {
     const int whole = r->select == NULL && r->formulations == 0 && s->unfinished == 0;
     const status judged = judge(s, t, whole, j, f);
     if (judged != STATUS_OK)
         return judged;
     table_verdicts(stdout, s, j, t);
-    return fflush(stdout) == 0 ? write_all(r, s, j, f) : fault_set(f, STATUS_FAULT, "standard output cannot be written");
+    return fflush(stdout) == 0 ? write_all(r, s, j, f)
+                               : fault_set(f, STATUS_FAULT, "standard output cannot be written");
 }
 
 /* What the exit code does not say by itself. */
 static int tell(const cli_request *r, const sweep *s, const judgement *j)
 {
-    const char *file = r->output != NULL ? r->output : r->json != NULL ? r->json : r->junit != NULL ? r->junit : r->markdown;
+    const char *file = r->output != NULL  ? r->output
+                       : r->json != NULL  ? r->json
+                       : r->junit != NULL ? r->junit
+                                          : r->markdown;
     char partial[PATH_MAX];
     if (s->unfinished > 0) {
-        fprintf(stderr, "beamwork: interrupted: %d cells were not done; what was judged is ", s->unfinished);
+        fprintf(stderr, "beamwork: interrupted: %d cells were not done; what was judged is ",
+                s->unfinished);
         if (file != NULL && output_partial(file, partial, NULL) == STATUS_OK)
             fprintf(stderr, "in %s\n", partial);
         else
@@ -114,7 +122,8 @@ static int tell(const cli_request *r, const sweep *s, const judgement *j)
     }
     const int code = judgement_exit(j);
     if (code == EXIT_NOTHING)
-        fprintf(stderr, "beamwork: nothing was checked: no verdict against a truth; see 'beamwork list' and -k\n");
+        fprintf(stderr, "beamwork: nothing was checked: no verdict against a truth; see 'beamwork "
+                        "list' and -k\n");
     return code;
 }
 
@@ -138,8 +147,10 @@ int cli_verify(int count, char **arguments)
     judgement j = {0};
     fault f = {""};
     cli_parse("verify", "",
-              "Judges every formulation on every case and parameter point that has a truth. Exit status: 0 every verdict as "
-              "expected, 1 one differs, 2 refused, 3 nothing was checked, 4 file, disk or memory, 5 interrupted (Ctrl-C, SIGTERM): "
+              "Judges every formulation on every case and parameter point that has a truth. Exit "
+              "status: 0 every verdict as "
+              "expected, 1 one differs, 2 refused, 3 nothing was checked, 4 file, disk or memory, "
+              "5 interrupted (Ctrl-C, SIGTERM): "
               "what was judged until then is in files named .partial",
               "fokjJUMLPT", count, arguments, &r);
     if (r.case_name != NULL)
@@ -155,7 +166,8 @@ int cli_verify(int count, char **arguments)
                                    .interruptible = 1,
                                    .formulations = r.formulations,
                                    .formulation = r.formulation,
-                                   .shapes = r.shapes < PICTURED_STATES ? r.shapes : PICTURED_STATES,
+                                   .shapes =
+                                       r.shapes < PICTURED_STATES ? r.shapes : PICTURED_STATES,
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
     outcome = sweep_plan(&request, &t, &s, &f);
     if (outcome == STATUS_OK)

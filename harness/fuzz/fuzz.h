@@ -1,4 +1,5 @@
-/* What the fuzzing programs have in common. Each has libFuzzer's LLVMFuzzerTestOneInput and is run by harness/tools/fuzz.sh. */
+/* What the fuzzing programs have in common. Each has libFuzzer's LLVMFuzzerTestOneInput and is run
+ * by harness/tools/fuzz.sh. */
 #ifndef BEAMWORK_FUZZ_H
 #define BEAMWORK_FUZZ_H
 
@@ -30,7 +31,8 @@ static inline char *fuzz_text(const uint8_t *data, size_t size)
 /* A stream that reads the bytes; never NULL. */
 static inline FILE *fuzz_stream(const uint8_t *data, size_t size)
 {
-    FILE *from = size > 0 ? fmemopen((void *)(uintptr_t)data, size, "rb") : fopen("/dev/null", "rb");
+    FILE *from =
+        size > 0 ? fmemopen((void *)(uintptr_t)data, size, "rb") : fopen("/dev/null", "rb");
     fuzz_must(from != NULL, "there is memory");
     return from;
 }

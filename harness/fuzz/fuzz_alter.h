@@ -1,5 +1,6 @@
-/* Alters a good HDF5 file as the bytes say: links and attributes deleted, renamed, replaced by others of another kind, type or shape, cycles. The
- * result is a proper file, its checksum right, with contents that nobody expects. (Damaged files are refused by their checksum.) */
+/* Alters a good HDF5 file as the bytes say: links and attributes deleted, renamed, replaced by
+ * others of another kind, type or shape, cycles. The result is a proper file, its checksum right,
+ * with contents that nobody expects. (Damaged files are refused by their checksum.) */
 #ifndef BEAMWORK_FUZZ_ALTER_H
 #define BEAMWORK_FUZZ_ALTER_H
 
@@ -52,19 +53,23 @@ static hid_t alter_type(unsigned what, unsigned size)
 static hid_t alter_space(unsigned what)
 {
     const hsize_t size[2] = {what % 5, what % 3};
-    return what % 4 == 0 ? H5Screate(H5S_SCALAR) : what % 4 == 1 ? H5Screate(H5S_NULL) : H5Screate_simple(1 + what % 2, size, NULL);
+    return what % 4 == 0   ? H5Screate(H5S_SCALAR)
+           : what % 4 == 1 ? H5Screate(H5S_NULL)
+                           : H5Screate_simple(1 + what % 2, size, NULL);
 }
 
 static void alter_attribute(hid_t file, const char *name, unsigned index, unsigned what)
 {
     char attribute[ALTER_NAME];
-    if (H5Aget_name_by_idx(file, name, H5_INDEX_NAME, H5_ITER_INC, index % 16, attribute, sizeof attribute, H5P_DEFAULT) < 0)
+    if (H5Aget_name_by_idx(file, name, H5_INDEX_NAME, H5_ITER_INC, index % 16, attribute,
+                           sizeof attribute, H5P_DEFAULT) < 0)
         return;
     H5Adelete_by_name(file, name, attribute, H5P_DEFAULT);
     if (what % 8 == 7)
         return;
     const hid_t type = alter_type(what, what / 8), space = alter_space(what / 7),
-                a = H5Acreate_by_name(file, name, attribute, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+                a = H5Acreate_by_name(file, name, attribute, type, space, H5P_DEFAULT, H5P_DEFAULT,
+                                      H5P_DEFAULT);
     H5Aclose(a);
     H5Sclose(space);
     H5Tclose(type);
@@ -105,8 +110,10 @@ static void alter_values(hid_t file, const char *name, unsigned what, unsigned w
 {
     static const double odd[] = {0, -1, 1e308, 1e-320, 4294967296.0, -9e18};
     static double values[4096];
-    const hid_t set = H5Oexists_by_name(file, name, H5P_DEFAULT) > 0 ? H5Dopen2(file, name, H5P_DEFAULT) : -1;
-    const hid_t space = set >= 0 ? H5Dget_space(set) : -1, stored = set >= 0 ? H5Dget_type(set) : -1;
+    const hid_t set =
+        H5Oexists_by_name(file, name, H5P_DEFAULT) > 0 ? H5Dopen2(file, name, H5P_DEFAULT) : -1;
+    const hid_t space = set >= 0 ? H5Dget_space(set) : -1,
+                stored = set >= 0 ? H5Dget_type(set) : -1;
     const int is_table = stored >= 0 && H5Tget_class(stored) == H5T_COMPOUND;
     const hid_t type = is_table ? alter_column(set, where) : H5Tcopy(H5T_NATIVE_DOUBLE);
     for (int i = 0; i < 4096; i++)
@@ -147,7 +154,8 @@ static void alter_step(hid_t file, const alter_list *list, const uint8_t step[AL
     default:
         snprintf(longer, sizeof longer, "%s/n%d", name, step[2]);
         if (step[3] & 1)
-            H5Lcreate_hard(file, list->name[step[3] % (unsigned)list->count], file, longer, H5P_DEFAULT, H5P_DEFAULT);
+            H5Lcreate_hard(file, list->name[step[3] % (unsigned)list->count], file, longer,
+                           H5P_DEFAULT, H5P_DEFAULT);
         else
             H5Lcreate_soft("/nowhere", file, longer, H5P_DEFAULT, H5P_DEFAULT);
     }

@@ -1,4 +1,5 @@
-/* Any bytes as a command line, one argument per line: parsed, or refused with one line and the documented exit code. */
+/* Any bytes as a command line, one argument per line: parsed, or refused with one line and the
+ * documented exit code. */
 #include <setjmp.h>
 
 #include "harness/cli/cli.h"
@@ -7,8 +8,10 @@
 /* Linked with --wrap: the end of the program is the end of one execution. */
 void __wrap_exit(int code);
 void __real_exit(int code);
-error_t __wrap_argp_parse(const struct argp *parser, int count, char **arguments, unsigned flags, int *end, void *input);
-error_t __real_argp_parse(const struct argp *parser, int count, char **arguments, unsigned flags, int *end, void *input);
+error_t __wrap_argp_parse(const struct argp *parser, int count, char **arguments, unsigned flags,
+                          int *end, void *input);
+error_t __real_argp_parse(const struct argp *parser, int count, char **arguments, unsigned flags,
+                          int *end, void *input);
 
 static jmp_buf end_of_run;
 static int code_of_run, running;
@@ -21,9 +24,11 @@ void __wrap_exit(int code)
     longjmp(end_of_run, 1);
 }
 
-error_t __wrap_argp_parse(const struct argp *parser, int count, char **arguments, unsigned flags, int *end, void *input)
+error_t __wrap_argp_parse(const struct argp *parser, int count, char **arguments, unsigned flags,
+                          int *end, void *input)
 {
-    return __real_argp_parse(parser, count, arguments, flags | ARGP_NO_EXIT | ARGP_NO_ERRS | ARGP_NO_HELP, end, input);
+    return __real_argp_parse(parser, count, arguments,
+                             flags | ARGP_NO_EXIT | ARGP_NO_ERRS | ARGP_NO_HELP, end, input);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -37,14 +42,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (!quiet && freopen("/dev/null", "w", stdout) != NULL)
         quiet = 1;
     argument[0] = verb;
-    for (char *one = strtok_r(text, "\n", &rest); one != NULL && count < MOST; one = strtok_r(NULL, "\n", &rest))
+    for (char *one = strtok_r(text, "\n", &rest); one != NULL && count < MOST;
+         one = strtok_r(NULL, "\n", &rest))
         argument[count++] = one;
     code_of_run = -1;
     running = 1;
     if (setjmp(end_of_run) == 0) {
         cli_parse("solve", "CASE", "", "fnsFoKSkjJUT2h", count, argument, &r);
         if (cli_case(&r) != NULL)
-            fuzz_must(r.meshes <= CLI_MAX_MESHES && r.formulations <= CLI_MAX_FORMULATIONS && r.assignments <= CASE_MAX_PARAMETERS,
+            fuzz_must(r.meshes <= CLI_MAX_MESHES && r.formulations <= CLI_MAX_FORMULATIONS &&
+                          r.assignments <= CASE_MAX_PARAMETERS,
                       "no list is longer than its array");
     }
     running = 0;

@@ -23,7 +23,8 @@ static inline const char *fuzz_file(const uint8_t *data, size_t size)
         file = open(fuzz_path, O_RDWR | O_CREAT | O_TRUNC, 0600);
         fuzz_must(file >= 0 && atexit(fuzz_unlink) == 0, "there is memory");
     }
-    fuzz_must(ftruncate(file, 0) == 0 && pwrite(file, data, size, 0) == (ssize_t)size, "there is memory");
+    fuzz_must(ftruncate(file, 0) == 0 && pwrite(file, data, size, 0) == (ssize_t)size,
+              "there is memory");
     return fuzz_path;
 }
 

@@ -1,4 +1,5 @@
-/* Any bytes as the words of the command line that have a grammar: formulation with options, selection, thresholds. */
+/* Any bytes as the words of the command line that have a grammar: formulation with options,
+ * selection, thresholds. */
 #include "harness/catalogue/formulations.h"
 #include "harness/fuzz/fuzz.h"
 #include "harness/record/comparison.h"
@@ -12,8 +13,12 @@ static void read_formulation(const char *text)
         fuzz_must(f.text[0] != '\0', "a refusal has a line");
         return;
     }
-    fuzz_must(formulation_parse(one.key, &again, &f) == STATUS_OK && strcmp(one.key, again.key) == 0, "a key reads back as itself");
-    fuzz_must(memcmp(one.option, again.option, sizeof one.option) == 0 && one.newton == again.newton, "with its options");
+    fuzz_must(formulation_parse(one.key, &again, &f) == STATUS_OK &&
+                  strcmp(one.key, again.key) == 0,
+              "a key reads back as itself");
+    fuzz_must(memcmp(one.option, again.option, sizeof one.option) == 0 &&
+                  one.newton == again.newton,
+              "with its options");
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -35,7 +40,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     default:
         if (comparison_limits_parse(text, &limits, &f) == STATUS_OK)
-            fuzz_must(limits.error >= 0 && limits.floor >= 0 && limits.work >= 0, "thresholds are not negative");
+            fuzz_must(limits.error >= 0 && limits.floor >= 0 && limits.work >= 0,
+                      "thresholds are not negative");
     }
     free(text);
     return 0;

@@ -29,7 +29,8 @@ static void count(const sweep *s, const verdict *v, coverage *row)
         if (l.meshes < 3)
             continue;
         row->series[k]++;
-        row->covered[k] += fabs(l.limit - v->truth->value) <= l.limit_uncertainty + v->truth->uncertainty;
+        row->covered[k] +=
+            fabs(l.limit - v->truth->value) <= l.limit_uncertainty + v->truth->uncertainty;
     }
 }
 

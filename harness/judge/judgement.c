@@ -6,7 +6,8 @@
 
 #include "harness/judge/verdict.h"
 
-static const double agreement_least = 1e-6; /* relative, of a value against its own stored discrete value */
+/* relative, of a value against its own stored discrete value */
+static const double agreement_least = 1e-6;
 
 static int is_beyond(const rule *r, const verdict *v)
 {
@@ -19,15 +20,17 @@ static void expect(const sweep *s, truths *t, verdict *v)
     const series *one = &s->series[v->series];
     const point *p = &s->point[one->point];
     const char *quantity = p->scene.quantity[v->quantity].name;
-    const rule_subject subject = {p->type,  p->parameter,         model_needs(&p->scene), one->formulation.key,
-                                  quantity, verdict_name(v->kind)};
+    const rule_subject subject = {
+        p->type,  p->parameter,         model_needs(&p->scene), one->formulation.key,
+        quantity, verdict_name(v->kind)};
     v->matches = v->kind == v->expected;
     for (int i = 0; i < t->rules && !v->matches; i++) {
         rule *r = &t->rule[i];
         if (!rule_holds(r, &subject))
             continue;
         if (v->rule != NULL) {
-            snprintf(v->reason, sizeof v->reason, "two findings speak of it: %.60s and %.60s", v->rule->name, r->name);
+            snprintf(v->reason, sizeof v->reason, "two findings speak of it: %.60s and %.60s",
+                     v->rule->name, r->name);
             v->expected = VERDICT_PASS;
             return;
         }
@@ -36,7 +39,8 @@ static void expect(const sweep *s, truths *t, verdict *v)
         if (v->kind == VERDICT_AS_PREDICTED)
             rule_foretell(r, &subject);
         if (is_beyond(r, v))
-            snprintf(v->reason, sizeof v->reason, "its error of %.3g is beyond the %.3g of finding %.60s", v->error,
+            snprintf(v->reason, sizeof v->reason,
+                     "its error of %.3g is beyond the %.3g of finding %.60s", v->error,
                      r->largest_error, r->name);
         else
             v->expected = v->kind;
@@ -63,16 +67,21 @@ static status compare_meshes(const sweep *s, const truths *t, int index, judgeme
     status outcome = STATUS_OK;
     for (int r = 0; r < t->rows && one->missing[0] == '\0'; r++) {
         const truth *row = &t->row[r];
-        if (row->elements == 0 || !truth_gates(row) || strcmp(row->formulation, one->formulation.key) != 0 ||
+        if (row->elements == 0 || !truth_gates(row) ||
+            strcmp(row->formulation, one->formulation.key) != 0 ||
             !truth_holds(row, p->type, p->parameter))
             continue;
         for (int i = 0; i < one->meshes; i++)
-            for (int q = 0; q < p->scene.quantities && one->mesh[i] == row->elements && outcome == STATUS_OK; q++) {
-                if (strcmp(p->scene.quantity[q].name, row->quantity) != 0 || !sweep_selects(s, p, &one->formulation, row->quantity))
+            for (int q = 0;
+                 q < p->scene.quantities && one->mesh[i] == row->elements && outcome == STATUS_OK;
+                 q++) {
+                if (strcmp(p->scene.quantity[q].name, row->quantity) != 0 ||
+                    !sweep_selects(s, p, &one->formulation, row->quantity))
                     continue;
                 const solve_result *result = &one->cell[i].solve;
                 const double value = q < result->quantities ? result->quantity[q].value : NAN;
-                const int good = fabs(value - row->value) <= fmax(row->uncertainty, agreement_least * fabs(row->value));
+                const int good = fabs(value - row->value) <=
+                                 fmax(row->uncertainty, agreement_least * fabs(row->value));
                 outcome = add_agreement(&(agreement){index, i, q, row, value, good}, out, f);
             }
     }
@@ -80,7 +89,8 @@ static status compare_meshes(const sweep *s, const truths *t, int index, judgeme
 }
 
 /* Truths that speak of this quantity, the ones ranked lower and of other models included. */
-static void mark_met(truths *t, const point *p, const formulation *chosen, const char *quantity, int judged)
+static void mark_met(truths *t, const point *p, const formulation *chosen, const char *quantity,
+                     int judged)
 {
     for (int i = 0; i < t->rows; i++) {
         truth *row = &t->row[i];
@@ -96,12 +106,16 @@ static status check_units(const sweep *s, const truths *t, fault *f)
 {
     for (int i = 0; i < s->points; i++)
         for (int r = 0; r < t->rows; r++)
-            for (int q = 0; q < s->point[i].scene.quantities && t->row[r].type == s->point[i].type; q++) {
+            for (int q = 0; q < s->point[i].scene.quantities && t->row[r].type == s->point[i].type;
+                 q++) {
                 const scene_quantity *here = &s->point[i].scene.quantity[q];
-                if (strcmp(here->name, t->row[r].quantity) == 0 && strcmp(here->unit, t->row[r].unit) != 0)
+                if (strcmp(here->name, t->row[r].quantity) == 0 &&
+                    strcmp(here->unit, t->row[r].unit) != 0)
                     return fault_set(f, STATUS_FAULT,
-                                     "case %s: %s is in '%s', its truth in '%s'; correct the table and build again",
-                                     s->point[i].type->name, here->name, here->unit, t->row[r].unit);
+                                     "case %s: %s is in '%s', its truth in '%s'; correct the table "
+                                     "and build again",
+                                     s->point[i].type->name, here->name, here->unit,
+                                     t->row[r].unit);
             }
     return STATUS_OK;
 }
@@ -117,7 +131,8 @@ static void judge_quantity(const sweep *s, truths *t, int index, int quantity, j
     out->by_kind[v->kind]++;
     out->judged += v->truth != NULL && v->kind != VERDICT_SKIP;
     out->unexpected += !v->matches;
-    mark_met(t, p, &s->series[index].formulation, p->scene.quantity[quantity].name, v->kind != VERDICT_SKIP);
+    mark_met(t, p, &s->series[index].formulation, p->scene.quantity[quantity].name,
+             v->kind != VERDICT_SKIP);
 }
 
 /* Is a last change so small that noise may be all of it, or the verdict open? */
@@ -128,7 +143,8 @@ static int noise_may_decide(const sweep *s, const truths *t, int index, int quan
     verdict_reach(s, t, &v);
     if (v.truth == NULL || isnan(v.fit.limit) || isnan(v.fit.last_change))
         return 0;
-    return v.kind == VERDICT_UNDECIDED || v.fit.last_change <= small_change * fmax(fabs(v.finest), fabs(v.truth->value));
+    return v.kind == VERDICT_UNDECIDED ||
+           v.fit.last_change <= small_change * fmax(fabs(v.finest), fabs(v.truth->value));
 }
 
 void judge_doubts(const sweep *s, const truths *t, char wanted[])
@@ -138,7 +154,8 @@ void judge_doubts(const sweep *s, const truths *t, char wanted[])
         wanted[i] = 0;
         for (int q = 0; q < p->scene.quantities && !wanted[i]; q++)
             wanted[i] = p->scene.quantity[q].reduction != SCENE_CURVE &&
-                        sweep_selects(s, p, &s->series[i].formulation, p->scene.quantity[q].name) && noise_may_decide(s, t, i, q);
+                        sweep_selects(s, p, &s->series[i].formulation, p->scene.quantity[q].name) &&
+                        noise_may_decide(s, t, i, q);
     }
 }
 
@@ -163,7 +180,8 @@ status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f)
         const point *p = &s->point[one->point];
         for (int q = 0; q < p->scene.quantities; q++) {
             const scene_quantity *quantity = &p->scene.quantity[q];
-            if (quantity->reduction == SCENE_CURVE) /* drawn beside its truths; a point of it is judged by a quantity of its own */
+            if (quantity->reduction == SCENE_CURVE) /* drawn beside its truths; a point of it is
+                                                       judged by a quantity of its own */
                 mark_met(t, p, &one->formulation, quantity->name, one->missing[0] == '\0');
             else if (sweep_selects(s, p, &one->formulation, quantity->name))
                 judge_quantity(s, t, i, q, out);
@@ -176,7 +194,8 @@ status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f)
         out->unobserved += !rule_is_observed(&t->rule[i]);
     for (int i = 0; i < t->rows && whole; i++) {
         const truth *row = &t->row[i];
-        const int elsewhere = row->formulation[0] != '\0' && formulation_find(row->formulation) == NULL;
+        const int elsewhere =
+            row->formulation[0] != '\0' && formulation_find(row->formulation) == NULL;
         out->unmet += !row->met && !elsewhere;
         out->waiting += (row->met || elsewhere) && !row->judged;
     }

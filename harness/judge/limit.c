@@ -3,13 +3,17 @@
 #include <math.h>
 #include <stddef.h>
 
-static const double least_refinement = 1.4; /* of consecutive meshes; closer ones say nothing that noise does not drown */
+/* of consecutive meshes; closer ones say nothing that noise does not drown */
+static const double least_refinement = 1.4;
 static const double unmeasured_noise = 3e-11, least_noise = 2.3e-16; /* relative */
-static const double noisy_changes = 10;                              /* a change of so many noises says nothing of an order */
-static const double least_seen_order = 0.5;                          /* accepted as seen ... */
-static const double remaining_order = 1;                             /* ... and assumed of what remains */
+/* a change of so many noises says nothing of an order */
+static const double noisy_changes = 10;
+static const double least_seen_order = 0.5; /* accepted as seen ... */
+/* ... and assumed of what remains */
+static const double remaining_order = 1;
 static const double settled_part = 1e-4;
-static const double doubted_step = 0.02; /* least part of the extrapolation that is doubted where noise was not measured */
+/* least part of the extrapolation that is doubted where noise was not measured */
+static const double doubted_step = 0.02;
 static const double sure = 1.25, unsure = 3;
 static const double end_factor = 4; /* noises that a value without extrapolation is doubted by */
 static const double lowest_order = 0.05, bisected_order = 40;
@@ -25,7 +29,8 @@ typedef struct meshes {
 
 const char *limit_kind_name(limit_kind kind)
 {
-    static const char *const names[LIMIT_KINDS] = {"none", "noise-dominated", "settled", "asymptotic", "oscillating", "not yet"};
+    static const char *const names[LIMIT_KINDS] = {"none",       "noise-dominated", "settled",
+                                                   "asymptotic", "oscillating",     "not yet"};
     return names[kind];
 }
 
@@ -59,33 +64,38 @@ static double extrapolate(const double n[3], const double f[3], double p)
 /* Change of the extrapolated limit per change of the values: root of the sum of squares. */
 static double amplification(const double n[3], const double f[3], double p)
 {
-    const double h = 1e-4 * fmin(fabs(f[1] - f[0]), fabs(f[2] - f[1])), base = extrapolate(n, f, p), lost = 100;
+    const double h = 1e-4 * fmin(fabs(f[1] - f[0]), fabs(f[2] - f[1])), base = extrapolate(n, f, p),
+                 lost = 100;
     double sum = 0;
     for (int i = 0; i < 3; i++) {
         double g[3] = {f[0], f[1], f[2]};
         g[i] += h;
-        const double q = order_of(n, g), slope = isnan(q) ? lost : (extrapolate(n, g, q) - base) / h;
+        const double q = order_of(n, g),
+                     slope = isnan(q) ? lost : (extrapolate(n, g, q) - base) / h;
         sum += slope * slope;
     }
     return sqrt(sum);
 }
 
-/* The finest mesh with a value that is at least least_refinement coarser than one of `fine` elements; -1: none. */
+/* The finest mesh with a value that is at least least_refinement coarser than one of `fine`
+ * elements; -1: none. */
 static int coarser_than(const limit_sequence *s, double fine)
 {
     int best = -1;
     for (int i = 0; i < s->count; i++)
-        if (isfinite(s->value[i]) && fine >= least_refinement * s->n[i] && (best < 0 || s->n[i] > s->n[best]))
+        if (isfinite(s->value[i]) && fine >= least_refinement * s->n[i] &&
+            (best < 0 || s->n[i] > s->n[best]))
             best = i;
     return best;
 }
 
-/* From the finest mesh downwards, each at least least_refinement coarser than the one kept before. */
+/* From the finest mesh down, each at least least_refinement coarser than the one before. */
 static void thin(const limit_sequence *s, meshes *m)
 {
     int kept[LIMIT_MESHES];
     m->count = 0;
-    for (int i = coarser_than(s, INFINITY); i >= 0 && m->count < LIMIT_MESHES; i = coarser_than(s, s->n[i]))
+    for (int i = coarser_than(s, INFINITY); i >= 0 && m->count < LIMIT_MESHES;
+         i = coarser_than(s, s->n[i]))
         kept[m->count++] = i;
     for (int i = 0; i < m->count; i++) {
         m->n[i] = s->n[kept[m->count - 1 - i]];
@@ -112,7 +122,8 @@ static void prepare(const limit_sequence *s, meshes *m)
     for (int i = 0; i < last; i++)
         m->change[i] = m->f[i + 1] - m->f[i];
     for (int i = 0; i + 1 < last; i++) {
-        const int seen = fmin(fabs(m->change[i]), fabs(m->change[i + 1])) > noisy_changes * m->noise;
+        const int seen =
+            fmin(fabs(m->change[i]), fabs(m->change[i + 1])) > noisy_changes * m->noise;
         m->order[i] = seen ? order_of(m->n + i, m->f + i) : NAN;
     }
 }
@@ -135,13 +146,16 @@ static void few(const meshes *m, mesh_limit *out)
     out->limit = m->f[m->count - 1];
     out->from = (int)m->n[0];
     if (m->count == 2)
-        out->limit_uncertainty = unsure * fabs(m->change[0]) / (pow(refinement(m, 0), remaining_order) - 1) + end_factor * m->noise;
+        out->limit_uncertainty =
+            unsure * fabs(m->change[0]) / (pow(refinement(m, 0), remaining_order) - 1) +
+            end_factor * m->noise;
 }
 
 /* The last change is noise, and the one before no chance crossing. 1: it is so. */
 static int at_noise(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
-    const double a = fabs(m->change[m->count - 2]), b = fabs(m->change[m->count - 3]), noise = noisy_changes * m->noise;
+    const double a = fabs(m->change[m->count - 2]), b = fabs(m->change[m->count - 3]),
+                 noise = noisy_changes * m->noise;
     if (a > noise || b > noise * pow(refinement(m, 1), s->highest_order + 1))
         return 0;
     out->kind = b <= noise ? LIMIT_NOISE_DOMINATED : LIMIT_SETTLED;
@@ -158,7 +172,8 @@ static double own_limit(const meshes *m, int first)
     return extrapolate(m->n + first, m->f + first, m->order[first]);
 }
 
-/* By how much the limit has changed with the last mesh, and the factor of its doubt; the last three meshes begin at k > 0. */
+/* By how much the limit has changed with the last mesh, and the factor of its doubt; the last three
+ * meshes begin at k > 0. */
 static double change_of_limit(const limit_sequence *s, const meshes *m, int k, double *factor)
 {
     const double R = refinement(m, 0), value = own_limit(m, k);
@@ -167,7 +182,8 @@ static double change_of_limit(const limit_sequence *s, const meshes *m, int k, d
     *factor = sure;
     if (k > 1 && is_good(m->order[k - 2], s)) {
         const double before = fabs(own_limit(m, k - 1) - own_limit(m, k - 2));
-        if (!measured && change > before / pow(R, remaining_order)) { /* the limits do not settle: noise, perhaps */
+        /* the limits do not settle: noise, perhaps */
+        if (!measured && change > before / pow(R, remaining_order)) {
             change = fmax(change, before);
             *factor = unsure;
         }
@@ -189,19 +205,21 @@ static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
     const double change = change_of_limit(s, m, k, &factor);
     out->kind = LIMIT_ASYMPTOTIC;
     out->limit = own_limit(m, k);
-    out->limit_uncertainty =
-        factor * change / (pow(refinement(m, 0), remaining_order) - 1) + m->noise * (1 + 2 * amplification(m->n + k, m->f + k, p));
+    out->limit_uncertainty = factor * change / (pow(refinement(m, 0), remaining_order) - 1) +
+                             m->noise * (1 + 2 * amplification(m->n + k, m->f + k, p));
     out->order = p;
     out->order_uncertainty = apart;
     out->from = (int)m->n[k - 1];
     return 1;
 }
 
-/* An order that still drifts, or three meshes only: the worst of the last changes, with the least order in sight. 1: it is so. */
+/* An order that still drifts, or three meshes only: the worst of the last changes, with the least
+ * order in sight. 1: it is so. */
 static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const int k = m->count - 3;
-    const double p = m->order[k], before = k > 0 ? m->order[k - 1] : NAN, nominal = s->nominal_order, highest = s->highest_order;
+    const double p = m->order[k], before = k > 0 ? m->order[k - 1] : NAN,
+                 nominal = s->nominal_order, highest = s->highest_order;
     const double a = fabs(m->change[k + 1]), b = fabs(m->change[k]), R = refinement(m, 0);
     double q, rest, factor = unsure;
     if (!is_good(p, s) || (k > 0 && isnan(before)))
@@ -209,7 +227,8 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
     if (k == 0) {
         q = fmin(p, nominal);
         rest = fmax(a, b * pow(R, -nominal));
-    } else if (before >= least_seen_order && before <= p && p <= 1.1 * nominal) { /* rising towards what is declared */
+        /* rising towards what is declared */
+    } else if (before >= least_seen_order && before <= p && p <= 1.1 * nominal) {
         q = p;
         rest = a;
         factor = p >= 0.9 * nominal ? sure : unsure;
@@ -225,7 +244,8 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* No order: the worst of the last three changes, each reduced as the nominal order promises; more where they grow. */
+/* No order: the worst of the last three changes, each reduced as the nominal order promises; more
+ * where they grow. */
 static void disorderly(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const int last = m->count - 1;
@@ -241,7 +261,11 @@ static void disorderly(const limit_sequence *s, const meshes *m, mesh_limit *out
 
 mesh_limit limit_of(const limit_sequence *s)
 {
-    mesh_limit out = {.limit = NAN, .limit_uncertainty = INFINITY, .order = NAN, .order_uncertainty = NAN, .last_change = NAN};
+    mesh_limit out = {.limit = NAN,
+                      .limit_uncertainty = INFINITY,
+                      .order = NAN,
+                      .order_uncertainty = NAN,
+                      .last_change = NAN};
     meshes m;
     prepare(s, &m);
     out.noise = m.noise;

@@ -5,11 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const names[VERDICT_KINDS] = {"pass",      "biased",    "wrong limit", "wrong limit, as predicted",
-                                                 "low order", "undecided", "diverged",    "refused",
-                                                 "skip",      "no truth"};
+static const char *const names[VERDICT_KINDS] = {
+    "pass",      "biased",    "wrong limit", "wrong limit, as predicted",
+    "low order", "undecided", "diverged",    "refused",
+    "skip",      "no truth"};
 static const double order_slack = 0.3; /* an order seen on finite meshes is not sharper */
-static const double surely = 3;        /* so many uncertainties from the truth, a limit is another one */
+/* so many uncertainties from the truth, a limit is another one */
+static const double surely = 3;
 
 const char *verdict_name(verdict_kind kind)
 {
@@ -51,7 +53,9 @@ static history history_of(const series *s, int quantity)
         const solve_result *r = &s->cell[i].solve;
         const quantity_result *q = quantity < r->quantities ? &r->quantity[quantity] : NULL;
         h.failure = failure_of(r, q);
-        h.reason = h.failure == STATUS_OK ? "" : q != NULL && q->reason[0] != '\0' ? q->reason : r->reason;
+        h.reason = h.failure == STATUS_OK              ? ""
+                   : q != NULL && q->reason[0] != '\0' ? q->reason
+                                                       : r->reason;
         h.n[i] = s->mesh[i];
         h.value[i] = h.failure == STATUS_OK ? q->value : NAN;
     }
@@ -73,8 +77,10 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
     const scene *here = &s->point[one->point].scene;
     const scene_quantity *q = &here->quantity[quantity];
     const history h = history_of(one, quantity);
-    const element_analysis analysis = q->analysis < here->analyses ? analysis_of(here, q) : ELEMENT_STATICS;
-    const element_order order = element_order_in(one->formulation.type, analysis, one->formulation.option);
+    const element_analysis analysis =
+        q->analysis < here->analyses ? analysis_of(here, q) : ELEMENT_STATICS;
+    const element_order order =
+        element_order_in(one->formulation.type, analysis, one->formulation.option);
     const limit_sequence sequence = {.count = one->meshes - left_out,
                                      .n = h.n,
                                      .value = h.value,
@@ -85,35 +91,40 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
     return limit_of(&sequence);
 }
 
-/* Is the order both known and too low?  Changes that the truth's own uncertainty hides say nothing. */
+/* Is the order known and too low?  Changes that the truth's uncertainty hides say nothing. */
 static int order_is_low(const scene_quantity *q, const verdict *v)
 {
-    return v->fit.kind == LIMIT_ASYMPTOTIC && v->fit.order + v->fit.order_uncertainty < q->least_order - order_slack &&
+    return v->fit.kind == LIMIT_ASYMPTOTIC &&
+           v->fit.order + v->fit.order_uncertainty < q->least_order - order_slack &&
            v->fit.last_change > v->truth->uncertainty;
 }
 
 static int is_predicted(const verdict *v)
 {
     return v->predicted != NULL &&
-           fabs(v->fit.limit - v->predicted->value) <= surely * v->fit.limit_uncertainty + v->predicted->uncertainty;
+           fabs(v->fit.limit - v->predicted->value) <=
+               surely * v->fit.limit_uncertainty + v->predicted->uncertainty;
 }
 
-/* Against the truth.  A bias is as much a statement about the truth: it is not stated of one whose uncertainty is an estimate. */
+/* Against the truth.  A bias is as much a statement about the truth: it is not stated of one whose
+ * uncertainty is an estimate. */
 static verdict_kind compare(const scene_quantity *q, const verdict *v)
 {
     const double error = fabs(v->fit.limit - v->truth->value), doubt = v->fit.limit_uncertainty;
     const int known = strcmp(v->truth->kind, "exact") == 0;
     if (!(error + doubt <= v->tolerance)) {
         const int wrong = error - doubt > v->tolerance && v->fit.meshes > 3;
-        return !wrong ? VERDICT_UNDECIDED : is_predicted(v) ? VERDICT_AS_PREDICTED : VERDICT_WRONG_LIMIT;
+        return !wrong            ? VERDICT_UNDECIDED
+               : is_predicted(v) ? VERDICT_AS_PREDICTED
+                                 : VERDICT_WRONG_LIMIT;
     }
     if (known && error > surely * doubt + v->truth->uncertainty)
         return is_predicted(v) ? VERDICT_AS_PREDICTED : VERDICT_BIASED;
     return order_is_low(q, v) ? VERDICT_LOW_ORDER : VERDICT_PASS;
 }
 
-/* Words of truth.theory that the formulation is judged by; NULL: any.  A form whose modes see no shear has no theory that
- * anything else follows: its limits are shown against what there is. */
+/* Words of truth.theory that the formulation is judged by; NULL: any.  A form whose modes see no
+ * shear has no theory that anything else follows: its limits are shown against what there is. */
 static const char *theories_of(const scene *s, const element_type *type)
 {
     switch (model_theory(s, type)) {
@@ -140,11 +151,12 @@ static void find_truths(const sweep *s, const truths *t, verdict *v)
     v->truth = verdict_truth(t, p, &one->formulation, v->quantity);
     v->model_truth = truth_of(t, p->type, p->parameter, name, "other");
     if (v->truth == NULL && v->model_truth == NULL)
-        v->model_truth = truth_of(t, p->type, p->parameter, name, "same"); /* of another theory of shear */
+        /* of another theory of shear */
+        v->model_truth = truth_of(t, p->type, p->parameter, name, "same");
     v->predicted = truth_predicted(t, p->type, p->parameter, name, one->formulation.key);
 }
 
-/* A published value of the same model and theory, ranked below the truth, that the limit cannot be. */
+/* A published value of the same model and theory, ranked below the truth: no limit of it. */
 static const truth *contradiction(const sweep *s, const truths *t, const verdict *v)
 {
     const series *one = &s->series[v->series];
@@ -152,8 +164,9 @@ static const truth *contradiction(const sweep *s, const truths *t, const verdict
     const char *theories = theories_of(&p->scene, one->formulation.type);
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
-        if (strcmp(row->kind, "published") == 0 && row->formulation[0] == '\0' && !row->on_curve && row != v->truth &&
-            strcmp(row->quantity, p->scene.quantity[v->quantity].name) == 0 && strcmp(row->model, "same") == 0 &&
+        if (strcmp(row->kind, "published") == 0 && row->formulation[0] == '\0' && !row->on_curve &&
+            row != v->truth && strcmp(row->quantity, p->scene.quantity[v->quantity].name) == 0 &&
+            strcmp(row->model, "same") == 0 &&
             (theories == NULL || row->theory[0] == '\0' || strcmp(row->theory, theories) == 0) &&
             truth_holds(row, p->type, p->parameter) &&
             fabs(v->fit.limit - row->value) > v->fit.limit_uncertainty + row->uncertainty)
@@ -190,7 +203,11 @@ void verdict_reach(const sweep *s, const truths *t, verdict *v)
     const series *one = &s->series[v->series];
     const scene_quantity *q = &s->point[one->point].scene.quantity[v->quantity];
     v->finest = v->error = v->model_error = v->tolerance = NAN;
-    v->fit = (mesh_limit){.limit = NAN, .limit_uncertainty = NAN, .order = NAN, .order_uncertainty = NAN, .last_change = NAN};
+    v->fit = (mesh_limit){.limit = NAN,
+                          .limit_uncertainty = NAN,
+                          .order = NAN,
+                          .order_uncertainty = NAN,
+                          .last_change = NAN};
     v->expected = VERDICT_PASS;
     find_truths(s, t, v);
     if (is_hindered(s, v))
@@ -210,5 +227,6 @@ void verdict_reach(const sweep *s, const truths *t, verdict *v)
     if (v->kind == VERDICT_PASS || v->kind == VERDICT_LOW_ORDER)
         v->contradicted = contradiction(s, t, v);
     if (v->predicted != NULL && v->kind == VERDICT_WRONG_LIMIT)
-        snprintf(v->reason, sizeof v->reason, "its limit is not the predicted %.10g", v->predicted->value);
+        snprintf(v->reason, sizeof v->reason, "its limit is not the predicted %.10g",
+                 v->predicted->value);
 }

@@ -40,7 +40,8 @@ void csv_timing(FILE *to, const sweep *s, const judgement *j)
 {
     enum { TIMING, QUANTITY, CELL, PARTS };
     const gathering g = {s, j, NULL};
-    csv_part row[PARTS] = {{.type = &record_timing}, {.type = &record_quantity}, {.type = &record_cell}};
+    csv_part row[PARTS] = {
+        {.type = &record_timing}, {.type = &record_quantity}, {.type = &record_cell}};
     csv_head(to, PARTS, row);
     for (int i = 0; i < s->seriess; i++)
         for (int k = 0; k < s->series[i].meshes && s->series[i].missing[0] == '\0'; k++) {

@@ -6,7 +6,8 @@
 
 #include "harness/schema/schema.h"
 
-/* A line is made of several records of one subject each; of fields of the same name the first stands. Matrices are left out. */
+/* A line is made of several records of one subject each; of fields of the same name the first
+ * stands. Matrices are left out. */
 typedef struct csv_part {
     const record_type *type;
     subject s;

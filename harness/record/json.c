@@ -50,7 +50,8 @@ static json_t *truths_of(const subject *s, const truths *t)
     json_t *list = json_array();
     for (int i = 0; t != NULL && i < t->rows; i++) {
         const truth *row = &t->row[i];
-        if (row->formulation[0] != '\0' || row->on_curve || strcmp(row->quantity, p->scene.quantity[s->index].name) != 0 ||
+        if (row->formulation[0] != '\0' || row->on_curve ||
+            strcmp(row->quantity, p->scene.quantity[s->index].name) != 0 ||
             !truth_holds(row, p->type, p->parameter))
             continue;
         one.truth = row;
@@ -107,18 +108,24 @@ static void add_curves(json_t *root, const gathering *g)
 
 status json_finish(json_t *root, FILE *to, fault *f)
 {
-    const int bad = root == NULL || json_dumpf(root, to, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) != 0 || fputc('\n', to) == EOF;
+    const int bad = root == NULL ||
+                    json_dumpf(root, to, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) != 0 ||
+                    fputc('\n', to) == EOF;
     json_decref(root);
-    return bad ? fault_set(f, STATUS_FAULT, "the JSON could not be written (full disk or out of memory)") : STATUS_OK;
+    return bad ? fault_set(f, STATUS_FAULT,
+                           "the JSON could not be written (full disk or out of memory)")
+               : STATUS_OK;
 }
 
 status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
 {
-    static const record_type *const lists[] = {&record_event, &record_step, &record_iteration, &record_matrix};
+    static const record_type *const lists[] = {&record_event, &record_step, &record_iteration,
+                                               &record_matrix};
     const gathering g = {s, NULL, t};
     const subject cell = gather_cell(&g, 0, 0);
-    json_t *root = json_pack("{s:i,s:s,s:s,s:i}", "schema_version", SCHEMA_VERSION, "case", cell.point->type->name, "formulation",
-                             cell.series->formulation.key, "elements", cell.series->mesh[0]);
+    json_t *root = json_pack("{s:i,s:s,s:s,s:i}", "schema_version", SCHEMA_VERSION, "case",
+                             cell.point->type->name, "formulation", cell.series->formulation.key,
+                             "elements", cell.series->mesh[0]);
     json_object_set_new(root, "options", options_of(&cell.series->formulation));
     json_object_set_new(root, "parameters", parameters_of(cell.point));
     json_object_set_new(root, record_cell.name, json_record(&record_cell, &cell, 0));
@@ -129,10 +136,12 @@ status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
     return json_finish(root, to, f);
 }
 
-status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const environment *e, fault *f)
+status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const environment *e,
+                           fault *f)
 {
     const gathering g = {s, j, NULL};
-    json_t *verdicts = json_array(), *agreements = json_array(), *coverages = json_array(), *counts = json_object();
+    json_t *verdicts = json_array(), *agreements = json_array(), *coverages = json_array(),
+           *counts = json_object();
     for (int i = 0; i < j->verdicts; i++) {
         const subject one = gather_verdict(&g, &j->verdict[i]);
         json_add_record(verdicts, &record_verdict, &one, KEY_AROUND);
@@ -149,9 +158,10 @@ status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const e
     for (int k = 0; k < VERDICT_KINDS; k++)
         json_object_set_new(counts, verdict_name((verdict_kind)k), json_integer(j->by_kind[k]));
     json_t *root =
-        json_pack("{s:i,s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:i,s:i,s:i,s:i}", "schema_version", SCHEMA_VERSION, "program_version",
-                  e->version, "commit", e->commit, "compiler", e->compiler, "clock", e->clock, "cells", sweep_cells(s),
-                  "noise_cells", noise_cells(s), "judged", j->judged, "unexpected", j->unexpected, "disagreements",
+        json_pack("{s:i,s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:i,s:i,s:i,s:i}", "schema_version",
+                  SCHEMA_VERSION, "program_version", e->version, "commit", e->commit, "compiler",
+                  e->compiler, "clock", e->clock, "cells", sweep_cells(s), "noise_cells",
+                  noise_cells(s), "judged", j->judged, "unexpected", j->unexpected, "disagreements",
                   j->disagreements, "unobserved_findings", j->unobserved, "unmet_truths", j->unmet);
     json_object_set_new(root, "unfinished_cells", json_integer(s->unfinished));
     json_object_set_new(root, "counts", counts);

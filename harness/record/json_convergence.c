@@ -12,7 +12,9 @@ static json_t *meshes_of(const gathering *g, int series_index, int quantity)
         json_t *one = json_record(&record_cell, &cell, KEY);
         gather_mesh(g, &record_quantity, series_index, k, &list);
         for (int i = 0; i < list.count; i++) {
-            json_t *found = list.row[i].index == quantity ? json_record(&record_quantity, &list.row[i], 0) : NULL;
+            json_t *found = list.row[i].index == quantity
+                                ? json_record(&record_quantity, &list.row[i], 0)
+                                : NULL;
             json_object_update(one, found);
             json_decref(found);
         }
@@ -49,5 +51,6 @@ status json_write_convergence(FILE *to, const sweep *s, const truths *t, fault *
         json_object_set_new(out, record_quantity.table, quantities);
         json_array_append_new(all, out);
     }
-    return json_finish(json_pack("{s:i,s:o}", "schema_version", SCHEMA_VERSION, record_series.table, all), to, f);
+    return json_finish(
+        json_pack("{s:i,s:o}", "schema_version", SCHEMA_VERSION, record_series.table, all), to, f);
 }

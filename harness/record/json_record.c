@@ -56,8 +56,9 @@ void json_add_record(json_t *list, const record_type *type, const subject *s, in
 
 static json_t *json_field(const schema_field *which)
 {
-    json_t *out = json_pack("{s:s,s:s,s:s,s:s,s:b}", "name", which->name, "kind", field_kind_name(which->kind), "unit", which->unit,
-                            "summary", which->summary, "key", which->key != 0);
+    json_t *out = json_pack("{s:s,s:s,s:s,s:s,s:b}", "name", which->name, "kind",
+                            field_kind_name(which->kind), "unit", which->unit, "summary",
+                            which->summary, "key", which->key != 0);
     json_object_set_new(out, "said_around", json_boolean(which->key == KEY_AROUND));
     json_t *words = json_array();
     for (int i = 0; i < which->words; i++)
@@ -74,5 +75,6 @@ json_t *json_record_type(const record_type *type)
     json_t *fields = json_array();
     for (int i = 0; i < count; i++)
         json_array_append_new(fields, json_field(list[i]));
-    return json_pack("{s:s,s:s,s:s,s:o}", "record", type->name, "table", type->table, "summary", type->summary, "fields", fields);
+    return json_pack("{s:s,s:s,s:s,s:o}", "record", type->name, "table", type->table, "summary",
+                     type->summary, "fields", fields);
 }

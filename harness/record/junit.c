@@ -54,8 +54,8 @@ static void write_verdict(FILE *to, const sweep *s, const verdict *v)
     const series *one = &s->series[v->series];
     const point *p = &s->point[one->point];
     open_test(to, p);
-    fprintf(to, "\" name=\"%s %s\" time=\"%.6f\">\n   <properties>\n", one->formulation.key, p->scene.quantity[v->quantity].name,
-            seconds_of(one));
+    fprintf(to, "\" name=\"%s %s\" time=\"%.6f\">\n   <properties>\n", one->formulation.key,
+            p->scene.quantity[v->quantity].name, seconds_of(one));
     property(to, "value", v->finest);
     property(to, "limit", v->fit.limit);
     property(to, "order", v->fit.order);
@@ -73,7 +73,8 @@ static void write_verdict(FILE *to, const sweep *s, const verdict *v)
         verdict_sentence(v, p->scene.quantity[v->quantity].least_order, sentence, sizeof sentence);
         fprintf(to, "   <failure message=\"");
         escaped(to, sentence);
-        fprintf(to, "; expected %s\"/>\n", v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
+        fprintf(to, "; expected %s\"/>\n",
+                v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
     }
     fprintf(to, "  </testcase>\n");
 }
@@ -86,7 +87,8 @@ static void write_agreement(FILE *to, const sweep *s, const agreement *a)
     fprintf(to, "\" name=\"%s n=%d %s (discrete)\">\n", one->formulation.key, one->mesh[a->mesh],
             p->scene.quantity[a->quantity].name);
     if (!a->good)
-        fprintf(to, "   <failure message=\"%.17g differs from the stored %.17g\"/>\n", a->value, a->truth->value);
+        fprintf(to, "   <failure message=\"%.17g differs from the stored %.17g\"/>\n", a->value,
+                a->truth->value);
     fprintf(to, "  </testcase>\n");
 }
 
@@ -120,7 +122,8 @@ void junit_write(FILE *to, const sweep *s, const judgement *j)
 {
     const junit_counts c = count_all(s, j);
     fprintf(to,
-            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n <testsuite name=\"beamwork\" tests=\"%d\" failures=\"%d\" "
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n <testsuite "
+            "name=\"beamwork\" tests=\"%d\" failures=\"%d\" "
             "skipped=\"%d\">\n",
             c.tests, c.failures, c.skipped);
     for (int i = 0; i < j->verdicts; i++)

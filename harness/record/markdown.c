@@ -29,7 +29,8 @@ static void write_verdict(FILE *to, const sweep *s, const verdict *v)
     const point *p = &s->point[one->point];
     fprintf(to, "| %s | ", p->type->name);
     cell(to, p->text);
-    fprintf(to, " | `%s` | %s | **%s** | %s", one->formulation.key, p->scene.quantity[v->quantity].name, verdict_name(v->kind),
+    fprintf(to, " | `%s` | %s | **%s** | %s", one->formulation.key,
+            p->scene.quantity[v->quantity].name, verdict_name(v->kind),
             v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
     number(to, v->fit.limit);
     number(to, v->truth != NULL ? v->truth->value : NAN);
@@ -46,7 +47,8 @@ static void write_unexpected(FILE *to, const sweep *s, const judgement *j)
     int rows = 0;
     if (j->unexpected == 0)
         return;
-    fprintf(to, "\n| case | parameters | formulation | quantity | verdict | expected | limit | truth | error | reason |\n"
+    fprintf(to, "\n| case | parameters | formulation | quantity | verdict | expected | limit | "
+                "truth | error | reason |\n"
                 "|---|---|---|---|---|---|---:|---:|---:|---|\n");
     for (int i = 0; i < j->verdicts && rows < MOST_ROWS; i++)
         if (!j->verdict[i].matches) {
@@ -91,8 +93,11 @@ void markdown_write(FILE *to, const sweep *s, const judgement *j, const environm
             j->judged == 0 ? "nothing was checked"
             : bad          ? "not as expected"
                            : "as expected");
-    fprintf(to, "%d verdicts against truths in %d cells: %d differ from the expected one; %d of %d stored discrete values agree",
-            j->judged, sweep_cells(s), j->unexpected, j->agreements - j->disagreements, j->agreements);
+    fprintf(to,
+            "%d verdicts against truths in %d cells: %d differ from the expected one; %d of %d "
+            "stored discrete values agree",
+            j->judged, sweep_cells(s), j->unexpected, j->agreements - j->disagreements,
+            j->agreements);
     if (s->unfinished > 0)
         fprintf(to, "; %d cells were not done", s->unfinished);
     if (j->unobserved > 0)

@@ -18,7 +18,8 @@ static void add_wall(outline *out, const double a[2], const double b[2], double 
 
 static void principal(const section *s, const double point[2], double out[2])
 {
-    const double y = point[0] - s->centroid[0], z = point[1] - s->centroid[1], c = cos(s->axes_angle), d = sin(s->axes_angle);
+    const double y = point[0] - s->centroid[0], z = point[1] - s->centroid[1],
+                 c = cos(s->axes_angle), d = sin(s->axes_angle);
     out[0] = c * y + d * z;
     out[1] = c * z - d * y;
 }

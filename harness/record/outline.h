@@ -1,4 +1,4 @@
-/* What a section looks like, for pictures: straight walls in the principal axes about the centroid. */
+/* What a section looks like, for pictures: straight walls in the principal axes. */
 #ifndef BEAMWORK_OUTLINE_H
 #define BEAMWORK_OUTLINE_H
 
@@ -6,8 +6,10 @@
 
 typedef struct outline {
     int walls;
-    int equivalent; /* 1: of a section given by its constants only: the rectangle of the same A and Iy : Iz */
-    double corner[SECTION_MAX_WALLS][4][2]; /* (y, z) [m]: two at one end of the wall's mid-line, two at the other, going round */
+    /* 1: of a section given by its constants only: the rectangle of the same A and Iy : Iz */
+    int equivalent;
+    /* (y, z) [m]: two at one end of the wall's mid-line, two at the other, going round */
+    double corner[SECTION_MAX_WALLS][4][2];
 } outline;
 
 status outline_of(const section_spec *spec, outline *out, fault *f);

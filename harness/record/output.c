@@ -12,7 +12,8 @@ enum { MOST_TRIES = 100, LEAF = 100 }; /* [bytes] of the name that a temporary n
 
 static status fail(const char *path, int why, fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another place", path, strerror(why));
+    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another place", path,
+                     strerror(why));
 }
 
 /* A new file in the folder of `path` under a name that nobody can guess; -1 and errno. */
@@ -23,13 +24,14 @@ static int create_beside(const char *path, char temporary[PATH_MAX])
         uint64_t word = 0;
         if (getrandom(&word, sizeof word, 0) != (ssize_t)sizeof word)
             return -1;
-        const int length =
-            snprintf(temporary, PATH_MAX, "%.*s%.*s.part-%016llx", (int)(leaf - path), path, LEAF, leaf, (unsigned long long)word);
+        const int length = snprintf(temporary, PATH_MAX, "%.*s%.*s.part-%016llx",
+                                    (int)(leaf - path), path, LEAF, leaf, (unsigned long long)word);
         if (length >= PATH_MAX) {
             errno = ENAMETOOLONG;
             return -1;
         }
-        const int file = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+        const int file =
+            open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (file >= 0 || errno != EEXIST)
             return file;
     }
@@ -39,7 +41,8 @@ static int create_beside(const char *path, char temporary[PATH_MAX])
 /* Owner (where we may) and permissions of the file that will be replaced. */
 static void keep_permissions(const place *to, int file)
 {
-    if (to->kind == PLACE_FILE && (fchown(file, to->owner, to->group) != 0 || fchmod(file, to->mode) != 0))
+    if (to->kind == PLACE_FILE &&
+        (fchown(file, to->owner, to->group) != 0 || fchmod(file, to->mode) != 0))
         fchmod(file, to->mode);
 }
 
@@ -47,7 +50,8 @@ static int open_stream(const place *to)
 {
     if (to->descriptor < 0)
         return open(to->path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
-    fflush(to->descriptor == STDOUT_FILENO ? stdout : stderr); /* what was said before stays before */
+    /* what was said before stays before */
+    fflush(to->descriptor == STDOUT_FILENO ? stdout : stderr);
     return dup(to->descriptor);
 }
 
@@ -56,8 +60,10 @@ static status check_form(const char *path, const place *to, output_form form, fa
     if (to->kind == PLACE_FOLDER)
         return fail(path, EISDIR, f);
     if (to->kind == PLACE_STREAM && form == OUTPUT_WHOLE_FILE)
-        return fault_set(f, STATUS_REFUSED, "%.200s is %s; HDF5 needs a regular file: give the name of one", path,
-                         to->descriptor >= 0 ? "where standard output or error goes" : "a pipe or a device");
+        return fault_set(f, STATUS_REFUSED,
+                         "%.200s is %s; HDF5 needs a regular file: give the name of one", path,
+                         to->descriptor >= 0 ? "where standard output or error goes"
+                                             : "a pipe or a device");
     if (to->kind != PLACE_FREE && access(to->path, W_OK) != 0)
         return fail(path, errno, f);
     return STATUS_OK;
@@ -100,7 +106,8 @@ void output_discard(output *out)
         unlink(out->temporary);
 }
 
-/* Onto the disk, where there is one; what cannot be synchronised (a pipe, a device) needs no such thing. */
+/* Onto the disk, where there is one; what cannot be synchronised (a pipe, a device) needs no such
+ * thing. */
 static int is_stored(FILE *stream)
 {
     if (ferror(stream) || fflush(stream) != 0)
@@ -124,7 +131,8 @@ status output_close(output *out, fault *f)
     if (good)
         return STATUS_OK;
     output_discard(out);
-    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s)%s", out->to.path, why != 0 ? strerror(why) : "no room",
+    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s)%s", out->to.path,
+                     why != 0 ? strerror(why) : "no room",
                      out->temporary[0] != '\0' ? "; nothing was left" : "");
 }
 
@@ -134,7 +142,8 @@ status output_try(const char *path, output_form form, place *where, fault *f)
     status outcome = place_find(path, where, f);
     if (outcome == STATUS_OK)
         outcome = check_form(path, where, form, f);
-    if (outcome != STATUS_OK || where->kind == PLACE_STREAM) /* opening a pipe would wake its reader */
+    if (outcome != STATUS_OK ||
+        where->kind == PLACE_STREAM) /* opening a pipe would wake its reader */
         return outcome;
     const int file = create_beside(where->path, temporary);
     if (file < 0)

@@ -21,8 +21,9 @@ status output_open_whole(const char *path, output *out, fault *f);
 /* Flushes and renames; every error is found here. On failure nothing is left. */
 status output_close(output *out, fault *f);
 void output_discard(output *out);
-/* An output that cannot be written is noticed before anything is computed: REFUSED what is no name or
- * takes no such form, FAULT what cannot be written. *where: the place, for comparison with others. */
+/* An output that cannot be written is noticed before anything is computed: REFUSED what is no name
+ * or takes no such form, FAULT what cannot be written. *where: the place, for comparison with
+ * others. */
 status output_try(const char *path, output_form form, place *where, fault *f);
 /* "results.partial.h5" of "results.h5": of a run that was interrupted. A stream keeps its name. */
 status output_partial(const char *path, char partial[PATH_MAX], fault *f);

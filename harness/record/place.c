@@ -16,10 +16,11 @@ const char *place_leaf(const char *path)
 
 static status fail(const char *path, int why, fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another place", path, strerror(why));
+    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another place", path,
+                     strerror(why));
 }
 
-/* Replaces a path by what the link there says, beside the link where that is relative. 0: no link. */
+/* Replaces a path by what the link there says, beside it where that is relative. 0: no link. */
 static int follow_link(char path[PATH_MAX])
 {
     char text[PATH_MAX], next[2 * PATH_MAX];

@@ -18,7 +18,8 @@ status record_open(record *r, fault *f)
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     *r = (record){.file = -1, .scalar = H5Screate(H5S_SCALAR)};
-    /* The oldest format: an image of the newer ones carries a wrong checksum of its head (HDF5 1.10). */
+    /* The oldest format: an image of the newer ones carries a wrong checksum of its head
+     * (HDF5 1.10). */
     if (access >= 0 && H5Pset_fapl_core(access, GROWTH, 0) >= 0)
         r->file = H5Fcreate("beamwork", H5F_ACC_TRUNC, H5P_DEFAULT, access);
     H5Pclose(access);
@@ -31,7 +32,8 @@ status record_open(record *r, fault *f)
 static status write_image(record *r, const char *path, fault *f)
 {
     output file;
-    const ssize_t size = H5Fflush(r->file, H5F_SCOPE_GLOBAL) >= 0 ? H5Fget_file_image(r->file, NULL, 0) : -1;
+    const ssize_t size =
+        H5Fflush(r->file, H5F_SCOPE_GLOBAL) >= 0 ? H5Fget_file_image(r->file, NULL, 0) : -1;
     char *image = size > 0 ? malloc((size_t)size) : NULL;
     if (image == NULL || H5Fget_file_image(r->file, image, (size_t)size) != size) {
         free(image);
@@ -41,7 +43,8 @@ static status write_image(record *r, const char *path, fault *f)
     if (outcome == STATUS_OK) {
         char line[CHECKSUM_LENGTH + 1];
         checksum_write(image, (size_t)size, line);
-        fwrite(image, 1, (size_t)size, file.stream); /* the stream remembers an error until it is closed */
+        /* the stream remembers an error until it is closed */
+        fwrite(image, 1, (size_t)size, file.stream);
         fputs(line, file.stream);
         outcome = output_close(&file, f);
     }
@@ -51,7 +54,9 @@ static status write_image(record *r, const char *path, fault *f)
 
 status record_close(record *r, const char *path, fault *f)
 {
-    status outcome = r->bad ? fault_set(f, STATUS_FAULT, "the results could not be put into HDF5 (out of memory?)") : STATUS_OK;
+    status outcome = r->bad ? fault_set(f, STATUS_FAULT,
+                                        "the results could not be put into HDF5 (out of memory?)")
+                            : STATUS_OK;
     if (outcome == STATUS_OK && path != NULL)
         outcome = write_image(r, path, f);
     H5Sclose(r->scalar);
@@ -61,8 +66,9 @@ status record_close(record *r, const char *path, fault *f)
 
 hid_t record_group(record *r, hid_t at, const char *name)
 {
-    const hid_t g = H5Lexists(at, name, H5P_DEFAULT) > 0 ? H5Gopen2(at, name, H5P_DEFAULT)
-                                                         : H5Gcreate2(at, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t g = H5Lexists(at, name, H5P_DEFAULT) > 0
+                        ? H5Gopen2(at, name, H5P_DEFAULT)
+                        : H5Gcreate2(at, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     check(r, g >= 0);
     return g;
 }
@@ -104,7 +110,8 @@ void record_version(record *r, hid_t at, const char *name, const int version[2])
 {
     const hsize_t size = 2;
     const hid_t space = H5Screate_simple(1, &size, NULL);
-    const hid_t a = r->bad ? -1 : H5Acreate2(at, name, H5T_NATIVE_INT, space, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t a =
+        r->bad ? -1 : H5Acreate2(at, name, H5T_NATIVE_INT, space, H5P_DEFAULT, H5P_DEFAULT);
     check(r, a >= 0 && H5Awrite(a, H5T_NATIVE_INT, version) >= 0);
     H5Aclose(a);
     H5Sclose(space);
@@ -139,10 +146,13 @@ static hid_t layout_of(hid_t type, int rank, const hsize_t size[])
     return layout;
 }
 
-hid_t record_array(record *r, hid_t at, const char *name, hid_t type, int rank, const hsize_t size[], const void *value)
+hid_t record_array(record *r, hid_t at, const char *name, hid_t type, int rank,
+                   const hsize_t size[], const void *value)
 {
-    const hid_t space = rank > 0 ? H5Screate_simple(rank, size, NULL) : r->scalar, layout = layout_of(type, rank, size);
-    const hid_t set = r->bad ? -1 : H5Dcreate2(at, name, type, space, H5P_DEFAULT, layout, H5P_DEFAULT);
+    const hid_t space = rank > 0 ? H5Screate_simple(rank, size, NULL) : r->scalar,
+                layout = layout_of(type, rank, size);
+    const hid_t set =
+        r->bad ? -1 : H5Dcreate2(at, name, type, space, H5P_DEFAULT, layout, H5P_DEFAULT);
     int empty = 0;
     for (int i = 0; i < rank; i++)
         empty |= size[i] == 0;
@@ -153,7 +163,8 @@ hid_t record_array(record *r, hid_t at, const char *name, hid_t type, int rank, 
     return set;
 }
 
-hid_t record_values(record *r, hid_t at, const char *name, int rank, const hsize_t size[], const double value[], const char *unit)
+hid_t record_values(record *r, hid_t at, const char *name, int rank, const hsize_t size[],
+                    const double value[], const char *unit)
 {
     const hid_t set = record_array(r, at, name, H5T_NATIVE_DOUBLE, rank, size, value);
     if (unit != NULL)
@@ -196,7 +207,8 @@ void record_text_list(record *r, hid_t at, const char *name, int count, const ch
     char *all = side_by_side(count, text, &longest);
     const hsize_t size = (hsize_t)count;
     const hid_t type = record_text_type(longest), space = H5Screate_simple(1, &size, NULL);
-    const hid_t a = r->bad || all == NULL ? -1 : H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t a =
+        r->bad || all == NULL ? -1 : H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
     check(r, a >= 0 && H5Awrite(a, type, all) >= 0);
     H5Aclose(a);
     H5Sclose(space);

@@ -1,5 +1,6 @@
-/* Writing an HDF5 file that appears complete or not at all: it is made in memory, then written beside and renamed.
- * Every call is checked; after the first failure nothing more is tried and record_close says so. */
+/* Writing an HDF5 file that appears complete or not at all: it is made in memory, then written
+ * beside and renamed. Every call is checked; after the first failure nothing more is tried and
+ * record_close says so. */
 #ifndef BEAMWORK_RECORD_H
 #define BEAMWORK_RECORD_H
 
@@ -28,9 +29,11 @@ void record_count(record *r, hid_t at, const char *name, long value);
 void record_version(record *r, hid_t at, const char *name, const int version[2]);
 void record_ascii(record *r, hid_t at, const char *name, const char *text);
 /* New data set of any type, compressed where it is large; the caller closes it with H5Dclose. */
-hid_t record_array(record *r, hid_t at, const char *name, hid_t type, int rank, const hsize_t size[], const void *value);
+hid_t record_array(record *r, hid_t at, const char *name, hid_t type, int rank,
+                   const hsize_t size[], const void *value);
 /* New data set of rank 0 to 3 with its unit (NULL: none); the caller closes it with H5Dclose. */
-hid_t record_values(record *r, hid_t at, const char *name, int rank, const hsize_t size[], const double value[], const char *unit);
+hid_t record_values(record *r, hid_t at, const char *name, int rank, const hsize_t size[],
+                    const double value[], const char *unit);
 /* UTF-8 of a fixed length; the caller closes it with H5Tclose. */
 hid_t record_text_type(size_t length);
 /* New data set row[count] of the given type; the caller closes it with H5Dclose. */

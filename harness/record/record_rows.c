@@ -11,8 +11,10 @@ typedef struct column {
 } column;
 
 /* [bytes] of one value; of a text: those of the longest in its column. */
-static const size_t size_of_kind[FIELD_KINDS] = {
-    [FIELD_INT] = sizeof(int), [FIELD_LONG] = sizeof(long), [FIELD_DOUBLE] = sizeof(double), [FIELD_FLAG] = 1};
+static const size_t size_of_kind[FIELD_KINDS] = {[FIELD_INT] = sizeof(int),
+                                                 [FIELD_LONG] = sizeof(long),
+                                                 [FIELD_DOUBLE] = sizeof(double),
+                                                 [FIELD_FLAG] = 1};
 
 static size_t times(const schema_field *which)
 {
@@ -32,7 +34,8 @@ static size_t longest_text(const schema_field *which, int count, const subject r
 }
 
 /* Fills the columns; size of a row. */
-static size_t lay_out(int fields, const schema_field *const list[], int count, const subject row[], column out[])
+static size_t lay_out(int fields, const schema_field *const list[], int count, const subject row[],
+                      column out[])
 {
     size_t size = 0;
     for (int i = 0; i < fields; i++) {
@@ -103,8 +106,8 @@ static void put_attributes(record *r, hid_t set, int fields, const schema_field 
     record_text_list(r, set, "summaries", fields, summary);
 }
 
-void record_rows(record *r, hid_t at, const char *name, int fields, const schema_field *const list[], int count,
-                 const subject row[])
+void record_rows(record *r, hid_t at, const char *name, int fields,
+                 const schema_field *const list[], int count, const subject row[])
 {
     column columns[SCHEMA_MOST_FIELDS];
     const size_t size = lay_out(fields, list, count, row, columns);
@@ -114,7 +117,8 @@ void record_rows(record *r, hid_t at, const char *name, int fields, const schema
         for (int k = 0; k < fields; k++)
             pack(&columns[k], &row[i], rows + (size_t)i * size + columns[k].offset);
     if (rows != NULL) {
-        const hid_t type = row_type(fields, columns, size), set = record_table(r, at, name, type, count, rows);
+        const hid_t type = row_type(fields, columns, size),
+                    set = record_table(r, at, name, type, count, rows);
         put_attributes(r, set, fields, list);
         H5Dclose(set);
         H5Tclose(type);

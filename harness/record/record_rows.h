@@ -1,4 +1,5 @@
-/* Records as rows of a typed, compressed table; units and summaries of the columns are its attributes. */
+/* Records as rows of a typed, compressed table; units and summaries of the columns are its
+ * attributes. */
 #ifndef BEAMWORK_RECORD_ROWS_H
 #define BEAMWORK_RECORD_ROWS_H
 
@@ -6,8 +7,8 @@
 #include "harness/schema/schema.h"
 
 /* New table `name` below `at`; texts have the length of the longest in their column. */
-void record_rows(record *r, hid_t at, const char *name, int fields, const schema_field *const list[], int count,
-                 const subject row[]);
+void record_rows(record *r, hid_t at, const char *name, int fields,
+                 const schema_field *const list[], int count, const subject row[]);
 /* The table of a kind of record, with its keys. */
 void record_records(record *r, hid_t at, const record_type *type, int count, const subject row[]);
 

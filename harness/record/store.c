@@ -21,11 +21,13 @@ static void put_environment(record *r, const environment *e)
     record_count(r, r->file, "threads", e->threads);
 }
 
-/* A column of its own for each parameter. The record is the point: the offset counts its parameters. */
+/* A column of its own for each parameter. The record is the point: the offset counts its
+ * parameters. */
 static void get_choice(const subject *s, field_value *out)
 {
     const size_t i = out->of->offset;
-    parameters_value_text(&s->point->type->parameters[i], s->point->parameter[i], out->room, sizeof out->room);
+    parameters_value_text(&s->point->type->parameters[i], s->point->parameter[i], out->room,
+                          sizeof out->room);
     out->text = out->room;
 }
 
@@ -39,9 +41,11 @@ static int parameter_fields(const case_type *type, schema_field out[CASE_MAX_PAR
     int i = 0;
     for (; type->parameters[i].name != NULL; i++) {
         const case_parameter *p = &type->parameters[i];
-        out[i] = (schema_field){p->name, p->unit, FIELD_DOUBLE, p->summary, .offset = (size_t)i, .get = get_parameter};
+        out[i] = (schema_field){
+            p->name, p->unit, FIELD_DOUBLE, p->summary, .offset = (size_t)i, .get = get_parameter};
         if (p->choices != NULL)
-            out[i] = (schema_field){p->name, "", FIELD_TEXT, p->summary, .offset = (size_t)i, .get = get_choice};
+            out[i] = (schema_field){
+                p->name, "", FIELD_TEXT, p->summary, .offset = (size_t)i, .get = get_choice};
     }
     return i;
 }
@@ -57,7 +61,7 @@ static void put_points(record *r, hid_t at, const case_type *type, const subject
     record_rows(r, at, record_point.table, count, fields, list->count, list->row);
 }
 
-/* The points of all curves, one after the other: the records of the curves say where each begins. */
+/* The points of all curves, one after the other: records of curves say where each begins. */
 static void put_curves(record *r, hid_t at, const subjects *list)
 {
     size_t points = 0;
@@ -89,7 +93,8 @@ static void put_pictures(record *r, hid_t at, const subjects *cells)
         all = all >= 0 ? all : record_group(r, at, "shapes");
         if (H5Lexists(all, s->point->name, H5P_DEFAULT) > 0)
             continue;
-        const hid_t one = store_shapes(r, all, s->point->name, &s->point->scene, &cell->solve.shapes);
+        const hid_t one =
+            store_shapes(r, all, s->point->name, &s->point->scene, &cell->solve.shapes);
         record_text(r, one, "formulation", s->series->formulation.key);
         record_count(r, one, "elements", s->series->mesh[s->mesh]);
         H5Gclose(one);
@@ -98,7 +103,8 @@ static void put_pictures(record *r, hid_t at, const subjects *cells)
         H5Gclose(all);
 }
 
-static void put_records(record *r, hid_t at, const gathering *g, const record_type *type, const case_type *of)
+static void put_records(record *r, hid_t at, const gathering *g, const record_type *type,
+                        const case_type *of)
 {
     subjects list = {0};
     gather_case(g, type, of, &list);
@@ -135,7 +141,8 @@ static void put_cases(record *r, const gathering *g, const environment *e)
     H5Gclose(cases);
 }
 
-status store_write(const char *path, const sweep *s, const judgement *j, const environment *e, fault *f)
+status store_write(const char *path, const sweep *s, const judgement *j, const environment *e,
+                   fault *f)
 {
     record r;
     const gathering g = {s, j, NULL};

@@ -1,5 +1,6 @@
-/* results.h5: everything a sweep found, for the reports. Below /cases/CASE a table for each kind of record (schema.h), the
- * points of curves and the shapes in arrays beside; `beamwork schema` describes them. */
+/* results.h5: everything a sweep found, for the reports. Below /cases/CASE a table for each kind of
+ * record (schema.h), the points of curves and the shapes in arrays beside; `beamwork schema`
+ * describes them. */
 #ifndef BEAMWORK_STORE_H
 #define BEAMWORK_STORE_H
 
@@ -10,7 +11,8 @@
 /* Group below `at`: centre lines, sections, bodies; the caller closes it with H5Gclose. */
 hid_t store_shapes(record *r, hid_t at, const char *name, const scene *sc, const shapes *s);
 /* Written beside and renamed: FAULT leaves nothing behind. */
-status store_write(const char *path, const sweep *s, const judgement *j, const environment *e, fault *f);
+status store_write(const char *path, const sweep *s, const judgement *j, const environment *e,
+                   fault *f);
 /* The first cell of a sweep in the same way, without verdicts, and its shapes for VTK too. */
 status store_write_solution(const char *path, const sweep *s, const environment *e, fault *f);
 

@@ -7,8 +7,8 @@
 #include "harness/record/store.h"
 
 /* Columns [first, first + count) of the points of every state: [states x points x count]. */
-static void put_columns(record *r, hid_t at, const char *name, const shapes *s, int first, int count, const char *unit,
-                        const char *columns)
+static void put_columns(record *r, hid_t at, const char *name, const shapes *s, int first,
+                        int count, const char *unit, const char *columns)
 {
     enum { NUMBERS = sizeof(centreline_point) / sizeof(double) };
     const size_t rows = (size_t)s->states * (size_t)s->points;
@@ -16,7 +16,8 @@ static void put_columns(record *r, hid_t at, const char *name, const shapes *s, 
     double *table = malloc((rows + 1) * (size_t)count * sizeof *table);
     r->bad |= table == NULL;
     for (size_t i = 0; i < rows && table != NULL; i++)
-        memcpy(table + i * (size_t)count, (const double *)s->point + i * NUMBERS + first, (size_t)count * sizeof *table);
+        memcpy(table + i * (size_t)count, (const double *)s->point + i * NUMBERS + first,
+               (size_t)count * sizeof *table);
     const hid_t set = record_values(r, at, name, 3, size, table, unit);
     record_text(r, set, "columns", columns);
     H5Dclose(set);
@@ -46,7 +47,8 @@ static void put_state_numbers(record *r, hid_t at, const shapes *s)
     free(column);
 }
 
-static void put_integers(record *r, hid_t at, const char *name, int rows, int columns, const int value[])
+static void put_integers(record *r, hid_t at, const char *name, int rows, int columns,
+                         const int value[])
 {
     const hsize_t size[2] = {(hsize_t)rows, (hsize_t)columns};
     H5Dclose(record_array(r, at, name, H5T_NATIVE_INT, columns > 1 ? 2 : 1, size, value));
@@ -66,7 +68,8 @@ static void put_structure(record *r, hid_t at, const scene *sc)
         const scene_node *n = &sc->node[i];
         attached[2 * i] = n->attached;
         for (int k = 0; k < 3; k++)
-            attached[2 * i + 1] |= (n->translation[k] == SCENE_HELD) << k | (n->angle[k] == SCENE_HELD) << (3 + k);
+            attached[2 * i + 1] |=
+                (n->translation[k] == SCENE_HELD) << k | (n->angle[k] == SCENE_HELD) << (3 + k);
     }
     if (!r->bad) {
         put_integers(r, at, "members", sc->members, 3, member);

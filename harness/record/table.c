@@ -10,8 +10,8 @@ static void row_of_series(FILE *to, const sweep *s, int index)
 {
     const series *one = &s->series[index];
     const point *p = &s->point[one->point];
-    fprintf(to, "%s%s%s%s, %s\n", p->type->name, p->text[0] != '\0' ? " (" : "", p->text, p->text[0] != '\0' ? ")" : "",
-            one->formulation.key);
+    fprintf(to, "%s%s%s%s, %s\n", p->type->name, p->text[0] != '\0' ? " (" : "", p->text,
+            p->text[0] != '\0' ? ")" : "", one->formulation.key);
 }
 
 static void percent(FILE *to, double error)
@@ -59,11 +59,15 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     const point *p = &s->point[one->point];
     const cell_result *c = &one->cell[0];
     row_of_series(to, s, 0);
-    fprintf(to, "%s%s%s; %d elements, %d free coordinates, %ld iterations, %ld factorisations, %.3g s set-up, %.3g s solution\n",
-            status_name(c->solve.status), c->solve.reason[0] != '\0' ? ": " : "", c->solve.reason, c->size.elements, c->size.free,
-            c->counters.iterations, c->counters.factorisations, c->solve.seconds_setup, c->solve.seconds_solve);
+    fprintf(to,
+            "%s%s%s; %d elements, %d free coordinates, %ld iterations, %ld factorisations, %.3g s "
+            "set-up, %.3g s solution\n",
+            status_name(c->solve.status), c->solve.reason[0] != '\0' ? ": " : "", c->solve.reason,
+            c->size.elements, c->size.free, c->counters.iterations, c->counters.factorisations,
+            c->solve.seconds_setup, c->solve.seconds_solve);
     if (c->counters.negative_pivots > 0)
-        fprintf(to, "unstable: up to %ld negative pivots of the tangent at a state that was reached\n",
+        fprintf(to,
+                "unstable: up to %ld negative pivots of the tangent at a state that was reached\n",
                 c->counters.negative_pivots);
     for (int i = 0; i < c->left_out_lines; i++)
         fprintf(to, "left out: %s\n", c->left_out[i]);
@@ -112,8 +116,10 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
                 const double x = q < r->quantities ? r->quantity[q].value : NAN;
                 fprintf(to, "  %6d", one->mesh[k]);
                 value_or_dash(to, 23, 14, 'g', x);
-                percent(to, row != NULL ? relative_error(&p->scene.quantity[q], x, row->value) : NAN);
-                fprintf(to, " %10.3g s%s%s\n", r->seconds_setup + r->seconds_solve, isfinite(x) ? "" : "  ",
+                percent(to,
+                        row != NULL ? relative_error(&p->scene.quantity[q], x, row->value) : NAN);
+                fprintf(to, " %10.3g s%s%s\n", r->seconds_setup + r->seconds_solve,
+                        isfinite(x) ? "" : "  ",
                         isfinite(x)         ? ""
                         : q < r->quantities ? r->quantity[q].reason
                                             : r->reason);
@@ -132,7 +138,10 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
             fputc('\n', to);
             if (p->scene.quantity[q].predicted_by != NULL) {
                 fprintf(to, "  prediction%21.14g", p->scene.quantity[q].prediction);
-                percent(to, row != NULL ? relative_error(&p->scene.quantity[q], p->scene.quantity[q].prediction, row->value) : NAN);
+                percent(to, row != NULL
+                                ? relative_error(&p->scene.quantity[q],
+                                                 p->scene.quantity[q].prediction, row->value)
+                                : NAN);
                 fprintf(to, " %s, analytic\n", p->scene.quantity[q].predicted_by);
             }
         }
@@ -163,8 +172,8 @@ static widths widths_of(const sweep *s, const judgement *j, int first)
 static void point_heading(FILE *to, const point *p, widths w)
 {
     fprintf(to, "\n%s%s%s\n", p->type->name, p->text[0] != '\0' ? ": " : "", p->text);
-    fprintf(to, "  %-*s %-*s %15s %15s %5s %15s %10s  %s\n", w.formulation, "formulation", w.quantity, "quantity", "finest mesh",
-            "limit", "order", "truth", "error", "verdict");
+    fprintf(to, "  %-*s %-*s %15s %15s %5s %15s %10s  %s\n", w.formulation, "formulation",
+            w.quantity, "quantity", "finest mesh", "limit", "order", "truth", "error", "verdict");
 }
 
 static void verdict_line(FILE *to, const sweep *s, const verdict *v, widths w)
@@ -181,11 +190,13 @@ static void verdict_line(FILE *to, const sweep *s, const verdict *v, widths w)
     percent(to, v->error);
     fprintf(to, "  %s", verdict_name(v->kind));
     if (!v->matches)
-        fprintf(to, "  << expected %s", v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
+        fprintf(to, "  << expected %s",
+                v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
     else if (v->rule != NULL)
         fprintf(to, ", %s", v->rule->name);
     if (isfinite(v->model_error))
-        fprintf(to, "; %+.3g %% from another model (%s)", 100 * v->model_error, v->model_truth->kind);
+        fprintf(to, "; %+.3g %% from another model (%s)", 100 * v->model_error,
+                v->model_truth->kind);
     fputc('\n', to);
     if (v->reason[0] != '\0')
         fprintf(to, "  %*s %.200s\n", w.formulation, "", v->reason);
@@ -198,9 +209,10 @@ static void disagreements(FILE *to, const sweep *s, const judgement *j)
         const series *one = &s->series[a->series];
         const point *p = &s->point[one->point];
         if (!a->good)
-            fprintf(to, "\n%s%s%s, %s, n = %d, %s: %.12g differs from the stored %.12g\n", p->type->name,
-                    p->text[0] != '\0' ? ": " : "", p->text, one->formulation.key, one->mesh[a->mesh],
-                    p->scene.quantity[a->quantity].name, a->value, a->truth->value);
+            fprintf(to, "\n%s%s%s, %s, n = %d, %s: %.12g differs from the stored %.12g\n",
+                    p->type->name, p->text[0] != '\0' ? ": " : "", p->text, one->formulation.key,
+                    one->mesh[a->mesh], p->scene.quantity[a->quantity].name, a->value,
+                    a->truth->value);
     }
 }
 
@@ -210,7 +222,8 @@ static void not_met(FILE *to, const judgement *j, const truths *t)
     for (int i = 0; i < t->rules && j->unobserved > 0; i++)
         if (!rule_is_observed(&t->rule[i]))
             fprintf(to, "\nfinding %s %s (%s; %s; %s)\n", t->rule[i].name,
-                    t->rule[i].observed == 0 ? "was not observed" : "names a prediction that no verdict met",
+                    t->rule[i].observed == 0 ? "was not observed"
+                                             : "names a prediction that no verdict met",
                     t->rule[i].formulations, t->rule[i].cases, t->rule[i].quantities);
     for (int i = 0; i < t->rows && j->unmet > 0; i++) {
         const truth *row = &t->row[i];
@@ -218,8 +231,9 @@ static void not_met(FILE *to, const judgement *j, const truths *t)
         if (row->met || (row->formulation[0] != '\0' && formulation_find(row->formulation) == NULL))
             continue;
         parameters_text(row->type, row->parameter, text, sizeof text);
-        fprintf(to, "\ntruth of nothing that exists: %s %s, %s%s%s (%s)\n", row->type->name, text, row->quantity,
-                row->formulation[0] != '\0' ? ", " : "", row->formulation, row->source);
+        fprintf(to, "\ntruth of nothing that exists: %s %s, %s%s%s (%s)\n", row->type->name, text,
+                row->quantity, row->formulation[0] != '\0' ? ", " : "", row->formulation,
+                row->source);
     }
     if (j->unmet > 0 && t->strangers > 0)
         fprintf(to, "\ntruths of %d unknown cases, the first: %s\n", t->strangers, t->stranger);
@@ -237,8 +251,8 @@ static void failed_cells(FILE *to, const sweep *s)
                 continue;
             if (count++ == 0)
                 fprintf(to, "\ncells without a solution\n");
-            fprintf(to, "  %s, %s, n = %d: %s: %.110s\n", s->point[one->point].type->name, one->formulation.key, one->mesh[k],
-                    status_name(r->status), r->reason);
+            fprintf(to, "  %s, %s, n = %d: %s: %.110s\n", s->point[one->point].type->name,
+                    one->formulation.key, one->mesh[k], status_name(r->status), r->reason);
         }
 }
 
@@ -246,7 +260,8 @@ static void failed_cells(FILE *to, const sweep *s)
 static void coverage_lines(FILE *to, const judgement *j)
 {
     if (j->coverages > 0)
-        fprintf(to, "\nlimits within their uncertainty of exact truths, also without the 1, 2, 3 finest meshes\n");
+        fprintf(to, "\nlimits within their uncertainty of exact truths, also without the 1, 2, 3 "
+                    "finest meshes\n");
     for (int i = 0; i < j->coverages; i++) {
         coverage sum = {.type = j->coverage[i].type};
         int before = 0;
@@ -278,9 +293,12 @@ static void contradictions(FILE *to, const sweep *s, const judgement *j)
             before |= k < i && j->verdict[k].contradicted == v->contradicted;
         }
         if (count > 0 && !before)
-            fprintf(to, "\n%s%s%s, %s: the published %.10g +- %.1g is contradicted by %d limits, the first %.10g (%s)\n",
-                    p->type->name, p->text[0] != '\0' ? ": " : "", p->text, v->contradicted->quantity, v->contradicted->value,
-                    v->contradicted->uncertainty, count, v->fit.limit, s->series[v->series].formulation.key);
+            fprintf(to,
+                    "\n%s%s%s, %s: the published %.10g +- %.1g is contradicted by %d limits, the "
+                    "first %.10g (%s)\n",
+                    p->type->name, p->text[0] != '\0' ? ": " : "", p->text,
+                    v->contradicted->quantity, v->contradicted->value, v->contradicted->uncertainty,
+                    count, v->fit.limit, s->series[v->series].formulation.key);
     }
 }
 
@@ -313,9 +331,13 @@ void table_verdicts(FILE *to, const sweep *s, const judgement *j, const truths *
     fprintf(to, "%d verdicts against truths:", j->judged);
     for (int k = 0; k < VERDICT_KINDS; k++)
         fprintf(to, "%s %d %s", k > 0 ? "," : "", j->by_kind[k], verdict_name((verdict_kind)k));
-    fprintf(to, "\n%d of %d stored discrete values agree; %d verdicts differ from the expected one; %d findings not observed\n",
+    fprintf(to,
+            "\n%d of %d stored discrete values agree; %d verdicts differ from the expected one; %d "
+            "findings not observed\n",
             j->agreements - j->disagreements, j->agreements, j->unexpected, j->unobserved);
     if (j->unmet + j->waiting > 0)
-        fprintf(to, "%d truths speak of nothing that exists; %d wait for a formulation that offers what they need\n", j->unmet,
-                j->waiting);
+        fprintf(to,
+                "%d truths speak of nothing that exists; %d wait for a formulation that offers "
+                "what they need\n",
+                j->unmet, j->waiting);
 }

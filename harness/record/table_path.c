@@ -8,10 +8,12 @@ void table_steps(FILE *to, const solve_result *r)
 {
     if (r->steps == 0)
         return;
-    fprintf(to, "%4s %12s %12s %8s %10s  %s\n", "step", "path", "increment", "rejected", "iterations", "their corrections");
+    fprintf(to, "%4s %12s %12s %8s %10s  %s\n", "step", "path", "increment", "rejected",
+            "iterations", "their corrections");
     for (int i = 0; i < r->steps && i < MOST_STEPS; i++) {
         const step_record *k = &r->step[i];
-        fprintf(to, "%4d %12.8g %12.4g %8d %10d ", i + 1, k->path, k->increment, k->rejected, k->iterations);
+        fprintf(to, "%4d %12.8g %12.4g %8d %10d ", i + 1, k->path, k->increment, k->rejected,
+                k->iterations);
         for (int j = 0; j < k->iterations; j++)
             fprintf(to, " %.0e", r->iteration[k->first + j].correction);
         fputc('\n', to);
@@ -20,7 +22,8 @@ void table_steps(FILE *to, const solve_result *r)
         fprintf(to, "%4s %d more steps: --format json has them all\n", "", r->steps - MOST_STEPS);
 }
 
-static void matrix(FILE *to, const double value[36], const char *const row[6], const char *const column[6])
+static void matrix(FILE *to, const double value[36], const char *const row[6],
+                   const char *const column[6])
 {
     fprintf(to, "%7s", "");
     for (int j = 0; j < 6; j++)
@@ -46,8 +49,8 @@ void table_matrices(FILE *to, const solve_result *r)
         if (m->stations == 0)
             continue;
         const size_t last = 36 * (size_t)(m->stations - 1);
-        fprintf(to, "compliance of node %d at path %g, %s moments [SI]\n", m->node, m->path[m->stations - 1],
-                scene_moments_name(m->moments));
+        fprintf(to, "compliance of node %d at path %g, %s moments [SI]\n", m->node,
+                m->path[m->stations - 1], scene_moments_name(m->moments));
         matrix(to, m->compliance + last, motion, load);
         if (!isfinite(m->stiffness[last]))
             continue;

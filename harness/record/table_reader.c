@@ -11,7 +11,9 @@ static hid_t memory_type(hid_t member, const table_column *c)
 {
     const H5T_class_t class = H5Tget_class(member);
     if (c->kind == FIELD_INT || c->kind == FIELD_LONG)
-        return class == H5T_INTEGER ? H5Tcopy(c->kind == FIELD_INT ? H5T_NATIVE_INT : H5T_NATIVE_LONG) : -1;
+        return class == H5T_INTEGER
+                   ? H5Tcopy(c->kind == FIELD_INT ? H5T_NATIVE_INT : H5T_NATIVE_LONG)
+                   : -1;
     if (c->kind == FIELD_DOUBLE)
         return class == H5T_FLOAT ? H5Tcopy(H5T_NATIVE_DOUBLE) : -1;
     if (class != H5T_STRING || H5Tis_variable_str(member) != 0 || H5Tget_size(member) >= c->room)
@@ -54,21 +56,25 @@ static int read_rows(hid_t set, hid_t type, hid_t stored, size_t size, void **ro
 {
     hsize_t count = 0;
     const hid_t space = H5Dget_space(set);
-    const int good = space >= 0 && H5Sget_simple_extent_ndims(space) == 1 && H5Sget_simple_extent_dims(space, &count, NULL) == 1 &&
-                     count <= MOST_ROWS && count * (size + H5Tget_size(stored)) <= most_bytes;
+    const int good = space >= 0 && H5Sget_simple_extent_ndims(space) == 1 &&
+                     H5Sget_simple_extent_dims(space, &count, NULL) == 1 && count <= MOST_ROWS &&
+                     count * (size + H5Tget_size(stored)) <= most_bytes;
     if (space >= 0)
         H5Sclose(space);
     *rows = good ? calloc((size_t)count + 1, size) : NULL;
-    if (*rows == NULL || (count > 0 && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, *rows) < 0))
+    if (*rows == NULL ||
+        (count > 0 && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, *rows) < 0))
         return -1;
     return (int)count;
 }
 
-int table_read(hid_t at, const char *name, int columns, const table_column column[], size_t size, void **rows)
+int table_read(hid_t at, const char *name, int columns, const table_column column[], size_t size,
+               void **rows)
 {
     *rows = NULL;
     const hid_t set = H5Lexists(at, name, H5P_DEFAULT) > 0 ? H5Dopen2(at, name, H5P_DEFAULT) : -1;
-    const hid_t stored = set >= 0 ? H5Dget_type(set) : -1, type = row_type(stored, columns, column, size);
+    const hid_t stored = set >= 0 ? H5Dget_type(set) : -1,
+                type = row_type(stored, columns, column, size);
     const int count = type >= 0 ? read_rows(set, type, stored, size, rows) : -1;
     if (count < 0) {
         free(*rows);
@@ -87,8 +93,8 @@ int attribute_text(hid_t at, const char *name, char *text, size_t size)
 {
     const hid_t a = H5Aexists(at, name) > 0 ? H5Aopen(at, name, H5P_DEFAULT) : -1;
     const hid_t type = a >= 0 ? H5Aget_type(a) : -1, space = a >= 0 ? H5Aget_space(a) : -1;
-    const int good = type >= 0 && H5Tget_class(type) == H5T_STRING && !H5Tis_variable_str(type) && H5Tget_size(type) < size &&
-                     H5Sget_simple_extent_npoints(space) == 1;
+    const int good = type >= 0 && H5Tget_class(type) == H5T_STRING && !H5Tis_variable_str(type) &&
+                     H5Tget_size(type) < size && H5Sget_simple_extent_npoints(space) == 1;
     memset(text, 0, size);
     const int read = good && H5Aread(a, type, text) >= 0;
     if (space >= 0)
@@ -104,7 +110,8 @@ int attribute_count(hid_t at, const char *name, long *out)
 {
     const hid_t a = H5Aexists(at, name) > 0 ? H5Aopen(at, name, H5P_DEFAULT) : -1;
     const hid_t space = a >= 0 ? H5Aget_space(a) : -1;
-    const int good = space >= 0 && H5Sget_simple_extent_npoints(space) == 1 && H5Aread(a, H5T_NATIVE_LONG, out) >= 0;
+    const int good = space >= 0 && H5Sget_simple_extent_npoints(space) == 1 &&
+                     H5Aread(a, H5T_NATIVE_LONG, out) >= 0;
     if (space >= 0)
         H5Sclose(space);
     if (a >= 0)

@@ -7,15 +7,18 @@
 
 #include "harness/schema/schema.h"
 
-/* Into a member of the row: INT, LONG, DOUBLE, or a text of at most room - 1 bytes (an ENUM is stored as its word). */
+/* Into a member of the row: INT, LONG, DOUBLE, or a text of at most room - 1 bytes (an ENUM is
+ * stored as its word). */
 typedef struct table_column {
     const char *name;
     field_kind kind;
     size_t offset, room; /* room: of a text */
 } table_column;
 
-/* Rows of `size` bytes, which the caller frees; their number. -1: the table, a column of that kind, or memory is missing. */
-int table_read(hid_t at, const char *name, int columns, const table_column column[], size_t size, void **rows);
+/* Rows of `size` bytes, which the caller frees; their number. -1: the table, a column of that kind,
+ * or memory is missing. */
+int table_read(hid_t at, const char *name, int columns, const table_column column[], size_t size,
+               void **rows);
 
 /* Text attribute of fixed length; 0: it is not there, too long or of another type. */
 int attribute_text(hid_t at, const char *name, char *text, size_t size);

@@ -19,7 +19,8 @@ static double error_on(const sweep *s, const verdict *v, int mesh)
     const series *one = &s->series[v->series];
     const solve_result *r = &one->cell[mesh].solve;
     return v->quantity < r->quantities
-               ? relative_error(&s->point[one->point].scene.quantity[v->quantity], r->quantity[v->quantity].value, v->truth->value)
+               ? relative_error(&s->point[one->point].scene.quantity[v->quantity],
+                                r->quantity[v->quantity].value, v->truth->value)
                : NAN;
 }
 
@@ -28,10 +29,12 @@ static void row(FILE *to, const sweep *s, const series *one, const verdict *v, i
     const cell_result *c = &one->cell[mesh];
     const clock_reading *t = &one->timing[mesh].as_is;
     const double error = v != NULL ? error_on(s, v, mesh) : NAN;
-    fprintf(to, "  %-28s %5d %8d %10ld %12ld %9ld", one->formulation.key, one->mesh[mesh], c->size.free, c->counters.iterations,
-            c->counters.strain_evaluations, c->counters.factorisations);
+    fprintf(to, "  %-28s %5d %8d %10ld %12ld %9ld", one->formulation.key, one->mesh[mesh],
+            c->size.free, c->counters.iterations, c->counters.strain_evaluations,
+            c->counters.factorisations);
     if (t->rounds > 0)
-        fprintf(to, " %9.4g ms %9.4g ms %5.0f%%", 1e3 * t->setup, 1e3 * t->solve, 100 * (clock_most(t) / clock_least(t) - 1));
+        fprintf(to, " %9.4g ms %9.4g ms %5.0f%%", 1e3 * t->setup, 1e3 * t->solve,
+                100 * (clock_most(t) / clock_least(t) - 1));
     else
         fprintf(to, " %12s %12s %6s", "-", "-", "-");
     if (isfinite(error))
@@ -42,10 +45,12 @@ static void row(FILE *to, const sweep *s, const series *one, const verdict *v, i
 
 static void rows(FILE *to, const sweep *s, const judgement *j, int at)
 {
-    fprintf(to, "  %-28s %5s %8s %10s %12s %9s %12s %12s %6s  %s\n", "formulation", "n", "unknowns", "iterations", "evaluations",
-            "factors", "set-up", "solution", "noise", "error");
+    fprintf(to, "  %-28s %5s %8s %10s %12s %9s %12s %12s %6s  %s\n", "formulation", "n", "unknowns",
+            "iterations", "evaluations", "factors", "set-up", "solution", "noise", "error");
     for (int i = 0; i < s->seriess; i++)
-        for (int k = 0; k < s->series[i].meshes && s->series[i].point == at && s->series[i].missing[0] == '\0'; k++)
+        for (int k = 0;
+             k < s->series[i].meshes && s->series[i].point == at && s->series[i].missing[0] == '\0';
+             k++)
             row(to, s, &s->series[i], first_judged(j, i), k);
 }
 
@@ -73,7 +78,9 @@ static void parts(FILE *to, const sweep *s, int at)
 {
     int iterative = 0;
     for (int i = 0; i < s->seriess; i++)
-        for (int k = 0; k < s->series[i].meshes && s->series[i].point == at && s->series[i].missing[0] == '\0'; k++)
+        for (int k = 0;
+             k < s->series[i].meshes && s->series[i].point == at && s->series[i].missing[0] == '\0';
+             k++)
             iterative |= s->series[i].cell[k].counters.iterations > 0;
     if (!iterative)
         return;
@@ -82,7 +89,9 @@ static void parts(FILE *to, const sweep *s, int at)
         fprintf(to, " %14s", phase_name((phase)k));
     fputc('\n', to);
     for (int i = 0; i < s->seriess; i++)
-        for (int k = 0; k < s->series[i].meshes && s->series[i].point == at && s->series[i].missing[0] == '\0'; k++)
+        for (int k = 0;
+             k < s->series[i].meshes && s->series[i].point == at && s->series[i].missing[0] == '\0';
+             k++)
             parts_of(to, &s->series[i], k);
 }
 
@@ -91,8 +100,10 @@ static const clock_reading *time_of(const sweep *s, const verdict *v, int mesh)
     return &s->series[v->series].timing[mesh].as_is;
 }
 
-/* Least time within the level among the formulations of a point, and those which the noise does not tell from it. */
-static void cheapest(FILE *to, const sweep *s, const judgement *j, int at, int quantity, double level)
+/* Least time within the level among the formulations of a point, and those which the noise does not
+ * tell from it. */
+static void cheapest(FILE *to, const sweep *s, const judgement *j, int at, int quantity,
+                     double level)
 {
     const verdict *best = NULL;
     int best_mesh = -1;
@@ -103,7 +114,8 @@ static void cheapest(FILE *to, const sweep *s, const judgement *j, int at, int q
         const int mesh = reach_fastest(s, v, level);
         if (mesh < 0 || time_of(s, v, mesh)->rounds == 0)
             continue;
-        if (best == NULL || clock_least(time_of(s, v, mesh)) < clock_least(time_of(s, best, best_mesh))) {
+        if (best == NULL ||
+            clock_least(time_of(s, v, mesh)) < clock_least(time_of(s, best, best_mesh))) {
             best = v;
             best_mesh = mesh;
         }
@@ -113,14 +125,17 @@ static void cheapest(FILE *to, const sweep *s, const judgement *j, int at, int q
         fprintf(to, "none\n");
         return;
     }
-    fprintf(to, "%s, n = %d, %.4g ms", s->series[best->series].formulation.key, s->series[best->series].mesh[best_mesh],
+    fprintf(to, "%s, n = %d, %.4g ms", s->series[best->series].formulation.key,
+            s->series[best->series].mesh[best_mesh],
             1e3 * clock_least(time_of(s, best, best_mesh)));
     for (int i = 0, named = 0; i < j->verdicts; i++) {
         const verdict *v = &j->verdict[i];
-        const int mesh = v != best && s->series[v->series].point == at && v->quantity == quantity ? reach_fastest(s, v, level) : -1;
+        const int mesh = v != best && s->series[v->series].point == at && v->quantity == quantity
+                             ? reach_fastest(s, v, level)
+                             : -1;
         if (mesh >= 0 && clock_compare(time_of(s, v, mesh), time_of(s, best, best_mesh)) == 0)
-            fprintf(to, "%s%s, n = %d", named++ == 0 ? " (undecided: " : "; ", s->series[v->series].formulation.key,
-                    s->series[v->series].mesh[mesh]);
+            fprintf(to, "%s%s, n = %d", named++ == 0 ? " (undecided: " : "; ",
+                    s->series[v->series].formulation.key, s->series[v->series].mesh[mesh]);
         if (i + 1 == j->verdicts && named > 0)
             fprintf(to, ")");
     }
@@ -130,7 +145,8 @@ static void cheapest(FILE *to, const sweep *s, const judgement *j, int at, int q
 static int has_truth(const sweep *s, const judgement *j, int at, int quantity)
 {
     for (int i = 0; i < j->verdicts; i++)
-        if (s->series[j->verdict[i].series].point == at && j->verdict[i].quantity == quantity && j->verdict[i].truth != NULL)
+        if (s->series[j->verdict[i].series].point == at && j->verdict[i].quantity == quantity &&
+            j->verdict[i].truth != NULL)
             return 1;
     return 0;
 }

@@ -6,7 +6,8 @@
 
 #include "harness/judge/verdict.h"
 
-/* every_mesh: 1: a row for each mesh and the cheapest way for every quantity; 0: defaults and their first quantity only. */
+/* every_mesh: 1: a row for each mesh and the cheapest way for every quantity; 0: defaults and their
+ * first quantity only. */
 void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh);
 
 #endif

@@ -54,7 +54,8 @@ static void choose_states(grid *g)
 
 static void put_cells(record *r, hid_t at, const grid *g)
 {
-    int64_t *ids = malloc(((size_t)g->ids + 1) * sizeof *ids), *offset = malloc(((size_t)g->cells + 1) * sizeof *offset);
+    int64_t *ids = malloc(((size_t)g->ids + 1) * sizeof *ids),
+            *offset = malloc(((size_t)g->cells + 1) * sizeof *offset);
     uint8_t *type = malloc((size_t)g->cells + 1);
     int *member = malloc(((size_t)g->cells + 1) * sizeof *member);
     r->bad |= ids == NULL || offset == NULL || type == NULL || member == NULL;
@@ -108,8 +109,10 @@ static const struct {
                    {"moment (Mx, My, Mz)", "N m", 3},
                    {"bimoment", "N m^2", 1}};
 
-/* The fields of a point of a centre line moved by (0, y, z) of its section; rest: the same point undeformed. */
-static void fill_point(const centreline_point *p, const centreline_point *rest, double y, double z, double *out[FIELDS])
+/* The fields of a point of a centre line moved by (0, y, z) of its section; rest: the same point
+ * undeformed. */
+static void fill_point(const centreline_point *p, const centreline_point *rest, double y, double z,
+                       double *out[FIELDS])
 {
     double R[9], R0[9];
     rotation_matrix(p->q, R);
@@ -131,7 +134,8 @@ static void fill_state(const grid *g, int state, double *out[FIELDS])
     const shapes *s = g->shapes;
     for (int member = 0; member < s->members; member++)
         for (int i = s->first[member]; i < s->first[member + 1]; i++) {
-            const centreline_point *p = &s->point[(size_t)state * (size_t)s->points + (size_t)i], *rest = &s->point[i];
+            const centreline_point *p = &s->point[(size_t)state * (size_t)s->points + (size_t)i],
+                                   *rest = &s->point[i];
             const outline *o = outline_at(g, member);
             fill_point(p, rest, 0, 0, out);
             for (int w = 0; w < o->walls; w++)
@@ -156,14 +160,16 @@ static void put_fields(record *r, hid_t at, const grid *g)
     for (int k = 0; k < FIELDS; k++) {
         const hsize_t size[2] = {rows, (hsize_t)field[k].size};
         if (!r->bad)
-            H5Dclose(record_values(r, k == 0 ? at : data, field[k].name, field[k].size > 1 ? 2 : 1, size, all[k], field[k].unit));
+            H5Dclose(record_values(r, k == 0 ? at : data, field[k].name, field[k].size > 1 ? 2 : 1,
+                                   size, all[k], field[k].unit));
         free(all[k]);
     }
     H5Gclose(data);
 }
 
 /* [states] or [states x 1]: 0, step, 2 step, ... */
-static void put_offsets(record *r, hid_t at, const char *name, const grid *g, int rank, int64_t start, int64_t step)
+static void put_offsets(record *r, hid_t at, const char *name, const grid *g, int rank,
+                        int64_t start, int64_t step)
 {
     const hsize_t size[2] = {(hsize_t)g->states, 1};
     int64_t *value = calloc((size_t)g->states + 1, sizeof *value);
@@ -191,7 +197,8 @@ static void put_steps(record *r, hid_t at, const grid *g)
     put_offsets(r, steps, "PointOffsets", g, 1, 0, g->points);
     put_offsets(r, steps, "CellOffsets", g, 2, 0, 0);
     put_offsets(r, steps, "ConnectivityIdOffsets", g, 2, 0, 0);
-    const hid_t points = record_group(r, steps, "PointDataOffsets"), cells = record_group(r, steps, "CellDataOffsets");
+    const hid_t points = record_group(r, steps, "PointDataOffsets"),
+                cells = record_group(r, steps, "CellDataOffsets");
     for (int k = 1; k < FIELDS; k++)
         put_offsets(r, points, field[k].name, g, 1, 0, g->points);
     put_offsets(r, cells, "member", g, 1, 0, 0);
@@ -209,7 +216,9 @@ static void put_grid(record *r, const grid *g)
     const struct {
         const char *name;
         int64_t value;
-    } total[] = {{"NumberOfPoints", g->points}, {"NumberOfCells", g->cells}, {"NumberOfConnectivityIds", g->ids}};
+    } total[] = {{"NumberOfPoints", g->points},
+                 {"NumberOfCells", g->cells},
+                 {"NumberOfConnectivityIds", g->ids}};
     record_version(r, at, "Version", version);
     record_ascii(r, at, "Type", "UnstructuredGrid");
     for (int i = 0; i < 3; i++)

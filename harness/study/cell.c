@@ -26,7 +26,8 @@ status cell_run(const cell_request *request, cell_result *out, fault *f)
         outcome = scene_edit_apply(&out->scene, &request->edit, f);
     if (outcome == STATUS_OK)
         outcome = scene_validate(&out->scene, f);
-    const model_request what = {&out->scene, request->formulation, request->option, request->elements, request->keep_all};
+    const model_request what = {&out->scene, request->formulation, request->option,
+                                request->elements, request->keep_all};
     if (outcome == STATUS_OK)
         outcome = model_alloc(&what, &m, f);
     if (outcome == STATUS_OK)

@@ -1,4 +1,5 @@
-/* Being asked to end (Ctrl-C, SIGTERM, SIGHUP) as something that can be waited for beside the workers. */
+/* Being asked to end (Ctrl-C, SIGTERM, SIGHUP) as something that can be waited for beside the
+ * workers. */
 #ifndef BEAMWORK_INTERRUPT_H
 #define BEAMWORK_INTERRUPT_H
 

@@ -5,7 +5,8 @@
 #include <string.h>
 
 enum { REPETITIONS = 2 };
-static const double cover = 2; /* the larger of two differences, twice: the standard deviation or more, nineteen times of twenty */
+/* the larger of two differences, twice: the standard deviation or more, nineteen times of twenty */
+static const double cover = 2;
 
 /* In what other words. */
 static scene_edit words_of(const formulation *chosen, int repetition)
@@ -35,7 +36,9 @@ static status add_repetitions(const sweep *s, const series *one, sweep *again, f
 static double value_of(const cell_result *cell, int quantity)
 {
     const solve_result *r = &cell->solve;
-    return quantity < r->quantities && r->quantity[quantity].status == STATUS_OK ? r->quantity[quantity].value : NAN;
+    return quantity < r->quantities && r->quantity[quantity].status == STATUS_OK
+               ? r->quantity[quantity].value
+               : NAN;
 }
 
 /* Twice the larger difference; NAN when one is not known. */
@@ -62,7 +65,8 @@ static status take(const sweep *again, int first, const point *p, series *one, f
         double value[REPETITIONS];
         for (int k = 0; k < REPETITIONS; k++)
             value[k] = value_of(again->series[first + k].cell, q);
-        one->noise[q] = noise_of(&p->scene.quantity[q], value_of(&one->cell[one->meshes - 1], q), value);
+        one->noise[q] =
+            noise_of(&p->scene.quantity[q], value_of(&one->cell[one->meshes - 1], q), value);
     }
     return STATUS_OK;
 }
@@ -70,7 +74,8 @@ static status take(const sweep *again, int first, const point *p, series *one, f
 static int can_repeat(const sweep *s, int i, const char wanted[])
 {
     const series *one = &s->series[i];
-    return wanted[i] && one->missing[0] == '\0' && one->meshes > 0 && s->point[one->point].status == STATUS_OK;
+    return wanted[i] && one->missing[0] == '\0' && one->meshes > 0 &&
+           s->point[one->point].status == STATUS_OK;
 }
 
 status noise_measure(const sweep_request *request, const char wanted[], sweep *s, fault *f)

@@ -20,7 +20,8 @@ static status add_point(sweep *s, const case_type *type, const double value[], f
     if (p->text[0] == '\0')
         snprintf(p->name, sizeof p->name, "default");
     else
-        snprintf(p->name, sizeof p->name, "%012llx", (unsigned long long)(parameters_hash(type, value, NULL) >> 16));
+        snprintf(p->name, sizeof p->name, "%012llx",
+                 (unsigned long long)(parameters_hash(type, value, NULL) >> 16));
     scene_init(&p->scene, type->name);
     fault why = {""};
     p->status = type->build(value, &p->scene, &why);
@@ -33,7 +34,8 @@ static status add_point(sweep *s, const case_type *type, const double value[], f
 static int known_point(const sweep *s, const case_type *type, const double value[])
 {
     for (int i = 0; i < s->points; i++)
-        if (s->point[i].type == type && memcmp(s->point[i].parameter, value, (size_t)parameters_count(type) * sizeof *value) == 0)
+        if (s->point[i].type == type && memcmp(s->point[i].parameter, value,
+                                               (size_t)parameters_count(type) * sizeof *value) == 0)
             return 1;
     return 0;
 }
@@ -111,30 +113,40 @@ int sweep_selects(const sweep *s, const point *p, const formulation *chosen, con
     if (!option_matters(p, chosen, quantity))
         return 0;
     char text[PARAMETERS_TEXT + FORMULATION_KEY + 2 * FAULT_TEXT];
-    snprintf(text, sizeof text, "%s/%s/%s/%s", p->type->name, p->text[0] != '\0' ? p->text : "default", chosen->key, quantity);
+    snprintf(text, sizeof text, "%s/%s/%s/%s", p->type->name,
+             p->text[0] != '\0' ? p->text : "default", chosen->key, quantity);
     return s->select == NULL || select_matches(s->select, text) > 0;
 }
 
 /* Formulations of one point: all, and the options that a discrete truth speaks of. */
-static status plan_series(const sweep_request *request, const truths *t, sweep *s, int index, fault *f)
+static status plan_series(const sweep_request *request, const truths *t, sweep *s, int index,
+                          fault *f)
 {
     const point *p = &s->point[index];
     formulation list[64];
     int count = 0;
     for (int i = 0; i < request->formulations && count < 64; i++)
         list[count++] = request->formulation[i];
-    for (int i = 0; request->formulations == 0 && registry_formulations[i] != NULL && count < 64; i++)
+    for (int i = 0; request->formulations == 0 && registry_formulations[i] != NULL && count < 64;
+         i++)
         formulation_default(registry_formulations[i], &list[count++]);
-    for (int i = 0; registry_formulations[i] != NULL && request->formulations == 0 && p->text[0] == '\0'; i++)
-        for (int k = 0; registry_formulations[i]->options != NULL && registry_formulations[i]->options[k].name != NULL; k++)
-            for (int choice = 0;
-                 registry_formulations[i]->options[k].judged != 0 && choice <= registry_formulations[i]->options[k].max; choice++)
-                count += count < 64 && formulation_choice(registry_formulations[i], k, choice, &list[count]);
+    for (int i = 0;
+         registry_formulations[i] != NULL && request->formulations == 0 && p->text[0] == '\0'; i++)
+        for (int k = 0; registry_formulations[i]->options != NULL &&
+                        registry_formulations[i]->options[k].name != NULL;
+             k++)
+            for (int choice = 0; registry_formulations[i]->options[k].judged != 0 &&
+                                 choice <= registry_formulations[i]->options[k].max;
+                 choice++)
+                count += count < 64 &&
+                         formulation_choice(registry_formulations[i], k, choice, &list[count]);
     for (int i = 0; i < t->rows && request->formulations == 0; i++) {
-        int known = t->row[i].formulation[0] == '\0' || !truth_holds(&t->row[i], p->type, p->parameter);
+        int known =
+            t->row[i].formulation[0] == '\0' || !truth_holds(&t->row[i], p->type, p->parameter);
         for (int k = 0; k < count && !known; k++)
             known = strcmp(list[k].key, t->row[i].formulation) == 0;
-        if (!known && count < 64 && formulation_parse(t->row[i].formulation, &list[count], NULL) == STATUS_OK)
+        if (!known && count < 64 &&
+            formulation_parse(t->row[i].formulation, &list[count], NULL) == STATUS_OK)
             count++;
     }
     for (int i = 0; i < count; i++) {
@@ -164,7 +176,9 @@ status sweep_plan(const sweep_request *request, const truths *t, sweep *out, fau
 {
     memset(out, 0, sizeof *out);
     if (request->select != NULL && select_matches(request->select, "") < 0)
-        return fault_set(f, STATUS_REFUSED, "selection '%.100s' is malformed; write words joined by and, or, not", request->select);
+        return fault_set(f, STATUS_REFUSED,
+                         "selection '%.100s' is malformed; write words joined by and, or, not",
+                         request->select);
     out->select = request->select;
     status outcome = plan_points(t, out, f);
     for (int i = 0; i < out->points && outcome == STATUS_OK; i++)
@@ -176,7 +190,8 @@ status sweep_plan(const sweep_request *request, const truths *t, sweep *out, fau
     return outcome;
 }
 
-status sweep_add(sweep *s, const case_type *type, const double value[], const int mesh[], int meshes, fault *f)
+status sweep_add(sweep *s, const case_type *type, const double value[], const int mesh[],
+                 int meshes, fault *f)
 {
     const status outcome = add_point(s, type, value, f);
     if (outcome == STATUS_OK && meshes > 0)
@@ -192,8 +207,8 @@ status sweep_extend(sweep *s, const formulation chosen[], int count, fault *f)
     return outcome == STATUS_OK ? alloc_cells(s, f) : outcome;
 }
 
-status sweep_plan_one(const case_type *type, const double value[], const formulation chosen[], int count, const int mesh[],
-                      int meshes, sweep *out, fault *f)
+status sweep_plan_one(const case_type *type, const double value[], const formulation chosen[],
+                      int count, const int mesh[], int meshes, sweep *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     status outcome = sweep_add(out, type, value, mesh, meshes, f);
@@ -210,7 +225,9 @@ int sweep_cells(const sweep *s)
 {
     int cells = 0;
     for (int i = 0; i < s->seriess; i++)
-        cells += s->series[i].missing[0] == '\0' && s->point[s->series[i].point].status == STATUS_OK ? s->series[i].meshes : 0;
+        cells += s->series[i].missing[0] == '\0' && s->point[s->series[i].point].status == STATUS_OK
+                     ? s->series[i].meshes
+                     : 0;
     return cells;
 }
 

@@ -4,14 +4,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A cell's result is a tree of arrays that records point to; records and elements are sent as they stand in memory, and the
- * addresses in them replaced by those of their own arrays. A new array is one line in the tables below; a new number none. */
+/* A cell's result is a tree of arrays that records point to; records and elements are sent as they
+ * stand in memory, and the addresses in them replaced by those of their own arrays. A new array is
+ * one line in the tables below; a new number none. */
 typedef struct branch branch;
 struct branch {
     size_t pointer, size; /* of the address in the record; of an element [bytes] */
-    size_t count, times;  /* ints in the record whose product counts the elements; count 0: a text; times 0: none */
-    size_t each, more;    /* elements for each of the product, and besides */
-    const branch *parts;  /* arrays of each element; NULL: none */
+    /* ints in the record whose product counts the elements; count 0: a text; times 0: none */
+    size_t count, times;
+    size_t each, more;   /* elements for each of the product, and besides */
+    const branch *parts; /* arrays of each element; NULL: none */
 };
 
 #define CELL(member)     offsetof(cell_result, member)
@@ -19,13 +21,15 @@ struct branch {
 #define QUANTITY(member) offsetof(quantity_result, member)
 #define MATRICES(member) offsetof(nodal_matrices, member)
 static const branch of_line[] = {{0, sizeof(char), 0, 0, 1, 0, NULL}, {0}};
-static const branch of_quantity[] = {{QUANTITY(curve.x), sizeof(double), QUANTITY(curve.points), 0, 1, 0, NULL},
-                                     {QUANTITY(curve.value), sizeof(double), QUANTITY(curve.points), 0, 1, 0, NULL},
-                                     {0}};
-static const branch of_matrices[] = {{MATRICES(path), sizeof(double), MATRICES(stations), 0, 1, 0, NULL},
-                                     {MATRICES(compliance), sizeof(double), MATRICES(stations), 0, 36, 0, NULL},
-                                     {MATRICES(stiffness), sizeof(double), MATRICES(stations), 0, 36, 0, NULL},
-                                     {0}};
+static const branch of_quantity[] = {
+    {QUANTITY(curve.x), sizeof(double), QUANTITY(curve.points), 0, 1, 0, NULL},
+    {QUANTITY(curve.value), sizeof(double), QUANTITY(curve.points), 0, 1, 0, NULL},
+    {0}};
+static const branch of_matrices[] = {
+    {MATRICES(path), sizeof(double), MATRICES(stations), 0, 1, 0, NULL},
+    {MATRICES(compliance), sizeof(double), MATRICES(stations), 0, 36, 0, NULL},
+    {MATRICES(stiffness), sizeof(double), MATRICES(stations), 0, 36, 0, NULL},
+    {0}};
 static const branch of_cell[] = {
     {CELL(left_out), sizeof(char *), CELL(left_out_lines), 0, 1, 0, of_line},
     {SOLVE(quantity), sizeof(quantity_result), SOLVE(quantities), 0, 1, 0, of_quantity},
@@ -35,7 +39,8 @@ static const branch of_cell[] = {
     {SOLVE(matrices), sizeof(nodal_matrices), SOLVE(matrix_sets), 0, 1, 0, of_matrices},
     {SOLVE(shapes.first), sizeof(int), SOLVE(shapes.members), 0, 1, 1, NULL},
     {SOLVE(shapes.state), sizeof(shape_state), SOLVE(shapes.states), 0, 1, 0, NULL},
-    {SOLVE(shapes.point), sizeof(centreline_point), SOLVE(shapes.states), SOLVE(shapes.points), 1, 0, NULL},
+    {SOLVE(shapes.point), sizeof(centreline_point), SOLVE(shapes.states), SOLVE(shapes.points), 1,
+     0, NULL},
     {SOLVE(shapes.node), sizeof(double), SOLVE(shapes.states), SOLVE(shapes.nodes), 3, 0, NULL},
     {0}};
 
@@ -63,7 +68,8 @@ static size_t elements(const void *record, const branch *b)
     const char *text = b->count == 0 ? address(record, b) : NULL;
     if (b->count == 0)
         return text != NULL ? strlen(text) + 1 : 0;
-    return b->each * whole_at(record, b->count) * (b->times > 0 ? whole_at(record, b->times) : 1) + b->more;
+    return b->each * whole_at(record, b->count) * (b->times > 0 ? whole_at(record, b->times) : 1) +
+           b->more;
 }
 
 static int put(FILE *to, const void *data, size_t size)
@@ -103,7 +109,8 @@ static char *get_array(FILE *from, const branch *b, size_t count)
 {
     enum { LARGEST = 1 << 28 }; /* [bytes] a count beyond this is damage */
     char *out = count < LARGEST / b->size ? calloc(count + 1, b->size) : NULL;
-    if (out != NULL && get(from, out, count * b->size) == 0 && (b->count != 0 || out[count - 1] == '\0'))
+    if (out != NULL && get(from, out, count * b->size) == 0 &&
+        (b->count != 0 || out[count - 1] == '\0'))
         return out;
     free(out);
     return NULL;
@@ -115,7 +122,8 @@ static int get_parts(FILE *from, void *record, const branch parts[])
         size_t count = 0;
         if (get(from, &count, sizeof count) != 0)
             return -1;
-        if (b->count != 0 && count != elements(record, b) && (count != 0 || elements(record, b) > b->more))
+        if (b->count != 0 && count != elements(record, b) &&
+            (count != 0 || elements(record, b) > b->more))
             return -1;
         if (count == 0)
             continue;

@@ -7,6 +7,7 @@
 #include "harness/study/cell.h"
 
 int serialise_write(FILE *to, const cell_result *cell); /* 0, or -1 */
-int serialise_read(FILE *from, cell_result *cell);      /* 0, or -1: the stream ended or is damaged */
+/* 0, or -1: the stream ended or is damaged */
+int serialise_read(FILE *from, cell_result *cell);
 
 #endif

@@ -13,7 +13,8 @@ cell_request sweep_cell(const sweep *s, int series_index, int mesh)
 {
     const series *one = &s->series[series_index];
     const point *p = &s->point[one->point];
-    cell_request out = {.type = p->type, .formulation = one->formulation.type, .elements = one->mesh[mesh]};
+    cell_request out = {
+        .type = p->type, .formulation = one->formulation.type, .elements = one->mesh[mesh]};
     memcpy(out.parameter, p->parameter, sizeof out.parameter);
     memcpy(out.option, one->formulation.option, sizeof out.option);
     out.solve.newton = one->formulation.newton;
@@ -31,8 +32,8 @@ static void report(const sweep_request *request, const sweep *s, const task *t, 
     if (request->progress == NULL)
         return;
     const series *one = &s->series[t->series];
-    fprintf(request->progress, "\r\033[K%d/%d %s %s n=%d", done, count, s->point[one->point].type->name, one->formulation.key,
-            one->mesh[t->mesh]);
+    fprintf(request->progress, "\r\033[K%d/%d %s %s n=%d", done, count,
+            s->point[one->point].type->name, one->formulation.key, one->mesh[t->mesh]);
     fflush(request->progress);
 }
 
@@ -45,7 +46,8 @@ static void end_report(const sweep_request *request)
 }
 
 /* One worker that has something to say, or has ended. *running: workers there are. */
-static status attend(const sweep_request *request, workload *w, int self, worker *one, int *running, fault *f)
+static status attend(const sweep_request *request, workload *w, int self, worker *one, int *running,
+                     fault *f)
 {
     const int i = worker_receive(w, one);
     if (i >= 0) {
@@ -59,11 +61,14 @@ static status attend(const sweep_request *request, workload *w, int self, worker
 }
 
 /* Waits for the workers and for whoever asks to end. 1: somebody did. */
-static int wait_for_any(const workload *w, int jobs, const worker workers[], int asked, struct pollfd ends[])
+static int wait_for_any(const workload *w, int jobs, const worker workers[], int asked,
+                        struct pollfd ends[])
 {
-    const int interval = w->time_limit > 0 ? 100 : -1; /* [ms] the clocks of the workers are looked at so often */
+    /* [ms] the clocks of the workers are looked at so often */
+    const int interval = w->time_limit > 0 ? 100 : -1;
     for (int i = 0; i < jobs; i++)
-        ends[i] = (struct pollfd){.fd = workers[i].from != NULL ? fileno(workers[i].from) : -1, .events = POLLIN};
+        ends[i] = (struct pollfd){.fd = workers[i].from != NULL ? fileno(workers[i].from) : -1,
+                                  .events = POLLIN};
     ends[jobs] = (struct pollfd){.fd = asked, .events = POLLIN};
     while (poll(ends, (nfds_t)jobs + 1, interval) < 0 && errno == EINTR)
         ;
@@ -71,11 +76,13 @@ static int wait_for_any(const workload *w, int jobs, const worker workers[], int
 }
 
 /* *interrupted: somebody asked to end (descriptor `asked`) before all was done. */
-static status run_parallel(const sweep_request *request, workload *w, int asked, int *interrupted, fault *f)
+static status run_parallel(const sweep_request *request, workload *w, int asked, int *interrupted,
+                           fault *f)
 {
     worker workers[WORKERS_MOST] = {{0}};
     struct pollfd ends[WORKERS_MOST + 1];
-    const int most = request->jobs < WORKERS_MOST ? request->jobs : WORKERS_MOST, jobs = most < w->count ? most : w->count;
+    const int most = request->jobs < WORKERS_MOST ? request->jobs : WORKERS_MOST,
+              jobs = most < w->count ? most : w->count;
     int running = 0;
     status outcome = STATUS_OK;
     for (int i = 0; i < jobs && outcome == STATUS_OK; i++, running++)
@@ -93,8 +100,9 @@ static status run_parallel(const sweep_request *request, workload *w, int asked,
         if (workers[i].from != NULL)
             worker_end(w, &workers[i]);
     if (outcome == STATUS_OK && !*interrupted && w->finished < w->count)
-        outcome =
-            fault_set(f, STATUS_FAULT, "the worker processes ended before all cells were done (%d of %d)", w->finished, w->count);
+        outcome = fault_set(f, STATUS_FAULT,
+                            "the worker processes ended before all cells were done (%d of %d)",
+                            w->finished, w->count);
     return outcome;
 }
 
@@ -139,7 +147,8 @@ static void list_tasks(const sweep *s, task tasks[])
     }
 }
 
-/* Even one job runs in a process of its own, so that a crash is a result and answers do not depend on the number. */
+/* Even one job runs in a process of its own, so that a crash is a result and answers do not depend
+ * on the number. */
 status sweep_run(const sweep_request *request, sweep *s, fault *f)
 {
     const size_t count = (size_t)sweep_cells(s);

@@ -1,4 +1,5 @@
-/* All cells of a verification: series of meshes for every case, parameter point and formulation, run by several processes. */
+/* All cells of a verification: series of meshes for every case, parameter point and formulation,
+ * run by several processes. */
 #ifndef BEAMWORK_SWEEP_H
 #define BEAMWORK_SWEEP_H
 
@@ -29,16 +30,18 @@ typedef struct series {
     formulation formulation;
     char missing[200]; /* what the scene needs and the formulation does not offer; empty: it runs */
     int meshes, mesh[SERIES_MAX_MESHES];
-    cell_result *cell;          /* [meshes]; their scenes are empty: the point has it */
-    double *noise;              /* [quantities] relative, of the finest mesh (harness/study/noise.h); NULL: not measured */
+    cell_result *cell; /* [meshes]; their scenes are empty: the point has it */
+    /* [quantities] relative, of the finest mesh (harness/study/noise.h); NULL: not measured */
+    double *noise;
     struct cell_timing *timing; /* [meshes] of a benchmark (harness/timing); else NULL */
 } series;
 
 typedef struct sweep {
-    const char *select; /* of the request: what it leaves out is not judged either; NULL: nothing is left out */
-    int shapes;         /* of the request */
-    int threads;        /* of the loop over elements in every cell; 0, 1: one */
-    int unfinished;     /* cells that an interrupted run left; series that need them are gone */
+    /* of the request: what it leaves out is not judged either; NULL: nothing is left out */
+    const char *select;
+    int shapes;     /* of the request */
+    int threads;    /* of the loop over elements in every cell; 0, 1: one */
+    int unfinished; /* cells that an interrupted run left; series that need them are gone */
     int points, seriess;
     point *point;
     series *series;
@@ -51,7 +54,9 @@ typedef struct sweep_request {
     int interruptible;  /* 1: who asks to end (Ctrl-C) ends the run, and what is finished is kept */
     int formulations;   /* restrict to these, or 0: all */
     const formulation *formulation;
-    int shapes;     /* most states of a path whose centre lines are kept, of the finest mesh at the defaults; 0: none */
+    /* most states of a path whose centre lines are kept, of the finest mesh at the defaults; 0:
+     * none */
+    int shapes;
     FILE *progress; /* NULL: quiet */
 } sweep_request;
 
@@ -61,13 +66,16 @@ int sweep_selects(const sweep *s, const point *p, const formulation *chosen, con
 /* Points: the defaults and every parameter point of a truth. */
 status sweep_plan(const sweep_request *request, const truths *t, sweep *out, fault *f);
 /* One point, the given formulations and meshes. */
-status sweep_plan_one(const case_type *type, const double value[], const formulation chosen[], int count, const int mesh[],
-                      int meshes, sweep *out, fault *f);
-/* A further point of a sweep that is planned by hand; its edit, steps and condition may be set before the run. */
-status sweep_add(sweep *s, const case_type *type, const double value[], const int mesh[], int meshes, fault *f);
+status sweep_plan_one(const case_type *type, const double value[], const formulation chosen[],
+                      int count, const int mesh[], int meshes, sweep *out, fault *f);
+/* A further point of a sweep that is planned by hand; its edit, steps and condition may be set
+ * before the run. */
+status sweep_add(sweep *s, const case_type *type, const double value[], const int mesh[],
+                 int meshes, fault *f);
 /* Series of the last point, on its scene's meshes. */
 status sweep_extend(sweep *s, const formulation chosen[], int count, fault *f);
-/* Runs every cell; a cell that fails or crashes is a result. Order of results does not depend on jobs. */
+/* Runs every cell; a cell that fails or crashes is a result. Order of results does not depend on
+ * jobs. */
 status sweep_run(const sweep_request *request, sweep *s, fault *f);
 /* What running one mesh of a series means. */
 cell_request sweep_cell(const sweep *s, int series_index, int mesh);

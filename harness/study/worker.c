@@ -22,7 +22,7 @@ static cell_result *cell_of(const workload *w, int i)
     return &w->s->series[w->tasks[i].series].cell[w->tasks[i].mesh];
 }
 
-/* Child: ends with its parent, even one that is killed or was already gone when this was asked for. */
+/* Child: ends with its parent, even one that is killed or was already gone. */
 static void follow_parent(pid_t parent)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -113,7 +113,8 @@ static void mark_done(workload *w, int i)
 int worker_receive(workload *w, worker *from)
 {
     int i = 0;
-    if (fread(&i, sizeof i, 1, from->from) != 1 || i < 0 || i >= w->count || serialise_read(from->from, cell_of(w, i)) != 0)
+    if (fread(&i, sizeof i, 1, from->from) != 1 || i < 0 || i >= w->count ||
+        serialise_read(from->from, cell_of(w, i)) != 0)
         return -1;
     mark_done(w, i);
     return i;
@@ -149,7 +150,8 @@ int worker_bury(workload *w, int self, worker *dead)
 void worker_stop_late(const workload *w, int self, worker *one)
 {
     const board *b = w->board;
-    if (w->time_limit <= 0 || one->stopped || b->at[self] < 0 || now() - b->since[self] <= w->time_limit)
+    if (w->time_limit <= 0 || one->stopped || b->at[self] < 0 ||
+        now() - b->since[self] <= w->time_limit)
         return;
     one->stopped = 1;
     kill(one->process, SIGKILL);

@@ -1,5 +1,5 @@
-/* Processes that run the cells of a sweep. None outlives the process that started it, and each keeps
- * the time limit of a cell by itself. */
+/* Processes that run the cells of a sweep. None outlives the process that started it, and each
+ * keeps the time limit of a cell by itself. */
 #ifndef BEAMWORK_WORKER_H
 #define BEAMWORK_WORKER_H
 
@@ -18,8 +18,9 @@ typedef struct task {
 /* Shared by all processes: the next task, and what each worker is at. */
 typedef struct board {
     atomic_int next;
-    atomic_int at[WORKERS_MOST];        /* -1: nothing */
-    _Atomic double since[WORKERS_MOST]; /* [s] of a clock that only goes forward: when it was taken */
+    atomic_int at[WORKERS_MOST]; /* -1: nothing */
+    /* [s] of a clock that only goes forward: when it was taken */
+    _Atomic double since[WORKERS_MOST];
 } board;
 
 /* What there is to do, and where its results go. */

@@ -27,7 +27,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The median of n draws lies between the k-th smallest and the k-th largest but with probability 2 P(Binomial(n, 1/2) < k). */
+/* The median of n draws lies between the k-th smallest and the k-th largest but with probability 2
+ * P(Binomial(n, 1/2) < k). */
 static int rank_of_interval(int pairs)
 {
     int k = 0;
@@ -38,7 +39,8 @@ static int rank_of_interval(int pairs)
 
 against against_judge(int pairs, const double a[], const double b[])
 {
-    against out = {.pairs = pairs, .a = INFINITY, .b = INFINITY, .ratio = NAN, .low = 0, .high = INFINITY};
+    against out = {
+        .pairs = pairs, .a = INFINITY, .b = INFINITY, .ratio = NAN, .low = 0, .high = INFINITY};
     double *ratio = malloc(((size_t)pairs + 1) * sizeof *ratio);
     for (int i = 0; i < pairs; i++) {
         out.a = fmin(out.a, a[i]);
@@ -73,7 +75,8 @@ static double passing(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static status lap_pair(against_lap *lap, void *a, void *b, int b_first, double *seconds_a, double *seconds_b, fault *f)
+static status lap_pair(against_lap *lap, void *a, void *b, int b_first, double *seconds_a,
+                       double *seconds_b, fault *f)
 {
     const status first = b_first ? lap(b, seconds_b, f) : lap(a, seconds_a, f);
     if (first != STATUS_OK)

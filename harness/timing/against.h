@@ -1,4 +1,5 @@
-/* Two contestants in alternation: is one slower, or does the noise not allow an answer? Drifts of the machine meet both. */
+/* Two contestants in alternation: is one slower, or does the noise not allow an answer? Drifts of
+ * the machine meet both. */
 #ifndef BEAMWORK_AGAINST_H
 #define BEAMWORK_AGAINST_H
 
@@ -8,9 +9,12 @@ typedef enum against_outcome { AGAINST_UNDECIDED, AGAINST_FASTER, AGAINST_SLOWER
 
 typedef struct against {
     int pairs;
-    double a, b;             /* [s] least of one lap */
-    double ratio, low, high; /* median of b/a over the pairs; where it lies with 99.9 % confidence, whatever the distribution */
-    against_outcome outcome;  /* of b against a; ratios within 2 % of 1 are left undecided: code laid out otherwise does as much */
+    double a, b; /* [s] least of one lap */
+    /* median of b/a over the pairs; where it lies with 99.9 % confidence, however distributed */
+    double ratio, low, high;
+    /* of b against a; ratios within 2 % of 1 are left undecided: code laid out otherwise does as
+     * much */
+    against_outcome outcome;
 } against;
 
 const char *against_name(against_outcome);
@@ -18,7 +22,8 @@ against against_judge(int pairs, const double a[], const double b[]);
 
 /* One lap of a contestant takes *seconds. */
 typedef status against_lap(void *contestant, double *seconds, fault *f);
-/* As many pairs as fit into `budget` [s], at least 51: their number is fixed before the first one counts. */
+/* As many pairs as fit into `budget` [s], at least 51: their number is fixed before the first one
+ * counts. */
 status against_run(against_lap *lap, void *a, void *b, double budget, against *out, fault *f);
 
 #endif

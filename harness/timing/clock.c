@@ -59,7 +59,8 @@ void clock_pin(void)
 
 void clock_single_thread(char **arguments)
 {
-    static const char *const threads[] = {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "BLIS_NUM_THREADS"};
+    static const char *const threads[] = {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS",
+                                          "MKL_NUM_THREADS", "BLIS_NUM_THREADS"};
     enum { LIBRARIES = sizeof threads / sizeof threads[0] };
     int single = 1;
     for (int i = 0; i < LIBRARIES; i++) {
@@ -67,5 +68,6 @@ void clock_single_thread(char **arguments)
         setenv(threads[i], "1", 1);
     }
     if (!single)
-        execv("/proc/self/exe", arguments); /* returns only where there is no /proc: then libraries decide */
+        /* returns only where there is no /proc: then libraries decide */
+        execv("/proc/self/exe", arguments);
 }

@@ -3,8 +3,9 @@
 #include <math.h>
 #include <time.h>
 
-static const double longest = 1; /* [s] of a whole run; longer ones are counted from one iteration */
-enum { MOST_UNKNOWNS = 3000 };   /* 72 MB; a few seconds per iteration */
+/* [s] of a whole run; longer ones are counted from one iteration */
+static const double longest = 1;
+enum { MOST_UNKNOWNS = 3000 }; /* 72 MB; a few seconds per iteration */
 
 /* Coordinates, strains and stresses. */
 static int unknowns_of(const cell_result *cell)
@@ -30,14 +31,16 @@ static void sample(const cell_request *dense, dense_reference *out)
     if (cell_run(&one, &cell, &f) == STATUS_OK) {
         for (int k = 0; k < PHASES; k++)
             seconds += cell.solve.phase[k];
-        seconds = fmin(seconds, processor_seconds() - start); /* a long one is interrupted now and then */
+        /* a long one is interrupted now and then */
+        seconds = fmin(seconds, processor_seconds() - start);
         out->iteration = out->unknowns > 0 ? fmin(out->iteration, seconds) : seconds;
         out->unknowns = unknowns_of(&cell);
     }
     cell_result_free(&cell);
 }
 
-void dense_reference_round(const cell_request *own, const cell_result *cell, double floor, dense_reference *out)
+void dense_reference_round(const cell_request *own, const cell_result *cell, double floor,
+                           dense_reference *out)
 {
     const long iterations = cell->counters.iterations;
     cell_request dense = *own;

@@ -1,4 +1,5 @@
-/* The published algorithm beside ours: all coordinates, strains and stresses at once, dense Gaussian elimination (newton=dense). */
+/* The published algorithm beside ours: all coordinates, strains and stresses at once, dense
+ * Gaussian elimination (newton=dense). */
 #ifndef BEAMWORK_DENSE_REFERENCE_H
 #define BEAMWORK_DENSE_REFERENCE_H
 
@@ -10,9 +11,12 @@ typedef struct dense_reference {
     clock_reading whole; /* of whole runs, where these are short enough; else rounds = 0 */
 } dense_reference;
 
-/* One more round beside those of the cell itself, which was solved with the result `cell`; nothing for linear or very large ones. */
-void dense_reference_round(const cell_request *own, const cell_result *cell, double floor, dense_reference *out);
-/* [s] of a run: measured, or the time of one iteration times their number (the iterations are the same); INFINITY: not measured. */
+/* One more round beside those of the cell itself, which was solved with the result `cell`; nothing
+ * for linear or very large ones. */
+void dense_reference_round(const cell_request *own, const cell_result *cell, double floor,
+                           dense_reference *out);
+/* [s] of a run: measured, or the time of one iteration times their number (the iterations are the
+ * same); INFINITY: not measured. */
 double dense_reference_seconds(const dense_reference *b, long iterations);
 
 #endif

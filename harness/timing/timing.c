@@ -14,8 +14,10 @@ static int at_defaults(const sweep *s, const series *one)
 static int can_run(const sweep *s, const series *one, int mesh)
 {
     const solve_result *r = &one->cell[mesh].solve;
-    return one->missing[0] == '\0' && s->point[one->point].status == STATUS_OK && r->status != STATUS_FAULT &&
-           (s->points == 1 || at_defaults(s, one) || r->seconds_setup + r->seconds_solve < longest_elsewhere);
+    return one->missing[0] == '\0' && s->point[one->point].status == STATUS_OK &&
+           r->status != STATUS_FAULT &&
+           (s->points == 1 || at_defaults(s, one) ||
+            r->seconds_setup + r->seconds_solve < longest_elsewhere);
 }
 
 /* The middle mesh that has a solution, or -1. */
@@ -53,7 +55,8 @@ static double sum_of(const double part[PHASES])
     return sum;
 }
 
-/* One run with readings between the parts of the iterations; the fastest of all rounds stays. Long cells have one in the last round. */
+/* One run with readings between the parts of the iterations; the fastest of all rounds stays. Long
+ * cells have one in the last round. */
 static void read_phases(const cell_request *as_is, cell_timing *out)
 {
     const double longest = 0.3; /* [s] */
@@ -97,7 +100,8 @@ status timing_run(sweep *s, double floor, int dense, FILE *progress, fault *f)
     }
     for (int p = 0; p < s->points; p++) {
         if (progress != NULL)
-            fprintf(progress, "\r\033[K%d/%d %s %s", p + 1, s->points, s->point[p].type->name, s->point[p].text);
+            fprintf(progress, "\r\033[K%d/%d %s %s", p + 1, s->points, s->point[p].type->name,
+                    s->point[p].text);
         for (int round = 0; round < CLOCK_ROUNDS; round++)
             for (int i = 0; i < s->seriess; i++)
                 if (s->series[i].point == p)

@@ -3,20 +3,22 @@
 #define BEAMWORK_TIMING_H
 
 #include "harness/study/sweep.h"
-#include "harness/timing/dense_reference.h"
 #include "harness/timing/clock.h"
+#include "harness/timing/dense_reference.h"
 
 /* Repeated runs of a cell, as it is and with nothing left out (--keep-all). */
 typedef struct cell_timing {
     clock_reading as_is, keep_all; /* rounds = 0: not measured */
     int free_keep_all;             /* unknowns when nothing is left out */
-    double phase[PHASES];          /* [s] in the iterations of one run more, in which the clock is read between their parts */
-    dense_reference dense;                /* when asked for */
+    /* [s] in the iterations of one run more, in which the clock is read between their parts */
+    double phase[PHASES];
+    dense_reference dense; /* when asked for */
 } cell_timing;
 
-/* floor: least [s] a round spends on a cell. Of several points the defaults are measured in full: there the parts of an iteration
- * too, and what is left out, on the middle mesh of each formulation; elsewhere rounds are short and long cells keep the time of
- * their one run. Cells that crashed are not run again. dense: the published algorithm is timed too. */
+/* floor: least [s] a round spends on a cell. Of several points the defaults are measured in full:
+ * there the parts of an iteration too, and what is left out, on the middle mesh of each
+ * formulation; elsewhere rounds are short and long cells keep the time of their one run. Cells that
+ * crashed are not run again. dense: the published algorithm is timed too. */
 status timing_run(sweep *s, double floor, int dense, FILE *progress, fault *f);
 
 #endif

@@ -30,7 +30,7 @@ void checksum_write(const void *data, size_t size, char out[CHECKSUM_LENGTH + 1]
     write_line(size, checksum(0, data, size), out);
 }
 
-/* Sum of all but the last CHECKSUM_LENGTH bytes, which are found in `tail`. -1: shorter than that. */
+/* Sum of all but the last CHECKSUM_LENGTH bytes, which go to `tail`. -1: shorter than that. */
 static long read_body(FILE *from, uint32_t *sum, char tail[CHECKSUM_LENGTH + 1])
 {
     enum { PIECE = 1 << 18 };
@@ -67,6 +67,8 @@ status checksum_check(const char *path, fault *f)
     write_line(body >= 0 ? (size_t)body : 0, sum, right);
     return body >= 0 && strcmp(tail, right) == 0
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "%.120s: not a file of this program, or cut short, damaged or altered; write it again",
+               : fault_set(f, STATUS_FAULT,
+                           "%.120s: not a file of this program, or cut short, damaged or altered; "
+                           "write it again",
                            path);
 }

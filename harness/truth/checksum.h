@@ -1,5 +1,6 @@
-/* The last line of a file of ours: its length and checksum. What is cut short, damaged or altered is noticed before the HDF5 library reads it,
- * which trusts what it finds (version 1.10 reads beyond its buffers in damaged files). */
+/* The last line of a file of ours: its length and checksum. What is cut short, damaged or altered
+ * is noticed before the HDF5 library reads it, which trusts what it finds (version 1.10 reads
+ * beyond its buffers in damaged files). */
 #ifndef BEAMWORK_CHECKSUM_H
 #define BEAMWORK_CHECKSUM_H
 

@@ -6,8 +6,9 @@
 
 status columns_broken(const columns *r, const char *column)
 {
-    return fault_set(r->f, STATUS_FAULT, "%s: column %s of %s is missing or damaged; build it again ('make all')", r->path, column,
-                     r->name);
+    return fault_set(r->f, STATUS_FAULT,
+                     "%s: column %s of %s is missing or damaged; build it again ('make all')",
+                     r->path, column, r->name);
 }
 
 int columns_length(hid_t group, const char *column)
@@ -15,8 +16,8 @@ int columns_length(hid_t group, const char *column)
     hsize_t size = 0;
     const hid_t set = H5Dopen2(group, column, H5P_DEFAULT);
     const hid_t space = set >= 0 ? H5Dget_space(set) : -1;
-    const int good = space >= 0 && H5Sget_simple_extent_ndims(space) == 1 && H5Sget_simple_extent_dims(space, &size, NULL) == 1 &&
-                     size < 10000000;
+    const int good = space >= 0 && H5Sget_simple_extent_ndims(space) == 1 &&
+                     H5Sget_simple_extent_dims(space, &size, NULL) == 1 && size < 10000000;
     if (space >= 0)
         H5Sclose(space);
     if (set >= 0)
@@ -26,7 +27,8 @@ int columns_length(hid_t group, const char *column)
 
 status columns_numbers(const columns *r, const char *column, hid_t type, void *out)
 {
-    const hid_t set = columns_length(r->group, column) == r->rows ? H5Dopen2(r->group, column, H5P_DEFAULT) : -1;
+    const hid_t set =
+        columns_length(r->group, column) == r->rows ? H5Dopen2(r->group, column, H5P_DEFAULT) : -1;
     const int good = set >= 0 && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, out) >= 0;
     if (set >= 0)
         H5Dclose(set);
@@ -35,13 +37,15 @@ status columns_numbers(const columns *r, const char *column, hid_t type, void *o
 
 status columns_strings(const columns *r, const char *column, char **out)
 {
-    const hid_t set = columns_length(r->group, column) == r->rows ? H5Dopen2(r->group, column, H5P_DEFAULT) : -1;
+    const hid_t set =
+        columns_length(r->group, column) == r->rows ? H5Dopen2(r->group, column, H5P_DEFAULT) : -1;
     const hid_t stored = set >= 0 ? H5Dget_type(set) : -1;
     int good = stored >= 0 && H5Tget_class(stored) == H5T_STRING && !H5Tis_variable_str(stored);
     const size_t size = good ? H5Tget_size(stored) + 1 : 1;
     char *all = good && size < 100000 ? calloc((size_t)r->rows + 1, size) : NULL;
     const hid_t memory = good ? H5Tcopy(H5T_C_S1) : -1;
-    good = good && all != NULL && memory >= 0 && H5Tset_size(memory, size) >= 0 && H5Tset_cset(memory, H5Tget_cset(stored)) >= 0 &&
+    good = good && all != NULL && memory >= 0 && H5Tset_size(memory, size) >= 0 &&
+           H5Tset_cset(memory, H5Tget_cset(stored)) >= 0 &&
            H5Dread(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, all) >= 0;
     for (int i = 0; i < r->rows && good; i++)
         good = (out[i] = strndup(all + (size_t)i * size, size)) != NULL;
@@ -61,9 +65,11 @@ status columns_read(const columns *r, const columns_field *field, void *base, si
     const size_t size = field->is_text ? sizeof(char *) : sizeof(double);
     char *all = calloc((size_t)r->rows + 1, size);
     if (all == NULL)
-        return fault_set(r->f, STATUS_FAULT, "out of memory for column %s of %s", field->column, r->name);
-    const status outcome = field->is_text ? columns_strings(r, field->column, (char **)(void *)all)
-                                          : columns_numbers(r, field->column, H5T_NATIVE_DOUBLE, all);
+        return fault_set(r->f, STATUS_FAULT, "out of memory for column %s of %s", field->column,
+                         r->name);
+    const status outcome = field->is_text
+                               ? columns_strings(r, field->column, (char **)(void *)all)
+                               : columns_numbers(r, field->column, H5T_NATIVE_DOUBLE, all);
     for (int i = 0; i < r->rows; i++)
         memcpy((char *)base + (size_t)i * stride + field->offset, all + (size_t)i * size, size);
     free(all);

@@ -1,4 +1,5 @@
-/* Reading a table that is stored as one HDF5 data set per column. Nothing is believed: every size and type is checked. */
+/* Reading a table that is stored as one HDF5 data set per column. Nothing is believed: every size
+ * and type is checked. */
 #ifndef BEAMWORK_COLUMNS_H
 #define BEAMWORK_COLUMNS_H
 
@@ -28,7 +29,8 @@ int columns_length(hid_t group, const char *column);
 status columns_numbers(const columns *r, const char *column, hid_t type, void *out);
 /* Fixed-length strings; out[rows], each malloced. */
 status columns_strings(const columns *r, const char *column, char **out);
-/* One column into a field of an array of structs base[rows]. On failure the strings read so far are in it. */
+/* One column into a field of an array of structs base[rows]. On failure the strings read so far are
+ * in it. */
 status columns_read(const columns *r, const columns_field *field, void *base, size_t stride);
 
 #endif

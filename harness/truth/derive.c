@@ -16,7 +16,8 @@ typedef struct script {
     FILE *says, *complains;
 } script;
 
-static status start(const char *path, const char *case_name, const char *parameters, script *s, fault *f)
+static status start(const char *path, const char *case_name, const char *parameters, script *s,
+                    fault *f)
 {
     int out[2] = {-1, -1}, error[2] = {-1, -1};
     if (pipe(out) != 0 || pipe(error) != 0 || (s->process = fork()) < 0) {
@@ -33,7 +34,8 @@ static status start(const char *path, const char *case_name, const char *paramet
             close(out[i]);
             close(error[i]);
         }
-        /* By its full name: it takes its libraries from beside the name it is called by, looked up in PATH; and isolated
+        /* By its full name: it takes its libraries from beside the name it is called by, looked up
+         * in PATH; and isolated
          * (-I) from the environment of whoever works in a virtual one. */
         execl(python, python, "-I", "-B", path, case_name, parameters, (char *)NULL);
         _exit(127);
@@ -42,7 +44,9 @@ static status start(const char *path, const char *case_name, const char *paramet
     close(error[1]);
     s->says = fdopen(out[0], "r");
     s->complains = fdopen(error[0], "r");
-    return s->says != NULL && s->complains != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "the deriving program cannot be read");
+    return s->says != NULL && s->complains != NULL
+               ? STATUS_OK
+               : fault_set(f, STATUS_FAULT, "the deriving program cannot be read");
 }
 
 static int take_text(char **rest, char *to, size_t size)
@@ -77,14 +81,17 @@ static status read_lines(FILE *from, derived_value **out, int *count, fault *f)
         line[strcspn(line, "\n")] = '\0';
         if (!take_text(&rest, v->quantity, sizeof v->quantity) || !take_number(&rest, &v->value) ||
             !take_text(&rest, v->unit, sizeof v->unit) || !take_number(&rest, &v->uncertainty) ||
-            !take_text(&rest, v->convention, sizeof v->convention) || !take_text(&rest, v->source, sizeof v->source))
-            return fault_set(f, STATUS_FAULT, "the deriving program says '%.80s', which is not a value", line);
+            !take_text(&rest, v->convention, sizeof v->convention) ||
+            !take_text(&rest, v->source, sizeof v->source))
+            return fault_set(f, STATUS_FAULT,
+                             "the deriving program says '%.80s', which is not a value", line);
         ++*count;
     }
     return STATUS_OK;
 }
 
-status derive_values(const char *path, const char *case_name, const char *parameters, derived_value **out, int *count, fault *f)
+status derive_values(const char *path, const char *case_name, const char *parameters,
+                     derived_value **out, int *count, fault *f)
 {
     script s = {0};
     char complaint[LINE] = "", more[LINE];
@@ -92,7 +99,9 @@ status derive_values(const char *path, const char *case_name, const char *parame
     *out = NULL;
     *count = 0;
     if (access(path, R_OK) != 0)
-        return fault_set(f, STATUS_FAULT, "%.200s: the deriving programs are not here; run from a clone, or set BEAMWORK_REFERENCE",
+        return fault_set(f, STATUS_FAULT,
+                         "%.200s: the deriving programs are not here; run from a clone, or set "
+                         "BEAMWORK_REFERENCE",
                          path);
     status outcome = start(path, case_name, parameters, &s, f);
     if (outcome == STATUS_OK)

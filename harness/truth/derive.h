@@ -1,4 +1,5 @@
-/* Truths at new parameter points, on demand: the deriving programs of reference/derive, which share nothing with this one, solve for them. */
+/* Truths at new parameter points, on demand: the deriving programs of reference/derive, which share
+ * nothing with this one, solve for them. */
 #ifndef BEAMWORK_DERIVE_H
 #define BEAMWORK_DERIVE_H
 
@@ -9,8 +10,9 @@ typedef struct derived_value {
     double value, uncertainty; /* [unit] */
 } derived_value;
 
-/* Runs `script CASE PARAMETERS`. REFUSED with its line when no program derives the case or the parameters; FAULT when it could not be run or said
- * something else. *out: malloced. */
-status derive_values(const char *script, const char *case_name, const char *parameters, derived_value **out, int *count, fault *f);
+/* Runs `script CASE PARAMETERS`. REFUSED with its line when no program derives the case or the
+ * parameters; FAULT when it could not be run or said something else. *out: malloced. */
+status derive_values(const char *script, const char *case_name, const char *parameters,
+                     derived_value **out, int *count, fault *f);
 
 #endif

@@ -6,7 +6,8 @@
 
 #include "harness/truth/truths.h"
 
-static int same_point(const case_type *type, const double value[], const double at[], const int any[])
+static int same_point(const case_type *type, const double value[], const double at[],
+                      const int any[])
 {
     for (int i = 0; type->parameters[i].name != NULL; i++)
         if (!any[i] && fabs(value[i] - at[i]) > 1e-14 * fabs(at[i]))
@@ -32,33 +33,39 @@ int truth_gates(const truth *row)
     return strcmp(row->kind, "agreement") != 0 && strcmp(row->kind, "unrepeatable") != 0;
 }
 
-const truth *truth_of(const truths *t, const case_type *type, const double value[], const char *quantity, const char *model)
+const truth *truth_of(const truths *t, const case_type *type, const double value[],
+                      const char *quantity, const char *model)
 {
     return truth_of_theory(t, type, value, quantity, model, NULL);
 }
 
-const truth *truth_of_theory(const truths *t, const case_type *type, const double value[], const char *quantity, const char *model,
-                             const char *theories)
+const truth *truth_of_theory(const truths *t, const case_type *type, const double value[],
+                             const char *quantity, const char *model, const char *theories)
 {
     const truth *best = NULL;
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
-        const int fits = row->formulation[0] == '\0' && !row->on_curve && (truth_gates(row) || strcmp(model, "same") != 0) &&
+        const int fits = row->formulation[0] == '\0' && !row->on_curve &&
+                         (truth_gates(row) || strcmp(model, "same") != 0) &&
                          strcmp(row->quantity, quantity) == 0 && strcmp(row->model, model) == 0;
-        const int follows = theories == NULL || row->theory[0] == '\0' || choice_index(theories, row->theory) >= 0;
+        const int follows =
+            theories == NULL || row->theory[0] == '\0' || choice_index(theories, row->theory) >= 0;
         if (fits && follows && truth_holds(row, type, value) &&
-            (best == NULL || choice_index(TRUTH_KINDS, row->kind) < choice_index(TRUTH_KINDS, best->kind)))
+            (best == NULL ||
+             choice_index(TRUTH_KINDS, row->kind) < choice_index(TRUTH_KINDS, best->kind)))
             best = row;
     }
     return best;
 }
 
-const truth *truth_predicted(const truths *t, const case_type *type, const double value[], const char *quantity, const char *key)
+const truth *truth_predicted(const truths *t, const case_type *type, const double value[],
+                             const char *quantity, const char *key)
 {
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
-        if (strcmp(row->kind, "predicted") == 0 && !row->on_curve && strcmp(row->quantity, quantity) == 0 &&
-            truth_holds(row, type, value) && is_of_formulation(row->formulation, key))
+        if (strcmp(row->kind, "predicted") == 0 && !row->on_curve &&
+            strcmp(row->quantity, quantity) == 0 && truth_holds(row, type, value) &&
+            is_of_formulation(row->formulation, key))
             return row;
     }
     return NULL;

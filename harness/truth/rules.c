@@ -134,8 +134,8 @@ static int condition_holds(const char *condition, const rule_subject *s)
 int rule_holds(const rule *r, const rule_subject *s)
 {
     return list_has(r->cases, s->type->name) && list_has(r->quantities, s->quantity) &&
-           list_has_formulation(r->formulations, s->formulation) && choice_index(r->verdicts, s->verdict) >= 0 &&
-           condition_holds(r->condition, s);
+           list_has_formulation(r->formulations, s->formulation) &&
+           choice_index(r->verdicts, s->verdict) >= 0 && condition_holds(r->condition, s);
 }
 
 void rule_foretell(rule *r, const rule_subject *s)
@@ -178,10 +178,11 @@ static status check_rule(const columns *c, const rule *r)
     term t;
     for (const char *at = r->condition; (at = next_word(at, ";", word)) != NULL;)
         if (!term_parse(word, &t) || !term_means_something(r, &t))
-            return fault_set(c->f, STATUS_FAULT,
-                             "%.200s: finding '%.60s': condition '%.60s' is neither a feature nor compares a "
-                             "parameter of its cases; correct reference/findings.csv and build again",
-                             c->path, r->name, word);
+            return fault_set(
+                c->f, STATUS_FAULT,
+                "%.200s: finding '%.60s': condition '%.60s' is neither a feature nor compares a "
+                "parameter of its cases; correct reference/findings.csv and build again",
+                c->path, r->name, word);
     return STATUS_OK;
 }
 
@@ -220,8 +221,9 @@ status rules_read(const char *path, hid_t file, rule **out, int *count, fault *f
 void rules_free(rule *r, int count)
 {
     for (int i = 0; i < count; i++) {
-        char *const all[] = {r[i].name,     r[i].formulations, r[i].cases, r[i].condition, r[i].quantities,
-                             r[i].verdicts, r[i].predicted,    r[i].cause, r[i].proof};
+        char *const all[] = {r[i].name,      r[i].formulations, r[i].cases,
+                             r[i].condition, r[i].quantities,   r[i].verdicts,
+                             r[i].predicted, r[i].cause,        r[i].proof};
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
             free(all[k]);
     }

@@ -1,4 +1,5 @@
-/* The ledger (reference/findings.csv): what is expected although it is not a pass, one rule for each cause. */
+/* The ledger (reference/findings.csv): what is expected although it is not a pass, one rule for
+ * each cause. */
 #ifndef BEAMWORK_RULES_H
 #define BEAMWORK_RULES_H
 
@@ -6,7 +7,7 @@
 
 #include "cases/case.h"
 
-/* Lists are words separated by blanks, in which * and ? stand for anything; one of them must fit. */
+/* Lists are words separated by blanks, with * and ? for anything; one of them must fit. */
 typedef struct rule {
     char *name;         /* one word */
     char *formulations; /* list: name with options ("beamw:mass=lumped"), or the bare name */
@@ -30,8 +31,8 @@ typedef struct rule_subject {
 } rule_subject;
 
 /* A term of the condition is a feature that the scene needs ("shear", "not shear") or compares a
- * parameter of the case ("omega>0", "load=tip|mid", "tip_deflection!=0.015", also < <= >=); one that
- * the case does not have does not hold. */
+ * parameter of the case ("omega>0", "load=tip|mid", "tip_deflection!=0.015", also < <= >=); one
+ * that the case does not have does not hold. */
 int rule_holds(const rule *, const rule_subject *);
 
 /* Notes that a verdict met a prediction which the rule names. */

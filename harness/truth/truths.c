@@ -7,20 +7,22 @@
 #include <string.h>
 
 #include "harness/catalogue/registry.h"
-#include "harness/truth/columns.h"
 #include "harness/truth/checksum.h"
+#include "harness/truth/columns.h"
 
 /* Parameters of a row, and whether they still mean what they meant when the table was packed. */
-static status check_row(const columns *r, const case_type *type, int i, const char *text, uint64_t hash, double value[], int any[])
+static status check_row(const columns *r, const case_type *type, int i, const char *text,
+                        uint64_t hash, double value[], int any[])
 {
     fault why = {""};
     if (parameters_parse(type, text, value, any, &why) != STATUS_OK)
-        return fault_set(r->f, STATUS_FAULT, "%s: row %d of %s: %.200s", r->path, i + 1, r->name, why.text);
+        return fault_set(r->f, STATUS_FAULT, "%s: row %d of %s: %.200s", r->path, i + 1, r->name,
+                         why.text);
     if (parameters_hash(type, value, any) != hash)
-        return fault_set(
-            r->f, STATUS_FAULT,
-            "%s: row %d of %s is stale: the defaults of the case have changed; correct reference/defaults.csv and its tables",
-            r->path, i + 1, r->name);
+        return fault_set(r->f, STATUS_FAULT,
+                         "%s: row %d of %s is stale: the defaults of the case have changed; "
+                         "correct reference/defaults.csv and its tables",
+                         r->path, i + 1, r->name);
     return STATUS_OK;
 }
 
@@ -111,7 +113,9 @@ static status read_case(const char *path, hid_t all, const case_type *type, trut
     r.group = H5Gopen2(all, type->name, H5P_DEFAULT);
     r.rows = r.group >= 0 ? columns_length(r.group, "value") : -1;
     status outcome = r.rows < 0 ? columns_broken(&r, "value") : STATUS_OK;
-    truth *more = outcome == STATUS_OK ? realloc(out->row, (size_t)(out->rows + r.rows + 1) * sizeof *more) : NULL;
+    truth *more = outcome == STATUS_OK
+                      ? realloc(out->row, (size_t)(out->rows + r.rows + 1) * sizeof *more)
+                      : NULL;
     if (outcome == STATUS_OK && more == NULL)
         outcome = fault_set(f, STATUS_FAULT, "out of memory for truths");
     if (more != NULL) {
@@ -129,7 +133,9 @@ static status read_case(const char *path, hid_t all, const case_type *type, trut
 static void find_strangers(hid_t all, truths *out)
 {
     char name[64];
-    for (hsize_t i = 0; H5Lget_name_by_idx(all, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name, H5P_DEFAULT) > 0; i++) {
+    for (hsize_t i = 0; H5Lget_name_by_idx(all, ".", H5_INDEX_NAME, H5_ITER_INC, i, name,
+                                           sizeof name, H5P_DEFAULT) > 0;
+         i++) {
         int known = 0;
         for (int k = 0; registry_cases[k] != NULL; k++)
             known |= strcmp(registry_cases[k]->name, name) == 0;
@@ -145,9 +151,11 @@ static status check_schema(hid_t file, const char *path, fault *f)
     int version = 0;
     const hid_t schema = H5Aexists(file, "schema") > 0 ? H5Aopen(file, "schema", H5P_DEFAULT) : -1;
     const hid_t type = schema >= 0 ? H5Aget_type(schema) : -1;
-    if (type >= 0 && H5Tget_class(type) == H5T_STRING && !H5Tis_variable_str(type) && H5Tget_size(type) < sizeof name)
+    if (type >= 0 && H5Tget_class(type) == H5T_STRING && !H5Tis_variable_str(type) &&
+        H5Tget_size(type) < sizeof name)
         H5Aread(schema, type, name);
-    const hid_t number = H5Aexists(file, "version") > 0 ? H5Aopen(file, "version", H5P_DEFAULT) : -1;
+    const hid_t number =
+        H5Aexists(file, "version") > 0 ? H5Aopen(file, "version", H5P_DEFAULT) : -1;
     if (number >= 0)
         H5Aread(number, H5T_NATIVE_INT, &version);
     if (number >= 0)
@@ -157,10 +165,13 @@ static status check_schema(hid_t file, const char *path, fault *f)
     if (schema >= 0)
         H5Aclose(schema);
     if (strcmp(name, "beamwork-truths") != 0)
-        return fault_set(f, STATUS_FAULT, "%s: not a file of truths; build it with 'make all'", path);
+        return fault_set(f, STATUS_FAULT, "%s: not a file of truths; build it with 'make all'",
+                         path);
     if (version != TRUTHS_VERSION)
-        return fault_set(f, STATUS_FAULT, "%s: truths of version %d, this program reads %d; build it again ('make all')", path,
-                         version, TRUTHS_VERSION);
+        return fault_set(
+            f, STATUS_FAULT,
+            "%s: truths of version %d, this program reads %d; build it again ('make all')", path,
+            version, TRUTHS_VERSION);
     return STATUS_OK;
 }
 
@@ -169,7 +180,8 @@ static status read_tables(const char *path, hid_t file, const char *name, truths
 {
     const hid_t all = H5Gopen2(file, name, H5P_DEFAULT);
     if (all < 0)
-        return fault_set(f, STATUS_FAULT, "%s: no %s in it; build it again ('make all')", path, name);
+        return fault_set(f, STATUS_FAULT, "%s: no %s in it; build it again ('make all')", path,
+                         name);
     status outcome = STATUS_OK;
     for (int i = 0; registry_cases[i] != NULL && outcome == STATUS_OK; i++)
         outcome = read_case(path, all, registry_cases[i], out, f);
@@ -188,7 +200,8 @@ static hid_t open_truths(const char *path, status *outcome, fault *f)
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     *outcome = file >= 0 ? check_schema(file, path, f)
-                         : fault_set(f, STATUS_FAULT, "%s: cannot be read as HDF5; build it with 'make all'", path);
+                         : fault_set(f, STATUS_FAULT,
+                                     "%s: cannot be read as HDF5; build it with 'make all'", path);
     return file;
 }
 
@@ -223,7 +236,8 @@ void truths_free(truths *t)
 {
     for (int i = 0; i < t->rows; i++) {
         truth *r = &t->row[i];
-        char *const all[] = {r->formulation, r->theory, r->quantity, r->unit, r->kind, r->model, r->convention, r->source};
+        char *const all[] = {r->formulation, r->theory, r->quantity,   r->unit,
+                             r->kind,        r->model,  r->convention, r->source};
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
             free(all[k]);
     }

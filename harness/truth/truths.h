@@ -9,12 +9,17 @@
 #include "harness/truth/rules.h"
 
 enum { TRUTHS_VERSION = 2 };
-/* The first known one judges; truth_gates says which ones may.  "predicted": the limit that a formulation must have. */
-#define TRUTH_KINDS    "exact|predicted|independent|consensus|agreement|published|reconstructed|experiment|unrepeatable"
-#define TRUTH_THEORIES "engesser|haringx" /* of shear in stability; "": the truth depends on none */
+/* The first known one judges; truth_gates says which ones may.  "predicted": the limit that a
+ * formulation must have. */
+#define TRUTH_KINDS                                                                                \
+    "exact|predicted|independent|consensus|agreement|published|reconstructed|experiment|"          \
+    "unrepeatable"
+/* Of shear in stability; "": the truth depends on none. */
+#define TRUTH_THEORIES "engesser|haringx"
 /* What a moment does while its node turns, and how prescribed rotations combine. */
-#define TRUTH_CONVENTIONS                                                                                                          \
-    "vector|RyRzRx|spatial|spatial vector|spatial RyRzRx|semitangential|semitangential vector|semitangential RyRzRx|"              \
+#define TRUTH_CONVENTIONS                                                                          \
+    "vector|RyRzRx|spatial|spatial vector|spatial RyRzRx|semitangential|semitangential "           \
+    "vector|semitangential RyRzRx|"                                                                \
     "symmetrised|symmetrised vector|symmetrised RyRzRx"
 
 typedef struct truth {
@@ -27,7 +32,8 @@ typedef struct truth {
     int on_curve; /* 1: a point of a curve, at its abscissa `at` */
     double at;
     double value, uncertainty;
-    int met, judged; /* by the judge: a quantity it speaks of exists; not every formulation skips it */
+    /* by the judge: a quantity it speaks of exists; not every formulation skips it */
+    int met, judged;
 } truth;
 
 typedef struct truths {
@@ -38,20 +44,28 @@ typedef struct truths {
     char stranger[64];
 } truths;
 
-/* FAULT for a missing, truncated or foreign file and for a stale row (its case's defaults have changed since). */
+/* FAULT for a missing, truncated or foreign file and for a stale row (its case's defaults have
+ * changed since). */
 status truths_read(const char *path, truths *out, fault *f);
-/* Adds the exact values at the extremes, which no verification runs. On failure the truths read before stay. */
+/* Adds the exact values at the extremes, which no verification runs. On failure the truths read
+ * before stay. */
 status truths_read_extremes(const char *path, truths *out, fault *f);
 void truths_free(truths *t);
 int truth_holds(const truth *row, const case_type *type, const double value[]);
-/* May a verdict rest on it?  Not on an agreement of formulations, nor on a figure that nobody can compute again. */
+/* May a verdict rest on it?  Not on an agreement of formulations, nor on a figure that nobody can
+ * compute again. */
 int truth_gates(const truth *row);
-/* The continuum's truth of that model (exact before published, no point of a curve), or NULL.  One of the same model gates. */
-const truth *truth_of(const truths *t, const case_type *type, const double value[], const char *quantity, const char *model);
-/* The same among truths that follow one of the theories of shear (words separated by |), or depend on none; NULL: any. */
-const truth *truth_of_theory(const truths *t, const case_type *type, const double value[], const char *quantity, const char *model,
-                             const char *theories);
-/* The limit that a formulation (its key, or its name whatever the options) must have there, or NULL. */
-const truth *truth_predicted(const truths *t, const case_type *type, const double value[], const char *quantity, const char *key);
+/* The continuum's truth of that model (exact before published, no point of a curve), or NULL.  One
+ * of the same model gates. */
+const truth *truth_of(const truths *t, const case_type *type, const double value[],
+                      const char *quantity, const char *model);
+/* The same among truths that follow one of the theories of shear (words separated by |), or depend
+ * on none; NULL: any. */
+const truth *truth_of_theory(const truths *t, const case_type *type, const double value[],
+                             const char *quantity, const char *model, const char *theories);
+/* The limit that a formulation (its key, or its name whatever the options) must have there, or
+ * NULL. */
+const truth *truth_predicted(const truths *t, const case_type *type, const double value[],
+                             const char *quantity, const char *key);
 
 #endif
