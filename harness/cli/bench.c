@@ -11,34 +11,36 @@
 
 static const double floor_seconds = 0.002; /* of each round for each cell */
 
+static int all_formulations(formulation out[CLI_MAX_FORMULATIONS])
+{
+    int count = 0;
+    while (registry_formulations[count] != NULL && count < CLI_MAX_FORMULATIONS) {
+        formulation_default(registry_formulations[count], &out[count]);
+        count++;
+    }
+    return count;
+}
+
 /* The named cases at the parameters given, with the formulations and meshes given (or all, and the
  * case's). */
 static status plan_named(cli_request *r, sweep *s, fault *f)
 {
     formulation all[CLI_MAX_FORMULATIONS];
-    int count = 0;
-    for (int i = 0;
-         r->formulations == 0 && registry_formulations[i] != NULL && count < CLI_MAX_FORMULATIONS;
-         i++)
-        formulation_default(registry_formulations[i], &all[count++]);
-    status outcome = STATUS_OK;
-    for (int i = 0; i < r->case_count && outcome == STATUS_OK; i++) {
+    const int some = r->formulations > 0, count = some ? r->formulations : all_formulations(all);
+    for (int i = 0; i < r->case_count; i++) {
         const case_type *type = case_find(r->cases[i], f);
         if (type == NULL)
             return STATUS_REFUSED;
         parameters_default(type, r->parameter);
-        for (int k = 0; k < r->assignments && outcome == STATUS_OK; k++)
-            outcome = parameters_set(type, r->assignment[k], r->parameter, f);
-        if (outcome == STATUS_OK)
-            outcome = sweep_add(s, type, r->parameter, r->mesh, r->meshes, f);
-        const point *here = outcome == STATUS_OK ? &s->point[s->points - 1] : NULL;
-        if (here != NULL && here->status != STATUS_OK)
-            outcome = fault_set(f, here->status, "%s", here->reason);
-        if (outcome == STATUS_OK)
-            outcome = sweep_extend(s, r->formulations > 0 ? r->formulation : all,
-                                   r->formulations > 0 ? r->formulations : count, f);
+        for (int k = 0; k < r->assignments; k++)
+            TRY(parameters_set(type, r->assignment[k], r->parameter, f));
+        TRY(sweep_add(s, type, r->parameter, r->mesh, r->meshes, f));
+        const point *here = &s->point[s->points - 1];
+        if (here->status != STATUS_OK)
+            return fault_set(f, here->status, "%s", here->reason);
+        TRY(sweep_extend(s, some ? r->formulation : all, count, f));
     }
-    return outcome;
+    return STATUS_OK;
 }
 
 static status measure(cli_request *r, truths *t, sweep *s, judgement *j, fault *f)
@@ -49,14 +51,10 @@ static status measure(cli_request *r, truths *t, sweep *s, judgement *j, fault *
                                    .formulations = r->formulations,
                                    .formulation = r->formulation,
                                    .progress = progress};
-    status outcome = r->case_count > 0 ? plan_named(r, s, f) : sweep_plan(&request, t, s, f);
+    TRY(r->case_count > 0 ? plan_named(r, s, f) : sweep_plan(&request, t, s, f));
     s->threads = r->threads;
-    if (outcome == STATUS_OK)
-        outcome = sweep_run(&request, s, f);
-    if (outcome == STATUS_OK)
-        outcome = judge(s, t, 0, j, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(sweep_run(&request, s, f));
+    TRY(judge(s, t, 0, j, f));
     if (s->threads <= 1)
         clock_pin();
     return timing_run(s, floor_seconds, r->dense, progress, f);
@@ -84,14 +82,11 @@ int cli_bench(int count, char **arguments)
     clock_single_thread(arguments - 1); /* main passes what follows the program's name */
     cli_parse("bench", "[CASE...]",
               "Times every formulation and mesh of the cases named (or, without one, of all cases "
-              "at all parameter points that have a "
-              "truth, selected with -k): the least of enough repetitions in five alternating "
-              "rounds on one processor, set-up and "
-              "solution "
+              "at all parameter points that have a truth, selected with -k): the least of enough "
+              "repetitions in five alternating rounds on one processor, set-up and solution "
               "apart, with the error. Times whose rounds overlap are undecided. With --against: "
-              "one cell in alternation with the same "
-              "cell "
-              "of another formulation or program, until the noise allows an answer.",
+              "one cell in alternation with the same cell of another formulation or program, "
+              "until the noise allows an answer.",
               "+fnskFojTAXDt", count, arguments, &r);
     if (r.against != NULL)
         return cli_against(&r);

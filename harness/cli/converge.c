@@ -73,7 +73,7 @@ int cli_converge(int count, char **arguments)
     const int nothing = sweep_cells(&s) == 0;
     sweep_free(&s);
     truths_free(&t);
-    return outcome != STATUS_OK ? cli_fail(outcome, f.text)
-           : nothing            ? EXIT_NOTHING
-                                : EXIT_AS_EXPECTED;
+    if (outcome != STATUS_OK)
+        return cli_fail(outcome, f.text);
+    return nothing ? EXIT_NOTHING : EXIT_AS_EXPECTED;
 }

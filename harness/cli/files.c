@@ -47,16 +47,14 @@ status cli_check_files(const cli_request *r, int whole_file, const char *truths_
     const int is_path = r->against != NULL && strchr(r->against, '/') != NULL;
     const char *const input[INPUTS] = {truths_path, r->most_arguments == 2 ? r->case_name : NULL,
                                        r->second, is_path ? r->against : "/proc/self/exe"};
-    status outcome = STATUS_OK;
-    for (int i = 0; i < OUTPUTS && outcome == STATUS_OK; i++) {
+    for (int i = 0; i < OUTPUTS; i++) {
         if (out[i].path == NULL)
             continue;
-        outcome = output_try(out[i].path, out[i].form, &out[i].where, f);
-        if (outcome == STATUS_OK)
-            outcome = check_inputs(&out[i], input, f);
-        for (int k = 0; k < i && outcome == STATUS_OK; k++)
+        TRY(output_try(out[i].path, out[i].form, &out[i].where, f));
+        TRY(check_inputs(&out[i], input, f));
+        for (int k = 0; k < i; k++)
             if (out[k].path != NULL)
-                outcome = check_pair(&out[k], &out[i], f);
+                TRY(check_pair(&out[k], &out[i], f));
     }
-    return outcome;
+    return STATUS_OK;
 }

@@ -17,6 +17,13 @@ static void list_option(const element_option *o)
     }
 }
 
+static const char *other_theory(const element_type *t)
+{
+    if (t->own_theory != NULL)
+        return t->own_theory;
+    return t->shear_theories == 0 ? "none, rigid" : "";
+}
+
 /* What it is judged by. */
 static void list_declarations(const element_type *t)
 {
@@ -33,10 +40,7 @@ static void list_declarations(const element_type *t)
     printf("  %-24s shear in stability: %s%s%s%s\n", "",
            t->shear_theories & SHEAR_ENGESSER ? "engesser" : "",
            t->shear_theories == (SHEAR_ENGESSER | SHEAR_HARINGX) ? " or " : "",
-           t->shear_theories & SHEAR_HARINGX ? "haringx" : "",
-           t->own_theory != NULL    ? t->own_theory
-           : t->shear_theories == 0 ? "none, rigid"
-                                    : "");
+           t->shear_theories & SHEAR_HARINGX ? "haringx" : "", other_theory(t));
     if (t->lacks & LACKS_SHEAR_Y)
         printf("  %-24s lacks: shear flexibility along y (%s)\n", "", t->lacks_by);
 }
@@ -68,13 +72,12 @@ static void list_cases(void)
 static void list_offer(const scene *s, const element_type *type)
 {
     char words[200];
-    const int missing = model_missing(s, type, words, sizeof words);
-    const int partly = !missing && model_lacks(s, type, words, sizeof words);
-    printf("  %-28s %s%s\n", type->name,
-           missing  ? "does not offer "
-           : partly ? "runs without "
-                    : "runs",
-           missing || partly ? words : "");
+    if (model_missing(s, type, words, sizeof words))
+        printf("  %-28s does not offer %s\n", type->name, words);
+    else if (model_lacks(s, type, words, sizeof words))
+        printf("  %-28s runs without %s\n", type->name, words);
+    else
+        printf("  %-28s runs\n", type->name);
 }
 
 static int list_case(const case_type *type)
@@ -104,8 +107,9 @@ static int list_case(const case_type *type)
         printf("  %-28s %s%s\n", s.quantity[i].name, s.quantity[i].unit,
                s.quantity[i].reduction == SCENE_CURVE ? " (curve)" : "");
     printf("formulations\n");
-    for (int i = 0; registry_formulations[i] != NULL && outcome == STATUS_OK; i++)
-        list_offer(&s, registry_formulations[i]);
+    if (outcome == STATUS_OK)
+        for (int i = 0; registry_formulations[i] != NULL; i++)
+            list_offer(&s, registry_formulations[i]);
     scene_free(&s);
     return outcome == STATUS_OK ? EXIT_AS_EXPECTED : cli_fail(outcome, f.text);
 }

@@ -231,6 +231,13 @@ static error_t take(int key, char *value, struct argp_state *state)
     }
 }
 
+static int most_arguments(const char *keys)
+{
+    if (strchr(keys, '+') != NULL)
+        return CLI_MAX_CASES;
+    return strchr(keys, '2') != NULL ? 2 : 1;
+}
+
 void cli_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys,
                int count, char **arguments, cli_request *out)
 {
@@ -246,9 +253,7 @@ void cli_parse(const char *verb, const char *arguments_doc, const char *doc, con
     memset(out, 0, sizeof *out);
     out->time_limit = 120;
     out->format = "text";
-    out->most_arguments = strchr(keys, '+') != NULL   ? CLI_MAX_CASES
-                          : strchr(keys, '2') != NULL ? 2
-                                                      : 1;
+    out->most_arguments = most_arguments(keys);
     out->jobs = (int)sysconf(_SC_NPROCESSORS_ONLN);
     snprintf(name, sizeof name, "beamwork %s", verb);
     arguments[0] = name;

@@ -48,7 +48,9 @@ static status script_path(char out[PATH_MAX], fault *f)
     char program[PATH_MAX] = "";
     const char *given = getenv("BEAMWORK_REFERENCE");
     const ssize_t found = readlink("/proc/self/exe", program, sizeof program - 1);
-    const char *folder = given != NULL ? given : found > 0 ? dirname(program) : ".";
+    const char *folder = given;
+    if (folder == NULL)
+        folder = found > 0 ? dirname(program) : ".";
     const int length =
         snprintf(out, PATH_MAX, "%s%s/derive/at.py", folder, given != NULL ? "" : "/../reference");
     return length < PATH_MAX ? STATUS_OK

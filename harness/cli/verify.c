@@ -18,10 +18,8 @@ static status write_json(const char *path, const sweep *s, const judgement *j, c
                          fault *f)
 {
     output file;
-    status outcome = output_open(path, &file, f);
-    if (outcome != STATUS_OK)
-        return outcome;
-    outcome = json_write_verdicts(file.stream, s, j, e, f);
+    TRY(output_open(path, &file, f));
+    const status outcome = json_write_verdicts(file.stream, s, j, e, f);
     if (outcome == STATUS_OK)
         return output_close(&file, f);
     output_discard(&file);
@@ -31,9 +29,7 @@ static status write_json(const char *path, const sweep *s, const judgement *j, c
 static status write_junit(const char *path, const sweep *s, const judgement *j, fault *f)
 {
     output file;
-    const status opened = output_open(path, &file, f);
-    if (opened != STATUS_OK)
-        return opened;
+    TRY(output_open(path, &file, f));
     junit_write(file.stream, s, j);
     return output_close(&file, f);
 }
@@ -42,9 +38,7 @@ static status write_markdown(const char *path, const sweep *s, const judgement *
                              const environment *e, fault *f)
 {
     output file;
-    const status opened = output_open(path, &file, f);
-    if (opened != STATUS_OK)
-        return opened;
+    TRY(output_open(path, &file, f));
     markdown_write(file.stream, s, j, e);
     return output_close(&file, f);
 }
@@ -67,49 +61,53 @@ static status place_one(const char *path, int partial, char out[PATH_MAX], fault
 
 static status place_all(const cli_request *r, int partial, places *out, fault *f)
 {
-    status outcome = place_one(r->output, partial, out->output, f);
-    if (outcome == STATUS_OK)
-        outcome = place_one(r->json, partial, out->json, f);
-    if (outcome == STATUS_OK)
-        outcome = place_one(r->junit, partial, out->junit, f);
-    return outcome == STATUS_OK ? place_one(r->markdown, partial, out->markdown, f) : outcome;
+    TRY(place_one(r->output, partial, out->output, f));
+    TRY(place_one(r->json, partial, out->json, f));
+    TRY(place_one(r->junit, partial, out->junit, f));
+    return place_one(r->markdown, partial, out->markdown, f);
 }
 
 static status write_all(const cli_request *r, const sweep *s, const judgement *j, fault *f)
 {
     const environment e = environment_now(r->jobs);
     places to;
-    status outcome = place_all(r, s->unfinished > 0, &to, f);
-    if (outcome == STATUS_OK && to.output[0] != '\0')
-        outcome = store_write(to.output, s, j, &e, f);
-    if (outcome == STATUS_OK && to.json[0] != '\0')
-        outcome = write_json(to.json, s, j, &e, f);
-    if (outcome == STATUS_OK && to.junit[0] != '\0')
-        outcome = write_junit(to.junit, s, j, f);
-    if (outcome == STATUS_OK && to.markdown[0] != '\0')
-        outcome = write_markdown(to.markdown, s, j, &e, f);
-    return outcome;
+    TRY(place_all(r, s->unfinished > 0, &to, f));
+    if (to.output[0] != '\0')
+        TRY(store_write(to.output, s, j, &e, f));
+    if (to.json[0] != '\0')
+        TRY(write_json(to.json, s, j, &e, f));
+    if (to.junit[0] != '\0')
+        TRY(write_junit(to.junit, s, j, f));
+    if (to.markdown[0] != '\0')
+        TRY(write_markdown(to.markdown, s, j, &e, f));
+    return STATUS_OK;
 }
 
 static status judge_and_write(const cli_request *r, const sweep *s, truths *t, judgement *j,
                               fault *f)
 {
     const int whole = r->select == NULL && r->formulations == 0 && s->unfinished == 0;
-    const status judged = judge(s, t, whole, j, f);
-    if (judged != STATUS_OK)
-        return judged;
+    TRY(judge(s, t, whole, j, f));
     table_verdicts(stdout, s, j, t);
-    return fflush(stdout) == 0 ? write_all(r, s, j, f)
-                               : fault_set(f, STATUS_FAULT, "standard output cannot be written");
+    if (fflush(stdout) != 0)
+        return fault_set(f, STATUS_FAULT, "standard output cannot be written");
+    return write_all(r, s, j, f);
+}
+
+/* The first file that is written, or NULL. */
+static const char *first_file(const cli_request *r)
+{
+    const char *const all[] = {r->output, r->json, r->junit, r->markdown};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (all[i] != NULL)
+            return all[i];
+    return NULL;
 }
 
 /* What the exit code does not say by itself. */
 static int tell(const cli_request *r, const sweep *s, const judgement *j)
 {
-    const char *file = r->output != NULL  ? r->output
-                       : r->json != NULL  ? r->json
-                       : r->junit != NULL ? r->junit
-                                          : r->markdown;
+    const char *file = first_file(r);
     char partial[PATH_MAX];
     if (s->unfinished > 0) {
         fprintf(stderr, "beamwork: interrupted: %d cells were not done; what was judged is ",
@@ -139,6 +137,24 @@ static status measure_noise(const sweep_request *request, const truths *t, sweep
     return outcome;
 }
 
+static status run(const cli_request *r, sweep *s, truths *t, judgement *j, fault *f)
+{
+    const int states = r->shapes < PICTURED_STATES ? r->shapes : PICTURED_STATES;
+    const sweep_request request = {.select = r->select,
+                                   .jobs = r->jobs,
+                                   .time_limit = r->time_limit,
+                                   .interruptible = 1,
+                                   .formulations = r->formulations,
+                                   .formulation = r->formulation,
+                                   .shapes = states,
+                                   .progress = isatty(STDERR_FILENO) ? stderr : NULL};
+    TRY(sweep_plan(&request, t, s, f));
+    TRY(sweep_run(&request, s, f));
+    if (s->unfinished == 0)
+        TRY(measure_noise(&request, t, s, f));
+    return judge_and_write(r, s, t, j, f);
+}
+
 int cli_verify(int count, char **arguments)
 {
     cli_request r;
@@ -148,10 +164,9 @@ int cli_verify(int count, char **arguments)
     fault f = {""};
     cli_parse("verify", "",
               "Judges every formulation on every case and parameter point that has a truth. Exit "
-              "status: 0 every verdict as "
-              "expected, 1 one differs, 2 refused, 3 nothing was checked, 4 file, disk or memory, "
-              "5 interrupted (Ctrl-C, SIGTERM): "
-              "what was judged until then is in files named .partial",
+              "status: 0 every verdict as expected, 1 one differs, 2 refused, 3 nothing was "
+              "checked, 4 file, disk or memory, 5 interrupted (Ctrl-C, SIGTERM): what was judged "
+              "until then is in files named .partial",
               "fokjJUMLPT", count, arguments, &r);
     if (r.case_name != NULL)
         return cli_fail(STATUS_REFUSED, "verify takes no case; select with -k");
@@ -160,22 +175,7 @@ int cli_verify(int count, char **arguments)
         outcome = truths_read(cli_truths_path(&r), &t, &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
-    const sweep_request request = {.select = r.select,
-                                   .jobs = r.jobs,
-                                   .time_limit = r.time_limit,
-                                   .interruptible = 1,
-                                   .formulations = r.formulations,
-                                   .formulation = r.formulation,
-                                   .shapes =
-                                       r.shapes < PICTURED_STATES ? r.shapes : PICTURED_STATES,
-                                   .progress = isatty(STDERR_FILENO) ? stderr : NULL};
-    outcome = sweep_plan(&request, &t, &s, &f);
-    if (outcome == STATUS_OK)
-        outcome = sweep_run(&request, &s, &f);
-    if (outcome == STATUS_OK)
-        outcome = s.unfinished == 0 ? measure_noise(&request, &t, &s, &f) : STATUS_OK;
-    if (outcome == STATUS_OK)
-        outcome = judge_and_write(&r, &s, &t, &j, &f);
+    outcome = run(&r, &s, &t, &j, &f);
     const int code = outcome != STATUS_OK ? cli_fail(outcome, f.text) : tell(&r, &s, &j);
     judgement_free(&j);
     sweep_free(&s);

@@ -59,33 +59,43 @@ static status add_agreement(const agreement *one, judgement *out, fault *f)
     return STATUS_OK;
 }
 
+/* The values of one mesh against a row of the truths. */
+static status compare_mesh(const sweep *s, const truth *row, int index, int mesh, judgement *out,
+                           fault *f)
+{
+    const series *one = &s->series[index];
+    const point *p = &s->point[one->point];
+    const solve_result *result = &one->cell[mesh].solve;
+    for (int q = 0; q < p->scene.quantities; q++) {
+        if (strcmp(p->scene.quantity[q].name, row->quantity) != 0 ||
+            !sweep_selects(s, p, &one->formulation, row->quantity))
+            continue;
+        const double value = q < result->quantities ? result->quantity[q].value : NAN;
+        const int good =
+            fabs(value - row->value) <= fmax(row->uncertainty, agreement_least * fabs(row->value));
+        TRY(add_agreement(&(agreement){index, mesh, q, row, value, good}, out, f));
+    }
+    return STATUS_OK;
+}
+
 /* One series against the stored values of its own meshes. */
 static status compare_meshes(const sweep *s, const truths *t, int index, judgement *out, fault *f)
 {
     const series *one = &s->series[index];
     const point *p = &s->point[one->point];
-    status outcome = STATUS_OK;
-    for (int r = 0; r < t->rows && one->missing[0] == '\0'; r++) {
+    if (one->missing[0] != '\0')
+        return STATUS_OK;
+    for (int r = 0; r < t->rows; r++) {
         const truth *row = &t->row[r];
         if (row->elements == 0 || !truth_gates(row) ||
             strcmp(row->formulation, one->formulation.key) != 0 ||
             !truth_holds(row, p->type, p->parameter))
             continue;
         for (int i = 0; i < one->meshes; i++)
-            for (int q = 0;
-                 q < p->scene.quantities && one->mesh[i] == row->elements && outcome == STATUS_OK;
-                 q++) {
-                if (strcmp(p->scene.quantity[q].name, row->quantity) != 0 ||
-                    !sweep_selects(s, p, &one->formulation, row->quantity))
-                    continue;
-                const solve_result *result = &one->cell[i].solve;
-                const double value = q < result->quantities ? result->quantity[q].value : NAN;
-                const int good = fabs(value - row->value) <=
-                                 fmax(row->uncertainty, agreement_least * fabs(row->value));
-                outcome = add_agreement(&(agreement){index, i, q, row, value, good}, out, f);
-            }
+            if (one->mesh[i] == row->elements)
+                TRY(compare_mesh(s, row, index, i, out, f));
     }
-    return outcome;
+    return STATUS_OK;
 }
 
 /* Truths that speak of this quantity, the ones ranked lower and of other models included. */
@@ -159,48 +169,62 @@ void judge_doubts(const sweep *s, const truths *t, char wanted[])
     }
 }
 
-status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f)
+static void forget_observations(truths *t)
 {
-    int count = 0;
-    memset(out, 0, sizeof *out);
-    for (int i = 0; i < t->rules; i++) {
-        t->rule[i].observed = 0;
-        t->rule[i].foretold = 0;
-    }
+    for (int i = 0; i < t->rules; i++)
+        t->rule[i].observed = t->rule[i].foretold = 0;
     for (int i = 0; i < t->rows; i++)
         t->row[i].met = t->row[i].judged = 0;
-    for (int i = 0; i < s->seriess; i++)
-        count += s->point[s->series[i].point].scene.quantities;
-    out->verdict = calloc((size_t)count + 1, sizeof *out->verdict);
-    if (out->verdict == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for verdicts");
-    status outcome = check_units(s, t, f);
-    for (int i = 0; i < s->seriess && outcome == STATUS_OK; i++) {
-        const series *one = &s->series[i];
-        const point *p = &s->point[one->point];
-        for (int q = 0; q < p->scene.quantities; q++) {
-            const scene_quantity *quantity = &p->scene.quantity[q];
-            if (quantity->reduction == SCENE_CURVE) /* drawn beside its truths; a point of it is
-                                                       judged by a quantity of its own */
-                mark_met(t, p, &one->formulation, quantity->name, one->missing[0] == '\0');
-            else if (sweep_selects(s, p, &one->formulation, quantity->name))
-                judge_quantity(s, t, i, q, out);
-        }
-        outcome = compare_meshes(s, t, i, out, f);
+}
+
+static void judge_series(const sweep *s, truths *t, int index, judgement *out)
+{
+    const series *one = &s->series[index];
+    const point *p = &s->point[one->point];
+    for (int q = 0; q < p->scene.quantities; q++) {
+        const scene_quantity *quantity = &p->scene.quantity[q];
+        /* a curve is drawn beside its truths; a point of it is judged by a quantity of its own */
+        if (quantity->reduction == SCENE_CURVE)
+            mark_met(t, p, &one->formulation, quantity->name, one->missing[0] == '\0');
+        else if (sweep_selects(s, p, &one->formulation, quantity->name))
+            judge_quantity(s, t, index, q, out);
     }
-    if (outcome == STATUS_OK)
-        outcome = judge_coverage(s, out, f);
-    for (int i = 0; i < t->rules && whole; i++)
+}
+
+/* What a whole run should have shown and did not. */
+static void count_missed(const truths *t, judgement *out)
+{
+    for (int i = 0; i < t->rules; i++)
         out->unobserved += !rule_is_observed(&t->rule[i]);
-    for (int i = 0; i < t->rows && whole; i++) {
+    for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
         const int elsewhere =
             row->formulation[0] != '\0' && formulation_find(row->formulation) == NULL;
         out->unmet += !row->met && !elsewhere;
         out->waiting += (row->met || elsewhere) && !row->judged;
     }
-    out->unmet += whole ? t->strangers : 0;
-    return outcome;
+    out->unmet += t->strangers;
+}
+
+status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f)
+{
+    int count = 0;
+    memset(out, 0, sizeof *out);
+    forget_observations(t);
+    for (int i = 0; i < s->seriess; i++)
+        count += s->point[s->series[i].point].scene.quantities;
+    out->verdict = calloc((size_t)count + 1, sizeof *out->verdict);
+    if (out->verdict == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for verdicts");
+    TRY(check_units(s, t, f));
+    for (int i = 0; i < s->seriess; i++) {
+        judge_series(s, t, i, out);
+        TRY(compare_meshes(s, t, i, out, f));
+    }
+    TRY(judge_coverage(s, out, f));
+    if (whole)
+        count_missed(t, out);
+    return STATUS_OK;
 }
 
 void judgement_free(judgement *j)

@@ -253,7 +253,9 @@ static void disorderly(const limit_sequence *s, const meshes *m, mesh_limit *out
     double rest = 0;
     for (int i = last - 1; i >= 0 && i > last - 4; i--)
         rest = fmax(rest, fabs(m->change[i]) * pow(m->n[i + 1] / m->n[last], s->nominal_order));
-    const double growth = a <= b ? 1 : b > 0 ? fmin(a / b, most) : most;
+    double growth = 1;
+    if (!(a <= b))
+        growth = b > 0 ? fmin(a / b, most) : most;
     out->kind = m->change[last - 1] * m->change[last - 2] < 0 ? LIMIT_OSCILLATING : LIMIT_NOT_YET;
     out->limit = m->f[last];
     out->limit_uncertainty = unsure * rest * growth + end_factor * m->noise;

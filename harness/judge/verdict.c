@@ -114,9 +114,9 @@ static verdict_kind compare(const scene_quantity *q, const verdict *v)
     const int known = strcmp(v->truth->kind, "exact") == 0;
     if (!(error + doubt <= v->tolerance)) {
         const int wrong = error - doubt > v->tolerance && v->fit.meshes > 3;
-        return !wrong            ? VERDICT_UNDECIDED
-               : is_predicted(v) ? VERDICT_AS_PREDICTED
-                                 : VERDICT_WRONG_LIMIT;
+        if (!wrong)
+            return VERDICT_UNDECIDED;
+        return is_predicted(v) ? VERDICT_AS_PREDICTED : VERDICT_WRONG_LIMIT;
     }
     if (known && error > surely * doubt + v->truth->uncertainty)
         return is_predicted(v) ? VERDICT_AS_PREDICTED : VERDICT_BIASED;

@@ -21,16 +21,13 @@ static scene_edit words_of(const formulation *chosen, int repetition)
 static status add_repetitions(const sweep *s, const series *one, sweep *again, fault *f)
 {
     const point *p = &s->point[one->point];
-    status outcome = STATUS_OK;
-    for (int k = 0; k < REPETITIONS && outcome == STATUS_OK; k++) {
-        outcome = sweep_add(again, p->type, p->parameter, &one->mesh[one->meshes - 1], 1, f);
-        if (outcome != STATUS_OK)
-            break;
+    for (int k = 0; k < REPETITIONS; k++) {
+        TRY(sweep_add(again, p->type, p->parameter, &one->mesh[one->meshes - 1], 1, f));
         again->point[again->points - 1].edit = words_of(&one->formulation, k);
         again->point[again->points - 1].steps = p->steps;
-        outcome = sweep_extend(again, &one->formulation, 1, f);
+        TRY(sweep_extend(again, &one->formulation, 1, f));
     }
-    return outcome;
+    return STATUS_OK;
 }
 
 static double value_of(const cell_result *cell, int quantity)
@@ -78,24 +75,35 @@ static int can_repeat(const sweep *s, int i, const char wanted[])
            s->point[one->point].status == STATUS_OK;
 }
 
+static status run_again(const sweep_request *request, const char wanted[], const sweep *s,
+                        sweep *again, fault *f)
+{
+    sweep_request quiet = *request;
+    quiet.shapes = 0;
+    for (int i = 0; i < s->seriess; i++)
+        if (can_repeat(s, i, wanted))
+            TRY(add_repetitions(s, &s->series[i], again, f));
+    return again->seriess > 0 ? sweep_run(&quiet, again, f) : STATUS_OK;
+}
+
+static status take_all(const sweep *again, const char wanted[], sweep *s, fault *f)
+{
+    int next = 0;
+    for (int i = 0; i < s->seriess; i++)
+        if (can_repeat(s, i, wanted)) {
+            TRY(take(again, next, &s->point[s->series[i].point], &s->series[i], f));
+            next += REPETITIONS;
+        }
+    return STATUS_OK;
+}
+
 status noise_measure(const sweep_request *request, const char wanted[], sweep *s, fault *f)
 {
     sweep again = {0};
-    sweep_request quiet = *request;
-    status outcome = STATUS_OK;
-    quiet.shapes = 0;
-    for (int i = 0; i < s->seriess && outcome == STATUS_OK; i++)
-        if (can_repeat(s, i, wanted))
-            outcome = add_repetitions(s, &s->series[i], &again, f);
-    if (outcome == STATUS_OK && again.seriess > 0)
-        outcome = sweep_run(&quiet, &again, f);
-    int next = 0;
+    status outcome = run_again(request, wanted, s, &again, f);
     s->unfinished += again.unfinished; /* then nothing is measured: series are missing */
-    for (int i = 0; i < s->seriess && outcome == STATUS_OK && again.unfinished == 0; i++)
-        if (can_repeat(s, i, wanted)) {
-            outcome = take(&again, next, &s->point[s->series[i].point], &s->series[i], f);
-            next += REPETITIONS;
-        }
+    if (outcome == STATUS_OK && again.unfinished == 0)
+        outcome = take_all(&again, wanted, s, f);
     sweep_free(&again);
     return outcome;
 }

@@ -87,16 +87,14 @@ static status lap_pair(against_lap *lap, void *a, void *b, int b_first, double *
 status against_run(against_lap *lap, void *a, void *b, double budget, against *out, fault *f)
 {
     double seconds_a[MOST_PAIRS], seconds_b[MOST_PAIRS], least = INFINITY;
-    status outcome = STATUS_OK;
-    for (int i = 0; i < WARM_UP && outcome == STATUS_OK; i++) {
+    for (int i = 0; i < WARM_UP; i++) {
         const double start = passing();
-        outcome = lap_pair(lap, a, b, i % 2, &seconds_a[0], &seconds_b[0], f);
+        TRY(lap_pair(lap, a, b, i % 2, &seconds_a[0], &seconds_b[0], f));
         least = fmin(least, passing() - start);
     }
     const int pairs = (int)fmax(LEAST_PAIRS, fmin(MOST_PAIRS, budget / least));
-    for (int i = 0; i < pairs && outcome == STATUS_OK; i++)
-        outcome = lap_pair(lap, a, b, i % 2, &seconds_a[i], &seconds_b[i], f);
-    if (outcome == STATUS_OK)
-        *out = against_judge(pairs, seconds_a, seconds_b);
-    return outcome;
+    for (int i = 0; i < pairs; i++)
+        TRY(lap_pair(lap, a, b, i % 2, &seconds_a[i], &seconds_b[i], f));
+    *out = against_judge(pairs, seconds_a, seconds_b);
+    return STATUS_OK;
 }

@@ -45,7 +45,7 @@ double clock_most(const clock_reading *c)
 
 int clock_compare(const clock_reading *a, const clock_reading *b)
 {
-    return clock_most(a) < clock_least(b) ? -1 : clock_most(b) < clock_least(a) ? 1 : 0;
+    return (clock_most(b) < clock_least(a)) - (clock_most(a) < clock_least(b));
 }
 
 void clock_pin(void)

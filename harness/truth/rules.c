@@ -186,7 +186,7 @@ static status check_rule(const columns *c, const rule *r)
     return STATUS_OK;
 }
 
-status rules_read(const char *path, hid_t file, rule **out, int *count, fault *f)
+static status read_all(columns *c, rule **out)
 {
     static const columns_field field[] = {
         {"rule", 1, offsetof(rule, name)},
@@ -200,21 +200,28 @@ status rules_read(const char *path, hid_t file, rule **out, int *count, fault *f
         {"proof", 1, offsetof(rule, proof)},
         {"largest_error", 0, offsetof(rule, largest_error)},
     };
+    c->rows = c->group >= 0 ? columns_length(c->group, "rule") : -1;
+    if (c->rows < 0)
+        return columns_broken(c, "rule");
+    rule *all = *out = calloc((size_t)c->rows + 1, sizeof *all);
+    if (all == NULL)
+        return fault_set(c->f, STATUS_FAULT, "out of memory for findings");
+    for (size_t k = 0; k < sizeof field / sizeof field[0]; k++)
+        TRY(columns_read(c, &field[k], all, sizeof *all));
+    for (int i = 0; i < c->rows; i++)
+        TRY(check_rule(c, &all[i]));
+    return STATUS_OK;
+}
+
+status rules_read(const char *path, hid_t file, rule **out, int *count, fault *f)
+{
     columns c = {.path = path, .name = "findings", .f = f};
     c.group = H5Gopen2(file, "findings", H5P_DEFAULT);
-    c.rows = c.group >= 0 ? columns_length(c.group, "rule") : -1;
-    status outcome = c.rows < 0 ? columns_broken(&c, "rule") : STATUS_OK;
-    rule *all = outcome == STATUS_OK ? calloc((size_t)c.rows + 1, sizeof *all) : NULL;
-    if (outcome == STATUS_OK && all == NULL)
-        outcome = fault_set(f, STATUS_FAULT, "out of memory for findings");
-    for (size_t k = 0; k < sizeof field / sizeof field[0] && outcome == STATUS_OK; k++)
-        outcome = columns_read(&c, &field[k], all, sizeof *all);
-    for (int i = 0; i < c.rows && outcome == STATUS_OK; i++)
-        outcome = check_rule(&c, &all[i]);
+    *out = NULL;
+    const status outcome = read_all(&c, out);
     if (c.group >= 0)
         H5Gclose(c.group);
-    *out = all;
-    *count = all != NULL ? c.rows : 0;
+    *count = *out != NULL ? c.rows : 0;
     return outcome;
 }
 

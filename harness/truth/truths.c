@@ -48,18 +48,31 @@ static int elements_fit(const truth *row)
 /* The first column that makes no sense, or NULL. */
 static const char *wrong_column(const truth *row)
 {
-    return !isfinite(row->value)                                    ? "value"
-           : !isfinite(row->uncertainty) || row->uncertainty < 0    ? "uncertainty"
-           : isinf(row->at)                                         ? "at"
-           : !is_known(row->kind, TRUTH_KINDS)                      ? "kind"
-           : !elements_fit(row)                                     ? "elements"
-           : !is_known(row->model, "same|other")                    ? "model"
-           : !is_known_or_empty(row->theory, TRUTH_THEORIES)        ? "theory"
-           : !is_known_or_empty(row->convention, TRUTH_CONVENTIONS) ? "convention"
-                                                                    : NULL;
+    if (!isfinite(row->value))
+        return "value";
+    if (!isfinite(row->uncertainty) || row->uncertainty < 0)
+        return "uncertainty";
+    if (isinf(row->at))
+        return "at";
+    if (!is_known(row->kind, TRUTH_KINDS))
+        return "kind";
+    if (!elements_fit(row))
+        return "elements";
+    if (!is_known(row->model, "same|other"))
+        return "model";
+    if (!is_known_or_empty(row->theory, TRUTH_THEORIES))
+        return "theory";
+    return is_known_or_empty(row->convention, TRUTH_CONVENTIONS) ? NULL : "convention";
 }
 
-static status read_rows(const columns *r, const case_type *type, truth *row)
+/* Columns of a table that are not members of a row. */
+typedef struct loose_columns {
+    char **parameters;
+    uint64_t *hash;
+    int *elements;
+} loose_columns;
+
+static status read_columns(const columns *r, loose_columns *loose, truth *row)
 {
     static const columns_field field[] = {{"formulation", 1, offsetof(truth, formulation)},
                                           {"theory", 1, offsetof(truth, theory)},
@@ -72,36 +85,63 @@ static status read_rows(const columns *r, const case_type *type, truth *row)
                                           {"at", 0, offsetof(truth, at)},
                                           {"value", 0, offsetof(truth, value)},
                                           {"uncertainty", 0, offsetof(truth, uncertainty)}};
-    assert(r->rows >= 0);
-    char **parameters = calloc((size_t)r->rows + 1, sizeof *parameters);
-    uint64_t *hash = calloc((size_t)r->rows + 1, sizeof *hash);
-    int *elements = calloc((size_t)r->rows + 1, sizeof *elements);
-    status outcome = STATUS_OK;
-    if (parameters == NULL || hash == NULL || elements == NULL)
-        outcome = fault_set(r->f, STATUS_FAULT, "out of memory for truths");
-    for (size_t k = 0; k < sizeof field / sizeof field[0] && outcome == STATUS_OK; k++)
-        outcome = columns_read(r, &field[k], row, sizeof *row);
-    if (outcome == STATUS_OK)
-        outcome = columns_numbers(r, "elements", H5T_NATIVE_INT, elements);
-    if (outcome == STATUS_OK)
-        outcome = columns_numbers(r, "hash", H5T_NATIVE_UINT64, hash);
-    if (outcome == STATUS_OK)
-        outcome = columns_strings(r, "parameters", parameters);
-    for (int i = 0; i < r->rows && outcome == STATUS_OK; i++) {
+    for (size_t k = 0; k < sizeof field / sizeof field[0]; k++)
+        TRY(columns_read(r, &field[k], row, sizeof *row));
+    TRY(columns_numbers(r, "elements", H5T_NATIVE_INT, loose->elements));
+    TRY(columns_numbers(r, "hash", H5T_NATIVE_UINT64, loose->hash));
+    return columns_strings(r, "parameters", loose->parameters);
+}
+
+static status fill_rows(const columns *r, const case_type *type, const loose_columns *loose,
+                        truth *row)
+{
+    for (int i = 0; i < r->rows; i++) {
         row[i].type = type;
-        row[i].elements = elements[i];
+        row[i].elements = loose->elements[i];
         row[i].on_curve = !isnan(row[i].at);
-        outcome = check_row(r, type, i, parameters[i], hash[i], row[i].parameter, row[i].any);
+        TRY(check_row(r, type, i, loose->parameters[i], loose->hash[i], row[i].parameter,
+                      row[i].any));
         const char *wrong = wrong_column(&row[i]);
-        if (outcome == STATUS_OK && wrong != NULL)
-            outcome = columns_broken(r, wrong);
+        if (wrong != NULL)
+            return columns_broken(r, wrong);
     }
-    for (int i = 0; i < r->rows && parameters != NULL; i++)
-        free(parameters[i]);
-    free(parameters);
-    free(hash);
-    free(elements);
+    return STATUS_OK;
+}
+
+static status read_rows(const columns *r, const case_type *type, truth *row)
+{
+    assert(r->rows >= 0);
+    loose_columns loose = {.parameters = calloc((size_t)r->rows + 1, sizeof *loose.parameters),
+                           .hash = calloc((size_t)r->rows + 1, sizeof *loose.hash),
+                           .elements = calloc((size_t)r->rows + 1, sizeof *loose.elements)};
+    status outcome = STATUS_OK;
+    if (loose.parameters == NULL || loose.hash == NULL || loose.elements == NULL)
+        outcome = fault_set(r->f, STATUS_FAULT, "out of memory for truths");
+    if (outcome == STATUS_OK)
+        outcome = read_columns(r, &loose, row);
+    if (outcome == STATUS_OK)
+        outcome = fill_rows(r, type, &loose, row);
+    if (loose.parameters != NULL)
+        for (int i = 0; i < r->rows; i++)
+            free(loose.parameters[i]);
+    free(loose.parameters);
+    free(loose.hash);
+    free(loose.elements);
     return outcome;
+}
+
+static status read_table(columns *r, const case_type *type, truths *out)
+{
+    r->rows = r->group >= 0 ? columns_length(r->group, "value") : -1;
+    if (r->rows < 0)
+        return columns_broken(r, "value");
+    truth *more = realloc(out->row, (size_t)(out->rows + r->rows + 1) * sizeof *more);
+    if (more == NULL)
+        return fault_set(r->f, STATUS_FAULT, "out of memory for truths");
+    out->row = more;
+    memset(more + out->rows, 0, (size_t)r->rows * sizeof *more);
+    out->rows += r->rows;
+    return read_rows(r, type, more + out->rows - r->rows);
 }
 
 static status read_case(const char *path, hid_t all, const case_type *type, truths *out, fault *f)
@@ -111,22 +151,17 @@ static status read_case(const char *path, hid_t all, const case_type *type, trut
     if (H5Lexists(all, type->name, H5P_DEFAULT) <= 0)
         return STATUS_OK; /* its verdicts will be "no truth" */
     r.group = H5Gopen2(all, type->name, H5P_DEFAULT);
-    r.rows = r.group >= 0 ? columns_length(r.group, "value") : -1;
-    status outcome = r.rows < 0 ? columns_broken(&r, "value") : STATUS_OK;
-    truth *more = outcome == STATUS_OK
-                      ? realloc(out->row, (size_t)(out->rows + r.rows + 1) * sizeof *more)
-                      : NULL;
-    if (outcome == STATUS_OK && more == NULL)
-        outcome = fault_set(f, STATUS_FAULT, "out of memory for truths");
-    if (more != NULL) {
-        out->row = more;
-        memset(more + out->rows, 0, (size_t)r.rows * sizeof *more);
-        out->rows += r.rows;
-        outcome = read_rows(&r, type, more + out->rows - r.rows);
-    }
+    const status outcome = read_table(&r, type, out);
     if (r.group >= 0)
         H5Gclose(r.group);
     return outcome;
+}
+
+static status read_cases(const char *path, hid_t all, truths *out, fault *f)
+{
+    for (int i = 0; registry_cases[i] != NULL; i++)
+        TRY(read_case(path, all, registry_cases[i], out, f));
+    return STATUS_OK;
 }
 
 /* Tables of cases that do not exist would otherwise never be missed. */
@@ -182,9 +217,7 @@ static status read_tables(const char *path, hid_t file, const char *name, truths
     if (all < 0)
         return fault_set(f, STATUS_FAULT, "%s: no %s in it; build it again ('make all')", path,
                          name);
-    status outcome = STATUS_OK;
-    for (int i = 0; registry_cases[i] != NULL && outcome == STATUS_OK; i++)
-        outcome = read_case(path, all, registry_cases[i], out, f);
+    const status outcome = read_cases(path, all, out, f);
     if (outcome == STATUS_OK)
         find_strangers(all, out);
     H5Gclose(all);
