@@ -24,7 +24,8 @@ const char *continuation_doubt(const continuation *p, int last_resort, double *s
         return "its direction changes too much";
     if (!(turned <= largest_turn))
         return "a node turns too far";
-    /* A limit point changes the sign of the rate and of the determinant by one pivot, a simple bifurcation only the latter. */
+    /* A limit point changes the sign of the rate and of the determinant by one pivot, a simple
+     * bifurcation only the latter. */
     const int reversed = (a->rate < 0) != (b->rate < 0), pivots = abs(b->negative - a->negative);
     if (!last_resort && (pivots > 1 || (reversed && a->determinant == b->determinant)))
         return "the pivots of its tangent stiffness change by more than one critical point "
@@ -42,11 +43,11 @@ status continuation_report_jump(continuation *p, const rival *r, double from, fa
                               .control = p->here.control,
                               .other_factor = r->factor,
                               .measure = model_distance(p->c->model, p->n.state, r->state)};
-    const status outcome = continuation_add_event(p, &event, f);
-    if (outcome == STATUS_OK && p->a->constant_steps)
+    TRY(continuation_add_event(p, &event, f));
+    if (p->a->constant_steps)
         return fault_set(f, STATUS_NOT_CONVERGED,
                          "the step from %g to %g m jumps to another branch (load factor %g, on "
                          "this one %g): use smaller steps",
                          from, p->here.control, r->factor, p->here.factor);
-    return outcome;
+    return STATUS_OK;
 }

@@ -3,26 +3,23 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "harness/algebra/clock.h"
 #include "harness/analysis/analysis.h"
 #include "harness/analysis/singular.h"
 
-double seconds_now(void)
+static void free_states(int count, model_state **state)
 {
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+    if (state != NULL)
+        for (int i = 0; i < count; i++)
+            model_state_free(state[i]);
+    free(state);
 }
 
 void outcome_free(analysis_outcome *o)
 {
-    for (int i = 0; i < o->reached && o->state != NULL; i++)
-        model_state_free(o->state[i]);
-    for (int i = 0; i < o->points && o->point_state != NULL; i++)
-        model_state_free(o->point_state[i]);
-    free(o->point_state);
-    free(o->state);
+    free_states(o->reached, o->state);
+    free_states(o->points, o->point_state);
     free(o->path);
     free(o->x);
     free(o->factor);
@@ -100,7 +97,7 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
     static const solve_options defaults = {0};
     analysis_context c = {
         .scene = s, .model = m, .options = options != NULL ? options : &defaults, .result = result};
-    const double start = seconds_now();
+    const double start = clock_processor_seconds();
     memset(result, 0, sizeof *result);
     result->quantity = calloc((size_t)s->quantities + 1, sizeof *result->quantity);
     c.outcomes = calloc((size_t)s->analyses + 1, sizeof *c.outcomes);
@@ -113,7 +110,7 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
     run_analyses(&c);
     memcpy(result->phase, model_phases(m)->seconds, sizeof result->phase);
     result->seconds_setup = c.setup;
-    result->seconds_solve = seconds_now() - start - c.setup;
+    result->seconds_solve = clock_processor_seconds() - start - c.setup;
     for (int i = 0; i < s->quantities; i++) {
         quantity_result *q = &result->quantity[i];
         extract_quantity(&c, &s->quantity[i], q);
@@ -138,10 +135,11 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
 
 void solve_result_free(solve_result *r)
 {
-    for (int i = 0; i < r->quantities && r->quantity != NULL; i++) {
-        free(r->quantity[i].curve.x);
-        free(r->quantity[i].curve.value);
-    }
+    if (r->quantity != NULL)
+        for (int i = 0; i < r->quantities; i++) {
+            free(r->quantity[i].curve.x);
+            free(r->quantity[i].curve.value);
+        }
     for (int i = 0; i < r->matrix_sets; i++) {
         free(r->matrices[i].path);
         free(r->matrices[i].compliance);

@@ -1,6 +1,7 @@
-/* Element coordinates (dr, dphi, da per vertex) -> coordinates of the bodies that move them, in place.
- * Offset: dr = dr_b + theta x rho.  Second derivatives in the exponential chart: d2(F . rho)/dtheta2 = sym(F rho^T) - (F . rho) I.
- * Sequence: theta = sum b_i dt_i + 1/2 sum_(i<j) b_i x b_j dt_i dt_j (Baker-Campbell-Hausdorff). */
+/* Element coordinates (dr, dphi, da per vertex) -> coordinates of the bodies that move them, in
+ * place. Offset: dr = dr_b + theta x rho.  Second derivatives in the exponential chart: d2(F .
+ * rho)/dtheta2 = sym(F rho^T) - (F . rho) I. Sequence: theta = sum b_i dt_i + 1/2 sum_(i<j) b_i x
+ * b_j dt_i dt_j (Baker-Campbell-Hausdorff). */
 #include <string.h>
 
 #include "elements/math/dense.h"
@@ -79,7 +80,9 @@ static void sequence_matrix(int n, int at, int angles, double b[3][3], const dou
         for (int k = 0; k < 3; k++)
             K[(at + 3 + k) * n + j] = k < angles ? vec3_dot(column, b[k]) : 0;
     }
-    for (int i = 0; i < angles && moment != NULL; i++)
+    if (moment == NULL)
+        return;
+    for (int i = 0; i < angles; i++)
         for (int j = i + 1; j < angles; j++) {
             double cross[3];
             vec3_cross(b[i], b[j], cross);

@@ -1,7 +1,8 @@
 #include "harness/timing/dense_reference.h"
 
 #include <math.h>
-#include <time.h>
+
+#include "harness/algebra/clock.h"
 
 /* [s] of a whole run; longer ones are counted from one iteration */
 static const double longest = 1;
@@ -13,26 +14,19 @@ static int unknowns_of(const cell_result *cell)
     return cell->size.free + 2 * cell->size.strains * cell->size.elements;
 }
 
-static double processor_seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static void sample(const cell_request *dense, dense_reference *out)
 {
     cell_request one = *dense;
     cell_result cell;
     fault f = {""};
     double seconds = 0;
-    const double start = processor_seconds();
+    const double start = clock_processor_seconds();
     one.solve.sample = one.solve.phases = 1;
     if (cell_run(&one, &cell, &f) == STATUS_OK) {
         for (int k = 0; k < PHASES; k++)
             seconds += cell.solve.phase[k];
         /* a long one is interrupted now and then */
-        seconds = fmin(seconds, processor_seconds() - start);
+        seconds = fmin(seconds, clock_processor_seconds() - start);
         out->iteration = out->unknowns > 0 ? fmin(out->iteration, seconds) : seconds;
         out->unknowns = unknowns_of(&cell);
     }
