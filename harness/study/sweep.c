@@ -57,35 +57,69 @@ static int wait_for_any(const workload *w, int jobs, const worker workers[], int
     return ends[jobs].revents != 0;
 }
 
-/* *interrupted: somebody asked to end (descriptor `asked`) before all was done. */
-static status run_parallel(const sweep_request *request, workload *w, int asked, int *interrupted,
-                           fault *f)
+/* The processes that run, and who may ask them to end. */
+typedef struct crew {
+    int jobs, running, interrupted;
+    int asked; /* descriptor that can be read once somebody asks to end; -1: nobody can */
+    worker workers[WORKERS_MOST];
+} crew;
+
+static status start_all(const workload *w, crew *c, fault *f)
 {
-    worker workers[WORKERS_MOST] = {{0}};
-    struct pollfd ends[WORKERS_MOST + 1];
-    const int most = request->jobs < WORKERS_MOST ? request->jobs : WORKERS_MOST,
-              jobs = most < w->count ? most : w->count;
-    int running = 0;
-    status outcome = STATUS_OK;
-    for (int i = 0; i < jobs && outcome == STATUS_OK; i++, running++)
-        outcome = worker_start(w, i, &workers[i], f);
-    while (running > 0 && outcome == STATUS_OK && !*interrupted) {
-        *interrupted = wait_for_any(w, jobs, workers, asked, ends);
-        for (int i = 0; i < jobs && outcome == STATUS_OK && !*interrupted; i++)
-            if (workers[i].from != NULL && ends[i].revents != 0)
-                outcome = attend(request, w, i, &workers[i], &running, f);
-            else if (workers[i].from != NULL)
-                worker_stop_late(w, i, &workers[i]);
+    for (int i = 0; i < c->jobs; i++) {
+        TRY(worker_start(w, i, &c->workers[i], f));
+        c->running++;
     }
+    return STATUS_OK;
+}
+
+/* Those that have something to say; the others may be late. */
+static status attend_all(const sweep_request *request, workload *w, crew *c,
+                         const struct pollfd ends[], fault *f)
+{
+    for (int i = 0; i < c->jobs; i++) {
+        worker *one = &c->workers[i];
+        if (one->from == NULL)
+            continue;
+        if (ends[i].revents != 0)
+            TRY(attend(request, w, i, one, &c->running, f));
+        else
+            worker_stop_late(w, i, one);
+    }
+    return STATUS_OK;
+}
+
+static status work_off(const sweep_request *request, workload *w, crew *c, fault *f)
+{
+    struct pollfd ends[WORKERS_MOST + 1];
+    TRY(start_all(w, c, f));
+    while (c->running > 0) {
+        c->interrupted = wait_for_any(w, c->jobs, c->workers, c->asked, ends);
+        if (c->interrupted)
+            break;
+        TRY(attend_all(request, w, c, ends, f));
+    }
+    return STATUS_OK;
+}
+
+static status run_parallel(const sweep_request *request, workload *w, crew *c, fault *f)
+{
+    const status outcome = work_off(request, w, c, f);
     end_report(request);
-    for (int i = 0; i < jobs; i++)
-        if (workers[i].from != NULL)
-            worker_end(w, &workers[i]);
-    if (outcome == STATUS_OK && !*interrupted && w->finished < w->count)
-        outcome = fault_set(f, STATUS_FAULT,
-                            "the worker processes ended before all cells were done (%d of %d)",
-                            w->finished, w->count);
-    return outcome;
+    for (int i = 0; i < c->jobs; i++)
+        if (c->workers[i].from != NULL)
+            worker_end(w, &c->workers[i]);
+    TRY(outcome);
+    if (!c->interrupted && w->finished < w->count)
+        return fault_set(f, STATUS_FAULT,
+                         "the worker processes ended before all cells were done (%d of %d)",
+                         w->finished, w->count);
+    return STATUS_OK;
+}
+
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
 }
 
 /* Series with a cell that was not run are taken out: they show nothing. */
@@ -94,8 +128,9 @@ static void keep_finished(sweep *s, const workload *w)
     char *open = calloc((size_t)s->seriess + 1, 1);
     int kept = 0;
     s->unfinished = w->count - w->finished;
-    for (int i = 0; i < w->count && open != NULL; i++)
-        open[w->tasks[i].series] |= !w->done[i];
+    if (open != NULL)
+        for (int i = 0; i < w->count; i++)
+            open[w->tasks[i].series] |= !w->done[i];
     for (int i = 0; i < s->seriess; i++)
         if (open == NULL || open[i])
             series_free(&s->series[i]);
@@ -108,11 +143,12 @@ static void keep_finished(sweep *s, const workload *w)
 static status run_all(const sweep_request *request, workload *w, fault *f)
 {
     interrupt asked = {.descriptor = -1};
-    int interrupted = 0;
     if (request->interruptible)
         interrupt_begin(&asked);
-    const status outcome = run_parallel(request, w, asked.descriptor, &interrupted, f);
-    if (interrupted)
+    crew c = {.jobs = smaller(smaller(request->jobs, WORKERS_MOST), w->count),
+              .asked = asked.descriptor};
+    const status outcome = run_parallel(request, w, &c, f);
+    if (c.interrupted)
         keep_finished(w->s, w);
     interrupt_end(&asked);
     return outcome;
