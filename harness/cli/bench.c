@@ -34,7 +34,7 @@ static status plan_named(cli_request *r, sweep *s, fault *f)
         parameters_default(type, r->parameter);
         for (int k = 0; k < r->assignments; k++)
             TRY(parameters_set(type, r->assignment[k], r->parameter, f));
-        TRY(sweep_add(s, type, r->parameter, r->mesh, r->meshes, f));
+        TRY(sweep_add(s, type, r->parameter, NULL, r->mesh, r->meshes, f));
         const point *here = &s->point[s->points - 1];
         if (here->status != STATUS_OK)
             return fault_set(f, here->status, "%s", here->reason);

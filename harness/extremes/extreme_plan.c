@@ -32,14 +32,13 @@ static status set_parameters(const extreme *e, const case_type *type, double x, 
     return STATUS_OK;
 }
 
-static void set_knob(const extreme *e, double x, point *p)
+static scene_edit edit_of(const extreme *e, double x)
 {
-    p->condition = 1;
-    p->steps = e->knob == EXTREME_STEPS ? (int)x : 0;
     if (e->knob == EXTREME_SPLIT)
-        p->edit = (scene_edit){SCENE_EDIT_SPLIT, x};
-    else if (e->knob == EXTREME_REVERSE && x > 0)
-        p->edit = (scene_edit){SCENE_EDIT_REVERSE, 0};
+        return (scene_edit){SCENE_EDIT_SPLIT, x};
+    if (e->knob == EXTREME_REVERSE && x > 0)
+        return (scene_edit){SCENE_EDIT_REVERSE, 0};
+    return (scene_edit){SCENE_EDIT_NONE, 0};
 }
 
 static int is_selected(const extreme_request *request, const extreme *e, const formulation *chosen)
@@ -112,12 +111,15 @@ static status plan_value(const extreme_request *request, extreme_sweep *out, int
     const double x = e->value[value];
     const case_type *type = case_find(e->base, f);
     double parameter[CASE_MAX_PARAMETERS] = {0};
+    const scene_edit edit = edit_of(e, x);
     const int mesh = e->knob == EXTREME_ELEMENTS ? (int)x : e->elements;
     if (type == NULL)
         return STATUS_FAULT;
     TRY(set_parameters(e, type, x, parameter, f));
-    TRY(sweep_add(&out->first, type, parameter, &mesh, 1, f));
-    set_knob(e, x, &out->first.point[out->first.points - 1]);
+    TRY(sweep_add(&out->first, type, parameter, &edit, &mesh, 1, f));
+    point *p = &out->first.point[out->first.points - 1];
+    p->condition = 1;
+    p->steps = e->knob == EXTREME_STEPS ? (int)x : 0;
     for (int i = 0; i < out->formulations; i++) {
         if (!is_selected(request, e, &out->formulation[i]))
             continue;

@@ -17,10 +17,8 @@ static status refine(extreme_sweep *s, extreme_outcome *o, fault *f)
         return STATUS_OK;
     const int n = one->mesh[0], coarser = n >= enough_elements;
     const int mesh[OUTCOME_NEIGHBOURS] = {coarser ? n / 4 : 2 * n, coarser ? n / 2 : 4 * n};
-    TRY(sweep_add(&s->neighbours, p->type, p->parameter, mesh, OUTCOME_NEIGHBOURS, f));
-    point *near = &s->neighbours.point[s->neighbours.points - 1];
-    near->edit = p->edit;
-    near->steps = p->steps;
+    TRY(sweep_add(&s->neighbours, p->type, p->parameter, &p->edit, mesh, OUTCOME_NEIGHBOURS, f));
+    s->neighbours.point[s->neighbours.points - 1].steps = p->steps;
     TRY(sweep_extend(&s->neighbours, &one->formulation, 1, f));
     for (int i = 0; i < s->outcomes; i++)
         if (s->outcome[i].series == o->series)

@@ -7,19 +7,20 @@
 #include "harness/analysis/solve.h"
 
 typedef struct cell_request {
+    const scene *scene; /* valid, and shared by all cells of a point; NULL: to be built from ... */
     const case_type *type;
     double parameter[CASE_MAX_PARAMETERS];
+    scene_edit edit; /* ... these three */
     const element_type *formulation;
     double option[ELEMENT_MAX_OPTIONS];
     solve_options solve;
-    scene_edit edit; /* of the scene the parameters give */
     int elements;
     int keep_all;
     int threads; /* of the loop over elements; 0, 1: one */
 } cell_request;
 
 typedef struct cell_result {
-    scene scene; /* owned: names, units, tolerances of the quantities */
+    scene scene; /* owned: that the cell built itself, else empty */
     model_size size;
     counters counters;
     int left_out_lines;
@@ -27,6 +28,10 @@ typedef struct cell_result {
     solve_result solve;
 } cell_result;
 
+/* The scene of a case at its parameters, changed by the edit, and valid. The caller frees it, also
+ * after a failure. */
+status cell_scene(const case_type *type, const double parameter[], const scene_edit *edit,
+                  scene *out, fault *f);
 status cell_run(const cell_request *, cell_result *, fault *);
 void cell_result_free(cell_result *);
 

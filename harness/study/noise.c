@@ -22,8 +22,8 @@ static status add_repetitions(const sweep *s, const series *one, sweep *again, f
 {
     const point *p = &s->point[one->point];
     for (int k = 0; k < REPETITIONS; k++) {
-        TRY(sweep_add(again, p->type, p->parameter, &one->mesh[one->meshes - 1], 1, f));
-        again->point[again->points - 1].edit = words_of(&one->formulation, k);
+        const scene_edit edit = words_of(&one->formulation, k);
+        TRY(sweep_add(again, p->type, p->parameter, &edit, &one->mesh[one->meshes - 1], 1, f));
         again->point[again->points - 1].steps = p->steps;
         TRY(sweep_extend(again, &one->formulation, 1, f));
     }

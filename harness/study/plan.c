@@ -6,7 +6,8 @@
 #include "harness/catalogue/registry.h"
 #include "harness/study/sweep.h"
 
-static status add_point(sweep *s, const case_type *type, const double value[], fault *f)
+static status add_point(sweep *s, const case_type *type, const double value[],
+                        const scene_edit *edit, fault *f)
 {
     point *more = realloc(s->point, (size_t)(s->points + 1) * sizeof *more);
     if (more == NULL)
@@ -22,14 +23,14 @@ static status add_point(sweep *s, const case_type *type, const double value[], f
     else
         snprintf(p->name, sizeof p->name, "%012llx",
                  (unsigned long long)(parameters_hash(type, value, NULL) >> 16));
-    scene_init(&p->scene, type->name);
+    p->edit = *edit;
     fault why = {""};
-    p->status = type->build(value, &p->scene, &why);
-    if (p->status == STATUS_OK)
-        p->status = scene_validate(&p->scene, &why);
+    p->status = cell_scene(type, value, edit, &p->scene, &why);
     snprintf(p->reason, sizeof p->reason, "%s", why.text);
     return STATUS_OK;
 }
+
+static const scene_edit unchanged = {.kind = SCENE_EDIT_NONE};
 
 static int known_point(const sweep *s, const case_type *type, const double value[])
 {
@@ -51,15 +52,14 @@ static int is_complete(const truth *row)
 static status plan_points(const truths *t, sweep *s, fault *f)
 {
     for (int c = 0; registry_cases[c] != NULL; c++) {
+        const case_type *type = registry_cases[c];
         double value[CASE_MAX_PARAMETERS] = {0};
-        parameters_default(registry_cases[c], value);
-        status outcome = add_point(s, registry_cases[c], value, f);
-        for (int i = 0; i < t->rows && outcome == STATUS_OK; i++)
-            if (t->row[i].type == registry_cases[c] && is_complete(&t->row[i]) &&
-                !known_point(s, registry_cases[c], t->row[i].parameter))
-                outcome = add_point(s, registry_cases[c], t->row[i].parameter, f);
-        if (outcome != STATUS_OK)
-            return outcome;
+        parameters_default(type, value);
+        TRY(add_point(s, type, value, &unchanged, f));
+        for (int i = 0; i < t->rows; i++)
+            if (t->row[i].type == type && is_complete(&t->row[i]) &&
+                !known_point(s, type, t->row[i].parameter))
+                TRY(add_point(s, type, t->row[i].parameter, &unchanged, f));
     }
     return STATUS_OK;
 }
@@ -118,45 +118,80 @@ int sweep_selects(const sweep *s, const point *p, const formulation *chosen, con
     return s->select == NULL || select_matches(s->select, text) > 0;
 }
 
-/* Formulations of one point: all, and the options that a discrete truth speaks of. */
+/* Room for the formulations of a point; what does not fit is left out. */
+enum { MOST_FORMULATIONS = 64 };
+typedef struct chosen {
+    int count;
+    formulation list[MOST_FORMULATIONS];
+} chosen;
+
+static void choose_given(const sweep_request *request, chosen *out)
+{
+    for (int i = 0; i < request->formulations && out->count < MOST_FORMULATIONS; i++)
+        out->list[out->count++] = request->formulation[i];
+}
+
+/* Those whose options are judged by themselves too. */
+static void choose_options(const element_type *type, chosen *out)
+{
+    const element_option *o = type->options;
+    if (o == NULL)
+        return;
+    for (int k = 0; o[k].name != NULL; k++) {
+        if (o[k].judged == 0)
+            continue;
+        for (int choice = 0; choice <= o[k].max && out->count < MOST_FORMULATIONS; choice++)
+            out->count += formulation_choice(type, k, choice, &out->list[out->count]);
+    }
+}
+
+/* Options that a discrete truth of the point speaks of. */
+static void choose_stored(const truths *t, const point *p, chosen *out)
+{
+    for (int i = 0; i < t->rows && out->count < MOST_FORMULATIONS; i++) {
+        const char *key = t->row[i].formulation;
+        int known = key[0] == '\0' || !truth_holds(&t->row[i], p->type, p->parameter);
+        for (int k = 0; k < out->count && !known; k++)
+            known = strcmp(out->list[k].key, key) == 0;
+        if (!known)
+            out->count += formulation_parse(key, &out->list[out->count], NULL) == STATUS_OK;
+    }
+}
+
+static void choose_all(const truths *t, const point *p, chosen *out)
+{
+    for (int i = 0; registry_formulations[i] != NULL && out->count < MOST_FORMULATIONS; i++)
+        formulation_default(registry_formulations[i], &out->list[out->count++]);
+    if (p->text[0] == '\0')
+        for (int i = 0; registry_formulations[i] != NULL; i++)
+            choose_options(registry_formulations[i], out);
+    choose_stored(t, p, out);
+}
+
+static int is_selected(const sweep *s, const point *p, const formulation *one)
+{
+    if (p->scene.quantities == 0)
+        return sweep_selects(s, p, one, "");
+    for (int q = 0; q < p->scene.quantities; q++)
+        if (sweep_selects(s, p, one, p->scene.quantity[q].name))
+            return 1;
+    return 0;
+}
+
+/* Formulations of one point: those given, or all, and the options that a discrete truth speaks of.
+ */
 static status plan_series(const sweep_request *request, const truths *t, sweep *s, int index,
                           fault *f)
 {
     const point *p = &s->point[index];
-    formulation list[64];
-    int count = 0;
-    for (int i = 0; i < request->formulations && count < 64; i++)
-        list[count++] = request->formulation[i];
-    for (int i = 0; request->formulations == 0 && registry_formulations[i] != NULL && count < 64;
-         i++)
-        formulation_default(registry_formulations[i], &list[count++]);
-    for (int i = 0;
-         registry_formulations[i] != NULL && request->formulations == 0 && p->text[0] == '\0'; i++)
-        for (int k = 0; registry_formulations[i]->options != NULL &&
-                        registry_formulations[i]->options[k].name != NULL;
-             k++)
-            for (int choice = 0; registry_formulations[i]->options[k].judged != 0 &&
-                                 choice <= registry_formulations[i]->options[k].max;
-                 choice++)
-                count += count < 64 &&
-                         formulation_choice(registry_formulations[i], k, choice, &list[count]);
-    for (int i = 0; i < t->rows && request->formulations == 0; i++) {
-        int known =
-            t->row[i].formulation[0] == '\0' || !truth_holds(&t->row[i], p->type, p->parameter);
-        for (int k = 0; k < count && !known; k++)
-            known = strcmp(list[k].key, t->row[i].formulation) == 0;
-        if (!known && count < 64 &&
-            formulation_parse(t->row[i].formulation, &list[count], NULL) == STATUS_OK)
-            count++;
-    }
-    for (int i = 0; i < count; i++) {
-        int selected = p->scene.quantities == 0 && sweep_selects(s, p, &list[i], "");
-        for (int q = 0; q < p->scene.quantities && !selected; q++)
-            selected = sweep_selects(s, p, &list[i], p->scene.quantity[q].name);
-        const status outcome = selected ? add_series(s, index, &list[i], t, f) : STATUS_OK;
-        if (outcome != STATUS_OK)
-            return outcome;
-    }
+    chosen those = {.count = 0};
+    if (request->formulations > 0)
+        choose_given(request, &those);
+    else
+        choose_all(t, p, &those);
+    for (int i = 0; i < those.count; i++)
+        if (is_selected(s, p, &those.list[i]))
+            TRY(add_series(s, index, &those.list[i], t, f));
     return STATUS_OK;
 }
 
@@ -172,6 +207,14 @@ static status alloc_cells(sweep *s, fault *f)
     return STATUS_OK;
 }
 
+static status plan_all(const sweep_request *request, const truths *t, sweep *out, fault *f)
+{
+    TRY(plan_points(t, out, f));
+    for (int i = 0; i < out->points; i++)
+        TRY(plan_series(request, t, out, i, f));
+    return alloc_cells(out, f);
+}
+
 status sweep_plan(const sweep_request *request, const truths *t, sweep *out, fault *f)
 {
     memset(out, 0, sizeof *out);
@@ -180,42 +223,42 @@ status sweep_plan(const sweep_request *request, const truths *t, sweep *out, fau
                          "selection '%.100s' is malformed; write words joined by and, or, not",
                          request->select);
     out->select = request->select;
-    status outcome = plan_points(t, out, f);
-    for (int i = 0; i < out->points && outcome == STATUS_OK; i++)
-        outcome = plan_series(request, t, out, i, f);
-    if (outcome == STATUS_OK)
-        outcome = alloc_cells(out, f);
+    const status outcome = plan_all(request, t, out, f);
     if (outcome != STATUS_OK)
         sweep_free(out);
     return outcome;
 }
 
-status sweep_add(sweep *s, const case_type *type, const double value[], const int mesh[],
-                 int meshes, fault *f)
+status sweep_add(sweep *s, const case_type *type, const double value[], const scene_edit *edit,
+                 const int mesh[], int meshes, fault *f)
 {
-    const status outcome = add_point(s, type, value, f);
-    if (outcome == STATUS_OK && meshes > 0)
+    TRY(add_point(s, type, value, edit != NULL ? edit : &unchanged, f));
+    if (meshes > 0)
         scene_meshes(&s->point[s->points - 1].scene, meshes, mesh);
-    return outcome;
+    return STATUS_OK;
 }
 
-status sweep_extend(sweep *s, const formulation chosen[], int count, fault *f)
+status sweep_extend(sweep *s, const formulation those[], int count, fault *f)
 {
-    status outcome = STATUS_OK;
-    for (int i = 0; i < count && outcome == STATUS_OK; i++)
-        outcome = add_series(s, s->points - 1, &chosen[i], NULL, f);
-    return outcome == STATUS_OK ? alloc_cells(s, f) : outcome;
+    for (int i = 0; i < count; i++)
+        TRY(add_series(s, s->points - 1, &those[i], NULL, f));
+    return alloc_cells(s, f);
 }
 
-status sweep_plan_one(const case_type *type, const double value[], const formulation chosen[],
+static status plan_one(const case_type *type, const double value[], const formulation those[],
+                       int count, const int mesh[], int meshes, sweep *out, fault *f)
+{
+    TRY(sweep_add(out, type, value, NULL, mesh, meshes, f));
+    if (out->point[0].status != STATUS_OK)
+        return fault_set(f, out->point[0].status, "%s", out->point[0].reason);
+    return sweep_extend(out, those, count, f);
+}
+
+status sweep_plan_one(const case_type *type, const double value[], const formulation those[],
                       int count, const int mesh[], int meshes, sweep *out, fault *f)
 {
     memset(out, 0, sizeof *out);
-    status outcome = sweep_add(out, type, value, mesh, meshes, f);
-    if (outcome == STATUS_OK && out->point[0].status != STATUS_OK)
-        outcome = fault_set(f, out->point[0].status, "%s", out->point[0].reason);
-    if (outcome == STATUS_OK)
-        outcome = sweep_extend(out, chosen, count, f);
+    const status outcome = plan_one(type, value, those, count, mesh, meshes, out, f);
     if (outcome != STATUS_OK)
         sweep_free(out);
     return outcome;
@@ -256,13 +299,11 @@ cell_request sweep_cell(const sweep *s, int series_index, int mesh)
     const series *one = &s->series[series_index];
     const point *p = &s->point[one->point];
     cell_request out = {
-        .type = p->type, .formulation = one->formulation.type, .elements = one->mesh[mesh]};
-    memcpy(out.parameter, p->parameter, sizeof out.parameter);
+        .scene = &p->scene, .formulation = one->formulation.type, .elements = one->mesh[mesh]};
     memcpy(out.option, one->formulation.option, sizeof out.option);
     out.solve.newton = one->formulation.newton;
     out.solve.steps_between = p->steps;
     out.solve.condition = p->condition;
-    out.edit = p->edit;
     out.threads = s->threads;
     if (p->text[0] == '\0' && mesh == one->meshes - 1)
         out.solve.shapes = s->shapes;

@@ -17,10 +17,10 @@ typedef struct point {
     double parameter[CASE_MAX_PARAMETERS];
     char text[PARAMETERS_TEXT]; /* differences from the defaults */
     char name[16];              /* "default" or the first digits of the hash */
-    scene_edit edit;            /* made to the scene of every cell */
+    scene_edit edit;            /* that was made to the scene */
     int steps;                  /* load steps between stations; 0: the scene's */
     int condition;              /* 1: estimate the condition of the tangents */
-    scene scene;                /* names, units, tolerances of the quantities */
+    scene scene;                /* of all its cells, with their quantities */
     status status;              /* of building the scene */
     char reason[FAULT_TEXT];
 } point;
@@ -66,14 +66,14 @@ int sweep_selects(const sweep *s, const point *p, const formulation *chosen, con
 /* Points: the defaults and every parameter point of a truth. */
 status sweep_plan(const sweep_request *request, const truths *t, sweep *out, fault *f);
 /* One point, the given formulations and meshes. */
-status sweep_plan_one(const case_type *type, const double value[], const formulation chosen[],
+status sweep_plan_one(const case_type *type, const double value[], const formulation those[],
                       int count, const int mesh[], int meshes, sweep *out, fault *f);
-/* A further point of a sweep that is planned by hand; its edit, steps and condition may be set
- * before the run. */
-status sweep_add(sweep *s, const case_type *type, const double value[], const int mesh[],
-                 int meshes, fault *f);
+/* A further point of a sweep that is planned by hand, its scene changed by the edit (NULL: not);
+ * its steps and condition may be set before the run. */
+status sweep_add(sweep *s, const case_type *type, const double value[], const scene_edit *edit,
+                 const int mesh[], int meshes, fault *f);
 /* Series of the last point, on its scene's meshes. */
-status sweep_extend(sweep *s, const formulation chosen[], int count, fault *f);
+status sweep_extend(sweep *s, const formulation those[], int count, fault *f);
 /* Runs every cell; a cell that fails or crashes is a result. Order of results does not depend on
  * jobs. */
 status sweep_run(const sweep_request *request, sweep *s, fault *f);

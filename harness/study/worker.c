@@ -47,7 +47,6 @@ static void run_task(const workload *w, int i, cell_result *out)
     set_alarm(w->time_limit);
     cell_run(&request, out, &f);
     set_alarm(0);
-    scene_free(&out->scene);
 }
 
 /* Child: takes tasks until none is left. */

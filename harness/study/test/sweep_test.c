@@ -1,6 +1,7 @@
-/* Sweeps in several processes: the same answers whatever the number of jobs; crashes and endless cells as results; no
- * process outlives the one that started it; who asks to end keeps what is finished. Nothing here depends on the machine's
- * speed: every step waits for an event, and END and WAIT only bound a test that would never end. */
+/* Sweeps in several processes: the same answers whatever the number of jobs; crashes and endless
+ * cells as results; no process outlives the one that started it; who asks to end keeps what is
+ * finished. Nothing here depends on the machine's speed: every step waits for an event, and END and
+ * WAIT only bound a test that would never end. */
 #include <gsl/gsl_test.h>
 #include <poll.h>
 #include <signal.h>
@@ -16,12 +17,7 @@
 #include "harness/study/sweep.h"
 
 enum { END = 900, WAIT = 120 }; /* [s] */
-enum { SOUND = 0, KILLED, ENDED, HANGING, STOPPED };
-static const case_parameter parameter[] = {{"end", "1", 0, 0, 9, NULL, "how the process of a cell ends"},
-                                           {"parent", "1", 0, 0, 1e12, NULL, "the process that may build the scene"},
-                                           {"says", "1", 0, 0, 1e6, NULL, "where a cell that never ends says its process"},
-                                           {0}};
-
+enum { KILLED, ENDED, HANGING, STOPPED };
 static void never_end(int says)
 {
     const pid_t self = getpid();
@@ -30,25 +26,6 @@ static void never_end(int says)
     for (;;)
         pause();
 }
-
-/* The first case of the registry in the planning process; in a cell's process, the end that is asked for. */
-static status build(const double value[], scene *s, fault *f)
-{
-    double defaults[CASE_MAX_PARAMETERS] = {0};
-    const int end = getpid() != (pid_t)value[1] ? (int)value[0] : SOUND;
-    if (end == KILLED)
-        raise(SIGKILL);
-    if (end == ENDED)
-        _exit(3);
-    if (end == HANGING)
-        never_end((int)value[2]);
-    if (end == STOPPED) /* its own alarm has to wait */
-        raise(SIGSTOP);
-    parameters_default(registry_cases[0], defaults);
-    return registry_cases[0]->build(defaults, s, f);
-}
-
-static const case_type crashing = {"crashing", "a case of the test", "none", parameter, build};
 
 /* The formulation that runs on the first case. */
 static formulation runner(void)
@@ -61,27 +38,63 @@ static formulation runner(void)
     parameters_default(registry_cases[0], value);
     registry_cases[0]->build(value, &s, NULL);
     int i = 0;
-    while (registry_formulations[i + 1] != NULL && model_missing(&s, registry_formulations[i], words, sizeof words))
+    while (registry_formulations[i + 1] != NULL &&
+           model_missing(&s, registry_formulations[i], words, sizeof words))
         i++;
     scene_free(&s);
     formulation_default(registry_formulations[i], &chosen);
     return chosen;
 }
 
-static void crashes(double end, int jobs, const char *reason)
+/* The same with another end of the process that sets up its elements: that of a cell. */
+static struct {
+    element_type type;
+    status (*prepare)(const element_request *, element_data *, fault *);
+    int end, says; /* says: where a cell that never ends says its process */
+} ending;
+
+static status prepare_end(const element_request *request, element_data *data, fault *f)
+{
+    if (ending.end == KILLED)
+        raise(SIGKILL);
+    if (ending.end == ENDED)
+        _exit(3);
+    if (ending.end == HANGING)
+        never_end(ending.says);
+    if (ending.end == STOPPED) /* its own alarm has to wait */
+        raise(SIGSTOP);
+    return ending.prepare(request, data, f);
+}
+
+static formulation ending_runner(int end, int says)
+{
+    formulation out = runner();
+    ending.type = *out.type;
+    ending.prepare = out.type->prepare;
+    ending.end = end;
+    ending.says = says;
+    ending.type.prepare = prepare_end;
+    out.type = &ending.type;
+    return out;
+}
+
+static void crashes(int end, int jobs, const char *reason)
 {
     static const int mesh[] = {1, 2, 3};
-    const double value[CASE_MAX_PARAMETERS] = {end, (double)getpid()};
-    const formulation chosen = runner();
+    const formulation chosen = ending_runner(end, 0);
     const int endless = end == HANGING || end == STOPPED;
     const sweep_request request = {.jobs = jobs, .time_limit = endless ? 1 : 0};
     const status expected = endless ? STATUS_TIME_LIMIT : STATUS_FAULT;
+    double value[CASE_MAX_PARAMETERS] = {0};
     sweep s;
     fault f = {""};
-    gsl_test(sweep_plan_one(&crashing, value, &chosen, 1, mesh, 3, &s, &f) != STATUS_OK, "planned %s", f.text);
+    parameters_default(registry_cases[0], value);
+    gsl_test(sweep_plan_one(registry_cases[0], value, &chosen, 1, mesh, 3, &s, &f) != STATUS_OK,
+             "planned %s", f.text);
     gsl_test(sweep_run(&request, &s, &f) != STATUS_OK, "the sweep survives %s", f.text);
     for (int i = 0; i < 3; i++)
-        gsl_test(s.series[0].cell[i].solve.status != expected || strcmp(s.series[0].cell[i].solve.reason, reason) != 0,
+        gsl_test(s.series[0].cell[i].solve.status != expected ||
+                     strcmp(s.series[0].cell[i].solve.reason, reason) != 0,
                  "%d jobs: %s", jobs, s.series[0].cell[i].solve.reason);
     sweep_free(&s);
 }
@@ -112,7 +125,8 @@ static void jobs(void)
     parameters_default(registry_cases[0], value);
     for (int i = 0; i < 2; i++) {
         const sweep_request request = {.jobs = 1 + 3 * i};
-        gsl_test(sweep_plan_one(registry_cases[0], value, chosen, count, mesh, 3, &s[i], &f) != STATUS_OK ||
+        gsl_test(sweep_plan_one(registry_cases[0], value, chosen, count, mesh, 3, &s[i], &f) !=
+                         STATUS_OK ||
                      sweep_run(&request, &s[i], &f) != STATUS_OK,
                  "%d jobs %s", request.jobs, f.text);
     }
@@ -128,25 +142,29 @@ typedef struct family {
     int says;
 } family;
 
-/* Child: its exit code is 0 when `sound` cells, then endless ones, gave what the request asks for. */
+/* Child: its exit code is 0 when `sound` cells, then endless ones, gave what the request asks for.
+ */
 static int run_endless(const sweep_request *request, int sound, int says)
 {
     static const int mesh[] = {1, 2, 3};
-    const double good[CASE_MAX_PARAMETERS] = {SOUND, (double)getpid()},
-                 endless[CASE_MAX_PARAMETERS] = {HANGING, (double)getpid(), says};
-    const formulation chosen = runner();
+    const formulation good = runner(), endless = ending_runner(HANGING, says);
+    double value[CASE_MAX_PARAMETERS] = {0};
     sweep s = {0};
     fault f = {""};
-    status outcome = STATUS_OK;
-    if (sound)
-        outcome = sweep_add(&s, &crashing, good, mesh, 3, &f) | sweep_extend(&s, &chosen, 1, &f);
-    outcome |= sweep_add(&s, &crashing, endless, mesh, 3, &f) | sweep_extend(&s, &chosen, 1, &f);
+    parameters_default(registry_cases[0], value);
+    status outcome = sweep_add(&s, registry_cases[0], value, NULL, mesh, 3, &f);
+    if (outcome == STATUS_OK && sound)
+        outcome = sweep_extend(&s, &good, 1, &f);
+    if (outcome == STATUS_OK)
+        outcome = sweep_extend(&s, &endless, 1, &f);
     if (outcome != STATUS_OK || sweep_run(request, &s, &f) != STATUS_OK)
         return 1;
-    int right = request->interruptible ? s.seriess == sound && s.unfinished == 3 : s.seriess == 1 + sound && s.unfinished == 0;
+    int right = request->interruptible ? s.seriess == sound && s.unfinished == 3
+                                       : s.seriess == 1 + sound && s.unfinished == 0;
     for (int i = 0; i < s.seriess; i++)
         for (int k = 0; k < 3; k++)
-            right = right && (s.series[i].cell[k].solve.status == STATUS_TIME_LIMIT) == (i >= sound) &&
+            right = right &&
+                    (s.series[i].cell[k].solve.status == STATUS_TIME_LIMIT) == (i >= sound) &&
                     (s.series[i].cell[k].solve.quantities > 0) == (i < sound);
     sweep_free(&s);
     return right ? 0 : 2;
@@ -241,7 +259,8 @@ static void interrupted(int number)
     const family of = begin_family(&request, 1);
     gsl_test(next_cell(&of) <= 0, "three cells are done, the fourth has begun");
     kill(of.parent, number);
-    gsl_test_int(exit_code(of.parent), 0, "signal %d: one series of two is left, three cells are not done", number);
+    gsl_test_int(exit_code(of.parent), 0,
+                 "signal %d: one series of two is left, three cells are not done", number);
     gsl_test_int(next_cell(&of), 0, "signal %d: no worker is left", number);
     close(of.says);
 }
@@ -269,7 +288,8 @@ static void requests(void)
     interrupt_end(&i);
     signal(SIGHUP, SIG_DFL);
     sigprocmask(SIG_SETMASK, NULL, &after);
-    gsl_test(sigismember(&after, SIGINT) || sigismember(&after, SIGTERM), "the mask is the one of before");
+    gsl_test(sigismember(&after, SIGINT) || sigismember(&after, SIGTERM),
+             "the mask is the one of before");
 }
 
 int main(void)
