@@ -1,7 +1,7 @@
 #include <stdio.h>
 
 #include "harness/cli/cli.h"
-#include "harness/record/comparison.h"
+#include "harness/comparison/comparison.h"
 #include "harness/record/output.h"
 #include "harness/study/sweep.h"
 

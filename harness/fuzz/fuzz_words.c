@@ -2,7 +2,7 @@
  * selection, thresholds. */
 #include "harness/catalogue/formulations.h"
 #include "harness/fuzz/fuzz.h"
-#include "harness/record/comparison.h"
+#include "harness/comparison/comparison.h"
 #include "harness/study/sweep.h"
 
 static void read_formulation(const char *text)

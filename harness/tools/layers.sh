@@ -16,7 +16,7 @@ rule elements/math 'elements/(section|element|beamw|sheet|exact)' 'math is the l
 rule elements/section 'elements/(element|beamw|sheet|exact)' 'a section knows no element'
 rule cases 'harness/|reference/|reports/|elements/(element|beamw|sheet|exact)' 'a case knows no formulation and no solver'
 # The floors of the harness, lowest first: a room includes itself and those before it.
-floors="algebra model analysis catalogue truth study timing judge schema record extremes cli"
+floors="algebra model analysis catalogue truth study timing judge schema record comparison extremes cli"
 above=$floors
 for room in $floors; do
     above=${above#"$room"}

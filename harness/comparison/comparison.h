@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_COMPARISON_H
 #define BEAMWORK_COMPARISON_H
 
-#include "harness/record/results.h"
+#include "harness/comparison/results.h"
 
 typedef struct comparison_limits {
     double error; /* relative change of an error */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/record/results.h"
+#include "harness/comparison/results.h"
 
 static const char head[] = "cell,elements,status,iterations,evaluations,factorisations,judged,decades,error,quantity";
 enum { FIELDS = 10, LONGEST_NAME = 1200, LONGEST_LINE = 2000 };

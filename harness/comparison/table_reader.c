@@ -1,4 +1,4 @@
-#include "harness/record/table_reader.h"
+#include "harness/comparison/table_reader.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,10 +1,10 @@
 /* Reading results.h5 back. Nothing is believed: a file may be foreign, cut short or damaged. */
-#include "harness/record/results_version1.h"
+#include "harness/comparison/results_version1.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/record/table_reader.h"
+#include "harness/comparison/table_reader.h"
 #include "harness/truth/checksum.h"
 
 enum { NAME = 200, MOST_ELEMENTS = 10000000 };

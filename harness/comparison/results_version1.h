@@ -4,7 +4,7 @@
 
 #include <hdf5.h>
 
-#include "harness/record/results.h"
+#include "harness/comparison/results.h"
 
 /* file: open, its checksum and schema checked. */
 status results_read_version1(const char *path, hid_t file, results *out, fault *f);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/record/results.h"
+#include "harness/comparison/results.h"
 
 static int compare_cells(const void *a, const void *b)
 {

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/record/results.h"
-#include "harness/record/results_version1.h"
-#include "harness/record/table_reader.h"
+#include "harness/comparison/results.h"
+#include "harness/comparison/results_version1.h"
+#include "harness/comparison/table_reader.h"
 
 enum { NAME = 200, PARAMETERS = 600, MOST_VALUES = 100000 };
 

@@ -1,4 +1,4 @@
-#include "harness/record/results.h"
+#include "harness/comparison/results.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "harness/record/comparison.h"
+#include "harness/comparison/comparison.h"
 
 #include <math.h>
 #include <stdlib.h>
