@@ -54,7 +54,7 @@ static status measure(cli_request *r, truths *t, sweep *s, judgement *j, fault *
     TRY(r->case_count > 0 ? plan_named(r, s, f) : sweep_plan(&request, t, s, f));
     s->threads = r->threads;
     TRY(sweep_run(&request, s, f));
-    TRY(judge(s, t, 0, j, f));
+    TRY(judgement_make(s, t, 0, j, f));
     if (s->threads <= 1)
         clock_pin();
     return timing_run(s, floor_seconds, r->dense, progress, f);

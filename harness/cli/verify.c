@@ -87,7 +87,7 @@ static status judge_and_write(const cli_request *r, const sweep *s, truths *t, j
                               fault *f)
 {
     const int whole = r->select == NULL && r->formulations == 0 && s->unfinished == 0;
-    TRY(judge(s, t, whole, j, f));
+    TRY(judgement_make(s, t, whole, j, f));
     table_verdicts(stdout, s, j, t);
     if (fflush(stdout) != 0)
         return fault_set(f, STATUS_FAULT, "standard output cannot be written");
@@ -131,7 +131,7 @@ static status measure_noise(const sweep_request *request, const truths *t, sweep
     char *wanted = malloc((size_t)s->seriess + 1);
     if (wanted == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for noise");
-    judge_doubts(s, t, wanted);
+    judgement_doubts(s, t, wanted);
     const status outcome = noise_measure(request, wanted, s, f);
     free(wanted);
     return outcome;

@@ -58,7 +58,7 @@ static void judge_value(const scene_quantity *q, double value, double uncertaint
 {
     const extreme *e = &extremes[o->extreme];
     o->result = value;
-    o->error = relative_error(q, value, o->reference);
+    o->error = verdict_error(q, value, o->reference);
     if (e->judge == EXTREME_SAME && !isfinite(o->reference))
         set_kind(o, OUTCOME_WRONG, "there is nothing to compare with: the base has no value");
     else
@@ -127,7 +127,7 @@ void extreme_judge_neighbours(const extreme_sweep *s, const truths *t, extreme_o
         double uncertainty;
         const double reference = reference_of(s, t, o, i + 1, &uncertainty);
         const double value = extreme_sweep_value(s, o, i + 1);
-        o->neighbour_error[i] = relative_error(extreme_sweep_quantity(s, o), value, reference);
+        o->neighbour_error[i] = verdict_error(extreme_sweep_quantity(s, o), value, reference);
         if (!placed && own < mesh[i]) {
             add_mesh(&r, own, o->error);
             placed = 1;

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/judge/verdict.h"
+#include "harness/judge/coverage.h"
 
 /* Of the series' case and formulation. */
 static coverage *row_of(const sweep *s, judgement *j, const series *one, fault *f)
@@ -34,7 +34,7 @@ static void count(const sweep *s, const verdict *v, coverage *row)
     }
 }
 
-status judge_coverage(const sweep *s, judgement *out, fault *f)
+status coverage_count(const sweep *s, judgement *out, fault *f)
 {
     for (int i = 0; i < out->verdicts; i++) {
         const verdict *v = &out->verdict[i];

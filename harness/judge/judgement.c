@@ -4,7 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/judge/verdict.h"
+#include "harness/judge/judgement.h"
+
+#include "harness/judge/coverage.h"
 
 /* relative, of a value against its own stored discrete value */
 static const double agreement_least = 1e-6;
@@ -157,7 +159,7 @@ static int noise_may_decide(const sweep *s, const truths *t, int index, int quan
            v.fit.last_change <= small_change * fmax(fabs(v.finest), fabs(v.truth->value));
 }
 
-void judge_doubts(const sweep *s, const truths *t, char wanted[])
+void judgement_doubts(const sweep *s, const truths *t, char wanted[])
 {
     for (int i = 0; i < s->seriess; i++) {
         const point *p = &s->point[s->series[i].point];
@@ -206,7 +208,7 @@ static void count_missed(const truths *t, judgement *out)
     out->unmet += t->strangers;
 }
 
-status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f)
+status judgement_make(const sweep *s, truths *t, int whole, judgement *out, fault *f)
 {
     int count = 0;
     memset(out, 0, sizeof *out);
@@ -221,7 +223,7 @@ status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f)
         judge_series(s, t, i, out);
         TRY(compare_meshes(s, t, i, out, f));
     }
-    TRY(judge_coverage(s, out, f));
+    TRY(coverage_count(s, out, f));
     if (whole)
         count_missed(t, out);
     return STATUS_OK;

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "harness/judge/verdict.h"
+#include "harness/judge/sentence.h"
 
 static void passed(const verdict *v, char *text, size_t size)
 {
@@ -37,7 +37,7 @@ static void unjudged(const verdict *v, char *text, size_t size)
         snprintf(text, size, "no truth to judge by");
 }
 
-void verdict_sentence(const verdict *v, double least_order, char *text, size_t size)
+void sentence_of_verdict(const verdict *v, double least_order, char *text, size_t size)
 {
     switch (v->kind) {
     case VERDICT_PASS:

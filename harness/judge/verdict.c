@@ -23,7 +23,7 @@ static double scale_of(const scene_quantity *q, double truth_value)
     return fmax(fabs(truth_value), q->near_zero);
 }
 
-double relative_error(const scene_quantity *q, double value, double truth_value)
+double verdict_error(const scene_quantity *q, double value, double truth_value)
 {
     const double scale = scale_of(q, truth_value);
     return scale > 0 ? (value - truth_value) / scale : value - truth_value;
@@ -215,13 +215,13 @@ void verdict_reach(const sweep *s, const truths *t, verdict *v)
     v->finest = one->cell[one->meshes - 1].solve.quantity[v->quantity].value;
     v->fit = verdict_limit(s, v->series, v->quantity, 0);
     if (v->model_truth != NULL)
-        v->model_error = relative_error(q, v->fit.limit, v->model_truth->value);
+        v->model_error = verdict_error(q, v->fit.limit, v->model_truth->value);
     if (v->truth == NULL) {
         v->kind = v->expected = VERDICT_NO_TRUTH;
         return;
     }
     v->tolerance = q->tolerance * scale_of(q, v->truth->value) + v->truth->uncertainty;
-    v->error = relative_error(q, v->fit.limit, v->truth->value);
+    v->error = verdict_error(q, v->fit.limit, v->truth->value);
     v->below_digits = fabs(v->fit.limit - v->truth->value) <= v->truth->uncertainty;
     v->kind = compare(q, v);
     if (v->kind == VERDICT_PASS || v->kind == VERDICT_LOW_ORDER)

@@ -1,4 +1,4 @@
-/* The judge: case x point x formulation x quantity against truths and expected verdicts. */
+/* What a quantity of a series shows against its truth. */
 #ifndef BEAMWORK_VERDICT_H
 #define BEAMWORK_VERDICT_H
 
@@ -45,46 +45,7 @@ typedef struct verdict {
     char reason[FAULT_TEXT];
 } verdict;
 
-/* A value of one mesh against its own stored discrete value. */
-typedef struct agreement {
-    int series, mesh, quantity;
-    const truth *truth;
-    double value;
-    int good;
-} agreement;
-
-enum { COVERAGE_MESHES = 4 };
-
-/* How often the limits of a formulation on a case lie within their uncertainty of an exact truth,
- * without the k finest meshes: the check of the uncertainties themselves. A formulation with limits
- * of its own covers less: that is no fault of the uncertainties. */
-typedef struct coverage {
-    const case_type *of;
-    const element_type *type;
-    int point; /* the first of the case in the sweep */
-    /* [k]; series with three meshes or more left */
-    int series[COVERAGE_MESHES], covered[COVERAGE_MESHES];
-} coverage;
-
-typedef struct judgement {
-    int verdicts, agreements, coverages;
-    verdict *verdict;
-    agreement *agreement;
-    coverage *coverage;
-    int by_kind[VERDICT_KINDS];
-    int unexpected; /* verdicts that differ from the expected one */
-    int disagreements;
-    int judged; /* verdicts that compare with a truth */
-    /* rules of the ledger that no verdict showed, or predictions of theirs (whole runs only) */
-    int unobserved;
-    int unmet; /* truths that speak of no case, point or quantity there is (whole runs only) */
-    /* truths that every formulation skips, or of one that is not here (whole runs only) */
-    int waiting;
-} judgement;
-
 const char *verdict_name(verdict_kind kind);
-/* The verdict in words: "converges to a wrong limit: +0.115 %". */
-void verdict_sentence(const verdict *v, double least_order, char *text, size_t size);
 /* Limit of a quantity of a series, without its `left_out` finest meshes. */
 mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int left_out);
 /* The truth that a formulation is judged by: of the same model and of its own theory of shear; or
@@ -94,19 +55,7 @@ const truth *verdict_truth(const truths *t, const point *p, const formulation *c
 /* What the series shows of the quantity, both given in v: kind, fit, errors, and as expected what
  * holds without the ledger. */
 void verdict_reach(const sweep *s, const truths *t, verdict *v);
-/* Series whose verdicts may turn on the noise of their finest mesh, which is then worth measuring:
- * wanted[seriess], 0 or 1. */
-void judge_doubts(const sweep *s, const truths *t, char wanted[]);
-/* FAULT when a truth has another unit than its quantity. whole: 1 when nothing was selected away,
- * so that a rule nobody observed and a truth that speaks of nothing are failures. */
-status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f);
-/* Fills the coverages from the verdicts. */
-status judge_coverage(const sweep *s, judgement *out, fault *f);
-void judgement_free(judgement *j);
-/* Exit code: 0 as expected, 1 a verdict differs, 3 nothing was checked. */
-int judgement_exit(const judgement *j);
-
 /* Relative error of a value of a quantity against a truth. */
-double relative_error(const scene_quantity *q, double value, double truth_value);
+double verdict_error(const scene_quantity *q, double value, double truth_value);
 
 #endif

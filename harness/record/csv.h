@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/judge/verdict.h"
+#include "harness/judge/judgement.h"
 #include "harness/timing/timing.h"
 
 void csv_solution(FILE *to, const sweep *s);

@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "harness/catalogue/environment.h"
-#include "harness/judge/verdict.h"
+#include "harness/judge/judgement.h"
 
 /* Writes and frees root; FAULT when it is NULL (out of memory) or cannot be written. */
 status json_finish(json_t *root, FILE *to, fault *f);

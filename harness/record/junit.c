@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "harness/judge/sentence.h"
+
 static void escaped(FILE *to, const char *text)
 {
     for (; *text != '\0'; text++)
@@ -70,7 +72,7 @@ static void write_verdict(FILE *to, const sweep *s, const verdict *v)
         fprintf(to, "\"/>\n");
     } else if (!v->matches) {
         char sentence[2 * FAULT_TEXT];
-        verdict_sentence(v, p->scene.quantity[v->quantity].least_order, sentence, sizeof sentence);
+        sentence_of_verdict(v, p->scene.quantity[v->quantity].least_order, sentence, sizeof sentence);
         fprintf(to, "   <failure message=\"");
         escaped(to, sentence);
         fprintf(to, "; expected %s\"/>\n",

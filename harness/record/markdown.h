@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "harness/catalogue/environment.h"
-#include "harness/judge/verdict.h"
+#include "harness/judge/judgement.h"
 
 void markdown_write(FILE *to, const sweep *s, const judgement *j, const environment *e);
 

@@ -5,7 +5,7 @@
 #define BEAMWORK_STORE_H
 
 #include "harness/catalogue/environment.h"
-#include "harness/judge/verdict.h"
+#include "harness/judge/judgement.h"
 #include "harness/record/record.h"
 
 /* Group below `at`: centre lines, sections, bodies; the caller closes it with H5Gclose. */

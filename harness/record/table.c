@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "harness/judge/sentence.h"
 #include "harness/record/table_path.h"
 #include "harness/study/noise.h"
 
@@ -48,7 +49,7 @@ static void table_predictions(FILE *to, const point *p, const truths *t)
             continue;
         snprintf(name, sizeof name, "prediction %s", q->name);
         fprintf(to, "%-28s %24.15g %-10s", name, q->prediction, q->unit);
-        percent(to, row != NULL ? relative_error(q, q->prediction, row->value) : NAN);
+        percent(to, row != NULL ? verdict_error(q, q->prediction, row->value) : NAN);
         fprintf(to, " %s, analytic\n", q->predicted_by);
     }
 }
@@ -84,7 +85,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
             continue;
         }
         fprintf(to, "%-28s %24.15g %-10s", q->name, v->value, q->unit);
-        percent(to, row != NULL ? relative_error(q, v->value, row->value) : NAN);
+        percent(to, row != NULL ? verdict_error(q, v->value, row->value) : NAN);
         fprintf(to, "%s%s", row != NULL ? " against " : "", row != NULL ? row->kind : "");
         if (v->rounding > 1e-9)
             fprintf(to, ", round-off %.1e", v->rounding);
@@ -117,7 +118,7 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
                 fprintf(to, "  %6d", one->mesh[k]);
                 value_or_dash(to, 23, 14, 'g', x);
                 percent(to,
-                        row != NULL ? relative_error(&p->scene.quantity[q], x, row->value) : NAN);
+                        row != NULL ? verdict_error(&p->scene.quantity[q], x, row->value) : NAN);
                 fprintf(to, " %10.3g s%s%s\n", r->seconds_setup + r->seconds_solve,
                         isfinite(x) ? "" : "  ",
                         isfinite(x)         ? ""
@@ -132,14 +133,14 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
             value_or_dash(to, 1, 1, 'e', v.fit.limit_uncertainty);
             fprintf(to, ", order ");
             value_or_dash(to, 1, 3, 'f', v.fit.order);
-            verdict_sentence(&v, p->scene.quantity[q].least_order, sentence, sizeof sentence);
+            sentence_of_verdict(&v, p->scene.quantity[q].least_order, sentence, sizeof sentence);
             if (row != NULL)
                 fprintf(to, ", %s %.14g: %s", row->kind, row->value, sentence);
             fputc('\n', to);
             if (p->scene.quantity[q].predicted_by != NULL) {
                 fprintf(to, "  prediction%21.14g", p->scene.quantity[q].prediction);
                 percent(to, row != NULL
-                                ? relative_error(&p->scene.quantity[q],
+                                ? verdict_error(&p->scene.quantity[q],
                                                  p->scene.quantity[q].prediction, row->value)
                                 : NAN);
                 fprintf(to, " %s, analytic\n", p->scene.quantity[q].predicted_by);

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/judge/verdict.h"
+#include "harness/judge/judgement.h"
 
 void table_solution(FILE *to, const sweep *s, const truths *t);
 void table_convergence(FILE *to, const sweep *s, const truths *t);

@@ -19,7 +19,7 @@ static double error_on(const sweep *s, const verdict *v, int mesh)
     const series *one = &s->series[v->series];
     const solve_result *r = &one->cell[mesh].solve;
     return v->quantity < r->quantities
-               ? relative_error(&s->point[one->point].scene.quantity[v->quantity],
+               ? verdict_error(&s->point[one->point].scene.quantity[v->quantity],
                                 r->quantity[v->quantity].value, v->truth->value)
                : NAN;
 }

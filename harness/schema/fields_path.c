@@ -10,7 +10,7 @@ static void get_moments(const subject *s, field_value *out)
 
 static double error_of(const subject *s, double value, const truth *against)
 {
-    return against != NULL ? relative_error(subject_quantity(s), value, against->value) : NAN;
+    return against != NULL ? verdict_error(subject_quantity(s), value, against->value) : NAN;
 }
 
 static void get_error(const subject *s, field_value *out)

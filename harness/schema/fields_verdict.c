@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "harness/judge/reach.h"
+#include "harness/judge/sentence.h"
 #include "harness/schema/fields_keys.h"
 
 static const char *word_of_verdict(int kind)
@@ -11,7 +12,7 @@ static const char *word_of_verdict(int kind)
 
 static void get_message(const subject *s, field_value *out)
 {
-    verdict_sentence(s->verdict, subject_quantity(s)->least_order, out->room, sizeof out->room);
+    sentence_of_verdict(s->verdict, subject_quantity(s)->least_order, out->room, sizeof out->room);
     out->text = out->room;
 }
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/judge/judgement.h"
 #include "harness/judge/reach.h"
 
 /* Counts of which each alone fails the gate. */
@@ -144,7 +145,7 @@ static void reached(void)
         throw_errors(error);
         for (int i = 0; i < MESHES; i++) {
             b.quantity[i].value = truth_value + error[i] * fabs(truth_value);
-            error[i] = relative_error(&b.p.scene.quantity[0], b.quantity[i].value, truth_value);
+            error[i] = verdict_error(&b.p.scene.quantity[0], b.quantity[i].value, truth_value);
             b.timing[i].as_is.round[0] = uniform();
         }
         for (int k = 0; k < REACH_LEVELS; k++) {

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/judge/verdict.h"
+#include "harness/judge/judgement.h"
+#include "harness/judge/sentence.h"
 
 enum { MESHES = 5 };
 static const int mesh[MESHES] = {2, 4, 8, 16, 32};
@@ -35,9 +36,10 @@ typedef struct bench {
     judgement j;
 } bench;
 
-static char words[][32] = {"load",        "N",       "exact",        "same",      "test",        "",          "element",
-                           "wrong limit", "why",     "kN",           "low order", "other",       "published", "predicted",
-                           "engesser",    "haringx", "unrepeatable", "made_up",   "made_up/load"};
+static char words[][32] = {
+    "load",        "N",       "exact",        "same",      "test",        "",          "element",
+    "wrong limit", "why",     "kN",           "low order", "other",       "published", "predicted",
+    "engesser",    "haringx", "unrepeatable", "made_up",   "made_up/load"};
 enum {
     LOAD,
     NEWTON,
@@ -69,7 +71,8 @@ static void bench_make(bench *b)
     scene_quantity *q = scene_add_quantity(&b->p.scene, "load", "N", SCENE_COORDINATE, 0);
     q->tolerance = 1e-4;
     q->least_order = 2;
-    b->one = (series){.formulation = {.type = &element, .key = "element"}, .meshes = MESHES, .cell = b->cell};
+    b->one = (series){
+        .formulation = {.type = &element, .key = "element"}, .meshes = MESHES, .cell = b->cell};
     memcpy(b->one.mesh, mesh, sizeof mesh);
     for (int i = 0; i < MESHES; i++) {
         b->quantity[i].value = NAN;
@@ -101,7 +104,8 @@ static const verdict *bench_judge(bench *b)
 {
     fault f = {""};
     judgement_free(&b->j);
-    gsl_test(judge(&b->s, &b->t, 1, &b->j, &f) != STATUS_OK || b->j.verdicts != 1, "one verdict: %s", f.text);
+    gsl_test(judgement_make(&b->s, &b->t, 1, &b->j, &f) != STATUS_OK || b->j.verdicts != 1,
+             "one verdict: %s", f.text);
     return &b->j.verdict[0];
 }
 
@@ -122,7 +126,7 @@ static void expect(bench *b, verdict_kind kind, int code, const char *what)
 static void says(const bench *b, const char *words_of_it)
 {
     char sentence[2 * FAULT_TEXT];
-    verdict_sentence(&b->j.verdict[0], 2, sentence, sizeof sentence);
+    sentence_of_verdict(&b->j.verdict[0], 2, sentence, sizeof sentence);
     gsl_test(strcmp(sentence, words_of_it) != 0, "says '%s'", sentence);
 }
 
@@ -148,12 +152,14 @@ static void limits(void)
     bench_fill(&b, 3 * (1 + 1.2e-4), 0.7, 2);
     expect(&b, VERDICT_WRONG_LIMIT, 1, "limit just outside, and sharp");
     bench_fill(&b, 3 * (1 + 2e-4), -6e-4 * 1024 * 0.9, 2);
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "the finest mesh hits the truth on the way to another limit");
+    expect(&b, VERDICT_WRONG_LIMIT, 1,
+           "the finest mesh hits the truth on the way to another limit");
     gsl_test(fabs(b.j.verdict[0].finest - 3) > 3e-4, "(it does: %.17g)", b.j.verdict[0].finest);
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3.05 + 1e-5 * (i % 2 ? 1 : -1);
     expect(&b, VERDICT_WRONG_LIMIT, 1, "values without an order, that have settled elsewhere");
-    gsl_test(isfinite(b.j.verdict[0].fit.order) || !isfinite(b.j.verdict[0].fit.limit_uncertainty) || b.j.verdict[0].fit.from == 0,
+    gsl_test(isfinite(b.j.verdict[0].fit.order) ||
+                 !isfinite(b.j.verdict[0].fit.limit_uncertainty) || b.j.verdict[0].fit.from == 0,
              "and say how well their limit is known, and from which meshes");
     bench_free(&b);
 }
@@ -251,7 +257,8 @@ static void predictions(void)
     says(&b, "converges to the limit that was derived for it, 3.003: +0.1 % from the truth");
     b.row[1].value = 3.0041;
     expect(&b, VERDICT_WRONG_LIMIT, 1, "another wrong limit than the one that was derived");
-    gsl_test(strstr(b.j.verdict[0].reason, "3.0041") == NULL, "says which: %s", b.j.verdict[0].reason);
+    gsl_test(strstr(b.j.verdict[0].reason, "3.0041") == NULL, "says which: %s",
+             b.j.verdict[0].reason);
     b.row[1].value = 3.003;
     b.row[1].formulation = words[WHY];
     expect(&b, VERDICT_WRONG_LIMIT, 1, "a limit derived for another formulation");
@@ -265,17 +272,17 @@ static void doubtful_noise(void)
     char wanted[1];
     bench_make(&b);
     bench_fill(&b, 3, 0.07, 2);
-    judge_doubts(&b.s, &b.t, wanted);
+    judgement_doubts(&b.s, &b.t, wanted);
     gsl_test_int(wanted[0], 0, "a limit that noise cannot touch");
     bench_fill(&b, 3, 1e-7, 2);
-    judge_doubts(&b.s, &b.t, wanted);
+    judgement_doubts(&b.s, &b.t, wanted);
     gsl_test_int(wanted[0], 1, "changes that may be noise");
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 0.01 : -0.01);
-    judge_doubts(&b.s, &b.t, wanted);
+    judgement_doubts(&b.s, &b.t, wanted);
     gsl_test_int(wanted[0], 1, "an open verdict");
     b.t.rows = 0;
-    judge_doubts(&b.s, &b.t, wanted);
+    judgement_doubts(&b.s, &b.t, wanted);
     gsl_test_int(wanted[0], 0, "nothing to judge by");
     bench_free(&b);
 }
@@ -335,8 +342,10 @@ static void coverages(void)
     expect(&b, VERDICT_PASS, 0, "a series");
     gsl_test_int(b.j.coverages, 1, "of one formulation");
     for (int k = 0; k < COVERAGE_MESHES; k++)
-        gsl_test(b.j.coverage[0].series[k] != (k < MESHES - 2) || b.j.coverage[0].covered[k] != (k < MESHES - 2),
-                 "without %d meshes: %d of %d", k, b.j.coverage[0].covered[k], b.j.coverage[0].series[k]);
+        gsl_test(b.j.coverage[0].series[k] != (k < MESHES - 2) ||
+                     b.j.coverage[0].covered[k] != (k < MESHES - 2),
+                 "without %d meshes: %d of %d", k, b.j.coverage[0].covered[k],
+                 b.j.coverage[0].series[k]);
     bench_fill(&b, 3.001, 0.7, 2);
     expect(&b, VERDICT_WRONG_LIMIT, 1, "another limit");
     gsl_test_int(b.j.coverage[0].covered[0], 0, "is not covered");
@@ -448,7 +457,9 @@ static void stored_values(void)
     b.row[1].kind = words[EXACT];
     b.row[0].unit = words[KILONEWTON];
     judgement_free(&b.j);
-    gsl_test(judge(&b.s, &b.t, 1, &b.j, &f) != STATUS_FAULT || strstr(f.text, "kN") == NULL, "another unit: %s", f.text);
+    gsl_test(judgement_make(&b.s, &b.t, 1, &b.j, &f) != STATUS_FAULT ||
+                 strstr(f.text, "kN") == NULL,
+             "another unit: %s", f.text);
     bench_free(&b);
 }
 
@@ -462,7 +473,9 @@ static void selection(void)
     expect(&b, VERDICT_PASS, 0, "a quantity is selected");
     b.s.select = "not load";
     judgement_free(&b.j);
-    gsl_test(judge(&b.s, &b.t, 0, &b.j, &f) != STATUS_OK || b.j.verdicts != 0 || judgement_exit(&b.j) != 3, "or left out");
+    gsl_test(judgement_make(&b.s, &b.t, 0, &b.j, &f) != STATUS_OK || b.j.verdicts != 0 ||
+                 judgement_exit(&b.j) != 3,
+             "or left out");
     bench_free(&b);
 }
 

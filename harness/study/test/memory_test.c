@@ -166,7 +166,7 @@ static status write_results(const void *what, double *value, fault *f)
         return outcome;
     for (int i = 0; i < s.series[0].meshes; i++)
         s.series[0].cell[i].solve.status = STATUS_SINGULAR;
-    outcome = judge(&s, &none, 0, &j, f);
+    outcome = judgement_make(&s, &none, 0, &j, f);
     if (outcome == STATUS_OK)
         outcome = store_write(what, &s, &j, &e, f);
     *value = access(what, F_OK) == 0;

@@ -1,0 +1,54 @@
+/* The judge: case x point x formulation x quantity against truths and expected verdicts. */
+#ifndef BEAMWORK_JUDGEMENT_H
+#define BEAMWORK_JUDGEMENT_H
+
+#include "harness/judge/verdict.h"
+
+/* A value of one mesh against its own stored discrete value. */
+typedef struct agreement {
+    int series, mesh, quantity;
+    const truth *truth;
+    double value;
+    int good;
+} agreement;
+
+enum { COVERAGE_MESHES = 4 };
+
+/* How often the limits of a formulation on a case lie within their uncertainty of an exact truth,
+ * without the k finest meshes: the check of the uncertainties themselves. A formulation with limits
+ * of its own covers less: that is no fault of the uncertainties. */
+typedef struct coverage {
+    const case_type *of;
+    const element_type *type;
+    int point; /* the first of the case in the sweep */
+    /* [k]; series with three meshes or more left */
+    int series[COVERAGE_MESHES], covered[COVERAGE_MESHES];
+} coverage;
+
+typedef struct judgement {
+    int verdicts, agreements, coverages;
+    verdict *verdict;
+    agreement *agreement;
+    coverage *coverage;
+    int by_kind[VERDICT_KINDS];
+    int unexpected; /* verdicts that differ from the expected one */
+    int disagreements;
+    int judged; /* verdicts that compare with a truth */
+    /* rules of the ledger that no verdict showed, or predictions of theirs (whole runs only) */
+    int unobserved;
+    int unmet; /* truths that speak of no case, point or quantity there is (whole runs only) */
+    /* truths that every formulation skips, or of one that is not here (whole runs only) */
+    int waiting;
+} judgement;
+
+/* Series whose verdicts may turn on the noise of their finest mesh, which is then worth measuring:
+ * wanted[seriess], 0 or 1. */
+void judgement_doubts(const sweep *s, const truths *t, char wanted[]);
+/* FAULT when a truth has another unit than its quantity. whole: 1 when nothing was selected away,
+ * so that a rule nobody observed and a truth that speaks of nothing are failures. */
+status judgement_make(const sweep *s, truths *t, int whole, judgement *out, fault *f);
+void judgement_free(judgement *j);
+/* Exit code: 0 as expected, 1 a verdict differs, 3 nothing was checked. */
+int judgement_exit(const judgement *j);
+
+#endif
