@@ -1,8 +1,11 @@
-"""Is the bench to be believed?  bench_check.py PROGRAM [-o FILE]: plants work of known size and looks whether the comparison finds it.
+"""Is the bench to be believed?  Plants work of known size: does the comparison find it?
 
-* 20 % of its own time is added to one of two equal contestants in one process: must be called slower, between 15 % and 25 %.
+usage: bench_check.py PROGRAM [-o FILE]
+* 20 % of its own time is added to one of two equal contestants in one process: must be called
+  slower, between 15 % and 25 %.
 * Nothing is added: must be undecided (one process, and two copies of the program).
-* Nothing is left out of one cell (--keep-all): more unknowns, so the work counts must differ; two equal runs must count the same.
+* Nothing is left out of one cell (--keep-all): more unknowns, so the work counts must differ; two
+  equal runs must count the same.
 Each part is repeated; the outcome of every one is printed, and written as JSON for the report.
 """
 import argparse
@@ -14,15 +17,18 @@ import subprocess
 import sys
 import tempfile
 
-CELLS = (("c_column", "beamw", 8), ("sheet_cantilever", "sheet_third", 2), ("elastica", "collocation", 2), ("moment_buckling", "beamw_consistent", 8))
+CELLS = (("c_column", "beamw", 8), ("sheet_cantilever", "sheet_third", 2),
+         ("elastica", "collocation", 2), ("moment_buckling", "beamw_consistent", 8))
 
 KEPT = ("shear_column", "beamw", 8)  # warping coordinates are left out
 
 
 def against(program, cell, other, *more):
     case, formulation, n = cell
-    command = [program, "bench", case, "-f", formulation, "-n", str(n), "--against", other, "--format", "json", *more]
-    return json.loads(subprocess.run(command, capture_output=True, text=True, check=True, timeout=300).stdout)
+    command = [program, "bench", case, "-f", formulation, "-n", str(n), "--against", other,
+               "--format", "json", *more]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=300)
+    return json.loads(done.stdout)
 
 
 def differing(answer):
@@ -30,38 +36,53 @@ def differing(answer):
 
 
 def row(what, cell, answer, good):
-    return {"what": what, "cell": f"{cell[0]}, {cell[1]}, n = {cell[2]}", "ratio": answer["ratio"], "low": answer["low"], "high": answer["high"],
-            "pairs": answer["pairs"], "outcome": answer["outcome"], "work": ", ".join(differing(answer)) or "the same", "good": good}
+    return {"what": what, "cell": f"{cell[0]}, {cell[1]}, n = {cell[2]}",
+            **{name: answer[name] for name in ("ratio", "low", "high", "pairs", "outcome")},
+            "work": ", ".join(differing(answer)) or "the same", "good": good}
+
+
+def is_undecided(answer):
+    return answer["outcome"] == "undecided" and not differing(answer)
 
 
 def checks(program, folder):
     copy = shutil.copy(program, os.path.join(folder, "copy"))
     wrapper = pathlib.Path(folder) / "whole"
-    wrapper.write_text(f'#!/bin/sh\nexec "{os.path.abspath(program)}" "$@" --keep-all\n', encoding="utf-8")
+    wrapper.write_text(f'#!/bin/sh\nexec "{os.path.abspath(program)}" "$@" --keep-all\n',
+                       encoding="utf-8")
     wrapper.chmod(0o755)
     for cell in CELLS:
         slow = against(program, cell, cell[1], "--plant", "20")
-        yield row("20 % planted, one process", cell, slow, slow["outcome"] == "slower" and 1.15 < slow["ratio"] < 1.25 and not differing(slow))
+        found = slow["outcome"] == "slower" and 1.15 < slow["ratio"] < 1.25
+        yield row("20 % planted, one process", cell, slow, found and not differing(slow))
         same = against(program, cell, cell[1])
-        yield row("nothing planted, one process", cell, same, same["outcome"] == "undecided" and not differing(same))
+        yield row("nothing planted, one process", cell, same, is_undecided(same))
     same = against(program, CELLS[0], copy)
-    yield row("nothing planted, two programs", CELLS[0], same, same["outcome"] == "undecided" and not differing(same))
+    yield row("nothing planted, two programs", CELLS[0], same, is_undecided(same))
     more = against(program, KEPT, str(wrapper))
-    yield row("nothing left out by the other program", KEPT, more, more["outcome"] == "slower" and "free" in differing(more))
+    yield row("nothing left out by the other program", KEPT, more,
+              more["outcome"] == "slower" and "free" in differing(more))
+
+
+def show(r):
+    print(f"{'ok  ' if r['good'] else 'FAIL'} {r['what']:38} {r['cell']:34} {r['ratio']:.3f} "
+          f"({r['low']:.3f} to {r['high']:.3f}, {r['pairs']} pairs) {r['outcome']}; "
+          f"work: {r['work']}", flush=True)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("-o", dest="output")
     given = parser.parse_args()
     rows = []
     with tempfile.TemporaryDirectory() as folder:
-        os.environ.setdefault("BEAMWORK_TRUTHS", os.path.join(os.path.dirname(os.path.abspath(given.program)), "truths.h5"))
+        beside = os.path.dirname(os.path.abspath(given.program))
+        os.environ.setdefault("BEAMWORK_TRUTHS", os.path.join(beside, "truths.h5"))
         for r in checks(given.program, folder):
             rows.append(r)
-            print(f"{'ok  ' if r['good'] else 'FAIL'} {r['what']:38} {r['cell']:34} {r['ratio']:.3f} ({r['low']:.3f} to {r['high']:.3f}, {r['pairs']} pairs) {r['outcome']}; work: {r['work']}",
-                  flush=True)
+            show(r)
     if given.output:
         pathlib.Path(given.output).write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
     failed = sum(not r["good"] for r in rows)

@@ -1,4 +1,4 @@
-"""Seeds of the fuzzing programs, taken from the reference tables, a stored run and the committed table.
+"""Seeds of the fuzzing programs: reference tables, a stored run and the committed table.
 
 usage: fuzz_seeds.py PROGRAM FOLDER
 """
@@ -10,10 +10,13 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-WORDS = ("\0beamw:mass=lumped,newton=displacement", "\0collocation:stages=5", "\0geometrically_exact:nodes=3", "\1c_column and not beamw or default",
-         "\1not not a b", "\2error=0.01,floor=1e-8,work=0.02", "\2work=1")
-COMMANDS = ("c_column\n-f\nbeamw:mass=lumped\n-n\n2,4,8\n--set\nlength=3\n--format\njson", "-k\nx and y\n-j\n2\n-o\nfile\n--json\na\n--junit\nb",
-            "hexapod\n-fall\n-n8\n-sheight=0.1\n--keep-all\n--steps=4", "a.h5\nb.h5\n--threshold\nwork=0.1\n--truths=t.h5")
+WORDS = ("\0beamw:mass=lumped,newton=displacement", "\0collocation:stages=5",
+         "\0geometrically_exact:nodes=3", "\1c_column and not beamw or default", "\1not not a b",
+         "\2error=0.01,floor=1e-8,work=0.02", "\2work=1")
+COMMANDS = ("c_column\n-f\nbeamw:mass=lumped\n-n\n2,4,8\n--set\nlength=3\n--format\njson",
+            "-k\nx and y\n-j\n2\n-o\nfile\n--json\na\n--junit\nb",
+            "hexapod\n-fall\n-n8\n-sheight=0.1\n--keep-all\n--steps=4",
+            "a.h5\nb.h5\n--threshold\nwork=0.1\n--truths=t.h5")
 
 
 def save(folder, seeds):
@@ -26,7 +29,7 @@ def parameters():
     """Every parameter point of the tables, behind the number of its case."""
     for index, path in enumerate(sorted((ROOT / "cases").glob("*.c"))):
         table = ROOT / "reference" / "tables" / f"{path.stem}.csv"
-        with open(table, newline="", encoding="utf-8") if table.exists() else open("/dev/null", encoding="utf-8") as rows:
+        with open(table if table.exists() else "/dev/null", newline="", encoding="utf-8") as rows:
             for text in sorted({row["parameters"] for row in csv.DictReader(rows)}):
                 yield bytes([index]) + text.encode()
 
@@ -39,12 +42,14 @@ def truths(scratch):
     for name in ("findings.csv", "extreme_findings.csv"):
         lines = (ROOT / "reference" / name).read_text(encoding="utf-8").splitlines()
         (scratch / name).write_text("\n".join(lines[:3]) + "\n", encoding="utf-8")
-    subprocess.run([sys.executable, ROOT / "reference" / "pack.py", "-o", scratch / "t.h5", "--folder", scratch], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([sys.executable, ROOT / "reference" / "pack.py", "-o", scratch / "t.h5",
+                    "--folder", scratch], check=True, stdout=subprocess.DEVNULL)
     yield (scratch / "t.h5").read_bytes()
 
 
 def runs(program, scratch):
-    subprocess.run([program, "verify", "-k", "warping_torsion/default and beamw_vlasov", "-o", scratch / "r.h5"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([program, "verify", "-k", "warping_torsion/default and beamw_vlasov",
+                    "-o", scratch / "r.h5"], check=True, stdout=subprocess.DEVNULL)
     yield (scratch / "r.h5").read_bytes()
 
 
@@ -52,7 +57,8 @@ def main(program, folder):
     save(folder / "parameters", parameters())
     save(folder / "words", WORDS)
     save(folder / "command", COMMANDS)
-    save(folder / "table", ["".join((ROOT / "harness" / "baseline.csv").read_text(encoding="utf-8").splitlines(keepends=True)[:n]) for n in (1, 2, 9)])
+    table = (ROOT / "harness" / "baseline.csv").read_text(encoding="utf-8").splitlines(True)
+    save(folder / "table", ["".join(table[:n]) for n in (1, 2, 9)])
     with tempfile.TemporaryDirectory() as scratch:
         save(folder / "truths", truths(pathlib.Path(scratch)))
         save(folder / "results", runs(program, pathlib.Path(scratch)))

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""Runs Newton's method in its two forms side by side, and along the paths that need it most; for the report.
+"""Runs Newton's method in its two forms side by side, and along the paths that need it most.
 
-usage: newton.py PROGRAM -o FILE      JSON: "singles", targets tried in one step; "contests", one per case, formulation and first step,
-with both forms; "histories", the corrections and residuals of every iteration.
+usage: newton.py PROGRAM -o FILE      JSON for the report: "singles", targets tried in one step;
+"contests", one per case, formulation and first step, with both forms; "histories", the corrections
+and residuals of every iteration.
 """
 import argparse
 import json
@@ -11,25 +12,31 @@ import sys
 
 FORMS = ("mixed", "displacement")
 FIRST_STEPS = (16, 8, 4, 2, 1)
-SINGLES = (  # case, parameters, parameter that grows, its values, what that is
-    ("sheet_cantilever", "stations=1", "tip_deflection", (0.015, 0.03, 0.05, 0.07, 0.08, 0.09), "m", ("sheet_second 2", "sheet_third 1", "sheet_second_consistent 4", "beamw_consistent 4", "geometrically_exact 4", "collocation 1")),
-    ("spherical_joint", "steps=1", "tilt", (0.03, 0.06, 0.1, 0.15, 0.2, 0.26, 0.4, 0.6, 0.8), "rad", ("sheet_second 1", "sheet_second 2", "sheet_third 1", "sheet_second_consistent 2", "collocation 1")),
+CANTILEVER = ("sheet_second 2", "sheet_third 1", "sheet_second_consistent 4",
+              "beamw_consistent 4", "geometrically_exact 4", "collocation 1")
+JOINT = ("sheet_second 1", "sheet_second 2", "sheet_third 1", "sheet_second_consistent 2",
+         "collocation 1")
+SINGLES = (  # case, parameters, parameter that grows, its values, unit, formulations and meshes
+    ("sheet_cantilever", "stations=1", "tip_deflection",
+     (0.015, 0.03, 0.05, 0.07, 0.08, 0.09), "m", CANTILEVER),
+    ("spherical_joint", "steps=1", "tilt",
+     (0.03, 0.06, 0.1, 0.15, 0.2, 0.26, 0.4, 0.6, 0.8), "rad", JOINT),
 )
-CONTESTS = (  # case, parameters, formulation and mesh, what one step is
-    ("sheet_cantilever", "stations=1", ("sheet_second 2", "sheet_third 1", "sheet_second_consistent 4", "beamw_consistent 4", "geometrically_exact 4", "collocation 1")),
-    ("sheet_cantilever", "stations=1;tip_deflection=0.05", ("sheet_second 2", "sheet_third 1", "sheet_second_consistent 4", "beamw_consistent 4", "geometrically_exact 4", "collocation 1")),
-    ("spherical_joint", "steps=1", ("sheet_second 1", "sheet_second 2", "sheet_third 1", "sheet_second_consistent 2", "collocation 1")),
+CONTESTS = (  # case, parameters, formulations and meshes
+    ("sheet_cantilever", "stations=1", CANTILEVER),
+    ("sheet_cantilever", "stations=1;tip_deflection=0.05", CANTILEVER),
+    ("spherical_joint", "steps=1", JOINT),
 )
-HISTORIES = (  # case, parameters, formulation and mesh, first steps
-    ("roll_up", "", "collocation 4", 0), ("roll_up", "", "geometrically_exact 16", 0), ("roll_up", "", "beamw_consistent 16", 0),
-    ("bend_45", "", "collocation 4", 0), ("bend_45", "", "geometrically_exact 16", 0), ("bend_45", "", "beamw_consistent 16", 0),
-)
+HISTORIES = tuple(  # case, parameters, formulation and mesh, first steps
+    (case, "", contestant, 0) for case in ("roll_up", "bend_45")
+    for contestant in ("collocation 4", "geometrically_exact 16", "beamw_consistent 16"))
 
 
 def solve(program, case, parameters, formulation, n, steps):
     """The solution as JSON, or None with the reason."""
     sets = [word for p in parameters.split(";") if p for word in ("--set", p)]
-    command = [program, "solve", case, "-f", formulation, "-n", n, "--format", "json", *sets, *(["--steps", str(steps)] if steps else [])]
+    command = [program, "solve", case, "-f", formulation, "-n", n, "--format", "json", *sets,
+               *(["--steps", str(steps)] if steps else [])]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode not in (0, 1) or not done.stdout:
         raise SystemExit(f"newton.py: {' '.join(command)}: {done.stderr.strip()}")
@@ -45,43 +52,62 @@ def steps_of(result):
 
 
 def summary(result):
-    steps = result["steps"]
-    return {"status": result["cell"]["status"], "reason": result["cell"]["reason"], "iterations": result["cell"]["iterations"], "steps": len(steps),
-            "rejected": result["cell"]["rejected_steps"], "largest_step": max((s["increment"] for s in steps), default=0.0),
-            "most_iterations": max((s["iterations"] for s in steps), default=0), "reached": steps[-1]["path"] if steps else 0.0}
+    cell, steps = result["cell"], result["steps"]
+    return {"status": cell["status"], "reason": cell["reason"], "iterations": cell["iterations"],
+            "steps": len(steps), "rejected": cell["rejected_steps"],
+            "largest_step": max((s["increment"] for s in steps), default=0.0),
+            "most_iterations": max((s["iterations"] for s in steps), default=0),
+            "reached": steps[-1]["path"] if steps else 0.0}
 
 
 def single(program, case, parameters, formulation, n):
     """Iterations of the one step, or None if it did not converge as a whole."""
     result = solve(program, case, parameters, formulation, n, 1)
-    return result["steps"][0]["iterations"] if result["cell"]["status"] == "ok" and result["cell"]["rejected_steps"] == 0 else None
+    whole = result["cell"]["status"] == "ok" and result["cell"]["rejected_steps"] == 0
+    return result["steps"][0]["iterations"] if whole else None
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program")
-    parser.add_argument("-o", required=True, metavar="FILE")
-    given = parser.parse_args()
-    singles, contests, histories = [], [], []
+def singles(program):
     for case, parameters, name, values, unit, contestants in SINGLES:
-        for contestant in contestants:
-            formulation, n = contestant.split()
-            tried = {form: [single(given.program, case, f"{parameters};{name}={value}", f"{formulation}:newton={form}", n) for value in values] for form in FORMS}
-            singles.append({"case": case, "parameter": name, "unit": unit, "values": values, "formulation": formulation, "elements": int(n), **tried})
+        for formulation, n in map(str.split, contestants):
+            tried = {form: [single(program, case, f"{parameters};{name}={value}",
+                                   f"{formulation}:newton={form}", n) for value in values]
+                     for form in FORMS}
+            yield {"case": case, "parameter": name, "unit": unit, "values": values,
+                   "formulation": formulation, "elements": int(n), **tried}
+
+
+def contests(program):
     for case, parameters, contestants in CONTESTS:
-        for contestant in contestants:
-            formulation, n = contestant.split()
+        for formulation, n in map(str.split, contestants):
             for steps in FIRST_STEPS:
-                both = {form: summary(solve(given.program, case, parameters, f"{formulation}:newton={form}", n, steps)) for form in FORMS}
-                contests.append({"case": case, "parameters": parameters, "formulation": formulation, "elements": int(n), "first_steps": steps, **both})
+                both = {form: summary(solve(program, case, parameters,
+                                            f"{formulation}:newton={form}", n, steps))
+                        for form in FORMS}
+                yield {"case": case, "parameters": parameters, "formulation": formulation,
+                       "elements": int(n), "first_steps": steps, **both}
+
+
+def histories(program):
     for case, parameters, contestant, steps in HISTORIES:
         formulation, n = contestant.split()
         for form in FORMS:
-            result = solve(given.program, case, parameters, f"{formulation}:newton={form}", n, steps)
-            histories.append({"case": case, "parameters": parameters, "formulation": formulation, "elements": int(n), "form": form,
-                              "status": result["cell"]["status"], "reason": result["cell"]["reason"], "steps": steps_of(result)})
+            key = f"{formulation}:newton={form}"
+            result = solve(program, case, parameters, key, n, steps)
+            yield {"case": case, "parameters": parameters, "formulation": formulation,
+                   "elements": int(n), "form": form, "status": result["cell"]["status"],
+                   "reason": result["cell"]["reason"], "steps": steps_of(result)}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("-o", required=True, metavar="FILE")
+    given = parser.parse_args()
+    record = {part.__name__: list(part(given.program)) for part in (singles, contests, histories)}
     with open(given.o, "w", encoding="utf-8") as out:
-        json.dump({"singles": singles, "contests": contests, "histories": histories}, out, indent=1)
+        json.dump(record, out, indent=1)
 
 
 if __name__ == "__main__":
