@@ -7,6 +7,8 @@
 #include "harness/record/csv.h"
 #include "harness/record/store.h"
 #include "harness/record/table_timing.h"
+#include "harness/study/plan.h"
+#include "harness/study/run.h"
 #include "harness/timing/timing.h"
 
 static const double floor_seconds = 0.002; /* of each round for each cell */
@@ -34,11 +36,11 @@ static status plan_named(cli_request *r, sweep *s, fault *f)
         parameters_default(type, r->parameter);
         for (int k = 0; k < r->assignments; k++)
             TRY(parameters_set(type, r->assignment[k], r->parameter, f));
-        TRY(sweep_add(s, type, r->parameter, NULL, r->mesh, r->meshes, f));
+        TRY(plan_add(s, type, r->parameter, NULL, r->mesh, r->meshes, f));
         const point *here = &s->point[s->points - 1];
         if (here->status != STATUS_OK)
             return fault_set(f, here->status, "%s", here->reason);
-        TRY(sweep_extend(s, some ? r->formulation : all, count, f));
+        TRY(plan_extend(s, some ? r->formulation : all, count, f));
     }
     return STATUS_OK;
 }
@@ -51,9 +53,9 @@ static status measure(cli_request *r, truths *t, sweep *s, judgement *j, fault *
                                    .formulations = r->formulations,
                                    .formulation = r->formulation,
                                    .progress = progress};
-    TRY(r->case_count > 0 ? plan_named(r, s, f) : sweep_plan(&request, t, s, f));
+    TRY(r->case_count > 0 ? plan_named(r, s, f) : plan_sweep(&request, t, s, f));
     s->threads = r->threads;
-    TRY(sweep_run(&request, s, f));
+    TRY(run_sweep(&request, s, f));
     TRY(judgement_make(s, t, 0, j, f));
     if (s->threads <= 1)
         clock_pin();

@@ -5,13 +5,16 @@
 #include "harness/cli/cli.h"
 #include "harness/record/csv.h"
 #include "harness/record/json.h"
+#include "harness/record/json_convergence.h"
 #include "harness/record/output.h"
 #include "harness/record/table.h"
+#include "harness/study/plan.h"
+#include "harness/study/run.h"
 
 static status write_form(FILE *to, const char *format, const sweep *s, const truths *t, fault *f)
 {
     if (strcmp(format, "json") == 0)
-        return json_write_convergence(to, s, t, f);
+        return json_convergence_write(to, s, t, f);
     if (strcmp(format, "csv") == 0)
         csv_convergence(to, s, t);
     else
@@ -59,15 +62,14 @@ int cli_converge(int count, char **arguments)
         outcome = truths_read(cli_truths_path(&r), &t, &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
-    outcome =
-        sweep_plan_one(type, r.parameter, r.formulation, r.formulations, r.mesh, r.meshes, &s, &f);
+    outcome = plan_one(type, r.parameter, r.formulation, r.formulations, r.mesh, r.meshes, &s, &f);
     if (outcome != STATUS_OK) {
         truths_free(&t);
         return cli_fail(outcome, f.text);
     }
     const sweep_request request = {.jobs = r.jobs,
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
-    outcome = sweep_run(&request, &s, &f);
+    outcome = run_sweep(&request, &s, &f);
     if (outcome == STATUS_OK)
         outcome = write_out(&r, &s, &t, &f);
     const int nothing = sweep_cells(&s) == 0;

@@ -7,6 +7,7 @@
 #include "harness/record/output.h"
 #include "harness/record/store.h"
 #include "harness/record/table.h"
+#include "harness/study/plan.h"
 
 static status write_to(FILE *to, const cli_request *r, const sweep *s, const truths *t, fault *f)
 {
@@ -89,7 +90,7 @@ int cli_solve(int count, char **arguments)
         fprintf(stderr, "beamwork: without truths: %s\n", f.text);
     else if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
-    outcome = sweep_plan_one(type, r.parameter, r.formulation, 1, r.mesh, 1, &s, &f);
+    outcome = plan_one(type, r.parameter, r.formulation, 1, r.mesh, 1, &s, &f);
     if (outcome != STATUS_OK) {
         truths_free(&t);
         return cli_fail(outcome, f.text);

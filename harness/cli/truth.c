@@ -7,6 +7,7 @@
 
 #include "harness/cli/cli.h"
 #include "harness/truth/derive.h"
+#include "harness/truth/truth.h"
 
 static void print_value(const char *quantity, double value, double uncertainty, const char *unit,
                         const char *kind, const char *whose, const char *source, const char *note)

@@ -11,6 +11,8 @@
 #include "harness/record/store.h"
 #include "harness/record/table.h"
 #include "harness/study/noise.h"
+#include "harness/study/plan.h"
+#include "harness/study/run.h"
 
 enum { PICTURED_STATES = 5 };
 
@@ -148,8 +150,8 @@ static status run(const cli_request *r, sweep *s, truths *t, judgement *j, fault
                                    .formulation = r->formulation,
                                    .shapes = states,
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
-    TRY(sweep_plan(&request, t, s, f));
-    TRY(sweep_run(&request, s, f));
+    TRY(plan_sweep(&request, t, s, f));
+    TRY(run_sweep(&request, s, f));
     if (s->unfinished == 0)
         TRY(measure_noise(&request, t, s, f));
     return judge_and_write(r, s, t, j, f);

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "harness/judge/verdict.h"
+#include "harness/truth/truth.h"
 
 /* What the value should be, and how well that is known (relative). */
 static double reference_of(const extreme_sweep *s, const truths *t, const extreme_outcome *o,

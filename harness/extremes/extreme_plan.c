@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "harness/catalogue/registry.h"
+#include "harness/study/plan.h"
 
 /* Decimal fractions as a table of truths has them. */
 static double to_15_digits(double value)
@@ -116,14 +117,14 @@ static status plan_value(const extreme_request *request, extreme_sweep *out, int
     if (type == NULL)
         return STATUS_FAULT;
     TRY(set_parameters(e, type, x, parameter, f));
-    TRY(sweep_add(&out->first, type, parameter, &edit, &mesh, 1, f));
+    TRY(plan_add(&out->first, type, parameter, &edit, &mesh, 1, f));
     point *p = &out->first.point[out->first.points - 1];
     p->condition = 1;
     p->steps = e->knob == EXTREME_STEPS ? (int)x : 0;
     for (int i = 0; i < out->formulations; i++) {
         if (!is_selected(request, e, &out->formulation[i]))
             continue;
-        TRY(sweep_extend(&out->first, &out->formulation[i], 1, f));
+        TRY(plan_extend(&out->first, &out->formulation[i], 1, f));
         TRY(add_outcomes(out, extreme_index, value, i, f));
     }
     return STATUS_OK;

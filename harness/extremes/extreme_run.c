@@ -5,6 +5,8 @@
 
 #include "harness/extremes/extreme_expect.h"
 #include "harness/extremes/extreme_judge.h"
+#include "harness/study/plan.h"
+#include "harness/study/run.h"
 
 enum { enough_elements = 16 }; /* from here on the neighbours are coarser meshes, else finer ones */
 
@@ -17,9 +19,9 @@ static status refine(extreme_sweep *s, extreme_outcome *o, fault *f)
         return STATUS_OK;
     const int n = one->mesh[0], coarser = n >= enough_elements;
     const int mesh[OUTCOME_NEIGHBOURS] = {coarser ? n / 4 : 2 * n, coarser ? n / 2 : 4 * n};
-    TRY(sweep_add(&s->neighbours, p->type, p->parameter, &p->edit, mesh, OUTCOME_NEIGHBOURS, f));
+    TRY(plan_add(&s->neighbours, p->type, p->parameter, &p->edit, mesh, OUTCOME_NEIGHBOURS, f));
     s->neighbours.point[s->neighbours.points - 1].steps = p->steps;
-    TRY(sweep_extend(&s->neighbours, &one->formulation, 1, f));
+    TRY(plan_extend(&s->neighbours, &one->formulation, 1, f));
     for (int i = 0; i < s->outcomes; i++)
         if (s->outcome[i].series == o->series)
             s->outcome[i].neighbours = s->neighbours.seriess - 1;
@@ -44,7 +46,7 @@ static status look_closer(const sweep_request *run, extreme_sweep *s, const trut
             TRY(refine(s, base, f));
     }
     if (s->neighbours.seriess > 0)
-        TRY(sweep_run(run, &s->neighbours, f));
+        TRY(run_sweep(run, &s->neighbours, f));
     for (int i = 0; i < s->outcomes; i++)
         if (is_open(&s->outcome[i]))
             extreme_judge_neighbours(s, t, &s->outcome[i]);
@@ -56,7 +58,7 @@ static status run_all(const extreme_request *request, const truths *t, extreme_s
     const sweep_request run = {.jobs = request->jobs, .progress = request->progress};
     TRY(extreme_plan(request, out, f));
     if (out->outcomes > 0)
-        TRY(sweep_run(&run, &out->first, f));
+        TRY(run_sweep(&run, &out->first, f));
     for (int i = 0; i < out->outcomes; i++)
         TRY(extreme_judge_first(out, t, &out->outcome[i], f));
     TRY(look_closer(&run, out, t, f));

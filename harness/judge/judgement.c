@@ -7,6 +7,7 @@
 #include "harness/judge/judgement.h"
 
 #include "harness/judge/coverage.h"
+#include "harness/truth/truth.h"
 
 /* relative, of a value against its own stored discrete value */
 static const double agreement_least = 1e-6;

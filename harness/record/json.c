@@ -7,6 +7,7 @@
 #include "harness/record/json_record.h"
 #include "harness/schema/gather.h"
 #include "harness/study/noise.h"
+#include "harness/truth/truth.h"
 
 static json_t *parameters_of(const point *p)
 {

@@ -13,8 +13,6 @@ status json_finish(json_t *root, FILE *to, fault *f);
 
 /* Solution of one cell of a one-point sweep; t may be NULL. */
 status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f);
-/* Every quantity of every series over its meshes, with limit, order and verdict. */
-status json_write_convergence(FILE *to, const sweep *s, const truths *t, fault *f);
 status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const environment *e,
                            fault *f);
 

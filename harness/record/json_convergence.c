@@ -1,3 +1,4 @@
+#include "harness/record/json_convergence.h"
 #include "harness/record/json.h"
 #include "harness/record/json_record.h"
 #include "harness/schema/gather.h"
@@ -35,7 +36,7 @@ static json_t *quantity_of(const gathering *g, int series_index, int quantity)
     return out;
 }
 
-status json_write_convergence(FILE *to, const sweep *s, const truths *t, fault *f)
+status json_convergence_write(FILE *to, const sweep *s, const truths *t, fault *f)
 {
     const gathering g = {s, NULL, t};
     json_t *all = json_array();

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "harness/record/record_rows.h"
+#include "harness/record/store_shapes.h"
 #include "harness/record/vtkhdf.h"
 #include "harness/schema/gather.h"
 

@@ -8,8 +8,6 @@
 #include "harness/judge/judgement.h"
 #include "harness/record/record.h"
 
-/* Group below `at`: centre lines, sections, bodies; the caller closes it with H5Gclose. */
-hid_t store_shapes(record *r, hid_t at, const char *name, const scene *sc, const shapes *s);
 /* Written beside and renamed: FAULT leaves nothing behind. */
 status store_write(const char *path, const sweep *s, const judgement *j, const environment *e,
                    fault *f);

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/record/outline.h"
-#include "harness/record/store.h"
+#include "harness/record/store_shapes.h"
 
 /* Columns [first, first + count) of the points of every state: [states x points x count]. */
 static void put_columns(record *r, hid_t at, const char *name, const shapes *s, int first,

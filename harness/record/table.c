@@ -6,6 +6,7 @@
 #include "harness/judge/sentence.h"
 #include "harness/record/table_path.h"
 #include "harness/study/noise.h"
+#include "harness/truth/truth.h"
 
 static void row_of_series(FILE *to, const sweep *s, int index)
 {
@@ -139,10 +140,9 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
             fputc('\n', to);
             if (p->scene.quantity[q].predicted_by != NULL) {
                 fprintf(to, "  prediction%21.14g", p->scene.quantity[q].prediction);
-                percent(to, row != NULL
-                                ? verdict_error(&p->scene.quantity[q],
-                                                 p->scene.quantity[q].prediction, row->value)
-                                : NAN);
+                percent(to, row != NULL ? verdict_error(&p->scene.quantity[q],
+                                                        p->scene.quantity[q].prediction, row->value)
+                                        : NAN);
                 fprintf(to, " %s, analytic\n", p->scene.quantity[q].predicted_by);
             }
         }

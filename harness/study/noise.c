@@ -4,6 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/study/plan.h"
+#include "harness/study/run.h"
+
 enum { REPETITIONS = 2 };
 /* the larger of two differences, twice: the standard deviation or more, nineteen times of twenty */
 static const double cover = 2;
@@ -23,9 +26,9 @@ static status add_repetitions(const sweep *s, const series *one, sweep *again, f
     const point *p = &s->point[one->point];
     for (int k = 0; k < REPETITIONS; k++) {
         const scene_edit edit = words_of(&one->formulation, k);
-        TRY(sweep_add(again, p->type, p->parameter, &edit, &one->mesh[one->meshes - 1], 1, f));
+        TRY(plan_add(again, p->type, p->parameter, &edit, &one->mesh[one->meshes - 1], 1, f));
         again->point[again->points - 1].steps = p->steps;
-        TRY(sweep_extend(again, &one->formulation, 1, f));
+        TRY(plan_extend(again, &one->formulation, 1, f));
     }
     return STATUS_OK;
 }
@@ -83,7 +86,7 @@ static status run_again(const sweep_request *request, const char wanted[], const
     for (int i = 0; i < s->seriess; i++)
         if (can_repeat(s, i, wanted))
             TRY(add_repetitions(s, &s->series[i], again, f));
-    return again->seriess > 0 ? sweep_run(&quiet, again, f) : STATUS_OK;
+    return again->seriess > 0 ? run_sweep(&quiet, again, f) : STATUS_OK;
 }
 
 static status take_all(const sweep *again, const char wanted[], sweep *s, fault *f)

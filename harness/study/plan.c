@@ -1,10 +1,11 @@
-/* Which cells a verification consists of. */
+#include "harness/study/plan.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "harness/catalogue/registry.h"
-#include "harness/study/sweep.h"
+#include "harness/truth/truth.h"
 
 static status add_point(sweep *s, const case_type *type, const double value[],
                         const scene_edit *edit, fault *f)
@@ -96,26 +97,6 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
             truth_holds(&t->row[i], p->type, p->parameter))
             add_mesh(one, t->row[i].elements);
     return STATUS_OK;
-}
-
-/* Does the quantity depend on what the formulation's options change? */
-static int option_matters(const point *p, const formulation *chosen, const char *quantity)
-{
-    const unsigned features = formulation_bears_on(chosen);
-    for (int q = 0; q < p->scene.quantities && features != 0; q++)
-        if (strcmp(p->scene.quantity[q].name, quantity) == 0)
-            return (features & model_quantity_needs(&p->scene, q)) != 0;
-    return 1;
-}
-
-int sweep_selects(const sweep *s, const point *p, const formulation *chosen, const char *quantity)
-{
-    if (!option_matters(p, chosen, quantity))
-        return 0;
-    char text[PARAMETERS_TEXT + FORMULATION_KEY + 2 * FAULT_TEXT];
-    snprintf(text, sizeof text, "%s/%s/%s/%s", p->type->name,
-             p->text[0] != '\0' ? p->text : "default", chosen->key, quantity);
-    return s->select == NULL || select_matches(s->select, text) > 0;
 }
 
 /* Room for the formulations of a point; what does not fit is left out. */
@@ -215,7 +196,7 @@ static status plan_all(const sweep_request *request, const truths *t, sweep *out
     return alloc_cells(out, f);
 }
 
-status sweep_plan(const sweep_request *request, const truths *t, sweep *out, fault *f)
+status plan_sweep(const sweep_request *request, const truths *t, sweep *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     if (request->select != NULL && select_matches(request->select, "") < 0)
@@ -229,8 +210,8 @@ status sweep_plan(const sweep_request *request, const truths *t, sweep *out, fau
     return outcome;
 }
 
-status sweep_add(sweep *s, const case_type *type, const double value[], const scene_edit *edit,
-                 const int mesh[], int meshes, fault *f)
+status plan_add(sweep *s, const case_type *type, const double value[], const scene_edit *edit,
+                const int mesh[], int meshes, fault *f)
 {
     TRY(add_point(s, type, value, edit != NULL ? edit : &unchanged, f));
     if (meshes > 0)
@@ -238,74 +219,28 @@ status sweep_add(sweep *s, const case_type *type, const double value[], const sc
     return STATUS_OK;
 }
 
-status sweep_extend(sweep *s, const formulation those[], int count, fault *f)
+status plan_extend(sweep *s, const formulation those[], int count, fault *f)
 {
     for (int i = 0; i < count; i++)
         TRY(add_series(s, s->points - 1, &those[i], NULL, f));
     return alloc_cells(s, f);
 }
 
-static status plan_one(const case_type *type, const double value[], const formulation those[],
+static status fill_one(const case_type *type, const double value[], const formulation those[],
                        int count, const int mesh[], int meshes, sweep *out, fault *f)
 {
-    TRY(sweep_add(out, type, value, NULL, mesh, meshes, f));
+    TRY(plan_add(out, type, value, NULL, mesh, meshes, f));
     if (out->point[0].status != STATUS_OK)
         return fault_set(f, out->point[0].status, "%s", out->point[0].reason);
-    return sweep_extend(out, those, count, f);
+    return plan_extend(out, those, count, f);
 }
 
-status sweep_plan_one(const case_type *type, const double value[], const formulation those[],
-                      int count, const int mesh[], int meshes, sweep *out, fault *f)
+status plan_one(const case_type *type, const double value[], const formulation those[], int count,
+                const int mesh[], int meshes, sweep *out, fault *f)
 {
     memset(out, 0, sizeof *out);
-    const status outcome = plan_one(type, value, those, count, mesh, meshes, out, f);
+    const status outcome = fill_one(type, value, those, count, mesh, meshes, out, f);
     if (outcome != STATUS_OK)
         sweep_free(out);
     return outcome;
-}
-
-int sweep_cells(const sweep *s)
-{
-    int cells = 0;
-    for (int i = 0; i < s->seriess; i++)
-        cells += s->series[i].missing[0] == '\0' && s->point[s->series[i].point].status == STATUS_OK
-                     ? s->series[i].meshes
-                     : 0;
-    return cells;
-}
-
-void series_free(series *one)
-{
-    for (int k = 0; k < one->meshes && one->cell != NULL; k++)
-        cell_result_free(&one->cell[k]);
-    free(one->cell);
-    free(one->noise);
-    free(one->timing);
-}
-
-void sweep_free(sweep *s)
-{
-    for (int i = 0; i < s->seriess; i++)
-        series_free(&s->series[i]);
-    for (int i = 0; i < s->points; i++)
-        scene_free(&s->point[i].scene);
-    free(s->point);
-    free(s->series);
-    memset(s, 0, sizeof *s);
-}
-
-cell_request sweep_cell(const sweep *s, int series_index, int mesh)
-{
-    const series *one = &s->series[series_index];
-    const point *p = &s->point[one->point];
-    cell_request out = {
-        .scene = &p->scene, .formulation = one->formulation.type, .elements = one->mesh[mesh]};
-    memcpy(out.option, one->formulation.option, sizeof out.option);
-    out.solve.newton = one->formulation.newton;
-    out.solve.steps_between = p->steps;
-    out.solve.condition = p->condition;
-    out.threads = s->threads;
-    if (p->text[0] == '\0' && mesh == one->meshes - 1)
-        out.solve.shapes = s->shapes;
-    return out;
 }

@@ -1,192 +1,70 @@
 #include "harness/study/sweep.h"
 
-#include <errno.h>
-#include <poll.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 
-#include "harness/study/interrupt.h"
-#include "harness/study/worker.h"
-
-static void report(const sweep_request *request, const sweep *s, const task *t, int done, int count)
+/* Does the quantity depend on what the formulation's options change? */
+static int option_matters(const point *p, const formulation *chosen, const char *quantity)
 {
-    if (request->progress == NULL)
-        return;
-    const series *one = &s->series[t->series];
-    fprintf(request->progress, "\r\033[K%d/%d %s %s n=%d", done, count,
-            s->point[one->point].type->name, one->formulation.key, one->mesh[t->mesh]);
-    fflush(request->progress);
+    const unsigned features = formulation_bears_on(chosen);
+    for (int q = 0; q < p->scene.quantities && features != 0; q++)
+        if (strcmp(p->scene.quantity[q].name, quantity) == 0)
+            return (features & model_quantity_needs(&p->scene, q)) != 0;
+    return 1;
 }
 
-static void end_report(const sweep_request *request)
+int sweep_selects(const sweep *s, const point *p, const formulation *chosen, const char *quantity)
 {
-    if (request->progress != NULL) {
-        fprintf(request->progress, "\r\033[K");
-        fflush(request->progress);
-    }
+    if (!option_matters(p, chosen, quantity))
+        return 0;
+    char text[PARAMETERS_TEXT + FORMULATION_KEY + 2 * FAULT_TEXT];
+    snprintf(text, sizeof text, "%s/%s/%s/%s", p->type->name,
+             p->text[0] != '\0' ? p->text : "default", chosen->key, quantity);
+    return s->select == NULL || select_matches(s->select, text) > 0;
 }
 
-/* One worker that has something to say, or has ended. *running: workers there are. */
-static status attend(const sweep_request *request, workload *w, int self, worker *one, int *running,
-                     fault *f)
+int sweep_cells(const sweep *s)
 {
-    const int i = worker_receive(w, one);
-    if (i >= 0) {
-        report(request, w->s, &w->tasks[i], w->finished, w->count);
-        return STATUS_OK;
-    }
-    if (worker_bury(w, self, one))
-        return worker_start(w, self, one, f);
-    --*running;
-    return STATUS_OK;
-}
-
-/* Waits for the workers and for whoever asks to end. 1: somebody did. */
-static int wait_for_any(const workload *w, int jobs, const worker workers[], int asked,
-                        struct pollfd ends[])
-{
-    /* [ms] the clocks of the workers are looked at so often */
-    const int interval = w->time_limit > 0 ? 100 : -1;
-    for (int i = 0; i < jobs; i++)
-        ends[i] = (struct pollfd){.fd = workers[i].from != NULL ? fileno(workers[i].from) : -1,
-                                  .events = POLLIN};
-    ends[jobs] = (struct pollfd){.fd = asked, .events = POLLIN};
-    while (poll(ends, (nfds_t)jobs + 1, interval) < 0 && errno == EINTR)
-        ;
-    return ends[jobs].revents != 0;
-}
-
-/* The processes that run, and who may ask them to end. */
-typedef struct crew {
-    int jobs, running, interrupted;
-    int asked; /* descriptor that can be read once somebody asks to end; -1: nobody can */
-    worker workers[WORKERS_MOST];
-} crew;
-
-static status start_all(const workload *w, crew *c, fault *f)
-{
-    for (int i = 0; i < c->jobs; i++) {
-        TRY(worker_start(w, i, &c->workers[i], f));
-        c->running++;
-    }
-    return STATUS_OK;
-}
-
-/* Those that have something to say; the others may be late. */
-static status attend_all(const sweep_request *request, workload *w, crew *c,
-                         const struct pollfd ends[], fault *f)
-{
-    for (int i = 0; i < c->jobs; i++) {
-        worker *one = &c->workers[i];
-        if (one->from == NULL)
-            continue;
-        if (ends[i].revents != 0)
-            TRY(attend(request, w, i, one, &c->running, f));
-        else
-            worker_stop_late(w, i, one);
-    }
-    return STATUS_OK;
-}
-
-static status work_off(const sweep_request *request, workload *w, crew *c, fault *f)
-{
-    struct pollfd ends[WORKERS_MOST + 1];
-    TRY(start_all(w, c, f));
-    while (c->running > 0) {
-        c->interrupted = wait_for_any(w, c->jobs, c->workers, c->asked, ends);
-        if (c->interrupted)
-            break;
-        TRY(attend_all(request, w, c, ends, f));
-    }
-    return STATUS_OK;
-}
-
-static status run_parallel(const sweep_request *request, workload *w, crew *c, fault *f)
-{
-    const status outcome = work_off(request, w, c, f);
-    end_report(request);
-    for (int i = 0; i < c->jobs; i++)
-        if (c->workers[i].from != NULL)
-            worker_end(w, &c->workers[i]);
-    TRY(outcome);
-    if (!c->interrupted && w->finished < w->count)
-        return fault_set(f, STATUS_FAULT,
-                         "the worker processes ended before all cells were done (%d of %d)",
-                         w->finished, w->count);
-    return STATUS_OK;
-}
-
-static int smaller(int a, int b)
-{
-    return a < b ? a : b;
-}
-
-/* Series with a cell that was not run are taken out: they show nothing. */
-static void keep_finished(sweep *s, const workload *w)
-{
-    char *open = calloc((size_t)s->seriess + 1, 1);
-    int kept = 0;
-    s->unfinished = w->count - w->finished;
-    if (open != NULL)
-        for (int i = 0; i < w->count; i++)
-            open[w->tasks[i].series] |= !w->done[i];
+    int cells = 0;
     for (int i = 0; i < s->seriess; i++)
-        if (open == NULL || open[i])
-            series_free(&s->series[i]);
-        else
-            s->series[kept++] = s->series[i];
-    s->seriess = kept;
-    free(open);
+        cells += s->series[i].missing[0] == '\0' && s->point[s->series[i].point].status == STATUS_OK
+                     ? s->series[i].meshes
+                     : 0;
+    return cells;
 }
 
-static status run_all(const sweep_request *request, workload *w, fault *f)
+void sweep_series_free(series *one)
 {
-    interrupt asked = {.descriptor = -1};
-    if (request->interruptible)
-        interrupt_begin(&asked);
-    crew c = {.jobs = smaller(smaller(request->jobs, WORKERS_MOST), w->count),
-              .asked = asked.descriptor};
-    const status outcome = run_parallel(request, w, &c, f);
-    if (c.interrupted)
-        keep_finished(w->s, w);
-    interrupt_end(&asked);
-    return outcome;
+    for (int k = 0; k < one->meshes && one->cell != NULL; k++)
+        cell_result_free(&one->cell[k]);
+    free(one->cell);
+    free(one->noise);
+    free(one->timing);
 }
 
-static void list_tasks(const sweep *s, task tasks[])
+void sweep_free(sweep *s)
 {
-    int n = 0;
-    for (int i = 0; i < s->seriess; i++) {
-        const series *one = &s->series[i];
-        const int runs = one->missing[0] == '\0' && s->point[one->point].status == STATUS_OK;
-        for (int k = 0; k < one->meshes && runs; k++)
-            tasks[n++] = (task){i, k};
-    }
+    for (int i = 0; i < s->seriess; i++)
+        sweep_series_free(&s->series[i]);
+    for (int i = 0; i < s->points; i++)
+        scene_free(&s->point[i].scene);
+    free(s->point);
+    free(s->series);
+    memset(s, 0, sizeof *s);
 }
 
-/* Even one job runs in a process of its own, so that a crash is a result and answers do not depend
- * on the number. */
-status sweep_run(const sweep_request *request, sweep *s, fault *f)
+cell_request sweep_cell(const sweep *s, int series_index, int mesh)
 {
-    const size_t count = (size_t)sweep_cells(s);
-    board *b = mmap(NULL, sizeof *b, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    workload w = {.s = s,
-                  .time_limit = request->time_limit,
-                  .count = (int)count,
-                  .tasks = calloc(count + 1, sizeof *w.tasks),
-                  .done = calloc(count + 1, 1),
-                  .board = b};
-    status outcome = fault_set(f, STATUS_FAULT, "out of memory for the sweep");
-    if (w.tasks != NULL && w.done != NULL && b != MAP_FAILED) {
-        list_tasks(s, w.tasks);
-        s->shapes = request->shapes;
-        s->unfinished = 0;
-        outcome = run_all(request, &w, f);
-    }
-    if (b != MAP_FAILED)
-        munmap(b, sizeof *b);
-    free(w.tasks);
-    free(w.done);
-    return outcome;
+    const series *one = &s->series[series_index];
+    const point *p = &s->point[one->point];
+    cell_request out = {
+        .scene = &p->scene, .formulation = one->formulation.type, .elements = one->mesh[mesh]};
+    memcpy(out.option, one->formulation.option, sizeof out.option);
+    out.solve.newton = one->formulation.newton;
+    out.solve.steps_between = p->steps;
+    out.solve.condition = p->condition;
+    out.threads = s->threads;
+    if (p->text[0] == '\0' && mesh == one->meshes - 1)
+        out.solve.shapes = s->shapes;
+    return out;
 }

@@ -63,24 +63,10 @@ typedef struct sweep_request {
 /* Does the sweep's selection hold for a quantity? */
 int sweep_selects(const sweep *s, const point *p, const formulation *chosen, const char *quantity);
 
-/* Points: the defaults and every parameter point of a truth. */
-status sweep_plan(const sweep_request *request, const truths *t, sweep *out, fault *f);
-/* One point, the given formulations and meshes. */
-status sweep_plan_one(const case_type *type, const double value[], const formulation those[],
-                      int count, const int mesh[], int meshes, sweep *out, fault *f);
-/* A further point of a sweep that is planned by hand, its scene changed by the edit (NULL: not);
- * its steps and condition may be set before the run. */
-status sweep_add(sweep *s, const case_type *type, const double value[], const scene_edit *edit,
-                 const int mesh[], int meshes, fault *f);
-/* Series of the last point, on its scene's meshes. */
-status sweep_extend(sweep *s, const formulation those[], int count, fault *f);
-/* Runs every cell; a cell that fails or crashes is a result. Order of results does not depend on
- * jobs. */
-status sweep_run(const sweep_request *request, sweep *s, fault *f);
 /* What running one mesh of a series means. */
 cell_request sweep_cell(const sweep *s, int series_index, int mesh);
 int sweep_cells(const sweep *s);
-void series_free(series *);
+void sweep_series_free(series *);
 void sweep_free(sweep *s);
 
 #endif

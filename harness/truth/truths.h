@@ -51,21 +51,5 @@ status truths_read(const char *path, truths *out, fault *f);
  * before stay. */
 status truths_read_extremes(const char *path, truths *out, fault *f);
 void truths_free(truths *t);
-int truth_holds(const truth *row, const case_type *type, const double value[]);
-/* May a verdict rest on it?  Not on an agreement of formulations, nor on a figure that nobody can
- * compute again. */
-int truth_gates(const truth *row);
-/* The continuum's truth of that model (exact before published, no point of a curve), or NULL.  One
- * of the same model gates. */
-const truth *truth_of(const truths *t, const case_type *type, const double value[],
-                      const char *quantity, const char *model);
-/* The same among truths that follow one of the theories of shear (words separated by |), or depend
- * on none; NULL: any. */
-const truth *truth_of_theory(const truths *t, const case_type *type, const double value[],
-                             const char *quantity, const char *model, const char *theories);
-/* The limit that a formulation (its key, or its name whatever the options) must have there, or
- * NULL. */
-const truth *truth_predicted(const truths *t, const case_type *type, const double value[],
-                             const char *quantity, const char *key);
 
 #endif

@@ -9,6 +9,7 @@
 
 #include "harness/catalogue/registry.h"
 #include "harness/record/store.h"
+#include "harness/study/plan.h"
 
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
@@ -161,7 +162,7 @@ static status write_results(const void *what, double *value, fault *f)
     judgement j = {0};
     parameters_default(registry_cases[0], parameter);
     formulation_default(registry_formulations[0], &chosen);
-    status outcome = sweep_plan_one(registry_cases[0], parameter, &chosen, 1, mesh, 2, &s, f);
+    status outcome = plan_one(registry_cases[0], parameter, &chosen, 1, mesh, 2, &s, f);
     if (outcome != STATUS_OK)
         return outcome;
     for (int i = 0; i < s.series[0].meshes; i++)

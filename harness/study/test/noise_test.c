@@ -5,6 +5,8 @@
 
 #include "harness/catalogue/registry.h"
 #include "harness/study/noise.h"
+#include "harness/study/plan.h"
+#include "harness/study/run.h"
 
 static const sweep_request request = {.jobs = 2};
 
@@ -21,8 +23,8 @@ static int plan(const case_type *type, sweep *s)
         formulation_default(registry_formulations[count], &all[count]);
         count++;
     }
-    const status outcome = sweep_plan_one(type, value, all, count, mesh, 2, s, &f);
-    gsl_test(outcome != STATUS_OK || sweep_run(&request, s, &f) != STATUS_OK, "%s: %s", type->name, f.text);
+    const status outcome = plan_one(type, value, all, count, mesh, 2, s, &f);
+    gsl_test(outcome != STATUS_OK || run_sweep(&request, s, &f) != STATUS_OK, "%s: %s", type->name, f.text);
     return count;
 }
 

@@ -8,6 +8,7 @@
 
 #include "harness/catalogue/formulations.h"
 #include "harness/study/sweep.h"
+#include "harness/truth/truth.h"
 
 static void parameters(void)
 {

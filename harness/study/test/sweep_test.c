@@ -14,6 +14,8 @@
 
 #include "harness/catalogue/registry.h"
 #include "harness/study/interrupt.h"
+#include "harness/study/plan.h"
+#include "harness/study/run.h"
 #include "harness/study/sweep.h"
 
 enum { END = 900, WAIT = 120 }; /* [s] */
@@ -89,9 +91,9 @@ static void crashes(int end, int jobs, const char *reason)
     sweep s;
     fault f = {""};
     parameters_default(registry_cases[0], value);
-    gsl_test(sweep_plan_one(registry_cases[0], value, &chosen, 1, mesh, 3, &s, &f) != STATUS_OK,
+    gsl_test(plan_one(registry_cases[0], value, &chosen, 1, mesh, 3, &s, &f) != STATUS_OK,
              "planned %s", f.text);
-    gsl_test(sweep_run(&request, &s, &f) != STATUS_OK, "the sweep survives %s", f.text);
+    gsl_test(run_sweep(&request, &s, &f) != STATUS_OK, "the sweep survives %s", f.text);
     for (int i = 0; i < 3; i++)
         gsl_test(s.series[0].cell[i].solve.status != expected ||
                      strcmp(s.series[0].cell[i].solve.reason, reason) != 0,
@@ -125,9 +127,9 @@ static void jobs(void)
     parameters_default(registry_cases[0], value);
     for (int i = 0; i < 2; i++) {
         const sweep_request request = {.jobs = 1 + 3 * i};
-        gsl_test(sweep_plan_one(registry_cases[0], value, chosen, count, mesh, 3, &s[i], &f) !=
+        gsl_test(plan_one(registry_cases[0], value, chosen, count, mesh, 3, &s[i], &f) !=
                          STATUS_OK ||
-                     sweep_run(&request, &s[i], &f) != STATUS_OK,
+                     run_sweep(&request, &s[i], &f) != STATUS_OK,
                  "%d jobs %s", request.jobs, f.text);
     }
     gsl_test(sweep_cells(&s[0]) == 0, "%d cells", sweep_cells(&s[0]));
@@ -152,12 +154,12 @@ static int run_endless(const sweep_request *request, int sound, int says)
     sweep s = {0};
     fault f = {""};
     parameters_default(registry_cases[0], value);
-    status outcome = sweep_add(&s, registry_cases[0], value, NULL, mesh, 3, &f);
+    status outcome = plan_add(&s, registry_cases[0], value, NULL, mesh, 3, &f);
     if (outcome == STATUS_OK && sound)
-        outcome = sweep_extend(&s, &good, 1, &f);
+        outcome = plan_extend(&s, &good, 1, &f);
     if (outcome == STATUS_OK)
-        outcome = sweep_extend(&s, &endless, 1, &f);
-    if (outcome != STATUS_OK || sweep_run(request, &s, &f) != STATUS_OK)
+        outcome = plan_extend(&s, &endless, 1, &f);
+    if (outcome != STATUS_OK || run_sweep(request, &s, &f) != STATUS_OK)
         return 1;
     int right = request->interruptible ? s.seriess == sound && s.unfinished == 3
                                        : s.seriess == 1 + sound && s.unfinished == 0;

@@ -9,6 +9,7 @@
 
 #include "harness/catalogue/registry.h"
 #include "harness/truth/test/truths_file.h"
+#include "harness/truth/truth.h"
 #include "harness/truth/truths.h"
 
 /* HDF5 1.10 keeps a few bytes of a damaged file's head for good; our own leaks are still found. */

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/truth/truths.h"
+#include "harness/truth/truth.h"
 
 static int same_point(const case_type *type, const double value[], const double at[],
                       const int any[])

@@ -1,0 +1,12 @@
+/* JSON of what meshes show: values, limits, orders. */
+#ifndef BEAMWORK_JSON_CONVERGENCE_H
+#define BEAMWORK_JSON_CONVERGENCE_H
+
+#include <stdio.h>
+
+#include "harness/study/sweep.h"
+
+/* Every quantity of every series over its meshes, with limit, order and verdict. */
+status json_convergence_write(FILE *to, const sweep *s, const truths *t, fault *f);
+
+#endif

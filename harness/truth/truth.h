@@ -1,0 +1,24 @@
+/* The truth that a quantity is compared with. */
+#ifndef BEAMWORK_TRUTH_H
+#define BEAMWORK_TRUTH_H
+
+#include "harness/truth/truths.h"
+
+int truth_holds(const truth *row, const case_type *type, const double value[]);
+/* May a verdict rest on it?  Not on an agreement of formulations, nor on a figure that nobody can
+ * compute again. */
+int truth_gates(const truth *row);
+/* The continuum's truth of that model (exact before published, no point of a curve), or NULL.  One
+ * of the same model gates. */
+const truth *truth_of(const truths *t, const case_type *type, const double value[],
+                      const char *quantity, const char *model);
+/* The same among truths that follow one of the theories of shear (words separated by |), or depend
+ * on none; NULL: any. */
+const truth *truth_of_theory(const truths *t, const case_type *type, const double value[],
+                             const char *quantity, const char *model, const char *theories);
+/* The limit that a formulation (its key, or its name whatever the options) must have there, or
+ * NULL. */
+const truth *truth_predicted(const truths *t, const case_type *type, const double value[],
+                             const char *quantity, const char *key);
+
+#endif
