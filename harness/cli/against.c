@@ -120,17 +120,16 @@ static status lap(void *what, double *seconds, fault *f)
 static status set_repeats(contestant *a, contestant *b, fault *f)
 {
     double first = 0, second = 0;
-    status outcome = STATUS_OK;
     a->repeats = b->repeats = 1;
-    for (int i = 0; i < 2 && outcome == STATUS_OK; i++) { /* the first one warms up */
-        outcome = lap(a, &first, f);
-        outcome = outcome == STATUS_OK ? lap(b, &second, f) : outcome;
+    for (int i = 0; i < 2; i++) { /* the first one warms up */
+        TRY(lap(a, &first, f));
+        TRY(lap(b, &second, f));
     }
     const double shorter = first < second ? first : second;
     if (a->program == NULL && shorter < lap_seconds)
         a->repeats = b->repeats =
             lap_seconds / shorter < MOST_REPEATS ? 1 + (int)(lap_seconds / shorter) : MOST_REPEATS;
-    return outcome;
+    return STATUS_OK;
 }
 
 static void set_request(contestant *c, const cli_request *r, const case_type *type,

@@ -29,8 +29,9 @@ static void list_declarations(const element_type *t)
 {
     static const char *const analysis[ELEMENT_ANALYSES] = {"statics", "vibration", "buckling"};
     double options[ELEMENT_MAX_OPTIONS] = {0};
-    for (int k = 0; t->options != NULL && t->options[k].name != NULL; k++)
-        options[k] = t->options[k].value;
+    if (t->options != NULL)
+        for (int k = 0; t->options[k].name != NULL; k++)
+            options[k] = t->options[k].value;
     printf("  %-24s order:", "");
     for (int a = 0; a < ELEMENT_ANALYSES; a++) {
         const element_order order = element_order_in(t, (element_analysis)a, options);
@@ -57,8 +58,9 @@ static void list_formulations(void)
                 printf(" %s%s", model_feature_name(bit),
                        (t->offers & ~(2 * bit - 1)) != 0 ? "," : "\n");
         list_declarations(t);
-        for (int k = 0; t->options != NULL && t->options[k].name != NULL; k++)
-            list_option(&t->options[k]);
+        if (t->options != NULL)
+            for (int k = 0; t->options[k].name != NULL; k++)
+                list_option(&t->options[k]);
     }
 }
 

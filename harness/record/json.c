@@ -28,15 +28,16 @@ static json_t *options_of(const formulation *fm)
 {
     json_t *all = json_object();
     const element_option *o = fm->type->options;
-    for (int i = 0; o != NULL && o[i].name != NULL; i++) {
-        char text[32];
-        if (o[i].choices != NULL) {
-            choice_name(o[i].choices, (int)fm->option[i], text, sizeof text);
-            json_object_set_new(all, o[i].name, json_string(text));
-        } else {
-            json_object_set_new(all, o[i].name, json_real(fm->option[i]));
+    if (o != NULL)
+        for (int i = 0; o[i].name != NULL; i++) {
+            char text[32];
+            if (o[i].choices != NULL) {
+                choice_name(o[i].choices, (int)fm->option[i], text, sizeof text);
+                json_object_set_new(all, o[i].name, json_string(text));
+            } else {
+                json_object_set_new(all, o[i].name, json_real(fm->option[i]));
+            }
         }
-    }
     char newton[32];
     choice_name(formulation_newtons, (int)fm->newton, newton, sizeof newton);
     json_object_set_new(all, "newton", json_string(newton));
@@ -49,15 +50,16 @@ static json_t *truths_of(const subject *s, const truths *t)
     const point *p = s->point;
     subject one = *s;
     json_t *list = json_array();
-    for (int i = 0; t != NULL && i < t->rows; i++) {
-        const truth *row = &t->row[i];
-        if (row->formulation[0] != '\0' || row->on_curve ||
-            strcmp(row->quantity, p->scene.quantity[s->index].name) != 0 ||
-            !truth_holds(row, p->type, p->parameter))
-            continue;
-        one.truth = row;
-        json_add_record(list, &record_truth, &one, 0);
-    }
+    if (t != NULL)
+        for (int i = 0; i < t->rows; i++) {
+            const truth *row = &t->row[i];
+            if (row->formulation[0] != '\0' || row->on_curve ||
+                strcmp(row->quantity, p->scene.quantity[s->index].name) != 0 ||
+                !truth_holds(row, p->type, p->parameter))
+                continue;
+            one.truth = row;
+            json_add_record(list, &record_truth, &one, 0);
+        }
     return list;
 }
 

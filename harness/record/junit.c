@@ -72,7 +72,8 @@ static void write_verdict(FILE *to, const sweep *s, const verdict *v)
         fprintf(to, "\"/>\n");
     } else if (!v->matches) {
         char sentence[2 * FAULT_TEXT];
-        sentence_of_verdict(v, p->scene.quantity[v->quantity].least_order, sentence, sizeof sentence);
+        sentence_of_verdict(v, p->scene.quantity[v->quantity].least_order, sentence,
+                            sizeof sentence);
         fprintf(to, "   <failure message=\"");
         escaped(to, sentence);
         fprintf(to, "; expected %s\"/>\n",

@@ -185,8 +185,9 @@ static char *side_by_side(int count, const char *const text[], size_t *longest)
     for (int i = 0; i < count; i++)
         *longest = strlen(text[i]) > *longest ? strlen(text[i]) : *longest;
     char *all = calloc((size_t)count + 1, *longest);
-    for (int i = 0; i < count && all != NULL; i++)
-        memcpy(all + (size_t)i * *longest, text[i], strlen(text[i]));
+    if (all != NULL)
+        for (int i = 0; i < count; i++)
+            memcpy(all + (size_t)i * *longest, text[i], strlen(text[i]));
     return all;
 }
 

@@ -113,9 +113,10 @@ void record_rows(record *r, hid_t at, const char *name, int fields,
     const size_t size = lay_out(fields, list, count, row, columns);
     char *rows = calloc((size_t)count + 1, size);
     r->bad |= rows == NULL;
-    for (int i = 0; i < count && rows != NULL; i++)
-        for (int k = 0; k < fields; k++)
-            pack(&columns[k], &row[i], rows + (size_t)i * size + columns[k].offset);
+    if (rows != NULL)
+        for (int i = 0; i < count; i++)
+            for (int k = 0; k < fields; k++)
+                pack(&columns[k], &row[i], rows + (size_t)i * size + columns[k].offset);
     if (rows != NULL) {
         const hid_t type = row_type(fields, columns, size),
                     set = record_table(r, at, name, type, count, rows);

@@ -15,9 +15,10 @@ static void put_columns(record *r, hid_t at, const char *name, const shapes *s, 
     const hsize_t size[3] = {(hsize_t)s->states, (hsize_t)s->points, (hsize_t)count};
     double *table = malloc((rows + 1) * (size_t)count * sizeof *table);
     r->bad |= table == NULL;
-    for (size_t i = 0; i < rows && table != NULL; i++)
-        memcpy(table + i * (size_t)count, (const double *)s->point + i * NUMBERS + first,
-               (size_t)count * sizeof *table);
+    if (table != NULL)
+        for (size_t i = 0; i < rows; i++)
+            memcpy(table + i * (size_t)count, (const double *)s->point + i * NUMBERS + first,
+                   (size_t)count * sizeof *table);
     const hid_t set = record_values(r, at, name, 3, size, table, unit);
     record_text(r, set, "columns", columns);
     H5Dclose(set);

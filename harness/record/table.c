@@ -289,10 +289,11 @@ static void contradictions(FILE *to, const sweep *s, const judgement *j)
         const verdict *v = &j->verdict[i];
         const point *p = &s->point[s->series[v->series].point];
         int count = 0, before = 0;
-        for (int k = 0; k < j->verdicts && v->contradicted != NULL; k++) {
-            count += j->verdict[k].contradicted == v->contradicted;
-            before |= k < i && j->verdict[k].contradicted == v->contradicted;
-        }
+        if (v->contradicted != NULL)
+            for (int k = 0; k < j->verdicts; k++) {
+                count += j->verdict[k].contradicted == v->contradicted;
+                before |= k < i && j->verdict[k].contradicted == v->contradicted;
+            }
         if (count > 0 && !before)
             fprintf(to,
                     "\n%s%s%s, %s: the published %.10g +- %.1g is contradicted by %d limits, the "

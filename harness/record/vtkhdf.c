@@ -174,8 +174,9 @@ static void put_offsets(record *r, hid_t at, const char *name, const grid *g, in
     const hsize_t size[2] = {(hsize_t)g->states, 1};
     int64_t *value = calloc((size_t)g->states + 1, sizeof *value);
     r->bad |= value == NULL;
-    for (int i = 0; i < g->states && value != NULL; i++)
-        value[i] = start + i * step;
+    if (value != NULL)
+        for (int i = 0; i < g->states; i++)
+            value[i] = start + i * step;
     H5Dclose(record_array(r, at, name, H5T_NATIVE_INT64, rank, size, value));
     free(value);
 }
@@ -188,8 +189,9 @@ static void put_steps(record *r, hid_t at, const grid *g)
     double *value = calloc((size_t)g->states + 1, sizeof *value);
     r->bad |= value == NULL;
     const int path = g->shapes->state[g->state[g->states - 1]].kind == SHAPE_PATH;
-    for (int i = 0; i < g->states && value != NULL; i++)
-        value[i] = path ? g->shapes->state[g->state[i]].value : i;
+    if (value != NULL)
+        for (int i = 0; i < g->states; i++)
+            value[i] = path ? g->shapes->state[g->state[i]].value : i;
     record_count(r, steps, "NSteps", g->states);
     H5Dclose(record_values(r, steps, "Values", 1, &size, value, NULL));
     put_offsets(r, steps, "PartOffsets", g, 1, 0, 0);

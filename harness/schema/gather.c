@@ -77,14 +77,17 @@ static void compare_with(const gathering *g, int series_index, subject *s)
 {
     const judgement *j = g->judged;
     s->truth = s->model_truth = NULL;
-    for (int i = j != NULL ? first_verdict(j, series_index) : 0;
-         j != NULL && i < j->verdicts && j->verdict[i].series == series_index; i++)
+    if (j == NULL) {
+        if (g->truths != NULL)
+            s->truth = verdict_truth(g->truths, s->point, &s->series->formulation, s->index);
+        return;
+    }
+    for (int i = first_verdict(j, series_index);
+         i < j->verdicts && j->verdict[i].series == series_index; i++)
         if (j->verdict[i].quantity == s->index) {
             s->truth = j->verdict[i].truth;
             s->model_truth = j->verdict[i].model_truth;
         }
-    if (j == NULL && g->truths != NULL)
-        s->truth = verdict_truth(g->truths, s->point, &s->series->formulation, s->index);
 }
 
 /* An array of records of one mesh. */
@@ -189,20 +192,22 @@ static void gather_points(const gathering *g, const case_type *of, subjects *out
 
 static void gather_agreements(const gathering *g, const case_type *of, subjects *out)
 {
-    for (int i = 0; g->judged != NULL && i < g->judged->agreements; i++) {
-        const subject s = gather_agreement(g, &g->judged->agreement[i]);
-        if (s.point->type == of)
-            add(out, &s);
-    }
+    if (g->judged != NULL)
+        for (int i = 0; i < g->judged->agreements; i++) {
+            const subject s = gather_agreement(g, &g->judged->agreement[i]);
+            if (s.point->type == of)
+                add(out, &s);
+        }
 }
 
 static void gather_coverages(const gathering *g, const case_type *of, subjects *out)
 {
-    for (int i = 0; g->judged != NULL && i < g->judged->coverages; i++)
-        for (int k = 0; k < COVERAGE_MESHES && g->judged->coverage[i].of == of; k++) {
-            const subject s = gather_coverage(g, &g->judged->coverage[i], k);
-            add(out, &s);
-        }
+    if (g->judged != NULL)
+        for (int i = 0; i < g->judged->coverages; i++)
+            for (int k = 0; k < COVERAGE_MESHES && g->judged->coverage[i].of == of; k++) {
+                const subject s = gather_coverage(g, &g->judged->coverage[i], k);
+                add(out, &s);
+            }
 }
 
 void gather_case(const gathering *g, const record_type *type, const case_type *of, subjects *out)

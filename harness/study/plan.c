@@ -92,10 +92,11 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
         model_missing(&p->scene, chosen->type, one->missing, sizeof one->missing);
     for (int i = 0; i < p->scene.meshes; i++)
         add_mesh(one, p->scene.mesh[i]);
-    for (int i = 0; t != NULL && i < t->rows; i++)
-        if (t->row[i].elements > 0 && strcmp(t->row[i].formulation, chosen->key) == 0 &&
-            truth_holds(&t->row[i], p->type, p->parameter))
-            add_mesh(one, t->row[i].elements);
+    if (t != NULL)
+        for (int i = 0; i < t->rows; i++)
+            if (t->row[i].elements > 0 && strcmp(t->row[i].formulation, chosen->key) == 0 &&
+                truth_holds(&t->row[i], p->type, p->parameter))
+                add_mesh(one, t->row[i].elements);
     return STATUS_OK;
 }
 

@@ -90,9 +90,10 @@ static int put_parts(FILE *to, const void *record, const branch parts[])
         const size_t count = array != NULL ? elements(record, b) : 0;
         if (put(to, &count, sizeof count) != 0 || put(to, array, count * b->size) != 0)
             return -1;
-        for (size_t i = 0; i < count && b->parts != NULL; i++)
-            if (put_parts(to, array + i * b->size, b->parts) != 0)
-                return -1;
+        if (b->parts != NULL)
+            for (size_t i = 0; i < count; i++)
+                if (put_parts(to, array + i * b->size, b->parts) != 0)
+                    return -1;
     }
     return 0;
 }
@@ -131,11 +132,13 @@ static int get_parts(FILE *from, void *record, const branch parts[])
         if (array == NULL)
             return -1;
         set_address(record, b, array);
-        for (size_t i = 0; i < count && b->parts != NULL; i++)
-            forget(array + i * b->size, b->parts);
-        for (size_t i = 0; i < count && b->parts != NULL; i++)
-            if (get_parts(from, array + i * b->size, b->parts) != 0)
-                return -1;
+        if (b->parts != NULL)
+            for (size_t i = 0; i < count; i++)
+                forget(array + i * b->size, b->parts);
+        if (b->parts != NULL)
+            for (size_t i = 0; i < count; i++)
+                if (get_parts(from, array + i * b->size, b->parts) != 0)
+                    return -1;
     }
     return 0;
 }

@@ -35,8 +35,9 @@ int sweep_cells(const sweep *s)
 
 void sweep_series_free(series *one)
 {
-    for (int k = 0; k < one->meshes && one->cell != NULL; k++)
-        cell_result_free(&one->cell[k]);
+    if (one->cell != NULL)
+        for (int k = 0; k < one->meshes; k++)
+            cell_result_free(&one->cell[k]);
     free(one->cell);
     free(one->noise);
     free(one->timing);
