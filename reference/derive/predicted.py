@@ -151,11 +151,6 @@ def at_any_theory(given):
     return sheets.parameters({**given, "shear_stability": "*"} if given.get("shear", 1) else given)
 
 
-def at_any_inertia(given):
-    """Of a load, which inertia has no part in."""
-    return at_any_theory({**given, "rotary_inertia": "*"})
-
-
 def channel_columns():
     for given in [{**at, **rigid} for at in CHANNEL_COLUMNS for rigid in ({}, {"shear": 0})]:
         sizes = {k: v for k, v in given.items() if k in ("height", "width", "web_thickness")}
@@ -163,7 +158,7 @@ def channel_columns():
         length, shear = mpf(given.get("length", 6)), given.get("shear", 1)
         for name in JONKER:
             load = critical(s, length, shear, compression, name == "beamw")[1]
-            yield name, "c_column", at_any_inertia(given), "buckling_load", load, "N", CLOSED
+            yield name, "c_column", at_any_theory(given), "buckling_load", load, "N", CLOSED
 
 
 def channels_under_moments():
