@@ -1,6 +1,6 @@
-/* Two stored runs side by side: what became worse, better, or is there in one of them only. Whole runs cell by cell and
- * quantity by quantity, else series by series. No truth is involved: a former run says nothing of what is right, only
- * that something has changed. */
+/* Two stored runs side by side: what became worse, better, or is there in one of them only. Whole
+ * runs cell by cell and quantity by quantity, else series by series. No truth is involved: a former
+ * run says nothing of what is right, only that something has changed. */
 #ifndef BEAMWORK_COMPARISON_H
 #define BEAMWORK_COMPARISON_H
 
@@ -38,7 +38,8 @@ typedef struct comparison {
 
 /* "error=0.01,floor=1e-8,work=0.02", any of them. REFUSED names the culprit. */
 status comparison_limits_parse(const char *text, comparison_limits *out, fault *f);
-/* Writes one line for each difference. Names that `select` (of sweep.h; NULL: all) does not hold for are left out. */
+/* Writes one line for each difference. Names that `select` (of sweep.h; NULL: all) does not hold for
+ * are left out. */
 void comparison_run(FILE *to, const results *before, const results *after,
                     const comparison_limits *limits, const char *select, comparison *out);
 int comparison_differs(const comparison *c);

@@ -11,7 +11,8 @@ static double last_digit(int digits)
     return 0.5 * pow(10, 1 - digits);
 }
 
-/* A line for each mesh whose status has changed or that is in one of them only; 1: the meshes are the same. */
+/* A line for each mesh whose status has changed or that is in one of them only; 1: they have the
+ * same meshes. */
 static int compare_meshes(const listing *l, const result_series *a, const result_series *b)
 {
     int same = 1;

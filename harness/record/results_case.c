@@ -188,7 +188,8 @@ static int set_limit(result_cell *cell, const limit_row *limit)
     return 0;
 }
 
-/* Limits at the default point, to the finest of the cells, which are those of the tables in their order. */
+/* Limits at the default point, to the finest of the cells, which are those of the tables in their
+ * order. */
 static status take_limits(const char *path, const char *of, const tables *t, result_cell cell[],
                           fault *f)
 {

@@ -1,4 +1,5 @@
-/* The short table of a run: a row for each series, small enough to be committed and read in a diff. */
+/* The short table of a run: a row for each series, small enough to be committed and read in a
+ * diff. */
 #ifndef BEAMWORK_RESULTS_TABLE_H
 #define BEAMWORK_RESULTS_TABLE_H
 

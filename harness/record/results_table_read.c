@@ -1,4 +1,5 @@
-/* Reading the short table of a run. Nothing is believed: a file may be foreign, cut short or damaged. */
+/* Reading the short table of a run. Nothing is believed: a file may be foreign, cut short or
+ * damaged. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -22,7 +23,8 @@ enum { LONGEST_NAME = 1200, LONGEST_LINE = 16384, MOST_ERRORS = 100000000 };
 static const long most_work = 1000000000000000000L;
 static const double most_number = 1e300;
 
-/* Splits a line into its fields, of which the first may be quoted; 0: there are not FIELDS of them. */
+/* Splits a line into its fields, of which the first may be quoted; 0: there are not FIELDS of
+ * them. */
 static int split(char *line, char *field[FIELDS])
 {
     char *at = line;
