@@ -183,6 +183,10 @@ class Compare(unittest.TestCase):
             done = run("compare", *pair)
             self.assertEqual(done.returncode, 0, done)
             self.assertIn("0 worse, 0 better, 0 changed, 0 gone, 0 new", done.stdout)
+        former_table = table_of(former, os.path.join(self.folder.name, "former.csv"))
+        rows = pathlib.Path(former_table).read_text(encoding="utf-8")
+        known = pathlib.Path(self.table).read_text(encoding="utf-8").splitlines()[1:]
+        self.assertEqual(rows.splitlines()[1:], [row[:row.rindex(",") + 1] for row in known])
         altered(self.old, self.new, self.errors(2))
         self.assertEqual(run("compare", former, self.new).returncode, 1)
 
