@@ -130,8 +130,8 @@ static status build(const double value[], scene *s, fault *f)
     c->moments = (scene_moments)value[MOMENTS];
     add_path_quantities(s, path, arm);
     add_stiffnesses(s, turned, arm, has_free_tilts(value) ? 5 : 3);
-    const int meshes[] = {1, 2, 4, 8, 16};
-    scene_meshes(s, 5, meshes);
+    const int meshes[] = {1, 2, 4, 8, 16, 32, 64};
+    scene_meshes(s, 7, meshes);
     return STATUS_OK;
 }
 

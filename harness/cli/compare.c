@@ -26,23 +26,26 @@ static status write_table(const char *path, const results *r, fault *f)
 
 static void print_sums(const comparison *c)
 {
-    printf("%d cells in both:", c->cells);
+    printf("%d %s in both:", c->pairs, c->whole ? "cells" : "series");
     for (int k = 0; k < COMPARISON_KINDS; k++)
         printf("%s %d %s", k > 0 ? "," : "", c->count[k], comparison_kind_names[k]);
     for (int k = 0; k < RESULTS_WORKS; k++)
-        printf("%s %s %.0f -> %.0f", k > 0 ? "," : ";", results_work_names[k], c->work[0][k], c->work[1][k]);
+        printf("%s %s %.0f -> %.0f", k > 0 ? "," : ";", results_work_names[k], c->work[0][k],
+               c->work[1][k]);
     putchar('\n');
 }
 
-static int compare(const cli_request *r, const results *before, const results *after, const comparison_limits *limits, fault *f)
+static int compare(const cli_request *r, const results *before, const results *after,
+                   const comparison_limits *limits, fault *f)
 {
     comparison c;
     comparison_run(stdout, before, after, limits, r->select, &c);
     print_sums(&c);
     if (fflush(stdout) != 0)
         fault_set(f, STATUS_FAULT, "standard output cannot be written");
-    else if (c.cells == 0)
-        fault_set(f, STATUS_FAULT, "nothing was compared: %.80s and %.80s have no cell in common", r->case_name, r->second);
+    else if (c.pairs == 0)
+        fault_set(f, STATUS_FAULT, "nothing was compared: %.80s and %.80s have no %s in common",
+                  r->case_name, r->second, c.whole ? "cell" : "series");
     else
         return comparison_differs(&c) ? DIFFERS : SAME;
     return trouble(f);
@@ -54,18 +57,24 @@ int cli_compare(int count, char **arguments)
     comparison_limits limits = COMPARISON_LIMITS;
     results before = {0}, after = {0};
     fault f = {""};
-    cli_parse("compare", "OLD [NEW]",
-              "Compares errors and work counts, cell by cell, of two runs stored by 'verify -o' (HDF5), or of a short table of one "
-              "that is kept; a "
-              "former run is never a truth. -o with OLD alone writes its short table. Exit status: 0 the same within the "
-              "thresholds, 1 something is "
-              "worse, better, changed, gone or new, 2 trouble (file, usage, nothing in common).",
-              "ok2h", count, arguments, &r);
+    cli_parse(
+        "compare", "OLD [NEW]",
+        "Compares errors and work counts of two runs stored by 'verify -o' (HDF5), cell by cell, "
+        "or, where one is the short table that is kept of a run, series by series, with the limits "
+        "of the default points; a former run is never a truth. -o with OLD alone writes its short "
+        "table. Exit status: 0 the same within the thresholds, 1 something is worse, better, "
+        "changed, gone or new, 2 trouble (file, usage, nothing in common).",
+        "ok2h", count, arguments, &r);
     if (r.case_name == NULL || (r.second == NULL) != (r.output != NULL))
-        return cli_fail(STATUS_REFUSED, "give two stored runs to compare, or one and -o FILE.csv for its short table");
-    status outcome = r.threshold != NULL ? comparison_limits_parse(r.threshold, &limits, &f) : STATUS_OK;
+        return cli_fail(
+            STATUS_REFUSED,
+            "give two stored runs to compare, or one and -o FILE.csv for its short table");
+    status outcome =
+        r.threshold != NULL ? comparison_limits_parse(r.threshold, &limits, &f) : STATUS_OK;
     if (outcome == STATUS_OK && r.select != NULL && select_matches(r.select, "") < 0)
-        outcome = fault_set(&f, STATUS_REFUSED, "selection '%.100s' is malformed; write words joined by and, or, not", r.select);
+        outcome = fault_set(&f, STATUS_REFUSED,
+                            "selection '%.100s' is malformed; write words joined by and, or, not",
+                            r.select);
     if (outcome == STATUS_OK)
         outcome = cli_check_files(&r, 0, NULL, &f);
     if (outcome == STATUS_OK)
@@ -74,7 +83,9 @@ int cli_compare(int count, char **arguments)
         outcome = results_read(r.second, &after, &f);
     if (outcome == STATUS_OK && r.second == NULL)
         outcome = write_table(r.output, &before, &f);
-    const int code = outcome != STATUS_OK ? trouble(&f) : r.second == NULL ? SAME : compare(&r, &before, &after, &limits, &f);
+    const int code = outcome != STATUS_OK ? trouble(&f)
+                     : r.second == NULL   ? SAME
+                                          : compare(&r, &before, &after, &limits, &f);
     results_free(&before);
     results_free(&after);
     return code;

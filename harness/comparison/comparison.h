@@ -1,5 +1,6 @@
-/* Two stored runs side by side: what became worse, better, or is there in one of them only. No truth is involved: a former run says nothing of
- * what is right, only that something has changed. */
+/* Two stored runs side by side: what became worse, better, or is there in one of them only. Whole
+ * runs cell by cell and quantity by quantity, else series by series. No truth is involved: a former
+ * run says nothing of what is right, only that something has changed. */
 #ifndef BEAMWORK_COMPARISON_H
 #define BEAMWORK_COMPARISON_H
 
@@ -8,12 +9,13 @@
 typedef struct comparison_limits {
     double error; /* relative change of an error */
     double floor; /* change of a value relative to its truth that is round-off */
-    double work;  /* relative change of a count */
+    double
+        work; /* relative change of a count of one mesh; of a series: of the mean of its meshes */
 } comparison_limits;
 
-#define COMPARISON_LIMITS                                                                                                          \
-    {                                                                                                                              \
-        0.01, RESULTS_FLOOR, 0.02                                                                                                  \
+#define COMPARISON_LIMITS                                                                          \
+    {                                                                                              \
+        0.01, RESULTS_FLOOR, 0.02                                                                  \
     }
 
 typedef enum comparison_kind {
@@ -27,16 +29,19 @@ typedef enum comparison_kind {
 extern const char *const comparison_kind_names[COMPARISON_KINDS];
 
 typedef struct comparison {
-    int cells;                     /* in both */
+    int whole;                     /* 1: cell by cell; 0: series by series */
+    int judged;                    /* 1: both have limits */
+    int pairs;                     /* cells or series in both */
     int count[COMPARISON_KINDS];   /* lines of each kind */
-    double work[2][RESULTS_WORKS]; /* sums over the cells in both: old | new */
+    double work[2][RESULTS_WORKS]; /* sums over the pairs: old | new */
 } comparison;
 
 /* "error=0.01,floor=1e-8,work=0.02", any of them. REFUSED names the culprit. */
 status comparison_limits_parse(const char *text, comparison_limits *out, fault *f);
-/* Writes one line for each difference. Cells that `select` (of sweep.h; NULL: all) does not hold for are left out. */
-void comparison_run(FILE *to, const results *before, const results *after, const comparison_limits *limits, const char *select,
-                    comparison *out);
+/* Writes one line for each difference. Names that `select` (of sweep.h; NULL: all) does not hold for
+ * are left out. */
+void comparison_run(FILE *to, const results *before, const results *after,
+                    const comparison_limits *limits, const char *select, comparison *out);
 int comparison_differs(const comparison *c);
 
 #endif

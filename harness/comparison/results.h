@@ -1,4 +1,5 @@
-/* What a stored run found, cell by cell: errors and work. Read back from results.h5, or from the short table of it that can be committed. */
+/* What a stored run found: errors and work, cell by cell, and in one line for each series of meshes.
+ * Read back from results.h5, or from the short table of its series that can be committed. */
 #ifndef BEAMWORK_RESULTS_H
 #define BEAMWORK_RESULTS_H
 
@@ -7,49 +8,87 @@
 #include "cases/scene/scene.h"
 #include "elements/math/status.h"
 
-typedef enum results_work { WORK_ITERATIONS, WORK_EVALUATIONS, WORK_FACTORISATIONS, RESULTS_WORKS } results_work;
+typedef enum results_work {
+    WORK_ITERATIONS,
+    WORK_EVALUATIONS,
+    WORK_FACTORISATIONS,
+    RESULTS_WORKS
+} results_work;
 extern const char *const results_work_names[RESULTS_WORKS];
 
 /* Errors below this, relative to the truth, are round-off and the criterion of iterations. */
 #define RESULTS_FLOOR 1e-8
 
+enum { RESULTS_STATUS = 16, RESULTS_MOST_ELEMENTS = 10000000 };
+
 typedef struct result_value {
     char quantity[SCENE_NAME];
-    double value, near_zero; /* [unit of the quantity]; NAN: no value; below near_zero it counts as zero */
-    double error;            /* relative to the truth; NAN: no truth */
+    double value,
+        near_zero; /* [unit of the quantity]; NAN: none; below near_zero it counts as zero */
+    double error;  /* relative to the truth; NAN: no truth */
+    double limit;  /* of the series, at its finest mesh of a default point; NAN: none */
 } result_value;
-
-/* All errors of a cell in three numbers. */
-typedef struct result_summary {
-    int judged;                /* values that have an error */
-    double decades;            /* sum of log10(|error| + RESULTS_FLOOR) over them: moves with every one */
-    double worst;              /* largest |error|; 0: none */
-    char quantity[SCENE_NAME]; /* that has it */
-} result_summary;
 
 typedef struct result_cell {
     char *name; /* case/parameters/formulation */
     int elements;
-    char status[16];
+    char status[RESULTS_STATUS];
     long work[RESULTS_WORKS];
-    result_summary summary;
-    int values; /* 0: the short table has none */
+    int values;
     result_value *value;
 } result_cell;
 
+typedef struct result_mesh {
+    int elements;
+    char status[RESULTS_STATUS];
+} result_mesh;
+
+typedef struct result_limit {
+    char quantity[SCENE_NAME];
+    double value, near_zero; /* as of a value; near_zero 0: not known */
+} result_limit;
+
+/* Largest of the |errors| of one mesh. elements 0: no value has an error. */
+typedef struct result_error {
+    double size;
+    int elements;
+    char quantity[SCENE_NAME];
+} result_error;
+
+/* All meshes of a formulation at a parameter point. */
+typedef struct result_series {
+    char *name; /* case/parameters/formulation */
+    int meshes, limits;
+    result_mesh *mesh;        /* [meshes] ascending by elements */
+    long work[RESULTS_WORKS]; /* sums over the meshes */
+    int errors;               /* values that have one, of all meshes */
+    double decades; /* sum of log10(|error| + RESULTS_FLOOR) over them: moves with every one */
+    result_error least, largest; /* of the mesh where it is least; of all meshes */
+    result_limit *limit;         /* [limits] of a default point, in the order of its quantities */
+} result_series;
+
 typedef struct results {
-    int cells, whole;  /* whole: 1 with the values, 0 with summaries only */
-    result_cell *cell; /* ascending by name and elements */
+    int cells, seriess;
+    int whole;             /* 1: with cells, 0: with series only */
+    int limits;            /* 1: limits were judged */
+    result_cell *cell;     /* ascending by name and elements */
+    result_series *series; /* ascending by name */
 } results;
 
 /* HDF5 or table, told apart by the first bytes. FAULT: missing, truncated, foreign or damaged. */
 status results_read(const char *path, results *out, fault *f);
 void results_free(results *r);
-int results_order(const result_cell *a, const result_cell *b); /* of name, then elements */
 
-/* A zeroed cell at the end, or NULL. */
+/* A zeroed one at the end, or NULL. */
 result_cell *results_add(results *r);
-void results_summarise(result_cell *cell);
+result_series *results_add_series(results *r);
+result_mesh *result_add_mesh(result_series *s);
+result_limit *result_add_limit(result_series *s);
+
+int results_order(const result_cell *a, const result_cell *b); /* of name, then elements */
+/* Fills the series from the cells, which are in order. FAULT: out of memory. */
+status results_summarise(results *r, fault *f);
+
 status results_read_hdf5(const char *path, results *out, fault *f);
 status results_read_table(const char *path, FILE *from, results *out, fault *f);
 void results_write_table(FILE *to, const results *r);

@@ -10,36 +10,57 @@ static int compare_cells(const void *a, const void *b)
     return results_order(a, b);
 }
 
-static status check_twice(const char *path, const results *r, fault *f)
+static int compare_series(const void *a, const void *b)
 {
+    return strcmp(((const result_series *)a)->name, ((const result_series *)b)->name);
+}
+
+static status sort_cells(const char *path, results *r, fault *f)
+{
+    if (r->cells > 0)
+        qsort(r->cell, (size_t)r->cells, sizeof *r->cell, compare_cells);
     for (int i = 1; i < r->cells; i++)
         if (results_order(&r->cell[i - 1], &r->cell[i]) == 0)
-            return fault_set(f, STATUS_FAULT, "%.120s: cell %.120s n=%d is there twice", path, r->cell[i].name,
-                             r->cell[i].elements);
+            return fault_set(f, STATUS_FAULT, "%.120s: cell %.120s n=%d is there twice", path,
+                             r->cell[i].name, r->cell[i].elements);
     return STATUS_OK;
+}
+
+static status sort_series(const char *path, results *r, fault *f)
+{
+    if (r->seriess > 0)
+        qsort(r->series, (size_t)r->seriess, sizeof *r->series, compare_series);
+    for (int i = 1; i < r->seriess; i++)
+        if (compare_series(&r->series[i - 1], &r->series[i]) == 0)
+            return fault_set(f, STATUS_FAULT, "%.120s: series %.120s is there twice", path,
+                             r->series[i].name);
+    return STATUS_OK;
+}
+
+static int is_hdf5(FILE *from)
+{
+    static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
+    unsigned char head[sizeof signature] = {0};
+    const size_t length = fread(head, 1, sizeof head, from);
+    rewind(from);
+    return length == sizeof head && memcmp(head, signature, sizeof head) == 0;
 }
 
 status results_read(const char *path, results *out, fault *f)
 {
-    static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
-    unsigned char head[sizeof signature] = {0};
     memset(out, 0, sizeof *out);
     FILE *from = fopen(path, "rb");
     if (from == NULL)
         return fault_set(f, STATUS_FAULT, "%.120s: cannot be read (%s)", path, strerror(errno));
-    const size_t length = fread(head, 1, sizeof head, from);
-    status outcome;
-    if (length == sizeof head && memcmp(head, signature, sizeof head) == 0) {
-        outcome = results_read_hdf5(path, out, f);
-    } else {
-        rewind(from);
-        outcome = results_read_table(path, from, out, f);
-    }
+    status outcome =
+        is_hdf5(from) ? results_read_hdf5(path, out, f) : results_read_table(path, from, out, f);
     fclose(from);
-    if (outcome == STATUS_OK && out->cells > 0)
-        qsort(out->cell, (size_t)out->cells, sizeof *out->cell, compare_cells);
     if (outcome == STATUS_OK)
-        outcome = check_twice(path, out, f);
+        outcome = sort_cells(path, out, f);
+    if (outcome == STATUS_OK && out->whole)
+        outcome = results_summarise(out, f);
+    if (outcome == STATUS_OK)
+        outcome = sort_series(path, out, f);
     if (outcome != STATUS_OK)
         results_free(out);
     return outcome;

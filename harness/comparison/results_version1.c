@@ -23,7 +23,9 @@ typedef struct reader {
 
 static status damaged(const reader *r, const char *where)
 {
-    return fault_set(r->f, STATUS_FAULT, "%.120s: %.120s is missing or damaged; run 'beamwork verify -o' again", r->path, where);
+    return fault_set(r->f, STATUS_FAULT,
+                     "%.120s: %.120s is missing or damaged; run 'beamwork verify -o' again",
+                     r->path, where);
 }
 
 static hid_t row_type(void)
@@ -42,19 +44,22 @@ static hid_t row_type(void)
 static int read_values(hid_t at, result_cell *cell)
 {
     hsize_t count = 0;
-    const hid_t set = H5Lexists(at, "quantities", H5P_DEFAULT) > 0 ? H5Dopen2(at, "quantities", H5P_DEFAULT) : -1;
+    const hid_t set =
+        H5Lexists(at, "quantities", H5P_DEFAULT) > 0 ? H5Dopen2(at, "quantities", H5P_DEFAULT) : -1;
     const hid_t space = set >= 0 ? H5Dget_space(set) : -1, type = row_type();
-    int good = space >= 0 && H5Sget_simple_extent_ndims(space) == 1 && H5Sget_simple_extent_dims(space, &count, NULL) == 1 &&
-               count <= MOST_VALUES;
+    int good = space >= 0 && H5Sget_simple_extent_ndims(space) == 1 &&
+               H5Sget_simple_extent_dims(space, &count, NULL) == 1 && count <= MOST_VALUES;
     old_row *row = good ? calloc((size_t)count + 1, sizeof *row) : NULL;
     cell->value = good ? calloc((size_t)count + 1, sizeof *cell->value) : NULL;
-    good = row != NULL && cell->value != NULL && (count == 0 || H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, row) >= 0);
+    good = row != NULL && cell->value != NULL &&
+           (count == 0 || H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, row) >= 0);
     for (int i = 0; good && i < (int)count; i++) {
         result_value *v = &cell->value[cell->values++];
         memcpy(v->quantity, row[i].name, sizeof v->quantity - 1);
         v->value = row[i].value;
         v->error = row[i].error;
         v->near_zero = row[i].near_zero;
+        v->limit = NAN;
     }
     free(row);
     H5Tclose(type);
@@ -67,7 +72,8 @@ static int read_values(hid_t at, result_cell *cell)
 
 static int read_work(hid_t at, long work[RESULTS_WORKS])
 {
-    static const char *const part[] = {"strain_evaluations", "stress_evaluations", "inertia_evaluations"};
+    static const char *const part[] = {"strain_evaluations", "stress_evaluations",
+                                       "inertia_evaluations"};
     long one;
     work[WORK_EVALUATIONS] = 0;
     for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {
@@ -86,11 +92,12 @@ static status read_cell(const reader *r, hid_t at, const char *name)
     result_cell *cell = results_add(r->out);
     if (cell == NULL || (cell->name = strdup(name)) == NULL)
         return fault_set(r->f, STATUS_FAULT, "out of memory for results");
-    if (!attribute_count(at, "elements_per_member", &elements) || elements < 1 || elements > 10000000 ||
-        !attribute_text(at, "status", cell->status, sizeof cell->status) || !read_work(at, cell->work) || !read_values(at, cell))
+    if (!attribute_count(at, "elements_per_member", &elements) || elements < 1 ||
+        elements > RESULTS_MOST_ELEMENTS ||
+        !attribute_text(at, "status", cell->status, sizeof cell->status) ||
+        !read_work(at, cell->work) || !read_values(at, cell))
         return damaged(r, name);
     cell->elements = (int)elements;
-    results_summarise(cell);
     return STATUS_OK;
 }
 
@@ -105,7 +112,8 @@ static status visit(const reader *r, hid_t at, const char *prefix, visitor *each
     if (H5Gget_info(at, &info) < 0)
         return damaged(r, prefix);
     for (hsize_t i = 0; i < info.nlinks && outcome == STATUS_OK; i++) {
-        if (H5Lget_name_by_idx(at, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name, H5P_DEFAULT) <= 0)
+        if (H5Lget_name_by_idx(at, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name,
+                               H5P_DEFAULT) <= 0)
             return damaged(r, prefix);
         const hid_t here = H5Oopen(at, name, H5P_DEFAULT);
         if (here < 0)

@@ -9,7 +9,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     FILE *from = fuzz_stream(data, size);
     const status outcome = results_read_table("table", from, &r, &f);
     fclose(from);
-    fuzz_must((outcome == STATUS_OK) == (f.text[0] == '\0') && strchr(f.text, '\n') == NULL, "a refusal has one line");
+    fuzz_must((outcome == STATUS_OK) == (f.text[0] == '\0') && strchr(f.text, '\n') == NULL,
+              "a refusal has one line");
     if (outcome == STATUS_OK) {
         char *written = NULL;
         size_t length = 0;
@@ -18,7 +19,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         results_write_table(to, &r);
         fclose(to);
         from = fuzz_stream((const uint8_t *)written, length);
-        fuzz_must(results_read_table("table", from, &again, &f) == STATUS_OK && again.cells == r.cells,
+        fuzz_must(results_read_table("table", from, &again, &f) == STATUS_OK &&
+                      again.seriess == r.seriess,
                   "what is written reads back");
         fclose(from);
         free(written);

@@ -1,15 +1,11 @@
 """beamwork compare: exit status like diff, worse and better named, nothing believed of a file."""
 import os
 import pathlib
-import shutil
-import subprocess
 import tempfile
 import unittest
 
-import h5py
-from reference.pack import seal
+from harness.comparison.test.stored import altered, former_layout, replace, run, table_of, verify
 
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
 TABLES = "cases/warping_torsion"
 
 
@@ -18,19 +14,14 @@ def of_cell(table):
     return (table["point"] == b"default") & (table["formulation"] == b"beamw") & (table["elements"] == 4)
 
 
-def altered(file, name, change):
+def change_rows(file, name, change):
     """A table of which change(rows of the cell) was made; fewer rows where it returns False."""
     group, rows = file[TABLES], file[TABLES][name][()]
     own = of_cell(rows)
     part = rows[own]
     keep = change(part)
     rows[own] = part
-    del group[name]
-    group[name] = rows[~own] if keep is False else rows
-
-
-def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False)
+    replace(group, name, rows[~own] if keep is False else rows)
 
 
 class Compare(unittest.TestCase):
@@ -39,38 +30,34 @@ class Compare(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
         cls.old, cls.new, cls.table = (os.path.join(cls.folder.name, name) for name in ("old.h5", "new.h5", "old.csv"))
-        done = run("verify", "-k", "warping_torsion/default", "-o", cls.old)
-        assert done.returncode == 0, done.stdout
-        done = run("compare", cls.old, "-o", cls.table)
-        assert done.returncode == 0, done.stderr
+        verify("warping_torsion/default", cls.old)
+        table_of(cls.old, cls.table)
 
     def compared(self, change, *options, old=None):
-        shutil.copy(self.old, self.new)
-        with h5py.File(self.new, "r+") as file:
-            change(file)
-        seal(self.new)
-        return run("compare", *options, old or self.old, self.new)
+        return run("compare", *options, old or self.old, altered(self.old, self.new, change))
 
     def check(self, code, words, change, *options):
-        """Against the whole former run and against its short table."""
-        for old in (self.old, self.table):
+        """Against the whole former run and against its short table, whose lines of sums have no mesh."""
+        for old, mesh in ((self.old, " n=4"), (self.table, "")):
             done = self.compared(change, *options, old=old)
             self.assertEqual(done.returncode, code, done)
             for word in words:
-                self.assertIn(word, done.stdout)
+                self.assertIn(word.replace("{n=4}", mesh), done.stdout)
 
     def test_same(self):
         self.check(0, ["0 worse, 0 better, 0 changed, 0 gone, 0 new"], lambda file: None)
         done = self.compared(lambda file: None, "--threshold", "error=0,floor=0,work=0")
         self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual(run("compare", self.table, self.old, "--threshold",
+                             "error=0,floor=0,work=0").returncode, 0)
 
     def test_jobs(self):
         """One process and several give the same bits."""
         path = {}
         for jobs in ("1", "2", "5"):
             path[jobs] = os.path.join(self.folder.name, f"j{jobs}.h5")
-            done = run("verify", "-k", "elastica/default or c_column/default and beamw_consistent or sheet_wagner/default and sheet_third", "-j", jobs, "-o", path[jobs])
-            self.assertEqual(done.returncode, 0, done.stdout)
+            verify("elastica/default and collocation or sheet_wagner/default and collocation or "
+                   "shear_column/default and beamw_consistent", path[jobs], "-j", jobs)
         for jobs in ("2", "5"):
             done = run("compare", path["1"], path[jobs], "--threshold", "error=0,floor=0,work=0")
             self.assertEqual(done.returncode, 0, done.stdout)
@@ -81,37 +68,37 @@ class Compare(unittest.TestCase):
             def change(file, count=count):
                 def more(rows):
                     rows[count] = 2 * rows[count] + 1
-                altered(file, "cells", more)
-            self.check(1, ["worse    warping_torsion/default/beamw n=4", " 1 worse, 0 better"], change)
+                change_rows(file, "cells", more)
+            self.check(1, ["worse    warping_torsion/default/beamw{n=4}: ", " 1 worse, 0 better"], change)
 
         def two(rows):
             rows["factorisations"] = 2
-        self.assertEqual(self.compared(lambda file: altered(file, "cells", two), "--threshold", "work=1").returncode, 0)
+        self.assertEqual(self.compared(lambda file: change_rows(file, "cells", two), "--threshold", "work=1").returncode, 0)
 
     def test_less_work(self):
         def change(file):
             def half(rows):
                 rows["strain_evaluations"] //= 2
-            altered(file, "cells", half)
-        self.check(1, ["better   warping_torsion/default/beamw n=4: evaluations", "0 worse, 1 better"], change)
+            change_rows(file, "cells", half)
+        self.check(1, ["better   warping_torsion/default/beamw{n=4}: evaluations", "0 worse, 1 better"], change)
 
     def errors(self, factor):
         def change(file):
             def scaled(rows):
                 rows["error"] *= factor
-            altered(file, "quantities", scaled)
+            change_rows(file, "quantities", scaled)
         return change
 
     def test_errors(self):
-        self.check(1, ["worse    warping_torsion/default/beamw n=4", "error"], self.errors(1.02))
-        self.check(1, ["better   warping_torsion/default/beamw n=4", "error"], self.errors(0.5))
+        self.check(1, ["worse    warping_torsion/default/beamw{n=4}: ", "error"], self.errors(1.02))
+        self.check(1, ["better   warping_torsion/default/beamw{n=4}: ", "error"], self.errors(0.5))
         self.check(0, [], self.errors(1.005))
         self.check(1, ["worse"], self.errors(1.005), "--threshold", "error=0.001")
 
     def test_cells(self):
         def gone(file):
-            altered(file, "cells", lambda rows: False)
-            altered(file, "quantities", lambda rows: False)
+            change_rows(file, "cells", lambda rows: False)
+            change_rows(file, "quantities", lambda rows: False)
 
         def failed(file):
             group, rows = file[TABLES], file[TABLES]["cells"][()]
@@ -169,7 +156,7 @@ class Compare(unittest.TestCase):
             file[TABLES]["quantities"] = rows.astype([(c, "S30" if c == "value" else rows.dtype[c]) for c in rows.dtype.names])
 
         def homeless(file):
-            altered(file, "cells", lambda rows: False)
+            change_rows(file, "cells", lambda rows: False)
 
         def pointless(file):
             rows = file[TABLES]["points"][()]
@@ -188,6 +175,20 @@ class Compare(unittest.TestCase):
         done = self.compared(later)
         self.assertEqual(done.returncode, 2, done.stdout)
         self.assertIn("results of version 3, this program reads 2", done.stderr)
+
+    def test_former_layout(self):
+        """Files of version 1 hold the same cells, but no limits."""
+        former = former_layout(self.old, os.path.join(self.folder.name, "former.h5"))
+        for pair in ((former, self.old), (self.old, former), (self.table, former)):
+            done = run("compare", *pair)
+            self.assertEqual(done.returncode, 0, done)
+            self.assertIn("0 worse, 0 better, 0 changed, 0 gone, 0 new", done.stdout)
+        former_table = table_of(former, os.path.join(self.folder.name, "former.csv"))
+        rows = pathlib.Path(former_table).read_text(encoding="utf-8")
+        known = pathlib.Path(self.table).read_text(encoding="utf-8").splitlines()[1:]
+        self.assertEqual(rows.splitlines()[1:], [row[:row.rindex(",") + 1] for row in known])
+        altered(self.old, self.new, self.errors(2))
+        self.assertEqual(run("compare", former, self.new).returncode, 1)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,43 @@
+#include "harness/comparison/comparison_lines.h"
+
+#include <math.h>
+#include <string.h>
+
+void comparison_heading(const listing *l, comparison_kind kind)
+{
+    l->out->count[kind]++;
+    fprintf(l->to, "%-8s %s", comparison_kind_names[kind], l->name);
+    if (l->elements > 0)
+        fprintf(l->to, " n=%d", l->elements);
+}
+
+void comparison_lone(const listing *l, comparison_kind kind)
+{
+    comparison_heading(l, kind);
+    fputc('\n', l->to);
+}
+
+void comparison_status(const listing *l, const char *before, const char *after)
+{
+    if (strcmp(before, after) == 0)
+        return;
+    comparison_heading(l, strcmp(after, "ok") == 0    ? CHANGE_BETTER
+                          : strcmp(before, "ok") == 0 ? CHANGE_WORSE
+                                                      : CHANGE_OTHER);
+    fprintf(l->to, ": %s -> %s\n", before, after);
+}
+
+void comparison_work(const listing *l, const long before[RESULTS_WORKS],
+                     const long after[RESULTS_WORKS], int meshes)
+{
+    for (int k = 0; k < RESULTS_WORKS; k++) {
+        const double old = (double)before[k], new = (double)after[k];
+        l->out->work[0][k] += old;
+        l->out->work[1][k] += new;
+        if (fabs(new - old) <= l->limits->work * old / meshes)
+            continue;
+        comparison_heading(l, new > old ? CHANGE_WORSE : CHANGE_BETTER);
+        fprintf(l->to, ": %s %ld -> %ld", results_work_names[k], before[k], after[k]);
+        fprintf(l->to, old > 0 ? " (%+.1f %%)\n" : "\n", 100 * (new - old) / old);
+    }
+}
