@@ -60,8 +60,10 @@ static status solve_dense(const eigen_problem *e, double mu[], double x[], fault
     fill_dense(e->K, 1, K);
     const int info = LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', n, x, n, K, n, mu);
     free(K);
-    return info == 0 ? STATUS_OK
-                     : fault_set(f, STATUS_NOT_CONVERGED, "a dense eigenvalue problem of %d unknowns: LAPACK says %d", n, info);
+    return info == 0
+               ? STATUS_OK
+               : fault_set(f, STATUS_NOT_CONVERGED,
+                           "a dense eigenvalue problem of %d unknowns: LAPACK says %d", n, info);
 }
 
 /* Candidates of one or both sides (NULL: not asked for) from all eigenvectors. */
@@ -70,7 +72,9 @@ static status add_dense(pairs *const side[2], const int wanted[2], fault *f)
     const pairs *any = side[0] != NULL ? side[0] : side[1];
     const size_t n = (size_t)any->n;
     double *mu = calloc(n, sizeof *mu), *x = calloc(n * n, sizeof *x);
-    status outcome = mu == NULL || x == NULL ? fault_set(f, STATUS_FAULT, "out of memory for an eigenvalue problem") : STATUS_OK;
+    status outcome = mu == NULL || x == NULL
+                         ? fault_set(f, STATUS_FAULT, "out of memory for an eigenvalue problem")
+                         : STATUS_OK;
     if (outcome == STATUS_OK)
         outcome = solve_dense(any->problem, mu, x, f);
     for (int i = 0; i < 2 && outcome == STATUS_OK; i++) {
@@ -90,9 +94,12 @@ static status run_lanczos(pairs *p, int wanted, double least, long *solutions, f
     const eigen_problem *e = p->problem;
     const lanczos_problem l = {e->K, e->A, e->K_factor, p->sign, p->count, p->x, p->Kx};
     const int room = p->n - p->count - 1, count = wanted < room ? wanted : room;
-    double *mu = malloc((size_t)count * sizeof *mu), *x = malloc((size_t)count * (size_t)p->n * sizeof *x);
+    double *mu = malloc((size_t)count * sizeof *mu),
+           *x = malloc((size_t)count * (size_t)p->n * sizeof *x);
     int found = 0;
-    status outcome = mu == NULL || x == NULL ? fault_set(f, STATUS_FAULT, "out of memory for %d eigenvectors", count) : STATUS_OK;
+    status outcome = mu == NULL || x == NULL
+                         ? fault_set(f, STATUS_FAULT, "out of memory for %d eigenvectors", count)
+                         : STATUS_OK;
     if (outcome == STATUS_OK)
         outcome = lanczos_largest(&l, count, &found, mu, x, solutions, f);
     if (outcome == STATUS_OK)
@@ -104,7 +111,8 @@ static status run_lanczos(pairs *p, int wanted, double least, long *solutions, f
 
 /* How many eigenvalues exist, as far as `enough`: counted above ever smaller values. Far down, where K is small beside A/s, the
  * count may fail for want of pivoting: what is known by then stands. */
-static status count_existing(pairs *p, int enough, double scale, double least, int *exist, eigen_result *r, fault *f)
+static status count_existing(pairs *p, int enough, double scale, double least, int *exist,
+                             eigen_result *r, fault *f)
 {
     const double step = 30;
     *exist = 0;
@@ -129,7 +137,9 @@ static status fill(pairs *p, int wanted, double scale, double least, eigen_resul
     int missing = wanted + SPARE < exist ? wanted + SPARE : exist;
     for (int pass = 0; outcome == STATUS_OK && missing > 0; pass++) {
         if (pass == MAX_PASSES || p->count + missing >= p->n)
-            return fault_set(f, STATUS_NOT_CONVERGED, "%d of %d eigenvalues are missing after %d attempts", missing, asked, pass);
+            return fault_set(f, STATUS_NOT_CONVERGED,
+                             "%d of %d eigenvalues are missing after %d attempts", missing, asked,
+                             pass);
         outcome = run_lanczos(p, missing, least, &r->solutions, f);
         missing = asked - p->count;
         if (outcome == STATUS_OK && missing <= 0)
@@ -162,12 +172,14 @@ static status one_sparse(pairs *p, int side, int wanted, eigen_side *out, eigen_
     out->status = fill(p, wanted, scale, fmax(negligible * scale, least_of(p->n, scale)), r, &why);
     if (out->status == STATUS_NOT_CONVERGED && p->n <= DENSE_AT_LAST_UP_TO) {
         p->count = 0;
-        out->status = add_dense((pairs *[]){side == 0 ? p : NULL, side == 0 ? NULL : p}, (int[]){wanted, wanted}, &why);
+        out->status = add_dense((pairs *[]){side == 0 ? p : NULL, side == 0 ? NULL : p},
+                                (int[]){wanted, wanted}, &why);
     }
     if (out->status == STATUS_OK)
         return STATUS_OK;
     snprintf(out->reason, sizeof out->reason, "%s", why.text);
-    return out->status == STATUS_FAULT ? fault_set(f, STATUS_FAULT, "%s", why.text) : keep_first(p, r, f);
+    return out->status == STATUS_FAULT ? fault_set(f, STATUS_FAULT, "%s", why.text)
+                                       : keep_first(p, r, f);
 }
 
 /* Leaves out what is rounding of A alone: with one such value all smaller ones are, for so much rounding moves any of them. It
@@ -198,7 +210,8 @@ static double judge(pairs *p, int count, eigen_side *out, long *solutions)
 static status improve(pairs *p, int count, eigen_side *out, eigen_result *r, fault *f)
 {
     enum { SWEEPS = 3 };
-    const double bearable = 1e-6; /* values are off by its square, and what their distance makes of it */
+    const double bearable =
+        1e-6; /* values are off by its square, and what their distance makes of it */
     const double good = 1e-8;
     if (p->problem->K_product == NULL || pairs_departure(p, count) <= bearable) {
         judge(p, count, out, &r->solutions);
@@ -226,7 +239,8 @@ static void take_out_lost(pairs *p, int count, eigen_side *out)
             continue;
         p->mu[i] = NAN;
         if (out->status == STATUS_OK)
-            snprintf(out->reason, sizeof out->reason, "eigenvalue %d of %d unknowns is lost in round-off (error %.1e): refine less",
+            snprintf(out->reason, sizeof out->reason,
+                     "eigenvalue %d of %d unknowns is lost in round-off (error %.1e): refine less",
                      i + 1, p->n, out->error[i]);
         out->status = STATUS_NOT_CONVERGED;
     }
@@ -284,8 +298,11 @@ status eigen_solve(const eigen_problem *e, eigen_result *r, fault *f)
     memset(r, 0, sizeof *r);
     r->n = e->K->n;
     if (negative != 0)
-        return fault_set(f, STATUS_REFUSED, "eigenvalues need a positive definite stiffness: this one has %d negative pivots%s",
-                         negative, negative > 0 ? ", the structure is beyond a critical point" : " (it is not symmetric)");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "eigenvalues need a positive definite stiffness: this one has %d negative pivots%s",
+            negative,
+            negative > 0 ? ", the structure is beyond a critical point" : " (it is not symmetric)");
     if (r->n == 0)
         return STATUS_OK;
     pairs up, down;

@@ -13,26 +13,31 @@ typedef double eigen_form(void *context, const double x[]);
 typedef void eigen_product(void *context, const double x[], double y[]);
 
 typedef struct eigen_problem {
-    const sparse *K, *A;                 /* same pattern */
-    factor *K_factor;                    /* factor_numeric done */
-    double sign;                         /* +1: A, -1: -A is meant */
-    int largest;                         /* wanted number of most positive mu */
-    int smallest;                        /* wanted number of most negative mu */
-    eigen_form *K_energy, *A_energy;     /* x^T K x and x^T A x (A without the sign), [K's unit]; NULL: from the matrix */
-    eigen_form *K_rounding, *A_rounding; /* what rounding may change in them; NULL: nothing worth asking */
-    eigen_product *K_product;            /* y = K x with fewer digits lost than by the matrix; NULL: there is none */
-    void *context;                       /* of all of them */
-    int iterate;                         /* 1: Lanczos whatever the size (for tests) */
+    const sparse *K, *A; /* same pattern */
+    factor *K_factor;    /* factor_numeric done */
+    double sign;         /* +1: A, -1: -A is meant */
+    int largest;         /* wanted number of most positive mu */
+    int smallest;        /* wanted number of most negative mu */
+    eigen_form *K_energy,
+        *A_energy; /* x^T K x and x^T A x (A without the sign), [K's unit]; NULL: from the matrix */
+    eigen_form *K_rounding,
+        *A_rounding; /* what rounding may change in them; NULL: nothing worth asking */
+    eigen_product
+        *K_product; /* y = K x with fewer digits lost than by the matrix; NULL: there is none */
+    void *context;  /* of all of them */
+    int iterate;    /* 1: Lanczos whatever the size (for tests) */
 } eigen_problem;
 
 typedef struct eigen_side {
-    int count;               /* found; fewer than wanted when no more exist, or for the reason below */
-    double *mu;              /* [count] largest size first */
-    double *mode;            /* [count x n] x^T K x = 1 */
-    double *residual;        /* [count] an eigenvalue lies within residual |mu| of mu */
-    double *error;           /* [count] estimate: |mu| is off by error |mu|, which is at most about residual^2 |mu| */
-    int rounding;            /* candidates that were round-off of A and are left out */
-    status status;           /* NOT_CONVERGED: the iteration ended before all wanted ones were proved to be there ... */
+    int count;        /* found; fewer than wanted when no more exist, or for the reason below */
+    double *mu;       /* [count] largest size first */
+    double *mode;     /* [count x n] x^T K x = 1 */
+    double *residual; /* [count] an eigenvalue lies within residual |mu| of mu */
+    double *
+        error; /* [count] estimate: |mu| is off by error |mu|, which is at most about residual^2 |mu| */
+    int rounding; /* candidates that were round-off of A and are left out */
+    status
+        status; /* NOT_CONVERGED: the iteration ended before all wanted ones were proved to be there ... */
     char reason[FAULT_TEXT]; /* ... and why; those found are the first of their side all the same */
 } eigen_side;
 

@@ -65,7 +65,8 @@ static double lost_part(factor *fa, const sparse *a, int row, int column)
         unit_vector(fa->n, column, y);
         factor_unsymmetric_solve_transposed(fa->unsymmetric, y);
     }
-    const double scale = fabs(x[column]); /* of every term: a sum of squares of x alone may overflow */
+    const double scale =
+        fabs(x[column]); /* of every term: a sum of squares of x alone may overflow */
     for (int j = 0; j < fa->n; j++)
         for (int k = a->column[j]; k < a->column[j + 1]; k++) {
             const double term = y[a->row[k]] / scale * a->value[k] * x[j];
@@ -85,9 +86,11 @@ status factor_numeric(factor *fa, const sparse *a, fault *f)
         outcome = factor_symmetric_numeric(fa->symmetric, a, &fa->counts, &row, &ratio);
         column = row;
     } else if (fa->unsymmetric != NULL) {
-        outcome = factor_unsymmetric_numeric(fa->unsymmetric, a, &fa->counts, &row, &column, &ratio);
+        outcome =
+            factor_unsymmetric_numeric(fa->unsymmetric, a, &fa->counts, &row, &column, &ratio);
     }
-    if (outcome == STATUS_OK && ratio <= n * n * n * DBL_EPSILON && !(lost_part(fa, a, row, column) < lost))
+    if (outcome == STATUS_OK && ratio <= n * n * n * DBL_EPSILON &&
+        !(lost_part(fa, a, row, column) < lost))
         outcome = STATUS_SINGULAR;
     if (outcome == STATUS_SINGULAR)
         fault_set(f, outcome, "the stiffness matrix is singular");

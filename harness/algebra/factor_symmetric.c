@@ -33,7 +33,8 @@ static int lay_out(factor_symmetric *fs, size_t n, size_t entries)
     fs->numbers = malloc((4 * n + entries + 1) * sizeof *fs->numbers);
     if (fs->integers == NULL || fs->numbers == NULL)
         return 0;
-    int **const lists[] = {&fs->order, &fs->inverse, &fs->parent, &fs->in_column, &fs->mark, &fs->path};
+    int **const lists[] = {&fs->order,     &fs->inverse, &fs->parent,
+                           &fs->in_column, &fs->mark,    &fs->path};
     int *next = fs->integers;
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++, next += n)
         *lists[i] = next;
@@ -84,7 +85,8 @@ static void permute(const sparse *a, factor_symmetric *fs)
 static status analyse(factor_symmetric *fs, factor_counts *counts, fault *f)
 {
     const int n = fs->n;
-    ldl_symbolic(n, fs->column, fs->row, fs->L_column, fs->parent, fs->in_column, fs->mark, NULL, NULL);
+    ldl_symbolic(n, fs->column, fs->row, fs->L_column, fs->parent, fs->in_column, fs->mark, NULL,
+                 NULL);
     counts->entries = n;
     counts->flops = 0;
     for (int j = 0; j < n; j++) {
@@ -93,16 +95,20 @@ static status analyse(factor_symmetric *fs, factor_counts *counts, fault *f)
         counts->flops += below * (below + 2);
     }
     if (counts->entries > INT_MAX)
-        return fault_set(f, STATUS_FAULT, "a factor of %ld entries is more than its indices can count", counts->entries);
+        return fault_set(f, STATUS_FAULT,
+                         "a factor of %ld entries is more than its indices can count",
+                         counts->entries);
     const size_t fill = (size_t)fs->L_column[n] + 1;
     fs->L_row = malloc(fill * sizeof *fs->L_row);
     fs->L_value = malloc(fill * sizeof *fs->L_value);
     if (fs->L_row == NULL || fs->L_value == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for %ld entries of a factor", counts->entries);
+        return fault_set(f, STATUS_FAULT, "out of memory for %ld entries of a factor",
+                         counts->entries);
     return STATUS_OK;
 }
 
-status factor_symmetric_alloc(const sparse *pattern, factor_symmetric **out, factor_counts *counts, fault *f)
+status factor_symmetric_alloc(const sparse *pattern, factor_symmetric **out, factor_counts *counts,
+                              fault *f)
 {
     const int n = pattern->n;
     factor_symmetric *fs = *out = calloc(1, sizeof *fs);
@@ -175,7 +181,8 @@ static status judge_pivots(factor_symmetric *fs, factor_counts *counts, int *wea
     sum_terms(fs, counts->negative_pivots);
     for (int k = 0; k < fs->n; k++) {
         const double d = fabs(fs->D[k]), terms = fs->terms[k];
-        if (!isfinite(d) || d <= digits * terms || (terms * digits >= fs->diagonal[k] && terms * digits >= largest_entry(fs, k)))
+        if (!isfinite(d) || d <= digits * terms ||
+            (terms * digits >= fs->diagonal[k] && terms * digits >= largest_entry(fs, k)))
             return STATUS_SINGULAR;
         if (d < *ratio * terms) {
             *ratio = d / terms;
@@ -188,11 +195,13 @@ static status judge_pivots(factor_symmetric *fs, factor_counts *counts, int *wea
     return STATUS_OK;
 }
 
-status factor_symmetric_numeric(factor_symmetric *fs, const sparse *a, factor_counts *counts, int *weakest, double *ratio)
+status factor_symmetric_numeric(factor_symmetric *fs, const sparse *a, factor_counts *counts,
+                                int *weakest, double *ratio)
 {
     load(fs, a);
-    if (ldl_numeric(fs->n, fs->column, fs->row, fs->value, fs->L_column, fs->parent, fs->in_column, fs->L_row, fs->L_value, fs->D,
-                    fs->work, fs->path, fs->mark, NULL, NULL) != fs->n)
+    if (ldl_numeric(fs->n, fs->column, fs->row, fs->value, fs->L_column, fs->parent, fs->in_column,
+                    fs->L_row, fs->L_value, fs->D, fs->work, fs->path, fs->mark, NULL,
+                    NULL) != fs->n)
         return STATUS_SINGULAR;
     return judge_pivots(fs, counts, weakest, ratio);
 }

@@ -17,7 +17,8 @@ struct factor_unsymmetric {
 /* Old pivots are kept while the entries of U stay below this many times those of the matrix. */
 static const double tolerable_growth = 1e4;
 
-status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric **out, factor_counts *counts, fault *f)
+status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric **out,
+                                factor_counts *counts, fault *f)
 {
     factor_unsymmetric *fu = *out = calloc(1, sizeof *fu);
     if (fu == NULL)
@@ -30,7 +31,8 @@ status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric **out,
     if (fu->largest != NULL && fu->symbolic != NULL)
         return STATUS_OK;
     if (fu->common.status == KLU_SINGULAR)
-        return fault_set(f, STATUS_SINGULAR, "the matrix is singular whatever its numbers: something is not held");
+        return fault_set(f, STATUS_SINGULAR,
+                         "the matrix is singular whatever its numbers: something is not held");
     return fault_set(f, STATUS_FAULT, "out of memory for ordering %d unknowns", fu->n);
 }
 
@@ -47,8 +49,10 @@ void factor_unsymmetric_free(factor_unsymmetric *fu)
 /* 1: the numeric factors belong to a, with the pivots of an earlier matrix. */
 static int refactor(factor_unsymmetric *fu, const sparse *a)
 {
-    return fu->numeric != NULL && klu_refactor(a->column, a->row, a->value, fu->symbolic, fu->numeric, &fu->common) &&
-           fu->common.status == KLU_OK && klu_rgrowth(a->column, a->row, a->value, fu->symbolic, fu->numeric, &fu->common) &&
+    return fu->numeric != NULL &&
+           klu_refactor(a->column, a->row, a->value, fu->symbolic, fu->numeric, &fu->common) &&
+           fu->common.status == KLU_OK &&
+           klu_rgrowth(a->column, a->row, a->value, fu->symbolic, fu->numeric, &fu->common) &&
            fu->common.rgrowth * tolerable_growth > 1;
 }
 
@@ -59,7 +63,8 @@ static status factor_anew(factor_unsymmetric *fu, const sparse *a, factor_counts
     if (fu->numeric == NULL)
         return fu->common.status == KLU_SINGULAR ? STATUS_SINGULAR : STATUS_FAULT;
     klu_flops(fu->symbolic, fu->numeric, &fu->common);
-    counts->entries = (long)fu->numeric->lnz + fu->numeric->unz - fu->n; /* both count the diagonal */
+    counts->entries =
+        (long)fu->numeric->lnz + fu->numeric->unz - fu->n; /* both count the diagonal */
     counts->flops = fu->common.flops;
     return STATUS_OK;
 }
@@ -81,13 +86,15 @@ static int sign_of(int n, const int permutation[], double done[])
 /* P R^-1 A Q is block triangular with the pivots on its diagonal. */
 static int determinant_of(factor_unsymmetric *fu)
 {
-    int sign = sign_of(fu->n, fu->numeric->Pnum, fu->largest) * sign_of(fu->n, fu->symbolic->Q, fu->largest);
+    int sign = sign_of(fu->n, fu->numeric->Pnum, fu->largest) *
+               sign_of(fu->n, fu->symbolic->Q, fu->largest);
     for (int k = 0; k < fu->n; k++)
         sign = ((const double *)fu->numeric->Udiag)[k] < 0 ? -sign : sign;
     return sign;
 }
 
-static status judge_pivots(factor_unsymmetric *fu, const sparse *a, factor_counts *counts, int *row, int *column, double *ratio)
+static status judge_pivots(factor_unsymmetric *fu, const sparse *a, factor_counts *counts, int *row,
+                           int *column, double *ratio)
 {
     const klu_numeric *u = fu->numeric;
     const double *pivot = u->Udiag;
@@ -114,8 +121,8 @@ static status judge_pivots(factor_unsymmetric *fu, const sparse *a, factor_count
     return STATUS_OK;
 }
 
-status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a, factor_counts *counts, int *row, int *column,
-                                  double *ratio)
+status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a, factor_counts *counts,
+                                  int *row, int *column, double *ratio)
 {
     if (!refactor(fu, a)) {
         const status outcome = factor_anew(fu, a, counts);

@@ -33,7 +33,8 @@ void gyroscopic_free(gyroscopic_result *r)
 }
 
 /* out_re + i out_im = sum_k c_k vector_k, times a complex number, added. */
-static void accumulate(const solver *s, const double *vectors, const double complex c[], double complex times)
+static void accumulate(const solver *s, const double *vectors, const double complex c[],
+                       double complex times)
 {
     const size_t n = (size_t)s->basis.n;
     for (int k = 0; k < s->pairs.size; k++) {
@@ -63,7 +64,8 @@ static double solve_half(solver *s, double half[])
 /* Size of the residual of pair i; where it is large, the basis takes in S^-1 times it. */
 static double improve(solver *s, int i, int *grown)
 {
-    const double complex lambda = s->pairs.lambda[i], *c = s->pairs.c + (size_t)i * (size_t)s->basis.room;
+    const double complex lambda = s->pairs.lambda[i],
+                         *c = s->pairs.c + (size_t)i * (size_t)s->basis.room;
     clear(s);
     accumulate(s, s->basis.SV, c, 1);
     accumulate(s, s->basis.MV, c, lambda * lambda - s->shift);
@@ -80,8 +82,8 @@ static double improve(solver *s, int i, int *grown)
 static status iterate(solver *s, int wanted, fault *f)
 {
     for (int pass = 0;; pass++) {
-        const status outcome =
-            s->shift > 0 ? ritz_general(&s->basis, s->shift, &s->pairs, f) : ritz_hermitian(&s->basis, &s->pairs, f);
+        const status outcome = s->shift > 0 ? ritz_general(&s->basis, s->shift, &s->pairs, f)
+                                            : ritz_hermitian(&s->basis, &s->pairs, f);
         if (outcome != STATUS_OK)
             return outcome;
         double worst = 0;
@@ -93,8 +95,9 @@ static status iterate(solver *s, int wanted, fault *f)
         if (grown == 0 || pass == MAX_PASSES)
             return worst <= bearable_residual
                        ? STATUS_OK
-                       : fault_set(f, STATUS_NOT_CONVERGED, "frequencies in a turning frame: residual %.1e with %d vectors", worst,
-                                   s->basis.count);
+                       : fault_set(f, STATUS_NOT_CONVERGED,
+                                   "frequencies in a turning frame: residual %.1e with %d vectors",
+                                   worst, s->basis.count);
     }
 }
 
@@ -102,7 +105,8 @@ static status iterate(solver *s, int wanted, fault *f)
 static status start(solver *s, int count, fault *f)
 {
     eigen_result e = {0};
-    const eigen_problem problem = {.K = s->S, .A = s->p->M, .K_factor = s->p->K_factor, .sign = 1, .largest = count};
+    const eigen_problem problem = {
+        .K = s->S, .A = s->p->M, .K_factor = s->p->K_factor, .sign = 1, .largest = count};
     const status outcome = eigen_solve(&problem, &e, f);
     for (int i = 0; i < e.positive.count && outcome == STATUS_OK; i++)
         subspace_add(&s->basis, e.positive.mode + (size_t)i * (size_t)s->basis.n);
@@ -141,7 +145,9 @@ static status find_shift(solver *s, fault *f)
     }
     for (s->shift = 1e-12 * k / mass; outcome == STATUS_OK; s->shift *= 10) {
         if (s->shift > 1e3 * k / mass)
-            return fault_set(f, STATUS_REFUSED, "the stiffness is indefinite where there is no mass: no motion follows from it");
+            return fault_set(
+                f, STATUS_REFUSED,
+                "the stiffness is indefinite where there is no mass: no motion follows from it");
         for (int i = 0; i < K->column[K->n]; i++)
             s->shifted.value[i] = K->value[i] + s->shift * M->value[i];
         outcome = factor_numeric(s->p->K_factor, &s->shifted, f);
@@ -219,7 +225,8 @@ static status solve(solver *s, fault *f)
     int first = s->p->wanted + SPARE, lost = 1;
     for (int attempt = 0; outcome == STATUS_OK && lost > 0; attempt++) {
         if (attempt == MAX_STARTS)
-            return fault_set(f, STATUS_NOT_CONVERGED, "%d frequencies in a turning frame are missing", lost);
+            return fault_set(f, STATUS_NOT_CONVERGED,
+                             "%d frequencies in a turning frame are missing", lost);
         outcome = start(s, first < n ? first : n, f);
         if (outcome == STATUS_OK)
             outcome = iterate(s, s->p->wanted, f);
@@ -239,10 +246,12 @@ status gyroscopic_solve(const gyroscopic_problem *p, gyroscopic_result *r, fault
     r->negative = factor_count(p->K_factor).negative_pivots;
     s.im = s.re + n;
     s.work = s.im + n;
-    status outcome = s.re != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for modes");
+    status outcome =
+        s.re != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for modes");
     if (r->negative < 0)
-        outcome =
-            fault_set(f, STATUS_REFUSED, "frequencies in a turning frame need a symmetric stiffness: no moments about fixed axes");
+        outcome = fault_set(f, STATUS_REFUSED,
+                            "frequencies in a turning frame need a symmetric stiffness: no moments "
+                            "about fixed axes");
     if (outcome == STATUS_OK && r->negative > 0)
         outcome = find_shift(&s, f);
     if (outcome == STATUS_OK)

@@ -11,9 +11,9 @@
 
 typedef struct gyroscopic_problem {
     const sparse *K, *M, *G; /* same symmetric pattern; of G the upper triangle is stored */
-    factor *K_factor;        /* factor_numeric done; its numbers are replaced where K is indefinite */
-    int wanted;              /* number of lowest modes */
-    eigen_form *K_energy;    /* x^T K x; NULL: from the matrix */
+    factor *K_factor;     /* factor_numeric done; its numbers are replaced where K is indefinite */
+    int wanted;           /* number of lowest modes */
+    eigen_form *K_energy; /* x^T K x; NULL: from the matrix */
     void *context;
 } gyroscopic_problem;
 

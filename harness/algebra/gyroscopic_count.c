@@ -47,7 +47,8 @@ static void fill(const sparse *K, const sparse *M, const sparse *G, double omega
         }
 }
 
-status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, double omega, int *below, fault *f)
+status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, double omega, int *below,
+                        fault *f)
 {
     sparse doubled;
     factor *factors = NULL;

@@ -5,6 +5,7 @@
 #include "harness/algebra/sparse.h"
 
 /* SINGULAR when omega is too near to a frequency. */
-status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, double omega, int *below, fault *f);
+status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, double omega, int *below,
+                        fault *f);
 
 #endif

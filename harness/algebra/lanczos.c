@@ -7,7 +7,10 @@
 #include <string.h>
 
 enum { MAX_RESTARTS = 300, EXTRA_VECTORS = 20, PARAMETERS = 11, POINTERS = 14 };
-enum { ENDED_EARLY = 1, CONVERGED = 4 }; /* ARPACK's verdict; where it tells how many values have converged */
+enum {
+    ENDED_EARLY = 1,
+    CONVERGED = 4
+}; /* ARPACK's verdict; where it tells how many values have converged */
 
 /* Of a vector: Rayleigh's quotient squares it. */
 static const double tolerance = 1e-10;
@@ -29,7 +32,8 @@ static status workspace_alloc(workspace *w, int n, int wanted, int room, fault *
     w->numbers = malloc((N + N * vectors + 3 * N + (size_t)w->size + vectors) * sizeof *w->numbers);
     w->integers = calloc(PARAMETERS + POINTERS + vectors, sizeof *w->integers);
     if (w->numbers == NULL || w->integers == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for %d vectors of %d unknowns", w->vectors, n);
+        return fault_set(f, STATUS_FAULT, "out of memory for %d vectors of %d unknowns", w->vectors,
+                         n);
     w->start = w->numbers;
     w->basis = w->start + N;
     w->vector = w->basis + N * vectors;
@@ -58,7 +62,8 @@ static void fill_start(int n, double x[])
 }
 
 /* x -= a-part of X, where each coefficient is measured with the dual vector. */
-static void take_out(int n, int known, const double *dual, const double *measured, const double *X, double x[])
+static void take_out(int n, int known, const double *dual, const double *measured, const double *X,
+                     double x[])
 {
     for (int k = 0; k < known; k++) {
         const double *d = dual + (size_t)k * (size_t)n, *v = X + (size_t)k * (size_t)n;
@@ -90,8 +95,8 @@ static int iterate(const lanczos_problem *p, workspace *w, long *solutions)
     w->parameter[2] = MAX_RESTARTS;
     w->parameter[6] = 2;
     for (;;) {
-        dsaupd_c(&ido, "G", w->n, "LA", w->wanted, tolerance, w->start, w->vectors, w->basis, w->n, w->parameter, w->pointer,
-                 w->vector, w->work, w->size, &info);
+        dsaupd_c(&ido, "G", w->n, "LA", w->wanted, tolerance, w->start, w->vectors, w->basis, w->n,
+                 w->parameter, w->pointer, w->vector, w->work, w->size, &info);
         if (ido != 2 && ido != 1 && ido != -1)
             return info;
         double *x = &w->vector[w->pointer[0] - 1], *y = &w->vector[w->pointer[1] - 1];
@@ -104,7 +109,8 @@ static int iterate(const lanczos_problem *p, workspace *w, long *solutions)
     }
 }
 
-status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double x[], long *solutions, fault *f)
+status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double x[],
+                       long *solutions, fault *f)
 {
     const int n = p->K->n;
     workspace w;
@@ -115,19 +121,23 @@ status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double 
         const int info = iterate(p, &w, solutions);
         *found = info == 0 ? wanted : w.parameter[CONVERGED];
         if (info != 0 && (info != ENDED_EARLY || *found == 0))
-            outcome = fault_set(f, STATUS_NOT_CONVERGED, "%d of %d eigenvalues found (ARPACK says %d)", *found, wanted, info);
+            outcome =
+                fault_set(f, STATUS_NOT_CONVERGED, "%d of %d eigenvalues found (ARPACK says %d)",
+                          *found, wanted, info);
     }
     if (outcome == STATUS_OK) {
         int info = 0;
-        dseupd_c(1, "A", w.select, w.value, w.basis, n, 0, "G", n, "LA", wanted, tolerance, w.start, w.vectors, w.basis, n,
-                 w.parameter, w.pointer, w.vector, w.work, w.size, &info);
+        dseupd_c(1, "A", w.select, w.value, w.basis, n, 0, "G", n, "LA", wanted, tolerance, w.start,
+                 w.vectors, w.basis, n, w.parameter, w.pointer, w.vector, w.work, w.size, &info);
         if (info != 0)
-            outcome = fault_set(f, STATUS_NOT_CONVERGED, "the eigenvectors were not found (ARPACK says %d)", info);
+            outcome = fault_set(f, STATUS_NOT_CONVERGED,
+                                "the eigenvectors were not found (ARPACK says %d)", info);
     }
     for (int i = 0; outcome == STATUS_OK && i < *found; i++) { /* ARPACK's are ascending */
         const int from = *found - 1 - i;
         mu[i] = w.value[from];
-        memcpy(x + (size_t)i * (size_t)n, w.basis + (size_t)from * (size_t)n, (size_t)n * sizeof *x);
+        memcpy(x + (size_t)i * (size_t)n, w.basis + (size_t)from * (size_t)n,
+               (size_t)n * sizeof *x);
     }
     workspace_free(&w);
     return outcome;

@@ -15,6 +15,7 @@ typedef struct lanczos_problem {
 
 /* `wanted` <= n - known - 1 eigenvalues mu[wanted] in descending order with K-orthonormal vectors x[wanted x n]; `found` of them,
  * at least one, where the iteration ended before the others had converged. */
-status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double x[], long *solutions, fault *f);
+status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double x[],
+                       long *solutions, fault *f);
 
 #endif

@@ -27,7 +27,8 @@ status pairs_alloc(pairs *p, const eigen_problem *problem, double sign, fault *f
 
 void pairs_free(pairs *p)
 {
-    void *const all[] = {p->mu, p->matrix_mu, p->noise, p->stiffness, p->x, p->Kx, p->work, p->form, p->correction};
+    void *const all[] = {p->mu, p->matrix_mu, p->noise, p->stiffness, p->x,
+                         p->Kx, p->work,      p->form,  p->correction};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         free(all[i]);
     sparse_free_values(&p->shifted);
@@ -46,15 +47,17 @@ static int grow(double **list, size_t count)
 static status make_room(pairs *p, int room, fault *f)
 {
     const size_t count = (size_t)room, numbers = count * (size_t)p->n;
-    if (room > p->room && !(grow(&p->mu, count) && grow(&p->matrix_mu, count) && grow(&p->noise, count) &&
-                            grow(&p->stiffness, count) && grow(&p->x, numbers) && grow(&p->Kx, numbers)))
+    if (room > p->room &&
+        !(grow(&p->mu, count) && grow(&p->matrix_mu, count) && grow(&p->noise, count) &&
+          grow(&p->stiffness, count) && grow(&p->x, numbers) && grow(&p->Kx, numbers)))
         return fault_set(f, STATUS_FAULT, "out of memory for %d eigenvectors", room);
     p->room = room > p->room ? room : p->room;
     return STATUS_OK;
 }
 
 /* x^T a x: the caller's, or from the matrix with a x kept in `product`. */
-static double form_of(const pairs *p, eigen_form *form, const sparse *a, const double x[], double product[])
+static double form_of(const pairs *p, eigen_form *form, const sparse *a, const double x[],
+                      double product[])
 {
     if (form != NULL)
         return form(p->problem->context, x);
@@ -85,7 +88,8 @@ static void sort_last(pairs *p)
 {
     const size_t n = (size_t)p->n;
     for (int i = p->count - 1; i > 0 && p->mu[i] > p->mu[i - 1]; i--) {
-        double *const numbers[] = {p->mu, p->matrix_mu, p->noise, p->stiffness}, *const vectors[] = {p->x, p->Kx};
+        double *const numbers[] = {p->mu, p->matrix_mu, p->noise, p->stiffness}, *const vectors[] =
+                                                                                     {p->x, p->Kx};
         for (int k = 0; k < 4; k++) {
             const double kept = numbers[k][i];
             numbers[k][i] = numbers[k][i - 1];
@@ -93,7 +97,8 @@ static void sort_last(pairs *p)
         }
         for (int k = 0; k < 2; k++) {
             memcpy(p->work, vectors[k] + (size_t)i * n, n * sizeof *p->work);
-            memcpy(vectors[k] + (size_t)i * n, vectors[k] + (size_t)(i - 1) * n, n * sizeof *p->work);
+            memcpy(vectors[k] + (size_t)i * n, vectors[k] + (size_t)(i - 1) * n,
+                   n * sizeof *p->work);
             memcpy(vectors[k] + (size_t)(i - 1) * n, p->work, n * sizeof *p->work);
         }
     }
@@ -119,10 +124,13 @@ status pairs_refine(pairs *p, int count, fault *f)
     enum { MOST = 12 };
     const double departure = pairs_departure(p, count), left = 1e-6;
     double error = departure;
-    for (p->refinements = 1; p->refinements < MOST && (error *= departure) > left; p->refinements++) {}
+    for (p->refinements = 1; p->refinements < MOST && (error *= departure) > left;
+         p->refinements++) {}
     if (p->correction == NULL)
         p->correction = malloc((size_t)p->n * sizeof *p->correction);
-    return p->correction != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for refined solutions");
+    return p->correction != NULL
+               ? STATUS_OK
+               : fault_set(f, STATUS_FAULT, "out of memory for refined solutions");
 }
 
 /* y += K^-1 (s A x - K y), with K y from the elements: what is left falls by the part of K that assembling it has changed. */
@@ -217,7 +225,9 @@ void pairs_judge(pairs *p, int i, double *residual, double *error)
     sparse_mul(p->problem->A, y, p->form);
     *error = 0;
     for (int k = 0; k < i; k++) {
-        const double part = dense_dot(p->n, p->x + (size_t)k * (size_t)p->n, p->form) / p->mu[k] / mu, apart = p->mu[k] / mu - 1;
+        const double part =
+                         dense_dot(p->n, p->x + (size_t)k * (size_t)p->n, p->form) / p->mu[k] / mu,
+                     apart = p->mu[k] / mu - 1;
         rest -= part * part;
         *error += part * part >= apart * apart ? apart : part * part / apart;
     }
@@ -249,7 +259,8 @@ static int above_cluster(const pairs *p, int wanted, double *top)
     const double *mu = p->matrix_mu;
     int q = wanted - 1;
     *top = mu[q];
-    while (q > 0 && mu[q - 1] - *top <= (close + 16 * fmax(p->noise[q - 1], p->noise[q])) * mu[q - 1])
+    while (q > 0 &&
+           mu[q - 1] - *top <= (close + 16 * fmax(p->noise[q - 1], p->noise[q])) * mu[q - 1])
         *top = fmax(*top, mu[--q]);
     return q;
 }
@@ -263,7 +274,8 @@ status pairs_missing(pairs *p, int wanted, int *missing, eigen_result *work, fau
     const double high = q > 0 ? p->matrix_mu[q - 1] : low * (1 + 2 * close + 32 * p->noise[q]);
     int above = 0;
     *missing = -1;
-    for (int i = 0; i < 3 && *missing != 0; i++) { /* a count that does not fit is not believed at once: there is no pivoting */
+    for (int i = 0; i < 3 && *missing != 0;
+         i++) { /* a count that does not fit is not believed at once: there is no pivoting */
         const status outcome = pairs_above(p, low + place[i] * (high - low), &above, work, f);
         if (outcome != STATUS_OK && outcome != STATUS_SINGULAR)
             return outcome;
@@ -271,6 +283,8 @@ status pairs_missing(pairs *p, int wanted, int *missing, eigen_result *work, fau
             *missing = above - q;
     }
     if (*missing < 0)
-        return fault_set(f, STATUS_NOT_CONVERGED, "%d eigenvalues found where the inertia counts fewer, or cannot be counted", q);
+        return fault_set(
+            f, STATUS_NOT_CONVERGED,
+            "%d eigenvalues found where the inertia counts fewer, or cannot be counted", q);
     return STATUS_OK;
 }

@@ -8,8 +8,9 @@ typedef struct pairs {
     const eigen_problem *problem;
     double sign; /* s: of the problem, reversed for the most negative values */
     int n, count, room;
-    double *mu;          /* [room] descending */
-    double *matrix_mu;   /* [room] the same quotient of the matrices as they are, rounding errors of all elements included */
+    double *mu; /* [room] descending */
+    double *
+        matrix_mu; /* [room] the same quotient of the matrices as they are, rounding errors of all elements included */
     double *noise;       /* [room] part of it that rounding the sums changes */
     double *stiffness;   /* [room] x^T K x as the caller evaluates it */
     double *x, *Kx;      /* [room x n] x^T K x = 1 by the matrix */

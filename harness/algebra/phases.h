@@ -4,7 +4,13 @@
 
 #include <time.h>
 
-typedef enum phase { PHASE_ELEMENTS, PHASE_ASSEMBLY, PHASE_FACTORISATION, PHASE_SOLUTION, PHASES } phase;
+typedef enum phase {
+    PHASE_ELEMENTS,
+    PHASE_ASSEMBLY,
+    PHASE_FACTORISATION,
+    PHASE_SOLUTION,
+    PHASES
+} phase;
 
 typedef struct phases {
     int wanted, running;

@@ -12,7 +12,9 @@ status ritz_alloc(ritz *r, int room, const subspace *b, fault *f)
     r->room = room;
     r->lambda = calloc((size_t)room + 1, sizeof *r->lambda);
     r->c = calloc((size_t)room * (size_t)b->room + 1, sizeof *r->c);
-    return r->lambda != NULL && r->c != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for %d modes", room);
+    return r->lambda != NULL && r->c != NULL
+               ? STATUS_OK
+               : fault_set(f, STATUS_FAULT, "out of memory for %d modes", room);
 }
 
 void ritz_free(ritz *r)
@@ -60,16 +62,21 @@ static int hermitian_matrix(const subspace *b, double complex H[])
 status ritz_hermitian(const subspace *b, ritz *r, fault *f)
 {
     const int k = b->count, n = 2 * k, most = r->room < n ? r->room : n;
-    double complex *H = calloc((size_t)n * (size_t)n, sizeof *H), *z = calloc((size_t)n * (size_t)most, sizeof *z);
+    double complex *H = calloc((size_t)n * (size_t)n, sizeof *H),
+                   *z = calloc((size_t)n * (size_t)most, sizeof *z);
     double *mu = calloc((size_t)n, sizeof *mu);
     lapack_int *support = calloc(2 * (size_t)n, sizeof *support), found = 0;
-    int info = H != NULL && z != NULL && mu != NULL && support != NULL ? hermitian_matrix(b, H) : -1;
+    int info =
+        H != NULL && z != NULL && mu != NULL && support != NULL ? hermitian_matrix(b, H) : -1;
     if (info == 0)
-        info = (int)LAPACKE_zheevr(LAPACK_COL_MAJOR, 'V', 'I', 'U', n, H, n, 0, 0, n - most + 1, n, 0, &found, mu, z, n, support);
+        info = (int)LAPACKE_zheevr(LAPACK_COL_MAJOR, 'V', 'I', 'U', n, H, n, 0, 0, n - most + 1, n,
+                                   0, &found, mu, z, n, support);
     r->count = 0;
     r->size = k;
     for (int i = (int)found - 1; i >= 0 && info == 0; i--) {
-        if (!(mu[i] > 16 * n * DBL_EPSILON * mu[found - 1])) /* omega is infinite: nothing moves there that has a mass */
+        if (!(mu[i] >
+              16 * n * DBL_EPSILON *
+                  mu[found - 1])) /* omega is infinite: nothing moves there that has a mass */
             break;
         r->lambda[r->count] = I / mu[i];
         memcpy(coefficients(b, r, r->count), z + (size_t)i * (size_t)n, (size_t)k * sizeof *z);
@@ -79,13 +86,16 @@ status ritz_hermitian(const subspace *b, ritz *r, fault *f)
     free(z);
     free(mu);
     free(support);
-    return info == 0 ? STATUS_OK : fault_set(f, STATUS_NOT_CONVERGED, "a Hermitian eigenvalue problem of %d unknowns fails", n);
+    return info == 0 ? STATUS_OK
+                     : fault_set(f, STATUS_NOT_CONVERGED,
+                                 "a Hermitian eigenvalue problem of %d unknowns fails", n);
 }
 
 static int is_first_of_its_kind(double complex lambda)
 {
     const double tiny = ritz_imaginary * cabs(lambda);
-    return cimag(lambda) > tiny ? creal(lambda) >= -tiny : cimag(lambda) >= -tiny && creal(lambda) > 0;
+    return cimag(lambda) > tiny ? creal(lambda) >= -tiny
+                                : cimag(lambda) >= -tiny && creal(lambda) > 0;
 }
 
 /* Puts a pair where its size belongs. */
@@ -130,7 +140,8 @@ status ritz_general(const subspace *b, double shift, ritz *r, fault *f)
     int info = -1;
     if (A != NULL && c != NULL) {
         general_matrices(b, shift, A, B);
-        info = (int)LAPACKE_dggev(LAPACK_COL_MAJOR, 'N', 'V', n, A, n, B, n, re, im, beta, NULL, n, z, n);
+        info = (int)LAPACKE_dggev(LAPACK_COL_MAJOR, 'N', 'V', n, A, n, B, n, re, im, beta, NULL, n,
+                                  z, n);
     }
     r->count = 0;
     r->size = k;
@@ -146,5 +157,7 @@ status ritz_general(const subspace *b, double shift, ritz *r, fault *f)
     }
     free(A);
     free(c);
-    return info == 0 ? STATUS_OK : fault_set(f, STATUS_NOT_CONVERGED, "an eigenvalue problem of %d unknowns fails", n);
+    return info == 0 ? STATUS_OK
+                     : fault_set(f, STATUS_NOT_CONVERGED,
+                                 "an eigenvalue problem of %d unknowns fails", n);
 }

@@ -9,7 +9,8 @@ status sparse_alloc_like(const sparse *pattern, sparse *out, fault *f)
     const int entries = pattern->column[pattern->n];
     out->value = calloc((size_t)(entries > 0 ? entries : 1), sizeof *out->value);
     if (out->value == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a matrix of %d coordinates", pattern->n);
+        return fault_set(f, STATUS_FAULT, "out of memory for a matrix of %d coordinates",
+                         pattern->n);
     return STATUS_OK;
 }
 

@@ -37,9 +37,10 @@ status factor_alloc(const sparse *pattern, factor **out, fault *f);
 void factor_free(factor *fa);
 /* SINGULAR when a pivot is zero or not finite, or growth has destroyed the digits. */
 status factor_numeric(factor *fa, const sparse *a, fault *f);
-void factor_solve(factor *fa, double x[]);                          /* in place */
-void factor_solve_transposed(factor *fa, double x[]);               /* A^T x = b */
-void factor_solve_refined(factor *fa, const sparse *a, double x[]); /* with one step of iterative refinement */
+void factor_solve(factor *fa, double x[]);            /* in place */
+void factor_solve_transposed(factor *fa, double x[]); /* A^T x = b */
+void factor_solve_refined(factor *fa, const sparse *a,
+                          double x[]); /* with one step of iterative refinement */
 factor_counts factor_count(const factor *fa);
 /* 1-norm condition number of the factored matrix a, rows and columns scaled by the root of its diagonal: Hager's estimate, a
  * lower bound within a small factor. NAN when memory ran out. */

@@ -6,7 +6,8 @@
 
 #include "elements/math/dense.h"
 
-status subspace_alloc(subspace *b, const sparse *S, const sparse *M, const sparse *G, int room, fault *f)
+status subspace_alloc(subspace *b, const sparse *S, const sparse *M, const sparse *G, int room,
+                      fault *f)
 {
     const size_t n = (size_t)S->n, most = (size_t)(room < S->n ? room : S->n);
     memset(b, 0, sizeof *b);
@@ -21,8 +22,10 @@ status subspace_alloc(subspace *b, const sparse *S, const sparse *M, const spars
     b->GV = malloc((most * n + 1) * sizeof(double));
     b->Mp = calloc(most * most + 1, sizeof(double));
     b->Gp = calloc(most * most + 1, sizeof(double));
-    const int good = b->V != NULL && b->SV != NULL && b->MV != NULL && b->GV != NULL && b->Mp != NULL && b->Gp != NULL;
-    return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for a basis of %zu vectors", most);
+    const int good = b->V != NULL && b->SV != NULL && b->MV != NULL && b->GV != NULL &&
+                     b->Mp != NULL && b->Gp != NULL;
+    return good ? STATUS_OK
+                : fault_set(f, STATUS_FAULT, "out of memory for a basis of %zu vectors", most);
 }
 
 void subspace_free(subspace *b)
@@ -74,7 +77,8 @@ int subspace_add(subspace *b, const double x[])
     subspace_skew_mul(b->G, v, b->GV + at);
     const int last = b->count++;
     for (int i = 0; i <= last; i++) {
-        const double m = dense_dot(b->n, b->V + (size_t)i * n, b->MV + at), g = dense_dot(b->n, b->V + (size_t)i * n, b->GV + at);
+        const double m = dense_dot(b->n, b->V + (size_t)i * n, b->MV + at),
+                     g = dense_dot(b->n, b->V + (size_t)i * n, b->GV + at);
         b->Mp[i * b->room + last] = b->Mp[last * b->room + i] = m;
         b->Gp[i * b->room + last] = i == last ? 0 : g;
         b->Gp[last * b->room + i] = i == last ? 0 : -g;

@@ -5,13 +5,15 @@
 #include "harness/algebra/sparse.h"
 
 typedef struct subspace {
-    const sparse *S, *M, *G; /* S = K + shift M, positive definite; of G a symmetric pattern stores the upper triangle */
+    const sparse *S, *M,
+        *G; /* S = K + shift M, positive definite; of G a symmetric pattern stores the upper triangle */
     int n, count, room;
     double *V, *SV, *MV, *GV; /* [room x n] the basis and its products */
     double *Mp, *Gp;          /* [room x room] V^T M V, V^T G V */
 } subspace;
 
-status subspace_alloc(subspace *b, const sparse *S, const sparse *M, const sparse *G, int room, fault *f);
+status subspace_alloc(subspace *b, const sparse *S, const sparse *M, const sparse *G, int room,
+                      fault *f);
 void subspace_free(subspace *b);
 /* Takes in what x adds to the basis; returns 1 if that was anything and there was room. */
 int subspace_add(subspace *b, const double x[]);

@@ -19,7 +19,8 @@ struct team {
     member member[TEAM_MOST];
     pthread_mutex_t lock;
     pthread_cond_t wake;
-    atomic_int round, left; /* round: changes when there is work; left: members that have not finished it */
+    atomic_int round,
+        left; /* round: changes when there is work; left: members that have not finished it */
     int end;
     int count;
     team_work *work;
@@ -28,7 +29,8 @@ struct team {
 
 static void do_part(const team *t, int index)
 {
-    const int first = (int)((long)t->count * index / t->threads), end = (int)((long)t->count * (index + 1) / t->threads);
+    const int first = (int)((long)t->count * index / t->threads),
+              end = (int)((long)t->count * (index + 1) / t->threads);
     if (first < end)
         t->work(t->context, first, end);
 }

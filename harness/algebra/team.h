@@ -9,7 +9,8 @@ typedef void team_work(void *context, int first, int end); /* [first, end) */
 
 enum { TEAM_MOST = 16 };
 
-status team_alloc(int threads, team **out, fault *f); /* the caller is one of them; threads <= 1: *out = NULL */
+status team_alloc(int threads, team **out,
+                  fault *f); /* the caller is one of them; threads <= 1: *out = NULL */
 void team_free(team *t);
 /* work over [0, count), shared; t NULL: by the caller alone. Returns when all is done. */
 void team_run(team *t, int count, team_work *work, void *context);

@@ -9,8 +9,9 @@
 typedef struct outcome_side {
     int count;
     double *value, *mode; /* [count] NAN: lost in round-off; [count x free] */
-    double *error;        /* [count] estimate of what iteration and round-off leave, in parts of the value; NULL: there is none */
-    status status;        /* NOT_CONVERGED: ... */
+    double *
+        error; /* [count] estimate of what iteration and round-off leave, in parts of the value; NULL: there is none */
+    status status;           /* NOT_CONVERGED: ... */
     char reason[FAULT_TEXT]; /* ... why there are no more, or some are lost */
 } outcome_side;
 void outcome_take(eigen_side *from, outcome_side *to);
@@ -48,8 +49,8 @@ typedef struct analysis_context {
 } analysis_context;
 
 typedef status analysis_function(analysis_context *, int analysis, analysis_outcome *, fault *);
-analysis_function analysis_linear, analysis_buckling, analysis_modal, analysis_static, analysis_compliance, analysis_continuation,
-    analysis_rotation;
+analysis_function analysis_linear, analysis_buckling, analysis_modal, analysis_static,
+    analysis_compliance, analysis_continuation, analysis_rotation;
 
 void outcome_free(analysis_outcome *o);
 
@@ -71,7 +72,8 @@ void extract_quantity(const analysis_context *, const scene_quantity *, quantity
 void extract_no_value(quantity_result *, status, const char *reason);
 double extract_scaled(const scene_quantity *, double value);
 /* continuation_extract.c: curves and critical points of a continued path; 0: the quantity is something else. */
-int extract_continuation(const analysis_context *, const scene_quantity *, const analysis_outcome *, quantity_result *);
+int extract_continuation(const analysis_context *, const scene_quantity *, const analysis_outcome *,
+                         quantity_result *);
 int continuation_keeps_states(const scene *, int analysis); /* a curve of coordinates is wanted */
 
 /* shapes.c: centre lines of the undeformed structure, of at most `most` states of every path, of linear solutions and modes. */
@@ -83,11 +85,13 @@ typedef struct mode_shape {
     int half_waves;
 } mode_shape;
 status mode_identify(const model *, const scene *, const double mode[], mode_shape *, fault *);
-int mode_in_family(const scene_quantity *, const mode_shape *); /* is it what the quantity asks for? */
+int mode_in_family(const scene_quantity *,
+                   const mode_shape *); /* is it what the quantity asks for? */
 const char *mode_family_name(scene_family);
 /* Modes of equal value[count], one after the other (each [n = free + driven]), may be mixed in any way: they become those that move
  * along the members' z axes and those that do not. */
-status mode_separate(const model *, const scene *, int count, const double value[], size_t n, double *mode, fault *);
+status mode_separate(const model *, const scene *, int count, const double value[], size_t n,
+                     double *mode, fault *);
 
 /* Small motions about one state of a stationary rotation. */
 typedef struct rotation_modes {

@@ -32,9 +32,11 @@ status bordered_alloc(tangent *t, counters *n, bordered *out, fault *f)
     }
     for (int i = 0; i < b->count; i++)
         for (int j = 0; j < b->count; j++)
-            out->S[i * b->count + j] = b->W[i * b->count + j] - dot(t->free, b->V + i * t->free, out->Z + j * t->free);
+            out->S[i * b->count + j] =
+                b->W[i * b->count + j] - dot(t->free, b->V + i * t->free, out->Z + j * t->free);
     return b->count > 0 && dense_lu_regular(b->count, out->S, out->pivot) != 0
-               ? fault_set(f, STATUS_SINGULAR, "the structure is not held when the prescribed motion is released")
+               ? fault_set(f, STATUS_SINGULAR,
+                           "the structure is not held when the prescribed motion is released")
                : STATUS_OK;
 }
 

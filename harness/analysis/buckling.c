@@ -51,7 +51,8 @@ static void wanted_of(const analysis_context *c, int analysis, eigen_problem *p)
 }
 
 /* The linear solution, its stresses and their geometric stiffness. */
-static status prestress(analysis_context *c, linear_system *s, linear_forms *about, sparse *G, fault *f)
+static status prestress(analysis_context *c, linear_system *s, linear_forms *about, sparse *G,
+                        fault *f)
 {
     if (!s->K.symmetric)
         return fault_set(f, STATUS_REFUSED, "linear buckling needs a symmetric stiffness matrix");

@@ -12,7 +12,8 @@ static unsigned wanted_columns(const analysis_context *c, int analysis)
     unsigned wanted = 0;
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
-        if (q->analysis == analysis && (q->kind == SCENE_COMPLIANCE_ENTRY || q->kind == SCENE_STIFFNESS_ENTRY))
+        if (q->analysis == analysis &&
+            (q->kind == SCENE_COMPLIANCE_ENTRY || q->kind == SCENE_STIFFNESS_ENTRY))
             wanted |= 1u << q->column;
     }
     return wanted;
@@ -26,8 +27,8 @@ static void forget_columns(unsigned known, double C[36])
 }
 
 /* C and K [6 x 6]; columns of C that nothing asks for, and with them K, are not numbers. */
-static status compliance_at(analysis_context *c, const scene_analysis *a, const model_state *s, tangent *t, unsigned wanted,
-                            double C[36], double K[36], fault *f)
+static status compliance_at(analysis_context *c, const scene_analysis *a, const model_state *s,
+                            tangent *t, unsigned wanted, double C[36], double K[36], fault *f)
 {
     double reaction[6], load[6];
     movable motions;
@@ -51,7 +52,8 @@ static status compliance_at(analysis_context *c, const scene_analysis *a, const 
     return outcome;
 }
 
-static status matrices_alloc(solve_result *r, const scene_analysis *a, int stations, nodal_matrices **out, fault *f)
+static status matrices_alloc(solve_result *r, const scene_analysis *a, int stations,
+                             nodal_matrices **out, fault *f)
 {
     nodal_matrices *more = realloc(r->matrices, ((size_t)r->matrix_sets + 1) * sizeof *more);
     if (more == NULL)
@@ -87,7 +89,8 @@ status analysis_compliance(analysis_context *c, int analysis, analysis_outcome *
     const unsigned wanted = wanted_columns(c, analysis);
     for (int i = 0; i < reached && result == STATUS_OK; i++) {
         const model_state *s = path != NULL ? path->state[i] : model_rest(c->model);
-        result = compliance_at(c, a, s, &t, wanted, m->compliance + 36 * (size_t)i, m->stiffness + 36 * (size_t)i, f);
+        result = compliance_at(c, a, s, &t, wanted, m->compliance + 36 * (size_t)i,
+                               m->stiffness + 36 * (size_t)i, f);
         if (result == STATUS_OK) {
             o->path[i] = m->path[i] = path != NULL ? path->path[i] : 0;
             m->stations = ++o->reached;

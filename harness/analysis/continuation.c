@@ -27,7 +27,8 @@ static status add_point(continuation *p, fault *f)
         double *controls = realloc(o->control, (size_t)room * sizeof *controls);
         if (controls != NULL)
             o->control = controls;
-        model_state **states = p->keeps_states ? realloc(o->point_state, (size_t)room * sizeof(model_state *)) : NULL;
+        model_state **states =
+            p->keeps_states ? realloc(o->point_state, (size_t)room * sizeof(model_state *)) : NULL;
         if (states != NULL)
             o->point_state = states;
         if (factors == NULL || controls == NULL || (p->keeps_states && states == NULL))
@@ -70,13 +71,15 @@ static void turn_start(continuation *p)
 }
 
 /* Corrects and looks; not sound: the state is what was found, in doubt. A step along the arc ends at the station it would pass. */
-static status try_step(continuation *p, path_goal goal, double station, int last_resort, attempt *t, fault *f)
+static status try_step(continuation *p, path_goal goal, double station, int last_resort, attempt *t,
+                       fault *f)
 {
     model_state_copy(p->c->model, p->n.state, p->n.backup);
     status outcome = continuation_correct(p, goal, &t->record, f);
     if (outcome == STATUS_OK)
         outcome = continuation_look(p, p->moved, &p->next, &t->record, f);
-    if (outcome == STATUS_OK && goal.by_arc && (p->here.control < station) != (p->next.control < station)) {
+    if (outcome == STATUS_OK && goal.by_arc &&
+        (p->here.control < station) != (p->next.control < station)) {
         continuation_go_back(p);
         history_drop_step(p->c->result, &t->record);
         t->record = (step_record){.rejected = t->record.rejected};
@@ -105,7 +108,8 @@ static void reject(continuation *p, const attempt *t)
 
 static double next_size(const continuation *p, double size, double length, const attempt *t)
 {
-    const double wanted = length * fmin(2, fmax(0.5, 0.5 / t->swing)) * (t->record.iterations > MANY_ITERATIONS ? 0.5 : 1);
+    const double wanted = length * fmin(2, fmax(0.5, 0.5 / t->swing)) *
+                          (t->record.iterations > MANY_ITERATIONS ? 0.5 : 1);
     return fmin(p->a->step_max, wanted < length ? wanted : fmax(size, wanted));
 }
 
@@ -115,27 +119,31 @@ static double length_left(const continuation *p, path_goal goal, double gone)
 }
 
 /* The arc to a point depends on the steps to it: a rival that was not met so far may lie further on. */
-static int arrived(const continuation *p, path_goal goal, double station, const rival *r, double gone, double nearest)
+static int arrived(const continuation *p, path_goal goal, double station, const rival *r,
+                   double gone, double nearest)
 {
     if (p->here.control == station)
         return 1;
-    return length_left(p, goal, gone) <= 0 &&
-           (!goal.by_arc || r->state == NULL || nearest <= goal.value / 2 || gone >= 3 * goal.value);
+    return length_left(p, goal, gone) <= 0 && (!goal.by_arc || r->state == NULL ||
+                                               nearest <= goal.value / 2 || gone >= 3 * goal.value);
 }
 
 /* From `here` to the goal in smaller steps. */
-static status retrace(continuation *p, path_goal goal, double station, const rival *r, double *size, fault *f)
+static status retrace(continuation *p, path_goal goal, double station, const rival *r, double *size,
+                      fault *f)
 {
-    const double from = p->here.control, way = goal.value > from ? 1 : -1, smallest = ldexp(p->a->step, -HALVINGS);
+    const double from = p->here.control, way = goal.value > from ? 1 : -1,
+                 smallest = ldexp(p->a->step, -HALVINGS);
     double gone = 0, nearest = INFINITY;
     int rejected = 1;
     while (!arrived(p, goal, station, r, gone, nearest)) {
         const double left = length_left(p, goal, gone);
         const int last = left > 0 && *size * (1 + 1e-9) >= left;
         const double length = last ? left : goal.by_arc ? fmin(*size, goal.value / 2) : *size;
-        const path_goal part = {goal.by_arc, goal.by_arc ? length
-                                             : last      ? goal.value
-                                                         : from + way * (fabs(p->here.control - from) + length)};
+        const path_goal part = {goal.by_arc,
+                                goal.by_arc ? length
+                                : last      ? goal.value
+                                            : from + way * (fabs(p->here.control - from) + length)};
         attempt t = {.record = {.rejected = rejected}};
         fault why = {""};
         status outcome = try_step(p, part, station, length <= smallest, &t, &why);
@@ -145,8 +153,10 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
             reject(p, &t);
             rejected++;
             if (length <= smallest)
-                return fault_set(f, STATUS_NOT_CONVERGED, "the path cannot be followed beyond %g m at load factor %g: %s",
-                                 p->here.control, p->here.factor, t.doubt != NULL ? t.doubt : why.text);
+                return fault_set(f, STATUS_NOT_CONVERGED,
+                                 "the path cannot be followed beyond %g m at load factor %g: %s",
+                                 p->here.control, p->here.factor,
+                                 t.doubt != NULL ? t.doubt : why.text);
             *size = length / 2;
             continue;
         }
@@ -156,11 +166,13 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
         if (outcome != STATUS_OK)
             return outcome;
         *size = next_size(p, *size, length, &t);
-        const double distance = r->state == NULL ? 0 : model_distance(p->c->model, p->n.state, r->state);
+        const double distance =
+            r->state == NULL ? 0 : model_distance(p->c->model, p->n.state, r->state);
         nearest = goal.by_arc ? fmin(nearest, distance) : distance;
     }
-    return r->state != NULL && nearest > (goal.by_arc ? goal.value / 2 : 1e-5) ? continuation_report_jump(p, r, from, f)
-                                                                               : STATUS_OK;
+    return r->state != NULL && nearest > (goal.by_arc ? goal.value / 2 : 1e-5)
+               ? continuation_report_jump(p, r, from, f)
+               : STATUS_OK;
 }
 
 /* One step to the goal, or several. */
@@ -194,10 +206,14 @@ static status walk_to(continuation *p, double station, double *size, fault *f)
 {
     while (p->here.control != station) {
         if (p->o->points >= MOST_POINTS)
-            return fault_set(f, STATUS_NOT_CONVERGED, "%d points of the path and none at %g m", MOST_POINTS, station);
-        const double length = p->a->constant_steps ? p->a->step : *size, left = station - p->here.control;
+            return fault_set(f, STATUS_NOT_CONVERGED, "%d points of the path and none at %g m",
+                             MOST_POINTS, station);
+        const double length = p->a->constant_steps ? p->a->step : *size,
+                     left = station - p->here.control;
         const int last = length * (1 + 1e-9) >= fabs(left);
-        const path_goal goal = {p->a->by_arc, p->a->by_arc ? length : last ? station : p->here.control + copysign(length, left)};
+        const path_goal goal = {p->a->by_arc, p->a->by_arc ? length
+                                              : last       ? station
+                                                     : p->here.control + copysign(length, left)};
         const status outcome = reach(p, goal, station, size, f);
         if (outcome != STATUS_OK)
             return outcome;

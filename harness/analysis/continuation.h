@@ -41,14 +41,17 @@ typedef struct continuation {
     int looked; /* 1: n.dx, response and the factors belong to the present state */
 } continuation;
 
-status continuation_alloc(analysis_context *, int analysis, analysis_outcome *, continuation *, fault *);
+status continuation_alloc(analysis_context *, int analysis, analysis_outcome *, continuation *,
+                          fault *);
 void continuation_free(continuation *);
 
-double continuation_dot(const continuation *, const double a[], const double b[]); /* in the metric */
+double continuation_dot(const continuation *, const double a[],
+                        const double b[]); /* in the metric */
 /* Newton to the goal from n.backup = the state of `here`; the arc is measured along its tangent. */
 status continuation_correct(continuation *, path_goal, step_record *, fault *);
 /* Factors K in the present state and fills the point; its tangent goes the way of along[free + driven] (NULL: to a larger load). */
-status continuation_look(continuation *, const double along[], path_point *, step_record *, fault *);
+status continuation_look(continuation *, const double along[], path_point *, step_record *,
+                         fault *);
 /* The state goes back to that of `here`. */
 void continuation_go_back(continuation *);
 

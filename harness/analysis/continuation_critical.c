@@ -94,7 +94,8 @@ static status try_at(continuation *p, path_goal goal, int by_rate, bound *b, int
                                      : p->trial.negative == p->here.negative;
     b->value = by_rate ? p->trial.rate : least_eigenvalue(p);
     /* Another eigenvalue may be the least one: its sign tells nothing of this point. */
-    const int falls = p->here.negative < 0 ? p->here.determinant > 0 : p->next.negative > p->here.negative;
+    const int falls =
+        p->here.negative < 0 ? p->here.determinant > 0 : p->next.negative > p->here.negative;
     if (!by_rate && (b->value > 0) != (*before == falls))
         b->value = NAN;
     return STATUS_OK;
@@ -143,7 +144,8 @@ status continuation_critical(continuation *p, path_goal goal, int *jump, fault *
 {
     const int by_rate = (p->here.rate < 0) != (p->next.rate < 0);
     *jump = 0;
-    if (!by_rate && p->here.negative == p->next.negative && p->here.determinant == p->next.determinant)
+    if (!by_rate && p->here.negative == p->next.negative &&
+        p->here.determinant == p->next.determinant)
         return STATUS_OK;
     model_state_copy(p->c->model, p->n.state, p->end);
     status outcome = locate(p, goal, by_rate, jump, f);
@@ -151,7 +153,8 @@ status continuation_critical(continuation *p, path_goal goal, int *jump, fault *
                         .negative_before = p->here.negative,
                         .negative_after = p->next.negative,
                         .factor = model_state_path(p->n.state),
-                        .control = model_component(p->c->model, p->n.state, p->a->control_node, p->a->control_component),
+                        .control = model_component(p->c->model, p->n.state, p->a->control_node,
+                                                   p->a->control_component),
                         .other_factor = NAN};
     if (outcome == STATUS_OK && !*jump) {
         least_eigenvalue(p);

@@ -20,7 +20,8 @@ static double abscissa(const scene_quantity *q, double control)
 }
 
 /* Load factor or coordinate against the control coordinate, at every point. */
-static void take_curve(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
+static void take_curve(const analysis_context *c, const scene_quantity *q,
+                       const analysis_outcome *o, quantity_result *r)
 {
     r->curve.x = calloc((size_t)o->points + 1, sizeof(double));
     r->curve.value = calloc((size_t)o->points + 1, sizeof(double));
@@ -30,8 +31,9 @@ static void take_curve(const analysis_context *c, const scene_quantity *q, const
     }
     r->curve.points = o->points;
     for (int i = 0; i < o->points; i++) {
-        const double value =
-            q->kind == SCENE_FACTOR_AT ? o->factor[i] : model_component(c->model, o->point_state[i], q->node, q->row);
+        const double value = q->kind == SCENE_FACTOR_AT
+                                 ? o->factor[i]
+                                 : model_component(c->model, o->point_state[i], q->node, q->row);
         r->curve.x[i] = abscissa(q, o->control[i]);
         r->curve.value[i] = extract_scaled(q, value);
     }
@@ -40,7 +42,8 @@ static void take_curve(const analysis_context *c, const scene_quantity *q, const
         extract_no_value(r, o->status, o->reason);
 }
 
-static void take_critical(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
+static void take_critical(const analysis_context *c, const scene_quantity *q,
+                          const analysis_outcome *o, quantity_result *r)
 {
     const event_kind kind = q->row == SCENE_LIMIT_POINT ? EVENT_LIMIT_POINT : EVENT_BIFURCATION;
     int order = 0;
@@ -52,14 +55,17 @@ static void take_critical(const analysis_context *c, const scene_quantity *q, co
         r->x = abscissa(q, e->control);
         return;
     }
-    extract_no_value(r, o->status, o->status != STATUS_OK ? o->reason : "no such point on the path");
+    extract_no_value(r, o->status,
+                     o->status != STATUS_OK ? o->reason : "no such point on the path");
 }
 
-int extract_continuation(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
+int extract_continuation(const analysis_context *c, const scene_quantity *q,
+                         const analysis_outcome *o, quantity_result *r)
 {
     if (q->kind == SCENE_CRITICAL_POINT)
         take_critical(c, q, o, r);
-    else if (q->reduction == SCENE_CURVE && (q->kind == SCENE_FACTOR_AT || q->kind == SCENE_COORDINATE))
+    else if (q->reduction == SCENE_CURVE &&
+             (q->kind == SCENE_FACTOR_AT || q->kind == SCENE_COORDINATE))
         take_curve(c, q, o, r);
     else
         return 0;

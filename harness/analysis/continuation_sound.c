@@ -16,7 +16,8 @@ const char *continuation_doubt(const continuation *p, int last_resort, double *s
 {
     const path_point *a = &p->here, *b = &p->next;
     const double length = sqrt(continuation_dot(p, p->moved, p->moved));
-    const double before = angle_to_secant(p, a->tangent, length), after = angle_to_secant(p, b->tangent, length);
+    const double before = angle_to_secant(p, a->tangent, length),
+                 after = angle_to_secant(p, b->tangent, length);
     const double turned = model_turn_between(p->c->model, p->n.backup, p->n.state);
     *swing = fmax(fmax(before, after) / largest_swing, turned / largest_turn);
     if (!(before <= largest_swing) || !(after <= largest_swing))
@@ -26,7 +27,8 @@ const char *continuation_doubt(const continuation *p, int last_resort, double *s
     /* A limit point changes the sign of the rate and of the determinant by one pivot, a simple bifurcation only the latter. */
     const int reversed = (a->rate < 0) != (b->rate < 0), pivots = abs(b->negative - a->negative);
     if (!last_resort && (pivots > 1 || (reversed && a->determinant == b->determinant)))
-        return "the pivots of its tangent stiffness change by more than one critical point explains";
+        return "the pivots of its tangent stiffness change by more than one critical point "
+               "explains";
     return NULL;
 }
 
@@ -43,7 +45,8 @@ status continuation_report_jump(continuation *p, const rival *r, double from, fa
     const status outcome = continuation_add_event(p, &event, f);
     if (outcome == STATUS_OK && p->a->constant_steps)
         return fault_set(f, STATUS_NOT_CONVERGED,
-                         "the step from %g to %g m jumps to another branch (load factor %g, on this one %g): use smaller steps",
+                         "the step from %g to %g m jumps to another branch (load factor %g, on "
+                         "this one %g): use smaller steps",
                          from, p->here.control, r->factor, p->here.factor);
     return outcome;
 }

@@ -5,7 +5,8 @@
 
 #include "harness/analysis/continuation.h"
 
-status continuation_alloc(analysis_context *c, int analysis, analysis_outcome *o, continuation *p, fault *f)
+status continuation_alloc(analysis_context *c, int analysis, analysis_outcome *o, continuation *p,
+                          fault *f)
 {
     memset(p, 0, sizeof *p);
     p->c = c;
@@ -14,7 +15,9 @@ status continuation_alloc(analysis_context *c, int analysis, analysis_outcome *o
     p->analysis = analysis;
     p->keeps_states = continuation_keeps_states(c->scene, analysis);
     if (c->options->newton == SOLVE_DENSE)
-        return fault_set(f, STATUS_REFUSED, "continuation needs a factored tangent; give newton=mixed or newton=displacement");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "continuation needs a factored tangent; give newton=mixed or newton=displacement");
     status outcome = newton_alloc(c, &p->n, f);
     if (outcome == STATUS_OK)
         outcome = newton_stations(o, p->a->stations, f);
@@ -78,7 +81,8 @@ static double control_value(const continuation *p)
 /* What the constraint still lacks. */
 static double gap_of(const continuation *p, path_goal goal)
 {
-    return goal.value - (goal.by_arc ? continuation_dot(p, p->here.tangent, p->moved) : control_value(p));
+    return goal.value -
+           (goal.by_arc ? continuation_dot(p, p->here.tangent, p->moved) : control_value(p));
 }
 
 /* Its change with an increment of the coordinates. */
@@ -107,7 +111,8 @@ status continuation_correct(continuation *p, path_goal goal, step_record *record
         const double change = change_of(p, goal, p->response);
         const double more = (gap_of(p, goal) - change_of(p, goal, n->dx)) / change;
         if (!isfinite(more))
-            return fault_set(f, STATUS_NOT_CONVERGED, "the load does not move the control coordinate at factor %g",
+            return fault_set(f, STATUS_NOT_CONVERGED,
+                             "the load does not move the control coordinate at factor %g",
                              model_state_path(n->state));
         double energy = 0;
         for (int k = 0; k < n->free; k++) {
@@ -127,7 +132,8 @@ status continuation_correct(continuation *p, path_goal goal, step_record *record
     return STATUS_OK;
 }
 
-status continuation_look(continuation *p, const double along[], path_point *out, step_record *record, fault *f)
+status continuation_look(continuation *p, const double along[], path_point *out,
+                         step_record *record, fault *f)
 {
     p->looked = 0;
     const status outcome = directions(p, record, f);

@@ -13,14 +13,17 @@
 
 enum { MAX_STATES = 60, POINTS = 3 };
 static const double first_step = 0.1; /* of the path so far */
-static const double growth = 0.5;     /* of the path beyond its beginning, at most, from one state to the next */
+static const double growth =
+    0.5; /* of the path beyond its beginning, at most, from one state to the next */
 static const double approached = 0.9; /* part of the way to the estimate */
 static const double farthest = 1e3;   /* path at which the search ends, of the path so far */
 static const double wanted_error = 1e-9;
-static const double closest = 1e-5; /* distance from the estimate, of the path: nearer, round-off decides about stability */
+static const double closest =
+    1e-5; /* distance from the estimate, of the path: nearer, round-off decides about stability */
 
 /* The state that is followed: the end of a static path that was reached. */
-static status followed_state(const analysis_context *c, int analysis, const model_state **state, fault *f)
+static status followed_state(const analysis_context *c, int analysis, const model_state **state,
+                             fault *f)
 {
     const analysis_outcome *path = &c->outcomes[c->scene->analysis[analysis].follows];
     if (path->stations == 0 || path->reached < path->stations)
@@ -32,11 +35,13 @@ static status followed_state(const analysis_context *c, int analysis, const mode
 
 static status symmetric_only(const newton *n, const char *what, fault *f)
 {
-    return n->K.symmetric ? STATUS_OK
-                          : fault_set(f, STATUS_REFUSED,
-                                      "%s about a loaded state need a symmetric tangent: moments dead about fixed "
-                                      "axes, and some formulations, have no potential",
-                                      what);
+    return n->K.symmetric
+               ? STATUS_OK
+               : fault_set(
+                     f, STATUS_REFUSED,
+                     "%s about a loaded state need a symmetric tangent: moments dead about fixed "
+                     "axes, and some formulations, have no potential",
+                     what);
 }
 
 /* Newton at the followed state: its K in n->K, factored. */
@@ -73,7 +78,11 @@ status equilibrium_modal(analysis_context *c, int analysis, analysis_outcome *o,
     if (result == STATUS_OK)
         result = model_inertia(c->model, n.state, 0, &M, NULL, f);
     if (result == STATUS_OK) {
-        const eigen_problem p = {.K = &n.K, .A = &M, .K_factor = n.factor, .sign = 1, .largest = modal_wanted(c, analysis)};
+        const eigen_problem p = {.K = &n.K,
+                                 .A = &M,
+                                 .K_factor = n.factor,
+                                 .sign = 1,
+                                 .largest = modal_wanted(c, analysis)};
         result = eigen_solve(&p, &e, f);
         count_work(c, &e);
     }
@@ -92,10 +101,12 @@ status equilibrium_modal(analysis_context *c, int analysis, analysis_outcome *o,
 typedef struct search {
     newton n;
     model_state *stable;
-    sparse scale;                                  /* diagonal of the first K */
-    double begin, shift, p[POINTS], sigma[POINTS]; /* shift: the first sigma; that of K + shift scale is lost in no round-off */
+    sparse scale; /* diagonal of the first K */
+    double begin, shift, p[POINTS],
+        sigma[POINTS]; /* shift: the first sigma; that of K + shift scale is lost in no round-off */
     int points;
-    double estimate, change, unstable; /* unstable: least path known to be beyond the critical point */
+    double estimate, change,
+        unstable; /* unstable: least path known to be beyond the critical point */
     eigen_result found;
 } search;
 
@@ -128,7 +139,8 @@ static void search_free(search *s)
 /* Newton's present state, whose K is factored, is the last stable one: its sigma. */
 static status take_state(search *s, fault *f)
 {
-    const eigen_problem p = {.K = &s->n.K, .A = &s->scale, .K_factor = s->n.factor, .sign = 1, .largest = 1};
+    const eigen_problem p = {
+        .K = &s->n.K, .A = &s->scale, .K_factor = s->n.factor, .sign = 1, .largest = 1};
     eigen_free(&s->found);
     for (int i = 0; i < s->scale.column[s->scale.n]; i++)
         s->n.K.value[i] += s->shift * s->scale.value[i];
@@ -194,20 +206,27 @@ static status find_critical(search *s, fault *f)
             target = (s->p[0] + target) / 2;
             continue;
         }
-        const double last = s->estimate, limit = fmin(s->p[0] + growth * (s->p[0] - s->begin), (s->p[0] + s->unstable) / 2);
+        const double last = s->estimate, limit = fmin(s->p[0] + growth * (s->p[0] - s->begin),
+                                                      (s->p[0] + s->unstable) / 2);
         s->estimate = extrapolate(s);
         s->change = fabs(s->estimate - last);
-        const double left = s->estimate - s->p[0], size = fmax(fabs(s->estimate), s->estimate - s->begin);
-        if (isfinite(s->estimate) && (s->change <= wanted_error * size || left <= 2 * closest * size))
+        const double left = s->estimate - s->p[0],
+                     size = fmax(fabs(s->estimate), s->estimate - s->begin);
+        if (isfinite(s->estimate) &&
+            (s->change <= wanted_error * size || left <= 2 * closest * size))
             return STATUS_OK;
-        target = fmin(s->p[0] + fmin(approached * left, isfinite(left) ? left - closest * size : left), limit);
+        target =
+            fmin(s->p[0] + fmin(approached * left, isfinite(left) ? left - closest * size : left),
+                 limit);
     }
     if (outcome != STATUS_OK)
         return outcome;
     return isfinite(s->estimate) && target <= farthest_path
-               ? fault_set(f, STATUS_NOT_CONVERGED, "the critical load was not found: near path %g it still changes by %.1e",
+               ? fault_set(f, STATUS_NOT_CONVERGED,
+                           "the critical load was not found: near path %g it still changes by %.1e",
                            s->estimate, s->change)
-               : fault_set(f, STATUS_NOT_CONVERGED, "no critical load: nothing loses stiffness up to path %g", s->p[0]);
+               : fault_set(f, STATUS_NOT_CONVERGED,
+                           "no critical load: nothing loses stiffness up to path %g", s->p[0]);
 }
 
 status equilibrium_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f)

@@ -27,14 +27,16 @@ static double of_rotation(const scene_quantity *q, const rotation_modes *modes)
     int order = 0;
     for (int i = 0; i < modes->count; i++) {
         largest = fmax(largest, modes->growth[i]);
-        if (q->kind == SCENE_FREQUENCY && modes->growth[i] == 0 && mode_in_family(q, &modes->shape[i]) && order++ == q->order)
+        if (q->kind == SCENE_FREQUENCY && modes->growth[i] == 0 &&
+            mode_in_family(q, &modes->shape[i]) && order++ == q->order)
             return modes->frequency[i] / TURN;
     }
     return q->kind == SCENE_GROWTH && modes->count > 0 ? largest : NAN;
 }
 
 /* Value of a quantity of the path at one station. */
-static double at_station(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, int i)
+static double at_station(const analysis_context *c, const scene_quantity *q,
+                         const analysis_outcome *o, int i)
 {
     double F[6], L[6];
     switch (q->kind) {
@@ -62,14 +64,16 @@ static double at_station(const analysis_context *c, const scene_quantity *q, con
     return NAN;
 }
 
-static double abscissa(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, int i)
+static double abscissa(const analysis_context *c, const scene_quantity *q,
+                       const analysis_outcome *o, int i)
 {
     if (q->x_driver != SCENE_NONE && o->state != NULL)
         return model_driver_value(c->model, o->state[i], q->x_driver);
     return o->path[i] * (q->x_factor != 0 ? q->x_factor : 1) + q->x_offset;
 }
 
-static void take_curve(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
+static void take_curve(const analysis_context *c, const scene_quantity *q,
+                       const analysis_outcome *o, quantity_result *r)
 {
     r->curve.x = calloc((size_t)o->reached + 1, sizeof(double));
     r->curve.value = calloc((size_t)o->reached + 1, sizeof(double));
@@ -89,19 +93,25 @@ static void take_curve(const analysis_context *c, const scene_quantity *q, const
 static const char *reason_of_path(const analysis_context *c, const scene_quantity *q)
 {
     const int follows = c->scene->analysis[q->analysis].follows;
-    return follows != SCENE_NONE && c->outcomes[follows].status != STATUS_OK ? c->outcomes[follows].reason
-                                                                             : "the path does not reach this station";
+    return follows != SCENE_NONE && c->outcomes[follows].status != STATUS_OK
+               ? c->outcomes[follows].reason
+               : "the path does not reach this station";
 }
 
-static void from_path(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
+static void from_path(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
+                      quantity_result *r)
 {
     const int complete = o->reached == o->stations;
     int chosen = -1;
     for (int i = 0; i < o->reached; i++) {
-        const double value = q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ? at_station(c, q, o, i) : 0;
+        const double value =
+            q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ? at_station(c, q, o, i) : 0;
         const int better = q->reduction == SCENE_MAX ? value > r->value : value < r->value;
-        const int here = q->reduction == SCENE_AT ? fabs(o->path[i] - q->at) <= 1e-12 * fmax(1, fabs(q->at)) : i == o->stations - 1;
-        if ((q->reduction == SCENE_MAX || q->reduction == SCENE_MIN) ? chosen < 0 || better : here) {
+        const int here = q->reduction == SCENE_AT
+                             ? fabs(o->path[i] - q->at) <= 1e-12 * fmax(1, fabs(q->at))
+                             : i == o->stations - 1;
+        if ((q->reduction == SCENE_MAX || q->reduction == SCENE_MIN) ? chosen < 0 || better
+                                                                     : here) {
             chosen = i;
             r->value = value;
         }
@@ -122,7 +132,8 @@ static void from_path(const analysis_context *c, const scene_quantity *q, const 
 }
 
 /* Value i of a side, or why it has none. */
-static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, int i, double unit, quantity_result *r)
+static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, int i, double unit,
+                            quantity_result *r)
 {
     if (isnan(side->value[i])) {
         extract_no_value(r, side->status, side->reason);
@@ -144,13 +155,15 @@ static void from_buckling(const scene_quantity *q, const analysis_outcome *o, qu
     if (side->status != STATUS_OK)
         snprintf(why, sizeof why, "%s", side->reason);
     else if (side->reason[0] != '\0')
-        snprintf(why, sizeof why, "no %s load%s: %.250s", sign, side->count > 0 ? " of this order" : "", side->reason);
+        snprintf(why, sizeof why, "no %s load%s: %.250s", sign,
+                 side->count > 0 ? " of this order" : "", side->reason);
     else
         snprintf(why, sizeof why, "no %s critical load of this order", sign);
     extract_no_value(r, side->status, why);
 }
 
-static void from_modes(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
+static void from_modes(const analysis_context *c, const scene_quantity *q,
+                       const analysis_outcome *o, quantity_result *r)
 {
     const int n = model_sizes(c->model).free;
     int order = 0;
@@ -177,7 +190,8 @@ static void from_modes(const analysis_context *c, const scene_quantity *q, const
         extract_no_value(r, STATUS_OK, "the mesh has no mode of this kind");
 }
 
-static void from_linear(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
+static void from_linear(const analysis_context *c, const scene_quantity *q,
+                        const analysis_outcome *o, quantity_result *r)
 {
     int index[6];
     double T[36], sum = 0;
@@ -194,8 +208,8 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
 {
     const analysis_outcome *o = &c->outcomes[q->analysis];
     memset(r, 0, sizeof *r);
-    const int partly =
-        o->positive.count + o->negative.count > 0 || o->positive.status != STATUS_OK || o->negative.status != STATUS_OK;
+    const int partly = o->positive.count + o->negative.count > 0 ||
+                       o->positive.status != STATUS_OK || o->negative.status != STATUS_OK;
     if (o->status != STATUS_OK && o->reached == 0 && o->points == 0 && !partly) {
         extract_no_value(r, o->status, o->reason);
         return;

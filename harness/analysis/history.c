@@ -6,10 +6,12 @@
 /* Room for one more: lists double when their count is a power of two. */
 static void *grown(void *list, int count, size_t size)
 {
-    return (count & (count - 1)) != 0 ? list : realloc(list, (count == 0 ? 1 : 2 * (size_t)count) * size);
+    return (count & (count - 1)) != 0 ? list
+                                      : realloc(list, (count == 0 ? 1 : 2 * (size_t)count) * size);
 }
 
-status history_add_iteration(solve_result *r, step_record *step, const iteration_record *one, double energy, fault *f)
+status history_add_iteration(solve_result *r, step_record *step, const iteration_record *one,
+                             double energy, fault *f)
 {
     iteration_record *more = grown(r->iteration, r->iterations, sizeof *more);
     if (more == NULL)

@@ -49,7 +49,8 @@ void linear_system_free(linear_system *s)
 }
 
 /* Right-hand side less K x of the driven coordinates and of x itself, from element strains: its error does not grow with the mesh. */
-static status residual_of(analysis_context *c, const double load[], const double x[], double sigma[], double r[], fault *f)
+static status residual_of(analysis_context *c, const double load[], const double x[],
+                          double sigma[], double r[], fault *f)
 {
     const model_size size = model_sizes(c->model);
     const status outcome = model_linear_stresses(c->model, x, sigma, f);
@@ -104,7 +105,8 @@ static status refine(analysis_context *c, linear_system *s, refinement *w, doubl
         model_counters(c->model)->solutions++;
         for (int k = 0; k < n; k++)
             x[k] += w->r[k];
-        const double correction = weighted_size(n, w->weight, w->r) / weighted_size(n, w->weight, x);
+        const double correction =
+            weighted_size(n, w->weight, w->r) / weighted_size(n, w->weight, x);
         if (i >= REFINEMENTS && !(correction > sure_digits))
             return STATUS_OK;
         if (i > REFINEMENTS && !(correction < last / 2))

@@ -8,8 +8,10 @@
 status linear_forms_alloc(model *m, const sparse *pattern, linear_forms *p, fault *f)
 {
     const model_size size = model_sizes(m);
-    const size_t all = (size_t)(size.free + size.driven) + 1, stresses = (size_t)size.elements * (size_t)size.strains + 1;
-    double **const of_coordinates[] = {&p->load_x, &p->x, &p->force, &p->product}, **const of_stresses[] = {&p->sigma, &p->stress};
+    const size_t all = (size_t)(size.free + size.driven) + 1,
+                 stresses = (size_t)size.elements * (size_t)size.strains + 1;
+    double **const of_coordinates[] = {&p->load_x, &p->x, &p->force, &p->product},
+                   **const of_stresses[] = {&p->sigma, &p->stress};
     int good = 1;
     memset(p, 0, sizeof *p);
     p->m = m;
@@ -18,7 +20,8 @@ status linear_forms_alloc(model *m, const sparse *pattern, linear_forms *p, faul
         good &= (*of_coordinates[i] = calloc(all, sizeof(double))) != NULL;
     for (int i = 0; i < 2; i++)
         good &= (*of_stresses[i] = calloc(stresses, sizeof(double))) != NULL;
-    return good ? sparse_alloc_like(pattern, &p->loads, f) : fault_set(f, STATUS_FAULT, "out of memory for prestress and modes");
+    return good ? sparse_alloc_like(pattern, &p->loads, f)
+                : fault_set(f, STATUS_FAULT, "out of memory for prestress and modes");
 }
 
 void linear_forms_free(linear_forms *p)
@@ -56,7 +59,8 @@ double linear_forms_stiffness_rounding(linear_forms *p, const double x[])
 double linear_forms_geometric(linear_forms *p, const double x[])
 {
     sparse_mul(&p->loads, x, p->product);
-    return model_geometric_energy2(p->m, p->sigma, all_of(p, x)) + dense_dot(p->free, x, p->product);
+    return model_geometric_energy2(p->m, p->sigma, all_of(p, x)) +
+           dense_dot(p->free, x, p->product);
 }
 
 double linear_forms_geometric_rounding(linear_forms *p, const double x[])

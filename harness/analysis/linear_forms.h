@@ -8,10 +8,10 @@
 typedef struct linear_forms {
     model *m;
     int free;
-    double *load_x;           /* [free + driven] displacements at factor 1, zero: no prestress ... */
-    double *sigma;            /* ... and their stresses [elements x strains] */
-    sparse loads;             /* what the loads at factor 1 add to K */
-    double *x, *force;        /* [free + driven] driven coordinates of x: zero */
+    double *load_x;    /* [free + driven] displacements at factor 1, zero: no prestress ... */
+    double *sigma;     /* ... and their stresses [elements x strains] */
+    sparse loads;      /* what the loads at factor 1 add to K */
+    double *x, *force; /* [free + driven] driven coordinates of x: zero */
     double *stress, *product; /* [elements x strains], [free] */
 } linear_forms;
 

@@ -80,7 +80,8 @@ static void keep(const forms *about, eigen_side *side, analysis_outcome *o)
 }
 
 /* A structure that is not held has K singular: K + shift M is not. */
-static status shifted_system(analysis_context *c, linear_system *s, const sparse *M, double *shift, fault *f)
+static status shifted_system(analysis_context *c, linear_system *s, const sparse *M, double *shift,
+                             fault *f)
 {
     double k = 0, mass = 0;
     for (int j = 0; j < M->n; j++) {
@@ -95,12 +96,15 @@ static status shifted_system(analysis_context *c, linear_system *s, const sparse
 }
 
 /* K += G of the stresses of the linear analysis that is followed. */
-static status add_prestress(analysis_context *c, int follows, linear_system *s, forms *about, fault *f)
+static status add_prestress(analysis_context *c, int follows, linear_system *s, forms *about,
+                            fault *f)
 {
     const model_size size = model_sizes(c->model);
     const double *x = c->outcomes[follows].x;
     if (c->scene->analysis[follows].kind != SCENE_LINEAR || x == NULL)
-        return fault_set(f, STATUS_REFUSED, "frequencies of a loaded structure follow a linear analysis that has been solved");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "frequencies of a loaded structure follow a linear analysis that has been solved");
     about->prestressed = 1;
     memcpy(about->of.load_x, x, (size_t)(size.free + size.driven) * sizeof *x);
     status outcome = linear_forms_load(&about->of, f);
@@ -132,7 +136,8 @@ static status assemble(analysis_context *c, int follows, linear_system *s, forms
         result = fault_set(f, STATUS_FAULT, "out of memory for modes");
     if (result == STATUS_OK)
         result = model_inertia(c->model, NULL, 0, &about->M, NULL, f);
-    return result == STATUS_OK && singular ? shifted_system(c, s, &about->M, &about->shift, f) : result;
+    return result == STATUS_OK && singular ? shifted_system(c, s, &about->M, &about->shift, f)
+                                           : result;
 }
 
 status analysis_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f)

@@ -59,9 +59,11 @@ static int points_of(const model *m, const scene *s)
     return points;
 }
 
-static status motion_alloc(const model *m, const scene *s, const double mode[], motion *out, fault *f)
+static status motion_alloc(const model *m, const scene *s, const double mode[], motion *out,
+                           fault *f)
 {
-    const size_t vertices = (size_t)model_shape(m, NULL, NULL, NULL), points = (size_t)points_of(m, s);
+    const size_t vertices = (size_t)model_shape(m, NULL, NULL, NULL),
+                 points = (size_t)points_of(m, s);
     double *u = malloc((vertices * 7 + 1) * sizeof *u);
     int *index = malloc((vertices + 1) * sizeof *index);
     out->points = 0;
@@ -112,7 +114,8 @@ static const double in_place_part = 1e-16;
 
 status mode_identify(const model *m, const scene *s, const double mode[], mode_shape *out, fault *f)
 {
-    static const scene_family family[MEASURES] = {SCENE_AXIAL, SCENE_BENDING_Y, SCENE_BENDING_Z, SCENE_TORSION};
+    static const scene_family family[MEASURES] = {SCENE_AXIAL, SCENE_BENDING_Y, SCENE_BENDING_Z,
+                                                  SCENE_TORSION};
     motion shape;
     const status outcome = motion_alloc(m, s, mode, &shape, f);
     double moved[MEASURES], turned[MEASURES], all = 0, in_place = 0;
@@ -122,9 +125,11 @@ status mode_identify(const model *m, const scene *s, const double mode[], mode_s
         all += moved[k];
         in_place += turned[k];
     }
-    const int stays = !(all > in_place_part * in_place), leading = largest_of(stays ? turned : moved);
+    const int stays = !(all > in_place_part * in_place),
+              leading = largest_of(stays ? turned : moved);
     out->family = family[leading];
-    out->half_waves = count_half_waves(outcome == STATUS_OK ? shape.first_member : 0, (stays ? shape.turn : shape.part) + leading);
+    out->half_waves = count_half_waves(outcome == STATUS_OK ? shape.first_member : 0,
+                                       (stays ? shape.turn : shape.part) + leading);
     free(shape.part);
     return outcome;
 }
@@ -132,7 +137,8 @@ status mode_identify(const model *m, const scene *s, const double mode[], mode_s
 int mode_in_family(const scene_quantity *q, const mode_shape *shape)
 {
     const int family =
-        q->family == SCENE_ANY || (q->family == SCENE_NOT_AXIAL ? shape->family != SCENE_AXIAL : shape->family == q->family);
+        q->family == SCENE_ANY ||
+        (q->family == SCENE_NOT_AXIAL ? shape->family != SCENE_AXIAL : shape->family == q->family);
     return family && (q->half_waves == 0 || shape->half_waves == q->half_waves);
 }
 
@@ -155,7 +161,8 @@ const char *mode_family_name(scene_family family)
 }
 
 /* mode <- combinations that make the part along z as small or as large as it can be beside the whole. */
-static status separate_cluster(const model *m, const scene *s, int count, size_t n, double *mode, fault *f)
+static status separate_cluster(const model *m, const scene *s, int count, size_t n, double *mode,
+                               fault *f)
 {
     enum { MOST = 8 };
     double A[MOST * MOST] = {0}, B[MOST * MOST] = {0}, w[MOST];
@@ -173,7 +180,8 @@ static status separate_cluster(const model *m, const scene *s, int count, size_t
             }
     for (int i = 0; i < size; i++)
         free(shape[i].part);
-    if (outcome != STATUS_OK || LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', size, A, size, B, size, w) != 0)
+    if (outcome != STATUS_OK ||
+        LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', size, A, size, B, size, w) != 0)
         return outcome; /* modes that look alike at the vertices stay as they are */
     for (size_t k = 0; k < n; k++) {
         double old[MOST] = {0};
@@ -188,12 +196,15 @@ static status separate_cluster(const model *m, const scene *s, int count, size_t
     return STATUS_OK;
 }
 
-status mode_separate(const model *m, const scene *s, int count, const double value[], size_t n, double *mode, fault *f)
+status mode_separate(const model *m, const scene *s, int count, const double value[], size_t n,
+                     double *mode, fault *f)
 {
     const double equal = 1e-8; /* relative */
     status outcome = STATUS_OK;
     for (int first = 0, last; first < count && outcome == STATUS_OK; first = last) {
-        for (last = first + 1; last < count && fabs(value[last] - value[first]) <= equal * fabs(value[first]); last++) {}
+        for (last = first + 1;
+             last < count && fabs(value[last] - value[first]) <= equal * fabs(value[first]);
+             last++) {}
         if (last - first > 1)
             outcome = separate_cluster(m, s, last - first, n, mode + (size_t)first * n, f);
     }

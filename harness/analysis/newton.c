@@ -12,7 +12,8 @@
 #include "harness/analysis/singular.h"
 
 enum { MAX_ITERATIONS = 30 };
-static const double default_criterion = 1e-8; /* largest correction, dimensionless: the next one would be its square */
+static const double default_criterion =
+    1e-8; /* largest correction, dimensionless: the next one would be its square */
 
 status newton_alloc(analysis_context *c, newton *n, fault *f)
 {
@@ -24,7 +25,8 @@ status newton_alloc(analysis_context *c, newton *n, fault *f)
     n->free = size.free;
     n->all = size.free + size.driven;
     n->criterion = c->options->criterion > 0 ? c->options->criterion : default_criterion;
-    n->max_iterations = c->options->max_iterations > 0 ? c->options->max_iterations : MAX_ITERATIONS;
+    n->max_iterations =
+        c->options->max_iterations > 0 ? c->options->max_iterations : MAX_ITERATIONS;
     n->residual = calloc((size_t)n->all + 1, sizeof *n->residual);
     n->dx = calloc((size_t)n->all + 1, sizeof *n->dx);
     n->column = calloc((size_t)(MODEL_MAX_CONDITIONS * n->all) + 1, sizeof *n->column);
@@ -64,15 +66,17 @@ void newton_free(newton *n)
 }
 
 /* 1: what a driver moves of its condition's coordinates is more than the round-off of all that it moves. */
-static int drives(const newton *n, int count, const model_condition condition[], const double column[])
+static int drives(const newton *n, int count, const model_condition condition[],
+                  const double column[])
 {
     const double round_off = 1e-12;
     double conditioned = 0, all = 0;
     for (int k = 0; k < n->free; k++)
         all = fmax(all, n->weight[k] * column[k] * column[k]);
     for (int r = 0; r < count; r++)
-        conditioned = fmax(conditioned,
-                           n->weight[condition[r].coordinate] * column[condition[r].coordinate] * column[condition[r].coordinate]);
+        conditioned =
+            fmax(conditioned, n->weight[condition[r].coordinate] * column[condition[r].coordinate] *
+                                  column[condition[r].coordinate]);
     return conditioned > round_off * round_off * all;
 }
 
@@ -92,7 +96,8 @@ static status meet_conditions(newton *n, int count, const model_condition condit
             A[r * count + c] = n->column[c * n->all + condition[r].coordinate];
     }
     if (!moved || dense_lu_regular(count, A, pivot) != 0)
-        return fault_set(f, STATUS_SINGULAR, "an unknown driver does not move the coordinate of its condition");
+        return fault_set(f, STATUS_SINGULAR,
+                         "an unknown driver does not move the coordinate of its condition");
     dense_lu_solve(count, 1, A, pivot, b);
     for (int c = 0; c < count; c++) {
         for (int k = 0; k < n->free; k++)
@@ -134,8 +139,9 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
 {
     model *m = n->c->model;
     const size_t size = (size_t)model_full_size(m) + (size_t)lin->conditions;
-    const status fits = memory_check((double)size * (double)size * sizeof *n->dense, "dense matrices of all unknowns at once",
-                                     "give newton=mixed", f);
+    const status fits =
+        memory_check((double)size * (double)size * sizeof *n->dense,
+                     "dense matrices of all unknowns at once", "give newton=mixed", f);
     if (fits != STATUS_OK)
         return fits;
     if (n->dense == NULL) {
@@ -144,7 +150,9 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
         n->pivot = malloc(size * sizeof *n->pivot);
     }
     if (n->dense == NULL || n->unknown == NULL || n->pivot == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a dense matrix of %zu unknowns; give newton=mixed", size);
+        return fault_set(f, STATUS_FAULT,
+                         "out of memory for a dense matrix of %zu unknowns; give newton=mixed",
+                         size);
     model_linearisation parts = *lin;
     parts.K = NULL;
     parts.drive = NULL;
@@ -152,12 +160,13 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
     status outcome = model_linearise(m, n->state, &parts, f); /* what model_advance needs */
     lin->incompatibility = parts.incompatibility;
     if (outcome == STATUS_OK)
-        outcome =
-            model_full_system(m, n->state, lin->path, n->dx, lin->conditions, lin->condition, n->dense, n->unknown, n->residual, f);
+        outcome = model_full_system(m, n->state, lin->path, n->dx, lin->conditions, lin->condition,
+                                    n->dense, n->unknown, n->residual, f);
     if (outcome != STATUS_OK)
         return outcome;
     phases_lap(model_phases(m), PHASE_ASSEMBLY);
-    const int singular = LAPACKE_dgesv(LAPACK_COL_MAJOR, (int)size, 1, n->dense, (int)size, n->pivot, n->unknown, (int)size) != 0;
+    const int singular = LAPACKE_dgesv(LAPACK_COL_MAJOR, (int)size, 1, n->dense, (int)size,
+                                       n->pivot, n->unknown, (int)size) != 0;
     phases_lap(model_phases(m), PHASE_FACTORISATION);
     n->c->singular = singular;
     if (singular)
@@ -190,11 +199,13 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
                                .conditions = conditions,
                                .condition = condition,
                                .column = n->column};
-    const status outcome = n->c->options->newton == SOLVE_DENSE ? solve_dense(n, &lin, f) : solve_condensed(n, &lin, f);
+    const status outcome = n->c->options->newton == SOLVE_DENSE ? solve_dense(n, &lin, f)
+                                                                : solve_condensed(n, &lin, f);
     if (outcome != STATUS_OK)
         return outcome;
     const factor_counts counts = factor_count(n->factor);
-    count->factorisations += n->c->options->newton == SOLVE_DENSE ? 1 : counts.factorisations - n->counted;
+    count->factorisations +=
+        n->c->options->newton == SOLVE_DENSE ? 1 : counts.factorisations - n->counted;
     n->counted = counts.factorisations;
     count->solutions++;
     count->factor_entries = counts.entries;
@@ -209,11 +220,14 @@ status newton_advance(newton *n, double path, double *correction, step_record *r
     *correction = model_advance(n->c->model, n->state, n->dx, path);
     phases_stop(model_phases(n->c->model));
     model_counters(n->c->model)->iterations++;
-    const iteration_record one = {.correction = *correction, .incompatibility = record->incompatibility};
+    const iteration_record one = {.correction = *correction,
+                                  .incompatibility = record->incompatibility};
     const status kept = history_add_iteration(n->c->result, record, &one, n->energy, f);
     if (kept != STATUS_OK)
         return kept;
-    return isfinite(*correction) ? STATUS_OK : fault_set(f, STATUS_NOT_CONVERGED, "the corrections are not finite");
+    return isfinite(*correction)
+               ? STATUS_OK
+               : fault_set(f, STATUS_NOT_CONVERGED, "the corrections are not finite");
 }
 
 /* A formulation whose strains are sines of the turn can converge to a state it cannot tell from the right one. */
@@ -221,14 +235,17 @@ static status judge_turns(const newton *n, double path, fault *f)
 {
     const double quarter = 1.57079632679489661923;
     int element = 0;
-    if (!(model_limits(n->c->model) & LIMIT_QUARTER_TURN) || model_largest_turn(n->c->model, n->state, &element) < quarter)
+    if (!(model_limits(n->c->model) & LIMIT_QUARTER_TURN) ||
+        model_largest_turn(n->c->model, n->state, &element) < quarter)
         return STATUS_OK;
     return fault_set(f, STATUS_NOT_CONVERGED,
-                     "element %d is turned by more than a quarter turn at path %g: use more elements or smaller steps", element,
-                     path);
+                     "element %d is turned by more than a quarter turn at path %g: use more "
+                     "elements or smaller steps",
+                     element, path);
 }
 
-status newton_judge(const newton *n, newton_watch *w, double path, double correction, int *done, fault *f)
+status newton_judge(const newton *n, newton_watch *w, double path, double correction, int *done,
+                    fault *f)
 {
     const double wild = 4; /* a correction of several radians or lengths leads nowhere */
     *done = correction <= n->criterion;
@@ -238,10 +255,12 @@ status newton_judge(const newton *n, newton_watch *w, double path, double correc
     w->last = correction;
     w->iteration++;
     if (correction > wild * 4 || (w->iteration > 3 && correction > wild) || w->growing >= 4)
-        return fault_set(f, STATUS_NOT_CONVERGED, "Newton diverged at path %g: correction %.1e in iteration %d", path, correction,
-                         w->iteration);
+        return fault_set(f, STATUS_NOT_CONVERGED,
+                         "Newton diverged at path %g: correction %.1e in iteration %d", path,
+                         correction, w->iteration);
     if (w->iteration == n->max_iterations)
-        return fault_set(f, STATUS_NOT_CONVERGED, "Newton did not converge in %d iterations at path %g: correction %.1e",
+        return fault_set(f, STATUS_NOT_CONVERGED,
+                         "Newton did not converge in %d iterations at path %g: correction %.1e",
                          n->max_iterations, path, correction);
     return STATUS_OK;
 }
@@ -287,5 +306,7 @@ status newton_stations(analysis_outcome *o, int stations, fault *f)
     o->stations = stations;
     o->path = calloc((size_t)stations + 1, sizeof *o->path);
     o->state = calloc((size_t)stations + 1, sizeof(model_state *));
-    return o->path == NULL || o->state == NULL ? fault_set(f, STATUS_FAULT, "out of memory for a path") : STATUS_OK;
+    return o->path == NULL || o->state == NULL
+               ? fault_set(f, STATUS_FAULT, "out of memory for a path")
+               : STATUS_OK;
 }

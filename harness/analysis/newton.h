@@ -16,8 +16,9 @@ typedef struct newton {
     double *residual, *dx;   /* [free + driven] */
     double *dense, *unknown; /* of the uncondensed system, allocated when it is asked for */
     int *pivot;
-    double *column;           /* [conditions x (free + driven)] */
-    double *weight;           /* [free + driven] of model_metric: what makes displacements and turns comparable */
+    double *column; /* [conditions x (free + driven)] */
+    double *
+        weight; /* [free + driven] of model_metric: what makes displacements and turns comparable */
     double criterion, energy; /* energy: |r . K^-1 r| of the last residual r [J]; NAN: not known */
     int max_iterations, free, all;
     long counted; /* factorisations that are in the model's counters */
@@ -38,7 +39,8 @@ typedef struct newton_watch {
 } newton_watch;
 static const newton_watch newton_watch_start = {0, 0, INFINITY};
 /* OK with *done = 1 when converged, OK with 0 to go on, or NOT_CONVERGED with the reason. */
-status newton_judge(const newton *, newton_watch *, double path, double correction, int *done, fault *);
+status newton_judge(const newton *, newton_watch *, double path, double correction, int *done,
+                    fault *);
 
 /* Newton to `path`: converged, or NOT_CONVERGED with the reason. */
 status newton_to(newton *, double path, step_record *, fault *);

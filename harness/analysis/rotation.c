@@ -24,7 +24,8 @@ static double tangent_form(void *context, const double mode[])
     const form *f = context;
     double energy, added = 0;
     memcpy(f->x, mode, (size_t)f->free_count * sizeof *f->x);
-    if (model_tangent_energy2(f->m, f->state, model_state_path(f->state), f->x, &energy) != STATUS_OK)
+    if (model_tangent_energy2(f->m, f->state, model_state_path(f->state), f->x, &energy) !=
+        STATUS_OK)
         return NAN;
     sparse_mul(f->loads, mode, f->y);
     for (int i = 0; i < f->free_count; i++)
@@ -88,7 +89,8 @@ static status linearise(analysis_context *c, const model_state *state, matrices 
 }
 
 /* Frequencies and families of the modes found. */
-static status identify(analysis_context *c, const gyroscopic_result *r, rotation_modes *out, fault *f)
+static status identify(analysis_context *c, const gyroscopic_result *r, rotation_modes *out,
+                       fault *f)
 {
     const model_size size = model_sizes(c->model);
     const size_t n = (size_t)size.free, all = n + (size_t)size.driven, count = (size_t)r->count;
@@ -166,14 +168,20 @@ void rotation_modes_free(rotation_modes modes[], int stations)
 }
 
 /* As many modes as it takes, if they exist: those of other families lie between. */
-static status modes_at(analysis_context *c, int analysis, const model_state *state, matrices *a, rotation_modes *out, fault *f)
+static status modes_at(analysis_context *c, int analysis, const model_state *state, matrices *a,
+                       rotation_modes *out, fault *f)
 {
     form about = {c->model, state, &a->loads, a->x, a->y, model_sizes(c->model).free};
-    gyroscopic_problem problem = {
-        .K = &a->K, .M = &a->M, .G = &a->G, .K_factor = a->factor, .K_energy = tangent_form, .context = &about};
+    gyroscopic_problem problem = {.K = &a->K,
+                                  .M = &a->M,
+                                  .G = &a->G,
+                                  .K_factor = a->factor,
+                                  .K_energy = tangent_form,
+                                  .context = &about};
     int enough = 0;
     status outcome = STATUS_OK;
-    for (problem.wanted = modes_wanted(c, analysis); outcome == STATUS_OK && !enough; problem.wanted *= 2) {
+    for (problem.wanted = modes_wanted(c, analysis); outcome == STATUS_OK && !enough;
+         problem.wanted *= 2) {
         gyroscopic_result result = {0};
         modes_free(out);
         outcome = linearise(c, state, a, f);
@@ -183,7 +191,8 @@ static status modes_at(analysis_context *c, int analysis, const model_state *sta
         model_counters(c->model)->factorisations += result.factorisations;
         if (outcome == STATUS_OK)
             outcome = identify(c, &result, out, f);
-        enough = outcome == STATUS_OK && (result.count < problem.wanted || is_enough(c, analysis, out));
+        enough =
+            outcome == STATUS_OK && (result.count < problem.wanted || is_enough(c, analysis, out));
         gyroscopic_free(&result);
     }
     return outcome;
@@ -194,9 +203,10 @@ static void note_instability(analysis_context *c, const rotation_modes *modes, d
 {
     for (int i = 0; i < modes->count && c->result->reason[0] == '\0'; i++)
         if (modes->growth[i] > 0)
-            snprintf(c->result->reason, sizeof c->result->reason, "unstable at path %g: %s, %s, grows with %.4g 1/s", path,
-                     mode_family_name(modes->shape[i].family), modes->frequency[i] > 0 ? "flutter" : "divergence",
-                     modes->growth[i]);
+            snprintf(c->result->reason, sizeof c->result->reason,
+                     "unstable at path %g: %s, %s, grows with %.4g 1/s", path,
+                     mode_family_name(modes->shape[i].family),
+                     modes->frequency[i] > 0 ? "flutter" : "divergence", modes->growth[i]);
 }
 
 status analysis_rotation(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
@@ -206,8 +216,10 @@ status analysis_rotation(analysis_context *c, int analysis, analysis_outcome *o,
     if (outcome != STATUS_OK || !asks_for_modes(c, analysis, 0))
         return outcome;
     o->modes = calloc((size_t)o->stations + 1, sizeof *o->modes);
-    outcome = o->modes != NULL ? matrices_alloc(c, &a, f) : fault_set(f, STATUS_FAULT, "out of memory for modes");
-    for (int i = asks_for_modes(c, analysis, 1) ? 0 : o->stations - 1; i < o->stations && outcome == STATUS_OK; i++) {
+    outcome = o->modes != NULL ? matrices_alloc(c, &a, f)
+                               : fault_set(f, STATUS_FAULT, "out of memory for modes");
+    for (int i = asks_for_modes(c, analysis, 1) ? 0 : o->stations - 1;
+         i < o->stations && outcome == STATUS_OK; i++) {
         outcome = modes_at(c, analysis, o->state[i], &a, &o->modes[i], f);
         if (outcome == STATUS_OK)
             note_instability(c, &o->modes[i], o->path[i]);

@@ -47,7 +47,8 @@ static int count_of(const analysis_outcome *o, int most)
            least(o->negative.count, SHAPES_MODES) * (o->negative.mode != NULL);
 }
 
-static void keep(const analysis_context *c, shapes *s, const shape_state *what, const model_state *state)
+static void keep(const analysis_context *c, shapes *s, const shape_state *what,
+                 const model_state *state)
 {
     s->state[s->states] = *what;
     centreline_fill(c->model, state, s->point + (size_t)s->states * (size_t)s->points);
@@ -66,13 +67,14 @@ static void keep_path(const analysis_context *c, int analysis, int most, shapes 
 }
 
 /* x[free + driven]; the state the analysis is about is the last of the path it follows. */
-static status keep_displaced(const analysis_context *c, shape_state *what, const double x[], const double sigma[], shapes *s,
-                             fault *f)
+static status keep_displaced(const analysis_context *c, shape_state *what, const double x[],
+                             const double sigma[], shapes *s, fault *f)
 {
     const int follows = c->scene->analysis[what->analysis].follows;
     const analysis_outcome *path = follows == SCENE_NONE ? NULL : &c->outcomes[follows];
-    const model_state *about =
-        path != NULL && path->reached > 0 && path->state != NULL ? path->state[path->reached - 1] : model_rest(c->model);
+    const model_state *about = path != NULL && path->reached > 0 && path->state != NULL
+                                   ? path->state[path->reached - 1]
+                                   : model_rest(c->model);
     model_state *moved = NULL;
     const status outcome = centreline_displaced(c->model, about, x, sigma, &what->scale, &moved, f);
     if (outcome == STATUS_OK)
@@ -86,8 +88,10 @@ static status keep_linear(const analysis_context *c, int analysis, shapes *s, fa
     const model_size size = model_sizes(c->model);
     shape_state what = {SHAPE_LINEAR, analysis, 1, 1};
     double *sigma = calloc((size_t)size.elements * (size_t)size.strains + 1, sizeof *sigma);
-    status outcome = sigma != NULL ? model_linear_stresses(c->model, c->outcomes[analysis].x, sigma, f)
-                                   : fault_set(f, STATUS_FAULT, "out of memory for the shape of a linear solution");
+    status outcome =
+        sigma != NULL
+            ? model_linear_stresses(c->model, c->outcomes[analysis].x, sigma, f)
+            : fault_set(f, STATUS_FAULT, "out of memory for the shape of a linear solution");
     if (outcome == STATUS_OK)
         outcome = keep_displaced(c, &what, c->outcomes[analysis].x, sigma, s, f);
     free(sigma);
@@ -95,16 +99,20 @@ static status keep_linear(const analysis_context *c, int analysis, shapes *s, fa
 }
 
 /* mode[count x free] */
-static status keep_modes(const analysis_context *c, int analysis, const outcome_side *side, shapes *s, fault *f)
+static status keep_modes(const analysis_context *c, int analysis, const outcome_side *side,
+                         shapes *s, fault *f)
 {
     const model_size size = model_sizes(c->model);
     const size_t n = (size_t)size.free;
     const int buckling = c->scene->analysis[analysis].kind == SCENE_BUCKLING;
     double *x = calloc(n + (size_t)size.driven + 1, sizeof *x);
-    status outcome = x != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for the shape of a mode");
-    for (int i = 0; i < least(side->count, SHAPES_MODES) && outcome == STATUS_OK && side->mode != NULL; i++) {
-        shape_state what = {buckling ? SHAPE_BUCKLING : SHAPE_MODE, analysis,
-                            buckling ? side->value[i] : side->value[i] / (2 * 3.14159265358979323846), 0};
+    status outcome =
+        x != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for the shape of a mode");
+    for (int i = 0;
+         i < least(side->count, SHAPES_MODES) && outcome == STATUS_OK && side->mode != NULL; i++) {
+        shape_state what = {
+            buckling ? SHAPE_BUCKLING : SHAPE_MODE, analysis,
+            buckling ? side->value[i] : side->value[i] / (2 * 3.14159265358979323846), 0};
         memcpy(x, side->mode + n * (size_t)i, n * sizeof *x);
         outcome = keep_displaced(c, &what, x, NULL, s, f);
     }

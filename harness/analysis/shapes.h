@@ -4,7 +4,13 @@
 
 #include "harness/model/centreline.h"
 
-typedef enum shape_kind { SHAPE_UNDEFORMED, SHAPE_PATH, SHAPE_LINEAR, SHAPE_BUCKLING, SHAPE_MODE } shape_kind;
+typedef enum shape_kind {
+    SHAPE_UNDEFORMED,
+    SHAPE_PATH,
+    SHAPE_LINEAR,
+    SHAPE_BUCKLING,
+    SHAPE_MODE
+} shape_kind;
 
 typedef struct shape_state {
     shape_kind kind;

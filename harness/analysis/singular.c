@@ -22,8 +22,9 @@ static void name_motion(int node, const double motion[6], double length, fault *
     const int turns = vec3_norm(turn) * length > 1e-6 * vec3_norm(shift);
     const double *v = turns ? turn : shift, size = vec3_norm(v);
     fault_set(f, STATUS_SINGULAR,
-              "node %d is not held, nor what it is joined to: it can %s (%.3g, %.3g, %.3g); hold it against that", node,
-              turns ? "turn about" : "move along", v[0] / size, v[1] / size, v[2] / size);
+              "node %d is not held, nor what it is joined to: it can %s (%.3g, %.3g, %.3g); hold "
+              "it against that",
+              node, turns ? "turn about" : "move along", v[0] / size, v[1] / size, v[2] / size);
 }
 
 /* How far apart the stiffnesses of K's coordinates are, displacements in units of the structure's
@@ -31,7 +32,8 @@ static void name_motion(int node, const double motion[6], double length, fault *
 static double spread(const model *m, const sparse *K)
 {
     const model_size size = model_sizes(m);
-    double *weight = malloc(((size_t)(size.free + size.driven) + 1) * sizeof *weight), largest = 0, least = INFINITY;
+    double *weight = malloc(((size_t)(size.free + size.driven) + 1) * sizeof *weight), largest = 0,
+           least = INFINITY;
     if (weight == NULL)
         return 1;
     model_metric(m, weight);
@@ -52,8 +54,9 @@ static int is_lost_at_rest(const analysis_context *c, model *m)
     analysis_context one = {.scene = c->scene, .model = m, .options = c->options};
     linear_system s;
     const status outcome = linear_system_alloc(&one, &s, NULL);
-    const int lost =
-        outcome == STATUS_SINGULAR || (outcome == STATUS_OK && !(factor_condition(s.factor, &s.K) * spread(m, &s.K) <= no_digits));
+    const int lost = outcome == STATUS_SINGULAR ||
+                     (outcome == STATUS_OK &&
+                      !(factor_condition(s.factor, &s.K) * spread(m, &s.K) <= no_digits));
     linear_system_free(&s);
     *model_counters(m) = work;
     return lost;
@@ -63,7 +66,8 @@ static int is_lost_at_rest(const analysis_context *c, model *m)
 static int is_lost_when_coarse(const analysis_context *c)
 {
     model *coarse = NULL;
-    const int lost = model_coarse(c->model, &coarse, NULL) == STATUS_OK && is_lost_at_rest(c, coarse);
+    const int lost =
+        model_coarse(c->model, &coarse, NULL) == STATUS_OK && is_lost_at_rest(c, coarse);
     model_free(coarse);
     return lost;
 }
@@ -76,12 +80,16 @@ void singular_explain(analysis_context *c, fault *f)
     if (model_loose_part(c->model, &node, motion))
         name_motion(node, motion, model_length(c->model), f);
     else if (!is_lost_at_rest(c, c->model))
-        fault_set(f, STATUS_SINGULAR, "the stiffness matrix is singular: the structure is at a critical point");
+        fault_set(f, STATUS_SINGULAR,
+                  "the stiffness matrix is singular: the structure is at a critical point");
     else if (is_lost_when_coarse(c))
         fault_set(f, STATUS_SINGULAR,
-                  "the stiffness matrix is lost in round-off, whatever the mesh: its stiffnesses are too far apart, or one of a "
+                  "the stiffness matrix is lost in round-off, whatever the mesh: its stiffnesses "
+                  "are too far apart, or one of a "
                   "section is zero");
     else
         fault_set(f, STATUS_SINGULAR,
-                  "the stiffness matrix of %d elements is lost in round-off: everything is held; use fewer elements", elements);
+                  "the stiffness matrix of %d elements is lost in round-off: everything is held; "
+                  "use fewer elements",
+                  elements);
 }

@@ -82,7 +82,8 @@ static void run_analyses(analysis_context *c)
         if (c->options->sample > 0 && a->kind != SCENE_STATIC)
             continue;
         c->singular = 0;
-        o->status = run != NULL ? run(c, i, o, &f) : fault_set(&f, STATUS_REFUSED, "analysis %d: not available", i);
+        o->status = run != NULL ? run(c, i, o, &f)
+                                : fault_set(&f, STATUS_REFUSED, "analysis %d: not available", i);
         if (o->status == STATUS_SINGULAR && c->singular)
             singular_explain(c, &f);
         snprintf(o->reason, sizeof o->reason, "%s", f.text);
@@ -93,10 +94,12 @@ static void run_analyses(analysis_context *c)
     }
 }
 
-status solve_scene(const scene *s, model *m, const solve_options *options, solve_result *result, fault *f)
+status solve_scene(const scene *s, model *m, const solve_options *options, solve_result *result,
+                   fault *f)
 {
     static const solve_options defaults = {0};
-    analysis_context c = {.scene = s, .model = m, .options = options != NULL ? options : &defaults, .result = result};
+    analysis_context c = {
+        .scene = s, .model = m, .options = options != NULL ? options : &defaults, .result = result};
     const double start = seconds_now();
     memset(result, 0, sizeof *result);
     result->quantity = calloc((size_t)s->quantities + 1, sizeof *result->quantity);
@@ -119,8 +122,10 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
             snprintf(result->reason, sizeof result->reason, "%s", q->reason);
         }
     }
-    const counters work = *model_counters(m); /* shapes are drawn, not solved for: they do not count */
-    if (c.options->shapes > 0 && shapes_collect(&c, c.options->shapes, &result->shapes, f) != STATUS_OK)
+    const counters work =
+        *model_counters(m); /* shapes are drawn, not solved for: they do not count */
+    if (c.options->shapes > 0 &&
+        shapes_collect(&c, c.options->shapes, &result->shapes, f) != STATUS_OK)
         result->status = STATUS_FAULT;
     *model_counters(m) = work;
     for (int i = 0; i < s->analyses; i++)

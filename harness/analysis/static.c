@@ -23,8 +23,9 @@ status static_walk(newton *n, double target, double *increment, fault *f)
             if (stored != STATUS_OK)
                 return stored;
             count->steps++;
-            count->negative_pivots =
-                record.negative_pivots > count->negative_pivots ? record.negative_pivots : count->negative_pivots;
+            count->negative_pivots = record.negative_pivots > count->negative_pivots
+                                         ? record.negative_pivots
+                                         : count->negative_pivots;
             if (n->trail != NULL)
                 trail_add(n->c->model, n->state, record.iterations, n->trail);
             if (record.iterations <= EASY_ITERATIONS && !last && rejected == 0)
@@ -34,7 +35,8 @@ status static_walk(newton *n, double target, double *increment, fault *f)
         }
         history_drop_step(n->c->result, &record);
         /* Shorter steps meet the same matrix, but for the stiffness of the loads. */
-        const int hopeless = outcome == STATUS_SINGULAR && record.iterations == 0 && rejected >= SINGULAR_STARTS;
+        const int hopeless =
+            outcome == STATUS_SINGULAR && record.iterations == 0 && rejected >= SINGULAR_STARTS;
         if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED || to - from <= least || hopeless)
             return outcome;
         model_state_copy(n->c->model, n->backup, n->state);
@@ -68,7 +70,9 @@ status analysis_static(analysis_context *c, int analysis, analysis_outcome *o, f
     n.trail = &t;
     if (result == STATUS_OK)
         result = newton_stations(o, a->stations, f);
-    const int steps = c->options->steps_between > 0 ? c->options->steps_between : a->steps_between > 0 ? a->steps_between : 1;
+    const int steps = c->options->steps_between > 0 ? c->options->steps_between
+                      : a->steps_between > 0        ? a->steps_between
+                                                    : 1;
     if (result == STATUS_OK && c->options->sample > 0)
         result = sample(&n, a->path[0], f);
     for (int i = 0; i < a->stations && result == STATUS_OK && c->options->sample == 0; i++) {

@@ -33,8 +33,9 @@ static status border_alloc(const analysis_context *c, const scene_analysis *a, t
     b->U = calloc((size_t)(b->count * t->free) + 1, sizeof *b->U);
     b->V = calloc((size_t)(b->count * t->free) + 1, sizeof *b->V);
     t->residual = calloc((size_t)t->all + 1, sizeof *t->residual);
-    return b->U == NULL || b->V == NULL || t->residual == NULL ? fault_set(f, STATUS_FAULT, "out of memory for a compliance")
-                                                               : STATUS_OK;
+    return b->U == NULL || b->V == NULL || t->residual == NULL
+               ? fault_set(f, STATUS_FAULT, "out of memory for a compliance")
+               : STATUS_OK;
 }
 
 int border_place(const border *b, int coordinate)
@@ -116,8 +117,8 @@ void tangent_free(tangent *t)
     free(t->residual);
 }
 
-status tangent_at(analysis_context *c, const scene_analysis *a, const model_state *s, const double reaction[6], tangent *t,
-                  fault *f)
+status tangent_at(analysis_context *c, const scene_analysis *a, const model_state *s,
+                  const double reaction[6], tangent *t, fault *f)
 {
     model_linearisation lin = {.path = model_state_path(s), .K = &t->K, .residual = t->residual};
     status outcome = model_linearise(c->model, s, &lin, f);
@@ -127,7 +128,8 @@ status tangent_at(analysis_context *c, const scene_analysis *a, const model_stat
         outcome = analysis_factor(c, t->factor, &t->inside, f);
     }
     t->state = s;
-    t->refined = outcome == STATUS_OK && factor_condition(t->factor, &t->inside) > harmless_condition;
+    t->refined =
+        outcome == STATUS_OK && factor_condition(t->factor, &t->inside) > harmless_condition;
     if (t->refined) {
         outcome = model_soft_part(c->model, s, &t->soft, f);
         model_release_moment(c->model, s, a->node, reaction + 3, &t->soft);
@@ -136,7 +138,8 @@ status tangent_at(analysis_context *c, const scene_analysis *a, const model_stat
     n->factorisations++;
     const factor_counts counts = factor_count(t->factor);
     n->factor_flops += counts.flops;
-    n->negative_pivots = counts.negative_pivots > n->negative_pivots ? counts.negative_pivots : n->negative_pivots;
+    n->negative_pivots =
+        counts.negative_pivots > n->negative_pivots ? counts.negative_pivots : n->negative_pivots;
     fill_border(t);
     t->coordinates = model_node_jacobian(c->model, s, a->node, TANGENT_COMPONENTS, t->index, t->T);
     return outcome;
@@ -149,7 +152,8 @@ static int moves(const tangent *t, int k)
 }
 
 /* Response of the node to a unit load on one component. */
-static void respond(const model *m, tangent *t, counters *n, int component, const bordered *s, double response[TANGENT_COMPONENTS])
+static void respond(const model *m, tangent *t, counters *n, int component, const bordered *s,
+                    double response[TANGENT_COMPONENTS])
 {
     memset(s->load, 0, (size_t)t->all * sizeof *s->load);
     for (int k = 0; k < t->coordinates; k++)
@@ -166,7 +170,8 @@ static void respond(const model *m, tangent *t, counters *n, int component, cons
     }
 }
 
-status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsigned components, double C[36], fault *f)
+status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsigned components,
+                          double C[36], fault *f)
 {
     counters *n = model_counters(c->model);
     bordered s = {0};

@@ -17,7 +17,8 @@ static int is_symmetric(const model *m)
     for (int i = 0; i < m->scene->loads; i++)
         moments |= m->scene->load[i].kind == SCENE_MOMENT;
     for (int i = 0; i < m->scene->analyses; i++)
-        nonlinear |= m->scene->analysis[i].kind == SCENE_STATIC || m->scene->analysis[i].kind == SCENE_CONTINUATION ||
+        nonlinear |= m->scene->analysis[i].kind == SCENE_STATIC ||
+                     m->scene->analysis[i].kind == SCENE_CONTINUATION ||
                      m->scene->analysis[i].kind == SCENE_ROTATION;
     return !(nonlinear && (moments || (m->type->limits & LIMIT_UNSYMMETRIC_TANGENT)));
 }
@@ -25,7 +26,8 @@ static int is_symmetric(const model *m)
 /* Is the pair stored, and at which row and column? */
 static int stored(const mesh_pattern *p, int row, int column)
 {
-    return row >= 0 && column >= 0 && row < p->matrix.n && column < p->matrix.n && (!p->matrix.symmetric || row <= column);
+    return row >= 0 && column >= 0 && row < p->matrix.n && column < p->matrix.n &&
+           (!p->matrix.symmetric || row <= column);
 }
 
 /* Keys column * n + row of all stored pairs, with repetitions; counts when key is NULL. */
@@ -67,7 +69,8 @@ static status compress(const model *m, mesh_pattern *p, fault *f)
     p->matrix.row = malloc((all > 0 ? all : 1) * sizeof *p->matrix.row);
     if (key == NULL || p->matrix.column == NULL || p->matrix.row == NULL) {
         free(key);
-        return fault_set(f, STATUS_FAULT, "out of memory for a matrix of %d coordinates", p->matrix.n);
+        return fault_set(f, STATUS_FAULT, "out of memory for a matrix of %d coordinates",
+                         p->matrix.n);
     }
     collect(m, p, key);
     qsort(key, all, sizeof *key, compare);
@@ -92,7 +95,8 @@ static status find_places(const model *m, mesh_pattern *p, fault *f)
     p->local = malloc((all > 0 ? all : 1) * sizeof *p->local);
     p->place = malloc((all > 0 ? all : 1) * sizeof *p->place);
     if (p->start == NULL || p->local == NULL || p->place == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a matrix of %d coordinates", p->matrix.n);
+        return fault_set(f, STATUS_FAULT, "out of memory for a matrix of %d coordinates",
+                         p->matrix.n);
     double base;
     sparse probe = p->matrix;
     probe.value = &base;

@@ -8,7 +8,7 @@
 #include "elements/math/rotation.h"
 #include "harness/model/parts.h"
 
-enum { LEAST_PIECES = 12 };                             /* of a member, so that one element is a curve */
+enum { LEAST_PIECES = 12 }; /* of a member, so that one element is a curve */
 static const double drawn_part = 0.1, drawn_turn = 0.5; /* of the size; [rad] */
 
 /* Gaps between the vertices of a member, and pieces of each gap. */
@@ -158,13 +158,13 @@ static double visible_scale(const model *m, const double increment[])
 {
     double scale = INFINITY;
     for (int v = 0; v < m->vertices; v++)
-        scale =
-            fmin(scale, fmin(drawn_part * m->size / vec3_norm(&increment[6 * v]), drawn_turn / vec3_norm(&increment[6 * v + 3])));
+        scale = fmin(scale, fmin(drawn_part * m->size / vec3_norm(&increment[6 * v]),
+                                 drawn_turn / vec3_norm(&increment[6 * v + 3])));
     return isfinite(scale) ? scale : 1;
 }
 
-status centreline_displaced(const model *m, const model_state *from, const double x[], const double sigma[], double *scale,
-                            model_state **out, fault *f)
+status centreline_displaced(const model *m, const model_state *from, const double x[],
+                            const double sigma[], double *scale, model_state **out, fault *f)
 {
     double *increment = calloc((size_t)m->vertices * 6 + 1, sizeof *increment);
     status outcome = model_state_alloc(m, out, f);

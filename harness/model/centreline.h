@@ -22,7 +22,7 @@ void centreline_fill(const model *m, const model_state *s, centreline_point out[
 void centreline_nodes(const model *m, const model_state *s, double out[]);
 /* New state: `from` moved by scale x the increments x[free + driven]; sigma[elements x strains] its stresses, NULL: those of `from`.
  * scale 0: what makes it visible: a tenth of the scene's size or half a radian. *scale returns what was used. */
-status centreline_displaced(const model *m, const model_state *from, const double x[], const double sigma[], double *scale,
-                            model_state **out, fault *f);
+status centreline_displaced(const model *m, const model_state *from, const double x[],
+                            const double sigma[], double *scale, model_state **out, fault *f);
 
 #endif

@@ -28,7 +28,8 @@ static void subtract_half_skew(const movable *v, const double m[3], double K[])
         for (int j = 0; j < n; j++)
             for (int r = 0; r < 3; r++)
                 for (int c = 0; c < 3; c++)
-                    K[i * n + j] -= v->span[(3 + r) * n + i] * skew[3 * r + c] * v->span[(3 + c) * n + j] / 2;
+                    K[i * n + j] -=
+                        v->span[(3 + r) * n + i] * skew[3 * r + c] * v->span[(3 + c) * n + j] / 2;
 }
 
 static void symmetrise(int n, double K[])
@@ -40,7 +41,8 @@ static void symmetrise(int n, double K[])
 
 int convention_changes(scene_moments convention, const double m[3])
 {
-    return convention == SCENE_MOMENTS_SYMMETRISED || (convention == SCENE_MOMENTS_SPATIAL && vec3_norm(m) > 0);
+    return convention == SCENE_MOMENTS_SYMMETRISED ||
+           (convention == SCENE_MOMENTS_SPATIAL && vec3_norm(m) > 0);
 }
 
 /* dual C dual^T: on the motions alone. */
@@ -75,7 +77,8 @@ static void scatter_stiffness(const movable *v, const double from[], double K[36
     dense_add_transpose_mul(N, n, N, v->dual, half, K);
 }
 
-status convention_apply(scene_moments convention, const movable *motions, const double m[3], double C[36], double K[36], fault *f)
+status convention_apply(scene_moments convention, const movable *motions, const double m[3],
+                        double C[36], double K[36], fault *f)
 {
     double A[N * N], B[N * N], inverse[N * N];
     gather(motions, C, A);
@@ -87,7 +90,8 @@ status convention_apply(scene_moments convention, const movable *motions, const 
             symmetrise(motions->count, B);
         memcpy(A, B, sizeof A);
         if (invert(motions->count, A, inverse) != 0)
-            return fault_set(f, STATUS_SINGULAR, "the stiffness with %s moments is singular", scene_moments_name(convention));
+            return fault_set(f, STATUS_SINGULAR, "the stiffness with %s moments is singular",
+                             scene_moments_name(convention));
         scatter_compliance(motions, inverse, C);
     }
     scatter_stiffness(motions, B, K);

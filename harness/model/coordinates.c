@@ -29,9 +29,12 @@ static int motion_of(const model *m, int vertex, int component)
     if (vertex >= m->scene->nodes)
         return SCENE_FREE;
     const scene_node *n = &m->scene->node[vertex];
-    const int motion = component < SCENE_RX ? n->translation[component] : n->angle[component - SCENE_RX];
-    const int sequence = n->rotation == SCENE_ROTATION_SEQUENCE || n->rotation == SCENE_ROTATION_FORK,
-              absent = component >= SCENE_RX && sequence && component - SCENE_RX >= m->vertex[vertex].angles;
+    const int motion =
+        component < SCENE_RX ? n->translation[component] : n->angle[component - SCENE_RX];
+    const int sequence =
+                  n->rotation == SCENE_ROTATION_SEQUENCE || n->rotation == SCENE_ROTATION_FORK,
+              absent = component >= SCENE_RX && sequence &&
+                       component - SCENE_RX >= m->vertex[vertex].angles;
     return absent ? SCENE_HELD : motion;
 }
 
@@ -40,7 +43,8 @@ static int conditioned_by(const model *m, int vertex, int component, int known)
 {
     for (int d = 0; d < m->scene->drivers; d++) {
         const scene_driver *u = &m->scene->driver[d];
-        if (u->value == NULL && u->condition_driver == known && u->condition_node == vertex && u->condition_component == component)
+        if (u->value == NULL && u->condition_driver == known && u->condition_node == vertex &&
+            u->condition_component == component)
             return d;
     }
     return NONE;
@@ -62,7 +66,8 @@ static void number_vertex(model *m, int index, int pass, int used, int *held, in
         const int vector = c >= SCENE_RX && v->vector_driver[0] != NONE;
         const int driver = motion >= 0 && !vector;
         const int condition = driver ? conditioned_by(m, index, c, motion) : NONE;
-        const int kept = m->keep_all && v->body == index && motion == SCENE_HELD && !(v->angles > 0 && c - SCENE_RX >= v->angles);
+        const int kept = m->keep_all && v->body == index && motion == SCENE_HELD &&
+                         !(v->angles > 0 && c - SCENE_RX >= v->angles);
         const int is_free = used && (motion == SCENE_FREE || condition != NONE);
         if (pass == 0) {
             v->coordinate[c] = NONE;
@@ -97,7 +102,8 @@ static status number_vertices(model *m, int *held, fault *f)
             m->warp[i].coordinate = m->free++;
     }
     free(used);
-    return unused > 0 ? model_note_left_out(m, f, "%d nodes that no member reaches", unused) : STATUS_OK;
+    return unused > 0 ? model_note_left_out(m, f, "%d nodes that no member reaches", unused)
+                      : STATUS_OK;
 }
 
 /* Global coordinates of an element's own, after rigid offsets and sequences have been eliminated. */
@@ -140,9 +146,11 @@ status coordinates_number(model *m, fault *f)
     if (outcome == STATUS_OK && held > 0)
         outcome = model_note_left_out(m, f, "%d held coordinates", held);
     if (outcome == STATUS_OK && attached > 0)
-        outcome = model_note_left_out(m, f, "%d coordinates of %d nodes that move with a rigid body", 6 * attached, attached);
+        outcome = model_note_left_out(
+            m, f, "%d coordinates of %d nodes that move with a rigid body", 6 * attached, attached);
     if (outcome == STATUS_OK && absent > 0)
-        outcome = model_note_left_out(m, f, "warping amplitudes of %d element ends: nothing warps there", absent);
+        outcome = model_note_left_out(
+            m, f, "warping amplitudes of %d element ends: nothing warps there", absent);
     if (outcome == STATUS_OK && fixed > 0)
         outcome = model_note_left_out(m, f, "%d warping amplitudes held at zero", fixed);
     if (outcome == STATUS_OK && m->driven > 0)

@@ -61,10 +61,12 @@ static void offset_matrix(int n, int at, const double rho[3], const double force
     const double dot = vec3_dot(force, rho);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            K[(at + 3 + i) * n + at + 3 + j] += (force[i] * rho[j] + rho[i] * force[j]) / 2 - (i == j ? dot : 0);
+            K[(at + 3 + i) * n + at + 3 + j] +=
+                (force[i] * rho[j] + rho[i] * force[j]) / 2 - (i == j ? dot : 0);
 }
 
-static void sequence_matrix(int n, int at, int angles, double b[3][3], const double moment[3], double K[])
+static void sequence_matrix(int n, int at, int angles, double b[3][3], const double moment[3],
+                            double K[])
 {
     for (int i = 0; i < n; i++) {
         double t[3] = {0, 0, 0};
@@ -87,7 +89,8 @@ static void sequence_matrix(int n, int at, int angles, double b[3][3], const dou
         }
 }
 
-void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el, const double force[], double K[])
+void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el,
+                      const double force[], double K[])
 {
     if (el->plain)
         return;
@@ -105,7 +108,8 @@ void eliminate_matrix(const model *m, const model_state *s, const mesh_element *
         }
         if (m->vertex[body].angles > 0) {
             kinematics_axes(m, s, body, b);
-            sequence_matrix(n, 7 * k, m->vertex[body].angles, b, force != NULL ? moment + 3 : NULL, K);
+            sequence_matrix(n, 7 * k, m->vertex[body].angles, b, force != NULL ? moment + 3 : NULL,
+                            K);
         }
     }
 }

@@ -30,11 +30,13 @@ static double combined(int count, const double weight[], const double value[])
 static int continues(int count, const double weight[], const double value[])
 {
     const double rounding = 1e-12 * (fabs(value[count]) + fabs(value[count - 1]) + fabs(value[0]));
-    return fabs(combined(count, weight, value) - value[count]) <= bent * fabs(value[count] - value[count - 1]) + rounding;
+    return fabs(combined(count, weight, value) - value[count]) <=
+           bent * fabs(value[count] - value[count - 1]) + rounding;
 }
 
 /* Drivers and loads at the states' paths and at the next one. */
-static int smooth(const model *m, int count, const model_state *const at[], double path, const double weight[])
+static int smooth(const model *m, int count, const model_state *const at[], double path,
+                  const double weight[])
 {
     double value[MODEL_EXTRAPOLATED + 1];
     int good = 1;
@@ -53,7 +55,8 @@ static int smooth(const model *m, int count, const model_state *const at[], doub
 }
 
 /* Prescribed components of a spatial increment are those of their drivers: only so do they and the frame stay together. */
-static void prescribe(const model *m, const mesh_vertex *v, const model_state *last, const model_state *out, double turn[3])
+static void prescribe(const model *m, const mesh_vertex *v, const model_state *last,
+                      const model_state *out, double turn[3])
 {
     for (int c = 0; c < 3; c++) {
         const int coordinate = v->coordinate[3 + c];
@@ -67,8 +70,8 @@ static void prescribe(const model *m, const mesh_vertex *v, const model_state *l
 }
 
 /* From the last orientation along the rotation vector that the others lie on. */
-static void extrapolate_rotation(const model *m, int vertex, int count, const double weight[], const model_state *const at[],
-                                 model_state *out)
+static void extrapolate_rotation(const model *m, int vertex, int count, const double weight[],
+                                 const model_state *const at[], model_state *out)
 {
     const model_state *last = at[count - 1];
     double turn[3] = {0}, step[4];
@@ -84,7 +87,8 @@ static void extrapolate_rotation(const model *m, int vertex, int count, const do
     rotation_normalise(&out->q[4 * vertex]);
 }
 
-int model_state_extrapolate(const model *m, int count, const model_state *const at[], double path, model_state *out)
+int model_state_extrapolate(const model *m, int count, const model_state *const at[], double path,
+                            model_state *out)
 {
     double weight[MODEL_EXTRAPOLATED];
     const double step = path - at[count - 1]->path;

@@ -45,7 +45,8 @@ static int is_coupled(const section *c)
     static const int row[3] = {0, 0, 1}, column[3] = {1, 2, 2};
     int coupled = 0;
     for (int k = 0; k < 3; k++)
-        coupled |= fabs(c->F[3 * row[k] + column[k]]) > 1e-12 * sqrt(c->F[4 * row[k]] * c->F[4 * column[k]]);
+        coupled |= fabs(c->F[3 * row[k] + column[k]]) >
+                   1e-12 * sqrt(c->F[4 * row[k]] * c->F[4 * column[k]]);
     return coupled;
 }
 
@@ -112,14 +113,16 @@ unsigned model_needs(const scene *s)
 
 static unsigned theory_features(unsigned theories)
 {
-    return (theories & SHEAR_ENGESSER ? FEATURE_ENGESSER : 0) | (theories & SHEAR_HARINGX ? FEATURE_HARINGX : 0);
+    return (theories & SHEAR_ENGESSER ? FEATURE_ENGESSER : 0) |
+           (theories & SHEAR_HARINGX ? FEATURE_HARINGX : 0);
 }
 
 unsigned model_needs_of(const scene *s, const element_type *type)
 {
     const unsigned theories = FEATURE_ENGESSER | FEATURE_HARINGX, needs = model_needs(s),
                    has = theory_features(type->shear_theories);
-    return (needs & theories) == 0 || (needs & theories & has) != 0 ? needs : (needs & ~theories) | has;
+    return (needs & theories) == 0 || (needs & theories & has) != 0 ? needs
+                                                                    : (needs & ~theories) | has;
 }
 
 unsigned model_theory(const scene *s, const element_type *type)
@@ -136,7 +139,8 @@ unsigned model_quantity_needs(const scene *s, int quantity)
 {
     const unsigned inertia = FEATURE_MASS | FEATURE_ROTARY_INERTIA;
     const int analysis = s->quantity[quantity].analysis;
-    const int moves = analysis >= 0 && (s->analysis[analysis].kind == SCENE_MODAL || s->analysis[analysis].kind == SCENE_ROTATION ||
+    const int moves = analysis >= 0 && (s->analysis[analysis].kind == SCENE_MODAL ||
+                                        s->analysis[analysis].kind == SCENE_ROTATION ||
                                         turns(&s->analysis[analysis]));
     return model_needs(s) & (moves ? ~0U : ~inertia);
 }
@@ -163,7 +167,8 @@ int model_missing(const scene *s, const element_type *type, char *words, int siz
         words[0] = '\0';
     for (int i = 0; i < NAMES; i++)
         if ((missing & names[i].bit) && used < size)
-            used += snprintf(words + used, (size_t)(size - used), "%s%s", used > 0 ? ", " : "", names[i].name);
+            used += snprintf(words + used, (size_t)(size - used), "%s%s", used > 0 ? ", " : "",
+                             names[i].name);
     if (missing != 0)
         return 1;
     if (limit_hit(s, type, words, size) || model_lacks(s, type, words, size) > 1)

@@ -43,14 +43,17 @@ static status add_element(model *m, const model_state *state, int i, double path
     const element_data *data = m->kind[el->kind].data;
     const int n = m->coordinates, strains = m->strains, first_e = m->free + strains * i,
               first_s = m->free + strains * (m->elements + i);
-    const double *e = &state->e[(size_t)i * (size_t)strains], *sigma = &state->sigma[(size_t)i * (size_t)strains];
+    const double *e = &state->e[(size_t)i * (size_t)strains],
+                 *sigma = &state->sigma[(size_t)i * (size_t)strains];
     double D[E], J[E * X], H[X * X], P[E], C[E * E], force[X] = {0};
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, state, el, x);
     m->type->strain(data, x, &(strain_output){.e = D, .J = J, .s = sigma, .H = H});
-    status outcome = m->type->stress(data, e, &state->inner[(size_t)i * (size_t)m->inner], &(stress_output){.sigma = P, .C = C});
+    status outcome = m->type->stress(data, e, &state->inner[(size_t)i * (size_t)m->inner],
+                                     &(stress_output){.sigma = P, .C = C});
     if (outcome != STATUS_OK)
-        return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i, el->member, m->type->name);
+        return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i,
+                         el->member, m->type->name);
     dense_add_transpose_mul(n, strains, 1, J, sigma, force);
     outcome = spin_add(m, x, i, path, force, H, f);
     eliminate_matrix(m, state, el, force, H);
@@ -71,16 +74,19 @@ static status add_element(model *m, const model_state *state, int i, double path
         for (int c = 0; c < n; c++) {
             put(m, s, first_e + k, el->index[c], J[n * k + c]);
             if (el->index[c] >= 0 && el->index[c] < m->free)
-                s->A[(size_t)(first_s + k) * (size_t)s->size + (size_t)el->index[c]] += J[n * k + c];
+                s->A[(size_t)(first_s + k) * (size_t)s->size + (size_t)el->index[c]] +=
+                    J[n * k + c];
         }
         for (int l = 0; l < strains; l++)
-            s->A[(size_t)(first_e + l) * (size_t)s->size + (size_t)(first_s + k)] -= C[strains * k + l];
+            s->A[(size_t)(first_e + l) * (size_t)s->size + (size_t)(first_s + k)] -=
+                C[strains * k + l];
     }
     return outcome;
 }
 
-status model_full_system(model *m, const model_state *state, double path, const double drive[], int conditions,
-                         const model_condition condition[], double A[], double b[], double load[], fault *f)
+status model_full_system(model *m, const model_state *state, double path, const double drive[],
+                         int conditions, const model_condition condition[], double A[], double b[],
+                         double load[], fault *f)
 {
     full s = {model_full_size(m) + conditions, conditions, A, b, drive, condition};
     memset(A, 0, (size_t)s.size * (size_t)s.size * sizeof *A);

@@ -82,7 +82,8 @@ void kinematics_gather(const model *m, const model_state *s, const mesh_element 
 }
 
 /* Increments (translation, spatial rotation) of a body's frame. */
-static void body_increment(const model *m, const model_state *s, int body, const double dx[], double out[6])
+static void body_increment(const model *m, const model_state *s, int body, const double dx[],
+                           double out[6])
 {
     const mesh_vertex *v = &m->vertex[body];
     double d[6];
@@ -100,7 +101,8 @@ static void body_increment(const model *m, const model_state *s, int body, const
     }
 }
 
-void kinematics_local(const model *m, const model_state *s, const mesh_element *el, const double dx[], double local[])
+void kinematics_local(const model *m, const model_state *s, const mesh_element *el,
+                      const double dx[], double local[])
 {
     for (int k = 0; k < m->nodes; k++) {
         double *d = &local[7 * k];
@@ -137,7 +139,8 @@ status model_state_alloc(const model *m, model_state **out, fault *f)
     *out = s;
     if (s == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a state");
-    s->size = V * 10 + (size_t)m->warps + (size_t)m->scene->drivers + E * (size_t)(2 * m->strains + m->inner);
+    s->size = V * 10 + (size_t)m->warps + (size_t)m->scene->drivers +
+              E * (size_t)(2 * m->strains + m->inner);
     s->block = calloc(s->size, sizeof *s->block);
     if (s->block == NULL) {
         free(s);
@@ -188,7 +191,8 @@ double model_component(const model *m, const model_state *s, int node, int compo
     double phi[3];
     if (v->body == node && v->angles == 0 && v->vector_driver[0] == NONE &&
         m->scene->node[node].angle[component - SCENE_RX] != SCENE_FREE)
-        return s->angle[3 * node + component - SCENE_RX]; /* held or driven about a fixed axis: also beyond pi */
+        return s->angle[3 * node + component -
+                        SCENE_RX]; /* held or driven about a fixed axis: also beyond pi */
     rotation_log(&s->q[4 * node], phi);
     return phi[component - SCENE_RX];
 }
@@ -220,8 +224,10 @@ double model_largest_turn(const model *m, const model_state *s, int *index)
         const mesh_element *el = &m->element[i];
         const int last = m->nodes - 1;
         const double *p = &s->q[4 * el->vertex[0]], *q = &s->q[4 * el->vertex[last]];
-        const double w = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3]; /* cosine of half the turn between the nodes */
-        const double cosine = fmin(2 * w * w - 1, fmin(chord_cosine(m, s, el, 0), chord_cosine(m, s, el, last)));
+        const double w = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] +
+                         p[3] * q[3]; /* cosine of half the turn between the nodes */
+        const double cosine =
+            fmin(2 * w * w - 1, fmin(chord_cosine(m, s, el, 0), chord_cosine(m, s, el, last)));
         if (!(cosine >= least)) {
             least = cosine;
             *index = i;
@@ -235,7 +241,8 @@ int model_coordinate(const model *m, int node, int component)
     return m->vertex[node].body == node ? m->vertex[node].coordinate[component] : NONE;
 }
 
-int model_node_jacobian(const model *m, const model_state *s, int node, int size, int index[], double T[])
+int model_node_jacobian(const model *m, const model_state *s, int node, int size, int index[],
+                        double T[])
 {
     const model_state *state = s != NULL ? s : m->rest;
     const mesh_vertex *v = &m->vertex[node], *body = &m->vertex[v->body];

@@ -54,7 +54,8 @@ static double phi_along_y(const scene *s)
     for (int i = 0; i < s->members; i++) {
         section c;
         char *reached = calloc((size_t)s->nodes + 1, 1);
-        if (reached != NULL && section_compute(&s->section[s->member[i].section], &c, NULL) == STATUS_OK) {
+        if (reached != NULL &&
+            section_compute(&s->section[s->member[i].section], &c, NULL) == STATUS_OK) {
             const double l = extent_of(s, i, reached);
             largest = fmax(largest, 12 * c.young * c.Iz * c.F[0] / (c.shear_modulus * l * l));
         } /* model_alloc says why a section is none */
@@ -70,7 +71,8 @@ int model_lacks(const scene *s, const element_type *type, char *words, int size)
     if (!(type->lacks & LACKS_SHEAR_Y) || !(model_needs(s) & FEATURE_SHEAR))
         return 0;
     const double phi = phi_along_y(s);
-    snprintf(words, (size_t)size, "shear flexibility along y (%s), %.2g of the deflection of a beam guided at both ends",
+    snprintf(words, (size_t)size,
+             "shear flexibility along y (%s), %.2g of the deflection of a beam guided at both ends",
              type->lacks_by, phi);
     return phi > largest_phi ? 2 : 1;
 }

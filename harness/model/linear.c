@@ -8,7 +8,8 @@
 #include "harness/model/parts.h"
 
 typedef struct linear_element {
-    double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], S[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
+    double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
+        S[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
 } linear_element;
 
 static status linear_of(model *m, int i, linear_element *out)
@@ -21,7 +22,8 @@ static status linear_of(model *m, int i, linear_element *out)
     m->type->strain(data, x, &(strain_output){.e = e, .J = out->J});
     m->counters.strain_evaluations++;
     m->counters.stress_evaluations++;
-    return m->type->stress(data, e, m->inner > 0 ? &m->rest->inner[(size_t)i * (size_t)m->inner] : inner,
+    return m->type->stress(data, e,
+                           m->inner > 0 ? &m->rest->inner[(size_t)i * (size_t)m->inner] : inner,
                            &(stress_output){.C = out->S});
 }
 
@@ -32,8 +34,9 @@ static mesh_pattern *pattern_of(model *m, const sparse *a)
 
 static status not_evaluated(const model *m, int i, status outcome, fault *f)
 {
-    return fault_set(f, outcome, "element %d of member %d: its undeformed state is outside what %s can evaluate", i,
-                     m->element[i].member, m->type->name);
+    return fault_set(
+        f, outcome, "element %d of member %d: its undeformed state is outside what %s can evaluate",
+        i, m->element[i].member, m->type->name);
 }
 
 status model_linear_stiffness(model *m, sparse *K, fault *f)
@@ -80,12 +83,14 @@ void model_linear_forces(model *m, const double sigma[], double f[])
     memset(f, 0, (size_t)(m->free + m->driven) * sizeof *f);
     for (int i = 0; i < m->elements; i++) {
         const element_data *data = m->kind[m->element[i].kind].data;
-        double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0};
+        double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
+            force[ELEMENT_MAX_COORDINATES] = {0};
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, m->rest, &m->element[i], x);
         m->type->strain(data, x, &(strain_output){.J = J});
         m->counters.strain_evaluations++;
-        dense_add_transpose_mul(m->coordinates, m->strains, 1, J, &sigma[(size_t)i * (size_t)m->strains], force);
+        dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
+                                &sigma[(size_t)i * (size_t)m->strains], force);
         eliminate_forces(m, m->rest, &m->element[i], force);
         assemble_vector(&m->element[i], m->coordinates, force, f);
     }
@@ -112,8 +117,10 @@ status model_geometric_stiffness(model *m, const double sigma[], sparse *out, fa
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     sparse_zero(out);
     for (int i = 0; i < m->elements; i++) {
-        double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], G[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
-        double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0};
+        double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
+            G[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
+        double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
+            force[ELEMENT_MAX_COORDINATES] = {0};
         const double *s = &sigma[(size_t)i * (size_t)m->strains];
         geometric_of(m, i, s, H, G, J);
         dense_add_congruence(m->strains, m->coordinates, J, G, H, work);
@@ -182,8 +189,10 @@ double model_strain_energy2(model *m, const double x[])
 /* x^T (sum sigma_i H_i + J^T G(sigma) J) x of one element. */
 static double geometric_energy2(model *m, int i, const double sigma[], const double x[])
 {
-    double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], G[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
-    double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0}, local[ELEMENT_MAX_COORDINATES],
+    double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
+        G[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
+    double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0},
+                                                             local[ELEMENT_MAX_COORDINATES],
                                                              e[ELEMENT_MAX_STRAINS];
     geometric_of(m, i, sigma, H, G, J);
     kinematics_local(m, m->rest, &m->element[i], x, local);
@@ -210,12 +219,14 @@ double model_geometric_energy2(model *m, const double sigma[], const double x[])
 
 /* The form is linear in the stresses: what is missing there is its own rounding. The stresses' is that of the terms they are
  * made of, in whatever direction it falls: it has the size of a stress `other` of all kinds at once. */
-double model_geometric_rounding(model *m, const double load_x[], const double sigma[], const double x[])
+double model_geometric_rounding(model *m, const double load_x[], const double sigma[],
+                                const double x[])
 {
     double square = 0;
     for (int i = 0; i < m->elements; i++) {
         const double *s = &sigma[(size_t)i * (size_t)m->strains];
-        double terms[ELEMENT_MAX_STRAINS], other[ELEMENT_MAX_STRAINS], both[ELEMENT_MAX_STRAINS], largest = 0;
+        double terms[ELEMENT_MAX_STRAINS], other[ELEMENT_MAX_STRAINS], both[ELEMENT_MAX_STRAINS],
+            largest = 0;
         linear_terms(m, i, load_x, both, terms);
         for (int k = 0; k < m->strains; k++)
             largest = fmax(largest, terms[k]);
@@ -223,8 +234,10 @@ double model_geometric_rounding(model *m, const double load_x[], const double si
             other[k] = largest * sin(1 + 2.3 * k);
             both[k] = s[k] + other[k];
         }
-        const double of_other = geometric_energy2(m, i, other, x), of_both = geometric_energy2(m, i, both, x);
-        const double missing = fabs(of_both - of_other - geometric_energy2(m, i, s, x)) + DBL_EPSILON * fabs(of_other);
+        const double of_other = geometric_energy2(m, i, other, x),
+                     of_both = geometric_energy2(m, i, both, x);
+        const double missing =
+            fabs(of_both - of_other - geometric_energy2(m, i, s, x)) + DBL_EPSILON * fabs(of_other);
         square += missing * missing;
     }
     return sqrt(square);

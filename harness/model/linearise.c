@@ -27,11 +27,13 @@ static status compatible_element(model *m, model_state *s, int i)
     const element_data *data = m->kind[el->kind].data;
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, s, el, x);
-    double *e = &s->e[(size_t)i * (size_t)m->strains], *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
+    double *e = &s->e[(size_t)i * (size_t)m->strains],
+           *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
     m->type->strain(data, x, &(strain_output){.e = e});
     m->counters.strain_evaluations++;
     m->counters.stress_evaluations++;
-    return m->type->stress(data, e, &s->inner[(size_t)i * (size_t)m->inner], &(stress_output){.sigma = sigma});
+    return m->type->stress(data, e, &s->inner[(size_t)i * (size_t)m->inner],
+                           &(stress_output){.sigma = sigma});
 }
 
 status model_make_compatible(model *m, model_state *s, fault *f)
@@ -39,14 +41,15 @@ status model_make_compatible(model *m, model_state *s, fault *f)
     for (int i = 0; i < m->elements; i++) {
         const status outcome = compatible_element(m, s, i);
         if (outcome != STATUS_OK)
-            return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i, m->element[i].member,
-                             m->type->name);
+            return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i,
+                             m->element[i].member, m->type->name);
     }
     return STATUS_OK;
 }
 
 /* Fills the slot; H: sum sigma_i H_i of the element in the state of its nodes x. */
-static status evaluate(model *m, const model_state *s, int i, const node_state x[], model_slot *w, double H[])
+static status evaluate(model *m, const model_state *s, int i, const node_state x[], model_slot *w,
+                       double H[])
 {
     const mesh_element *el = &m->element[i];
     const element_data *data = m->kind[el->kind].data;
@@ -54,10 +57,13 @@ static status evaluate(model *m, const model_state *s, int i, const node_state x
     double deformed[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
     m->type->strain(
         data, x,
-        &(strain_output){.e = deformed, .J = w->J, .s = H != NULL ? &s->sigma[(size_t)i * (size_t)m->strains] : NULL, .H = H});
-    const status outcome =
-        m->type->stress(data, e, &s->inner[(size_t)i * (size_t)m->inner],
-                        &(stress_output){.sigma = w->sigma, .C = w->C, .memory = m->memory > 0 ? w->memory : NULL});
+        &(strain_output){.e = deformed,
+                         .J = w->J,
+                         .s = H != NULL ? &s->sigma[(size_t)i * (size_t)m->strains] : NULL,
+                         .H = H});
+    const status outcome = m->type->stress(
+        data, e, &s->inner[(size_t)i * (size_t)m->inner],
+        &(stress_output){.sigma = w->sigma, .C = w->C, .memory = m->memory > 0 ? w->memory : NULL});
     for (int k = 0; k < m->strains; k++)
         w->gap[k] = deformed[k] - e[k];
     dense_mul_vec(m->strains, m->strains, w->C, w->gap, more);
@@ -75,8 +81,8 @@ static double gap_size(const model *m, const model_slot *w, double length)
 }
 
 /* Internal less centrifugal forces of the element and, where wanted, their tangent; both in model coordinates. */
-static status element_equations(model *m, const model_state *s, int i, int tangent, double path, double force[], double K[],
-                                double *gap, fault *f)
+static status element_equations(model *m, const model_state *s, int i, int tangent, double path,
+                                double force[], double K[], double *gap, fault *f)
 {
     const mesh_element *el = &m->element[i];
     model_slot w = slot_of(m, i);
@@ -86,7 +92,8 @@ static status element_equations(model *m, const model_state *s, int i, int tange
     kinematics_gather(m, s, el, x);
     status outcome = evaluate(m, s, i, x, &w, tangent ? K : NULL);
     if (outcome != STATUS_OK)
-        return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i, el->member, m->type->name);
+        return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i,
+                         el->member, m->type->name);
     memset(force, 0, (size_t)m->coordinates * sizeof *force);
     if (m->spins) {
         outcome = spin_add(m, x, i, path, force, tangent ? K : NULL, f);
@@ -98,7 +105,8 @@ static status element_equations(model *m, const model_state *s, int i, int tange
     if (tangent) {
         dense_add_congruence(m->strains, m->coordinates, w.J, w.C, K, work);
         if (!el->plain)
-            dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, &s->sigma[(size_t)i * (size_t)m->strains], present);
+            dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J,
+                                    &s->sigma[(size_t)i * (size_t)m->strains], present);
         eliminate_matrix(m, s, el, present, K);
     }
     eliminate_forces(m, s, el, force);
@@ -107,7 +115,8 @@ static status element_equations(model *m, const model_state *s, int i, int tange
 }
 
 /* force += K drive for the element's prescribed coordinates. */
-static void add_driven(const model *m, const mesh_element *el, const double drive[], const double K[], double force[])
+static void add_driven(const model *m, const mesh_element *el, const double drive[],
+                       const double K[], double force[])
 {
     for (int j = 0; j < m->coordinates; j++) {
         const double step = el->index[j] >= m->free ? drive[el->index[j]] : 0;
@@ -117,13 +126,15 @@ static void add_driven(const model *m, const mesh_element *el, const double driv
 }
 
 /* Columns of the unknowns of conditions. */
-static void add_columns(const model *m, const mesh_element *el, const double K[], model_linearisation *lin)
+static void add_columns(const model *m, const mesh_element *el, const double K[],
+                        model_linearisation *lin)
 {
     for (int c = 0; c < lin->conditions; c++)
         for (int j = 0; j < m->coordinates; j++)
             for (int i = 0; i < m->coordinates && el->index[j] == lin->condition[c].unknown; i++)
                 if (el->index[i] != NONE)
-                    lin->column[c * (m->free + m->driven) + el->index[i]] += K[i * m->coordinates + j];
+                    lin->column[c * (m->free + m->driven) + el->index[i]] +=
+                        K[i * m->coordinates + j];
 }
 
 /* What the threads of a team share. */
@@ -136,7 +147,8 @@ typedef struct shared_loop {
 
 static void element_part_of(const shared_loop *loop, int i, element_part *out)
 {
-    out->outcome = element_equations(loop->m, loop->s, i, loop->tangent, loop->path, out->force, out->K, &out->gap, &out->why);
+    out->outcome = element_equations(loop->m, loop->s, i, loop->tangent, loop->path, out->force,
+                                     out->K, &out->gap, &out->why);
 }
 
 static void fill_parts(void *context, int first, int end)
@@ -147,7 +159,8 @@ static void fill_parts(void *context, int first, int end)
 }
 
 /* The element's equations into those of the model. */
-static void add_part(model *m, int i, element_part *part, const mesh_pattern *p, model_linearisation *lin)
+static void add_part(model *m, int i, element_part *part, const mesh_pattern *p,
+                     model_linearisation *lin)
 {
     const mesh_element *el = &m->element[i];
     if (lin->drive != NULL)
@@ -166,13 +179,16 @@ static void add_part(model *m, int i, element_part *part, const mesh_pattern *p,
 status model_linearise(model *m, const model_state *s, model_linearisation *lin, fault *f)
 {
     element_part own, *part = &own;
-    const shared_loop loop = {m, s, lin->K != NULL || lin->drive != NULL || lin->conditions > 0, lin->path};
-    const mesh_pattern *p = lin->K == NULL ? NULL : &m->pattern[lin->K->row == m->pattern[1].matrix.row];
+    const shared_loop loop = {m, s, lin->K != NULL || lin->drive != NULL || lin->conditions > 0,
+                              lin->path};
+    const mesh_pattern *p =
+        lin->K == NULL ? NULL : &m->pattern[lin->K->row == m->pattern[1].matrix.row];
     const int together = m->team != NULL && !m->spins; /* inertia counts its evaluations */
     memset(lin->residual, 0, (size_t)(m->free + m->driven) * sizeof *lin->residual);
     lin->incompatibility = 0;
     if (lin->conditions > 0)
-        memset(lin->column, 0, (size_t)(lin->conditions * (m->free + m->driven)) * sizeof *lin->column);
+        memset(lin->column, 0,
+               (size_t)(lin->conditions * (m->free + m->driven)) * sizeof *lin->column);
     if (lin->K != NULL)
         sparse_zero(lin->K);
     if (together)
@@ -201,7 +217,8 @@ static double advance_element(model *m, model_state *s, int i, const double dx[]
     const mesh_element *el = &m->element[i];
     model_slot w = slot_of(m, i);
     double local[ELEMENT_MAX_COORDINATES], de[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
-    double *e = &s->e[(size_t)i * (size_t)m->strains], *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
+    double *e = &s->e[(size_t)i * (size_t)m->strains],
+           *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
     kinematics_local(m, s, el, dx, local);
     dense_mul_vec(m->strains, m->coordinates, w.J, local, de);
     dense_mul_vec(m->strains, m->strains, w.C, de, more);
@@ -212,7 +229,8 @@ static double advance_element(model *m, model_state *s, int i, const double dx[]
     }
     if (m->type->update == NULL)
         return 0;
-    return m->type->update(m->kind[el->kind].data, de, w.memory, &s->inner[(size_t)i * (size_t)m->inner]);
+    return m->type->update(m->kind[el->kind].data, de, w.memory,
+                           &s->inner[(size_t)i * (size_t)m->inner]);
 }
 
 static double advance_vertex(const model *m, model_state *s, int index, const double dx[])
@@ -266,11 +284,14 @@ void model_node_force(model *m, const model_state *s, int node, double F[6])
             if (m->vertex[el->vertex[k]].body != node)
                 continue;
             node_state x[ELEMENT_MAX_NODES];
-            double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0}, rho[3], moment[3];
+            double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
+                force[ELEMENT_MAX_COORDINATES] = {0}, rho[3], moment[3];
             kinematics_gather(m, s, el, x);
             m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
-            dense_add_transpose_mul(m->coordinates, m->strains, 1, J, &s->sigma[(size_t)i * (size_t)m->strains], force);
-            spin_add(m, x, i, s->path, force, NULL, NULL); /* never fails in a state that has been reached */
+            dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
+                                    &s->sigma[(size_t)i * (size_t)m->strains], force);
+            spin_add(m, x, i, s->path, force, NULL,
+                     NULL); /* never fails in a state that has been reached */
             kinematics_offset(m, s, el->vertex[k], rho);
             vec3_cross(rho, force + 7 * k, moment);
             for (int c = 0; c < 3; c++) {

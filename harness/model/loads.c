@@ -38,7 +38,8 @@ double driver_value_at(const scene_driver *d, double path)
     return interpolate(d->stations, d->path, d->value, path);
 }
 
-static void add_at_vertex(const model *m, const model_state *s, int vertex, const double F[6], double out[])
+static void add_at_vertex(const model *m, const model_state *s, int vertex, const double F[6],
+                          double out[])
 {
     int index[6];
     double T[36];
@@ -49,13 +50,16 @@ static void add_at_vertex(const model *m, const model_state *s, int vertex, cons
 }
 
 /* Dead load per initial length, lumped: 1/2, 1/2, or Simpson's weights with a middle node. */
-static void add_distributed(const model *m, const model_state *s, const scene_load *load, double scale, double out[])
+static void add_distributed(const model *m, const model_state *s, const scene_load *load,
+                            double scale, double out[])
 {
     static const double two[] = {0.5, 0.5}, three[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
     for (int i = m->first_element[load->where]; i < m->first_element[load->where + 1]; i++)
         for (int k = 0; k < m->nodes; k++) {
-            const double weight = scale * (m->nodes == 2 ? two : three)[k] * m->kind[m->element[i].kind].length;
-            const double F[6] = {weight * load->vector[0], weight * load->vector[1], weight * load->vector[2]};
+            const double weight =
+                scale * (m->nodes == 2 ? two : three)[k] * m->kind[m->element[i].kind].length;
+            const double F[6] = {weight * load->vector[0], weight * load->vector[1],
+                                 weight * load->vector[2]};
             add_at_vertex(m, s, m->element[i].vertex[k], F, out);
         }
 }
@@ -67,7 +71,8 @@ static void node_vector(const scene_load *load, double scale, double F[6])
         F[(load->kind == SCENE_MOMENT ? 3 : 0) + i] = scale * load->vector[i];
 }
 
-static void add_load(const model *m, const model_state *s, const scene_load *load, double scale, double out[])
+static void add_load(const model *m, const model_state *s, const scene_load *load, double scale,
+                     double out[])
 {
     double F[6];
     if (load->kind == SCENE_DISTRIBUTED) {
@@ -101,7 +106,8 @@ static void subtract(sparse *K, int row, int column, double value)
 }
 
 /* Derivative of the generalized load of a force F at offset rho and a spatial moment m on one body's rotations. */
-static void subtract_at(const model *m, const model_state *s, int node, const double F[6], sparse *K)
+static void subtract_at(const model *m, const model_state *s, int node, const double F[6],
+                        sparse *K)
 {
     const mesh_vertex *v = &m->vertex[node], *body = &m->vertex[v->body];
     double rho[3], D[9], moment[3] = {0, 0, 0}, b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -120,8 +126,10 @@ static void subtract_at(const model *m, const model_state *s, int node, const do
             mat3_mul_vec(D, b[j], Db);
             vec3_cross(b[j], b[i], cross);
             double value = vec3_dot(b[i], Db);
-            if (body->angles > 0) /* conservative part symmetric, dead moment only through earlier axes */
-                value += (i > j ? 1 : -1) * vec3_dot(moment, cross) / 2 + (j < i ? vec3_dot(F + 3, cross) : 0);
+            if (body->angles >
+                0) /* conservative part symmetric, dead moment only through earlier axes */
+                value += (i > j ? 1 : -1) * vec3_dot(moment, cross) / 2 +
+                         (j < i ? vec3_dot(F + 3, cross) : 0);
             else
                 value += vec3_dot(F + 3, cross) / 2;
             subtract(K, body->coordinate[3 + i], body->coordinate[3 + j], value);
@@ -133,14 +141,16 @@ void loads_subtract_stiffness(const model *m, const model_state *s, double path,
     for (int i = 0; i < m->scene->loads; i++) {
         const scene_load *load = &m->scene->load[i];
         double F[6];
-        if (load->kind == SCENE_DISTRIBUTED || (load->kind == SCENE_FORCE && m->vertex[load->where].body == load->where))
+        if (load->kind == SCENE_DISTRIBUTED ||
+            (load->kind == SCENE_FORCE && m->vertex[load->where].body == load->where))
             continue;
         node_vector(load, loads_factor(load, path), F);
         subtract_at(m, s, load->where, F, K);
     }
 }
 
-void model_release_moment(const model *m, const model_state *s, int node, const double M[3], sparse *K)
+void model_release_moment(const model *m, const model_state *s, int node, const double M[3],
+                          sparse *K)
 {
     const mesh_vertex *v = &m->vertex[node];
     double b[3][3];
@@ -176,7 +186,8 @@ void model_drive(const model *m, const model_state *s, double path, double dx[])
 {
     for (int d = 0; d < m->scene->drivers; d++)
         if (m->scene->driver[d].value != NULL && m->driver_coordinate[d] >= m->free)
-            dx[m->driver_coordinate[d]] = driver_value_at(&m->scene->driver[d], path) - s->driver[d];
+            dx[m->driver_coordinate[d]] =
+                driver_value_at(&m->scene->driver[d], path) - s->driver[d];
     for (int i = 0; i < m->scene->nodes; i++) {
         const mesh_vertex *v = &m->vertex[i];
         if (v->vector_driver[0] == NONE || v->body != i)
@@ -191,7 +202,8 @@ void model_drive(const model *m, const model_state *s, double path, double dx[])
     }
 }
 
-int model_conditions(const model *m, const model_state *s, double path, model_condition out[MODEL_MAX_CONDITIONS])
+int model_conditions(const model *m, const model_state *s, double path,
+                     model_condition out[MODEL_MAX_CONDITIONS])
 {
     int count = 0;
     for (int d = 0; d < m->scene->drivers && count < MODEL_MAX_CONDITIONS; d++) {
@@ -200,7 +212,8 @@ int model_conditions(const model *m, const model_state *s, double path, model_co
             continue;
         out[count].unknown = m->driver_coordinate[d];
         out[count].coordinate = m->driver_coordinate[u->condition_driver];
-        out[count++].increment = driver_value_at(&m->scene->driver[u->condition_driver], path) - s->driver[u->condition_driver];
+        out[count++].increment = driver_value_at(&m->scene->driver[u->condition_driver], path) -
+                                 s->driver[u->condition_driver];
     }
     return count;
 }

@@ -24,9 +24,11 @@ static void arc_chord(const double k[3], double s, double c[3])
     vec3_cross(k, e, first);
     vec3_cross(k, first, second);
     const double half = sin(angle / 2);
-    const double a = angle < 1e-4 ? s * s / 2 * (1 - angle * angle / 12) : 2 * half * half / (w * w);
-    const double b =
-        angle < 1e-2 ? s * s * s / 6 * (1 - angle * angle / 20 * (1 - angle * angle / 42)) : (angle - sin(angle)) / (w * w * w);
+    const double a =
+        angle < 1e-4 ? s * s / 2 * (1 - angle * angle / 12) : 2 * half * half / (w * w);
+    const double b = angle < 1e-2
+                         ? s * s * s / 6 * (1 - angle * angle / 20 * (1 - angle * angle / 42))
+                         : (angle - sin(angle)) / (w * w * w);
     for (int i = 0; i < 3; i++)
         c[i] = s * e[i] + a * first[i] + b * second[i];
 }
@@ -60,7 +62,9 @@ static status arc_of(const scene *s, int member, double axes_angle, arc *out, fa
         const double error = distance - vec3_norm(c);
         out->length += error;
         if (!(out->length > 0) || vec3_norm(out->k) * out->length > 6.28)
-            return fault_set(f, STATUS_REFUSED, "member %d: no arc of that curvature joins its ends; give a smaller one", member);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "member %d: no arc of that curvature joins its ends; give a smaller one", member);
         if (fabs(error) <= 1e-16 * distance)
             break;
     }
@@ -123,7 +127,8 @@ static void scene_vertices(model *m)
             add_axis(normal, v);
             add_axis(n->axis[1], v);
         }
-        while (n->rotation == SCENE_ROTATION_SEQUENCE && v->angles < 3 && vec3_norm(n->axis[v->angles]) > 0)
+        while (n->rotation == SCENE_ROTATION_SEQUENCE && v->angles < 3 &&
+               vec3_norm(n->axis[v->angles]) > 0)
             add_axis(n->axis[v->angles], v);
     }
 }
@@ -134,17 +139,20 @@ static int same_vector(const double a[3], const double b[3])
 }
 
 /* Index of the kind of element of a member with this length and curvature; made when it is new. */
-static status kind_of(model *m, const scene_member *member, double length, const double curvature[3], int *out, fault *f)
+static status kind_of(model *m, const scene_member *member, double length,
+                      const double curvature[3], int *out, fault *f)
 {
     const int profile = member->section;
     for (int i = 0; i < m->kinds; i++)
         if (m->kind[i].section == profile && fabs(m->kind[i].length - length) <= 1e-12 * length &&
-            same_vector(m->kind[i].curvature, curvature) && same_vector(m->kind[i].strain, member->strain)) {
+            same_vector(m->kind[i].curvature, curvature) &&
+            same_vector(m->kind[i].strain, member->strain)) {
             *out = i;
             return STATUS_OK;
         }
     mesh_kind *k = &m->kind[m->kinds];
-    element_request request = {.section = &m->section[profile], .length = length, .options = m->options};
+    element_request request = {
+        .section = &m->section[profile], .length = length, .options = m->options};
     memcpy(request.curvature, curvature, sizeof request.curvature);
     memcpy(request.strain, member->strain, sizeof request.strain);
     const status outcome = features_of_section(m, profile, &request.features, f);
@@ -162,10 +170,12 @@ static status kind_of(model *m, const scene_member *member, double length, const
 }
 
 /* The vertices of one element of n along an arc: positions, triads, warping comes later. */
-static status add_element(model *m, const arc *a, int member, int number, int n, int inner_vertex, fault *f)
+static status add_element(model *m, const arc *a, int member, int number, int n, int inner_vertex,
+                          fault *f)
 {
     mesh_element *el = &m->element[m->elements];
-    const int curved = (m->type->offers & FEATURE_CURVATURE) && vec3_norm(a->k) > 0, last = m->nodes - 1;
+    const int curved = (m->type->offers & FEATURE_CURVATURE) && vec3_norm(a->k) > 0,
+              last = m->nodes - 1;
     const double straight[3] = {0, 0, 0};
     el->member = member;
     for (int k = 0; k <= last; k++) {
@@ -192,7 +202,8 @@ static status add_element(model *m, const arc *a, int member, int number, int n,
             y[i] = el->triad[0][3 * i + 1] + el->triad[last][3 * i + 1];
         }
         if (rotation_triad(between, y, el->triad[0]) != 0)
-            return fault_set(f, STATUS_REFUSED, "member %d: its elements turn too far; use more of them", member);
+            return fault_set(f, STATUS_REFUSED,
+                             "member %d: its elements turn too far; use more of them", member);
         for (int i = 1; i <= last; i++)
             memcpy(el->triad[i], el->triad[0], sizeof el->triad[0]);
         m->elements++;
@@ -221,7 +232,8 @@ static void add_warps(model *m, int *named)
         const scene_member *sm = &m->scene->member[member];
         unsigned features;
         features_of_section(m, sm->section, &features, NULL);
-        const int warps = (features & FEATURE_WARPING) != 0, nothing_warps = m->section[sm->section].Iw <= 0;
+        const int warps = (features & FEATURE_WARPING) != 0,
+                  nothing_warps = m->section[sm->section].Iw <= 0;
         for (int i = m->first_element[member]; i < m->first_element[member + 1]; i++)
             for (int k = 0; k <= last; k++) {
                 mesh_element *el = &m->element[i];
@@ -229,7 +241,8 @@ static void add_warps(model *m, int *named)
                           at_end = i + 1 == m->first_element[member + 1] && k == last;
                 if (!warps)
                     el->warp[k] = NONE;
-                else if (nothing_warps) /* kept although nothing warps: an amplitude of its own changes nothing */
+                else if (
+                    nothing_warps) /* kept although nothing warps: an amplitude of its own changes nothing */
                     el->warp[k] = m->warps++;
                 else if (at_start || at_end)
                     el->warp[k] = end_warp(m, at_start ? sm->warp_p : sm->warp_q, named);
@@ -255,17 +268,22 @@ static status allocate(model *m, int elements, fault *f)
     double total = 0;
     for (int i = 0; i < s->members; i++)
         total += divisions(s, i, elements);
-    const double per_element = 8e3; /* bytes of an element with its share of matrices and factors, measured on straight members */
-    if (total * per_element > (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) || total > 1e8)
-        return fault_set(f, STATUS_REFUSED, "%.0f elements: more than memory allows; give fewer", total);
+    const double per_element =
+        8e3; /* bytes of an element with its share of matrices and factors, measured on straight members */
+    if (total * per_element > (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) ||
+        total > 1e8)
+        return fault_set(f, STATUS_REFUSED, "%.0f elements: more than memory allows; give fewer",
+                         total);
     m->vertices = s->nodes + (int)total * (m->nodes - 1) - s->members;
     m->vertex = calloc((size_t)m->vertices, sizeof *m->vertex);
     m->element = calloc((size_t)total, sizeof *m->element);
     m->kind = calloc((size_t)total, sizeof *m->kind);
     m->warp = calloc((size_t)total * ELEMENT_MAX_NODES, sizeof *m->warp);
     m->first_element = calloc((size_t)s->members + 1, sizeof *m->first_element);
-    if (m->vertex == NULL || m->element == NULL || m->kind == NULL || m->warp == NULL || m->first_element == NULL)
-        return fault_set(f, STATUS_REFUSED, "%.0f elements: more than memory allows; give fewer", total);
+    if (m->vertex == NULL || m->element == NULL || m->kind == NULL || m->warp == NULL ||
+        m->first_element == NULL)
+        return fault_set(f, STATUS_REFUSED, "%.0f elements: more than memory allows; give fewer",
+                         total);
     return STATUS_OK;
 }
 

@@ -26,7 +26,8 @@ void model_metric(const model *m, double weight[])
     for (int i = 0; i < m->vertices; i++)
         for (int c = 0; c < VERTEX_COORDINATES && m->vertex[i].body == i; c++)
             if (m->vertex[i].coordinate[c] != NONE)
-                weight[m->vertex[i].coordinate[c]] += c < SCENE_RX ? share / (m->size * m->size) : share;
+                weight[m->vertex[i].coordinate[c]] +=
+                    c < SCENE_RX ? share / (m->size * m->size) : share;
 }
 
 static double turn(const model_state *a, const model_state *b, int vertex)

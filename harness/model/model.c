@@ -38,7 +38,8 @@ static void choose_options(model *m, const double options[])
 /* At least what the elements, the pattern of their matrices and the states kept along the path take. */
 static status check_memory(const model *m, int elements, fault *f)
 {
-    const double entries = (double)m->coordinates * m->coordinates / 2, words = 10.0 * (m->nodes - 1) + 2 * m->strains + m->inner;
+    const double entries = (double)m->coordinates * m->coordinates / 2,
+                 words = 10.0 * (m->nodes - 1) + 2 * m->strains + m->inner;
     double count = 0, states = 3;
     char what[80];
     for (int i = 0; i < m->scene->members; i++)
@@ -46,7 +47,8 @@ static status check_memory(const model *m, int elements, fault *f)
     for (int i = 0; i < m->scene->analyses; i++)
         states += m->scene->analysis[i].stations;
     const double each = sizeof(mesh_element) + (m->nodes - 1) * sizeof(mesh_vertex) +
-                        sizeof(double) * (m->work_size + states * words) + (2 * sizeof(int) + sizeof(double)) * entries;
+                        sizeof(double) * (m->work_size + states * words) +
+                        (2 * sizeof(int) + sizeof(double)) * entries;
     snprintf(what, sizeof what, "%.0f elements", count);
     return memory_check(count * each, what, "give fewer", f);
 }
@@ -55,7 +57,8 @@ static status allocate(model *m, fault *f)
 {
     m->work = malloc(((size_t)m->elements * (size_t)m->work_size + 1) * sizeof *m->work);
     if (m->work == NULL)
-        return fault_set(f, STATUS_REFUSED, "%d elements: more than memory allows; give fewer", m->elements);
+        return fault_set(f, STATUS_REFUSED, "%d elements: more than memory allows; give fewer",
+                         m->elements);
     return model_state_alloc(m, &m->rest, f);
 }
 
@@ -63,17 +66,21 @@ static status build(model *m, const model_request *request, fault *f)
 {
     char words[200];
     if (request->type->abi != ELEMENT_ABI)
-        return fault_set(f, STATUS_REFUSED, "formulation %s was written for another version of the element interface",
+        return fault_set(f, STATUS_REFUSED,
+                         "formulation %s was written for another version of the element interface",
                          request->type->name);
     status outcome = compute_sections(m, f);
     if (outcome == STATUS_OK && model_missing(request->scene, request->type, words, sizeof words))
-        return fault_set(f, STATUS_REFUSED, "formulation %s does not offer %s, which scene %s needs", request->type->name, words,
-                         request->scene->name);
-    m->features = model_needs_of(request->scene, request->type) | (request->type->offers & FEATURE_CURVATURE);
+        return fault_set(f, STATUS_REFUSED,
+                         "formulation %s does not offer %s, which scene %s needs",
+                         request->type->name, words, request->scene->name);
+    m->features =
+        model_needs_of(request->scene, request->type) | (request->type->offers & FEATURE_CURVATURE);
     if (m->keep_all)
         m->features |= FEATURE_WARPING | FEATURE_ECCENTRIC;
     choose_options(m, request->options);
-    m->driver_coordinate = malloc(((size_t)request->scene->drivers + 1) * sizeof *m->driver_coordinate);
+    m->driver_coordinate =
+        malloc(((size_t)request->scene->drivers + 1) * sizeof *m->driver_coordinate);
     if (outcome == STATUS_OK && m->driver_coordinate == NULL)
         outcome = fault_set(f, STATUS_FAULT, "out of memory for drivers");
     if (outcome == STATUS_OK)
@@ -144,7 +151,8 @@ void model_free(model *m)
 
 model_size model_sizes(const model *m)
 {
-    return (model_size){m->elements, m->vertices, m->free, m->driven, m->strains, m->inner, m->features};
+    return (model_size){m->elements, m->vertices, m->free,    m->driven,
+                        m->strains,  m->inner,    m->features};
 }
 
 double model_length(const model *m)

@@ -113,7 +113,8 @@ void movable_of(int columns, const double *T, double length, movable *out)
         unit_vectors(out->components, basis);
     for (int k = 0; k < out->count; k++)
         for (int i = 0; i < N; i++) {
-            const double unit = i < 3 && !whole ? length : 1, part = out->components >> i & 1u ? basis[k][i] : 0;
+            const double unit = i < 3 && !whole ? length : 1,
+                         part = out->components >> i & 1u ? basis[k][i] : 0;
             out->span[i * out->count + k] = part * unit;
             out->dual[k * N + i] = part / unit;
         }

@@ -10,10 +10,10 @@ enum { NONE = -1, VERTEX_COORDINATES = 6 };
 /* Where a frame is and what moves it. The first vertices are the scene's nodes, in order. */
 typedef struct mesh_vertex {
     double position[3]; /* undeformed [m] */
-    int body;           /* vertex that moves this one rigidly; itself: it has coordinates of its own */
-    double offset[3];   /* from the body, undeformed [m] */
-    int coordinate[6];  /* of a body: global coordinate or NONE where held */
-    int angles;         /* > 0: rotation is a sequence of so many angles about the axes */
+    int body; /* vertex that moves this one rigidly; itself: it has coordinates of its own */
+    double offset[3];  /* from the body, undeformed [m] */
+    int coordinate[6]; /* of a body: global coordinate or NONE where held */
+    int angles;        /* > 0: rotation is a sequence of so many angles about the axes */
     double axis[3][3];
     int vector_driver[3]; /* prescribed rotation vector: its drivers; NONE: not prescribed so */
 } mesh_vertex;
@@ -28,8 +28,9 @@ typedef struct mesh_element {
     int vertex[ELEMENT_MAX_NODES];
     int warp[ELEMENT_MAX_NODES];        /* index, or NONE: held at zero or absent */
     double triad[ELEMENT_MAX_NODES][9]; /* initial, columns nX nY nZ */
-    int index[ELEMENT_MAX_COORDINATES]; /* global coordinate of each element coordinate after elimination, or NONE */
-    int plain;                          /* 1: no offset and no sequence: elimination is selection */
+    int index
+        [ELEMENT_MAX_COORDINATES]; /* global coordinate of each element coordinate after elimination, or NONE */
+    int plain;                     /* 1: no offset and no sequence: elimination is selection */
 } mesh_element;
 
 /* What identical elements share. */
@@ -73,15 +74,17 @@ struct model {
     int free, driven;
     double size; /* largest distance between nodes or member length [m] */
     mesh_pattern pattern[2];
-    double *work; /* [elements x work_size]: J, C, P' + C (D - e), D - e, memory of the last linearisation */
+    double *
+        work; /* [elements x work_size]: J, C, P' + C (D - e), D - e, memory of the last linearisation */
     int work_size;
     model_state *rest; /* undeformed */
     element_spin spin; /* of the frame, times the path if that is followed */
     int spins, spin_follows_path;
     counters counters;
     phases phases;
-    team *team;         /* of the loop over elements; NULL: one thread */
-    element_part *part; /* [elements] what the team computes before it is added up in order; NULL without a team */
+    team *team; /* of the loop over elements; NULL: one thread */
+    element_part *
+        part; /* [elements] what the team computes before it is added up in order; NULL without a team */
     int lines;
     char **line; /* what was left out */
 };
@@ -90,11 +93,11 @@ struct model_state {
     double path;
     size_t size; /* doubles in block */
     double *block;
-    double *u;                 /* [vertices x 3] displacement */
-    double *q;                 /* [vertices x 4] orientation */
-    double *angle;             /* [vertices x 3] of sequences; accumulated spatial increments otherwise */
-    double *warp;              /* [warps] */
-    double *driver;            /* [drivers] present value */
+    double *u;      /* [vertices x 3] displacement */
+    double *q;      /* [vertices x 4] orientation */
+    double *angle;  /* [vertices x 3] of sequences; accumulated spatial increments otherwise */
+    double *warp;   /* [warps] */
+    double *driver; /* [drivers] present value */
     double *e, *sigma, *inner; /* [elements x strains], [.. inner] */
 };
 
@@ -106,10 +109,12 @@ status mesh_build(model *m, int elements, fault *f);
 
 /* coordinates.c */
 status coordinates_number(model *m, fault *f);
-status model_note_left_out(model *m, fault *f, const char *format, ...) __attribute__((format(printf, 3, 4)));
+status model_note_left_out(model *m, fault *f, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 /* kinematics.c */
-void kinematics_gather(const model *m, const model_state *s, const mesh_element *el, node_state x[]);
+void kinematics_gather(const model *m, const model_state *s, const mesh_element *el,
+                       node_state x[]);
 void kinematics_position(const model *m, const model_state *s, int vertex, double r[3]);
 /* Current offset of a vertex from its body [m]. */
 void kinematics_offset(const model *m, const model_state *s, int vertex, double rho[3]);
@@ -118,14 +123,17 @@ void kinematics_axes(const model *m, const model_state *s, int vertex, double b[
 /* Recomputes what depends on bodies' coordinates. */
 void kinematics_follow(const model *m, model_state *s);
 /* Increments of an element's own coordinates from those of the model: local[7 nodes]. */
-void kinematics_local(const model *m, const model_state *s, const mesh_element *el, const double dx[], double local[]);
+void kinematics_local(const model *m, const model_state *s, const mesh_element *el,
+                      const double dx[], double local[]);
 
 /* eliminate.c: element coordinates -> model coordinates, in place. force: internal, for the second derivatives; NULL entries are skipped. */
 void eliminate_forces(const model *m, const model_state *s, const mesh_element *el, double force[]);
-void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el, const double force[], double K[]);
+void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el,
+                      const double force[], double K[]);
 
 /* spin.c: force -= centrifugal force, K += its stiffness (NULL: not wanted), in element coordinates; nothing where no frame turns. */
-status spin_add(model *m, const node_state x[], int element, double path, double force[], double K[], fault *f);
+status spin_add(model *m, const node_state x[], int element, double path, double force[],
+                double K[], fault *f);
 
 /* assemble.c */
 void assemble_pattern_free(mesh_pattern *p);
@@ -141,7 +149,8 @@ model_slot slot_of(const model *m, int element);
 
 /* loads.c */
 double loads_factor(const scene_load *load, double path);
-void loads_add(const model *m, const model_state *s, double path, double out[]); /* [free + driven] */
+void loads_add(const model *m, const model_state *s, double path,
+               double out[]); /* [free + driven] */
 void loads_subtract_stiffness(const model *m, const model_state *s, double path, sparse *K);
 double driver_value_at(const scene_driver *d, double path);
 

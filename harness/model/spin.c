@@ -20,22 +20,28 @@ static element_spin spin_at(const model *m, double path)
     return spin;
 }
 
-static status inertia_at(model *m, const node_state x[], int i, double path, inertia_output *out, fault *f)
+static status inertia_at(model *m, const node_state x[], int i, double path, inertia_output *out,
+                         fault *f)
 {
     const element_spin spin = spin_at(m, path);
-    const status outcome = m->type->inertia(m->kind[m->element[i].kind].data, x, m->spins ? &spin : NULL, out);
+    const status outcome =
+        m->type->inertia(m->kind[m->element[i].kind].data, x, m->spins ? &spin : NULL, out);
     m->counters.inertia_evaluations++;
     return outcome == STATUS_OK
                ? outcome
-               : fault_set(f, outcome, "element %d of member %d: its inertia cannot be evaluated", i, m->element[i].member);
+               : fault_set(f, outcome, "element %d of member %d: its inertia cannot be evaluated",
+                           i, m->element[i].member);
 }
 
-status spin_add(model *m, const node_state x[], int i, double path, double force[], double K[], fault *f)
+status spin_add(model *m, const node_state x[], int i, double path, double force[], double K[],
+                fault *f)
 {
-    double centrifugal[ELEMENT_MAX_COORDINATES], N[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
+    double centrifugal[ELEMENT_MAX_COORDINATES],
+        N[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
     if (!m->spins)
         return STATUS_OK;
-    const status outcome = inertia_at(m, x, i, path, &(inertia_output){.force = centrifugal, .N = K != NULL ? N : NULL}, f);
+    const status outcome = inertia_at(
+        m, x, i, path, &(inertia_output){.force = centrifugal, .N = K != NULL ? N : NULL}, f);
     for (int k = 0; k < m->coordinates && outcome == STATUS_OK; k++)
         force[k] -= centrifugal[k];
     for (int k = 0; k < m->coordinates * m->coordinates && K != NULL && outcome == STATUS_OK; k++)
@@ -43,18 +49,21 @@ status spin_add(model *m, const node_state x[], int i, double path, double force
     return outcome;
 }
 
-status model_inertia(model *m, const model_state *state, double path, sparse *M, sparse *G, fault *f)
+status model_inertia(model *m, const model_state *state, double path, sparse *M, sparse *G,
+                     fault *f)
 {
     const model_state *s = state != NULL ? state : m->rest;
     const mesh_pattern *p = &m->pattern[M->row == m->pattern[1].matrix.row];
-    double mass[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], gyroscopic[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
+    double mass[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
+        gyroscopic[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
     sparse_zero(M);
     if (G != NULL)
         sparse_zero(G);
     for (int i = 0; i < m->elements; i++) {
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, s, &m->element[i], x);
-        const status outcome = inertia_at(m, x, i, path, &(inertia_output){.M = mass, .G = G != NULL ? gyroscopic : NULL}, f);
+        const status outcome = inertia_at(
+            m, x, i, path, &(inertia_output){.M = mass, .G = G != NULL ? gyroscopic : NULL}, f);
         if (outcome != STATUS_OK)
             return outcome;
         eliminate_matrix(m, s, &m->element[i], NULL, mass);
@@ -73,7 +82,8 @@ void model_load_stiffness(const model *m, const model_state *s, double path, spa
     loads_subtract_stiffness(m, s, path, out);
 }
 
-status model_tangent_energy2(model *m, const model_state *s, double path, const double x[], double *energy)
+status model_tangent_energy2(model *m, const model_state *s, double path, const double x[],
+                             double *energy)
 {
     enum { X = ELEMENT_MAX_COORDINATES, E = ELEMENT_MAX_STRAINS };
     *energy = 0;
@@ -85,8 +95,9 @@ status model_tangent_energy2(model *m, const model_state *s, double path, const 
         double J[E * X], C[E * E], H[X * X], force[X] = {0}, local[X], e[E], own[X];
         kinematics_gather(m, s, el, at);
         m->type->strain(data, at, &(strain_output){.J = J, .s = sigma, .H = H});
-        status outcome = m->type->stress(data, &s->e[(size_t)i * (size_t)m->strains], &s->inner[(size_t)i * (size_t)m->inner],
-                                         &(stress_output){.C = C});
+        status outcome =
+            m->type->stress(data, &s->e[(size_t)i * (size_t)m->strains],
+                            &s->inner[(size_t)i * (size_t)m->inner], &(stress_output){.C = C});
         m->counters.strain_evaluations++;
         m->counters.stress_evaluations++;
         dense_add_transpose_mul(m->coordinates, m->strains, 1, J, sigma, force);
@@ -99,7 +110,8 @@ status model_tangent_energy2(model *m, const model_state *s, double path, const 
         eliminate_matrix(m, s, el, force, H);
         for (int k = 0; k < m->coordinates; k++)
             own[k] = el->index[k] == NONE ? 0 : x[el->index[k]];
-        *energy += dense_quadratic(m->strains, C, e) + dense_quadratic(m->coordinates, H, el->plain ? local : own);
+        *energy += dense_quadratic(m->strains, C, e) +
+                   dense_quadratic(m->coordinates, H, el->plain ? local : own);
     }
     return STATUS_OK;
 }

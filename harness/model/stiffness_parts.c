@@ -29,7 +29,8 @@ status model_soft_part(model *m, const model_state *s, sparse *G, fault *f)
         const model_slot w = slot_of(m, i);
         const double *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
         node_state x[ELEMENT_MAX_NODES];
-        double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], present[ELEMENT_MAX_COORDINATES] = {0};
+        double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
+            present[ELEMENT_MAX_COORDINATES] = {0};
         kinematics_gather(m, s, el, x);
         m->type->strain(m->kind[el->kind].data, x, &(strain_output){.s = sigma, .H = H});
         m->counters.strain_evaluations++;

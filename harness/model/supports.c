@@ -29,7 +29,8 @@ static void join(const model *m, int part[])
     for (int i = 0; i < m->elements; i++)
         for (int k = 1; k < m->nodes; k++) {
             const int *v = m->element[i].vertex;
-            const int a = root_of(part, m->vertex[v[0]].body), b = root_of(part, m->vertex[v[k]].body);
+            const int a = root_of(part, m->vertex[v[0]].body),
+                      b = root_of(part, m->vertex[v[k]].body);
             part[a > b ? a : b] = a > b ? b : a;
         }
 }
@@ -103,7 +104,8 @@ int model_loose_part(const model *m, int *node, double motion[6])
         for (int k = 0; k < m->scene->nodes; k++)
             if (m->vertex[k].body == k && root_of(part, k) == i)
                 add_supports(m, k, m->vertex[i].position, sum);
-        found = has_elements(m, part, i) && LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', N, sum, N, size) == 0 &&
+        found = has_elements(m, part, i) &&
+                LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', N, sum, N, size) == 0 &&
                 !(size[0] > loose * size[N - 1]);
         for (int k = 0; k < N && found; k++)
             motion[k] = sum[N * k] / (k < 3 ? 1 : m->size);

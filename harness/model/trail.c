@@ -41,7 +41,8 @@ void trail_guess(const model *m, trail *t, double path, model_state *s)
     if (t->iterations > SMOOTH_ITERATIONS)
         return;
     for (int first = 0; first + 1 < t->count; first++)
-        if (model_state_extrapolate(m, t->count - first, (const model_state *const *)t->at + first, path, s))
+        if (model_state_extrapolate(m, t->count - first, (const model_state *const *)t->at + first,
+                                    path, s))
             return;
     if (t->count > 1) {
         model_state_copy(m, t->at[t->count - 1], t->at[0]);

@@ -5,7 +5,8 @@
 #include "harness/model/model.h"
 
 typedef struct trail {
-    int count, iterations; /* of the last step: one that took many was too long to extrapolate from */
+    int count,
+        iterations; /* of the last step: one that took many was too long to extrapolate from */
     model_state *at[MODEL_EXTRAPOLATED];
 } trail;
 

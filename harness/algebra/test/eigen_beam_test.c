@@ -23,7 +23,8 @@ static void beam_init(beam *b, int elements)
     matrices_add_elements(&b->G, elements, 2, 0, g);
     matrices_add_elements(&b->M, elements, 2, 0, m);
     sparse *const all[] = {&b->K, &b->G, &b->M};
-    for (int i = 0; i < 3; i++) { /* the two held deflections become unknowns of their own that carry nothing */
+    for (int i = 0; i < 3;
+         i++) { /* the two held deflections become unknowns of their own that carry nothing */
         const int held[2] = {0, 2 * elements};
         for (int e = 0; e < 2; e++)
             for (int j = 0; j < all[i]->n; j++)
@@ -46,7 +47,8 @@ static double beam_energy(void *context, const double x[])
     const beam *b = context;
     double sum = (x[0] * x[0] + x[2 * b->elements] * x[2 * b->elements]) / b->h;
     for (int i = 0; i < b->elements; i++) {
-        const double left = i > 0 ? x[2 * i] : 0, right = i + 1 < b->elements ? x[2 * i + 2] : 0, chord = (right - left) / b->h;
+        const double left = i > 0 ? x[2 * i] : 0, right = i + 1 < b->elements ? x[2 * i + 2] : 0,
+                     chord = (right - left) / b->h;
         const double p = x[2 * i + 1] - chord, q = x[2 * i + 3] - chord;
         sum += 4 / b->h * (p * p + p * q + q * q);
     }
@@ -68,7 +70,8 @@ static double mesh_value(const beam *b, int k, int vibration)
     }
     /* det(form[1] - mu form[0]) = 0, the larger root */
     const double *c = form[0], *d = form[1];
-    const double p = c[0] * c[2] - c[1] * c[1], q = d[0] * c[2] + d[2] * c[0] - 2 * d[1] * c[1], r = d[0] * d[2] - d[1] * d[1];
+    const double p = c[0] * c[2] - c[1] * c[1], q = d[0] * c[2] + d[2] * c[0] - 2 * d[1] * c[1],
+                 r = d[0] * d[2] - d[1] * d[1];
     return (q + sqrt(q * q - 4 * p * r)) / (2 * p);
 }
 
@@ -77,7 +80,8 @@ static double expected_value(const beam *b, int k, int vibration)
 {
     if (b->elements <= 20)
         return vibration ? 1 / sqrt(mesh_value(b, k, 1)) : 1 / mesh_value(b, k, 0);
-    return k * MATRICES_PI * k * MATRICES_PI * (1 + pow(k * MATRICES_PI * b->h, 4) / (vibration ? 1440 : 720));
+    return k * MATRICES_PI * k * MATRICES_PI *
+           (1 + pow(k * MATRICES_PI * b->h, 4) / (vibration ? 1440 : 720));
 }
 
 /* The values and the errors that the solver estimates: they must cover the actual ones, and rounding in n^2 of the form of A. */
@@ -85,13 +89,14 @@ static void compare(const beam *b, const eigen_side *found, int vibration, doubl
 {
     const double rounding = 1e-15 + 1e-17 * b->elements * b->elements;
     for (int i = 0; i < found->count; i++) {
-        const double exact = expected_value(b, i + 1, vibration), value = 1 / (vibration ? sqrt(found->mu[i]) : found->mu[i]);
+        const double exact = expected_value(b, i + 1, vibration),
+                     value = 1 / (vibration ? sqrt(found->mu[i]) : found->mu[i]);
         const double actual = fabs(value / exact - 1);
         const char *what = vibration ? "frequency" : "load";
-        gsl_test(!(actual < allowed), "%d elements: %s %d is off by %.1e (residual %.1e)", b->elements, what, i + 1, actual,
-                 found->residual[i]);
-        gsl_test(b->elements > 20 && !(actual < 3 * found->error[i] + rounding), "%d elements: %s %d: estimated %.1e", b->elements,
-                 what, i + 1, found->error[i]);
+        gsl_test(!(actual < allowed), "%d elements: %s %d is off by %.1e (residual %.1e)",
+                 b->elements, what, i + 1, actual, found->residual[i]);
+        gsl_test(b->elements > 20 && !(actual < 3 * found->error[i] + rounding),
+                 "%d elements: %s %d: estimated %.1e", b->elements, what, i + 1, found->error[i]);
     }
 }
 
@@ -105,14 +110,17 @@ static void test_beam(int elements, double allowed)
     eigen_problem p = {.K = &b.K, .A = &b.G, .sign = 1, .largest = WANTED, .smallest = 2};
     p.K_energy = beam_energy;
     p.context = &b;
-    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_OK, "column of %d elements: %s", elements, f.text);
+    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_OK, "column of %d elements: %s",
+                 elements, f.text);
     gsl_test_int(r.positive.count, WANTED, "column of %d elements: buckling loads", elements);
-    gsl_test_int(r.negative.count, 0, "column of %d elements: it does not buckle in tension", elements);
+    gsl_test_int(r.negative.count, 0, "column of %d elements: it does not buckle in tension",
+                 elements);
     compare(&b, &r.positive, 0, allowed);
     eigen_free(&r);
     p.A = &b.M;
     p.smallest = 0;
-    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_OK, "beam of %d elements: %s", elements, f.text);
+    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_OK, "beam of %d elements: %s",
+                 elements, f.text);
     compare(&b, &r.positive, 1, allowed);
     eigen_free(&r);
     beam_free(&b);
@@ -155,12 +163,14 @@ static void test_spoilt(double part)
     fault f = {""};
     beam_init(&b, ELEMENTS);
     eigen_problem p = {.K = &b.K, .A = &b.G, .sign = 1, .largest = WANTED};
-    gsl_test_int((int)eigen_problems_solve(&p, &exact, &f), STATUS_OK, "column as it should be: %s", f.text);
+    gsl_test_int((int)eigen_problems_solve(&p, &exact, &f), STATUS_OK, "column as it should be: %s",
+                 f.text);
     gsl_test_int((int)sparse_alloc_like(&b.K, &good, &f), STATUS_OK, "copy");
     memcpy(good.value, b.K.value, (size_t)b.K.column[b.K.n] * sizeof *good.value);
     for (int j = 0; j < b.K.n; j++)
         for (int k = b.K.column[j]; k < b.K.column[j + 1]; k++)
-            if (b.K.row[k] == j && j % 2 == 1) /* turning meets a spring of its own, stiffer along the column */
+            if (b.K.row[k] == j &&
+                j % 2 == 1) /* turning meets a spring of its own, stiffer along the column */
                 b.K.value[k] += part * 20 * b.h * (1 + 3.0 * j / b.K.n);
     spoilt context = {&good, 1e-4};
     p.K_energy = spoilt_energy;
@@ -174,15 +184,17 @@ static void test_spoilt(double part)
         for (int i = 0; i < r.positive.count; i++) {
             worst = fmax(worst, fabs(r.positive.mu[i] / exact.positive.mu[i] - 1));
             gsl_test(refined && !(r.positive.error[i] >= 1e-4 && r.positive.error[i] < 1.1e-4),
-                     "the error that is told is that of the form and not of the matrix: %.2e", r.positive.error[i]);
+                     "the error that is told is that of the form and not of the matrix: %.2e",
+                     r.positive.error[i]);
         }
         gsl_test_int(r.positive.count, WANTED, "all are found");
-        gsl_test(refined ? !(worst < 1e-7) : part >= 1e-2 && worst < 1e-6, "K spoilt by %g, %s: off by %.1e", part,
-                 refined ? "refined" : "as it is", worst);
+        gsl_test(refined ? !(worst < 1e-7) : part >= 1e-2 && worst < 1e-6,
+                 "K spoilt by %g, %s: off by %.1e", part, refined ? "refined" : "as it is", worst);
         eigen_free(&r);
     }
     context.rounding = 0.5;
-    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_NOT_CONVERGED, "no digit is left: %s", f.text);
+    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_NOT_CONVERGED,
+                 "no digit is left: %s", f.text);
     gsl_test(r.positive.count != WANTED || !isnan(r.positive.mu[0]), "and no value given");
     eigen_free(&r);
     eigen_free(&exact);

@@ -42,7 +42,8 @@ static inline double strings_energy(void *context, const double x[])
     double sum = 0;
     for (int c = 0; c < s->copies; c++)
         for (int i = 0; i <= s->masses; i++) {
-            const double left = i > 0 ? x[(i - 1) * s->copies + c] : 0, right = i < s->masses ? x[i * s->copies + c] : 0;
+            const double left = i > 0 ? x[(i - 1) * s->copies + c] : 0,
+                         right = i < s->masses ? x[i * s->copies + c] : 0;
             sum += s->spring[c] * (right - left) * (right - left);
         }
     return sum;

@@ -24,14 +24,15 @@ static double departure(const sparse *K, int count, const double *x)
     return worst;
 }
 
-static void test_strings(int copies, int masses, double spread, int wanted, int iterate, double allowed)
+static void test_strings(int copies, int masses, double spread, int wanted, int iterate,
+                         double allowed)
 {
     strings s;
     eigen_result r = {0};
     fault f = {""};
     char name[80];
-    snprintf(name, sizeof name, "%d strings of %d, springs %g apart, %d wanted, %s", copies, masses, spread, wanted,
-             iterate ? "sparse" : "as it comes");
+    snprintf(name, sizeof name, "%d strings of %d, springs %g apart, %d wanted, %s", copies, masses,
+             spread, wanted, iterate ? "sparse" : "as it comes");
     strings_init(&s, copies, masses, spread);
     eigen_problem p = {.K = &s.K, .A = &s.M, .sign = 1, .largest = wanted, .iterate = iterate};
     p.K_energy = strings_energy;
@@ -67,17 +68,25 @@ static void test_both_signs(void)
     eigen_result sparse_way = {0}, again = {0}, dense_way = {0};
     fault f = {""};
     for (int sign = -1; sign <= 1; sign += 2) {
-        eigen_problem p = {.K = &K, .A = &A, .sign = sign, .largest = WANTED, .smallest = WANTED, .iterate = 1};
-        gsl_test_int((int)eigen_problems_solve(&p, &sparse_way, &f), STATUS_OK, "indefinite, sparse: %s", f.text);
-        gsl_test_int((int)eigen_problems_solve(&p, &again, &f), STATUS_OK, "indefinite, again: %s", f.text);
-        gsl_test(memcmp(again.positive.mode, sparse_way.positive.mode, (size_t)K.n * WANTED * sizeof(double)) != 0,
+        eigen_problem p = {
+            .K = &K, .A = &A, .sign = sign, .largest = WANTED, .smallest = WANTED, .iterate = 1};
+        gsl_test_int((int)eigen_problems_solve(&p, &sparse_way, &f), STATUS_OK,
+                     "indefinite, sparse: %s", f.text);
+        gsl_test_int((int)eigen_problems_solve(&p, &again, &f), STATUS_OK, "indefinite, again: %s",
+                     f.text);
+        gsl_test(memcmp(again.positive.mode, sparse_way.positive.mode,
+                        (size_t)K.n * WANTED * sizeof(double)) != 0,
                  "the same problem gives the same digits");
         p.largest = p.smallest = K.n;
-        gsl_test_int((int)eigen_problems_solve(&p, &dense_way, &f), STATUS_OK, "indefinite, dense: %s", f.text);
-        gsl_test_int(dense_way.positive.count + dense_way.negative.count, K.n, "all eigenvalues have a sign");
+        gsl_test_int((int)eigen_problems_solve(&p, &dense_way, &f), STATUS_OK,
+                     "indefinite, dense: %s", f.text);
+        gsl_test_int(dense_way.positive.count + dense_way.negative.count, K.n,
+                     "all eigenvalues have a sign");
         for (int i = 0; i < WANTED; i++) {
-            gsl_test_rel(sparse_way.positive.mu[i], dense_way.positive.mu[i], 1e-13, "positive value %d", i);
-            gsl_test_rel(sparse_way.negative.mu[i], dense_way.negative.mu[i], 1e-13, "negative value %d", i);
+            gsl_test_rel(sparse_way.positive.mu[i], dense_way.positive.mu[i], 1e-13,
+                         "positive value %d", i);
+            gsl_test_rel(sparse_way.negative.mu[i], dense_way.negative.mu[i], 1e-13,
+                         "negative value %d", i);
         }
         eigen_free(&sparse_way);
         eigen_free(&again);
@@ -100,15 +109,22 @@ static void test_coupled_strings(int masses)
         matrices_add(&s.M, 2 * (i - 1), 2 * i + 1, 1);
         matrices_add(&s.M, 2 * i, 2 * (i - 1) + 1, -1);
     }
-    eigen_problem p = {.K = &s.K, .A = &s.M, .sign = 1, .largest = WANTED, .smallest = WANTED, .iterate = 1};
-    gsl_test_int((int)eigen_problems_solve(&p, &sparse_way, &f), STATUS_OK, "coupled strings of %d, sparse: %s", masses, f.text);
-    gsl_test(sparse_way.positive.count != WANTED || sparse_way.negative.count != WANTED, "coupled strings of %d: all found",
-             masses);
+    eigen_problem p = {
+        .K = &s.K, .A = &s.M, .sign = 1, .largest = WANTED, .smallest = WANTED, .iterate = 1};
+    gsl_test_int((int)eigen_problems_solve(&p, &sparse_way, &f), STATUS_OK,
+                 "coupled strings of %d, sparse: %s", masses, f.text);
+    gsl_test(sparse_way.positive.count != WANTED || sparse_way.negative.count != WANTED,
+             "coupled strings of %d: all found", masses);
     p.largest = p.smallest = s.K.n;
-    gsl_test_int((int)eigen_problems_solve(&p, &dense_way, &f), STATUS_OK, "coupled strings of %d, dense: %s", masses, f.text);
-    for (int i = 0; i < WANTED && sparse_way.positive.count == WANTED && sparse_way.negative.count == WANTED; i++) {
-        gsl_test_rel(sparse_way.positive.mu[i], dense_way.positive.mu[i], 1e-12, "coupled strings: positive value %d", i);
-        gsl_test_rel(sparse_way.negative.mu[i], dense_way.negative.mu[i], 1e-12, "coupled strings: negative value %d", i);
+    gsl_test_int((int)eigen_problems_solve(&p, &dense_way, &f), STATUS_OK,
+                 "coupled strings of %d, dense: %s", masses, f.text);
+    for (int i = 0;
+         i < WANTED && sparse_way.positive.count == WANTED && sparse_way.negative.count == WANTED;
+         i++) {
+        gsl_test_rel(sparse_way.positive.mu[i], dense_way.positive.mu[i], 1e-12,
+                     "coupled strings: positive value %d", i);
+        gsl_test_rel(sparse_way.negative.mu[i], dense_way.negative.mu[i], 1e-12,
+                     "coupled strings: negative value %d", i);
     }
     eigen_free(&sparse_way);
     eigen_free(&dense_way);
@@ -127,7 +143,8 @@ static void test_rank(int iterate)
     matrices_add(&s.M, 20, 20, 3);
     matrices_add(&s.M, 70, 70, 5);
     matrices_add(&s.M, 120, 120, -2);
-    eigen_problem p = {.K = &s.K, .A = &s.M, .sign = 1, .largest = 4, .smallest = 4, .iterate = iterate};
+    eigen_problem p = {
+        .K = &s.K, .A = &s.M, .sign = 1, .largest = 4, .smallest = 4, .iterate = iterate};
     gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_OK, "rank 3: %s", f.text);
     gsl_test_int(r.positive.count, 2, "rank 3: two positive values exist");
     gsl_test_int(r.negative.count, 1, "rank 3: one negative value exists");
@@ -137,7 +154,8 @@ static void test_rank(int iterate)
     gsl_test_int(r.positive.count + r.negative.count, 0, "rank 0: no value exists");
     eigen_free(&r);
     matrices_add(&s.K, 75, 75, -3);
-    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_REFUSED, "an indefinite stiffness is refused: %s", f.text);
+    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_REFUSED,
+                 "an indefinite stiffness is refused: %s", f.text);
     eigen_free(&r);
     strings_free(&s);
 }
@@ -153,8 +171,14 @@ static void test_missed_copies(void)
     double x[2 * N] = {0}, mu[2], all[COPIES * N] = {0};
     int missing = -1, above = -1, found = 0;
     strings_init(&s, COPIES, MASSES, 0);
-    eigen_problem e = {.K = &s.K, .A = &s.M, .sign = 1, .largest = COPIES, .K_energy = strings_energy, .context = &s};
-    gsl_test(factor_alloc(e.K, &e.K_factor, NULL) != STATUS_OK || factor_numeric(e.K_factor, e.K, NULL) != STATUS_OK ||
+    eigen_problem e = {.K = &s.K,
+                       .A = &s.M,
+                       .sign = 1,
+                       .largest = COPIES,
+                       .K_energy = strings_energy,
+                       .context = &s};
+    gsl_test(factor_alloc(e.K, &e.K_factor, NULL) != STATUS_OK ||
+                 factor_numeric(e.K_factor, e.K, NULL) != STATUS_OK ||
                  pairs_alloc(&p, &e, 1, NULL) != STATUS_OK,
              "strings are factorised");
     for (int c = 0; c < COPIES; c++)
@@ -162,28 +186,36 @@ static void test_missed_copies(void)
             all[c * N + i * COPIES + c] = 1e5 * sin((i + 1) * MATRICES_PI / (MASSES + 1));
     for (int i = 0; i < MASSES; i++) /* the second mode of one string */
         x[i * COPIES] = sin(2 * (i + 1) * MATRICES_PI / (MASSES + 1));
-    const double first = strings_exact(&s, 0), second = strings_exact(&s, COPIES), scale = pairs_scale(&p, &work.solutions);
-    gsl_test(!(scale > 0.3 * first && scale < first * (1 + 1e-9)), "the largest eigenvalue is estimated from below (%g of it)",
-             scale / first);
+    const double first = strings_exact(&s, 0), second = strings_exact(&s, COPIES),
+                 scale = pairs_scale(&p, &work.solutions);
+    gsl_test(!(scale > 0.3 * first && scale < first * (1 + 1e-9)),
+             "the largest eigenvalue is estimated from below (%g of it)", scale / first);
     pairs_above(&p, sqrt(first * second), &above, &work, NULL);
     gsl_test_int(above, COPIES, "the inertia counts all copies");
-    gsl_test(pairs_add(&p, 1, x, 0, NULL) != STATUS_OK || pairs_add(&p, 1, all, 0, NULL) != STATUS_OK, "candidates are taken in");
+    gsl_test(pairs_add(&p, 1, x, 0, NULL) != STATUS_OK ||
+                 pairs_add(&p, 1, all, 0, NULL) != STATUS_OK,
+             "candidates are taken in");
     gsl_test_rel(p.mu[0], first, 1e-14, "and sorted");
     gsl_test_rel(p.mu[1], second, 1e-14, "by size");
-    gsl_test(pairs_missing(&p, 1, &missing, &work, NULL) != STATUS_OK || missing != 0, "the largest value is right with one copy");
-    gsl_test_int((int)pairs_missing(&p, 2, &missing, &work, NULL), STATUS_OK, "values that lie above the second one are counted");
+    gsl_test(pairs_missing(&p, 1, &missing, &work, NULL) != STATUS_OK || missing != 0,
+             "the largest value is right with one copy");
+    gsl_test_int((int)pairs_missing(&p, 2, &missing, &work, NULL), STATUS_OK,
+                 "values that lie above the second one are counted");
     gsl_test_int(missing, COPIES - 1, "and two are missing");
     const lanczos_problem rest = {e.K, e.A, e.K_factor, 1, p.count, p.x, p.Kx};
-    gsl_test(lanczos_largest(&rest, 2, &found, mu, x, &work.solutions, NULL) != STATUS_OK || found != 2,
+    gsl_test(lanczos_largest(&rest, 2, &found, mu, x, &work.solutions, NULL) != STATUS_OK ||
+                 found != 2,
              "Lanczos goes on where the candidates leave off");
     gsl_test_rel(mu[0], first, 1e-12, "second copy");
     gsl_test_rel(mu[1], first, 1e-12, "third copy");
     gsl_test(pairs_add(&p, 2, x, 0, NULL) != STATUS_OK, "both are taken in");
-    gsl_test(pairs_missing(&p, COPIES + 1, &missing, &work, NULL) != STATUS_OK || missing != 0, "now nothing is missing");
+    gsl_test(pairs_missing(&p, COPIES + 1, &missing, &work, NULL) != STATUS_OK || missing != 0,
+             "now nothing is missing");
     const double apart = departure(&s.K, p.count, p.x);
     gsl_test(!(apart < 1e-12), "candidates are orthonormal within %.1e", apart);
     gsl_test(pairs_add(&p, 1, all, 0, NULL) != STATUS_OK, "the same vector again");
-    gsl_test_int((int)pairs_missing(&p, COPIES + 2, &missing, &work, NULL), STATUS_NOT_CONVERGED, "counts too many");
+    gsl_test_int((int)pairs_missing(&p, COPIES + 2, &missing, &work, NULL), STATUS_NOT_CONVERGED,
+                 "counts too many");
     pairs_free(&p);
     factor_free(e.K_factor);
     strings_free(&s);
@@ -220,17 +252,23 @@ static void test_sides_apart(void)
         eigen_result alone = {0}, r = {0};
         fault f = {""};
         eigen_problem p = {.K = &s.K, .A = &s.M, .sign = sign, .largest = WANTED};
-        gsl_test_int((int)eigen_problems_solve(&p, &alone, &f), STATUS_OK, "one side alone: %s", f.text);
+        gsl_test_int((int)eigen_problems_solve(&p, &alone, &f), STATUS_OK, "one side alone: %s",
+                     f.text);
         p.smallest = WANTED;
         p.A_energy = broken_energy;
         p.context = &b;
-        gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_NOT_CONVERGED, "the whole is no success");
-        gsl_test_int((int)r.positive.status, STATUS_OK, "the side that can be found is found: %s", r.positive.reason);
+        gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_NOT_CONVERGED,
+                     "the whole is no success");
+        gsl_test_int((int)r.positive.status, STATUS_OK, "the side that can be found is found: %s",
+                     r.positive.reason);
         gsl_test_int(r.positive.count, WANTED, "all of it");
         for (int i = 0; i < r.positive.count && i < alone.positive.count; i++)
-            gsl_test_rel(r.positive.mu[i], alone.positive.mu[i], 1e-14, "value %d is that of one side alone", i);
-        gsl_test_int((int)r.negative.status, STATUS_NOT_CONVERGED, "the other one is not: %s", r.negative.reason);
-        gsl_test(r.negative.reason[0] == '\0' || strcmp(r.negative.reason, f.text) != 0, "and says so: %s", f.text);
+            gsl_test_rel(r.positive.mu[i], alone.positive.mu[i], 1e-14,
+                         "value %d is that of one side alone", i);
+        gsl_test_int((int)r.negative.status, STATUS_NOT_CONVERGED, "the other one is not: %s",
+                     r.negative.reason);
+        gsl_test(r.negative.reason[0] == '\0' || strcmp(r.negative.reason, f.text) != 0,
+                 "and says so: %s", f.text);
         gsl_test_int(r.negative.count, 0, "and gives none");
         eigen_free(&r);
         eigen_free(&alone);
@@ -257,8 +295,10 @@ static void test_rounding(int masses)
         eigen_problem p = {.K = &s.K, .A = &s.M, .sign = 1, .largest = WANTED, .smallest = WANTED};
         p.A_rounding = much;
         p.context = &size;
-        gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_OK, "rounding of %g: %s", size, f.text);
-        gsl_test_int(r.positive.count, all ? 0 : WANTED, "rounding of %g: values that are more", size);
+        gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_OK, "rounding of %g: %s", size,
+                     f.text);
+        gsl_test_int(r.positive.count, all ? 0 : WANTED, "rounding of %g: values that are more",
+                     size);
         gsl_test(all != (r.positive.rounding > 0), "rounding of %g: the others are counted", size);
         gsl_test(all && r.factorisations > 0, "rounding of %g: nothing is looked for in it", size);
         eigen_free(&r);
@@ -275,7 +315,8 @@ int main(void)
     for (size_t i = 0; i < sizeof spreads / sizeof spreads[0]; i++)
         for (int copies = 1; copies <= 6; copies += copies == 1 ? 1 : 2)
             for (int wanted = 1; wanted <= 13; wanted += 4)
-                test_strings(copies, 60, spreads[i], wanted, 1, spreads[i] < 1e-9 ? 1e-13 + copies * spreads[i] : 1e-13);
+                test_strings(copies, 60, spreads[i], wanted, 1,
+                             spreads[i] < 1e-9 ? 1e-13 + copies * spreads[i] : 1e-13);
     test_strings(6, 12, 0, 13, 0, 1e-13);
     test_strings(1, 3000, 0, 12, 0, 1e-11);
     test_strings(3, 1000, 0, 12, 0, 1e-11);

@@ -39,8 +39,12 @@ static void fill(problem *p, double gyroscopic, int massless, double softening)
         for (int j = 0; j < n; j++) {
             for (int k = 0; k < n; k++)
                 p->K[i * n + j] += B[i * n + k] * B[j * n + k] * (1 + k * k);
-            p->M[i * n + j] = i < n - massless && j < n - massless ? (i == j ? 1 + 0.3 * i / n : 0.2 / (1 + abs(i - j))) : 0;
-            p->G[i * n + j] = i == j ? 0 : gyroscopic * (i < j ? 1 : -1) * (0.3 + B[(i < j ? i : j) * n + (i < j ? j : i)]);
+            p->M[i * n + j] = i < n - massless && j < n - massless
+                                  ? (i == j ? 1 + 0.3 * i / n : 0.2 / (1 + abs(i - j)))
+                                  : 0;
+            p->G[i * n + j] = i == j ? 0
+                                     : gyroscopic * (i < j ? 1 : -1) *
+                                           (0.3 + B[(i < j ? i : j) * n + (i < j ? j : i)]);
         }
     for (int i = 0; i < n; i++)
         p->K[i * n + i] += n - softening * n;
@@ -73,24 +77,29 @@ static int ascending(const void *a, const void *b)
 static int by_lapack(const problem *p, double frequency[], double *growth)
 {
     const int n = p->n, m = 2 * n;
-    double *A = calloc((size_t)m * (size_t)m, sizeof *A), *B = calloc((size_t)m * (size_t)m, sizeof *B);
+    double *A = calloc((size_t)m * (size_t)m, sizeof *A),
+           *B = calloc((size_t)m * (size_t)m, sizeof *B);
     double *re = calloc(3 * (size_t)m, sizeof *re), *im = re + m, *beta = im + m;
     int count = 0;
     for (int i = 0; i < n; i++) {
-        for (int j = 0; j < n; j++) { /* nu = 1/lambda: nu [K, 0; 0, 1] z = [-G, -M; 1, 0] z, column-major */
+        for (int j = 0; j < n;
+             j++) { /* nu = 1/lambda: nu [K, 0; 0, 1] z = [-G, -M; 1, 0] z, column-major */
             A[j * m + i] = -p->G[i * n + j];
             A[(n + j) * m + i] = -p->M[i * n + j];
             B[j * m + i] = p->K[i * n + j];
         }
         A[i * m + n + i] = B[(n + i) * m + n + i] = 1;
     }
-    gsl_test(LAPACKE_dggev(LAPACK_COL_MAJOR, 'N', 'N', m, A, m, B, m, re, im, beta, NULL, m, NULL, m) != 0, "LAPACK");
+    gsl_test(LAPACKE_dggev(LAPACK_COL_MAJOR, 'N', 'N', m, A, m, B, m, re, im, beta, NULL, m, NULL,
+                           m) != 0,
+             "LAPACK");
     *growth = 0;
     for (int i = 0; i < m; i++) {
         const double size = hypot(re[i], im[i]);
         if (!(size > 1e-7 * fabs(beta[i])))
             continue;
-        const double real = beta[i] * re[i] / (size * size), imaginary = -beta[i] * im[i] / (size * size);
+        const double real = beta[i] * re[i] / (size * size),
+                     imaginary = -beta[i] * im[i] / (size * size);
         *growth = fmax(*growth, real);
         if (imaginary > 0 && fabs(real) < 1e-6 * imaginary)
             frequency[count++] = imaginary;
@@ -109,7 +118,8 @@ static status solve(const problem *p, gyroscopic_result *r, fault *f)
     status outcome = factor_alloc(&K, &factors, f);
     if (outcome == STATUS_OK)
         outcome = factor_numeric(factors, &K, f);
-    const gyroscopic_problem problem_ = {.K = &K, .M = &M, .G = &G, .K_factor = factors, .wanted = WANTED};
+    const gyroscopic_problem problem_ = {
+        .K = &K, .M = &M, .G = &G, .K_factor = factors, .wanted = WANTED};
     if (outcome == STATUS_OK)
         outcome = gyroscopic_solve(&problem_, r, f);
     factor_free(factors);
@@ -135,9 +145,11 @@ static void compare(const problem *p, int definite_, const char *name)
         worst = fmax(worst, at < count ? fabs(r.frequency[i] / expected[at] - 1) : INFINITY);
         at++;
     }
-    gsl_test_int(r.count, count < WANTED && r.negative == 0 ? count : WANTED, "%s: number of modes", name);
+    gsl_test_int(r.count, count < WANTED && r.negative == 0 ? count : WANTED, "%s: number of modes",
+                 name);
     gsl_test(!(worst < 1e-9), "%s: frequencies are those of LAPACK (%.1e)", name, worst);
-    gsl_test((r.negative == 0) != definite_, "%s: %d negative eigenvalues of the stiffness", name, r.negative);
+    gsl_test((r.negative == 0) != definite_, "%s: %d negative eigenvalues of the stiffness", name,
+             r.negative);
     if (r.negative == 0)
         gsl_test(largest != 0, "%s: nothing grows where the stiffness is definite", name);
     else
@@ -226,13 +238,14 @@ static void compare_counts(const problem *p, const char *name)
     const int count = by_lapack(p, frequency, &growth);
     sparse K = upper(p->n, p->K), M = upper(p->n, p->M), G = upper(p->n, p->G);
     for (int k = 0; k <= count; k++) {
-        const double low = k > 0 ? frequency[k - 1] : frequency[0] / 2, high = k < count ? frequency[k] : 2 * frequency[count - 1];
+        const double low = k > 0 ? frequency[k - 1] : frequency[0] / 2,
+                     high = k < count ? frequency[k] : 2 * frequency[count - 1];
         int below = -1;
         fault f = {""};
         if (k > 0 && k < count && high - low < 1e-6 * high)
             continue;
-        gsl_test_int((int)gyroscopic_count(&K, &M, &G, k > 0 ? sqrt(low * high) : low, &below, &f), STATUS_OK, "%s: %s", name,
-                     f.text);
+        gsl_test_int((int)gyroscopic_count(&K, &M, &G, k > 0 ? sqrt(low * high) : low, &below, &f),
+                     STATUS_OK, "%s: %s", name, f.text);
         gsl_test_int(below, k, "%s: frequencies below the one of rank %d", name, k);
     }
     matrices_free(&K);
@@ -252,8 +265,8 @@ static void counts(void)
                 problem p;
                 alloc(size[i], &p);
                 fill(&p, strength[g], massless * size[i] / 3, 0);
-                snprintf(name, sizeof name, "%d unknowns, gyroscopic terms %g, %d massless", size[i], strength[g],
-                         massless * size[i] / 3);
+                snprintf(name, sizeof name, "%d unknowns, gyroscopic terms %g, %d massless",
+                         size[i], strength[g], massless * size[i] / 3);
                 compare_counts(&p, name);
                 free(p.K);
             }
@@ -279,7 +292,11 @@ static void hidden_precession(int masses, int wanted_outcome)
     if (wanted_outcome != STATUS_OK)
         gsl_test(strstr(f.text, "missing") == NULL, "what is missing is noticed: %s", f.text);
     for (int i = 0; i < r.count && outcome == STATUS_OK; i++)
-        gsl_test_rel(r.frequency[i], i < 2 ? i + 1 : i == 2 ? slow : i, 1e-9, "%d oscillators and a top: frequency %d", masses, i);
+        gsl_test_rel(r.frequency[i],
+                     i < 2    ? i + 1
+                     : i == 2 ? slow
+                              : i,
+                     1e-9, "%d oscillators and a top: frequency %d", masses, i);
     gyroscopic_free(&r);
     compare_counts(&p, "oscillators and a top");
     free(p.K);

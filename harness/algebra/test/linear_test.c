@@ -28,7 +28,9 @@ static void fill_random(int n, kind what, unsigned long long *seed, double A[])
             }
         }
     for (int i = 0; i < n; i++)
-        A[i * n + i] += what == DEFINITE ? 0.03 : what == INDEFINITE ? 4 * matrices_random(seed) : 1;
+        A[i * n + i] += what == DEFINITE     ? 0.03
+                        : what == INDEFINITE ? 4 * matrices_random(seed)
+                                             : 1;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             A[i * n + j] *= (i % 3 == 0 ? 1e3 : 1) * (j % 3 == 0 ? 1e3 : 1);
@@ -72,7 +74,8 @@ static double scaled_condition(int n, const double A[])
     int pivot[MOST];
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
-            const double size = fabs(A[i * n + i] != 0 ? A[i * n + i] : 1) * fabs(A[j * n + j] != 0 ? A[j * n + j] : 1);
+            const double size = fabs(A[i * n + i] != 0 ? A[i * n + i] : 1) *
+                                fabs(A[j * n + j] != 0 ? A[j * n + j] : 1);
             scaled[i * n + j] = A[i * n + j] / sqrt(size);
         }
     norm[0] = LAPACKE_dlange(LAPACK_ROW_MAJOR, '1', n, n, scaled, n);
@@ -106,7 +109,8 @@ static void random_matrices(kind what, const char *name, double allowed)
         sparse s = matrices_from_dense(n, what != UNSYMMETRIC, A);
         factor *fa;
         failures += factor_alloc(&s, &fa, NULL) != STATUS_OK;
-        for (int turn = 0; turn < 2; turn++) { /* the second time with other numbers on the same pattern */
+        for (int turn = 0; turn < 2;
+             turn++) { /* the second time with other numbers on the same pattern */
             for (int k = 0; k < s.column[n]; k++)
                 s.value[k] *= turn == 0 ? 1 : -0.3;
             for (int i = 0; i < n * n; i++)
@@ -114,7 +118,8 @@ static void random_matrices(kind what, const char *name, double allowed)
             failures += factor_numeric(fa, &s, NULL) != STATUS_OK;
             wrong_sign += factor_count(fa).determinant != determinant_sign(n, A);
             if (what != UNSYMMETRIC) {
-                const int expected = negative_eigenvalues(n, A), found = factor_count(fa).negative_pivots;
+                const int expected = negative_eigenvalues(n, A),
+                          found = factor_count(fa).negative_pivots;
                 wrong_inertia += found != expected;
                 most_negative = found > most_negative ? found : most_negative;
             }
@@ -128,18 +133,23 @@ static void random_matrices(kind what, const char *name, double allowed)
             factor_solve_refined(fa, &s, memcpy(x, b, sizeof x));
             worst_refined = fmax(worst_refined, distance_from_dense(n, A, x, b));
         }
-        gsl_test(factor_count(fa).entries < n || factor_count(fa).flops <= 0, "%s matrix of %d: work is counted", name, n);
+        gsl_test(factor_count(fa).entries < n || factor_count(fa).flops <= 0,
+                 "%s matrix of %d: work is counted", name, n);
         factor_free(fa);
         matrices_free(&s);
     }
-    gsl_test(!(least_condition > 0.3 && most_condition < 1 + 1e-9), "%s: the condition is estimated as %.2f to %.2f of what it is",
-             name, least_condition, most_condition);
+    gsl_test(!(least_condition > 0.3 && most_condition < 1 + 1e-9),
+             "%s: the condition is estimated as %.2f to %.2f of what it is", name, least_condition,
+             most_condition);
     gsl_test_int(failures, 0, "%s: all samples are factorised", name);
     gsl_test_int(wrong_sign, 0, "%s: the sign of the determinant", name);
     if (what != UNSYMMETRIC)
-        gsl_test_int(wrong_inertia, 0, "%s: negative pivots are the negative eigenvalues (up to %d)", name, most_negative);
+        gsl_test_int(wrong_inertia, 0,
+                     "%s: negative pivots are the negative eigenvalues (up to %d)", name,
+                     most_negative);
     gsl_test(!(worst < allowed), "%s: as LAPACK within %.1f eps times the condition", name, worst);
-    gsl_test(!(worst_refined < 1), "%s: refined, within %.2f eps times the condition", name, worst_refined);
+    gsl_test(!(worst_refined < 1), "%s: refined, within %.2f eps times the condition", name,
+             worst_refined);
 }
 
 static status outcome_of(const sparse *s, fault *f)
@@ -173,13 +183,14 @@ static void small_singular_matrices(void)
         for (int symmetric = 0; symmetric < 2; symmetric++) {
             fault f = {""};
             sparse s = matrices_from_dense(3, symmetric, sample[i].A);
-            gsl_test_int((int)outcome_of(&s, &f), (int)sample[i].expected, "%s (%s): %s", sample[i].name,
-                         symmetric ? "symmetric" : "unsymmetric", f.text);
+            gsl_test_int((int)outcome_of(&s, &f), (int)sample[i].expected, "%s (%s): %s",
+                         sample[i].name, symmetric ? "symmetric" : "unsymmetric", f.text);
             matrices_free(&s);
         }
     const double growth[4] = {1e-17, 1, 1, 0};
     sparse s = matrices_from_dense(2, 1, growth);
-    gsl_test_int((int)outcome_of(&s, NULL), STATUS_SINGULAR, "a pivot that is small beside its column destroys the digits");
+    gsl_test_int((int)outcome_of(&s, NULL), STATUS_SINGULAR,
+                 "a pivot that is small beside its column destroys the digits");
     matrices_free(&s);
     s = matrices_from_dense(2, 0, growth);
     gsl_test_int((int)outcome_of(&s, NULL), STATUS_OK, "and does no harm with row exchanges");
@@ -210,10 +221,12 @@ static void beams_that_are_not_held(void)
     for (int n = 1; n <= 2048; n *= 2)
         for (int unsymmetric = 0; unsymmetric < 2; unsymmetric++) {
             const char *kind_name = unsymmetric ? "LU" : "LDL";
-            gsl_test_int((int)beam_outcome(n, 0, unsymmetric), STATUS_SINGULAR, "%s: free beam of %d elements", kind_name, n);
-            gsl_test_int((int)beam_outcome(n, 1, unsymmetric), STATUS_SINGULAR, "%s: beam of %d elements that can turn", kind_name,
-                         n);
-            gsl_test_int((int)beam_outcome(n, 2, unsymmetric), STATUS_OK, "%s: cantilever of %d elements", kind_name, n);
+            gsl_test_int((int)beam_outcome(n, 0, unsymmetric), STATUS_SINGULAR,
+                         "%s: free beam of %d elements", kind_name, n);
+            gsl_test_int((int)beam_outcome(n, 1, unsymmetric), STATUS_SINGULAR,
+                         "%s: beam of %d elements that can turn", kind_name, n);
+            gsl_test_int((int)beam_outcome(n, 2, unsymmetric), STATUS_OK,
+                         "%s: cantilever of %d elements", kind_name, n);
         }
 }
 
@@ -223,11 +236,13 @@ static void nothing_to_solve(void)
     for (int symmetric = 0; symmetric < 2; symmetric++) {
         const sparse none = {0, symmetric, column, NULL, NULL};
         factor *fa;
-        gsl_test(factor_alloc(&none, &fa, NULL) != STATUS_OK || factor_numeric(fa, &none, NULL) != STATUS_OK,
+        gsl_test(factor_alloc(&none, &fa, NULL) != STATUS_OK ||
+                     factor_numeric(fa, &none, NULL) != STATUS_OK,
                  "no unknowns are no problem");
         factor_solve(fa, NULL);
         factor_solve_refined(fa, &none, NULL);
-        gsl_test_int(factor_count(fa).negative_pivots, symmetric ? 0 : -1, "of %s kind", symmetric ? "symmetric" : "unsymmetric");
+        gsl_test_int(factor_count(fa).negative_pivots, symmetric ? 0 : -1, "of %s kind",
+                     symmetric ? "symmetric" : "unsymmetric");
         factor_free(fa);
     }
     factor_free(NULL);

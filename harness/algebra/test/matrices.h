@@ -100,7 +100,8 @@ static inline void matrices_add(sparse *s, int i, int j, double value)
 }
 
 /* Adds element matrices k[2 size x 2 size] of all pairs of neighbouring nodes; the first `left_out` unknowns do not exist. */
-static inline void matrices_add_elements(sparse *s, int elements, int size, int left_out, const double k[])
+static inline void matrices_add_elements(sparse *s, int elements, int size, int left_out,
+                                         const double k[])
 {
     for (int e = 0; e < elements; e++)
         for (int a = 0; a < 2 * size; a++)
@@ -113,7 +114,8 @@ static inline void matrices_add_elements(sparse *s, int elements, int size, int 
 
 /* Shear-rigid beam element of length h in a plane, EI = 1: stiffness, geometric stiffness at unit compression (its negative)
  * and mass per unit length 1; unknowns w and the slope at both ends. */
-static inline void matrices_beam(double h, double stiffness[16], double compression[16], double mass[16])
+static inline void matrices_beam(double h, double stiffness[16], double compression[16],
+                                 double mass[16])
 {
     const double k[16] = {12, 6, -12, 6, 6, 4, -6, 2, -12, -6, 12, -6, 6, 2, -6, 4};
     const double g[16] = {36, 3, -36, 3, 3, 4, -3, -1, -36, -3, 36, -3, 3, -1, -3, 4};

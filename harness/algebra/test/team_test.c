@@ -29,7 +29,8 @@ static void every_index_once(int threads)
         for (int i = 0; i < MOST; i++)
             expected += visits[i] == (i < count);
         if (round % 500 == 0)
-            nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL); /* long enough for the others to fall asleep */
+            nanosleep(&(struct timespec){.tv_nsec = 2000000},
+                      NULL); /* long enough for the others to fall asleep */
     }
     gsl_test_int(expected, 2000 * MOST, "%d threads: every index once in every round", threads);
     team_free(t);

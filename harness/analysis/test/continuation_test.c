@@ -9,18 +9,21 @@
 #include "harness/catalogue/parameters.h"
 #include "harness/study/cell.h"
 
-static cell_result solve(const case_type *type, const char *formulation_text, int n, const char *assignments)
+static cell_result solve(const case_type *type, const char *formulation_text, int n,
+                         const char *assignments)
 {
     cell_request request = {.type = type, .elements = n};
     cell_result result;
     formulation chosen;
     fault f = {""};
     char copy[128], *rest = NULL;
-    gsl_test(formulation_parse(formulation_text, &chosen, &f) != STATUS_OK, "%s exists", formulation_text);
+    gsl_test(formulation_parse(formulation_text, &chosen, &f) != STATUS_OK, "%s exists",
+             formulation_text);
     parameters_default(type, request.parameter);
     snprintf(copy, sizeof copy, "%s", assignments);
     for (char *one = strtok_r(copy, ";", &rest); one != NULL; one = strtok_r(NULL, ";", &rest))
-        gsl_test(parameters_set(type, one, request.parameter, &f) != STATUS_OK, "%s: %s", type->name, one);
+        gsl_test(parameters_set(type, one, request.parameter, &f) != STATUS_OK, "%s: %s",
+                 type->name, one);
     request.formulation = chosen.type;
     memcpy(request.option, chosen.option, sizeof request.option);
     request.solve.newton = chosen.newton;
@@ -40,7 +43,8 @@ static double load(const char *assignments, const char *formulation_text)
 {
     cell_result r = solve(case_find("c_cantilever", NULL), formulation_text, 10, assignments);
     const double value = value_of(&r, "load_at_w");
-    gsl_test_int((int)r.solve.status, STATUS_OK, "c_cantilever (%s) is solved: %s", assignments, r.solve.reason);
+    gsl_test_int((int)r.solve.status, STATUS_OK, "c_cantilever (%s) is solved: %s", assignments,
+                 r.solve.reason);
     cell_result_free(&r);
     return value;
 }
@@ -48,7 +52,8 @@ static double load(const char *assignments, const char *formulation_text)
 static void limit_points(void)
 {
     const double c = pow(cos(0.3), 2 / 3.0), exact = 2 * pow(1 - c, 1.5);
-    const char *const control[] = {"control=arc", "control=displacement", "control=arc;step=0.005", "control=arc;step=0.1"};
+    const char *const control[] = {"control=arc", "control=displacement", "control=arc;step=0.005",
+                                   "control=arc;step=0.1"};
     for (int i = 0; i < 4; i++) {
         cell_result r = solve(case_find("snap_through", NULL), "beamw", 1, control[i]);
         gsl_test_int(r.solve.events, 2, "%s: two events", control[i]);
@@ -56,7 +61,8 @@ static void limit_points(void)
             const path_event *e = &r.solve.event[k];
             gsl_test_int((int)e->kind, EVENT_LIMIT_POINT, "%s: a limit point", control[i]);
             gsl_test_rel(e->factor, k == 0 ? exact : -exact, 1e-12, "%s: its load", control[i]);
-            gsl_test_int(e->negative_after - e->negative_before, k == 0 ? 1 : -1, "%s: one pivot changes its sign", control[i]);
+            gsl_test_int(e->negative_after - e->negative_before, k == 0 ? 1 : -1,
+                         "%s: one pivot changes its sign", control[i]);
         }
         cell_result_free(&r);
     }
@@ -77,7 +83,8 @@ static status build_column(const double value[], scene *s, fault *f)
     c->Ip = 41;
     c->It = 40;
     const double y_axis[3] = {0, 1, 0}, end = -0.3;
-    const int profile = scene_add_section(s, &spec), root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, 1, 0, 0);
+    const int profile = scene_add_section(s, &spec), root = scene_add_node(s, 0, 0, 0),
+              tip = scene_add_node(s, 1, 0, 0);
     scene_add_member(s, root, tip, profile, y_axis);
     scene_hold_all(s, root);
     scene_add_load(s, SCENE_FORCE, tip, -1, 0, 0);
@@ -96,19 +103,22 @@ static status build_column(const double value[], scene *s, fault *f)
 
 static void bifurcations(const char *assignment)
 {
-    static const case_parameter table[] = {{"moment", "1", 0, 0, 1, NULL, "1: with a moment of no size"},
-                                           {NULL, NULL, 0, 0, 0, NULL, NULL}};
+    static const case_parameter table[] = {
+        {"moment", "1", 0, 0, 1, NULL, "1: with a moment of no size"},
+        {NULL, NULL, 0, 0, 0, NULL, NULL}};
     const case_type column = {.name = "column", .parameters = table, .build = build_column};
     const double pi = 3.14159265358979323846, EA = 100;
     cell_result r = solve(&column, "collocation", 8, assignment);
-    gsl_test_int((int)r.solve.status, STATUS_OK, "the column is compressed to 0.7 of its length: %s", r.solve.reason);
+    gsl_test_int((int)r.solve.status, STATUS_OK,
+                 "the column is compressed to 0.7 of its length: %s", r.solve.reason);
     gsl_test(r.solve.events < 1, "a bifurcation is met");
     const double Euler = pi * pi / 4, exact = EA * (1 - sqrt(1 - 4 * Euler / EA)) / 2;
     for (int i = 0; i < r.solve.events; i++) {
         gsl_test_int((int)r.solve.event[i].kind, EVENT_BIFURCATION, "event %d is a bifurcation", i);
         gsl_test(!(r.solve.event[i].measure < 1e-8), "the load does no work on its null vector");
     }
-    gsl_test_rel(value_of(&r, "bifurcation"), exact, 1e-7, "the first lies at the buckling load of the compressed column");
+    gsl_test_rel(value_of(&r, "bifurcation"), exact, 1e-7,
+                 "the first lies at the buckling load of the compressed column");
     cell_result_free(&r);
 }
 
@@ -120,20 +130,24 @@ static void both_kinds(void)
     cell_result r = solve(case_find("lee_frame", NULL), "beamw_consistent", 8, "plane=0");
     gsl_test_int(r.solve.events, 3, "three critical points");
     for (int i = 0; i < 3 && i < r.solve.events; i++) {
-        gsl_test_int((int)r.solve.event[i].kind, (int)kind[i], "point %d is a %s", i, event_name(kind[i]));
+        gsl_test_int((int)r.solve.event[i].kind, (int)kind[i], "point %d is a %s", i,
+                     event_name(kind[i]));
         gsl_test_int(r.solve.event[i].negative_after, after[i], "negative pivots after it");
-        gsl_test((r.solve.event[i].measure < 1e-5) != (kind[i] == EVENT_BIFURCATION), "the work of the load on its null vector");
+        gsl_test((r.solve.event[i].measure < 1e-5) != (kind[i] == EVENT_BIFURCATION),
+                 "the work of the load on its null vector");
     }
     cell_result_free(&r);
 }
 
 static void constant_steps(void)
 {
-    const double adaptive = load("w=1.0", "beamw_vlasov"), constant = load("w=1.0;step=0.02", "beamw_vlasov"),
+    const double adaptive = load("w=1.0", "beamw_vlasov"),
+                 constant = load("w=1.0;step=0.02", "beamw_vlasov"),
                  long_steps = load("w=1.0;step=0.1", "beamw_vlasov"),
                  displacement = load("w=1.0", "beamw_vlasov:newton=displacement");
     gsl_test_rel(constant, adaptive, 1e-11, "constant and adaptive steps find the same state");
-    gsl_test_rel(long_steps, adaptive, 1e-11, "so do steps that must be walked again in smaller ones");
+    gsl_test_rel(long_steps, adaptive, 1e-11,
+                 "so do steps that must be walked again in smaller ones");
     gsl_test_rel(displacement, adaptive, 1e-11, "so does Newton in displacements only");
 }
 
@@ -142,14 +156,17 @@ static const char jump[] = "w=0.5;load_point=E;step=0.25";
 static void jump_ends_constant_steps(void)
 {
     cell_result r = solve(case_find("c_cantilever", NULL), "beamw_first", 10, jump);
-    gsl_test_int((int)r.solve.status, STATUS_NOT_CONVERGED, "coarse steps at E do not succeed silently");
-    gsl_test(strstr(r.solve.reason, "jumps to another branch") == NULL, "the reason names the jump: %s", r.solve.reason);
+    gsl_test_int((int)r.solve.status, STATUS_NOT_CONVERGED,
+                 "coarse steps at E do not succeed silently");
+    gsl_test(strstr(r.solve.reason, "jumps to another branch") == NULL,
+             "the reason names the jump: %s", r.solve.reason);
     gsl_test_int(r.solve.events, 1, "one event");
     if (r.solve.events == 1) {
         const path_event *e = &r.solve.event[0];
         gsl_test_int((int)e->kind, EVENT_BRANCH_JUMP, "which is the jump");
         gsl_test_rel(e->factor, 11832.2, 1e-5, "the load on the path itself at w = 0.25 m");
-        gsl_test(!(e->other_factor > 1.3 * e->factor), "the load of the other branch, %g", e->other_factor);
+        gsl_test(!(e->other_factor > 1.3 * e->factor), "the load of the other branch, %g",
+                 e->other_factor);
     }
     gsl_test(r.counters.rejected_steps < 1, "the step is counted as rejected");
     cell_result_free(&r);
@@ -168,8 +185,10 @@ static void jump_is_walked_around(void)
     type.build = build_adaptive;
     cell_result r = solve(&type, "beamw_first", 10, jump);
     gsl_test_int((int)r.solve.status, STATUS_OK, "adaptive steps go on: %s", r.solve.reason);
-    gsl_test(r.solve.events != 1 || r.solve.event[0].kind != EVENT_BRANCH_JUMP, "and name the jump");
-    gsl_test_rel(value_of(&r, "load_at_w"), load("w=0.5;load_point=E", "beamw_first"), 1e-11, "on the branch they started on");
+    gsl_test(r.solve.events != 1 || r.solve.event[0].kind != EVENT_BRANCH_JUMP,
+             "and name the jump");
+    gsl_test_rel(value_of(&r, "load_at_w"), load("w=0.5;load_point=E", "beamw_first"), 1e-11,
+                 "on the branch they started on");
     cell_result_free(&r);
 }
 
@@ -194,13 +213,16 @@ static void long_arcs(void)
     type.build = build_long_arcs;
     for (int i = 0; i < 4; i++) {
         cell_result r = solve(&type, "beamw_consistent", 4, step[i]);
-        gsl_test_int((int)r.solve.status, STATUS_OK, "constant arcs, five times %s: %s", step[i], r.solve.reason);
+        gsl_test_int((int)r.solve.status, STATUS_OK, "constant arcs, five times %s: %s", step[i],
+                     r.solve.reason);
         gsl_test_int(r.solve.events, 2, "constant arcs, five times %s: two limit points", step[i]);
-        gsl_test_rel(value_of(&r, "limit_load_back"), load_back, 1e-10, "constant arcs, five times %s: the same load", step[i]);
+        gsl_test_rel(value_of(&r, "limit_load_back"), load_back, 1e-10,
+                     "constant arcs, five times %s: the same load", step[i]);
         cell_result_free(&r);
     }
     cell_result r = solve(&type, "beamw_consistent", 4, "step=0.1");
-    gsl_test_int((int)r.solve.status, STATUS_NOT_CONVERGED, "constant arcs of 0.5: a jump ends the path: %s", r.solve.reason);
+    gsl_test_int((int)r.solve.status, STATUS_NOT_CONVERGED,
+                 "constant arcs of 0.5: a jump ends the path: %s", r.solve.reason);
     gsl_test(r.solve.events < 1 || r.solve.event[r.solve.events - 1].kind != EVENT_BRANCH_JUMP,
              "constant arcs of 0.5: it is named");
     cell_result_free(&r);
@@ -216,7 +238,8 @@ static void refusals(void)
     scene_init(&s, "refused");
     gsl_test_int((int)type->build(value, &s, &f), STATUS_OK, "a scene to spoil");
     s.analysis[0].control_component = SCENE_RX;
-    gsl_test_int((int)scene_validate(&s, &f), STATUS_REFUSED, "a rotation as control coordinate: %s", f.text);
+    gsl_test_int((int)scene_validate(&s, &f), STATUS_REFUSED,
+                 "a rotation as control coordinate: %s", f.text);
     s.analysis[0].control_component = SCENE_UZ;
     s.analysis[0].step = 0;
     gsl_test_int((int)scene_validate(&s, &f), STATUS_REFUSED, "steps of no length: %s", f.text);

@@ -14,7 +14,8 @@ typedef struct matrices {
     double C[36], K[36];
 } matrices;
 
-static void solve(const char *case_name, const char *const assignment[], const char *chosen, cell_result *out)
+static void solve(const char *case_name, const char *const assignment[], const char *chosen,
+                  cell_result *out)
 {
     cell_request request = {.type = case_find(case_name, NULL), .elements = 4};
     formulation fm;
@@ -22,20 +23,24 @@ static void solve(const char *case_name, const char *const assignment[], const c
     gsl_test(formulation_parse(chosen, &fm, &f) != STATUS_OK, "%s exists", chosen);
     parameters_default(request.type, request.parameter);
     for (int i = 0; assignment[i] != NULL; i++)
-        gsl_test(parameters_set(request.type, assignment[i], request.parameter, &f) != STATUS_OK, "%s", assignment[i]);
+        gsl_test(parameters_set(request.type, assignment[i], request.parameter, &f) != STATUS_OK,
+                 "%s", assignment[i]);
     request.formulation = fm.type;
     memcpy(request.option, fm.option, sizeof request.option);
     request.solve.newton = fm.newton;
     gsl_test(cell_run(&request, out, &f) != STATUS_OK, "%s solved: %s", case_name, f.text);
 }
 
-static matrices of(const char *case_name, const char *convention, const char *more, const char *and_more)
+static matrices of(const char *case_name, const char *convention, const char *more,
+                   const char *and_more)
 {
     const char *const assignment[] = {convention, more, and_more, NULL};
     cell_result r;
     matrices out = {{NAN}, {NAN}};
     solve(case_name, assignment, "collocation", &r);
-    gsl_test(r.solve.matrix_sets != 1 || strcmp(strchr(convention, '=') + 1, scene_moments_name(r.solve.matrices[0].moments)) != 0,
+    gsl_test(r.solve.matrix_sets != 1 ||
+                 strcmp(strchr(convention, '=') + 1,
+                        scene_moments_name(r.solve.matrices[0].moments)) != 0,
              "the result names %s", convention);
     const nodal_matrices *m = &r.solve.matrices[0];
     memcpy(out.C, m->compliance + 36 * (m->stations - 1), sizeof out.C);
@@ -49,7 +54,8 @@ static double asymmetry(const double A[36])
     double largest = 0;
     for (int i = 0; i < 6; i++)
         for (int j = 0; j < i; j++)
-            largest = fmax(largest, fabs(A[6 * i + j] - A[6 * j + i]) / sqrt(fabs(A[7 * i] * A[7 * j])));
+            largest =
+                fmax(largest, fabs(A[6 * i + j] - A[6 * j + i]) / sqrt(fabs(A[7 * i] * A[7 * j])));
     return largest;
 }
 
@@ -74,29 +80,40 @@ static void sheets(void)
 {
     const matrices near = of("sheet_cantilever", "moment_convention=spatial", NULL, NULL),
                    near_sym = of("sheet_cantilever", "moment_convention=symmetrised", NULL, NULL),
-                   far = of("sheet_cantilever", "moment_convention=spatial", "tip_deflection=0.05", NULL),
-                   far_sym = of("sheet_cantilever", "moment_convention=symmetrised", "tip_deflection=0.05", NULL);
+                   far = of("sheet_cantilever", "moment_convention=spatial", "tip_deflection=0.05",
+                            NULL),
+                   far_sym = of("sheet_cantilever", "moment_convention=symmetrised",
+                                "tip_deflection=0.05", NULL);
     const int zz = 6 * 2 + 2;
-    gsl_test_abs(near_sym.C[zz] / near.C[zz] - 1, 3.31e-5, 1e-7, "C_zz at 0.15 L: symmetrised against spatial");
-    gsl_test_abs(far_sym.C[zz] / far.C[zz] - 1, 2.741e-3, 2e-6, "C_zz at 0.5 L: symmetrised against spatial");
+    gsl_test_abs(near_sym.C[zz] / near.C[zz] - 1, 3.31e-5, 1e-7,
+                 "C_zz at 0.15 L: symmetrised against spatial");
+    gsl_test_abs(far_sym.C[zz] / far.C[zz] - 1, 2.741e-3, 2e-6,
+                 "C_zz at 0.5 L: symmetrised against spatial");
 }
 
 static void reciprocity(void)
 {
     const int ux_My = 4, thy_Fx = 6 * 4;
-    static const char *const tip[] = {"tip_warping=0", "tip_warping=1"}, *const wagner[] = {"wagner=1", "wagner=0"};
+    static const char *const tip[] = {"tip_warping=0", "tip_warping=1"}, *const wagner[] = {
+                                                                             "wagner=1",
+                                                                             "wagner=0"};
     static const double apart[] = {0.14635, 0.31830}, changed[] = {0.07425, 0.15996};
     for (int i = 0; i < 2; i++) {
         const matrices spatial = of("sheet_wagner", "moment_convention=spatial", tip[i], wagner[i]),
-                       half = of("sheet_wagner", "moment_convention=semitangential", tip[i], wagner[i]),
+                       half = of("sheet_wagner", "moment_convention=semitangential", tip[i],
+                                 wagner[i]),
                        sym = of("sheet_wagner", "moment_convention=symmetrised", tip[i], wagner[i]);
-        gsl_test_abs(spatial.C[thy_Fx] / spatial.C[ux_My] - 1, apart[i], 1e-5, "%s, spatial: thy by Fx and ux by My", tip[i]);
-        gsl_test_abs(sym.C[ux_My] / spatial.C[ux_My] - 1, changed[i], 1e-5, "%s: ux by My, symmetrised against spatial", tip[i]);
+        gsl_test_abs(spatial.C[thy_Fx] / spatial.C[ux_My] - 1, apart[i], 1e-5,
+                     "%s, spatial: thy by Fx and ux by My", tip[i]);
+        gsl_test_abs(sym.C[ux_My] / spatial.C[ux_My] - 1, changed[i], 1e-5,
+                     "%s: ux by My, symmetrised against spatial", tip[i]);
         gsl_test_rel(sym.C[thy_Fx], sym.C[ux_My], 1e-12, "%s, symmetrised: reciprocal", tip[i]);
         gsl_test(asymmetry(sym.K) > 1e-13, "%s, symmetrised: %.1e", tip[i], asymmetry(sym.K));
-        gsl_test(asymmetry(half.C) > 1e-9, "%s: semitangential moments have a potential: %.1e", tip[i], asymmetry(half.C));
+        gsl_test(asymmetry(half.C) > 1e-9, "%s: semitangential moments have a potential: %.1e",
+                 tip[i], asymmetry(half.C));
         gsl_test(asymmetry(spatial.C) < 1e-2, "%s: spatial moments have none", tip[i]);
-        gsl_test_rel(half.C[ux_My], sym.C[ux_My], 1e-9, "%s: the symmetric part is the semitangential stiffness", tip[i]);
+        gsl_test_rel(half.C[ux_My], sym.C[ux_My], 1e-9,
+                     "%s: the symmetric part is the semitangential stiffness", tip[i]);
     }
 }
 
@@ -114,15 +131,19 @@ static void quadratic(void)
             ascending &= r.solve.step[i].first == sum;
             sum += r.solve.step[i].iterations;
         }
-        gsl_test(sum != r.counters.iterations || sum != r.solve.iterations || !ascending, "%s: every iteration is recorded",
-                 newton[k]);
+        gsl_test(sum != r.counters.iterations || sum != r.solve.iterations || !ascending,
+                 "%s: every iteration is recorded", newton[k]);
         const step_record *last = &r.solve.step[r.solve.steps - 1];
         const iteration_record *it = &r.solve.iteration[last->first];
         gsl_test_abs(it[0].residual, 1, 0, "%s: residuals relative to the first", newton[k]);
-        gsl_test(it[last->iterations - 1].correction != last->correction || !(last->correction < 1e-8), "%s: converged", newton[k]);
+        gsl_test(it[last->iterations - 1].correction != last->correction ||
+                     !(last->correction < 1e-8),
+                 "%s: converged", newton[k]);
         for (int i = 2; i < last->iterations; i++) {
-            const double order = log(it[i].correction / it[0].correction) / log(it[i - 1].correction / it[0].correction);
-            gsl_test(!(it[i].correction < 1e-14) && !(order > 1.8), "%s: order %.2f of iteration %d", newton[k], order, i + 1);
+            const double order = log(it[i].correction / it[0].correction) /
+                                 log(it[i - 1].correction / it[0].correction);
+            gsl_test(!(it[i].correction < 1e-14) && !(order > 1.8),
+                     "%s: order %.2f of iteration %d", newton[k], order, i + 1);
             gsl_test(!(it[i].residual < it[i - 1].residual), "%s: residual falls", newton[k]);
         }
         cell_result_free(&r);
@@ -160,7 +181,8 @@ static status tilted_hinge(const double value[], scene *s, fault *f)
     return outcome;
 }
 
-static matrices of_hinge(const char *rotation, const char *convention, double force, int in_other_axes)
+static matrices of_hinge(const char *rotation, const char *convention, double force,
+                         int in_other_axes)
 {
     case_type type = *case_find("cross_flexure", NULL);
     cell_request request = {.type = &type, .elements = 2};
@@ -178,7 +200,8 @@ static matrices of_hinge(const char *rotation, const char *convention, double fo
     type.build = tilted_hinge;
     request.formulation = fm.type;
     memcpy(request.option, fm.option, sizeof request.option);
-    gsl_test(cell_run(&request, &r, &f) != STATUS_OK, "%s, %s solved: %s", rotation, convention, f.text);
+    gsl_test(cell_run(&request, &r, &f) != STATUS_OK, "%s, %s solved: %s", rotation, convention,
+             f.text);
     const nodal_matrices *m = &r.solve.matrices[0];
     memcpy(out.C, m->compliance + 36 * (m->stations - 1), sizeof out.C);
     memcpy(out.K, m->stiffness + 36 * (m->stations - 1), sizeof out.K);
@@ -197,7 +220,8 @@ static void in_other_axes(const double A[36], double B[36])
             B[6 * i + j] = 0;
             for (int k = 0; k < 3; k++)
                 for (int l = 0; l < 3; l++)
-                    B[6 * i + j] += Q[3 * (i % 3) + k] * A[6 * (i / 3 * 3 + k) + j / 3 * 3 + l] * Q[3 * (j % 3) + l];
+                    B[6 * i + j] += Q[3 * (i % 3) + k] * A[6 * (i / 3 * 3 + k) + j / 3 * 3 + l] *
+                                    Q[3 * (j % 3) + l];
         }
 }
 
@@ -223,8 +247,10 @@ static double block_difference(const double A[36], const double B[36])
 /* Turns that are partly free span a plane that lies askew in other axes, and in a tilted state. */
 static void partly_free_turns(void)
 {
-    static const char *const rotation[] = {"rotation=hinge", "rotation=first", "rotation=last", "rotation=between"},
-                             *const convention[] = {"moment_convention=spatial", "moment_convention=symmetrised"};
+    static const char *const rotation[] = {"rotation=hinge", "rotation=first", "rotation=last",
+                                           "rotation=between"},
+                             *const convention[] = {"moment_convention=spatial",
+                                                    "moment_convention=symmetrised"};
     for (int i = 0; i < 4; i++)
         for (int k = 0; k < 2; k++)
             for (int tilted = 0; tilted < 2; tilted++) {
@@ -233,10 +259,12 @@ static void partly_free_turns(void)
                 matrices expected;
                 in_other_axes(here.C, expected.C);
                 in_other_axes(here.K, expected.K);
-                gsl_test(!(block_difference(there.C, expected.C) <= 1e-7), "%s, %s%s: compliance in other axes: %.1e", rotation[i],
-                         convention[k], tilted ? ", tilted" : "", block_difference(there.C, expected.C));
-                gsl_test(!(block_difference(there.K, expected.K) <= 1e-7), "%s, %s%s: stiffness in other axes: %.1e", rotation[i],
-                         convention[k], tilted ? ", tilted" : "", block_difference(there.K, expected.K));
+                gsl_test(!(block_difference(there.C, expected.C) <= 1e-7),
+                         "%s, %s%s: compliance in other axes: %.1e", rotation[i], convention[k],
+                         tilted ? ", tilted" : "", block_difference(there.C, expected.C));
+                gsl_test(!(block_difference(there.K, expected.K) <= 1e-7),
+                         "%s, %s%s: stiffness in other axes: %.1e", rotation[i], convention[k],
+                         tilted ? ", tilted" : "", block_difference(there.K, expected.K));
             }
 }
 

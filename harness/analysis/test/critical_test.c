@@ -59,7 +59,8 @@ static void ask_for_loads(scene *s, int signs)
 }
 
 /* Positive ones only, or of both signs. 0: the formulation does not offer it. */
-static int run(const element_type *e, build *make, const double direction[3], int n, int signs, loads *out)
+static int run(const element_type *e, build *make, const double direction[3], int n, int signs,
+               loads *out)
 {
     scene s;
     model *m = NULL;
@@ -87,7 +88,8 @@ static int run(const element_type *e, build *make, const double direction[3], in
     return offered;
 }
 
-static int find_loads(const element_type *e, build *make, const double direction[3], int n, loads *out)
+static int find_loads(const element_type *e, build *make, const double direction[3], int n,
+                      loads *out)
 {
     const int offered = run(e, make, direction, n, 2, out);
     gsl_test(offered && out->status != STATUS_OK, "%s: solved (%s)", e->name, out->reason);
@@ -99,11 +101,13 @@ static int end_node(scene *s, const double direction[3], double at)
     return scene_add_node(s, at * direction[0], at * direction[1], at * direction[2]);
 }
 
-static const double along_x[3] = {1, 0, 0}, oblique[3] = {2.0 / 3, -1.0 / 3, 2.0 / 3}, y_axis[3] = {0.1, 1, 0.05};
+static const double along_x[3] = {1, 0, 0}, oblique[3] = {2.0 / 3, -1.0 / 3, 2.0 / 3},
+                    y_axis[3] = {0.1, 1, 0.05};
 
 static void push(scene *s, int node, const double direction[3], double force)
 {
-    scene_add_load(s, SCENE_FORCE, node, force * direction[0], force * direction[1], force * direction[2]);
+    scene_add_load(s, SCENE_FORCE, node, force * direction[0], force * direction[1],
+                   force * direction[2]);
 }
 
 static int cantilever(scene *s, const double direction[3])
@@ -132,7 +136,8 @@ static void unloaded(scene *s, const double direction[3])
 /* Held at both ends and pushed in the middle: one half is compressed, the other stretched. */
 static void half_and_half(scene *s, const double direction[3])
 {
-    const int a = scene_add_node(s, 0, 0, 0), b = end_node(s, direction, length / 2), c = end_node(s, direction, length);
+    const int a = scene_add_node(s, 0, 0, 0), b = end_node(s, direction, length / 2),
+              c = end_node(s, direction, length);
     const int profile = square(s);
     scene_add_member(s, a, b, profile, y_axis);
     scene_add_member(s, b, c, profile, y_axis);
@@ -146,7 +151,8 @@ static void with_arm(scene *s, const double direction[3], double arm)
 {
     const int tip = cantilever(s, direction);
     const double at = length + arm;
-    const int end = scene_add_attached(s, tip, at * direction[0], at * direction[1], at * direction[2]);
+    const int end =
+        scene_add_attached(s, tip, at * direction[0], at * direction[1], at * direction[2]);
     push(s, end, direction, -1);
 }
 
@@ -163,7 +169,8 @@ static void arm_before(scene *s, const double direction[3])
 /* tan(kL) = 1/(k a) in (0, pi/2) for a > 0, (pi/2, pi) for a < 0. */
 static double load_with_arm(double arm)
 {
-    double low = (arm > 0 ? 1e-9 : 0.5 + 1e-9) * M_PI / length, high = low + (0.5 - 2e-9) * M_PI / length;
+    double low = (arm > 0 ? 1e-9 : 0.5 + 1e-9) * M_PI / length,
+           high = low + (0.5 - 2e-9) * M_PI / length;
     for (int i = 0; i < 200; i++) {
         const double k = (low + high) / 2, value = cos(k * length) - k * arm * sin(k * length);
         *(value > 0 ? &low : &high) = k;
@@ -171,7 +178,8 @@ static double load_with_arm(double arm)
     return low * low * flexural_rigidity();
 }
 
-static void expect(const element_type *e, const char *what, const loads *l, int sign, int order, double exact, double tolerance)
+static void expect(const element_type *e, const char *what, const loads *l, int sign, int order,
+                   double exact, double tolerance)
 {
     gsl_test_rel(l->value[sign][order], exact, tolerance, "%s, %s: %s load %d (%s)", e->name, what,
                  sign == 0 ? "positive" : "negative", order + 1, l->why[sign][order]);
@@ -180,7 +188,8 @@ static void expect(const element_type *e, const char *what, const loads *l, int 
 static void expect_none(const element_type *e, const char *what, const loads *l, int sign)
 {
     for (int i = 0; i < WANTED; i++)
-        gsl_test(!isnan(l->value[sign][i]) || strstr(l->why[sign][i], sign == 0 ? "no positive" : "no negative") == NULL,
+        gsl_test(!isnan(l->value[sign][i]) ||
+                     strstr(l->why[sign][i], sign == 0 ? "no positive" : "no negative") == NULL,
                  "%s, %s: %g, %s", e->name, what, l->value[sign][i], l->why[sign][i]);
 }
 
@@ -194,7 +203,8 @@ static int columns(const element_type *e, const double direction[3])
     for (int i = 0; i < WANTED; i++) {
         expect(e, "compressed", &l, 0, i, exact[i], i < 2 ? 2e-3 : 2e-2);
         if (i % 2 == 1)
-            gsl_test_rel(l.value[0][i], l.value[0][i - 1], 1e-7, "%s: loads %d and %d are equal", e->name, i, i + 1);
+            gsl_test_rel(l.value[0][i], l.value[0][i - 1], 1e-7, "%s: loads %d and %d are equal",
+                         e->name, i, i + 1);
     }
     if (find_loads(e, stretched, direction, ELEMENTS, &l)) {
         for (int i = 0; i < WANTED; i++)
@@ -206,9 +216,10 @@ static int columns(const element_type *e, const double direction[3])
     }
     if (find_loads(e, half_and_half, direction, ELEMENTS, &l))
         for (int i = 0; i < WANTED; i++) {
-            gsl_test_rel(l.value[0][i], -l.value[1][i], 1e-7, "%s, half and half: load %d has both signs", e->name, i + 1);
-            gsl_test(i > 0 && !(l.value[0][i] >= l.value[0][i - 1] * (1 - 1e-9)), "%s, half and half: load %d in order", e->name,
-                     i + 1);
+            gsl_test_rel(l.value[0][i], -l.value[1][i], 1e-7,
+                         "%s, half and half: load %d has both signs", e->name, i + 1);
+            gsl_test(i > 0 && !(l.value[0][i] >= l.value[0][i - 1] * (1 - 1e-9)),
+                     "%s, half and half: load %d in order", e->name, i + 1);
         }
     if (find_loads(e, arm_beyond, direction, ELEMENTS, &l))
         expect(e, "arm beyond the tip", &l, 0, 0, load_with_arm(length), 2e-3);
@@ -301,20 +312,23 @@ static void one_side_alone(const element_type *e)
         loads both, alone;
         if (!run(e, angle_compressed, along_x, n, 1, &alone))
             return;
-        gsl_test(alone.status != STATUS_OK, "%s, angle of %d elements: solved (%s)", e->name, n, alone.reason);
+        gsl_test(alone.status != STATUS_OK, "%s, angle of %d elements: solved (%s)", e->name, n,
+                 alone.reason);
         run(e, angle_compressed, along_x, n, 2, &both);
         for (int i = 0; i < WANTED; i++)
-            gsl_test_rel(both.value[0][i], alone.value[0][i], 1e-9, "%s, angle of %d elements: load %d beside negative ones (%s)",
-                         e->name, n, i + 1, both.why[0][i]);
-        gsl_test(isnan(both.value[1][0]) && both.why[1][0][0] == '\0', "%s, angle of %d elements: a load, or why there is none",
-                 e->name, n);
+            gsl_test_rel(both.value[0][i], alone.value[0][i], 1e-9,
+                         "%s, angle of %d elements: load %d beside negative ones (%s)", e->name, n,
+                         i + 1, both.why[0][i]);
+        gsl_test(isnan(both.value[1][0]) && both.why[1][0][0] == '\0',
+                 "%s, angle of %d elements: a load, or why there is none", e->name, n);
     }
 }
 
 /* A load that buckles this bar at this mesh is at most n^2 times Euler's, with room; rounding is 1e16. */
 static void no_rounding(const element_type *e)
 {
-    static build *const state[] = {angle_bent, bent_about_y, bent_about_z, pushed_across, bent_in_a_frame};
+    static build *const state[] = {angle_bent, bent_about_y, bent_about_z, pushed_across,
+                                   bent_in_a_frame};
     for (int k = 0; k < 5; k++)
         for (int n = 1; n <= 64; n *= 4) {
             loads l;
@@ -322,8 +336,9 @@ static void no_rounding(const element_type *e)
                 continue;
             for (int i = 0; i < 2 * WANTED; i++) {
                 const double value = l.value[i / WANTED][i % WANTED];
-                gsl_test(fabs(value) > 1e9 * (k == 0 ? 1e6 : euler()), "%s, state %d, %d elements: load %g is rounding (%s)",
-                         e->name, k, n, value, l.why[i / WANTED][i % WANTED]);
+                gsl_test(fabs(value) > 1e9 * (k == 0 ? 1e6 : euler()),
+                         "%s, state %d, %d elements: load %g is rounding (%s)", e->name, k, n,
+                         value, l.why[i / WANTED][i % WANTED]);
             }
         }
 }
@@ -333,7 +348,8 @@ int main(void)
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *e = registry_formulations[i];
         const int solved = columns(e, along_x) + columns(e, oblique);
-        gsl_test((e->offers & FEATURE_GEOMETRIC) != 0 && solved == 0, "%s offers stability and solves none of it", e->name);
+        gsl_test((e->offers & FEATURE_GEOMETRIC) != 0 && solved == 0,
+                 "%s offers stability and solves none of it", e->name);
         no_rounding(e);
         one_side_alone(e);
     }

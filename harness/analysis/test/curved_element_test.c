@@ -13,7 +13,13 @@
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 
-enum { STRAINS = ELEMENT_MAX_STRAINS, INNER = 64, MEMORY = 4096, ARCS = 60, POINTS = QUADRATURE_MAX_POINTS };
+enum {
+    STRAINS = ELEMENT_MAX_STRAINS,
+    INNER = 64,
+    MEMORY = 4096,
+    ARCS = 60,
+    POINTS = QUADRATURE_MAX_POINTS
+};
 
 typedef struct subject {
     const formulation *chosen;
@@ -45,7 +51,8 @@ static section rectangle(void)
 }
 
 /* Turns up to `most` [rad]. Wagner torque and initial torsion are not offered together. */
-static status prepare(const formulation *chosen, const section *c, double most, unsigned long long *state, subject *out, fault *f)
+static status prepare(const formulation *chosen, const section *c, double most,
+                      unsigned long long *state, subject *out, fault *f)
 {
     const element_type *type = chosen->type;
     memset(out, 0, sizeof *out);
@@ -80,7 +87,8 @@ static void along_arc(const subject *s, double x, const double strain[3], double
     memset(r, 0, 3 * sizeof *r);
     quadrature_points(POINTS, t, w, NULL);
     for (int g = 0; g <= POINTS; g++) {
-        const double at = g < POINTS ? x * t[g] : x, part[3] = {s->turn[0] * at, s->turn[1] * at, s->turn[2] * at};
+        const double at = g < POINTS ? x * t[g] : x,
+                     part[3] = {s->turn[0] * at, s->turn[1] * at, s->turn[2] * at};
         double axis[3];
         rotation_exp(part, q);
         rotation_matrix(q, R);
@@ -163,8 +171,8 @@ static double error_of_stress(subject *s)
 static double error_of_geometric(subject *s)
 {
     const int n = s->strains;
-    double e[STRAINS] = {0}, v[STRAINS], sigma[STRAINS] = {0}, C[3][STRAINS * STRAINS], G[STRAINS * STRAINS] = {0}, largest = 0,
-           worst = 0;
+    double e[STRAINS] = {0}, v[STRAINS], sigma[STRAINS] = {0}, C[3][STRAINS * STRAINS],
+           G[STRAINS * STRAINS] = {0}, largest = 0, worst = 0;
     stress_at(s, e, &(stress_output){.C = C[0]});
     for (int i = 0; i < n; i++)
         v[i] = s->length * cos(1.9 * i + 0.2);
@@ -191,8 +199,8 @@ static void arcs(const formulation *chosen, const section *c)
     double stress = 0, derived = 0, geometric = 0;
     fault f = {""};
     subject straight;
-    const int whole = prepare(chosen, c, 0, &state, &straight, &f) == STATUS_OK && chosen->type->inner == NULL &&
-                      error_of_geometric(&straight) < 1e-6;
+    const int whole = prepare(chosen, c, 0, &state, &straight, &f) == STATUS_OK &&
+                      chosen->type->inner == NULL && error_of_geometric(&straight) < 1e-6;
     free(straight.data);
     for (int i = 0; i < ARCS; i++) {
         subject s;
@@ -200,16 +208,19 @@ static void arcs(const formulation *chosen, const section *c)
         gsl_test(outcome != STATUS_OK, "%s: arc %d: %s", chosen->key, i, f.text);
         if (outcome == STATUS_OK) {
             stress = fmax(stress, fmax(stress_of_arc(&s, still), stress_of_arc(&s, motion)));
-            if (chosen->type->inner == NULL) { /* inner unknowns: their stress is that of another state */
+            if (chosen->type->inner ==
+                NULL) { /* inner unknowns: their stress is that of another state */
                 derived = fmax(derived, error_of_stress(&s));
                 geometric = whole ? fmax(geometric, error_of_geometric(&s)) : 0;
             }
         }
         free(s.data);
     }
-    gsl_test(!(stress < 1e-13), "%s: no stress along any arc up to %g rad (%.1e)", chosen->key, most, stress);
+    gsl_test(!(stress < 1e-13), "%s: no stress along any arc up to %g rad (%.1e)", chosen->key,
+             most, stress);
     gsl_test(!(derived < 1e-6), "%s: stress from energy about an arc (%.1e)", chosen->key, derived);
-    gsl_test(!(geometric < 1e-6), "%s: geometric stiffness about an arc (%.1e)", chosen->key, geometric);
+    gsl_test(!(geometric < 1e-6), "%s: geometric stiffness about an arc (%.1e)", chosen->key,
+             geometric);
 }
 
 int main(void)

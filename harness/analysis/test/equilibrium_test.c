@@ -8,7 +8,8 @@
 #include "harness/catalogue/parameters.h"
 #include "harness/study/cell.h"
 
-static double value_of(const char *case_name, const char *chosen, int n, const char *const assignment[], const char *quantity)
+static double value_of(const char *case_name, const char *chosen, int n,
+                       const char *const assignment[], const char *quantity)
 {
     cell_request request = {.type = case_find(case_name, NULL), .elements = n};
     cell_result r;
@@ -18,10 +19,12 @@ static double value_of(const char *case_name, const char *chosen, int n, const c
     gsl_test(formulation_parse(chosen, &fm, &f) != STATUS_OK, "%s exists", chosen);
     parameters_default(request.type, request.parameter);
     for (int i = 0; assignment[i] != NULL; i++)
-        gsl_test(parameters_set(request.type, assignment[i], request.parameter, &f) != STATUS_OK, "%s", assignment[i]);
+        gsl_test(parameters_set(request.type, assignment[i], request.parameter, &f) != STATUS_OK,
+                 "%s", assignment[i]);
     request.formulation = fm.type;
     memcpy(request.option, fm.option, sizeof request.option);
-    gsl_test(cell_run(&request, &r, &f) != STATUS_OK, "%s solved with %s: %s", case_name, chosen, f.text);
+    gsl_test(cell_run(&request, &r, &f) != STATUS_OK, "%s solved with %s: %s", case_name, chosen,
+             f.text);
     for (int i = 0; i < r.solve.quantities; i++)
         if (strcmp(r.scene.quantity[i].name, quantity) == 0)
             value = r.solve.quantity[i].value;
@@ -33,8 +36,10 @@ static double value_of(const char *case_name, const char *chosen, int n, const c
 static void stiff_before_buckling(void)
 {
     const char *const included[] = {"prebuckling=included", "ratio=1e6", NULL};
-    const double linear = 4.012599344, of_1e4 = 4.013057842318; /* derive/linear_buckling.py, derive/equilibrium.py */
-    gsl_test_rel(value_of("lateral_buckling", "collocation", 4, included, "load_factor"), linear + (of_1e4 - linear) / 100, 1e-8,
+    const double linear = 4.012599344,
+                 of_1e4 = 4.013057842318; /* derive/linear_buckling.py, derive/equilibrium.py */
+    gsl_test_rel(value_of("lateral_buckling", "collocation", 4, included, "load_factor"),
+                 linear + (of_1e4 - linear) / 100, 1e-8,
                  "critical load, hardly any deflection before it");
 }
 
@@ -47,13 +52,14 @@ static void deflected_before_buckling(void)
     } exact[] = {{"ratio=10", 4.624628010365}, {"ratio=4", 7.053702891992}};
     for (int i = 0; i < 2; i++) {
         const char *const included[] = {"prebuckling=included", exact[i].ratio, NULL};
-        gsl_test_rel(value_of("lateral_buckling", "collocation", 4, included, "load_factor"), exact[i].load, 1e-7,
-                     "collocation, %s: critical load", exact[i].ratio);
+        gsl_test_rel(value_of("lateral_buckling", "collocation", 4, included, "load_factor"),
+                     exact[i].load, 1e-7, "collocation, %s: critical load", exact[i].ratio);
     }
 }
 
 /* A cantilever of unit constants under a dead tip force P along -x or a dead tip moment M about z, then an analysis about it. */
-static status solve_column(scene_analysis_kind kind, double P, double M, double end, double *value, fault *f)
+static status solve_column(scene_analysis_kind kind, double P, double M, double end, double *value,
+                           fault *f)
 {
     scene s;
     section_spec spec;
@@ -69,7 +75,8 @@ static status solve_column(scene_analysis_kind kind, double P, double M, double 
     spec.constants.Iy = 2;
     spec.constants.Iz = spec.constants.It = 1;
     spec.constants.Ip = 3;
-    const int profile = scene_add_section(&s, &spec), root = scene_add_node(&s, 0, 0, 0), tip = scene_add_node(&s, 1, 0, 0);
+    const int profile = scene_add_section(&s, &spec), root = scene_add_node(&s, 0, 0, 0),
+              tip = scene_add_node(&s, 1, 0, 0);
     scene_add_member(&s, root, tip, profile, y_axis);
     scene_hold_all(&s, root);
     if (P != 0)
@@ -80,7 +87,8 @@ static status solve_column(scene_analysis_kind kind, double P, double M, double 
     scene_set_stations(&s, path, 1, &end);
     const int about = scene_add_analysis(&s, kind);
     scene_analysis_at(&s, about)->follows = path;
-    scene_add_quantity(&s, "wanted", "1", kind == SCENE_MODAL ? SCENE_FREQUENCY : SCENE_CRITICAL_FACTOR, about);
+    scene_add_quantity(&s, "wanted", "1",
+                       kind == SCENE_MODAL ? SCENE_FREQUENCY : SCENE_CRITICAL_FACTOR, about);
     gsl_test(formulation_parse("beamw", &fm, f) != STATUS_OK, "beamw exists");
     const model_request what = {&s, fm.type, fm.option, 16, 0};
     status outcome = model_alloc(&what, &m, f);
@@ -99,21 +107,28 @@ static void columns(void)
     const double euler = M_PI * M_PI / 4;
     double value = NAN, rest = NAN;
     fault f = {""};
-    gsl_test(solve_column(SCENE_BUCKLING, 1, 0, 0.5, &value, &f) != STATUS_OK, "column: %s", f.text);
+    gsl_test(solve_column(SCENE_BUCKLING, 1, 0, 0.5, &value, &f) != STATUS_OK, "column: %s",
+             f.text);
     gsl_test_rel(value, euler, 1e-4, "Euler's load on the nonlinear path");
-    gsl_test(solve_column(SCENE_MODAL, euler, 0, 1e-9, &rest, &f) != STATUS_OK, "column: %s", f.text);
-    gsl_test_rel(2 * M_PI * rest, 1.8751040687 * 1.8751040687 / sqrt(1e6), 2e-3, "first frequency of the unloaded column");
-    gsl_test(solve_column(SCENE_MODAL, euler, 0, 0.999, &value, &f) != STATUS_OK, "column: %s", f.text);
-    gsl_test(!(value > 0) || !(value < 0.05 * rest), "its frequency falls to zero at Euler's load: %g of %g Hz", value, rest);
+    gsl_test(solve_column(SCENE_MODAL, euler, 0, 1e-9, &rest, &f) != STATUS_OK, "column: %s",
+             f.text);
+    gsl_test_rel(2 * M_PI * rest, 1.8751040687 * 1.8751040687 / sqrt(1e6), 2e-3,
+                 "first frequency of the unloaded column");
+    gsl_test(solve_column(SCENE_MODAL, euler, 0, 0.999, &value, &f) != STATUS_OK, "column: %s",
+             f.text);
+    gsl_test(!(value > 0) || !(value < 0.05 * rest),
+             "its frequency falls to zero at Euler's load: %g of %g Hz", value, rest);
 }
 
 static void refused(void)
 {
     double value = NAN;
     fault f = {""};
-    gsl_test(solve_column(SCENE_BUCKLING, 10, 0, 1, &value, &f) != STATUS_REFUSED || strstr(f.text, "critical") == NULL,
+    gsl_test(solve_column(SCENE_BUCKLING, 10, 0, 1, &value, &f) != STATUS_REFUSED ||
+                 strstr(f.text, "critical") == NULL,
              "a state beyond the critical load: %s", f.text);
-    gsl_test(solve_column(SCENE_MODAL, 0, 1, 1, &value, &f) != STATUS_REFUSED || strstr(f.text, "symmetric") == NULL,
+    gsl_test(solve_column(SCENE_MODAL, 0, 1, 1, &value, &f) != STATUS_REFUSED ||
+                 strstr(f.text, "symmetric") == NULL,
              "a moment dead about fixed axes has no potential: %s", f.text);
     gsl_test(solve_column(SCENE_BUCKLING, -1, 0, 1, &value, &f) != STATUS_NOT_CONVERGED ||
                  strstr(f.text, "no critical load") == NULL,

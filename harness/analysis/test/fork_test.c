@@ -10,7 +10,12 @@
 #include "harness/analysis/solve.h"
 #include "harness/catalogue/registry.h"
 
-enum { MOVED = 0, MOMENT = 3, TURN = 6, VALUES = 9 }; /* of the middle, on the first fork, of the first fork */
+enum {
+    MOVED = 0,
+    MOMENT = 3,
+    TURN = 6,
+    VALUES = 9
+}; /* of the middle, on the first fork, of the first fork */
 
 /* Both ends in forks, translations held, a force in the middle; everything turned by Q from: beam
  * along x, web along z. */
@@ -47,14 +52,16 @@ static void bent_beam(const double Q[9], const double force[3], scene *s)
     const int path = scene_add_analysis(s, SCENE_STATIC);
     scene_set_stations(s, path, 1, &end);
     for (int i = 0; i < VALUES; i++) {
-        scene_quantity *q = scene_add_quantity(s, name[i], "1", i >= MOMENT && i < TURN ? SCENE_REACTION : SCENE_COORDINATE, path);
+        scene_quantity *q = scene_add_quantity(
+            s, name[i], "1", i >= MOMENT && i < TURN ? SCENE_REACTION : SCENE_COORDINATE, path);
         q->node = i < MOMENT ? middle : first;
         q->row = i % 3 + (i < MOMENT ? SCENE_UX : SCENE_RX);
     }
 }
 
 /* 1: solved; 0: the formulation does not offer what the scene needs. */
-static int solve(const element_type *type, const double Q[9], const double force[3], double value[VALUES])
+static int solve(const element_type *type, const double Q[9], const double force[3],
+                 double value[VALUES])
 {
     scene s;
     model *m = NULL;
@@ -89,12 +96,15 @@ static int web_between_guides(const element_type *type)
     rotation_exp(value + TURN, q);
     rotation_apply(q, z, web);
     vec3_cross(web, normal, along);
-    const double *M = value + MOMENT, size = vec3_norm(M), part = fabs(vec3_dot(M, along)) / vec3_norm(along);
-    gsl_test(!(fabs(vec3_dot(web, normal)) <= 1e-13), "%s: the web leaves its guides: %.1e", type->name, vec3_dot(web, normal));
-    gsl_test(!(fabs(value[TURN + 1]) > 0.1) || !(fabs(value[TURN]) > 1e-4), "%s: the beam is bent, and turned about x: %g, %g",
-             type->name, value[TURN + 1], value[TURN]);
-    gsl_test(!(part >= (1 - 1e-9) * size) || !(size > 1e-3), "%s: the fork's moment %g is not across web and normal: %g",
-             type->name, size, part);
+    const double *M = value + MOMENT, size = vec3_norm(M),
+                 part = fabs(vec3_dot(M, along)) / vec3_norm(along);
+    gsl_test(!(fabs(vec3_dot(web, normal)) <= 1e-13), "%s: the web leaves its guides: %.1e",
+             type->name, vec3_dot(web, normal));
+    gsl_test(!(fabs(value[TURN + 1]) > 0.1) || !(fabs(value[TURN]) > 1e-4),
+             "%s: the beam is bent, and turned about x: %g, %g", type->name, value[TURN + 1],
+             value[TURN]);
+    gsl_test(!(part >= (1 - 1e-9) * size) || !(size > 1e-3),
+             "%s: the fork's moment %g is not across web and normal: %g", type->name, size, part);
     return 1;
 }
 
@@ -111,8 +121,9 @@ static void in_other_axes(const element_type *type)
         mat3_mul_vec(Q, before + kind, expected);
         const double size = vec3_norm(expected);
         for (int i = 0; i < 3; i++)
-            gsl_test(!(fabs(after[kind + i] - expected[i]) <= 1e-8 * size), "%s in other axes: value %d is %.12g, not %.12g",
-                     type->name, kind + i, after[kind + i], expected[i]);
+            gsl_test(!(fabs(after[kind + i] - expected[i]) <= 1e-8 * size),
+                     "%s in other axes: value %d is %.12g, not %.12g", type->name, kind + i,
+                     after[kind + i], expected[i]);
     }
 }
 
@@ -124,8 +135,8 @@ static void refuse(const char *why, void (*spoil)(scene *))
     bent_beam(straight, force, &s);
     spoil(&s);
     gsl_test_int((int)scene_validate(&s, &f), STATUS_REFUSED, "%s: %s", why, f.text);
-    gsl_test(strncmp(f.text, "node 0: ", 8) != 0 || strchr(f.text, ';') == NULL, "%s: culprit and remedy are named: %s", why,
-             f.text);
+    gsl_test(strncmp(f.text, "node 0: ", 8) != 0 || strchr(f.text, ';') == NULL,
+             "%s: culprit and remedy are named: %s", why, f.text);
     scene_free(&s);
 }
 

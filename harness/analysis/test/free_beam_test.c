@@ -11,7 +11,8 @@
 #include "harness/study/cell.h"
 
 enum { MODES = 10, RIGID = 6 };
-static const double length = 2.385, thickness = 0.011, width = 0.017, young = 2.1e11, density = 7300; /* m, m, m, Pa, kg/m^3 */
+static const double length = 2.385, thickness = 0.011, width = 0.017, young = 2.1e11,
+                    density = 7300; /* m, m, m, Pa, kg/m^3 */
 static const double root[2] = {4.7300407448627040, 7.8532046240958376};
 
 static status build(const double value[], scene *s, fault *f)
@@ -28,7 +29,8 @@ static status build(const double value[], scene *s, fault *f)
     spec.height = thickness;
     spec.width = width;
     const int profile = scene_add_section(s, &spec);
-    scene_add_member(s, scene_add_node(s, 0, 0, 0), scene_add_node(s, length, 0, 0), profile, y_axis);
+    scene_add_member(s, scene_add_node(s, 0, 0, 0), scene_add_node(s, length, 0, 0), profile,
+                     y_axis);
     const int modal = scene_add_analysis(s, SCENE_MODAL);
     scene_analysis_at(s, modal)->wanted = MODES;
     for (int i = 0; i < MODES; i++) {

@@ -38,15 +38,19 @@ static void make(scene *s, const request *what)
     spec.density = density;
     spec.width = spec.height = side;
     const int root = scene_add_node(s, 0, 0, 0);
-    const int tip = scene_add_node(s, length * direction[0], length * direction[1], length * direction[2]);
+    const int tip =
+        scene_add_node(s, length * direction[0], length * direction[1], length * direction[2]);
     scene_add_member(s, root, tip, scene_add_section(s, &spec), y_axis);
     if (what->held)
         scene_hold_all(s, root);
     int state = SCENE_NONE;
     if (what->force != 0) {
         const double at = length + what->arm;
-        const int end = what->arm == 0 ? tip : scene_add_attached(s, tip, at * direction[0], at * direction[1], at * direction[2]);
-        scene_add_load(s, SCENE_FORCE, end, what->force * direction[0], what->force * direction[1], what->force * direction[2]);
+        const int end = what->arm == 0 ? tip
+                                       : scene_add_attached(s, tip, at * direction[0],
+                                                            at * direction[1], at * direction[2]);
+        scene_add_load(s, SCENE_FORCE, end, what->force * direction[0], what->force * direction[1],
+                       what->force * direction[2]);
         state = scene_add_analysis(s, SCENE_LINEAR);
     }
     const int modal = scene_add_analysis(s, SCENE_MODAL);
@@ -72,7 +76,8 @@ static int ask(const element_type *e, const request *what, answer *out)
     formulation_default(e, &chosen);
     scene_init(&s, "bar");
     make(&s, what);
-    const model_request wanted = {.scene = &s, .type = e, .options = chosen.option, .elements = ELEMENTS};
+    const model_request wanted = {
+        .scene = &s, .type = e, .options = chosen.option, .elements = ELEMENTS};
     out->status = model_alloc(&wanted, &m, &f);
     const int offered = out->status != STATUS_REFUSED;
     if (out->status == STATUS_OK)
@@ -93,20 +98,24 @@ static double bending(double root)
     return root * root / (2 * M_PI * length * length) * sqrt(young * side * side / (12 * density));
 }
 
-static const double clamped[] = {1.8751040687, 4.6940911330, 7.8547574382, 10.995540735, 14.137168391};
+static const double clamped[] = {1.8751040687, 4.6940911330, 7.8547574382, 10.995540735,
+                                 14.137168391};
 static const double loose[] = {4.7300407449, 7.8532046241};
 
 /* Bending in pairs; the axial one, c/(4 L), and that of torsion lie between them and are not counted where they are not meant. */
 static void cantilever(const element_type *e)
 {
     answer any, axial, across;
-    const request all = {1, 0, 0, SCENE_ANY}, along = {1, 0, 0, SCENE_AXIAL}, not_along = {1, 0, 0, SCENE_NOT_AXIAL};
+    const request all = {1, 0, 0, SCENE_ANY}, along = {1, 0, 0, SCENE_AXIAL},
+                  not_along = {1, 0, 0, SCENE_NOT_AXIAL};
     if (!ask(e, &all, &any))
         return;
     for (int i = 0; i < 8; i++)
-        gsl_test_rel(any.value[i], bending(clamped[i / 2]), 2e-2, "%s: frequency %d of bending", e->name, i + 1);
+        gsl_test_rel(any.value[i], bending(clamped[i / 2]), 2e-2, "%s: frequency %d of bending",
+                     e->name, i + 1);
     for (int i = 1; i < 8; i += 2)
-        gsl_test_rel(any.value[i], any.value[i - 1], 1e-7, "%s: frequencies %d and %d are equal", e->name, i, i + 1);
+        gsl_test_rel(any.value[i], any.value[i - 1], 1e-7, "%s: frequencies %d and %d are equal",
+                     e->name, i, i + 1);
     if (!ask(e, &along, &axial) || !ask(e, &not_along, &across))
         return;
     const double first = sqrt(young / density) / (4 * length);
@@ -128,18 +137,22 @@ static void nothing_held(const element_type *e)
     if (!ask(e, &free_bar, &a))
         return;
     for (int i = 0; i < RIGID; i++)
-        gsl_test_abs(a.value[i], 0, 1e-3 * bending(loose[0]), "%s: motion %d of a rigid body", e->name, i + 1);
+        gsl_test_abs(a.value[i], 0, 1e-3 * bending(loose[0]), "%s: motion %d of a rigid body",
+                     e->name, i + 1);
     for (int i = RIGID; i < MODES; i++)
-        gsl_test_rel(a.value[i], bending(loose[(i - RIGID) / 2]), 1e-2, "%s: frequency %d of the free bar", e->name, i + 1 - RIGID);
+        gsl_test_rel(a.value[i], bending(loose[(i - RIGID) / 2]), 1e-2,
+                     "%s: frequency %d of the free bar", e->name, i + 1 - RIGID);
 }
 
 /* With t = T/(EI): w = A (cosh ax - cos bx) + B (sinh ax/a - sin bx/b), a^2 - b^2 = t, a^2 b^2 = k^4; at the free end no moment, and
  * no force across the bar's first direction. Zero where k^2 sqrt(EI/(rho A)) is a frequency. */
 static double determinant(double t, double k)
 {
-    const double root = sqrt(t * t / 4 + k * k * k * k), a = sqrt(root + t / 2), b = sqrt(root - t / 2);
+    const double root = sqrt(t * t / 4 + k * k * k * k), a = sqrt(root + t / 2),
+                 b = sqrt(root - t / 2);
     const double C = cosh(a), S = sinh(a), c = cos(b), s = sin(b);
-    return (a * a * C + b * b * c) * (b * b * C + a * a * c) - a * b * (a * S + b * s) * (b * S - a * s);
+    return (a * a * C + b * b * c) * (b * b * C + a * a * c) -
+           a * b * (a * S + b * s) * (b * S - a * s);
 }
 
 /* The least root k, scanned for and bisected; the bar's length is 1. */
@@ -168,9 +181,10 @@ static void loaded(const element_type *e)
         const request state = {1, t * young * pow(side, 4) / 12, 0, SCENE_ANY};
         if (!(e->offers & FEATURE_GEOMETRIC) || !ask(e, &state, &a))
             return;
-        const double square = pow(a.value[0] / bending(clamped[0]), 2), exact = pow(first_root(t) / clamped[0], 4);
-        gsl_test_abs(square, exact, 2e-3 * fmax(1, exact), "%s: square of the first frequency at %g of Euler's load", e->name,
-                     part[i]);
+        const double square = pow(a.value[0] / bending(clamped[0]), 2),
+                     exact = pow(first_root(t) / clamped[0], 4);
+        gsl_test_abs(square, exact, 2e-3 * fmax(1, exact),
+                     "%s: square of the first frequency at %g of Euler's load", e->name, part[i]);
         gsl_test_rel(a.value[1], a.value[0], 1e-6, "%s: the second is equal", e->name);
     }
 }
@@ -183,8 +197,8 @@ static void loaded_on_arm(const element_type *e)
     const request state = {1, -0.999 * critical, length, SCENE_ANY};
     if (!(e->offers & FEATURE_GEOMETRIC) || !ask(e, &state, &below))
         return;
-    gsl_test_abs(pow(below.value[0] / bending(clamped[0]), 2), 0, 5e-3, "%s: the frequency vanishes at the critical load of an arm",
-                 e->name);
+    gsl_test_abs(pow(below.value[0] / bending(clamped[0]), 2), 0, 5e-3,
+                 "%s: the frequency vanishes at the critical load of an arm", e->name);
 }
 
 int main(void)
@@ -193,7 +207,8 @@ int main(void)
         const element_type *e = registry_formulations[i];
         answer a;
         const request all = {1, 0, 0, SCENE_ANY};
-        gsl_test((e->offers & FEATURE_MASS) && !ask(e, &all, &a), "%s offers inertia and solves nothing", e->name);
+        gsl_test((e->offers & FEATURE_MASS) && !ask(e, &all, &a),
+                 "%s offers inertia and solves nothing", e->name);
         cantilever(e);
         nothing_held(e);
         loaded(e);

@@ -17,7 +17,9 @@ static double difference(const answer *a, const answer *b, const char **whose)
     *whose = "their number";
     for (int i = 0; i < a->count && i < b->count; i++) {
         const double size = fmax(fmax(fabs(a->value[i]), fabs(b->value[i])), a->scale[i]);
-        const double apart = isnan(a->value[i]) && isnan(b->value[i]) ? 0 : size > 0 ? fabs(a->value[i] - b->value[i]) / size : 0;
+        const double apart = isnan(a->value[i]) && isnan(b->value[i]) ? 0
+                             : size > 0 ? fabs(a->value[i] - b->value[i]) / size
+                                        : 0;
         if (!(apart <= worst)) {
             worst = apart;
             *whose = a->name[i];
@@ -36,8 +38,8 @@ static const char *short_path(const case_type *type)
 }
 
 /* One formulation on one case: an edit of the scene changes nothing. */
-static void same(const case_type *type, const element_type *formulation_type, const char *what, int n, int other_n, scene_edit edit,
-                 double tolerance)
+static void same(const case_type *type, const element_type *formulation_type, const char *what,
+                 int n, int other_n, scene_edit edit, double tolerance)
 {
     static answer before, after;
     const char *whose;
@@ -48,8 +50,8 @@ static void same(const case_type *type, const element_type *formulation_type, co
     if (after.status == STATUS_REFUSED)
         return; /* the edit is not defined for this scene */
     const double apart = difference(&before, &after, &whose);
-    gsl_test(!(apart <= tolerance), "%s, %s: %s (%s, %.1e)%s%s", type->name, formulation_type->name, what, whose, apart,
-             after.status != STATUS_OK ? " " : "", after.reason);
+    gsl_test(!(apart <= tolerance), "%s, %s: %s (%s, %.1e)%s%s", type->name, formulation_type->name,
+             what, whose, apart, after.status != STATUS_OK ? " " : "", after.reason);
 }
 
 /* Amplitudes of warping that are kept where nothing warps make the twist of some formulations a cubic: a better mesh, and the
@@ -70,9 +72,10 @@ static void keep_all(const case_type *type, const element_type *e)
         if (apart[k] <= 1e-8)
             break;
     }
-    gsl_test(!(apart[0] <= 1e-8 || apart[1] <= apart[0] / 8),
-             "%s, %s: keeping what a scene leaves out changes nothing but the mesh (%s, %.1e, %.1e)", type->name, e->name, whose,
-             apart[0]);
+    gsl_test(
+        !(apart[0] <= 1e-8 || apart[1] <= apart[0] / 8),
+        "%s, %s: keeping what a scene leaves out changes nothing but the mesh (%s, %.1e, %.1e)",
+        type->name, e->name, whose, apart[0]);
 }
 
 static void every_case(const element_type *e)
@@ -81,12 +84,16 @@ static void every_case(const element_type *e)
         static answer whole;
         const case_type *type = registry_cases[i];
         keep_all(type, e);
-        if (!(e->limits & LIMIT_ORDER_DEPENDENT)) /* by a discretisation error, which the sweep of extremes shows */
-            same(type, e, "the other order of nodes changes nothing", 2, 2, (scene_edit){SCENE_EDIT_REVERSE, 0}, 1e-8);
-        same(type, e, "another unit of length changes nothing", 2, 2, (scene_edit){SCENE_EDIT_UNIT, 1000}, 1e-8);
+        if (!(e->limits &
+              LIMIT_ORDER_DEPENDENT)) /* by a discretisation error, which the sweep of extremes shows */
+            same(type, e, "the other order of nodes changes nothing", 2, 2,
+                 (scene_edit){SCENE_EDIT_REVERSE, 0}, 1e-8);
+        same(type, e, "another unit of length changes nothing", 2, 2,
+             (scene_edit){SCENE_EDIT_UNIT, 1000}, 1e-8);
         ask(type, short_path(type), e, 1, 0, (scene_edit){SCENE_EDIT_NONE, 0}, &whole);
         if (whole.members == 1)
-            same(type, e, "two members of two elements are one of four", 4, 2, (scene_edit){SCENE_EDIT_SPLIT, 0.5}, 1e-8);
+            same(type, e, "two members of two elements are one of four", 4, 2,
+                 (scene_edit){SCENE_EDIT_SPLIT, 0.5}, 1e-8);
     }
 }
 
@@ -115,10 +122,12 @@ static void mirrors(const element_type *e)
         if (one.count == 0)
             continue;
         gsl_test_rel(value_of(&other, images[i].even), value_of(&one, images[i].even), 1e-9,
-                     "%s, %s: %s of the mirror image is the same", images[i].base, e->name, images[i].even);
+                     "%s, %s: %s of the mirror image is the same", images[i].base, e->name,
+                     images[i].even);
         if (images[i].odd != NULL)
             gsl_test_rel(value_of(&other, images[i].odd), -value_of(&one, images[i].odd), 1e-9,
-                         "%s, %s: %s of the mirror image is opposite", images[i].base, e->name, images[i].odd);
+                         "%s, %s: %s of the mirror image is opposite", images[i].base, e->name,
+                         images[i].odd);
     }
 }
 
@@ -128,7 +137,8 @@ static void thirds(const element_type *e)
     cell_result result;
     formulation chosen;
     fault f = {""};
-    cell_request request = {.type = case_find("spherical_joint", &f), .formulation = e, .elements = 1};
+    cell_request request = {
+        .type = case_find("spherical_joint", &f), .formulation = e, .elements = 1};
     formulation_default(e, &chosen);
     memcpy(request.option, chosen.option, sizeof request.option);
     parameters_default(request.type, request.parameter);
@@ -137,7 +147,8 @@ static void thirds(const element_type *e)
         for (int i = 0; i < result.solve.quantities; i++) {
             const curve *c = &result.solve.quantity[i].curve;
             for (int k = 0; k + 2 < c->points; k++)
-                gsl_test_rel(c->value[k + 2], c->value[k], 1e-8, "spherical_joint, %s: the same stiffness a third of a turn on",
+                gsl_test_rel(c->value[k + 2], c->value[k], 1e-8,
+                             "spherical_joint, %s: the same stiffness a third of a turn on",
                              e->name);
         }
     cell_result_free(&result);
@@ -146,9 +157,12 @@ static void thirds(const element_type *e)
 /* Maxwell and Betti hold for loads that have a potential: semitangential moments, and not moments about fixed axes. */
 static void reciprocity(const element_type *e)
 {
-    static const char *const response[] = {"ux", "uy", "uz", "thx", "thy", "thz"}, *const load[] = {"Fx", "Fy", "Fz",
-                                                                                                    "Mx", "My", "Mz"};
-    static const char *const convention[] = {"moment_convention=semitangential", "moment_convention=spatial"};
+    static const char *const response[] = {"ux", "uy", "uz", "thx", "thy", "thz"}, *const load[] = {
+                                                                                       "Fx", "Fy",
+                                                                                       "Fz", "Mx",
+                                                                                       "My", "Mz"};
+    static const char *const convention[] = {"moment_convention=semitangential",
+                                             "moment_convention=spatial"};
     const case_type *type = case_find("sheet_wagner", NULL);
     double apart[2] = {0, 0};
     for (int k = 0; k < 2; k++) {
@@ -168,12 +182,17 @@ static void reciprocity(const element_type *e)
                 apart[k] = fmax(apart[k], fabs(C[i][j] - C[j][i]) / sqrt(fabs(C[i][i] * C[j][j])));
     }
     if (e->limits & LIMIT_UNSYMMETRIC_TANGENT)
-        gsl_test(!(apart[0] > 1e-6), "sheet_wagner, %s: its tangent is not symmetric, and the compliance shows it (%.1e)", e->name,
-                 apart[0]);
+        gsl_test(
+            !(apart[0] > 1e-6),
+            "sheet_wagner, %s: its tangent is not symmetric, and the compliance shows it (%.1e)",
+            e->name, apart[0]);
     else
-        gsl_test(!(apart[0] < 1e-9), "sheet_wagner, %s: compliance under semitangential moments is symmetric (%.1e)", e->name,
-                 apart[0]);
-    gsl_test(!(apart[1] > 1e-6), "sheet_wagner, %s: under moments about fixed axes it is not (%.1e)", e->name, apart[1]);
+        gsl_test(!(apart[0] < 1e-9),
+                 "sheet_wagner, %s: compliance under semitangential moments is symmetric (%.1e)",
+                 e->name, apart[0]);
+    gsl_test(!(apart[1] > 1e-6),
+             "sheet_wagner, %s: under moments about fixed axes it is not (%.1e)", e->name,
+             apart[1]);
 }
 
 int main(void)

@@ -25,7 +25,8 @@ static void guided(scene *s, double across_y, double across_z, int direction, in
     spec.height = across_y;
     spec.shear_factor[0] = spec.shear_factor[1] = share;
     spec.given.Iw = 0;
-    const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, length, 0, 0), profile = scene_add_section(s, &spec);
+    const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, length, 0, 0),
+              profile = scene_add_section(s, &spec);
     int last = root;
     for (int i = 1; i < members; i++) {
         const int next = scene_add_node(s, length * i / members, 0, 0);
@@ -38,7 +39,8 @@ static void guided(scene *s, double across_y, double across_z, int direction, in
     force[direction] = 1;
     scene_add_load(s, SCENE_FORCE, tip, force[0], force[1], force[2]);
     s->needs |= SCENE_NEED_SHEAR;
-    scene_quantity *q = scene_add_quantity(s, "u", "m", SCENE_COORDINATE, scene_add_analysis(s, SCENE_LINEAR));
+    scene_quantity *q =
+        scene_add_quantity(s, "u", "m", SCENE_COORDINATE, scene_add_analysis(s, SCENE_LINEAR));
     q->node = tip;
     q->row = direction;
 }
@@ -75,22 +77,28 @@ static void one(const element_type *type, double thickness, int direction, int m
     guided(&s, thickness, wide, direction, members);
     char missing[200];
     const int runs = !model_missing(&s, type, missing, sizeof missing);
-    const double depth = direction == 1 ? thickness : wide, breadth = direction == 1 ? wide : thickness;
-    const double EI = young * breadth * depth * depth * depth / 12, GA = share * shear_modulus * breadth * depth;
-    const double Phi = 12 * EI / (GA * length * length), exact = length * length * length / (12 * EI) * (1 + Phi);
+    const double depth = direction == 1 ? thickness : wide,
+                 breadth = direction == 1 ? wide : thickness;
+    const double EI = young * breadth * depth * depth * depth / 12,
+                 GA = share * shear_modulus * breadth * depth;
+    const double Phi = 12 * EI / (GA * length * length),
+                 exact = length * length * length / (12 * EI) * (1 + Phi);
     const double Phi_y = young * thickness * thickness / (share * shear_modulus * length * length);
     const double u = deflection(type, &s, words);
     const int lacks = (type->lacks & LACKS_SHEAR_Y) != 0, refused = lacks && Phi_y > 0.01;
-    gsl_test(refused != isnan(u), "%s: %g of %g m thick, Phi_y = %.3g: %s", type->name, thickness, length, Phi_y, words);
-    gsl_test(runs != !refused || runs != (missing[0] == '\0'), "%s: %g m thick: what is missing: '%s'", type->name, thickness,
-             missing);
-    gsl_test(lacks != (strstr(words, "along y") != NULL), "%s: %g m thick: what is lacking is said: '%s'", type->name, thickness,
-             words);
+    gsl_test(refused != isnan(u), "%s: %g of %g m thick, Phi_y = %.3g: %s", type->name, thickness,
+             length, Phi_y, words);
+    gsl_test(runs != !refused || runs != (missing[0] == '\0'),
+             "%s: %g m thick: what is missing: '%s'", type->name, thickness, missing);
+    gsl_test(lacks != (strstr(words, "along y") != NULL),
+             "%s: %g m thick: what is lacking is said: '%s'", type->name, thickness, words);
     if (refused)
-        gsl_test(strstr(words, type->lacks_by) == NULL, "%s: with the equation that leaves it out: %s", type->name, words);
+        gsl_test(strstr(words, type->lacks_by) == NULL,
+                 "%s: with the equation that leaves it out: %s", type->name, words);
     else
-        gsl_test_rel(u, exact, lacks && direction == 1 ? Phi : 1e-9, "%s: deflection along %c, %g m thick", type->name,
-                     "xyz"[direction], thickness);
+        gsl_test_rel(u, exact, lacks && direction == 1 ? Phi : 1e-9,
+                     "%s: deflection along %c, %g m thick", type->name, "xyz"[direction],
+                     thickness);
     scene_free(&s);
 }
 
@@ -98,7 +106,9 @@ int main(void)
 {
     static const double thickness[] = {0.001, 0.003, 0.01, 0.03, 0.05, 0.06, 0.1, 0.3};
     for (int i = 0; registry_formulations[i] != NULL; i++)
-        for (size_t k = 0; k < sizeof thickness / sizeof *thickness && (registry_formulations[i]->offers & FEATURE_SHEAR); k++)
+        for (size_t k = 0; k < sizeof thickness / sizeof *thickness &&
+                           (registry_formulations[i]->offers & FEATURE_SHEAR);
+             k++)
             for (int direction = 1; direction <= 2; direction++)
                 for (int members = 1; members <= 3; members += 2)
                     one(registry_formulations[i], thickness[k], direction, members);

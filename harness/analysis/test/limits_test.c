@@ -21,8 +21,8 @@ static void stiff_in_shear(const element_type *e)
     }
     for (int i = 0; i < 2; i++)
         gsl_test(!(apart[0][i] <= 1e-9 || apart[1][i] <= apart[0][i] / 10),
-                 "%s: %s in the limit GA to infinity is that without shear (%.1e)", e->name, i == 0 ? "deflection" : "shortening",
-                 apart[0][i]);
+                 "%s: %s in the limit GA to infinity is that without shear (%.1e)", e->name,
+                 i == 0 ? "deflection" : "shortening", apart[0][i]);
 }
 
 /* Deflection of the elastica's beam with an initial curvature [1/m]; NAN: not solved. */
@@ -60,8 +60,8 @@ static void nearly_straight(const element_type *e)
     gsl_test(!(fabs(slope) > 1e-3), "%s: an initial curvature matters (%.1e)", e->name, slope);
     for (int power = -5; power >= -15; power -= 2) {
         const double curvature = pow(10, power), change = curved(e, curvature) - straight;
-        gsl_test_abs(change, slope * curvature, 1e-3 * fabs(slope) * curvature + 2e-14, "%s: an initial curvature of 1e%d", e->name,
-                     power);
+        gsl_test_abs(change, slope * curvature, 1e-3 * fabs(slope) * curvature + 2e-14,
+                     "%s: an initial curvature of 1e%d", e->name, power);
     }
 }
 
@@ -72,9 +72,11 @@ static void without_shear(const element_type *e, const element_type *rigid)
     const scene_edit none = {SCENE_EDIT_NONE, 0};
     ask(case_find("c_column", NULL), "shear=0", e, 4, 0, none, &a);
     ask(case_find("c_column", NULL), "shear=0", rigid, 4, 0, none, &b);
-    gsl_test(a.count == 0 || a.count != b.count, "%s and %s solve the column without shear", e->name, rigid->name);
+    gsl_test(a.count == 0 || a.count != b.count, "%s and %s solve the column without shear",
+             e->name, rigid->name);
     for (int i = 0; i < a.count; i++)
-        gsl_test_rel(b.value[i], a.value[i], 1e-11, "%s: %s of the column is that of %s without shear", rigid->name, a.name[i],
+        gsl_test_rel(b.value[i], a.value[i], 1e-11,
+                     "%s: %s of the column is that of %s without shear", rigid->name, a.name[i],
                      e->name);
 }
 

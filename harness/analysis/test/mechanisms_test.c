@@ -9,8 +9,8 @@
 #include "harness/study/cell.h"
 
 /* Solves a case with n elements; assignments end with NULL. The caller frees the result. */
-static status run(const char *case_name, const element_type *type, const char *key, int n, const char *const assignment[],
-                  cell_result *out)
+static status run(const char *case_name, const element_type *type, const char *key, int n,
+                  const char *const assignment[], cell_result *out)
 {
     cell_request request = {.elements = n};
     formulation chosen;
@@ -18,8 +18,8 @@ static status run(const char *case_name, const element_type *type, const char *k
     request.type = case_find(case_name, &f);
     parameters_default(request.type, request.parameter);
     for (int i = 0; assignment[i] != NULL; i++)
-        gsl_test(parameters_set(request.type, assignment[i], request.parameter, &f) != STATUS_OK, "%s: %s", case_name,
-                 assignment[i]);
+        gsl_test(parameters_set(request.type, assignment[i], request.parameter, &f) != STATUS_OK,
+                 "%s: %s", case_name, assignment[i]);
     if (type != NULL)
         formulation_default(type, &chosen);
     else
@@ -47,12 +47,15 @@ static void from_rest_in_one_step(void)
         for (int n = 1; n <= 2; n++) {
             cell_result r;
             const char *name = registry_formulations[i]->name;
-            const status outcome = run("spherical_joint", registry_formulations[i], NULL, n, once, &r);
+            const status outcome =
+                run("spherical_joint", registry_formulations[i], NULL, n, once, &r);
             if (outcome != STATUS_REFUSED) {
                 runs++;
-                gsl_test(outcome != STATUS_OK || r.solve.steps != 1 || r.solve.step[0].rejected != 0,
+                gsl_test(outcome != STATUS_OK || r.solve.steps != 1 ||
+                             r.solve.step[0].rejected != 0,
                          "%s, n = %d: 15 degrees in one step, nothing rejected", name, n);
-                gsl_test(!(r.counters.iterations <= 6), "%s, n = %d: in %ld iterations", name, n, r.counters.iterations);
+                gsl_test(!(r.counters.iterations <= 6), "%s, n = %d: in %ld iterations", name, n,
+                         r.counters.iterations);
             }
             cell_result_free(&r);
         }
@@ -71,10 +74,12 @@ static void few_iterations(void)
                 {"sheet_cantilever", "sheet_third", 2.5}};
     for (size_t i = 0; i < sizeof path / sizeof path[0]; i++) {
         cell_result r;
-        gsl_test(run(path[i].case_name, NULL, path[i].formulation, 1, (const char *const[]){NULL}, &r) != STATUS_OK, "%s solved",
-                 path[i].case_name);
+        gsl_test(run(path[i].case_name, NULL, path[i].formulation, 1, (const char *const[]){NULL},
+                     &r) != STATUS_OK,
+                 "%s solved", path[i].case_name);
         const double average = (double)r.counters.iterations / (double)r.counters.steps;
-        gsl_test(!(average <= path[i].most), "%s, %s: %.2f iterations a step", path[i].case_name, path[i].formulation, average);
+        gsl_test(!(average <= path[i].most), "%s, %s: %.2f iterations a step", path[i].case_name,
+                 path[i].formulation, average);
         cell_result_free(&r);
     }
 }
@@ -87,17 +92,21 @@ static void guesses_change_nothing(void)
     cell_result plain, halved;
     fault f = {""};
     formulation chosen;
-    gsl_test(run("spherical_joint", NULL, "sheet_third", 1, defaults, &plain) != STATUS_OK, "the curve");
+    gsl_test(run("spherical_joint", NULL, "sheet_third", 1, defaults, &plain) != STATUS_OK,
+             "the curve");
     request.type = case_find("spherical_joint", &f);
     parameters_default(request.type, request.parameter);
     formulation_parse("sheet_third", &chosen, &f);
     request.formulation = chosen.type;
     memcpy(request.option, chosen.option, sizeof request.option);
     request.solve.steps_between = 3;
-    gsl_test(cell_run(&request, &halved, &f) != STATUS_OK, "the curve in three steps from azimuth to azimuth");
-    gsl_test(halved.counters.steps <= plain.counters.steps, "%ld and %ld steps", halved.counters.steps, plain.counters.steps);
+    gsl_test(cell_run(&request, &halved, &f) != STATUS_OK,
+             "the curve in three steps from azimuth to azimuth");
+    gsl_test(halved.counters.steps <= plain.counters.steps, "%ld and %ld steps",
+             halved.counters.steps, plain.counters.steps);
     for (int k = 0; k < plain.solve.quantities; k++)
-        gsl_test_rel(halved.solve.quantity[k].value, plain.solve.quantity[k].value, 1e-11, "%s", plain.scene.quantity[k].name);
+        gsl_test_rel(halved.solve.quantity[k].value, plain.solve.quantity[k].value, 1e-11, "%s",
+                     plain.scene.quantity[k].name);
     cell_result_free(&plain);
     cell_result_free(&halved);
 }
@@ -108,16 +117,21 @@ static void directions(void)
     static const struct {
         const char *formulation;
         double least, most; /* relative change */
-    } row[] = {
-        {"sheet_second", 1e-3, 5e-3}, {"sheet_third", 1e-3, 5e-3}, {"collocation", 0, 1e-10}, {"geometrically_exact", 0, 1e-10}};
+    } row[] = {{"sheet_second", 1e-3, 5e-3},
+               {"sheet_third", 1e-3, 5e-3},
+               {"collocation", 0, 1e-10},
+               {"geometrically_exact", 0, 1e-10}};
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         cell_result bodies, chained;
-        run("spherical_joint", NULL, row[i].formulation, 1, (const char *const[]){"wagner=0", NULL}, &bodies);
-        run("spherical_joint", NULL, row[i].formulation, 1, (const char *const[]){"wagner=0", "element_direction=chained", NULL},
-            &chained);
-        const double change = fabs(value_of(&chained, "support_stiffness_max") / value_of(&bodies, "support_stiffness_max") - 1);
-        gsl_test(!(change >= row[i].least && change <= row[i].most), "%s, one element: the direction changes %.1e",
-                 row[i].formulation, change);
+        run("spherical_joint", NULL, row[i].formulation, 1, (const char *const[]){"wagner=0", NULL},
+            &bodies);
+        run("spherical_joint", NULL, row[i].formulation, 1,
+            (const char *const[]){"wagner=0", "element_direction=chained", NULL}, &chained);
+        const double change = fabs(value_of(&chained, "support_stiffness_max") /
+                                       value_of(&bodies, "support_stiffness_max") -
+                                   1);
+        gsl_test(!(change >= row[i].least && change <= row[i].most),
+                 "%s, one element: the direction changes %.1e", row[i].formulation, change);
         cell_result_free(&bodies);
         cell_result_free(&chained);
     }
@@ -126,7 +140,8 @@ static void directions(void)
 /* Largest stiffnesses with one element per sheet; independent prototype: 9.37, 9.720, 9.92 x 10^5 N/m. */
 static void fold_warping(void)
 {
-    static const char *const choice[3] = {"fold_warping=fixed", "fold_warping=shared", "fold_warping=free"};
+    static const char *const choice[3] = {"fold_warping=fixed", "fold_warping=shared",
+                                          "fold_warping=free"};
     double value[3];
     for (int i = 0; i < 3; i++) {
         cell_result r;
@@ -147,7 +162,8 @@ static void straight_column(scene *s, int stations, const double path[])
     section_spec_init(&spec);
     spec.kind = SECTION_CONSTANTS;
     spec.young = spec.shear_modulus = 1;
-    spec.constants = (section){.young = 1, .shear_modulus = 1, .A = 1e8, .Iy = 4, .Iz = 1, .It = 10, .Ip = 5};
+    spec.constants =
+        (section){.young = 1, .shear_modulus = 1, .A = 1e8, .Iy = 4, .Iz = 1, .It = 10, .Ip = 5};
     scene_init(s, "straight_column");
     const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, 1, 0, 0);
     scene_hold_all(s, root);
@@ -162,7 +178,8 @@ static void inertia_counts_critical_loads(void)
     const double pi = 3.14159265358979323846, weak = pi * pi / 4;
     const double path[] = {0.9 * weak, 1.1 * weak, 3.9 * weak, 4.1 * weak, 8.8 * weak,
                            9.2 * weak, 24 * weak,  26 * weak,  35 * weak,  37 * weak};
-    const int below[] = {0, 1, 1, 2, 2, 3, 3, 4, 4, 5}; /* weak plane 1, 9, 25, 49; strong plane 4, 36 */
+    const int below[] = {0, 1, 1, 2, 2,
+                         3, 3, 4, 4, 5}; /* weak plane 1, 9, 25, 49; strong plane 4, 36 */
     enum { STATIONS = sizeof below / sizeof below[0] };
     const char *const names[] = {"beamw_consistent", "collocation", "geometrically_exact"};
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
@@ -179,12 +196,14 @@ static void inertia_counts_critical_loads(void)
             outcome = model_alloc(&what, &m, &f);
         if (outcome == STATUS_OK)
             outcome = solve_scene(&s, m, NULL, &r, &f);
-        gsl_test(outcome != STATUS_OK || r.steps != STATIONS, "%s: the straight path beyond critical loads (%s)", names[k], f.text);
+        gsl_test(outcome != STATUS_OK || r.steps != STATIONS,
+                 "%s: the straight path beyond critical loads (%s)", names[k], f.text);
         for (int i = 0; i < STATIONS && outcome == STATUS_OK; i++)
-            gsl_test_int(r.step[i].negative_pivots, below[i], "%s: critical loads below %.1f of the first", names[k],
-                         path[i] / weak);
+            gsl_test_int(r.step[i].negative_pivots, below[i],
+                         "%s: critical loads below %.1f of the first", names[k], path[i] / weak);
         if (m != NULL)
-            gsl_test_int((int)model_counters(m)->negative_pivots, 5, "%s: the most is counted", names[k]);
+            gsl_test_int((int)model_counters(m)->negative_pivots, 5, "%s: the most is counted",
+                         names[k]);
         solve_result_free(&r);
         model_free(m);
         scene_free(&s);
@@ -209,9 +228,11 @@ static void threads_change_no_bit(void)
         request.threads = 2;
         gsl_test(cell_run(&request, &two, &f) != STATUS_OK, "hexapod, %s, two threads", names[i]);
         for (int k = 0; k < one.solve.quantities; k++)
-            gsl_test(memcmp(&one.solve.quantity[k].value, &two.solve.quantity[k].value, sizeof(double)) != 0, "%s: the same %s",
-                     names[i], one.scene.quantity[k].name);
-        gsl_test(memcmp(&one.counters, &two.counters, sizeof one.counters) != 0, "%s: the same work", names[i]);
+            gsl_test(memcmp(&one.solve.quantity[k].value, &two.solve.quantity[k].value,
+                            sizeof(double)) != 0,
+                     "%s: the same %s", names[i], one.scene.quantity[k].name);
+        gsl_test(memcmp(&one.counters, &two.counters, sizeof one.counters) != 0,
+                 "%s: the same work", names[i]);
         cell_result_free(&one);
         cell_result_free(&two);
     }

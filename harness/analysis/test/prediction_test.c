@@ -15,7 +15,8 @@ static void solve(const char *const assignment[], cell_result *out)
     gsl_test(formulation_parse("sheet_third", &fm, &f) != STATUS_OK, "sheet_third exists");
     parameters_default(request.type, request.parameter);
     for (int i = 0; assignment[i] != NULL; i++)
-        gsl_test(parameters_set(request.type, assignment[i], request.parameter, &f) != STATUS_OK, "%s", assignment[i]);
+        gsl_test(parameters_set(request.type, assignment[i], request.parameter, &f) != STATUS_OK,
+                 "%s", assignment[i]);
     request.formulation = fm.type;
     memcpy(request.option, fm.option, sizeof request.option);
     gsl_test(cell_run(&request, out, &f) != STATUS_OK, "solved: %s", f.text);
@@ -35,9 +36,11 @@ static void beside_the_element(const char *const assignment[], double in_plane, 
             continue;
         predicted++;
         const int out_of_plane = strcmp(q->name, "C_zz") == 0 || strcmp(q->name, "C_uz_Fz") == 0;
-        gsl_test_rel(q->prediction, value, out_of_plane ? apart : in_plane, "%s, %s", assignment[0], q->name);
+        gsl_test_rel(q->prediction, value, out_of_plane ? apart : in_plane, "%s, %s", assignment[0],
+                     q->name);
     }
-    gsl_test_int(predicted, 7, "%s: everything that the closed form speaks of is predicted", assignment[0]);
+    gsl_test_int(predicted, 7, "%s: everything that the closed form speaks of is predicted",
+                 assignment[0]);
     cell_result_free(&r);
 }
 
@@ -45,21 +48,24 @@ static void beside_the_element(const char *const assignment[], double in_plane, 
 static void undeformed(void)
 {
     const char *const straight[] = {"tip_deflection=1e-9", NULL};
-    const double E = 200e9, w = 0.1, t = 0.00225, L = 0.1, nu = 0.3, k = 10 * (1 + nu) / (12 + 11 * nu);
+    const double E = 200e9, w = 0.1, t = 0.00225, L = 0.1, nu = 0.3,
+                 k = 10 * (1 + nu) / (12 + 11 * nu);
     cell_result r;
     solve(straight, &r);
     for (int i = 0; i < r.scene.quantities; i++)
         if (strcmp(r.scene.quantity[i].name, "C_zz") == 0)
-            gsl_test_rel(r.scene.quantity[i].prediction, 4 * L * L * L / (E * t * w * w * w) + L * 2 * (1 + nu) / (k * E * w * t),
+            gsl_test_rel(r.scene.quantity[i].prediction,
+                         4 * L * L * L / (E * t * w * w * w) + L * 2 * (1 + nu) / (k * E * w * t),
                          1e-11, "C_zz of the undeformed sheet");
     cell_result_free(&r);
 }
 
 int main(void)
 {
-    const char *const small[] = {"tip_deflection=0.001", NULL}, *const middle[] = {"tip_deflection=0.015", NULL},
-                      *const free_tip[] = {"tip_warping=1", NULL}, *const uniform[] = {"warping=0", NULL},
-                      *const rigid[] = {"shear=0", NULL};
+    const char *const small[] = {"tip_deflection=0.001", NULL},
+                      *const middle[] = {"tip_deflection=0.015", NULL},
+                      *const free_tip[] = {"tip_warping=1", NULL},
+                      *const uniform[] = {"warping=0", NULL}, *const rigid[] = {"shear=0", NULL};
     undeformed();
     beside_the_element(small, 1e-11, 2e-5);
     beside_the_element(middle, 1e-11, 1e-2);

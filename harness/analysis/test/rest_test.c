@@ -22,7 +22,8 @@ static double dimension(const scene *s)
     double size = 0;
     for (int i = 0; i < s->members; i++)
         for (int k = 0; k < 3; k++)
-            size = fmax(size, fabs(s->node[s->member[i].p].position[k] - s->node[s->member[i].q].position[k]));
+            size = fmax(size, fabs(s->node[s->member[i].p].position[k] -
+                                   s->node[s->member[i].q].position[k]));
     return size;
 }
 
@@ -57,8 +58,9 @@ static int carries(const scene_node *n, int component)
 {
     if (n->attached != SCENE_NONE)
         return 0;
-    return component < 3 ? n->translation[component] != SCENE_FREE
-                         : n->rotation == SCENE_ROTATION_SPATIAL && n->angle[component - 3] != SCENE_FREE;
+    return component < 3
+               ? n->translation[component] != SCENE_FREE
+               : n->rotation == SCENE_ROTATION_SPATIAL && n->angle[component - 3] != SCENE_FREE;
 }
 
 /* Every displacement and rotation, and every reaction. */
@@ -75,7 +77,8 @@ static void ask_for_all(scene *s)
                     continue;
                 char name[SCENE_NAME];
                 snprintf(name, sizeof name, "%c%d_%d", reaction ? 'F' : 'u', c, node);
-                scene_quantity *q = scene_add_quantity(s, name, "1", reaction ? SCENE_REACTION : SCENE_COORDINATE, path);
+                scene_quantity *q = scene_add_quantity(
+                    s, name, "1", reaction ? SCENE_REACTION : SCENE_COORDINATE, path);
                 q->node = node;
                 q->row = c;
             }
@@ -89,8 +92,10 @@ static double largest(const scene *s, const solve_result *r, const char **whose)
     for (int i = 0; i < s->quantities; i++) {
         const scene_quantity *q = &s->quantity[i];
         const int turns = q->row >= 3;
-        const double limit = q->kind == SCENE_COORDINATE ? still * (turns ? 1 : size) : unstressed * EA * (turns ? size : 1);
-        const double value = r->quantity[i].status == STATUS_OK ? fabs(r->quantity[i].value) / limit : INFINITY;
+        const double limit = q->kind == SCENE_COORDINATE ? still * (turns ? 1 : size)
+                                                         : unstressed * EA * (turns ? size : 1);
+        const double value =
+            r->quantity[i].status == STATUS_OK ? fabs(r->quantity[i].value) / limit : INFINITY;
         if (!(value <= worst)) {
             worst = value;
             *whose = q->name;
@@ -131,7 +136,9 @@ static int choices_of(const element_type *type, formulation list[CHOICES])
     int count = 1;
     formulation_default(type, &list[0]);
     for (int k = 0; type->options != NULL && type->options[k].name != NULL; k++)
-        for (int choice = 0; type->options[k].judged != 0 && choice <= type->options[k].max && count < CHOICES; choice++)
+        for (int choice = 0;
+             type->options[k].judged != 0 && choice <= type->options[k].max && count < CHOICES;
+             choice++)
             count += formulation_choice(type, k, choice, &list[count]);
     return count;
 }
@@ -154,7 +161,8 @@ static void every_formulation(const point *p, tally *t)
 
 int main(void)
 {
-    const char *path = getenv("BEAMWORK_TRUTHS") != NULL ? getenv("BEAMWORK_TRUTHS") : "build/truths.h5";
+    const char *path =
+        getenv("BEAMWORK_TRUTHS") != NULL ? getenv("BEAMWORK_TRUTHS") : "build/truths.h5";
     const sweep_request all = {0};
     truths known;
     sweep plan;
@@ -171,8 +179,10 @@ int main(void)
         t.points++;
         every_formulation(&plan.point[i], &t);
     }
-    printf("%d points, %d formulations at rest, %d not offered\n", t.points, t.checked, t.not_offered);
-    gsl_test(t.checked < t.points, "%d points with %d formulations at rest, %d not offered", t.points, t.checked, t.not_offered);
+    printf("%d points, %d formulations at rest, %d not offered\n", t.points, t.checked,
+           t.not_offered);
+    gsl_test(t.checked < t.points, "%d points with %d formulations at rest, %d not offered",
+             t.points, t.checked, t.not_offered);
     sweep_free(&plan);
     truths_free(&known);
     return gsl_test_summary();

@@ -10,7 +10,8 @@
 #include "harness/catalogue/parameters.h"
 #include "harness/study/cell.h"
 
-static status run(const case_type *type, const char *chosen, int n, const char *const assignment[], cell_result *r)
+static status run(const case_type *type, const char *chosen, int n, const char *const assignment[],
+                  cell_result *r)
 {
     cell_request request = {.type = type, .elements = n};
     formulation fm;
@@ -18,7 +19,8 @@ static status run(const case_type *type, const char *chosen, int n, const char *
     gsl_test(formulation_parse(chosen, &fm, &f) != STATUS_OK, "%s exists", chosen);
     parameters_default(type, request.parameter);
     for (int i = 0; assignment != NULL && assignment[i] != NULL; i++)
-        gsl_test(parameters_set(type, assignment[i], request.parameter, &f) != STATUS_OK, "%s", assignment[i]);
+        gsl_test(parameters_set(type, assignment[i], request.parameter, &f) != STATUS_OK, "%s",
+                 assignment[i]);
     request.formulation = fm.type;
     request.solve.newton = fm.newton;
     memcpy(request.option, fm.option, sizeof request.option);
@@ -35,7 +37,8 @@ static double value_in(const cell_result *r, const char *quantity)
     return NAN;
 }
 
-static double value_of(const char *case_name, const char *chosen, int n, const char *const assignment[], const char *quantity)
+static double value_of(const char *case_name, const char *chosen, int n,
+                       const char *const assignment[], const char *quantity)
 {
     cell_result r;
     run(case_find(case_name, NULL), chosen, n, assignment, &r);
@@ -49,10 +52,11 @@ static void stretch(void)
 {
     const char *const thick[] = {"omega_star=5", "slenderness=10", NULL};
     const double exact = tan(0.5) / 0.5 - 1;
-    gsl_test_rel(value_of("rotating_cantilever", "geometrically_exact:nodes=3", 64, thick, "stretch"), exact, 1e-8,
-                 "stretch, elements with a middle node");
-    static const char *const each[] = {"beamw:mass=lumped", "beamw:mass=consistent", "beamw:mass=averaged", "sheet_third",
-                                       "collocation"};
+    gsl_test_rel(
+        value_of("rotating_cantilever", "geometrically_exact:nodes=3", 64, thick, "stretch"), exact,
+        1e-8, "stretch, elements with a middle node");
+    static const char *const each[] = {"beamw:mass=lumped", "beamw:mass=consistent",
+                                       "beamw:mass=averaged", "sheet_third", "collocation"};
     for (size_t i = 0; i < sizeof each / sizeof each[0]; i++) {
         const double a = value_of("rotating_cantilever", each[i], 64, thick, "stretch"),
                      b = value_of("rotating_cantilever", each[i], 128, thick, "stretch"),
@@ -68,20 +72,25 @@ static void algorithms(void)
     const char *const inclined[] = {"axis=0.7", "omega_star=12", "slenderness=30", NULL};
     static const char *const quantity[] = {"stretch", "flap_1", "lag_2"};
     for (int i = 0; i < 3; i++) {
-        const double mixed = value_of("rotating_cantilever", "beamw_consistent", 6, inclined, quantity[i]);
-        gsl_test_rel(value_of("rotating_cantilever", "beamw_consistent:newton=dense", 6, inclined, quantity[i]), mixed, 1e-9,
-                     "uncondensed: the same %s", quantity[i]);
-        gsl_test_rel(value_of("rotating_cantilever", "beamw_consistent:newton=displacement", 6, inclined, quantity[i]), mixed, 1e-9,
-                     "in displacements: the same %s", quantity[i]);
-        gsl_test_rel(value_of("rotating_cantilever", "geometrically_exact", 32, inclined, quantity[i]),
-                     value_of("rotating_cantilever", "beamw_consistent", 64, inclined, quantity[i]), 5e-5,
-                     "bent by an inclined axis: two formulations agree on %s", quantity[i]);
+        const double mixed =
+            value_of("rotating_cantilever", "beamw_consistent", 6, inclined, quantity[i]);
+        gsl_test_rel(value_of("rotating_cantilever", "beamw_consistent:newton=dense", 6, inclined,
+                              quantity[i]),
+                     mixed, 1e-9, "uncondensed: the same %s", quantity[i]);
+        gsl_test_rel(value_of("rotating_cantilever", "beamw_consistent:newton=displacement", 6,
+                              inclined, quantity[i]),
+                     mixed, 1e-9, "in displacements: the same %s", quantity[i]);
+        gsl_test_rel(
+            value_of("rotating_cantilever", "geometrically_exact", 32, inclined, quantity[i]),
+            value_of("rotating_cantilever", "beamw_consistent", 64, inclined, quantity[i]), 5e-5,
+            "bent by an inclined axis: two formulations agree on %s", quantity[i]);
     }
 }
 
 enum { BODY };
 static const case_parameter with_body_parameters[] = {
-    [BODY] = {"body", "1", 0, 0, 1, NULL, "1: the tip is attached to a body whose reference point is elsewhere"},
+    [BODY] = {"body", "1", 0, 0, 1, NULL,
+              "1: the tip is attached to a body whose reference point is elsewhere"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -89,7 +98,8 @@ static const case_parameter with_body_parameters[] = {
 static status build_with_body(const double value[], scene *s, fault *f)
 {
     (void)f;
-    static const double point[4][2] = {{0.1, 0.14}, {0, 0.14}, {0, -0.14}, {0.1, -0.14}}, y_axis[3] = {0.1, 1, 0.2};
+    static const double point[4][2] = {{0.1, 0.14}, {0, 0.14}, {0, -0.14}, {0.1, -0.14}},
+                        y_axis[3] = {0.1, 1, 0.2};
     section_spec spec;
     section_spec_init(&spec);
     spec.kind = SECTION_WALLS;
@@ -105,8 +115,9 @@ static status build_with_body(const double value[], scene *s, fault *f)
         spec.wall[i].thickness = 0.012;
     }
     const int profile = scene_add_section(s, &spec), root = scene_add_node(s, 0, 0, 0);
-    const int tip =
-        value[BODY] != 0 ? scene_add_attached(s, scene_add_node(s, 7.3, 0.9, -0.4), 6, 1, 0.5) : scene_add_node(s, 6, 1, 0.5);
+    const int tip = value[BODY] != 0
+                        ? scene_add_attached(s, scene_add_node(s, 7.3, 0.9, -0.4), 6, 1, 0.5)
+                        : scene_add_node(s, 6, 1, 0.5);
     scene_add_member(s, root, tip, profile, y_axis);
     scene_hold_all(s, root);
     s->needs |= SCENE_NEED_TRAPEZE | SCENE_NEED_ROTARY_INERTIA;
@@ -132,23 +143,27 @@ static status build_with_body(const double value[], scene *s, fault *f)
 static void reference_point(void)
 {
     static const case_type type = {"with_body", "", "", with_body_parameters, build_with_body};
-    static const char *const each[] = {"beamw_consistent", "beamw_consistent:mass=lumped", "geometrically_exact"};
+    static const char *const each[] = {"beamw_consistent", "beamw_consistent:mass=lumped",
+                                       "geometrically_exact"};
     const char *const attached[] = {"body=1", NULL};
     for (int i = 0; i < 3; i++) {
         cell_result plain, body;
         run(&type, each[i], 4, NULL, &plain);
         run(&type, each[i], 4, attached, &body);
-        gsl_test_rel(value_in(&body, "moved"), value_in(&plain, "moved"), 1e-9, "%s: deflection with a body", each[i]);
+        gsl_test_rel(value_in(&body, "moved"), value_in(&plain, "moved"), 1e-9,
+                     "%s: deflection with a body", each[i]);
         for (int k = 0; k < 4; k++) {
             char name[SCENE_NAME];
             snprintf(name, sizeof name, "frequency_%d", k);
-            gsl_test_rel(value_in(&body, name), value_in(&plain, name), 1e-9, "%s: %s with a body", each[i], name);
+            gsl_test_rel(value_in(&body, name), value_in(&plain, name), 1e-9, "%s: %s with a body",
+                         each[i], name);
         }
         const step_record *last = &body.solve.step[body.solve.steps - 1];
         const iteration_record *end = &body.solve.iteration[last->first + last->iterations - 1];
-        gsl_test(!(end[0].correction <= fmax(100 * end[-1].correction * end[-1].correction, 1e-13)),
-                 "%s: quadratic convergence with centrifugal stiffness at an offset (%.1e after %.1e)", each[i], end[0].correction,
-                 end[-1].correction);
+        gsl_test(
+            !(end[0].correction <= fmax(100 * end[-1].correction * end[-1].correction, 1e-13)),
+            "%s: quadratic convergence with centrifugal stiffness at an offset (%.1e after %.1e)",
+            each[i], end[0].correction, end[-1].correction);
         cell_result_free(&plain);
         cell_result_free(&body);
     }
@@ -161,14 +176,15 @@ static void at_rest(void)
     cell_result rest, turning;
     run(case_find("c_cantilever", NULL), "beamw_consistent", 10, NULL, &rest);
     run(case_find("c_cantilever", NULL), "beamw_consistent", 10, slow, &turning);
-    gsl_test(rest.counters.inertia_evaluations != 0, "a structure at rest: %ld evaluations of inertia",
-             rest.counters.inertia_evaluations);
+    gsl_test(rest.counters.inertia_evaluations != 0,
+             "a structure at rest: %ld evaluations of inertia", rest.counters.inertia_evaluations);
     gsl_test(turning.counters.inertia_evaluations < turning.counters.strain_evaluations,
-             "one that turns: %ld evaluations of inertia, %ld of strains", turning.counters.inertia_evaluations,
-             turning.counters.strain_evaluations);
-    gsl_test(rest.counters.strain_evaluations != turning.counters.strain_evaluations, "both: %ld evaluations of strains",
-             rest.counters.strain_evaluations);
-    gsl_test_rel(value_in(&turning, "load_at_w"), value_in(&rest, "load_at_w"), 1e-9, "hardly turning is at rest");
+             "one that turns: %ld evaluations of inertia, %ld of strains",
+             turning.counters.inertia_evaluations, turning.counters.strain_evaluations);
+    gsl_test(rest.counters.strain_evaluations != turning.counters.strain_evaluations,
+             "both: %ld evaluations of strains", rest.counters.strain_evaluations);
+    gsl_test_rel(value_in(&turning, "load_at_w"), value_in(&rest, "load_at_w"), 1e-9,
+                 "hardly turning is at rest");
     cell_result_free(&rest);
     cell_result_free(&turning);
 }
@@ -179,7 +195,8 @@ static void instability_is_named(void)
     const char *const inward[] = {"hub_radius=-2", "omega_star=4", NULL};
     cell_result r;
     run(case_find("rotating_cantilever", NULL), "beamw", 8, inward, &r);
-    gsl_test(strstr(r.solve.reason, "divergence") == NULL, "the instability is named: %s", r.solve.reason);
+    gsl_test(strstr(r.solve.reason, "divergence") == NULL, "the instability is named: %s",
+             r.solve.reason);
     gsl_test(!(value_in(&r, "growth") > 1), "and grows");
     cell_result_free(&r);
 }

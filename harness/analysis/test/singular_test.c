@@ -18,7 +18,8 @@ static void two_beams(scene *s)
     section_spec_init(&spec);
     spec.kind = SECTION_CONSTANTS;
     spec.young = spec.shear_modulus = 1;
-    spec.constants = (section){.young = 1, .shear_modulus = 1, .A = 1e4, .Iy = 4, .Iz = 1, .It = 1, .Ip = 5};
+    spec.constants =
+        (section){.young = 1, .shear_modulus = 1, .A = 1e4, .Iy = 4, .Iz = 1, .It = 1, .Ip = 5};
     scene_init(s, "two_beams");
     const int profile = scene_add_section(s, &spec);
     for (int i = 0; i < 2; i++) {
@@ -34,7 +35,8 @@ static void two_beams(scene *s)
 static void let_go(scene *s, int node, int first, int last)
 {
     for (int k = first; k <= last; k++)
-        *(k < SCENE_RX ? &scene_node_at(s, node)->translation[k] : &scene_node_at(s, node)->angle[k - SCENE_RX]) = SCENE_FREE;
+        *(k < SCENE_RX ? &scene_node_at(s, node)->translation[k]
+                       : &scene_node_at(s, node)->angle[k - SCENE_RX]) = SCENE_FREE;
 }
 
 /* Each lets the second beam go in one way: what its motion is. */
@@ -54,7 +56,8 @@ static void about_a_hinge(scene *s)
 {
     let_go(s, 2, SCENE_RY, SCENE_RY);
 }
-static void between_hinges(scene *s) /* held at both ends, free to turn about the line between them */
+static void
+between_hinges(scene *s) /* held at both ends, free to turn about the line between them */
 {
     let_go(s, 2, SCENE_RX, SCENE_RZ);
     scene_hold(s, 3, SCENE_UX, SCENE_UZ);
@@ -111,31 +114,36 @@ static void supports(const char *formulation_text, int elements)
         changes[i].change(&s);
         formulation_parse(formulation_text, &fm, &f);
         const model_request what = {&s, fm.type, fm.option, elements, 0};
-        gsl_test(scene_validate(&s, &f) != STATUS_OK || model_alloc(&what, &m, &f) != STATUS_OK, "%s: %s", changes[i].what, f.text);
+        gsl_test(scene_validate(&s, &f) != STATUS_OK || model_alloc(&what, &m, &f) != STATUS_OK,
+                 "%s: %s", changes[i].what, f.text);
         gsl_test_int(model_loose_part(m, &node, motion), loose, "%s", changes[i].what);
         gsl_test(loose && node != 2, "%s: node %d is named", changes[i].what, node);
         for (int k = 0; k < 6; k++)
             largest = fmax(largest, fabs(motion[k]));
         for (int k = 0; k < 6 && loose && !changes[i].any; k++)
-            gsl_test(!(fabs(fabs(motion[k]) / largest - expected[k]) <= 1e-9), "%s: component %d of the motion is %g",
-                     changes[i].what, k, motion[k] / largest);
+            gsl_test(!(fabs(fabs(motion[k]) / largest - expected[k]) <= 1e-9),
+                     "%s: component %d of the motion is %g", changes[i].what, k,
+                     motion[k] / largest);
         const status outcome = solve_scene(&s, m, NULL, &r, &f);
-        gsl_test_int((int)outcome, loose ? STATUS_SINGULAR : STATUS_OK, "%s, %s: %s", changes[i].what, formulation_text, f.text);
-        gsl_test(loose && strstr(f.text, "node 2 is not held") == NULL, "%s: the culprit is named: %s", changes[i].what, f.text);
+        gsl_test_int((int)outcome, loose ? STATUS_SINGULAR : STATUS_OK, "%s, %s: %s",
+                     changes[i].what, formulation_text, f.text);
+        gsl_test(loose && strstr(f.text, "node 2 is not held") == NULL,
+                 "%s: the culprit is named: %s", changes[i].what, f.text);
         solve_result_free(&r);
         model_free(m);
         scene_free(&s);
     }
 }
 
-static status run(const char *case_name, const char *formulation_text, int elements, const char *assignment, cell_result *out,
-                  fault *f)
+static status run(const char *case_name, const char *formulation_text, int elements,
+                  const char *assignment, cell_result *out, fault *f)
 {
     cell_request request = {.type = case_find(case_name, f), .elements = elements};
     formulation fm;
     parameters_default(request.type, request.parameter);
     if (assignment[0] != '\0')
-        gsl_test(parameters_set(request.type, assignment, request.parameter, f) != STATUS_OK, "%s", assignment);
+        gsl_test(parameters_set(request.type, assignment, request.parameter, f) != STATUS_OK, "%s",
+                 assignment);
     formulation_parse(formulation_text, &fm, f);
     request.formulation = fm.type;
     memcpy(request.option, fm.option, sizeof request.option);
@@ -158,7 +166,8 @@ static void all_cases_are_held(void)
             const model_request what = {&s, registry_formulations[k], NULL, 2, 0};
             tried = model_alloc(&what, &m, &f) == STATUS_OK;
         }
-        gsl_test(!tried || model_loose_part(m, &node, motion), "%s is held (node %d)", s.name, node);
+        gsl_test(!tried || model_loose_part(m, &node, motion), "%s is held (node %d)", s.name,
+                 node);
         model_free(m);
         scene_free(&s);
     }
@@ -179,16 +188,19 @@ static void round_off(void)
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         cell_result r;
         fault f = {""};
-        const status outcome = run(row[i].case_name, row[i].formulation, row[i].elements, row[i].assignment, &r, &f);
-        gsl_test(strstr(f.text, "not held") != NULL || strstr(f.text, "critical") != NULL, "%s, n = %d: %s", row[i].case_name,
-                 row[i].elements, f.text);
-        gsl_test(outcome == STATUS_SINGULAR && strstr(f.text, "round-off") == NULL, "%s, n = %d: the cause is named: %s",
-                 row[i].case_name, row[i].elements, f.text);
-        gsl_test(outcome != STATUS_OK && outcome != STATUS_SINGULAR && outcome != STATUS_NOT_CONVERGED, "%s: a named failure",
-                 row[i].case_name);
+        const status outcome =
+            run(row[i].case_name, row[i].formulation, row[i].elements, row[i].assignment, &r, &f);
+        gsl_test(strstr(f.text, "not held") != NULL || strstr(f.text, "critical") != NULL,
+                 "%s, n = %d: %s", row[i].case_name, row[i].elements, f.text);
+        gsl_test(outcome == STATUS_SINGULAR && strstr(f.text, "round-off") == NULL,
+                 "%s, n = %d: the cause is named: %s", row[i].case_name, row[i].elements, f.text);
+        gsl_test(outcome != STATUS_OK && outcome != STATUS_SINGULAR &&
+                     outcome != STATUS_NOT_CONVERGED,
+                 "%s: a named failure", row[i].case_name);
         for (int k = 0; k < r.solve.quantities && outcome == STATUS_OK; k++)
             if (strcmp(r.scene.quantity[k].name, row[i].quantity) == 0 && !isnan(row[i].exact))
-                gsl_test_rel(r.solve.quantity[k].value, row[i].exact, 1e-5, "%s: an answer is right", row[i].case_name);
+                gsl_test_rel(r.solve.quantity[k].value, row[i].exact, 1e-5,
+                             "%s: an answer is right", row[i].case_name);
         lost += outcome == STATUS_SINGULAR;
         cell_result_free(&r);
     }
@@ -199,7 +211,8 @@ static void round_off(void)
  * round-off, and cannot meet a condition there. */
 static void driver_that_moves_nothing(double half_angle, int condition_component)
 {
-    const double c = cos(half_angle), d = sin(half_angle), z[3] = {0, 0, 1}, path[2] = {0, 1}, value[2] = {0, 0.01}, end = 1;
+    const double c = cos(half_angle), d = sin(half_angle), z[3] = {0, 0, 1}, path[2] = {0, 1},
+                 value[2] = {0, 0.01}, end = 1;
     const int meets = condition_component == SCENE_UX;
     scene s;
     model *m = NULL;
@@ -210,25 +223,30 @@ static void driver_that_moves_nothing(double half_angle, int condition_component
     section_spec_init(&spec);
     spec.kind = SECTION_CONSTANTS;
     spec.young = spec.shear_modulus = 1;
-    spec.constants = (section){.young = 1, .shear_modulus = 1, .A = 1e4, .Iy = 4, .Iz = 1, .It = 1, .Ip = 5};
+    spec.constants =
+        (section){.young = 1, .shear_modulus = 1, .A = 1e4, .Iy = 4, .Iz = 1, .It = 1, .Ip = 5};
     scene_init(&s, "v");
-    const int profile = scene_add_section(&s, &spec), apex = scene_add_node(&s, c, 0, 0), tip = scene_add_node(&s, c + 0.3, 0, 0);
+    const int profile = scene_add_section(&s, &spec), apex = scene_add_node(&s, c, 0, 0),
+              tip = scene_add_node(&s, c + 0.3, 0, 0);
     for (int i = 0; i < 2; i++) {
         const int root = scene_add_node(&s, 0, i == 0 ? d : -d, 0);
         scene_hold_all(&s, root);
-        scene_member_at(&s, scene_add_member(&s, root, apex, profile, z))->divisions = i == 0 ? 1 : 3;
+        scene_member_at(&s, scene_add_member(&s, root, apex, profile, z))->divisions =
+            i == 0 ? 1 : 3;
     }
     scene_add_member(&s, apex, tip, profile, z);
     const int known = scene_add_driver(&s, "known", 2, path, value);
     scene_drive(&s, apex, condition_component, known);
-    scene_drive(&s, tip, SCENE_UX, scene_add_unknown_driver(&s, "unknown", apex, condition_component, known));
+    scene_drive(&s, tip, SCENE_UX,
+                scene_add_unknown_driver(&s, "unknown", apex, condition_component, known));
     scene_set_stations(&s, scene_add_analysis(&s, SCENE_STATIC), 1, &end);
     formulation_parse("collocation", &fm, &f);
     const model_request what = {&s, fm.type, fm.option, 1, 0};
-    gsl_test(scene_validate(&s, &f) != STATUS_OK || model_alloc(&what, &m, &f) != STATUS_OK, "V: %s", f.text);
+    gsl_test(scene_validate(&s, &f) != STATUS_OK || model_alloc(&what, &m, &f) != STATUS_OK,
+             "V: %s", f.text);
     const status outcome = solve_scene(&s, m, NULL, &r, &f);
-    gsl_test_int((int)outcome, meets ? STATUS_OK : STATUS_SINGULAR, "V of %g, condition on %d: %s", half_angle, condition_component,
-                 f.text);
+    gsl_test_int((int)outcome, meets ? STATUS_OK : STATUS_SINGULAR, "V of %g, condition on %d: %s",
+                 half_angle, condition_component, f.text);
     gsl_test(!meets && strstr(f.text, "does not move") == NULL, "the cause is named: %s", f.text);
     solve_result_free(&r);
     model_free(m);

@@ -9,8 +9,8 @@
 #include "harness/catalogue/parameters.h"
 #include "harness/study/cell.h"
 
-static double value_of(const char *case_name, const char *formulation_text, int n, int keep_all, const char *assignment,
-                       const char *quantity, long *iterations)
+static double value_of(const char *case_name, const char *formulation_text, int n, int keep_all,
+                       const char *assignment, const char *quantity, long *iterations)
 {
     cell_request request = {0};
     cell_result result;
@@ -18,17 +18,19 @@ static double value_of(const char *case_name, const char *formulation_text, int 
     fault f = {""};
     double value = NAN;
     request.type = case_find(case_name, &f);
-    gsl_test(request.type == NULL || formulation_parse(formulation_text, &chosen, &f) != STATUS_OK, "%s, %s exist", case_name,
-             formulation_text);
+    gsl_test(request.type == NULL || formulation_parse(formulation_text, &chosen, &f) != STATUS_OK,
+             "%s, %s exist", case_name, formulation_text);
     parameters_default(request.type, request.parameter);
-    gsl_test(assignment[0] != '\0' && parameters_set(request.type, assignment, request.parameter, &f) != STATUS_OK, "%s: %s",
-             case_name, assignment);
+    gsl_test(assignment[0] != '\0' &&
+                 parameters_set(request.type, assignment, request.parameter, &f) != STATUS_OK,
+             "%s: %s", case_name, assignment);
     request.formulation = chosen.type;
     memcpy(request.option, chosen.option, sizeof request.option);
     request.solve.newton = chosen.newton;
     request.elements = n;
     request.keep_all = keep_all;
-    gsl_test(cell_run(&request, &result, &f) != STATUS_OK, "%s solved with %s (%s)", case_name, formulation_text, f.text);
+    gsl_test(cell_run(&request, &result, &f) != STATUS_OK, "%s solved with %s (%s)", case_name,
+             formulation_text, f.text);
     for (int i = 0; i < result.solve.quantities; i++)
         if (strcmp(result.scene.quantity[i].name, quantity) == 0)
             value = result.solve.quantity[i].value;
@@ -48,9 +50,12 @@ static void leaving_out_changes_nothing(void)
                  {"elastica", "theta"},
                  {"wagner_torsion", "shortening"}};
     for (size_t i = 0; i < 4; i++) {
-        const double lean = value_of(pairs[i].case_name, "beamw", 4, 0, "", pairs[i].quantity, NULL);
-        const double full = value_of(pairs[i].case_name, "beamw", 4, 1, "", pairs[i].quantity, NULL);
-        gsl_test_rel(full, lean, 1e-10, "%s: keeping everything gives the same %s", pairs[i].case_name, pairs[i].quantity);
+        const double lean =
+            value_of(pairs[i].case_name, "beamw", 4, 0, "", pairs[i].quantity, NULL);
+        const double full =
+            value_of(pairs[i].case_name, "beamw", 4, 1, "", pairs[i].quantity, NULL);
+        gsl_test_rel(full, lean, 1e-10, "%s: keeping everything gives the same %s",
+                     pairs[i].case_name, pairs[i].quantity);
     }
 }
 
@@ -58,28 +63,36 @@ static void newton(void)
 {
     long mixed = 0, displacement = 0;
     const double a = value_of("sheet_cantilever", "beamw_consistent", 4, 0, "", "C_xx", &mixed);
-    const double b = value_of("sheet_cantilever", "beamw_consistent:newton=displacement", 4, 0, "", "C_xx", &displacement);
+    const double b = value_of("sheet_cantilever", "beamw_consistent:newton=displacement", 4, 0, "",
+                              "C_xx", &displacement);
     gsl_test_rel(b, a, 1e-9, "both kinds of Newton find the same equilibrium");
-    const double c = value_of("sheet_cantilever", "beamw_consistent:newton=dense", 4, 0, "", "C_xx", NULL);
+    const double c =
+        value_of("sheet_cantilever", "beamw_consistent:newton=dense", 4, 0, "", "C_xx", NULL);
     gsl_test_rel(c, a, 1e-10, "and so does the uncondensed system");
-    gsl_test(!(mixed <= 4 * 15), "mixed Newton takes at most four iterations a step (%ld in 15 steps)", mixed);
+    gsl_test(!(mixed <= 4 * 15),
+             "mixed Newton takes at most four iterations a step (%ld in 15 steps)", mixed);
 }
 
 /* In a first step of 15 degrees the ends of short elements change places: the strains cannot tell, the solver must. */
 static void no_element_is_turned_round(void)
 {
-    const double value = value_of("spherical_joint", "beamw_consistent", 32, 0, "wagner=0", "support_stiffness_max", NULL);
-    gsl_test_rel(value, 953153.87, 1e-3, "spherical joint on fine meshes: no silent jump to a reversed element");
+    const double value = value_of("spherical_joint", "beamw_consistent", 32, 0, "wagner=0",
+                                  "support_stiffness_max", NULL);
+    gsl_test_rel(value, 953153.87, 1e-3,
+                 "spherical joint on fine meshes: no silent jump to a reversed element");
 }
 
 static void fine_mesh(void)
 {
-    const double coarse = value_of("c_column", "beamw_vlasov", 256, 0, "shear=0", "buckling_load", NULL);
-    const double fine = value_of("c_column", "beamw_vlasov", 1024, 0, "shear=0", "buckling_load", NULL);
+    const double coarse =
+        value_of("c_column", "beamw_vlasov", 256, 0, "shear=0", "buckling_load", NULL);
+    const double fine =
+        value_of("c_column", "beamw_vlasov", 1024, 0, "shear=0", "buckling_load", NULL);
     const double exact = 16117335.51891;
     gsl_test_rel(fine, exact, 2e-6, "1024 elements: %.3g from the exact load", fine / exact - 1);
     const double order = log((coarse - exact) / (fine - exact)) / log(4);
-    gsl_test(!(fabs(order - 2) < 0.1), "round-off does not hide the order on 1024 elements (%.2f)", order);
+    gsl_test(!(fabs(order - 2) < 0.1), "round-off does not hide the order on 1024 elements (%.2f)",
+             order);
 }
 
 /* Far below the largest values the geometric stiffness alone decides the pivots of K - A/s, and here they vanish. */
@@ -87,15 +100,18 @@ static void frame_of_strips(void)
 {
     const double exact = 0.6222080872197;
     for (int n = 8; n <= 32; n *= 2) {
-        const double moment = value_of("right_angle_frame", "beamw_consistent", n, 0, "", "critical_moment", NULL);
-        gsl_test_rel((moment / exact - 1) * n * n, 0.411, 0.01, "right-angle frame of %d elements a leg: second order", n);
+        const double moment =
+            value_of("right_angle_frame", "beamw_consistent", n, 0, "", "critical_moment", NULL);
+        gsl_test_rel((moment / exact - 1) * n * n, 0.411, 0.01,
+                     "right-angle frame of %d elements a leg: second order", n);
     }
 }
 
 /* Equal elements round alike: their errors add up to much more than independent ones, and the inertia is that of the sums. */
 static void equal_elements(void)
 {
-    const double critical = value_of("lateral_buckling", "geometrically_exact", 256, 0, "load=mid", "load_factor", NULL);
+    const double critical = value_of("lateral_buckling", "geometrically_exact", 256, 0, "load=mid",
+                                     "load_factor", NULL);
     gsl_test_rel(critical, 16.93613215047, 1e-6, "lateral buckling with 512 elements");
 }
 
@@ -107,8 +123,10 @@ static void modes_in_place(void)
         for (int k = 1; k <= 13; k++) {
             char name[SCENE_NAME];
             snprintf(name, sizeof name, "frequency_%d", k);
-            const double value = value_of("c_column", "beamw_consistent", 2, keep_all, "", name, NULL);
-            gsl_test(isfinite(value) != (k <= 12), "c_column, keep_all = %d: %s is %g Hz", keep_all, name, value);
+            const double value =
+                value_of("c_column", "beamw_consistent", 2, keep_all, "", name, NULL);
+            gsl_test(isfinite(value) != (k <= 12), "c_column, keep_all = %d: %s is %g Hz", keep_all,
+                     name, value);
         }
 }
 

@@ -39,8 +39,10 @@ static int prepare(const element_type *type, unsigned features, double unit, sub
     for (int i = 0; type->options != NULL && type->options[i].name != NULL; i++)
         out->options[i] = type->options[i].value;
     gsl_test(section_compute(&spec, &out->section, &f) != STATUS_OK, "%s: section", type->name);
-    const element_request request = {
-        .section = &out->section, .length = out->length, .features = features, .options = out->options};
+    const element_request request = {.section = &out->section,
+                                     .length = out->length,
+                                     .features = features,
+                                     .options = out->options};
     out->nodes = element_nodes(type, out->options);
     out->strains = element_strains(type, out->options);
     out->inner = element_inner(type, out->options);
@@ -85,7 +87,8 @@ static status settled(const subject *s, const double e[], double inner[], stress
     status outcome = STATUS_OK;
     const double none[MOST_STRAINS] = {0};
     for (int i = 0; i < 30 && s->inner > 0; i++) {
-        outcome = s->type->stress(s->data, e, inner, &(stress_output){.residual = &residual, .memory = memory});
+        outcome = s->type->stress(s->data, e, inner,
+                                  &(stress_output){.residual = &residual, .memory = memory});
         if (outcome != STATUS_OK)
             return outcome;
         if (s->type->update(s->data, none, memory, inner) < 1e-15)
@@ -115,8 +118,8 @@ static double norm(int n, const double *a)
 static void derivatives_of_strain(const subject *s)
 {
     const double h = 1e-5;
-    double d[MOST], direction[MOST], e[MOST_STRAINS], J[MOST_STRAINS * MOST], H[MOST * MOST], weights[MOST_STRAINS], worst_J = 0,
-                                                                                                                     worst_H = 0;
+    double d[MOST], direction[MOST], e[MOST_STRAINS], J[MOST_STRAINS * MOST], H[MOST * MOST],
+        weights[MOST_STRAINS], worst_J = 0, worst_H = 0;
     node_state x[ELEMENT_MAX_NODES], moved[ELEMENT_MAX_NODES];
     increments(s, 0.3, 7, d);
     place(s, d, x);
@@ -145,7 +148,8 @@ static void derivatives_of_strain(const subject *s)
         }
         dense_mul_vec(s->strains, s->coordinates, J, direction, along);
         for (int i = 0; i < s->strains; i++) {
-            worst_J = fmax(worst_J, fabs((side[0][i] - side[1][i]) / (2 * h) - along[i]) / norm(s->strains, along));
+            worst_J = fmax(worst_J, fabs((side[0][i] - side[1][i]) / (2 * h) - along[i]) /
+                                        norm(s->strains, along));
             second += weights[i] * (side[0][i] - 2 * e[i] + side[1][i]) / (h * h);
         }
         for (int i = 0; i < s->coordinates; i++)
@@ -155,7 +159,8 @@ static void derivatives_of_strain(const subject *s)
         worst_H = fmax(worst_H, fabs(second - exact) / size);
     }
     gsl_test(!(worst_J < 1e-8), "%s: de/dx is the derivative of e (%.1e)", s->type->name, worst_J);
-    gsl_test(!(worst_H < 3e-5), "%s: d2e/dx2 is the second derivative of e (%.1e)", s->type->name, worst_H);
+    gsl_test(!(worst_H < 3e-5), "%s: d2e/dx2 is the second derivative of e (%.1e)", s->type->name,
+             worst_H);
 }
 
 static double asymmetry(int n, const double A[])
@@ -172,14 +177,16 @@ static double asymmetry(int n, const double A[])
 /* sigma = dP/de and C = dsigma/de; a formulation whose tangent is not symmetric has no energy to compare with. */
 static void derivatives_of_stress(const subject *s)
 {
-    double d[MOST], e[MOST_STRAINS], sigma[MOST_STRAINS], C[MOST_STRAINS * MOST_STRAINS], inner[1024] = {0}, worst = 0, worst_C = 0;
+    double d[MOST], e[MOST_STRAINS], sigma[MOST_STRAINS], C[MOST_STRAINS * MOST_STRAINS],
+        inner[1024] = {0}, worst = 0, worst_C = 0;
     node_state x[ELEMENT_MAX_NODES];
     const int potential = !(s->type->limits & LIMIT_UNSYMMETRIC_TANGENT);
     increments(s, 0.02, 11, d);
     place(s, d, x);
     s->type->strain(s->data, x, &(strain_output){.e = e});
     rest(s, inner);
-    gsl_test(settled(s, e, inner, &(stress_output){.sigma = sigma, .C = C}) != STATUS_OK, "%s: stress evaluated", s->type->name);
+    gsl_test(settled(s, e, inner, &(stress_output){.sigma = sigma, .C = C}) != STATUS_OK,
+             "%s: stress evaluated", s->type->name);
     double largest = 0;
     for (int i = 0; i < s->strains * s->strains; i++)
         largest = fmax(largest, fabs(C[i]));
@@ -197,13 +204,18 @@ static void derivatives_of_stress(const subject *s)
         if (potential)
             worst = fmax(worst, fabs((energy[0] - energy[1]) / (2 * h) - sigma[k]) / size);
         for (int i = 0; i < s->strains; i++)
-            worst_C = fmax(worst_C, fabs((side[0][i] - side[1][i]) / (2 * h) - C[s->strains * i + k]) / largest);
+            worst_C =
+                fmax(worst_C,
+                     fabs((side[0][i] - side[1][i]) / (2 * h) - C[s->strains * i + k]) / largest);
     }
     if (potential) {
-        gsl_test(!(worst < 1e-6), "%s: stress is the gradient of the energy (%.1e)", s->type->name, worst);
-        gsl_test(!(asymmetry(s->strains, C) < 1e-10), "%s: dsigma/de is symmetric (%.1e)", s->type->name, asymmetry(s->strains, C));
+        gsl_test(!(worst < 1e-6), "%s: stress is the gradient of the energy (%.1e)", s->type->name,
+                 worst);
+        gsl_test(!(asymmetry(s->strains, C) < 1e-10), "%s: dsigma/de is symmetric (%.1e)",
+                 s->type->name, asymmetry(s->strains, C));
     }
-    gsl_test(!(worst_C < 1e-6), "%s: C is the derivative of the stress (%.1e)", s->type->name, worst_C);
+    gsl_test(!(worst_C < 1e-6), "%s: C is the derivative of the stress (%.1e)", s->type->name,
+             worst_C);
 }
 
 static void rigid_motion(const subject *s)
@@ -230,10 +242,14 @@ static void rigid_motion(const subject *s)
         s->type->strain(s->data, x, &(strain_output){.e = e});
         s->type->strain(s->data, moved, &(strain_output){.e = moved_e});
         for (int i = 0; i < s->strains; i++)
-            *(pass == 0 ? &worst_still : &worst) = fmax(pass == 0 ? worst_still : worst, fabs(moved_e[i] - e[i]) / s->length);
+            *(pass == 0 ? &worst_still : &worst) =
+                fmax(pass == 0 ? worst_still : worst, fabs(moved_e[i] - e[i]) / s->length);
     }
-    gsl_test(!(worst_still < 1e-14), "%s: rigid motion makes no strain (%.1e l0)", s->type->name, worst_still);
-    gsl_test(!(worst < 4e-15 * 4), "%s: rigid motion of a strained element changes no strain (%.1e l0)", s->type->name, worst);
+    gsl_test(!(worst_still < 1e-14), "%s: rigid motion makes no strain (%.1e l0)", s->type->name,
+             worst_still);
+    gsl_test(!(worst < 4e-15 * 4),
+             "%s: rigid motion of a strained element changes no strain (%.1e l0)", s->type->name,
+             worst);
 }
 
 /* Energy of the reversed element (turned by pi about y, warping amplitude unchanged). */
@@ -255,8 +271,9 @@ static void node_order(const subject *s)
         rest(s, inner);
         settled(s, e, inner, &(stress_output){.energy = &energy[t]});
     }
-    gsl_test(!(fabs(energy[1] - energy[0]) <= 1e-9 * fabs(energy[0])), "%s: exchanging the nodes leaves the energy (%.1e)",
-             s->type->name, fabs(energy[1] / energy[0] - 1));
+    gsl_test(!(fabs(energy[1] - energy[0]) <= 1e-9 * fabs(energy[0])),
+             "%s: exchanging the nodes leaves the energy (%.1e)", s->type->name,
+             fabs(energy[1] / energy[0] - 1));
 }
 
 static void total_mass(const subject *s)
@@ -266,7 +283,8 @@ static void total_mass(const subject *s)
     if (s->type->inertia == NULL || !(s->type->offers & FEATURE_MASS))
         return;
     place(s, d, x);
-    gsl_test(s->type->inertia(s->data, x, NULL, &(inertia_output){.M = M}) != STATUS_OK, "%s: mass matrix", s->type->name);
+    gsl_test(s->type->inertia(s->data, x, NULL, &(inertia_output){.M = M}) != STATUS_OK,
+             "%s: mass matrix", s->type->name);
     const double mass = s->section.density * s->section.A * s->length;
     for (int c = 0; c < 3; c++) {
         double sum = 0;
@@ -275,7 +293,8 @@ static void total_mass(const subject *s)
                 sum += M[(7 * i + c) * s->coordinates + 7 * j + c];
         gsl_test_rel(sum, mass, 1e-13, "%s: total mass, direction %d", s->type->name, c);
     }
-    gsl_test(!(asymmetry(s->coordinates, M) < 1e-14), "%s: mass matrix is symmetric", s->type->name);
+    gsl_test(!(asymmetry(s->coordinates, M) < 1e-14), "%s: mass matrix is symmetric",
+             s->type->name);
 }
 
 /* The same element in m, mm and um: energy in joules does not change. */
@@ -297,13 +316,15 @@ static void units(const element_type *type)
         free(s.data);
     }
     for (int k = 1; k < 3 && !(type->limits & LIMIT_UNSYMMETRIC_TANGENT); k++)
-        gsl_test_rel(energy[k], energy[0], 1e-11, "%s: the energy does not depend on the unit of length", type->name);
+        gsl_test_rel(energy[k], energy[0], 1e-11,
+                     "%s: the energy does not depend on the unit of length", type->name);
 }
 
 static void feature_subsets(const element_type *type)
 {
-    static const unsigned optional[] = {FEATURE_WARPING,       FEATURE_SHEAR,   FEATURE_TRAPEZE, FEATURE_WAGNER_MOMENTS,
-                                        FEATURE_WAGNER_TORQUE, FEATURE_HARINGX, FEATURE_MASS};
+    static const unsigned optional[] = {
+        FEATURE_WARPING,       FEATURE_SHEAR,   FEATURE_TRAPEZE, FEATURE_WAGNER_MOMENTS,
+        FEATURE_WAGNER_TORQUE, FEATURE_HARINGX, FEATURE_MASS};
     int refused = 0, bad = 0;
     for (unsigned subset = 0; subset < 1u << 7; subset++) {
         unsigned features = type->offers & ~(unsigned)FEATURE_CURVATURE;
@@ -326,24 +347,31 @@ static void feature_subsets(const element_type *type)
             bad += outcome != STATUS_OK || !isfinite(C[i]);
         free(s.data);
     }
-    gsl_test(bad, "%s: every subset of its features gives finite stiffness (%d refused by name)", type->name, refused);
+    gsl_test(bad, "%s: every subset of its features gives finite stiffness (%d refused by name)",
+             type->name, refused);
 }
 
 /* What a type says about itself does not contradict itself. */
 static void declarations(const element_type *type)
 {
-    const int flexible = (type->offers & FEATURE_SHEAR) != 0, own = (type->shear_theories & SHEAR_OWN) != 0;
-    gsl_test(flexible != (type->shear_theories != 0), "%s: flexible in shear, it has a theory of it", type->name);
-    gsl_test(own && type->shear_theories != SHEAR_OWN, "%s: a theory of its own is its only one", type->name);
+    const int flexible = (type->offers & FEATURE_SHEAR) != 0,
+              own = (type->shear_theories & SHEAR_OWN) != 0;
+    gsl_test(flexible != (type->shear_theories != 0),
+             "%s: flexible in shear, it has a theory of it", type->name);
+    gsl_test(own && type->shear_theories != SHEAR_OWN, "%s: a theory of its own is its only one",
+             type->name);
     gsl_test(own != (type->own_theory != NULL), "%s: a theory of its own has a name", type->name);
-    gsl_test((type->lacks != 0) != (type->lacks_by != NULL), "%s: what is lacking has its equations", type->name);
-    gsl_test((type->lacks & LACKS_SHEAR_Y) && !flexible, "%s: what is lacking in part is offered", type->name);
+    gsl_test((type->lacks != 0) != (type->lacks_by != NULL),
+             "%s: what is lacking has its equations", type->name);
+    gsl_test((type->lacks & LACKS_SHEAR_Y) && !flexible, "%s: what is lacking in part is offered",
+             type->name);
     double options[ELEMENT_MAX_OPTIONS] = {0};
     for (int i = 0; type->options != NULL && type->options[i].name != NULL; i++)
         options[i] = type->options[i].value;
     for (int a = 0; a < ELEMENT_ANALYSES; a++) {
         const element_order order = element_order_in(type, (element_analysis)a, options);
-        gsl_test(order.least < 1 || order.highest < order.least, "%s: orders %d to %d", type->name, order.least, order.highest);
+        gsl_test(order.least < 1 || order.highest < order.least, "%s: orders %d to %d", type->name,
+                 order.least, order.highest);
     }
 }
 
@@ -354,7 +382,8 @@ int main(void)
         subject s;
         gsl_test(type->abi != ELEMENT_ABI, "%s: version of the interface", type->name);
         declarations(type);
-        gsl_test(!prepare(type, type->offers & ~(unsigned)FEATURE_CURVATURE, 1, &s), "%s: prepared", type->name);
+        gsl_test(!prepare(type, type->offers & ~(unsigned)FEATURE_CURVATURE, 1, &s), "%s: prepared",
+                 type->name);
         derivatives_of_strain(&s);
         derivatives_of_stress(&s);
         rigid_motion(&s);

@@ -27,10 +27,12 @@ static double lap(chain *c, chain_linearised *w, int phase)
             type->strain(chain_data(c), c->x, &(strain_output){.e = e, .J = w->J});
             break;
         case 1:
-            type->strain(chain_data(c), c->x, &(strain_output){.e = e, .J = w->J, .s = c->sigma[0], .H = H});
+            type->strain(chain_data(c), c->x,
+                         &(strain_output){.e = e, .J = w->J, .s = c->sigma[0], .H = H});
             break;
         case 2:
-            type->stress(chain_data(c), c->e[0], c->inner[0], &(stress_output){.sigma = w->sigma, .C = w->C, .memory = w->memory});
+            type->stress(chain_data(c), c->e[0], c->inner[0],
+                         &(stress_output){.sigma = w->sigma, .C = w->C, .memory = w->memory});
             break;
         default:
             if (type->update != NULL)
@@ -39,11 +41,13 @@ static double lap(chain *c, chain_linearised *w, int phase)
     return (now() - start) / CALLS;
 }
 
-static void measure(const element_type *type, const double option[], const char *label, const section *s)
+static void measure(const element_type *type, const double option[], const char *label,
+                    const section *s)
 {
     static chain c;
     static chain_linearised w;
-    const unsigned wanted = FEATURE_SHEAR | FEATURE_WARPING | FEATURE_TRAPEZE | FEATURE_HARINGX | FEATURE_LARGE;
+    const unsigned wanted =
+        FEATURE_SHEAR | FEATURE_WARPING | FEATURE_TRAPEZE | FEATURE_HARINGX | FEATURE_LARGE;
     double least[PHASES], held[7] = {0}, step[7] = {0, 0.003};
     if (chain_start(&c, type, option, s, 0.1, 1, wanted & type->offers) != 0)
         return;
@@ -54,8 +58,8 @@ static void measure(const element_type *type, const double option[], const char 
         for (int i = 0; i < REPEATS; i++)
             least[phase] = fmin(least[phase], lap(&c, &w, phase));
     }
-    printf("%-32s %10.2f %14.2f %16.2f %8.2f %8.2f\n", label, 1e6 * least[0], 1e6 * least[1], 1e6 * least[2], 1e6 * least[3],
-           1e6 * (least[1] + least[2] + least[3]));
+    printf("%-32s %10.2f %14.2f %16.2f %8.2f %8.2f\n", label, 1e6 * least[0], 1e6 * least[1],
+           1e6 * least[2], 1e6 * least[3], 1e6 * (least[1] + least[2] + least[3]));
 }
 
 int main(void)
@@ -72,19 +76,23 @@ int main(void)
     spec.shear_factor[0] = spec.shear_factor[1] = 0.85;
     if (section_compute(&spec, &s, &f) != STATUS_OK)
         return 1;
-    printf("%-32s %10s %14s %16s %8s %8s\n", "microseconds per element", "e, J", "e, J and H", "stress and C", "update", "all");
+    printf("%-32s %10s %14s %16s %8s %8s\n", "microseconds per element", "e, J", "e, J and H",
+           "stress and C", "update", "all");
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *type = registry_formulations[i];
         measure(type, NULL, type->name, &s);
         for (int k = 0; type->options != NULL && type->options[k].name != NULL; k++) {
-            const int shapes = type->inner != NULL || type->nodes != NULL; /* this option changes the element's size */
-            for (double v = type->options[k].min; shapes && k == 0 && v <= type->options[k].max; v++) {
+            const int shapes = type->inner != NULL ||
+                               type->nodes != NULL; /* this option changes the element's size */
+            for (double v = type->options[k].min; shapes && k == 0 && v <= type->options[k].max;
+                 v++) {
                 char label[64];
                 double option[ELEMENT_MAX_OPTIONS];
                 for (int j = 0; type->options[j].name != NULL; j++)
                     option[j] = type->options[j].value;
                 option[k] = v;
-                snprintf(label, sizeof label, "%s, choice %d of %s", type->name, (int)v + 1, type->options[k].name);
+                snprintf(label, sizeof label, "%s, choice %d of %s", type->name, (int)v + 1,
+                         type->options[k].name);
                 measure(type, option, label, &s);
             }
         }

@@ -21,7 +21,8 @@ typedef struct subject {
     char name[96];
 } subject;
 
-static const element_spin turning = {.omega = {31.3, -17.9, 23.7}, .centre = {0.213, -0.147, 0.089}};
+static const element_spin turning = {.omega = {31.3, -17.9, 23.7},
+                                     .centre = {0.213, -0.147, 0.089}};
 
 static void test_section(const element_type *type, section *out)
 {
@@ -31,7 +32,8 @@ static void test_section(const element_type *type, section *out)
     spec.young = 210e9;
     spec.shear_modulus = 80.7e9;
     spec.density = 7850;
-    spec.kind = type->limits & (LIMIT_RECTANGLE | LIMIT_DOUBLY_SYMMETRIC) ? SECTION_RECTANGLE : SECTION_WALLS;
+    spec.kind = type->limits & (LIMIT_RECTANGLE | LIMIT_DOUBLY_SYMMETRIC) ? SECTION_RECTANGLE
+                                                                          : SECTION_WALLS;
     spec.width = 0.0371;
     spec.height = 0.0123;
     spec.points = 4;
@@ -54,9 +56,11 @@ static void prepare(const element_type *type, const double options[], unsigned f
     s->nodes = element_nodes(type, options);
     s->coordinates = 7 * s->nodes;
     test_section(type, &s->section);
-    const element_request request = {.section = &s->section, .length = s->length, .features = features, .options = options};
+    const element_request request = {
+        .section = &s->section, .length = s->length, .features = features, .options = options};
     s->data = calloc(1, type->data_size(&request));
-    gsl_test(type->prepare(&request, s->data, &f) != STATUS_OK, "%s: prepared (%s)", type->name, f.text);
+    gsl_test(type->prepare(&request, s->data, &f) != STATUS_OK, "%s: prepared (%s)", type->name,
+             f.text);
 }
 
 /* Increments of high entropy, of relative size `size`. */
@@ -74,7 +78,8 @@ static void increments(const subject *s, double size, unsigned seed, double d[])
 static void undeformed(const subject *s, node_state x[])
 {
     for (int k = 0; k < s->nodes; k++)
-        x[k] = (node_state){.r = {s->length * k / (s->nodes - 1)}, .R = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+        x[k] =
+            (node_state){.r = {s->length * k / (s->nodes - 1)}, .R = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
 }
 
 static void move(const subject *s, double times, const double d[], node_state x[])
@@ -118,37 +123,44 @@ static void at_rest(const subject *s, const node_state x[])
 {
     double M[MOST * MOST], v[MOST] = {0}, Mv[MOST];
     const double mass = s->section.density * s->section.A * s->length;
-    gsl_test(s->type->inertia(s->data, x, NULL, &(inertia_output){.M = M}) != STATUS_OK, "%s: mass matrix", s->name);
+    gsl_test(s->type->inertia(s->data, x, NULL, &(inertia_output){.M = M}) != STATUS_OK,
+             "%s: mass matrix", s->name);
     gsl_test(!(departure(s->coordinates, M, 1) < 1e-14), "%s: mass matrix is symmetric", s->name);
     for (int c = 0; c < 3; c++) {
         for (int i = 0; i < s->coordinates; i++)
             v[i] = i % 7 == c;
         dense_mul_vec(s->coordinates, s->coordinates, M, v, Mv);
-        gsl_test_rel(dot(s->coordinates, v, Mv), mass, 1e-13, "%s: total mass, direction %d", s->name, c);
+        gsl_test_rel(dot(s->coordinates, v, Mv), mass, 1e-13, "%s: total mass, direction %d",
+                     s->name, c);
     }
 }
 
 /* The motion v of the frame itself has the kinetic energy 1/2 v^T M v = -V, and G v = -2 F. */
-static void own_motion(const subject *s, const node_state x[], int rotary, const inertia_output *out)
+static void own_motion(const subject *s, const node_state x[], int rotary,
+                       const inertia_output *out)
 {
     const int n = s->coordinates;
     double v[MOST] = {0}, Mv[MOST], Gv[MOST], worst = 0, largest = 0;
     for (int k = 0; k < s->nodes; k++) {
-        const double r[3] = {x[k].r[0] - turning.centre[0], x[k].r[1] - turning.centre[1], x[k].r[2] - turning.centre[2]};
+        const double r[3] = {x[k].r[0] - turning.centre[0], x[k].r[1] - turning.centre[1],
+                             x[k].r[2] - turning.centre[2]};
         vec3_cross(turning.omega, r, v + 7 * k);
         memcpy(v + 7 * k + 3, turning.omega, sizeof turning.omega);
     }
     dense_mul_vec(n, n, out->M, v, Mv);
     dense_mul_vec(n, n, out->G, v, Gv);
     if (rotary)
-        gsl_test_rel(dot(n, v, Mv) / 2, -*out->potential, 1e-13, "%s: the frame's own motion has the centrifugal energy", s->name);
+        gsl_test_rel(dot(n, v, Mv) / 2, -*out->potential, 1e-13,
+                     "%s: the frame's own motion has the centrifugal energy", s->name);
     for (int i = 0; i < n; i++) {
         const double size = i % 7 < 3 ? 1 : s->length;
         worst = fmax(worst, fabs(Gv[i] + 2 * out->force[i]) / size);
         largest = fmax(largest, fabs(out->force[i]) / size);
     }
-    gsl_test(!(worst <= 1e-13 * largest), "%s: the Coriolis force of the frame's own motion is twice the centrifugal force (%.1e)",
-             s->name, worst / largest);
+    gsl_test(
+        !(worst <= 1e-13 * largest),
+        "%s: the Coriolis force of the frame's own motion is twice the centrifugal force (%.1e)",
+        s->name, worst / largest);
 }
 
 /* F = -dV/dx and N = d2V/dx2 by differences along a line. */
@@ -168,16 +180,20 @@ static void derivatives(const subject *s, const node_state x[], const inertia_ou
     dense_mul_vec(n, n, out->N, d, Nd);
     const double first = (V[0] - 8 * V[1] + 8 * V[3] - V[4]) / (12 * h);
     const double second = (-V[0] + 16 * V[1] - 30 * V[2] + 16 * V[3] - V[4]) / (12 * h * h);
-    gsl_test_rel(-dot(n, out->force, d), first, 1e-8, "%s: centrifugal force is the gradient of its potential", s->name);
-    gsl_test_rel(dot(n, d, Nd), second, 1e-6, "%s: and its stiffness the second derivative", s->name);
+    gsl_test_rel(-dot(n, out->force, d), first, 1e-8,
+                 "%s: centrifugal force is the gradient of its potential", s->name);
+    gsl_test_rel(dot(n, d, Nd), second, 1e-6, "%s: and its stiffness the second derivative",
+                 s->name);
 }
 
 static void turning_frame(const subject *s, const node_state x[], int rotary)
 {
     double V, F[MOST], M[MOST * MOST], N[MOST * MOST], G[MOST * MOST];
     inertia_output out = {.M = M, .potential = &V, .force = F, .N = N, .G = G};
-    gsl_test(s->type->inertia(s->data, x, &turning, &out) != STATUS_OK, "%s: inertia in a turning frame", s->name);
-    gsl_test(!(departure(s->coordinates, N, 1) < 1e-14), "%s: centrifugal stiffness is symmetric", s->name);
+    gsl_test(s->type->inertia(s->data, x, &turning, &out) != STATUS_OK,
+             "%s: inertia in a turning frame", s->name);
+    gsl_test(!(departure(s->coordinates, N, 1) < 1e-14), "%s: centrifugal stiffness is symmetric",
+             s->name);
     gsl_test(!(departure(s->coordinates, G, -1) < 1e-14), "%s: gyroscopic matrix is skew", s->name);
     own_motion(s, x, rotary, &out);
     derivatives(s, x, &out);
@@ -217,7 +233,8 @@ static void check(const element_type *type, const double options[], int choice, 
 }
 
 /* v^T M v of a straight element that turns about an axis through its first node at one radian a second. */
-static double turning_inertia(const element_type *type, const double options[], unsigned features, int axis, subject *s)
+static double turning_inertia(const element_type *type, const double options[], unsigned features,
+                              int axis, subject *s)
 {
     double M[MOST * MOST], v[MOST] = {0}, Mv[MOST], omega[3] = {0};
     node_state x[ELEMENT_MAX_NODES];
@@ -244,17 +261,23 @@ static void moments_of_inertia(const element_type *type, const double options[],
     snprintf(s.name, sizeof s.name, "%s, mass %d", type->name, choice);
     for (int axis = 0; axis < 3; axis++) {
         const double whole = turning_inertia(type, options, features, axis, &s);
-        const double line = turning_inertia(type, options, features & ~(unsigned)FEATURE_ROTARY_INERTIA, axis, &s);
+        const double line =
+            turning_inertia(type, options, features & ~(unsigned)FEATURE_ROTARY_INERTIA, axis, &s);
         const section *c = &s.section;
-        const double moment = c->density * s.length * (axis == 0 ? c->Ip : axis == 1 ? c->Iy : c->Iz);
-        gsl_test_rel(whole - (axis == 0 ? 0 : line), moment, 1e-10, "%s: moment of inertia about %c", s.name, "xyz"[axis]);
+        const double moment = c->density * s.length *
+                              (axis == 0   ? c->Ip
+                               : axis == 1 ? c->Iy
+                                           : c->Iz);
+        gsl_test_rel(whole - (axis == 0 ? 0 : line), moment, 1e-10,
+                     "%s: moment of inertia about %c", s.name, "xyz"[axis]);
         if (axis == 0)
             gsl_test_rel(line, moment, 1e-12, "%s: the twist has inertia always", s.name);
     }
 }
 
 /* Centrifugal energy [J] of a uniformly twisted element whose amplitudes are its twist rate. */
-static double twisted_energy(const element_type *type, const double options[], unsigned features, double angle, subject *s)
+static double twisted_energy(const element_type *type, const double options[], unsigned features,
+                             double angle, subject *s)
 {
     double d[MOST] = {0}, V = NAN;
     node_state x[ELEMENT_MAX_NODES];
@@ -262,7 +285,8 @@ static double twisted_energy(const element_type *type, const double options[], u
     undeformed(s, x);
     for (int k = 0; k < s->nodes; k++) {
         const double turn = angle * k / (s->nodes - 1), ys = s->section.ys, zs = s->section.zs;
-        d[7 * k + 1] = ys * (1 - cos(turn)) + zs * sin(turn); /* about the shear centre: nothing shears */
+        d[7 * k + 1] =
+            ys * (1 - cos(turn)) + zs * sin(turn); /* about the shear centre: nothing shears */
         d[7 * k + 2] = zs * (1 - cos(turn)) - ys * sin(turn);
         d[7 * k + 3] = turn;
         d[7 * k + 6] = sin(angle) / s->length; /* e2 of BEAMW is a sine */
@@ -283,15 +307,18 @@ static void warping_in_a_turning_frame(const element_type *type, const double op
         return;
     snprintf(s.name, sizeof s.name, "%s, mass %d", type->name, choice);
     const double with = twisted_energy(type, options, features, angle, &s);
-    const double without = twisted_energy(type, options, features & ~(unsigned)FEATURE_WARPING, angle, &s);
+    const double without =
+        twisted_energy(type, options, features & ~(unsigned)FEATURE_WARPING, angle, &s);
     const double a = sin(angle) / s.length, *w = turning.omega;
-    const double expected = -s.section.density * s.section.Iw * s.length * a * a * (w[1] * w[1] + w[2] * w[2]) / 2;
+    const double expected =
+        -s.section.density * s.section.Iw * s.length * a * a * (w[1] * w[1] + w[2] * w[2]) / 2;
     gsl_test_rel(with - without, expected, 2e-4, "%s: centrifugal energy of warping", s.name);
 }
 
 int main(void)
 {
-    static const unsigned left_out[] = {0, FEATURE_ROTARY_INERTIA, FEATURE_WARPING, FEATURE_WARPING | FEATURE_SHEAR};
+    static const unsigned left_out[] = {0, FEATURE_ROTARY_INERTIA, FEATURE_WARPING,
+                                        FEATURE_WARPING | FEATURE_SHEAR};
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *type = registry_formulations[i];
         double options[ELEMENT_MAX_OPTIONS] = {0};

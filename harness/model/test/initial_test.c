@@ -6,14 +6,16 @@
 #include "harness/analysis/solve.h"
 #include "harness/catalogue/formulations.h"
 
-static const char *const names[] = {"sheet_second",        "sheet_second_consistent",     "sheet_third", "sheet_third_printed",
-                                    "geometrically_exact", "geometrically_exact:nodes=2", "collocation"};
+static const char *const names[] = {
+    "sheet_second",        "sheet_second_consistent",     "sheet_third", "sheet_third_printed",
+    "geometrically_exact", "geometrically_exact:nodes=2", "collocation"};
 enum { NAMES = sizeof names / sizeof names[0] };
 
 /* A rectangle of length 2 m, its strains g[3]; held[6]: components of the tip that are held. Values of six coordinates, six reactions. */
 static void solve(const char *name, const double g[3], const int held[6], double u[6], double F[6])
 {
-    static const char *const quantity[12] = {"u0", "u1", "u2", "u3", "u4", "u5", "F0", "F1", "F2", "F3", "F4", "F5"};
+    static const char *const quantity[12] = {"u0", "u1", "u2", "u3", "u4", "u5",
+                                             "F0", "F1", "F2", "F3", "F4", "F5"};
     scene s;
     section_spec spec;
     formulation fm;
@@ -41,7 +43,8 @@ static void solve(const char *name, const double g[3], const int held[6], double
         if (held[i])
             scene_hold(&s, tip, i, i);
     for (int i = 0; i < 12; i++) {
-        scene_quantity *q = scene_add_quantity(&s, quantity[i], "1", i < 6 ? SCENE_COORDINATE : SCENE_REACTION, path);
+        scene_quantity *q = scene_add_quantity(&s, quantity[i], "1",
+                                               i < 6 ? SCENE_COORDINATE : SCENE_REACTION, path);
         q->node = tip;
         q->row = i % 6;
     }
@@ -81,11 +84,13 @@ static void shear(const char *name, int direction)
     const int loose[6] = {0}, held[6] = {1, 1, 1, 1, 1, 1};
     g[direction] = small;
     solve(name, g, loose, u, F);
-    gsl_test_rel(u[direction], 2 * small, 1e-5, "%s: a free end slides by L g along %c", name, "xyz"[direction]);
+    gsl_test_rel(u[direction], 2 * small, 1e-5, "%s: a free end slides by L g along %c", name,
+                 "xyz"[direction]);
     gsl_test_abs(u[direction == 1 ? 5 : 4] / small, 0, 1e-5, "%s: and does not turn", name);
     solve(name, g, held, u, F);
     /* Timoshenko's clamped beam under the imposed sliding L g: 12 EI L g/(L^3 (1 + Phi)). */
-    const double EI = 2e9 * (direction == 1 ? 0.2 * 0.1 * 0.1 * 0.1 : 0.1 * 0.2 * 0.2 * 0.2) / 12, L = 2;
+    const double EI = 2e9 * (direction == 1 ? 0.2 * 0.1 * 0.1 * 0.1 : 0.1 * 0.2 * 0.2 * 0.2) / 12,
+                 L = 2;
     const double Phi = 12 * EI / (GA * L * L), expected = -12 * EI * small / (L * L * (1 + Phi));
     gsl_test_rel(F[direction], expected, 1e-5, "%s: held, along %c", name, "xyz"[direction]);
 }
@@ -97,7 +102,8 @@ static void not_offered(void)
     scene s;
     scene_init(&s, "strained");
     gsl_test(formulation_parse("beamw", &fm, NULL) != STATUS_OK, "beamw exists");
-    scene_member_at(&s, scene_add_member(&s, 0, 0, 0, (const double[3]){0, 1, 0}))->strain[0] = 1e-3;
+    scene_member_at(&s, scene_add_member(&s, 0, 0, 0, (const double[3]){0, 1, 0}))->strain[0] =
+        1e-3;
     gsl_test(!model_missing(&s, fm.type, words, sizeof words) || strstr(words, "initial") == NULL,
              "a formulation without it is told: %s", words);
     scene_free(&s);
@@ -107,7 +113,8 @@ int main(void)
 {
     for (int i = 0; i < NAMES; i++) {
         elongation(names[i]);
-        if (strncmp(names[i], "sheet_third", 11) != 0) /* N Eq. 50 knows no shear along the thickness: refused */
+        if (strncmp(names[i], "sheet_third", 11) !=
+            0) /* N Eq. 50 knows no shear along the thickness: refused */
             shear(names[i], 1);
         shear(names[i], 2);
     }

@@ -35,7 +35,8 @@ static void row_of(int count, const link links[], double force, scene *s)
     scene_hold_all(s, last);
     for (int i = 0; i < count; i++) {
         at += links[i].length;
-        const int next = scene_add_node(s, at, 0, 0), member = scene_add_member(s, last, next, profile[links[i].section], y);
+        const int next = scene_add_node(s, at, 0, 0),
+                  member = scene_add_member(s, last, next, profile[links[i].section], y);
         scene_member_at(s, member)->strain[0] = links[i].strain;
         scene_member_at(s, member)->curvature[2] = links[i].curvature;
         last = next;
@@ -46,14 +47,16 @@ static void row_of(int count, const link links[], double force, scene *s)
     scene_set_stations(s, path, 1, &end);
     static const char *const name[] = {"reaction", "shift"};
     for (int i = 0; i < 2; i++) {
-        scene_quantity *q = scene_add_quantity(s, name[i], "1", i == 0 ? SCENE_REACTION : SCENE_COORDINATE, path);
+        scene_quantity *q =
+            scene_add_quantity(s, name[i], "1", i == 0 ? SCENE_REACTION : SCENE_COORDINATE, path);
         q->node = i == 0 ? last : 1;
         q->row = SCENE_UX;
     }
 }
 
 /* 1: solved. value: reaction at the end, shift of the first joint. */
-static int solve(const element_type *type, int count, const link links[], double force, int elements, double value[2], int *kinds)
+static int solve(const element_type *type, int count, const link links[], double force,
+                 int elements, double value[2], int *kinds)
 {
     scene s;
     model *m = NULL;
@@ -93,9 +96,11 @@ static void counts(const element_type *type)
         for (int elements = 1; elements <= 7; elements += 3) {
             double value[2];
             int kinds = 0;
-            const int straight = row[i].second.curvature != 0 && !(type->offers & FEATURE_CURVATURE);
+            const int straight =
+                row[i].second.curvature != 0 && !(type->offers & FEATURE_CURVATURE);
             if (solve(type, MOST_MEMBERS, links, 0, elements, value, &kinds) && !straight)
-                gsl_test_int(kinds, row[i].kinds, "%s, %d elements a member: kinds of %s", type->name, elements, row[i].what);
+                gsl_test_int(kinds, row[i].kinds, "%s, %d elements a member: kinds of %s",
+                             type->name, elements, row[i].what);
         }
     }
 }
@@ -121,8 +126,9 @@ static void lengths(const element_type *type)
         double value[2];
         int kinds;
         if (solve(type, 2, links, 0, 2, value, &kinds))
-            gsl_test(!(fabs(value[0]) <= 1e-14 * young * A), "%s: lengths 1 and 1 + %g: stressed by %.1e of EA", type->name,
-                     apart[i], value[0] / (young * A));
+            gsl_test(!(fabs(value[0]) <= 1e-14 * young * A),
+                     "%s: lengths 1 and 1 + %g: stressed by %.1e of EA", type->name, apart[i],
+                     value[0] / (young * A));
     }
 }
 
@@ -137,8 +143,10 @@ static void strains(const element_type *type)
         int kinds;
         if (!solve(type, 2, links, 0, 1, value, &kinds))
             continue;
-        gsl_test_rel(value[0], -young * A * strain[i] / 2, 1e-4, "%s: strain %g in one of two: force", type->name, strain[i]);
-        gsl_test_rel(value[1], strain[i] / 2, 1e-4, "%s: strain %g in one of two: shift", type->name, strain[i]);
+        gsl_test_rel(value[0], -young * A * strain[i] / 2, 1e-4,
+                     "%s: strain %g in one of two: force", type->name, strain[i]);
+        gsl_test_rel(value[1], strain[i] / 2, 1e-4, "%s: strain %g in one of two: shift",
+                     type->name, strain[i]);
     }
 }
 
@@ -152,8 +160,9 @@ static void sections(const element_type *type)
         int kinds;
         const double area = first == 0 ? A1 : A0;
         if (solve(type, 2, links, force, 1, value, &kinds))
-            gsl_test(!(fabs(value[0] / (-force * area / (A0 + A1)) - 1) <= 4e-7), "%s: section %d first: force %.9g, not %.9g",
-                     type->name, first, value[0], -force * area / (A0 + A1));
+            gsl_test(!(fabs(value[0] / (-force * area / (A0 + A1)) - 1) <= 4e-7),
+                     "%s: section %d first: force %.9g, not %.9g", type->name, first, value[0],
+                     -force * area / (A0 + A1));
     }
 }
 

@@ -23,7 +23,8 @@ static void beam_and_body(int body, scene_load_kind kind, scene *s)
     section_spec_init(&spec);
     spec.kind = SECTION_CONSTANTS;
     spec.young = spec.shear_modulus = 1;
-    spec.constants = (section){.young = 1, .shear_modulus = 1, .A = 1e3, .Iy = 2, .Iz = 1, .It = 1, .Ip = 3};
+    spec.constants =
+        (section){.young = 1, .shear_modulus = 1, .A = 1e3, .Iy = 2, .Iz = 1, .It = 1, .Ip = 3};
     scene_init(s, "beam_and_body");
     const int root = scene_add_node(s, 0, 0, 0), node = scene_add_node(s, 1, 0, 0),
               edge = scene_add_attached(s, node, 1.3, -0.4, 0.25);
@@ -66,8 +67,9 @@ static void prepare(int body, scene_load_kind kind, subject *s)
     int i = 0;
     for (; strcmp(registry_formulations[i]->name, "geometrically_exact") != 0; i++) {}
     const model_request what = {&s->scene, registry_formulations[i], NULL, 1, 0};
-    gsl_test(scene_validate(&s->scene, &f) != STATUS_OK || model_alloc(&what, &s->m, &f) != STATUS_OK, "%s: %s", body_name[body],
-             f.text);
+    gsl_test(scene_validate(&s->scene, &f) != STATUS_OK ||
+                 model_alloc(&what, &s->m, &f) != STATUS_OK,
+             "%s: %s", body_name[body], f.text);
     model_state_alloc(s->m, &s->turned, &f);
     model_state_alloc(s->m, &s->moved, &f);
     s->n = model_sizes(s->m).free;
@@ -89,7 +91,8 @@ static void loads_of(const subject *s, double out[])
 {
     double without[MOST];
     fault f = {""};
-    model_linearisation with = {.path = 1, .residual = out}, none = {.path = 0, .residual = without};
+    model_linearisation with = {.path = 1, .residual = out},
+                        none = {.path = 0, .residual = without};
     model_linearise(s->m, s->turned, &with, &f);
     model_linearise(s->m, s->turned, &none, &f);
     for (int k = 0; k < s->n; k++)
@@ -143,7 +146,8 @@ static void conjugate(int body, scene_load_kind kind)
     prepare(body, kind, &s);
     loads_of(&s, load);
     for (int k = 0; k < s.n; k++)
-        gsl_test(!(fabs(load[k] - slope(&s, k)) <= 1e-9), "%s, %s: load %d is %.12g, its work rises by %.12g", body_name[body],
+        gsl_test(!(fabs(load[k] - slope(&s, k)) <= 1e-9),
+                 "%s, %s: load %d is %.12g, its work rises by %.12g", body_name[body],
                  kind == SCENE_FORCE ? "force" : "moment", k, load[k], slope(&s, k));
     model_frame(s.m, s.turned, 1, at, q);
     model_frame(s.m, s.turned, 2, edge, q);
@@ -152,9 +156,10 @@ static void conjugate(int body, scene_load_kind kind)
     vec3_cross(arm, s.scene.load[0].vector, moment);
     model_node_load(s.m, s.turned, 1, F);
     for (int i = 0; i < 3; i++) {
-        const double v = s.scene.load[0].vector[i], force = kind == SCENE_FORCE ? v : 0, m = kind == SCENE_FORCE ? moment[i] : v;
-        gsl_test(!(fabs(F[i] - force) <= 1e-14) || !(fabs(F[3 + i] - m) <= 1e-14), "%s: force and moment on the body: %g, %g",
-                 body_name[body], F[i], F[3 + i]);
+        const double v = s.scene.load[0].vector[i], force = kind == SCENE_FORCE ? v : 0,
+                     m = kind == SCENE_FORCE ? moment[i] : v;
+        gsl_test(!(fabs(F[i] - force) <= 1e-14) || !(fabs(F[3 + i] - m) <= 1e-14),
+                 "%s: force and moment on the body: %g, %g", body_name[body], F[i], F[3 + i]);
     }
     release(&s);
 }
@@ -168,16 +173,19 @@ static void stiffness(int body)
     const sparse *pattern;
     sparse K;
     prepare(body, SCENE_FORCE, &s);
-    gsl_test(model_pattern(s.m, 0, &pattern, &f) != STATUS_OK || sparse_alloc_like(pattern, &K, &f) != STATUS_OK, "pattern");
+    gsl_test(model_pattern(s.m, 0, &pattern, &f) != STATUS_OK ||
+                 sparse_alloc_like(pattern, &K, &f) != STATUS_OK,
+             "pattern");
     model_load_stiffness(s.m, s.turned, 1, &K);
     double largest = 0;
     for (int j = 0; j < s.n; j++)
         for (int k = K.column[j]; k < K.column[j + 1]; k++) {
             const int i = K.row[k];
-            const double h = step, mixed = work_at(&s, i, h, j, h) - work_at(&s, i, h, j, -h) - work_at(&s, i, -h, j, h) +
-                                           work_at(&s, i, -h, j, -h);
-            gsl_test(!(fabs(K.value[k] + mixed / (4 * h * h)) <= 1e-5), "%s: stiffness (%d, %d) of a force: %.8g, not %.8g",
-                     body_name[body], i, j, K.value[k], -mixed / (4 * h * h));
+            const double h = step, mixed = work_at(&s, i, h, j, h) - work_at(&s, i, h, j, -h) -
+                                           work_at(&s, i, -h, j, h) + work_at(&s, i, -h, j, -h);
+            gsl_test(!(fabs(K.value[k] + mixed / (4 * h * h)) <= 1e-5),
+                     "%s: stiffness (%d, %d) of a force: %.8g, not %.8g", body_name[body], i, j,
+                     K.value[k], -mixed / (4 * h * h));
             largest = fmax(largest, fabs(K.value[k]));
         }
     gsl_test(!(largest > 0.1), "%s: the force has a stiffness: %g", body_name[body], largest);
@@ -209,8 +217,9 @@ static void rates(void)
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         model_load_rate(s.m, s.turned, row[i].path, out);
         for (int k = 0; k < s.n; k++)
-            gsl_test(!(fabs(out[k] - row[i].rate * unit[k]) <= 1e-11), "rate at path %g: %g of the load, not %g", row[i].path,
-                     out[k] / unit[k], row[i].rate);
+            gsl_test(!(fabs(out[k] - row[i].rate * unit[k]) <= 1e-11),
+                     "rate at path %g: %g of the load, not %g", row[i].path, out[k] / unit[k],
+                     row[i].rate);
     }
     release(&s);
 }

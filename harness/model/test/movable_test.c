@@ -28,7 +28,8 @@ static int fill(unsigned *state, int shifts, int turns, int in_plane, double len
     for (int k = 0; k < shifts; k++)
         T[k * columns + k] = 1;
     for (int k = 0; k < turns; k++) {
-        double any[3] = {random_number(state), random_number(state), random_number(state)}, moved[3];
+        double any[3] = {random_number(state), random_number(state), random_number(state)},
+               moved[3];
         vec3_cross(normal, any, axis);
         const double *turn = in_plane ? axis : any, size = vec3_norm(turn);
         vec3_cross(turn, offset, moved);
@@ -80,10 +81,11 @@ static void dimensions(void)
         movable v;
         const int columns = fill(&state, shifts, turns, in_plane, size, T);
         movable_of(columns, T, size, &v);
-        gsl_test(v.count != rank, "%d displacements and %d turns%s, size %g: %d dimensions", shifts, turns,
-                 in_plane ? " in a plane" : "", size, v.count);
+        gsl_test(v.count != rank, "%d displacements and %d turns%s, size %g: %d dimensions", shifts,
+                 turns, in_plane ? " in a plane" : "", size, v.count);
         gsl_test(!(apart_from_unit(&v) <= 1e-14), "dual and span: %.1e", apart_from_unit(&v));
-        gsl_test(!(outside(columns, T, size, &v) <= 1e-12), "columns lie in the span: %.1e", outside(columns, T, size, &v));
+        gsl_test(!(outside(columns, T, size, &v) <= 1e-12), "columns lie in the span: %.1e",
+                 outside(columns, T, size, &v));
     }
 }
 
@@ -91,10 +93,12 @@ static void dimensions(void)
  * out. */
 static void whole_components(void)
 {
-    const double c = cos(0.35), s = sin(0.35), T[12] = {0, 0, 0, 0, 0, 0, -s, c, c, s, 1e-17, -3e-17};
+    const double c = cos(0.35), s = sin(0.35),
+                 T[12] = {0, 0, 0, 0, 0, 0, -s, c, c, s, 1e-17, -3e-17};
     movable v;
     movable_of(2, T, 0.06, &v);
-    gsl_test(v.count != 2 || v.components != 0x18, "the plane of two components: %d, %x", v.count, v.components);
+    gsl_test(v.count != 2 || v.components != 0x18, "the plane of two components: %d, %x", v.count,
+             v.components);
     for (int i = 0; i < 12; i++)
         gsl_test(v.span[i] != (double)(i == 6 || i == 9), "unit vectors: %g at %d", v.span[i], i);
 }
@@ -125,10 +129,12 @@ static void prescribed_moment(void)
                 double along = 0;
                 for (int i = 0; i < 3; i++)
                     along += T[(3 + i) * columns + k] * left[i];
-                gsl_test(!(fabs(along) <= 1e-14), "%d turns: %.1e left along one of them", turns, along);
+                gsl_test(!(fabs(along) <= 1e-14), "%d turns: %.1e left along one of them", turns,
+                         along);
             }
-            gsl_test((vec3_norm(left) == 0) != (turns == 3 && !in_plane), "%d turns%s: %g is prescribed", turns,
-                     in_plane ? " in a plane" : "", vec3_norm(left));
+            gsl_test((vec3_norm(left) == 0) != (turns == 3 && !in_plane),
+                     "%d turns%s: %g is prescribed", turns, in_plane ? " in a plane" : "",
+                     vec3_norm(left));
             gsl_test(turns == 0 && memcmp(left, m, sizeof left) != 0, "no turns: all of it");
         }
 }

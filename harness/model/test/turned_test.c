@@ -54,14 +54,16 @@ static int compare(int original, const element_type *element)
     int compared = 0;
     const int runs = solve(original, 0, element, &before) == STATUS_OK;
     for (size_t k = 0; k < sizeof angle / sizeof angle[0] && runs; k++) {
-        gsl_test(solve(original, angle[k], element, &after) != STATUS_OK, "%s, %s turned by %g: %s", before.scene.name,
-                 element->name, angle[k], after.solve.reason);
+        gsl_test(solve(original, angle[k], element, &after) != STATUS_OK, "%s, %s turned by %g: %s",
+                 before.scene.name, element->name, angle[k], after.solve.reason);
         for (int i = 0; i < after.solve.quantities; i++) {
-            const double expected = before.solve.quantity[i].value, value = after.solve.quantity[i].value;
+            const double expected = before.solve.quantity[i].value,
+                         value = after.solve.quantity[i].value;
             if (before.solve.quantity[i].curve.points > 0)
                 continue;
-            gsl_test(!(fabs(value - expected) <= 1e-9 * fabs(expected)), "%s, %s turned by %g: %s %.12g, not %.12g",
-                     before.scene.name, element->name, angle[k], before.scene.quantity[i].name, value, expected);
+            gsl_test(!(fabs(value - expected) <= 1e-9 * fabs(expected)),
+                     "%s, %s turned by %g: %s %.12g, not %.12g", before.scene.name, element->name,
+                     angle[k], before.scene.quantity[i].name, value, expected);
             compared++;
         }
         cell_result_free(&after);
@@ -76,7 +78,8 @@ int main(void)
     for (int i = 0; registry_cases[i] != NULL; i++)
         for (int k = 0; registry_formulations[k] != NULL; k++)
             if (strcmp(registry_cases[i]->name, "moment_buckling") == 0 ||
-                strcmp(registry_cases[i]->name, "unsymmetric_column") == 0 || strcmp(registry_cases[i]->name, "c_column") == 0)
+                strcmp(registry_cases[i]->name, "unsymmetric_column") == 0 ||
+                strcmp(registry_cases[i]->name, "c_column") == 0)
                 compared += compare(i, registry_formulations[k]);
     gsl_test(compared < 100, "%d values were compared", compared);
     return gsl_test_summary();
