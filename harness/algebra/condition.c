@@ -1,8 +1,9 @@
-/* Hager's estimate of the 1-norm condition number (W.W. Hager, SIAM J. Sci. Stat. Comput. 5, 1984), from solutions alone.
+/* Hager's estimate of the 1-norm condition number (W.W. Hager, SIAM J. Sci. Stat. Comput. 5, 1984),
+ * from solutions alone.
  *
- * Translations, rotations and warping have different units, and a number that depends on them says nothing: rows and columns
- * are scaled by the root of the diagonal first, which for a positive definite matrix is within a factor n of the best
- * (A. van der Sluis, Numer. Math. 14, 1969). */
+ * Translations, rotations and warping have different units, and a number that depends on them says
+ * nothing: rows and columns are scaled by the root of the diagonal first, which for a positive
+ * definite matrix is within a factor n of the best (A. van der Sluis, Numer. Math. 14, 1969). */
 #include <math.h>
 #include <stdlib.h>
 
@@ -29,7 +30,8 @@ static void solve_scaled(const condition *c, int transposed, double x[])
         x[i] /= c->scale[i];
 }
 
-/* |(S A S)^-1|_1: the largest column sum is sought by steps along the subgradient. x, z: work space [n]. */
+/* |(S A S)^-1|_1: the largest column sum is sought by steps along the subgradient. x, z: work space
+ * [n]. */
 static double inverse_norm(const condition *c, double x[], double z[])
 {
     const int n = c->n;

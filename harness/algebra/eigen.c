@@ -35,7 +35,8 @@ void eigen_free(eigen_result *r)
     memset(r, 0, sizeof *r);
 }
 
-/* Values below are rounding errors of the largest one: n^(3/2) of them add up in a slender structure of n unknowns. */
+/* Values below are rounding errors of the largest one: n^(3/2) of them add up in a slender
+ * structure of n unknowns. */
 static double least_of(int n, double scale)
 {
     return 16 * n * sqrt(n) * DBL_EPSILON * scale;
@@ -109,8 +110,9 @@ static status run_lanczos(pairs *p, int wanted, double least, long *solutions, f
     return outcome;
 }
 
-/* How many eigenvalues exist, as far as `enough`: counted above ever smaller values. Far down, where K is small beside A/s, the
- * count may fail for want of pivoting: what is known by then stands. */
+/* How many eigenvalues exist, as far as `enough`: counted above ever smaller values. Far down,
+ * where K is small beside A/s, the count may fail for want of pivoting: what is known by then
+ * stands. */
 static status count_existing(pairs *p, int enough, double scale, double least, int *exist,
                              eigen_result *r, fault *f)
 {
@@ -161,7 +163,8 @@ static status keep_first(pairs *p, eigen_result *r, fault *f)
     return STATUS_OK;
 }
 
-/* One side (0: the most positive) by iteration; densely where that ends early and the problem is small. */
+/* One side (0: the most positive) by iteration; densely where that ends early and the problem is
+ * small. */
 static status one_sparse(pairs *p, int side, int wanted, eigen_side *out, eigen_result *r, fault *f)
 {
     const double scale = wanted > 0 ? pairs_scale(p, &r->solutions) : 0;
@@ -182,8 +185,8 @@ static status one_sparse(pairs *p, int side, int wanted, eigen_side *out, eigen_
                                        : keep_first(p, r, f);
 }
 
-/* Leaves out what is rounding of A alone: with one such value all smaller ones are, for so much rounding moves any of them. It
- * is asked of the largest, and where a value is small beside it. */
+/* Leaves out what is rounding of A alone: with one such value all smaller ones are, for so much
+ * rounding moves any of them. It is asked of the largest, and where a value is small beside it. */
 static void drop_rounding(pairs *p, eigen_side *out)
 {
     const double suspect = 1e-6; /* of the largest */

@@ -1,9 +1,11 @@
-/* A few eigenpairs of A x = mu K x with K symmetric positive definite and A symmetric, however indefinite or singular.
+/* A few eigenpairs of A x = mu K x with K symmetric positive definite and A symmetric, however
+ * indefinite or singular.
  *
- * Buckling: A = -G, mu = 1/lambda.  Vibration: A = M, mu = 1/omega^2 (a structure that is not held: K + shift M in place of K).
- * Small problems are solved densely (LAPACK), the others by Lanczos in the inner product of K (ARPACK).  Each mu is the
- * quotient of two quadratic forms, which the caller can evaluate better than from the matrices, and the inertia of
- * K - A/s proves that no eigenvalue was missed, repeated ones included. */
+ * Buckling: A = -G, mu = 1/lambda.  Vibration: A = M, mu = 1/omega^2 (a structure that is not held:
+ * K + shift M in place of K). Small problems are solved densely (LAPACK), the others by Lanczos in
+ * the inner product of K (ARPACK).  Each mu is the quotient of two quadratic forms, which the
+ * caller can evaluate better than from the matrices, and the inertia of K - A/s proves that no
+ * eigenvalue was missed, repeated ones included. */
 #ifndef BEAMWORK_EIGEN_H
 #define BEAMWORK_EIGEN_H
 
@@ -33,11 +35,11 @@ typedef struct eigen_side {
     double *mu;       /* [count] largest size first */
     double *mode;     /* [count x n] x^T K x = 1 */
     double *residual; /* [count] an eigenvalue lies within residual |mu| of mu */
-    double *
-        error; /* [count] estimate: |mu| is off by error |mu|, which is at most about residual^2 |mu| */
-    int rounding; /* candidates that were round-off of A and are left out */
-    status
-        status; /* NOT_CONVERGED: the iteration ended before all wanted ones were proved to be there ... */
+    double *error; /* [count] estimate: |mu| is off by error |mu|, which is at most about residual^2
+                      |mu| */
+    int rounding;  /* candidates that were round-off of A and are left out */
+    status status; /* NOT_CONVERGED: the iteration ended before all wanted ones were proved to be
+                      there ... */
     char reason[FAULT_TEXT]; /* ... and why; those found are the first of their side all the same */
 } eigen_side;
 
@@ -47,9 +49,10 @@ typedef struct eigen_result {
     long solutions, factorisations;
 } eigen_result;
 
-/* REFUSED when K is not positive definite; NOT_CONVERGED when one of the sides is: what either side found stays.
- * Values that are a rounding error of the largest one or of their own form, or in large problems 1e-9 of the largest, are taken
- * for zero and not returned. The error of a value tells how many digits it has; without one it is not returned. */
+/* REFUSED when K is not positive definite; NOT_CONVERGED when one of the sides is: what either side
+ * found stays. Values that are a rounding error of the largest one or of their own form, or in
+ * large problems 1e-9 of the largest, are taken for zero and not returned. The error of a value
+ * tells how many digits it has; without one it is not returned. */
 status eigen_solve(const eigen_problem *problem, eigen_result *out, fault *f);
 void eigen_free(eigen_result *r);
 

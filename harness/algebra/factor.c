@@ -1,8 +1,9 @@
 /* Symmetric: LDL^T; unsymmetric: LU; and the check that a weak pivot is more than round-off.
  *
- * With x = A^-1 e_i and y = A^-T e_k the number x_k = y^T A x is a sum of the terms y_i a_ij x_j, and rounding A changes it by
- * about eps times the root of the sum of their squares: when that is as large as x_k itself, A is singular to working
- * precision. (A free beam of n elements has a last pivot of eps n^2 times its diagonal entry and not of eps times it.) */
+ * With x = A^-1 e_i and y = A^-T e_k the number x_k = y^T A x is a sum of the terms y_i a_ij x_j,
+ * and rounding A changes it by about eps times the root of the sum of their squares: when that is
+ * as large as x_k itself, A is singular to working precision. (A free beam of n elements has a last
+ * pivot of eps n^2 times its diagonal entry and not of eps times it.) */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>

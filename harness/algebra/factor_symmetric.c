@@ -1,5 +1,6 @@
-/* The columns of L and the pivots are those of C = P A P^T with P from AMD. A pivot is d_k = a_kk - sum_j l_kj^2 d_j: when it
- * is a rounding error of these terms, or when they dwarf the whole column of A, the digits of A are gone. */
+/* The columns of L and the pivots are those of C = P A P^T with P from AMD. A pivot is d_k = a_kk -
+ * sum_j l_kj^2 d_j: when it is a rounding error of these terms, or when they dwarf the whole column
+ * of A, the digits of A are gone. */
 #include "harness/algebra/factor_symmetric.h"
 
 #include <amd.h>

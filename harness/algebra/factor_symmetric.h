@@ -1,4 +1,5 @@
-/* LDL^T of a sparse symmetric matrix without pivoting (SuiteSparse AMD and LDL): the signs of D are the inertia. */
+/* LDL^T of a sparse symmetric matrix without pivoting (SuiteSparse AMD and LDL): the signs of D are
+ * the inertia. */
 #ifndef BEAMWORK_FACTOR_SYMMETRIC_H
 #define BEAMWORK_FACTOR_SYMMETRIC_H
 
@@ -9,8 +10,8 @@ typedef struct factor_symmetric factor_symmetric;
 status factor_symmetric_alloc(const sparse *pattern, factor_symmetric **out, factor_counts *counts,
                               fault *f);
 void factor_symmetric_free(factor_symmetric *fs);
-/* OK or SINGULAR; allocates nothing. *weakest: unknown whose pivot lost most digits; *ratio: its size by that of the terms it
- * is the sum of. */
+/* OK or SINGULAR; allocates nothing. *weakest: unknown whose pivot lost most digits; *ratio: its
+ * size by that of the terms it is the sum of. */
 status factor_symmetric_numeric(factor_symmetric *fs, const sparse *a, factor_counts *counts,
                                 int *weakest, double *ratio);
 void factor_symmetric_solve(factor_symmetric *fs, double x[]);

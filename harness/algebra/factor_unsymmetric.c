@@ -1,4 +1,5 @@
-/* KLU scales every row by its largest entry and orders by AMD on A + A^T; diagonal pivots are preferred. */
+/* KLU scales every row by its largest entry and orders by AMD on A + A^T; diagonal pivots are
+ * preferred. */
 #include "harness/algebra/factor_unsymmetric.h"
 
 #include <float.h>
@@ -69,7 +70,8 @@ static status factor_anew(factor_unsymmetric *fu, const sparse *a, factor_counts
     return STATUS_OK;
 }
 
-/* Sign of a permutation: every member of a cycle but the first is one exchange. `done` is work space. */
+/* Sign of a permutation: every member of a cycle but the first is one exchange. `done` is work
+ * space. */
 static int sign_of(int n, const int permutation[], double done[])
 {
     int sign = 1;

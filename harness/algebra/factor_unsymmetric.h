@@ -9,8 +9,9 @@ typedef struct factor_unsymmetric factor_unsymmetric;
 status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric **out,
                                 factor_counts *counts, fault *f);
 void factor_unsymmetric_free(factor_unsymmetric *fu);
-/* OK, SINGULAR, or FAULT when memory ran out. The pivots chosen once serve all later matrices (and nothing is allocated) until
- * their growth asks for new ones. *row, *column: of the smallest pivot; *ratio: its size by the largest entries of these. */
+/* OK, SINGULAR, or FAULT when memory ran out. The pivots chosen once serve all later matrices (and
+ * nothing is allocated) until their growth asks for new ones. *row, *column: of the smallest pivot;
+ * *ratio: its size by the largest entries of these. */
 status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a, factor_counts *counts,
                                   int *row, int *column, double *ratio);
 void factor_unsymmetric_solve(factor_unsymmetric *fu, double x[]);

@@ -116,7 +116,8 @@ static status start(solver *s, int count, fault *f)
     return outcome;
 }
 
-/* Frequencies below a gap between the wanted ones and the next, less those that are found; equal ones have no gap between them. */
+/* Frequencies below a gap between the wanted ones and the next, less those that are found; equal
+ * ones have no gap between them. */
 static status missing(solver *s, int wanted, int *number, fault *f)
 {
     const double gap = 1e-6; /* relative */
@@ -163,7 +164,8 @@ static status find_shift(solver *s, fault *f)
     return outcome;
 }
 
-/* The frequency as a quotient of quadratic forms, k - omega^2 m + omega g = 0: its error is the square of the mode's. */
+/* The frequency as a quotient of quadratic forms, k - omega^2 m + omega g = 0: its error is the
+ * square of the mode's. */
 static double quotient(solver *s, double frequency)
 {
     const int n = s->basis.n;

@@ -1,9 +1,12 @@
-/* Small motions x exp(lambda t) in a frame that turns steadily: (lambda^2 M + lambda G + K) x = 0, K and M symmetric, G skew.
+/* Small motions x exp(lambda t) in a frame that turns steadily: (lambda^2 M + lambda G + K) x = 0,
+ * K and M symmetric, G skew.
  *
- * With K positive definite every lambda = i omega is imaginary, whatever G is (Kelvin, Tait): projected on a real basis the
- * problem is Hermitian, mu [x; y] = [-i G, R^T; R, 0] [x; y] with mu = 1/omega, M = R^T R and K the identity.  The basis starts
- * with the modes without G and takes in K^-1 times the residuals; inertia counts the frequencies, so that none is missed.
- * With K indefinite the projected problem is solved as it is, and lambda has a real part where a motion grows. */
+ * With K positive definite every lambda = i omega is imaginary, whatever G is (Kelvin, Tait):
+ * projected on a real basis the problem is Hermitian, mu [x; y] = [-i G, R^T; R, 0] [x; y] with mu
+ * = 1/omega, M = R^T R and K the identity.  The basis starts with the modes without G and takes in
+ * K^-1 times the residuals; inertia counts the frequencies, so that none is missed. With K
+ * indefinite the projected problem is solved as it is, and lambda has a real part where a motion
+ * grows. */
 #ifndef BEAMWORK_GYROSCOPIC_H
 #define BEAMWORK_GYROSCOPIC_H
 

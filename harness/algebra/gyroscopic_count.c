@@ -3,7 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The Hermitian A + i B as a real symmetric matrix of twice the size, [a, -b; b, a] for each entry: its eigenvalues come in pairs. */
+/* The Hermitian A + i B as a real symmetric matrix of twice the size, [a, -b; b, a] for each entry:
+ * its eigenvalues come in pairs. */
 static status doubled_alloc(const sparse *pattern, sparse *out, fault *f)
 {
     const int n = pattern->n, entries = pattern->column[n];

@@ -1,4 +1,5 @@
-/* How many frequencies lie below one: the negative eigenvalues of the Hermitian K - omega^2 M + i omega G, K positive definite. */
+/* How many frequencies lie below one: the negative eigenvalues of the Hermitian K - omega^2 M + i
+ * omega G, K positive definite. */
 #ifndef BEAMWORK_GYROSCOPIC_COUNT_H
 #define BEAMWORK_GYROSCOPIC_COUNT_H
 

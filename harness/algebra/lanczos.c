@@ -1,5 +1,6 @@
-/* OP = K^-1 s A is symmetric in the inner product of K (ARPACK's mode 2). Known eigenvectors X are taken out by the projection
- * I - X X^T K: a repeated eigenvalue, of which one starting vector shows one copy only, comes out one copy at a time. */
+/* OP = K^-1 s A is symmetric in the inner product of K (ARPACK's mode 2). Known eigenvectors X are
+ * taken out by the projection I - X X^T K: a repeated eigenvalue, of which one starting vector
+ * shows one copy only, comes out one copy at a time. */
 #include "harness/algebra/lanczos.h"
 
 #include <arpack/arpack.h>

@@ -1,4 +1,5 @@
-/* Implicitly restarted Lanczos (ARPACK) for the algebraically largest eigenvalues of s A x = mu K x. */
+/* Implicitly restarted Lanczos (ARPACK) for the algebraically largest eigenvalues of s A x = mu K
+ * x. */
 #ifndef BEAMWORK_LANCZOS_H
 #define BEAMWORK_LANCZOS_H
 
@@ -13,8 +14,9 @@ typedef struct lanczos_problem {
     const double *KX; /* [known x n] K times each */
 } lanczos_problem;
 
-/* `wanted` <= n - known - 1 eigenvalues mu[wanted] in descending order with K-orthonormal vectors x[wanted x n]; `found` of them,
- * at least one, where the iteration ended before the others had converged. */
+/* `wanted` <= n - known - 1 eigenvalues mu[wanted] in descending order with K-orthonormal vectors
+ * x[wanted x n]; `found` of them, at least one, where the iteration ended before the others had
+ * converged. */
 status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double x[],
                        long *solutions, fault *f);
 

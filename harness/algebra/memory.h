@@ -1,5 +1,5 @@
-/* Whether a problem fits into this machine, asked before it is tried: a system that promises memory it does not have would end the
- * program, and others, without a word. */
+/* Whether a problem fits into this machine, asked before it is tried: a system that promises memory
+ * it does not have would end the program, and others, without a word. */
 #ifndef BEAMWORK_MEMORY_H
 #define BEAMWORK_MEMORY_H
 

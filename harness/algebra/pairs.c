@@ -1,5 +1,6 @@
-/* By Sylvester's law the number of mu > s > 0 is that of the negative pivots of K - A/s. The pivots tell sides apart as long
- * as s keeps its distance from every eigenvalue: by more than rounding the matrices moves them. */
+/* By Sylvester's law the number of mu > s > 0 is that of the negative pivots of K - A/s. The pivots
+ * tell sides apart as long as s keeps its distance from every eigenvalue: by more than rounding the
+ * matrices moves them. */
 #include "harness/algebra/pairs.h"
 
 #include <float.h>
@@ -70,7 +71,8 @@ static double K_form(pairs *p, const double x[])
     return form_of(p, p->problem->K_energy, p->problem->K, x, p->form);
 }
 
-/* Root of the sum of the squares of all terms of x^T (K - s A/mu) x, times eps: their rounding errors are independent. */
+/* Root of the sum of the squares of all terms of x^T (K - s A/mu) x, times eps: their rounding
+ * errors are independent. */
 static double rounding(const pairs *p, double mu, const double x[])
 {
     const sparse *K = p->problem->K, *A = p->problem->A;
@@ -133,7 +135,8 @@ status pairs_refine(pairs *p, int count, fault *f)
                : fault_set(f, STATUS_FAULT, "out of memory for refined solutions");
 }
 
-/* y += K^-1 (s A x - K y), with K y from the elements: what is left falls by the part of K that assembling it has changed. */
+/* y += K^-1 (s A x - K y), with K y from the elements: what is left falls by the part of K that
+ * assembling it has changed. */
 static void refine(pairs *p, const double x[], double y[])
 {
     const eigen_problem *e = p->problem;
@@ -210,9 +213,10 @@ status pairs_add(pairs *p, int count, const double x[], double least, fault *f)
     return STATUS_OK;
 }
 
-/* With x^T K x = 1 and y = K^-1 s A x - mu x an eigenvalue lies within sqrt(y^T K y) of mu. What y has of a larger mode k,
- * c_k = x_k^T K y = x_k^T s A y/mu_k, comes from a part c_k/(mu_k - mu) of that mode in x, which moves the quotient mu by
- * c_k^2/(mu_k - mu), or, where they are too close to be told apart, by their distance. The rest counts in full. */
+/* With x^T K x = 1 and y = K^-1 s A x - mu x an eigenvalue lies within sqrt(y^T K y) of mu. What y
+ * has of a larger mode k, c_k = x_k^T K y = x_k^T s A y/mu_k, comes from a part c_k/(mu_k - mu) of
+ * that mode in x, which moves the quotient mu by c_k^2/(mu_k - mu), or, where they are too close to
+ * be told apart, by their distance. The rest counts in full. */
 void pairs_judge(pairs *p, int i, double *residual, double *error)
 {
     const double mu = p->mu[i], *x = p->x + (size_t)i * (size_t)p->n;
@@ -253,7 +257,8 @@ status pairs_above(pairs *p, double s, int *above, eigen_result *work, fault *f)
     return outcome;
 }
 
-/* Number of candidates above the cluster that the one of rank `wanted` belongs to, and the largest value of the cluster. */
+/* Number of candidates above the cluster that the one of rank `wanted` belongs to, and the largest
+ * value of the cluster. */
 static int above_cluster(const pairs *p, int wanted, double *top)
 {
     const double *mu = p->matrix_mu;

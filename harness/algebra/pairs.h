@@ -1,4 +1,5 @@
-/* Candidates for the largest eigenvalues of s A x = mu K x: refined by Rayleigh's quotient, judged, sorted and counted. */
+/* Candidates for the largest eigenvalues of s A x = mu K x: refined by Rayleigh's quotient, judged,
+ * sorted and counted. */
 #ifndef BEAMWORK_PAIRS_H
 #define BEAMWORK_PAIRS_H
 
@@ -8,9 +9,9 @@ typedef struct pairs {
     const eigen_problem *problem;
     double sign; /* s: of the problem, reversed for the most negative values */
     int n, count, room;
-    double *mu; /* [room] descending */
-    double *
-        matrix_mu; /* [room] the same quotient of the matrices as they are, rounding errors of all elements included */
+    double *mu;          /* [room] descending */
+    double *matrix_mu;   /* [room] the same quotient of the matrices as they are, rounding errors of
+                            all elements included */
     double *noise;       /* [room] part of it that rounding the sums changes */
     double *stiffness;   /* [room] x^T K x as the caller evaluates it */
     double *x, *Kx;      /* [room x n] x^T K x = 1 by the matrix */
@@ -23,13 +24,15 @@ typedef struct pairs {
 
 status pairs_alloc(pairs *p, const eigen_problem *problem, double sign, fault *f);
 void pairs_free(pairs *p);
-/* Size of the largest |mu|, from below, by a few powers of K^-1 A; 0 where A is nothing but rounding. */
+/* Size of the largest |mu|, from below, by a few powers of K^-1 A; 0 where A is nothing but
+ * rounding. */
 double pairs_scale(pairs *p, long *solutions);
 /* 1: rounding alone makes x^T A x as large as `energy`. */
 int pairs_is_rounding(const pairs *p, double energy, const double x[]);
 /* Largest part of x^T K x that assembling K has changed, of the first `count` candidates. */
 double pairs_departure(const pairs *p, int count);
-/* From here on K^-1 A x is what K_product says: refined until the present departure leaves 1e-6 of it. */
+/* From here on K^-1 A x is what K_product says: refined until the present departure leaves 1e-6 of
+ * it. */
 status pairs_refine(pairs *p, int count, fault *f);
 /* y = K^-1 s A x. */
 void pairs_apply(pairs *p, const double x[], double y[]);
@@ -37,8 +40,8 @@ void pairs_apply(pairs *p, const double x[], double y[]);
 status pairs_add(pairs *p, int count, const double x[], double least, fault *f);
 /* Residual of candidate i and estimated error of its mu, both in parts of mu. One solution. */
 void pairs_judge(pairs *p, int i, double *residual, double *error);
-/* How many of the eigenvalues that lie clearly above the one of rank `wanted` (counted from 1) are not among the candidates.
- * NOT_CONVERGED when there are fewer than candidates. */
+/* How many of the eigenvalues that lie clearly above the one of rank `wanted` (counted from 1) are
+ * not among the candidates. NOT_CONVERGED when there are fewer than candidates. */
 status pairs_missing(pairs *p, int wanted, int *missing, eigen_result *work, fault *f);
 /* How many eigenvalues are larger than s > 0. */
 status pairs_above(pairs *p, double s, int *above, eigen_result *work, fault *f);

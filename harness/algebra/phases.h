@@ -1,4 +1,5 @@
-/* Where the time of Newton's iterations goes. A clock is read only when it is wanted, and only inside an iteration. */
+/* Where the time of Newton's iterations goes. A clock is read only when it is wanted, and only
+ * inside an iteration. */
 #ifndef BEAMWORK_PHASES_H
 #define BEAMWORK_PHASES_H
 

@@ -4,8 +4,9 @@
 
 #include "harness/algebra/pairs.h"
 
-/* Replaces the candidates by Ritz vectors among K^-1 A times them, with refined solutions (pairs_refine): parts that are not
- * among them shrink by the quotient of their mu and the candidate's. One refined solution each. */
+/* Replaces the candidates by Ritz vectors among K^-1 A times them, with refined solutions
+ * (pairs_refine): parts that are not among them shrink by the quotient of their mu and the
+ * candidate's. One refined solution each. */
 status polish(pairs *p, long *solutions, fault *f);
 
 #endif

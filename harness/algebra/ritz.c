@@ -37,7 +37,8 @@ static void normalise(int k, double complex c[])
         c[j] /= sqrt(square);
 }
 
-/* Upper triangle of [-i G, R^T; R, 0], column-major, with R = sqrt(d) Q^T of the projected M = Q d Q^T. */
+/* Upper triangle of [-i G, R^T; R, 0], column-major, with R = sqrt(d) Q^T of the projected M = Q d
+ * Q^T. */
 static int hermitian_matrix(const subspace *b, double complex H[])
 {
     const int k = b->count, n = 2 * k, room = b->room;
@@ -116,7 +117,8 @@ static void insert(const subspace *b, ritz *r, double complex lambda, const doub
     normalise(b->count, coefficients(b, r, at));
 }
 
-/* nu [Kp, 0; 0, 1] z = [-Gp, -Mp; 1, 0] z with nu = 1/lambda, z = (nu x, x) and Kp = 1 - shift Mp; column-major. */
+/* nu [Kp, 0; 0, 1] z = [-Gp, -Mp; 1, 0] z with nu = 1/lambda, z = (nu x, x) and Kp = 1 - shift Mp;
+ * column-major. */
 static void general_matrices(const subspace *b, double shift, double A[], double B[])
 {
     const int k = b->count, n = 2 * k, room = b->room;

@@ -1,4 +1,5 @@
-/* Approximate eigenpairs of (lambda^2 M + lambda G + K) x = 0 in a subspace: dense problems of twice its size (LAPACK). */
+/* Approximate eigenpairs of (lambda^2 M + lambda G + K) x = 0 in a subspace: dense problems of
+ * twice its size (LAPACK). */
 #ifndef BEAMWORK_RITZ_H
 #define BEAMWORK_RITZ_H
 
@@ -7,10 +8,10 @@
 #include "harness/algebra/subspace.h"
 
 typedef struct ritz {
-    int room, count, size; /* pairs wanted and found; vectors in the basis when they were */
-    double complex *
-        lambda; /* [room], ascending in size; one of every lambda, -lambda, conj lambda, -conj lambda */
-    double complex *c; /* [room x basis room] coefficients of x in the basis, of length 1 */
+    int room, count, size;  /* pairs wanted and found; vectors in the basis when they were */
+    double complex *lambda; /* [room], ascending in size; one of every lambda, -lambda, conj lambda,
+                               -conj lambda */
+    double complex *c;      /* [room x basis room] coefficients of x in the basis, of length 1 */
 } ritz;
 
 /* Real part of lambda that is round-off, in parts of |lambda|. */

@@ -14,7 +14,8 @@ typedef struct sparse {
     double *value; /* [column[n]] */
 } sparse;
 
-/* A second matrix with the same pattern shares column and row with the first and owns its values only. */
+/* A second matrix with the same pattern shares column and row with the first and owns its values
+ * only. */
 status sparse_alloc_like(const sparse *pattern, sparse *out, fault *f);
 void sparse_free_values(sparse *a);
 void sparse_zero(sparse *a);
@@ -31,8 +32,8 @@ typedef struct factor_counts {
     double condition;    /* cheap estimate max|d|/min|d| */
 } factor_counts;
 
-/* Symbolic analysis once: fill-reducing order (AMD). Symmetric: LDL^T without pivoting, whose signs give
- * the inertia; unsymmetric: KLU. */
+/* Symbolic analysis once: fill-reducing order (AMD). Symmetric: LDL^T without pivoting, whose signs
+ * give the inertia; unsymmetric: KLU. */
 status factor_alloc(const sparse *pattern, factor **out, fault *f);
 void factor_free(factor *fa);
 /* SINGULAR when a pivot is zero or not finite, or growth has destroyed the digits. */
@@ -42,8 +43,8 @@ void factor_solve_transposed(factor *fa, double x[]); /* A^T x = b */
 void factor_solve_refined(factor *fa, const sparse *a,
                           double x[]); /* with one step of iterative refinement */
 factor_counts factor_count(const factor *fa);
-/* 1-norm condition number of the factored matrix a, rows and columns scaled by the root of its diagonal: Hager's estimate, a
- * lower bound within a small factor. NAN when memory ran out. */
+/* 1-norm condition number of the factored matrix a, rows and columns scaled by the root of its
+ * diagonal: Hager's estimate, a lower bound within a small factor. NAN when memory ran out. */
 double factor_condition(factor *fa, const sparse *a);
 
 #endif

@@ -1,12 +1,13 @@
-/* A growing real basis V of a quadratic eigenvalue problem, orthonormal in K + shift M, with the matrices projected on it. */
+/* A growing real basis V of a quadratic eigenvalue problem, orthonormal in K + shift M, with the
+ * matrices projected on it. */
 #ifndef BEAMWORK_SUBSPACE_H
 #define BEAMWORK_SUBSPACE_H
 
 #include "harness/algebra/sparse.h"
 
 typedef struct subspace {
-    const sparse *S, *M,
-        *G; /* S = K + shift M, positive definite; of G a symmetric pattern stores the upper triangle */
+    const sparse *S, *M, *G; /* S = K + shift M, positive definite; of G a symmetric pattern stores
+                                the upper triangle */
     int n, count, room;
     double *V, *SV, *MV, *GV; /* [room x n] the basis and its products */
     double *Mp, *Gp;          /* [room x room] V^T M V, V^T G V */

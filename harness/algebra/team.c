@@ -1,4 +1,5 @@
-/* The others spin for a moment before they sleep: the loops of one iteration follow each other within microseconds. */
+/* The others spin for a moment before they sleep: the loops of one iteration follow each other
+ * within microseconds. */
 #include "harness/algebra/team.h"
 
 #include <pthread.h>
@@ -120,5 +121,6 @@ void team_run(team *t, int count, team_work *work, void *context)
     int spins = 0;
     while (atomic_load_explicit(&t->left, memory_order_acquire) > 0)
         if (++spins > SPINS)
-            sched_yield(); /* the parts are equal: it is a moment, unless there are fewer processors */
+            sched_yield(); /* the parts are equal: it is a moment, unless there are fewer processors
+                            */
 }

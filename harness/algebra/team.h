@@ -1,4 +1,5 @@
-/* Threads that share a loop. Each takes one run of consecutive indices, so that what is written where does not depend on their number. */
+/* Threads that share a loop. Each takes one run of consecutive indices, so that what is written
+ * where does not depend on their number. */
 #ifndef BEAMWORK_TEAM_H
 #define BEAMWORK_TEAM_H
 

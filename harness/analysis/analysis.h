@@ -1,17 +1,19 @@
-/* One file per kind of analysis; each turns a model into an outcome that extract.c reads quantities from. */
+/* One file per kind of analysis; each turns a model into an outcome that extract.c reads quantities
+ * from. */
 #ifndef BEAMWORK_ANALYSIS_H
 #define BEAMWORK_ANALYSIS_H
 
 #include "harness/algebra/eigen.h"
 #include "harness/analysis/solve.h"
 
-/* Critical loads of one sign, ascending in size, or frequencies [rad/s], ascending; with their modes. */
+/* Critical loads of one sign, ascending in size, or frequencies [rad/s], ascending; with their
+ * modes. */
 typedef struct outcome_side {
     int count;
     double *value, *mode; /* [count] NAN: lost in round-off; [count x free] */
-    double *
-        error; /* [count] estimate of what iteration and round-off leave, in parts of the value; NULL: there is none */
-    status status;           /* NOT_CONVERGED: ... */
+    double *error; /* [count] estimate of what iteration and round-off leave, in parts of the value;
+                      NULL: there is none */
+    status status; /* NOT_CONVERGED: ... */
     char reason[FAULT_TEXT]; /* ... why there are no more, or some are lost */
 } outcome_side;
 void outcome_take(eigen_side *from, outcome_side *to);
@@ -25,14 +27,15 @@ typedef struct analysis_outcome {
     int stations, reached;
     double *path;
     model_state **state;
-    /* continuation: load factor and control value [m] at every point of the path, the first without load */
+    /* continuation: load factor and control value [m] at every point of the path, the first without
+     * load */
     int points;
     double *factor, *control;
     model_state **point_state; /* [points]; NULL unless a curve of coordinates is wanted */
     /* buckling, modal; what was found stays where the analysis failed */
     outcome_side positive, negative;
-    /* compliance: of the six components at the node, at every station [stations x 36]; rows of held components are zero, columns that nothing asks for NAN; belongs to
-     * the result */
+    /* compliance: of the six components at the node, at every station [stations x 36]; rows of held
+     * components are zero, columns that nothing asks for NAN; belongs to the result */
     const double *compliance;
     /* rotation: modes at every station; none where no quantity asks for them */
     struct rotation_modes *modes; /* [stations] */
@@ -54,7 +57,8 @@ analysis_function analysis_linear, analysis_buckling, analysis_modal, analysis_s
 
 void outcome_free(analysis_outcome *o);
 
-/* A linear solution about the undeformed state: x[free + driven] of K x = f, with the factors of K kept for the caller. */
+/* A linear solution about the undeformed state: x[free + driven] of K x = f, with the factors of K
+ * kept for the caller. */
 typedef struct linear_system {
     sparse K;
     factor *factor;
@@ -71,12 +75,14 @@ int modal_wanted(const analysis_context *, int analysis);
 void extract_quantity(const analysis_context *, const scene_quantity *, quantity_result *);
 void extract_no_value(quantity_result *, status, const char *reason);
 double extract_scaled(const scene_quantity *, double value);
-/* continuation_extract.c: curves and critical points of a continued path; 0: the quantity is something else. */
+/* continuation_extract.c: curves and critical points of a continued path; 0: the quantity is
+ * something else. */
 int extract_continuation(const analysis_context *, const scene_quantity *, const analysis_outcome *,
                          quantity_result *);
 int continuation_keeps_states(const scene *, int analysis); /* a curve of coordinates is wanted */
 
-/* shapes.c: centre lines of the undeformed structure, of at most `most` states of every path, of linear solutions and modes. */
+/* shapes.c: centre lines of the undeformed structure, of at most `most` states of every path, of
+ * linear solutions and modes. */
 status shapes_collect(const analysis_context *, int most, shapes *, fault *);
 
 /* modes.c: what a mode of vibration or buckling looks like. */
@@ -88,8 +94,8 @@ status mode_identify(const model *, const scene *, const double mode[], mode_sha
 int mode_in_family(const scene_quantity *,
                    const mode_shape *); /* is it what the quantity asks for? */
 const char *mode_family_name(scene_family);
-/* Modes of equal value[count], one after the other (each [n = free + driven]), may be mixed in any way: they become those that move
- * along the members' z axes and those that do not. */
+/* Modes of equal value[count], one after the other (each [n = free + driven]), may be mixed in any
+ * way: they become those that move along the members' z axes and those that do not. */
 status mode_separate(const model *, const scene *, int count, const double value[], size_t n,
                      double *mode, fault *);
 

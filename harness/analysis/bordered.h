@@ -12,12 +12,14 @@ typedef struct bordered {
     double *x, *load, *rest; /* [all] */
 } bordered;
 
-/* SINGULAR: not held when the prescribed motion is released. Freed by bordered_free in either case. */
+/* SINGULAR: not held when the prescribed motion is released. Freed by bordered_free in either
+ * case. */
 status bordered_alloc(tangent *t, counters *n, bordered *out, fault *f);
 void bordered_free(bordered *s);
 /* In place; what is held or prescribed stays as it is. x: [all] */
 void bordered_solve(tangent *t, counters *n, const bordered *s, double x[]);
-/* Iterative refinement of s->x for s->load, with residuals whose stiff part comes from the element strains. */
+/* Iterative refinement of s->x for s->load, with residuals whose stiff part comes from the element
+ * strains. */
 void bordered_refine(const model *m, tangent *t, counters *n, const bordered *s);
 
 #endif

@@ -1,4 +1,5 @@
-/* Linear buckling about the undeformed state: (K + lambda G) x = 0 with G from the stresses of the reference load. */
+/* Linear buckling about the undeformed state: (K + lambda G) x = 0 with G from the stresses of the
+ * reference load. */
 #include "harness/algebra/eigen.h"
 #include "harness/analysis/analysis.h"
 #include "harness/analysis/equilibrium.h"

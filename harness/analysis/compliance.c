@@ -1,5 +1,5 @@
-/* Compliance and stiffness of a node in a deformed state.  Prescribed motion that is released is replaced by its reactions: dead
- * forces, and moments of the analysis' convention. */
+/* Compliance and stiffness of a node in a deformed state.  Prescribed motion that is released is
+ * replaced by its reactions: dead forces, and moments of the analysis' convention. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,5 +1,6 @@
-/* Continuation of an equilibrium path by displacement or arc length. A step that turns too far, or whose tangent stiffness changes
- * more than one critical point explains, is walked again in smaller ones; where that ends elsewhere, the step had jumped. */
+/* Continuation of an equilibrium path by displacement or arc length. A step that turns too far, or
+ * whose tangent stiffness changes more than one critical point explains, is walked again in smaller
+ * ones; where that ends elsewhere, the step had jumped. */
 #include "harness/analysis/continuation.h"
 
 #include <math.h>
@@ -70,7 +71,8 @@ static void turn_start(continuation *p)
         p->here.tangent[k] = -p->here.tangent[k];
 }
 
-/* Corrects and looks; not sound: the state is what was found, in doubt. A step along the arc ends at the station it would pass. */
+/* Corrects and looks; not sound: the state is what was found, in doubt. A step along the arc ends
+ * at the station it would pass. */
 static status try_step(continuation *p, path_goal goal, double station, int last_resort, attempt *t,
                        fault *f)
 {
@@ -118,7 +120,8 @@ static double length_left(const continuation *p, path_goal goal, double gone)
     return goal.by_arc ? goal.value - gone : fabs(goal.value - p->here.control);
 }
 
-/* The arc to a point depends on the steps to it: a rival that was not met so far may lie further on. */
+/* The arc to a point depends on the steps to it: a rival that was not met so far may lie further
+ * on. */
 static int arrived(const continuation *p, path_goal goal, double station, const rival *r,
                    double gone, double nearest)
 {

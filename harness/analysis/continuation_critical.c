@@ -1,7 +1,9 @@
-/* Critical points inside a step: where the tangent stiffness is singular, and what its null vector phi says.
+/* Critical points inside a step: where the tangent stiffness is singular, and what its null vector
+ * phi says.
  *
- * Along a path K x' = f' l', so at a critical point 0 = phi . K x' = (phi . f') l': either the load has an extremum (limit point)
- * or its work on phi is zero (bifurcation). K need not be symmetric: phi is its left null vector. */
+ * Along a path K x' = f' l', so at a critical point 0 = phi . K x' = (phi . f') l': either the load
+ * has an extremum (limit point) or its work on phi is zero (bifurcation). K need not be symmetric:
+ * phi is its left null vector. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,7 +37,8 @@ status continuation_add_event(continuation *p, const path_event *event, fault *f
     return STATUS_OK;
 }
 
-/* mode: left eigenvector of K with the eigenvalue of least size, which is returned; K is factored in the present state. */
+/* mode: left eigenvector of K with the eigenvalue of least size, which is returned; K is factored
+ * in the present state. */
 static double least_eigenvalue(continuation *p)
 {
     double *x = p->mode, eigenvalue = NAN;
@@ -109,7 +112,8 @@ static double next_part(const bound *low, const bound *high)
     return isfinite(secant) && secant > low->at && secant < high->at ? secant : low->at + width / 2;
 }
 
-/* Narrows the interval; the state is then the critical point as near as it can be told. *gone: the test function has no zero. */
+/* Narrows the interval; the state is then the critical point as near as it can be told. *gone: the
+ * test function has no zero. */
 static status locate(continuation *p, path_goal goal, int by_rate, int *gone, fault *f)
 {
     bound low = {0, by_rate ? p->here.rate : NAN}, high = {1, by_rate ? p->next.rate : NAN};

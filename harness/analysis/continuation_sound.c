@@ -24,7 +24,8 @@ const char *continuation_doubt(const continuation *p, int last_resort, double *s
         return "its direction changes too much";
     if (!(turned <= largest_turn))
         return "a node turns too far";
-    /* A limit point changes the sign of the rate and of the determinant by one pivot, a simple bifurcation only the latter. */
+    /* A limit point changes the sign of the rate and of the determinant by one pivot, a simple
+     * bifurcation only the latter. */
     const int reversed = (a->rate < 0) != (b->rate < 0), pivots = abs(b->negative - a->negative);
     if (!last_resort && (pivots > 1 || (reversed && a->determinant == b->determinant)))
         return "the pivots of its tangent stiffness change by more than one critical point "

@@ -1,6 +1,7 @@
-/* Critical point: sigma(p), the least eigenvalue of the tangent K(p) by the diagonal of the first K, falls to zero along the
- * path.  Stable states ever closer before it are interpolated; the error of an estimate is the product of their distances.
- * (K is not extrapolated as a whole: turning a stiff structure with the path would make it indefinite long before.) */
+/* Critical point: sigma(p), the least eigenvalue of the tangent K(p) by the diagonal of the first
+ * K, falls to zero along the path.  Stable states ever closer before it are interpolated; the error
+ * of an estimate is the product of their distances. (K is not extrapolated as a whole: turning a
+ * stiff structure with the path would make it indefinite long before.) */
 #include "harness/analysis/equilibrium.h"
 
 #include <math.h>
@@ -177,7 +178,8 @@ static status go_to(search *s, double path, int *stable, fault *f)
     return *stable ? take_state(s, f) : outcome;
 }
 
-/* Where sigma vanishes, from the inverse interpolation p(sigma); INFINITY while it does not fall. */
+/* Where sigma vanishes, from the inverse interpolation p(sigma); INFINITY while it does not
+ * fall. */
 static double extrapolate(const search *s)
 {
     const double *p = s->p, *g = s->sigma;

@@ -4,7 +4,8 @@
 
 #include "harness/analysis/solve.h"
 
-/* One more iteration of the step that is being tried. energy = |r . K^-1 r| of its residual r [J]; NAN: not known. */
+/* One more iteration of the step that is being tried. energy = |r . K^-1 r| of its residual r [J];
+ * NAN: not known. */
 status history_add_iteration(solve_result *r, step_record *step, const iteration_record *one,
                              double energy, fault *f);
 /* The step was tried in vain: its iterations are forgotten. */

@@ -48,7 +48,8 @@ void linear_system_free(linear_system *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Right-hand side less K x of the driven coordinates and of x itself, from element strains: its error does not grow with the mesh. */
+/* Right-hand side less K x of the driven coordinates and of x itself, from element strains: its
+ * error does not grow with the mesh. */
 static status residual_of(analysis_context *c, const double load[], const double x[],
                           double sigma[], double r[], fault *f)
 {
@@ -62,7 +63,8 @@ static status residual_of(analysis_context *c, const double load[], const double
     return STATUS_OK;
 }
 
-/* Iterative refinement with residuals from the strains: twice always, and on as long as it helps where digits are still missing. */
+/* Iterative refinement with residuals from the strains: twice always, and on as long as it helps
+ * where digits are still missing. */
 enum { REFINEMENTS = 2, MOST_REFINEMENTS = 30 };
 static const double sure_digits = 1e-9; /* of the last correction beside the solution */
 

@@ -1,5 +1,5 @@
-/* Quadratic forms of the undeformed structure and of the stresses of a linear solution, from the element strains: assembling
- * the matrices loses digits of soft motions, this does not. */
+/* Quadratic forms of the undeformed structure and of the stresses of a linear solution, from the
+ * element strains: assembling the matrices loses digits of soft motions, this does not. */
 #ifndef BEAMWORK_LINEAR_FORMS_H
 #define BEAMWORK_LINEAR_FORMS_H
 

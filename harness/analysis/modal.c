@@ -1,4 +1,6 @@
-/* Natural frequencies about the undeformed state, with the stresses of a linear analysis where one is followed: M x = (1/omega^2) K x, so that a mass matrix singular in the rotations does no harm. */
+/* Natural frequencies about the undeformed state, with the stresses of a linear analysis where one
+ * is followed: M x = (1/omega^2) K x, so that a mass matrix singular in the rotations does no
+ * harm. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -68,7 +70,8 @@ static void stiffness_product(void *context, const double mode[], double y[])
         add_product(f, &f->M, f->shift, mode, y);
 }
 
-/* Moves the modes into the outcome, with omega^2 = 1/mu - shift; what is a rounding error of the shift moves as a rigid body. */
+/* Moves the modes into the outcome, with omega^2 = 1/mu - shift; what is a rounding error of the
+ * shift moves as a rigid body. */
 static void keep(const forms *about, eigen_side *side, analysis_outcome *o)
 {
     for (int i = 0; i < side->count; i++) {

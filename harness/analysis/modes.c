@@ -1,5 +1,6 @@
-/* Family of a mode by the share of its kinetic-like measure: translations along the member, across it, and twist times the
- * radius of gyration; half-waves by the sign changes of the leading component along the first member. */
+/* Family of a mode by the share of its kinetic-like measure: translations along the member, across
+ * it, and twist times the radius of gyration; half-waves by the sign changes of the leading
+ * component along the first member. */
 #include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
@@ -18,7 +19,8 @@ static void components(const double R[9], double radius, const double u[7], doub
     out[TWIST] = radius * (R[0] * u[3] + R[3] * u[4] + R[6] * u[5]);
 }
 
-/* Where the vertices stay in place: turns of the section about z and y times r, and warping times r^2. */
+/* Where the vertices stay in place: turns of the section about z and y times r, and warping times
+ * r^2. */
 static void turns(const double R[9], double radius, const double u[7], double out[MEASURES])
 {
     out[AXIAL] = 0;
@@ -109,7 +111,8 @@ static int largest_of(const double sum[MEASURES])
     return leading;
 }
 
-/* Motion of the vertices below this part of that of the sections in place, in squares, is round-off. */
+/* Motion of the vertices below this part of that of the sections in place, in squares, is
+ * round-off. */
 static const double in_place_part = 1e-16;
 
 status mode_identify(const model *m, const scene *s, const double mode[], mode_shape *out, fault *f)
@@ -160,7 +163,8 @@ const char *mode_family_name(scene_family family)
     return "any";
 }
 
-/* mode <- combinations that make the part along z as small or as large as it can be beside the whole. */
+/* mode <- combinations that make the part along z as small or as large as it can be beside the
+ * whole. */
 static status separate_cluster(const model *m, const scene *s, int count, size_t n, double *mode,
                                fault *f)
 {

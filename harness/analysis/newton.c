@@ -1,4 +1,5 @@
-/* One Newton iteration: assemble, factor, solve, take the increments; condensed element by element or, for comparison, dense. */
+/* One Newton iteration: assemble, factor, solve, take the increments; condensed element by element
+ * or, for comparison, dense. */
 #include "harness/analysis/newton.h"
 
 #include <lapacke.h>
@@ -65,7 +66,8 @@ void newton_free(newton *n)
     model_state_free(n->backup);
 }
 
-/* 1: what a driver moves of its condition's coordinates is more than the round-off of all that it moves. */
+/* 1: what a driver moves of its condition's coordinates is more than the round-off of all that it
+ * moves. */
 static int drives(const newton *n, int count, const model_condition condition[],
                   const double column[])
 {
@@ -80,7 +82,8 @@ static int drives(const newton *n, int count, const model_condition condition[],
     return conditioned > round_off * round_off * all;
 }
 
-/* Unknown drivers: their increments make the conditions hold; dx of the free coordinates follows. */
+/* Unknown drivers: their increments make the conditions hold; dx of the free coordinates
+ * follows. */
 static status meet_conditions(newton *n, int count, const model_condition condition[], fault *f)
 {
     double A[MODEL_MAX_CONDITIONS * MODEL_MAX_CONDITIONS], b[MODEL_MAX_CONDITIONS];
@@ -230,7 +233,8 @@ status newton_advance(newton *n, double path, double *correction, step_record *r
                : fault_set(f, STATUS_NOT_CONVERGED, "the corrections are not finite");
 }
 
-/* A formulation whose strains are sines of the turn can converge to a state it cannot tell from the right one. */
+/* A formulation whose strains are sines of the turn can converge to a state it cannot tell from the
+ * right one. */
 static status judge_turns(const newton *n, double path, fault *f)
 {
     const double quarter = 1.57079632679489661923;

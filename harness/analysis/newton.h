@@ -1,4 +1,5 @@
-/* Newton in coordinates, strains and stresses at once (N section 4): what every nonlinear analysis iterates with. */
+/* Newton in coordinates, strains and stresses at once (N section 4): what every nonlinear analysis
+ * iterates with. */
 #ifndef BEAMWORK_NEWTON_H
 #define BEAMWORK_NEWTON_H
 
@@ -27,7 +28,8 @@ typedef struct newton {
 status newton_alloc(analysis_context *, newton *, fault *);
 void newton_free(newton *);
 
-/* K, its factors and dx = K^-1 residual in the present state for the loads and drivers at `path`; drivers are in dx. */
+/* K, its factors and dx = K^-1 residual in the present state for the loads and drivers at `path`;
+ * drivers are in dx. */
 status newton_direction(newton *, double path, step_record *, fault *);
 /* The state takes dx; *correction: dimensionless size of what changed. */
 status newton_advance(newton *, double path, double *correction, step_record *, fault *);
@@ -45,7 +47,8 @@ status newton_judge(const newton *, newton_watch *, double path, double correcti
 /* Newton to `path`: converged, or NOT_CONVERGED with the reason. */
 status newton_to(newton *, double path, step_record *, fault *);
 
-/* static.c: from the present path to `target` in steps that halve when Newton fails and double when it is easy. */
+/* static.c: from the present path to `target` in steps that halve when Newton fails and double when
+ * it is easy. */
 status static_walk(newton *, double target, double *increment, fault *);
 
 status newton_add_record(solve_result *, const step_record *, fault *);

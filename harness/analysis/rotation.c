@@ -1,5 +1,6 @@
-/* Stationary rotation: equilibrium in a frame that turns, at a rising angular velocity, and small motions about it with the
- * gyroscopic, centrifugal and geometric terms (J Eq. 76: K0 + N0 + G0). */
+/* Stationary rotation: equilibrium in a frame that turns, at a rising angular velocity, and small
+ * motions about it with the gyroscopic, centrifugal and geometric terms (J Eq. 76: K0 + N0 +
+ * G0). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -115,7 +116,8 @@ static status identify(analysis_context *c, const gyroscopic_result *r, rotation
     return outcome;
 }
 
-/* Do quantities of this analysis ask for modes: at all, or at every station and not only at the last? */
+/* Do quantities of this analysis ask for modes: at all, or at every station and not only at the
+ * last? */
 static int asks_for_modes(const analysis_context *c, int analysis, int everywhere)
 {
     for (int i = 0; i < c->scene->quantities; i++) {

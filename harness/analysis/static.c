@@ -49,7 +49,8 @@ status static_walk(newton *n, double target, double *increment, fault *f)
     return STATUS_OK;
 }
 
-/* Iterations from the undeformed state, for their time; nothing moves, so that the next one is the same. */
+/* Iterations from the undeformed state, for their time; nothing moves, so that the next one is the
+ * same. */
 static status sample(newton *n, double path, fault *f)
 {
     step_record record = {.path = path};

@@ -1,5 +1,5 @@
-/* Tangent of a structure in a deformed state about one node, where some of the node's prescribed motion is released: its
- * reaction has become a load. */
+/* Tangent of a structure in a deformed state about one node, where some of the node's prescribed
+ * motion is released: its reaction has become a load. */
 #ifndef BEAMWORK_TANGENT_H
 #define BEAMWORK_TANGENT_H
 
@@ -38,12 +38,13 @@ void tangent_free(tangent *t);
 /* reaction[6]: force and moment of the prescription on the node [N, N m]. */
 status tangent_at(analysis_context *c, const scene_analysis *a, const model_state *s,
                   const double reaction[6], tangent *t, fault *f);
-/* Takes out of the reaction's moment what acts along free turns: there is no prescription that exerts it. */
+/* Takes out of the reaction's moment what acts along free turns: there is no prescription that
+ * exerts it. */
 void tangent_prescribed(const tangent *t, double moment[3]);
 /* Motions that the node can make at all. */
 void tangent_movable(const model *m, const tangent *t, movable *out);
-/* C[6 x 6] of the node with the reaction's moment semitangential; columns outside `wanted`, and rows and columns of what is not
- * among the `components` that can move, stay zero. */
+/* C[6 x 6] of the node with the reaction's moment semitangential; columns outside `wanted`, and
+ * rows and columns of what is not among the `components` that can move, stay zero. */
 status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsigned components,
                           double C[36], fault *f);
 

@@ -10,7 +10,8 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Only conservative tangents are stored as a triangle: dead moments about fixed axes and some formulations are not. */
+/* Only conservative tangents are stored as a triangle: dead moments about fixed axes and some
+ * formulations are not. */
 static int is_symmetric(const model *m)
 {
     int moments = 0, nonlinear = 0;

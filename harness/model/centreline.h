@@ -1,6 +1,7 @@
 /* Centre lines of all members in a state, for pictures and other programs.
- * Between two vertices of the mesh runs a cubic whose tangents are the vertices' x axes, whatever field the formulation has inside:
- * what is drawn is the same for all. Resultants are in equilibrium with the element's nodal forces J^T sigma. */
+ * Between two vertices of the mesh runs a cubic whose tangents are the vertices' x axes, whatever
+ * field the formulation has inside: what is drawn is the same for all. Resultants are in
+ * equilibrium with the element's nodal forces J^T sigma. */
 #ifndef BEAMWORK_CENTRELINE_H
 #define BEAMWORK_CENTRELINE_H
 
@@ -20,8 +21,9 @@ int centreline_points(const model *m, int first[]);
 void centreline_fill(const model *m, const model_state *s, centreline_point out[]);
 /* Positions of the scene's nodes: out[nodes x 3] [m]. */
 void centreline_nodes(const model *m, const model_state *s, double out[]);
-/* New state: `from` moved by scale x the increments x[free + driven]; sigma[elements x strains] its stresses, NULL: those of `from`.
- * scale 0: what makes it visible: a tenth of the scene's size or half a radian. *scale returns what was used. */
+/* New state: `from` moved by scale x the increments x[free + driven]; sigma[elements x strains] its
+ * stresses, NULL: those of `from`. scale 0: what makes it visible: a tenth of the scene's size or
+ * half a radian. *scale returns what was used. */
 status centreline_displaced(const model *m, const model_state *from, const double x[],
                             const double sigma[], double *scale, model_state **out, fault *f);
 

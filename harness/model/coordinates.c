@@ -38,7 +38,8 @@ static int motion_of(const model *m, int vertex, int component)
     return absent ? SCENE_HELD : motion;
 }
 
-/* The unknown driver whose value is found from the condition that known driver `known` puts on a component, or NONE. */
+/* The unknown driver whose value is found from the condition that known driver `known` puts on a
+ * component, or NONE. */
 static int conditioned_by(const model *m, int vertex, int component, int known)
 {
     for (int d = 0; d < m->scene->drivers; d++) {
@@ -106,7 +107,8 @@ static status number_vertices(model *m, int *held, fault *f)
                       : STATUS_OK;
 }
 
-/* Global coordinates of an element's own, after rigid offsets and sequences have been eliminated. */
+/* Global coordinates of an element's own, after rigid offsets and sequences have been
+ * eliminated. */
 static void index_element(model *m, mesh_element *el)
 {
     el->plain = 1;

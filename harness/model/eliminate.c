@@ -1,6 +1,7 @@
-/* Element coordinates (dr, dphi, da per vertex) -> coordinates of the bodies that move them, in place.
- * Offset: dr = dr_b + theta x rho.  Second derivatives in the exponential chart: d2(F . rho)/dtheta2 = sym(F rho^T) - (F . rho) I.
- * Sequence: theta = sum b_i dt_i + 1/2 sum_(i<j) b_i x b_j dt_i dt_j (Baker-Campbell-Hausdorff). */
+/* Element coordinates (dr, dphi, da per vertex) -> coordinates of the bodies that move them, in
+ * place. Offset: dr = dr_b + theta x rho.  Second derivatives in the exponential chart: d2(F .
+ * rho)/dtheta2 = sym(F rho^T) - (F . rho) I. Sequence: theta = sum b_i dt_i + 1/2 sum_(i<j) b_i x
+ * b_j dt_i dt_j (Baker-Campbell-Hausdorff). */
 #include <string.h>
 
 #include "elements/math/dense.h"

@@ -4,7 +4,8 @@
 #include "elements/math/rotation.h"
 #include "harness/model/parts.h"
 
-/* Longest step to extrapolate over, relative to the last one; largest error of what is prescribed, relative to its own step. */
+/* Longest step to extrapolate over, relative to the last one; largest error of what is prescribed,
+ * relative to its own step. */
 static const double far = 1.5, bent = 0.25;
 
 /* Weights of the states in the polynomial through them, at `path`. */
@@ -26,7 +27,8 @@ static double combined(int count, const double weight[], const double value[])
     return sum;
 }
 
-/* Is the next value of something prescribed, value[count], near what the extrapolation takes it to? */
+/* Is the next value of something prescribed, value[count], near what the extrapolation takes it
+ * to? */
 static int continues(int count, const double weight[], const double value[])
 {
     const double rounding = 1e-12 * (fabs(value[count]) + fabs(value[count - 1]) + fabs(value[0]));
@@ -54,7 +56,8 @@ static int smooth(const model *m, int count, const model_state *const at[], doub
     return good;
 }
 
-/* Prescribed components of a spatial increment are those of their drivers: only so do they and the frame stay together. */
+/* Prescribed components of a spatial increment are those of their drivers: only so do they and the
+ * frame stay together. */
 static void prescribe(const model *m, const mesh_vertex *v, const model_state *last,
                       const model_state *out, double turn[3])
 {

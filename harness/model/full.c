@@ -1,4 +1,5 @@
-/* The uncondensed system of N section 4: coordinates, strains and stresses of every element at once, as a dense matrix.
+/* The uncondensed system of N section 4: coordinates, strains and stresses of every element at
+ * once, as a dense matrix.
  *   [ sum sigma H     0    J^T ] [dx    ]   [ f - J^T sigma ]
  *   [ J              -1    0   ] [de    ] = [ e - D(x)      ]
  *   [ 0              -C    1   ] [dsigma]   [ P'(e) - sigma ]

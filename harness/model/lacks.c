@@ -1,4 +1,5 @@
-/* What a type offers in one direction only (element.h): how much of it a scene would have needed, and where that is too much. */
+/* What a type offers in one direction only (element.h): how much of it a scene would have needed,
+ * and where that is too much. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,9 +7,10 @@
 #include "elements/math/dense.h"
 #include "harness/model/parts.h"
 
-/* What bends over a length l with ends that do not turn gives way by F l^3/(12 EI) and slides by F l/(kGA): Phi = 12 EI/(kGA l^2)
- * of its deflection is shear (a cantilever: a quarter of that; bending in n half-waves: about n^2 times it). Beyond this part of
- * it a rigid section is another model, not a discretisation. */
+/* What bends over a length l with ends that do not turn gives way by F l^3/(12 EI) and slides by F
+ * l/(kGA): Phi = 12 EI/(kGA l^2) of its deflection is shear (a cantilever: a quarter of that;
+ * bending in n half-waves: about n^2 times it). Beyond this part of it a rigid section is another
+ * model, not a discretisation. */
 static const double largest_phi = 0.01;
 
 /* Box around members that hang together. */
@@ -25,8 +27,9 @@ static void include(const scene *s, int node, char *reached, box *b)
     }
 }
 
-/* Diagonal [m] of the box around a member and those of its section that it is connected with through common nodes: a beam may be
- * described by any number of short members. reached [nodes]: not to be set; what is reached is. */
+/* Diagonal [m] of the box around a member and those of its section that it is connected with
+ * through common nodes: a beam may be described by any number of short members. reached [nodes]:
+ * not to be set; what is reached is. */
 static double extent_of(const scene *s, int member, char *reached)
 {
     const scene_member *first = &s->member[member];

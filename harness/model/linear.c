@@ -1,4 +1,5 @@
-/* Linear analyses about the undeformed state, and quadratic forms taken from the strains: they cost no digits on fine meshes. */
+/* Linear analyses about the undeformed state, and quadratic forms taken from the strains: they cost
+ * no digits on fine meshes. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -151,7 +152,8 @@ static void linear_terms(model *m, int i, const double x[], double strain[], dou
     }
 }
 
-/* Strains are off by the rounding of their terms, S by that of its entries: errors of all elements alike, so they add up. */
+/* Strains are off by the rounding of their terms, S by that of its entries: errors of all elements
+ * alike, so they add up. */
 double model_strain_rounding(model *m, const double x[])
 {
     double sum = 0;
@@ -217,8 +219,9 @@ double model_geometric_energy2(model *m, const double sigma[], const double x[])
     return sum;
 }
 
-/* The form is linear in the stresses: what is missing there is its own rounding. The stresses' is that of the terms they are
- * made of, in whatever direction it falls: it has the size of a stress `other` of all kinds at once. */
+/* The form is linear in the stresses: what is missing there is its own rounding. The stresses' is
+ * that of the terms they are made of, in whatever direction it falls: it has the size of a stress
+ * `other` of all kinds at once. */
 double model_geometric_rounding(model *m, const double load_x[], const double sigma[],
                                 const double x[])
 {

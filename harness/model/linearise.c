@@ -80,7 +80,8 @@ static double gap_size(const model *m, const model_slot *w, double length)
     return largest;
 }
 
-/* Internal less centrifugal forces of the element and, where wanted, their tangent; both in model coordinates. */
+/* Internal less centrifugal forces of the element and, where wanted, their tangent; both in model
+ * coordinates. */
 static status element_equations(model *m, const model_state *s, int i, int tangent, double path,
                                 double force[], double K[], double *gap, fault *f)
 {

@@ -105,7 +105,8 @@ static void subtract(sparse *K, int row, int column, double value)
         *entry -= value;
 }
 
-/* Derivative of the generalized load of a force F at offset rho and a spatial moment m on one body's rotations. */
+/* Derivative of the generalized load of a force F at offset rho and a spatial moment m on one
+ * body's rotations. */
 static void subtract_at(const model *m, const model_state *s, int node, const double F[6],
                         sparse *K)
 {

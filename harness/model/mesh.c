@@ -33,7 +33,8 @@ static void arc_chord(const double k[3], double s, double c[3])
         c[i] = s * e[i] + a * first[i] + b * second[i];
 }
 
-/* From the axes in which a section is described, about which the scene speaks, to its principal ones. */
+/* From the axes in which a section is described, about which the scene speaks, to its principal
+ * ones. */
 static void turn_to_principal(double angle, arc *a)
 {
     const double c = cos(angle), d = sin(angle), ky = a->k[1];
@@ -241,8 +242,8 @@ static void add_warps(model *m, int *named)
                           at_end = i + 1 == m->first_element[member + 1] && k == last;
                 if (!warps)
                     el->warp[k] = NONE;
-                else if (
-                    nothing_warps) /* kept although nothing warps: an amplitude of its own changes nothing */
+                else if (nothing_warps) /* kept although nothing warps: an amplitude of its own
+                                           changes nothing */
                     el->warp[k] = m->warps++;
                 else if (at_start || at_end)
                     el->warp[k] = end_warp(m, at_start ? sm->warp_p : sm->warp_q, named);
@@ -268,8 +269,8 @@ static status allocate(model *m, int elements, fault *f)
     double total = 0;
     for (int i = 0; i < s->members; i++)
         total += divisions(s, i, elements);
-    const double per_element =
-        8e3; /* bytes of an element with its share of matrices and factors, measured on straight members */
+    const double per_element = 8e3; /* bytes of an element with its share of matrices and factors,
+                                       measured on straight members */
     if (total * per_element > (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) ||
         total > 1e8)
         return fault_set(f, STATUS_REFUSED, "%.0f elements: more than memory allows; give fewer",

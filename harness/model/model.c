@@ -35,7 +35,8 @@ static void choose_options(model *m, const double options[])
     m->work_size = m->strains * (m->coordinates + m->strains + 2) + m->memory;
 }
 
-/* At least what the elements, the pattern of their matrices and the states kept along the path take. */
+/* At least what the elements, the pattern of their matrices and the states kept along the path
+ * take. */
 static status check_memory(const model *m, int elements, fault *f)
 {
     const double entries = (double)m->coordinates * m->coordinates / 2,
@@ -176,7 +177,8 @@ counters *model_counters(model *m)
     return &m->counters;
 }
 
-/* Fewer elements than this are done before another thread is awake (measured on the joint and the hexapod). */
+/* Fewer elements than this are done before another thread is awake (measured on the joint and the
+ * hexapod). */
 enum { ELEMENTS_OF_A_THREAD = 32 };
 
 status model_set_threads(model *m, int threads, fault *f)

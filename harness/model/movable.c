@@ -5,7 +5,8 @@
 
 enum { N = 6 };
 
-/* Axes of turns have an error of a few eps: smaller parts of unit columns are taken for round-off. */
+/* Axes of turns have an error of a few eps: smaller parts of unit columns are taken for
+ * round-off. */
 static const double round_off = 1e-12;
 
 static double dot(int n, const double a[], const double b[])

@@ -7,10 +7,10 @@
 typedef struct movable {
     int count;           /* dimension */
     unsigned components; /* bit i: some motion has component i */
-    double span
-        [36]; /* [6 x count] a basis: unit vectors where these span it, else orthonormal with lengths in units of `length` */
-    double dual
-        [36]; /* [count x 6] dual span = 1: the least combination of components that gives a basis vector's share */
+    double span[36]; /* [6 x count] a basis: unit vectors where these span it, else orthonormal with
+                        lengths in units of `length` */
+    double dual[36]; /* [count x 6] dual span = 1: the least combination of components that gives a
+                        basis vector's share */
 } movable;
 
 /* T[6 x columns]: columns of motions, of order 1 in displacements per displacement or turns per

@@ -28,9 +28,9 @@ typedef struct mesh_element {
     int vertex[ELEMENT_MAX_NODES];
     int warp[ELEMENT_MAX_NODES];        /* index, or NONE: held at zero or absent */
     double triad[ELEMENT_MAX_NODES][9]; /* initial, columns nX nY nZ */
-    int index
-        [ELEMENT_MAX_COORDINATES]; /* global coordinate of each element coordinate after elimination, or NONE */
-    int plain;                     /* 1: no offset and no sequence: elimination is selection */
+    int index[ELEMENT_MAX_COORDINATES]; /* global coordinate of each element coordinate after
+                                           elimination, or NONE */
+    int plain;                          /* 1: no offset and no sequence: elimination is selection */
 } mesh_element;
 
 /* What identical elements share. */
@@ -74,17 +74,17 @@ struct model {
     int free, driven;
     double size; /* largest distance between nodes or member length [m] */
     mesh_pattern pattern[2];
-    double *
-        work; /* [elements x work_size]: J, C, P' + C (D - e), D - e, memory of the last linearisation */
+    double *work; /* [elements x work_size]: J, C, P' + C (D - e), D - e, memory of the last
+                     linearisation */
     int work_size;
     model_state *rest; /* undeformed */
     element_spin spin; /* of the frame, times the path if that is followed */
     int spins, spin_follows_path;
     counters counters;
     phases phases;
-    team *team; /* of the loop over elements; NULL: one thread */
-    element_part *
-        part; /* [elements] what the team computes before it is added up in order; NULL without a team */
+    team *team;         /* of the loop over elements; NULL: one thread */
+    element_part *part; /* [elements] what the team computes before it is added up in order; NULL
+                           without a team */
     int lines;
     char **line; /* what was left out */
 };
@@ -126,12 +126,14 @@ void kinematics_follow(const model *m, model_state *s);
 void kinematics_local(const model *m, const model_state *s, const mesh_element *el,
                       const double dx[], double local[]);
 
-/* eliminate.c: element coordinates -> model coordinates, in place. force: internal, for the second derivatives; NULL entries are skipped. */
+/* eliminate.c: element coordinates -> model coordinates, in place. force: internal, for the second
+ * derivatives; NULL entries are skipped. */
 void eliminate_forces(const model *m, const model_state *s, const mesh_element *el, double force[]);
 void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el,
                       const double force[], double K[]);
 
-/* spin.c: force -= centrifugal force, K += its stiffness (NULL: not wanted), in element coordinates; nothing where no frame turns. */
+/* spin.c: force -= centrifugal force, K += its stiffness (NULL: not wanted), in element
+ * coordinates; nothing where no frame turns. */
 status spin_add(model *m, const node_state x[], int element, double path, double force[],
                 double K[], fault *f);
 

@@ -1,4 +1,5 @@
-/* A frame that turns steadily: what it does to elements, and the matrices of small motions in it (J Eq. 76). */
+/* A frame that turns steadily: what it does to elements, and the matrices of small motions in it (J
+ * Eq. 76). */
 #include <string.h>
 
 #include "elements/math/dense.h"

@@ -1,4 +1,5 @@
-/* The tangent of the last linearisation as a stiff and a soft part, for residuals that keep their digits. */
+/* The tangent of the last linearisation as a stiff and a soft part, for residuals that keep their
+ * digits. */
 #include <string.h>
 
 #include "elements/math/dense.h"

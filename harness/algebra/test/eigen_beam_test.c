@@ -1,4 +1,5 @@
-/* Buckling loads and frequencies of a simply supported beam of many elements: how far round-off lets them be computed. */
+/* Buckling loads and frequencies of a simply supported beam of many elements: how far round-off
+ * lets them be computed. */
 #include <gsl/gsl_test.h>
 
 #include "harness/algebra/test/eigen_problems.h"
@@ -55,8 +56,8 @@ static double beam_energy(void *context, const double x[])
     return sum;
 }
 
-/* mu of the mesh: w = W sin(k pi j h) and slope = S cos(k pi j h) at node j leave two unknowns, W and S. For coarse meshes: the
- * determinants cancel like (k pi h)^4. */
+/* mu of the mesh: w = W sin(k pi j h) and slope = S cos(k pi j h) at node j leave two unknowns, W
+ * and S. For coarse meshes: the determinants cancel like (k pi h)^4. */
 static double mesh_value(const beam *b, int k, int vibration)
 {
     double K[16], G[16], M[16], form[2][3];
@@ -75,7 +76,8 @@ static double mesh_value(const beam *b, int k, int vibration)
     return (q + sqrt(q * q - 4 * p * r)) / (2 * p);
 }
 
-/* Euler's loads and frequencies (k pi)^2: the mesh's loads are above by (k pi h)^4/720 of themselves, its frequencies by half of that. */
+/* Euler's loads and frequencies (k pi)^2: the mesh's loads are above by (k pi h)^4/720 of
+ * themselves, its frequencies by half of that. */
 static double expected_value(const beam *b, int k, int vibration)
 {
     if (b->elements <= 20)
@@ -84,7 +86,8 @@ static double expected_value(const beam *b, int k, int vibration)
            (1 + pow(k * MATRICES_PI * b->h, 4) / (vibration ? 1440 : 720));
 }
 
-/* The values and the errors that the solver estimates: they must cover the actual ones, and rounding in n^2 of the form of A. */
+/* The values and the errors that the solver estimates: they must cover the actual ones, and
+ * rounding in n^2 of the form of A. */
 static void compare(const beam *b, const eigen_side *found, int vibration, double allowed)
 {
     const double rounding = 1e-15 + 1e-17 * b->elements * b->elements;
@@ -153,7 +156,8 @@ static void spoilt_product(void *context, const double x[], double y[])
     sparse_mul(((const spoilt *)context)->K, x, y);
 }
 
-/* Whatever assembling K has changed, the answer is that of the elements; and an error that is told is the error. */
+/* Whatever assembling K has changed, the answer is that of the elements; and an error that is told
+ * is the error. */
 static void test_spoilt(double part)
 {
     enum { ELEMENTS = 60, WANTED = 5 };

@@ -5,7 +5,8 @@
 #include "harness/algebra/eigen.h"
 #include "harness/algebra/test/matrices.h"
 
-/* Several strings side by side that do not touch: unit masses on springs of stiffness `spring[copy]`, fixed at both ends. */
+/* Several strings side by side that do not touch: unit masses on springs of stiffness
+ * `spring[copy]`, fixed at both ends. */
 typedef struct strings {
     int copies, masses;
     double spring[8];

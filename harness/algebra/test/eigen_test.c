@@ -1,5 +1,5 @@
-/* Eigenpairs against closed forms and against LAPACK: both signs, repeated and nearly equal values, singular and indefinite
- * matrices. */
+/* Eigenpairs against closed forms and against LAPACK: both signs, repeated and nearly equal values,
+ * singular and indefinite matrices. */
 #include <gsl/gsl_test.h>
 #include <stdio.h>
 
@@ -96,7 +96,8 @@ static void test_both_signs(void)
     matrices_free(&A);
 }
 
-/* Two strings that only A couples, one with the slope of the other: every value is double and comes with both signs. */
+/* Two strings that only A couples, one with the slope of the other: every value is double and comes
+ * with both signs. */
 static void test_coupled_strings(int masses)
 {
     enum { WANTED = 3 };
@@ -160,8 +161,8 @@ static void test_rank(int iterate)
     strings_free(&s);
 }
 
-/* What happens when the iteration has found one copy of a repeated eigenvalue: the inertia says so, and the others come out of
- * what that copy leaves. */
+/* What happens when the iteration has found one copy of a repeated eigenvalue: the inertia says so,
+ * and the others come out of what that copy leaves. */
 static void test_missed_copies(void)
 {
     enum { COPIES = 3, MASSES = 40, N = COPIES * MASSES };
@@ -238,8 +239,9 @@ static double broken_energy(void *context, const double x[])
     return b->sign * sum < 0 ? NAN : sum;
 }
 
-/* Values of both signs, of which those of one sign are lost as soon as they are found: the other side is found all the same, as
- * if it alone had been asked for, and the side that is not says so. */
+/* Values of both signs, of which those of one sign are lost as soon as they are found: the other
+ * side is found all the same, as if it alone had been asked for, and the side that is not says
+ * so. */
 static void test_sides_apart(void)
 {
     enum { N = 800, WANTED = 4 };

@@ -1,5 +1,5 @@
-/* Frequencies in a turning frame against LAPACK on the whole problem: weak and strong gyroscopic terms, singular masses, equal
- * frequencies, and stiffness that is not definite. */
+/* Frequencies in a turning frame against LAPACK on the whole problem: weak and strong gyroscopic
+ * terms, singular masses, equal frequencies, and stiffness that is not definite. */
 #include <gsl/gsl_test.h>
 #include <lapacke.h>
 #include <math.h>
@@ -27,7 +27,8 @@ static void alloc(int n, problem *p)
     p->G = p->M + n * n;
 }
 
-/* Positive definite K with eigenvalues of many sizes; M definite on all but the last `massless` coordinates. */
+/* Positive definite K with eigenvalues of many sizes; M definite on all but the last `massless`
+ * coordinates. */
 static void fill(problem *p, double gyroscopic, int massless, double softening)
 {
     const int n = p->n;
@@ -73,7 +74,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* All frequencies (lambda nearly imaginary), ascending, and the largest real part. Returns how many. */
+/* All frequencies (lambda nearly imaginary), ascending, and the largest real part. Returns how
+ * many. */
 static int by_lapack(const problem *p, double frequency[], double *growth)
 {
     const int n = p->n, m = 2 * n;
@@ -198,7 +200,8 @@ static void equal_frequencies(void)
     }
 }
 
-/* Two unknowns: divergence without gyroscopic terms, stability with strong ones. Roots of lambda^4 + (k1 + k2 + g^2) lambda^2 + k1 k2. */
+/* Two unknowns: divergence without gyroscopic terms, stability with strong ones. Roots of lambda^4
+ * + (k1 + k2 + g^2) lambda^2 + k1 k2. */
 static void indefinite(void)
 {
     static const double k1 = -1, k2 = -2, g[] = {0.5, 4};
@@ -231,7 +234,8 @@ static void indefinite(void)
     free(p.K);
 }
 
-/* The number of frequencies below one, beside LAPACK's: between all neighbours, below the first and above the last. */
+/* The number of frequencies below one, beside LAPACK's: between all neighbours, below the first and
+ * above the last. */
 static void compare_counts(const problem *p, const char *name)
 {
     double *frequency = calloc(2 * (size_t)p->n, sizeof *frequency), growth;
@@ -272,8 +276,9 @@ static void counts(void)
             }
 }
 
-/* A string of `masses` oscillators at 1, 2, 3 ... rad/s that do not touch, and a top beside them. Without gyroscopic terms the top
- * is the stiffest part by far; with them its precession lies at 2.5 rad/s: no start without them shows it, and no residual. */
+/* A string of `masses` oscillators at 1, 2, 3 ... rad/s that do not touch, and a top beside them.
+ * Without gyroscopic terms the top is the stiffest part by far; with them its precession lies
+ * at 2.5 rad/s: no start without them shows it, and no residual. */
 static void hidden_precession(int masses, int wanted_outcome)
 {
     const double slow = 2.5, k = 1e6, g = (k / slow) - slow; /* root of w^2 + g w - k */

@@ -76,7 +76,8 @@ static inline sparse matrices_both_triangles(const sparse *a)
         s.column[j + 1] += s.column[j];
         next[j] = s.column[j];
     }
-    /* Column j's upper part is complete before a later column adds to its lower part: rows ascend. */
+    /* Column j's upper part is complete before a later column adds to its lower part: rows
+     * ascend. */
     for (int j = 0; j < n; j++)
         for (int k = a->column[j]; k < a->column[j + 1]; k++) {
             const int i = a->row[k];
@@ -99,7 +100,8 @@ static inline void matrices_add(sparse *s, int i, int j, double value)
             s->value[k] += value;
 }
 
-/* Adds element matrices k[2 size x 2 size] of all pairs of neighbouring nodes; the first `left_out` unknowns do not exist. */
+/* Adds element matrices k[2 size x 2 size] of all pairs of neighbouring nodes; the first `left_out`
+ * unknowns do not exist. */
 static inline void matrices_add_elements(sparse *s, int elements, int size, int left_out,
                                          const double k[])
 {
@@ -112,8 +114,8 @@ static inline void matrices_add_elements(sparse *s, int elements, int size, int 
             }
 }
 
-/* Shear-rigid beam element of length h in a plane, EI = 1: stiffness, geometric stiffness at unit compression (its negative)
- * and mass per unit length 1; unknowns w and the slope at both ends. */
+/* Shear-rigid beam element of length h in a plane, EI = 1: stiffness, geometric stiffness at unit
+ * compression (its negative) and mass per unit length 1; unknowns w and the slope at both ends. */
 static inline void matrices_beam(double h, double stiffness[16], double compression[16],
                                  double mass[16])
 {

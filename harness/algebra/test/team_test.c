@@ -1,4 +1,5 @@
-/* Threads that share a loop: every index once, whatever their number; thousands of rounds; threads that sleep are woken. */
+/* Threads that share a loop: every index once, whatever their number; thousands of rounds; threads
+ * that sleep are woken. */
 #include <gsl/gsl_test.h>
 #include <string.h>
 #include <time.h>

@@ -1,4 +1,5 @@
-/* Continuation: limit points, bifurcations and branch jumps, against closed forms and against each other. */
+/* Continuation: limit points, bifurcations and branch jumps, against closed forms and against each
+ * other. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -68,7 +69,8 @@ static void limit_points(void)
     }
 }
 
-/* A perfect cantilever column, its least stiffness about z: bifurcations at P (1 - P/EA) = (2 k - 1)^2 pi^2 EI/(4 L^2). */
+/* A perfect cantilever column, its least stiffness about z: bifurcations at P (1 - P/EA) = (2 k -
+ * 1)^2 pi^2 EI/(4 L^2). */
 static status build_column(const double value[], scene *s, fault *f)
 {
     (void)f;
@@ -201,8 +203,9 @@ static status build_long_arcs(const double value[], scene *s, fault *f)
     return outcome;
 }
 
-/* Steps so long that each swings too far are walked again in smaller ones. Most led to the same branch and nothing has jumped;
- * arcs of 0.5 meet another, on which the loaded point has swayed by 35 m and not by 94 m at the same deflection. */
+/* Steps so long that each swings too far are walked again in smaller ones. Most led to the same
+ * branch and nothing has jumped; arcs of 0.5 meet another, on which the loaded point has swayed by
+ * 35 m and not by 94 m at the same deflection. */
 static void long_arcs(void)
 {
     static const char *const step[] = {"step=0.02", "step=0.05", "step=0.15", "step=0.2"};

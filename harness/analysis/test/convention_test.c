@@ -159,7 +159,8 @@ static void turn_vector(const double q[4], double v[3])
     rotation_apply(q, v, v);
 }
 
-/* The cross-flexure hinge under a force at an offset that tilts its arm; the whole scene in other axes when wanted. */
+/* The cross-flexure hinge under a force at an offset that tilts its arm; the whole scene in other
+ * axes when wanted. */
 static status tilted_hinge(const double value[], scene *s, fault *f)
 {
     double q[4];

@@ -1,7 +1,8 @@
-/* An element is free of stress along any arc of constant torsion and curvature, initial elongation and shear included: every
- * formulation that offers initial curvature, with every choice of its options.  About such an arc its stress still derives from
- * its energy, and its geometric stiffness is the derivative of its
- * tangent if it is so about the straight element (the others leave out what the strains of the prestressed state add). */
+/* An element is free of stress along any arc of constant torsion and curvature, initial elongation
+ * and shear included: every formulation that offers initial curvature, with every choice of its
+ * options.  About such an arc its stress still derives from its energy, and its geometric stiffness
+ * is the derivative of its tangent if it is so about the straight element (the others leave out
+ * what the strains of the prestressed state add). */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -146,7 +147,8 @@ static double stress_of_arc(subject *s, const double motion[6])
     return worst;
 }
 
-/* Largest difference between the derivative of the energy and the stress about the arc, of the stress there. */
+/* Largest difference between the derivative of the energy and the stress about the arc, of the
+ * stress there. */
 static double error_of_stress(subject *s)
 {
     const double h = 1e-5 * s->length;
@@ -167,7 +169,8 @@ static double error_of_stress(subject *s)
     return worst / largest;
 }
 
-/* The same of the tangent along the strain that the prestress makes, and the geometric stiffness. */
+/* The same of the tangent along the strain that the prestress makes, and the geometric
+ * stiffness. */
 static double error_of_geometric(subject *s)
 {
     const int n = s->strains;

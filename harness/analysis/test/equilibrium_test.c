@@ -1,4 +1,5 @@
-/* Frequencies and critical loads about a loaded state: limits that linear theory knows, and what is refused. */
+/* Frequencies and critical loads about a loaded state: limits that linear theory knows, and what is
+ * refused. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -32,7 +33,8 @@ static double value_of(const char *case_name, const char *chosen, int n,
     return value;
 }
 
-/* Strong bending 1e6 times as stiff as weak: what linear prestress says, 4.012599344, and the first power of 1/ratio beyond it. */
+/* Strong bending 1e6 times as stiff as weak: what linear prestress says, 4.012599344, and the first
+ * power of 1/ratio beyond it. */
 static void stiff_before_buckling(void)
 {
     const char *const included[] = {"prebuckling=included", "ratio=1e6", NULL};
@@ -57,7 +59,8 @@ static void deflected_before_buckling(void)
     }
 }
 
-/* A cantilever of unit constants under a dead tip force P along -x or a dead tip moment M about z, then an analysis about it. */
+/* A cantilever of unit constants under a dead tip force P along -x or a dead tip moment M about z,
+ * then an analysis about it. */
 static status solve_column(scene_analysis_kind kind, double P, double M, double end, double *value,
                            fault *f)
 {

@@ -1,5 +1,6 @@
-/* A beam that nothing holds: six motions of a rigid body at no frequency, then those of the free beam, (k_i L)^2 sqrt(EI/(rho A L^4)) with
- * cos(k_i L) cosh(k_i L) = 1. The stiffness matrix is singular; its shift must leave no trace in the frequencies. */
+/* A beam that nothing holds: six motions of a rigid body at no frequency, then those of the free
+ * beam, (k_i L)^2 sqrt(EI/(rho A L^4)) with cos(k_i L) cosh(k_i L) = 1. The stiffness matrix is
+ * singular; its shift must leave no trace in the frequencies. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>

@@ -1,6 +1,7 @@
-/* What needs no truth, for every formulation on every case it runs on: the same mesh in other words, mirror images, turned
- * symmetric structures, reciprocity. A number that is compared is relative to its size. Two discretisations of the same
- * continuum may differ, but the difference falls with the mesh. */
+/* What needs no truth, for every formulation on every case it runs on: the same mesh in other
+ * words, mirror images, turned symmetric structures, reciprocity. A number that is compared is
+ * relative to its size. Two discretisations of the same continuum may differ, but the difference
+ * falls with the mesh. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +11,8 @@
 #include "harness/catalogue/registry.h"
 #include "harness/study/test/ask.h"
 
-/* Largest relative difference of all values that exist, and whose. Frequencies of a mesh without such a mode exist in neither. */
+/* Largest relative difference of all values that exist, and whose. Frequencies of a mesh without
+ * such a mode exist in neither. */
 static double difference(const answer *a, const answer *b, const char **whose)
 {
     double worst = a->count == b->count ? 0 : INFINITY;
@@ -54,8 +56,8 @@ static void same(const case_type *type, const element_type *formulation_type, co
              what, whose, apart, after.status != STATUS_OK ? " " : "", after.reason);
 }
 
-/* Amplitudes of warping that are kept where nothing warps make the twist of some formulations a cubic: a better mesh, and the
- * same continuum. */
+/* Amplitudes of warping that are kept where nothing warps make the twist of some formulations a
+ * cubic: a better mesh, and the same continuum. */
 static void keep_all(const case_type *type, const element_type *e)
 {
     static const int n[2] = {4, 16};
@@ -84,8 +86,8 @@ static void every_case(const element_type *e)
         static answer whole;
         const case_type *type = registry_cases[i];
         keep_all(type, e);
-        if (!(e->limits &
-              LIMIT_ORDER_DEPENDENT)) /* by a discretisation error, which the sweep of extremes shows */
+        if (!(e->limits & LIMIT_ORDER_DEPENDENT)) /* by a discretisation error, which the sweep of
+                                                     extremes shows */
             same(type, e, "the other order of nodes changes nothing", 2, 2,
                  (scene_edit){SCENE_EDIT_REVERSE, 0}, 1e-8);
         same(type, e, "another unit of length changes nothing", 2, 2,
@@ -154,7 +156,8 @@ static void thirds(const element_type *e)
     cell_result_free(&result);
 }
 
-/* Maxwell and Betti hold for loads that have a potential: semitangential moments, and not moments about fixed axes. */
+/* Maxwell and Betti hold for loads that have a potential: semitangential moments, and not moments
+ * about fixed axes. */
 static void reciprocity(const element_type *e)
 {
     static const char *const response[] = {"ux", "uy", "uz", "thx", "thy", "thz"}, *const load[] = {

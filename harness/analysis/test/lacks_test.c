@@ -1,5 +1,6 @@
-/* Shear flexibility in both directions: a formulation that offers shear has it, or says that it lacks it; it is refused where that
- * matters.  A member of any thickness whose ends do not turn, under a force across it: F l^3 (1 + Phi)/(12 EI). */
+/* Shear flexibility in both directions: a formulation that offers shear has it, or says that it
+ * lacks it; it is refused where that matters.  A member of any thickness whose ends do not turn,
+ * under a force across it: F l^3 (1 + Phi)/(12 EI). */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>

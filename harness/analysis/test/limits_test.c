@@ -53,7 +53,8 @@ static double curved(const element_type *e, double curvature)
     return deflection;
 }
 
-/* Curvature to zero: the answer changes in proportion to it, down to where nothing is left of it. */
+/* Curvature to zero: the answer changes in proportion to it, down to where nothing is left of
+ * it. */
 static void nearly_straight(const element_type *e)
 {
     const double straight = curved(e, 0), slope = (curved(e, 1e-4) - curved(e, -1e-4)) / 2e-4;

@@ -1,4 +1,5 @@
-/* Mechanisms and unstable states: large turns in one step, few iterations, inertia of the tangent, both directions of elements. */
+/* Mechanisms and unstable states: large turns in one step, few iterations, inertia of the tangent,
+ * both directions of elements. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -38,7 +39,8 @@ static double value_of(const cell_result *r, const char *quantity)
     return NAN;
 }
 
-/* N section 4: coordinates, strains and stresses at once reach 15 degrees from rest without steps between. */
+/* N section 4: coordinates, strains and stresses at once reach 15 degrees from rest without steps
+ * between. */
 static void from_rest_in_one_step(void)
 {
     const char *const once[] = {"steps=1", "wagner=0", NULL};
@@ -84,7 +86,8 @@ static void few_iterations(void)
     }
 }
 
-/* A guess of the next state saves iterations and changes no result: more steps between the stations reach the same. */
+/* A guess of the next state saves iterations and changes no result: more steps between the stations
+ * reach the same. */
 static void guesses_change_nothing(void)
 {
     const char *const defaults[] = {NULL};
@@ -111,7 +114,8 @@ static void guesses_change_nothing(void)
     cell_result_free(&halved);
 }
 
-/* Formulations that treat both ends alike do not notice which way the elements run; the others by a discretisation error. */
+/* Formulations that treat both ends alike do not notice which way the elements run; the others by a
+ * discretisation error. */
 static void directions(void)
 {
     static const struct {
@@ -137,7 +141,8 @@ static void directions(void)
     }
 }
 
-/* Largest stiffnesses with one element per sheet; independent prototype: 9.37, 9.720, 9.92 x 10^5 N/m. */
+/* Largest stiffnesses with one element per sheet; independent prototype: 9.37, 9.720, 9.92 x 10^5
+ * N/m. */
 static void fold_warping(void)
 {
     static const char *const choice[3] = {"fold_warping=fixed", "fold_warping=shared",
@@ -154,7 +159,8 @@ static void fold_warping(void)
     gsl_test_rel(value[2], 9.92e5, 2e-3, "folds free to warp");
 }
 
-/* A cantilever of length 1 with EIy = 4 EIz = 4 under P = path [N], straight: its critical loads are (2k - 1)^2 pi^2 EI/4. */
+/* A cantilever of length 1 with EIy = 4 EIz = 4 under P = path [N], straight: its critical loads
+ * are (2k - 1)^2 pi^2 EI/4. */
 static void straight_column(scene *s, int stations, const double path[])
 {
     section_spec spec;
@@ -172,7 +178,8 @@ static void straight_column(scene *s, int stations, const double path[])
     scene_set_stations(s, scene_add_analysis(s, SCENE_STATIC), stations, path);
 }
 
-/* Newton stays on the straight path, where the tangent has as many negative eigenvalues as there are critical loads below. */
+/* Newton stays on the straight path, where the tangent has as many negative eigenvalues as there
+ * are critical loads below. */
 static void inertia_counts_critical_loads(void)
 {
     const double pi = 3.14159265358979323846, weak = pi * pi / 4;

@@ -1,4 +1,5 @@
-/* The closed-form solution of a clamped-free sheet beside what one third-order element computes from the same potential. */
+/* The closed-form solution of a clamped-free sheet beside what one third-order element computes
+ * from the same potential. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -22,8 +23,8 @@ static void solve(const char *const assignment[], cell_result *out)
     gsl_test(cell_run(&request, out, &f) != STATUS_OK, "solved: %s", f.text);
 }
 
-/* In the plane the element's inverse of N Eq. 37 is exact enough to agree with all digits; out of it the two differ by terms of
- * the fourth order, of which `apart` is the size for C_zz. */
+/* In the plane the element's inverse of N Eq. 37 is exact enough to agree with all digits; out of
+ * it the two differ by terms of the fourth order, of which `apart` is the size for C_zz. */
 static void beside_the_element(const char *const assignment[], double in_plane, double apart)
 {
     cell_result r;

@@ -1,5 +1,6 @@
-/* No load, no drive, no initial strain: nothing moves and nothing pulls, in every case at every parameter point that is verified,
- * for every formulation and every choice of its options that is judged.  What is checked is counted. */
+/* No load, no drive, no initial strain: nothing moves and nothing pulls, in every case at every
+ * parameter point that is verified, for every formulation and every choice of its options that is
+ * judged.  What is checked is counted. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +11,8 @@
 #include "harness/study/sweep.h"
 
 enum { COMPONENTS = 6, CHOICES = 64 };
-/* Of the structure's size, one radian, and the stiffest force EA of its members: rounding of an arc's curvature in slender members. */
+/* Of the structure's size, one radian, and the stiffest force EA of its members: rounding of an
+ * arc's curvature in slender members. */
 static const double still = 1e-10, unstressed = 1e-12;
 
 typedef struct tally {

@@ -1,5 +1,6 @@
-/* Structures that turn steadily, through the program's own door: what does not depend on the frame, the formulation's algorithm or
- * the reference point of a body; the stretch of a thick beam; and that a structure at rest pays nothing. */
+/* Structures that turn steadily, through the program's own door: what does not depend on the frame,
+ * the formulation's algorithm or the reference point of a body; the stretch of a thick beam; and
+ * that a structure at rest pays nothing. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -47,7 +48,8 @@ static double value_of(const char *case_name, const char *chosen, int n,
     return value;
 }
 
-/* k = Omega L/c = 1/2 with c the speed of sound: L (tan k/k - 1), by elements of higher order and in the limit of the others. */
+/* k = Omega L/c = 1/2 with c the speed of sound: L (tan k/k - 1), by elements of higher order and
+ * in the limit of the others. */
 static void stretch(void)
 {
     const char *const thick[] = {"omega_star=5", "slenderness=10", NULL};
@@ -139,7 +141,8 @@ static status build_with_body(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* The centrifugal and gyroscopic terms of a rigid offset: the same structure in other coordinates. */
+/* The centrifugal and gyroscopic terms of a rigid offset: the same structure in other
+ * coordinates. */
 static void reference_point(void)
 {
     static const case_type type = {"with_body", "", "", with_body_parameters, build_with_body};

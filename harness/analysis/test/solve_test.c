@@ -1,4 +1,5 @@
-/* Model and solvers through their public door: what is left out changes nothing, round-off stays small. */
+/* Model and solvers through their public door: what is left out changes nothing, round-off stays
+ * small. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -73,7 +74,8 @@ static void newton(void)
              "mixed Newton takes at most four iterations a step (%ld in 15 steps)", mixed);
 }
 
-/* In a first step of 15 degrees the ends of short elements change places: the strains cannot tell, the solver must. */
+/* In a first step of 15 degrees the ends of short elements change places: the strains cannot tell,
+ * the solver must. */
 static void no_element_is_turned_round(void)
 {
     const double value = value_of("spherical_joint", "beamw_consistent", 32, 0, "wagner=0",
@@ -95,7 +97,8 @@ static void fine_mesh(void)
              order);
 }
 
-/* Far below the largest values the geometric stiffness alone decides the pivots of K - A/s, and here they vanish. */
+/* Far below the largest values the geometric stiffness alone decides the pivots of K - A/s, and
+ * here they vanish. */
 static void frame_of_strips(void)
 {
     const double exact = 0.6222080872197;
@@ -107,7 +110,8 @@ static void frame_of_strips(void)
     }
 }
 
-/* Equal elements round alike: their errors add up to much more than independent ones, and the inertia is that of the sums. */
+/* Equal elements round alike: their errors add up to much more than independent ones, and the
+ * inertia is that of the sums. */
 static void equal_elements(void)
 {
     const double critical = value_of("lateral_buckling", "geometrically_exact", 256, 0, "load=mid",
@@ -115,8 +119,8 @@ static void equal_elements(void)
     gsl_test_rel(critical, 16.93613215047, 1e-6, "lateral buckling with 512 elements");
 }
 
-/* Two elements between forks have 14 motions, of which two are axial; in some of the others no vertex moves, and only sections turn and warp:
- * they are no axial ones either. */
+/* Two elements between forks have 14 motions, of which two are axial; in some of the others no
+ * vertex moves, and only sections turn and warp: they are no axial ones either. */
 static void modes_in_place(void)
 {
     for (int keep_all = 0; keep_all < 2; keep_all++)

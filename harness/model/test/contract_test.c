@@ -1,5 +1,5 @@
-/* What every formulation must keep, checked for all that exist: gradient of the energy, derivative of the force, rigid
- * motion, node order, total mass, subsets of features, units. */
+/* What every formulation must keep, checked for all that exist: gradient of the energy, derivative
+ * of the force, rigid motion, node order, total mass, subsets of features, units. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -19,7 +19,8 @@ typedef struct subject {
     int nodes, strains, coordinates, inner, memory;
 } subject;
 
-/* A rectangle: what every formulation can do. Lengths in units of `unit` metres, force in newtons. */
+/* A rectangle: what every formulation can do. Lengths in units of `unit` metres, force in
+ * newtons. */
 static int prepare(const element_type *type, unsigned features, double unit, subject *out)
 {
     section_spec spec;
@@ -114,7 +115,8 @@ static double norm(int n, const double *a)
     return sqrt(sum);
 }
 
-/* J and H against central differences of e and of J^T s along random directions, in the exponential chart. */
+/* J and H against central differences of e and of J^T s along random directions, in the exponential
+ * chart. */
 static void derivatives_of_strain(const subject *s)
 {
     const double h = 1e-5;
@@ -174,7 +176,8 @@ static double asymmetry(int n, const double A[])
     return worst / largest;
 }
 
-/* sigma = dP/de and C = dsigma/de; a formulation whose tangent is not symmetric has no energy to compare with. */
+/* sigma = dP/de and C = dsigma/de; a formulation whose tangent is not symmetric has no energy to
+ * compare with. */
 static void derivatives_of_stress(const subject *s)
 {
     double d[MOST], e[MOST_STRAINS], sigma[MOST_STRAINS], C[MOST_STRAINS * MOST_STRAINS],

@@ -1,5 +1,6 @@
-/* What one evaluation of every formulation costs: kinematics (strains, gradient, second derivatives), stress with stiffness, and
- * the update of an element's own unknowns, in microseconds; least of many repetitions in one sheet bent by 3 % of its length. */
+/* What one evaluation of every formulation costs: kinematics (strains, gradient, second
+ * derivatives), stress with stiffness, and the update of an element's own unknowns, in
+ * microseconds; least of many repetitions in one sheet bent by 3 % of its length. */
 #include <stdio.h>
 #include <time.h>
 

@@ -1,5 +1,6 @@
-/* Inertia of every formulation that has one, with every mass it offers, with and without rotary inertia, in a strained state of an
- * unsymmetric section (a rectangle where only that is possible): mass, symmetry, and what a turning frame does. */
+/* Inertia of every formulation that has one, with every mass it offers, with and without rotary
+ * inertia, in a strained state of an unsymmetric section (a rectangle where only that is possible):
+ * mass, symmetry, and what a turning frame does. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -232,7 +233,8 @@ static void check(const element_type *type, const double options[], int choice, 
     free(s.data);
 }
 
-/* v^T M v of a straight element that turns about an axis through its first node at one radian a second. */
+/* v^T M v of a straight element that turns about an axis through its first node at one radian a
+ * second. */
 static double turning_inertia(const element_type *type, const double options[], unsigned features,
                               int axis, subject *s)
 {
@@ -251,7 +253,8 @@ static double turning_inertia(const element_type *type, const double options[], 
     return dot(s->coordinates, v, Mv);
 }
 
-/* Of a rigid rotation: rho l (Ip, Iy, Iz), each about its own axis, beside what the masses on the line have. */
+/* Of a rigid rotation: rho l (Ip, Iy, Iz), each about its own axis, beside what the masses on the
+ * line have. */
 static void moments_of_inertia(const element_type *type, const double options[], int choice)
 {
     const unsigned features = type->offers & ~(unsigned)FEATURE_CURVATURE;
@@ -297,7 +300,8 @@ static double twisted_energy(const element_type *type, const double options[], u
     return V;
 }
 
-/* Fibres that warping moves along the beam turn at another distance from the axis: -1/2 int rho (omega a)^2 |Omega x e_x|^2 dV. */
+/* Fibres that warping moves along the beam turn at another distance from the axis: -1/2 int rho
+ * (omega a)^2 |Omega x e_x|^2 dV. */
 static void warping_in_a_turning_frame(const element_type *type, const double options[], int choice)
 {
     const double angle = 0.005;

@@ -1,4 +1,5 @@
-/* Initial elongation and shear strains (N Eq. 52): what is free takes them without stress, what is held feels EA g or GA g. */
+/* Initial elongation and shear strains (N Eq. 52): what is free takes them without stress, what is
+ * held feels EA g or GA g. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -11,7 +12,8 @@ static const char *const names[] = {
     "geometrically_exact", "geometrically_exact:nodes=2", "collocation"};
 enum { NAMES = sizeof names / sizeof names[0] };
 
-/* A rectangle of length 2 m, its strains g[3]; held[6]: components of the tip that are held. Values of six coordinates, six reactions. */
+/* A rectangle of length 2 m, its strains g[3]; held[6]: components of the tip that are held. Values
+ * of six coordinates, six reactions. */
 static void solve(const char *name, const double g[3], const int held[6], double u[6], double F[6])
 {
     static const char *const quantity[12] = {"u0", "u1", "u2", "u3", "u4", "u5",

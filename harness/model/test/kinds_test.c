@@ -79,7 +79,8 @@ static int solve(const element_type *type, int count, const link links[], double
     return outcome == STATUS_OK;
 }
 
-/* One kind for all elements of equal members, however many; one more for each thing that differs. */
+/* One kind for all elements of equal members, however many; one more for each thing that
+ * differs. */
 static void counts(const element_type *type)
 {
     static const struct {

@@ -1,5 +1,6 @@
-/* The same structure described in other axes of its section, turned by any angle about the beam: the same answers of every formulation. What
- * belongs to one axis only (a Wagner moment, a shear centre's distance, an entry of D) shows here. */
+/* The same structure described in other axes of its section, turned by any angle about the beam:
+ * the same answers of every formulation. What belongs to one axis only (a Wagner moment, a shear
+ * centre's distance, an entry of D) shows here. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +13,8 @@
 
 enum { ANGLE = CASE_MAX_PARAMETERS - 1, ORIGINAL = CASE_MAX_PARAMETERS - 2 };
 
-/* y = y' cos - z' sin: the local y axis of every member along x turns by the angle, the sections' points by the opposite. */
+/* y = y' cos - z' sin: the local y axis of every member along x turns by the angle, the sections'
+ * points by the opposite. */
 static status turned(const double value[], scene *s, fault *f)
 {
     const double c = cos(value[ANGLE]), d = sin(value[ANGLE]);
@@ -46,7 +48,8 @@ static status solve(int original, double angle, const element_type *element, cel
     return cell_run(&request, out, &f);
 }
 
-/* Quantities of one sign and order are the same numbers, save that a turn by half a circle exchanges the signs of moments. */
+/* Quantities of one sign and order are the same numbers, save that a turn by half a circle
+ * exchanges the signs of moments. */
 static int compare(int original, const element_type *element)
 {
     static const double angle[] = {0.5, 1.5707963267948966, -2.2};
