@@ -29,6 +29,14 @@ __attribute__((format(printf, 3, 4)))
 status
 fault_set(fault *f, status s, const char *format, ...);
 
+/* Returns from the function when a call failed: for functions that own nothing to free. */
+#define TRY(call)                                                                                  \
+    do {                                                                                           \
+        const status try_ = (call);                                                                \
+        if (try_ != STATUS_OK)                                                                     \
+            return try_;                                                                           \
+    } while (0)
+
 /* "ok", "not_converged", "singular", "refused", "fault", "time_limit": the words of the result file. */
 const char *status_name(status s);
 

@@ -67,44 +67,55 @@ static status solve_dense(const eigen_problem *e, double mu[], double x[], fault
                            "a dense eigenvalue problem of %d unknowns: LAPACK says %d", n, info);
 }
 
-/* Candidates of one or both sides (NULL: not asked for) from all eigenvectors. */
-static status add_dense(pairs *const side[2], const int wanted[2], fault *f)
+/* Candidates of one or both sides (NULL: not asked for) from all eigenvectors; mu[n], x[n x n]. */
+static status take_dense(pairs *const side[2], const int wanted[2], double mu[], double x[],
+                         fault *f)
 {
     const pairs *any = side[0] != NULL ? side[0] : side[1];
     const size_t n = (size_t)any->n;
-    double *mu = calloc(n, sizeof *mu), *x = calloc(n * n, sizeof *x);
-    status outcome = mu == NULL || x == NULL
-                         ? fault_set(f, STATUS_FAULT, "out of memory for an eigenvalue problem")
-                         : STATUS_OK;
-    if (outcome == STATUS_OK)
-        outcome = solve_dense(any->problem, mu, x, f);
-    for (int i = 0; i < 2 && outcome == STATUS_OK; i++) {
-        const double least = least_of(any->n, fmax(fabs(mu[0]), fabs(mu[n - 1])));
+    TRY(solve_dense(any->problem, mu, x, f));
+    const double least = least_of(any->n, fmax(fabs(mu[0]), fabs(mu[n - 1])));
+    for (int i = 0; i < 2; i++) {
         const size_t count = (size_t)(wanted[i] < any->n ? wanted[i] : any->n);
         if (side[i] != NULL) /* the most positive ones come last */
-            outcome = pairs_add(side[i], (int)count, i == 0 ? x + (n - count) * n : x, least, f);
+            TRY(pairs_add(side[i], (int)count, i == 0 ? x + (n - count) * n : x, least, f));
     }
+    return STATUS_OK;
+}
+
+static status add_dense(pairs *const side[2], const int wanted[2], fault *f)
+{
+    const size_t n = (size_t)(side[0] != NULL ? side[0] : side[1])->n;
+    double *mu = calloc(n, sizeof *mu), *x = calloc(n * n, sizeof *x);
+    const status outcome =
+        mu != NULL && x != NULL
+            ? take_dense(side, wanted, mu, x, f)
+            : fault_set(f, STATUS_FAULT, "out of memory for an eigenvalue problem");
     free(mu);
     free(x);
     return outcome;
 }
 
-/* Candidates from one run of Lanczos, in what the present ones leave. */
-static status run_lanczos(pairs *p, int wanted, double least, long *solutions, fault *f)
+/* Candidates from one run of Lanczos, in what the present ones leave; mu[count], x[count x n]. */
+static status take_lanczos(pairs *p, int count, double mu[], double x[], double least,
+                           long *solutions, fault *f)
 {
     const eigen_problem *e = p->problem;
     const lanczos_problem l = {e->K, e->A, e->K_factor, p->sign, p->count, p->x, p->Kx};
+    int found = 0;
+    TRY(lanczos_largest(&l, count, &found, mu, x, solutions, f));
+    return pairs_add(p, found, x, least, f);
+}
+
+static status run_lanczos(pairs *p, int wanted, double least, long *solutions, fault *f)
+{
     const int room = p->n - p->count - 1, count = wanted < room ? wanted : room;
     double *mu = malloc((size_t)count * sizeof *mu),
            *x = malloc((size_t)count * (size_t)p->n * sizeof *x);
-    int found = 0;
-    status outcome = mu == NULL || x == NULL
-                         ? fault_set(f, STATUS_FAULT, "out of memory for %d eigenvectors", count)
-                         : STATUS_OK;
-    if (outcome == STATUS_OK)
-        outcome = lanczos_largest(&l, count, &found, mu, x, solutions, f);
-    if (outcome == STATUS_OK)
-        outcome = pairs_add(p, found, x, least, f);
+    const status outcome =
+        mu != NULL && x != NULL
+            ? take_lanczos(p, count, mu, x, least, solutions, f)
+            : fault_set(f, STATUS_FAULT, "out of memory for %d eigenvectors", count);
     free(mu);
     free(x);
     return outcome;
@@ -134,20 +145,20 @@ static status count_existing(pairs *p, int enough, double scale, double least, i
 static status fill(pairs *p, int wanted, double scale, double least, eigen_result *r, fault *f)
 {
     int exist;
-    status outcome = count_existing(p, wanted + SPARE, scale, least, &exist, r, f);
+    TRY(count_existing(p, wanted + SPARE, scale, least, &exist, r, f));
     const int asked = wanted < exist ? wanted : exist;
     int missing = wanted + SPARE < exist ? wanted + SPARE : exist;
-    for (int pass = 0; outcome == STATUS_OK && missing > 0; pass++) {
+    for (int pass = 0; missing > 0; pass++) {
         if (pass == MAX_PASSES || p->count + missing >= p->n)
             return fault_set(f, STATUS_NOT_CONVERGED,
                              "%d of %d eigenvalues are missing after %d attempts", missing, asked,
                              pass);
-        outcome = run_lanczos(p, missing, least, &r->solutions, f);
+        TRY(run_lanczos(p, missing, least, &r->solutions, f));
         missing = asked - p->count;
-        if (outcome == STATUS_OK && missing <= 0)
-            outcome = pairs_missing(p, asked, &missing, r, f);
+        if (missing <= 0)
+            TRY(pairs_missing(p, asked, &missing, r, f));
     }
-    return outcome;
+    return STATUS_OK;
 }
 
 /* Of candidates that are not all, those that are the first ones stay. */
@@ -220,13 +231,13 @@ static status improve(pairs *p, int count, eigen_side *out, eigen_result *r, fau
         judge(p, count, out, &r->solutions);
         return STATUS_OK;
     }
-    status outcome = pairs_refine(p, count, f);
-    for (int sweep = 0; sweep < SWEEPS && outcome == STATUS_OK; sweep++) {
-        outcome = polish(p, &r->solutions, f);
-        if (outcome != STATUS_OK || judge(p, count, out, &r->solutions) <= good)
+    TRY(pairs_refine(p, count, f));
+    for (int sweep = 0; sweep < SWEEPS; sweep++) {
+        TRY(polish(p, &r->solutions, f));
+        if (judge(p, count, out, &r->solutions) <= good)
             break;
     }
-    return outcome;
+    return STATUS_OK;
 }
 
 /* What has no digits has no value. */
@@ -274,25 +285,26 @@ static status hand_over(pairs *p, int wanted, eigen_side *out, eigen_result *r, 
     return STATUS_OK;
 }
 
-static status solve(const eigen_problem *e, pairs *up, pairs *down, eigen_result *r, fault *f)
+static status find(const eigen_problem *e, pairs *up, pairs *down, eigen_result *r, fault *f)
 {
     const int most = (e->largest > e->smallest ? e->largest : e->smallest) + SPARE + 1;
-    status outcome;
-    if ((r->n <= DENSE_UP_TO && !e->iterate) || most >= r->n) {
-        outcome = add_dense((pairs *[]){up, down}, (int[]){e->largest, e->smallest}, f);
-    } else {
-        outcome = one_sparse(up, 0, e->largest, &r->positive, r, f);
-        if (outcome == STATUS_OK)
-            outcome = one_sparse(down, 1, e->smallest, &r->negative, r, f);
-    }
-    if (outcome == STATUS_OK)
-        outcome = hand_over(up, e->largest, &r->positive, r, f);
-    if (outcome == STATUS_OK)
-        outcome = hand_over(down, e->smallest, &r->negative, r, f);
+    if ((r->n <= DENSE_UP_TO && !e->iterate) || most >= r->n)
+        return add_dense((pairs *[]){up, down}, (int[]){e->largest, e->smallest}, f);
+    TRY(one_sparse(up, 0, e->largest, &r->positive, r, f));
+    return one_sparse(down, 1, e->smallest, &r->negative, r, f);
+}
+
+/* With what eigen_solve frees. */
+static status solve(const eigen_problem *e, pairs *up, pairs *down, eigen_result *r, fault *f)
+{
+    TRY(pairs_alloc(up, e, e->sign, f));
+    TRY(pairs_alloc(down, e, -e->sign, f));
+    TRY(find(e, up, down, r, f));
+    TRY(hand_over(up, e->largest, &r->positive, r, f));
+    TRY(hand_over(down, e->smallest, &r->negative, r, f));
     const eigen_side *worse = r->positive.status != STATUS_OK ? &r->positive : &r->negative;
-    if (outcome == STATUS_OK && worse->status != STATUS_OK)
-        outcome = fault_set(f, worse->status, "%s", worse->reason);
-    return outcome;
+    return worse->status == STATUS_OK ? STATUS_OK
+                                      : fault_set(f, worse->status, "%s", worse->reason);
 }
 
 status eigen_solve(const eigen_problem *e, eigen_result *r, fault *f)
@@ -308,12 +320,8 @@ status eigen_solve(const eigen_problem *e, eigen_result *r, fault *f)
             negative > 0 ? ", the structure is beyond a critical point" : " (it is not symmetric)");
     if (r->n == 0)
         return STATUS_OK;
-    pairs up, down;
-    status outcome = pairs_alloc(&up, e, e->sign, f);
-    const status other = pairs_alloc(&down, e, -e->sign, f);
-    outcome = outcome == STATUS_OK ? other : outcome;
-    if (outcome == STATUS_OK)
-        outcome = solve(e, &up, &down, r, f);
+    pairs up = {0}, down = {0};
+    const status outcome = solve(e, &up, &down, r, f);
     pairs_free(&up);
     pairs_free(&down);
     return outcome;

@@ -127,9 +127,7 @@ status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a, facto
                                   int *row, int *column, double *ratio)
 {
     if (!refactor(fu, a)) {
-        const status outcome = factor_anew(fu, a, counts);
-        if (outcome != STATUS_OK)
-            return outcome;
+        TRY(factor_anew(fu, a, counts));
     }
     counts->determinant = determinant_of(fu);
     return judge_pivots(fu, a, counts, row, column, ratio);

@@ -82,13 +82,12 @@ static double improve(solver *s, int i, int *grown)
 static status iterate(solver *s, int wanted, fault *f)
 {
     for (int pass = 0;; pass++) {
-        const status outcome = s->shift > 0 ? ritz_general(&s->basis, s->shift, &s->pairs, f)
-                                            : ritz_hermitian(&s->basis, &s->pairs, f);
-        if (outcome != STATUS_OK)
-            return outcome;
+        TRY(s->shift > 0 ? ritz_general(&s->basis, s->shift, &s->pairs, f)
+                         : ritz_hermitian(&s->basis, &s->pairs, f));
+        const int count = s->pairs.count < wanted ? s->pairs.count : wanted;
         double worst = 0;
         int grown = 0;
-        for (int i = 0; i < s->pairs.count && i < wanted; i++)
+        for (int i = 0; i < count; i++)
             worst = fmax(worst, improve(s, i, &grown));
         if (worst <= good_residual)
             return STATUS_OK;
@@ -108,8 +107,9 @@ static status start(solver *s, int count, fault *f)
     const eigen_problem problem = {
         .K = s->S, .A = s->p->M, .K_factor = s->p->K_factor, .sign = 1, .largest = count};
     const status outcome = eigen_solve(&problem, &e, f);
-    for (int i = 0; i < e.positive.count && outcome == STATUS_OK; i++)
-        subspace_add(&s->basis, e.positive.mode + (size_t)i * (size_t)s->basis.n);
+    if (outcome == STATUS_OK)
+        for (int i = 0; i < e.positive.count; i++)
+            subspace_add(&s->basis, e.positive.mode + (size_t)i * (size_t)s->basis.n);
     s->out->solutions += e.solutions;
     s->out->factorisations += e.factorisations;
     eigen_free(&e);
@@ -139,29 +139,27 @@ static status find_shift(solver *s, fault *f)
 {
     const sparse *K = s->p->K, *M = s->p->M;
     double k = 0, mass = 0;
-    status outcome = sparse_alloc_like(K, &s->shifted, f);
+    TRY(sparse_alloc_like(K, &s->shifted, f));
+    s->S = &s->shifted;
     for (int j = 0; j < K->n; j++) {
         k += fabs(K->value[K->column[j + 1] - 1]);
         mass += M->value[M->column[j + 1] - 1];
     }
-    for (s->shift = 1e-12 * k / mass; outcome == STATUS_OK; s->shift *= 10) {
+    for (s->shift = 1e-12 * k / mass;; s->shift *= 10) {
         if (s->shift > 1e3 * k / mass)
             return fault_set(
                 f, STATUS_REFUSED,
                 "the stiffness is indefinite where there is no mass: no motion follows from it");
         for (int i = 0; i < K->column[K->n]; i++)
             s->shifted.value[i] = K->value[i] + s->shift * M->value[i];
-        outcome = factor_numeric(s->p->K_factor, &s->shifted, f);
+        const status factored = factor_numeric(s->p->K_factor, &s->shifted, f);
         s->out->factorisations++;
-        if (outcome == STATUS_SINGULAR) {
-            outcome = STATUS_OK;
+        if (factored == STATUS_SINGULAR)
             continue;
-        }
-        if (outcome == STATUS_OK && factor_count(s->p->K_factor).negative_pivots == 0)
-            break;
+        TRY(factored);
+        if (factor_count(s->p->K_factor).negative_pivots == 0)
+            return STATUS_OK;
     }
-    s->S = &s->shifted;
-    return outcome;
 }
 
 /* The frequency as a quotient of quadratic forms, k - omega^2 m + omega g = 0: its error is the
@@ -220,23 +218,38 @@ static status hand_over(solver *s, fault *f)
     return STATUS_OK;
 }
 
-static status solve(solver *s, fault *f)
+static status find(solver *s, fault *f)
 {
     const int n = s->out->n;
-    status outcome = STATUS_OK;
     int first = s->p->wanted + SPARE, lost = 1;
-    for (int attempt = 0; outcome == STATUS_OK && lost > 0; attempt++) {
+    for (int attempt = 0; lost > 0; attempt++) {
         if (attempt == MAX_STARTS)
             return fault_set(f, STATUS_NOT_CONVERGED,
                              "%d frequencies in a turning frame are missing", lost);
-        outcome = start(s, first < n ? first : n, f);
-        if (outcome == STATUS_OK)
-            outcome = iterate(s, s->p->wanted, f);
-        if (outcome == STATUS_OK)
-            outcome = missing(s, s->p->wanted, &lost, f);
+        TRY(start(s, first < n ? first : n, f));
+        TRY(iterate(s, s->p->wanted, f));
+        TRY(missing(s, s->p->wanted, &lost, f));
         first += 2 * lost + SPARE;
     }
-    return outcome == STATUS_OK ? hand_over(s, f) : outcome;
+    return hand_over(s, f);
+}
+
+/* With what gyroscopic_solve frees. */
+static status solve(solver *s, fault *f)
+{
+    const gyroscopic_problem *p = s->p;
+    const int vectors = p->wanted + SPARE;
+    if (s->re == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for modes");
+    if (s->out->negative < 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "frequencies in a turning frame need a symmetric stiffness: no moments "
+                         "about fixed axes");
+    if (s->out->negative > 0)
+        TRY(find_shift(s, f));
+    TRY(subspace_alloc(&s->basis, s->S, p->M, p->G, ROOM_PER_MODE * vectors, f));
+    TRY(ritz_alloc(&s->pairs, vectors, &s->basis, f));
+    return s->out->n > 0 ? find(s, f) : STATUS_OK;
 }
 
 status gyroscopic_solve(const gyroscopic_problem *p, gyroscopic_result *r, fault *f)
@@ -248,20 +261,7 @@ status gyroscopic_solve(const gyroscopic_problem *p, gyroscopic_result *r, fault
     r->negative = factor_count(p->K_factor).negative_pivots;
     s.im = s.re + n;
     s.work = s.im + n;
-    status outcome =
-        s.re != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for modes");
-    if (r->negative < 0)
-        outcome = fault_set(f, STATUS_REFUSED,
-                            "frequencies in a turning frame need a symmetric stiffness: no moments "
-                            "about fixed axes");
-    if (outcome == STATUS_OK && r->negative > 0)
-        outcome = find_shift(&s, f);
-    if (outcome == STATUS_OK)
-        outcome = subspace_alloc(&s.basis, s.S, p->M, p->G, ROOM_PER_MODE * (p->wanted + SPARE), f);
-    if (outcome == STATUS_OK)
-        outcome = ritz_alloc(&s.pairs, p->wanted + SPARE, &s.basis, f);
-    if (outcome == STATUS_OK && n > 0)
-        outcome = solve(&s, f);
+    const status outcome = solve(&s, f);
     subspace_free(&s.basis);
     ritz_free(&s.pairs);
     sparse_free_values(&s.shifted);

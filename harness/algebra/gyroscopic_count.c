@@ -48,6 +48,15 @@ static void fill(const sparse *K, const sparse *M, const sparse *G, double omega
         }
 }
 
+/* With what gyroscopic_count frees. */
+static status count(const sparse *doubled, factor **factors, int *below, fault *f)
+{
+    TRY(factor_alloc(doubled, factors, f));
+    TRY(factor_numeric(*factors, doubled, f));
+    *below = factor_count(*factors).negative_pivots / 2;
+    return STATUS_OK;
+}
+
 status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, double omega, int *below,
                         fault *f)
 {
@@ -56,12 +65,8 @@ status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, doubl
     status outcome = doubled_alloc(K, &doubled, f);
     if (outcome == STATUS_OK) {
         fill(K, M, G, omega, &doubled);
-        outcome = factor_alloc(&doubled, &factors, f);
+        outcome = count(&doubled, &factors, below, f);
     }
-    if (outcome == STATUS_OK)
-        outcome = factor_numeric(factors, &doubled, f);
-    if (outcome == STATUS_OK)
-        *below = factor_count(factors).negative_pivots / 2;
     factor_free(factors);
     doubled_free(&doubled);
     return outcome;

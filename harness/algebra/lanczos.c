@@ -110,36 +110,46 @@ static int iterate(const lanczos_problem *p, workspace *w, long *solutions)
     }
 }
 
+/* ARPACK's values and vectors, the largest first. */
+static status take_vectors(workspace *w, int n, int wanted, int found, double mu[], double x[],
+                           fault *f)
+{
+    int info = 0;
+    dseupd_c(1, "A", w->select, w->value, w->basis, n, 0, "G", n, "LA", wanted, tolerance, w->start,
+             w->vectors, w->basis, n, w->parameter, w->pointer, w->vector, w->work, w->size, &info);
+    if (info != 0)
+        return fault_set(f, STATUS_NOT_CONVERGED,
+                         "the eigenvectors were not found (ARPACK says %d)", info);
+    for (int i = 0; i < found; i++) {
+        const int from = found - 1 - i;
+        mu[i] = w->value[from];
+        memcpy(x + (size_t)i * (size_t)n, w->basis + (size_t)from * (size_t)n,
+               (size_t)n * sizeof *x);
+    }
+    return STATUS_OK;
+}
+
+/* With what lanczos_largest frees. */
+static status solve(const lanczos_problem *p, workspace *w, int wanted, int *found, double mu[],
+                    double x[], long *solutions, fault *f)
+{
+    const int n = p->K->n;
+    TRY(workspace_alloc(w, n, wanted, n - p->known, f));
+    fill_start(n, w->start);
+    take_out(n, p->known, p->KX, w->start, p->X, w->start);
+    const int info = iterate(p, w, solutions);
+    *found = info == 0 ? wanted : w->parameter[CONVERGED];
+    if (info != 0 && (info != ENDED_EARLY || *found == 0))
+        return fault_set(f, STATUS_NOT_CONVERGED, "%d of %d eigenvalues found (ARPACK says %d)",
+                         *found, wanted, info);
+    return take_vectors(w, n, wanted, *found, mu, x, f);
+}
+
 status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double x[],
                        long *solutions, fault *f)
 {
-    const int n = p->K->n;
     workspace w;
-    status outcome = workspace_alloc(&w, n, wanted, n - p->known, f);
-    if (outcome == STATUS_OK) {
-        fill_start(n, w.start);
-        take_out(n, p->known, p->KX, w.start, p->X, w.start);
-        const int info = iterate(p, &w, solutions);
-        *found = info == 0 ? wanted : w.parameter[CONVERGED];
-        if (info != 0 && (info != ENDED_EARLY || *found == 0))
-            outcome =
-                fault_set(f, STATUS_NOT_CONVERGED, "%d of %d eigenvalues found (ARPACK says %d)",
-                          *found, wanted, info);
-    }
-    if (outcome == STATUS_OK) {
-        int info = 0;
-        dseupd_c(1, "A", w.select, w.value, w.basis, n, 0, "G", n, "LA", wanted, tolerance, w.start,
-                 w.vectors, w.basis, n, w.parameter, w.pointer, w.vector, w.work, w.size, &info);
-        if (info != 0)
-            outcome = fault_set(f, STATUS_NOT_CONVERGED,
-                                "the eigenvectors were not found (ARPACK says %d)", info);
-    }
-    for (int i = 0; outcome == STATUS_OK && i < *found; i++) { /* ARPACK's are ascending */
-        const int from = *found - 1 - i;
-        mu[i] = w.value[from];
-        memcpy(x + (size_t)i * (size_t)n, w.basis + (size_t)from * (size_t)n,
-               (size_t)n * sizeof *x);
-    }
+    const status outcome = solve(p, &w, wanted, found, mu, x, solutions, f);
     workspace_free(&w);
     return outcome;
 }

@@ -90,8 +90,8 @@ static void sort_last(pairs *p)
 {
     const size_t n = (size_t)p->n;
     for (int i = p->count - 1; i > 0 && p->mu[i] > p->mu[i - 1]; i--) {
-        double *const numbers[] = {p->mu, p->matrix_mu, p->noise, p->stiffness}, *const vectors[] =
-                                                                                     {p->x, p->Kx};
+        double *const numbers[] = {p->mu, p->matrix_mu, p->noise, p->stiffness};
+        double *const vectors[] = {p->x, p->Kx};
         for (int k = 0; k < 4; k++) {
             const double kept = numbers[k][i];
             numbers[k][i] = numbers[k][i - 1];
@@ -116,7 +116,8 @@ int pairs_is_rounding(const pairs *p, double energy, const double x[])
 double pairs_departure(const pairs *p, int count)
 {
     double largest = 0;
-    for (int i = 0; i < count && i < p->count; i++)
+    const int first = count < p->count ? count : p->count;
+    for (int i = 0; i < first; i++)
         largest = fmax(largest, fabs(p->stiffness[i] - 1));
     return largest;
 }
@@ -126,8 +127,9 @@ status pairs_refine(pairs *p, int count, fault *f)
     enum { MOST = 12 };
     const double departure = pairs_departure(p, count), left = 1e-6;
     double error = departure;
-    for (p->refinements = 1; p->refinements < MOST && (error *= departure) > left;
-         p->refinements++) {}
+    p->refinements = 1;
+    while (p->refinements < MOST && (error *= departure) > left)
+        p->refinements++;
     if (p->correction == NULL)
         p->correction = malloc((size_t)p->n * sizeof *p->correction);
     return p->correction != NULL
@@ -156,8 +158,9 @@ void pairs_apply(pairs *p, const double x[], double y[])
     for (int i = 0; i < p->n; i++)
         y[i] *= p->sign;
     factor_solve(p->problem->K_factor, y);
-    for (int pass = 0; p->correction != NULL && pass < p->refinements; pass++)
-        refine(p, x, y);
+    if (p->correction != NULL)
+        for (int pass = 0; pass < p->refinements; pass++)
+            refine(p, x, y);
 }
 
 double pairs_scale(pairs *p, long *solutions)
@@ -171,8 +174,9 @@ double pairs_scale(pairs *p, long *solutions)
         const double size = sqrt(dense_dot(p->n, x, p->work));
         if (power > 0 && before > 0)
             largest = fmax(largest, size / before);
-        for (int i = 0; i < p->n && size > 0; i++)
-            x[i] /= size;
+        if (size > 0)
+            for (int i = 0; i < p->n; i++)
+                x[i] /= size;
         before = size > 0;
         if (power < POWERS) {
             pairs_apply(p, x, p->work);
@@ -187,9 +191,7 @@ status pairs_add(pairs *p, int count, const double x[], double least, fault *f)
 {
     const eigen_problem *e = p->problem;
     const size_t n = (size_t)p->n;
-    const status outcome = make_room(p, p->count + count, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(make_room(p, p->count + count, f));
     for (int c = 0; c < count; c++) {
         double *vector = p->x + (size_t)p->count * n, *product = p->Kx + (size_t)p->count * n;
         memcpy(vector, x + (size_t)c * n, n * sizeof *vector);
@@ -279,13 +281,15 @@ status pairs_missing(pairs *p, int wanted, int *missing, eigen_result *work, fau
     const double high = q > 0 ? p->matrix_mu[q - 1] : low * (1 + 2 * close + 32 * p->noise[q]);
     int above = 0;
     *missing = -1;
-    for (int i = 0; i < 3 && *missing != 0;
-         i++) { /* a count that does not fit is not believed at once: there is no pivoting */
+    /* A count that does not fit is not believed at once: there is no pivoting. */
+    for (int i = 0; i < 3; i++) {
         const status outcome = pairs_above(p, low + place[i] * (high - low), &above, work, f);
-        if (outcome != STATUS_OK && outcome != STATUS_SINGULAR)
-            return outcome;
-        if (outcome == STATUS_OK)
-            *missing = above - q;
+        if (outcome == STATUS_SINGULAR)
+            continue;
+        TRY(outcome);
+        *missing = above - q;
+        if (*missing == 0)
+            break;
     }
     if (*missing < 0)
         return fault_set(

@@ -39,28 +39,33 @@ static void combine(size_t n, size_t count, double Y[], const double C[], double
     }
 }
 
+/* The Ritz vectors of Y = K^-1 s A X become the candidates; where LAPACK fails they stay as they
+ * are.  Y[count x n], small[2 count^2 + count]. */
+static status replace(pairs *p, double Y[], double small[], long *solutions, fault *f)
+{
+    const size_t n = (size_t)p->n, count = (size_t)p->count;
+    double *A = small, *K = A + count * count, *mu = K + count * count;
+    const int m = (int)count;
+    for (size_t i = 0; i < count; i++)
+        pairs_apply(p, p->x + i * n, Y + i * n);
+    *solutions += m;
+    project(p, Y, K, A);
+    if (LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', m, A, m, K, m, mu) != 0)
+        return STATUS_OK;
+    combine(n, count, Y, A, mu);
+    p->count = 0;
+    return pairs_add(p, m, Y, 0, f);
+}
+
 status polish(pairs *p, long *solutions, fault *f)
 {
     const size_t n = (size_t)p->n, count = (size_t)p->count;
     double *Y = malloc((count * n + 1) * sizeof *Y),
            *small = calloc(2 * count * count + count + 1, sizeof *small);
-    double *A = small, *K = A + count * count, *mu = K + count * count;
-    status outcome =
+    const status outcome =
         Y != NULL && small != NULL
-            ? STATUS_OK
+            ? replace(p, Y, small, solutions, f)
             : fault_set(f, STATUS_FAULT, "out of memory for %zu vectors of %zu unknowns", count, n);
-    for (size_t i = 0; i < count && outcome == STATUS_OK; i++, (*solutions)++)
-        pairs_apply(p, p->x + i * n, Y + i * n);
-    if (outcome == STATUS_OK) {
-        const int m = (int)count;
-        project(p, Y, K, A);
-        if (LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', m, A, m, K, m, mu) ==
-            0) { /* else they stay as they are */
-            combine(n, count, Y, A, mu);
-            p->count = 0;
-            outcome = pairs_add(p, m, Y, 0, f);
-        }
-    }
     free(Y);
     free(small);
     return outcome;

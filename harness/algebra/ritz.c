@@ -37,11 +37,22 @@ static void normalise(int k, double complex c[])
         c[j] /= sqrt(square);
 }
 
+/* Q [k x k] and d [k] of the projected M = Q d Q^T into the matrix below. */
+static void fill_hermitian(const subspace *b, const double *Q, const double d[], double complex H[])
+{
+    const int k = b->count, n = 2 * k, room = b->room;
+    for (int j = 0; j < k; j++)
+        for (int i = 0; i < k; i++) {
+            H[(size_t)j * (size_t)n + (size_t)i] = -I * b->Gp[i * room + j];
+            H[(size_t)(k + j) * (size_t)n + (size_t)i] = sqrt(fmax(0, d[j])) * Q[j * k + i];
+        }
+}
+
 /* Upper triangle of [-i G, R^T; R, 0], column-major, with R = sqrt(d) Q^T of the projected M = Q d
  * Q^T. */
 static int hermitian_matrix(const subspace *b, double complex H[])
 {
-    const int k = b->count, n = 2 * k, room = b->room;
+    const int k = b->count, room = b->room;
     double *Q = malloc((size_t)k * (size_t)k * sizeof *Q), *d = malloc((size_t)k * sizeof *d);
     int info = -1;
     if (Q != NULL && d != NULL) {
@@ -50,14 +61,26 @@ static int hermitian_matrix(const subspace *b, double complex H[])
                 Q[i * k + j] = b->Mp[i * room + j];
         info = (int)LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'V', 'U', k, Q, k, d);
     }
-    for (int j = 0; j < k && info == 0; j++)
-        for (int i = 0; i < k; i++) {
-            H[(size_t)j * (size_t)n + (size_t)i] = -I * b->Gp[i * room + j];
-            H[(size_t)(k + j) * (size_t)n + (size_t)i] = sqrt(fmax(0, d[j])) * Q[j * k + i];
-        }
+    if (info == 0)
+        fill_hermitian(b, Q, d, H);
     free(Q);
     free(d);
     return info;
+}
+
+/* The pairs of mu[found], ascending, but for infinite frequencies: nothing moves there that has a
+ * mass. */
+static void take_hermitian(const subspace *b, int found, const double mu[], const double complex *z,
+                           ritz *r)
+{
+    const int k = b->count, n = 2 * k;
+    for (int i = found - 1; i >= 0; i--) {
+        if (!(mu[i] > 16 * n * DBL_EPSILON * mu[found - 1]))
+            break;
+        r->lambda[r->count] = I / mu[i];
+        memcpy(coefficients(b, r, r->count), z + (size_t)i * (size_t)n, (size_t)k * sizeof *z);
+        normalise(k, coefficients(b, r, r->count++));
+    }
 }
 
 status ritz_hermitian(const subspace *b, ritz *r, fault *f)
@@ -74,15 +97,8 @@ status ritz_hermitian(const subspace *b, ritz *r, fault *f)
                                    0, &found, mu, z, n, support);
     r->count = 0;
     r->size = k;
-    for (int i = (int)found - 1; i >= 0 && info == 0; i--) {
-        if (!(mu[i] >
-              16 * n * DBL_EPSILON *
-                  mu[found - 1])) /* omega is infinite: nothing moves there that has a mass */
-            break;
-        r->lambda[r->count] = I / mu[i];
-        memcpy(coefficients(b, r, r->count), z + (size_t)i * (size_t)n, (size_t)k * sizeof *z);
-        normalise(k, coefficients(b, r, r->count++));
-    }
+    if (info == 0)
+        take_hermitian(b, (int)found, mu, z, r);
     free(H);
     free(z);
     free(mu);
@@ -132,6 +148,25 @@ static void general_matrices(const subspace *b, double shift, double A[], double
         A[i * n + k + i] = B[(k + i) * n + k + i] = 1;
 }
 
+/* The first of each pair of the conjugate eigenvalues beta/(re + i im) [n], whose columns hold the
+ * real and the imaginary part; c[k] is work space. */
+static void take_general(const subspace *b, const double re[], const double im[],
+                         const double beta[], const double *z, double complex c[], ritz *r)
+{
+    const int k = b->count, n = 2 * k;
+    for (int i = 0; i < n; i++) {
+        const double complex lambda = beta[i] / (re[i] + I * im[i]);
+        const int second = im[i] < 0;
+        const double complex imaginary = second ? -I : I;
+        const double *column = z + (size_t)(second ? i - 1 : i) * (size_t)n + k;
+        if (!isfinite(cabs(lambda)) || !is_first_of_its_kind(lambda))
+            continue;
+        for (int j = 0; j < k; j++)
+            c[j] = column[j] + (im[i] != 0 ? imaginary * column[n + j] : 0);
+        insert(b, r, lambda, c);
+    }
+}
+
 status ritz_general(const subspace *b, double shift, ritz *r, fault *f)
 {
     const int k = b->count, n = 2 * k;
@@ -147,16 +182,8 @@ status ritz_general(const subspace *b, double shift, ritz *r, fault *f)
     }
     r->count = 0;
     r->size = k;
-    for (int i = 0; i < n && info == 0; i++) {
-        const double complex lambda = beta[i] / (re[i] + I * im[i]);
-        const int second = im[i] < 0; /* the conjugate of the one before, whose columns hold both */
-        const double *column = z + (size_t)(second ? i - 1 : i) * (size_t)n + k;
-        if (!isfinite(cabs(lambda)) || !is_first_of_its_kind(lambda))
-            continue;
-        for (int j = 0; j < k; j++)
-            c[j] = column[j] + (im[i] != 0 ? (second ? -I : I) * column[n + j] : 0);
-        insert(b, r, lambda, c);
-    }
+    if (info == 0)
+        take_general(b, re, im, beta, z, c, r);
     free(A);
     free(c);
     return info == 0 ? STATUS_OK

@@ -57,14 +57,40 @@ static status prestress(analysis_context *c, linear_system *s, linear_forms *abo
 {
     if (!s->K.symmetric)
         return fault_set(f, STATUS_REFUSED, "linear buckling needs a symmetric stiffness matrix");
-    status result = linear_forms_alloc(c->model, &s->K, about, f);
-    if (result == STATUS_OK)
-        result = linear_system_solve(c, s, about->load_x, f);
-    if (result == STATUS_OK)
-        result = linear_forms_load(about, f);
-    if (result == STATUS_OK)
-        result = sparse_alloc_like(&s->K, G, f);
-    return result == STATUS_OK ? model_geometric_stiffness(c->model, about->sigma, G, f) : result;
+    TRY(linear_forms_alloc(c->model, &s->K, about, f));
+    TRY(linear_system_solve(c, s, about->load_x, f));
+    TRY(linear_forms_load(about, f));
+    TRY(sparse_alloc_like(&s->K, G, f));
+    return model_geometric_stiffness(c->model, about->sigma, G, f);
+}
+
+typedef struct buckling {
+    linear_system system;
+    linear_forms about;
+    sparse G;
+    eigen_result found;
+} buckling;
+
+/* With what analysis_buckling frees. */
+static status solve(analysis_context *c, int analysis, buckling *b, fault *f)
+{
+    TRY(linear_system_alloc(c, &b->system, f));
+    TRY(prestress(c, &b->system, &b->about, &b->G, f));
+    eigen_problem p = {.K = &b->system.K,
+                       .A = &b->G,
+                       .K_factor = b->system.factor,
+                       .sign = -1,
+                       .K_energy = stiffness_form,
+                       .A_energy = geometric_form,
+                       .K_rounding = stiffness_rounding,
+                       .A_rounding = geometric_rounding,
+                       .K_product = stiffness_product,
+                       .context = &b->about};
+    wanted_of(c, analysis, &p);
+    const status result = eigen_solve(&p, &b->found, f);
+    model_counters(c->model)->solutions += b->found.solutions;
+    model_counters(c->model)->factorisations += b->found.factorisations;
+    return result;
 }
 
 status analysis_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
@@ -72,34 +98,13 @@ status analysis_buckling(analysis_context *c, int analysis, analysis_outcome *o,
     const int follows = c->scene->analysis[analysis].follows;
     if (follows != SCENE_NONE && c->scene->analysis[follows].kind == SCENE_STATIC)
         return equilibrium_buckling(c, analysis, o, f);
-    linear_system s;
-    linear_forms about = {0};
-    sparse G = {0};
-    eigen_result e = {0};
-    status result = linear_system_alloc(c, &s, f);
-    if (result == STATUS_OK)
-        result = prestress(c, &s, &about, &G, f);
-    if (result == STATUS_OK) {
-        eigen_problem p = {.K = &s.K,
-                           .A = &G,
-                           .K_factor = s.factor,
-                           .sign = -1,
-                           .K_energy = stiffness_form,
-                           .A_energy = geometric_form,
-                           .K_rounding = stiffness_rounding,
-                           .A_rounding = geometric_rounding,
-                           .K_product = stiffness_product,
-                           .context = &about};
-        wanted_of(c, analysis, &p);
-        result = eigen_solve(&p, &e, f);
-        model_counters(c->model)->solutions += e.solutions;
-        model_counters(c->model)->factorisations += e.factorisations;
-    }
-    keep(&e.positive, &o->positive);
-    keep(&e.negative, &o->negative);
-    eigen_free(&e);
-    linear_system_free(&s);
-    sparse_free_values(&G);
-    linear_forms_free(&about);
+    buckling b = {0};
+    const status result = solve(c, analysis, &b, f);
+    keep(&b.found.positive, &o->positive);
+    keep(&b.found.negative, &o->negative);
+    eigen_free(&b.found);
+    linear_system_free(&b.system);
+    sparse_free_values(&b.G);
+    linear_forms_free(&b.about);
     return result;
 }

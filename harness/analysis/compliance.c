@@ -36,20 +36,18 @@ static status compliance_at(analysis_context *c, const scene_analysis *a, const 
     model_node_load(c->model, s, a->node, load);
     for (int i = 0; i < 6; i++)
         reaction[i] -= load[i];
-    status outcome = tangent_at(c, a, s, reaction, t, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(tangent_at(c, a, s, reaction, t, f));
     tangent_movable(c->model, t, &motions);
     tangent_prescribed(t, reaction + 3);
     const unsigned turns = motions.components & 0x38, held = 0x3f & ~motions.components;
     if (turns && convention_changes(a->moments, reaction + 3))
         wanted = 0x3f;
-    outcome = tangent_compliance(c, t, wanted, motions.components, C, f);
-    if (outcome == STATUS_OK && motions.count > 0 && (wanted | held) == 0x3f)
+    TRY(tangent_compliance(c, t, wanted, motions.components, C, f));
+    if (motions.count > 0 && (wanted | held) == 0x3f)
         return convention_apply(a->moments, &motions, reaction + 3, C, K, f);
     forget_columns(wanted | held, C);
     forget_columns(0, K);
-    return outcome;
+    return STATUS_OK;
 }
 
 static status matrices_alloc(solve_result *r, const scene_analysis *a, int stations,
@@ -69,33 +67,35 @@ static status matrices_alloc(solve_result *r, const scene_analysis *a, int stati
                : STATUS_OK;
 }
 
-status analysis_compliance(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+/* With what analysis_compliance frees; at the stations that the path has reached. */
+static status solve(analysis_context *c, int analysis, tangent *t, analysis_outcome *o, fault *f)
 {
     const scene_analysis *a = &c->scene->analysis[analysis];
     const analysis_outcome *path = a->follows == SCENE_NONE ? NULL : &c->outcomes[a->follows];
     const int reached = path != NULL ? path->reached : 1;
-    tangent t;
+    const unsigned wanted = wanted_columns(c, analysis);
     nodal_matrices *m = NULL;
     o->stations = path != NULL ? path->stations : 1;
-    status result = tangent_alloc(c, a, &t, f);
-    if (result == STATUS_OK)
-        result = matrices_alloc(c->result, a, o->stations, &m, f);
-    if (result == STATUS_OK) {
-        o->compliance = m->compliance;
-        o->path = calloc((size_t)o->stations + 1, sizeof *o->path);
-        if (o->path == NULL)
-            result = fault_set(f, STATUS_FAULT, "out of memory for a compliance");
-    }
-    const unsigned wanted = wanted_columns(c, analysis);
-    for (int i = 0; i < reached && result == STATUS_OK; i++) {
+    TRY(tangent_alloc(c, a, t, f));
+    TRY(matrices_alloc(c->result, a, o->stations, &m, f));
+    o->compliance = m->compliance;
+    o->path = calloc((size_t)o->stations + 1, sizeof *o->path);
+    if (o->path == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
+    for (int i = 0; i < reached; i++) {
         const model_state *s = path != NULL ? path->state[i] : model_rest(c->model);
-        result = compliance_at(c, a, s, &t, wanted, m->compliance + 36 * (size_t)i,
-                               m->stiffness + 36 * (size_t)i, f);
-        if (result == STATUS_OK) {
-            o->path[i] = m->path[i] = path != NULL ? path->path[i] : 0;
-            m->stations = ++o->reached;
-        }
+        TRY(compliance_at(c, a, s, t, wanted, m->compliance + 36 * (size_t)i,
+                          m->stiffness + 36 * (size_t)i, f));
+        o->path[i] = m->path[i] = path != NULL ? path->path[i] : 0;
+        m->stations = ++o->reached;
     }
+    return STATUS_OK;
+}
+
+status analysis_compliance(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+{
+    tangent t;
+    const status result = solve(c, analysis, &t, o, f);
     tangent_free(&t);
     return result;
 }

@@ -37,9 +37,7 @@ static status add_point(continuation *p, fault *f)
         p->room = room;
     }
     if (p->keeps_states) {
-        const status kept = model_state_alloc(p->c->model, &o->point_state[o->points], f);
-        if (kept != STATUS_OK)
-            return kept;
+        TRY(model_state_alloc(p->c->model, &o->point_state[o->points], f));
         model_state_copy(p->c->model, p->n.state, o->point_state[o->points]);
     }
     o->factor[o->points] = p->here.factor;
@@ -57,8 +55,8 @@ static status accept(continuation *p, step_record *record, fault *f)
     record->increment = p->here.factor - before.factor;
     record->negative_pivots = p->here.negative;
     model_counters(p->c->model)->steps++;
-    const status outcome = add_point(p, f);
-    return outcome == STATUS_OK ? newton_add_record(p->c->result, record, f) : outcome;
+    TRY(add_point(p, f));
+    return newton_add_record(p->c->result, record, f);
 }
 
 /* The first step goes where the control coordinate goes, with or against the load. */
@@ -77,28 +75,24 @@ static status try_step(continuation *p, path_goal goal, double station, int last
                        fault *f)
 {
     model_state_copy(p->c->model, p->n.state, p->n.backup);
-    status outcome = continuation_correct(p, goal, &t->record, f);
-    if (outcome == STATUS_OK)
-        outcome = continuation_look(p, p->moved, &p->next, &t->record, f);
-    if (outcome == STATUS_OK && goal.by_arc &&
-        (p->here.control < station) != (p->next.control < station)) {
+    TRY(continuation_correct(p, goal, &t->record, f));
+    TRY(continuation_look(p, p->moved, &p->next, &t->record, f));
+    if (goal.by_arc && (p->here.control < station) != (p->next.control < station)) {
         continuation_go_back(p);
         history_drop_step(p->c->result, &t->record);
         t->record = (step_record){.rejected = t->record.rejected};
         return try_step(p, (path_goal){0, station}, station, last_resort, t, f);
     }
-    if (outcome != STATUS_OK)
-        return outcome;
     if (!goal.by_arc)
         p->next.control = goal.value;
     turn_start(p);
     t->doubt = continuation_doubt(p, last_resort, &t->swing);
     int jump = 0;
     if (t->doubt == NULL)
-        outcome = continuation_critical(p, goal, &jump, f);
+        TRY(continuation_critical(p, goal, &jump, f));
     if (jump)
         t->doubt = "the pivots of its tangent stiffness change without a critical point";
-    return outcome;
+    return STATUS_OK;
 }
 
 static void reject(continuation *p, const attempt *t)
@@ -131,25 +125,34 @@ static int arrived(const continuation *p, path_goal goal, double station, const 
                                                nearest <= goal.value / 2 || gone >= 3 * goal.value);
 }
 
+/* The next part of the way from the control coordinate `from` to the goal. */
+static path_goal part_of(const continuation *p, path_goal goal, double from, double length,
+                         int last)
+{
+    if (goal.by_arc)
+        return (path_goal){goal.by_arc, length};
+    if (last)
+        return goal;
+    const double way = goal.value > from ? 1 : -1;
+    return (path_goal){0, from + way * (fabs(p->here.control - from) + length)};
+}
+
 /* From `here` to the goal in smaller steps. */
 static status retrace(continuation *p, path_goal goal, double station, const rival *r, double *size,
                       fault *f)
 {
-    const double from = p->here.control, way = goal.value > from ? 1 : -1,
-                 smallest = ldexp(p->a->step, -HALVINGS);
+    const double from = p->here.control, smallest = ldexp(p->a->step, -HALVINGS);
     double gone = 0, nearest = INFINITY;
     int rejected = 1;
     while (!arrived(p, goal, station, r, gone, nearest)) {
         const double left = length_left(p, goal, gone);
         const int last = left > 0 && *size * (1 + 1e-9) >= left;
-        const double length = last ? left : goal.by_arc ? fmin(*size, goal.value / 2) : *size;
-        const path_goal part = {goal.by_arc,
-                                goal.by_arc ? length
-                                : last      ? goal.value
-                                            : from + way * (fabs(p->here.control - from) + length)};
+        const double longest = goal.by_arc ? fmin(*size, goal.value / 2) : *size;
+        const double length = last ? left : longest;
+        const path_goal part = part_of(p, goal, from, length, last);
         attempt t = {.record = {.rejected = rejected}};
         fault why = {""};
-        status outcome = try_step(p, part, station, length <= smallest, &t, &why);
+        const status outcome = try_step(p, part, station, length <= smallest, &t, &why);
         if (outcome == STATUS_FAULT)
             return fault_set(f, outcome, "%s", why.text);
         if (outcome != STATUS_OK || t.doubt != NULL) {
@@ -165,9 +168,7 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
         }
         rejected = 0;
         gone += length;
-        outcome = accept(p, &t.record, f);
-        if (outcome != STATUS_OK)
-            return outcome;
+        TRY(accept(p, &t.record, f));
         *size = next_size(p, *size, length, &t);
         const double distance =
             r->state == NULL ? 0 : model_distance(p->c->model, p->n.state, r->state);
@@ -178,31 +179,46 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
                : STATUS_OK;
 }
 
+/* Where a step in doubt ends: smaller ones may lead elsewhere. */
+static status rival_alloc(const continuation *p, rival *r, fault *f)
+{
+    TRY(model_state_alloc(p->c->model, &r->state, f));
+    r->factor = model_state_path(p->n.state);
+    model_state_copy(p->c->model, p->n.state, r->state);
+    return STATUS_OK;
+}
+
 /* One step to the goal, or several. */
 static status reach(continuation *p, path_goal goal, double station, double *size, fault *f)
 {
     attempt t = {0};
     rival r = {NULL, 0};
     const double length = length_left(p, goal, 0);
-    status outcome = try_step(p, goal, station, 0, &t, f);
-    if (outcome == STATUS_OK && t.doubt == NULL) {
+    const status tried = try_step(p, goal, station, 0, &t, f);
+    if (tried == STATUS_OK && t.doubt == NULL) {
         *size = next_size(p, *size, length, &t);
         return accept(p, &t.record, f);
     }
-    if (outcome == STATUS_FAULT)
-        return outcome;
-    if (outcome == STATUS_OK) {
-        outcome = model_state_alloc(p->c->model, &r.state, f);
-        r.factor = model_state_path(p->n.state);
-        if (outcome == STATUS_OK)
-            model_state_copy(p->c->model, p->n.state, r.state);
-    }
+    if (tried == STATUS_FAULT)
+        return tried;
+    status outcome = tried == STATUS_OK ? rival_alloc(p, &r, f) : STATUS_OK;
     reject(p, &t);
     *size = length / 2;
-    if (outcome != STATUS_FAULT)
+    if (outcome == STATUS_OK)
         outcome = retrace(p, goal, station, &r, size, f);
     model_state_free(r.state);
     return outcome;
+}
+
+/* The next step on the way to the station. */
+static path_goal next_goal(const continuation *p, double station, double length)
+{
+    const double left = station - p->here.control;
+    if (p->a->by_arc)
+        return (path_goal){p->a->by_arc, length};
+    if (length * (1 + 1e-9) >= fabs(left))
+        return (path_goal){0, station};
+    return (path_goal){0, p->here.control + copysign(length, left)};
 }
 
 static status walk_to(continuation *p, double station, double *size, fault *f)
@@ -211,15 +227,8 @@ static status walk_to(continuation *p, double station, double *size, fault *f)
         if (p->o->points >= MOST_POINTS)
             return fault_set(f, STATUS_NOT_CONVERGED, "%d points of the path and none at %g m",
                              MOST_POINTS, station);
-        const double length = p->a->constant_steps ? p->a->step : *size,
-                     left = station - p->here.control;
-        const int last = length * (1 + 1e-9) >= fabs(left);
-        const path_goal goal = {p->a->by_arc, p->a->by_arc ? length
-                                              : last       ? station
-                                                     : p->here.control + copysign(length, left)};
-        const status outcome = reach(p, goal, station, size, f);
-        if (outcome != STATUS_OK)
-            return outcome;
+        const double length = p->a->constant_steps ? p->a->step : *size;
+        TRY(reach(p, next_goal(p, station, length), station, size, f));
     }
     return STATUS_OK;
 }
@@ -228,24 +237,28 @@ static status walk_to(continuation *p, double station, double *size, fault *f)
 static status start(continuation *p, fault *f)
 {
     step_record record = {0};
-    status outcome = newton_to(&p->n, 0, &record, f);
-    if (outcome == STATUS_OK)
-        outcome = continuation_look(p, NULL, &p->here, &record, f);
-    return outcome == STATUS_OK ? add_point(p, f) : outcome;
+    TRY(newton_to(&p->n, 0, &record, f));
+    TRY(continuation_look(p, NULL, &p->here, &record, f));
+    return add_point(p, f);
+}
+
+static status walk(continuation *p, fault *f)
+{
+    double size = p->a->step;
+    TRY(start(p, f));
+    for (int i = 0; i < p->a->stations; i++) {
+        TRY(walk_to(p, p->a->path[i], &size, f));
+        TRY(newton_keep(&p->n, p->o, p->a->path[i], f));
+    }
+    return STATUS_OK;
 }
 
 status analysis_continuation(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     continuation p;
-    double size = c->scene->analysis[analysis].step;
     status result = continuation_alloc(c, analysis, o, &p, f);
     if (result == STATUS_OK)
-        result = start(&p, f);
-    for (int i = 0; i < p.a->stations && result == STATUS_OK; i++) {
-        result = walk_to(&p, p.a->path[i], &size, f);
-        if (result == STATUS_OK)
-            result = newton_keep(&p.n, o, p.a->path[i], f);
-    }
+        result = walk(&p, f);
     continuation_free(&p);
     return result;
 }

@@ -81,20 +81,26 @@ static path_goal part_of(const continuation *p, path_goal goal, double part)
     return (path_goal){goal.by_arc, from + part * (goal.value - from)};
 }
 
+/* Is what changes at the critical point still as it is at `here`? */
+static int is_before(const continuation *p, int by_rate)
+{
+    if (by_rate)
+        return (p->trial.rate < 0) == (p->here.rate < 0);
+    if (p->here.negative < 0)
+        return p->trial.determinant == p->here.determinant;
+    return p->trial.negative == p->here.negative;
+}
+
 /* The point at that part of the step; *before: 1 when it lies before the critical one. */
 static status try_at(continuation *p, path_goal goal, int by_rate, bound *b, int *before, fault *f)
 {
     step_record record = {0};
     continuation_go_back(p);
-    status outcome = continuation_correct(p, part_of(p, goal, b->at), &record, f);
+    const status corrected = continuation_correct(p, part_of(p, goal, b->at), &record, f);
     history_drop_step(p->c->result, &record);
-    if (outcome == STATUS_OK)
-        outcome = continuation_look(p, p->moved, &p->trial, &record, f);
-    if (outcome != STATUS_OK)
-        return outcome;
-    *before = by_rate                ? (p->trial.rate < 0) == (p->here.rate < 0)
-              : p->here.negative < 0 ? p->trial.determinant == p->here.determinant
-                                     : p->trial.negative == p->here.negative;
+    TRY(corrected);
+    TRY(continuation_look(p, p->moved, &p->trial, &record, f));
+    *before = is_before(p, by_rate);
     b->value = by_rate ? p->trial.rate : least_eigenvalue(p);
     /* Another eigenvalue may be the least one: its sign tells nothing of this point. */
     const int falls =
@@ -125,8 +131,7 @@ static status locate(continuation *p, path_goal goal, int by_rate, int *gone, fa
         const status outcome = try_at(p, goal, by_rate, &trial, &before, f);
         if (outcome == STATUS_SINGULAR)
             break;
-        if (outcome != STATUS_OK)
-            return outcome;
+        TRY(outcome);
         value = fabs(trial.value);
         scale = fmax(scale, isfinite(value) ? value : 0);
         if (value <= closeness * scale)
@@ -144,6 +149,26 @@ static status locate(continuation *p, path_goal goal, int by_rate, int *gone, fa
     return STATUS_OK;
 }
 
+/* The critical point inside the step becomes an event. */
+static status report_critical(continuation *p, path_goal goal, int by_rate, int *jump, fault *f)
+{
+    TRY(locate(p, goal, by_rate, jump, f));
+    if (*jump)
+        return STATUS_OK;
+    path_event event = {.kind = by_rate ? EVENT_LIMIT_POINT : EVENT_BIFURCATION,
+                        .analysis = p->analysis,
+                        .negative_before = p->here.negative,
+                        .negative_after = p->next.negative,
+                        .factor = model_state_path(p->n.state),
+                        .control = model_component(p->c->model, p->n.state, p->a->control_node,
+                                                   p->a->control_component),
+                        .other_factor = NAN};
+    least_eigenvalue(p);
+    event.measure = load_work(p);
+    *jump = !by_rate && event.measure > least_load_work;
+    return *jump ? STATUS_OK : continuation_add_event(p, &event, f);
+}
+
 status continuation_critical(continuation *p, path_goal goal, int *jump, fault *f)
 {
     const int by_rate = (p->here.rate < 0) != (p->next.rate < 0);
@@ -152,22 +177,7 @@ status continuation_critical(continuation *p, path_goal goal, int *jump, fault *
         p->here.determinant == p->next.determinant)
         return STATUS_OK;
     model_state_copy(p->c->model, p->n.state, p->end);
-    status outcome = locate(p, goal, by_rate, jump, f);
-    path_event event = {.analysis = p->analysis,
-                        .negative_before = p->here.negative,
-                        .negative_after = p->next.negative,
-                        .factor = model_state_path(p->n.state),
-                        .control = model_component(p->c->model, p->n.state, p->a->control_node,
-                                                   p->a->control_component),
-                        .other_factor = NAN};
-    if (outcome == STATUS_OK && !*jump) {
-        least_eigenvalue(p);
-        event.measure = load_work(p);
-        event.kind = by_rate ? EVENT_LIMIT_POINT : EVENT_BIFURCATION;
-        *jump = !by_rate && event.measure > least_load_work;
-    }
-    if (outcome == STATUS_OK && !*jump)
-        outcome = continuation_add_event(p, &event, f);
+    const status outcome = report_critical(p, goal, by_rate, jump, f);
     model_state_copy(p->c->model, p->end, p->n.state);
     p->looked = 0;
     return outcome;

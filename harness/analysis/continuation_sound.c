@@ -43,11 +43,11 @@ status continuation_report_jump(continuation *p, const rival *r, double from, fa
                               .control = p->here.control,
                               .other_factor = r->factor,
                               .measure = model_distance(p->c->model, p->n.state, r->state)};
-    const status outcome = continuation_add_event(p, &event, f);
-    if (outcome == STATUS_OK && p->a->constant_steps)
+    TRY(continuation_add_event(p, &event, f));
+    if (p->a->constant_steps)
         return fault_set(f, STATUS_NOT_CONVERGED,
                          "the step from %g to %g m jumps to another branch (load factor %g, on "
                          "this one %g): use smaller steps",
                          from, p->here.control, r->factor, p->here.factor);
-    return outcome;
+    return STATUS_OK;
 }

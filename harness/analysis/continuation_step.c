@@ -18,19 +18,16 @@ status continuation_alloc(analysis_context *c, int analysis, analysis_outcome *o
         return fault_set(
             f, STATUS_REFUSED,
             "continuation needs a factored tangent; give newton=mixed or newton=displacement");
-    status outcome = newton_alloc(c, &p->n, f);
-    if (outcome == STATUS_OK)
-        outcome = newton_stations(o, p->a->stations, f);
-    if (outcome == STATUS_OK)
-        outcome = model_state_alloc(c->model, &p->end, f);
+    TRY(newton_alloc(c, &p->n, f));
+    TRY(newton_stations(o, p->a->stations, f));
+    TRY(model_state_alloc(c->model, &p->end, f));
     double **const vector[] = {&p->weight, &p->load,         &p->response,     &p->moved,
                                &p->mode,   &p->here.tangent, &p->next.tangent, &p->trial.tangent};
-    for (size_t i = 0; i < sizeof vector / sizeof vector[0] && outcome == STATUS_OK; i++)
+    for (size_t i = 0; i < sizeof vector / sizeof vector[0]; i++)
         if ((*vector[i] = calloc((size_t)p->n.all + 1, sizeof(double))) == NULL)
-            outcome = fault_set(f, STATUS_FAULT, "out of memory for a path");
-    if (outcome == STATUS_OK)
-        model_metric(c->model, p->weight);
-    return outcome;
+            return fault_set(f, STATUS_FAULT, "out of memory for a path");
+    model_metric(c->model, p->weight);
+    return STATUS_OK;
 }
 
 void continuation_free(continuation *p)
@@ -62,9 +59,7 @@ static status directions(continuation *p, step_record *record, fault *f)
     const double load = model_state_path(p->n.state);
     if (p->looked)
         return STATUS_OK;
-    const status outcome = newton_direction(&p->n, load, record, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(newton_direction(&p->n, load, record, f));
     model_load_rate(m, p->n.state, load, p->load);
     memset(p->response, 0, (size_t)p->n.all * sizeof *p->response);
     memcpy(p->response, p->load, (size_t)p->n.free * sizeof *p->response);
@@ -105,9 +100,7 @@ status continuation_correct(continuation *p, path_goal goal, step_record *record
     memset(p->moved, 0, (size_t)n->all * sizeof *p->moved);
     for (int done = 0; !done;) {
         double correction = 0;
-        status outcome = directions(p, record, f);
-        if (outcome != STATUS_OK)
-            return outcome;
+        TRY(directions(p, record, f));
         const double change = change_of(p, goal, p->response);
         const double more = (gap_of(p, goal) - change_of(p, goal, n->dx)) / change;
         if (!isfinite(more))
@@ -123,11 +116,8 @@ status continuation_correct(continuation *p, path_goal goal, step_record *record
         n->energy = fabs(energy);
         p->looked = 0;
         const double load = model_state_path(n->state) + more;
-        outcome = newton_advance(n, load, &correction, record, f);
-        if (outcome == STATUS_OK)
-            outcome = newton_judge(n, &watch, load, correction, &done, f);
-        if (outcome != STATUS_OK)
-            return outcome;
+        TRY(newton_advance(n, load, &correction, record, f));
+        TRY(newton_judge(n, &watch, load, correction, &done, f));
     }
     return STATUS_OK;
 }
@@ -136,9 +126,7 @@ status continuation_look(continuation *p, const double along[], path_point *out,
                          step_record *record, fault *f)
 {
     p->looked = 0;
-    const status outcome = directions(p, record, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(directions(p, record, f));
     const double length = sqrt(continuation_dot(p, p->response, p->response));
     if (!(length > 0) || !isfinite(length))
         return fault_set(f, STATUS_SINGULAR, "the loads move nothing");

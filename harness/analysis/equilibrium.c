@@ -50,16 +50,11 @@ static status start(analysis_context *c, int analysis, const char *what, newton 
 {
     const model_state *state = NULL;
     step_record unused = {0};
-    status outcome = newton_alloc(c, n, f);
-    if (outcome == STATUS_OK)
-        outcome = followed_state(c, analysis, &state, f);
-    if (outcome == STATUS_OK)
-        outcome = symmetric_only(n, what, f);
-    if (outcome == STATUS_OK) {
-        model_state_copy(c->model, state, n->state);
-        outcome = newton_direction(n, model_state_path(n->state), &unused, f);
-    }
-    return outcome;
+    TRY(newton_alloc(c, n, f));
+    TRY(followed_state(c, analysis, &state, f));
+    TRY(symmetric_only(n, what, f));
+    model_state_copy(c->model, state, n->state);
+    return newton_direction(n, model_state_path(n->state), &unused, f);
 }
 
 static void count_work(analysis_context *c, const eigen_result *e)
@@ -68,25 +63,26 @@ static void count_work(analysis_context *c, const eigen_result *e)
     model_counters(c->model)->factorisations += e->factorisations;
 }
 
+/* With what equilibrium_modal frees. */
+static status frequencies(analysis_context *c, int analysis, newton *n, sparse *M, eigen_result *e,
+                          fault *f)
+{
+    TRY(start(c, analysis, "frequencies", n, f));
+    TRY(sparse_alloc_like(&n->K, M, f));
+    TRY(model_inertia(c->model, n->state, 0, M, NULL, f));
+    const eigen_problem p = {
+        .K = &n->K, .A = M, .K_factor = n->factor, .sign = 1, .largest = modal_wanted(c, analysis)};
+    const status result = eigen_solve(&p, e, f);
+    count_work(c, e);
+    return result;
+}
+
 status equilibrium_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     newton n;
     sparse M = {0};
     eigen_result e = {0};
-    status result = start(c, analysis, "frequencies", &n, f);
-    if (result == STATUS_OK)
-        result = sparse_alloc_like(&n.K, &M, f);
-    if (result == STATUS_OK)
-        result = model_inertia(c->model, n.state, 0, &M, NULL, f);
-    if (result == STATUS_OK) {
-        const eigen_problem p = {.K = &n.K,
-                                 .A = &M,
-                                 .K_factor = n.factor,
-                                 .sign = 1,
-                                 .largest = modal_wanted(c, analysis)};
-        result = eigen_solve(&p, &e, f);
-        count_work(c, &e);
-    }
+    const status result = frequencies(c, analysis, &n, &M, &e, f);
     for (int i = 0; i < e.positive.count; i++) {
         e.positive.mu[i] = 1 / sqrt(e.positive.mu[i]);
         e.positive.error[i] /= 2; /* the root's */
@@ -113,13 +109,9 @@ typedef struct search {
 
 static status search_alloc(analysis_context *c, int analysis, search *s, fault *f)
 {
-    status outcome = start(c, analysis, "critical loads", &s->n, f);
-    if (outcome == STATUS_OK)
-        outcome = sparse_alloc_like(&s->n.K, &s->scale, f);
-    if (outcome == STATUS_OK)
-        outcome = model_state_alloc(c->model, &s->stable, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(start(c, analysis, "critical loads", &s->n, f));
+    TRY(sparse_alloc_like(&s->n.K, &s->scale, f));
+    TRY(model_state_alloc(c->model, &s->stable, f));
     s->begin = model_state_path(s->n.state);
     sparse_zero(&s->scale);
     for (int j = 0; j < s->scale.n; j++)
@@ -145,12 +137,11 @@ static status take_state(search *s, fault *f)
     eigen_free(&s->found);
     for (int i = 0; i < s->scale.column[s->scale.n]; i++)
         s->n.K.value[i] += s->shift * s->scale.value[i];
-    status outcome = s->shift > 0 ? analysis_factor(s->n.c, s->n.factor, &s->n.K, f) : STATUS_OK;
-    if (outcome == STATUS_OK)
-        outcome = eigen_solve(&p, &s->found, f);
+    if (s->shift > 0)
+        TRY(analysis_factor(s->n.c, s->n.factor, &s->n.K, f));
+    const status found = eigen_solve(&p, &s->found, f);
     count_work(s->n.c, &s->found);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(found);
     memmove(s->p + 1, s->p, (POINTS - 1) * sizeof *s->p);
     memmove(s->sigma + 1, s->sigma, (POINTS - 1) * sizeof *s->sigma);
     s->p[0] = model_state_path(s->n.state);
@@ -197,12 +188,10 @@ static status find_critical(search *s, fault *f)
 {
     int stable = 0;
     double target = s->begin + first_step * (s->begin != 0 ? fabs(s->begin) : 1);
-    status outcome = take_state(s, f);
+    TRY(take_state(s, f));
     const double farthest_path = s->begin + farthest * (s->begin != 0 ? fabs(s->begin) : 1);
-    for (int i = 0; i < MAX_STATES && target <= farthest_path && outcome == STATUS_OK; i++) {
-        outcome = go_to(s, target, &stable, f);
-        if (outcome != STATUS_OK)
-            break;
+    for (int i = 0; i < MAX_STATES && target <= farthest_path; i++) {
+        TRY(go_to(s, target, &stable, f));
         if (!stable) {
             s->unstable = target;
             target = (s->p[0] + target) / 2;
@@ -221,8 +210,6 @@ static status find_critical(search *s, fault *f)
             fmin(s->p[0] + fmin(approached * left, isfinite(left) ? left - closest * size : left),
                  limit);
     }
-    if (outcome != STATUS_OK)
-        return outcome;
     return isfinite(s->estimate) && target <= farthest_path
                ? fault_set(f, STATUS_NOT_CONVERGED,
                            "the critical load was not found: near path %g it still changes by %.1e",

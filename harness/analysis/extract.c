@@ -162,28 +162,40 @@ static void from_buckling(const scene_quantity *q, const analysis_outcome *o, qu
     extract_no_value(r, side->status, why);
 }
 
+/* *found: the mode of the kind and order that is asked for; -1: there is none. x[free + driven] is
+ * work space. */
+static status find_mode(const analysis_context *c, const scene_quantity *q,
+                        const outcome_side *side, double x[], int *found, fault *f)
+{
+    const size_t n = (size_t)model_sizes(c->model).free;
+    int order = 0;
+    *found = -1;
+    for (int i = 0; i < side->count; i++) {
+        mode_shape shape;
+        memcpy(x, side->mode + (size_t)i * n, n * sizeof *x);
+        TRY(mode_identify(c->model, c->scene, x, &shape, f));
+        if (mode_in_family(q, &shape) && order++ == q->order) {
+            *found = i;
+            return STATUS_OK;
+        }
+    }
+    return STATUS_OK;
+}
+
 static void from_modes(const analysis_context *c, const scene_quantity *q,
                        const analysis_outcome *o, quantity_result *r)
 {
-    const int n = model_sizes(c->model).free;
-    int order = 0;
-    fault f = {"out of memory for a mode"};
-    double *x = calloc((size_t)(n + model_sizes(c->model).driven) + 1, sizeof *x);
-    status known = x != NULL ? STATUS_OK : STATUS_FAULT;
+    const model_size size = model_sizes(c->model);
     const outcome_side *side = &o->positive;
-    for (int i = 0; i < side->count && known == STATUS_OK; i++) {
-        mode_shape shape;
-        memcpy(x, side->mode + (size_t)i * (size_t)n, (size_t)n * sizeof *x);
-        known = mode_identify(c->model, c->scene, x, &shape, &f);
-        if (known != STATUS_OK || !mode_in_family(q, &shape) || order++ < q->order)
-            continue;
-        take_eigenvalue(q, side, i, TURN, r);
-        free(x);
-        return;
-    }
+    fault f = {"out of memory for a mode"};
+    int found = -1;
+    double *x = calloc((size_t)(size.free + size.driven) + 1, sizeof *x);
+    const status known = x != NULL ? find_mode(c, q, side, x, &found, &f) : STATUS_FAULT;
     free(x);
     if (known != STATUS_OK)
         extract_no_value(r, known, f.text);
+    else if (found >= 0)
+        take_eigenvalue(q, side, found, TURN, r);
     else if (side->status != STATUS_OK)
         extract_no_value(r, side->status, side->reason);
     else

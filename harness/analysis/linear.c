@@ -15,30 +15,30 @@ void count_condition(const analysis_context *c, factor *fa, const sparse *K)
     }
 }
 
-status linear_system_alloc(analysis_context *c, linear_system *out, fault *f)
+static status allocate(const analysis_context *c, linear_system *out, fault *f)
 {
     const sparse *pattern;
+    TRY(model_pattern(c->model, 0, &pattern, f));
+    TRY(sparse_alloc_like(pattern, &out->K, f));
+    return factor_alloc(pattern, &out->factor, f);
+}
+
+status linear_system_alloc(analysis_context *c, linear_system *out, fault *f)
+{
     const double start = seconds_now();
     memset(out, 0, sizeof *out);
-    status outcome = model_pattern(c->model, 0, &pattern, f);
-    if (outcome == STATUS_OK)
-        outcome = sparse_alloc_like(pattern, &out->K, f);
-    if (outcome == STATUS_OK)
-        outcome = factor_alloc(pattern, &out->factor, f);
+    const status allocated = allocate(c, out, f);
     c->setup += seconds_now() - start;
-    if (outcome == STATUS_OK)
-        outcome = model_linear_stiffness(c->model, &out->K, f);
-    if (outcome == STATUS_OK)
-        outcome = analysis_factor(c, out->factor, &out->K, f);
-    if (outcome == STATUS_OK) {
-        counters *n = model_counters(c->model);
-        const factor_counts counts = factor_count(out->factor);
-        n->factorisations++;
-        n->factor_entries = counts.entries;
-        n->factor_flops += counts.flops;
-        count_condition(c, out->factor, &out->K);
-    }
-    return outcome;
+    TRY(allocated);
+    TRY(model_linear_stiffness(c->model, &out->K, f));
+    TRY(analysis_factor(c, out->factor, &out->K, f));
+    counters *n = model_counters(c->model);
+    const factor_counts counts = factor_count(out->factor);
+    n->factorisations++;
+    n->factor_entries = counts.entries;
+    n->factor_flops += counts.flops;
+    count_condition(c, out->factor, &out->K);
+    return STATUS_OK;
 }
 
 void linear_system_free(linear_system *s)
@@ -54,9 +54,7 @@ static status residual_of(analysis_context *c, const double load[], const double
                           double sigma[], double r[], fault *f)
 {
     const model_size size = model_sizes(c->model);
-    const status outcome = model_linear_stresses(c->model, x, sigma, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(model_linear_stresses(c->model, x, sigma, f));
     model_linear_forces(c->model, sigma, r);
     for (int i = 0; i < size.free + size.driven; i++)
         r[i] = load[i] - r[i];
@@ -100,9 +98,7 @@ static status refine(analysis_context *c, linear_system *s, refinement *w, doubl
     const int n = model_sizes(c->model).free;
     double last = INFINITY;
     for (int i = 0; i <= MOST_REFINEMENTS; i++) {
-        const status outcome = residual_of(c, w->load, x, w->sigma, w->r, f);
-        if (outcome != STATUS_OK)
-            return outcome;
+        TRY(residual_of(c, w->load, x, w->sigma, w->r, f));
         factor_solve(s->factor, w->r);
         model_counters(c->model)->solutions++;
         for (int k = 0; k < n; k++)
@@ -119,32 +115,41 @@ static status refine(analysis_context *c, linear_system *s, refinement *w, doubl
     return fault_set(f, STATUS_SINGULAR, "the linear solution is lost in round-off");
 }
 
-status linear_system_solve(analysis_context *c, linear_system *s, double x[], fault *f)
+/* With what linear_system_solve frees. */
+static status solve(analysis_context *c, linear_system *s, refinement *w, double x[], fault *f)
 {
     const model_size size = model_sizes(c->model);
-    refinement w = {0};
-    status outcome = refinement_alloc(c, &w, f);
     memset(x, 0, (size_t)(size.free + size.driven) * sizeof *x);
-    if (outcome == STATUS_OK)
-        model_drive(c->model, model_rest(c->model), 1, x);
-    if (outcome == STATUS_OK)
-        outcome = refine(c, s, &w, x, f);
+    TRY(refinement_alloc(c, w, f));
+    model_drive(c->model, model_rest(c->model), 1, x);
+    return refine(c, s, w, x, f);
+}
+
+status linear_system_solve(analysis_context *c, linear_system *s, double x[], fault *f)
+{
+    refinement w = {0};
+    const status outcome = solve(c, s, &w, x, f);
     free(w.load);
     free(w.sigma);
     return outcome;
 }
 
+/* With what analysis_linear frees. */
+static status displace(analysis_context *c, linear_system *s, analysis_outcome *o, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    o->x = calloc((size_t)(size.free + size.driven) + 1, sizeof *o->x);
+    if (o->x == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a linear solution");
+    TRY(linear_system_alloc(c, s, f));
+    return linear_system_solve(c, s, o->x, f);
+}
+
 status analysis_linear(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     (void)analysis;
-    const model_size size = model_sizes(c->model);
-    linear_system s;
-    status result = linear_system_alloc(c, &s, f);
-    o->x = calloc((size_t)(size.free + size.driven) + 1, sizeof *o->x);
-    if (result == STATUS_OK && o->x == NULL)
-        result = fault_set(f, STATUS_FAULT, "out of memory for a linear solution");
-    if (result == STATUS_OK)
-        result = linear_system_solve(c, &s, o->x, f);
+    linear_system s = {0};
+    const status result = displace(c, &s, o, f);
     linear_system_free(&s);
     return result;
 }

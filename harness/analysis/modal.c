@@ -110,37 +110,55 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
             "frequencies of a loaded structure follow a linear analysis that has been solved");
     about->prestressed = 1;
     memcpy(about->of.load_x, x, (size_t)(size.free + size.driven) * sizeof *x);
-    status outcome = linear_forms_load(&about->of, f);
-    if (outcome == STATUS_OK)
-        outcome = sparse_alloc_like(&s->K, &about->G, f);
-    if (outcome == STATUS_OK)
-        outcome = model_geometric_stiffness(c->model, about->of.sigma, &about->G, f);
-    for (int i = 0; i < s->K.column[s->K.n] && outcome == STATUS_OK; i++)
+    TRY(linear_forms_load(&about->of, f));
+    TRY(sparse_alloc_like(&s->K, &about->G, f));
+    TRY(model_geometric_stiffness(c->model, about->of.sigma, &about->G, f));
+    for (int i = 0; i < s->K.column[s->K.n]; i++)
         s->K.value[i] += about->G.value[i];
     model_counters(c->model)->factorisations++;
-    return outcome == STATUS_OK ? analysis_factor(c, s->factor, &s->K, f) : outcome;
+    return analysis_factor(c, s->factor, &s->K, f);
 }
 
 /* K with its factors, and M; K of a structure that is not held is shifted. */
 static status assemble(analysis_context *c, int follows, linear_system *s, forms *about, fault *f)
 {
-    status result = linear_system_alloc(c, s, f);
-    int singular = result == STATUS_SINGULAR;
-    if (result != STATUS_OK && !singular)
-        return result;
-    result = linear_forms_alloc(c->model, &s->K, &about->of, f);
-    if (result == STATUS_OK && follows != SCENE_NONE && !singular)
-        result = add_prestress(c, follows, s, about, f);
-    singular |= result == STATUS_SINGULAR;
-    if (result == STATUS_OK || result == STATUS_SINGULAR)
-        result = sparse_alloc_like(&s->K, &about->M, f);
+    const status solved = linear_system_alloc(c, s, f);
+    int singular = solved == STATUS_SINGULAR;
+    if (!singular)
+        TRY(solved);
+    TRY(linear_forms_alloc(c->model, &s->K, &about->of, f));
+    if (follows != SCENE_NONE && !singular) {
+        const status stressed = add_prestress(c, follows, s, about, f);
+        singular = stressed == STATUS_SINGULAR;
+        if (!singular)
+            TRY(stressed);
+    }
+    TRY(sparse_alloc_like(&s->K, &about->M, f));
     about->work = calloc((size_t)s->K.n + 1, sizeof *about->work);
-    if (result == STATUS_OK && about->work == NULL)
-        result = fault_set(f, STATUS_FAULT, "out of memory for modes");
-    if (result == STATUS_OK)
-        result = model_inertia(c->model, NULL, 0, &about->M, NULL, f);
-    return result == STATUS_OK && singular ? shifted_system(c, s, &about->M, &about->shift, f)
-                                           : result;
+    if (about->work == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for modes");
+    TRY(model_inertia(c->model, NULL, 0, &about->M, NULL, f));
+    return singular ? shifted_system(c, s, &about->M, &about->shift, f) : STATUS_OK;
+}
+
+/* With what analysis_modal frees. */
+static status solve(analysis_context *c, int analysis, linear_system *s, forms *about,
+                    eigen_result *e, fault *f)
+{
+    TRY(assemble(c, c->scene->analysis[analysis].follows, s, about, f));
+    const eigen_problem p = {.K = &s->K,
+                             .A = &about->M,
+                             .K_factor = s->factor,
+                             .sign = 1,
+                             .largest = modal_wanted(c, analysis),
+                             .K_energy = stiffness_form,
+                             .K_rounding = stiffness_rounding,
+                             .K_product = stiffness_product,
+                             .context = about};
+    const status result = eigen_solve(&p, e, f);
+    model_counters(c->model)->solutions += e->solutions;
+    model_counters(c->model)->factorisations += e->factorisations;
+    return result;
 }
 
 status analysis_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
@@ -151,21 +169,7 @@ status analysis_modal(analysis_context *c, int analysis, analysis_outcome *o, fa
     linear_system s = {0};
     eigen_result e = {0};
     forms about = {0};
-    status result = assemble(c, follows, &s, &about, f);
-    if (result == STATUS_OK) {
-        const eigen_problem p = {.K = &s.K,
-                                 .A = &about.M,
-                                 .K_factor = s.factor,
-                                 .sign = 1,
-                                 .largest = modal_wanted(c, analysis),
-                                 .K_energy = stiffness_form,
-                                 .K_rounding = stiffness_rounding,
-                                 .K_product = stiffness_product,
-                                 .context = &about};
-        result = eigen_solve(&p, &e, f);
-        model_counters(c->model)->solutions += e.solutions;
-        model_counters(c->model)->factorisations += e.factorisations;
-    }
+    const status result = solve(c, analysis, &s, &about, &e, f);
     keep(&about, &e.positive, o);
     eigen_free(&e);
     linear_system_free(&s);

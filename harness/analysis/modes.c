@@ -61,6 +61,25 @@ static int points_of(const model *m, const scene *s)
     return points;
 }
 
+/* u[vertices x 7]: the mode at the vertices; index[vertices] is work space. */
+static void fill_motion(const model *m, const scene *s, const double *u, int *index, motion *out)
+{
+    for (int member = 0; member < s->members; member++) {
+        const scene_member *sm = &s->member[member];
+        const section *c = model_section(m, sm->section);
+        const double radius = sqrt(c->Ip / c->A);
+        double d[3], R[9];
+        for (int i = 0; i < 3; i++)
+            d[i] = s->node[sm->q].position[i] - s->node[sm->p].position[i];
+        rotation_triad(d, sm->y_axis, R);
+        const int count = model_member_vertices(m, member, index);
+        for (int i = 0; i < count; i++, out->points++) {
+            components(R, radius, &u[7 * index[i]], &out->part[MEASURES * out->points]);
+            turns(R, radius, &u[7 * index[i]], &out->turn[MEASURES * out->points]);
+        }
+    }
+}
+
 static status motion_alloc(const model *m, const scene *s, const double mode[], motion *out,
                            fault *f)
 {
@@ -73,21 +92,9 @@ static status motion_alloc(const model *m, const scene *s, const double mode[], 
     out->part = malloc((2 * points * MEASURES + 1) * sizeof *out->part);
     out->turn = out->part + points * MEASURES;
     const int good = u != NULL && index != NULL && out->part != NULL;
-    if (good)
+    if (good) {
         model_shape(m, mode, u, NULL);
-    for (int member = 0; member < s->members && good; member++) {
-        const scene_member *sm = &s->member[member];
-        const section *c = model_section(m, sm->section);
-        double d[3], R[9];
-        for (int i = 0; i < 3; i++)
-            d[i] = s->node[sm->q].position[i] - s->node[sm->p].position[i];
-        rotation_triad(d, sm->y_axis, R);
-        const int count = model_member_vertices(m, member, index);
-        for (int i = 0; i < count; i++, out->points++) {
-            const double radius = sqrt(c->Ip / c->A);
-            components(R, radius, &u[7 * index[i]], &out->part[MEASURES * out->points]);
-            turns(R, radius, &u[7 * index[i]], &out->turn[MEASURES * out->points]);
-        }
+        fill_motion(m, s, u, index, out);
     }
     free(u);
     free(index);
@@ -163,54 +170,81 @@ const char *mode_family_name(scene_family family)
     return "any";
 }
 
+enum { MOST = 8 }; /* modes of one cluster that are told apart */
+
+static status motions_alloc(const model *m, const scene *s, int count, size_t n, const double *mode,
+                            motion shape[], fault *f)
+{
+    for (int i = 0; i < count; i++)
+        TRY(motion_alloc(m, s, mode + (size_t)i * n, &shape[i], f));
+    return STATUS_OK;
+}
+
+/* Products of the motions [count x count]: along z, and in all. */
+static void products(int count, const motion shape[], double along_z[], double all[])
+{
+    memset(along_z, 0, (size_t)(count * count) * sizeof *along_z);
+    memset(all, 0, (size_t)(count * count) * sizeof *all);
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < count; j++)
+            for (int k = 0; k < shape[i].points * MEASURES; k++) {
+                const double product = shape[i].part[k] * shape[j].part[k];
+                all[i * count + j] += product;
+                along_z[i * count + j] += k % MEASURES == ALONG_Z ? product : 0;
+            }
+}
+
+/* mode[count x n] <- C mode, C[count x count] by rows. */
+static void combine(int count, size_t n, const double C[], double *mode)
+{
+    for (size_t k = 0; k < n; k++) {
+        double old[MOST] = {0};
+        for (int i = 0; i < count; i++)
+            old[i] = mode[(size_t)i * n + k];
+        for (int i = 0; i < count; i++) {
+            mode[(size_t)i * n + k] = 0;
+            for (int j = 0; j < count; j++)
+                mode[(size_t)i * n + k] += C[i * count + j] * old[j];
+        }
+    }
+}
+
 /* mode <- combinations that make the part along z as small or as large as it can be beside the
- * whole. */
+ * whole; modes that look alike at the vertices stay as they are. */
 static status separate_cluster(const model *m, const scene *s, int count, size_t n, double *mode,
                                fault *f)
 {
-    enum { MOST = 8 };
-    double A[MOST * MOST] = {0}, B[MOST * MOST] = {0}, w[MOST];
+    double along_z[MOST * MOST], all[MOST * MOST], w[MOST];
     motion shape[MOST] = {{0}};
-    status outcome = STATUS_OK;
     const int size = count < MOST ? count : MOST;
-    for (int i = 0; i < size && outcome == STATUS_OK; i++)
-        outcome = motion_alloc(m, s, mode + (size_t)i * n, &shape[i], f);
-    for (int i = 0; i < size && outcome == STATUS_OK; i++)
-        for (int j = 0; j < size; j++)
-            for (int k = 0; k < shape[i].points * MEASURES; k++) {
-                const double product = shape[i].part[k] * shape[j].part[k];
-                B[i * size + j] += product;
-                A[i * size + j] += k % MEASURES == ALONG_Z ? product : 0;
-            }
+    const status outcome = motions_alloc(m, s, size, n, mode, shape, f);
+    if (outcome == STATUS_OK)
+        products(size, shape, along_z, all);
     for (int i = 0; i < size; i++)
         free(shape[i].part);
-    if (outcome != STATUS_OK ||
-        LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', size, A, size, B, size, w) != 0)
-        return outcome; /* modes that look alike at the vertices stay as they are */
-    for (size_t k = 0; k < n; k++) {
-        double old[MOST] = {0};
-        for (int i = 0; i < size; i++)
-            old[i] = mode[(size_t)i * n + k];
-        for (int i = 0; i < size; i++) {
-            mode[(size_t)i * n + k] = 0;
-            for (int j = 0; j < size; j++)
-                mode[(size_t)i * n + k] += A[i * size + j] * old[j];
-        }
-    }
+    TRY(outcome);
+    if (LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', size, along_z, size, all, size, w) == 0)
+        combine(size, n, along_z, mode);
     return STATUS_OK;
+}
+
+/* One behind the last of the values that are equal to the first. */
+static int cluster_end(int first, int count, const double value[])
+{
+    const double equal = 1e-8; /* relative */
+    int end = first + 1;
+    while (end < count && fabs(value[end] - value[first]) <= equal * fabs(value[first]))
+        end++;
+    return end;
 }
 
 status mode_separate(const model *m, const scene *s, int count, const double value[], size_t n,
                      double *mode, fault *f)
 {
-    const double equal = 1e-8; /* relative */
-    status outcome = STATUS_OK;
-    for (int first = 0, last; first < count && outcome == STATUS_OK; first = last) {
-        for (last = first + 1;
-             last < count && fabs(value[last] - value[first]) <= equal * fabs(value[first]);
-             last++) {}
-        if (last - first > 1)
-            outcome = separate_cluster(m, s, last - first, n, mode + (size_t)first * n, f);
+    for (int first = 0, end; first < count; first = end) {
+        end = cluster_end(first, count, value);
+        if (end - first > 1)
+            TRY(separate_cluster(m, s, end - first, n, mode + (size_t)first * n, f));
     }
-    return outcome;
+    return STATUS_OK;
 }

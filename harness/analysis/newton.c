@@ -16,10 +16,28 @@ enum { MAX_ITERATIONS = 30 };
 static const double default_criterion =
     1e-8; /* largest correction, dimensionless: the next one would be its square */
 
+static status allocate(newton *n, fault *f)
+{
+    const model *m = n->c->model;
+    const size_t all = (size_t)n->all + 1;
+    const sparse *pattern;
+    n->residual = calloc(all, sizeof *n->residual);
+    n->dx = calloc(all, sizeof *n->dx);
+    n->column = calloc((size_t)(MODEL_MAX_CONDITIONS * n->all) + 1, sizeof *n->column);
+    n->weight = calloc(all, sizeof *n->weight);
+    if (n->residual == NULL || n->dx == NULL || n->column == NULL || n->weight == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a static solution");
+    model_metric(m, n->weight);
+    TRY(model_pattern(n->c->model, 0, &pattern, f));
+    TRY(sparse_alloc_like(pattern, &n->K, f));
+    TRY(factor_alloc(pattern, &n->factor, f));
+    TRY(model_state_alloc(m, &n->state, f));
+    return model_state_alloc(m, &n->backup, f);
+}
+
 status newton_alloc(analysis_context *c, newton *n, fault *f)
 {
     const model_size size = model_sizes(c->model);
-    const sparse *pattern;
     const double start = seconds_now();
     memset(n, 0, sizeof *n);
     n->c = c;
@@ -28,25 +46,7 @@ status newton_alloc(analysis_context *c, newton *n, fault *f)
     n->criterion = c->options->criterion > 0 ? c->options->criterion : default_criterion;
     n->max_iterations =
         c->options->max_iterations > 0 ? c->options->max_iterations : MAX_ITERATIONS;
-    n->residual = calloc((size_t)n->all + 1, sizeof *n->residual);
-    n->dx = calloc((size_t)n->all + 1, sizeof *n->dx);
-    n->column = calloc((size_t)(MODEL_MAX_CONDITIONS * n->all) + 1, sizeof *n->column);
-    n->weight = calloc((size_t)n->all + 1, sizeof *n->weight);
-    status outcome = n->residual == NULL || n->dx == NULL || n->column == NULL || n->weight == NULL
-                         ? fault_set(f, STATUS_FAULT, "out of memory for a static solution")
-                         : STATUS_OK;
-    if (outcome == STATUS_OK)
-        model_metric(c->model, n->weight);
-    if (outcome == STATUS_OK)
-        outcome = model_pattern(c->model, 0, &pattern, f);
-    if (outcome == STATUS_OK)
-        outcome = sparse_alloc_like(pattern, &n->K, f);
-    if (outcome == STATUS_OK)
-        outcome = factor_alloc(pattern, &n->factor, f);
-    if (outcome == STATUS_OK)
-        outcome = model_state_alloc(c->model, &n->state, f);
-    if (outcome == STATUS_OK)
-        outcome = model_state_alloc(c->model, &n->backup, f);
+    const status outcome = allocate(n, f);
     c->setup += seconds_now() - start;
     return outcome;
 }
@@ -123,18 +123,16 @@ static double work_of(int n, const double force[], const double motion[])
 static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
 {
     phases *p = model_phases(n->c->model);
-    status outcome = model_linearise(n->c->model, n->state, lin, f);
-    if (outcome == STATUS_OK)
-        outcome = analysis_factor(n->c, n->factor, &n->K, f);
+    TRY(model_linearise(n->c->model, n->state, lin, f));
+    const status factored = analysis_factor(n->c, n->factor, &n->K, f);
     phases_lap(p, PHASE_FACTORISATION);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(factored);
     memcpy(n->dx, n->residual, (size_t)n->free * sizeof *n->dx);
     factor_solve(n->factor, n->dx);
     n->energy = fabs(work_of(n->free, n->residual, n->dx));
-    outcome = meet_conditions(n, lin->conditions, lin->condition, f);
+    const status met = meet_conditions(n, lin->conditions, lin->condition, f);
     phases_lap(p, PHASE_SOLUTION);
-    return outcome;
+    return met;
 }
 
 /* dx of the uncondensed system, by Gaussian elimination with partial pivoting (LAPACK). */
@@ -142,11 +140,8 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
 {
     model *m = n->c->model;
     const size_t size = (size_t)model_full_size(m) + (size_t)lin->conditions;
-    const status fits =
-        memory_check((double)size * (double)size * sizeof *n->dense,
-                     "dense matrices of all unknowns at once", "give newton=mixed", f);
-    if (fits != STATUS_OK)
-        return fits;
+    TRY(memory_check((double)size * (double)size * sizeof *n->dense,
+                     "dense matrices of all unknowns at once", "give newton=mixed", f));
     if (n->dense == NULL) {
         n->dense = malloc(size * size * sizeof *n->dense);
         n->unknown = malloc(size * sizeof *n->unknown);
@@ -160,13 +155,10 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
     parts.K = NULL;
     parts.drive = NULL;
     parts.conditions = 0;
-    status outcome = model_linearise(m, n->state, &parts, f); /* what model_advance needs */
+    TRY(model_linearise(m, n->state, &parts, f)); /* what model_advance needs */
     lin->incompatibility = parts.incompatibility;
-    if (outcome == STATUS_OK)
-        outcome = model_full_system(m, n->state, lin->path, n->dx, lin->conditions, lin->condition,
-                                    n->dense, n->unknown, n->residual, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(model_full_system(m, n->state, lin->path, n->dx, lin->conditions, lin->condition, n->dense,
+                          n->unknown, n->residual, f));
     phases_lap(model_phases(m), PHASE_ASSEMBLY);
     const int singular = LAPACKE_dgesv(LAPACK_COL_MAJOR, (int)size, 1, n->dense, (int)size,
                                        n->pivot, n->unknown, (int)size) != 0;
@@ -189,9 +181,7 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
     memset(n->dx, 0, (size_t)n->all * sizeof *n->dx);
     model_drive(m, n->state, path, n->dx);
     if (n->c->options->newton == SOLVE_DISPLACEMENT) {
-        const status compatible = model_make_compatible(m, n->state, f);
-        if (compatible != STATUS_OK)
-            return compatible;
+        TRY(model_make_compatible(m, n->state, f));
     }
     model_condition condition[MODEL_MAX_CONDITIONS];
     const int conditions = model_conditions(m, n->state, path, condition);
@@ -202,10 +192,8 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
                                .conditions = conditions,
                                .condition = condition,
                                .column = n->column};
-    const status outcome = n->c->options->newton == SOLVE_DENSE ? solve_dense(n, &lin, f)
-                                                                : solve_condensed(n, &lin, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(n->c->options->newton == SOLVE_DENSE ? solve_dense(n, &lin, f)
+                                             : solve_condensed(n, &lin, f));
     const factor_counts counts = factor_count(n->factor);
     count->factorisations +=
         n->c->options->newton == SOLVE_DENSE ? 1 : counts.factorisations - n->counted;
@@ -225,9 +213,7 @@ status newton_advance(newton *n, double path, double *correction, step_record *r
     model_counters(n->c->model)->iterations++;
     const iteration_record one = {.correction = *correction,
                                   .incompatibility = record->incompatibility};
-    const status kept = history_add_iteration(n->c->result, record, &one, n->energy, f);
-    if (kept != STATUS_OK)
-        return kept;
+    TRY(history_add_iteration(n->c->result, record, &one, n->energy, f));
     return isfinite(*correction)
                ? STATUS_OK
                : fault_set(f, STATUS_NOT_CONVERGED, "the corrections are not finite");
@@ -274,13 +260,9 @@ status newton_to(newton *n, double path, step_record *record, fault *f)
     newton_watch watch = newton_watch_start;
     for (int done = 0; !done;) {
         double correction = 0;
-        status outcome = newton_direction(n, path, record, f);
-        if (outcome == STATUS_OK)
-            outcome = newton_advance(n, path, &correction, record, f);
-        if (outcome == STATUS_OK)
-            outcome = newton_judge(n, &watch, path, correction, &done, f);
-        if (outcome != STATUS_OK)
-            return outcome;
+        TRY(newton_direction(n, path, record, f));
+        TRY(newton_advance(n, path, &correction, record, f));
+        TRY(newton_judge(n, &watch, path, correction, &done, f));
     }
     return STATUS_OK;
 }
@@ -297,9 +279,7 @@ status newton_add_record(solve_result *r, const step_record *record, fault *f)
 
 status newton_keep(newton *n, analysis_outcome *o, double path, fault *f)
 {
-    const status stored = model_state_alloc(n->c->model, &o->state[o->reached], f);
-    if (stored != STATUS_OK)
-        return stored;
+    TRY(model_state_alloc(n->c->model, &o->state[o->reached], f));
     model_state_copy(n->c->model, n->state, o->state[o->reached]);
     o->path[o->reached++] = path;
     return STATUS_OK;

@@ -41,24 +41,28 @@ typedef struct matrices {
     double *residual, *x, *y; /* [free + driven] */
 } matrices;
 
-static status matrices_alloc(analysis_context *c, matrices *a, fault *f)
+static status allocate(const analysis_context *c, matrices *a, fault *f)
 {
     const model_size size = model_sizes(c->model);
     const size_t all = (size_t)(size.free + size.driven) + 1;
     sparse *const each[] = {&a->K, &a->M, &a->G, &a->loads};
     const sparse *pattern = NULL;
-    const double begin = seconds_now();
-    memset(a, 0, sizeof *a);
     a->residual = calloc(all, sizeof(double));
     a->x = calloc(all, sizeof(double));
     a->y = calloc(all, sizeof(double));
     if (a->residual == NULL || a->x == NULL || a->y == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for modes");
-    status outcome = model_pattern(c->model, 0, &pattern, f);
-    for (int i = 0; i < 4 && outcome == STATUS_OK; i++)
-        outcome = sparse_alloc_like(pattern, each[i], f);
-    if (outcome == STATUS_OK)
-        outcome = factor_alloc(pattern, &a->factor, f);
+    TRY(model_pattern(c->model, 0, &pattern, f));
+    for (int i = 0; i < 4; i++)
+        TRY(sparse_alloc_like(pattern, each[i], f));
+    return factor_alloc(pattern, &a->factor, f);
+}
+
+static status matrices_alloc(analysis_context *c, matrices *a, fault *f)
+{
+    const double begin = seconds_now();
+    memset(a, 0, sizeof *a);
+    const status outcome = allocate(c, a, f);
     c->setup += seconds_now() - begin;
     return outcome;
 }
@@ -79,39 +83,46 @@ static status linearise(analysis_context *c, const model_state *state, matrices 
 {
     const double path = model_state_path(state);
     model_linearisation lin = {.path = path, .K = &a->K, .residual = a->residual};
-    status outcome = model_linearise(c->model, state, &lin, f);
-    if (outcome == STATUS_OK)
-        outcome = model_inertia(c->model, state, path, &a->M, &a->G, f);
+    TRY(model_linearise(c->model, state, &lin, f));
+    TRY(model_inertia(c->model, state, path, &a->M, &a->G, f));
     model_load_stiffness(c->model, state, path, &a->loads);
-    if (outcome == STATUS_OK)
-        outcome = analysis_factor(c, a->factor, &a->K, f);
     model_counters(c->model)->factorisations++;
-    return outcome;
+    return analysis_factor(c, a->factor, &a->K, f);
 }
 
 /* Frequencies and families of the modes found. */
-static status identify(analysis_context *c, const gyroscopic_result *r, rotation_modes *out,
-                       fault *f)
+static status identify(analysis_context *c, const gyroscopic_result *r, double mode[],
+                       rotation_modes *out, fault *f)
 {
     const model_size size = model_sizes(c->model);
-    const size_t n = (size_t)size.free, all = n + (size_t)size.driven, count = (size_t)r->count;
-    double *mode = calloc(count * all + 1, sizeof *mode);
-    out->frequency = calloc(2 * count + 1, sizeof(double));
-    out->shape = calloc(count + 1, sizeof *out->shape);
-    if (mode == NULL || out->frequency == NULL || out->shape == NULL) {
-        free(mode);
-        return fault_set(f, STATUS_FAULT, "out of memory for modes");
-    }
-    out->growth = out->frequency + count;
-    out->count = r->count;
-    for (size_t i = 0; i < count; i++) {
-        memcpy(mode + i * all, r->mode + i * n, n * sizeof *mode);
+    const size_t n = (size_t)size.free, all = n + (size_t)size.driven;
+    for (int i = 0; i < r->count; i++) {
+        memcpy(mode + (size_t)i * all, r->mode + (size_t)i * n, n * sizeof *mode);
         out->frequency[i] = r->frequency[i];
         out->growth[i] = r->growth[i];
     }
-    status outcome = mode_separate(c->model, c->scene, r->count, r->frequency, all, mode, f);
-    for (int i = 0; i < r->count && outcome == STATUS_OK; i++)
-        outcome = mode_identify(c->model, c->scene, mode + (size_t)i * all, &out->shape[i], f);
+    TRY(mode_separate(c->model, c->scene, r->count, r->frequency, all, mode, f));
+    for (int i = 0; i < r->count; i++)
+        TRY(mode_identify(c->model, c->scene, mode + (size_t)i * all, &out->shape[i], f));
+    return STATUS_OK;
+}
+
+static status take_modes(analysis_context *c, const gyroscopic_result *r, rotation_modes *out,
+                         fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    const size_t all = (size_t)(size.free + size.driven), count = (size_t)r->count;
+    double *mode = calloc(count * all + 1, sizeof *mode);
+    out->frequency = calloc(2 * count + 1, sizeof(double));
+    out->shape = calloc(count + 1, sizeof *out->shape);
+    status outcome = STATUS_FAULT;
+    if (mode == NULL || out->frequency == NULL || out->shape == NULL) {
+        fault_set(f, STATUS_FAULT, "out of memory for modes");
+    } else {
+        out->growth = out->frequency + count;
+        out->count = r->count;
+        outcome = identify(c, r, mode, out, f);
+    }
     free(mode);
     return outcome;
 }
@@ -164,9 +175,26 @@ static void modes_free(rotation_modes *m)
 
 void rotation_modes_free(rotation_modes modes[], int stations)
 {
-    for (int i = 0; i < stations && modes != NULL; i++)
+    if (modes == NULL)
+        return;
+    for (int i = 0; i < stations; i++)
         modes_free(&modes[i]);
     free(modes);
+}
+
+/* `wanted` modes, if they exist; *enough: there is one for every quantity, or there are no more. */
+static status try_modes(analysis_context *c, int analysis, const gyroscopic_problem *problem,
+                        rotation_modes *out, int *enough, fault *f)
+{
+    gyroscopic_result result = {0};
+    status outcome = gyroscopic_solve(problem, &result, f);
+    model_counters(c->model)->solutions += result.solutions;
+    model_counters(c->model)->factorisations += result.factorisations;
+    if (outcome == STATUS_OK)
+        outcome = take_modes(c, &result, out, f);
+    *enough = result.count < problem->wanted || is_enough(c, analysis, out);
+    gyroscopic_free(&result);
+    return outcome;
 }
 
 /* As many modes as it takes, if they exist: those of other families lie between. */
@@ -181,51 +209,47 @@ static status modes_at(analysis_context *c, int analysis, const model_state *sta
                                   .K_energy = tangent_form,
                                   .context = &about};
     int enough = 0;
-    status outcome = STATUS_OK;
-    for (problem.wanted = modes_wanted(c, analysis); outcome == STATUS_OK && !enough;
-         problem.wanted *= 2) {
-        gyroscopic_result result = {0};
+    for (problem.wanted = modes_wanted(c, analysis); !enough; problem.wanted *= 2) {
         modes_free(out);
-        outcome = linearise(c, state, a, f);
-        if (outcome == STATUS_OK)
-            outcome = gyroscopic_solve(&problem, &result, f);
-        model_counters(c->model)->solutions += result.solutions;
-        model_counters(c->model)->factorisations += result.factorisations;
-        if (outcome == STATUS_OK)
-            outcome = identify(c, &result, out, f);
-        enough =
-            outcome == STATUS_OK && (result.count < problem.wanted || is_enough(c, analysis, out));
-        gyroscopic_free(&result);
+        TRY(linearise(c, state, a, f));
+        TRY(try_modes(c, analysis, &problem, out, &enough, f));
     }
-    return outcome;
+    return STATUS_OK;
 }
 
 /* The first station where a small motion grows is named in the result. */
 static void note_instability(analysis_context *c, const rotation_modes *modes, double path)
 {
-    for (int i = 0; i < modes->count && c->result->reason[0] == '\0'; i++)
-        if (modes->growth[i] > 0)
+    for (int i = 0; i < modes->count; i++)
+        if (modes->growth[i] > 0 && c->result->reason[0] == '\0')
             snprintf(c->result->reason, sizeof c->result->reason,
                      "unstable at path %g: %s, %s, grows with %.4g 1/s", path,
                      mode_family_name(modes->shape[i].family),
                      modes->frequency[i] > 0 ? "flutter" : "divergence", modes->growth[i]);
 }
 
+/* Modes at every station, or at the last. */
+static status modes_of(analysis_context *c, int analysis, matrices *a, analysis_outcome *o,
+                       fault *f)
+{
+    o->modes = calloc((size_t)o->stations + 1, sizeof *o->modes);
+    if (o->modes == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for modes");
+    TRY(matrices_alloc(c, a, f));
+    for (int i = asks_for_modes(c, analysis, 1) ? 0 : o->stations - 1; i < o->stations; i++) {
+        TRY(modes_at(c, analysis, o->state[i], a, &o->modes[i], f));
+        note_instability(c, &o->modes[i], o->path[i]);
+    }
+    return STATUS_OK;
+}
+
 status analysis_rotation(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     matrices a = {0};
-    status outcome = analysis_static(c, analysis, o, f);
-    if (outcome != STATUS_OK || !asks_for_modes(c, analysis, 0))
-        return outcome;
-    o->modes = calloc((size_t)o->stations + 1, sizeof *o->modes);
-    outcome = o->modes != NULL ? matrices_alloc(c, &a, f)
-                               : fault_set(f, STATUS_FAULT, "out of memory for modes");
-    for (int i = asks_for_modes(c, analysis, 1) ? 0 : o->stations - 1;
-         i < o->stations && outcome == STATUS_OK; i++) {
-        outcome = modes_at(c, analysis, o->state[i], &a, &o->modes[i], f);
-        if (outcome == STATUS_OK)
-            note_instability(c, &o->modes[i], o->path[i]);
-    }
+    TRY(analysis_static(c, analysis, o, f));
+    if (!asks_for_modes(c, analysis, 0))
+        return STATUS_OK;
+    const status outcome = modes_of(c, analysis, &a, o, f);
     matrices_free(&a);
     return outcome;
 }

@@ -98,46 +98,52 @@ static status keep_linear(const analysis_context *c, int analysis, shapes *s, fa
     return outcome;
 }
 
+/* x[free + driven] is work space. */
+static status keep_modes_in(const analysis_context *c, int analysis, const outcome_side *side,
+                            double x[], shapes *s, fault *f)
+{
+    const size_t n = (size_t)model_sizes(c->model).free;
+    const int buckling = c->scene->analysis[analysis].kind == SCENE_BUCKLING;
+    for (int i = 0; i < least(side->count, SHAPES_MODES); i++) {
+        shape_state what = {
+            buckling ? SHAPE_BUCKLING : SHAPE_MODE, analysis,
+            buckling ? side->value[i] : side->value[i] / (2 * 3.14159265358979323846), 0};
+        memcpy(x, side->mode + n * (size_t)i, n * sizeof *x);
+        TRY(keep_displaced(c, &what, x, NULL, s, f));
+    }
+    return STATUS_OK;
+}
+
 /* mode[count x free] */
 static status keep_modes(const analysis_context *c, int analysis, const outcome_side *side,
                          shapes *s, fault *f)
 {
     const model_size size = model_sizes(c->model);
-    const size_t n = (size_t)size.free;
-    const int buckling = c->scene->analysis[analysis].kind == SCENE_BUCKLING;
-    double *x = calloc(n + (size_t)size.driven + 1, sizeof *x);
-    status outcome =
-        x != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for the shape of a mode");
-    for (int i = 0;
-         i < least(side->count, SHAPES_MODES) && outcome == STATUS_OK && side->mode != NULL; i++) {
-        shape_state what = {
-            buckling ? SHAPE_BUCKLING : SHAPE_MODE, analysis,
-            buckling ? side->value[i] : side->value[i] / (2 * 3.14159265358979323846), 0};
-        memcpy(x, side->mode + n * (size_t)i, n * sizeof *x);
-        outcome = keep_displaced(c, &what, x, NULL, s, f);
-    }
+    if (side->mode == NULL)
+        return STATUS_OK;
+    double *x = calloc((size_t)(size.free + size.driven) + 1, sizeof *x);
+    const status outcome =
+        x != NULL ? keep_modes_in(c, analysis, side, x, s, f)
+                  : fault_set(f, STATUS_FAULT, "out of memory for the shape of a mode");
     free(x);
     return outcome;
 }
 
 static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
 {
-    status outcome = STATUS_OK;
     keep(c, s, &(shape_state){SHAPE_UNDEFORMED, -1, 0, 1}, model_rest(c->model));
-    for (int i = 0; i < c->scene->analyses && outcome == STATUS_OK; i++) {
+    for (int i = 0; i < c->scene->analyses; i++) {
         const analysis_outcome *o = &c->outcomes[i];
         if (o->state != NULL) {
             keep_path(c, i, most, s);
             continue;
         }
         if (o->x != NULL)
-            outcome = keep_linear(c, i, s, f);
-        if (outcome == STATUS_OK)
-            outcome = keep_modes(c, i, &o->positive, s, f);
-        if (outcome == STATUS_OK)
-            outcome = keep_modes(c, i, &o->negative, s, f);
+            TRY(keep_linear(c, i, s, f));
+        TRY(keep_modes(c, i, &o->positive, s, f));
+        TRY(keep_modes(c, i, &o->negative, s, f));
     }
-    return outcome;
+    return STATUS_OK;
 }
 
 status shapes_collect(const analysis_context *c, int most, shapes *s, fault *f)

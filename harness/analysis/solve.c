@@ -15,14 +15,18 @@ double seconds_now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+static void free_states(int count, model_state **state)
+{
+    if (state != NULL)
+        for (int i = 0; i < count; i++)
+            model_state_free(state[i]);
+    free(state);
+}
+
 void outcome_free(analysis_outcome *o)
 {
-    for (int i = 0; i < o->reached && o->state != NULL; i++)
-        model_state_free(o->state[i]);
-    for (int i = 0; i < o->points && o->point_state != NULL; i++)
-        model_state_free(o->point_state[i]);
-    free(o->point_state);
-    free(o->state);
+    free_states(o->reached, o->state);
+    free_states(o->points, o->point_state);
     free(o->path);
     free(o->x);
     free(o->factor);
@@ -138,10 +142,11 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
 
 void solve_result_free(solve_result *r)
 {
-    for (int i = 0; i < r->quantities && r->quantity != NULL; i++) {
-        free(r->quantity[i].curve.x);
-        free(r->quantity[i].curve.value);
-    }
+    if (r->quantity != NULL)
+        for (int i = 0; i < r->quantities; i++) {
+            free(r->quantity[i].curve.x);
+            free(r->quantity[i].curve.value);
+        }
     for (int i = 0; i < r->matrix_sets; i++) {
         free(r->matrices[i].path);
         free(r->matrices[i].compliance);

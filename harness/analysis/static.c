@@ -19,9 +19,7 @@ status static_walk(newton *n, double target, double *increment, fault *f)
             trail_guess(n->c->model, n->trail, to, n->state);
         const status outcome = newton_to(n, to, &record, f);
         if (outcome == STATUS_OK) {
-            const status stored = newton_add_record(n->c->result, &record, f);
-            if (stored != STATUS_OK)
-                return stored;
+            TRY(newton_add_record(n->c->result, &record, f));
             count->steps++;
             count->negative_pivots = record.negative_pivots > count->negative_pivots
                                          ? record.negative_pivots
@@ -54,37 +52,45 @@ status static_walk(newton *n, double target, double *increment, fault *f)
 static status sample(newton *n, double path, fault *f)
 {
     step_record record = {.path = path};
-    status outcome = STATUS_OK;
-    for (int i = 0; i < n->c->options->sample && outcome == STATUS_OK; i++)
-        outcome = newton_direction(n, path, &record, f);
-    return outcome;
+    for (int i = 0; i < n->c->options->sample; i++)
+        TRY(newton_direction(n, path, &record, f));
+    return STATUS_OK;
+}
+
+/* Steps to every station, whose states are kept. */
+static status walk(newton *n, const scene_analysis *a, analysis_outcome *o, fault *f)
+{
+    analysis_context *c = n->c;
+    const int between =
+        c->options->steps_between > 0 ? c->options->steps_between : a->steps_between;
+    const int steps = between > 0 ? between : 1;
+    for (int i = 0; i < a->stations; i++) {
+        const double from = i > 0 ? a->path[i - 1] : 0;
+        double increment = (a->path[i] - from) / steps;
+        TRY(static_walk(n, a->path[i], &increment, f));
+        if (c->options->newton != SOLVE_DENSE)
+            count_condition(c, n->factor, &n->K);
+        TRY(newton_keep(n, o, a->path[i], f));
+    }
+    return STATUS_OK;
+}
+
+/* With what analysis_static frees. */
+static status solve(analysis_context *c, const scene_analysis *a, newton *n, trail *t,
+                    analysis_outcome *o, fault *f)
+{
+    TRY(newton_alloc(c, n, f));
+    TRY(trail_alloc(c->model, t, f));
+    n->trail = t;
+    TRY(newton_stations(o, a->stations, f));
+    return c->options->sample > 0 ? sample(n, a->path[0], f) : walk(n, a, o, f);
 }
 
 status analysis_static(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
-    const scene_analysis *a = &c->scene->analysis[analysis];
     newton n;
     trail t = {0};
-    status result = newton_alloc(c, &n, f);
-    if (result == STATUS_OK)
-        result = trail_alloc(c->model, &t, f);
-    n.trail = &t;
-    if (result == STATUS_OK)
-        result = newton_stations(o, a->stations, f);
-    const int steps = c->options->steps_between > 0 ? c->options->steps_between
-                      : a->steps_between > 0        ? a->steps_between
-                                                    : 1;
-    if (result == STATUS_OK && c->options->sample > 0)
-        result = sample(&n, a->path[0], f);
-    for (int i = 0; i < a->stations && result == STATUS_OK && c->options->sample == 0; i++) {
-        const double from = i > 0 ? a->path[i - 1] : 0;
-        double increment = (a->path[i] - from) / steps;
-        result = static_walk(&n, a->path[i], &increment, f);
-        if (result == STATUS_OK && c->options->newton != SOLVE_DENSE)
-            count_condition(c, n.factor, &n.K);
-        if (result == STATUS_OK)
-            result = newton_keep(&n, o, a->path[i], f);
-    }
+    const status result = solve(c, &c->scene->analysis[analysis], &n, &t, o, f);
     trail_free(&t);
     newton_free(&n);
     return result;

@@ -80,27 +80,27 @@ static void copy_inside(tangent *t)
                (size_t)(t->inside.column[j + 1] - t->inside.column[j]) * sizeof *t->inside.value);
 }
 
-status tangent_alloc(analysis_context *c, const scene_analysis *a, tangent *t, fault *f)
+static status allocate(const analysis_context *c, const scene_analysis *a, tangent *t, fault *f)
 {
     const sparse *inside, *whole;
+    TRY(border_alloc(c, a, t, f));
+    const int with_driven = t->border.count > 0;
+    TRY(model_pattern(c->model, 0, &inside, f));
+    TRY(model_pattern(c->model, with_driven, &whole, f));
+    TRY(sparse_alloc_like(whole, &t->K, f));
+    if (with_driven)
+        TRY(sparse_alloc_like(inside, &t->inside, f));
+    else
+        t->inside = t->K;
+    TRY(sparse_alloc_like(whole, &t->soft, f));
+    return factor_alloc(inside, &t->factor, f);
+}
+
+status tangent_alloc(analysis_context *c, const scene_analysis *a, tangent *t, fault *f)
+{
     const double start = seconds_now();
     memset(t, 0, sizeof *t);
-    status outcome = border_alloc(c, a, t, f);
-    const int with_driven = t->border.count > 0;
-    if (outcome == STATUS_OK)
-        outcome = model_pattern(c->model, 0, &inside, f);
-    if (outcome == STATUS_OK)
-        outcome = model_pattern(c->model, with_driven, &whole, f);
-    if (outcome == STATUS_OK)
-        outcome = sparse_alloc_like(whole, &t->K, f);
-    if (outcome == STATUS_OK && with_driven)
-        outcome = sparse_alloc_like(inside, &t->inside, f);
-    if (outcome == STATUS_OK && !with_driven)
-        t->inside = t->K;
-    if (outcome == STATUS_OK)
-        outcome = sparse_alloc_like(whole, &t->soft, f);
-    if (outcome == STATUS_OK)
-        outcome = factor_alloc(inside, &t->factor, f);
+    const status outcome = allocate(c, a, t, f);
     c->setup += seconds_now() - start;
     return outcome;
 }
@@ -117,32 +117,41 @@ void tangent_free(tangent *t)
     free(t->residual);
 }
 
-status tangent_at(analysis_context *c, const scene_analysis *a, const model_state *s,
-                  const double reaction[6], tangent *t, fault *f)
+/* K of the state and the factors of its free block. */
+static status factor_at(analysis_context *c, const scene_analysis *a, const model_state *s,
+                        const double reaction[6], tangent *t, fault *f)
 {
     model_linearisation lin = {.path = model_state_path(s), .K = &t->K, .residual = t->residual};
-    status outcome = model_linearise(c->model, s, &lin, f);
-    if (outcome == STATUS_OK) {
-        model_release_moment(c->model, s, a->node, reaction + 3, &t->K);
-        copy_inside(t);
-        outcome = analysis_factor(c, t->factor, &t->inside, f);
-    }
-    t->state = s;
-    t->refined =
-        outcome == STATUS_OK && factor_condition(t->factor, &t->inside) > harmless_condition;
-    if (t->refined) {
-        outcome = model_soft_part(c->model, s, &t->soft, f);
-        model_release_moment(c->model, s, a->node, reaction + 3, &t->soft);
-    }
-    counters *n = model_counters(c->model);
-    n->factorisations++;
+    TRY(model_linearise(c->model, s, &lin, f));
+    model_release_moment(c->model, s, a->node, reaction + 3, &t->K);
+    copy_inside(t);
+    return analysis_factor(c, t->factor, &t->inside, f);
+}
+
+static void count_factors(const tangent *t, counters *n)
+{
     const factor_counts counts = factor_count(t->factor);
+    n->factorisations++;
     n->factor_flops += counts.flops;
     n->negative_pivots =
         counts.negative_pivots > n->negative_pivots ? counts.negative_pivots : n->negative_pivots;
+}
+
+status tangent_at(analysis_context *c, const scene_analysis *a, const model_state *s,
+                  const double reaction[6], tangent *t, fault *f)
+{
+    const status factored = factor_at(c, a, s, reaction, t, f);
+    count_factors(t, model_counters(c->model));
+    TRY(factored);
+    t->state = s;
+    t->refined = factor_condition(t->factor, &t->inside) > harmless_condition;
+    if (t->refined) {
+        TRY(model_soft_part(c->model, s, &t->soft, f));
+        model_release_moment(c->model, s, a->node, reaction + 3, &t->soft);
+    }
     fill_border(t);
     t->coordinates = model_node_jacobian(c->model, s, a->node, TANGENT_COMPONENTS, t->index, t->T);
-    return outcome;
+    return STATUS_OK;
 }
 
 /* Coordinates of the node that move: free or released. */
@@ -170,6 +179,20 @@ static void respond(const model *m, tangent *t, counters *n, int component, cons
     }
 }
 
+/* Columns of C for unit loads on the components that are wanted and can move. */
+static void respond_all(const model *m, tangent *t, counters *n, const bordered *s, unsigned wanted,
+                        unsigned components, double C[36])
+{
+    for (int j = 0; j < TANGENT_COMPONENTS; j++) {
+        double response[TANGENT_COMPONENTS];
+        if (!(wanted & components & 1u << j))
+            continue;
+        respond(m, t, n, j, s, response);
+        for (int i = 0; i < TANGENT_COMPONENTS; i++)
+            C[6 * i + j] = components >> i & 1u ? response[i] : 0;
+    }
+}
+
 status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsigned components,
                           double C[36], fault *f)
 {
@@ -177,14 +200,8 @@ status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsi
     bordered s = {0};
     const status outcome = bordered_alloc(t, n, &s, f);
     memset(C, 0, 36 * sizeof *C);
-    for (int j = 0; j < TANGENT_COMPONENTS && outcome == STATUS_OK; j++) {
-        double response[TANGENT_COMPONENTS];
-        if (!(wanted & components & 1u << j))
-            continue;
-        respond(c->model, t, n, j, &s, response);
-        for (int i = 0; i < TANGENT_COMPONENTS; i++)
-            C[6 * i + j] = components >> i & 1u ? response[i] : 0;
-    }
+    if (outcome == STATUS_OK)
+        respond_all(c->model, t, n, &s, wanted, components, C);
     bordered_free(&s);
     return outcome;
 }

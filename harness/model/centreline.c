@@ -163,31 +163,34 @@ static double visible_scale(const model *m, const double increment[])
     return isfinite(scale) ? scale : 1;
 }
 
+/* s: moved by scale x the increments[vertices x 6]. */
+static void displace(const model *m, double scale, const double increment[], model_state *s)
+{
+    for (int v = 0; v < m->vertices; v++) {
+        double turn[3], q[4];
+        for (int i = 0; i < 3; i++) {
+            s->u[3 * v + i] += scale * increment[6 * v + i];
+            turn[i] = scale * increment[6 * v + 3 + i];
+        }
+        rotation_exp(turn, q);
+        rotation_compose(q, &s->q[4 * v], &s->q[4 * v]);
+    }
+}
+
 status centreline_displaced(const model *m, const model_state *from, const double x[],
                             const double sigma[], double *scale, model_state **out, fault *f)
 {
+    TRY(model_state_alloc(m, out, f));
     double *increment = calloc((size_t)m->vertices * 6 + 1, sizeof *increment);
-    status outcome = model_state_alloc(m, out, f);
     if (increment == NULL)
-        outcome = fault_set(f, STATUS_FAULT, "out of memory for a picture");
-    if (outcome == STATUS_OK) {
-        model_state *s = *out;
-        model_state_copy(m, from, s);
-        increments_of(m, from, x, increment);
-        if (*scale == 0)
-            *scale = visible_scale(m, increment);
-        for (int v = 0; v < m->vertices; v++) {
-            double turn[3], q[4];
-            for (int i = 0; i < 3; i++) {
-                s->u[3 * v + i] += *scale * increment[6 * v + i];
-                turn[i] = *scale * increment[6 * v + 3 + i];
-            }
-            rotation_exp(turn, q);
-            rotation_compose(q, &s->q[4 * v], &s->q[4 * v]);
-        }
-        if (sigma != NULL)
-            memcpy(s->sigma, sigma, (size_t)m->elements * (size_t)m->strains * sizeof *sigma);
-    }
+        return fault_set(f, STATUS_FAULT, "out of memory for a picture");
+    model_state_copy(m, from, *out);
+    increments_of(m, from, x, increment);
+    if (*scale == 0)
+        *scale = visible_scale(m, increment);
+    displace(m, *scale, increment, *out);
+    if (sigma != NULL)
+        memcpy((*out)->sigma, sigma, (size_t)m->elements * (size_t)m->strains * sizeof *sigma);
     free(increment);
-    return outcome;
+    return STATUS_OK;
 }

@@ -99,8 +99,9 @@ static status number_vertices(model *m, int *held, fault *f)
         /* The warping amplitudes come between: they are free. */
         for (int i = 0; i < m->vertices; i++)
             number_vertex(m, i, pass, used[i], held, &unused);
-        for (int i = 0; i < m->warps && pass == 0; i++)
-            m->warp[i].coordinate = m->free++;
+        if (pass == 0)
+            for (int i = 0; i < m->warps; i++)
+                m->warp[i].coordinate = m->free++;
     }
     free(used);
     return unused > 0 ? model_note_left_out(m, f, "%d nodes that no member reaches", unused)
@@ -134,28 +135,35 @@ static int fixed_warps(const model *m, int *absent)
     return fixed;
 }
 
-status coordinates_number(model *m, fault *f)
+/* What is not a coordinate, in lines; held: coordinates. */
+static status note_left_out(model *m, int held, fault *f)
 {
-    int held = 0, absent = 0, attached = 0;
-    for (int i = 0; i < m->scene->drivers; i++)
-        m->driver_coordinate[i] = NONE;
-    status outcome = number_vertices(m, &held, f);
-    for (int i = 0; i < m->elements; i++)
-        index_element(m, &m->element[i]);
+    int absent = 0, attached = 0;
     for (int i = 0; i < m->scene->nodes; i++)
         attached += m->vertex[i].body != i;
     const int fixed = fixed_warps(m, &absent);
-    if (outcome == STATUS_OK && held > 0)
-        outcome = model_note_left_out(m, f, "%d held coordinates", held);
-    if (outcome == STATUS_OK && attached > 0)
-        outcome = model_note_left_out(
-            m, f, "%d coordinates of %d nodes that move with a rigid body", 6 * attached, attached);
-    if (outcome == STATUS_OK && absent > 0)
-        outcome = model_note_left_out(
-            m, f, "warping amplitudes of %d element ends: nothing warps there", absent);
-    if (outcome == STATUS_OK && fixed > 0)
-        outcome = model_note_left_out(m, f, "%d warping amplitudes held at zero", fixed);
-    if (outcome == STATUS_OK && m->driven > 0)
-        outcome = model_note_left_out(m, f, "rows of %d prescribed coordinates", m->driven);
-    return outcome;
+    if (held > 0)
+        TRY(model_note_left_out(m, f, "%d held coordinates", held));
+    if (attached > 0)
+        TRY(model_note_left_out(m, f, "%d coordinates of %d nodes that move with a rigid body",
+                                6 * attached, attached));
+    if (absent > 0)
+        TRY(model_note_left_out(m, f, "warping amplitudes of %d element ends: nothing warps there",
+                                absent));
+    if (fixed > 0)
+        TRY(model_note_left_out(m, f, "%d warping amplitudes held at zero", fixed));
+    if (m->driven > 0)
+        TRY(model_note_left_out(m, f, "rows of %d prescribed coordinates", m->driven));
+    return STATUS_OK;
+}
+
+status coordinates_number(model *m, fault *f)
+{
+    int held = 0;
+    for (int i = 0; i < m->scene->drivers; i++)
+        m->driver_coordinate[i] = NONE;
+    TRY(number_vertices(m, &held, f));
+    for (int i = 0; i < m->elements; i++)
+        index_element(m, &m->element[i]);
+    return note_left_out(m, held, f);
 }

@@ -80,7 +80,9 @@ static void sequence_matrix(int n, int at, int angles, double b[3][3], const dou
         for (int k = 0; k < 3; k++)
             K[(at + 3 + k) * n + j] = k < angles ? vec3_dot(column, b[k]) : 0;
     }
-    for (int i = 0; i < angles && moment != NULL; i++)
+    if (moment == NULL)
+        return;
+    for (int i = 0; i < angles; i++)
         for (int j = i + 1; j < angles; j++) {
             double cross[3];
             vec3_cross(b[i], b[j], cross);

@@ -44,9 +44,11 @@ static int smooth(const model *m, int count, const model_state *const at[], doub
     int good = 1;
     for (int d = 0; d < m->scene->drivers; d++) {
         const scene_driver *driver = &m->scene->driver[d];
-        for (int i = 0; i <= count && driver->value != NULL; i++)
+        if (driver->value == NULL)
+            continue;
+        for (int i = 0; i <= count; i++)
             value[i] = driver_value_at(driver, i < count ? at[i]->path : path);
-        good &= driver->value == NULL || continues(count, weight, value);
+        good &= continues(count, weight, value);
     }
     for (int l = 0; l < m->scene->loads; l++) {
         for (int i = 0; i <= count; i++)

@@ -132,7 +132,9 @@ unsigned model_theory(const scene *s, const element_type *type)
         return 0;
     if (type->shear_theories & SHEAR_OWN)
         return SHEAR_OWN;
-    return needs & FEATURE_ENGESSER ? SHEAR_ENGESSER : needs & FEATURE_HARINGX ? SHEAR_HARINGX : 0;
+    if (needs & FEATURE_ENGESSER)
+        return SHEAR_ENGESSER;
+    return needs & FEATURE_HARINGX ? SHEAR_HARINGX : 0;
 }
 
 unsigned model_quantity_needs(const scene *s, int quantity)

@@ -50,13 +50,13 @@ static status add_element(model *m, const model_state *state, int i, double path
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, state, el, x);
     m->type->strain(data, x, &(strain_output){.e = D, .J = J, .s = sigma, .H = H});
-    status outcome = m->type->stress(data, e, &state->inner[(size_t)i * (size_t)m->inner],
-                                     &(stress_output){.sigma = P, .C = C});
+    const status outcome = m->type->stress(data, e, &state->inner[(size_t)i * (size_t)m->inner],
+                                           &(stress_output){.sigma = P, .C = C});
     if (outcome != STATUS_OK)
         return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i,
                          el->member, m->type->name);
     dense_add_transpose_mul(n, strains, 1, J, sigma, force);
-    outcome = spin_add(m, x, i, path, force, H, f);
+    TRY(spin_add(m, x, i, path, force, H, f));
     eliminate_matrix(m, state, el, force, H);
     eliminate_forces(m, state, el, force);
     for (int a = 0; a < n; a++) {
@@ -82,7 +82,7 @@ static status add_element(model *m, const model_state *state, int i, double path
             s->A[(size_t)(first_e + l) * (size_t)s->size + (size_t)(first_s + k)] -=
                 C[strains * k + l];
     }
-    return outcome;
+    return STATUS_OK;
 }
 
 status model_full_system(model *m, const model_state *state, double path, const double drive[],
@@ -96,9 +96,7 @@ status model_full_system(model *m, const model_state *state, double path, const 
     loads_add(m, state, path, load);
     memcpy(b, load, (size_t)m->free * sizeof *b);
     for (int i = 0; i < m->elements; i++) {
-        const status outcome = add_element(m, state, i, path, &s, f);
-        if (outcome != STATUS_OK)
-            return outcome;
+        TRY(add_element(m, state, i, path, &s, f));
     }
     for (int c = 0; c < conditions; c++) {
         const int row = s.size - conditions + c;

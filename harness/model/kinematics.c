@@ -157,8 +157,9 @@ status model_state_alloc(const model *m, model_state **out, fault *f)
     s->inner = s->sigma + E * (size_t)m->strains;
     for (size_t i = 0; i < V; i++)
         rotation_identity(&s->q[4 * i]);
-    for (size_t i = 0; i < E && m->type->rest != NULL; i++)
-        m->type->rest(m->kind[m->element[i].kind].data, &s->inner[i * (size_t)m->inner]);
+    if (m->type->rest != NULL)
+        for (size_t i = 0; i < E; i++)
+            m->type->rest(m->kind[m->element[i].kind].data, &s->inner[i * (size_t)m->inner]);
     return STATUS_OK;
 }
 

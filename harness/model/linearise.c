@@ -91,15 +91,13 @@ static status element_equations(model *m, const model_state *s, int i, int tange
     double present[ELEMENT_MAX_COORDINATES] = {0}; /* conjugate to sigma, which H belongs to */
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, s, el, x);
-    status outcome = evaluate(m, s, i, x, &w, tangent ? K : NULL);
+    const status outcome = evaluate(m, s, i, x, &w, tangent ? K : NULL);
     if (outcome != STATUS_OK)
         return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i,
                          el->member, m->type->name);
     memset(force, 0, (size_t)m->coordinates * sizeof *force);
     if (m->spins) {
-        outcome = spin_add(m, x, i, path, force, tangent ? K : NULL, f);
-        if (outcome != STATUS_OK)
-            return outcome;
+        TRY(spin_add(m, x, i, path, force, tangent ? K : NULL, f));
         memcpy(present, force, (size_t)m->coordinates * sizeof *force);
     }
     dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, w.sigma, force);
@@ -121,7 +119,9 @@ static void add_driven(const model *m, const mesh_element *el, const double driv
 {
     for (int j = 0; j < m->coordinates; j++) {
         const double step = el->index[j] >= m->free ? drive[el->index[j]] : 0;
-        for (int i = 0; i < m->coordinates && step != 0; i++)
+        if (step == 0)
+            continue;
+        for (int i = 0; i < m->coordinates; i++)
             force[i] += K[i * m->coordinates + j] * step;
     }
 }
@@ -130,12 +130,16 @@ static void add_driven(const model *m, const mesh_element *el, const double driv
 static void add_columns(const model *m, const mesh_element *el, const double K[],
                         model_linearisation *lin)
 {
-    for (int c = 0; c < lin->conditions; c++)
-        for (int j = 0; j < m->coordinates; j++)
-            for (int i = 0; i < m->coordinates && el->index[j] == lin->condition[c].unknown; i++)
+    for (int c = 0; c < lin->conditions; c++) {
+        double *column = lin->column + c * (m->free + m->driven);
+        for (int j = 0; j < m->coordinates; j++) {
+            if (el->index[j] != lin->condition[c].unknown)
+                continue;
+            for (int i = 0; i < m->coordinates; i++)
                 if (el->index[i] != NONE)
-                    lin->column[c * (m->free + m->driven) + el->index[i]] +=
-                        K[i * m->coordinates + j];
+                    column[el->index[i]] += K[i * m->coordinates + j];
+        }
+    }
 }
 
 /* What the threads of a team share. */

@@ -38,7 +38,9 @@ static void arc_chord(const double k[3], double s, double c[3])
 static void turn_to_principal(double angle, arc *a)
 {
     const double c = cos(angle), d = sin(angle), ky = a->k[1];
-    for (int i = 0; i < 9 && d != 0; i += 3) {
+    if (d == 0)
+        return;
+    for (int i = 0; i < 9; i += 3) {
         const double y = a->R[i + 1];
         a->R[i + 1] = c * y + d * a->R[i + 2];
         a->R[i + 2] = c * a->R[i + 2] - d * y;
@@ -156,9 +158,7 @@ static status kind_of(model *m, const scene_member *member, double length,
         .section = &m->section[profile], .length = length, .options = m->options};
     memcpy(request.curvature, curvature, sizeof request.curvature);
     memcpy(request.strain, member->strain, sizeof request.strain);
-    const status outcome = features_of_section(m, profile, &request.features, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(features_of_section(m, profile, &request.features, f));
     k->section = profile;
     k->length = length;
     memcpy(k->curvature, curvature, sizeof k->curvature);
@@ -181,9 +181,11 @@ static status add_element(model *m, const arc *a, int member, int number, int n,
     el->member = member;
     for (int k = 0; k <= last; k++) {
         const int at_start = number == 0 && k == 0, at_end = number == n - 1 && k == last;
-        el->vertex[k] = at_start ? m->scene->member[member].p
-                        : at_end ? m->scene->member[member].q
-                                 : inner_vertex + number * last + k - 1;
+        el->vertex[k] = inner_vertex + number * last + k - 1;
+        if (at_start)
+            el->vertex[k] = m->scene->member[member].p;
+        else if (at_end)
+            el->vertex[k] = m->scene->member[member].q;
         mesh_vertex *v = &m->vertex[el->vertex[k]];
         double position[3], between[3];
         arc_at(a, a->length * (number * last + k) / (n * last), position, el->triad[k]);
@@ -295,20 +297,16 @@ status mesh_build(model *m, int elements, fault *f)
         return fault_set(f, STATUS_REFUSED, "%d elements: give at least 1", elements);
     if (s->members < 1)
         return fault_set(f, STATUS_REFUSED, "scene %s: it has no member", s->name);
-    status outcome = allocate(m, elements, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(allocate(m, elements, f));
     scene_vertices(m);
     int inner_vertex = s->nodes;
     for (int member = 0; member < s->members; member++) {
         const int n = divisions(s, member, elements);
         arc a;
-        outcome = arc_of(s, member, m->section[s->member[member].section].axes_angle, &a, f);
+        TRY(arc_of(s, member, m->section[s->member[member].section].axes_angle, &a, f));
         m->first_element[member] = m->elements;
-        for (int i = 0; i < n && outcome == STATUS_OK; i++)
-            outcome = add_element(m, &a, member, i, n, inner_vertex, f);
-        if (outcome != STATUS_OK)
-            return outcome;
+        for (int i = 0; i < n; i++)
+            TRY(add_element(m, &a, member, i, n, inner_vertex, f));
         inner_vertex += n * (m->nodes - 1) - 1;
         m->size = a.length > m->size ? a.length : m->size;
     }

@@ -23,11 +23,14 @@ void model_metric(const model *m, double weight[])
     const double share = 1.0 / moving_bodies(m);
     for (int k = 0; k < m->free + m->driven; k++)
         weight[k] = 0;
-    for (int i = 0; i < m->vertices; i++)
-        for (int c = 0; c < VERTEX_COORDINATES && m->vertex[i].body == i; c++)
+    for (int i = 0; i < m->vertices; i++) {
+        if (m->vertex[i].body != i)
+            continue;
+        for (int c = 0; c < VERTEX_COORDINATES; c++)
             if (m->vertex[i].coordinate[c] != NONE)
                 weight[m->vertex[i].coordinate[c]] +=
                     c < SCENE_RX ? share / (m->size * m->size) : share;
+    }
 }
 
 static double turn(const model_state *a, const model_state *b, int vertex)

@@ -15,9 +15,7 @@ static status compute_sections(model *m, fault *f)
     if (m->section == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for sections");
     for (int i = 0; i < s->sections; i++) {
-        const status outcome = section_compute(&s->section[i], &m->section[i], f);
-        if (outcome != STATUS_OK)
-            return outcome;
+        TRY(section_compute(&s->section[i], &m->section[i], f));
     }
     return STATUS_OK;
 }
@@ -25,8 +23,9 @@ static status compute_sections(model *m, fault *f)
 static void choose_options(model *m, const double options[])
 {
     const element_type *t = m->type;
-    for (int i = 0; t->options != NULL && t->options[i].name != NULL; i++)
-        m->options[i] = options != NULL ? options[i] : t->options[i].value;
+    if (t->options != NULL)
+        for (int i = 0; t->options[i].name != NULL; i++)
+            m->options[i] = options != NULL ? options[i] : t->options[i].value;
     m->nodes = element_nodes(t, m->options);
     m->coordinates = NODE_COORDINATES * m->nodes;
     m->strains = element_strains(t, m->options);
@@ -65,36 +64,31 @@ static status allocate(model *m, fault *f)
 
 static status build(model *m, const model_request *request, fault *f)
 {
+    const scene *s = request->scene;
+    const element_type *type = request->type;
     char words[200];
-    if (request->type->abi != ELEMENT_ABI)
+    if (type->abi != ELEMENT_ABI)
         return fault_set(f, STATUS_REFUSED,
                          "formulation %s was written for another version of the element interface",
-                         request->type->name);
-    status outcome = compute_sections(m, f);
-    if (outcome == STATUS_OK && model_missing(request->scene, request->type, words, sizeof words))
+                         type->name);
+    TRY(compute_sections(m, f));
+    if (model_missing(s, type, words, sizeof words))
         return fault_set(f, STATUS_REFUSED,
-                         "formulation %s does not offer %s, which scene %s needs",
-                         request->type->name, words, request->scene->name);
-    m->features =
-        model_needs_of(request->scene, request->type) | (request->type->offers & FEATURE_CURVATURE);
+                         "formulation %s does not offer %s, which scene %s needs", type->name,
+                         words, s->name);
+    m->features = model_needs_of(s, type) | (type->offers & FEATURE_CURVATURE);
     if (m->keep_all)
         m->features |= FEATURE_WARPING | FEATURE_ECCENTRIC;
     choose_options(m, request->options);
-    m->driver_coordinate =
-        malloc(((size_t)request->scene->drivers + 1) * sizeof *m->driver_coordinate);
-    if (outcome == STATUS_OK && m->driver_coordinate == NULL)
-        outcome = fault_set(f, STATUS_FAULT, "out of memory for drivers");
-    if (outcome == STATUS_OK)
-        outcome = check_memory(m, request->elements, f);
-    if (outcome == STATUS_OK)
-        outcome = mesh_build(m, request->elements, f);
-    if (outcome == STATUS_OK)
-        outcome = coordinates_number(m, f);
-    if (outcome == STATUS_OK && model_lacks(request->scene, request->type, words, sizeof words))
-        outcome = model_note_left_out(m, f, "%s", words);
-    if (outcome == STATUS_OK)
-        outcome = allocate(m, f);
-    return outcome;
+    m->driver_coordinate = malloc(((size_t)s->drivers + 1) * sizeof *m->driver_coordinate);
+    if (m->driver_coordinate == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for drivers");
+    TRY(check_memory(m, request->elements, f));
+    TRY(mesh_build(m, request->elements, f));
+    TRY(coordinates_number(m, f));
+    if (model_lacks(s, type, words, sizeof words))
+        TRY(model_note_left_out(m, f, "%s", words));
+    return allocate(m, f);
 }
 
 status model_alloc(const model_request *request, model **out, fault *f)
@@ -208,7 +202,9 @@ int model_member_vertices(const model *m, int member, int vertex[])
 {
     const int first = m->first_element[member], last = m->first_element[member + 1] - 1;
     const int count = (last - first + 1) * (m->nodes - 1) + 1;
-    for (int i = first; i <= last && vertex != NULL; i++)
+    if (vertex == NULL)
+        return count;
+    for (int i = first; i <= last; i++)
         for (int k = 0; k < m->nodes; k++)
             vertex[(i - first) * (m->nodes - 1) + k] = m->element[i].vertex[k];
     return count;
@@ -216,8 +212,9 @@ int model_member_vertices(const model *m, int member, int vertex[])
 
 int model_shape(const model *m, const double x[], double *u, double *position)
 {
-    for (int v = 0; v < m->vertices && position != NULL; v++)
-        memcpy(&position[3 * v], m->vertex[v].position, 3 * sizeof(double));
+    if (position != NULL)
+        for (int v = 0; v < m->vertices; v++)
+            memcpy(&position[3 * v], m->vertex[v].position, 3 * sizeof(double));
     if (u == NULL)
         return m->vertices;
     memset(u, 0, (size_t)m->vertices * 7 * sizeof *u);

@@ -16,8 +16,9 @@ void model_set_spin(model *m, const double omega[3], const double centre[3], int
 static element_spin spin_at(const model *m, double path)
 {
     element_spin spin = m->spin;
-    for (int i = 0; i < 3 && m->spin_follows_path; i++)
-        spin.omega[i] *= path;
+    if (m->spin_follows_path)
+        for (int i = 0; i < 3; i++)
+            spin.omega[i] *= path;
     return spin;
 }
 
@@ -41,13 +42,14 @@ status spin_add(model *m, const node_state x[], int i, double path, double force
         N[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
     if (!m->spins)
         return STATUS_OK;
-    const status outcome = inertia_at(
-        m, x, i, path, &(inertia_output){.force = centrifugal, .N = K != NULL ? N : NULL}, f);
-    for (int k = 0; k < m->coordinates && outcome == STATUS_OK; k++)
+    TRY(inertia_at(m, x, i, path,
+                   &(inertia_output){.force = centrifugal, .N = K != NULL ? N : NULL}, f));
+    for (int k = 0; k < m->coordinates; k++)
         force[k] -= centrifugal[k];
-    for (int k = 0; k < m->coordinates * m->coordinates && K != NULL && outcome == STATUS_OK; k++)
-        K[k] += N[k];
-    return outcome;
+    if (K != NULL)
+        for (int k = 0; k < m->coordinates * m->coordinates; k++)
+            K[k] += N[k];
+    return STATUS_OK;
 }
 
 status model_inertia(model *m, const model_state *state, double path, sparse *M, sparse *G,
@@ -63,10 +65,8 @@ status model_inertia(model *m, const model_state *state, double path, sparse *M,
     for (int i = 0; i < m->elements; i++) {
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, s, &m->element[i], x);
-        const status outcome = inertia_at(
-            m, x, i, path, &(inertia_output){.M = mass, .G = G != NULL ? gyroscopic : NULL}, f);
-        if (outcome != STATUS_OK)
-            return outcome;
+        TRY(inertia_at(m, x, i, path,
+                       &(inertia_output){.M = mass, .G = G != NULL ? gyroscopic : NULL}, f));
         eliminate_matrix(m, s, &m->element[i], NULL, mass);
         assemble_matrix(p, i, mass, M);
         if (G == NULL)
@@ -96,16 +96,14 @@ status model_tangent_energy2(model *m, const model_state *s, double path, const 
         double J[E * X], C[E * E], H[X * X], force[X] = {0}, local[X], e[E], own[X];
         kinematics_gather(m, s, el, at);
         m->type->strain(data, at, &(strain_output){.J = J, .s = sigma, .H = H});
-        status outcome =
+        const status outcome =
             m->type->stress(data, &s->e[(size_t)i * (size_t)m->strains],
                             &s->inner[(size_t)i * (size_t)m->inner], &(stress_output){.C = C});
         m->counters.strain_evaluations++;
         m->counters.stress_evaluations++;
         dense_add_transpose_mul(m->coordinates, m->strains, 1, J, sigma, force);
-        if (outcome == STATUS_OK)
-            outcome = spin_add(m, at, i, path, force, H, NULL);
-        if (outcome != STATUS_OK)
-            return outcome;
+        TRY(outcome);
+        TRY(spin_add(m, at, i, path, force, H, NULL));
         kinematics_local(m, s, el, x, local);
         dense_mul_vec(m->strains, m->coordinates, J, local, e);
         eliminate_matrix(m, s, el, force, H);

@@ -36,9 +36,7 @@ status model_soft_part(model *m, const model_state *s, sparse *G, fault *f)
         m->type->strain(m->kind[el->kind].data, x, &(strain_output){.s = sigma, .H = H});
         m->counters.strain_evaluations++;
         if (m->spins) {
-            const status outcome = spin_add(m, x, i, s->path, present, H, f);
-            if (outcome != STATUS_OK)
-                return outcome;
+            TRY(spin_add(m, x, i, s->path, present, H, f));
         }
         dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, sigma, present);
         eliminate_matrix(m, s, el, present, H);

@@ -107,8 +107,9 @@ int model_loose_part(const model *m, int *node, double motion[6])
         found = has_elements(m, part, i) &&
                 LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', N, sum, N, size) == 0 &&
                 !(size[0] > loose * size[N - 1]);
-        for (int k = 0; k < N && found; k++)
-            motion[k] = sum[N * k] / (k < 3 ? 1 : m->size);
+        if (found)
+            for (int k = 0; k < N; k++)
+                motion[k] = sum[N * k] / (k < 3 ? 1 : m->size);
         *node = i;
     }
     free(part);

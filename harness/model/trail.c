@@ -4,12 +4,11 @@ enum { SMOOTH_ITERATIONS = 4 };
 
 status trail_alloc(const model *m, trail *t, fault *f)
 {
-    status outcome = STATUS_OK;
     *t = (trail){0};
-    for (int i = 0; i < MODEL_EXTRAPOLATED && outcome == STATUS_OK; i++)
-        outcome = model_state_alloc(m, &t->at[i], f);
-    t->count = outcome == STATUS_OK; /* the undeformed state */
-    return outcome;
+    for (int i = 0; i < MODEL_EXTRAPOLATED; i++)
+        TRY(model_state_alloc(m, &t->at[i], f));
+    t->count = 1; /* the undeformed state */
+    return STATUS_OK;
 }
 
 void trail_free(trail *t)
