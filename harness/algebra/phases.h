@@ -3,7 +3,8 @@
 #ifndef BEAMWORK_PHASES_H
 #define BEAMWORK_PHASES_H
 
-#include <time.h>
+#include "harness/algebra/clock.h"
+
 
 typedef enum phase {
     PHASE_ELEMENTS,
@@ -19,18 +20,11 @@ typedef struct phases {
     double seconds[PHASES]; /* [s] */
 } phases;
 
-static inline double phases_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static inline void phases_start(phases *p)
 {
     p->running = p->wanted;
     if (p->running)
-        p->last = phases_now();
+        p->last = clock_wall_seconds();
 }
 
 /* What has passed since the last reading belongs to k. */
@@ -38,7 +32,7 @@ static inline void phases_lap(phases *p, phase k)
 {
     if (!p->running)
         return;
-    const double now = phases_now();
+    const double now = clock_wall_seconds();
     p->seconds[k] += now - p->last;
     p->last = now;
 }

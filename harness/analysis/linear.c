@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/algebra/clock.h"
 #include "harness/analysis/analysis.h"
 #include "harness/analysis/singular.h"
 
@@ -25,10 +26,10 @@ static status allocate(const analysis_context *c, linear_system *out, fault *f)
 
 status linear_system_alloc(analysis_context *c, linear_system *out, fault *f)
 {
-    const double start = seconds_now();
+    const double start = clock_processor_seconds();
     memset(out, 0, sizeof *out);
     const status allocated = allocate(c, out, f);
-    c->setup += seconds_now() - start;
+    c->setup += clock_processor_seconds() - start;
     TRY(allocated);
     TRY(model_linear_stiffness(c->model, &out->K, f));
     TRY(analysis_factor(c, out->factor, &out->K, f));

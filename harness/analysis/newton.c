@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/algebra/clock.h"
 #include "harness/algebra/memory.h"
 #include "harness/analysis/history.h"
 #include "harness/analysis/singular.h"
@@ -38,7 +39,7 @@ static status allocate(newton *n, fault *f)
 status newton_alloc(analysis_context *c, newton *n, fault *f)
 {
     const model_size size = model_sizes(c->model);
-    const double start = seconds_now();
+    const double start = clock_processor_seconds();
     memset(n, 0, sizeof *n);
     n->c = c;
     n->free = size.free;
@@ -47,7 +48,7 @@ status newton_alloc(analysis_context *c, newton *n, fault *f)
     n->max_iterations =
         c->options->max_iterations > 0 ? c->options->max_iterations : MAX_ITERATIONS;
     const status outcome = allocate(n, f);
-    c->setup += seconds_now() - start;
+    c->setup += clock_processor_seconds() - start;
     return outcome;
 }
 

@@ -3,17 +3,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "harness/algebra/clock.h"
 #include "harness/analysis/analysis.h"
 #include "harness/analysis/singular.h"
-
-double seconds_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void free_states(int count, model_state **state)
 {
@@ -104,7 +97,7 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
     static const solve_options defaults = {0};
     analysis_context c = {
         .scene = s, .model = m, .options = options != NULL ? options : &defaults, .result = result};
-    const double start = seconds_now();
+    const double start = clock_processor_seconds();
     memset(result, 0, sizeof *result);
     result->quantity = calloc((size_t)s->quantities + 1, sizeof *result->quantity);
     c.outcomes = calloc((size_t)s->analyses + 1, sizeof *c.outcomes);
@@ -117,7 +110,7 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
     run_analyses(&c);
     memcpy(result->phase, model_phases(m)->seconds, sizeof result->phase);
     result->seconds_setup = c.setup;
-    result->seconds_solve = seconds_now() - start - c.setup;
+    result->seconds_solve = clock_processor_seconds() - start - c.setup;
     for (int i = 0; i < s->quantities; i++) {
         quantity_result *q = &result->quantity[i];
         extract_quantity(&c, &s->quantity[i], q);

@@ -112,7 +112,5 @@ typedef struct solve_result {
 /* Fills result even on failure (quantities that could be found stay). */
 status solve_scene(const scene *, model *, const solve_options *, solve_result *, fault *);
 void solve_result_free(solve_result *);
-/* [s] of the processor spent by this thread: other programs on the machine do not count. */
-double seconds_now(void);
 
 #endif

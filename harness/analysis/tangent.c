@@ -1,6 +1,7 @@
 /* The tangent of the free coordinates is factored once; what is released borders it:
  *   [ K  U ] [x]   [f]
  *   [ V  W ] [z] = [g],   S = W - V K^-1 U,   z = S^-1 (g - V K^-1 f),   x = K^-1 f - K^-1 U z. */
+#include "harness/algebra/clock.h"
 #include "harness/analysis/bordered.h"
 #include "harness/analysis/singular.h"
 
@@ -98,10 +99,10 @@ static status allocate(const analysis_context *c, const scene_analysis *a, tange
 
 status tangent_alloc(analysis_context *c, const scene_analysis *a, tangent *t, fault *f)
 {
-    const double start = seconds_now();
+    const double start = clock_processor_seconds();
     memset(t, 0, sizeof *t);
     const status outcome = allocate(c, a, t, f);
-    c->setup += seconds_now() - start;
+    c->setup += clock_processor_seconds() - start;
     return outcome;
 }
 

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/algebra/clock.h"
+
 static status copy_left_out(const model *m, cell_result *out, fault *f)
 {
     const char *const *lines;
@@ -18,7 +20,7 @@ static status copy_left_out(const model *m, cell_result *out, fault *f)
 status cell_run(const cell_request *request, cell_result *out, fault *f)
 {
     model *m = NULL;
-    const double start = seconds_now();
+    const double start = clock_processor_seconds();
     memset(out, 0, sizeof *out);
     scene_init(&out->scene, request->type->name);
     status outcome = request->type->build(request->parameter, &out->scene, f);
@@ -35,7 +37,7 @@ status cell_run(const cell_request *request, cell_result *out, fault *f)
         out->size = model_sizes(m);
         outcome = copy_left_out(m, out, f);
     }
-    const double prepared = seconds_now() - start;
+    const double prepared = clock_processor_seconds() - start;
     if (outcome == STATUS_OK) {
         outcome = solve_scene(&out->scene, m, &request->solve, &out->solve, f);
         out->counters = *model_counters(m);

@@ -8,14 +8,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "harness/algebra/clock.h"
 #include "harness/study/wire.h"
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static cell_result *cell_of(const workload *w, int i)
 {
@@ -67,7 +61,7 @@ static void work(const workload *w, int self, int to)
         cell_result cell;
         if (i >= w->count)
             break;
-        b->since[self] = now();
+        b->since[self] = clock_wall_seconds();
         b->at[self] = i;
         run_task(w, i, &cell);
         if (fwrite(&i, sizeof i, 1, out) != 1 || wire_write(out, &cell) != 0)
@@ -149,7 +143,7 @@ int worker_bury(workload *w, int self, worker *dead)
 void worker_stop_late(const workload *w, int self, worker *one)
 {
     const board *b = w->board;
-    if (w->time_limit <= 0 || one->stopped || b->at[self] < 0 || now() - b->since[self] <= w->time_limit)
+    if (w->time_limit <= 0 || one->stopped || b->at[self] < 0 || clock_wall_seconds() - b->since[self] <= w->time_limit)
         return;
     one->stopped = 1;
     kill(one->process, SIGKILL);

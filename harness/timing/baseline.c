@@ -1,7 +1,8 @@
 #include "harness/timing/baseline.h"
 
 #include <math.h>
-#include <time.h>
+
+#include "harness/algebra/clock.h"
 
 static const double longest = 1; /* [s] of a whole run; longer ones are counted from one iteration */
 enum { MOST_UNKNOWNS = 3000 };   /* 72 MB; a few seconds per iteration */
@@ -12,25 +13,18 @@ static int unknowns_of(const cell_result *cell)
     return cell->size.free + 2 * cell->size.strains * cell->size.elements;
 }
 
-static double processor_seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static void sample(const cell_request *dense, baseline *out)
 {
     cell_request one = *dense;
     cell_result cell;
     fault f = {""};
     double seconds = 0;
-    const double start = processor_seconds();
+    const double start = clock_processor_seconds();
     one.solve.sample = one.solve.phases = 1;
     if (cell_run(&one, &cell, &f) == STATUS_OK) {
         for (int k = 0; k < PHASES; k++)
             seconds += cell.solve.phase[k];
-        seconds = fmin(seconds, processor_seconds() - start); /* a long one is interrupted now and then */
+        seconds = fmin(seconds, clock_processor_seconds() - start); /* a long one is interrupted now and then */
         out->iteration = out->unknowns > 0 ? fmin(out->iteration, seconds) : seconds;
         out->unknowns = unknowns_of(&cell);
     }

@@ -3,7 +3,8 @@
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdlib.h>
-#include <time.h>
+
+#include "harness/algebra/clock.h"
 
 enum { LEAST_PAIRS = 51, MOST_PAIRS = 1001, WARM_UP = 3 };
 static const double tail = 0.0005, least_difference = 0.02;
@@ -65,14 +66,6 @@ versus versus_judge(int pairs, const double a[], const double b[])
     return out;
 }
 
-/* [s] that pass, starting a program included. */
-static double passing(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static status lap_pair(versus_lap *lap, void *a, void *b, int b_first, double *seconds_a, double *seconds_b, fault *f)
 {
     const status first = b_first ? lap(b, seconds_b, f) : lap(a, seconds_a, f);
@@ -86,9 +79,9 @@ status versus_run(versus_lap *lap, void *a, void *b, double budget, versus *out,
     double seconds_a[MOST_PAIRS], seconds_b[MOST_PAIRS], least = INFINITY;
     status outcome = STATUS_OK;
     for (int i = 0; i < WARM_UP && outcome == STATUS_OK; i++) {
-        const double start = passing();
+        const double start = clock_wall_seconds();
         outcome = lap_pair(lap, a, b, i % 2, &seconds_a[0], &seconds_b[0], f);
-        least = fmin(least, passing() - start);
+        least = fmin(least, clock_wall_seconds() - start);
     }
     const int pairs = (int)fmax(LEAST_PAIRS, fmin(MOST_PAIRS, budget / least));
     for (int i = 0; i < pairs && outcome == STATUS_OK; i++)

@@ -2,26 +2,19 @@
  * derivatives), stress with stiffness, and the update of an element's own unknowns, in
  * microseconds; least of many repetitions in one sheet bent by 3 % of its length. */
 #include <stdio.h>
-#include <time.h>
 
 #include "elements/test/chain.h"
+#include "harness/algebra/clock.h"
 #include "harness/catalogue/registry.h"
 
 enum { REPEATS = 40, CALLS = 300, PHASES = 4 };
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* Seconds of one call of phase `phase`. */
 static double lap(chain *c, chain_linearised *w, int phase)
 {
     const element_type *type = c->type;
     double e[ELEMENT_MAX_STRAINS], H[CHAIN_MOST * CHAIN_MOST];
-    const double none[ELEMENT_MAX_STRAINS] = {0}, start = now();
+    const double none[ELEMENT_MAX_STRAINS] = {0}, start = clock_wall_seconds();
     for (int i = 0; i < CALLS; i++)
         switch (phase) {
         case 0:
@@ -39,7 +32,7 @@ static double lap(chain *c, chain_linearised *w, int phase)
             if (type->update != NULL)
                 type->update(chain_data(c), none, w->memory, c->inner[0]);
         }
-    return (now() - start) / CALLS;
+    return (clock_wall_seconds() - start) / CALLS;
 }
 
 static void measure(const element_type *type, const double option[], const char *label,
