@@ -6,14 +6,7 @@
 
 #include "harness/judge/verdict.h"
 
-static const char *const names[STRESS_KINDS] = {"value",   "coarse",   "wrong", "not converged", "singular",
-                                                "refused", "no value", "fault", "skip"};
 enum { enough_elements = 16 }; /* from here on the neighbours are coarser meshes, else finer ones */
-
-const char *stress_name(stress_kind kind)
-{
-    return kind >= 0 && kind < STRESS_KINDS ? names[kind] : "?";
-}
 
 const cell_result *stress_cell(const stress *s, const stress_outcome *o)
 {

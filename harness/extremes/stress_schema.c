@@ -4,6 +4,14 @@
 #include "harness/extremes/stress.h"
 #include "harness/schema/fields_keys.h"
 
+static const char *const names[STRESS_KINDS] = {"value",   "coarse",   "wrong", "not converged", "singular",
+                                                "refused", "no value", "fault", "skip"};
+
+const char *stress_name(stress_kind kind)
+{
+    return kind >= 0 && kind < STRESS_KINDS ? names[kind] : "?";
+}
+
 static const stress_outcome *outcome_of(const subject *s)
 {
     return s->record;

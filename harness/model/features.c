@@ -1,4 +1,4 @@
-/* What a scene needs, what a formulation offers, and in which words the difference is said. */
+/* What a scene needs, in features of formulations. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -34,20 +34,19 @@ const char *model_feature_name(unsigned bit)
     return "unknown";
 }
 
-static int is_eccentric(const section *c)
+int features_words(unsigned features, char *words, int size)
 {
-    return hypot(c->ys, c->zs) > 1e-12 * sqrt(c->Ip / c->A);
+    int used = 0;
+    for (int i = 0; i < NAMES; i++)
+        if ((features & names[i].bit) && used < size)
+            used += snprintf(words + used, (size_t)(size - used), "%s%s", used > 0 ? ", " : "",
+                             names[i].name);
+    return used;
 }
 
-/* Shear flexibilities off the diagonal, beyond the round-off of those on it. */
-static int is_coupled(const section *c)
+int features_eccentric(const section *c)
 {
-    static const int row[3] = {0, 0, 1}, column[3] = {1, 2, 2};
-    int coupled = 0;
-    for (int k = 0; k < 3; k++)
-        coupled |= fabs(c->F[3 * row[k] + column[k]]) >
-                   1e-12 * sqrt(c->F[4 * row[k]] * c->F[4 * column[k]]);
-    return coupled;
+    return hypot(c->ys, c->zs) > 1e-12 * sqrt(c->Ip / c->A);
 }
 
 static int turns(const scene_analysis *a)
@@ -106,7 +105,7 @@ unsigned model_needs(const scene *s)
         if (section_compute(&s->section[i], &c, NULL) != STATUS_OK)
             continue; /* model_alloc says why */
         needs |= c.Iw > 0 ? FEATURE_WARPING : 0;
-        needs |= is_eccentric(&c) ? FEATURE_ECCENTRIC : 0;
+        needs |= features_eccentric(&c) ? FEATURE_ECCENTRIC : 0;
     }
     return needs;
 }
@@ -147,39 +146,6 @@ unsigned model_quantity_needs(const scene *s, int quantity)
     return model_needs(s) & (moves ? ~0U : ~inertia);
 }
 
-static int limit_hit(const scene *s, const element_type *type, char *words, int size)
-{
-    for (int i = 0; i < s->sections; i++) {
-        section c;
-        if (section_compute(&s->section[i], &c, NULL) != STATUS_OK)
-            continue;
-        if ((type->limits & LIMIT_RECTANGLE) && !c.rectangle)
-            return snprintf(words, (size_t)size, "sections other than rectangles") > 0;
-        if ((type->limits & LIMIT_DOUBLY_SYMMETRIC) && (is_eccentric(&c) || is_coupled(&c)))
-            return snprintf(words, (size_t)size, "sections that are not doubly symmetric") > 0;
-    }
-    return 0;
-}
-
-int model_missing(const scene *s, const element_type *type, char *words, int size)
-{
-    const unsigned missing = model_needs_of(s, type) & ~type->offers;
-    int used = 0;
-    if (size > 0)
-        words[0] = '\0';
-    for (int i = 0; i < NAMES; i++)
-        if ((missing & names[i].bit) && used < size)
-            used += snprintf(words + used, (size_t)(size - used), "%s%s", used > 0 ? ", " : "",
-                             names[i].name);
-    if (missing != 0)
-        return 1;
-    if (limit_hit(s, type, words, size) || model_lacks(s, type, words, size) > 1)
-        return 1;
-    if (size > 0)
-        words[0] = '\0';
-    return 0;
-}
-
 /* What elements of one section are asked for. */
 status features_of_section(const model *m, int index, unsigned *features, fault *f)
 {
@@ -188,7 +154,7 @@ status features_of_section(const model *m, int index, unsigned *features, fault 
     *features = m->features & m->type->offers;
     if (c->Iw <= 0 && !m->keep_all)
         *features &= ~(unsigned)FEATURE_WARPING;
-    if (!is_eccentric(c))
+    if (!features_eccentric(c))
         *features &= ~(unsigned)FEATURE_ECCENTRIC;
     return STATUS_OK;
 }

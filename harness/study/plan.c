@@ -233,3 +233,20 @@ void sweep_free(sweep *s)
     free(s->series);
     memset(s, 0, sizeof *s);
 }
+
+cell_request sweep_cell(const sweep *s, int series_index, int mesh)
+{
+    const series *one = &s->series[series_index];
+    const point *p = &s->point[one->point];
+    cell_request out = {.type = p->type, .formulation = one->formulation.type, .elements = one->mesh[mesh]};
+    memcpy(out.parameter, p->parameter, sizeof out.parameter);
+    memcpy(out.option, one->formulation.option, sizeof out.option);
+    out.solve.newton = one->formulation.newton;
+    out.solve.steps_between = p->steps;
+    out.solve.condition = p->condition;
+    out.edit = p->edit;
+    out.threads = s->threads;
+    if (p->text[0] == '\0' && mesh == one->meshes - 1)
+        out.solve.shapes = s->shapes;
+    return out;
+}

@@ -9,23 +9,6 @@
 #include "harness/study/interrupt.h"
 #include "harness/study/worker.h"
 
-cell_request sweep_cell(const sweep *s, int series_index, int mesh)
-{
-    const series *one = &s->series[series_index];
-    const point *p = &s->point[one->point];
-    cell_request out = {.type = p->type, .formulation = one->formulation.type, .elements = one->mesh[mesh]};
-    memcpy(out.parameter, p->parameter, sizeof out.parameter);
-    memcpy(out.option, one->formulation.option, sizeof out.option);
-    out.solve.newton = one->formulation.newton;
-    out.solve.steps_between = p->steps;
-    out.solve.condition = p->condition;
-    out.edit = p->edit;
-    out.threads = s->threads;
-    if (p->text[0] == '\0' && mesh == one->meshes - 1)
-        out.solve.shapes = s->shapes;
-    return out;
-}
-
 static void report(const sweep_request *request, const sweep *s, const task *t, int done, int count)
 {
     if (request->progress == NULL)

@@ -1,0 +1,46 @@
+/* What a scene needs and a formulation does not offer, in words. */
+#include <math.h>
+#include <stdio.h>
+
+#include "harness/model/parts.h"
+
+/* Shear flexibilities off the diagonal, beyond the round-off of those on it. */
+static int is_coupled(const section *c)
+{
+    static const int row[3] = {0, 0, 1}, column[3] = {1, 2, 2};
+    int coupled = 0;
+    for (int k = 0; k < 3; k++)
+        coupled |= fabs(c->F[3 * row[k] + column[k]]) >
+                   1e-12 * sqrt(c->F[4 * row[k]] * c->F[4 * column[k]]);
+    return coupled;
+}
+
+static int limit_hit(const scene *s, const element_type *type, char *words, int size)
+{
+    for (int i = 0; i < s->sections; i++) {
+        section c;
+        if (section_compute(&s->section[i], &c, NULL) != STATUS_OK)
+            continue;
+        if ((type->limits & LIMIT_RECTANGLE) && !c.rectangle)
+            return snprintf(words, (size_t)size, "sections other than rectangles") > 0;
+        if ((type->limits & LIMIT_DOUBLY_SYMMETRIC) && (features_eccentric(&c) || is_coupled(&c)))
+            return snprintf(words, (size_t)size, "sections that are not doubly symmetric") > 0;
+    }
+    return 0;
+}
+
+int model_missing(const scene *s, const element_type *type, char *words, int size)
+{
+    const unsigned missing = model_needs_of(s, type) & ~type->offers;
+    if (size > 0)
+        words[0] = '\0';
+    if (missing != 0) {
+        features_words(missing, words, size);
+        return 1;
+    }
+    if (limit_hit(s, type, words, size) || model_lacks(s, type, words, size) > 1)
+        return 1;
+    if (size > 0)
+        words[0] = '\0';
+    return 0;
+}
