@@ -1,6 +1,10 @@
 /* Nonlinear equilibrium along a path, with steps that adapt. */
-#include "harness/analysis/history.h"
-#include "harness/analysis/newton.h"
+#include "harness/analysis/static.h"
+
+#include "harness/model/trail.h"
+#include "harness/solver/context.h"
+#include "harness/solver/history.h"
+#include "harness/solver/newton.h"
 
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
 
@@ -19,7 +23,7 @@ status static_walk(newton *n, double target, double *increment, fault *f)
             trail_guess(n->c->model, n->trail, to, n->state);
         const status outcome = newton_to(n, to, &record, f);
         if (outcome == STATUS_OK) {
-            TRY(newton_add_record(n->c->result, &record, f));
+            TRY(history_add_step(n->c->result, &record, f));
             count->steps++;
             count->negative_pivots = record.negative_pivots > count->negative_pivots
                                          ? record.negative_pivots
@@ -69,24 +73,24 @@ static status walk(newton *n, const scene_analysis *a, analysis_outcome *o, faul
         double increment = (a->path[i] - from) / steps;
         TRY(static_walk(n, a->path[i], &increment, f));
         if (c->options->newton != SOLVE_DENSE)
-            count_condition(c, n->factor, &n->K);
-        TRY(newton_keep(n, o, a->path[i], f));
+            context_count_condition(c, n->factor, &n->K);
+        TRY(outcome_keep(o, c->model, n->state, a->path[i], f));
     }
     return STATUS_OK;
 }
 
-/* With what analysis_static frees. */
+/* With what static_analysis frees. */
 static status solve(analysis_context *c, const scene_analysis *a, newton *n, trail *t,
                     analysis_outcome *o, fault *f)
 {
     TRY(newton_alloc(c, n, f));
     TRY(trail_alloc(c->model, t, f));
     n->trail = t;
-    TRY(newton_stations(o, a->stations, f));
+    TRY(outcome_stations(o, a->stations, f));
     return c->options->sample > 0 ? sample(n, a->path[0], f) : walk(n, a, o, f);
 }
 
-status analysis_static(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     newton n;
     trail t = {0};

@@ -105,7 +105,7 @@ const record_type record_iteration = {
 
 static const char *word_of_event(int kind)
 {
-    return event_name((event_kind)kind);
+    return result_event_name((event_kind)kind);
 }
 
 static const schema_field fields_of_event[] = {

@@ -62,7 +62,7 @@ static double deflection(const element_type *type, scene *s, char *words)
         return NAN;
     const status solved = solve_scene(s, m, NULL, &r, &f);
     u = solved == STATUS_OK ? r.quantity[0].value : INFINITY;
-    solve_result_free(&r);
+    result_free(&r);
     const char *const *line;
     for (int i = model_left_out(m, &line) - 1; i >= 0; i--)
         if (strstr(line[i], "along") != NULL)

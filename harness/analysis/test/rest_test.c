@@ -124,7 +124,7 @@ static void rests(const point *p, const formulation *chosen, int elements)
     if (outcome == STATUS_OK) {
         outcome = solve_scene(&s, m, NULL, &r, &f);
         worst = outcome == STATUS_OK ? largest(&s, &r, &whose) : INFINITY;
-        solve_result_free(&r);
+        result_free(&r);
     }
     gsl_test(!(worst <= 1), "%s/%s, %s, n = %d: at rest (%s: %.1e of its limit) %s", p->type->name,
              p->text[0] != '\0' ? p->text : "default", chosen->key, elements, whose, worst, f.text);

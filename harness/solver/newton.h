@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-#include "harness/analysis/analysis.h"
 #include "harness/model/trail.h"
+#include "harness/solver/context.h"
 
 typedef struct newton {
     analysis_context *c;
@@ -46,15 +46,5 @@ status newton_judge(const newton *, newton_watch *, double path, double correcti
 
 /* Newton to `path`: converged, or NOT_CONVERGED with the reason. */
 status newton_to(newton *, double path, step_record *, fault *);
-
-/* static.c: from the present path to `target` in steps that halve when Newton fails and double when
- * it is easy. */
-status static_walk(newton *, double target, double *increment, fault *);
-
-status newton_add_record(solve_result *, const step_record *, fault *);
-/* Stores the present state as the outcome's next station. */
-status newton_keep(newton *, analysis_outcome *, double path, fault *);
-/* Room for so many stations in an outcome. */
-status newton_stations(analysis_outcome *, int stations, fault *);
 
 #endif

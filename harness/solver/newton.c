@@ -1,6 +1,6 @@
 /* One Newton iteration: assemble, factor, solve, take the increments; condensed element by element
  * or, for comparison, dense. */
-#include "harness/analysis/newton.h"
+#include "harness/solver/newton.h"
 
 #include <lapacke.h>
 #include <math.h>
@@ -10,8 +10,9 @@
 #include "elements/math/dense.h"
 #include "harness/algebra/clock.h"
 #include "harness/algebra/memory.h"
-#include "harness/analysis/history.h"
-#include "harness/analysis/singular.h"
+#include "harness/solver/context.h"
+#include "harness/solver/history.h"
+#include "harness/solver/singular.h"
 
 enum { MAX_ITERATIONS = 30 };
 static const double default_criterion =
@@ -125,7 +126,7 @@ static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
 {
     phases *p = model_phases(n->c->model);
     TRY(model_linearise(n->c->model, n->state, lin, f));
-    const status factored = analysis_factor(n->c, n->factor, &n->K, f);
+    const status factored = context_factor(n->c, n->factor, &n->K, f);
     phases_lap(p, PHASE_FACTORISATION);
     TRY(factored);
     memcpy(n->dx, n->residual, (size_t)n->free * sizeof *n->dx);
@@ -266,32 +267,4 @@ status newton_to(newton *n, double path, step_record *record, fault *f)
         TRY(newton_judge(n, &watch, path, correction, &done, f));
     }
     return STATUS_OK;
-}
-
-status newton_add_record(solve_result *r, const step_record *record, fault *f)
-{
-    step_record *more = realloc(r->step, ((size_t)r->steps + 1) * sizeof *more);
-    if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for step records");
-    r->step = more;
-    r->step[r->steps++] = *record;
-    return STATUS_OK;
-}
-
-status newton_keep(newton *n, analysis_outcome *o, double path, fault *f)
-{
-    TRY(model_state_alloc(n->c->model, &o->state[o->reached], f));
-    model_state_copy(n->c->model, n->state, o->state[o->reached]);
-    o->path[o->reached++] = path;
-    return STATUS_OK;
-}
-
-status newton_stations(analysis_outcome *o, int stations, fault *f)
-{
-    o->stations = stations;
-    o->path = calloc((size_t)stations + 1, sizeof *o->path);
-    o->state = calloc((size_t)stations + 1, sizeof(model_state *));
-    return o->path == NULL || o->state == NULL
-               ? fault_set(f, STATUS_FAULT, "out of memory for a path")
-               : STATUS_OK;
 }

@@ -1,4 +1,4 @@
-#include "harness/analysis/history.h"
+#include "harness/solver/history.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -34,4 +34,24 @@ void history_drop_step(solve_result *r, const step_record *step)
 {
     if (step->iterations > 0)
         r->iterations = step->first;
+}
+
+status history_add_step(solve_result *r, const step_record *record, fault *f)
+{
+    step_record *more = realloc(r->step, ((size_t)r->steps + 1) * sizeof *more);
+    if (more == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for step records");
+    r->step = more;
+    r->step[r->steps++] = *record;
+    return STATUS_OK;
+}
+
+status history_add_event(solve_result *r, const path_event *event, fault *f)
+{
+    path_event *more = realloc(r->event, ((size_t)r->events + 1) * sizeof *more);
+    if (more == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for events");
+    r->event = more;
+    r->event[r->events++] = *event;
+    return STATUS_OK;
 }

@@ -1,13 +1,15 @@
 /* Family of a mode by the share of its kinetic-like measure: translations along the member, across
  * it, and twist times the radius of gyration; half-waves by the sign changes of the leading
  * component along the first member. */
+#include "harness/solver/modes.h"
+
 #include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/rotation.h"
-#include "harness/analysis/analysis.h"
+#include "harness/solver/context.h"
 
 enum { AXIAL, ALONG_Y, ALONG_Z, TWIST, MEASURES };
 
@@ -122,7 +124,8 @@ static int largest_of(const double sum[MEASURES])
  * round-off. */
 static const double in_place_part = 1e-16;
 
-status mode_identify(const model *m, const scene *s, const double mode[], mode_shape *out, fault *f)
+status modes_identify(const model *m, const scene *s, const double mode[], mode_shape *out,
+                      fault *f)
 {
     static const scene_family family[MEASURES] = {SCENE_AXIAL, SCENE_BENDING_Y, SCENE_BENDING_Z,
                                                   SCENE_TORSION};
@@ -144,7 +147,7 @@ status mode_identify(const model *m, const scene *s, const double mode[], mode_s
     return outcome;
 }
 
-int mode_in_family(const scene_quantity *q, const mode_shape *shape)
+int modes_in_family(const scene_quantity *q, const mode_shape *shape)
 {
     const int family =
         q->family == SCENE_ANY ||
@@ -152,7 +155,7 @@ int mode_in_family(const scene_quantity *q, const mode_shape *shape)
     return family && (q->half_waves == 0 || shape->half_waves == q->half_waves);
 }
 
-const char *mode_family_name(scene_family family)
+const char *modes_family_name(scene_family family)
 {
     switch (family) {
     case SCENE_AXIAL:
@@ -238,8 +241,8 @@ static int cluster_end(int first, int count, const double value[])
     return end;
 }
 
-status mode_separate(const model *m, const scene *s, int count, const double value[], size_t n,
-                     double *mode, fault *f)
+status modes_separate(const model *m, const scene *s, int count, const double value[], size_t n,
+                      double *mode, fault *f)
 {
     for (int first = 0, end; first < count; first = end) {
         end = cluster_end(first, count, value);

@@ -1,75 +1,21 @@
 /* The tangent of the free coordinates is factored once; what is released borders it:
  *   [ K  U ] [x]   [f]
  *   [ V  W ] [z] = [g],   S = W - V K^-1 U,   z = S^-1 (g - V K^-1 f),   x = K^-1 f - K^-1 U z. */
-#include "harness/algebra/clock.h"
-#include "harness/analysis/bordered.h"
-#include "harness/analysis/singular.h"
+#include "harness/solver/tangent.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/algebra/clock.h"
+#include "harness/solver/border.h"
+#include "harness/solver/bordered.h"
+#include "harness/solver/context.h"
+#include "harness/solver/singular.h"
 
 /* Solutions are refined where round-off would leave less than eight digits. */
 static const double harmless_condition = 1e8;
-
-static int is_released(const analysis_context *c, const scene_analysis *a, int coordinate)
-{
-    for (int k = 0; k < TANGENT_COMPONENTS; k++)
-        if ((a->released >> k & 1u) && model_coordinate(c->model, a->node, k) == coordinate)
-            return 1;
-    return 0;
-}
-
-static status border_alloc(const analysis_context *c, const scene_analysis *a, tangent *t, fault *f)
-{
-    border *b = &t->border;
-    const model_size size = model_sizes(c->model);
-    t->free = size.free;
-    t->all = size.free + size.driven;
-    for (int i = size.free; i < t->all; i++)
-        if (is_released(c, a, i))
-            b->coordinate[b->count++] = i;
-    b->U = calloc((size_t)(b->count * t->free) + 1, sizeof *b->U);
-    b->V = calloc((size_t)(b->count * t->free) + 1, sizeof *b->V);
-    t->residual = calloc((size_t)t->all + 1, sizeof *t->residual);
-    return b->U == NULL || b->V == NULL || t->residual == NULL
-               ? fault_set(f, STATUS_FAULT, "out of memory for a compliance")
-               : STATUS_OK;
-}
-
-int border_place(const border *b, int coordinate)
-{
-    for (int i = 0; i < b->count; i++)
-        if (b->coordinate[i] == coordinate)
-            return i;
-    return -1;
-}
-
-static void fill_border(tangent *t)
-{
-    border *b = &t->border;
-    memset(b->U, 0, (size_t)(b->count * t->free) * sizeof *b->U);
-    memset(b->V, 0, (size_t)(b->count * t->free) * sizeof *b->V);
-    memset(b->W, 0, sizeof b->W);
-    for (int j = 0; j < t->K.n; j++)
-        for (int k = t->K.column[j]; k < t->K.column[j + 1]; k++) {
-            const int i = t->K.row[k], row = i >= t->free ? border_place(b, i) : -1,
-                      column = j >= t->free ? border_place(b, j) : -1;
-            const double value = t->K.value[k];
-            if (i < t->free && column >= 0)
-                b->U[column * t->free + i] = value;
-            if (j < t->free && row >= 0)
-                b->V[row * t->free + j] = value;
-            if (row >= 0 && column >= 0)
-                b->W[row * b->count + column] = value;
-            if (t->K.symmetric && i < t->free && column >= 0)
-                b->V[column * t->free + i] = value;
-            if (t->K.symmetric && row >= 0 && column >= 0)
-                b->W[column * b->count + row] = value;
-        }
-}
 
 /* The free block: the first columns of the whole, whose driven rows come last. */
 static void copy_inside(tangent *t)
@@ -84,7 +30,13 @@ static void copy_inside(tangent *t)
 static status allocate(const analysis_context *c, const scene_analysis *a, tangent *t, fault *f)
 {
     const sparse *inside, *whole;
-    TRY(border_alloc(c, a, t, f));
+    const model_size size = model_sizes(c->model);
+    t->free = size.free;
+    t->all = size.free + size.driven;
+    TRY(border_alloc(c, a, &t->border, f));
+    t->residual = calloc((size_t)t->all + 1, sizeof *t->residual);
+    if (t->residual == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
     const int with_driven = t->border.count > 0;
     TRY(model_pattern(c->model, 0, &inside, f));
     TRY(model_pattern(c->model, with_driven, &whole, f));
@@ -113,8 +65,7 @@ void tangent_free(tangent *t)
     sparse_free_values(&t->K);
     sparse_free_values(&t->soft);
     factor_free(t->factor);
-    free(t->border.U);
-    free(t->border.V);
+    border_free(&t->border);
     free(t->residual);
 }
 
@@ -126,7 +77,7 @@ static status factor_at(analysis_context *c, const scene_analysis *a, const mode
     TRY(model_linearise(c->model, s, &lin, f));
     model_release_moment(c->model, s, a->node, reaction + 3, &t->K);
     copy_inside(t);
-    return analysis_factor(c, t->factor, &t->inside, f);
+    return context_factor(c, t->factor, &t->inside, f);
 }
 
 static void count_factors(const tangent *t, counters *n)
@@ -150,7 +101,7 @@ status tangent_at(analysis_context *c, const scene_analysis *a, const model_stat
         TRY(model_soft_part(c->model, s, &t->soft, f));
         model_release_moment(c->model, s, a->node, reaction + 3, &t->soft);
     }
-    fill_border(t);
+    border_fill(&t->border, t->free, &t->K);
     t->coordinates = model_node_jacobian(c->model, s, a->node, TANGENT_COMPONENTS, t->index, t->T);
     return STATUS_OK;
 }

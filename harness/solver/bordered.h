@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_BORDERED_H
 #define BEAMWORK_BORDERED_H
 
-#include "harness/analysis/tangent.h"
+#include "harness/solver/tangent.h"
 
 /* Factors of the bordered system. */
 typedef struct bordered {

@@ -2,15 +2,18 @@
  * K, falls to zero along the path.  Stable states ever closer before it are interpolated; the error
  * of an estimate is the product of their distances. (K is not extrapolated as a whole: turning a
  * stiff structure with the path would make it indefinite long before.) */
-#include "harness/analysis/equilibrium.h"
+#include "harness/analysis/loaded.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "harness/algebra/eigen.h"
-#include "harness/analysis/newton.h"
-#include "harness/analysis/singular.h"
+#include "harness/analysis/modal.h"
+#include "harness/analysis/static.h"
+#include "harness/solver/context.h"
+#include "harness/solver/newton.h"
+#include "harness/solver/singular.h"
 
 enum { MAX_STATES = 60, POINTS = 3 };
 static const double first_step = 0.1; /* of the path so far */
@@ -57,13 +60,7 @@ static status start(analysis_context *c, int analysis, const char *what, newton 
     return newton_direction(n, model_state_path(n->state), &unused, f);
 }
 
-static void count_work(analysis_context *c, const eigen_result *e)
-{
-    model_counters(c->model)->solutions += e->solutions;
-    model_counters(c->model)->factorisations += e->factorisations;
-}
-
-/* With what equilibrium_modal frees. */
+/* With what loaded_modal frees. */
 static status frequencies(analysis_context *c, int analysis, newton *n, sparse *M, eigen_result *e,
                           fault *f)
 {
@@ -73,11 +70,11 @@ static status frequencies(analysis_context *c, int analysis, newton *n, sparse *
     const eigen_problem p = {
         .K = &n->K, .A = M, .K_factor = n->factor, .sign = 1, .largest = modal_wanted(c, analysis)};
     const status result = eigen_solve(&p, e, f);
-    count_work(c, e);
+    context_count_eigen(c, e);
     return result;
 }
 
-status equilibrium_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     newton n;
     sparse M = {0};
@@ -138,9 +135,9 @@ static status take_state(search *s, fault *f)
     for (int i = 0; i < s->scale.column[s->scale.n]; i++)
         s->n.K.value[i] += s->shift * s->scale.value[i];
     if (s->shift > 0)
-        TRY(analysis_factor(s->n.c, s->n.factor, &s->n.K, f));
+        TRY(context_factor(s->n.c, s->n.factor, &s->n.K, f));
     const status found = eigen_solve(&p, &s->found, f);
-    count_work(s->n.c, &s->found);
+    context_count_eigen(s->n.c, &s->found);
     TRY(found);
     memmove(s->p + 1, s->p, (POINTS - 1) * sizeof *s->p);
     memmove(s->sigma + 1, s->sigma, (POINTS - 1) * sizeof *s->sigma);
@@ -218,7 +215,7 @@ static status find_critical(search *s, fault *f)
                            "no critical load: nothing loses stiffness up to path %g", s->p[0]);
 }
 
-status equilibrium_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     search s = {.unstable = INFINITY, .estimate = INFINITY};
     status result = search_alloc(c, analysis, &s, f);

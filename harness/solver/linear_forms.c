@@ -1,4 +1,4 @@
-#include "harness/analysis/linear_forms.h"
+#include "harness/solver/linear_forms.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,19 +1,14 @@
-#include "harness/analysis/singular.h"
+#include "harness/solver/singular.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "elements/math/dense.h"
+#include "harness/solver/context.h"
+#include "harness/solver/linear_system.h"
 
 /* Beyond this condition no digit is sure: what fails then fails by round-off. */
 static const double no_digits = 1e15;
-
-status analysis_factor(analysis_context *c, factor *fa, const sparse *K, fault *f)
-{
-    const status outcome = factor_numeric(fa, K, f);
-    c->singular = outcome == STATUS_SINGULAR;
-    return outcome;
-}
 
 /* A rigid motion that the supports allow, in words. */
 static void name_motion(int node, const double motion[6], double length, fault *f)

@@ -2,10 +2,8 @@
 #ifndef BEAMWORK_SINGULAR_H
 #define BEAMWORK_SINGULAR_H
 
-#include "harness/analysis/analysis.h"
+#include "harness/solver/context.h"
 
-/* The numeric factors of K, and into the context whether they exist. */
-status analysis_factor(analysis_context *c, factor *fa, const sparse *K, fault *f);
 /* After the last factorisation failed: the fault with its cause.  A part that the supports leave
  * loose; digits lost in round-off, because of many elements or of stiffnesses far apart; else a
  * critical point.  Work done for it is not counted. */

@@ -1,9 +1,10 @@
-#include "harness/analysis/bordered.h"
+#include "harness/solver/bordered.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/solver/border.h"
 
 enum { REFINEMENTS = 2 };
 

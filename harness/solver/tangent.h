@@ -3,21 +3,8 @@
 #ifndef BEAMWORK_TANGENT_H
 #define BEAMWORK_TANGENT_H
 
-#include "harness/analysis/analysis.h"
 #include "harness/model/movable.h"
-
-enum { TANGENT_COMPONENTS = 6, TANGENT_BORDER = 12 };
-
-/* Released coordinates: driven ones that are free now. */
-typedef struct border {
-    int count;
-    int coordinate[TANGENT_BORDER];
-    double *U, *V; /* [count x free]: K_fr; K_rf */
-    double W[TANGENT_BORDER * TANGENT_BORDER];
-} border;
-
-/* Index of a released coordinate, or -1. */
-int border_place(const border *b, int coordinate);
+#include "harness/solver/border.h"
 
 typedef struct tangent {
     sparse K;      /* of all coordinates when something is released, else of the free ones */
