@@ -3,6 +3,7 @@
 #include "harness/analysis/buckling.h"
 
 #include "harness/algebra/eigen.h"
+#include "harness/model/linear.h"
 #include "harness/solver/context.h"
 #include "harness/solver/linear_forms.h"
 #include "harness/solver/linear_system.h"

@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "harness/model/centreline.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/linear.h"
 #include "harness/solver/context.h"
 
 static int least(int a, int b)

@@ -6,6 +6,9 @@
 #include <stdlib.h>
 
 #include "harness/model/convention.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/linearise.h"
+#include "harness/model/loads.h"
 #include "harness/solver/context.h"
 #include "harness/solver/tangent.h"
 

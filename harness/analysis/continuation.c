@@ -7,6 +7,8 @@
 #include <stdlib.h>
 
 #include "harness/analysis/continuation_impl.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/metric.h"
 #include "harness/solver/context.h"
 #include "harness/solver/history.h"
 #include "harness/solver/newton.h"

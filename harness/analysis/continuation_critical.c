@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "harness/analysis/continuation_impl.h"
+#include "harness/model/kinematics.h"
 #include "harness/solver/history.h"
 
 enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12 };

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "harness/model/kinematics.h"
 #include "harness/solver/context.h"
 #include "harness/solver/quantity.h"
 

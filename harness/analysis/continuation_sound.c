@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "harness/analysis/continuation_impl.h"
+#include "harness/model/metric.h"
 #include "harness/solver/history.h"
 
 static const double largest_swing = 0.3; /* [rad] between a tangent and the secant, in the metric */

@@ -7,6 +7,9 @@
 #include <string.h>
 
 #include "harness/analysis/continuation_extract.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/linearise.h"
+#include "harness/model/loads.h"
 #include "harness/solver/context.h"
 #include "harness/solver/modes.h"
 #include "harness/solver/quantity.h"

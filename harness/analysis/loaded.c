@@ -11,6 +11,8 @@
 #include "harness/algebra/eigen.h"
 #include "harness/analysis/modal.h"
 #include "harness/analysis/static.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/spin.h"
 #include "harness/solver/context.h"
 #include "harness/solver/newton.h"
 #include "harness/solver/singular.h"

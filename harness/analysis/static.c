@@ -1,6 +1,7 @@
 /* Nonlinear equilibrium along a path, with steps that adapt. */
 #include "harness/analysis/static.h"
 
+#include "harness/model/kinematics.h"
 #include "harness/model/trail.h"
 #include "harness/solver/context.h"
 #include "harness/solver/history.h"

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/model/features.h"
 #include "harness/judge/verdict.h"
 
 static const double agreement_least = 1e-6; /* relative, of a value against its own stored discrete value */

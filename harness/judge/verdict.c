@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/model/features.h"
+
 static const char *const names[VERDICT_KINDS] = {"pass",      "biased",    "wrong limit", "wrong limit, as predicted",
                                                  "low order", "undecided", "diverged",    "refused",
                                                  "skip",      "no truth"};

@@ -6,7 +6,8 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/model/parts.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/model_impl.h"
 
 enum { LEAST_PIECES = 12 }; /* of a member, so that one element is a curve */
 static const double drawn_part = 0.1, drawn_turn = 0.5; /* of the size; [rad] */

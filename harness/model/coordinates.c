@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/parts.h"
+#include "harness/model/model_impl.h"
 
 status model_note_left_out(model *m, fault *f, const char *format, ...)
 {

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/parts.h"
+#include "harness/model/model_impl.h"
 
 static void offset_force(const double rho[3], double force[7])
 {

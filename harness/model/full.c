@@ -4,10 +4,13 @@
  *   [ J              -1    0   ] [de    ] = [ e - D(x)      ]
  *   [ 0              -C    1   ] [dsigma]   [ P'(e) - sigma ]
  * The published algorithm, kept as the baseline that speed is measured against. */
+#include "harness/model/full.h"
+
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/parts.h"
+#include "harness/model/loads.h"
+#include "harness/model/model_impl.h"
 
 int model_full_size(const model *m)
 {

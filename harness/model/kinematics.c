@@ -1,11 +1,13 @@
 /* Frames of vertices and what they do to elements. */
+#include "harness/model/kinematics.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/model/parts.h"
+#include "harness/model/model_impl.h"
 
 void kinematics_position(const model *m, const model_state *s, int index, double r[3])
 {

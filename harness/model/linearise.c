@@ -1,12 +1,14 @@
 /* Mixed linearisation and its update (N section 4): with J = de/dx and the independent e and sigma,
  *   de = D(x) - e + J dx,   sigma + dsigma = P'(e) + P''(e) de,
  * condensed element by element, so that stiff modes make no huge false stresses on the way. */
+#include "harness/model/linearise.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/model/parts.h"
+#include "harness/model/model_impl.h"
 
 model_slot slot_of(const model *m, int element)
 {

@@ -6,7 +6,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/model/parts.h"
+#include "harness/model/model_impl.h"
 
 /* An arc of constant torsion and curvature between two points (straight when these are zero). */
 typedef struct arc {

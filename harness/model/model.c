@@ -6,7 +6,11 @@
 #include <string.h>
 
 #include "harness/algebra/memory.h"
-#include "harness/model/parts.h"
+#include "harness/model/features.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/lacks.h"
+#include "harness/model/missing.h"
+#include "harness/model/model_impl.h"
 
 static status compute_sections(model *m, fault *f)
 {

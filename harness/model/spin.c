@@ -1,9 +1,11 @@
 /* A frame that turns steadily: what it does to elements, and the matrices of small motions in it (J
  * Eq. 76). */
+#include "harness/model/spin.h"
+
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/parts.h"
+#include "harness/model/model_impl.h"
 
 void model_set_spin(model *m, const double omega[3], const double centre[3], int follows_path)
 {

@@ -1,9 +1,11 @@
 /* The tangent of the last linearisation as a stiff and a soft part, for residuals that keep their
  * digits. */
+#include "harness/model/stiffness_parts.h"
+
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/parts.h"
+#include "harness/model/model_impl.h"
 
 void model_stiff_part(const model *m, const model_state *s, const double x[], double y[])
 {

@@ -1,5 +1,8 @@
 #include "harness/model/trail.h"
 
+#include "harness/model/extrapolate.h"
+#include "harness/model/kinematics.h"
+
 enum { SMOOTH_ITERATIONS = 4 };
 
 status trail_alloc(const model *m, trail *t, fault *f)

@@ -2,6 +2,7 @@
 #ifndef BEAMWORK_TRAIL_H
 #define BEAMWORK_TRAIL_H
 
+#include "harness/model/extrapolate.h"
 #include "harness/model/model.h"
 
 typedef struct trail {

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/model/kinematics.h"
 #include "harness/solver/context.h"
 
 static int is_released(const analysis_context *c, const scene_analysis *a, int coordinate)

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/model/stiffness_parts.h"
 #include "harness/solver/border.h"
 
 enum { REFINEMENTS = 2 };

@@ -4,6 +4,9 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/linear.h"
+#include "harness/model/spin.h"
 
 status linear_forms_alloc(model *m, const sparse *pattern, linear_forms *p, fault *f)
 {

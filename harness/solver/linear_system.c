@@ -5,6 +5,11 @@
 #include <string.h>
 
 #include "harness/algebra/clock.h"
+#include "harness/model/assemble.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/linear.h"
+#include "harness/model/loads.h"
+#include "harness/model/metric.h"
 #include "harness/solver/context.h"
 
 static status allocate(const analysis_context *c, linear_system *out, fault *f)

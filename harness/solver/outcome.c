@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/model/kinematics.h"
+
 void outcome_modes_free(rotation_modes *m)
 {
     free(m->frequency);

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 
 #include "elements/math/dense.h"
+#include "harness/model/metric.h"
+#include "harness/model/supports.h"
 #include "harness/solver/context.h"
 #include "harness/solver/linear_system.h"
 

@@ -9,6 +9,11 @@
 
 #include "elements/math/dense.h"
 #include "harness/algebra/clock.h"
+#include "harness/model/assemble.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/linearise.h"
+#include "harness/model/loads.h"
+#include "harness/model/stiffness_parts.h"
 #include "harness/solver/border.h"
 #include "harness/solver/bordered.h"
 #include "harness/solver/context.h"

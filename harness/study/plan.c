@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/model/features.h"
+#include "harness/model/missing.h"
 #include "harness/catalogue/registry.h"
 #include "harness/study/sweep.h"
 

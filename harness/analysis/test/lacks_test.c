@@ -8,6 +8,7 @@
 #include "harness/analysis/solve.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
+#include "harness/model/missing.h"
 
 static const double length = 1, wide = 0.08, young = 2e11, shear_modulus = 8e10, share = 5.0 / 6;
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "harness/catalogue/registry.h"
+#include "harness/model/missing.h"
 #include "harness/study/sweep.h"
 
 enum { COMPONENTS = 6, CHOICES = 64 };

@@ -8,6 +8,7 @@
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
+#include "harness/model/supports.h"
 #include "harness/study/cell.h"
 
 /* Two beams along x, the second beside the first and held by itself; loads along z. */

@@ -6,6 +6,7 @@
 
 #include "harness/analysis/solve.h"
 #include "harness/catalogue/formulations.h"
+#include "harness/model/missing.h"
 
 static const char *const names[] = {
     "sheet_second",        "sheet_second_consistent",     "sheet_third", "sheet_third_printed",

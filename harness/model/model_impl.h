@@ -1,6 +1,6 @@
 /* Inside of a model, shared by the files of harness/model only. */
-#ifndef BEAMWORK_MODEL_PARTS_H
-#define BEAMWORK_MODEL_PARTS_H
+#ifndef BEAMWORK_MODEL_IMPL_H
+#define BEAMWORK_MODEL_IMPL_H
 
 #include "harness/algebra/team.h"
 #include "harness/model/model.h"
