@@ -78,7 +78,7 @@ typedef enum scene_analysis_kind {
     SCENE_ROTATION      /* stationary rotation: equilibrium and frequencies in the rotating frame */
 } scene_analysis_kind;
 
-/* What a reaction's moment does while its node turns (harness/model/convention.h). */
+/* What a reaction's moment does while its node turns (harness/solver/convention.h). */
 typedef enum scene_moments { SCENE_MOMENTS_SPATIAL, SCENE_MOMENTS_SEMITANGENTIAL, SCENE_MOMENTS_SYMMETRISED } scene_moments;
 #define SCENE_MOMENTS_CHOICES "spatial|semitangential|symmetrised"
 const char *scene_moments_name(scene_moments);

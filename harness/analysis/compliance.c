@@ -5,11 +5,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "harness/model/convention.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/linearise.h"
 #include "harness/model/loads.h"
 #include "harness/solver/context.h"
+#include "harness/solver/convention.h"
 #include "harness/solver/tangent.h"
 
 /* Loads whose response some quantity asks for. */

@@ -12,7 +12,7 @@
 #include "harness/analysis/modal.h"
 #include "harness/analysis/static.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/spin.h"
+#include "harness/model/rotating_frame.h"
 #include "harness/solver/context.h"
 #include "harness/solver/newton.h"
 #include "harness/solver/singular.h"

@@ -13,7 +13,7 @@
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/linearise.h"
-#include "harness/model/spin.h"
+#include "harness/model/rotating_frame.h"
 #include "harness/solver/context.h"
 #include "harness/solver/modes.h"
 #include "harness/solver/newton.h"

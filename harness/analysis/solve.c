@@ -15,7 +15,7 @@
 #include "harness/analysis/modal.h"
 #include "harness/analysis/rotation.h"
 #include "harness/analysis/static.h"
-#include "harness/model/spin.h"
+#include "harness/model/rotating_frame.h"
 #include "harness/solver/context.h"
 #include "harness/solver/singular.h"
 
@@ -52,7 +52,7 @@ static void run_analyses(analysis_context *c)
         fault f = {""};
         const scene_analysis *a = &c->scene->analysis[i];
         analysis_function *run = function_of(c->scene, a);
-        model_set_spin(c->model, a->omega, a->omega_centre, a->kind == SCENE_ROTATION);
+        model_set_rotating_frame(c->model, a->omega, a->omega_centre, a->kind == SCENE_ROTATION);
         if (c->options->sample > 0 && a->kind != SCENE_STATIC)
             continue;
         c->singular = 0;

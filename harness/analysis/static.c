@@ -2,10 +2,10 @@
 #include "harness/analysis/static.h"
 
 #include "harness/model/kinematics.h"
-#include "harness/model/trail.h"
 #include "harness/solver/context.h"
 #include "harness/solver/history.h"
 #include "harness/solver/newton.h"
+#include "harness/solver/predictor.h"
 
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
 
@@ -20,8 +20,8 @@ status static_walk(newton *n, double target, double *increment, fault *f)
         const double to = last ? target : from + *increment;
         step_record record = {.path = to, .increment = to - from, .rejected = rejected};
         model_state_copy(n->c->model, n->state, n->backup);
-        if (n->trail != NULL)
-            trail_guess(n->c->model, n->trail, to, n->state);
+        if (n->predictor != NULL)
+            predictor_guess(n->c->model, n->predictor, to, n->state);
         const status outcome = newton_to(n, to, &record, f);
         if (outcome == STATUS_OK) {
             TRY(history_add_step(n->c->result, &record, f));
@@ -29,8 +29,8 @@ status static_walk(newton *n, double target, double *increment, fault *f)
             count->negative_pivots = record.negative_pivots > count->negative_pivots
                                          ? record.negative_pivots
                                          : count->negative_pivots;
-            if (n->trail != NULL)
-                trail_add(n->c->model, n->state, record.iterations, n->trail);
+            if (n->predictor != NULL)
+                predictor_add(n->c->model, n->state, record.iterations, n->predictor);
             if (record.iterations <= EASY_ITERATIONS && !last && rejected == 0)
                 *increment *= 2;
             rejected = 0;
@@ -43,8 +43,8 @@ status static_walk(newton *n, double target, double *increment, fault *f)
         if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED || to - from <= least || hopeless)
             return outcome;
         model_state_copy(n->c->model, n->backup, n->state);
-        if (n->trail != NULL)
-            trail_forget(n->trail);
+        if (n->predictor != NULL)
+            predictor_forget(n->predictor);
         count->rejected_steps++;
         rejected++;
         *increment = (to - from) / 2;
@@ -81,12 +81,12 @@ static status walk(newton *n, const scene_analysis *a, analysis_outcome *o, faul
 }
 
 /* With what static_analysis frees. */
-static status solve(analysis_context *c, const scene_analysis *a, newton *n, trail *t,
+static status solve(analysis_context *c, const scene_analysis *a, newton *n, predictor *t,
                     analysis_outcome *o, fault *f)
 {
     TRY(newton_alloc(c, n, f));
-    TRY(trail_alloc(c->model, t, f));
-    n->trail = t;
+    TRY(predictor_alloc(c->model, t, f));
+    n->predictor = t;
     TRY(outcome_stations(o, a->stations, f));
     return c->options->sample > 0 ? sample(n, a->path[0], f) : walk(n, a, o, f);
 }
@@ -94,9 +94,9 @@ static status solve(analysis_context *c, const scene_analysis *a, newton *n, tra
 status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     newton n;
-    trail t = {0};
+    predictor t = {0};
     const status result = solve(c, &c->scene->analysis[analysis], &n, &t, o, f);
-    trail_free(&t);
+    predictor_free(&t);
     newton_free(&n);
     return result;
 }

@@ -12,7 +12,7 @@
 enum { LEAST_PIECES = 12 }; /* of a member, so that one element is a curve */
 static const double drawn_part = 0.1, drawn_turn = 0.5; /* of the size; [rad] */
 
-/* Gaps between the vertices of a member, and pieces of each gap. */
+/* Gaps between the vertices of a member, and pieces of each incompatibility. */
 static int gaps_of(const model *m, int member)
 {
     return (m->first_element[member + 1] - m->first_element[member]) * (m->nodes - 1);
@@ -40,7 +40,7 @@ int centreline_points(const model *m, int first[])
 /* One element: its nodes' frames and the forces that the outside exerts on them. */
 typedef struct span {
     int nodes;
-    double gap; /* undeformed distance between two nodes [m] */
+    double incompatibility; /* undeformed distance between two nodes [m] */
     node_state x[ELEMENT_MAX_NODES];
     double q[ELEMENT_MAX_NODES][4];
     double force[ELEMENT_MAX_COORDINATES];
@@ -54,7 +54,7 @@ static void span_of(const model *m, const model_state *s, int element, span *out
     double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     memset(out, 0, sizeof *out);
     out->nodes = m->nodes;
-    out->gap = m->kind[el->kind].length / (m->nodes - 1);
+    out->incompatibility = m->kind[el->kind].length / (m->nodes - 1);
     kinematics_gather(m, s, el, out->x);
     for (int k = 0; k < m->nodes; k++)
         rotation_from_matrix(out->x[k].R, out->q[k]);
@@ -67,7 +67,8 @@ static void cubic(const span *e, int k, double t, double r[3], double direction[
 {
     const double *p = e->x[k].r, *q = e->x[k + 1].r, u = 1 - t;
     for (int i = 0; i < 3; i++) {
-        const double a = e->gap * e->x[k].R[3 * i], b = e->gap * e->x[k + 1].R[3 * i];
+        const double a = e->incompatibility * e->x[k].R[3 * i],
+                     b = e->incompatibility * e->x[k + 1].R[3 * i];
         r[i] = p[i] + t * t * (3 - 2 * t) * (q[i] - p[i]) + t * u * (u * a - t * b);
         direction[i] = 6 * t * u * (q[i] - p[i]) + u * (1 - 3 * t) * a + t * (3 * t - 2) * b;
     }

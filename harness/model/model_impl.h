@@ -53,7 +53,7 @@ typedef struct mesh_pattern {
 typedef struct element_part {
     status outcome;
     fault why;
-    double gap; /* |D(x) - e|/l */
+    double incompatibility; /* |D(x) - e|/l */
     double force[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
 } element_part;
 
@@ -77,9 +77,9 @@ struct model {
     double *work; /* [elements x work_size]: J, C, P' + C (D - e), D - e, memory of the last
                      linearisation */
     int work_size;
-    model_state *rest; /* undeformed */
-    element_spin spin; /* of the frame, times the path if that is followed */
-    int spins, spin_follows_path;
+    model_state *rest;     /* undeformed */
+    element_spin rotation; /* of the frame, times the path if that is followed */
+    int rotates, rotation_follows_path;
     counters counters;
     phases phases;
     team *team;         /* of the loop over elements; NULL: one thread */
@@ -135,10 +135,10 @@ void eliminate_forces(const model *m, const model_state *s, const mesh_element *
 void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el,
                       const double force[], double K[]);
 
-/* spin.c: force -= centrifugal force, K += its stiffness (NULL: not wanted), in element
+/* rotating_frame.c: force -= centrifugal force, K += its stiffness (NULL: not wanted), in element
  * coordinates; nothing where no frame turns. */
-status spin_add(model *m, const node_state x[], int element, double path, double force[],
-                double K[], fault *f);
+status rotating_frame_add(model *m, const node_state x[], int element, double path, double force[],
+                          double K[], fault *f);
 
 /* assemble.c */
 void assemble_pattern_free(mesh_pattern *p);
@@ -148,7 +148,8 @@ double *sparse_entry(sparse *a, int row, int column); /* NULL when not stored */
 
 /* linearise.c: one element's part of model.work between linearise and advance. */
 typedef struct model_slot {
-    double *J, *C, *sigma, *gap, *memory; /* sigma = P'(e) + C gap, gap = D(x) - e */
+    double *J, *C, *sigma, *incompatibility,
+        *memory; /* sigma = P'(e) + C incompatibility, incompatibility = D(x) - e */
 } model_slot;
 model_slot slot_of(const model *m, int element);
 

@@ -70,8 +70,8 @@ void bordered_refine(const model *m, tangent *t, counters *n, const bordered *s)
     for (int r = 0; r < REFINEMENTS; r++) {
         double *rest = s->rest;
         memset(rest, 0, (size_t)t->all * sizeof *rest);
-        sparse_mul(&t->soft, s->x, rest);
-        model_stiff_part(m, t->state, s->x, rest);
+        sparse_mul(&t->geometric, s->x, rest);
+        model_material_product(m, t->state, s->x, rest);
         for (int k = 0; k < t->all; k++)
             rest[k] = k < t->free || border_place(&t->border, k) >= 0 ? s->load[k] - rest[k] : 0;
         bordered_solve(t, n, s, rest);

@@ -6,7 +6,7 @@
 #include "elements/math/dense.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/linear.h"
-#include "harness/model/spin.h"
+#include "harness/model/rotating_frame.h"
 
 status linear_forms_alloc(model *m, const sparse *pattern, linear_forms *p, fault *f)
 {

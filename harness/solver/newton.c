@@ -11,11 +11,11 @@
 #include "harness/algebra/clock.h"
 #include "harness/algebra/memory.h"
 #include "harness/model/assemble.h"
-#include "harness/model/full.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/linearise.h"
 #include "harness/model/loads.h"
 #include "harness/model/metric.h"
+#include "harness/model/uncondensed.h"
 #include "harness/solver/context.h"
 #include "harness/solver/history.h"
 #include "harness/solver/singular.h"
@@ -147,7 +147,7 @@ static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
 static status solve_dense(newton *n, model_linearisation *lin, fault *f)
 {
     model *m = n->c->model;
-    const size_t size = (size_t)model_full_size(m) + (size_t)lin->conditions;
+    const size_t size = (size_t)model_uncondensed_size(m) + (size_t)lin->conditions;
     TRY(memory_check((double)size * (double)size * sizeof *n->dense,
                      "dense matrices of all unknowns at once", "give newton=mixed", f));
     if (n->dense == NULL) {
@@ -165,8 +165,8 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
     parts.conditions = 0;
     TRY(model_linearise(m, n->state, &parts, f)); /* what model_advance needs */
     lin->incompatibility = parts.incompatibility;
-    TRY(model_full_system(m, n->state, lin->path, n->dx, lin->conditions, lin->condition, n->dense,
-                          n->unknown, n->residual, f));
+    TRY(model_uncondensed_system(m, n->state, lin->path, n->dx, lin->conditions, lin->condition,
+                                 n->dense, n->unknown, n->residual, f));
     phases_lap(model_phases(m), PHASE_ASSEMBLY);
     const int singular = LAPACKE_dgesv(LAPACK_COL_MAJOR, (int)size, 1, n->dense, (int)size,
                                        n->pivot, n->unknown, (int)size) != 0;

@@ -5,13 +5,13 @@
 
 #include <math.h>
 
-#include "harness/model/trail.h"
 #include "harness/solver/context.h"
+#include "harness/solver/predictor.h"
 
 typedef struct newton {
     analysis_context *c;
     model_state *state, *backup;
-    trail *trail; /* NULL: every step begins at the last state */
+    predictor *predictor; /* NULL: every step begins at the last state */
     sparse K;
     factor *factor;
     double *residual, *dx;   /* [free + driven] */

@@ -50,7 +50,7 @@ static status allocate(const analysis_context *c, const scene_analysis *a, tange
         TRY(sparse_alloc_like(inside, &t->inside, f));
     else
         t->inside = t->K;
-    TRY(sparse_alloc_like(whole, &t->soft, f));
+    TRY(sparse_alloc_like(whole, &t->geometric, f));
     return factor_alloc(inside, &t->factor, f);
 }
 
@@ -68,7 +68,7 @@ void tangent_free(tangent *t)
     if (t->inside.value != t->K.value)
         sparse_free_values(&t->inside);
     sparse_free_values(&t->K);
-    sparse_free_values(&t->soft);
+    sparse_free_values(&t->geometric);
     factor_free(t->factor);
     border_free(&t->border);
     free(t->residual);
@@ -103,8 +103,8 @@ status tangent_at(analysis_context *c, const scene_analysis *a, const model_stat
     t->state = s;
     t->refined = factor_condition(t->factor, &t->inside) > harmless_condition;
     if (t->refined) {
-        TRY(model_soft_part(c->model, s, &t->soft, f));
-        model_release_moment(c->model, s, a->node, reaction + 3, &t->soft);
+        TRY(model_geometric_tangent(c->model, s, &t->geometric, f));
+        model_release_moment(c->model, s, a->node, reaction + 3, &t->geometric);
     }
     border_fill(&t->border, t->free, &t->K);
     t->coordinates = model_node_jacobian(c->model, s, a->node, TANGENT_COMPONENTS, t->index, t->T);

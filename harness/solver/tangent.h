@@ -7,10 +7,10 @@
 #include "harness/solver/border.h"
 
 typedef struct tangent {
-    sparse K;      /* of all coordinates when something is released, else of the free ones */
-    sparse inside; /* free x free */
-    sparse soft;   /* like K, where solutions are refined: see model_soft_part */
-    int refined;   /* 1: the condition asks for it */
+    sparse K;         /* of all coordinates when something is released, else of the free ones */
+    sparse inside;    /* free x free */
+    sparse geometric; /* like K, where solutions are refined: see model_geometric_tangent */
+    int refined;      /* 1: the condition asks for it */
     factor *factor;
     border border;
     int free, all;

@@ -13,7 +13,7 @@
 #include "harness/model/linearise.h"
 #include "harness/model/loads.h"
 #include "harness/model/model.h"
-#include "harness/model/spin.h"
+#include "harness/model/rotating_frame.h"
 
 enum { MOST = 40 };
 enum { FREE_TURNS, THREE_ANGLES, TWO_ANGLES, FORK, BODIES };

@@ -1,24 +1,25 @@
 /* A frame that turns steadily: what it does to elements, and the matrices of small motions in it (J
  * Eq. 76). */
-#include "harness/model/spin.h"
+#include "harness/model/rotating_frame.h"
 
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "harness/model/model_impl.h"
 
-void model_set_spin(model *m, const double omega[3], const double centre[3], int follows_path)
+void model_set_rotating_frame(model *m, const double omega[3], const double centre[3],
+                              int follows_path)
 {
-    memcpy(m->spin.omega, omega, sizeof m->spin.omega);
-    memcpy(m->spin.centre, centre, sizeof m->spin.centre);
-    m->spin_follows_path = follows_path;
-    m->spins = omega[0] != 0 || omega[1] != 0 || omega[2] != 0;
+    memcpy(m->rotation.omega, omega, sizeof m->rotation.omega);
+    memcpy(m->rotation.centre, centre, sizeof m->rotation.centre);
+    m->rotation_follows_path = follows_path;
+    m->rotates = omega[0] != 0 || omega[1] != 0 || omega[2] != 0;
 }
 
 static element_spin spin_at(const model *m, double path)
 {
-    element_spin spin = m->spin;
-    if (m->spin_follows_path)
+    element_spin spin = m->rotation;
+    if (m->rotation_follows_path)
         for (int i = 0; i < 3; i++)
             spin.omega[i] *= path;
     return spin;
@@ -29,7 +30,7 @@ static status inertia_at(model *m, const node_state x[], int i, double path, ine
 {
     const element_spin spin = spin_at(m, path);
     const status outcome =
-        m->type->inertia(m->kind[m->element[i].kind].data, x, m->spins ? &spin : NULL, out);
+        m->type->inertia(m->kind[m->element[i].kind].data, x, m->rotates ? &spin : NULL, out);
     m->counters.inertia_evaluations++;
     return outcome == STATUS_OK
                ? outcome
@@ -37,12 +38,12 @@ static status inertia_at(model *m, const node_state x[], int i, double path, ine
                            i, m->element[i].member);
 }
 
-status spin_add(model *m, const node_state x[], int i, double path, double force[], double K[],
-                fault *f)
+status rotating_frame_add(model *m, const node_state x[], int i, double path, double force[],
+                          double K[], fault *f)
 {
     double centrifugal[ELEMENT_MAX_COORDINATES],
         N[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
-    if (!m->spins)
+    if (!m->rotates)
         return STATUS_OK;
     TRY(inertia_at(m, x, i, path,
                    &(inertia_output){.force = centrifugal, .N = K != NULL ? N : NULL}, f));
@@ -105,7 +106,7 @@ status model_tangent_energy2(model *m, const model_state *s, double path, const 
         m->counters.stress_evaluations++;
         dense_add_transpose_mul(m->coordinates, m->strains, 1, J, sigma, force);
         TRY(outcome);
-        TRY(spin_add(m, at, i, path, force, H, NULL));
+        TRY(rotating_frame_add(m, at, i, path, force, H, NULL));
         kinematics_local(m, s, el, x, local);
         dense_mul_vec(m->strains, m->coordinates, J, local, e);
         eliminate_matrix(m, s, el, force, H);

@@ -1,4 +1,4 @@
-#include "harness/model/convention.h"
+#include "harness/solver/convention.h"
 
 #include <string.h>
 

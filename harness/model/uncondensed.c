@@ -4,7 +4,7 @@
  *   [ J              -1    0   ] [de    ] = [ e - D(x)      ]
  *   [ 0              -C    1   ] [dsigma]   [ P'(e) - sigma ]
  * The published algorithm, kept as the baseline that speed is measured against. */
-#include "harness/model/full.h"
+#include "harness/model/uncondensed.h"
 
 #include <string.h>
 
@@ -12,7 +12,7 @@
 #include "harness/model/loads.h"
 #include "harness/model/model_impl.h"
 
-int model_full_size(const model *m)
+int model_uncondensed_size(const model *m)
 {
     return m->free + 2 * m->strains * m->elements;
 }
@@ -59,7 +59,7 @@ static status add_element(model *m, const model_state *state, int i, double path
         return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i,
                          el->member, m->type->name);
     dense_add_transpose_mul(n, strains, 1, J, sigma, force);
-    TRY(spin_add(m, x, i, path, force, H, f));
+    TRY(rotating_frame_add(m, x, i, path, force, H, f));
     eliminate_matrix(m, state, el, force, H);
     eliminate_forces(m, state, el, force);
     for (int a = 0; a < n; a++) {
@@ -88,11 +88,12 @@ static status add_element(model *m, const model_state *state, int i, double path
     return STATUS_OK;
 }
 
-status model_full_system(model *m, const model_state *state, double path, const double drive[],
-                         int conditions, const model_condition condition[], double A[], double b[],
-                         double load[], fault *f)
+status model_uncondensed_system(model *m, const model_state *state, double path,
+                                const double drive[], int conditions,
+                                const model_condition condition[], double A[], double b[],
+                                double load[], fault *f)
 {
-    full s = {model_full_size(m) + conditions, conditions, A, b, drive, condition};
+    full s = {model_uncondensed_size(m) + conditions, conditions, A, b, drive, condition};
     memset(A, 0, (size_t)s.size * (size_t)s.size * sizeof *A);
     memset(b, 0, (size_t)s.size * sizeof *b);
     memset(load, 0, (size_t)(m->free + m->driven) * sizeof *load);

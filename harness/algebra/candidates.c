@@ -1,7 +1,7 @@
 /* By Sylvester's law the number of mu > s > 0 is that of the negative pivots of K - A/s. The pivots
  * tell sides apart as long as s keeps its distance from every eigenvalue: by more than rounding the
  * matrices moves them. */
-#include "harness/algebra/pairs.h"
+#include "harness/algebra/candidates.h"
 
 #include <float.h>
 #include <math.h>
@@ -12,7 +12,7 @@
 
 static const double close = 1e-9; /* relative distance of eigenvalues that are not told apart */
 
-status pairs_alloc(pairs *p, const eigen_problem *problem, double sign, fault *f)
+status candidates_alloc(candidates *p, const eigen_problem *problem, double sign, fault *f)
 {
     const size_t n = (size_t)problem->K->n;
     memset(p, 0, sizeof *p);
@@ -26,7 +26,7 @@ status pairs_alloc(pairs *p, const eigen_problem *problem, double sign, fault *f
     return STATUS_OK;
 }
 
-void pairs_free(pairs *p)
+void candidates_free(candidates *p)
 {
     void *const all[] = {p->mu, p->matrix_mu, p->noise, p->stiffness, p->x,
                          p->Kx, p->work,      p->form,  p->correction};
@@ -45,7 +45,7 @@ static int grow(double **list, size_t count)
     return larger != NULL;
 }
 
-static status make_room(pairs *p, int room, fault *f)
+static status make_room(candidates *p, int room, fault *f)
 {
     const size_t count = (size_t)room, numbers = count * (size_t)p->n;
     if (room > p->room &&
@@ -57,7 +57,7 @@ static status make_room(pairs *p, int room, fault *f)
 }
 
 /* x^T a x: the caller's, or from the matrix with a x kept in `product`. */
-static double form_of(const pairs *p, eigen_form *form, const sparse *a, const double x[],
+static double form_of(const candidates *p, eigen_form *form, const sparse *a, const double x[],
                       double product[])
 {
     if (form != NULL)
@@ -66,14 +66,14 @@ static double form_of(const pairs *p, eigen_form *form, const sparse *a, const d
     return dense_dot(p->n, x, product);
 }
 
-static double K_form(pairs *p, const double x[])
+static double K_form(candidates *p, const double x[])
 {
     return form_of(p, p->problem->K_energy, p->problem->K, x, p->form);
 }
 
 /* Root of the sum of the squares of all terms of x^T (K - s A/mu) x, times eps: their rounding
  * errors are independent. */
-static double rounding(const pairs *p, double mu, const double x[])
+static double rounding(const candidates *p, double mu, const double x[])
 {
     const sparse *K = p->problem->K, *A = p->problem->A;
     double sum = 0;
@@ -86,7 +86,7 @@ static double rounding(const pairs *p, double mu, const double x[])
 }
 
 /* Moves the last candidate to its place. */
-static void sort_last(pairs *p)
+static void sort_last(candidates *p)
 {
     const size_t n = (size_t)p->n;
     for (int i = p->count - 1; i > 0 && p->mu[i] > p->mu[i - 1]; i--) {
@@ -106,14 +106,14 @@ static void sort_last(pairs *p)
     }
 }
 
-int pairs_is_rounding(const pairs *p, double energy, const double x[])
+int candidates_is_rounding(const candidates *p, double energy, const double x[])
 {
     const double sure = 128; /* inside an element it passes through eliminations of its own */
     const eigen_problem *e = p->problem;
     return e->A_rounding != NULL && fabs(energy) <= sure * e->A_rounding(e->context, x);
 }
 
-double pairs_departure(const pairs *p, int count)
+double candidates_departure(const candidates *p, int count)
 {
     double largest = 0;
     const int first = count < p->count ? count : p->count;
@@ -122,10 +122,10 @@ double pairs_departure(const pairs *p, int count)
     return largest;
 }
 
-status pairs_refine(pairs *p, int count, fault *f)
+status candidates_refine(candidates *p, int count, fault *f)
 {
     enum { MOST = 12 };
-    const double departure = pairs_departure(p, count), left = 1e-6;
+    const double departure = candidates_departure(p, count), left = 1e-6;
     double error = departure;
     p->refinements = 1;
     while (p->refinements < MOST && (error *= departure) > left)
@@ -139,7 +139,7 @@ status pairs_refine(pairs *p, int count, fault *f)
 
 /* y += K^-1 (s A x - K y), with K y from the elements: what is left falls by the part of K that
  * assembling it has changed. */
-static void refine(pairs *p, const double x[], double y[])
+static void refine(candidates *p, const double x[], double y[])
 {
     const eigen_problem *e = p->problem;
     double *r = p->correction;
@@ -152,7 +152,7 @@ static void refine(pairs *p, const double x[], double y[])
         y[i] += r[i];
 }
 
-void pairs_apply(pairs *p, const double x[], double y[])
+void candidates_apply(candidates *p, const double x[], double y[])
 {
     sparse_mul(p->problem->A, x, y);
     for (int i = 0; i < p->n; i++)
@@ -163,7 +163,7 @@ void pairs_apply(pairs *p, const double x[], double y[])
             refine(p, x, y);
 }
 
-double pairs_scale(pairs *p, long *solutions)
+double candidates_scale(candidates *p, long *solutions)
 {
     enum { POWERS = 6 };
     double *x = p->form, before = 0, largest = 0;
@@ -179,15 +179,15 @@ double pairs_scale(pairs *p, long *solutions)
                 x[i] /= size;
         before = size > 0;
         if (power < POWERS) {
-            pairs_apply(p, x, p->work);
+            candidates_apply(p, x, p->work);
             memcpy(x, p->work, (size_t)p->n * sizeof *x);
             (*solutions)++;
         }
     }
-    return pairs_is_rounding(p, largest, x) ? 0 : largest;
+    return candidates_is_rounding(p, largest, x) ? 0 : largest;
 }
 
-status pairs_add(pairs *p, int count, const double x[], double least, fault *f)
+status candidates_add(candidates *p, int count, const double x[], double least, fault *f)
 {
     const eigen_problem *e = p->problem;
     const size_t n = (size_t)p->n;
@@ -219,11 +219,11 @@ status pairs_add(pairs *p, int count, const double x[], double least, fault *f)
  * has of a larger mode k, c_k = x_k^T K y = x_k^T s A y/mu_k, comes from a part c_k/(mu_k - mu) of
  * that mode in x, which moves the quotient mu by c_k^2/(mu_k - mu), or, where they are too close to
  * be told apart, by their distance. The rest counts in full. */
-void pairs_judge(pairs *p, int i, double *residual, double *error)
+void candidates_judge(candidates *p, int i, double *residual, double *error)
 {
     const double mu = p->mu[i], *x = p->x + (size_t)i * (size_t)p->n;
     double *y = p->work;
-    pairs_apply(p, x, y);
+    candidates_apply(p, x, y);
     for (int k = 0; k < p->n; k++)
         y[k] -= mu * x[k];
     const double square = K_form(p, y) / (p->stiffness[i] * mu * mu);
@@ -241,7 +241,7 @@ void pairs_judge(pairs *p, int i, double *residual, double *error)
     *error += fmax(rest, 0);
 }
 
-status pairs_above(pairs *p, double s, int *above, eigen_result *work, fault *f)
+status candidates_above(candidates *p, double s, int *above, eigen_result *work, fault *f)
 {
     const sparse *K = p->problem->K;
     status outcome = STATUS_OK;
@@ -261,7 +261,7 @@ status pairs_above(pairs *p, double s, int *above, eigen_result *work, fault *f)
 
 /* Number of candidates above the cluster that the one of rank `wanted` belongs to, and the largest
  * value of the cluster. */
-static int above_cluster(const pairs *p, int wanted, double *top)
+static int above_cluster(const candidates *p, int wanted, double *top)
 {
     const double *mu = p->matrix_mu;
     int q = wanted - 1;
@@ -273,7 +273,7 @@ static int above_cluster(const pairs *p, int wanted, double *top)
 }
 
 /* The inertia is that of the matrices: so are the values between which it is counted. */
-status pairs_missing(pairs *p, int wanted, int *missing, eigen_result *work, fault *f)
+status candidates_missing(candidates *p, int wanted, int *missing, eigen_result *work, fault *f)
 {
     static const double place[] = {0.5, 0.35, 0.65};
     double low;
@@ -283,7 +283,7 @@ status pairs_missing(pairs *p, int wanted, int *missing, eigen_result *work, fau
     *missing = -1;
     /* A count that does not fit is not believed at once: there is no pivoting. */
     for (int i = 0; i < 3; i++) {
-        const status outcome = pairs_above(p, low + place[i] * (high - low), &above, work, f);
+        const status outcome = candidates_above(p, low + place[i] * (high - low), &above, work, f);
         if (outcome == STATUS_SINGULAR)
             continue;
         TRY(outcome);

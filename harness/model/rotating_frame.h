@@ -1,6 +1,6 @@
 /* A frame that turns steadily. */
-#ifndef BEAMWORK_MODEL_SPIN_H
-#define BEAMWORK_MODEL_SPIN_H
+#ifndef BEAMWORK_MODEL_ROTATING_FRAME_H
+#define BEAMWORK_MODEL_ROTATING_FRAME_H
 
 #include "harness/model/model.h"
 
@@ -11,7 +11,8 @@ status model_inertia(model *, const model_state *, double path, sparse *M, spars
 /* From here on the scene's axes turn with omega [rad/s] about an axis through `centre` [m]; times
  * the path parameter if that is followed. Zero: they are at rest. What is linearised contains the
  * centrifugal forces and their stiffness. */
-void model_set_spin(model *, const double omega[3], const double centre[3], int follows_path);
+void model_set_rotating_frame(model *, const double omega[3], const double centre[3],
+                              int follows_path);
 /* x^T K x of the tangent of a state in equilibrium, but for what loads add to it: from the strains,
  * as above. x[free + driven]. */
 status model_tangent_energy2(model *, const model_state *, double path, const double x[],

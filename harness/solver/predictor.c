@@ -1,31 +1,31 @@
-#include "harness/model/trail.h"
+#include "harness/solver/predictor.h"
 
 #include "harness/model/extrapolate.h"
 #include "harness/model/kinematics.h"
 
 enum { SMOOTH_ITERATIONS = 4 };
 
-status trail_alloc(const model *m, trail *t, fault *f)
+status predictor_alloc(const model *m, predictor *t, fault *f)
 {
-    *t = (trail){0};
+    *t = (predictor){0};
     for (int i = 0; i < MODEL_EXTRAPOLATED; i++)
         TRY(model_state_alloc(m, &t->at[i], f));
     t->count = 1; /* the undeformed state */
     return STATUS_OK;
 }
 
-void trail_free(trail *t)
+void predictor_free(predictor *t)
 {
     for (int i = 0; i < MODEL_EXTRAPOLATED; i++)
         model_state_free(t->at[i]);
 }
 
-void trail_forget(trail *t)
+void predictor_forget(predictor *t)
 {
     t->count = 0;
 }
 
-void trail_add(const model *m, const model_state *s, int iterations, trail *t)
+void predictor_add(const model *m, const model_state *s, int iterations, predictor *t)
 {
     t->iterations = iterations;
     if (t->count == MODEL_EXTRAPOLATED) {
@@ -38,7 +38,7 @@ void trail_add(const model *m, const model_state *s, int iterations, trail *t)
 }
 
 /* With as many states as go on smoothly; behind a bend the older ones are forgotten. */
-void trail_guess(const model *m, trail *t, double path, model_state *s)
+void predictor_guess(const model *m, predictor *t, double path, model_state *s)
 {
     if (t->iterations > SMOOTH_ITERATIONS)
         return;
