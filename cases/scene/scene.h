@@ -90,7 +90,6 @@ typedef struct scene_analysis {
     double *path;
     int steps_between;       /* first try of load steps from one station to the next (adaptive from there); >= 1 */
     int wanted;              /* buckling, modal, rotation: how many eigenvalues (of each sign in buckling) */
-    int modes_wanted_family; /* reserved: see scene_quantity.family */
     int node;                /* compliance: where */
     scene_moments moments;   /* convention of compliance */
     unsigned released; /* compliance: bit i: component i at `node`, though prescribed, is free and its reaction is a dead load */

@@ -98,7 +98,7 @@ static void resultants(const span *e, int k, double t, centreline_point *p)
     double force[3] = {0}, moment[3] = {0}, R[9];
     const double along = (k + t) / (e->nodes - 1);
     for (int beyond = k + 1; beyond < e->nodes; beyond++) {
-        const double *f = &e->force[7 * beyond];
+        const double *f = &e->force[NODE_COORDINATES * beyond];
         double arm[3], more[3];
         for (int i = 0; i < 3; i++)
             arm[i] = e->x[beyond].r[i] - p->r[i];
@@ -111,7 +111,7 @@ static void resultants(const span *e, int k, double t, centreline_point *p)
     rotation_matrix(p->q, R);
     mat3_transpose_mul_vec(R, force, p->force);
     mat3_transpose_mul_vec(R, moment, p->moment);
-    p->bimoment = along * e->force[7 * e->nodes - 1] - (1 - along) * e->force[6];
+    p->bimoment = along * e->force[NODE_COORDINATES * e->nodes - 1] - (1 - along) * e->force[6];
 }
 
 static void point_at(const span *e, int k, double t, centreline_point *p)
@@ -151,7 +151,8 @@ static void increments_of(const model *m, const model_state *s, const double x[]
         double local[ELEMENT_MAX_COORDINATES];
         kinematics_local(m, s, &m->element[i], x, local);
         for (int k = 0; k < m->nodes; k++)
-            memcpy(&out[6 * m->element[i].vertex[k]], &local[7 * k], 6 * sizeof(double));
+            memcpy(&out[6 * m->element[i].vertex[k]], &local[NODE_COORDINATES * k],
+                   6 * sizeof(double));
     }
 }
 

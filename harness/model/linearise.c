@@ -300,10 +300,11 @@ void model_node_force(model *m, const model_state *s, int node, double F[6])
             rotating_frame_add(m, x, i, s->path, force, NULL,
                                NULL); /* never fails in a state that has been reached */
             kinematics_offset(m, s, el->vertex[k], rho);
-            vec3_cross(rho, force + 7 * k, moment);
+            vec3_cross(rho, force + NODE_COORDINATES * k, moment);
             for (int c = 0; c < 3; c++) {
-                F[c] += force[7 * k + c];
-                F[3 + c] += force[7 * k + 3 + c] + (el->vertex[k] == node ? 0 : moment[c]);
+                F[c] += force[NODE_COORDINATES * k + c];
+                F[3 + c] +=
+                    force[NODE_COORDINATES * k + 3 + c] + (el->vertex[k] == node ? 0 : moment[c]);
             }
         }
     }

@@ -1,11 +1,12 @@
 /* Vertices, elements and the data that identical elements share. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "harness/algebra/memory.h"
 #include "harness/model/model_impl.h"
 
 /* An arc of constant torsion and curvature between two points (straight when these are zero). */
@@ -268,15 +269,18 @@ static int largest_name(const scene *s)
 static status allocate(model *m, int elements, fault *f)
 {
     const scene *s = m->scene;
+    const double most = 1e8;
     double total = 0;
     for (int i = 0; i < s->members; i++)
         total += divisions(s, i, elements);
     const double per_element = 8e3; /* bytes of an element with its share of matrices and factors,
                                        measured on straight members */
-    if (total * per_element > (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) ||
-        total > 1e8)
-        return fault_set(f, STATUS_REFUSED, "%.0f elements: more than memory allows; give fewer",
-                         total);
+    char what[80];
+    snprintf(what, sizeof what, "%.0f elements", total);
+    TRY(memory_check(total * per_element, what, "give fewer", f));
+    if (total > most)
+        return fault_set(f, STATUS_REFUSED, "%.0f elements: at most %.0f can be numbered", total,
+                         most);
     m->vertices = s->nodes + (int)total * (m->nodes - 1) - s->members;
     m->vertex = calloc((size_t)m->vertices, sizeof *m->vertex);
     m->element = calloc((size_t)total, sizeof *m->element);

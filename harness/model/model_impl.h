@@ -45,7 +45,7 @@ typedef struct mesh_pattern {
     int made;
     sparse matrix;
     int *start; /* [elements + 1] into the two below */
-    int *local; /* row * 7 nodes + column of the element's matrix */
+    int *local; /* row * coordinates + column of the element's matrix */
     int *place; /* in matrix.value */
 } mesh_pattern;
 

@@ -76,8 +76,9 @@ static void fill_motion(const model *m, const scene *s, const double *u, int *in
         rotation_triad(d, sm->y_axis, R);
         const int count = model_member_vertices(m, member, index);
         for (int i = 0; i < count; i++, out->points++) {
-            components(R, radius, &u[7 * index[i]], &out->part[MEASURES * out->points]);
-            turns(R, radius, &u[7 * index[i]], &out->turn[MEASURES * out->points]);
+            components(R, radius, &u[NODE_COORDINATES * index[i]],
+                       &out->part[MEASURES * out->points]);
+            turns(R, radius, &u[NODE_COORDINATES * index[i]], &out->turn[MEASURES * out->points]);
         }
     }
 }
@@ -87,7 +88,7 @@ static status motion_alloc(const model *m, const scene *s, const double mode[], 
 {
     const size_t vertices = (size_t)model_shape(m, NULL, NULL, NULL),
                  points = (size_t)points_of(m, s);
-    double *u = malloc((vertices * 7 + 1) * sizeof *u);
+    double *u = malloc((vertices * NODE_COORDINATES + 1) * sizeof *u);
     int *index = malloc((vertices + 1) * sizeof *index);
     out->points = 0;
     out->first_member = s->members > 0 ? model_member_vertices(m, 0, NULL) : 0;
