@@ -179,9 +179,8 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
             r->state == NULL ? 0 : model_distance(p->c->model, p->n.state, r->state);
         nearest = goal.by_arc ? fmin(nearest, distance) : distance;
     }
-    return r->state != NULL && nearest > (goal.by_arc ? goal.value / 2 : 1e-5)
-               ? continuation_report_jump(p, r, from, f)
-               : STATUS_OK;
+    const double same = goal.by_arc ? goal.value / 2 : 1e-5;
+    return r->state != NULL && nearest > same ? continuation_report_jump(p, r, from, f) : STATUS_OK;
 }
 
 /* Where a step in doubt ends: smaller ones may lead elsewhere. */

@@ -50,6 +50,24 @@ static void turn_to_principal(double angle, arc *a)
     a->k[2] = c * a->k[2] - d * ky;
 }
 
+/* The length of a curved arc whose ends are so far apart. */
+static status find_length(int member, double distance, arc *a, fault *f)
+{
+    double c[3];
+    for (int i = 0; i < 60; i++) {
+        arc_chord(a->k, a->length, c);
+        const double error = distance - vec3_norm(c);
+        a->length += error;
+        if (!(a->length > 0) || vec3_norm(a->k) * a->length > 6.28)
+            return fault_set(
+                f, STATUS_REFUSED,
+                "member %d: no arc of that curvature joins its ends; give a smaller one", member);
+        if (fabs(error) <= 1e-16 * distance)
+            break;
+    }
+    return STATUS_OK;
+}
+
 /* axes_angle [rad]: of its section. */
 static status arc_of(const scene *s, int member, double axes_angle, arc *out, fault *f)
 {
@@ -61,17 +79,8 @@ static status arc_of(const scene *s, int member, double axes_angle, arc *out, fa
     memcpy(out->start, s->node[m->p].position, sizeof out->start);
     memcpy(out->k, m->curvature, sizeof out->k);
     out->length = distance;
-    for (int i = 0; i < 60 && vec3_norm(out->k) > 0; i++) {
-        arc_chord(out->k, out->length, c);
-        const double error = distance - vec3_norm(c);
-        out->length += error;
-        if (!(out->length > 0) || vec3_norm(out->k) * out->length > 6.28)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "member %d: no arc of that curvature joins its ends; give a smaller one", member);
-        if (fabs(error) <= 1e-16 * distance)
-            break;
-    }
+    if (vec3_norm(out->k) > 0)
+        TRY(find_length(member, distance, out, f));
     if (rotation_triad(chord, m->y_axis, B) != 0)
         return fault_set(f, STATUS_REFUSED, "member %d: its y axis is parallel to it", member);
     const double ey[3] = {0, 1, 0};
@@ -131,9 +140,9 @@ static void scene_vertices(model *m)
             add_axis(normal, v);
             add_axis(n->axis[1], v);
         }
-        while (n->rotation == SCENE_ROTATION_SEQUENCE && v->angles < 3 &&
-               vec3_norm(n->axis[v->angles]) > 0)
-            add_axis(n->axis[v->angles], v);
+        if (n->rotation == SCENE_ROTATION_SEQUENCE)
+            while (v->angles < 3 && vec3_norm(n->axis[v->angles]) > 0)
+                add_axis(n->axis[v->angles], v);
     }
 }
 
