@@ -29,7 +29,7 @@ TRUTHS := $(BUILD)/truths.h5
 OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o)
 TESTS := $(TEST_SOURCES:%.c=$(BUILD)/%)
 
-QUIET := $(filter help clean format layers mutants,$(or $(MAKECMDGOALS),help))
+QUIET := $(filter help clean format mutants,$(or $(MAKECMDGOALS),help))
 ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
@@ -108,8 +108,8 @@ fuzz: all ## any bytes as every input the program reads (clang's libFuzzer)
 valgrind: all ## a small selection of verify under valgrind
 	@harness/tools/valgrind.sh $(BUILD)
 
-layers: ## check that includes point down only
-	@harness/tools/layers.sh
+layers: $(OBJECTS) ## check that includes point down only and no files call each other in circles
+	@harness/tools/layers.sh $(OBJECTS)
 
 asan: ## tests under the address and undefined-behaviour sanitizers
 	@$(MAKE) --no-print-directory BUILD="$(BUILD)/asan" CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer" test

@@ -78,7 +78,7 @@ typedef enum scene_analysis_kind {
     SCENE_ROTATION      /* stationary rotation: equilibrium and frequencies in the rotating frame */
 } scene_analysis_kind;
 
-/* What a reaction's moment does while its node turns (harness/model/convention.h). */
+/* What a reaction's moment does while its node turns (harness/solver/convention.h). */
 typedef enum scene_moments { SCENE_MOMENTS_SPATIAL, SCENE_MOMENTS_SEMITANGENTIAL, SCENE_MOMENTS_SYMMETRISED } scene_moments;
 #define SCENE_MOMENTS_CHOICES "spatial|semitangential|symmetrised"
 const char *scene_moments_name(scene_moments);
@@ -90,7 +90,6 @@ typedef struct scene_analysis {
     double *path;
     int steps_between;       /* first try of load steps from one station to the next (adaptive from there); >= 1 */
     int wanted;              /* buckling, modal, rotation: how many eigenvalues (of each sign in buckling) */
-    int modes_wanted_family; /* reserved: see scene_quantity.family */
     int node;                /* compliance: where */
     scene_moments moments;   /* convention of compliance */
     unsigned released; /* compliance: bit i: component i at `node`, though prescribed, is free and its reaction is a dead load */

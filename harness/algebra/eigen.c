@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/algebra/candidates.h"
 #include "harness/algebra/lanczos.h"
-#include "harness/algebra/pairs.h"
 #include "harness/algebra/polish.h"
 
 enum { DENSE_UP_TO = 80, SPARE = 2, MAX_PASSES = 8 };
@@ -68,22 +68,22 @@ static status solve_dense(const eigen_problem *e, double mu[], double x[], fault
 }
 
 /* Candidates of one or both sides (NULL: not asked for) from all eigenvectors; mu[n], x[n x n]. */
-static status take_dense(pairs *const side[2], const int wanted[2], double mu[], double x[],
+static status take_dense(candidates *const side[2], const int wanted[2], double mu[], double x[],
                          fault *f)
 {
-    const pairs *any = side[0] != NULL ? side[0] : side[1];
+    const candidates *any = side[0] != NULL ? side[0] : side[1];
     const size_t n = (size_t)any->n;
     TRY(solve_dense(any->problem, mu, x, f));
     const double least = least_of(any->n, fmax(fabs(mu[0]), fabs(mu[n - 1])));
     for (int i = 0; i < 2; i++) {
         const size_t count = (size_t)(wanted[i] < any->n ? wanted[i] : any->n);
         if (side[i] != NULL) /* the most positive ones come last */
-            TRY(pairs_add(side[i], (int)count, i == 0 ? x + (n - count) * n : x, least, f));
+            TRY(candidates_add(side[i], (int)count, i == 0 ? x + (n - count) * n : x, least, f));
     }
     return STATUS_OK;
 }
 
-static status add_dense(pairs *const side[2], const int wanted[2], fault *f)
+static status add_dense(candidates *const side[2], const int wanted[2], fault *f)
 {
     const size_t n = (size_t)(side[0] != NULL ? side[0] : side[1])->n;
     double *mu = calloc(n, sizeof *mu), *x = calloc(n * n, sizeof *x);
@@ -97,17 +97,17 @@ static status add_dense(pairs *const side[2], const int wanted[2], fault *f)
 }
 
 /* Candidates from one run of Lanczos, in what the present ones leave; mu[count], x[count x n]. */
-static status take_lanczos(pairs *p, int count, double mu[], double x[], double least,
+static status take_lanczos(candidates *p, int count, double mu[], double x[], double least,
                            long *solutions, fault *f)
 {
     const eigen_problem *e = p->problem;
     const lanczos_problem l = {e->K, e->A, e->K_factor, p->sign, p->count, p->x, p->Kx};
     int found = 0;
     TRY(lanczos_largest(&l, count, &found, mu, x, solutions, f));
-    return pairs_add(p, found, x, least, f);
+    return candidates_add(p, found, x, least, f);
 }
 
-static status run_lanczos(pairs *p, int wanted, double least, long *solutions, fault *f)
+static status run_lanczos(candidates *p, int wanted, double least, long *solutions, fault *f)
 {
     const int room = p->n - p->count - 1, count = wanted < room ? wanted : room;
     double *mu = malloc((size_t)count * sizeof *mu),
@@ -124,7 +124,7 @@ static status run_lanczos(pairs *p, int wanted, double least, long *solutions, f
 /* How many eigenvalues exist, as far as `enough`: counted above ever smaller values. Far down,
  * where K is small beside A/s, the count may fail for want of pivoting: what is known by then
  * stands. */
-static status count_existing(pairs *p, int enough, double scale, double least, int *exist,
+static status count_existing(candidates *p, int enough, double scale, double least, int *exist,
                              eigen_result *r, fault *f)
 {
     const double step = 30;
@@ -132,7 +132,7 @@ static status count_existing(pairs *p, int enough, double scale, double least, i
     for (double s = scale; *exist < enough && s > least;) {
         int above = 0;
         s = fmax(s / step, least);
-        const status outcome = pairs_above(p, s, &above, r, f);
+        const status outcome = candidates_above(p, s, &above, r, f);
         if (outcome == STATUS_FAULT)
             return outcome;
         if (outcome == STATUS_OK && above > *exist)
@@ -142,7 +142,7 @@ static status count_existing(pairs *p, int enough, double scale, double least, i
 }
 
 /* Candidates until the inertia says that no eigenvalue above the last wanted one is missing. */
-static status fill(pairs *p, int wanted, double scale, double least, eigen_result *r, fault *f)
+static status fill(candidates *p, int wanted, double scale, double least, eigen_result *r, fault *f)
 {
     int exist;
     TRY(count_existing(p, wanted + SPARE, scale, least, &exist, r, f));
@@ -156,17 +156,17 @@ static status fill(pairs *p, int wanted, double scale, double least, eigen_resul
         TRY(run_lanczos(p, missing, least, &r->solutions, f));
         missing = asked - p->count;
         if (missing <= 0)
-            TRY(pairs_missing(p, asked, &missing, r, f));
+            TRY(candidates_missing(p, asked, &missing, r, f));
     }
     return STATUS_OK;
 }
 
 /* Of candidates that are not all, those that are the first ones stay. */
-static status keep_first(pairs *p, eigen_result *r, fault *f)
+static status keep_first(candidates *p, eigen_result *r, fault *f)
 {
     int missing = 1;
     while (p->count > 0) {
-        const status outcome = pairs_missing(p, p->count, &missing, r, f);
+        const status outcome = candidates_missing(p, p->count, &missing, r, f);
         if (outcome == STATUS_FAULT || (outcome == STATUS_OK && missing == 0))
             return outcome;
         p->count--;
@@ -176,9 +176,10 @@ static status keep_first(pairs *p, eigen_result *r, fault *f)
 
 /* One side (0: the most positive) by iteration; densely where that ends early and the problem is
  * small. */
-static status one_sparse(pairs *p, int side, int wanted, eigen_side *out, eigen_result *r, fault *f)
+static status one_sparse(candidates *p, int side, int wanted, eigen_side *out, eigen_result *r,
+                         fault *f)
 {
-    const double scale = wanted > 0 ? pairs_scale(p, &r->solutions) : 0;
+    const double scale = wanted > 0 ? candidates_scale(p, &r->solutions) : 0;
     fault why = {""};
     out->rounding += wanted > 0 && scale == 0;
     if (scale == 0)
@@ -186,7 +187,7 @@ static status one_sparse(pairs *p, int side, int wanted, eigen_side *out, eigen_
     out->status = fill(p, wanted, scale, fmax(negligible * scale, least_of(p->n, scale)), r, &why);
     if (out->status == STATUS_NOT_CONVERGED && p->n <= DENSE_AT_LAST_UP_TO) {
         p->count = 0;
-        out->status = add_dense((pairs *[]){side == 0 ? p : NULL, side == 0 ? NULL : p},
+        out->status = add_dense((candidates *[]){side == 0 ? p : NULL, side == 0 ? NULL : p},
                                 (int[]){wanted, wanted}, &why);
     }
     if (out->status == STATUS_OK)
@@ -198,40 +199,41 @@ static status one_sparse(pairs *p, int side, int wanted, eigen_side *out, eigen_
 
 /* Leaves out what is rounding of A alone: with one such value all smaller ones are, for so much
  * rounding moves any of them. It is asked of the largest, and where a value is small beside it. */
-static void drop_rounding(pairs *p, eigen_side *out)
+static void drop_rounding(candidates *p, eigen_side *out)
 {
     const double suspect = 1e-6; /* of the largest */
     for (int i = 0; i < p->count; i++)
         if ((i == 0 || p->mu[i] < suspect * p->mu[0]) &&
-            pairs_is_rounding(p, p->mu[i] * p->stiffness[i], p->x + (size_t)i * (size_t)p->n)) {
+            candidates_is_rounding(p, p->mu[i] * p->stiffness[i],
+                                   p->x + (size_t)i * (size_t)p->n)) {
             out->rounding = p->count - i;
             p->count = i;
         }
 }
 
 /* Residuals and errors of the first `count`; the largest error. */
-static double judge(pairs *p, int count, eigen_side *out, long *solutions)
+static double judge(candidates *p, int count, eigen_side *out, long *solutions)
 {
     double largest = 0;
     for (int i = 0; i < count; i++, (*solutions)++) {
-        pairs_judge(p, i, &out->residual[i], &out->error[i]);
+        candidates_judge(p, i, &out->residual[i], &out->error[i]);
         largest = fmax(largest, out->error[i]);
     }
     return largest;
 }
 
 /* Where assembling K has moved the eigenvalues, its errors are in the vectors too. */
-static status improve(pairs *p, int count, eigen_side *out, eigen_result *r, fault *f)
+static status improve(candidates *p, int count, eigen_side *out, eigen_result *r, fault *f)
 {
     enum { SWEEPS = 3 };
     const double bearable =
         1e-6; /* values are off by its square, and what their distance makes of it */
     const double good = 1e-8;
-    if (p->problem->K_product == NULL || pairs_departure(p, count) <= bearable) {
+    if (p->problem->K_product == NULL || candidates_departure(p, count) <= bearable) {
         judge(p, count, out, &r->solutions);
         return STATUS_OK;
     }
-    TRY(pairs_refine(p, count, f));
+    TRY(candidates_refine(p, count, f));
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
         TRY(polish(p, &r->solutions, f));
         if (judge(p, count, out, &r->solutions) <= good)
@@ -241,10 +243,11 @@ static status improve(pairs *p, int count, eigen_side *out, eigen_result *r, fau
 }
 
 /* What has no digits has no value. */
-static void take_out_lost(pairs *p, int count, eigen_side *out)
+static void drop_lost(candidates *p, int count, eigen_side *out)
 {
     const double noticeable = 1e-9; /* part of K that assembling it has changed */
-    const int rounded = p->problem->K_rounding != NULL && pairs_departure(p, count) > noticeable;
+    const int rounded =
+        p->problem->K_rounding != NULL && candidates_departure(p, count) > noticeable;
     for (int i = 0; i < count; i++) {
         const double *x = p->x + (size_t)i * (size_t)p->n;
         if (rounded)
@@ -261,7 +264,7 @@ static void take_out_lost(pairs *p, int count, eigen_side *out)
 }
 
 /* The best of the candidates become the result. */
-static status hand_over(pairs *p, int wanted, eigen_side *out, eigen_result *r, fault *f)
+static status hand_over(candidates *p, int wanted, eigen_side *out, eigen_result *r, fault *f)
 {
     const size_t n = (size_t)p->n;
     drop_rounding(p, out);
@@ -272,7 +275,7 @@ static status hand_over(pairs *p, int wanted, eigen_side *out, eigen_result *r, 
         return fault_set(f, STATUS_FAULT, "out of memory for %d eigenvalues", count);
     if (improve(p, count, out, r, f) != STATUS_OK)
         return STATUS_FAULT;
-    take_out_lost(p, count, out);
+    drop_lost(p, count, out);
     for (int i = 0; i < count; i++) {
         for (size_t k = 0; k < n; k++)
             p->x[(size_t)i * n + k] /= sqrt(p->stiffness[i]);
@@ -285,20 +288,22 @@ static status hand_over(pairs *p, int wanted, eigen_side *out, eigen_result *r, 
     return STATUS_OK;
 }
 
-static status find(const eigen_problem *e, pairs *up, pairs *down, eigen_result *r, fault *f)
+static status find(const eigen_problem *e, candidates *up, candidates *down, eigen_result *r,
+                   fault *f)
 {
     const int most = (e->largest > e->smallest ? e->largest : e->smallest) + SPARE + 1;
     if ((r->n <= DENSE_UP_TO && !e->iterate) || most >= r->n)
-        return add_dense((pairs *[]){up, down}, (int[]){e->largest, e->smallest}, f);
+        return add_dense((candidates *[]){up, down}, (int[]){e->largest, e->smallest}, f);
     TRY(one_sparse(up, 0, e->largest, &r->positive, r, f));
     return one_sparse(down, 1, e->smallest, &r->negative, r, f);
 }
 
 /* With what eigen_solve frees. */
-static status solve(const eigen_problem *e, pairs *up, pairs *down, eigen_result *r, fault *f)
+static status solve(const eigen_problem *e, candidates *up, candidates *down, eigen_result *r,
+                    fault *f)
 {
-    TRY(pairs_alloc(up, e, e->sign, f));
-    TRY(pairs_alloc(down, e, -e->sign, f));
+    TRY(candidates_alloc(up, e, e->sign, f));
+    TRY(candidates_alloc(down, e, -e->sign, f));
     TRY(find(e, up, down, r, f));
     TRY(hand_over(up, e->largest, &r->positive, r, f));
     TRY(hand_over(down, e->smallest, &r->negative, r, f));
@@ -320,9 +325,9 @@ status eigen_solve(const eigen_problem *e, eigen_result *r, fault *f)
             negative > 0 ? ", the structure is beyond a critical point" : " (it is not symmetric)");
     if (r->n == 0)
         return STATUS_OK;
-    pairs up = {0}, down = {0};
+    candidates up = {0}, down = {0};
     const status outcome = solve(e, &up, &down, r, f);
-    pairs_free(&up);
-    pairs_free(&down);
+    candidates_free(&up);
+    candidates_free(&down);
     return outcome;
 }

@@ -63,8 +63,8 @@ static void fill_start(int n, double x[])
 }
 
 /* x -= a-part of X, where each coefficient is measured with the dual vector. */
-static void take_out(int n, int known, const double *dual, const double *measured, const double *X,
-                     double x[])
+static void deflate(int n, int known, const double *dual, const double *measured, const double *X,
+                    double x[])
 {
     for (int k = 0; k < known; k++) {
         const double *d = dual + (size_t)k * (size_t)n, *v = X + (size_t)k * (size_t)n;
@@ -84,8 +84,8 @@ static void apply(const lanczos_problem *p, double x[], double y[])
     for (int i = 0; i < n; i++)
         x[i] = y[i] *= p->sign;
     factor_solve(p->K_factor, y);
-    take_out(n, p->known, p->KX, y, p->X, y);
-    take_out(n, p->known, p->X, x, p->KX, x);
+    deflate(n, p->known, p->KX, y, p->X, y);
+    deflate(n, p->known, p->X, x, p->KX, x);
 }
 
 /* Returns ARPACK's verdict: 0 when all wanted ones converged. */
@@ -136,7 +136,7 @@ static status solve(const lanczos_problem *p, workspace *w, int wanted, int *fou
     const int n = p->K->n;
     TRY(workspace_alloc(w, n, wanted, n - p->known, f));
     fill_start(n, w->start);
-    take_out(n, p->known, p->KX, w->start, p->X, w->start);
+    deflate(n, p->known, p->KX, w->start, p->X, w->start);
     const int info = iterate(p, w, solutions);
     *found = info == 0 ? wanted : w->parameter[CONVERGED];
     if (info != 0 && (info != ENDED_EARLY || *found == 0))

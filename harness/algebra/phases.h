@@ -5,7 +5,6 @@
 
 #include "harness/algebra/clock.h"
 
-
 typedef enum phase {
     PHASE_ELEMENTS,
     PHASE_ASSEMBLY,

@@ -7,7 +7,7 @@
 #include "elements/math/dense.h"
 
 /* Ax = s A x. */
-static void signed_product(const pairs *p, const double x[], double Ax[])
+static void signed_product(const candidates *p, const double x[], double Ax[])
 {
     sparse_mul(p->problem->A, x, Ax);
     for (int i = 0; i < p->n; i++)
@@ -15,7 +15,7 @@ static void signed_product(const pairs *p, const double x[], double Ax[])
 }
 
 /* Column-major Y^T K Y and Y^T s A Y, upper triangles. */
-static void project(pairs *p, const double Y[], double K[], double A[])
+static void project(candidates *p, const double Y[], double K[], double A[])
 {
     const size_t n = (size_t)p->n, count = (size_t)p->count;
     for (size_t j = 0; j < count; j++) {
@@ -41,23 +41,23 @@ static void combine(size_t n, size_t count, double Y[], const double C[], double
 
 /* The Ritz vectors of Y = K^-1 s A X become the candidates; where LAPACK fails they stay as they
  * are.  Y[count x n], small[2 count^2 + count]. */
-static status replace(pairs *p, double Y[], double small[], long *solutions, fault *f)
+static status replace(candidates *p, double Y[], double small[], long *solutions, fault *f)
 {
     const size_t n = (size_t)p->n, count = (size_t)p->count;
     double *A = small, *K = A + count * count, *mu = K + count * count;
     const int m = (int)count;
     for (size_t i = 0; i < count; i++)
-        pairs_apply(p, p->x + i * n, Y + i * n);
+        candidates_apply(p, p->x + i * n, Y + i * n);
     *solutions += m;
     project(p, Y, K, A);
     if (LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', m, A, m, K, m, mu) != 0)
         return STATUS_OK;
     combine(n, count, Y, A, mu);
     p->count = 0;
-    return pairs_add(p, m, Y, 0, f);
+    return candidates_add(p, m, Y, 0, f);
 }
 
-status polish(pairs *p, long *solutions, fault *f)
+status polish(candidates *p, long *solutions, fault *f)
 {
     const size_t n = (size_t)p->n, count = (size_t)p->count;
     double *Y = malloc((count * n + 1) * sizeof *Y),

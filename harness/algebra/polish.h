@@ -2,11 +2,11 @@
 #ifndef BEAMWORK_POLISH_H
 #define BEAMWORK_POLISH_H
 
-#include "harness/algebra/pairs.h"
+#include "harness/algebra/candidates.h"
 
 /* Replaces the candidates by Ritz vectors among K^-1 A times them, with refined solutions
- * (pairs_refine): parts that are not among them shrink by the quotient of their mu and the
+ * (candidates_refine): parts that are not among them shrink by the quotient of their mu and the
  * candidate's. One refined solution each. */
-status polish(pairs *p, long *solutions, fault *f);
+status polish(candidates *p, long *solutions, fault *f);
 
 #endif

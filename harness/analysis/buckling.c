@@ -1,9 +1,12 @@
 /* Linear buckling about the undeformed state: (K + lambda G) x = 0 with G from the stresses of the
  * reference load. */
+#include "harness/analysis/buckling.h"
+
 #include "harness/algebra/eigen.h"
-#include "harness/analysis/analysis.h"
-#include "harness/analysis/equilibrium.h"
-#include "harness/analysis/linear_forms.h"
+#include "harness/model/linear.h"
+#include "harness/solver/context.h"
+#include "harness/solver/linear_forms.h"
+#include "harness/solver/linear_system.h"
 
 static double stiffness_form(void *context, const double mode[])
 {
@@ -71,7 +74,7 @@ typedef struct buckling {
     eigen_result found;
 } buckling;
 
-/* With what analysis_buckling frees. */
+/* With what buckling_analysis frees. */
 static status solve(analysis_context *c, int analysis, buckling *b, fault *f)
 {
     TRY(linear_system_alloc(c, &b->system, f));
@@ -93,11 +96,8 @@ static status solve(analysis_context *c, int analysis, buckling *b, fault *f)
     return result;
 }
 
-status analysis_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+status buckling_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
-    const int follows = c->scene->analysis[analysis].follows;
-    if (follows != SCENE_NONE && c->scene->analysis[follows].kind == SCENE_STATIC)
-        return equilibrium_buckling(c, analysis, o, f);
     buckling b = {0};
     const status result = solve(c, analysis, &b, f);
     keep(&b.found.positive, &o->positive);

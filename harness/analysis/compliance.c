@@ -1,10 +1,16 @@
 /* Compliance and stiffness of a node in a deformed state.  Prescribed motion that is released is
  * replaced by its reactions: dead forces, and moments of the analysis' convention. */
+#include "harness/analysis/compliance.h"
+
 #include <math.h>
 #include <stdlib.h>
 
-#include "harness/analysis/tangent.h"
-#include "harness/model/convention.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/linearise.h"
+#include "harness/model/loads.h"
+#include "harness/solver/context.h"
+#include "harness/solver/convention.h"
+#include "harness/solver/tangent.h"
 
 /* Loads whose response some quantity asks for. */
 static unsigned wanted_columns(const analysis_context *c, int analysis)
@@ -67,7 +73,7 @@ static status matrices_alloc(solve_result *r, const scene_analysis *a, int stati
                : STATUS_OK;
 }
 
-/* With what analysis_compliance frees; at the stations that the path has reached. */
+/* With what compliance_analysis frees; at the stations that the path has reached. */
 static status solve(analysis_context *c, int analysis, tangent *t, analysis_outcome *o, fault *f)
 {
     const scene_analysis *a = &c->scene->analysis[analysis];
@@ -92,7 +98,7 @@ static status solve(analysis_context *c, int analysis, tangent *t, analysis_outc
     return STATUS_OK;
 }
 
-status analysis_compliance(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+status compliance_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     tangent t;
     const status result = solve(c, analysis, &t, o, f);

@@ -6,7 +6,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "harness/analysis/history.h"
+#include "harness/analysis/continuation_impl.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/metric.h"
+#include "harness/solver/context.h"
+#include "harness/solver/history.h"
+#include "harness/solver/newton.h"
 
 enum { MOST_POINTS = 20000, MANY_ITERATIONS = 9, HALVINGS = 14 };
 
@@ -56,7 +61,7 @@ static status accept(continuation *p, step_record *record, fault *f)
     record->negative_pivots = p->here.negative;
     model_counters(p->c->model)->steps++;
     TRY(add_point(p, f));
-    return newton_add_record(p->c->result, record, f);
+    return history_add_step(p->c->result, record, f);
 }
 
 /* The first step goes where the control coordinate goes, with or against the load. */
@@ -174,9 +179,8 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
             r->state == NULL ? 0 : model_distance(p->c->model, p->n.state, r->state);
         nearest = goal.by_arc ? fmin(nearest, distance) : distance;
     }
-    return r->state != NULL && nearest > (goal.by_arc ? goal.value / 2 : 1e-5)
-               ? continuation_report_jump(p, r, from, f)
-               : STATUS_OK;
+    const double same = goal.by_arc ? goal.value / 2 : 1e-5;
+    return r->state != NULL && nearest > same ? continuation_report_jump(p, r, from, f) : STATUS_OK;
 }
 
 /* Where a step in doubt ends: smaller ones may lead elsewhere. */
@@ -248,12 +252,12 @@ static status walk(continuation *p, fault *f)
     TRY(start(p, f));
     for (int i = 0; i < p->a->stations; i++) {
         TRY(walk_to(p, p->a->path[i], &size, f));
-        TRY(newton_keep(&p->n, p->o, p->a->path[i], f));
+        TRY(outcome_keep(p->o, p->c->model, p->n.state, p->a->path[i], f));
     }
     return STATUS_OK;
 }
 
-status analysis_continuation(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+status continuation_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     continuation p;
     status result = continuation_alloc(c, analysis, o, &p, f);

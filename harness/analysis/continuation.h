@@ -1,81 +1,9 @@
-/* Continuation of equilibrium paths under proportional loads, inside of its files.
- *
- * The load factor is one more unknown and one coordinate, or the arc, is given instead:
- *   K dx = r + f' dl,  g . dx = gap,  hence dx = K^-1 r + dl K^-1 f',
- *   dl = (gap - g . K^-1 r)/(g . K^-1 f').
- * K is factored at every point that was found, which gives the tangent of the path, the first
- * direction of the next step and, where K is symmetric, the number of its negative eigenvalues. */
+/* Equilibrium paths under proportional loads, through limit points. */
 #ifndef BEAMWORK_CONTINUATION_H
 #define BEAMWORK_CONTINUATION_H
 
-#include "harness/analysis/newton.h"
+#include "harness/solver/context.h"
 
-/* A point of the path. */
-typedef struct path_point {
-    double factor, control; /* [1], [m] */
-    double rate;            /* dfactor/ds with s in the model's metric */
-    double *tangent;        /* [free + driven] dx/ds */
-    int negative;           /* negative pivots of K; -1: not symmetric */
-    int determinant;        /* sign of det K */
-} path_point;
-
-/* Where a step goes: to this value of the control coordinate, or so far along the arc. */
-typedef struct path_goal {
-    int by_arc;
-    double value;
-} path_goal;
-
-typedef struct continuation {
-    analysis_context *c;
-    const scene_analysis *a;
-    analysis_outcome *o;
-    int analysis, room; /* room: for points in the outcome */
-    int keeps_states;   /* 1: the outcome keeps the state of every point */
-    newton n;           /* n.backup: state at the start of the step */
-    model_state *end;   /* of the step, while a critical point inside it is looked for */
-    double *weight;     /* [free + driven] the metric */
-    double *load;       /* [free + driven] f' */
-    double *response;   /* [free + driven] K^-1 f' */
-    double *moved;      /* [free + driven] sum of the increments of the step */
-    double *mode;       /* [free + driven] null vector */
-    path_point here, next, trial;
-    int looked; /* 1: n.dx, response and the factors belong to the present state */
-} continuation;
-
-status continuation_alloc(analysis_context *, int analysis, analysis_outcome *, continuation *,
-                          fault *);
-void continuation_free(continuation *);
-
-double continuation_dot(const continuation *, const double a[],
-                        const double b[]); /* in the metric */
-/* Newton to the goal from n.backup = the state of `here`; the arc is measured along its tangent. */
-status continuation_correct(continuation *, path_goal, step_record *, fault *);
-/* Factors K in the present state and fills the point; its tangent goes the way of along[free +
- * driven] (NULL: to a larger load). */
-status continuation_look(continuation *, const double along[], path_point *, step_record *,
-                         fault *);
-/* The state goes back to that of `here`. */
-void continuation_go_back(continuation *);
-
-/* continuation_sound.c: why the step from `here` to `next` is too long or led to another branch;
- * NULL: sound. *swing: how much it turns relative to what is allowed. last_resort: several critical
- * points may lie in one step, as it cannot be shorter. */
-const char *continuation_doubt(const continuation *, int last_resort, double *swing);
-
-/* The end of a step in doubt. */
-typedef struct rival {
-    model_state *state; /* NULL: none */
-    double factor;
-} rival;
-
-/* The step from the control coordinate `from` had led to the rival, the path leads here: an event,
- * and with constant steps the end. */
-status continuation_report_jump(continuation *, const rival *, double from, fault *);
-
-/* continuation_critical.c: the critical points between `here` and `next`, if any, become events.
- * The step was found with the goal. *jump: 1 when the tangent stiffness changes its inertia without
- * a critical point, which is another branch. */
-status continuation_critical(continuation *, path_goal, int *jump, fault *);
-status continuation_add_event(continuation *, const path_event *, fault *);
+status continuation_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 
 #endif

@@ -8,8 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/analysis/continuation.h"
-#include "harness/analysis/history.h"
+#include "harness/analysis/continuation_impl.h"
+#include "harness/model/kinematics.h"
+#include "harness/solver/history.h"
 
 enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12 };
 static const double least_load_work = 1e-5; /* of a null vector that is not across the load */
@@ -19,23 +20,6 @@ static const double closeness = 1e-10;      /* of a trial, relative to the step 
 typedef struct bound {
     double at, value; /* part of the step; test function, NAN: unknown */
 } bound;
-
-const char *event_name(event_kind kind)
-{
-    static const char *const name[EVENT_KINDS] = {"limit point", "bifurcation", "branch jump"};
-    return name[kind];
-}
-
-status continuation_add_event(continuation *p, const path_event *event, fault *f)
-{
-    solve_result *r = p->c->result;
-    path_event *more = realloc(r->event, ((size_t)r->events + 1) * sizeof *more);
-    if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for events");
-    r->event = more;
-    r->event[r->events++] = *event;
-    return STATUS_OK;
-}
 
 /* mode: left eigenvector of K with the eigenvalue of least size, which is returned; K is factored
  * in the present state. */
@@ -166,7 +150,7 @@ static status report_critical(continuation *p, path_goal goal, int by_rate, int 
     least_eigenvalue(p);
     event.measure = load_work(p);
     *jump = !by_rate && event.measure > least_load_work;
-    return *jump ? STATUS_OK : continuation_add_event(p, &event, f);
+    return *jump ? STATUS_OK : history_add_event(p->c->result, &event, f);
 }
 
 status continuation_critical(continuation *p, path_goal goal, int *jump, fault *f)

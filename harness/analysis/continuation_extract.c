@@ -1,10 +1,14 @@
 /* Quantities of a continued path. */
+#include "harness/analysis/continuation_extract.h"
+
 #include <math.h>
 #include <stdlib.h>
 
-#include "harness/analysis/analysis.h"
+#include "harness/model/kinematics.h"
+#include "harness/solver/context.h"
+#include "harness/solver/quantity.h"
 
-int continuation_keeps_states(const scene *s, int analysis)
+int continuation_extract_keeps_states(const scene *s, int analysis)
 {
     for (int i = 0; i < s->quantities; i++) {
         const scene_quantity *q = &s->quantity[i];
@@ -26,7 +30,7 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
     r->curve.x = calloc((size_t)o->points + 1, sizeof(double));
     r->curve.value = calloc((size_t)o->points + 1, sizeof(double));
     if (r->curve.x == NULL || r->curve.value == NULL) {
-        extract_no_value(r, STATUS_FAULT, "out of memory");
+        quantity_no_value(r, STATUS_FAULT, "out of memory");
         return;
     }
     r->curve.points = o->points;
@@ -35,11 +39,11 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
                                  ? o->factor[i]
                                  : model_component(c->model, o->point_state[i], q->node, q->row);
         r->curve.x[i] = abscissa(q, o->control[i]);
-        r->curve.value[i] = extract_scaled(q, value);
+        r->curve.value[i] = quantity_scaled(q, value);
     }
     r->value = o->points > 0 ? r->curve.value[o->points - 1] : NAN;
     if (o->status != STATUS_OK)
-        extract_no_value(r, o->status, o->reason);
+        quantity_no_value(r, o->status, o->reason);
 }
 
 static void take_critical(const analysis_context *c, const scene_quantity *q,
@@ -51,15 +55,15 @@ static void take_critical(const analysis_context *c, const scene_quantity *q,
         const path_event *e = &c->result->event[i];
         if (e->analysis != q->analysis || e->kind != kind || order++ < q->order)
             continue;
-        r->value = extract_scaled(q, q->column == 0 ? e->factor : e->control);
+        r->value = quantity_scaled(q, q->column == 0 ? e->factor : e->control);
         r->x = abscissa(q, e->control);
         return;
     }
-    extract_no_value(r, o->status,
-                     o->status != STATUS_OK ? o->reason : "no such point on the path");
+    quantity_no_value(r, o->status,
+                      o->status != STATUS_OK ? o->reason : "no such point on the path");
 }
 
-int extract_continuation(const analysis_context *c, const scene_quantity *q,
+int continuation_extract(const analysis_context *c, const scene_quantity *q,
                          const analysis_outcome *o, quantity_result *r)
 {
     if (q->kind == SCENE_CRITICAL_POINT)

@@ -2,7 +2,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "harness/analysis/continuation.h"
+#include "harness/analysis/continuation_impl.h"
+#include "harness/model/metric.h"
+#include "harness/solver/history.h"
 
 static const double largest_swing = 0.3; /* [rad] between a tangent and the secant, in the metric */
 static const double largest_turn = 0.25; /* [rad] of any node in one step */
@@ -43,7 +45,7 @@ status continuation_report_jump(continuation *p, const rival *r, double from, fa
                               .control = p->here.control,
                               .other_factor = r->factor,
                               .measure = model_distance(p->c->model, p->n.state, r->state)};
-    TRY(continuation_add_event(p, &event, f));
+    TRY(history_add_event(p->c->result, &event, f));
     if (p->a->constant_steps)
         return fault_set(f, STATUS_NOT_CONVERGED,
                          "the step from %g to %g m jumps to another branch (load factor %g, on "

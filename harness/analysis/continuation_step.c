@@ -3,7 +3,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/analysis/continuation.h"
+#include "harness/analysis/continuation_extract.h"
+#include "harness/analysis/continuation_impl.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/loads.h"
+#include "harness/model/metric.h"
+#include "harness/solver/context.h"
+#include "harness/solver/newton.h"
 
 status continuation_alloc(analysis_context *c, int analysis, analysis_outcome *o, continuation *p,
                           fault *f)
@@ -13,13 +19,13 @@ status continuation_alloc(analysis_context *c, int analysis, analysis_outcome *o
     p->a = &c->scene->analysis[analysis];
     p->o = o;
     p->analysis = analysis;
-    p->keeps_states = continuation_keeps_states(c->scene, analysis);
+    p->keeps_states = continuation_extract_keeps_states(c->scene, analysis);
     if (c->options->newton == SOLVE_DENSE)
         return fault_set(
             f, STATUS_REFUSED,
             "continuation needs a factored tangent; give newton=mixed or newton=displacement");
     TRY(newton_alloc(c, &p->n, f));
-    TRY(newton_stations(o, p->a->stations, f));
+    TRY(outcome_stations(o, p->a->stations, f));
     TRY(model_state_alloc(c->model, &p->end, f));
     double **const vector[] = {&p->weight, &p->load,         &p->response,     &p->moved,
                                &p->mode,   &p->here.tangent, &p->next.tangent, &p->trial.tangent};

@@ -1,24 +1,20 @@
 /* Quantities of a scene from the outcomes of its analyses. */
+#include "harness/analysis/extract.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/analysis/analysis.h"
+#include "harness/analysis/continuation_extract.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/linearise.h"
+#include "harness/model/loads.h"
+#include "harness/solver/context.h"
+#include "harness/solver/modes.h"
+#include "harness/solver/quantity.h"
 
 static const double TURN = 2 * 3.14159265358979323846; /* rad */
-
-void extract_no_value(quantity_result *r, status s, const char *reason)
-{
-    r->status = s;
-    r->value = NAN;
-    snprintf(r->reason, sizeof r->reason, "%s", reason);
-}
-
-double extract_scaled(const scene_quantity *q, double value)
-{
-    return (q->factor != 0 ? q->factor : 1) * value + q->offset;
-}
 
 /* Frequency [Hz] or growth [1/s] of a stationary rotation; NAN: no mode of this kind. */
 static double of_rotation(const scene_quantity *q, const rotation_modes *modes)
@@ -28,7 +24,7 @@ static double of_rotation(const scene_quantity *q, const rotation_modes *modes)
     for (int i = 0; i < modes->count; i++) {
         largest = fmax(largest, modes->growth[i]);
         if (q->kind == SCENE_FREQUENCY && modes->growth[i] == 0 &&
-            mode_in_family(q, &modes->shape[i]) && order++ == q->order)
+            modes_in_family(q, &modes->shape[i]) && order++ == q->order)
             return modes->frequency[i] / TURN;
     }
     return q->kind == SCENE_GROWTH && modes->count > 0 ? largest : NAN;
@@ -41,23 +37,23 @@ static double at_station(const analysis_context *c, const scene_quantity *q,
     double F[6], L[6];
     switch (q->kind) {
     case SCENE_COORDINATE:
-        return extract_scaled(q, model_component(c->model, o->state[i], q->node, q->row));
+        return quantity_scaled(q, model_component(c->model, o->state[i], q->node, q->row));
     case SCENE_REACTION:
         model_node_force(c->model, o->state[i], q->node, F);
         model_node_load(c->model, o->state[i], q->node, L);
-        return extract_scaled(q, F[q->row] - L[q->row]);
+        return quantity_scaled(q, F[q->row] - L[q->row]);
     case SCENE_COMPLIANCE_ENTRY:
-        return extract_scaled(q, o->compliance[36 * i + 6 * q->row + q->column]);
+        return quantity_scaled(q, o->compliance[36 * i + 6 * q->row + q->column]);
     case SCENE_STIFFNESS_ENTRY:
-        return extract_scaled(q, 1 / o->compliance[36 * i + 6 * q->row + q->column]);
+        return quantity_scaled(q, 1 / o->compliance[36 * i + 6 * q->row + q->column]);
     case SCENE_DRIVER_VALUE:
-        return extract_scaled(q, model_driver_value(c->model, o->state[i], q->row));
+        return quantity_scaled(q, model_driver_value(c->model, o->state[i], q->row));
     case SCENE_FREQUENCY:
     case SCENE_GROWTH:
-        return o->modes != NULL ? extract_scaled(q, of_rotation(q, &o->modes[i])) : NAN;
+        return o->modes != NULL ? quantity_scaled(q, of_rotation(q, &o->modes[i])) : NAN;
     case SCENE_CRITICAL_FACTOR:
     case SCENE_FACTOR_AT:
-        return extract_scaled(q, model_state_path(o->state[i]));
+        return quantity_scaled(q, model_state_path(o->state[i]));
     case SCENE_CRITICAL_POINT:
         break;
     }
@@ -78,7 +74,7 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
     r->curve.x = calloc((size_t)o->reached + 1, sizeof(double));
     r->curve.value = calloc((size_t)o->reached + 1, sizeof(double));
     if (r->curve.x == NULL || r->curve.value == NULL) {
-        extract_no_value(r, STATUS_FAULT, "out of memory");
+        quantity_no_value(r, STATUS_FAULT, "out of memory");
         return;
     }
     r->curve.points = o->reached;
@@ -119,12 +115,12 @@ static void from_path(const analysis_context *c, const scene_quantity *q, const 
     if (q->reduction == SCENE_CURVE) {
         take_curve(c, q, o, r);
         if (!complete)
-            extract_no_value(r, o->status, o->reason);
+            quantity_no_value(r, o->status, o->reason);
         return;
     }
     if (chosen < 0 || (q->reduction != SCENE_AT && !complete)) {
-        extract_no_value(r, o->status != STATUS_OK ? o->status : STATUS_NOT_CONVERGED,
-                         o->status != STATUS_OK ? o->reason : reason_of_path(c, q));
+        quantity_no_value(r, o->status != STATUS_OK ? o->status : STATUS_NOT_CONVERGED,
+                          o->status != STATUS_OK ? o->reason : reason_of_path(c, q));
         return;
     }
     r->value = at_station(c, q, o, chosen);
@@ -136,10 +132,10 @@ static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, i
                             quantity_result *r)
 {
     if (isnan(side->value[i])) {
-        extract_no_value(r, side->status, side->reason);
+        quantity_no_value(r, side->status, side->reason);
         return;
     }
-    r->value = extract_scaled(q, side->value[i] / unit);
+    r->value = quantity_scaled(q, side->value[i] / unit);
     r->rounding = side->error != NULL ? side->error[i] : 0;
 }
 
@@ -159,7 +155,7 @@ static void from_buckling(const scene_quantity *q, const analysis_outcome *o, qu
                  side->count > 0 ? " of this order" : "", side->reason);
     else
         snprintf(why, sizeof why, "no %s critical load of this order", sign);
-    extract_no_value(r, side->status, why);
+    quantity_no_value(r, side->status, why);
 }
 
 /* *found: the mode of the kind and order that is asked for; -1: there is none. x[free + driven] is
@@ -173,8 +169,8 @@ static status find_mode(const analysis_context *c, const scene_quantity *q,
     for (int i = 0; i < side->count; i++) {
         mode_shape shape;
         memcpy(x, side->mode + (size_t)i * n, n * sizeof *x);
-        TRY(mode_identify(c->model, c->scene, x, &shape, f));
-        if (mode_in_family(q, &shape) && order++ == q->order) {
+        TRY(modes_identify(c->model, c->scene, x, &shape, f));
+        if (modes_in_family(q, &shape) && order++ == q->order) {
             *found = i;
             return STATUS_OK;
         }
@@ -193,13 +189,13 @@ static void from_modes(const analysis_context *c, const scene_quantity *q,
     const status known = x != NULL ? find_mode(c, q, side, x, &found, &f) : STATUS_FAULT;
     free(x);
     if (known != STATUS_OK)
-        extract_no_value(r, known, f.text);
+        quantity_no_value(r, known, f.text);
     else if (found >= 0)
         take_eigenvalue(q, side, found, TURN, r);
     else if (side->status != STATUS_OK)
-        extract_no_value(r, side->status, side->reason);
+        quantity_no_value(r, side->status, side->reason);
     else
-        extract_no_value(r, STATUS_OK, "the mesh has no mode of this kind");
+        quantity_no_value(r, STATUS_OK, "the mesh has no mode of this kind");
 }
 
 static void from_linear(const analysis_context *c, const scene_quantity *q,
@@ -211,9 +207,9 @@ static void from_linear(const analysis_context *c, const scene_quantity *q,
     for (int k = 0; k < n; k++)
         sum += T[q->row * n + k] * o->x[index[k]];
     if (q->kind == SCENE_COORDINATE)
-        r->value = extract_scaled(q, sum);
+        r->value = quantity_scaled(q, sum);
     else
-        extract_no_value(r, STATUS_REFUSED, "a linear analysis gives coordinates only");
+        quantity_no_value(r, STATUS_REFUSED, "a linear analysis gives coordinates only");
 }
 
 void extract_quantity(const analysis_context *c, const scene_quantity *q, quantity_result *r)
@@ -223,7 +219,7 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
     const int partly = o->positive.count + o->negative.count > 0 ||
                        o->positive.status != STATUS_OK || o->negative.status != STATUS_OK;
     if (o->status != STATUS_OK && o->reached == 0 && o->points == 0 && !partly) {
-        extract_no_value(r, o->status, o->reason);
+        quantity_no_value(r, o->status, o->reason);
         return;
     }
     switch (c->scene->analysis[q->analysis].kind) {
@@ -237,7 +233,7 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
         from_modes(c, q, o, r);
         break;
     case SCENE_CONTINUATION:
-        if (!extract_continuation(c, q, o, r))
+        if (!continuation_extract(c, q, o, r))
             from_path(c, q, o, r);
         break;
     case SCENE_STATIC:
@@ -247,9 +243,9 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
     case SCENE_ROTATION:
         from_path(c, q, o, r);
         if (o->modes != NULL && isnan(r->value) && r->status == STATUS_OK)
-            extract_no_value(r, STATUS_OK, "the mesh has no mode of this kind");
+            quantity_no_value(r, STATUS_OK, "the mesh has no mode of this kind");
         break;
     }
     if (r->status == STATUS_OK && !isfinite(r->value) && r->reason[0] == '\0')
-        extract_no_value(r, STATUS_SINGULAR, "the value is not finite");
+        quantity_no_value(r, STATUS_SINGULAR, "the value is not finite");
 }

@@ -1,16 +1,20 @@
 /* Natural frequencies about the undeformed state, with the stresses of a linear analysis where one
  * is followed: M x = (1/omega^2) K x, so that a mass matrix singular in the rotations does no
  * harm. */
+#include "harness/analysis/modal.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "harness/algebra/eigen.h"
-#include "harness/analysis/analysis.h"
-#include "harness/analysis/equilibrium.h"
-#include "harness/analysis/linear_forms.h"
-#include "harness/analysis/singular.h"
+#include "harness/model/linear.h"
+#include "harness/model/rotating_frame.h"
+#include "harness/solver/context.h"
+#include "harness/solver/linear_forms.h"
+#include "harness/solver/linear_system.h"
+#include "harness/solver/singular.h"
 
 int modal_wanted(const analysis_context *c, int analysis)
 {
@@ -95,7 +99,7 @@ static status shifted_system(analysis_context *c, linear_system *s, const sparse
     for (int i = 0; i < M->column[M->n]; i++)
         s->K.value[i] += *shift * M->value[i];
     model_counters(c->model)->factorisations++;
-    return analysis_factor(c, s->factor, &s->K, f);
+    return context_factor(c, s->factor, &s->K, f);
 }
 
 /* K += G of the stresses of the linear analysis that is followed. */
@@ -116,7 +120,7 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
     for (int i = 0; i < s->K.column[s->K.n]; i++)
         s->K.value[i] += about->G.value[i];
     model_counters(c->model)->factorisations++;
-    return analysis_factor(c, s->factor, &s->K, f);
+    return context_factor(c, s->factor, &s->K, f);
 }
 
 /* K with its factors, and M; K of a structure that is not held is shifted. */
@@ -141,7 +145,7 @@ static status assemble(analysis_context *c, int follows, linear_system *s, forms
     return singular ? shifted_system(c, s, &about->M, &about->shift, f) : STATUS_OK;
 }
 
-/* With what analysis_modal frees. */
+/* With what modal_analysis frees. */
 static status solve(analysis_context *c, int analysis, linear_system *s, forms *about,
                     eigen_result *e, fault *f)
 {
@@ -161,11 +165,8 @@ static status solve(analysis_context *c, int analysis, linear_system *s, forms *
     return result;
 }
 
-status analysis_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+status modal_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
-    const int follows = c->scene->analysis[analysis].follows;
-    if (follows != SCENE_NONE && c->scene->analysis[follows].kind == SCENE_STATIC)
-        return equilibrium_modal(c, analysis, o, f);
     linear_system s = {0};
     eigen_result e = {0};
     forms about = {0};

@@ -1,14 +1,24 @@
 /* Stationary rotation: equilibrium in a frame that turns, at a rising angular velocity, and small
  * motions about it with the gyroscopic, centrifugal and geometric terms (J Eq. 76: K0 + N0 +
  * G0). */
+#include "harness/analysis/rotation.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "harness/algebra/clock.h"
 #include "harness/algebra/gyroscopic.h"
-#include "harness/analysis/newton.h"
-#include "harness/analysis/singular.h"
+#include "harness/analysis/static.h"
+#include "harness/model/assemble.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/linearise.h"
+#include "harness/model/rotating_frame.h"
+#include "harness/solver/context.h"
+#include "harness/solver/modes.h"
+#include "harness/solver/newton.h"
+#include "harness/solver/singular.h"
+#include "harness/solver/tangent.h"
 
 enum { OTHERS = 2 }; /* modes of other families that may lie between those wanted */
 
@@ -88,7 +98,7 @@ static status linearise(analysis_context *c, const model_state *state, matrices 
     TRY(model_inertia(c->model, state, path, &a->M, &a->G, f));
     model_load_stiffness(c->model, state, path, &a->loads);
     model_counters(c->model)->factorisations++;
-    return analysis_factor(c, a->factor, &a->K, f);
+    return context_factor(c, a->factor, &a->K, f);
 }
 
 /* Frequencies and families of the modes found. */
@@ -102,9 +112,9 @@ static status identify(analysis_context *c, const gyroscopic_result *r, double m
         out->frequency[i] = r->frequency[i];
         out->growth[i] = r->growth[i];
     }
-    TRY(mode_separate(c->model, c->scene, r->count, r->frequency, all, mode, f));
+    TRY(modes_separate(c->model, c->scene, r->count, r->frequency, all, mode, f));
     for (int i = 0; i < r->count; i++)
-        TRY(mode_identify(c->model, c->scene, mode + (size_t)i * all, &out->shape[i], f));
+        TRY(modes_identify(c->model, c->scene, mode + (size_t)i * all, &out->shape[i], f));
     return STATUS_OK;
 }
 
@@ -160,27 +170,11 @@ static int is_enough(const analysis_context *c, int analysis, const rotation_mod
         const scene_quantity *q = &c->scene->quantity[i];
         int found = 0;
         for (int k = 0; k < modes->count; k++)
-            found += modes->growth[k] == 0 && mode_in_family(q, &modes->shape[k]);
+            found += modes->growth[k] == 0 && modes_in_family(q, &modes->shape[k]);
         if (q->analysis == analysis && q->kind == SCENE_FREQUENCY && found <= q->order)
             return 0;
     }
     return 1;
-}
-
-static void modes_free(rotation_modes *m)
-{
-    free(m->frequency);
-    free(m->shape);
-    memset(m, 0, sizeof *m);
-}
-
-void rotation_modes_free(rotation_modes modes[], int stations)
-{
-    if (modes == NULL)
-        return;
-    for (int i = 0; i < stations; i++)
-        modes_free(&modes[i]);
-    free(modes);
 }
 
 /* `wanted` modes, if they exist; *enough: there is one for every quantity, or there are no more. */
@@ -211,7 +205,7 @@ static status modes_at(analysis_context *c, int analysis, const model_state *sta
                                   .context = &about};
     int enough = 0;
     for (problem.wanted = modes_wanted(c, analysis); !enough; problem.wanted *= 2) {
-        modes_free(out);
+        outcome_modes_free(out);
         TRY(linearise(c, state, a, f));
         TRY(try_modes(c, analysis, &problem, out, &enough, f));
     }
@@ -225,7 +219,7 @@ static void note_instability(analysis_context *c, const rotation_modes *modes, d
         if (modes->growth[i] > 0 && c->result->reason[0] == '\0')
             snprintf(c->result->reason, sizeof c->result->reason,
                      "unstable at path %g: %s, %s, grows with %.4g 1/s", path,
-                     mode_family_name(modes->shape[i].family),
+                     modes_family_name(modes->shape[i].family),
                      modes->frequency[i] > 0 ? "flutter" : "divergence", modes->growth[i]);
 }
 
@@ -244,10 +238,10 @@ static status modes_of(analysis_context *c, int analysis, matrices *a, analysis_
     return STATUS_OK;
 }
 
-status analysis_rotation(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+status rotation_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     matrices a = {0};
-    TRY(analysis_static(c, analysis, o, f));
+    TRY(static_analysis(c, analysis, o, f));
     if (!asks_for_modes(c, analysis, 0))
         return STATUS_OK;
     const status outcome = modes_of(c, analysis, &a, o, f);

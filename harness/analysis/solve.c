@@ -5,64 +5,41 @@
 #include <string.h>
 
 #include "harness/algebra/clock.h"
-#include "harness/analysis/analysis.h"
-#include "harness/analysis/singular.h"
+#include "harness/analysis/buckling.h"
+#include "harness/analysis/collect.h"
+#include "harness/analysis/compliance.h"
+#include "harness/analysis/continuation.h"
+#include "harness/analysis/extract.h"
+#include "harness/analysis/linear.h"
+#include "harness/analysis/loaded.h"
+#include "harness/analysis/modal.h"
+#include "harness/analysis/rotation.h"
+#include "harness/analysis/static.h"
+#include "harness/model/rotating_frame.h"
+#include "harness/solver/context.h"
+#include "harness/solver/singular.h"
 
-static void free_states(int count, model_state **state)
-{
-    if (state != NULL)
-        for (int i = 0; i < count; i++)
-            model_state_free(state[i]);
-    free(state);
-}
+typedef status analysis_function(analysis_context *, int analysis, analysis_outcome *, fault *);
 
-void outcome_free(analysis_outcome *o)
+/* NULL: there is none. */
+static analysis_function *function_of(const scene *s, const scene_analysis *a)
 {
-    free_states(o->reached, o->state);
-    free_states(o->points, o->point_state);
-    free(o->path);
-    free(o->x);
-    free(o->factor);
-    free(o->control);
-    outcome_side *const sides[] = {&o->positive, &o->negative};
-    for (int i = 0; i < 2; i++) {
-        free(sides[i]->value);
-        free(sides[i]->mode);
-        free(sides[i]->error);
-    }
-    rotation_modes_free(o->modes, o->stations);
-}
-
-void outcome_take(eigen_side *from, outcome_side *to)
-{
-    to->count = from->count;
-    to->value = from->mu;
-    to->mode = from->mode;
-    to->error = from->error;
-    to->status = from->status;
-    snprintf(to->reason, sizeof to->reason, "%s", from->reason);
-    if (from->rounding > 0 && from->status == STATUS_OK)
-        snprintf(to->reason, sizeof to->reason, "geometric stiffness is round-off");
-    from->mu = from->mode = from->error = NULL;
-}
-
-static analysis_function *function_of(scene_analysis_kind kind)
-{
-    switch (kind) {
+    const int is_loaded = a->follows != SCENE_NONE && s->analysis[a->follows].kind == SCENE_STATIC;
+    switch (a->kind) {
     case SCENE_LINEAR:
-        return analysis_linear;
+        return linear_analysis;
     case SCENE_BUCKLING:
-        return analysis_buckling;
+        return is_loaded ? loaded_buckling : buckling_analysis;
     case SCENE_MODAL:
-        return analysis_modal;
+        return is_loaded ? loaded_modal : modal_analysis;
     case SCENE_STATIC:
-        return analysis_static;
+        return static_analysis;
     case SCENE_COMPLIANCE:
-        return analysis_compliance;
+        return compliance_analysis;
     case SCENE_CONTINUATION:
-        return analysis_continuation;
+        return continuation_analysis;
     case SCENE_ROTATION:
-        return analysis_rotation;
+        return rotation_analysis;
     }
     return NULL;
 }
@@ -74,8 +51,8 @@ static void run_analyses(analysis_context *c)
         analysis_outcome *o = &c->outcomes[i];
         fault f = {""};
         const scene_analysis *a = &c->scene->analysis[i];
-        analysis_function *run = function_of(a->kind);
-        model_set_spin(c->model, a->omega, a->omega_centre, a->kind == SCENE_ROTATION);
+        analysis_function *run = function_of(c->scene, a);
+        model_set_rotating_frame(c->model, a->omega, a->omega_centre, a->kind == SCENE_ROTATION);
         if (c->options->sample > 0 && a->kind != SCENE_STATIC)
             continue;
         c->singular = 0;
@@ -122,7 +99,7 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
     const counters work =
         *model_counters(m); /* shapes are drawn, not solved for: they do not count */
     if (c.options->shapes > 0 &&
-        shapes_collect(&c, c.options->shapes, &result->shapes, f) != STATUS_OK)
+        collect_shapes(&c, c.options->shapes, &result->shapes, f) != STATUS_OK)
         result->status = STATUS_FAULT;
     *model_counters(m) = work;
     for (int i = 0; i < s->analyses; i++)
@@ -131,25 +108,4 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
     if (result->status != STATUS_OK && f != NULL)
         snprintf(f->text, sizeof f->text, "%s", result->reason);
     return result->status;
-}
-
-void solve_result_free(solve_result *r)
-{
-    if (r->quantity != NULL)
-        for (int i = 0; i < r->quantities; i++) {
-            free(r->quantity[i].curve.x);
-            free(r->quantity[i].curve.value);
-        }
-    for (int i = 0; i < r->matrix_sets; i++) {
-        free(r->matrices[i].path);
-        free(r->matrices[i].compliance);
-        free(r->matrices[i].stiffness);
-    }
-    free(r->matrices);
-    free(r->quantity);
-    free(r->step);
-    shapes_free(&r->shapes);
-    free(r->iteration);
-    free(r->event);
-    memset(r, 0, sizeof *r);
 }

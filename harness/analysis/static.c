@@ -1,6 +1,11 @@
 /* Nonlinear equilibrium along a path, with steps that adapt. */
-#include "harness/analysis/history.h"
-#include "harness/analysis/newton.h"
+#include "harness/analysis/static.h"
+
+#include "harness/model/kinematics.h"
+#include "harness/solver/context.h"
+#include "harness/solver/history.h"
+#include "harness/solver/newton.h"
+#include "harness/solver/predictor.h"
 
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
 
@@ -15,17 +20,17 @@ status static_walk(newton *n, double target, double *increment, fault *f)
         const double to = last ? target : from + *increment;
         step_record record = {.path = to, .increment = to - from, .rejected = rejected};
         model_state_copy(n->c->model, n->state, n->backup);
-        if (n->trail != NULL)
-            trail_guess(n->c->model, n->trail, to, n->state);
+        if (n->predictor != NULL)
+            predictor_guess(n->c->model, n->predictor, to, n->state);
         const status outcome = newton_to(n, to, &record, f);
         if (outcome == STATUS_OK) {
-            TRY(newton_add_record(n->c->result, &record, f));
+            TRY(history_add_step(n->c->result, &record, f));
             count->steps++;
             count->negative_pivots = record.negative_pivots > count->negative_pivots
                                          ? record.negative_pivots
                                          : count->negative_pivots;
-            if (n->trail != NULL)
-                trail_add(n->c->model, n->state, record.iterations, n->trail);
+            if (n->predictor != NULL)
+                predictor_add(n->c->model, n->state, record.iterations, n->predictor);
             if (record.iterations <= EASY_ITERATIONS && !last && rejected == 0)
                 *increment *= 2;
             rejected = 0;
@@ -38,8 +43,8 @@ status static_walk(newton *n, double target, double *increment, fault *f)
         if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED || to - from <= least || hopeless)
             return outcome;
         model_state_copy(n->c->model, n->backup, n->state);
-        if (n->trail != NULL)
-            trail_forget(n->trail);
+        if (n->predictor != NULL)
+            predictor_forget(n->predictor);
         count->rejected_steps++;
         rejected++;
         *increment = (to - from) / 2;
@@ -69,29 +74,29 @@ static status walk(newton *n, const scene_analysis *a, analysis_outcome *o, faul
         double increment = (a->path[i] - from) / steps;
         TRY(static_walk(n, a->path[i], &increment, f));
         if (c->options->newton != SOLVE_DENSE)
-            count_condition(c, n->factor, &n->K);
-        TRY(newton_keep(n, o, a->path[i], f));
+            context_count_condition(c, n->factor, &n->K);
+        TRY(outcome_keep(o, c->model, n->state, a->path[i], f));
     }
     return STATUS_OK;
 }
 
-/* With what analysis_static frees. */
-static status solve(analysis_context *c, const scene_analysis *a, newton *n, trail *t,
+/* With what static_analysis frees. */
+static status solve(analysis_context *c, const scene_analysis *a, newton *n, predictor *t,
                     analysis_outcome *o, fault *f)
 {
     TRY(newton_alloc(c, n, f));
-    TRY(trail_alloc(c->model, t, f));
-    n->trail = t;
-    TRY(newton_stations(o, a->stations, f));
+    TRY(predictor_alloc(c->model, t, f));
+    n->predictor = t;
+    TRY(outcome_stations(o, a->stations, f));
     return c->options->sample > 0 ? sample(n, a->path[0], f) : walk(n, a, o, f);
 }
 
-status analysis_static(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     newton n;
-    trail t = {0};
+    predictor t = {0};
     const status result = solve(c, &c->scene->analysis[analysis], &n, &t, o, f);
-    trail_free(&t);
+    predictor_free(&t);
     newton_free(&n);
     return result;
 }

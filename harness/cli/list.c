@@ -1,6 +1,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "harness/model/features.h"
+#include "harness/model/lacks.h"
+#include "harness/model/missing.h"
 #include "harness/catalogue/registry.h"
 #include "harness/cli/cli.h"
 

@@ -6,9 +6,6 @@
 #include "harness/comparison/comparison_lines.h"
 #include "harness/study/sweep.h"
 
-const char *const comparison_kind_names[COMPARISON_KINDS] = {"worse", "better", "changed", "gone",
-                                                             "new"};
-
 status comparison_limits_parse(const char *text, comparison_limits *out, fault *f)
 {
     const struct {

@@ -3,6 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+const char *const comparison_kind_names[COMPARISON_KINDS] = {"worse", "better", "changed", "gone",
+                                                             "new"};
+
 void comparison_heading(const listing *l, comparison_kind kind)
 {
     l->out->count[kind]++;

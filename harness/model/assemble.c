@@ -1,8 +1,10 @@
 /* Patterns, and where every entry of an element goes in them. */
+#include "harness/model/assemble.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/parts.h"
+#include "harness/model/model_impl.h"
 
 static int compare(const void *a, const void *b)
 {

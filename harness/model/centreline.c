@@ -6,12 +6,13 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/model/parts.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/model_impl.h"
 
 enum { LEAST_PIECES = 12 }; /* of a member, so that one element is a curve */
 static const double drawn_part = 0.1, drawn_turn = 0.5; /* of the size; [rad] */
 
-/* Gaps between the vertices of a member, and pieces of each gap. */
+/* Gaps between the vertices of a member, and pieces of each incompatibility. */
 static int gaps_of(const model *m, int member)
 {
     return (m->first_element[member + 1] - m->first_element[member]) * (m->nodes - 1);
@@ -39,7 +40,7 @@ int centreline_points(const model *m, int first[])
 /* One element: its nodes' frames and the forces that the outside exerts on them. */
 typedef struct span {
     int nodes;
-    double gap; /* undeformed distance between two nodes [m] */
+    double incompatibility; /* undeformed distance between two nodes [m] */
     node_state x[ELEMENT_MAX_NODES];
     double q[ELEMENT_MAX_NODES][4];
     double force[ELEMENT_MAX_COORDINATES];
@@ -53,7 +54,7 @@ static void span_of(const model *m, const model_state *s, int element, span *out
     double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     memset(out, 0, sizeof *out);
     out->nodes = m->nodes;
-    out->gap = m->kind[el->kind].length / (m->nodes - 1);
+    out->incompatibility = m->kind[el->kind].length / (m->nodes - 1);
     kinematics_gather(m, s, el, out->x);
     for (int k = 0; k < m->nodes; k++)
         rotation_from_matrix(out->x[k].R, out->q[k]);
@@ -66,7 +67,8 @@ static void cubic(const span *e, int k, double t, double r[3], double direction[
 {
     const double *p = e->x[k].r, *q = e->x[k + 1].r, u = 1 - t;
     for (int i = 0; i < 3; i++) {
-        const double a = e->gap * e->x[k].R[3 * i], b = e->gap * e->x[k + 1].R[3 * i];
+        const double a = e->incompatibility * e->x[k].R[3 * i],
+                     b = e->incompatibility * e->x[k + 1].R[3 * i];
         r[i] = p[i] + t * t * (3 - 2 * t) * (q[i] - p[i]) + t * u * (u * a - t * b);
         direction[i] = 6 * t * u * (q[i] - p[i]) + u * (1 - 3 * t) * a + t * (3 * t - 2) * b;
     }
@@ -96,7 +98,7 @@ static void resultants(const span *e, int k, double t, centreline_point *p)
     double force[3] = {0}, moment[3] = {0}, R[9];
     const double along = (k + t) / (e->nodes - 1);
     for (int beyond = k + 1; beyond < e->nodes; beyond++) {
-        const double *f = &e->force[7 * beyond];
+        const double *f = &e->force[NODE_COORDINATES * beyond];
         double arm[3], more[3];
         for (int i = 0; i < 3; i++)
             arm[i] = e->x[beyond].r[i] - p->r[i];
@@ -109,7 +111,7 @@ static void resultants(const span *e, int k, double t, centreline_point *p)
     rotation_matrix(p->q, R);
     mat3_transpose_mul_vec(R, force, p->force);
     mat3_transpose_mul_vec(R, moment, p->moment);
-    p->bimoment = along * e->force[7 * e->nodes - 1] - (1 - along) * e->force[6];
+    p->bimoment = along * e->force[NODE_COORDINATES * e->nodes - 1] - (1 - along) * e->force[6];
 }
 
 static void point_at(const span *e, int k, double t, centreline_point *p)
@@ -149,7 +151,8 @@ static void increments_of(const model *m, const model_state *s, const double x[]
         double local[ELEMENT_MAX_COORDINATES];
         kinematics_local(m, s, &m->element[i], x, local);
         for (int k = 0; k < m->nodes; k++)
-            memcpy(&out[6 * m->element[i].vertex[k]], &local[7 * k], 6 * sizeof(double));
+            memcpy(&out[6 * m->element[i].vertex[k]], &local[NODE_COORDINATES * k],
+                   6 * sizeof(double));
     }
 }
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/parts.h"
+#include "harness/model/model_impl.h"
 
 status model_note_left_out(model *m, fault *f, const char *format, ...)
 {
@@ -116,8 +116,9 @@ static void index_element(model *m, mesh_element *el)
     for (int k = 0; k < m->nodes; k++) {
         const mesh_vertex *v = &m->vertex[el->vertex[k]], *body = &m->vertex[v->body];
         for (int c = 0; c < VERTEX_COORDINATES; c++)
-            el->index[7 * k + c] = body->coordinate[c];
-        el->index[7 * k + 6] = el->warp[k] == NONE ? NONE : m->warp[el->warp[k]].coordinate;
+            el->index[NODE_COORDINATES * k + c] = body->coordinate[c];
+        el->index[NODE_COORDINATES * k + 6] =
+            el->warp[k] == NONE ? NONE : m->warp[el->warp[k]].coordinate;
         el->plain &= v->body == el->vertex[k] && body->angles == 0;
     }
 }

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/parts.h"
+#include "harness/model/model_impl.h"
 
 static void offset_force(const double rho[3], double force[7])
 {
@@ -32,11 +32,11 @@ void eliminate_forces(const model *m, const model_state *s, const mesh_element *
         double rho[3], b[3][3];
         if (body != v) {
             kinematics_offset(m, s, v, rho);
-            offset_force(rho, force + 7 * k);
+            offset_force(rho, force + NODE_COORDINATES * k);
         }
         if (m->vertex[body].angles > 0) {
             kinematics_axes(m, s, body, b);
-            sequence_force(m->vertex[body].angles, b, force + 7 * k);
+            sequence_force(m->vertex[body].angles, b, force + NODE_COORDINATES * k);
         }
     }
 }
@@ -102,17 +102,18 @@ void eliminate_matrix(const model *m, const model_state *s, const mesh_element *
         const int v = el->vertex[k], body = m->vertex[v].body;
         double rho[3], b[3][3], moment[7];
         if (force != NULL)
-            memcpy(moment, force + 7 * k, sizeof moment);
+            memcpy(moment, force + NODE_COORDINATES * k, sizeof moment);
         if (body != v) {
             kinematics_offset(m, s, v, rho);
-            offset_matrix(n, 7 * k, rho, force != NULL ? force + 7 * k : NULL, K);
+            offset_matrix(n, NODE_COORDINATES * k, rho,
+                          force != NULL ? force + NODE_COORDINATES * k : NULL, K);
             if (force != NULL)
                 offset_force(rho, moment);
         }
         if (m->vertex[body].angles > 0) {
             kinematics_axes(m, s, body, b);
-            sequence_matrix(n, 7 * k, m->vertex[body].angles, b, force != NULL ? moment + 3 : NULL,
-                            K);
+            sequence_matrix(n, NODE_COORDINATES * k, m->vertex[body].angles, b,
+                            force != NULL ? moment + 3 : NULL, K);
         }
     }
 }

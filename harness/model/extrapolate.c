@@ -1,8 +1,10 @@
 /* A first guess of the next state of a path: the parabola (or the line) through the last ones. */
+#include "harness/model/extrapolate.h"
+
 #include <math.h>
 
 #include "elements/math/rotation.h"
-#include "harness/model/parts.h"
+#include "harness/model/model_impl.h"
 
 /* Longest step to extrapolate over, relative to the last one; largest error of what is prescribed,
  * relative to its own step. */

@@ -1,10 +1,12 @@
 /* What a scene needs, in features of formulations. */
+#include "harness/model/features.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/parts.h"
+#include "harness/model/model_impl.h"
 
 static const struct {
     unsigned bit;

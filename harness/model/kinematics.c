@@ -1,11 +1,13 @@
 /* Frames of vertices and what they do to elements. */
+#include "harness/model/kinematics.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/model/parts.h"
+#include "harness/model/model_impl.h"
 
 void kinematics_position(const model *m, const model_state *s, int index, double r[3])
 {
@@ -105,9 +107,11 @@ void kinematics_local(const model *m, const model_state *s, const mesh_element *
                       const double dx[], double local[])
 {
     for (int k = 0; k < m->nodes; k++) {
-        double *d = &local[7 * k];
+        double *d = &local[NODE_COORDINATES * k];
         for (int c = 0; c < 7; c++)
-            d[c] = el->index[7 * k + c] == NONE ? 0 : dx[el->index[7 * k + c]];
+            d[c] = el->index[NODE_COORDINATES * k + c] == NONE
+                       ? 0
+                       : dx[el->index[NODE_COORDINATES * k + c]];
         if (el->plain)
             continue;
         const int v = el->vertex[k], body = m->vertex[v].body;

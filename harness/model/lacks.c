@@ -1,11 +1,14 @@
 /* What a type offers in one direction only (element.h): how much of it a scene would have needed,
  * and where that is too much. */
+#include "harness/model/lacks.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/parts.h"
+#include "harness/model/features.h"
+#include "harness/model/model_impl.h"
 
 /* What bends over a length l with ends that do not turn gives way by F l^3/(12 EI) and slides by F
  * l/(kGA): Phi = 12 EI/(kGA l^2) of its deflection is shear (a cantilever: a quarter of that;

@@ -1,12 +1,14 @@
 /* Linear analyses about the undeformed state, and quadratic forms taken from the strains: they cost
  * no digits on fine meshes. */
+#include "harness/model/linear.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/parts.h"
+#include "harness/model/model_impl.h"
 
 typedef struct linear_element {
     double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],

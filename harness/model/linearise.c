@@ -1,12 +1,14 @@
 /* Mixed linearisation and its update (N section 4): with J = de/dx and the independent e and sigma,
  *   de = D(x) - e + J dx,   sigma + dsigma = P'(e) + P''(e) de,
  * condensed element by element, so that stiff modes make no huge false stresses on the way. */
+#include "harness/model/linearise.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/model/parts.h"
+#include "harness/model/model_impl.h"
 
 model_slot slot_of(const model *m, int element)
 {
@@ -15,8 +17,8 @@ model_slot slot_of(const model *m, int element)
     w.J = m->work + (size_t)element * (size_t)m->work_size;
     w.C = w.J + n * m->coordinates;
     w.sigma = w.C + n * n;
-    w.gap = w.sigma + n;
-    w.memory = w.gap + n;
+    w.incompatibility = w.sigma + n;
+    w.memory = w.incompatibility + n;
     return w;
 }
 
@@ -65,25 +67,25 @@ static status evaluate(model *m, const model_state *s, int i, const node_state x
         data, e, &s->inner[(size_t)i * (size_t)m->inner],
         &(stress_output){.sigma = w->sigma, .C = w->C, .memory = m->memory > 0 ? w->memory : NULL});
     for (int k = 0; k < m->strains; k++)
-        w->gap[k] = deformed[k] - e[k];
-    dense_mul_vec(m->strains, m->strains, w->C, w->gap, more);
+        w->incompatibility[k] = deformed[k] - e[k];
+    dense_mul_vec(m->strains, m->strains, w->C, w->incompatibility, more);
     for (int k = 0; k < m->strains; k++)
         w->sigma[k] += more[k];
     return outcome;
 }
 
-static double gap_size(const model *m, const model_slot *w, double length)
+static double incompatibility_of(const model *m, const model_slot *w, double length)
 {
     double largest = 0;
     for (int k = 0; k < m->strains; k++)
-        largest = fmax(largest, fabs(w->gap[k]) / length);
+        largest = fmax(largest, fabs(w->incompatibility[k]) / length);
     return largest;
 }
 
 /* Internal less centrifugal forces of the element and, where wanted, their tangent; both in model
  * coordinates. */
 static status element_equations(model *m, const model_state *s, int i, int tangent, double path,
-                                double force[], double K[], double *gap, fault *f)
+                                double force[], double K[], double *incompatibility, fault *f)
 {
     const mesh_element *el = &m->element[i];
     model_slot w = slot_of(m, i);
@@ -96,8 +98,8 @@ static status element_equations(model *m, const model_state *s, int i, int tange
         return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i,
                          el->member, m->type->name);
     memset(force, 0, (size_t)m->coordinates * sizeof *force);
-    if (m->spins) {
-        TRY(spin_add(m, x, i, path, force, tangent ? K : NULL, f));
+    if (m->rotates) {
+        TRY(rotating_frame_add(m, x, i, path, force, tangent ? K : NULL, f));
         memcpy(present, force, (size_t)m->coordinates * sizeof *force);
     }
     dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, w.sigma, force);
@@ -109,7 +111,7 @@ static status element_equations(model *m, const model_state *s, int i, int tange
         eliminate_matrix(m, s, el, present, K);
     }
     eliminate_forces(m, s, el, force);
-    *gap = gap_size(m, &w, m->kind[el->kind].length);
+    *incompatibility = incompatibility_of(m, &w, m->kind[el->kind].length);
     return STATUS_OK;
 }
 
@@ -153,7 +155,7 @@ typedef struct shared_loop {
 static void element_part_of(const shared_loop *loop, int i, element_part *out)
 {
     out->outcome = element_equations(loop->m, loop->s, i, loop->tangent, loop->path, out->force,
-                                     out->K, &out->gap, &out->why);
+                                     out->K, &out->incompatibility, &out->why);
 }
 
 static void fill_parts(void *context, int first, int end)
@@ -178,7 +180,7 @@ static void add_part(model *m, int i, element_part *part, const mesh_pattern *p,
     if (p != NULL)
         assemble_matrix(p, i, part->K, lin->K);
     phases_lap(&m->phases, PHASE_ASSEMBLY);
-    lin->incompatibility = fmax(lin->incompatibility, part->gap);
+    lin->incompatibility = fmax(lin->incompatibility, part->incompatibility);
 }
 
 status model_linearise(model *m, const model_state *s, model_linearisation *lin, fault *f)
@@ -188,7 +190,7 @@ status model_linearise(model *m, const model_state *s, model_linearisation *lin,
                               lin->path};
     const mesh_pattern *p =
         lin->K == NULL ? NULL : &m->pattern[lin->K->row == m->pattern[1].matrix.row];
-    const int together = m->team != NULL && !m->spins; /* inertia counts its evaluations */
+    const int together = m->team != NULL && !m->rotates; /* inertia counts its evaluations */
     memset(lin->residual, 0, (size_t)(m->free + m->driven) * sizeof *lin->residual);
     lin->incompatibility = 0;
     if (lin->conditions > 0)
@@ -229,7 +231,7 @@ static double advance_element(model *m, model_state *s, int i, const double dx[]
     dense_mul_vec(m->strains, m->strains, w.C, de, more);
     for (int k = 0; k < m->strains; k++) {
         sigma[k] = w.sigma[k] + more[k];
-        de[k] += w.gap[k];
+        de[k] += w.incompatibility[k];
         e[k] += de[k];
     }
     if (m->type->update == NULL)
@@ -295,13 +297,14 @@ void model_node_force(model *m, const model_state *s, int node, double F[6])
             m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
             dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
                                     &s->sigma[(size_t)i * (size_t)m->strains], force);
-            spin_add(m, x, i, s->path, force, NULL,
-                     NULL); /* never fails in a state that has been reached */
+            rotating_frame_add(m, x, i, s->path, force, NULL,
+                               NULL); /* never fails in a state that has been reached */
             kinematics_offset(m, s, el->vertex[k], rho);
-            vec3_cross(rho, force + 7 * k, moment);
+            vec3_cross(rho, force + NODE_COORDINATES * k, moment);
             for (int c = 0; c < 3; c++) {
-                F[c] += force[7 * k + c];
-                F[3 + c] += force[7 * k + 3 + c] + (el->vertex[k] == node ? 0 : moment[c]);
+                F[c] += force[NODE_COORDINATES * k + c];
+                F[3 + c] +=
+                    force[NODE_COORDINATES * k + 3 + c] + (el->vertex[k] == node ? 0 : moment[c]);
             }
         }
     }

@@ -1,9 +1,12 @@
 /* Loads and drivers along the path. */
+#include "harness/model/loads.h"
+
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/model/parts.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/model_impl.h"
 
 static double interpolate(int stations, const double at[], const double value[], double path)
 {

@@ -1,12 +1,13 @@
 /* Vertices, elements and the data that identical elements share. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/model/parts.h"
+#include "harness/algebra/memory.h"
+#include "harness/model/model_impl.h"
 
 /* An arc of constant torsion and curvature between two points (straight when these are zero). */
 typedef struct arc {
@@ -49,6 +50,24 @@ static void turn_to_principal(double angle, arc *a)
     a->k[2] = c * a->k[2] - d * ky;
 }
 
+/* The length of a curved arc whose ends are so far apart. */
+static status find_length(int member, double distance, arc *a, fault *f)
+{
+    double c[3];
+    for (int i = 0; i < 60; i++) {
+        arc_chord(a->k, a->length, c);
+        const double error = distance - vec3_norm(c);
+        a->length += error;
+        if (!(a->length > 0) || vec3_norm(a->k) * a->length > 6.28)
+            return fault_set(
+                f, STATUS_REFUSED,
+                "member %d: no arc of that curvature joins its ends; give a smaller one", member);
+        if (fabs(error) <= 1e-16 * distance)
+            break;
+    }
+    return STATUS_OK;
+}
+
 /* axes_angle [rad]: of its section. */
 static status arc_of(const scene *s, int member, double axes_angle, arc *out, fault *f)
 {
@@ -60,17 +79,8 @@ static status arc_of(const scene *s, int member, double axes_angle, arc *out, fa
     memcpy(out->start, s->node[m->p].position, sizeof out->start);
     memcpy(out->k, m->curvature, sizeof out->k);
     out->length = distance;
-    for (int i = 0; i < 60 && vec3_norm(out->k) > 0; i++) {
-        arc_chord(out->k, out->length, c);
-        const double error = distance - vec3_norm(c);
-        out->length += error;
-        if (!(out->length > 0) || vec3_norm(out->k) * out->length > 6.28)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "member %d: no arc of that curvature joins its ends; give a smaller one", member);
-        if (fabs(error) <= 1e-16 * distance)
-            break;
-    }
+    if (vec3_norm(out->k) > 0)
+        TRY(find_length(member, distance, out, f));
     if (rotation_triad(chord, m->y_axis, B) != 0)
         return fault_set(f, STATUS_REFUSED, "member %d: its y axis is parallel to it", member);
     const double ey[3] = {0, 1, 0};
@@ -130,9 +140,9 @@ static void scene_vertices(model *m)
             add_axis(normal, v);
             add_axis(n->axis[1], v);
         }
-        while (n->rotation == SCENE_ROTATION_SEQUENCE && v->angles < 3 &&
-               vec3_norm(n->axis[v->angles]) > 0)
-            add_axis(n->axis[v->angles], v);
+        if (n->rotation == SCENE_ROTATION_SEQUENCE)
+            while (v->angles < 3 && vec3_norm(n->axis[v->angles]) > 0)
+                add_axis(n->axis[v->angles], v);
     }
 }
 
@@ -268,15 +278,18 @@ static int largest_name(const scene *s)
 static status allocate(model *m, int elements, fault *f)
 {
     const scene *s = m->scene;
+    const double most = 1e8;
     double total = 0;
     for (int i = 0; i < s->members; i++)
         total += divisions(s, i, elements);
     const double per_element = 8e3; /* bytes of an element with its share of matrices and factors,
                                        measured on straight members */
-    if (total * per_element > (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) ||
-        total > 1e8)
-        return fault_set(f, STATUS_REFUSED, "%.0f elements: more than memory allows; give fewer",
-                         total);
+    char what[80];
+    snprintf(what, sizeof what, "%.0f elements", total);
+    TRY(memory_check(total * per_element, what, "give fewer", f));
+    if (total > most)
+        return fault_set(f, STATUS_REFUSED, "%.0f elements: at most %.0f can be numbered", total,
+                         most);
     m->vertices = s->nodes + (int)total * (m->nodes - 1) - s->members;
     m->vertex = calloc((size_t)m->vertices, sizeof *m->vertex);
     m->element = calloc((size_t)total, sizeof *m->element);

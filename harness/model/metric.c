@@ -1,9 +1,11 @@
 /* How far apart two states of a model are: what arc length is measured with. */
+#include "harness/model/metric.h"
+
 #include <math.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/model/parts.h"
+#include "harness/model/model_impl.h"
 
 /* Bodies that have a coordinate. */
 static int moving_bodies(const model *m)

@@ -1,8 +1,12 @@
 /* What a scene needs and a formulation does not offer, in words. */
+#include "harness/model/missing.h"
+
 #include <math.h>
 #include <stdio.h>
 
-#include "harness/model/parts.h"
+#include "harness/model/features.h"
+#include "harness/model/lacks.h"
+#include "harness/model/model_impl.h"
 
 /* Shear flexibilities off the diagonal, beyond the round-off of those on it. */
 static int is_coupled(const section *c)

@@ -6,7 +6,11 @@
 #include <string.h>
 
 #include "harness/algebra/memory.h"
-#include "harness/model/parts.h"
+#include "harness/model/features.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/lacks.h"
+#include "harness/model/missing.h"
+#include "harness/model/model_impl.h"
 
 static status compute_sections(model *m, fault *f)
 {
@@ -217,12 +221,13 @@ int model_shape(const model *m, const double x[], double *u, double *position)
             memcpy(&position[3 * v], m->vertex[v].position, 3 * sizeof(double));
     if (u == NULL)
         return m->vertices;
-    memset(u, 0, (size_t)m->vertices * 7 * sizeof *u);
+    memset(u, 0, (size_t)m->vertices * NODE_COORDINATES * sizeof *u);
     for (int i = 0; i < m->elements; i++) {
         double local[ELEMENT_MAX_COORDINATES];
         kinematics_local(m, m->rest, &m->element[i], x, local);
         for (int k = 0; k < m->nodes; k++)
-            memcpy(&u[7 * m->element[i].vertex[k]], &local[7 * k], 7 * sizeof(double));
+            memcpy(&u[NODE_COORDINATES * m->element[i].vertex[k]], &local[NODE_COORDINATES * k],
+                   NODE_COORDINATES * sizeof(double));
     }
     return m->vertices;
 }

@@ -1,11 +1,13 @@
 /* The tangent of the last linearisation as a stiff and a soft part, for residuals that keep their
  * digits. */
+#include "harness/model/stiffness_parts.h"
+
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/parts.h"
+#include "harness/model/model_impl.h"
 
-void model_stiff_part(const model *m, const model_state *s, const double x[], double y[])
+void model_material_product(const model *m, const model_state *s, const double x[], double y[])
 {
     for (int i = 0; i < m->elements; i++) {
         const mesh_element *el = &m->element[i];
@@ -21,7 +23,7 @@ void model_stiff_part(const model *m, const model_state *s, const double x[], do
     }
 }
 
-status model_soft_part(model *m, const model_state *s, sparse *G, fault *f)
+status model_geometric_tangent(model *m, const model_state *s, sparse *G, fault *f)
 {
     const mesh_pattern *p = &m->pattern[G->row == m->pattern[1].matrix.row];
     sparse_zero(G);
@@ -35,8 +37,8 @@ status model_soft_part(model *m, const model_state *s, sparse *G, fault *f)
         kinematics_gather(m, s, el, x);
         m->type->strain(m->kind[el->kind].data, x, &(strain_output){.s = sigma, .H = H});
         m->counters.strain_evaluations++;
-        if (m->spins) {
-            TRY(spin_add(m, x, i, s->path, present, H, f));
+        if (m->rotates) {
+            TRY(rotating_frame_add(m, x, i, s->path, present, H, f));
         }
         dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, sigma, present);
         eliminate_matrix(m, s, el, present, H);

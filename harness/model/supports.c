@@ -1,12 +1,15 @@
 /* Which parts of the structure its supports leave loose: rigid motions of what is joined together,
  * found from the supports alone and so whatever the stiffness. */
+#include "harness/model/supports.h"
+
 #include <lapacke.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/model_impl.h"
 #include "harness/model/movable.h"
-#include "harness/model/parts.h"
 
 enum { N = 6 };
 

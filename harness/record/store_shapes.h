@@ -3,7 +3,7 @@
 #define BEAMWORK_STORE_SHAPES_H
 
 #include "cases/scene/scene.h"
-#include "harness/analysis/shapes.h"
+#include "harness/solver/shapes.h"
 #include "harness/record/record.h"
 
 /* Group below `at`: centre lines, sections, bodies; the caller closes it with H5Gclose. */

@@ -5,7 +5,7 @@
 #define BEAMWORK_VTKHDF_H
 
 #include "cases/scene/scene.h"
-#include "harness/analysis/shapes.h"
+#include "harness/solver/shapes.h"
 #include "harness/record/record.h"
 
 void vtkhdf_write(record *r, const scene *sc, const shapes *s);

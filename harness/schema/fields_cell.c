@@ -1,6 +1,7 @@
 /* Records of parameter points, of series of meshes and of one mesh: size, work, times. */
 #include <string.h>
 
+#include "harness/model/features.h"
 #include "harness/schema/fields_keys.h"
 
 static void get_features(const subject *s, field_value *out)

@@ -129,7 +129,7 @@ const record_type record_iteration = {
 
 static const char *word_of_event(int kind)
 {
-    return event_name((event_kind)kind);
+    return result_event_name((event_kind)kind);
 }
 
 #define EVENT(member) AT(path_event, member)

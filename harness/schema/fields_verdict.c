@@ -1,6 +1,7 @@
 /* Records of the judge: verdicts and agreements with stored discrete values. */
 #include <math.h>
 
+#include "harness/model/features.h"
 #include "harness/judge/reach.h"
 #include "harness/judge/sentence.h"
 #include "harness/schema/fields_keys.h"

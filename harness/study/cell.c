@@ -77,7 +77,7 @@ void cell_result_free(cell_result *r)
     for (int i = 0; i < r->left_out_lines; i++)
         free(r->left_out[i]);
     free(r->left_out);
-    solve_result_free(&r->solve);
+    result_free(&r->solve);
     scene_free(&r->scene);
     memset(r, 0, sizeof *r);
 }

@@ -11,13 +11,13 @@ import sys
 def symbols(objects):
     """({symbol: object that defines it}, {object: symbols it needs})."""
     defined, needed = {}, collections.defaultdict(set)
-    for name in objects:
-        for line in subprocess.check_output(["nm", "-g", name], text=True).splitlines():
-            kind, symbol = line.split()[-2:]
-            if kind == "U":
-                needed[name].add(symbol)
-            else:
-                defined[symbol] = name
+    for line in subprocess.check_output(["nm", "-gA", *objects], text=True).splitlines():
+        name, rest = line.split(":", 1)
+        kind, symbol = rest.split()[-2:]
+        if kind == "U":
+            needed[name].add(symbol)
+        else:
+            defined[symbol] = name
     return defined, needed
 
 

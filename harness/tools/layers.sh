@@ -1,5 +1,7 @@
 #!/bin/sh
-# Include rules of the house: an include points down only, and nobody names what it must not know.
+# Rules of the house: an include points down only, nobody names what it must not know, and files do
+# not call each other in circles.
+# usage: layers.sh OBJECT...
 set -eu
 bad=0
 # rule PATHS... -- FORBIDDEN-REGEX -- reason
@@ -16,7 +18,7 @@ rule elements/math 'elements/(section|element|beamw|sheet|exact)' 'math is the l
 rule elements/section 'elements/(element|beamw|sheet|exact)' 'a section knows no element'
 rule cases 'harness/|reference/|reports/|elements/(element|beamw|sheet|exact)' 'a case knows no formulation and no solver'
 # The floors of the harness, lowest first: a room includes itself and those before it.
-floors="algebra model analysis catalogue truth study timing judge schema record comparison extremes cli"
+floors="algebra model solver analysis catalogue truth study timing judge schema record extremes cli"
 above=$floors
 for room in $floors; do
     above=${above#"$room"}
@@ -40,5 +42,6 @@ hits=$(grep -rnE 'ctypes|cffi|libbeamwork|subprocess|os\.system' reports --inclu
 [ -z "$hits" ] || { echo "$hits" | sed 's|$|   <- reports read files only|'; bad=1; }
 hits=$(grep -rnE 'ctypes|cffi|libbeamwork|build/beamwork|import (harness|reports|elements)' reference --include='*.py' 2>/dev/null || true)
 [ -z "$hits" ] || { echo "$hits" | sed 's|$|   <- a truth shares no code with what it judges|'; bad=1; }
-[ $bad = 0 ] && echo "layers: every include points down"
+/usr/bin/python3 harness/tools/circles.py "$@" || bad=1
+[ $bad = 0 ] && echo "layers: every include points down, no calls in circles"
 exit $bad

@@ -133,7 +133,7 @@ static void both_kinds(void)
     gsl_test_int(r.solve.events, 3, "three critical points");
     for (int i = 0; i < 3 && i < r.solve.events; i++) {
         gsl_test_int((int)r.solve.event[i].kind, (int)kind[i], "point %d is a %s", i,
-                     event_name(kind[i]));
+                     result_event_name(kind[i]));
         gsl_test_int(r.solve.event[i].negative_after, after[i], "negative pivots after it");
         gsl_test((r.solve.event[i].measure < 1e-5) != (kind[i] == EVENT_BIFURCATION),
                  "the work of the load on its null vector");

@@ -83,7 +83,7 @@ static int run(const element_type *e, build *make, const double direction[3], in
         out->value[i / WANTED][i % WANTED] = r.quantity[i].value;
         snprintf(out->why[i / WANTED][i % WANTED], FAULT_TEXT, "%s", r.quantity[i].reason);
     }
-    solve_result_free(&r);
+    result_free(&r);
     model_free(m);
     scene_free(&s);
     return offered;

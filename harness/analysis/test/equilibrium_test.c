@@ -98,7 +98,7 @@ static status solve_column(scene_analysis_kind kind, double P, double M, double 
     if (outcome == STATUS_OK) {
         outcome = solve_scene(&s, m, NULL, &r, f);
         *value = r.quantity[0].value;
-        solve_result_free(&r);
+        result_free(&r);
     }
     model_free(m);
     scene_free(&s);

@@ -77,7 +77,7 @@ static int solve(const element_type *type, const double Q[9], const double force
     gsl_test(outcome != STATUS_OK && !refused, "%s: %s", type->name, f.text);
     for (int i = 0; i < VALUES; i++)
         value[i] = outcome == STATUS_OK ? r.quantity[i].value : NAN;
-    solve_result_free(&r);
+    result_free(&r);
     model_free(m);
     scene_free(&s);
     return !refused;

@@ -88,7 +88,7 @@ static int ask(const element_type *e, const request *what, answer *out)
     for (int i = 0; i < r.quantities; i++)
         out->value[i] = r.quantity[i].value;
     gsl_test(offered && out->status != STATUS_OK, "%s: solved (%s)", e->name, out->reason);
-    solve_result_free(&r);
+    result_free(&r);
     model_free(m);
     scene_free(&s);
     return offered && out->status == STATUS_OK;

@@ -8,6 +8,7 @@
 #include "harness/analysis/solve.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
+#include "harness/model/missing.h"
 
 static const double length = 1, wide = 0.08, young = 2e11, shear_modulus = 8e10, share = 5.0 / 6;
 
@@ -62,7 +63,7 @@ static double deflection(const element_type *type, scene *s, char *words)
         return NAN;
     const status solved = solve_scene(s, m, NULL, &r, &f);
     u = solved == STATUS_OK ? r.quantity[0].value : INFINITY;
-    solve_result_free(&r);
+    result_free(&r);
     const char *const *line;
     for (int i = model_left_out(m, &line) - 1; i >= 0; i--)
         if (strstr(line[i], "along") != NULL)

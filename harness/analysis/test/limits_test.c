@@ -47,7 +47,7 @@ static double curved(const element_type *e, double curvature)
         outcome = solve_scene(&s, m, NULL, &result, &f);
     if (outcome == STATUS_OK)
         deflection = result.quantity[0].value;
-    solve_result_free(&result);
+    result_free(&result);
     model_free(m);
     scene_free(&s);
     return deflection;

@@ -211,7 +211,7 @@ static void inertia_counts_critical_loads(void)
         if (m != NULL)
             gsl_test_int((int)model_counters(m)->negative_pivots, 5, "%s: the most is counted",
                          names[k]);
-        solve_result_free(&r);
+        result_free(&r);
         model_free(m);
         scene_free(&s);
     }

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "harness/catalogue/registry.h"
-#include "harness/study/plan.h"
+#include "harness/model/missing.h"
 #include "harness/study/sweep.h"
 
 enum { COMPONENTS = 6, CHOICES = 64 };
@@ -125,7 +125,7 @@ static void rests(const point *p, const formulation *chosen, int elements)
     if (outcome == STATUS_OK) {
         outcome = solve_scene(&s, m, NULL, &r, &f);
         worst = outcome == STATUS_OK ? largest(&s, &r, &whose) : INFINITY;
-        solve_result_free(&r);
+        result_free(&r);
     }
     gsl_test(!(worst <= 1), "%s/%s, %s, n = %d: at rest (%s: %.1e of its limit) %s", p->type->name,
              p->text[0] != '\0' ? p->text : "default", chosen->key, elements, whose, worst, f.text);
@@ -172,7 +172,7 @@ int main(void)
     fault f = {""};
     tally t = {0};
     gsl_test(truths_read(path, &known, &f) != STATUS_OK, "truths: %s", f.text);
-    if (plan_sweep(&all, &known, &plan, &f) != STATUS_OK) {
+    if (sweep_plan(&all, &known, &plan, &f) != STATUS_OK) {
         gsl_test(1, "plan: %s", f.text);
         return gsl_test_summary();
     }

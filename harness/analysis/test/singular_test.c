@@ -8,6 +8,7 @@
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
+#include "harness/model/supports.h"
 #include "harness/study/cell.h"
 
 /* Two beams along x, the second beside the first and held by itself; loads along z. */
@@ -129,7 +130,7 @@ static void supports(const char *formulation_text, int elements)
                      changes[i].what, formulation_text, f.text);
         gsl_test(loose && strstr(f.text, "node 2 is not held") == NULL,
                  "%s: the culprit is named: %s", changes[i].what, f.text);
-        solve_result_free(&r);
+        result_free(&r);
         model_free(m);
         scene_free(&s);
     }
@@ -248,7 +249,7 @@ static void driver_that_moves_nothing(double half_angle, int condition_component
     gsl_test_int((int)outcome, meets ? STATUS_OK : STATUS_SINGULAR, "V of %g, condition on %d: %s",
                  half_angle, condition_component, f.text);
     gsl_test(!meets && strstr(f.text, "does not move") == NULL, "the cause is named: %s", f.text);
-    solve_result_free(&r);
+    result_free(&r);
     model_free(m);
     scene_free(&s);
 }

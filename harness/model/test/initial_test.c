@@ -6,6 +6,7 @@
 
 #include "harness/analysis/solve.h"
 #include "harness/catalogue/formulations.h"
+#include "harness/model/missing.h"
 
 static const char *const names[] = {
     "sheet_second",        "sheet_second_consistent",     "sheet_third", "sheet_third_printed",
@@ -59,7 +60,7 @@ static void solve(const char *name, const double g[3], const int held[6], double
             u[i] = r.quantity[i].value;
             F[i] = r.quantity[6 + i].value;
         }
-        solve_result_free(&r);
+        result_free(&r);
     }
     gsl_test(outcome != STATUS_OK, "%s: %s", name, f.text);
     model_free(m);

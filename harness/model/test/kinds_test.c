@@ -73,7 +73,7 @@ static int solve(const element_type *type, int count, const link links[], double
         value[1] = r.quantity[1].value;
     }
     gsl_test(offered && outcome != STATUS_OK, "%s: %s", type->name, f.text);
-    solve_result_free(&r);
+    result_free(&r);
     model_free(m);
     scene_free(&s);
     return outcome == STATUS_OK;

@@ -8,7 +8,12 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "harness/catalogue/registry.h"
+#include "harness/model/assemble.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/linearise.h"
+#include "harness/model/loads.h"
 #include "harness/model/model.h"
+#include "harness/model/rotating_frame.h"
 
 enum { MOST = 40 };
 enum { FREE_TURNS, THREE_ANGLES, TWO_ANGLES, FORK, BODIES };

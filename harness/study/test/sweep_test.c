@@ -12,6 +12,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "harness/model/missing.h"
 #include "harness/catalogue/registry.h"
 #include "harness/study/interrupt.h"
 #include "harness/study/plan.h"

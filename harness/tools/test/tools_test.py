@@ -155,5 +155,36 @@ class Runner(Folder):
                          "2 passed, 0 failed")
 
 
+class Circles(Folder):
+    """Of made-up objects that call each other."""
+
+    def objects(self, **sources):
+        paths = []
+        for name, text in sources.items():
+            path = self.folder / f"{name}.o"
+            subprocess.run(["cc", "-w", "-x", "c", "-c", "-o", path, "-"], input=text, text=True,
+                           check=True)
+            paths.append(path)
+        return subprocess.run(["/usr/bin/python3", TOOLS / "circles.py", *paths],
+                              capture_output=True, text=True, check=False)
+
+    def test_calls_in_one_direction(self):
+        said = self.objects(low="int low(void) { return 1; }",
+                            middle="int low(void); int middle(void) { return low(); }",
+                            high="int low(void), middle(void); int high(void) { return low(); }")
+        self.assertEqual((said.returncode, said.stdout), (0, ""))
+
+    def test_a_circle_is_named_with_its_calls(self):
+        said = self.objects(one="int two(void); int one(void) { return two(); }",
+                            two="int three(void); int two(void) { return three(); }",
+                            three="int one(void); int three(void) { return one(); }",
+                            apart="int one(void); int apart(void) { return one(); }")
+        self.assertEqual(said.returncode, 1)
+        first = said.stdout.splitlines()[0]
+        self.assertTrue(all(f"{name}.o" in first for name in ("one", "two", "three")))
+        self.assertNotIn("apart", said.stdout)
+        self.assertIn("three.o: three", said.stdout)
+
+
 if __name__ == "__main__":
     unittest.main()

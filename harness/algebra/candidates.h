@@ -1,0 +1,49 @@
+/* Candidates for the largest eigenvalues of s A x = mu K x: refined by Rayleigh's quotient, judged,
+ * sorted and counted. */
+#ifndef BEAMWORK_CANDIDATES_H
+#define BEAMWORK_CANDIDATES_H
+
+#include "harness/algebra/eigen.h"
+
+typedef struct candidates {
+    const eigen_problem *problem;
+    double sign; /* s: of the problem, reversed for the most negative values */
+    int n, count, room;
+    double *mu;          /* [room] descending */
+    double *matrix_mu;   /* [room] the same quotient of the matrices as they are, rounding errors of
+                            all elements included */
+    double *noise;       /* [room] part of it that rounding the sums changes */
+    double *stiffness;   /* [room] x^T K x as the caller evaluates it */
+    double *x, *Kx;      /* [room x n] x^T K x = 1 by the matrix */
+    double *work, *form; /* [n] each */
+    int refinements;     /* of every solution */
+    double *correction;  /* [n] while solutions are refined, else NULL */
+    sparse shifted;      /* K - s A/mu; without values until it is needed */
+    factor *shifted_factor;
+} candidates;
+
+status candidates_alloc(candidates *p, const eigen_problem *problem, double sign, fault *f);
+void candidates_free(candidates *p);
+/* Size of the largest |mu|, from below, by a few powers of K^-1 A; 0 where A is nothing but
+ * rounding. */
+double candidates_scale(candidates *p, long *solutions);
+/* 1: rounding alone makes x^T A x as large as `energy`. */
+int candidates_is_rounding(const candidates *p, double energy, const double x[]);
+/* Largest part of x^T K x that assembling K has changed, of the first `count` candidates. */
+double candidates_departure(const candidates *p, int count);
+/* From here on K^-1 A x is what K_product says: refined until the present departure leaves 1e-6 of
+ * it. */
+status candidates_refine(candidates *p, int count, fault *f);
+/* y = K^-1 s A x. */
+void candidates_apply(candidates *p, const double x[], double y[]);
+/* Takes in vectors x[count x n], whatever their length; those with mu <= least are dropped. */
+status candidates_add(candidates *p, int count, const double x[], double least, fault *f);
+/* Residual of candidate i and estimated error of its mu, both in parts of mu. One solution. */
+void candidates_judge(candidates *p, int i, double *residual, double *error);
+/* How many of the eigenvalues that lie clearly above the one of rank `wanted` (counted from 1) are
+ * not among the candidates. NOT_CONVERGED when there are fewer than candidates. */
+status candidates_missing(candidates *p, int wanted, int *missing, eigen_result *work, fault *f);
+/* How many eigenvalues are larger than s > 0. */
+status candidates_above(candidates *p, double s, int *above, eigen_result *work, fault *f);
+
+#endif

@@ -1,0 +1,142 @@
+#include "harness/analysis/collect.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/model/centreline.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/linear.h"
+#include "harness/solver/context.h"
+
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/* States of one analysis that are kept; most: of a path. */
+static int count_of(const analysis_outcome *o, int most)
+{
+    if (o->state != NULL)
+        return least(o->reached, most);
+    return (o->x != NULL) + least(o->positive.count, SHAPES_MODES) * (o->positive.mode != NULL) +
+           least(o->negative.count, SHAPES_MODES) * (o->negative.mode != NULL);
+}
+
+static void keep(const analysis_context *c, shapes *s, const shape_state *what,
+                 const model_state *state)
+{
+    s->state[s->states] = *what;
+    centreline_fill(c->model, state, s->point + (size_t)s->states * (size_t)s->points);
+    centreline_nodes(c->model, state, s->node + 3 * (size_t)s->states * (size_t)s->nodes);
+    s->states++;
+}
+
+static void keep_path(const analysis_context *c, int analysis, int most, shapes *s)
+{
+    const analysis_outcome *o = &c->outcomes[analysis];
+    const int count = count_of(o, most);
+    for (int i = 0; i < count; i++) {
+        const int at = count > 1 ? (int)((long)i * (o->reached - 1) / (count - 1)) : o->reached - 1;
+        keep(c, s, &(shape_state){SHAPE_PATH, analysis, o->path[at], 1}, o->state[at]);
+    }
+}
+
+/* x[free + driven]; the state the analysis is about is the last of the path it follows. */
+static status keep_displaced(const analysis_context *c, shape_state *what, const double x[],
+                             const double sigma[], shapes *s, fault *f)
+{
+    const int follows = c->scene->analysis[what->analysis].follows;
+    const analysis_outcome *path = follows == SCENE_NONE ? NULL : &c->outcomes[follows];
+    const model_state *about = path != NULL && path->reached > 0 && path->state != NULL
+                                   ? path->state[path->reached - 1]
+                                   : model_rest(c->model);
+    model_state *moved = NULL;
+    const status outcome = centreline_displaced(c->model, about, x, sigma, &what->scale, &moved, f);
+    if (outcome == STATUS_OK)
+        keep(c, s, what, moved);
+    model_state_free(moved);
+    return outcome;
+}
+
+static status keep_linear(const analysis_context *c, int analysis, shapes *s, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    shape_state what = {SHAPE_LINEAR, analysis, 1, 1};
+    double *sigma = calloc((size_t)size.elements * (size_t)size.strains + 1, sizeof *sigma);
+    status outcome =
+        sigma != NULL
+            ? model_linear_stresses(c->model, c->outcomes[analysis].x, sigma, f)
+            : fault_set(f, STATUS_FAULT, "out of memory for the shape of a linear solution");
+    if (outcome == STATUS_OK)
+        outcome = keep_displaced(c, &what, c->outcomes[analysis].x, sigma, s, f);
+    free(sigma);
+    return outcome;
+}
+
+/* x[free + driven] is work space. */
+static status keep_modes_in(const analysis_context *c, int analysis, const outcome_side *side,
+                            double x[], shapes *s, fault *f)
+{
+    const size_t n = (size_t)model_sizes(c->model).free;
+    const int buckling = c->scene->analysis[analysis].kind == SCENE_BUCKLING;
+    for (int i = 0; i < least(side->count, SHAPES_MODES); i++) {
+        shape_state what = {
+            buckling ? SHAPE_BUCKLING : SHAPE_MODE, analysis,
+            buckling ? side->value[i] : side->value[i] / (2 * 3.14159265358979323846), 0};
+        memcpy(x, side->mode + n * (size_t)i, n * sizeof *x);
+        TRY(keep_displaced(c, &what, x, NULL, s, f));
+    }
+    return STATUS_OK;
+}
+
+/* mode[count x free] */
+static status keep_modes(const analysis_context *c, int analysis, const outcome_side *side,
+                         shapes *s, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    if (side->mode == NULL)
+        return STATUS_OK;
+    double *x = calloc((size_t)(size.free + size.driven) + 1, sizeof *x);
+    const status outcome =
+        x != NULL ? keep_modes_in(c, analysis, side, x, s, f)
+                  : fault_set(f, STATUS_FAULT, "out of memory for the shape of a mode");
+    free(x);
+    return outcome;
+}
+
+static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
+{
+    keep(c, s, &(shape_state){SHAPE_UNDEFORMED, -1, 0, 1}, model_rest(c->model));
+    for (int i = 0; i < c->scene->analyses; i++) {
+        const analysis_outcome *o = &c->outcomes[i];
+        if (o->state != NULL) {
+            keep_path(c, i, most, s);
+            continue;
+        }
+        if (o->x != NULL)
+            TRY(keep_linear(c, i, s, f));
+        TRY(keep_modes(c, i, &o->positive, s, f));
+        TRY(keep_modes(c, i, &o->negative, s, f));
+    }
+    return STATUS_OK;
+}
+
+status collect_shapes(const analysis_context *c, int most, shapes *s, fault *f)
+{
+    memset(s, 0, sizeof *s);
+    s->members = c->scene->members;
+    s->nodes = c->scene->nodes;
+    s->points = centreline_points(c->model, NULL);
+    s->states = 1;
+    for (int i = 0; i < c->scene->analyses; i++)
+        s->states += count_of(&c->outcomes[i], most);
+    status outcome = shapes_alloc(s, f);
+    s->states = 0; /* counted again as they are filled */
+    if (outcome == STATUS_OK) {
+        centreline_points(c->model, s->first);
+        outcome = keep_all(c, most, s, f);
+    }
+    if (outcome != STATUS_OK)
+        shapes_free(s);
+    return outcome;
+}

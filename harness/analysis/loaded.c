@@ -1,0 +1,233 @@
+/* Critical point: sigma(p), the least eigenvalue of the tangent K(p) by the diagonal of the first
+ * K, falls to zero along the path.  Stable states ever closer before it are interpolated; the error
+ * of an estimate is the product of their distances. (K is not extrapolated as a whole: turning a
+ * stiff structure with the path would make it indefinite long before.) */
+#include "harness/analysis/loaded.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/algebra/eigen.h"
+#include "harness/analysis/modal.h"
+#include "harness/analysis/static.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/rotating_frame.h"
+#include "harness/solver/context.h"
+#include "harness/solver/newton.h"
+#include "harness/solver/singular.h"
+
+enum { MAX_STATES = 60, POINTS = 3 };
+static const double first_step = 0.1; /* of the path so far */
+static const double growth =
+    0.5; /* of the path beyond its beginning, at most, from one state to the next */
+static const double approached = 0.9; /* part of the way to the estimate */
+static const double farthest = 1e3;   /* path at which the search ends, of the path so far */
+static const double wanted_error = 1e-9;
+static const double closest =
+    1e-5; /* distance from the estimate, of the path: nearer, round-off decides about stability */
+
+/* The state that is followed: the end of a static path that was reached. */
+static status followed_state(const analysis_context *c, int analysis, const model_state **state,
+                             fault *f)
+{
+    const analysis_outcome *path = &c->outcomes[c->scene->analysis[analysis].follows];
+    if (path->stations == 0 || path->reached < path->stations)
+        return fault_set(f, path->status != STATUS_OK ? path->status : STATUS_REFUSED,
+                         "the state to start from was not reached: %.150s", path->reason);
+    *state = path->state[path->reached - 1];
+    return STATUS_OK;
+}
+
+static status symmetric_only(const newton *n, const char *what, fault *f)
+{
+    return n->K.symmetric
+               ? STATUS_OK
+               : fault_set(
+                     f, STATUS_REFUSED,
+                     "%s about a loaded state need a symmetric tangent: moments dead about fixed "
+                     "axes, and some formulations, have no potential",
+                     what);
+}
+
+/* Newton at the followed state: its K in n->K, factored. */
+static status start(analysis_context *c, int analysis, const char *what, newton *n, fault *f)
+{
+    const model_state *state = NULL;
+    step_record unused = {0};
+    TRY(newton_alloc(c, n, f));
+    TRY(followed_state(c, analysis, &state, f));
+    TRY(symmetric_only(n, what, f));
+    model_state_copy(c->model, state, n->state);
+    return newton_direction(n, model_state_path(n->state), &unused, f);
+}
+
+/* With what loaded_modal frees. */
+static status frequencies(analysis_context *c, int analysis, newton *n, sparse *M, eigen_result *e,
+                          fault *f)
+{
+    TRY(start(c, analysis, "frequencies", n, f));
+    TRY(sparse_alloc_like(&n->K, M, f));
+    TRY(model_inertia(c->model, n->state, 0, M, NULL, f));
+    const eigen_problem p = {
+        .K = &n->K, .A = M, .K_factor = n->factor, .sign = 1, .largest = modal_wanted(c, analysis)};
+    const status result = eigen_solve(&p, e, f);
+    context_count_eigen(c, e);
+    return result;
+}
+
+status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+{
+    newton n;
+    sparse M = {0};
+    eigen_result e = {0};
+    const status result = frequencies(c, analysis, &n, &M, &e, f);
+    for (int i = 0; i < e.positive.count; i++) {
+        e.positive.mu[i] = 1 / sqrt(e.positive.mu[i]);
+        e.positive.error[i] /= 2; /* the root's */
+    }
+    outcome_take(&e.positive, &o->positive);
+    eigen_free(&e);
+    sparse_free_values(&M);
+    newton_free(&n);
+    return result;
+}
+
+/* Stable states on the way, the last ones first. */
+typedef struct search {
+    newton n;
+    model_state *stable;
+    sparse scale; /* diagonal of the first K */
+    double begin, shift, p[POINTS],
+        sigma[POINTS]; /* shift: the first sigma; that of K + shift scale is lost in no round-off */
+    int points;
+    double estimate, change,
+        unstable; /* unstable: least path known to be beyond the critical point */
+    eigen_result found;
+} search;
+
+static status search_alloc(analysis_context *c, int analysis, search *s, fault *f)
+{
+    TRY(start(c, analysis, "critical loads", &s->n, f));
+    TRY(sparse_alloc_like(&s->n.K, &s->scale, f));
+    TRY(model_state_alloc(c->model, &s->stable, f));
+    s->begin = model_state_path(s->n.state);
+    sparse_zero(&s->scale);
+    for (int j = 0; j < s->scale.n; j++)
+        for (int k = s->scale.column[j]; k < s->scale.column[j + 1]; k++)
+            if (s->scale.row[k] == j)
+                s->scale.value[k] = s->n.K.value[k];
+    return STATUS_OK;
+}
+
+static void search_free(search *s)
+{
+    newton_free(&s->n);
+    model_state_free(s->stable);
+    sparse_free_values(&s->scale);
+    eigen_free(&s->found);
+}
+
+/* Newton's present state, whose K is factored, is the last stable one: its sigma. */
+static status take_state(search *s, fault *f)
+{
+    const eigen_problem p = {
+        .K = &s->n.K, .A = &s->scale, .K_factor = s->n.factor, .sign = 1, .largest = 1};
+    eigen_free(&s->found);
+    for (int i = 0; i < s->scale.column[s->scale.n]; i++)
+        s->n.K.value[i] += s->shift * s->scale.value[i];
+    if (s->shift > 0)
+        TRY(context_factor(s->n.c, s->n.factor, &s->n.K, f));
+    const status found = eigen_solve(&p, &s->found, f);
+    context_count_eigen(s->n.c, &s->found);
+    TRY(found);
+    memmove(s->p + 1, s->p, (POINTS - 1) * sizeof *s->p);
+    memmove(s->sigma + 1, s->sigma, (POINTS - 1) * sizeof *s->sigma);
+    s->p[0] = model_state_path(s->n.state);
+    s->sigma[0] = 1 / s->found.positive.mu[0] - s->shift;
+    s->shift = s->points == 0 ? s->sigma[0] : s->shift;
+    s->points += s->points < POINTS;
+    model_state_copy(s->n.c->model, s->n.state, s->stable);
+    return STATUS_OK;
+}
+
+/* The structure at `path`; *stable: it was stable there and has been taken. */
+static status go_to(search *s, double path, int *stable, fault *f)
+{
+    step_record unused = {0};
+    double increment = path - s->p[0];
+    model_state_copy(s->n.c->model, s->stable, s->n.state);
+    status outcome = static_walk(&s->n, path, &increment, f);
+    if (outcome == STATUS_OK)
+        outcome = newton_direction(&s->n, path, &unused, f);
+    if (outcome == STATUS_SINGULAR) { /* at the critical point */
+        *stable = 0;
+        return STATUS_OK;
+    }
+    *stable = outcome == STATUS_OK && factor_count(s->n.factor).negative_pivots == 0;
+    return *stable ? take_state(s, f) : outcome;
+}
+
+/* Where sigma vanishes, from the inverse interpolation p(sigma); INFINITY while it does not
+ * fall. */
+static double extrapolate(const search *s)
+{
+    const double *p = s->p, *g = s->sigma;
+    if (s->points < 2 || !(g[0] < g[1]))
+        return INFINITY;
+    const double slope = (p[0] - p[1]) / (g[0] - g[1]), line = p[0] - g[0] * slope;
+    if (s->points < 3 || !(g[1] < g[2]))
+        return line;
+    const double bend = ((p[1] - p[2]) / (g[1] - g[2]) - slope) / (g[2] - g[0]);
+    const double parabola = line + g[0] * g[1] * bend;
+    return parabola > p[0] ? parabola : line;
+}
+
+static status find_critical(search *s, fault *f)
+{
+    int stable = 0;
+    double target = s->begin + first_step * (s->begin != 0 ? fabs(s->begin) : 1);
+    TRY(take_state(s, f));
+    const double farthest_path = s->begin + farthest * (s->begin != 0 ? fabs(s->begin) : 1);
+    for (int i = 0; i < MAX_STATES && target <= farthest_path; i++) {
+        TRY(go_to(s, target, &stable, f));
+        if (!stable) {
+            s->unstable = target;
+            target = (s->p[0] + target) / 2;
+            continue;
+        }
+        const double last = s->estimate, limit = fmin(s->p[0] + growth * (s->p[0] - s->begin),
+                                                      (s->p[0] + s->unstable) / 2);
+        s->estimate = extrapolate(s);
+        s->change = fabs(s->estimate - last);
+        const double left = s->estimate - s->p[0],
+                     size = fmax(fabs(s->estimate), s->estimate - s->begin);
+        if (isfinite(s->estimate) &&
+            (s->change <= wanted_error * size || left <= 2 * closest * size))
+            return STATUS_OK;
+        target =
+            fmin(s->p[0] + fmin(approached * left, isfinite(left) ? left - closest * size : left),
+                 limit);
+    }
+    return isfinite(s->estimate) && target <= farthest_path
+               ? fault_set(f, STATUS_NOT_CONVERGED,
+                           "the critical load was not found: near path %g it still changes by %.1e",
+                           s->estimate, s->change)
+               : fault_set(f, STATUS_NOT_CONVERGED,
+                           "no critical load: nothing loses stiffness up to path %g", s->p[0]);
+}
+
+status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+{
+    search s = {.unstable = INFINITY, .estimate = INFINITY};
+    status result = search_alloc(c, analysis, &s, f);
+    if (result == STATUS_OK)
+        result = find_critical(&s, f);
+    if (result == STATUS_OK) {
+        outcome_take(&s.found.positive, &o->positive);
+        *o->positive.value = s.estimate;
+        *o->positive.error = 0; /* that of the eigenvalue is not the estimate's */
+    }
+    search_free(&s);
+    return result;
+}

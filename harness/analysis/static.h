@@ -1,0 +1,12 @@
+/* Nonlinear equilibrium along a path. */
+#ifndef BEAMWORK_STATIC_H
+#define BEAMWORK_STATIC_H
+
+#include "harness/solver/newton.h"
+
+status static_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+/* From the present path to `target` in steps that halve when Newton fails and double when it is
+ * easy. */
+status static_walk(newton *, double target, double *increment, fault *);
+
+#endif

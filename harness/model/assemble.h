@@ -1,0 +1,12 @@
+/* Patterns of the matrices of a model. */
+#ifndef BEAMWORK_MODEL_ASSEMBLE_H
+#define BEAMWORK_MODEL_ASSEMBLE_H
+
+#include "harness/model/model.h"
+
+/* Patterns. `with_driven` 0: free x free; 1: all coordinates. Made at the first call and owned by
+ * the model; matrices on it come from sparse_alloc_like. Symmetric unless the formulation's or the
+ * loads' tangent is not. */
+status model_pattern(model *, int with_driven, const sparse **out, fault *f);
+
+#endif

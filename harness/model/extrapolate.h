@@ -1,0 +1,14 @@
+/* Where the next state of a path is looked for. */
+#ifndef BEAMWORK_MODEL_EXTRAPOLATE_H
+#define BEAMWORK_MODEL_EXTRAPOLATE_H
+
+#include "harness/model/model.h"
+
+/* First guess of the state at `path` from the last `count` ones (two: a line, three: a parabola),
+ * oldest first. 0: there is none, because what is prescribed bends, or the step is too long; `out`
+ * is untouched then. */
+enum { MODEL_EXTRAPOLATED = 3 };
+int model_state_extrapolate(const model *, int count, const model_state *const at[], double path,
+                            model_state *out);
+
+#endif

@@ -1,0 +1,163 @@
+/* Inside of a model, shared by the files of harness/model only. */
+#ifndef BEAMWORK_MODEL_IMPL_H
+#define BEAMWORK_MODEL_IMPL_H
+
+#include "harness/algebra/team.h"
+#include "harness/model/model.h"
+
+enum { NONE = -1, VERTEX_COORDINATES = 6 };
+
+/* Where a frame is and what moves it. The first vertices are the scene's nodes, in order. */
+typedef struct mesh_vertex {
+    double position[3]; /* undeformed [m] */
+    int body; /* vertex that moves this one rigidly; itself: it has coordinates of its own */
+    double offset[3];  /* from the body, undeformed [m] */
+    int coordinate[6]; /* of a body: global coordinate or NONE where held */
+    int angles;        /* > 0: rotation is a sequence of so many angles about the axes */
+    double axis[3][3];
+    int vector_driver[3]; /* prescribed rotation vector: its drivers; NONE: not prescribed so */
+} mesh_vertex;
+
+/* A warping amplitude, shared by the element ends that meet there. */
+typedef struct mesh_warp {
+    int coordinate; /* global */
+} mesh_warp;
+
+typedef struct mesh_element {
+    int kind, member;
+    int vertex[ELEMENT_MAX_NODES];
+    int warp[ELEMENT_MAX_NODES];        /* index, or NONE: held at zero or absent */
+    double triad[ELEMENT_MAX_NODES][9]; /* initial, columns nX nY nZ */
+    int index[ELEMENT_MAX_COORDINATES]; /* global coordinate of each element coordinate after
+                                           elimination, or NONE */
+    int plain;                          /* 1: no offset and no sequence: elimination is selection */
+} mesh_element;
+
+/* What identical elements share. */
+typedef struct mesh_kind {
+    int section;
+    double length, curvature[3], strain[3];
+    element_data *data;
+} mesh_kind;
+
+/* Pattern with the places of every element's entries in it. */
+typedef struct mesh_pattern {
+    int made;
+    sparse matrix;
+    int *start; /* [elements + 1] into the two below */
+    int *local; /* row * coordinates + column of the element's matrix */
+    int *place; /* in matrix.value */
+} mesh_pattern;
+
+/* One element's equations in model coordinates. */
+typedef struct element_part {
+    status outcome;
+    fault why;
+    double incompatibility; /* |D(x) - e|/l */
+    double force[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
+} element_part;
+
+struct model {
+    const scene *scene;
+    const element_type *type;
+    double options[ELEMENT_MAX_OPTIONS];
+    int keep_all, nodes, coordinates, strains, inner, memory; /* per element: nodes, 7 nodes, ... */
+    unsigned features;
+    section *section;
+    int vertices, elements, kinds, warps;
+    mesh_vertex *vertex;
+    mesh_element *element;
+    mesh_kind *kind;
+    mesh_warp *warp;
+    int *first_element;     /* [members + 1] */
+    int *driver_coordinate; /* [drivers] or NONE */
+    int free, driven;
+    double size; /* largest distance between nodes or member length [m] */
+    mesh_pattern pattern[2];
+    double *work; /* [elements x work_size]: J, C, P' + C (D - e), D - e, memory of the last
+                     linearisation */
+    int work_size;
+    model_state *rest;     /* undeformed */
+    element_spin rotation; /* of the frame, times the path if that is followed */
+    int rotates, rotation_follows_path;
+    counters counters;
+    phases phases;
+    team *team;         /* of the loop over elements; NULL: one thread */
+    element_part *part; /* [elements] what the team computes before it is added up in order; NULL
+                           without a team */
+    int lines;
+    char **line; /* what was left out */
+};
+
+struct model_state {
+    double path;
+    size_t size; /* doubles in block */
+    double *block;
+    double *u;      /* [vertices x 3] displacement */
+    double *q;      /* [vertices x 4] orientation */
+    double *angle;  /* [vertices x 3] of sequences; accumulated spatial increments otherwise */
+    double *warp;   /* [warps] */
+    double *driver; /* [drivers] present value */
+    double *e, *sigma, *inner; /* [elements x strains], [.. inner] */
+};
+
+/* features.c */
+/* Their names into words[size], separated by commas; returns the characters they take. */
+int features_words(unsigned features, char *words, int size);
+int features_eccentric(const section *c); /* its shear centre is not its centroid */
+status features_of_section(const model *m, int section, unsigned *features, fault *f);
+
+/* mesh.c */
+status mesh_build(model *m, int elements, fault *f);
+
+/* coordinates.c */
+status coordinates_number(model *m, fault *f);
+status model_note_left_out(model *m, fault *f, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* kinematics.c */
+void kinematics_gather(const model *m, const model_state *s, const mesh_element *el,
+                       node_state x[]);
+void kinematics_position(const model *m, const model_state *s, int vertex, double r[3]);
+/* Current offset of a vertex from its body [m]. */
+void kinematics_offset(const model *m, const model_state *s, int vertex, double rho[3]);
+/* Spatial axes of a sequence's angles in the present state: b[angles][3]. */
+void kinematics_axes(const model *m, const model_state *s, int vertex, double b[3][3]);
+/* Recomputes what depends on bodies' coordinates. */
+void kinematics_follow(const model *m, model_state *s);
+/* Increments of an element's own coordinates from those of the model: local[7 nodes]. */
+void kinematics_local(const model *m, const model_state *s, const mesh_element *el,
+                      const double dx[], double local[]);
+
+/* eliminate.c: element coordinates -> model coordinates, in place. force: internal, for the second
+ * derivatives; NULL entries are skipped. */
+void eliminate_forces(const model *m, const model_state *s, const mesh_element *el, double force[]);
+void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el,
+                      const double force[], double K[]);
+
+/* rotating_frame.c: force -= centrifugal force, K += its stiffness (NULL: not wanted), in element
+ * coordinates; nothing where no frame turns. */
+status rotating_frame_add(model *m, const node_state x[], int element, double path, double force[],
+                          double K[], fault *f);
+
+/* assemble.c */
+void assemble_pattern_free(mesh_pattern *p);
+void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out);
+void assemble_vector(const mesh_element *el, int coordinates, const double local[], double out[]);
+double *sparse_entry(sparse *a, int row, int column); /* NULL when not stored */
+
+/* linearise.c: one element's part of model.work between linearise and advance. */
+typedef struct model_slot {
+    double *J, *C, *sigma, *incompatibility,
+        *memory; /* sigma = P'(e) + C incompatibility, incompatibility = D(x) - e */
+} model_slot;
+model_slot slot_of(const model *m, int element);
+
+/* loads.c */
+double loads_factor(const scene_load *load, double path);
+void loads_add(const model *m, const model_state *s, double path,
+               double out[]); /* [free + driven] */
+void loads_subtract_stiffness(const model *m, const model_state *s, double path, sparse *K);
+double driver_value_at(const scene_driver *d, double path);
+
+#endif

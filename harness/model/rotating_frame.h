@@ -1,0 +1,23 @@
+/* A frame that turns steadily. */
+#ifndef BEAMWORK_MODEL_ROTATING_FRAME_H
+#define BEAMWORK_MODEL_ROTATING_FRAME_H
+
+#include "harness/model/model.h"
+
+/* Mass matrix on the pattern of M about a state (NULL: undeformed); G: gyroscopic matrix of a
+ * turning frame, of which a symmetric pattern stores the upper triangle, or NULL: not wanted. */
+status model_inertia(model *, const model_state *, double path, sparse *M, sparse *G, fault *);
+
+/* From here on the scene's axes turn with omega [rad/s] about an axis through `centre` [m]; times
+ * the path parameter if that is followed. Zero: they are at rest. What is linearised contains the
+ * centrifugal forces and their stiffness. */
+void model_set_rotating_frame(model *, const double omega[3], const double centre[3],
+                              int follows_path);
+/* x^T K x of the tangent of a state in equilibrium, but for what loads add to it: from the strains,
+ * as above. x[free + driven]. */
+status model_tangent_energy2(model *, const model_state *, double path, const double x[],
+                             double *energy);
+/* What loads on offsets and moments add to K. */
+void model_load_stiffness(const model *, const model_state *, double path, sparse *out);
+
+#endif

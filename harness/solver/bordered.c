@@ -1,0 +1,81 @@
+#include "harness/solver/bordered.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/model/stiffness_parts.h"
+#include "harness/solver/border.h"
+
+enum { REFINEMENTS = 2 };
+
+static double dot(int n, const double a[], const double b[])
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+status bordered_alloc(tangent *t, counters *n, bordered *out, fault *f)
+{
+    const border *b = &t->border;
+    const size_t all = (size_t)t->all + 1;
+    out->Z = calloc((size_t)(b->count * t->free) + 1, sizeof *out->Z);
+    out->x = calloc(3 * all, sizeof *out->x);
+    if (out->Z == NULL || out->x == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
+    out->load = out->x + all;
+    out->rest = out->load + all;
+    for (int i = 0; i < b->count; i++) {
+        memcpy(out->Z + i * t->free, b->U + i * t->free, (size_t)t->free * sizeof *out->Z);
+        factor_solve(t->factor, out->Z + i * t->free);
+        n->solutions++;
+    }
+    for (int i = 0; i < b->count; i++)
+        for (int j = 0; j < b->count; j++)
+            out->S[i * b->count + j] =
+                b->W[i * b->count + j] - dot(t->free, b->V + i * t->free, out->Z + j * t->free);
+    return b->count > 0 && dense_lu_regular(b->count, out->S, out->pivot) != 0
+               ? fault_set(f, STATUS_SINGULAR,
+                           "the structure is not held when the prescribed motion is released")
+               : STATUS_OK;
+}
+
+void bordered_free(bordered *s)
+{
+    free(s->Z);
+    free(s->x);
+}
+
+void bordered_solve(tangent *t, counters *n, const bordered *s, double x[])
+{
+    const border *b = &t->border;
+    double z[TANGENT_BORDER];
+    factor_solve(t->factor, x);
+    n->solutions++;
+    for (int i = 0; i < b->count; i++)
+        z[i] = x[b->coordinate[i]] - dot(t->free, b->V + i * t->free, x);
+    if (b->count > 0)
+        dense_lu_solve(b->count, 1, s->S, s->pivot, z);
+    for (int i = 0; i < b->count; i++) {
+        for (int k = 0; k < t->free; k++)
+            x[k] -= s->Z[i * t->free + k] * z[i];
+        x[b->coordinate[i]] = z[i];
+    }
+}
+
+void bordered_refine(const model *m, tangent *t, counters *n, const bordered *s)
+{
+    for (int r = 0; r < REFINEMENTS; r++) {
+        double *rest = s->rest;
+        memset(rest, 0, (size_t)t->all * sizeof *rest);
+        sparse_mul(&t->geometric, s->x, rest);
+        model_material_product(m, t->state, s->x, rest);
+        for (int k = 0; k < t->all; k++)
+            rest[k] = k < t->free || border_place(&t->border, k) >= 0 ? s->load[k] - rest[k] : 0;
+        bordered_solve(t, n, s, rest);
+        for (int k = 0; k < t->all; k++)
+            s->x[k] += rest[k];
+    }
+}

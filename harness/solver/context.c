@@ -1,0 +1,23 @@
+#include "harness/solver/context.h"
+
+status context_factor(analysis_context *c, factor *fa, const sparse *K, fault *f)
+{
+    const status outcome = factor_numeric(fa, K, f);
+    c->singular = outcome == STATUS_SINGULAR;
+    return outcome;
+}
+
+void context_count_condition(const analysis_context *c, factor *fa, const sparse *K)
+{
+    counters *n = model_counters(c->model);
+    if (c->options->condition) {
+        const double estimate = factor_condition(fa, K);
+        n->condition = !(estimate <= n->condition) ? estimate : n->condition;
+    }
+}
+
+void context_count_eigen(const analysis_context *c, const eigen_result *e)
+{
+    model_counters(c->model)->solutions += e->solutions;
+    model_counters(c->model)->factorisations += e->factorisations;
+}

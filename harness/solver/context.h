@@ -1,0 +1,25 @@
+/* What an analysis works with. */
+#ifndef BEAMWORK_CONTEXT_H
+#define BEAMWORK_CONTEXT_H
+
+#include "harness/solver/outcome.h"
+#include "harness/solver/result.h"
+
+typedef struct analysis_context {
+    const scene *scene;
+    model *model;
+    const solve_options *options;
+    solve_result *result;       /* step records go here */
+    analysis_outcome *outcomes; /* [analyses], those before the present one are complete */
+    double setup;               /* [s] spent on patterns and symbolic factorisation */
+    int singular;               /* 1: the last factorisation failed */
+} analysis_context;
+
+/* The numeric factors of K, and into the context whether they exist. */
+status context_factor(analysis_context *, factor *, const sparse *K, fault *);
+/* When it was asked for: the condition of a matrix just factored, into the counters. */
+void context_count_condition(const analysis_context *, factor *, const sparse *K);
+/* The work of an eigenvalue problem, into the counters. */
+void context_count_eigen(const analysis_context *, const eigen_result *);
+
+#endif

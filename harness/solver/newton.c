@@ -1,0 +1,276 @@
+/* One Newton iteration: assemble, factor, solve, take the increments; condensed element by element
+ * or, for comparison, dense. */
+#include "harness/solver/newton.h"
+
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/algebra/clock.h"
+#include "harness/algebra/memory.h"
+#include "harness/model/assemble.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/linearise.h"
+#include "harness/model/loads.h"
+#include "harness/model/metric.h"
+#include "harness/model/uncondensed.h"
+#include "harness/solver/context.h"
+#include "harness/solver/history.h"
+#include "harness/solver/singular.h"
+
+enum { MAX_ITERATIONS = 30 };
+static const double default_criterion =
+    1e-8; /* largest correction, dimensionless: the next one would be its square */
+
+static status allocate(newton *n, fault *f)
+{
+    const model *m = n->c->model;
+    const size_t all = (size_t)n->all + 1;
+    const sparse *pattern;
+    n->residual = calloc(all, sizeof *n->residual);
+    n->dx = calloc(all, sizeof *n->dx);
+    n->column = calloc((size_t)(MODEL_MAX_CONDITIONS * n->all) + 1, sizeof *n->column);
+    n->weight = calloc(all, sizeof *n->weight);
+    if (n->residual == NULL || n->dx == NULL || n->column == NULL || n->weight == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a static solution");
+    model_metric(m, n->weight);
+    TRY(model_pattern(n->c->model, 0, &pattern, f));
+    TRY(sparse_alloc_like(pattern, &n->K, f));
+    TRY(factor_alloc(pattern, &n->factor, f));
+    TRY(model_state_alloc(m, &n->state, f));
+    return model_state_alloc(m, &n->backup, f);
+}
+
+status newton_alloc(analysis_context *c, newton *n, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    const double start = clock_processor_seconds();
+    memset(n, 0, sizeof *n);
+    n->c = c;
+    n->free = size.free;
+    n->all = size.free + size.driven;
+    n->criterion = c->options->criterion > 0 ? c->options->criterion : default_criterion;
+    n->max_iterations =
+        c->options->max_iterations > 0 ? c->options->max_iterations : MAX_ITERATIONS;
+    const status outcome = allocate(n, f);
+    c->setup += clock_processor_seconds() - start;
+    return outcome;
+}
+
+void newton_free(newton *n)
+{
+    free(n->residual);
+    free(n->dx);
+    free(n->column);
+    free(n->weight);
+    free(n->dense);
+    free(n->unknown);
+    free(n->pivot);
+    sparse_free_values(&n->K);
+    factor_free(n->factor);
+    model_state_free(n->state);
+    model_state_free(n->backup);
+}
+
+/* 1: what a driver moves of its condition's coordinates is more than the round-off of all that it
+ * moves. */
+static int drives(const newton *n, int count, const model_condition condition[],
+                  const double column[])
+{
+    const double round_off = 1e-12;
+    double conditioned = 0, all = 0;
+    for (int k = 0; k < n->free; k++)
+        all = fmax(all, n->weight[k] * column[k] * column[k]);
+    for (int r = 0; r < count; r++)
+        conditioned =
+            fmax(conditioned, n->weight[condition[r].coordinate] * column[condition[r].coordinate] *
+                                  column[condition[r].coordinate]);
+    return conditioned > round_off * round_off * all;
+}
+
+/* Unknown drivers: their increments make the conditions hold; dx of the free coordinates
+ * follows. */
+static status meet_conditions(newton *n, int count, const model_condition condition[], fault *f)
+{
+    double A[MODEL_MAX_CONDITIONS * MODEL_MAX_CONDITIONS], b[MODEL_MAX_CONDITIONS];
+    int pivot[MODEL_MAX_CONDITIONS];
+    int moved = 1;
+    for (int c = 0; c < count; c++) {
+        factor_solve(n->factor, n->column + c * n->all);
+        moved &= drives(n, count, condition, n->column + c * n->all);
+    }
+    for (int r = 0; r < count; r++) {
+        b[r] = n->dx[condition[r].coordinate] - condition[r].increment;
+        for (int c = 0; c < count; c++)
+            A[r * count + c] = n->column[c * n->all + condition[r].coordinate];
+    }
+    if (!moved || dense_lu_regular(count, A, pivot) != 0)
+        return fault_set(f, STATUS_SINGULAR,
+                         "an unknown driver does not move the coordinate of its condition");
+    dense_lu_solve(count, 1, A, pivot, b);
+    for (int c = 0; c < count; c++) {
+        for (int k = 0; k < n->free; k++)
+            n->dx[k] -= n->column[c * n->all + k] * b[c];
+        n->dx[condition[c].unknown] = b[c];
+    }
+    model_counters(n->c->model)->solutions += count;
+    return STATUS_OK;
+}
+
+static double work_of(int n, const double force[], const double motion[])
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += force[i] * motion[i];
+    return sum;
+}
+
+/* dx of the condensed system. */
+static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
+{
+    phases *p = model_phases(n->c->model);
+    TRY(model_linearise(n->c->model, n->state, lin, f));
+    const status factored = context_factor(n->c, n->factor, &n->K, f);
+    phases_lap(p, PHASE_FACTORISATION);
+    TRY(factored);
+    memcpy(n->dx, n->residual, (size_t)n->free * sizeof *n->dx);
+    factor_solve(n->factor, n->dx);
+    n->energy = fabs(work_of(n->free, n->residual, n->dx));
+    const status met = meet_conditions(n, lin->conditions, lin->condition, f);
+    phases_lap(p, PHASE_SOLUTION);
+    return met;
+}
+
+/* dx of the uncondensed system, by Gaussian elimination with partial pivoting (LAPACK). */
+static status solve_dense(newton *n, model_linearisation *lin, fault *f)
+{
+    model *m = n->c->model;
+    const size_t size = (size_t)model_uncondensed_size(m) + (size_t)lin->conditions;
+    TRY(memory_check((double)size * (double)size * sizeof *n->dense,
+                     "dense matrices of all unknowns at once", "give newton=mixed", f));
+    if (n->dense == NULL) {
+        n->dense = malloc(size * size * sizeof *n->dense);
+        n->unknown = malloc(size * sizeof *n->unknown);
+        n->pivot = malloc(size * sizeof *n->pivot);
+    }
+    if (n->dense == NULL || n->unknown == NULL || n->pivot == NULL)
+        return fault_set(f, STATUS_FAULT,
+                         "out of memory for a dense matrix of %zu unknowns; give newton=mixed",
+                         size);
+    model_linearisation parts = *lin;
+    parts.K = NULL;
+    parts.drive = NULL;
+    parts.conditions = 0;
+    TRY(model_linearise(m, n->state, &parts, f)); /* what model_advance needs */
+    lin->incompatibility = parts.incompatibility;
+    TRY(model_uncondensed_system(m, n->state, lin->path, n->dx, lin->conditions, lin->condition,
+                                 n->dense, n->unknown, n->residual, f));
+    phases_lap(model_phases(m), PHASE_ASSEMBLY);
+    const int singular = LAPACKE_dgesv(LAPACK_COL_MAJOR, (int)size, 1, n->dense, (int)size,
+                                       n->pivot, n->unknown, (int)size) != 0;
+    phases_lap(model_phases(m), PHASE_FACTORISATION);
+    n->c->singular = singular;
+    if (singular)
+        return fault_set(f, STATUS_SINGULAR, "the uncondensed system is singular");
+    memcpy(n->dx, n->unknown, (size_t)n->free * sizeof *n->dx);
+    for (int c = 0; c < lin->conditions; c++)
+        n->dx[lin->condition[c].unknown] = n->unknown[size - (size_t)(lin->conditions - c)];
+    return STATUS_OK;
+}
+
+status newton_direction(newton *n, double path, step_record *record, fault *f)
+{
+    model *m = n->c->model;
+    counters *count = model_counters(m);
+    n->energy = NAN;
+    phases_start(model_phases(m));
+    memset(n->dx, 0, (size_t)n->all * sizeof *n->dx);
+    model_drive(m, n->state, path, n->dx);
+    if (n->c->options->newton == SOLVE_DISPLACEMENT) {
+        TRY(model_make_compatible(m, n->state, f));
+    }
+    model_condition condition[MODEL_MAX_CONDITIONS];
+    const int conditions = model_conditions(m, n->state, path, condition);
+    model_linearisation lin = {.path = path,
+                               .drive = n->dx,
+                               .K = &n->K,
+                               .residual = n->residual,
+                               .conditions = conditions,
+                               .condition = condition,
+                               .column = n->column};
+    TRY(n->c->options->newton == SOLVE_DENSE ? solve_dense(n, &lin, f)
+                                             : solve_condensed(n, &lin, f));
+    const factor_counts counts = factor_count(n->factor);
+    count->factorisations +=
+        n->c->options->newton == SOLVE_DENSE ? 1 : counts.factorisations - n->counted;
+    n->counted = counts.factorisations;
+    count->solutions++;
+    count->factor_entries = counts.entries;
+    count->factor_flops += counts.flops;
+    record->negative_pivots = counts.negative_pivots;
+    record->incompatibility = lin.incompatibility;
+    return STATUS_OK;
+}
+
+status newton_advance(newton *n, double path, double *correction, step_record *record, fault *f)
+{
+    *correction = model_advance(n->c->model, n->state, n->dx, path);
+    phases_stop(model_phases(n->c->model));
+    model_counters(n->c->model)->iterations++;
+    const iteration_record one = {.correction = *correction,
+                                  .incompatibility = record->incompatibility};
+    TRY(history_add_iteration(n->c->result, record, &one, n->energy, f));
+    return isfinite(*correction)
+               ? STATUS_OK
+               : fault_set(f, STATUS_NOT_CONVERGED, "the corrections are not finite");
+}
+
+/* A formulation whose strains are sines of the turn can converge to a state it cannot tell from the
+ * right one. */
+static status judge_turns(const newton *n, double path, fault *f)
+{
+    const double quarter = 1.57079632679489661923;
+    int element = 0;
+    if (!(model_limits(n->c->model) & LIMIT_QUARTER_TURN) ||
+        model_largest_turn(n->c->model, n->state, &element) < quarter)
+        return STATUS_OK;
+    return fault_set(f, STATUS_NOT_CONVERGED,
+                     "element %d is turned by more than a quarter turn at path %g: use more "
+                     "elements or smaller steps",
+                     element, path);
+}
+
+status newton_judge(const newton *n, newton_watch *w, double path, double correction, int *done,
+                    fault *f)
+{
+    const double wild = 4; /* a correction of several radians or lengths leads nowhere */
+    *done = correction <= n->criterion;
+    if (*done)
+        return judge_turns(n, path, f);
+    w->growing = correction > w->last && w->iteration > 1 ? w->growing + 1 : 0;
+    w->last = correction;
+    w->iteration++;
+    if (correction > wild * 4 || (w->iteration > 3 && correction > wild) || w->growing >= 4)
+        return fault_set(f, STATUS_NOT_CONVERGED,
+                         "Newton diverged at path %g: correction %.1e in iteration %d", path,
+                         correction, w->iteration);
+    if (w->iteration == n->max_iterations)
+        return fault_set(f, STATUS_NOT_CONVERGED,
+                         "Newton did not converge in %d iterations at path %g: correction %.1e",
+                         n->max_iterations, path, correction);
+    return STATUS_OK;
+}
+
+status newton_to(newton *n, double path, step_record *record, fault *f)
+{
+    newton_watch watch = newton_watch_start;
+    for (int done = 0; !done;) {
+        double correction = 0;
+        TRY(newton_direction(n, path, record, f));
+        TRY(newton_advance(n, path, &correction, record, f));
+        TRY(newton_judge(n, &watch, path, correction, &done, f));
+    }
+    return STATUS_OK;
+}

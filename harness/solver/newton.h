@@ -1,0 +1,50 @@
+/* Newton in coordinates, strains and stresses at once (N section 4): what every nonlinear analysis
+ * iterates with. */
+#ifndef BEAMWORK_NEWTON_H
+#define BEAMWORK_NEWTON_H
+
+#include <math.h>
+
+#include "harness/solver/context.h"
+#include "harness/solver/predictor.h"
+
+typedef struct newton {
+    analysis_context *c;
+    model_state *state, *backup;
+    predictor *predictor; /* NULL: every step begins at the last state */
+    sparse K;
+    factor *factor;
+    double *residual, *dx;   /* [free + driven] */
+    double *dense, *unknown; /* of the uncondensed system, allocated when it is asked for */
+    int *pivot;
+    double *column; /* [conditions x (free + driven)] */
+    double *
+        weight; /* [free + driven] of model_metric: what makes displacements and turns comparable */
+    double criterion, energy; /* energy: |r . K^-1 r| of the last residual r [J]; NAN: not known */
+    int max_iterations, free, all;
+    long counted; /* factorisations that are in the model's counters */
+} newton;
+
+status newton_alloc(analysis_context *, newton *, fault *);
+void newton_free(newton *);
+
+/* K, its factors and dx = K^-1 residual in the present state for the loads and drivers at `path`;
+ * drivers are in dx. */
+status newton_direction(newton *, double path, step_record *, fault *);
+/* The state takes dx; *correction: dimensionless size of what changed. */
+status newton_advance(newton *, double path, double *correction, step_record *, fault *);
+
+/* How an iteration goes on. */
+typedef struct newton_watch {
+    int iteration, growing;
+    double last;
+} newton_watch;
+static const newton_watch newton_watch_start = {0, 0, INFINITY};
+/* OK with *done = 1 when converged, OK with 0 to go on, or NOT_CONVERGED with the reason. */
+status newton_judge(const newton *, newton_watch *, double path, double correction, int *done,
+                    fault *);
+
+/* Newton to `path`: converged, or NOT_CONVERGED with the reason. */
+status newton_to(newton *, double path, step_record *, fault *);
+
+#endif

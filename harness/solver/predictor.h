@@ -1,0 +1,21 @@
+/* The last states of a path, oldest first: where the next one is looked for. */
+#ifndef BEAMWORK_PREDICTOR_H
+#define BEAMWORK_PREDICTOR_H
+
+#include "harness/model/extrapolate.h"
+#include "harness/model/model.h"
+
+typedef struct predictor {
+    int count,
+        iterations; /* of the last step: one that took many was too long to extrapolate from */
+    model_state *at[MODEL_EXTRAPOLATED];
+} predictor;
+
+status predictor_alloc(const model *, predictor *, fault *); /* holds the undeformed state */
+void predictor_free(predictor *);
+void predictor_add(const model *, const model_state *, int iterations, predictor *);
+void predictor_forget(predictor *);
+/* Moves s, the last state, to a guess of the one at `path`, or leaves it as it is. */
+void predictor_guess(const model *, predictor *, double path, model_state *s);
+
+#endif

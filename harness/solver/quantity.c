@@ -1,0 +1,16 @@
+#include "harness/solver/quantity.h"
+
+#include <math.h>
+#include <stdio.h>
+
+void quantity_no_value(quantity_result *r, status s, const char *reason)
+{
+    r->status = s;
+    r->value = NAN;
+    snprintf(r->reason, sizeof r->reason, "%s", reason);
+}
+
+double quantity_scaled(const scene_quantity *q, double value)
+{
+    return (q->factor != 0 ? q->factor : 1) * value + q->offset;
+}

@@ -1,0 +1,11 @@
+/* A quantity that has been read from an outcome. */
+#ifndef BEAMWORK_QUANTITY_H
+#define BEAMWORK_QUANTITY_H
+
+#include "harness/solver/result.h"
+
+void quantity_no_value(quantity_result *, status, const char *reason);
+/* In the units of the quantity: times its factor, plus its offset. */
+double quantity_scaled(const scene_quantity *, double value);
+
+#endif

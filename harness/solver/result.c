@@ -1,0 +1,31 @@
+#include "harness/solver/result.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const char *result_event_name(event_kind kind)
+{
+    static const char *const name[EVENT_KINDS] = {"limit point", "bifurcation", "branch jump"};
+    return name[kind];
+}
+
+void result_free(solve_result *r)
+{
+    if (r->quantity != NULL)
+        for (int i = 0; i < r->quantities; i++) {
+            free(r->quantity[i].curve.x);
+            free(r->quantity[i].curve.value);
+        }
+    for (int i = 0; i < r->matrix_sets; i++) {
+        free(r->matrices[i].path);
+        free(r->matrices[i].compliance);
+        free(r->matrices[i].stiffness);
+    }
+    free(r->matrices);
+    free(r->quantity);
+    free(r->step);
+    shapes_free(&r->shapes);
+    free(r->iteration);
+    free(r->event);
+    memset(r, 0, sizeof *r);
+}

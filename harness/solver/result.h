@@ -1,0 +1,115 @@
+/* What a solution is asked for and what it leaves: quantities, steps, iterations, events, matrices,
+ * shapes. */
+#ifndef BEAMWORK_RESULT_H
+#define BEAMWORK_RESULT_H
+
+#include "harness/model/model.h"
+#include "harness/solver/shapes.h"
+
+/* The mixed Newton condensed element by element; for comparison, in displacements only, and
+ * uncondensed with dense elimination. */
+typedef enum solve_newton {
+    SOLVE_MIXED,
+    SOLVE_DISPLACEMENT,
+    SOLVE_DENSE,
+    SOLVE_NEWTONS
+} solve_newton;
+
+typedef struct solve_options {
+    solve_newton newton;
+    double criterion;   /* relative size of the corrections; 0: default */
+    int max_iterations; /* per step; 0: default */
+    int steps_between;  /* overrides the scene's; 0: the scene's */
+    int condition; /* 1: estimate the condition of the tangents (of a static path: at its stations)
+                    */
+    int phases;    /* 1: read the clock between the parts of an iteration */
+    int sample; /* > 0: only so many iterations of each static path, for their time: there will be
+                   no values */
+    int shapes; /* most states of every path whose centre lines are kept; 0: no shapes */
+} solve_options;
+
+typedef struct curve {
+    int points;
+    double *x, *value;
+} curve;
+
+typedef struct quantity_result {
+    status status;   /* OK: value is a number */
+    double value;    /* NAN where it does not exist */
+    double x;        /* abscissa where a maximum or minimum was found */
+    double rounding; /* critical loads, frequencies: estimate of |error| by round-off, in parts of
+                        the value; else 0 */
+    curve curve;     /* of SCENE_CURVE, else 0 points */
+    char reason[FAULT_TEXT]; /* why there is no value */
+} quantity_result;
+
+/* All dimensionless.  Quadratic convergence: each correction is about the square of the one
+ * before. */
+typedef struct iteration_record {
+    double residual; /* sqrt(r . K^-1 r) of the unbalanced forces r before it, by that of the step's
+                        first; NAN: newton=dense */
+    double correction;      /* what the iteration changed: model_advance */
+    double incompatibility; /* max |D(x) - e|/l before it */
+} iteration_record;
+
+typedef struct step_record {
+    double path, increment;
+    int iterations, rejected,
+        negative_pivots; /* rejected: tries of longer steps that failed before this one */
+    double residual, correction, incompatibility; /* of the last iteration */
+    int first;                                    /* of its iterations in solve_result.iteration */
+    double energy;                                /* r . K^-1 r of the first one [J] */
+} step_record;
+
+/* Compliance and stiffness [6 x 6] (ux uy uz thx thy thz by Fx Fy Fz Mx My Mz; SI) of a node at
+ * stations of a path. */
+typedef struct nodal_matrices {
+    int node;
+    scene_moments moments; /* convention */
+    int stations;
+    double *path;                   /* [stations] */
+    double *compliance, *stiffness; /* [stations x 36]; held components: zero; not computed because
+                                       nothing asked: NAN */
+} nodal_matrices;
+/* What happened along a continued path. */
+typedef enum event_kind {
+    EVENT_LIMIT_POINT, /* the load has an extremum */
+    EVENT_BIFURCATION, /* other branches start here; this one is followed */
+    EVENT_BRANCH_JUMP, /* a step converged to another branch: it was noticed and not followed */
+    EVENT_KINDS
+} event_kind;
+
+typedef struct path_event {
+    event_kind kind;
+    int analysis, negative_before,
+        negative_after;     /* negative pivots of the tangent stiffness; -1: not symmetric */
+    double factor, control; /* of the point; of a jump: where both branches have this value of the
+                               control coordinate [m] */
+    double other_factor;    /* of a jump: on the branch that was not followed; else NAN */
+    double measure; /* of a point: |phi . f|/(|phi| |f|), null vector phi, load f; of a jump:
+                       distance of the branches */
+} path_event;
+
+typedef struct solve_result {
+    status status;
+    char reason[FAULT_TEXT];
+    int quantities;
+    quantity_result *quantity; /* [scene quantities], same order */
+    int steps;
+    step_record *step;
+    int iterations; /* of all the steps that were kept */
+    iteration_record *iteration;
+    int matrix_sets;
+    nodal_matrices *matrices;
+    int events;
+    path_event *event;
+    double seconds_setup,
+        seconds_solve; /* scene, sections, quadrature, mesh, analysis of the pattern | the rest */
+    double phase[PHASES]; /* [s] in the iterations, when asked for */
+    shapes shapes;
+} solve_result;
+
+const char *result_event_name(event_kind); /* "limit point", ... */
+void result_free(solve_result *);
+
+#endif

@@ -1,0 +1,199 @@
+/* The tangent of the free coordinates is factored once; what is released borders it:
+ *   [ K  U ] [x]   [f]
+ *   [ V  W ] [z] = [g],   S = W - V K^-1 U,   z = S^-1 (g - V K^-1 f),   x = K^-1 f - K^-1 U z. */
+#include "harness/solver/tangent.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/algebra/clock.h"
+#include "harness/model/assemble.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/linearise.h"
+#include "harness/model/loads.h"
+#include "harness/model/stiffness_parts.h"
+#include "harness/solver/border.h"
+#include "harness/solver/bordered.h"
+#include "harness/solver/context.h"
+#include "harness/solver/singular.h"
+
+/* Solutions are refined where round-off would leave less than eight digits. */
+static const double harmless_condition = 1e8;
+
+/* The free block: the first columns of the whole, whose driven rows come last. */
+static void copy_inside(tangent *t)
+{
+    if (t->inside.value == t->K.value)
+        return;
+    for (int j = 0; j < t->free; j++)
+        memcpy(&t->inside.value[t->inside.column[j]], &t->K.value[t->K.column[j]],
+               (size_t)(t->inside.column[j + 1] - t->inside.column[j]) * sizeof *t->inside.value);
+}
+
+static status allocate(const analysis_context *c, const scene_analysis *a, tangent *t, fault *f)
+{
+    const sparse *inside, *whole;
+    const model_size size = model_sizes(c->model);
+    t->free = size.free;
+    t->all = size.free + size.driven;
+    TRY(border_alloc(c, a, &t->border, f));
+    t->residual = calloc((size_t)t->all + 1, sizeof *t->residual);
+    if (t->residual == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
+    const int with_driven = t->border.count > 0;
+    TRY(model_pattern(c->model, 0, &inside, f));
+    TRY(model_pattern(c->model, with_driven, &whole, f));
+    TRY(sparse_alloc_like(whole, &t->K, f));
+    if (with_driven)
+        TRY(sparse_alloc_like(inside, &t->inside, f));
+    else
+        t->inside = t->K;
+    TRY(sparse_alloc_like(whole, &t->geometric, f));
+    return factor_alloc(inside, &t->factor, f);
+}
+
+status tangent_alloc(analysis_context *c, const scene_analysis *a, tangent *t, fault *f)
+{
+    const double start = clock_processor_seconds();
+    memset(t, 0, sizeof *t);
+    const status outcome = allocate(c, a, t, f);
+    c->setup += clock_processor_seconds() - start;
+    return outcome;
+}
+
+void tangent_free(tangent *t)
+{
+    if (t->inside.value != t->K.value)
+        sparse_free_values(&t->inside);
+    sparse_free_values(&t->K);
+    sparse_free_values(&t->geometric);
+    factor_free(t->factor);
+    border_free(&t->border);
+    free(t->residual);
+}
+
+/* K of the state and the factors of its free block. */
+static status factor_at(analysis_context *c, const scene_analysis *a, const model_state *s,
+                        const double reaction[6], tangent *t, fault *f)
+{
+    model_linearisation lin = {.path = model_state_path(s), .K = &t->K, .residual = t->residual};
+    TRY(model_linearise(c->model, s, &lin, f));
+    model_release_moment(c->model, s, a->node, reaction + 3, &t->K);
+    copy_inside(t);
+    return context_factor(c, t->factor, &t->inside, f);
+}
+
+static void count_factors(const tangent *t, counters *n)
+{
+    const factor_counts counts = factor_count(t->factor);
+    n->factorisations++;
+    n->factor_flops += counts.flops;
+    n->negative_pivots =
+        counts.negative_pivots > n->negative_pivots ? counts.negative_pivots : n->negative_pivots;
+}
+
+status tangent_at(analysis_context *c, const scene_analysis *a, const model_state *s,
+                  const double reaction[6], tangent *t, fault *f)
+{
+    const status factored = factor_at(c, a, s, reaction, t, f);
+    count_factors(t, model_counters(c->model));
+    TRY(factored);
+    t->state = s;
+    t->refined = factor_condition(t->factor, &t->inside) > harmless_condition;
+    if (t->refined) {
+        TRY(model_geometric_tangent(c->model, s, &t->geometric, f));
+        model_release_moment(c->model, s, a->node, reaction + 3, &t->geometric);
+    }
+    border_fill(&t->border, t->free, &t->K);
+    t->coordinates = model_node_jacobian(c->model, s, a->node, TANGENT_COMPONENTS, t->index, t->T);
+    return STATUS_OK;
+}
+
+/* Coordinates of the node that move: free or released. */
+static int moves(const tangent *t, int k)
+{
+    return t->index[k] < t->free || border_place(&t->border, t->index[k]) >= 0;
+}
+
+/* Response of the node to a unit load on one component. */
+static void respond(const model *m, tangent *t, counters *n, int component, const bordered *s,
+                    double response[TANGENT_COMPONENTS])
+{
+    memset(s->load, 0, (size_t)t->all * sizeof *s->load);
+    for (int k = 0; k < t->coordinates; k++)
+        if (moves(t, k))
+            s->load[t->index[k]] = t->T[component * t->coordinates + k];
+    memcpy(s->x, s->load, (size_t)t->all * sizeof *s->x);
+    bordered_solve(t, n, s, s->x);
+    if (t->refined)
+        bordered_refine(m, t, n, s);
+    for (int i = 0; i < TANGENT_COMPONENTS; i++) {
+        response[i] = 0;
+        for (int k = 0; k < t->coordinates; k++)
+            response[i] += moves(t, k) ? t->T[i * t->coordinates + k] * s->x[t->index[k]] : 0;
+    }
+}
+
+/* Columns of C for unit loads on the components that are wanted and can move. */
+static void respond_all(const model *m, tangent *t, counters *n, const bordered *s, unsigned wanted,
+                        unsigned components, double C[36])
+{
+    for (int j = 0; j < TANGENT_COMPONENTS; j++) {
+        double response[TANGENT_COMPONENTS];
+        if (!(wanted & components & 1u << j))
+            continue;
+        respond(m, t, n, j, s, response);
+        for (int i = 0; i < TANGENT_COMPONENTS; i++)
+            C[6 * i + j] = components >> i & 1u ? response[i] : 0;
+    }
+}
+
+status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsigned components,
+                          double C[36], fault *f)
+{
+    counters *n = model_counters(c->model);
+    bordered s = {0};
+    const status outcome = bordered_alloc(t, n, &s, f);
+    memset(C, 0, 36 * sizeof *C);
+    if (outcome == STATUS_OK)
+        respond_all(c->model, t, n, &s, wanted, components, C);
+    bordered_free(&s);
+    return outcome;
+}
+
+/* The columns of T of coordinates that `wanted` says: [6 x n], and n. */
+static int columns_of(const tangent *t, int (*wanted)(const tangent *, int), double out[])
+{
+    int n = 0;
+    for (int k = 0; k < t->coordinates; k++)
+        n += wanted(t, k);
+    for (int k = 0, at = 0; k < t->coordinates; k++)
+        if (wanted(t, k)) {
+            for (int i = 0; i < TANGENT_COMPONENTS; i++)
+                out[i * n + at] = t->T[i * t->coordinates + k];
+            at++;
+        }
+    return n;
+}
+
+static int is_free(const tangent *t, int k)
+{
+    return t->index[k] < t->free;
+}
+
+void tangent_prescribed(const tangent *t, double moment[3])
+{
+    double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS], rest[3];
+    const int n = columns_of(t, is_free, T);
+    movable_prescribed(n, T, moment, rest);
+    memcpy(moment, rest, sizeof rest);
+}
+
+void tangent_movable(const model *m, const tangent *t, movable *out)
+{
+    double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS];
+    const int n = columns_of(t, moves, T);
+    movable_of(n, T, model_length(m), out);
+}

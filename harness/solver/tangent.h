@@ -1,0 +1,38 @@
+/* Tangent of a structure in a deformed state about one node, where some of the node's prescribed
+ * motion is released: its reaction has become a load. */
+#ifndef BEAMWORK_TANGENT_H
+#define BEAMWORK_TANGENT_H
+
+#include "harness/model/movable.h"
+#include "harness/solver/border.h"
+
+typedef struct tangent {
+    sparse K;         /* of all coordinates when something is released, else of the free ones */
+    sparse inside;    /* free x free */
+    sparse geometric; /* like K, where solutions are refined: see model_geometric_tangent */
+    int refined;      /* 1: the condition asks for it */
+    factor *factor;
+    border border;
+    int free, all;
+    double *residual;
+    const model_state *state;                   /* of K */
+    int index[TANGENT_COMPONENTS], coordinates; /* the node's */
+    double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS];
+} tangent;
+
+status tangent_alloc(analysis_context *c, const scene_analysis *a, tangent *t, fault *f);
+void tangent_free(tangent *t);
+/* reaction[6]: force and moment of the prescription on the node [N, N m]. */
+status tangent_at(analysis_context *c, const scene_analysis *a, const model_state *s,
+                  const double reaction[6], tangent *t, fault *f);
+/* Takes out of the reaction's moment what acts along free turns: there is no prescription that
+ * exerts it. */
+void tangent_prescribed(const tangent *t, double moment[3]);
+/* Motions that the node can make at all. */
+void tangent_movable(const model *m, const tangent *t, movable *out);
+/* C[6 x 6] of the node with the reaction's moment semitangential; columns outside `wanted`, and
+ * rows and columns of what is not among the `components` that can move, stay zero. */
+status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsigned components,
+                          double C[36], fault *f);
+
+#endif
