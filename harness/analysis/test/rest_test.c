@@ -9,7 +9,7 @@
 
 #include "harness/catalogue/registry.h"
 #include "harness/model/missing.h"
-#include ""
+#include "harness/study/plan.h"
 #include "harness/study/sweep.h"
 
 enum { COMPONENTS = 6, CHOICES = 64 };
