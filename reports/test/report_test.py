@@ -44,7 +44,7 @@ class Report(unittest.TestCase):
     def test_pages(self):
         self.assertEqual(self.done.returncode, 0, self.done.stderr)
         names = os.listdir(os.path.join(self.folder, "site"))
-        for name in ("index.html", "errata.html", "claims.html", "papers.html", "environment.html", "convergence.html", "warping_torsion.html", "formulation_beamw.html"):
+        for name in ("index.html", "errata.html", "claims.html", "ledger.html", "causes.html", "papers.html", "environment.html", "convergence.html", "warping_torsion.html", "formulation_beamw.html"):
             self.assertIn(name, names)
 
     def test_links_resolve(self):
