@@ -4,6 +4,7 @@ import unittest
 
 from reference import pack
 from reports import data, errata, ledger, tally
+from reports.site import ROOT
 from reports.test.results import Site, case, series, verdict
 
 TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
@@ -94,6 +95,14 @@ class Ledger(unittest.TestCase):
         for title in ledger.headings():
             link = ledger.link_of(f"reference/ERRATA.md, {title.lower()}", ledger.headings())
             self.assertIn(f'id="{link.partition("#")[2]}"', site.pages["errata.html"]["body"])
+
+    def test_every_table_of_the_errata_is_one(self):
+        """A table without an empty line above it would be read as prose."""
+        text = (ROOT / "reference" / "ERRATA.md").read_text(encoding="utf-8")
+        site = Site()
+        errata.write(site)
+        body = site.pages["errata.html"]["body"]
+        self.assertEqual(body.count("<table>"), text.count("\n|---"))
 
     def test_the_packed_ledger_is_shown_whole(self):
         rules = data.read_rules(TRUTHS)
