@@ -28,6 +28,7 @@ FEATURES = ("shear", "trapeze", "wagner", "warping")
 EXACT, EXACT_MESHES = "collocation:stages=8", (2, 4, 8, 16)
 SECONDS = 60  # for one series
 LEFT = 0.1  # of the error, or less: it is gone
+RIGHT = 1e-3  # relative error of a value in place of none
 
 # (formulation, formulation, the one thing that they differ in); causes_test.py reads the code
 SIBLINGS = (
@@ -55,6 +56,12 @@ def siblings(formulation, vibrates):
     pairs = SIBLINGS + (OF_VIBRATION if vibrates else ())
     found = [(b, what) for a, b, what in pairs if a == formulation]
     return found + [(a, what) for a, b, what in pairs if b == formulation]
+
+
+def newton_of(formulation):
+    """The same with the other form of Newton's method, for what does not converge."""
+    separator = "," if ":" in formulation else ":"
+    return f"{formulation}{separator}newton=displacement", "unknowns of Newton's method"
 
 
 def error_of(limit, exact):
@@ -169,7 +176,8 @@ def experiments(laboratory, v):
     plan += [
         ("without", f, key, given + (f"{f}=0",)) for f in switches(laboratory.program, case, given)
     ]
-    plan += [("instead", what, other, given) for other, what in siblings(key, vibrates)]
+    others = siblings(key, vibrates) + ([newton_of(key)] if v["error"] is None else [])
+    plan += [("instead", what, other, given) for other, what in others]
     found = []
     for kind, what, formulation, parameters in plan:
         known = None if kind == "without" else v["truth"]
@@ -179,7 +187,8 @@ def experiments(laboratory, v):
 
 
 def is_gone(error, before):
-    return error is not None and before is not None and abs(error) <= LEFT * abs(before)
+    """Of a verdict without a value (before: None) its failure is gone where a value is right."""
+    return error is not None and abs(error) <= (RIGHT if before is None else LEFT * abs(before))
 
 
 def study(laboratory, v):

@@ -150,6 +150,18 @@ class Outcome(unittest.TestCase):
     def test_coarse_meshes(self):
         self.assertTrue(self.study({(): 1e-5, ("shear=0",): 1e-5, "beamw_first": 1e-5})[0]["gone"])
 
+    def test_a_failure_is_gone_where_a_value_is_right(self):
+        self.assertTrue(causes.is_gone(1e-4, None))
+        self.assertFalse(causes.is_gone(1e-2, None))
+        self.assertFalse(causes.is_gone(None, None))
+        self.assertFalse(causes.is_gone(None, 0.1))
+
+    def test_what_has_no_value_is_tried_with_the_other_newton(self):
+        with mock.patch.object(causes, "switches", lambda *_: []):
+            found = causes.experiments(self.laboratory({(): 1e-6}), verdict("a", "x", None))
+        self.assertEqual(found[-1]["formulation"], "beamw:newton=displacement")
+        self.assertEqual(causes.newton_of("a:b=c")[0], "a:b=c,newton=displacement")
+
     def test_time_is_bounded(self):
         """Nothing begins when the time is over, and that is written down."""
         found = causes.Laboratory("/nowhere/program", 0).limit("x", "beamw", (), "load", 1.0)
