@@ -6,7 +6,8 @@ class Site:
     """What a page asks of a site; pages keeps the context that each template was given."""
 
     def __init__(self, results="", truths="", cases=()):
-        self.results, self.truths, self.cases, self.pages = results, truths, list(cases), {}
+        self.results, self.truths, self.cases = results, truths, list(cases)
+        self.kinds, self.pages = {}, {}
 
     def write(self, template, name, **context):
         self.pages[name] = context
