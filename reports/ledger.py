@@ -6,7 +6,7 @@ import re
 from reports import data, tally
 from reports.checks import stored
 from reports.site import ROOT
-from reports.verdicts import SEVERITY, UNJUDGED, met
+from reports.verdicts import OWN_LIMITS, SEVERITY, UNJUDGED, met
 
 NAVIGATION = [("ledger.html", "ledger")]
 
@@ -31,19 +31,22 @@ def link_of(proof, titles):
 
 
 def predictions(rows):
-    """How well predicted limits are met; None where none was derived."""
+    """How well predicted limits are met, missed where a limit of its own is another one, open where
+    the limit is not known well enough; None where none was derived."""
     told = [r for r in rows if math.isfinite(met(r.verdict))]
     if not told:
         return None
-    farthest = max(told, key=lambda r: met(r.verdict))
-    size, best = met(farthest.verdict), min(met(r.verdict) for r in told)
-    hit = sum(r.verdict.verdict == "wrong limit, as predicted" for r in told)
+    hit = [r for r in told if r.verdict.verdict == "wrong limit, as predicted"]
+    missed = [r for r in told if r.verdict.verdict in OWN_LIMITS and r not in hit]
+    farthest = max(hit or missed, key=lambda r: met(r.verdict), default=None)
+    size = met(farthest.verdict) if farthest else math.nan
     return {
-        "rows": len(told),
-        "met": hit,
+        "met": len(hit),
+        "missed": len(missed),
+        "open": len(told) - len(hit) - len(missed),
         "largest": size,
-        "digits": -math.log10(size) if size > 0 else math.inf,
-        "least": best,
+        "digits": -math.log10(size) if size else math.inf,
+        "least": min((met(r.verdict) for r in hit or missed), default=math.nan),
         "farthest": farthest,
     }
 

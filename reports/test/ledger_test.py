@@ -74,9 +74,18 @@ class Ledger(unittest.TestCase):
         )
         self.assertEqual((line["number"], line["aliases"], line["misprints"]), (3, 2, 1))
         self.assertEqual(line["worst"].verdict.error, 0.05)
-        self.assertEqual((line["met"]["rows"], line["met"]["met"]), (1, 1))
+        self.assertEqual([line["met"][name] for name in ("met", "missed", "open")], [1, 0, 0])
         self.assertAlmostEqual(line["met"]["digits"], 6, 3)
         self.assertEqual(line["link"], "errata.html")
+
+    def test_what_is_missed_or_open_is_not_met(self):
+        kinds = ("biased", "wrong limit", "undecided", "low order")
+        told = [known(str(i), kind, 0.01, predicted=1.02) for i, kind in enumerate(kinds)]
+        found = ledger.contents([case("c", series("k", told))], [RULE])["lines"][0]["met"]
+        self.assertEqual([found[name] for name in ("met", "missed", "open")], [0, 2, 2])
+        self.assertAlmostEqual(found["largest"], 0.01 / 1.02)
+        found = ledger.contents([case("c", series("k", told[2:]))], [RULE])["lines"][0]["met"]
+        self.assertIsNone(found["farthest"])
 
     def test_what_nobody_saw_is_there(self):
         line = self.contents(RULE, {**RULE, "rule": "other", "proof": "test_a"})["lines"][1]
