@@ -2,6 +2,8 @@
 import math
 from dataclasses import dataclass
 
+from reports import verdicts as words
+
 ALL = "all quantities"
 
 
@@ -12,7 +14,7 @@ class Way:
     n: int
     clock: object     # data.Clock
     error: float
-    verdict: str
+    worst: object     # data.Verdict: the worst of those that it takes
 
     @property
     def seconds(self):
@@ -46,8 +48,7 @@ def way(series, quantities, level):
         return None
     first = max(v.reach[level] for v in verdicts)
     mesh = min((m for m in series.meshes if m.n >= first), key=lambda m: m.seconds)
-    worst = next((v.verdict for v in verdicts if v.verdict != "pass"), "pass")
-    return Way(series.key, mesh.n, mesh.clock, error_of(mesh, quantities), worst)
+    return Way(series.key, mesh.n, mesh.clock, error_of(mesh, quantities), words.worst(verdicts))
 
 
 def ways(point, quantity, level):

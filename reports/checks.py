@@ -1,4 +1,5 @@
-"""What was checked, and how often: truths by kind, cells judged, extremes, planted faults, executions with any bytes as input."""
+"""What was checked, and how often: truths by kind, cells judged, limits' uncertainties, planted
+faults, executions with any bytes as input."""
 import functools
 import json
 import pathlib
@@ -6,6 +7,8 @@ import pathlib
 from reports.index import count_verdicts
 
 NAVIGATION = [("checks.html", "checks")]
+# They have no limits of their own.
+CONSISTENT = ("beamw_consistent", "collocation", "geometrically_exact")
 
 
 def stored(site, name):
@@ -20,21 +23,59 @@ def counted(cases):
     for case in cases:
         counts = count_verdicts([case])
         judged = sum(n for verdict, n in counts.items() if verdict not in ("skip", "no truth"))
-        rows.append((case.name, len(case.points), sum(len(s.meshes) for p in case.points for s in p.series), judged, counts.get("pass", 0)))
+        rows.append(
+            (
+                case.name,
+                len(case.points),
+                sum(len(s.meshes) for p in case.points for s in p.series),
+                judged,
+                counts.get("pass", 0),
+            )
+        )
     return rows
 
 
-def coverage(cases):
-    """{formulation: [(covered, series) without the 0, 1, ... finest meshes]} over all cases."""
+def coverage(rows):
+    """[(covered, series) without the 0, 1, ... finest meshes], summed."""
     sums = {}
-    for row in (row for case in cases for row in case.coverages):
-        covered, series = sums.setdefault(row["formulation"], {}).get(row["left_out"], (0, 0))
-        sums[row["formulation"]][row["left_out"]] = covered + row["covered"], series + row["series"]
-    return {name: [without[k] for k in sorted(without)] for name, without in sorted(sums.items())}
+    for row in rows:
+        covered, series = sums.get(row["left_out"], (0, 0))
+        sums[row["left_out"]] = covered + row["covered"], series + row["series"]
+    return [sums[k] for k in sorted(sums)]
+
+
+def of_formulation(rows, key):
+    return coverage(row for row in rows if row["formulation"] == key)
+
+
+def coverages(cases):
+    """What the page shows: each consistent formulation, these together, all; and by case."""
+    rows = [row for case in cases for row in case.coverages]
+    names = sorted({row["formulation"] for row in rows})
+    by_case = [
+        (case.name, [of_formulation(case.coverages, key) for key in CONSISTENT]) for case in cases
+    ]
+    return {
+        "consistent": [(key, of_formulation(rows, key)) for key in names if key in CONSISTENT],
+        "together": coverage(row for row in rows if row["formulation"] in CONSISTENT),
+        "all": coverage(rows),
+        "others": [(key, of_formulation(rows, key)) for key in names if key not in CONSISTENT],
+        "cases": [(name, found) for name, found in by_case if any(found)],
+        "formulations": CONSISTENT,
+    }
 
 
 def write(site):
-    site.write("checks.html", "checks.html", rows=counted(site.cases), counts=count_verdicts(site.cases), coverage=coverage(site.cases), kinds=site.kinds, mutants=stored(site, "mutants.json"), fuzz=stored(site, "fuzz.json"))
+    site.write(
+        "checks.html",
+        "checks.html",
+        rows=counted(site.cases),
+        counts=count_verdicts(site.cases),
+        coverage=coverages(site.cases),
+        kinds=site.kinds,
+        mutants=stored(site, "mutants.json"),
+        fuzz=stored(site, "fuzz.json"),
+    )
 
 
 def tasks(site):

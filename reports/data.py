@@ -64,22 +64,40 @@ class Mesh:
 
 @dataclass
 class Verdict:
-    """One line of the judge: columns of the table `verdicts`."""
+    """One line of the judge: columns of the table `verdicts`, in SI; errors are relative."""
+
     quantity: str
     verdict: str
-    expected: str
-    truth_kind: str
-    reason: str
-    proof: str
-    source: str
-    truth: float
-    limit: float
-    order: float
-    error: float
-    model_truth: float
-    model_error: float
-    tolerance: float
-    reach: dict   # level -> elements of the coarsest mesh from which on every mesh is within it
+    expected: str = "pass"
+    as_expected: int = 1
+    message: str = ""
+    reason: str = ""
+    finding: str = ""
+    cause: str = ""
+    proof: str = ""
+    value: float = math.nan
+    limit: float = math.nan
+    limit_uncertainty: float = math.nan
+    order: float = math.nan
+    order_uncertainty: float = math.nan
+    limit_kind: str = "none"
+    noise: float = math.nan
+    noise_measured: int = 0
+    truth: float = math.nan
+    truth_uncertainty: float = math.nan
+    truth_kind: str = ""
+    theory: str = ""
+    source: str = ""
+    below_digits: int = 0
+    predicted: float = math.nan
+    contradicted: float = math.nan
+    error: float = math.nan
+    tolerance: float = math.nan
+    model_truth: float = math.nan
+    model_truth_kind: str = ""
+    model_theory: str = ""
+    model_error: float = math.nan
+    reach: dict = field(default_factory=dict)   # level -> elements of the coarsest mesh from which on every mesh is within it
 
 
 @dataclass
@@ -264,6 +282,16 @@ def read_other_model(path, case, parameters, quantity):
             if model == "other" and not formulation and of == quantity and holds(at, parameters):
                 return float(group["value"][i])
     return math.nan
+
+
+def read_rules(path):
+    """[{column: value}] of the ledger (reference/findings.csv) that the truths were packed with."""
+    try:
+        with h5py.File(path, driver="core", backing_store=False) as file:
+            columns = {name: column(values[()]) for name, values in file["findings"].items()}
+    except (OSError, KeyError) as why:
+        raise Unreadable(f"{path}: cannot be read ({why}); 'make all' packs it") from why
+    return [dict(zip(columns, row)) for row in zip(*columns.values())]
 
 
 def read_truth_counts(path):

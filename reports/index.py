@@ -1,8 +1,9 @@
 """First page: the cheapest way to each error in every case, and the verdicts of all formulations."""
 import functools
 
-from reports import answers, plots
+from reports import answers, plots, tally
 from reports.case import cheapest_of
+from reports.verdicts import SEVERITY
 
 NAVIGATION = [("index.html", "beamwork")]
 
@@ -19,24 +20,17 @@ def winners(case):
 
 
 def count_verdicts(cases):
-    counts = {}
-    for case in cases:
-        for point in case.points:
-            for series in point.series:
-                for v in series.verdicts:
-                    counts[v.verdict] = counts.get(v.verdict, 0) + 1
-    return counts
+    """{verdict: number} from good to bad, without second names and misprints that repeat what is counted."""
+    return dict(sorted(tally.counts(tally.rows(cases))[0].items(), key=lambda item: SEVERITY[item[0]]))
 
 
 def formulation_rows(cases):
-    """{key: {case: {verdict: count}}} over all points."""
+    """{key: {case: {verdict: count}}} over all points, without second names."""
     rows = {}
-    for case in cases:
-        for point in case.points:
-            for series in point.series:
-                cell = rows.setdefault(series.key, {}).setdefault(case.name, {})
-                for v in series.verdicts:
-                    cell[v.verdict] = cell.get(v.verdict, 0) + 1
+    for row in tally.rows(cases):
+        cell = rows.setdefault(row.formulation, {}).setdefault(row.case, {})
+        if row.standing != tally.ALIAS:
+            cell[row.verdict.verdict] = cell.get(row.verdict.verdict, 0) + 1
     return rows
 
 

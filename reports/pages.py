@@ -15,6 +15,8 @@ PAGES = (
     "index",
     "claims",
     "papers",
+    "ledger",
+    "causes",
     "errata",
     "case",
     "formulation",

@@ -6,6 +6,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormat
 
 from reports import answers
 from reports.style import plt
+from reports.verdicts import OWN_LIMITS
 
 FLOOR = 1e-13   # below it errors are round-off
 CEILING = 1e3   # above it a value is a divergence
@@ -62,6 +63,22 @@ def tolerance_of(point, quantity):
         if v and v.truth and math.isfinite(v.truth) and math.isfinite(v.tolerance):
             return v.tolerance / abs(v.truth)
     return None
+
+
+def digits_of(point, quantity):
+    """What the truth is uncertain by, relative to it: errors below say nothing. None where it is exact to more than is drawn."""
+    known = [v.truth_uncertainty / abs(v.truth) for s in point.series for v in [answers.verdict_of(s, quantity)] if v and v.truth and math.isfinite(v.truth)]
+    least = max((u for u in known if math.isfinite(u)), default=0)
+    return least if least > FLOOR else None
+
+
+def shade_digits(axes, point, quantity):
+    """Grey ground where errors are below the truth's digits, as far down as something is drawn."""
+    digits = digits_of(point, quantity)
+    low, high = axes.get_ylim()
+    if digits and digits > low:
+        axes.axhspan(low, min(digits, high), color="0.93", zorder=-1)
+        axes.set_ylim(low, high)
 
 
 def slope_triangle(axes, point, quantity):
@@ -124,6 +141,8 @@ def work_precision(site, point, quantity, name):
     for (label, _, whole), one in zip(panels, axes):
         log_axes(one, label, "", whole)
     axes[0].set_ylabel("relative error")
+    for one in axes:
+        shade_digits(one, point, quantity)
     draw_failures(panels, axes, point, quantity, site.styles)
     tolerance = tolerance_of(point, quantity)
     if tolerance:
@@ -149,6 +168,8 @@ def small_multiples(site, point, quantities, name, errors="errors", ylabel="rela
                 x = [1e3 * m.seconds if against == "time" else m.n for m, _ in pairs]
                 handles[series.key] = one.plot(x, [e for _, e in pairs], **{**site.styles.of(series.key), "markersize": 3.5})[0]
         log_axes(one, "", "", against != "time")
+        if errors == "errors":
+            shade_digits(one, point, quantity)
         one.set_title(quantity, fontsize=9)
     for one in axes.flat[len(quantities):]:
         one.set_visible(False)
@@ -181,6 +202,11 @@ def curves(site, point, quantity, name):
     return site.image(figure, name)
 
 
+def column_words(verdict):
+    """A verdict with the size of its error where it has a limit of its own."""
+    return f"{verdict.verdict} ({100 * verdict.error:+.3g} %)" if verdict.verdict in OWN_LIMITS else verdict.verdict
+
+
 def column_figure(site, case):
     """The column under its axial load: the printed form levels off at the wrong limit, the consistent one goes down."""
     point = next((p for p in case.points if p.parameters == "section_data=printed"), case.points[0])
@@ -192,8 +218,9 @@ def column_figure(site, case):
         pairs = finite(series, "buckling_load")
         axes.plot([m.n for m, _ in pairs], [e for _, e in pairs], label=key, **site.styles.of(key))
         verdict = answers.verdict_of(series, "buckling_load")
-        axes.annotate(f"{verdict.verdict} ({100 * verdict.error:+.2g} %)" if verdict.verdict == "wrong limit" else verdict.verdict,
-                      (pairs[-1][0].n, pairs[-1][1]), textcoords="offset points", xytext=(4, 4), fontsize=8.5, color=site.styles.of(key)["color"])
+        axes.annotate(column_words(verdict), (pairs[-1][0].n, pairs[-1][1]), textcoords="offset points", xytext=(-4, 6) if verdict.verdict in OWN_LIMITS else (-10, -6), ha="right", fontsize=8.5, color=site.styles.of(key)["color"])
+        if math.isfinite(verdict.predicted):
+            axes.axhline(abs(verdict.predicted / verdict.truth - 1), color=site.styles.of(key)["color"], linewidth=0.9, linestyle=(0, (4, 3)), zorder=0)
     axes.set_xlim(1.8, 260)
     log_axes(axes, "elements over the column", "relative error of the buckling load", True)
     axes.legend(loc="lower left")

@@ -1,5 +1,6 @@
 """A convergence report on paper: every case on a sheet, to be printed or attached (A4; headless: chromium --print-to-pdf)."""
 import functools
+import math
 
 from reports import answers
 from reports.site import LEVELS
@@ -18,7 +19,9 @@ def sheet(case):
         v = answers.verdict_of(series, quantity)
         if v is not None and not series.missing:
             rows.append((series.key, v, [answers.way(series, [quantity], level) for level in LEVELS]))
-    truth = next(v for _, v, _ in rows)
+    truth = next((v for _, v, _ in rows if math.isfinite(v.truth)), None)
+    if truth is None:
+        return None
     return {"case": case, "quantity": quantity, "unit": point.units[quantity], "image": f"{case.name}_{point.name}_{quantity}.svg", "rows": rows, "truth": truth}
 
 

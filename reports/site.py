@@ -4,8 +4,9 @@ import os
 import pathlib
 
 import jinja2
+from markupsafe import Markup, escape
 
-from reports import data
+from reports import data, verdicts
 from reports.style import Styles, plt
 
 LEVELS = (0.1, 0.01, 0.001, 0.0001)
@@ -20,6 +21,19 @@ def percent(value):
     if not math.isfinite(value):
         return "–"
     return f"{100 * value:+.4f} %" if abs(value) >= 1e-5 else f"{100 * value:+.1e} %"
+
+
+def limit(v):
+    """A limit to the digits that are known, and one more, with its uncertainty."""
+    if not math.isfinite(v.limit):
+        return "–"
+    known = math.log10(abs(v.limit) / v.limit_uncertainty) if v.limit and v.limit_uncertainty > 0 else 10
+    return f"{v.limit:.{max(2, min(12, math.ceil(known) + 2))}g} ± {v.limit_uncertainty:.1g}"
+
+
+def breakable(key):
+    """The name of a formulation, which may be broken where its options begin."""
+    return escape(key).replace(":", Markup(":<wbr>")).replace(",", Markup(",<wbr>"))
 
 
 def seconds(value):
@@ -46,8 +60,8 @@ class Site:
         os.makedirs(folder, exist_ok=True)
         loader = jinja2.FileSystemLoader(pathlib.Path(__file__).parent / "templates")
         self.templates = jinja2.Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-        self.templates.filters.update(number=number, percent=percent, seconds=seconds, file_of=file_of)
-        self.templates.globals.update(levels=LEVELS, navigation=self.navigation, colour=lambda key: self.styles.of(key)["color"], shape=self.styles.shape)
+        self.templates.filters.update(number=number, percent=percent, seconds=seconds, limit=limit, breakable=breakable, file_of=file_of)
+        self.templates.globals.update(levels=LEVELS, kinds_of_verdicts=verdicts.BY_NAME, remarks=verdicts.remarks, navigation=self.navigation, colour=lambda key: self.styles.of(key)["color"], shape=self.styles.shape)
 
     def case(self, name):
         """The case of this name, or None."""

@@ -45,7 +45,7 @@ class Cell:
 
 
 def cells(record):
-    """{(extreme, formulation): {x: Cell}} of what was tried."""
+    """{(extreme, formulation): {x: Cell}} of what was tried: some values of x only, where the others need what is not offered."""
     groups = {}
     for o in record["outcomes"]:
         if o["outcome"] != "skip":
@@ -74,7 +74,10 @@ def draw_map(site, record, all_cells):
                 ax.text(column + 0.45, row + 0.45, "–", ha="center", va="center", color="#9aa3ad", fontsize=8)
                 continue
             for i, x in enumerate(extreme["values"]):
-                cell = found[x]
+                cell = found.get(x)
+                if cell is None:
+                    ax.text(column + (i + 0.5) * width, row + 0.45, "–", ha="center", va="center", color="#9aa3ad", fontsize=6)
+                    continue
                 ax.add_patch(plt.Rectangle((column + i * width, row + 0.05), width, 0.8, facecolor=LOOK[cell.kind][0], edgecolor="white", linewidth=0.4))
                 ax.text(column + (i + 0.5) * width, row + 0.45, cell.mark, ha="center", va="center", fontsize=6, color="white" if cell.kind == "wrong" else "black")
     ax.set_xlim(-0.1, len(extremes))
@@ -99,10 +102,10 @@ def draw_curve(site, extreme, keys, all_cells):
         found = all_cells.get((extreme["name"], key))
         if found is None:
             continue
-        points = [(x, max(found[x].error, floor)) for x in extreme["values"] if math.isfinite(found[x].error)]
+        points = [(x, max(found[x].error, floor)) for x in extreme["values"] if x in found and math.isfinite(found[x].error)]
         style = site.styles.of(key) if key in site.styles.order else {"color": "#5b6675", "marker": "."}
         ax.plot([x for x, _ in points], [e for _, e in points], label=key, alpha=0.85, **style)
-        failed = [x for x in extreme["values"] if found[x].kind in ("named", "fault")]
+        failed = [x for x in extreme["values"] if x in found and found[x].kind in ("named", "fault")]
         ax.plot(failed, [1] * len(failed), "^", color=style["color"], markersize=8, markerfacecolor="none", clip_on=False)
     ax.axhline(extreme["tolerance"], color="#5b6675", linewidth=0.8, linestyle=":")
     ax.set_yscale("log")

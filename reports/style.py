@@ -1,4 +1,4 @@
-"""One colour and marker per formulation, everywhere the same; distinguishable without colour vision (Okabe and Ito)."""
+"""One colour and marker per formulation, everywhere the same; distinguishable without colour vision (Okabe and Ito; the last two Tol)."""
 import matplotlib
 import numpy as np
 
@@ -6,7 +6,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.markers import MarkerStyle  # noqa: E402
 
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D31")
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D31", "#882255", "#44AA99")
 MARKERS = "osD^vP*X<>"
 
 # Text stays text: it can be searched, and the figures stay small.

@@ -1,146 +1,242 @@
 #!/usr/bin/python3
-"""Finds the cause of every verdict that is expected although it is not `pass`, by experiment, and writes it down.
+"""Experiments on the causes that the ledger names, for the report.
 
-usage: causes.py PROGRAM VERIFY_JSON [CASE...]      rewrites the column `proof` of reference/findings.csv
+usage: causes.py PROGRAM VERIFY_JSON -o FILE [--minutes M] [--rule RULE]...
 
-A finding's formulation is run on meshes finer than those of the verdict: if its limit there agrees with the truth, the
-verdict's meshes were too coarse.  Otherwise one feature after the other (shear, trapeze, wagner, warping), then every pair,
-is left out of the scene: the first that lets the limit agree with the exact value of the same scene (a stored truth, or
-one collocation element of eight stages against two) is the cause.  Otherwise a formulation that differs in one thing only is run.
-What none of them explains keeps the proof it has.
+For each rule of the ledger and each case that it was seen in, the verdict whose limit is farthest
+from the truth is looked at again:
+  finer      the same on more elements, up to 256;
+  without    with one feature of the scene left out (shear, trapeze, wagner, warping);
+  instead    with a formulation that differs in one thing.
+A change that takes nine tenths of the error away shows where it comes from.  Limits, uncertainties
+and truths are the program's own; where a changed scene has no truth, the limit of collocation
+stands in for one.  What does not begin within the time is written down as not run.
 """
-import collections
-import csv
-import io
-import itertools
+import argparse
+import concurrent.futures
 import json
 import math
-import pathlib
+import os
+import re
 import subprocess
-import sys
+import time
 
-FINDINGS = pathlib.Path(__file__).parents[2] / "reference" / "findings.csv"
-FINE = collections.defaultdict(lambda: (16, 32, 64, 128), spherical_joint=(4, 8, 16), hexapod=(4, 8, 16), roll_up=(64, 128, 256, 512))
+MESHES = (8, 16, 32, 64, 128, 256)
+OF_MECHANISMS = (1, 2, 4, 8)
+MECHANISMS = ("spherical_joint", "hexapod")
 FEATURES = ("shear", "trapeze", "wagner", "warping")
-LEFT_OUT = {  # what a formulation does with a feature
-    "beamw": {"shear": "J Eq. 66 does not see shear (ERRATA, J 58/62/66)"},
-    "beamw_first": {"shear": "first-order modes do not see shear in the second order", "trapeze": "first-order modes: twist does not shorten"},
-    "sheet_second": {"shear": "N Eq. 37 leaves shear out (ERRATA)"},
-    "sheet_third": {"shear": "N Eqs. 37 and 50 leave shear out (ERRATA)"},
-    "sheet_third_printed": {"shear": "N Eqs. 37 and 50 leave shear out (ERRATA)"},
-    "sheet_second_consistent": {"shear": "shear angles kept to second order only"},
-}
-KEEPS_SHEAR = ("sheet_second_consistent", "keeping shear in the compatibility equations")
-EXACT = ("collocation", "exact kinematics with shear angles of any size")
-SIBLINGS = {  # formulations that differ in one thing, the closest first
-    "beamw": [("beamw_consistent", "keeping shear and eccentricity in the modes"), EXACT],
-    "beamw_first": [("beamw_consistent", "its second-order modes"), EXACT],
-    "sheet_second": [KEEPS_SHEAR, EXACT],
-    "sheet_third": [KEEPS_SHEAR, EXACT],
-    "sheet_third_printed": [("sheet_third", "the sign of u_y that equilibrium asks for"), KEEPS_SHEAR, EXACT],
-    "sheet_second_consistent": [EXACT],
-    "beamw_consistent": [EXACT],
-}
+EXACT, EXACT_MESHES = "collocation:stages=8", (2, 4, 8, 16)
+SECONDS = 60  # for one series
+LEFT = 0.1  # of the error, or less: it is gone
+RIGHT = 1e-3  # relative error of a value in place of none
+
+# (formulation, formulation, the one thing that they differ in); causes_test.py reads the code
+SIBLINGS = (
+    ("beamw", "beamw_first", "second-order terms of the modes (J Eq. 66)"),
+    ("sheet_second", "sheet_second_consistent", "shear in the generalized strains (N Eq. 37)"),
+    ("sheet_third", "sheet_third_printed", "sign of u_y (N Eq. 49)"),
+    ("sheet_third", "sheet_second", "stress function (N Eqs. 44-65, or 33-36)"),
+    (
+        "beamw_consistent",
+        "beamw_consistent:inside=linear",
+        "equilibrium of the inside with its stress",
+    ),
+    ("beamw_consistent", "beamw_consistent:torsion=hyperbolic", "functions of the twist"),
+)
+OF_VIBRATION = (
+    ("beamw", "beamw:mass=lumped", "mass matrix"),
+    ("beamw_first", "beamw_first:mass=lumped", "mass matrix"),
+    ("beamw_vlasov", "beamw_vlasov:mass=lumped", "mass matrix"),
+    ("beamw_consistent", "beamw_consistent:mass=lumped", "mass matrix"),
+)
+
+
+def siblings(formulation, vibrates):
+    """[(other formulation, the one thing)]; for one with an option: the one without it."""
+    pairs = SIBLINGS + (OF_VIBRATION if vibrates else ())
+    found = [(b, what) for a, b, what in pairs if a == formulation]
+    return found + [(a, what) for a, b, what in pairs if b == formulation]
+
+
+def newton_of(formulation):
+    """The same with the other form of Newton's method, for what does not converge."""
+    separator = "," if ":" in formulation else ":"
+    return f"{formulation}{separator}newton=displacement", "unknowns of Newton's method"
+
+
+def error_of(limit, exact):
+    """Relative, unless the exact value is zero."""
+    return (limit - exact) / (abs(exact) or 1)
 
 
 class Laboratory:
-    """Runs the program; every quantity by mesh, with the stored truth if there is one."""
+    """Runs the program on series of meshes; asks for each series once."""
 
-    def __init__(self, program):
-        self.program, self.kept = program, {}
+    def __init__(self, program, deadline):
+        self.program, self.deadline, self.kept = program, deadline, {}
 
-    def values(self, case, formulation, parameters, meshes):
-        key = (case, formulation, tuple(parameters), meshes)
-        if key not in self.kept:
-            command = [self.program, "converge", case, "-f", formulation, "-n", ",".join(map(str, meshes)), "--format", "csv"]
-            for p in parameters:
-                command += ["-s", p]
-            text = subprocess.run(command, capture_output=True, text=True, timeout=600).stdout
-            found = collections.defaultdict(dict)
-            for row in csv.DictReader(io.StringIO(text)):
-                if row["value"]:
-                    found[row["quantity"]][int(row["elements"])] = (float(row["value"]), float(row["truth"] or "nan"))
-            self.kept[key] = found
-        return self.kept[key]
+    def ask(self, case, formulation, parameters, meshes):
+        """({quantity: record}, '') of a series, or (None, why not)."""
+        command = [self.program, "converge", case, "-f", formulation, "-j", "1", "--format", "json"]
+        command += ["-n", ",".join(map(str, meshes))] + [w for p in parameters for w in ("-s", p)]
+        left = self.deadline - time.monotonic()
+        if left <= 0:
+            return None, "not run: the time was over"
+        try:
+            done = subprocess.run(
+                command, capture_output=True, text=True, timeout=min(SECONDS, left), check=False
+            )
+        except subprocess.TimeoutExpired:
+            return None, f"no answer within {min(SECONDS, left):.0f} s"
+        if done.returncode not in (0, 1) or not done.stdout:
+            return None, done.stderr.strip().splitlines()[-1] if done.stderr.strip() else "failed"
+        series = json.loads(done.stdout)["series"][0]
+        if series["missing"]:
+            return None, f"does not offer {series['missing']}"
+        return {q["quantity"]: q for q in series["quantities"]}, ""
 
-    def exact(self, case, parameters, quantity, found):
-        """The stored truth, or what collocation gives on one and two elements if both agree to 1e-7."""
-        stored = [truth for _, truth in found.values() if not math.isnan(truth)]
-        if stored:
-            return stored[0]
-        ours = self.values(case, "collocation:stages=8", parameters, (4, 8)).get(quantity, {})
-        if len(ours) == 2 and abs(ours[4][0] - ours[8][0]) <= 1e-7 * abs(ours[8][0]):
-            return ours[8][0]
-        return math.nan
+    def series(self, *what):
+        if what not in self.kept:
+            self.kept[what] = self.ask(*what)
+        return self.kept[what]
 
-    def limit_error(self, case, formulation, parameters, quantity):
-        """Error of the limit, relative unless the exact value is zero (NaN if unknown), and the order seen."""
-        found = self.values(case, formulation, parameters, FINE[case]).get(quantity, {})
-        if len(found) < 3:
-            return math.nan, math.nan
-        exact = self.exact(case, parameters, quantity, found)
-        limit, order = limit_of([found[n][0] for n in sorted(found)][-3:])
-        return (limit - exact) / (abs(exact) or 1), order
+    def stand_in(self, case, parameters, quantity):
+        """A limit of collocation, where that is known to 1e-6; else NaN."""
+        found, _ = self.series(case, EXACT, parameters, EXACT_MESHES)
+        record = (found or {}).get(quantity)
+        if not record or record["limit"] is None or record["limit_uncertainty"] is None:
+            return math.nan
+        sure = record["limit_uncertainty"] <= 1e-6 * abs(record["limit"])
+        return record["limit"] if sure else math.nan
 
+    def exact(self, case, parameters, quantity, record, known):
+        """(value, where from) to compare a limit with; known: the same scene's truth, or None."""
+        if record["truth"] is not None:
+            return record["truth"], "truth"
+        if known is not None:
+            return known, "truth"
+        return self.stand_in(case, parameters, quantity), EXACT
 
-def limit_of(v):
-    """Richardson's limit of three values on meshes that double, the last value where no order shows; and the order."""
-    first, second = v[0] - v[1], v[1] - v[2]
-    ratio = first / second if second else math.nan
-    if not ratio > 1.2:
-        return v[2], math.nan
-    return v[2] - second / (ratio - 1), math.log2(ratio)
-
-
-def cause_of(laboratory, row, verdict, switches):
-    """The sentence for `proof`, or None."""
-    tolerance = verdict["tolerance"] / (abs(verdict["truth"]) or 1)
-    case, formulation, quantity = row["case"], row["formulation"].split(":")[0], row["quantity"]
-    given = [p for p in row["parameters"].split(";") if p]
-    finest = FINE[case][-1]
-    base, order = laboratory.limit_error(case, row["formulation"], given, quantity)
-    if math.isnan(base):
-        left, _ = laboratory.limit_error(case, EXACT[0], given, quantity)
-        failed = verdict["verdict"] == "diverged" and abs(left) <= tolerance
-        return f"{verdict['reason']}; {EXACT[0]}, which differs by {EXACT[1]}, has its limit {left:+.1e} off" if failed else None
-    if abs(base) <= tolerance / 2:
-        return f"the meshes of the verdict are too coarse: with n to {finest} the limit is {base:+.1e} off" + (f", order {order:.1f}" if order > 0 else "")
-    for count in (1, 2):
-        for chosen in itertools.combinations([s for s in switches if all(p.split("=")[0] != s for p in given)], count):
-            off = [f"{s}=0" for s in chosen]
-            left, _ = laboratory.limit_error(case, row["formulation"], given + off, quantity)
-            if abs(left) <= abs(base) / 20 and abs(left) <= max(tolerance / 10, 1e-6):
-                why = "; ".join(LEFT_OUT.get(formulation, {}).get(s, f"the error comes with {s}") for s in chosen)
-                return f"{why}: with n to {finest} the limit is {base:+.1e} off, with {' '.join(off)} {left:+.1e}"
-    for other, what in SIBLINGS.get(formulation, []):
-        left, _ = laboratory.limit_error(case, other, given, quantity)
-        if abs(left) <= abs(base) / 5:
-            return f"{other}, which differs by {what}, has its limit {left:+.1e} off with n to {finest}; this one {base:+.1e}"
-    return None
+    def limit(self, case, formulation, parameters, quantity, known):
+        """What a series shows: limit, its error and against what, or why nothing."""
+        meshes = OF_MECHANISMS if case in MECHANISMS else MESHES
+        out = {"formulation": formulation, "parameters": ";".join(parameters), "meshes": meshes}
+        found, why = self.series(case, formulation, parameters, meshes)
+        record = (found or {}).get(quantity)
+        if not record or record["limit"] is None:
+            why = why or (record or {}).get("reason") or "no value"
+            return {**out, "error": None, "why": why}
+        exact, against = self.exact(case, parameters, quantity, record, known)
+        error = record["error"] if record["error"] is not None else error_of(record["limit"], exact)
+        missing = "" if math.isfinite(error) else "nothing exact to compare with"
+        return {
+            **out,
+            "limit": record["limit"],
+            "limit_uncertainty": record["limit_uncertainty"],
+            "error": None if missing else error,
+            "against": against,
+            "why": missing,
+        }
 
 
-def main(program, verdicts, cases):
-    with open(verdicts) as file:
-        judged = {(v["case"], v["parameters"], v["formulation"], v["quantity"]): v for v in json.load(file)["verdicts"]}
-    with open(FINDINGS, newline="") as file:
-        rows = list(csv.DictReader(file))
-    laboratory, told = Laboratory(program), 0
-    for row in rows:
-        verdict = judged.get((row["case"], row["parameters"], row["formulation"], row["quantity"]))
-        if (cases and row["case"] not in cases) or verdict is None or verdict["truth"] is None:
-            continue
-        listed = subprocess.run([program, "list", row["case"]], capture_output=True, text=True).stdout.split()
-        sentence = cause_of(laboratory, row, verdict, [f for f in FEATURES if f in listed])
-        if sentence:
-            row["proof"], told = sentence, told + 1
-    with open(FINDINGS, "w", newline="") as file:
-        writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-    print(f"{told} of {len(rows)} findings explained by experiment")
+def worst_of(verdicts):
+    """{(rule, case): verdict} with the largest error; one without a value where none has one."""
+    found = {}
+    for v in verdicts:
+        key = v["finding"], v["case"]
+        if v["finding"] and (
+            key not in found or abs(v["error"] or 0) > abs(found[key]["error"] or 0)
+        ):
+            found[key] = v
+    return found
+
+
+def rounds(found):
+    """One case of every rule first, then a second one, so that no rule goes without."""
+    of_rule = {}
+    for rule, case in sorted(found, key=lambda key: -abs(found[key]["error"] or 0)):
+        of_rule.setdefault(rule, []).append((rule, case))
+    most = max(map(len, of_rule.values()), default=0)
+    return [cases[i] for i in range(most) for cases in of_rule.values() if i < len(cases)]
+
+
+def switches(program, case, given):
+    """Features that a case lets one leave out and that are not set already."""
+    listed = subprocess.run([program, "list", case], capture_output=True, text=True, check=False)
+    names = re.findall(r"^  (\w+) ", listed.stdout, re.M)
+    return [f for f in FEATURES if f in names and all(p.split("=")[0] != f for p in given)]
+
+
+def experiments(laboratory, v):
+    """[what was changed, what came of it] of one verdict; the first has finer meshes only."""
+    case, quantity, key = v["case"], v["quantity"], v["formulation"]
+    given = tuple(p for p in v["parameters"].split(";") if p)
+    vibrates = v["unit"] == "Hz" or "omega" in v["parameters"]
+    plan = [("finer", "more elements", key, given)]
+    plan += [
+        ("without", f, key, given + (f"{f}=0",)) for f in switches(laboratory.program, case, given)
+    ]
+    others = siblings(key, vibrates) + ([newton_of(key)] if v["error"] is None else [])
+    plan += [("instead", what, other, given) for other, what in others]
+    found = []
+    for kind, what, formulation, parameters in plan:
+        known = None if kind == "without" else v["truth"]
+        shown = laboratory.limit(case, formulation, parameters, quantity, known)
+        found.append({"kind": kind, "what": what, **shown})
+    return found
+
+
+def is_gone(error, before):
+    """Of a verdict without a value (before: None) its failure is gone where a value is right."""
+    return error is not None and abs(error) <= (RIGHT if before is None else LEFT * abs(before))
+
+
+def study(laboratory, v):
+    """A verdict with its experiments, each with what is left of the error."""
+    done = experiments(laboratory, v)
+    before = done[0]["error"] if done[0]["error"] is not None else v["error"]
+    for e in done:
+        e["gone"] = is_gone(e["error"], v["error"] if e["kind"] == "finer" else before)
+    names = (
+        "finding",
+        "case",
+        "parameters",
+        "formulation",
+        "quantity",
+        "verdict",
+        "error",
+        "predicted",
+        "reason",
+    )
+    return {**{name: v[name] for name in names}, "experiments": done}
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("program")
+    parser.add_argument("verdicts")
+    parser.add_argument("-o", dest="out", required=True)
+    parser.add_argument("--minutes", type=float, default=10, help="no series begins later")
+    parser.add_argument("--rule", action="append", help="this one only; again for another")
+    given = parser.parse_args()
+    with open(given.verdicts, encoding="utf-8") as file:
+        verdicts = [
+            v for v in json.load(file)["verdicts"] if not given.rule or v["finding"] in given.rule
+        ]
+    laboratory = Laboratory(given.program, time.monotonic() + 60 * given.minutes)
+    found = worst_of(verdicts)
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        studies = list(pool.map(lambda key: study(laboratory, found[key]), rounds(found)))
+    rows = [e for s in studies for e in s["experiments"]]
+    late = sum(e.get("why", "").startswith("not run") for e in rows)
+    with open(f"{given.out}.part", "w", encoding="utf-8") as file:
+        json.dump({"minutes": given.minutes, "not_run": late, "studies": studies}, file, indent=1)
+    os.replace(f"{given.out}.part", given.out)
+    rules = {s["finding"] for s in studies}
+    print(f"{len(studies)} verdicts of {len(rules)} rules, {len(rows)} experiments, {late} not run")
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    main(sys.argv[1], sys.argv[2], sys.argv[3:])
+    main()

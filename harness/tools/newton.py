@@ -44,11 +44,12 @@ def solve(program, case, parameters, formulation, n, steps):
 
 
 def steps_of(result):
-    """Load steps, each with the corrections of its iterations."""
-    corrections = [[] for _ in result["steps"]]
+    """Load steps, each with the corrections and residuals of its iterations."""
+    out = [{**step, "corrections": [], "residuals": []} for step in result["steps"]]
     for iteration in result["iterations"]:
-        corrections[iteration["step"]].append(iteration["correction"])
-    return [{**step, "corrections": own} for step, own in zip(result["steps"], corrections)]
+        out[iteration["step"]]["corrections"].append(iteration["correction"])
+        out[iteration["step"]]["residuals"].append(iteration["residual"])
+    return out
 
 
 def summary(result):

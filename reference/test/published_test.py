@@ -1,7 +1,13 @@
 """Published numbers against exact ones: reference/ERRATA.md lists every contradiction, no other."""
 import csv
+import math
 import pathlib
+import sys
 import unittest
+from unittest import mock
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+from reference.derive import deep_beam  # noqa: E402
 
 REFERENCE = pathlib.Path(__file__).resolve().parents[1]
 HEADING = "## Published numbers that contradict exact ones"
@@ -76,6 +82,39 @@ class Published(unittest.TestCase):
                     self.assertEqual(row["value"], exact[place(row)[:4]], row)
                     count += 1
         self.assertGreater(count, 0)
+
+
+class DeepBeam(unittest.TestCase):
+    """Where the published values of NAFEMS FV5 come from."""
+
+    def published(self, *modes):
+        found = {
+            row["quantity"]: float(row["value"])
+            for row in rows_of("published")
+            if row["case"] == "deep_beam"
+        }
+        return [found[f"frequency_{i}"] for i in modes]
+
+    def test_torsion_is_that_of_20_linear_elements(self):
+        """Closed form of n elements with consistent mass, k h = (2 i - 1) pi/(2 n)."""
+        elements, exact = 20, deep_beam.frequencies(False, 1, 1)[2]
+        for i, value in zip((1, 2), self.published(3, 7)):
+            kh = (2 * i - 1) * math.pi / (2 * elements)
+            discrete = math.sqrt(6 * (1 - math.cos(kh)) / (2 + math.cos(kh))) / kh * (2 * i - 1)
+            self.assertLess(abs(float(exact) * discrete / value - 1), 2e-5)
+
+    def test_bending_asks_for_another_shear_factor_and_a_mesh(self):
+        """The factor that would give a value by itself rises with the mode: not one number."""
+        needed = []
+        for half_waves, value in zip((1, 2, 3), self.published(1, 5, 8)):
+            low, high = 0.8, 0.9
+            for _ in range(40):
+                middle = (low + high) / 2
+                with mock.patch.object(deep_beam, "SHEAR_FACTOR", middle):
+                    found = math.sqrt(deep_beam.bending(half_waves, 1, 1)[0]) / (2 * math.pi)
+                low, high = (middle, high) if found < value else (low, middle)
+            needed.append(middle)
+        self.assertEqual([round(k, 3) for k in needed], [0.852, 0.857, 0.866])
 
 
 if __name__ == "__main__":

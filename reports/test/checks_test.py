@@ -1,36 +1,65 @@
-"""The page of checks: counts from the results, tables that other targets leave beside them, and what is missing."""
+"""The page of checks: counts from the results, tables that other targets leave beside them, and
+what is missing."""
 import json
 import os
 import pathlib
-import subprocess
-import sys
 import tempfile
 import unittest
 
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
-TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
+from reports import checks, data
+from reports.test.results import Site, case, series, verdict
+
+
+def row(formulation, left_out, number, covered):
+    return {
+        "formulation": formulation,
+        "left_out": left_out,
+        "series": number,
+        "covered": covered,
+    }
 
 
 class Checks(unittest.TestCase):
-    def page(self, folder):
-        subprocess.run([sys.executable, "-B", "-m", "reports", os.path.join(folder, "results.h5"), TRUTHS, "-o", os.path.join(folder, "site")], check=True, capture_output=True)
-        return (pathlib.Path(folder) / "site" / "checks.html").read_text(encoding="utf-8")
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def context(self, *cases):
+        site = Site(os.path.join(self.folder, "results.h5"), cases=cases)
+        checks.write(site)
+        return site.pages["checks.html"]
 
     def test_counts(self):
-        with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([PROGRAM, "verify", "-k", "warping_torsion/default/beamw_vlasov", "-o", os.path.join(folder, "results.h5")], capture_output=True, check=True)
-            page = self.page(folder)
-            self.assertIn("make mutants", page)
-            self.assertIn("make fuzz", page)
-            self.assertIn("1 pass", page)
-            self.assertRegex(page, r"beamw_vlasov</a></td>(<td class=\"n\">100.0 %</td><td class=\"n small\">1</td>){4}")
-            fault = {"fault": "a sign", "check": "test x", "expected": "1", "exit": "0", "killed": False}
-            (pathlib.Path(folder) / "mutants.json").write_text(json.dumps({"killed": 1, "survived": 1, "mutants": [fault, {**fault, "killed": True}]}), encoding="utf-8")
-            (pathlib.Path(folder) / "fuzz.json").write_text(json.dumps({"executions": 12, "findings": 0, "inputs": [{"input": "words", "executions": 12, "finding": False}]}), encoding="utf-8")
-            page = self.page(folder)
-            self.assertIn("1 of 2 were noticed", page)
-            self.assertIn("survived", page)
-            self.assertIn("12 executions", page)
+        judged = [verdict("a", "pass"), verdict("b", "biased"), verdict("c", "no truth")]
+        found = self.context(case("one", series("beam", judged)))
+        self.assertEqual(found["rows"], [("one", 1, 1, 2, 1)])
+        self.assertEqual(
+            list(found["counts"].items()), [("pass", 1), ("biased", 1), ("no truth", 1)]
+        )
+
+    def test_tables_of_other_commands(self):
+        found = self.context()
+        self.assertEqual((found["mutants"], found["fuzz"]), (None, None))
+        mutants, fuzz = {"killed": 1, "survived": 1, "mutants": []}, {"executions": 12}
+        (self.folder / "mutants.json").write_text(json.dumps(mutants), encoding="utf-8")
+        (self.folder / "fuzz.json").write_text(json.dumps(fuzz), encoding="utf-8")
+        found = self.context()
+        self.assertEqual((found["mutants"], found["fuzz"]), (mutants, fuzz))
+
+    def test_coverages(self):
+        """Sums over cases; formulations with limits of their own stand apart."""
+        rows = [row("collocation", 0, 4, 4), row("collocation", 1, 3, 2), row("beamw", 0, 5, 1)]
+        one = data.Case("one", "", "", [], rows)
+        two = data.Case("two", "", "", [], [row("collocation", 0, 6, 5)])
+        found = self.context(one, two, data.Case("none", "", "", []))["coverage"]
+        self.assertEqual(found["consistent"], [("collocation", [(9, 10), (2, 3)])])
+        self.assertEqual(found["together"], [(9, 10), (2, 3)])
+        self.assertEqual(found["all"], [(10, 15), (2, 3)])
+        self.assertEqual(found["others"], [("beamw", [(1, 5)])])
+        at = checks.CONSISTENT.index("collocation")
+        by_case = [(name, of_keys[at]) for name, of_keys in found["cases"]]
+        self.assertEqual(by_case, [("one", [(4, 4), (2, 3)]), ("two", [(5, 6)])])
 
 
 if __name__ == "__main__":

@@ -4,7 +4,10 @@ import os
 import tempfile
 import unittest
 
+from harness.tools import newton as tool
 from reports import newton
+
+PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
 
 STEP = {"path": 1.0, "increment": 1.0, "iterations": 3, "rejected": 0, "corrections": [0.1, 0.01, 1e-4], "residuals": [1.0, None, 1e-6]}
 SUMMARY = {"status": "ok", "reason": "", "steps": 2, "rejected": 1, "iterations": 9, "most_iterations": 5}
@@ -31,6 +34,16 @@ class Site:
 
 
 class Newton(unittest.TestCase):
+    def test_what_is_written_is_what_is_drawn(self):
+        """The steps of a real solution have all that the page asks of one."""
+        result = tool.solve(PROGRAM, "elastica", "", "beamw", "2", 0)
+        steps = tool.steps_of(result)
+        self.assertGreater(len(steps), 0)
+        for step in steps:
+            self.assertLessEqual(set(STEP), set(step))
+            self.assertEqual(len(step["residuals"]), len(step["corrections"]))
+        self.assertLessEqual(set(SUMMARY), set(tool.summary(result)))
+
     def test_largest(self):
         self.assertEqual(newton.largest([1, 2, 3], [4, 5, 6]), (3, 6))
         self.assertEqual(newton.largest([1, 2, 3], [4, None, 6]), (1, 4))

@@ -1,5 +1,4 @@
 """The table of analytic predictions: errors against the truth of the point, nothing where there is none."""
-import math
 import unittest
 
 from reports import data, predictions
@@ -7,7 +6,7 @@ from reports import data, predictions
 
 def point(prediction):
     mesh = data.Mesh(1, "ok", "", data.Clock(0, 1e-3, 1e-3, 1e-3, 1), 8, 4, "", {}, values={"C_zz": 2.2}, errors={"C_zz": 0.1}, predictions=prediction)
-    verdict = data.Verdict("C_zz", "pass", "pass", "exact", "", "", "", 2.0, 2.0, 2.0, 0.0, math.nan, math.nan, 1e-4, {})
+    verdict = data.Verdict("C_zz", "pass", truth_kind="exact", truth=2.0, limit=2.0, order=2.0, error=0.0)
     return data.Point("default", "", [data.Series("beam", "", "", "", [mesh], [verdict])], {"C_zz": "m/N"})
 
 

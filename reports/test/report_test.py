@@ -1,5 +1,6 @@
 """The report of a small run: every page is there, every link and image resolves, foreign files are refused."""
 import html.parser
+import json
 import os
 import pathlib
 import shutil
@@ -11,6 +12,76 @@ import unittest
 PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
 TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# What other commands leave beside the results: a little of everything that the pages draw.
+MESHES = {"parameters": "shear=0", "meshes": [8, 256]}
+EXPERIMENTS = [
+    {
+        "kind": "finer",
+        "what": "more elements",
+        "formulation": "beamw",
+        "error": 0.1,
+        "gone": False,
+        "limit": 1.1,
+        "limit_uncertainty": 1e-9,
+        "against": "truth",
+        "why": "",
+        **MESHES,
+    },
+    {
+        "kind": "without",
+        "what": "shear",
+        "formulation": "beamw",
+        "error": 1e-9,
+        "gone": True,
+        "limit": 1.0,
+        "limit_uncertainty": 0.0,
+        "against": "collocation:stages=8",
+        "why": "",
+        **MESHES,
+    },
+    {
+        "kind": "instead",
+        "what": "mass matrix",
+        "formulation": "beamw:mass=lumped",
+        "error": None,
+        "gone": False,
+        "why": "no answer within 60 s",
+        **MESHES,
+    },
+]
+STUDY = {
+    "finding": "a_rule_of_the_past",
+    "case": "elastica",
+    "parameters": "shear=1",
+    "formulation": "beamw",
+    "quantity": "w",
+    "verdict": "wrong limit, as predicted",
+    "error": 0.1,
+    "predicted": 1.1,
+    "reason": "",
+    "experiments": EXPERIMENTS,
+}
+BESIDE = {
+    "mutants.json": {
+        "killed": 1,
+        "survived": 1,
+        "mutants": [
+            {"fault": "a sign", "check": "test x", "expected": "1", "exit": "0", "killed": k}
+            for k in (False, True)
+        ],
+    },
+    "fuzz.json": {
+        "executions": 12,
+        "findings": 1,
+        "inputs": [{"input": "words", "executions": 12, "finding": True}],
+    },
+    "causes.json": {
+        "minutes": 1,
+        "not_run": 3,
+        "studies": [STUDY, {**STUDY, "parameters": "", "error": None, "reason": "diverged"}],
+    },
+}
 
 
 class Links(html.parser.HTMLParser):
@@ -25,8 +96,14 @@ class Links(html.parser.HTMLParser):
 
 
 def report(results, folder):
-    return subprocess.run([sys.executable, "-m", "reports", results, TRUTHS, "-o", folder], capture_output=True, text=True, check=False, cwd=ROOT,
-                          env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+    return subprocess.run(
+        [sys.executable, "-m", "reports", results, TRUTHS, "-o", folder],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=ROOT,
+        env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"},
+    )
 
 
 class Report(unittest.TestCase):
@@ -34,7 +111,13 @@ class Report(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp()
         cls.results = os.path.join(cls.folder, "results.h5")
-        subprocess.run([PROGRAM, "verify", "-k", "warping_torsion or roll_up", "-o", cls.results], capture_output=True, check=False)
+        subprocess.run(
+            [PROGRAM, "verify", "-k", "warping_torsion or roll_up", "-o", cls.results],
+            capture_output=True,
+            check=False,
+        )
+        for name, content in BESIDE.items():
+            (pathlib.Path(cls.folder) / name).write_text(json.dumps(content), encoding="utf-8")
         cls.done = report(cls.results, os.path.join(cls.folder, "site"))
 
     @classmethod
@@ -44,7 +127,18 @@ class Report(unittest.TestCase):
     def test_pages(self):
         self.assertEqual(self.done.returncode, 0, self.done.stderr)
         names = os.listdir(os.path.join(self.folder, "site"))
-        for name in ("index.html", "errata.html", "claims.html", "papers.html", "environment.html", "convergence.html", "warping_torsion.html", "formulation_beamw.html"):
+        for name in (
+            "index.html",
+            "errata.html",
+            "claims.html",
+            "ledger.html",
+            "causes.html",
+            "papers.html",
+            "environment.html",
+            "convergence.html",
+            "warping_torsion.html",
+            "formulation_beamw.html",
+        ):
             self.assertIn(name, names)
 
     def test_links_resolve(self):
@@ -57,7 +151,9 @@ class Report(unittest.TestCase):
                 target = site / name if name else page
                 self.assertTrue(target.is_file(), f"{page.name}: {link}")
                 if anchor:
-                    self.assertIn(f'id="{anchor}"', target.read_text(encoding="utf-8"), f"{page.name}: {link}")
+                    self.assertIn(
+                        f'id="{anchor}"', target.read_text(encoding="utf-8"), f"{page.name}: {link}"
+                    )
 
     def test_figures_are_drawn(self):
         figures = list((pathlib.Path(self.folder) / "site").glob("*.svg"))

@@ -41,6 +41,18 @@ class Stability(unittest.TestCase):
             if o["proof"]:
                 self.assertIn(o["proof"].split("'")[0], page)
 
+    def test_a_formulation_that_is_skipped_at_some_values(self):
+        """What an extreme needs can depend on what it is driven to."""
+
+        def outcome(x, kind):
+            return {"extreme": "thin", "formulation": "beamw", "x": x, "outcome": kind, "error": 1e-9, "condition": None, "iterations": 1, "reason": "", "as_expected": True, "proof": ""}
+
+        extreme = {"name": "thin", "summary": "", "case": "c", "fixed": "", "quantities": ["w"], "judge": "exact", "tolerance": 1e-6, "x_name": "x", "x_unit": "1", "values": [1.0, 2.0]}
+        tally = {"formulation": "beamw", "tried": 1, "survived": 1, "coarse": 0, "named_failures": 0, "wrong": 0, "faults": 0}
+        record = {"extremes": [extreme], "formulations": [tally], "outcomes": [outcome(1.0, "skip"), outcome(2.0, "value")], "unexpected": 0}
+        (self.folder / "stress.json").write_text(json.dumps(record), encoding="utf-8")
+        self.assertIn("1 in all: 1 survived", self.page())
+
 
 if __name__ == "__main__":
     unittest.main()

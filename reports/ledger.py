@@ -1,0 +1,107 @@
+"""The ledger (reference/findings.csv): one line for each known cause, and what verdicts show."""
+import functools
+import math
+import re
+
+from reports import data, tally
+from reports.checks import stored
+from reports.site import ROOT
+from reports.verdicts import OWN_LIMITS, SEVERITY, UNJUDGED, met
+
+NAVIGATION = [("ledger.html", "ledger")]
+
+
+def slug(title):
+    """The name of a heading in a page's address, as markdown's extension toc makes it."""
+    return re.sub(r"[-\s]+", "-", re.sub(r"[^\w\s-]", "", title).strip().lower())
+
+
+def headings():
+    """Titles of the sections of the errata."""
+    text = (ROOT / "reference" / "ERRATA.md").read_text(encoding="utf-8")
+    return [line[3:].strip() for line in text.splitlines() if line.startswith("## ")]
+
+
+def link_of(proof, titles):
+    """Where a proof can be read in this report; '' where it is a test or a program only."""
+    if "ERRATA" not in proof:
+        return ""
+    named = next((t for t in titles if t.lower() in proof.lower()), None)
+    return "errata.html" + (f"#{slug(named)}" if named else "")
+
+
+def predictions(rows):
+    """How well predicted limits are met, missed where a limit of its own is another one, open where
+    the limit is not known well enough; None where none was derived."""
+    told = [r for r in rows if math.isfinite(met(r.verdict))]
+    if not told:
+        return None
+    hit = [r for r in told if r.verdict.verdict == "wrong limit, as predicted"]
+    missed = [r for r in told if r.verdict.verdict in OWN_LIMITS and r not in hit]
+    farthest = max(hit or missed, key=lambda r: met(r.verdict), default=None)
+    size = met(farthest.verdict) if farthest else math.nan
+    return {
+        "met": len(hit),
+        "missed": len(missed),
+        "open": len(told) - len(hit) - len(missed),
+        "largest": size,
+        "digits": -math.log10(size) if size else math.inf,
+        "least": min((met(r.verdict) for r in hit or missed), default=math.nan),
+        "farthest": farthest,
+    }
+
+
+def line(rule, rows, titles):
+    """What the page says of one rule. rows: its verdicts, counted or not."""
+    own = [r for r in rows if r.standing == tally.OWN]
+    seen, left_out = tally.counts(rows)
+    known = [r for r in own if math.isfinite(r.verdict.error)]
+    return {
+        **rule,
+        "seen": sorted(seen.items(), key=lambda item: -SEVERITY[item[0]]),
+        "number": len(own),
+        "aliases": left_out.get(tally.ALIAS, 0),
+        "misprints": left_out.get(tally.MISPRINT, 0),
+        "worst": max(known, key=lambda r: abs(r.verdict.error), default=None),
+        "met": predictions(own),
+        "link": link_of(rule["proof"], titles),
+    }
+
+
+def unexplained(rows):
+    """[((formulation, verdict), number)] of verdicts that differ from the expected ones."""
+    found = {}
+    for r in rows:
+        if not r.verdict.as_expected and r.standing == tally.OWN:
+            key = r.formulation, r.verdict.verdict
+            found[key] = found.get(key, 0) + 1
+    return sorted(found.items())
+
+
+def contents(cases, rules):
+    """The context of the page."""
+    rows, titles = list(tally.rows(cases)), headings()
+    of_rule = {rule["rule"]: [] for rule in rules}
+    for row in rows:
+        of_rule.get(row.verdict.finding, []).append(row)
+    judged = [r for r in rows if r.verdict.verdict not in UNJUDGED]
+    seen, left_out = tally.counts(judged)
+    return {
+        "lines": [line(rule, of_rule[rule["rule"]], titles) for rule in rules],
+        "seen": sorted(seen.items(), key=lambda item: SEVERITY[item[0]]),
+        "aliases": left_out.get(tally.ALIAS, 0),
+        "misprints": left_out.get(tally.MISPRINT, 0),
+        "names": tally.ALIASES,
+        "kept_misprints": tally.MISPRINTS,
+        "unexplained": unexplained(judged),
+    }
+
+
+def write(site):
+    studied = {s["finding"] for s in (stored(site, "causes.json") or {"studies": []})["studies"]}
+    context = contents(site.cases, data.read_rules(site.truths))
+    site.write("ledger.html", "ledger.html", studied=studied, **context)
+
+
+def tasks(site):
+    return [functools.partial(write, site)]
