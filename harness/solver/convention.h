@@ -15,13 +15,13 @@
 
 /* Does the convention change the semitangential stiffness?  Then one column of the compliance
  * depends on all the others. */
-int convention_changes(scene_moment_convention convention, const double m[3]);
+int convention_changes(scene_moments convention, const double m[3]);
 
 /* C[6 x 6] of the semitangential moment, complete in the components that can move, becomes that of
  * the convention, and K[6 x 6] is its inverse on the motions the node can make; where nothing
  * changes C keeps all its digits.  m[3]: moment on the node [N m]. Rows and columns of held
  * components: zero.  SINGULAR: C has no inverse there, beside its round-off. */
-status convention_apply(scene_moment_convention convention, const movable *motions, const double m[3],
+status convention_apply(scene_moments convention, const movable *motions, const double m[3],
                         double C[36], double K[36], fault *f);
 
 #endif

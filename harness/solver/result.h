@@ -65,7 +65,7 @@ typedef struct step_record {
  * stations of a path. */
 typedef struct nodal_matrices {
     int node;
-    scene_moment_convention moments; /* convention */
+    scene_moments moments; /* convention */
     int stations;
     double *path;                   /* [stations] */
     double *compliance, *stiffness; /* [stations x 36]; held components: zero; not computed because

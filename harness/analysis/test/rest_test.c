@@ -173,7 +173,7 @@ int main(void)
     fault f = {""};
     tally t = {0};
     gsl_test(truths_read(path, &known, &f) != STATUS_OK, "truths: %s", f.text);
-    if (sweep_plan(&all, &known, &plan, &f) != STATUS_OK) {
+    if (plan_sweep(&all, &known, &plan, &f) != STATUS_OK) {
         gsl_test(1, "plan: %s", f.text);
         return gsl_test_summary();
     }
