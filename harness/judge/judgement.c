@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/judge/sound.h"
 #include "harness/judge/verdict.h"
 
 static const double agreement_least = 1e-6; /* relative, of a value against its own stored discrete value */
@@ -75,6 +76,29 @@ static status compare_meshes(const sweep *s, const truths *t, int index, judgeme
                 const int good = fabs(value - row->value) <= fmax(row->uncertainty, agreement_least * fabs(row->value));
                 outcome = add_agreement(&(agreement){index, i, q, row, value, good}, out, f);
             }
+    }
+    return outcome;
+}
+
+static status add_flaw(const flaw *one, judgement *out, fault *f)
+{
+    flaw *more = realloc(out->flaw, (size_t)(out->flaws + 1) * sizeof *more);
+    if (more == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for flaws of cells");
+    out->flaw = more;
+    more[out->flaws++] = *one;
+    return STATUS_OK;
+}
+
+/* Every cell of a series against what it says of its own work. */
+static status check_cells(const sweep *s, int index, judgement *out, fault *f)
+{
+    const series *one = &s->series[index];
+    status outcome = STATUS_OK;
+    for (int i = 0; i < one->meshes && one->missing[0] == '\0' && outcome == STATUS_OK; i++) {
+        flaw c = {.series = index, .mesh = i};
+        if (!sound_cell(&one->cell[i], &s->point[one->point].scene, one->formulation.newton, c.why))
+            outcome = add_flaw(&c, out, f);
     }
     return outcome;
 }
@@ -169,6 +193,8 @@ status judge(const sweep *s, truths *t, int whole, judgement *out, fault *f)
                 judge_quantity(s, t, i, q, out);
         }
         outcome = compare_meshes(s, t, i, out, f);
+        if (outcome == STATUS_OK)
+            outcome = check_cells(s, i, out, f);
     }
     if (outcome == STATUS_OK)
         outcome = judge_coverage(s, out, f);
@@ -189,6 +215,7 @@ void judgement_free(judgement *j)
     free(j->verdict);
     free(j->agreement);
     free(j->coverage);
+    free(j->flaw);
     memset(j, 0, sizeof *j);
 }
 
@@ -196,5 +223,5 @@ int judgement_exit(const judgement *j)
 {
     if (j->judged + j->agreements == 0)
         return 3;
-    return j->unexpected + j->disagreements + j->unobserved + j->unmet > 0 ? 1 : 0;
+    return j->unexpected + j->disagreements + j->unobserved + j->unmet + j->flaws > 0 ? 1 : 0;
 }
