@@ -132,8 +132,7 @@ static void real(const char *name, const char *formulation_name, const char *par
     counted.stress = counted_stress;
     counted.inertia = counted_inertia;
     formulation_default(inner, &chosen);
-    cell_request request = {
-        .type = case_find(name, &f), .formulation = &counted, .elements = 3, .solve.newton = newton};
+    cell_request request = {.type = case_find(name, &f), .formulation = &counted, .elements = 3, .solve.newton = newton};
     memcpy(request.option, chosen.option, sizeof request.option);
     parameters_default(request.type, request.parameter);
     gsl_test(parameters_parse(request.type, parameters, request.parameter, NULL, &f) != STATUS_OK, "%s %s", name, f.text);
