@@ -2,7 +2,8 @@
 
 #include <stdio.h>
 
-/* Largest last correction of a step that counts as converged: the next one would be of the size of its square. */
+/* Largest last correction of a step that counts as converged: the next one would be of the size
+ * of its square. */
 static const double promised_correction = 1e-8;
 
 static int iterations_of_steps(const solve_result *r)
@@ -22,7 +23,8 @@ static int unfinished_step(const solve_result *r)
     return -1;
 }
 
-/* Nothing but Newton's iterations, none of them in vain: then each is one evaluation of every element and one factorisation. */
+/* Nothing but Newton's iterations, none of them in vain: then each is one evaluation of every
+ * element and one factorisation. */
 static int is_plain(const cell_result *cell, const scene *s, solve_newton newton)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -31,7 +33,8 @@ static int is_plain(const cell_result *cell, const scene *s, solve_newton newton
     return newton == SOLVE_MIXED && cell->counters.rejected_steps == 0;
 }
 
-/* The first count that is less than the iterations need, or in a plain cell another one; NULL: none. */
+/* The first count that is less than the iterations need, or in a plain cell another one; NULL:
+ * none. */
 static const char *wrong_count(const cell_result *cell, int plain)
 {
     const counters *c = &cell->counters;
@@ -59,12 +62,14 @@ int sound_cell(const cell_result *cell, const scene *s, solve_newton newton, cha
     if (c->steps != r->steps)
         snprintf(why, FAULT_TEXT, "%ld steps were counted and %d kept", c->steps, r->steps);
     else if (iterations > r->iterations || r->iterations > c->iterations)
-        snprintf(why, FAULT_TEXT, "%d iterations of steps, %d kept, %ld counted", iterations, r->iterations, c->iterations);
+        snprintf(why, FAULT_TEXT, "%d iterations of steps, %d kept, %ld counted", iterations,
+                 r->iterations, c->iterations);
     else if (early >= 0)
-        snprintf(why, FAULT_TEXT, "step %d ended with a correction of %.1e, not below %.0e", early, r->step[early].correction,
-                 promised_correction);
+        snprintf(why, FAULT_TEXT, "step %d ended with a correction of %.1e, not below %.0e", early,
+                 r->step[early].correction, promised_correction);
     else if (count != NULL)
-        snprintf(why, FAULT_TEXT, "its %s do not fit %ld iterations with %d elements", count, c->iterations, cell->size.elements);
+        snprintf(why, FAULT_TEXT, "its %s do not fit %ld iterations with %d elements", count,
+                 c->iterations, cell->size.elements);
     else
         return 1;
     return 0;

@@ -7,10 +7,12 @@
 static char all[] = "*", word[32];
 
 /* Cells of one quantity, all of one kind, and a finding that speaks of another one or of this. */
-static stress_count judged(stress_kind kind, const char *expected, int whole, int *unexpected, int *code)
+static stress_count judged(stress_kind kind, const char *expected, int whole, int *unexpected,
+                           int *code)
 {
     stress_outcome o = {.kind = kind, .x = 1, .neighbours = -1};
-    stress_finding row = {.extreme = all, .formulation = all, .quantity = all, .outcome = word, .from = 1, .to = 1};
+    stress_finding row = {
+        .extreme = all, .formulation = all, .quantity = all, .outcome = word, .from = 1, .to = 1};
     formulation chosen = {.key = "element"};
     stress_count count = {0};
     stress s = {.formulations = 1,
@@ -41,7 +43,8 @@ static void kinds(void)
         gsl_test_int(c.coarse, kind == STRESS_COARSE, "%s: coarse", stress_name(kind));
         gsl_test_int(c.wrong, kind == STRESS_WRONG, "%s: wrong", stress_name(kind));
         gsl_test_int(c.faults, kind == STRESS_FAULT, "%s: a fault", stress_name(kind));
-        gsl_test_int(c.survived + c.named + c.wrong + c.faults, c.tried, "%s: each is one of them", stress_name(kind));
+        gsl_test_int(c.survived + c.named + c.wrong + c.faults, c.tried, "%s: each is one of them",
+                     stress_name(kind));
         judged(kind, stress_name(kind), 1, &unexpected, &code);
         gsl_test_int(code, skip ? 3 : 0, "%s: as the finding says", stress_name(kind));
         judged(kind, kind == STRESS_SINGULAR ? "wrong" : "singular", 1, &unexpected, &code);
@@ -54,7 +57,12 @@ static void unobserved(void)
 {
     for (int whole = 0; whole < 2; whole++) {
         stress_outcome o = {.kind = STRESS_VALUE, .x = 1, .neighbours = -1};
-        stress_finding row = {.extreme = all, .formulation = all, .quantity = all, .outcome = word, .from = 2, .to = 3};
+        stress_finding row = {.extreme = all,
+                              .formulation = all,
+                              .quantity = all,
+                              .outcome = word,
+                              .from = 2,
+                              .to = 3};
         formulation chosen = {.key = "element"};
         stress_count count = {0};
         stress s = {.formulations = 1,

@@ -1,5 +1,6 @@
-/* What a cell says of its own work: a made-up cell that is right, each number in it wrong by itself; and real cells, of every
- * kind of analysis and form of Newton, whose elements count for themselves how often they are asked. */
+/* What a cell says of its own work: a made-up cell that is right, each number in it wrong by
+ * itself; and real cells, of every kind of analysis and form of Newton, whose elements count for
+ * themselves how often they are asked. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -62,7 +63,8 @@ static void counts(scene_analysis_kind kind)
             make(kind, &b);
             long *count = (long *)(void *)((char *)&b.cell.counters + row[i].offset);
             *count += more;
-            expect(&b, more == 0 || (more > 0 && !(row[i].exact && kind == SCENE_STATIC)), row[i].name);
+            expect(&b, more == 0 || (more > 0 && !(row[i].exact && kind == SCENE_STATIC)),
+                   row[i].name);
             b.cell.counters.rejected_steps = 1;
             expect(&b, more >= 0, "the same with a step in vain");
             scene_free(&b.s);
@@ -107,20 +109,24 @@ static void counted_strain(const element_data *d, const node_state x[], strain_o
     inner->strain(d, x, out);
 }
 
-static status counted_stress(const element_data *d, const double e[], const double own[], stress_output *out)
+static status counted_stress(const element_data *d, const double e[], const double own[],
+                             stress_output *out)
 {
     stresses++;
     return inner->stress(d, e, own, out);
 }
 
-static status counted_inertia(const element_data *d, const node_state x[], const element_spin *spin, inertia_output *out)
+static status counted_inertia(const element_data *d, const node_state x[], const element_spin *spin,
+                              inertia_output *out)
 {
     inertias++;
     return inner->inertia(d, x, spin, out);
 }
 
-/* A real cell: the counters are what the elements count. Strains that reactions are read from are not counted. */
-static void real(const char *name, const char *formulation_name, const char *parameters, solve_newton newton, int reactions)
+/* A real cell: the counters are what the elements count. Strains that reactions are read from
+ * are not counted. */
+static void real(const char *name, const char *formulation_name, const char *parameters,
+                 solve_newton newton, int reactions)
 {
     cell_result cell;
     formulation chosen;
@@ -132,26 +138,36 @@ static void real(const char *name, const char *formulation_name, const char *par
     counted.stress = counted_stress;
     counted.inertia = counted_inertia;
     formulation_default(inner, &chosen);
-    cell_request request = {.type = case_find(name, &f), .formulation = &counted, .elements = 3, .solve.newton = newton};
+    cell_request request = {.type = case_find(name, &f),
+                            .formulation = &counted,
+                            .elements = 3,
+                            .solve.newton = newton};
     memcpy(request.option, chosen.option, sizeof request.option);
     parameters_default(request.type, request.parameter);
-    gsl_test(parameters_parse(request.type, parameters, request.parameter, NULL, &f) != STATUS_OK, "%s %s", name, f.text);
+    gsl_test(parameters_parse(request.type, parameters, request.parameter, NULL, &f) != STATUS_OK,
+             "%s %s", name, f.text);
     strains = stresses = inertias = 0;
-    gsl_test(cell_run(&request, &cell, &f) != STATUS_OK, "%s, %s, Newton %d: %s", name, formulation_name, newton, f.text);
-    gsl_test(sound_cell(&cell, &cell.scene, newton, why) != 1, "%s, %s, Newton %d: %s", name, formulation_name, newton, why);
-    gsl_test(cell.counters.stress_evaluations != stresses, "%s, %s, Newton %d: %ld stress evaluations counted, %ld done", name,
-             formulation_name, newton, cell.counters.stress_evaluations, stresses);
-    gsl_test(reactions ? cell.counters.strain_evaluations > strains : cell.counters.strain_evaluations != strains,
-             "%s, %s, Newton %d: %ld strain evaluations counted, %ld done", name, formulation_name, newton,
-             cell.counters.strain_evaluations, strains);
-    gsl_test(cell.counters.inertia_evaluations != inertias, "%s, %s, Newton %d: %ld inertia evaluations counted, %ld done", name,
-             formulation_name, newton, cell.counters.inertia_evaluations, inertias);
+    gsl_test(cell_run(&request, &cell, &f) != STATUS_OK, "%s, %s, Newton %d: %s", name,
+             formulation_name, newton, f.text);
+    gsl_test(sound_cell(&cell, &cell.scene, newton, why) != 1, "%s, %s, Newton %d: %s", name,
+             formulation_name, newton, why);
+    gsl_test(cell.counters.stress_evaluations != stresses,
+             "%s, %s, Newton %d: %ld stress evaluations counted, %ld done", name, formulation_name,
+             newton, cell.counters.stress_evaluations, stresses);
+    gsl_test(reactions ? cell.counters.strain_evaluations > strains
+                       : cell.counters.strain_evaluations != strains,
+             "%s, %s, Newton %d: %ld strain evaluations counted, %ld done", name, formulation_name,
+             newton, cell.counters.strain_evaluations, strains);
+    gsl_test(cell.counters.inertia_evaluations != inertias,
+             "%s, %s, Newton %d: %ld inertia evaluations counted, %ld done", name, formulation_name,
+             newton, cell.counters.inertia_evaluations, inertias);
     cell_result_free(&cell);
 }
 
 int main(void)
 {
-    static const scene_analysis_kind kind[] = {SCENE_STATIC, SCENE_COMPLIANCE, SCENE_CONTINUATION, SCENE_ROTATION};
+    static const scene_analysis_kind kind[] = {SCENE_STATIC, SCENE_COMPLIANCE, SCENE_CONTINUATION,
+                                               SCENE_ROTATION};
     for (size_t i = 0; i < sizeof kind / sizeof kind[0]; i++)
         counts(kind[i]);
     steps();

@@ -1,5 +1,6 @@
-/* The size of a correction sees every coordinate: translations by the size of the scene, turns in radians, amplitudes of warping
- * times that size; and the rigid motion that is left loose is one that the supports allow. */
+/* The size of a correction sees every coordinate: translations by the size of the scene, turns
+ * in radians, amplitudes of warping times that size; and the rigid motion that is left loose is
+ * one that the supports allow. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -64,7 +65,8 @@ static void corrections(const element_type *type)
         const int n = model_sizes(m).free;
         for (int k = 0; k < n; k++) {
             const double size = size_of(m, k, step) / step;
-            const int translation = fabs(size * length - 1) < 1e-9, turn = fabs(size - 1) < 1e-9, warp = fabs(size - length) < 1e-9;
+            const int translation = fabs(size * length - 1) < 1e-9, turn = fabs(size - 1) < 1e-9,
+                      warp = fabs(size - length) < 1e-9;
             /* what is inside an element counts too */
             gsl_test(type->inner != NULL ? !(size > 0.4 / length) : translation + turn + warp != 1,
                      "%s: coordinate %d counts as %g", type->name, k, size);
@@ -72,8 +74,10 @@ static void corrections(const element_type *type)
             turns += turn;
             amplitudes += warp;
         }
-        gsl_test(type->inner == NULL && turns != translations, "%s: as many turns as translations", type->name);
-        gsl_test(type->inner == NULL && (type->offers & FEATURE_WARPING) && amplitudes == 0, "%s: amplitudes of warping count", type->name);
+        gsl_test(type->inner == NULL && turns != translations, "%s: as many turns as translations",
+                 type->name);
+        gsl_test(type->inner == NULL && (type->offers & FEATURE_WARPING) && amplitudes == 0,
+                 "%s: amplitudes of warping count", type->name);
     }
     model_free(m);
     scene_free(&s);
@@ -91,7 +95,8 @@ static void loose_about_the_far_end(const element_type *type)
         gsl_test(!model_loose_part(m, &node, motion) || node != 0, "%s: it is loose", type->name);
         vec3_cross(motion + 3, arm, there);
         for (int i = 0; i < 3; i++)
-            gsl_test_abs(motion[i] + there[i], 0, 1e-12, "%s: the held end stays, direction %d", type->name, i);
+            gsl_test_abs(motion[i] + there[i], 0, 1e-12, "%s: the held end stays, direction %d",
+                         type->name, i);
         gsl_test(!(vec3_norm(motion + 3) > 1e-3), "%s: it turns", type->name);
     }
     model_free(m);

@@ -1,5 +1,5 @@
-/* What a scene needs: each kind of coupling in shear by itself is no double symmetry, and frequencies under load need the
- * stiffness of that load. */
+/* What a scene needs: each kind of coupling in shear by itself is no double symmetry, and
+ * frequencies under load need the stiffness of that load. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -24,14 +24,18 @@ static void member(double Fyz, double Fyw, double Fzw, scene *s)
 static void couplings(void)
 {
     static const double F[][3] = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}, {0, 0, -0.1}};
-    static const element_type symmetric = {.name = "symmetric", .offers = ~0u, .limits = LIMIT_DOUBLY_SYMMETRIC},
+    static const element_type symmetric = {.name = "symmetric",
+                                           .offers = ~0u,
+                                           .limits = LIMIT_DOUBLY_SYMMETRIC},
                               any = {.name = "any", .offers = ~0u};
     for (size_t i = 0; i < sizeof F / sizeof F[0]; i++) {
         scene s;
         char words[200];
         member(F[i][0], F[i][1], F[i][2], &s);
-        gsl_test_int(model_missing(&s, &symmetric, words, sizeof words), i > 0, "coupling %zu: %s", i, words);
-        gsl_test_int(model_missing(&s, &any, words, sizeof words), 0, "coupling %zu, of any section: %s", i, words);
+        gsl_test_int(model_missing(&s, &symmetric, words, sizeof words), i > 0, "coupling %zu: %s",
+                     i, words);
+        gsl_test_int(model_missing(&s, &any, words, sizeof words), 0,
+                     "coupling %zu, of any section: %s", i, words);
         scene_free(&s);
     }
 }
@@ -40,8 +44,10 @@ static void frequencies(void)
 {
     scene s;
     member(0, 0, 0, &s);
-    const int loading = scene_add_analysis(&s, SCENE_LINEAR), modal = scene_add_analysis(&s, SCENE_MODAL);
-    gsl_test((model_needs(&s) & FEATURE_GEOMETRIC) != 0, "frequencies at rest need no stiffness of loads");
+    const int loading = scene_add_analysis(&s, SCENE_LINEAR),
+              modal = scene_add_analysis(&s, SCENE_MODAL);
+    gsl_test((model_needs(&s) & FEATURE_GEOMETRIC) != 0,
+             "frequencies at rest need no stiffness of loads");
     scene_analysis_at(&s, modal)->follows = loading;
     gsl_test((model_needs(&s) & FEATURE_GEOMETRIC) == 0, "frequencies under a load do");
     scene_free(&s);

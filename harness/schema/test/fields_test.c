@@ -1,4 +1,5 @@
-/* What stands in a column is what its name says: a sweep that is made up, all numbers different, read field by field. */
+/* What stands in a column is what its name says: a sweep that is made up, all numbers different,
+ * read field by field. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -32,7 +33,10 @@ static void fill_path(bench *b)
         b->stiffness[i] = 1000 + i;
         b->path[i / 36] = 7 + i / 36;
     }
-    b->matrices = (nodal_matrices){.stations = STATIONS, .path = b->path, .compliance = b->compliance, .stiffness = b->stiffness};
+    b->matrices = (nodal_matrices){.stations = STATIONS,
+                                   .path = b->path,
+                                   .compliance = b->compliance,
+                                   .stiffness = b->stiffness};
     b->step[0] = (step_record){.first = 0, .iterations = 2};
     b->step[1] = (step_record){.first = 2, .iterations = 3};
     for (int i = 0; i < 5; i++)
@@ -50,10 +54,12 @@ static void make(bench *b)
     b->row.value = 2;
     b->other.value = 4;
     fill_path(b);
-    b->one = (series){.formulation = {.type = &element, .key = "element"}, .meshes = MESHES, .cell = b->cell};
+    b->one = (series){
+        .formulation = {.type = &element, .key = "element"}, .meshes = MESHES, .cell = b->cell};
     for (int i = 0; i < MESHES; i++) {
         b->one.mesh[i] = 1 << i;
-        b->quantity[i][0] = (quantity_result){.value = 2 * (1 + 0.4 * pow(0.1, i)), .curve = {2 + i, b->curve, b->curve}};
+        b->quantity[i][0] = (quantity_result){.value = 2 * (1 + 0.4 * pow(0.1, i)),
+                                              .curve = {2 + i, b->curve, b->curve}};
         b->quantity[i][1] = (quantity_result){.value = 1, .curve = {3, b->curve, b->curve}};
         b->cell[i].solve = (solve_result){.quantities = 2,
                                           .quantity = b->quantity[i],
@@ -102,14 +108,16 @@ static double number_of(const record_type *type, const subject *s, const char *n
 static void expect(const record_type *type, const subject *s, const char *name, int k, double right)
 {
     const double is = number_of(type, s, name, k);
-    gsl_test(!(fabs(is - right) <= 1e-12 * fabs(right)), "%s.%s[%d]: %g, not %g", type->name, name, k, is, right);
+    gsl_test(!(fabs(is - right) <= 1e-12 * fabs(right)), "%s.%s[%d]: %g, not %g", type->name, name,
+             k, is, right);
 }
 
 static void work(const gathering *g)
 {
-    static const char *const name[] = {"strain_evaluations", "stress_evaluations", "inertia_evaluations", "iterations",
-                                       "load_steps",         "rejected_steps",     "factorisations",      "solutions",
-                                       "factor_entries",     "factor_flops",       "negative_pivots"};
+    static const char *const name[] = {
+        "strain_evaluations", "stress_evaluations", "inertia_evaluations", "iterations",
+        "load_steps",         "rejected_steps",     "factorisations",      "solutions",
+        "factor_entries",     "factor_flops",       "negative_pivots"};
     const subject s = gather_cell(g, 0, 3);
     for (size_t i = 0; i < sizeof name / sizeof name[0]; i++)
         expect(&record_cell, &s, name[i], 0, 11 + (double)i);
