@@ -3,6 +3,7 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 #include "elements/math/quadrature.h"
 #include "elements/section/section.h"
@@ -144,8 +145,64 @@ static void thick_walls(void)
     gsl_test_rel(c.Iz, about_y, 1e-12, "Iz belongs to the y axis that was found");
 }
 
+/* Prandtl's stress function as a double series: 256/pi^6 sum over odd m, n of (a b)/(m^2 n^2 (m^2/a^2 + n^2/b^2)); the terms
+ * beyond M are less than a third of 1/M^3. */
+static void torsion_of_a_rectangle(double a, double b)
+{
+    const double pi = 3.14159265358979323846;
+    double sum = 0;
+    for (int m = 999; m >= 1; m -= 2)
+        for (int n = 999; n >= 1; n -= 2)
+            sum += a * b / ((double)m * m * n * n * (m * m / (a * a) + n * n / (b * b)));
+    gsl_test_rel(section_rectangle_torsion(a, b), 256 / pow(pi, 6) * sum, 1e-7, "torsion of %g x %g", a, b);
+    gsl_test_rel(section_rectangle_torsion(b, a), section_rectangle_torsion(a, b), 1e-14, "the sides exchanged");
+}
+
+/* Torque cubic in the twist rate of a thin rectangle: 1/8 of the variance of y^2 over the area, int (y^2 - mean)^2 dA. */
+static void wagner_torque(void)
+{
+    enum { N = 4 };
+    const double h = 0.1, t = 0.0007;
+    double x[N], w[N], mean = 0, variance = 0;
+    quadrature_points(N, x, w, NULL);
+    for (int i = 0; i < N; i++)
+        mean += w[i] * pow((x[i] - 0.5) * h, 2);
+    for (int i = 0; i < N; i++)
+        variance += w[i] * pow(pow((x[i] - 0.5) * h, 2) - mean, 2);
+    const section wide = rectangle(h, t, 0, 0), high = rectangle(t, h, 0, 0);
+    gsl_test_rel(wide.wagner_torque, variance * h * t / 8, 1e-13, "cubic torque of a thin rectangle");
+    gsl_test_rel(high.wagner_torque, wide.wagner_torque, 1e-14, "it knows no side");
+}
+
+/* Data that make no sense are refused and named. */
+static void refusals(void)
+{
+    const struct {
+        const char *word;
+        size_t offset;
+        double value;
+    } row[] = {{"young", offsetof(section_spec, young), 0},      {"shear_modulus", offsetof(section_spec, shear_modulus), -1},
+               {"density", offsetof(section_spec, density), -1}, {"density", offsetof(section_spec, density), NAN},
+               {"width", offsetof(section_spec, width), 0},      {"thickness", offsetof(section_spec, height), INFINITY}};
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        section c;
+        fault f = {""};
+        section_spec spec = start_spec(SECTION_RECTANGLE);
+        spec.width = 0.1;
+        spec.height = 0.02;
+        *(double *)(void *)((char *)&spec + row[i].offset) = row[i].value;
+        gsl_test(section_compute(&spec, &c, &f) != STATUS_REFUSED || strstr(f.text, row[i].word) == NULL, "%s = %g: %s",
+                 row[i].word, row[i].value, f.text);
+    }
+}
+
 int main(void)
 {
+    torsion_of_a_rectangle(1, 1);
+    torsion_of_a_rectangle(2, 1);
+    torsion_of_a_rectangle(0.3, 0.06);
+    wagner_torque();
+    refusals();
     rectangle_is_a_wall(0.1, 0.02);
     rectangle_is_a_wall(0.1, 0.0003);
     given_factors();

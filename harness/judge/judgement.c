@@ -5,8 +5,10 @@
 #include <string.h>
 
 #include "harness/judge/judgement.h"
+#include "harness/judge/sound.h"
 
 #include "harness/judge/coverage.h"
+#include "harness/model/features.h"
 #include "harness/truth/truth.h"
 
 /* relative, of a value against its own stored discrete value */
@@ -97,6 +99,31 @@ static status compare_meshes(const sweep *s, const truths *t, int index, judgeme
         for (int i = 0; i < one->meshes; i++)
             if (one->mesh[i] == row->elements)
                 TRY(compare_mesh(s, row, index, i, out, f));
+    }
+    return STATUS_OK;
+}
+
+static status add_flaw(const flaw *one, judgement *out, fault *f)
+{
+    flaw *more = realloc(out->flaw, (size_t)(out->flaws + 1) * sizeof *more);
+    if (more == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for flaws of cells");
+    out->flaw = more;
+    more[out->flaws++] = *one;
+    return STATUS_OK;
+}
+
+/* Every cell of a series against what it says of its own work. */
+static status check_cells(const sweep *s, int index, judgement *out, fault *f)
+{
+    const series *one = &s->series[index];
+    const scene *what = &s->point[one->point].scene;
+    if (one->missing[0] != '\0')
+        return STATUS_OK;
+    for (int i = 0; i < one->meshes; i++) {
+        flaw c = {.series = index, .mesh = i};
+        if (!sound_cell(&one->cell[i], what, one->formulation.newton, c.why))
+            TRY(add_flaw(&c, out, f));
     }
     return STATUS_OK;
 }
@@ -223,6 +250,7 @@ status judgement_make(const sweep *s, truths *t, int whole, judgement *out, faul
     for (int i = 0; i < s->seriess; i++) {
         judge_series(s, t, i, out);
         TRY(compare_meshes(s, t, i, out, f));
+        TRY(check_cells(s, i, out, f));
     }
     TRY(coverage_count(s, out, f));
     if (whole)
@@ -235,6 +263,7 @@ void judgement_free(judgement *j)
     free(j->verdict);
     free(j->agreement);
     free(j->coverage);
+    free(j->flaw);
     memset(j, 0, sizeof *j);
 }
 
@@ -242,5 +271,5 @@ int judgement_exit(const judgement *j)
 {
     if (j->judged + j->agreements == 0)
         return 3;
-    return j->unexpected + j->disagreements + j->unobserved + j->unmet > 0 ? 1 : 0;
+    return j->unexpected + j->disagreements + j->unobserved + j->unmet + j->flaws > 0 ? 1 : 0;
 }

@@ -12,6 +12,12 @@ typedef struct agreement {
     int good;
 } agreement;
 
+/* A cell whose record contradicts itself (sound.h). */
+typedef struct flaw {
+    int series, mesh;
+    char why[FAULT_TEXT];
+} flaw;
+
 enum { COVERAGE_MESHES = 4 };
 
 /* How often the limits of a formulation on a case lie within their uncertainty of an exact truth,
@@ -26,10 +32,11 @@ typedef struct coverage {
 } coverage;
 
 typedef struct judgement {
-    int verdicts, agreements, coverages;
+    int verdicts, agreements, coverages, flaws;
     verdict *verdict;
     agreement *agreement;
     coverage *coverage;
+    flaw *flaw; /* [flaws] */
     int by_kind[VERDICT_KINDS];
     int unexpected; /* verdicts that differ from the expected one */
     int disagreements;

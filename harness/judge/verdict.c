@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/model/features.h"
 #include "harness/truth/truth.h"
 
 static const char *const names[VERDICT_KINDS] = {

@@ -55,6 +55,8 @@ static status add_element(model *m, const model_state *state, int i, double path
     m->type->strain(data, x, &(strain_output){.e = D, .J = J, .s = sigma, .H = H});
     const status outcome = m->type->stress(data, e, &state->inner[(size_t)i * (size_t)m->inner],
                                            &(stress_output){.sigma = P, .C = C});
+    m->counters.strain_evaluations++;
+    m->counters.stress_evaluations++;
     if (outcome != STATUS_OK)
         return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i,
                          el->member, m->type->name);

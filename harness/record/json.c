@@ -167,6 +167,7 @@ status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const e
                   noise_cells(s), "judged", j->judged, "unexpected", j->unexpected, "disagreements",
                   j->disagreements, "unobserved_findings", j->unobserved, "unmet_truths", j->unmet);
     json_object_set_new(root, "unfinished_cells", json_integer(s->unfinished));
+    json_object_set_new(root, "contradictory_cells", json_integer(j->flaws));
     json_object_set_new(root, "counts", counts);
     json_object_set_new(root, record_verdict.table, verdicts);
     json_object_set_new(root, record_agreement.table, agreements);

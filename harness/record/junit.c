@@ -102,8 +102,9 @@ typedef struct junit_counts {
 /* Of what will be written, by the same rules. */
 static junit_counts count_all(const sweep *s, const judgement *j)
 {
-    junit_counts c = {.tests = j->verdicts + j->agreements + 2 + (s->unfinished > 0),
-                      .failures = (j->unobserved > 0) + (j->unmet > 0) + (s->unfinished > 0)};
+    junit_counts c = {.tests = j->verdicts + j->agreements + 3 + (s->unfinished > 0),
+                      .failures = (j->unobserved > 0) + (j->unmet > 0) + (j->flaws > 0) +
+                                  (s->unfinished > 0)};
     for (int i = 0; i < j->verdicts; i++) {
         c.skipped += is_skipped(&j->verdict[i]);
         c.failures += !j->verdict[i].matches;
@@ -135,6 +136,7 @@ void junit_write(FILE *to, const sweep *s, const judgement *j)
         write_agreement(to, s, &j->agreement[i]);
     write_ledger(to, "findings", j->unobserved, "findings were not observed");
     write_ledger(to, "truths", j->unmet, "truths speak of nothing that exists");
+    write_ledger(to, "cells", j->flaws, "cells contradict themselves");
     if (s->unfinished > 0)
         write_ledger(to, "run", s->unfinished, "cells were not done: the run was interrupted");
     fprintf(to, " </testsuite>\n</testsuites>\n");

@@ -88,7 +88,8 @@ static void write_formulations(FILE *to, const sweep *s, const judgement *j)
 
 void markdown_write(FILE *to, const sweep *s, const judgement *j, const environment *e)
 {
-    const int bad = j->unexpected > 0 || j->disagreements > 0 || j->unobserved > 0 || j->unmet > 0;
+    const int bad = j->unexpected > 0 || j->disagreements > 0 || j->unobserved > 0 || j->unmet > 0 ||
+                    j->flaws > 0;
     fprintf(to, "## beamwork: %s%s\n\n", s->unfinished > 0 ? "interrupted; until then " : "",
             j->judged == 0 ? "nothing was checked"
             : bad          ? "not as expected"
@@ -104,6 +105,8 @@ void markdown_write(FILE *to, const sweep *s, const judgement *j, const environm
         fprintf(to, "; %d findings were not observed", j->unobserved);
     if (j->unmet > 0)
         fprintf(to, "; %d truths speak of nothing that exists", j->unmet);
+    if (j->flaws > 0)
+        fprintf(to, "; %d cells contradict themselves", j->flaws);
     fprintf(to, ". Commit %s, %s.\n", e->commit, e->compiler);
     write_unexpected(to, s, j);
     fprintf(to, "\n<details><summary>Verdicts by formulation</summary>\n");

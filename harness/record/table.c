@@ -217,6 +217,17 @@ static void disagreements(FILE *to, const sweep *s, const judgement *j)
     }
 }
 
+static void cells_that_contradict_themselves(FILE *to, const sweep *s, const judgement *j)
+{
+    for (int i = 0; i < j->flaws; i++) {
+        const flaw *c = &j->flaw[i];
+        const series *one = &s->series[c->series];
+        const point *p = &s->point[one->point];
+        fprintf(to, "\n%s%s%s, %s, n = %d contradicts itself: %s\n", p->type->name,
+                p->text[0] != '\0' ? ": " : "", p->text, one->formulation.key, one->mesh[c->mesh], c->why);
+    }
+}
+
 /* What a whole run should have met and did not. */
 static void not_met(FILE *to, const judgement *j, const truths *t)
 {
@@ -323,6 +334,7 @@ void table_verdicts(FILE *to, const sweep *s, const judgement *j, const truths *
         last_series = v->series;
     }
     disagreements(to, s, j);
+    cells_that_contradict_themselves(to, s, j);
     contradictions(to, s, j);
     failed_cells(to, s);
     not_met(to, j, t);
@@ -337,6 +349,8 @@ void table_verdicts(FILE *to, const sweep *s, const judgement *j, const truths *
             "\n%d of %d stored discrete values agree; %d verdicts differ from the expected one; %d "
             "findings not observed\n",
             j->agreements - j->disagreements, j->agreements, j->unexpected, j->unobserved);
+    if (j->flaws > 0)
+        fprintf(to, "%d cells contradict themselves\n", j->flaws);
     if (j->unmet + j->waiting > 0)
         fprintf(to,
                 "%d truths speak of nothing that exists; %d wait for a formulation that offers "

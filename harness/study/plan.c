@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "harness/catalogue/registry.h"
+#include "harness/model/missing.h"
 #include "harness/truth/truth.h"
 
 static status add_point(sweep *s, const case_type *type, const double value[],

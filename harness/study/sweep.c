@@ -1,5 +1,7 @@
 #include "harness/study/sweep.h"
 
+#include "harness/model/features.h"
+
 #include <stdlib.h>
 #include <string.h>
 

@@ -2,18 +2,24 @@
 # Plants one fault at a time (mutants.list) into a copy of the project. Each must be noticed, with the right exit status, by the narrowest check that should:
 # a selection of 'verify', one test, 'compare' with a run before the fault, or a deriving program.
 # Writes WORK.json and ends in one line: N killed, M survived. Survivors are listed.
-# usage: [FROM=WORD] mutants.sh [WORK [WORD]]     WORD: only the faults whose name has it; FROM: leave out those before
+# usage: [DRY=1] [FROM=WORD] mutants.sh [WORK [WORD]]
+#   WORD: only the faults whose name has it; FROM: leave out those before; DRY=1: only whether each change still matches its file, nothing is built
 set -u
 here=$(pwd)
-work=${1:-build/mutants} only=${2:-}
+work=${1:-build/mutants} only=${2:-} dry=${DRY:-}
 case $work in /*) ;; *) work=$here/$work ;; esac
 killed=0 survived=0 rows= from=${FROM:-}
 rm -rf "$work"
 mkdir -p "$work/base"
 git ls-files | tar -cf - -T - | tar -xf - -C "$work/base"
 built() { make -s -C "$work/base" -j2 CFLAGS="-O1" "$@"; }
-built all >"$work/log" 2>&1 || { tail "$work/log"; exit 1; }
-(cd "$work/base" && build/beamwork verify -k "elastica/default" -o "$work/before.h5") >"$work/log" 2>&1 || { tail "$work/log"; exit 1; }
+
+# The copy without a fault, and a run of it to compare with.
+prepare() {
+    built all >"$work/log" 2>&1 || { tail "$work/log"; exit 1; }
+    (cd "$work/base" && build/beamwork verify -k "elastica/default" -o "$work/before.h5") >"$work/log" 2>&1
+    [ -f "$work/before.h5" ] || { tail "$work/log"; exit 1; }
+}
 
 result() { # name expected status check
     if [ "$3" = "$2" ]; then
@@ -58,7 +64,9 @@ plant() {
         return
     fi
     touch "$work/base/$file"
-    if built all >"$work/log" 2>&1; then
+    if [ "$dry" ]; then
+        result "$name" matches matches "$*"
+    elif built all >"$work/log" 2>&1; then
         (check "$@") >"$work/log" 2>&1
         result "$name" "$expected" $? "$*"
     else
@@ -71,13 +79,14 @@ plant() {
 damage() {
     name=$1 expected=$2
     shift 2
-    wanted "$name" || return
+    [ -z "$dry" ] && wanted "$name" || return
     built all >"$work/log" 2>&1
     (check "$@") >"$work/log" 2>&1
     result "$name" "$expected" $? "$*"
 }
+[ "$dry" ] || prepare
 . harness/tools/mutants.list
 rm -rf "$work"
 printf '{"killed": %d, "survived": %d, "mutants": [%s\n]}\n' "$killed" "$survived" "$rows" >"$work.json"
-echo "$killed killed, $survived survived"
+[ "$dry" ] && echo "$killed match, $survived do not" || echo "$killed killed, $survived survived"
 [ $survived = 0 ]

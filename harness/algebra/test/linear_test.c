@@ -5,6 +5,7 @@
 #include <lapacke.h>
 #include <stdio.h>
 
+#include "elements/math/dense.h"
 #include "harness/algebra/test/matrices.h"
 
 enum { MOST = 60 };
@@ -232,6 +233,54 @@ static void beams_that_are_not_held(void)
         }
 }
 
+/* The upper triangle and the whole of a symmetric matrix have one condition: of a chain of n springs held at one end, with rows
+ * and columns scaled to a diagonal of ones, that is the exact 1-norm. */
+static void condition_of_a_triangle(void)
+{
+    enum { N = 6 };
+    int column[N + 1] = {0}, row[3 * N], whole_column[N + 1] = {0}, whole_row[3 * N];
+    double value[3 * N], whole_value[3 * N], dense[N * N] = {0}, inverse[N * N] = {0}, norm[2] = {0};
+    int count = 0, whole = 0, pivot[N];
+    for (int j = 0; j < N; j++) {
+        for (int i = j > 0 ? j - 1 : 0; i <= j + 1 && i < N; i++) {
+            const double scale = (i == N - 1 ? 1 : sqrt(2)) * (j == N - 1 ? 1 : sqrt(2));
+            const double entry = i != j ? -1 : j == N - 1 ? 1 : 2;
+            dense[i * N + j] = entry / scale;
+            whole_row[whole] = i;
+            whole_value[whole++] = entry;
+            if (i <= j) {
+                row[count] = i;
+                value[count++] = entry;
+            }
+        }
+        column[j + 1] = count;
+        whole_column[j + 1] = whole;
+        inverse[j * N + j] = 1;
+    }
+    for (int j = 0; j < N; j++) {
+        double sum = 0;
+        for (int i = 0; i < N; i++)
+            sum += fabs(dense[i * N + j]);
+        norm[0] = fmax(norm[0], sum);
+    }
+    dense_lu(N, dense, pivot);
+    dense_lu_solve(N, N, dense, pivot, inverse);
+    for (int j = 0; j < N; j++) {
+        double sum = 0;
+        for (int i = 0; i < N; i++)
+            sum += fabs(inverse[i * N + j]);
+        norm[1] = fmax(norm[1], sum);
+    }
+    const sparse of[2] = {{N, 1, column, row, value}, {N, 0, whole_column, whole_row, whole_value}};
+    for (int k = 0; k < 2; k++) {
+        factor *fa;
+        gsl_test(factor_alloc(&of[k], &fa, NULL) != STATUS_OK || factor_numeric(fa, &of[k], NULL) != STATUS_OK, "factored");
+        gsl_test_rel(factor_condition(fa, &of[k]), norm[0] * norm[1], 1e-12, "condition from the %s",
+                     k == 0 ? "triangle" : "whole");
+        factor_free(fa);
+    }
+}
+
 static void nothing_to_solve(void)
 {
     int column[1] = {0};
@@ -257,6 +306,7 @@ int main(void)
     random_matrices(UNSYMMETRIC, "unsymmetric", 1);
     small_singular_matrices();
     beams_that_are_not_held();
+    condition_of_a_triangle();
     nothing_to_solve();
     return gsl_test_summary();
 }

@@ -11,7 +11,7 @@
 
 /* Counts of which each alone fails the gate. */
 static const size_t failing[] = {offsetof(judgement, unexpected), offsetof(judgement, disagreements),
-                                 offsetof(judgement, unobserved), offsetof(judgement, unmet)};
+                                 offsetof(judgement, unobserved), offsetof(judgement, unmet), offsetof(judgement, flaws)};
 /* Counts of what was checked: with none of these there is no answer. */
 static const size_t checking[] = {offsetof(judgement, judged), offsetof(judgement, agreements)};
 enum { FAILING = sizeof failing / sizeof failing[0], CHECKING = sizeof checking / sizeof checking[0] };
@@ -26,8 +26,12 @@ static int is_among(size_t offset, int count, const size_t list[])
 
 static int is_pointer(size_t offset)
 {
-    return (offset >= offsetof(judgement, verdict) && offset < offsetof(judgement, verdict) + sizeof(verdict *)) ||
-           (offset >= offsetof(judgement, agreement) && offset < offsetof(judgement, agreement) + sizeof(agreement *));
+    static const size_t pointer[] = {offsetof(judgement, verdict), offsetof(judgement, agreement), offsetof(judgement, coverage),
+                                     offsetof(judgement, flaw)};
+    for (size_t i = 0; i < sizeof pointer / sizeof pointer[0]; i++)
+        if (offset >= pointer[i] && offset < pointer[i] + sizeof(void *))
+            return 1;
+    return 0;
 }
 
 static void set(judgement *j, size_t offset, int value)

@@ -262,6 +262,9 @@ static void predictions(void)
     b.row[1].value = 3.003;
     b.row[1].formulation = words[WHY];
     expect(&b, VERDICT_WRONG_LIMIT, 1, "a limit derived for another formulation");
+    b.row[1].formulation = words[ELEMENT];
+    b.row[1].on_curve = 1;
+    expect(&b, VERDICT_WRONG_LIMIT, 1, "a point of a curve is not the limit");
     bench_free(&b);
 }
 
@@ -429,6 +432,11 @@ static void expectations(void)
     b.row[0].quantity = words[WHY];
     expect(&b, VERDICT_NO_TRUTH, 3, "a truth of a quantity that does not exist");
     gsl_test_int(b.j.unmet, 1, "is missed");
+    b.row[0].quantity = words[LOAD];
+    expect(&b, VERDICT_PASS, 0, "all truths are met");
+    b.t.strangers = 1;
+    expect(&b, VERDICT_PASS, 1, "but for those of a case that does not exist");
+    gsl_test_int(b.j.unmet, 1, "which is missed");
     bench_free(&b);
 }
 
@@ -451,6 +459,8 @@ static void stored_values(void)
     expect(&b, VERDICT_PASS, 0, "by less than it was printed to");
     b.quantity[1].value = NAN;
     expect(&b, VERDICT_PASS, 1, "a mesh without a value does not agree");
+    b.cell[1].solve.quantities = 0;
+    expect(&b, VERDICT_PASS, 1, "nor does one that crashed");
     b.row[1].kind = words[UNREPEATABLE];
     expect(&b, VERDICT_PASS, 0, "a figure that nobody can compute again");
     gsl_test_int(b.j.agreements, 0, "is compared with nothing");

@@ -388,6 +388,11 @@ static void gaps(void)
     const int close[] = {1, 2, 3, 4};
     l = limit_of(&(limit_sequence){4, close, v, NAN, 2, 4, 0});
     gsl_test(l.meshes > 3, "3 and 4 elements are too close, 2 and 4 are not");
+    const int dense[] = {10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20};
+    double w[11];
+    fill(11, dense, 0.3, 2, w);
+    l = limit_of(&(limit_sequence){11, dense, w, NAN, 2, 4, 0});
+    gsl_test_int(l.meshes, 3, "20, 14 and 10 elements are the meshes of a series of every number");
 }
 
 int main(void)

@@ -2,6 +2,7 @@
  * held feels EA g or GA g. */
 #include <gsl/gsl_test.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "harness/analysis/solve.h"
@@ -112,9 +113,42 @@ static void not_offered(void)
     scene_free(&s);
 }
 
+/* The energy of an element is counted from where it is without stress, whatever its arc. */
+static void no_energy_at_rest(const char *name)
+{
+    static const double none[ELEMENT_MAX_STRAINS] = {0};
+    double inner[1024] = {0}, energy = NAN;
+    section_spec spec;
+    section c;
+    formulation chosen;
+    fault f = {""};
+    section_spec_init(&spec);
+    spec.kind = SECTION_RECTANGLE;
+    spec.young = 2e11;
+    spec.shear_modulus = 8e10;
+    spec.width = 0.05;
+    spec.height = 0.001;
+    gsl_test(formulation_parse(name, &chosen, &f) != STATUS_OK || section_compute(&spec, &c, &f) != STATUS_OK, "%s", f.text);
+    const double length = 0.3;
+    const element_request request = {.section = &c,
+                                     .length = length,
+                                     .features = chosen.type->offers & ~(unsigned)FEATURE_WAGNER_TORQUE,
+                                     .options = chosen.option,
+                                     .curvature = {0.2, 0.3, 0.9}};
+    element_data *data = calloc(1, chosen.type->data_size(&request));
+    gsl_test(chosen.type->prepare(&request, data, &f) != STATUS_OK, "%s: %s", name, f.text);
+    if (chosen.type->rest != NULL)
+        chosen.type->rest(data, inner);
+    chosen.type->stress(data, none, inner, &(stress_output){.energy = &energy});
+    const double bending = c.young * c.Iz * 0.9 * 0.9 * length / 2;
+    gsl_test(!(fabs(energy) <= 1e-12 * bending), "%s: energy at rest, by that of straightening it: %.1e", name, energy / bending);
+    free(data);
+}
+
 int main(void)
 {
     for (int i = 0; i < NAMES; i++) {
+        no_energy_at_rest(names[i]);
         elongation(names[i]);
         if (strncmp(names[i], "sheet_third", 11) !=
             0) /* N Eq. 50 knows no shear along the thickness: refused */

@@ -2,11 +2,14 @@
  * at an offset, their stiffness, their rates along the path. */
 #include <gsl/gsl_test.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "harness/analysis/solve.h"
+#include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
@@ -229,6 +232,178 @@ static void rates(void)
     release(&s);
 }
 
+/* Where the coordinates are angles, the stiffness is what the generalised loads change by, also of
+ * a moment that has no potential. */
+static void stiffness_of_angles(int body, scene_load_kind kind)
+{
+    subject s;
+    fault f = {""};
+    const sparse *pattern;
+    sparse K;
+    prepare(body, kind, &s);
+    gsl_test(model_pattern(s.m, 0, &pattern, &f) != STATUS_OK || sparse_alloc_like(pattern, &K, &f) != STATUS_OK, "pattern");
+    model_load_stiffness(s.m, s.turned, 1, &K);
+    for (int j = 0; j < s.n; j++) {
+        double load[2][MOST];
+        for (int side = 0; side < 2; side++) {
+            double dx[MOST] = {0};
+            subject there = s;
+            dx[j] = side == 0 ? -step : step;
+            move(&s, s.turned, dx, s.moved);
+            there.turned = s.moved;
+            loads_of(&there, load[side]);
+        }
+        for (int k = K.column[j]; k < K.column[j + 1]; k++) {
+            const int i = K.row[k];
+            const double change = (load[1][i] - load[0][i]) / (2 * step);
+            gsl_test(!(fabs(K.value[k] + change) <= 1e-5), "%s, %s: stiffness (%d, %d) is %.8g, the load changes by %.8g",
+                     body_name[body], kind == SCENE_FORCE ? "force" : "moment", i, j, K.value[k], change);
+        }
+    }
+    sparse_free_values(&K);
+    release(&s);
+}
+
+/* The load between its stations: on straight lines, and constant outside. */
+static void factors(void)
+{
+    static const double path[] = {0.5, 1, 3}, value[] = {0.25, 2, 1};
+    static const double row[][2] = {{0, 0.25}, {0.5, 0.25}, {0.75, 1.125}, {1, 2}, {2, 1.5}, {3, 1}, {4, 1}};
+    subject s;
+    prepare(FREE_TURNS, SCENE_FORCE, &s);
+    scene_load *load = &s.scene.load[0];
+    load->stations = 3;
+    load->path = malloc(sizeof path);
+    load->factor = malloc(sizeof value);
+    memcpy(load->path, path, sizeof path);
+    memcpy(load->factor, value, sizeof value);
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        double F[6];
+        fault f = {""};
+        double residual[MOST], dx[MOST] = {0};
+        model_linearisation lin = {.path = row[i][0], .residual = residual};
+        model_linearise(s.m, s.turned, &lin, &f);
+        model_advance(s.m, s.turned, dx, row[i][0]);
+        model_node_load(s.m, s.turned, 1, F);
+        gsl_test_abs(F[0], row[i][1] * load->vector[0], 1e-14, "factor at path %g", row[i][0]);
+    }
+    release(&s);
+}
+
+enum { LINE, SPIN };
+
+/* Forces of one component on the vertices of a member of length 2 along x: of a load along it, or of a frame that turns
+ * about z. The ends come first. */
+static void forces_along(int what, const char *name, double path, int follows, int nodes, double out[])
+{
+    const double y[3] = {0, 1, 0}, z[3] = {0, 0, 0.3}, origin[3] = {0, 0, 0}, end = 1;
+    section_spec spec;
+    formulation chosen;
+    scene s;
+    model *m = NULL;
+    fault f = {""};
+    section_spec_init(&spec);
+    spec.kind = SECTION_CONSTANTS;
+    spec.young = spec.shear_modulus = spec.density = 1;
+    spec.constants = (section){.A = 1, .Iy = 1, .Iz = 1, .It = 1, .Ip = 2};
+    scene_init(&s, "member");
+    const int p = scene_add_node(&s, 0, 0, 0), q = scene_add_node(&s, 2, 0, 0);
+    const int member = scene_add_member(&s, p, q, scene_add_section(&s, &spec), y);
+    scene_set_stations(&s, scene_add_analysis(&s, SCENE_STATIC), 1, &end);
+    if (what == LINE)
+        scene_add_load(&s, SCENE_DISTRIBUTED, member, 0, 3, 0);
+    gsl_test(formulation_parse(name, &chosen, &f) != STATUS_OK, "%s", f.text);
+    const model_request request = {&s, chosen.type, chosen.option, 1, 0};
+    gsl_test(model_alloc(&request, &m, &f) != STATUS_OK, "%s: %s", name, f.text);
+    if (what == SPIN)
+        model_set_spin(m, z, origin, follows);
+    double residual[MOST];
+    model_linearisation lin = {.path = path, .residual = residual};
+    gsl_test(model_linearise(m, model_rest(m), &lin, &f) != STATUS_OK, "%s: %s", name, f.text);
+    for (int k = 0; k < nodes; k++)
+        out[k] = residual[model_coordinate(m, k, what == LINE ? SCENE_UY : SCENE_UX)];
+    model_free(m);
+    scene_free(&s);
+}
+
+/* A load along a member: all of it, with its first moment; the second moment is that of the rule (trapezoids; Simpson, exact). */
+static void along_a_member(const char *name, int nodes)
+{
+    double F[MOST], sum[3] = {0};
+    forces_along(LINE, name, 1, 0, nodes, F);
+    for (int k = 0; k < nodes; k++) {
+        const int place = k == 0 ? 0 : k == 1 ? nodes - 1 : 1;
+        const double x = 2.0 * place / (nodes - 1), force = F[k];
+        for (int power = 0; power < 3; power++)
+            sum[power] += force * pow(x, power);
+    }
+    gsl_test_rel(sum[0], 3 * 2, 1e-14, "%s: all of the load", name);
+    gsl_test_rel(sum[1], 3 * 2, 1e-14, "%s: its moment", name);
+    gsl_test_rel(sum[2], nodes == 2 ? 3 * 4 : 3 * 8 / 3.0, 1e-14, "%s: its second moment", name);
+}
+
+/* Centrifugal forces grow with the square of the angular velocity, and that with the path where it follows it. */
+static void turning_faster(void)
+{
+    static const char name[] = "geometrically_exact:nodes=2";
+    double whole[2], half[2], steady[2];
+    forces_along(SPIN, name, 1, 1, 2, whole);
+    forces_along(SPIN, name, 0.5, 1, 2, half);
+    forces_along(SPIN, name, 0.5, 0, 2, steady);
+    for (int k = 0; k < 2; k++) {
+        gsl_test_abs(half[k], whole[k] / 4, 1e-15, "half the angular velocity, force %d", k);
+        gsl_test_abs(steady[k], whole[k], 1e-15, "an angular velocity that does not follow the path, force %d", k);
+    }
+    gsl_test_rel(whole[1], 0.3 * 0.3 * 2, 1e-13, "half of the mass at the end, at radius 2");
+}
+
+/* A beam on an arm: what the body at its foot carries is the tip's force, and its moment about the body. */
+static void foot_of_an_arm(const element_type *type)
+{
+    const double y[3] = {0, 1, 0}, end = 1, P[3] = {0.01, -0.02, 0.03};
+    section_spec spec;
+    scene s;
+    model *m = NULL;
+    solve_result r = {0};
+    fault f = {""};
+    section_spec_init(&spec);
+    spec.kind = SECTION_RECTANGLE;
+    spec.young = 1e4;
+    spec.shear_modulus = 4e3;
+    spec.width = 0.1;
+    spec.height = 0.08;
+    scene_init(&s, "arm");
+    const int foot = scene_add_node(&s, 0, 0, 0), arm = scene_add_attached(&s, foot, 0.3, -0.4, 0.2);
+    const int tip = scene_add_node(&s, 1.3, -0.4, 0.2);
+    scene_hold_all(&s, foot);
+    scene_add_member(&s, arm, tip, scene_add_section(&s, &spec), y);
+    scene_add_load(&s, SCENE_FORCE, tip, P[0], P[1], P[2]);
+    scene_add_load(&s, SCENE_FORCE, foot, 5, 6, 7); /* into the ground at once */
+    scene_set_stations(&s, scene_add_analysis(&s, SCENE_STATIC), 1, &end);
+    for (int k = 0; k < 9; k++) {
+        char name[8];
+        snprintf(name, sizeof name, "q%d", k);
+        scene_quantity *q = scene_add_quantity(&s, name, "1", k < 6 ? SCENE_REACTION : SCENE_COORDINATE, 0);
+        q->node = k < 6 ? foot : tip;
+        q->row = k % 6;
+    }
+    const model_request request = {&s, type, NULL, 2, 0};
+    if (model_alloc(&request, &m, &f) == STATUS_OK && solve_scene(&s, m, NULL, &r, &f) == STATUS_OK) {
+        const double x[3] = {1.3 + r.quantity[6].value, -0.4 + r.quantity[7].value, 0.2 + r.quantity[8].value};
+        double moment[3];
+        vec3_cross(x, P, moment);
+        for (int i = 0; i < 3; i++) {
+            gsl_test_abs(r.quantity[i].value, -P[i] - 5 - i, 1e-9, "%s: reaction %d at the foot", type->name, i);
+            gsl_test_abs(r.quantity[3 + i].value, -moment[i], 1e-9, "%s: reacting moment %d at the foot", type->name, i);
+        }
+    } else {
+        gsl_test(1, "%s: %s", type->name, f.text);
+    }
+    solve_result_free(&r);
+    model_free(m);
+    scene_free(&s);
+}
+
 int main(void)
 {
     for (int body = 0; body < BODIES; body++) {
@@ -236,6 +411,16 @@ int main(void)
         conjugate(body, SCENE_MOMENT);
         stiffness(body);
     }
+    for (int body = THREE_ANGLES; body <= TWO_ANGLES; body++) {
+        stiffness_of_angles(body, SCENE_FORCE);
+        stiffness_of_angles(body, SCENE_MOMENT);
+    }
     rates();
+    factors();
+    along_a_member("geometrically_exact:nodes=2", 2);
+    along_a_member("geometrically_exact:nodes=3", 3);
+    turning_faster();
+    for (int i = 0; registry_formulations[i] != NULL; i++)
+        foot_of_an_arm(registry_formulations[i]);
     return gsl_test_summary();
 }

@@ -141,6 +141,7 @@ static void add_verdict(bench *b, verdict_kind kind, int matches)
     verdict *v = &b->v[b->j.verdicts++];
     *v = (verdict){.kind = kind, .expected = matches ? kind : (kind + 1) % (VERDICT_KINDS + 1), .matches = matches, .finest = NAN};
     v->truth = kind == VERDICT_NO_TRUTH || kind == VERDICT_SKIP ? NULL : &b->row;
+    v->predicted = kind == VERDICT_AS_PREDICTED ? &b->row : NULL;
     strcpy(v->reason, "a < b & \"c\" > d");
     b->j.by_kind[kind]++;
     b->j.unexpected += !matches;
@@ -170,7 +171,7 @@ static void check(const bench *b, const char *what)
 {
     const tree t = written(b);
     const int expected_failures =
-        b->j.unexpected + b->j.disagreements + (b->j.unobserved > 0) + (b->j.unmet > 0) + (b->s.unfinished > 0);
+        b->j.unexpected + b->j.disagreements + (b->j.unobserved > 0) + (b->j.unmet > 0) + (b->j.flaws > 0) + (b->s.unfinished > 0);
     gsl_test(t.bad || t.both || t.outside, "%s: well-formed, every mark in a test of its own", what);
     gsl_test_int(t.header[0], t.tests, "%s: tests", what);
     gsl_test_int(t.header[1], t.failures, "%s: failures", what);
@@ -209,6 +210,7 @@ static void mixtures(void)
             add_agreement(&b, (state >> (12 + i)) % 2 != 0);
         b.j.unobserved = (state >> 24) % 3 == 0 ? 5 : 0;
         b.j.unmet = (state >> 26) % 3 == 0 ? 7 : 0;
+        b.j.flaws = (state >> 22) % 3 == 0 ? 2 : 0;
         b.s.unfinished = (state >> 28) % 3 == 0 ? 9 : 0;
         check(&b, "a mixture");
         scene_free(&b.p.scene);

@@ -60,6 +60,13 @@ int main(void)
     holds(text, "3 findings were not observed");
     free(text);
 
+    j.unobserved = 0;
+    j.flaws = 2;
+    text = written(&s, &j);
+    holds(text, "## beamwork: not as expected");
+    holds(text, "2 cells contradict themselves");
+    free(text);
+
     j = (judgement){.verdicts = 0};
     text = written(&s, &j);
     holds(text, "## beamwork: nothing was checked");

@@ -72,6 +72,46 @@ static void size_of_it(const case_type *type)
     sweep_free(&s);
 }
 
+/* One value of a case and formulation, its scene in other words. */
+static double in_other_words(const case_type *type, const formulation *chosen, scene_edit edit, int quantity)
+{
+    static const int mesh[] = {2};
+    double value[CASE_MAX_PARAMETERS] = {0};
+    sweep s = {0};
+    fault f = {""};
+    parameters_default(type, value);
+    gsl_test(sweep_add(&s, type, value, mesh, 1, &f) != STATUS_OK, "planned %s", f.text);
+    s.point[0].edit = edit;
+    gsl_test(sweep_extend(&s, chosen, 1, &f) != STATUS_OK || sweep_run(&request, &s, &f) != STATUS_OK, "run %s", f.text);
+    const double out = s.series[0].cell[0].solve.quantity[quantity].value;
+    sweep_free(&s);
+    return out;
+}
+
+/* Both repetitions count, whichever is the worse. */
+static void larger_of_two(const case_type *type)
+{
+    sweep s;
+    fault f = {""};
+    char wanted[64];
+    int differ = 0;
+    memset(wanted, 1, sizeof wanted);
+    const int count = plan(type, &s);
+    gsl_test(noise_measure(&request, wanted, &s, &f) != STATUS_OK, "measured %s", f.text);
+    for (int i = 0; i < count; i++) {
+        const series *one = &s.series[i];
+        if (one->noise == NULL || (one->formulation.type->limits & LIMIT_ORDER_DEPENDENT))
+            continue;
+        const double value = one->cell[1].solve.quantity[0].value;
+        const double a = fabs(in_other_words(type, &one->formulation, (scene_edit){SCENE_EDIT_UNIT, 1000}, 0) - value),
+                     b = fabs(in_other_words(type, &one->formulation, (scene_edit){SCENE_EDIT_REVERSE, 0}, 0) - value);
+        gsl_test_abs(one->noise[0], 2 * fmax(a, b) / fabs(value), 0, "%s, %s: %g and %g", type->name, one->formulation.key, a, b);
+        differ += a != b;
+    }
+    gsl_test(differ == 0, "%s: the repetitions differ somewhere", type->name);
+    sweep_free(&s);
+}
+
 int main(void)
 {
     fault f = {""};
@@ -79,5 +119,6 @@ int main(void)
     for (size_t i = 0; i < sizeof base / sizeof base[0]; i++)
         rounding(case_find(base[i], &f));
     size_of_it(case_find("elastica", &f));
+    larger_of_two(case_find("elastica", &f));
     return gsl_test_summary();
 }

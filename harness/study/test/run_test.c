@@ -41,6 +41,45 @@ static void parameters(void)
     gsl_test(formulation_parse("beamv", &chosen, &f) != STATUS_REFUSED || strstr(f.text, "beamw") == NULL, "refused: %s", f.text);
 }
 
+/* Any value comes back from its text; so do names of formulations with every option changed. */
+static void texts(void)
+{
+    static const double value[] = {1.0 / 3, 0.1 + 0.2, 1e-300, 123456789.123456789, 2e22, 1 - 1e-16};
+    static const case_parameter any = {"any", "", 0, -1e300, 1e300, NULL, "any number"};
+    char text[64];
+    for (size_t i = 0; i < sizeof value / sizeof value[0]; i++) {
+        parameters_value_text(&any, value[i], text, sizeof text);
+        gsl_test(strtod(text, NULL) != value[i], "%.17g comes back from '%s'", value[i], text);
+    }
+    static const char *const name[] = {"beamw:mass=lumped,newton=dense", "geometrically_exact:nodes=2,newton=displacement",
+                                       "beamw_consistent:mass=lumped,torsion=hyperbolic,newton=displacement"};
+    for (size_t i = 0; i < sizeof name / sizeof name[0]; i++) {
+        formulation given, again;
+        fault f = {""};
+        gsl_test(formulation_parse(name[i], &given, &f) != STATUS_OK, "%s: %s", name[i], f.text);
+        gsl_test(formulation_parse(given.key, &again, &f) != STATUS_OK || given.newton != again.newton ||
+                     memcmp(given.option, again.option, sizeof given.option) != 0,
+                 "%s comes back from %s", name[i], given.key);
+    }
+}
+
+/* Meshes of a series are in order, each once, however they are given. */
+static void meshes(void)
+{
+    static const int given[] = {8, 1, 4, 8, 2, 1}, right[] = {1, 2, 4, 8};
+    sweep s;
+    formulation chosen;
+    double value[CASE_MAX_PARAMETERS];
+    fault f = {""};
+    const case_type *type = case_find("elastica", &f);
+    parameters_default(type, value);
+    gsl_test(formulation_parse("beamw", &chosen, &f) != STATUS_OK, "%s", f.text);
+    gsl_test(sweep_plan_one(type, value, &chosen, 1, given, 6, &s, &f) != STATUS_OK, "%s", f.text);
+    gsl_test_int(s.series[0].meshes, 4, "meshes that differ");
+    gsl_test(memcmp(s.series[0].mesh, right, sizeof right) != 0, "from coarse to fine");
+    sweep_free(&s);
+}
+
 static unsigned next_random(unsigned *state)
 {
     *state = *state * 1664525u + 1013904223u;
@@ -144,6 +183,8 @@ static void truth_files(void)
 int main(void)
 {
     parameters();
+    texts();
+    meshes();
     random_input();
     selection();
     truth_files();

@@ -186,5 +186,34 @@ class Circles(Folder):
         self.assertIn("three.o: three", said.stdout)
 
 
+class Mutants(Folder):
+    """The list of faults, without planting them: DRY=1 only asks whether each still has its place."""
+
+    def dry(self, root):
+        return subprocess.run([TOOLS / "mutants.sh", self.folder / "work"], capture_output=True,
+                              text=True, check=False, cwd=root, env=os.environ | {"DRY": "1"})
+
+    @unittest.skipUnless((ROOT / ".git").exists(), "needs a clone")
+    def test_every_fault_has_its_place(self):
+        done = self.dry(ROOT)
+        lines = done.stdout.splitlines()
+        self.assertEqual((done.returncode, [line for line in lines if "SURVIVED" in line]), (0, []))
+        self.assertRegex(lines[-1], "^[1-9][0-9]+ match, 0 do not$")
+
+    def test_a_fault_without_a_place(self):
+        tools = self.folder / "clone" / "harness" / "tools"
+        tools.mkdir(parents=True)
+        (tools / "mutants.list").write_text(
+            "plant 'here' file 's|one|two|' 1 verify\nplant 'nowhere' file 's|three|four|' 1 verify\n",
+            encoding="ascii")
+        root = self.folder / "clone"
+        (root / "file").write_text("one\n", encoding="ascii")
+        for command in (["git", "init", "-q"], ["git", "add", "-A"]):
+            subprocess.run(command, check=True, cwd=root)
+        done = self.dry(root)
+        self.assertEqual((done.returncode, done.stdout.splitlines()[-1]), (1, "1 match, 1 do not"))
+        self.assertIn("SURVIVED  nowhere", done.stdout)
+
+
 if __name__ == "__main__":
     unittest.main()

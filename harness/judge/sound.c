@@ -1,0 +1,76 @@
+#include "harness/judge/sound.h"
+
+#include <stdio.h>
+
+/* Largest last correction of a step that counts as converged: the next one would be of the size
+ * of its square. */
+static const double promised_correction = 1e-8;
+
+static int iterations_of_steps(const solve_result *r)
+{
+    int sum = 0;
+    for (int i = 0; i < r->steps; i++)
+        sum += r->step[i].iterations;
+    return sum;
+}
+
+/* The first step that ended too soon, or -1. */
+static int unfinished_step(const solve_result *r)
+{
+    for (int i = 0; i < r->steps; i++)
+        if (!(r->step[i].correction <= promised_correction))
+            return i;
+    return -1;
+}
+
+/* Nothing but Newton's iterations, none of them in vain: then each is one evaluation of every
+ * element and one factorisation. */
+static int is_plain(const cell_result *cell, const scene *s, solve_newton newton)
+{
+    for (int i = 0; i < s->analyses; i++)
+        if (s->analysis[i].kind != SCENE_STATIC)
+            return 0;
+    return newton == SOLVE_MIXED && cell->counters.rejected_steps == 0;
+}
+
+/* The first count that is less than the iterations need, or in a plain cell another one; NULL:
+ * none. */
+static const char *wrong_count(const cell_result *cell, int plain)
+{
+    const counters *c = &cell->counters;
+    const long evaluations = c->iterations * cell->size.elements;
+    const struct {
+        const char *name;
+        long counted, needed;
+    } row[] = {{"strain evaluations", c->strain_evaluations, evaluations},
+               {"stress evaluations", c->stress_evaluations, evaluations},
+               {"factorisations", c->factorisations, c->iterations}};
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++)
+        if (row[i].counted < row[i].needed || (plain && row[i].counted != row[i].needed))
+            return row[i].name;
+    return c->solutions < c->iterations ? "solutions" : NULL;
+}
+
+int sound_cell(const cell_result *cell, const scene *s, solve_newton newton, char why[FAULT_TEXT])
+{
+    const solve_result *r = &cell->solve;
+    const counters *c = &cell->counters;
+    if (r->status != STATUS_OK)
+        return 1;
+    const int iterations = iterations_of_steps(r), early = unfinished_step(r);
+    const char *count = wrong_count(cell, is_plain(cell, s, newton));
+    if (c->steps != r->steps)
+        snprintf(why, FAULT_TEXT, "%ld steps were counted and %d kept", c->steps, r->steps);
+    else if (iterations > r->iterations || r->iterations > c->iterations)
+        snprintf(why, FAULT_TEXT, "%d iterations of steps, %d kept, %ld counted", iterations,
+                 r->iterations, c->iterations);
+    else if (early >= 0)
+        snprintf(why, FAULT_TEXT, "step %d ended with a correction of %.1e, not below %.0e", early,
+                 r->step[early].correction, promised_correction);
+    else if (count != NULL)
+        snprintf(why, FAULT_TEXT, "its %s do not fit %ld iterations with %d elements", count,
+                 c->iterations, cell->size.elements);
+    else
+        return 1;
+    return 0;
+}

@@ -1,0 +1,185 @@
+/* What a cell says of its own work: a made-up cell that is right, each number in it wrong by
+ * itself; and real cells, of every kind of analysis and form of Newton, whose elements count for
+ * themselves how often they are asked. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/parameters.h"
+#include "harness/judge/sound.h"
+
+enum { STEPS = 3, ELEMENTS = 5 };
+
+typedef struct bench {
+    scene s;
+    cell_result cell;
+    step_record step[STEPS];
+} bench;
+
+/* Three steps of four iterations. */
+static void make(scene_analysis_kind kind, bench *b)
+{
+    memset(b, 0, sizeof *b);
+    scene_init(&b->s, "made_up");
+    scene_add_analysis(&b->s, kind);
+    for (int i = 0; i < STEPS; i++)
+        b->step[i] = (step_record){.iterations = 4, .correction = 1e-9};
+    const long iterations = 4 * STEPS, evaluations = iterations * ELEMENTS;
+    b->cell.size.elements = ELEMENTS;
+    b->cell.solve.steps = STEPS;
+    b->cell.solve.step = b->step;
+    b->cell.solve.iterations = (int)iterations;
+    b->cell.counters = (counters){.strain_evaluations = evaluations,
+                                  .stress_evaluations = evaluations,
+                                  .factorisations = iterations,
+                                  .solutions = iterations,
+                                  .iterations = iterations,
+                                  .steps = STEPS};
+}
+
+static void expect(const bench *b, int sound, const char *what)
+{
+    char why[FAULT_TEXT] = "";
+    gsl_test_int(sound_cell(&b->cell, &b->s, SOLVE_MIXED, why), sound, "%s: %s", what, why);
+    gsl_test(!sound && why[0] == '\0', "%s: it says why", what);
+}
+
+/* Too few of anything is a contradiction everywhere, too many only where nothing else is done. */
+static void counts(scene_analysis_kind kind)
+{
+    const struct {
+        size_t offset;
+        int exact;
+        const char *name;
+    } row[] = {{offsetof(counters, strain_evaluations), 1, "strain evaluations"},
+               {offsetof(counters, stress_evaluations), 1, "stress evaluations"},
+               {offsetof(counters, factorisations), 1, "factorisations"},
+               {offsetof(counters, solutions), 0, "solutions"}};
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++)
+        for (int more = -1; more <= 1; more++) {
+            bench b;
+            make(kind, &b);
+            long *count = (long *)(void *)((char *)&b.cell.counters + row[i].offset);
+            *count += more;
+            expect(&b, more == 0 || (more > 0 && !(row[i].exact && kind == SCENE_STATIC)),
+                   row[i].name);
+            b.cell.counters.rejected_steps = 1;
+            expect(&b, more >= 0, "the same with a step in vain");
+            scene_free(&b.s);
+        }
+}
+
+static void steps(void)
+{
+    bench b;
+    make(SCENE_STATIC, &b);
+    expect(&b, 1, "a cell that is right");
+    for (int i = 0; i < STEPS; i++) {
+        b.step[i].correction = 1e-7;
+        expect(&b, 0, "a step that ended too soon");
+        b.step[i].correction = NAN;
+        expect(&b, 0, "a step without a correction");
+        b.step[i].correction = 1e-8;
+        expect(&b, 1, "a step that just ended");
+    }
+    b.cell.counters.steps++;
+    expect(&b, 0, "a step that was not kept");
+    b.cell.counters.steps -= 2;
+    expect(&b, 0, "a step that was not counted");
+    b.cell.counters.steps++;
+    b.step[0].iterations++;
+    expect(&b, 0, "an iteration that was not kept");
+    b.step[0].iterations--;
+    b.cell.solve.iterations++;
+    expect(&b, 0, "an iteration that was not counted");
+    b.cell.solve.status = STATUS_NOT_CONVERGED;
+    expect(&b, 1, "a cell without a solution is not asked");
+    scene_free(&b.s);
+}
+
+/* The formulation in use, and how often it was asked. */
+static const element_type *inner;
+static long strains, stresses, inertias;
+
+static void counted_strain(const element_data *d, const node_state x[], strain_output *out)
+{
+    strains++;
+    inner->strain(d, x, out);
+}
+
+static status counted_stress(const element_data *d, const double e[], const double own[],
+                             stress_output *out)
+{
+    stresses++;
+    return inner->stress(d, e, own, out);
+}
+
+static status counted_inertia(const element_data *d, const node_state x[], const element_spin *spin,
+                              inertia_output *out)
+{
+    inertias++;
+    return inner->inertia(d, x, spin, out);
+}
+
+/* A real cell: the counters are what the elements count. Strains that reactions are read from
+ * are not counted. */
+static void real(const char *name, const char *formulation_name, const char *parameters,
+                 solve_newton newton, int reactions)
+{
+    cell_result cell;
+    formulation chosen;
+    fault f = {""};
+    char why[FAULT_TEXT] = "";
+    inner = formulation_find(formulation_name);
+    element_type counted = *inner;
+    counted.strain = counted_strain;
+    counted.stress = counted_stress;
+    counted.inertia = counted_inertia;
+    formulation_default(inner, &chosen);
+    cell_request request = {.type = case_find(name, &f),
+                            .formulation = &counted,
+                            .elements = 3,
+                            .solve.newton = newton};
+    memcpy(request.option, chosen.option, sizeof request.option);
+    parameters_default(request.type, request.parameter);
+    gsl_test(parameters_parse(request.type, parameters, request.parameter, NULL, &f) != STATUS_OK,
+             "%s %s", name, f.text);
+    strains = stresses = inertias = 0;
+    gsl_test(cell_run(&request, &cell, &f) != STATUS_OK, "%s, %s, Newton %d: %s", name,
+             formulation_name, newton, f.text);
+    gsl_test(sound_cell(&cell, &cell.scene, newton, why) != 1, "%s, %s, Newton %d: %s", name,
+             formulation_name, newton, why);
+    gsl_test(cell.counters.stress_evaluations != stresses,
+             "%s, %s, Newton %d: %ld stress evaluations counted, %ld done", name, formulation_name,
+             newton, cell.counters.stress_evaluations, stresses);
+    gsl_test(reactions ? cell.counters.strain_evaluations > strains
+                       : cell.counters.strain_evaluations != strains,
+             "%s, %s, Newton %d: %ld strain evaluations counted, %ld done", name, formulation_name,
+             newton, cell.counters.strain_evaluations, strains);
+    gsl_test(cell.counters.inertia_evaluations != inertias,
+             "%s, %s, Newton %d: %ld inertia evaluations counted, %ld done", name, formulation_name,
+             newton, cell.counters.inertia_evaluations, inertias);
+    cell_result_free(&cell);
+}
+
+int main(void)
+{
+    static const scene_analysis_kind kind[] = {SCENE_STATIC, SCENE_COMPLIANCE, SCENE_CONTINUATION,
+                                               SCENE_ROTATION};
+    for (size_t i = 0; i < sizeof kind / sizeof kind[0]; i++)
+        counts(kind[i]);
+    steps();
+    for (int newton = 0; newton < SOLVE_NEWTONS; newton++) {
+        real("elastica", "beamw_consistent", "", newton, 0);
+        real("bend_45", "geometrically_exact", "", newton, 0);
+        real("sheet_cantilever", "sheet_third", "", newton, 1);
+    }
+    real("c_column", "beamw_consistent", "", SOLVE_MIXED, 0);
+    real("lateral_buckling", "collocation", "prebuckling=included;ratio=4", SOLVE_MIXED, 0);
+    real("rotating_cantilever", "geometrically_exact", "", SOLVE_MIXED, 1);
+    real("snap_through", "collocation", "", SOLVE_MIXED, 0);
+    real("hexapod", "sheet_third", "steps=3", SOLVE_MIXED, 1);
+    return gsl_test_summary();
+}
