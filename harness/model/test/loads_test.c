@@ -316,7 +316,7 @@ static void forces_along(int what, const char *name, double path, int follows, i
     const model_request request = {&s, chosen.type, chosen.option, 1, 0};
     gsl_test(model_alloc(&request, &m, &f) != STATUS_OK, "%s: %s", name, f.text);
     if (what == SPIN)
-        model_set_spin(m, z, origin, follows);
+        model_set_rotating_frame(m, z, origin, follows);
     double residual[MOST];
     model_linearisation lin = {.path = path, .residual = residual};
     gsl_test(model_linearise(m, model_rest(m), &lin, &f) != STATUS_OK, "%s: %s", name, f.text);
@@ -399,7 +399,7 @@ static void foot_of_an_arm(const element_type *type)
     } else {
         gsl_test(1, "%s: %s", type->name, f.text);
     }
-    solve_result_free(&r);
+    result_free(&r);
     model_free(m);
     scene_free(&s);
 }

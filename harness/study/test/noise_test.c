@@ -80,9 +80,8 @@ static double in_other_words(const case_type *type, const formulation *chosen, s
     sweep s = {0};
     fault f = {""};
     parameters_default(type, value);
-    gsl_test(sweep_add(&s, type, value, mesh, 1, &f) != STATUS_OK, "planned %s", f.text);
-    s.point[0].edit = edit;
-    gsl_test(sweep_extend(&s, chosen, 1, &f) != STATUS_OK || sweep_run(&request, &s, &f) != STATUS_OK, "run %s", f.text);
+    gsl_test(plan_add(&s, type, value, &edit, mesh, 1, &f) != STATUS_OK, "planned %s", f.text);
+    gsl_test(plan_extend(&s, chosen, 1, &f) != STATUS_OK || run_sweep(&request, &s, &f) != STATUS_OK, "run %s", f.text);
     const double out = s.series[0].cell[0].solve.quantity[quantity].value;
     sweep_free(&s);
     return out;

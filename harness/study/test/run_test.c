@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "harness/study/plan.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/study/sweep.h"
 #include "harness/truth/truth.h"
@@ -74,7 +75,7 @@ static void meshes(void)
     const case_type *type = case_find("elastica", &f);
     parameters_default(type, value);
     gsl_test(formulation_parse("beamw", &chosen, &f) != STATUS_OK, "%s", f.text);
-    gsl_test(sweep_plan_one(type, value, &chosen, 1, given, 6, &s, &f) != STATUS_OK, "%s", f.text);
+    gsl_test(plan_one(type, value, &chosen, 1, given, 6, &s, &f) != STATUS_OK, "%s", f.text);
     gsl_test_int(s.series[0].meshes, 4, "meshes that differ");
     gsl_test(memcmp(s.series[0].mesh, right, sizeof right) != 0, "from coarse to fine");
     sweep_free(&s);
