@@ -12,7 +12,7 @@
 enum { ASK_QUANTITIES = 256, ASK_POINTS = 16 };
 
 typedef enum ask_outcome {
-    ASK_ANSWERED,    /* solved, and a value exists */
+    ASK_ANSWERED,    /* solved */
     ASK_NOT_OFFERED, /* the scene needs what the type does not declare (model_missing) */
     ASK_NOT_POSED,   /* the change of the scene is not defined for it, whatever the formulation */
     ASK_REFUSED,     /* offered, and refused by name */
@@ -20,11 +20,12 @@ typedef enum ask_outcome {
     ASK_OUTCOMES
 } ask_outcome;
 
-/* Values in the order of the scene's quantities; count is 0 unless outcome is ASK_ANSWERED. */
+/* Values in the order of the scene's quantities; of a failure those that were found. */
 typedef struct answer {
     ask_outcome outcome;
     status status;
     int count, members;
+    int values;                   /* of them that exist */
     double value[ASK_QUANTITIES]; /* SI; NAN where the mesh has none */
     double scale[ASK_QUANTITIES]; /* below this a value counts as zero; 0: never */
     int points[ASK_QUANTITIES];   /* of a curve over stations, the first ASK_POINTS; else 0 */
@@ -53,6 +54,7 @@ double answer_of(const answer *, const char *quantity);
 /* What became of the questions of one test to one formulation. */
 typedef struct ask_tally {
     int count[ASK_OUTCOMES];
+    int values;               /* in all answers */
     int most_refused;         /* refusals of what is offered that the test allows */
     char failure[FAULT_TEXT]; /* the last failure and its question */
     char refusal[FAULT_TEXT]; /* the last refusal and its question */
@@ -61,7 +63,7 @@ typedef struct ask_tally {
 /* Counts the answer; 1: it is one, go on. `what` (printf style) names the question in failures. */
 int ask_count(ask_tally *, const answer *, const char *what, ...)
     __attribute__((format(printf, 3, 4)));
-/* Fails when an answer failed, when more were refused than allowed, and when none was found
+/* Fails when an answer failed, when more were refused than allowed, and when no value was found
  * although one was offered; says how many of each there were. */
 void ask_conclude(const ask_tally *, const element_type *, const char *test);
 
