@@ -79,7 +79,7 @@ bench-check: all ## plant work of known size: comparisons must find it, and noth
 bench-elements: all $(BUILD)/harness/model/test/element_time ## microseconds per element of every formulation
 	@$(BUILD)/harness/model/test/element_time
 
-$(BUILD)/harness/model/test/element_time: $(BUILD)/harness/model/test/element_time.o $(LIBRARY)
+$(BUILD)/harness/model/test/element_time: $(BUILD)/harness/model/test/element_time.o $(KIT) $(LIBRARY)
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
 
 # A former run shows change, never truth.

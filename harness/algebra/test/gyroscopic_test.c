@@ -32,10 +32,10 @@ static void alloc(int n, problem *p)
 static void fill(problem *p, double gyroscopic, int massless, double softening)
 {
     const int n = p->n;
-    unsigned long long seed = (unsigned long long)n * 77 + 5;
+    uint64_t seed = (unsigned long long)n * 77 + 5;
     double *B = malloc((size_t)n * (size_t)n * sizeof *B);
     for (int i = 0; i < n * n; i++)
-        B[i] = matrices_random(&seed);
+        B[i] = random_number(&seed);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             for (int k = 0; k < n; k++)

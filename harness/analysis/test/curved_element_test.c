@@ -11,6 +11,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
+#include "elements/test/random.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 
@@ -30,12 +31,6 @@ typedef struct subject {
     double inner[INNER];
 } subject;
 
-static double random_number(unsigned long long *state) /* -1 .. 1 */
-{
-    *state = *state * 6364136223846793005ull + 1442695040888963407ull;
-    return (double)(*state >> 11) / 4503599627370496.0 - 1;
-}
-
 static section rectangle(void)
 {
     section_spec spec;
@@ -52,8 +47,8 @@ static section rectangle(void)
 }
 
 /* Turns up to `most` [rad]. Wagner torque and initial torsion are not offered together. */
-static status prepare(const formulation *chosen, const section *c, double most,
-                      unsigned long long *state, subject *out, fault *f)
+static status prepare(const formulation *chosen, const section *c, double most, uint64_t *state,
+                      subject *out, fault *f)
 {
     const element_type *type = chosen->type;
     memset(out, 0, sizeof *out);
@@ -198,7 +193,7 @@ static void arcs(const formulation *chosen, const section *c)
 {
     const double most = chosen->type->limits & LIMIT_QUARTER_TURN ? 1.5 : 3;
     const double still[6] = {0}, motion[6] = {0.3, -0.2, 0.1, 0.7, -1.1, 0.4};
-    unsigned long long state = 20240101;
+    uint64_t state = 20240101;
     double stress = 0, derived = 0, geometric = 0;
     fault f = {""};
     subject straight;

@@ -1,5 +1,5 @@
-/* What every formulation must keep, checked for all that exist: gradient of the energy, derivative
- * of the force, rigid motion, node order, total mass, subsets of features, units. */
+/* What every formulation must keep, checked for all that exist: gradient of the energy, derivative of the force, rigid
+ * motion, node order, total mass, subsets of features, units. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -7,6 +7,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "elements/test/nodes.h"
 #include "harness/catalogue/registry.h"
 
 enum { MOST_STRAINS = ELEMENT_MAX_STRAINS, MOST = ELEMENT_MAX_COORDINATES };
@@ -19,8 +20,7 @@ typedef struct subject {
     int nodes, strains, coordinates, inner, memory;
 } subject;
 
-/* A rectangle: what every formulation can do. Lengths in units of `unit` metres, force in
- * newtons. */
+/* A rectangle: what every formulation can do. Lengths in units of `unit` metres, force in newtons. */
 static int prepare(const element_type *type, unsigned features, double unit, subject *out)
 {
     section_spec spec;
@@ -51,34 +51,6 @@ static int prepare(const element_type *type, unsigned features, double unit, sub
     out->coordinates = 7 * out->nodes;
     out->data = calloc(1, type->data_size(&request));
     return type->prepare(&request, out->data, &f) == STATUS_OK;
-}
-
-/* Nodes of a straight element along x, moved by small increments d (dimensionless times `size`). */
-static void place(const subject *s, const double d[], node_state x[])
-{
-    for (int k = 0; k < s->nodes; k++) {
-        const double *step = d + 7 * k;
-        double q[4];
-        memset(&x[k], 0, sizeof x[k]);
-        for (int i = 0; i < 3; i++)
-            x[k].u[i] = x[k].r[i] = step[i];
-        x[k].r[0] += s->length * k / (s->nodes - 1);
-        rotation_exp(step + 3, q);
-        rotation_matrix(q, x[k].R);
-        x[k].a = step[6];
-    }
-}
-
-/* Increments of high entropy, of relative size `size`. */
-static void increments(const subject *s, double size, unsigned seed, double d[])
-{
-    unsigned long long state = seed * 2654435761ull + 12345;
-    for (int i = 0; i < s->coordinates; i++) {
-        state = state * 6364136223846793005ull + 1442695040888963407ull;
-        const double random = (double)(state >> 11) / 9007199254740992.0 - 0.5;
-        const int c = i % 7;
-        d[i] = size * random * (c < 3 ? s->length : c < 6 ? 1 : 1 / s->length);
-    }
 }
 
 /* Energy with inner unknowns solved for: Newton on the element's own equations. */
@@ -115,77 +87,36 @@ static double norm(int n, const double *a)
     return sqrt(sum);
 }
 
-/* J and H against central differences of e and of J^T s along random directions, in the exponential
- * chart. */
+/* J and H along random directions, in a state that is far from rest. */
 static void derivatives_of_strain(const subject *s)
 {
-    const double h = 1e-5;
-    double d[MOST], direction[MOST], e[MOST_STRAINS], J[MOST_STRAINS * MOST], H[MOST * MOST],
-        weights[MOST_STRAINS], worst_J = 0, worst_H = 0;
-    node_state x[ELEMENT_MAX_NODES], moved[ELEMENT_MAX_NODES];
-    increments(s, 0.3, 7, d);
-    place(s, d, x);
+    double d[MOST], direction[MOST], weights[MOST_STRAINS], worst_J = 0, worst_H = 0;
+    node_state x[ELEMENT_MAX_NODES];
+    nodes_increments(s->nodes, s->length, 0.3, 7, d);
+    nodes_place(s->nodes, s->length, d, x);
     for (int i = 0; i < s->strains; i++)
         weights[i] = cos(3.7 * i + 0.3);
-    s->type->strain(s->data, x, &(strain_output){.e = e, .J = J, .s = weights, .H = H});
     for (unsigned seed = 1; seed <= 6; seed++) {
-        double side[2][MOST_STRAINS], along[MOST_STRAINS], second = 0, exact = 0, size = 0;
-        increments(s, 1, 100 + seed, direction);
-        for (int k = 0; k < 2; k++) {
-            for (int n = 0; n < s->nodes; n++) {
-                const double *step = direction + 7 * n, t = k == 0 ? h : -h;
-                double turn[3], q[4], R[9];
-                moved[n] = x[n];
-                for (int i = 0; i < 3; i++) {
-                    moved[n].u[i] += t * step[i];
-                    moved[n].r[i] += t * step[i];
-                    turn[i] = t * step[3 + i];
-                }
-                rotation_exp(turn, q);
-                rotation_matrix(q, R);
-                mat3_mul(R, x[n].R, moved[n].R);
-                moved[n].a += t * step[6];
-            }
-            s->type->strain(s->data, moved, &(strain_output){.e = side[k]});
-        }
-        dense_mul_vec(s->strains, s->coordinates, J, direction, along);
-        for (int i = 0; i < s->strains; i++) {
-            worst_J = fmax(worst_J, fabs((side[0][i] - side[1][i]) / (2 * h) - along[i]) /
-                                        norm(s->strains, along));
-            second += weights[i] * (side[0][i] - 2 * e[i] + side[1][i]) / (h * h);
-        }
-        for (int i = 0; i < s->coordinates; i++)
-            for (int j = 0; j < s->coordinates; j++)
-                exact += direction[i] * H[s->coordinates * i + j] * direction[j];
-        size = norm(s->strains, along);
-        worst_H = fmax(worst_H, fabs(second - exact) / size);
+        nodes_increments(s->nodes, s->length, 1, 100 + seed, direction);
+        const nodes_departure found =
+            nodes_differences(s->type, s->data, s->nodes, s->strains, x, direction, weights);
+        worst_J = fmax(worst_J, found.first);
+        worst_H = fmax(worst_H, found.second);
     }
-    gsl_test(!(worst_J < 1e-8), "%s: de/dx is the derivative of e (%.1e)", s->type->name, worst_J);
-    gsl_test(!(worst_H < 3e-5), "%s: d2e/dx2 is the second derivative of e (%.1e)", s->type->name,
+    gsl_test(!(worst_J < 1e-10), "%s: de/dx is the derivative of e (%.1e)", s->type->name, worst_J);
+    gsl_test(!(worst_H < 1e-10), "%s: d2e/dx2 is the second derivative of e (%.1e)", s->type->name,
              worst_H);
 }
 
-static double asymmetry(int n, const double A[])
-{
-    double worst = 0, largest = 0;
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) {
-            worst = fmax(worst, fabs(A[n * i + j] - A[n * j + i]));
-            largest = fmax(largest, fabs(A[n * i + j]));
-        }
-    return worst / largest;
-}
-
-/* sigma = dP/de and C = dsigma/de; a formulation whose tangent is not symmetric has no energy to
- * compare with. */
+/* sigma = dP/de and C = dsigma/de; a formulation whose tangent is not symmetric has no energy to compare with. */
 static void derivatives_of_stress(const subject *s)
 {
     double d[MOST], e[MOST_STRAINS], sigma[MOST_STRAINS], C[MOST_STRAINS * MOST_STRAINS],
         inner[1024] = {0}, worst = 0, worst_C = 0;
     node_state x[ELEMENT_MAX_NODES];
     const int potential = !(s->type->limits & LIMIT_UNSYMMETRIC_TANGENT);
-    increments(s, 0.02, 11, d);
-    place(s, d, x);
+    nodes_increments(s->nodes, s->length, 0.02, 11, d);
+    nodes_place(s->nodes, s->length, d, x);
     s->type->strain(s->data, x, &(strain_output){.e = e});
     rest(s, inner);
     gsl_test(settled(s, e, inner, &(stress_output){.sigma = sigma, .C = C}) != STATUS_OK,
@@ -214,8 +145,8 @@ static void derivatives_of_stress(const subject *s)
     if (potential) {
         gsl_test(!(worst < 1e-6), "%s: stress is the gradient of the energy (%.1e)", s->type->name,
                  worst);
-        gsl_test(!(asymmetry(s->strains, C) < 1e-10), "%s: dsigma/de is symmetric (%.1e)",
-                 s->type->name, asymmetry(s->strains, C));
+        gsl_test(!(nodes_asymmetry(s->strains, C) < 1e-10), "%s: dsigma/de is symmetric (%.1e)",
+                 s->type->name, nodes_asymmetry(s->strains, C));
     }
     gsl_test(!(worst_C < 1e-6), "%s: C is the derivative of the stress (%.1e)", s->type->name,
              worst_C);
@@ -230,8 +161,8 @@ static void rigid_motion(const subject *s)
     rotation_exp(turn, q);
     rotation_matrix(q, R);
     for (int pass = 0; pass < 2; pass++) {
-        increments(s, pass == 0 ? 0 : 0.2, 5, d);
-        place(s, d, x);
+        nodes_increments(s->nodes, s->length, pass == 0 ? 0 : 0.2, 5, d);
+        nodes_place(s->nodes, s->length, d, x);
         for (int k = 0; k < s->nodes; k++) {
             const double shift[3] = {0.317 * s->length, -1.21 * s->length, 2.37 * s->length};
             moved[k] = x[k];
@@ -263,8 +194,8 @@ static void node_order(const subject *s)
     const double half_turn[9] = {-1, 0, 0, 0, 1, 0, 0, 0, -1};
     if (s->type->limits & LIMIT_ORDER_DEPENDENT)
         return; /* by a discretisation error, which the reports show */
-    increments(s, 0.05, 3, d);
-    place(s, d, x);
+    nodes_increments(s->nodes, s->length, 0.05, 3, d);
+    nodes_place(s->nodes, s->length, d, x);
     for (int k = 0; k < s->nodes; k++) {
         reversed[k] = x[s->nodes - 1 - k];
         mat3_mul(x[s->nodes - 1 - k].R, half_turn, reversed[k].R);
@@ -285,7 +216,7 @@ static void total_mass(const subject *s)
     node_state x[ELEMENT_MAX_NODES];
     if (s->type->inertia == NULL || !(s->type->offers & FEATURE_MASS))
         return;
-    place(s, d, x);
+    nodes_place(s->nodes, s->length, d, x);
     gsl_test(s->type->inertia(s->data, x, NULL, &(inertia_output){.M = M}) != STATUS_OK,
              "%s: mass matrix", s->type->name);
     const double mass = s->section.density * s->section.A * s->length;
@@ -296,7 +227,7 @@ static void total_mass(const subject *s)
                 sum += M[(7 * i + c) * s->coordinates + 7 * j + c];
         gsl_test_rel(sum, mass, 1e-13, "%s: total mass, direction %d", s->type->name, c);
     }
-    gsl_test(!(asymmetry(s->coordinates, M) < 1e-14), "%s: mass matrix is symmetric",
+    gsl_test(!(nodes_asymmetry(s->coordinates, M) < 1e-14), "%s: mass matrix is symmetric",
              s->type->name);
 }
 
@@ -310,8 +241,8 @@ static void units(const element_type *type)
         double d[MOST], inner[1024] = {0}, e[MOST_STRAINS];
         node_state x[ELEMENT_MAX_NODES];
         prepare(type, type->offers & ~(unsigned)FEATURE_CURVATURE, unit[k], &s);
-        increments(&s, 0.01, 23, d);
-        place(&s, d, x);
+        nodes_increments(s.nodes, s.length, 0.01, 23, d);
+        nodes_place(s.nodes, s.length, d, x);
         s.type->strain(s.data, x, &(strain_output){.e = e});
         rest(&s, inner);
         settled(&s, e, inner, &(stress_output){.energy = &energy[k]});
@@ -341,8 +272,8 @@ static void feature_subsets(const element_type *type)
             free(s.data);
             continue;
         }
-        increments(&s, 0.01, subset + 1, d);
-        place(&s, d, x);
+        nodes_increments(s.nodes, s.length, 0.01, subset + 1, d);
+        nodes_place(s.nodes, s.length, d, x);
         s.type->strain(s.data, x, &(strain_output){.e = e});
         rest(&s, inner);
         const status outcome = settled(&s, e, inner, &(stress_output){.C = C});

@@ -9,6 +9,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "elements/test/nodes.h"
 #include "harness/catalogue/registry.h"
 
 enum { MOST = ELEMENT_MAX_COORDINATES };
@@ -62,42 +63,6 @@ static void prepare(const element_type *type, const double options[], unsigned f
     s->data = calloc(1, type->data_size(&request));
     gsl_test(type->prepare(&request, s->data, &f) != STATUS_OK, "%s: prepared (%s)", type->name,
              f.text);
-}
-
-/* Increments of high entropy, of relative size `size`. */
-static void increments(const subject *s, double size, unsigned seed, double d[])
-{
-    unsigned long long state = seed * 2654435761ull + 12345;
-    for (int i = 0; i < s->coordinates; i++) {
-        state = state * 6364136223846793005ull + 1442695040888963407ull;
-        const double random = (double)(state >> 11) / 9007199254740992.0 - 0.5;
-        const int c = i % 7;
-        d[i] = size * random * (c < 3 ? s->length : c < 6 ? 1 : 1 / s->length);
-    }
-}
-
-static void undeformed(const subject *s, node_state x[])
-{
-    for (int k = 0; k < s->nodes; k++)
-        x[k] =
-            (node_state){.r = {s->length * k / (s->nodes - 1)}, .R = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
-}
-
-static void move(const subject *s, double times, const double d[], node_state x[])
-{
-    for (int k = 0; k < s->nodes; k++) {
-        double turn[3], q[4], T[9], R[9];
-        for (int i = 0; i < 3; i++) {
-            x[k].r[i] += times * d[7 * k + i];
-            x[k].u[i] += times * d[7 * k + i];
-            turn[i] = times * d[7 * k + 3 + i];
-        }
-        x[k].a += times * d[7 * k + 6];
-        rotation_exp(turn, q);
-        rotation_matrix(q, T);
-        mat3_mul(T, x[k].R, R);
-        memcpy(x[k].R, R, sizeof R);
-    }
 }
 
 static double dot(int n, const double a[], const double b[])
@@ -171,11 +136,11 @@ static void derivatives(const subject *s, const node_state x[], const inertia_ou
     const int n = s->coordinates;
     const double h = 2e-3;
     double d[MOST], Nd[MOST], V[SAMPLES];
-    increments(s, 1, 37, d);
+    nodes_increments(s->nodes, s->length, 1, 37, d);
     for (int k = 0; k < SAMPLES; k++) {
         node_state at[ELEMENT_MAX_NODES];
         memcpy(at, x, (size_t)s->nodes * sizeof *at);
-        move(s, (k - 2) * h, d, at);
+        nodes_move(s->nodes, (k - 2) * h, d, at);
         s->type->inertia(s->data, at, &turning, &(inertia_output){.potential = &V[k]});
     }
     dense_mul_vec(n, n, out->N, d, Nd);
@@ -225,9 +190,9 @@ static void check(const element_type *type, const double options[], int choice, 
     prepare(type, options, features, &s);
     snprintf(s.name, sizeof s.name, "%s, mass %d%s%s", type->name, choice, rotary ? ", rotary" : "",
              features & FEATURE_WARPING ? ", warping" : "");
-    undeformed(&s, x);
-    increments(&s, 0.05, 31, d);
-    move(&s, 1, d, x);
+    nodes_straight(s.nodes, s.length, x);
+    nodes_increments(s.nodes, s.length, 0.05, 31, d);
+    nodes_move(s.nodes, 1, d, x);
     at_rest(&s, x);
     turning_frame(&s, x, rotary);
     free(s.data);
@@ -242,7 +207,7 @@ static double turning_inertia(const element_type *type, const double options[], 
     node_state x[ELEMENT_MAX_NODES];
     omega[axis] = 1;
     prepare(type, options, features, s);
-    undeformed(s, x);
+    nodes_straight(s->nodes, s->length, x);
     for (int k = 0; k < s->nodes; k++) {
         vec3_cross(omega, x[k].r, v + 7 * k);
         memcpy(v + 7 * k + 3, omega, sizeof omega);
@@ -285,7 +250,7 @@ static double twisted_energy(const element_type *type, const double options[], u
     double d[MOST] = {0}, V = NAN;
     node_state x[ELEMENT_MAX_NODES];
     prepare(type, options, features, s);
-    undeformed(s, x);
+    nodes_straight(s->nodes, s->length, x);
     for (int k = 0; k < s->nodes; k++) {
         const double turn = angle * k / (s->nodes - 1), ys = s->section.ys, zs = s->section.zs;
         d[7 * k + 1] =
@@ -294,7 +259,7 @@ static double twisted_energy(const element_type *type, const double options[], u
         d[7 * k + 3] = turn;
         d[7 * k + 6] = sin(angle) / s->length; /* e2 of BEAMW is a sine */
     }
-    move(s, 1, d, x);
+    nodes_move(s->nodes, 1, d, x);
     s->type->inertia(s->data, x, &turning, &(inertia_output){.potential = &V});
     free(s->data);
     return V;
