@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "elements/test/chain.h"
+#include "elements/test/worst.h"
 
 extern const element_type element_geometrically_exact, element_collocation;
 
@@ -55,8 +56,8 @@ static void derivatives(const element_type *type, const double option[], double 
         nodes_increments(c.per_element, 0.1, 1, seed, d);
         const nodes_departure found =
             nodes_differences(type, chain_data(&c), c.per_element, c.strains, c.x, d, weight);
-        worst.first = fmax(worst.first, found.first);
-        worst.second = fmax(worst.second, found.second);
+        worst.first = worst_of(worst.first, found.first);
+        worst.second = worst_of(worst.second, found.second);
         asymmetry = found.asymmetry;
     }
     gsl_test(!(worst.first < 1e-11), "%s: J at %g rad (%.1e)", type->name, size, worst.first);

@@ -1,11 +1,11 @@
 #include "elements/test/nodes.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/test/random.h"
+#include "elements/test/worst.h"
 
 enum { COORDINATES = ELEMENT_MAX_COORDINATES, STRAINS = ELEMENT_MAX_STRAINS };
 
@@ -58,7 +58,7 @@ static double largest(int n, const double a[])
 {
     double out = 0;
     for (int i = 0; i < n; i++)
-        out = fmax(out, fabs(a[i]));
+        out = worst_of(out, fabs(a[i]));
     return out;
 }
 
@@ -79,7 +79,7 @@ static double apart(int n, const double a[], const double b[])
 {
     double worst = 0;
     for (int i = 0; i < n; i++)
-        worst = fmax(worst, fabs(a[i] - b[i]));
+        worst = worst_of(worst, fabs(a[i] - b[i]));
     return worst / largest(n, b);
 }
 
@@ -127,6 +127,6 @@ double nodes_asymmetry(int n, const double A[])
     double worst = 0;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < i; j++)
-            worst = fmax(worst, fabs(A[n * i + j] - A[n * j + i]));
+            worst = worst_of(worst, fabs(A[n * i + j] - A[n * j + i]));
     return worst / largest(n * n, A);
 }

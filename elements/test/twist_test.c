@@ -1,6 +1,7 @@
 /* Hyperbolic twist of beamw_consistent: one element is exact in the linear theory whatever couples, and its functions and points
  * are accurate from no Saint-Venant torsion to boundary layers. */
 #include "elements/test/pair.h"
+#include "elements/test/worst.h"
 
 extern const element_type element_beamw_consistent;
 
@@ -72,8 +73,8 @@ static double halves_against_whole(const section *c, double l0, twist_kind torsi
                 sum = half[N * i + j];
             for (int k = 0; k < M; k++)
                 sum -= sides[N * k + i] * solved[N * k + j];
-            worst = fmax(worst, fabs(sum - whole[N * i + j]) /
-                                    sqrt(whole[(N + 1) * i] * whole[(N + 1) * j]));
+            worst = worst_of(worst, fabs(sum - whole[N * i + j]) /
+                                        sqrt(whole[(N + 1) * i] * whole[(N + 1) * j]));
         }
     return worst;
 }
@@ -171,9 +172,10 @@ static void hyperbolic_twist_under_stress(void)
             const unsigned features = all | (haringx ? FEATURE_HARINGX : FEATURE_ENGESSER);
             double exact = 0, cubic = 0;
             for (unsigned seed = 1; seed <= 10; seed++) {
-                exact = fmax(exact,
-                             third_order_apart(&c, lengths[i], TWIST_HYPERBOLIC, features, seed));
-                cubic = fmax(cubic, third_order_apart(&c, lengths[i], TWIST_CUBIC, features, seed));
+                exact = worst_of(
+                    exact, third_order_apart(&c, lengths[i], TWIST_HYPERBOLIC, features, seed));
+                cubic =
+                    worst_of(cubic, third_order_apart(&c, lengths[i], TWIST_CUBIC, features, seed));
             }
             gsl_test(
                 !(exact < 1e-10 && cubic > 1e-8),

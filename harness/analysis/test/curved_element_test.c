@@ -12,6 +12,7 @@
 #include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
 #include "elements/test/random.h"
+#include "elements/test/worst.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 
@@ -137,7 +138,7 @@ static double stress_of_arc(subject *s, const double motion[6])
         double stiffness = 0;
         for (int j = 0; j < s->strains; j++)
             stiffness += fabs(C[i * s->strains + j]);
-        worst = fmax(worst, fabs(sigma[i]) / (stiffness * s->length));
+        worst = worst_of(worst, fabs(sigma[i]) / (stiffness * s->length));
     }
     return worst;
 }
@@ -158,7 +159,7 @@ static double error_of_stress(subject *s)
             stress_at(s, e, &(stress_output){.energy = &energy[k]});
         }
         e[i] += h;
-        worst = fmax(worst, fabs((energy[0] - energy[1]) / (2 * h) - sigma[i]));
+        worst = worst_of(worst, fabs((energy[0] - energy[1]) / (2 * h) - sigma[i]));
         largest = fmax(largest, fabs(sigma[i]));
     }
     return worst / largest;
@@ -183,7 +184,7 @@ static double error_of_geometric(subject *s)
         stress_at(s, e, &(stress_output){.C = C[k]});
     }
     for (int i = 0; i < n * n; i++) {
-        worst = fmax(worst, fabs((C[1][i] - C[2][i]) / 2e-5 - G[i]));
+        worst = worst_of(worst, fabs((C[1][i] - C[2][i]) / 2e-5 - G[i]));
         largest = fmax(largest, fabs(C[0][i]));
     }
     return worst / largest;
@@ -205,11 +206,12 @@ static void arcs(const formulation *chosen, const section *c)
         const status outcome = prepare(chosen, c, most * (i + 1) / ARCS, &state, &s, &f);
         gsl_test(outcome != STATUS_OK, "%s: arc %d: %s", chosen->key, i, f.text);
         if (outcome == STATUS_OK) {
-            stress = fmax(stress, fmax(stress_of_arc(&s, still), stress_of_arc(&s, motion)));
+            stress =
+                worst_of(stress, worst_of(stress_of_arc(&s, still), stress_of_arc(&s, motion)));
             if (chosen->type->inner ==
                 NULL) { /* inner unknowns: their stress is that of another state */
-                derived = fmax(derived, error_of_stress(&s));
-                geometric = whole ? fmax(geometric, error_of_geometric(&s)) : 0;
+                derived = worst_of(derived, error_of_stress(&s));
+                geometric = whole ? worst_of(geometric, error_of_geometric(&s)) : 0;
             }
         }
         free(s.data);

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/test/worst.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 #include "harness/test/ask.h"
@@ -31,7 +32,7 @@ static double curves_apart(const answer *a, const answer *b, int i)
     for (int k = 0; k < a->points[i]; k++)
         scale = fmax(scale, fabs(a->curve[i][k]));
     for (int k = 0; k < a->points[i] && k < b->points[i]; k++)
-        worst = fmax(worst, apart_of(a->curve[i][k], b->curve[i][k], scale));
+        worst = worst_of(worst, apart_of(a->curve[i][k], b->curve[i][k], scale));
     return worst;
 }
 
@@ -41,11 +42,9 @@ static double difference(const answer *a, const answer *b, const char **whose)
     *whose = "their number";
     for (int i = 0; i < a->count && i < b->count; i++) {
         const double values = apart_of(a->value[i], b->value[i], a->scale[i]);
-        const double apart = isnan(values) ? values : fmax(values, curves_apart(a, b, i));
-        if (!(apart <= worst)) {
-            worst = apart;
-            *whose = a->name[i];
-        }
+        const double apart = worst_of(values, curves_apart(a, b, i));
+        *whose = apart <= worst ? *whose : a->name[i];
+        worst = worst_of(worst, apart);
     }
     return worst;
 }
@@ -219,7 +218,7 @@ static double asymmetry(const answer *a)
         }
     for (int i = 0; i < 6; i++)
         for (int j = 0; j < i; j++)
-            worst = fmax(worst, fabs(C[i][j] - C[j][i]) / sqrt(fabs(C[i][i] * C[j][j])));
+            worst = worst_of(worst, fabs(C[i][j] - C[j][i]) / sqrt(fabs(C[i][i] * C[j][j])));
     return worst;
 }
 

@@ -1,5 +1,5 @@
-/* What every formulation must keep, checked for all that exist: gradient of the energy, derivative of the force, rigid
- * motion, node order, total mass, subsets of features, units. */
+/* What every formulation must keep, checked for all that exist: gradient of the energy, derivative
+ * of the force, rigid motion, node order, total mass, subsets of features, units. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -8,7 +8,10 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/test/nodes.h"
+#include "elements/test/worst.h"
+#include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
+#include "harness/model/model.h"
 
 enum { MOST_STRAINS = ELEMENT_MAX_STRAINS, MOST = ELEMENT_MAX_COORDINATES };
 
@@ -21,10 +24,10 @@ typedef struct subject {
 } subject;
 
 /* A rectangle: what every formulation can do. Lengths in units of `unit` metres, force in newtons. */
-static int prepare(const element_type *type, unsigned features, double unit, subject *out)
+static status prepare(const element_type *type, unsigned features, double unit, subject *out,
+                      fault *f)
 {
     section_spec spec;
-    fault f;
     memset(out, 0, sizeof *out);
     section_spec_init(&spec);
     spec.kind = SECTION_RECTANGLE;
@@ -39,7 +42,7 @@ static int prepare(const element_type *type, unsigned features, double unit, sub
     out->length = 0.2385 / unit;
     for (int i = 0; type->options != NULL && type->options[i].name != NULL; i++)
         out->options[i] = type->options[i].value;
-    gsl_test(section_compute(&spec, &out->section, &f) != STATUS_OK, "%s: section", type->name);
+    gsl_test(section_compute(&spec, &out->section, f) != STATUS_OK, "%s: section", type->name);
     const element_request request = {.section = &out->section,
                                      .length = out->length,
                                      .features = features,
@@ -50,7 +53,7 @@ static int prepare(const element_type *type, unsigned features, double unit, sub
     out->memory = element_memory(type, out->options);
     out->coordinates = 7 * out->nodes;
     out->data = calloc(1, type->data_size(&request));
-    return type->prepare(&request, out->data, &f) == STATUS_OK;
+    return type->prepare(&request, out->data, f);
 }
 
 /* Energy with inner unknowns solved for: Newton on the element's own equations. */
@@ -100,8 +103,8 @@ static void derivatives_of_strain(const subject *s)
         nodes_increments(s->nodes, s->length, 1, 100 + seed, direction);
         const nodes_departure found =
             nodes_differences(s->type, s->data, s->nodes, s->strains, x, direction, weights);
-        worst_J = fmax(worst_J, found.first);
-        worst_H = fmax(worst_H, found.second);
+        worst_J = worst_of(worst_J, found.first);
+        worst_H = worst_of(worst_H, found.second);
     }
     gsl_test(!(worst_J < 1e-10), "%s: de/dx is the derivative of e (%.1e)", s->type->name, worst_J);
     gsl_test(!(worst_H < 1e-10), "%s: d2e/dx2 is the second derivative of e (%.1e)", s->type->name,
@@ -136,11 +139,11 @@ static void derivatives_of_stress(const subject *s)
         }
         const double size = norm(s->strains, sigma) + largest * h;
         if (potential)
-            worst = fmax(worst, fabs((energy[0] - energy[1]) / (2 * h) - sigma[k]) / size);
+            worst = worst_of(worst, fabs((energy[0] - energy[1]) / (2 * h) - sigma[k]) / size);
         for (int i = 0; i < s->strains; i++)
-            worst_C =
-                fmax(worst_C,
-                     fabs((side[0][i] - side[1][i]) / (2 * h) - C[s->strains * i + k]) / largest);
+            worst_C = worst_of(worst_C,
+                               fabs((side[0][i] - side[1][i]) / (2 * h) - C[s->strains * i + k]) /
+                                   largest);
     }
     if (potential) {
         gsl_test(!(worst < 1e-6), "%s: stress is the gradient of the energy (%.1e)", s->type->name,
@@ -177,7 +180,7 @@ static void rigid_motion(const subject *s)
         s->type->strain(s->data, moved, &(strain_output){.e = moved_e});
         for (int i = 0; i < s->strains; i++)
             *(pass == 0 ? &worst_still : &worst) =
-                fmax(pass == 0 ? worst_still : worst, fabs(moved_e[i] - e[i]) / s->length);
+                worst_of(pass == 0 ? worst_still : worst, fabs(moved_e[i] - e[i]) / s->length);
     }
     gsl_test(!(worst_still < 1e-14), "%s: rigid motion makes no strain (%.1e l0)", s->type->name,
              worst_still);
@@ -203,6 +206,7 @@ static void node_order(const subject *s)
     for (int t = 0; t < 2; t++) {
         s->type->strain(s->data, t == 0 ? x : reversed, &(strain_output){.e = e});
         rest(s, inner);
+        energy[t] = NAN;
         settled(s, e, inner, &(stress_output){.energy = &energy[t]});
     }
     gsl_test(!(fabs(energy[1] - energy[0]) <= 1e-9 * fabs(energy[0])),
@@ -240,11 +244,16 @@ static void units(const element_type *type)
         subject s;
         double d[MOST], inner[1024] = {0}, e[MOST_STRAINS];
         node_state x[ELEMENT_MAX_NODES];
-        prepare(type, type->offers & ~(unsigned)FEATURE_CURVATURE, unit[k], &s);
+        fault f = {""};
+        const status made =
+            prepare(type, type->offers & ~(unsigned)FEATURE_CURVATURE, unit[k], &s, &f);
+        gsl_test(made != STATUS_OK, "%s: prepared in units of %g m %s", type->name, unit[k],
+                 f.text);
         nodes_increments(s.nodes, s.length, 0.01, 23, d);
         nodes_place(s.nodes, s.length, d, x);
         s.type->strain(s.data, x, &(strain_output){.e = e});
         rest(&s, inner);
+        energy[k] = NAN;
         settled(&s, e, inner, &(stress_output){.energy = &energy[k]});
         energy[k] *= unit[k];
         free(s.data);
@@ -254,35 +263,98 @@ static void units(const element_type *type)
                      "%s: the energy does not depend on the unit of length", type->name);
 }
 
-static void feature_subsets(const element_type *type)
+typedef enum outcome { FINITE, REFUSED, BAD } outcome;
+
+/* What becomes of an element that is asked for exactly these features, and why it is refused. */
+static outcome evaluated(const element_type *type, unsigned features, fault *why)
 {
-    static const unsigned optional[] = {
-        FEATURE_WARPING,       FEATURE_SHEAR,   FEATURE_TRAPEZE, FEATURE_WAGNER_MOMENTS,
-        FEATURE_WAGNER_TORQUE, FEATURE_HARINGX, FEATURE_MASS};
-    int refused = 0, bad = 0;
-    for (unsigned subset = 0; subset < 1u << 7; subset++) {
-        unsigned features = type->offers & ~(unsigned)FEATURE_CURVATURE;
-        for (int i = 0; i < 7; i++)
-            features &= subset >> i & 1u ? ~0u : ~optional[i];
-        subject s;
-        double d[MOST], inner[1024] = {0}, e[MOST_STRAINS], C[MOST_STRAINS * MOST_STRAINS];
-        node_state x[ELEMENT_MAX_NODES];
-        if (!prepare(type, features, 1, &s)) {
-            refused++;
-            free(s.data);
-            continue;
-        }
-        nodes_increments(s.nodes, s.length, 0.01, subset + 1, d);
+    subject s;
+    double d[MOST], inner[1024] = {0}, e[MOST_STRAINS], C[MOST_STRAINS * MOST_STRAINS];
+    node_state x[ELEMENT_MAX_NODES];
+    outcome found = FINITE;
+    const status prepared = prepare(type, features, 1, &s, why);
+    if (prepared == STATUS_OK) {
+        nodes_increments(s.nodes, s.length, 0.01, features + 1, d);
         nodes_place(s.nodes, s.length, d, x);
         s.type->strain(s.data, x, &(strain_output){.e = e});
         rest(&s, inner);
-        const status outcome = settled(&s, e, inner, &(stress_output){.C = C});
-        for (int i = 0; i < s.strains * s.strains; i++)
-            bad += outcome != STATUS_OK || !isfinite(C[i]);
-        free(s.data);
+        found = settled(&s, e, inner, &(stress_output){.C = C}) == STATUS_OK ? FINITE : BAD;
+        for (int i = 0; i < s.strains * s.strains && found == FINITE; i++)
+            found = isfinite(C[i]) ? FINITE : BAD;
+    } else
+        found = prepared == STATUS_REFUSED && why->text[0] != '\0' ? REFUSED : BAD;
+    free(s.data);
+    return found;
+}
+
+static void accepted(const element_type *type, unsigned features, const char *what)
+{
+    fault why = {""};
+    gsl_test(evaluated(type, features, &why) != FINITE, "%s: gives finite stiffness with %s %s",
+             type->name, what, why.text);
+}
+
+/* A type cannot refuse: nothing, each feature that it offers with what that one presupposes,
+ * everything that it offers for straight elements. */
+static void single_features(const element_type *type)
+{
+    static const struct {
+        unsigned feature, presupposes;
+    } needs[] = {{FEATURE_ENGESSER, FEATURE_SHEAR},
+                 {FEATURE_HARINGX, FEATURE_SHEAR},
+                 {FEATURE_ROTARY_INERTIA, FEATURE_MASS}};
+    accepted(type, 0, "no feature");
+    accepted(type, type->offers & ~(unsigned)FEATURE_CURVATURE, "all features");
+    for (unsigned bit = 1; bit <= FEATURE_CURVATURE; bit <<= 1) {
+        unsigned features = bit;
+        for (size_t k = 0; k < sizeof needs / sizeof needs[0]; k++)
+            features |= needs[k].feature == bit ? needs[k].presupposes : 0;
+        if ((features & ~type->offers) == 0)
+            accepted(type, features, model_feature_name(bit));
     }
-    gsl_test(bad, "%s: every subset of its features gives finite stiffness (%d refused by name)",
-             type->name, refused);
+}
+
+/* Nor what the cases that it runs on ask for. */
+static void features_of_cases(const element_type *type)
+{
+    int runs = 0;
+    for (int i = 0; registry_cases[i] != NULL; i++) {
+        double value[CASE_MAX_PARAMETERS];
+        char words[FAULT_TEXT];
+        fault f = {""};
+        scene s;
+        parameters_default(registry_cases[i], value);
+        scene_init(&s, registry_cases[i]->name);
+        gsl_test(registry_cases[i]->build(value, &s, &f) != STATUS_OK, "%s: built (%s)", s.name,
+                 f.text);
+        if (!model_missing(&s, type, words, sizeof words)) {
+            accepted(type, model_needs_of(&s, type), registry_cases[i]->name);
+            runs++;
+        }
+        scene_free(&s);
+    }
+    gsl_test(runs == 0, "%s: runs on %d cases", type->name, runs);
+}
+
+/* Other subsets may be refused by name, where one feature presupposes another: at most half. */
+static void feature_subsets(const element_type *type)
+{
+    enum { OPTIONAL = 7 };
+    static const unsigned optional[OPTIONAL] = {
+        FEATURE_WARPING,       FEATURE_SHEAR,   FEATURE_TRAPEZE, FEATURE_WAGNER_MOMENTS,
+        FEATURE_WAGNER_TORQUE, FEATURE_HARINGX, FEATURE_MASS};
+    int count[BAD + 1] = {0};
+    fault why = {""};
+    for (unsigned subset = 0; subset < 1u << OPTIONAL; subset++) {
+        unsigned features = type->offers & ~(unsigned)FEATURE_CURVATURE;
+        for (int i = 0; i < OPTIONAL; i++)
+            features &= subset >> i & 1u ? ~0u : ~optional[i];
+        count[evaluated(type, features, &why)]++;
+    }
+    gsl_test(count[BAD] > 0, "%s: every subset of its features gives finite stiffness (%d do)",
+             type->name, count[FINITE]);
+    gsl_test(count[REFUSED] > count[FINITE], "%s: %d of its subsets are refused (%s)", type->name,
+             count[REFUSED], why.text);
 }
 
 /* What a type says about itself does not contradict itself. */
@@ -309,22 +381,32 @@ static void declarations(const element_type *type)
     }
 }
 
-int main(void)
+/* An element with all features that it offers for straight ones. */
+static void whole(const element_type *type)
 {
-    for (int i = 0; registry_formulations[i] != NULL; i++) {
-        const element_type *type = registry_formulations[i];
-        subject s;
-        gsl_test(type->abi != ELEMENT_ABI, "%s: version of the interface", type->name);
-        declarations(type);
-        gsl_test(!prepare(type, type->offers & ~(unsigned)FEATURE_CURVATURE, 1, &s), "%s: prepared",
-                 type->name);
+    subject s;
+    fault f = {""};
+    if (prepare(type, type->offers & ~(unsigned)FEATURE_CURVATURE, 1, &s, &f) == STATUS_OK) {
         derivatives_of_strain(&s);
         derivatives_of_stress(&s);
         rigid_motion(&s);
         node_order(&s);
         total_mass(&s);
-        free(s.data);
         units(type);
+    } else
+        gsl_test(1, "%s: prepared %s", type->name, f.text);
+    free(s.data);
+}
+
+int main(void)
+{
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        const element_type *type = registry_formulations[i];
+        gsl_test(type->abi != ELEMENT_ABI, "%s: version of the interface", type->name);
+        declarations(type);
+        whole(type);
+        single_features(type);
+        features_of_cases(type);
         feature_subsets(type);
     }
     return gsl_test_summary();

@@ -10,6 +10,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/test/nodes.h"
+#include "elements/test/worst.h"
 #include "harness/catalogue/registry.h"
 
 enum { MOST = ELEMENT_MAX_COORDINATES };
@@ -79,7 +80,7 @@ static double departure(int n, const double A[], double sign)
     double worst = 0, largest = 0;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
-            worst = fmax(worst, fabs(A[i * n + j] - sign * A[j * n + i]));
+            worst = worst_of(worst, fabs(A[i * n + j] - sign * A[j * n + i]));
             largest = fmax(largest, fabs(A[i * n + j]));
         }
     return worst / largest;
@@ -120,7 +121,7 @@ static void own_motion(const subject *s, const node_state x[], int rotary,
                      "%s: the frame's own motion has the centrifugal energy", s->name);
     for (int i = 0; i < n; i++) {
         const double size = i % 7 < 3 ? 1 : s->length;
-        worst = fmax(worst, fabs(Gv[i] + 2 * out->force[i]) / size);
+        worst = worst_of(worst, fabs(Gv[i] + 2 * out->force[i]) / size);
         largest = fmax(largest, fabs(out->force[i]) / size);
     }
     gsl_test(
