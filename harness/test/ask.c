@@ -10,11 +10,16 @@
 #include "harness/catalogue/parameters.h"
 #include "harness/study/cell.h"
 
+int ask_offered(const scene *s, const element_type *type)
+{
+    char words[FAULT_TEXT];
+    return !model_missing(s, type, words, sizeof words);
+}
+
 /* What the type declares decides whether a question was offered, not whether it was refused. */
 static ask_outcome outcome_of(const scene *s, const element_type *type, status outcome, int all)
 {
-    char words[FAULT_TEXT];
-    if (model_missing(s, type, words, sizeof words))
+    if (!ask_offered(s, type))
         return ASK_NOT_OFFERED;
     if (outcome == STATUS_REFUSED)
         return ASK_REFUSED;

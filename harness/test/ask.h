@@ -44,6 +44,8 @@ typedef struct question {
     scene_edit edit;
 } question;
 
+/* 1: the type declares all that the scene needs: it may not refuse it. */
+int ask_offered(const scene *, const element_type *);
 /* Options of the formulation are the defaults. */
 void ask(const question *, answer *);
 /* A scene of the test's own, with given options (NULL: the defaults). */

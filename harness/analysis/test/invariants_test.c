@@ -183,6 +183,7 @@ static void mirrors(const element_type *e)
                          "%s, %s: %s of the mirror image is opposite", images[i].base, e->name,
                          images[i].odd);
     }
+    ask_conclude(&tally, e, "mirror images");
 }
 
 /* Three equal folds: turned by a third of a turn, the joint is the same joint. */

@@ -51,7 +51,8 @@ static void test_section(const element_type *type, section *out)
     out->Iw = out->A * pow(0.2, 4); /* so that warping is as large as what is compared with it */
 }
 
-static void prepare(const element_type *type, const double options[], unsigned features, subject *s)
+/* 0: refused, and the test has failed; data to be freed in any case. */
+static int prepare(const element_type *type, const double options[], unsigned features, subject *s)
 {
     fault f = {""};
     s->type = type;
@@ -62,8 +63,9 @@ static void prepare(const element_type *type, const double options[], unsigned f
     const element_request request = {
         .section = &s->section, .length = s->length, .features = features, .options = options};
     s->data = calloc(1, type->data_size(&request));
-    gsl_test(type->prepare(&request, s->data, &f) != STATUS_OK, "%s: prepared (%s)", type->name,
-             f.text);
+    const int made = type->prepare(&request, s->data, &f) == STATUS_OK;
+    gsl_test(!made, "%s: prepared (%s)", type->name, f.text);
+    return made;
 }
 
 static double dot(int n, const double a[], const double b[])
@@ -188,7 +190,10 @@ static void check(const element_type *type, const double options[], int choice, 
     node_state x[ELEMENT_MAX_NODES];
     const unsigned features = type->offers & ~(unsigned)FEATURE_CURVATURE & ~left_out;
     const int rotary = (features & FEATURE_ROTARY_INERTIA) != 0;
-    prepare(type, options, features, &s);
+    if (!prepare(type, options, features, &s)) {
+        free(s.data);
+        return;
+    }
     snprintf(s.name, sizeof s.name, "%s, mass %d%s%s", type->name, choice, rotary ? ", rotary" : "",
              features & FEATURE_WARPING ? ", warping" : "");
     nodes_straight(s.nodes, s.length, x);
@@ -207,7 +212,10 @@ static double turning_inertia(const element_type *type, const double options[], 
     double M[MOST * MOST], v[MOST] = {0}, Mv[MOST], omega[3] = {0};
     node_state x[ELEMENT_MAX_NODES];
     omega[axis] = 1;
-    prepare(type, options, features, s);
+    if (!prepare(type, options, features, s)) {
+        free(s->data);
+        return NAN;
+    }
     nodes_straight(s->nodes, s->length, x);
     for (int k = 0; k < s->nodes; k++) {
         vec3_cross(omega, x[k].r, v + 7 * k);
@@ -250,7 +258,10 @@ static double twisted_energy(const element_type *type, const double options[], u
 {
     double d[MOST] = {0}, V = NAN;
     node_state x[ELEMENT_MAX_NODES];
-    prepare(type, options, features, s);
+    if (!prepare(type, options, features, s)) {
+        free(s->data);
+        return NAN;
+    }
     nodes_straight(s->nodes, s->length, x);
     for (int k = 0; k < s->nodes; k++) {
         const double turn = angle * k / (s->nodes - 1), ys = s->section.ys, zs = s->section.zs;
