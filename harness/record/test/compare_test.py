@@ -2,20 +2,20 @@
 import os
 import pathlib
 import shutil
-import subprocess
-import tempfile
 import unittest
 
 import h5py
+
+from harness.test.program import TRUTHS, ProgramTest, run
 from reference.pack import seal
 
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
 TABLES = "cases/warping_torsion"
 
 
 def of_cell(table):
     """Rows of a table that belong to one cell."""
-    return (table["point"] == b"default") & (table["formulation"] == b"beamw") & (table["elements"] == 4)
+    of_series = (table["point"] == b"default") & (table["formulation"] == b"beamw")
+    return of_series & (table["elements"] == 4)
 
 
 def altered(file, name, change):
@@ -29,16 +29,12 @@ def altered(file, name, change):
     group[name] = rows[~own] if keep is False else rows
 
 
-def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False)
-
-
-class Compare(unittest.TestCase):
+class Compare(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
-        cls.old, cls.new, cls.table = (os.path.join(cls.folder.name, name) for name in ("old.h5", "new.h5", "old.csv"))
+        cls.shared = cls.class_folder()
+        cls.old, cls.new, cls.table = (str(cls.shared / name)
+                                       for name in ("old.h5", "new.h5", "old.csv"))
         done = run("verify", "-k", "warping_torsion/default", "-o", cls.old)
         assert done.returncode == 0, done.stdout
         done = run("compare", cls.old, "-o", cls.table)
@@ -68,8 +64,10 @@ class Compare(unittest.TestCase):
         """One process and several give the same bits."""
         path = {}
         for jobs in ("1", "2", "5"):
-            path[jobs] = os.path.join(self.folder.name, f"j{jobs}.h5")
-            done = run("verify", "-k", "elastica/default or c_column/default and beamw_consistent or sheet_wagner/default and sheet_third", "-j", jobs, "-o", path[jobs])
+            path[jobs] = os.path.join(self.shared, f"j{jobs}.h5")
+            selection = ("elastica/default or c_column/default and beamw_consistent or "
+                         "sheet_wagner/default and sheet_third")
+            done = run("verify", "-k", selection, "-j", jobs, "-o", path[jobs])
             self.assertEqual(done.returncode, 0, done.stdout)
         for jobs in ("2", "5"):
             done = run("compare", path["1"], path[jobs], "--threshold", "error=0,floor=0,work=0")
@@ -82,18 +80,22 @@ class Compare(unittest.TestCase):
                 def more(rows):
                     rows[count] = 2 * rows[count] + 1
                 altered(file, "cells", more)
-            self.check(1, ["worse    warping_torsion/default/beamw n=4", " 1 worse, 0 better"], change)
+            self.check(1, ["worse    warping_torsion/default/beamw n=4", " 1 worse, 0 better"],
+                       change)
 
         def two(rows):
             rows["factorisations"] = 2
-        self.assertEqual(self.compared(lambda file: altered(file, "cells", two), "--threshold", "work=1").returncode, 0)
+        self.assertEqual(self.compared(lambda file: altered(file, "cells", two), "--threshold",
+                                       "work=1").returncode, 0)
 
     def test_less_work(self):
         def change(file):
             def half(rows):
                 rows["strain_evaluations"] //= 2
             altered(file, "cells", half)
-        self.check(1, ["better   warping_torsion/default/beamw n=4: evaluations", "0 worse, 1 better"], change)
+        self.check(1,
+                   ["better   warping_torsion/default/beamw n=4: evaluations", "0 worse, 1 better"],
+                   change)
 
     def errors(self, factor):
         def change(file):
@@ -115,7 +117,8 @@ class Compare(unittest.TestCase):
 
         def failed(file):
             group, rows = file[TABLES], file[TABLES]["cells"][()]
-            wider = rows.astype([(name, "S12" if name == "status" else rows.dtype[name]) for name in rows.dtype.names])
+            wider = rows.astype([(name, "S12" if name == "status" else rows.dtype[name])
+                                 for name in rows.dtype.names])
             wider["status"][of_cell(wider)] = b"singular"
             del group["cells"]
             group["cells"] = wider
@@ -133,13 +136,14 @@ class Compare(unittest.TestCase):
         self.assertIn(word, done.stderr)
 
     def test_trouble(self):
-        data, cut = pathlib.Path(self.old).read_bytes(), os.path.join(self.folder.name, "cut")
+        data, cut = pathlib.Path(self.old).read_bytes(), os.path.join(self.shared, "cut")
         for length in (0, 5, 100, len(data) // 2):
             pathlib.Path(cut).write_bytes(data[:length])
             self.trouble(cut, cut, self.old)
-        pathlib.Path(cut).write_text(pathlib.Path(self.table).read_text(encoding="utf-8")[:-10], encoding="utf-8")
+        pathlib.Path(cut).write_text(pathlib.Path(self.table).read_text(encoding="utf-8")[:-10],
+                                     encoding="utf-8")
         self.trouble("damaged or cut short", cut, self.old)
-        self.trouble("not a file of results", self.old, os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5"))
+        self.trouble("not a file of results", self.old, TRUTHS)
         self.trouble("missing.h5", "missing.h5", self.old)
         self.trouble("nothing was compared", "-k", "elastica", self.old, self.old)
         self.trouble("threshold", "--threshold", "work=-1", self.old, self.old)
@@ -166,7 +170,8 @@ class Compare(unittest.TestCase):
         def texts(file):
             rows = file[TABLES]["quantities"][()]
             del file[TABLES]["quantities"]
-            file[TABLES]["quantities"] = rows.astype([(c, "S30" if c == "value" else rows.dtype[c]) for c in rows.dtype.names])
+            file[TABLES]["quantities"] = rows.astype([(c, "S30" if c == "value" else rows.dtype[c])
+                                                      for c in rows.dtype.names])
 
         def homeless(file):
             altered(file, "cells", lambda rows: False)
@@ -175,7 +180,9 @@ class Compare(unittest.TestCase):
             rows = file[TABLES]["points"][()]
             del file[TABLES]["points"]
             file[TABLES]["points"] = rows[:0]
-        for change in (drop("cells", "iterations"), drop("cells", "elements"), drop("quantities", "error"), drop("points", "point"), texts, homeless, pointless):
+        for change in (drop("cells", "iterations"), drop("cells", "elements"),
+                       drop("quantities", "error"), drop("points", "point"), texts, homeless,
+                       pointless):
             done = self.compared(change)
             self.assertEqual(done.returncode, 2, done.stdout)
             self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
