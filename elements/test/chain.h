@@ -1,5 +1,5 @@
-/* A straight cantilever of equal elements along x, solved with dense matrices: enough to compare one formulation with
- * numbers, independent of the harness.  Root clamped, warping fixed there. */
+/* A straight cantilever of equal elements along x, solved with dense matrices: enough to compare
+ * one formulation with numbers, independent of the harness.  Root clamped, warping fixed there. */
 #ifndef BEAMWORK_TEST_CHAIN_H
 #define BEAMWORK_TEST_CHAIN_H
 
@@ -148,8 +148,9 @@ static void chain_advance(chain *c, chain_linearised *w, const double dx[])
     nodes_move(c->nodes - 1, 1, dx, c->x + 1);
 }
 
-/* Mixed Newton (N section 4): tip held coordinates move by `step` [7], dead load [7] on the others (moment about fixed axes).
- * Returns the size of the last correction, INFINITY when an element or the tangent failed. */
+/* Mixed Newton (N section 4): tip held coordinates move by `step` [7], dead load [7] on the others
+ * (moment about fixed axes). Returns the size of the last correction, INFINITY when an element or
+ * the tangent failed. */
 static double chain_solve(chain *c, const double step[7], const double load[7])
 {
     const int n = 7 * (c->nodes - 1), tip = n - 7;

@@ -1,5 +1,6 @@
-/* beamw_consistent: uniform strains of any size, derivatives at large turns, and to second order the same element as J Eq. 66
- * without shear and as the sheet element that is consistent with shear. */
+/* beamw_consistent: uniform strains of any size, derivatives at large turns, and to second order
+ * the same element as J Eq. 66 without shear and as the sheet element that is consistent with
+ * shear. */
 #include "elements/test/pair.h"
 
 extern const element_type element_beamw, element_beamw_consistent, element_sheet_second_consistent;
@@ -21,7 +22,8 @@ static void modified(const subject *s, const node_state x[2], double ebar[STRAIN
     }
 }
 
-/* Local coordinates of size `small`, after a turn of the whole; the elongation of its square (N counts it so). */
+/* Local coordinates of size `small`, after a turn of the whole; the elongation of its square (N
+ * counts it so). */
 static void state(double l0, double small, int planar, node_state x[2])
 {
     static const double turn[2][3] = {{0.31, -0.62, 0.47}, {-0.55, 0.83, 0.29}},
@@ -45,7 +47,8 @@ static void state(double l0, double small, int planar, node_state x[2])
     }
 }
 
-/* The difference of two elements' strains falls by eight when the state is halved: equal to second order. */
+/* The difference of two elements' strains falls by eight when the state is halved: equal to second
+ * order. */
 static void equal_to_second_order(const char *what, const subject *a, const subject *b, double l0,
                                   int planar, int strains)
 {
@@ -79,7 +82,8 @@ static void same_element(void)
     start(&consistent, &element_beamw_consistent, &c, l0, uniform);
     start(&other, &element_sheet_second_consistent, &c, l0, uniform);
     equal_to_second_order("sheet_second_consistent", &consistent, &other, l0, 0, 6);
-    /* N's e7 and e8 contain int phi_y' phi_z, which only bending in one plane leaves zero (reference/ERRATA.md, N 37). */
+    /* N's e7 and e8 contain int phi_y' phi_z, which only bending in one plane leaves zero
+     * (reference/ERRATA.md, N 37). */
     start(&consistent, &element_beamw_consistent, &c, l0, warped);
     start(&other, &element_sheet_second_consistent, &c, l0, warped);
     equal_to_second_order("sheet_second_consistent, warping", &consistent, &other, l0, 1, STRAINS);
@@ -129,7 +133,8 @@ static void uniform_strains(double size)
         gsl_test_abs(e[k], expected[k], 1e-14 * l0, "uniform strains, turn %.2f: e%d", t, k + 1);
 }
 
-/* Pure bending by less than half a turn: no work but that of bending, so any number of elements rolls up exactly. */
+/* Pure bending by less than half a turn: no work but that of bending, so any number of elements
+ * rolls up exactly. */
 static void pure_bending(void)
 {
     const double l0 = 1.3, turn = 2.9;
@@ -172,7 +177,8 @@ static void derivatives(double size)
     gsl_test(!(found.second < 1e-10), "H at size %g (%.1e)", size, found.second);
 }
 
-/* An inside that follows the stress has less energy, by terms of fourth order: sixteen times less when the state is halved. */
+/* An inside that follows the stress has less energy, by terms of fourth order: sixteen times less
+ * when the state is halved. */
 static void inside_follows(void)
 {
     const double l0 = 0.1;

@@ -65,7 +65,8 @@ static void derivatives(const element_type *type, const double option[], double 
     gsl_test(!(asymmetry < 1e-15), "%s: H is symmetric (%.1e)", type->name, asymmetry);
 }
 
-/* Simo-Reissner cantilever, L = 1, EI = 10, dead transverse force 10 at the tip: tip displacement [2]. */
+/* Simo-Reissner cantilever, L = 1, EI = 10, dead transverse force 10 at the tip: tip displacement
+ * [2]. */
 static void shear_elastica(const element_type *type, const double option[], double GA, int n,
                            double u[2])
 {

@@ -49,7 +49,8 @@ static inline void start(subject *s, const element_type *type, const section *c,
     start_with(s, type, c, l0, features, "", 0);
 }
 
-/* A sheet without warping shear, which N does not have: length 0.1 m, slender enough in neither direction to hide Phi. */
+/* A sheet without warping shear, which N does not have: length 0.1 m, slender enough in neither
+ * direction to hide Phi. */
 static inline section sheet(void)
 {
     section_spec spec;

@@ -56,7 +56,8 @@ static double scaled_difference(int n, const double a[], const double b[])
     return worst / largest;
 }
 
-/* N Eq. 37, word for word but for the last term of e1, where L^2 must be L: a length is expected. */
+/* N Eq. 37, word for word but for the last term of e1, where L^2 must be L: a length is
+ * expected. */
 static void printed_strains(double L, double Ite, const double q[N], double e[N])
 {
     const double u = q[LOCAL_U], px = q[LOCAL_PX], yp = q[LOCAL_YP], yq = q[LOCAL_YQ],
@@ -139,7 +140,8 @@ static void derivatives_of_strain(const element_type *type)
     free(data);
 }
 
-/* Energy, sigma and C with every feature and initial curvature on; third-order: G against differences of C. */
+/* Energy, sigma and C with every feature and initial curvature on; third-order: G against
+ * differences of C. */
 static void derivatives_of_stress(const element_type *type)
 {
     static const double stencil[4] = {1, -8, 8, -1}, at[4] = {-2, -1, 1, 2};

@@ -1,5 +1,5 @@
-/* Hyperbolic twist of beamw_consistent: one element is exact in the linear theory whatever couples, and its functions and points
- * are accurate from no Saint-Venant torsion to boundary layers. */
+/* Hyperbolic twist of beamw_consistent: one element is exact in the linear theory whatever couples,
+ * and its functions and points are accurate from no Saint-Venant torsion to boundary layers. */
 #include "elements/test/pair.h"
 #include "elements/test/worst.h"
 
@@ -46,8 +46,9 @@ static void linear_stiffness(const section *c, double l0, twist_kind torsion, do
     dense_add_congruence(STRAINS, N, J, S, K, work);
 }
 
-/* Two halves with their common node eliminated are the whole if and only if the linear solution between the nodes is exact.
- * Returns the largest difference, each coordinate scaled by the root of its stiffness. */
+/* Two halves with their common node eliminated are the whole if and only if the linear solution
+ * between the nodes is exact. Returns the largest difference, each coordinate scaled by the root of
+ * its stiffness. */
 static double halves_against_whole(const section *c, double l0, twist_kind torsion)
 {
     enum { M = 7 };
@@ -96,8 +97,9 @@ static void hyperbolic_twist(void)
              "without Saint-Venant torsion both are");
 }
 
-/* Linear stiffness at rest K [14 x 14] and, along the nodes' displacement d [14], the energy of third order
- * 1/2 sum_i s_i (d . H_i d + e . Q_i e), e = J d, s = S e: what a prestress of the same kind adds to the stiffness. */
+/* Linear stiffness at rest K [14 x 14] and, along the nodes' displacement d [14], the energy of
+ * third order 1/2 sum_i s_i (d . H_i d + e . Q_i e), e = J d, s = S e: what a prestress of the same
+ * kind adds to the stiffness. */
 static double third_order(const section *c, double l0, twist_kind torsion, unsigned features,
                           const double d[N])
 {
@@ -142,8 +144,9 @@ static void middle_of(const section *c, double l0, twist_kind torsion, const dou
     dense_lu_solve(M, 1, A, pivot, out);
 }
 
-/* Energy of third order of two halves beside that of the whole, of the sizes of both: zero if and only if the geometric stiffness is
- * integrated over the exact linear solution, since the middle node, being in equilibrium, may follow to first order only. */
+/* Energy of third order of two halves beside that of the whole, of the sizes of both: zero if and
+ * only if the geometric stiffness is integrated over the exact linear solution, since the middle
+ * node, being in equilibrium, may follow to first order only. */
 static double third_order_apart(const section *c, double l0, twist_kind torsion, unsigned features,
                                 unsigned seed)
 {

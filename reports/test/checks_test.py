@@ -7,8 +7,7 @@ import sys
 import tempfile
 import unittest
 
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
-TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
+from harness.test.program import PROGRAM, TRUTHS
 
 
 class Checks(unittest.TestCase):

@@ -3,13 +3,11 @@ import html.parser
 import os
 import pathlib
 import shutil
-import subprocess
-import sys
 import tempfile
 import unittest
 
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
-TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
+from harness.test.program import TRUTHS, report, run
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
@@ -24,17 +22,12 @@ class Links(html.parser.HTMLParser):
                 self.found.append(value)
 
 
-def report(results, folder):
-    return subprocess.run([sys.executable, "-m", "reports", results, TRUTHS, "-o", folder], capture_output=True, text=True, check=False, cwd=ROOT,
-                          env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
-
-
 class Report(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp()
         cls.results = os.path.join(cls.folder, "results.h5")
-        subprocess.run([PROGRAM, "verify", "-k", "warping_torsion or roll_up", "-o", cls.results], capture_output=True, check=False)
+        run("verify", "-k", "warping_torsion or roll_up", "-o", cls.results)
         cls.done = report(cls.results, os.path.join(cls.folder, "site"))
 
     @classmethod

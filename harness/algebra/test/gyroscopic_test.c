@@ -277,8 +277,8 @@ static void counts(void)
 }
 
 /* A string of `masses` oscillators at 1, 2, 3 ... rad/s that do not touch, and a top beside them.
- * Without gyroscopic terms the top is the stiffest part by far; with them its precession lies
- * at 2.5 rad/s: no start without them shows it, and no residual. */
+ * Without gyroscopic terms the top is the stiffest part by far; with them its precession lies at
+ * 2.5 rad/s: no start without them shows it, and no residual. */
 static void hidden_precession(int masses, int wanted_outcome)
 {
     const double slow = 2.5, k = 1e6, g = (k / slow) - slow; /* root of w^2 + g w - k */

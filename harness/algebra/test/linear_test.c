@@ -1,4 +1,5 @@
-/* Sparse factors against LAPACK on random matrices, inertia, singular matrices of every kind, and the work that is counted. */
+/* Sparse factors against LAPACK on random matrices, inertia, singular matrices of every kind, and
+ * the work that is counted. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <lapacke.h>
@@ -10,7 +11,8 @@ enum { MOST = 60 };
 
 typedef enum kind { DEFINITE, INDEFINITE, UNSYMMETRIC } kind;
 
-/* About four entries in every row beside the diagonal; rows and columns in units that differ by up to 1e3. */
+/* About four entries in every row beside the diagonal; rows and columns in units that differ by up
+ * to 1e3. */
 static void fill_random(int n, kind what, uint64_t *seed, double A[])
 {
     memset(A, 0, (size_t)(n * n) * sizeof *A);

@@ -1,5 +1,6 @@
-/* Critical loads and frequencies of beams whose answer is known, for every formulation: sign, order and number of equal values,
- * what does not exist, and loads beside which rounding would look like a load. */
+/* Critical loads and frequencies of beams whose answer is known, for every formulation: sign, order
+ * and number of equal values, what does not exist, and loads beside which rounding would look like
+ * a load. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -212,7 +213,8 @@ static void columns(const element_type *e, ask_tally *tally, const double direct
         expect(e, "arm before the tip", &l, 0, 0, load_with_arm(-length / 2), 5e-3);
 }
 
-/* States in which one element, or none, can buckle: whatever there is of a load must not be rounding. */
+/* States in which one element, or none, can buckle: whatever there is of a load must not be
+ * rounding. */
 static void bent_between_forks(scene *s, const double direction[3], int component)
 {
     const int a = scene_add_node(s, 0, 0, 0), b = end_node(s, direction, length);
@@ -288,8 +290,8 @@ static void angle_compressed(scene *s, const double direction[3])
     push(s, head, direction, -1);
 }
 
-/* Loads of one sign are the same whether or not the others are asked for, and whether or not those are found: some formulations
- * have one spurious load of the other sign for each element. */
+/* Loads of one sign are the same whether or not the others are asked for, and whether or not those
+ * are found: some formulations have one spurious load of the other sign for each element. */
 static void one_side_alone(const element_type *e, ask_tally *tally)
 {
     for (int n = 2; n <= 64; n *= 2) {
@@ -309,7 +311,8 @@ static void one_side_alone(const element_type *e, ask_tally *tally)
     }
 }
 
-/* A load that buckles this bar at this mesh is at most n^2 times Euler's, with room; rounding is 1e16. */
+/* A load that buckles this bar at this mesh is at most n^2 times Euler's, with room; rounding is
+ * 1e16. */
 static void no_rounding(const element_type *e, ask_tally *tally)
 {
     static build *const state[] = {angle_bent, bent_about_y, bent_about_z, pushed_across,

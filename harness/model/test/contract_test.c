@@ -23,7 +23,8 @@ typedef struct subject {
     int nodes, strains, coordinates, inner, memory;
 } subject;
 
-/* A rectangle: what every formulation can do. Lengths in units of `unit` metres, force in newtons. */
+/* A rectangle: what every formulation can do. Lengths in units of `unit` metres, force in
+ * newtons. */
 static status prepare(const element_type *type, unsigned features, double unit, subject *out,
                       fault *f)
 {
@@ -111,7 +112,8 @@ static void derivatives_of_strain(const subject *s)
              worst_H);
 }
 
-/* sigma = dP/de and C = dsigma/de; a formulation whose tangent is not symmetric has no energy to compare with. */
+/* sigma = dP/de and C = dsigma/de; a formulation whose tangent is not symmetric has no energy to
+ * compare with. */
 static void derivatives_of_stress(const subject *s)
 {
     double d[MOST], e[MOST_STRAINS], sigma[MOST_STRAINS], C[MOST_STRAINS * MOST_STRAINS],

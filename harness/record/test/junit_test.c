@@ -1,5 +1,5 @@
-/* JUnit: well-formed XML whose header counts the elements below it, for every kind of verdict, expected or not, and any mixture of
- * what else a run can miss. */
+/* JUnit: well-formed XML whose header counts the elements below it, for every kind of verdict,
+ * expected or not, and any mixture of what else a run can miss. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>

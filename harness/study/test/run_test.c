@@ -49,7 +49,8 @@ static void parameters(void)
              "refused: %s", f.text);
 }
 
-/* Pieces of right input put together at random: answered or refused in one line, never a crash or another status. */
+/* Pieces of right input put together at random: answered or refused in one line, never a crash or
+ * another status. */
 static void random_input(void)
 {
     static const char *const piece[] = {"length",
