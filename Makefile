@@ -17,9 +17,11 @@ BASE_CFLAGS := -std=c11 -D_GNU_SOURCE -I. -fno-math-errno -ffp-contract=off -fPI
 FORMULATIONS := $(sort $(wildcard elements/*.c))
 CASES := $(sort $(wildcard cases/*.c))
 LIBRARY_SOURCES := $(FORMULATIONS) $(CASES) $(sort $(wildcard elements/*/*.c cases/*/*.c harness/*/*.c))
-LIBRARY_SOURCES := $(filter-out elements/test/% cases/test/% harness/cli/% harness/fuzz/%,$(LIBRARY_SOURCES))
+LIBRARY_SOURCES := $(filter-out elements/test/% cases/test/% harness/test/% harness/cli/% harness/fuzz/%,$(LIBRARY_SOURCES))
 PROGRAM_SOURCES := $(sort $(wildcard harness/cli/*.c))
 TEST_SOURCES := $(sort $(wildcard elements/test/*_test.c cases/test/*_test.c harness/*/test/*_test.c))
+# What tests share; a room's own test folder is never part of the library.
+KIT_SOURCES := $(sort $(filter-out %_test.c,$(wildcard elements/test/*.c harness/test/*.c)))
 PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py reports/test/*_test.py harness/*/test/*_test.py))))
 
 REGISTRY := $(BUILD)/registry.c
@@ -28,6 +30,7 @@ PROGRAM := $(BUILD)/beamwork
 TRUTHS := $(BUILD)/truths.h5
 OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o)
 TESTS := $(TEST_SOURCES:%.c=$(BUILD)/%)
+KIT := $(KIT_SOURCES:%.c=$(BUILD)/%.o)
 
 QUIET := $(filter help clean format mutants,$(or $(MAKECMDGOALS),help))
 ifeq ($(QUIET),)
@@ -76,7 +79,7 @@ bench-check: all ## plant work of known size: comparisons must find it, and noth
 bench-elements: all $(BUILD)/harness/model/test/element_time ## microseconds per element of every formulation
 	@$(BUILD)/harness/model/test/element_time
 
-$(BUILD)/harness/model/test/element_time: $(BUILD)/harness/model/test/element_time.o $(LIBRARY)
+$(BUILD)/harness/model/test/element_time: $(BUILD)/harness/model/test/element_time.o $(KIT) $(LIBRARY)
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
 
 # A former run shows change, never truth.
@@ -172,7 +175,7 @@ $(BUILD)/harness/catalogue/environment.o: DEFINES := -DBEAMWORK_VERSION='"$(VERS
 $(PROGRAM): $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) $(LIBRARY)
 	$(call SAY,link $@)$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
 
-$(BUILD)/%_test: $(BUILD)/%_test.o $(LIBRARY)
+$(BUILD)/%_test: $(BUILD)/%_test.o $(KIT) $(LIBRARY)
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
 
 # A test of what happens when memory runs out: allocations of our own code pass through it.
@@ -185,4 +188,4 @@ $(TRUTHS): $(wildcard reference/tables/*.csv reference/predicted/*.csv reference
 
 FORCE:
 
--include $(OBJECTS:.o=.d) $(PROGRAM_SOURCES:%.c=$(BUILD)/%.d) $(TEST_SOURCES:%.c=$(BUILD)/%.d)
+-include $(OBJECTS:.o=.d) $(PROGRAM_SOURCES:%.c=$(BUILD)/%.d) $(TEST_SOURCES:%.c=$(BUILD)/%.d) $(KIT:.o=.d)

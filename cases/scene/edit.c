@@ -10,9 +10,10 @@ static void mirror_section(section_spec *spec)
     section *c = &spec->constants;
     for (int i = 0; i < spec->points; i++)
         spec->point[i][0] = -spec->point[i][0];
-    double *const odd[] = {&spec->given.ys, &spec->given.Dyz, &spec->given.Dzw, &c->ys,         &c->wagner_y,
-                           &c->D[1],        &c->D[3],         &c->D[5],         &c->D[7],       &c->F[1],
-                           &c->F[3],        &c->F[5],         &c->F[7],         &c->axes_angle, &c->centroid[0]};
+    double *const odd[] = {&spec->given.ys, &spec->given.Dyz, &spec->given.Dzw, &c->ys,
+                           &c->wagner_y,    &c->D[1],         &c->D[3],         &c->D[5],
+                           &c->D[7],        &c->F[1],         &c->F[3],         &c->F[5],
+                           &c->F[7],        &c->axes_angle,   &c->centroid[0]};
     for (size_t i = 0; i < sizeof odd / sizeof odd[0]; i++)
         *odd[i] = -*odd[i];
 }
@@ -25,7 +26,10 @@ static status reverse(scene *s, fault *f)
         scene_member *m = &s->member[i];
         const int p = m->p, warp_p = m->warp_p;
         if (m->curvature[0] != 0)
-            return fault_set(f, STATUS_REFUSED, "member %d: initially twisted, its y axis at the other end is not known here", i);
+            return fault_set(f, STATUS_REFUSED,
+                             "member %d: initially twisted, its y axis at the other end is not "
+                             "known here; leave its order of nodes",
+                             i);
         m->p = m->q;
         m->q = p;
         m->warp_p = m->warp_q;
@@ -53,11 +57,15 @@ static status split(scene *s, double fraction, fault *f)
     const int loads = s->loads;
     double between[3];
     if (!(fraction > 0 && fraction < 1))
-        return fault_set(f, STATUS_REFUSED, "a member cannot be split at %g of its length; give a fraction between 0 and 1",
-                         fraction);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "a member cannot be split at %g of its length; give a fraction between 0 and 1",
+            fraction);
     for (int k = 0; k < 3; k++) {
         if (first.curvature[k] != 0)
-            return fault_set(f, STATUS_REFUSED, "member 0: curved, only straight members are split");
+            return fault_set(
+                f, STATUS_REFUSED,
+                "member 0: curved, only straight members are split; use more elements instead");
         const double p = s->node[first.p].position[k], q = s->node[first.q].position[k];
         between[k] = p + fraction * (q - p);
     }

@@ -11,13 +11,15 @@ static int has_member_along(const scene *s, int node, const double direction[3])
     int ends = 0, along = 0;
     for (int i = 0; i < s->members; i++) {
         const scene_member *m = &s->member[i];
-        if (m->p < 0 || m->q < 0 || m->p >= s->nodes || m->q >= s->nodes || (m->p != node && m->q != node))
+        if (m->p < 0 || m->q < 0 || m->p >= s->nodes || m->q >= s->nodes ||
+            (m->p != node && m->q != node))
             continue;
         double d[3];
         for (int k = 0; k < 3; k++)
             d[k] = s->node[m->q].position[k] - s->node[m->p].position[k];
         ends++;
-        along |= vec3_norm(m->curvature) > 0 || fabs(vec3_dot(d, direction)) >= (1 - 1e-9) * vec3_norm(d) * vec3_norm(direction);
+        along |= vec3_norm(m->curvature) > 0 ||
+                 fabs(vec3_dot(d, direction)) >= (1 - 1e-9) * vec3_norm(d) * vec3_norm(direction);
     }
     return along || ends == 0;
 }
@@ -30,13 +32,18 @@ static status check_fork(const scene *s, int i, fault *f)
     for (int k = 0; k < 3; k++)
         if (n->angle[k] != SCENE_FREE)
             return fault_set(f, STATUS_REFUSED,
-                             "node %d: contradictory supports, a fork and R%c %s; take one away, or give a sequence of angles", i,
-                             "XYZ"[k], n -> angle[k] == SCENE_HELD ? "held" : "driven");
+                             "node %d: contradictory supports, a fork and R%c %s; take one away, "
+                             "or give a sequence of angles",
+                             i, "XYZ"[k], n -> angle[k] == SCENE_HELD ? "held" : "driven");
     if (!(lengths > 0) || !(fabs(vec3_dot(axis, web)) <= 1e-9 * lengths))
-        return fault_set(f, STATUS_REFUSED, "node %d: axis and web of its fork are not at right angles; give two that are", i);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "node %d: axis and web of its fork are not at right angles; give two that are", i);
     if (!has_member_along(s, i, axis))
-        return fault_set(f, STATUS_REFUSED, "node %d: no member there runs along the axis of its fork; give the member's direction",
-                         i);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "node %d: no member there runs along the axis of its fork; give the member's direction",
+            i);
     return STATUS_OK;
 }
 
@@ -45,12 +52,19 @@ static status check_node(const scene *s, int i, fault *f)
     const scene_node *n = &s->node[i];
     for (int k = 0; k < 3; k++) {
         if (!isfinite(n->position[k]))
-            return fault_set(f, STATUS_REFUSED, "node %d: its position is not a number", i);
-        if (n->translation[k] < SCENE_HELD || n->translation[k] >= s->drivers || n->angle[k] < SCENE_HELD ||
-            n->angle[k] >= s->drivers)
-            return fault_set(f, STATUS_REFUSED, "node %d: moved by a driver that does not exist", i);
+            return fault_set(f, STATUS_REFUSED,
+                             "node %d: its position is not a number; give three finite coordinates",
+                             i);
+        if (n->translation[k] < SCENE_HELD || n->translation[k] >= s->drivers ||
+            n->angle[k] < SCENE_HELD || n->angle[k] >= s->drivers)
+            return fault_set(f, STATUS_REFUSED,
+                             "node %d: moved by a driver that does not exist; add the driver first",
+                             i);
         if (n->rotation == SCENE_ROTATION_VECTOR && n->angle[k] < 0)
-            return fault_set(f, STATUS_REFUSED, "node %d: a prescribed rotation vector needs three drivers", i);
+            return fault_set(f, STATUS_REFUSED,
+                             "node %d: a prescribed rotation vector needs three drivers; drive all "
+                             "three of its components",
+                             i);
     }
     if (n->rotation == SCENE_ROTATION_FORK) {
         const status outcome = check_fork(s, i, f);
@@ -59,14 +73,18 @@ static status check_node(const scene *s, int i, fault *f)
     }
     if (n->attached == SCENE_NONE)
         return STATUS_OK;
-    if (n->attached < 0 || n->attached >= s->nodes || n->attached == i || s->node[n->attached].attached != SCENE_NONE)
+    if (n->attached < 0 || n->attached >= s->nodes || n->attached == i ||
+        s->node[n->attached].attached != SCENE_NONE)
         return fault_set(f, STATUS_REFUSED,
-                         "node %d: attached to node %d, which is no body; attach it to a node that is attached to nothing", i,
-                         n->attached);
+                         "node %d: attached to node %d, which is no body; attach it to a node that "
+                         "is attached to nothing",
+                         i, n->attached);
     for (int k = 0; k < 3; k++)
         if (n->translation[k] != SCENE_FREE || n->angle[k] != SCENE_FREE)
-            return fault_set(f, STATUS_REFUSED, "node %d: contradictory supports, it moves with node %d; hold that one instead", i,
-                             n->attached);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "node %d: contradictory supports, it moves with node %d; hold that one instead", i,
+                n->attached);
     return STATUS_OK;
 }
 
@@ -74,9 +92,11 @@ static status check_member(const scene *s, int i, fault *f)
 {
     const scene_member *m = &s->member[i];
     if (m->p < 0 || m->p >= s->nodes || m->q < 0 || m->q >= s->nodes)
-        return fault_set(f, STATUS_REFUSED, "member %d: it ends at a node that does not exist", i);
+        return fault_set(f, STATUS_REFUSED,
+                         "member %d: it ends at a node that does not exist; add the node first", i);
     if (m->section < 0 || m->section >= s->sections)
-        return fault_set(f, STATUS_REFUSED, "member %d: its section does not exist", i);
+        return fault_set(f, STATUS_REFUSED,
+                         "member %d: its section does not exist; add the section first", i);
     double d[3], length = 0, along = 0, across = 0;
     for (int k = 0; k < 3; k++) {
         d[k] = s->node[m->q].position[k] - s->node[m->p].position[k];
@@ -85,11 +105,14 @@ static status check_member(const scene *s, int i, fault *f)
         across += m->y_axis[k] * m->y_axis[k];
     }
     if (!(length > 0))
-        return fault_set(f, STATUS_REFUSED, "member %d: its ends coincide; its length must be positive", i);
+        return fault_set(f, STATUS_REFUSED,
+                         "member %d: its ends coincide; its length must be positive", i);
     if (!(across > 0) || !(across * length - along * along > 1e-12 * across * length))
-        return fault_set(f, STATUS_REFUSED, "member %d: its y axis is parallel to it", i);
+        return fault_set(f, STATUS_REFUSED,
+                         "member %d: its y axis is parallel to it; give one that points across", i);
     if (m->divisions < 0)
-        return fault_set(f, STATUS_REFUSED, "member %d: %d elements; give at least 1", i, m->divisions);
+        return fault_set(f, STATUS_REFUSED, "member %d: %d elements; give at least 1", i,
+                         m->divisions);
     return STATUS_OK;
 }
 
@@ -109,19 +132,28 @@ static status check_driver(const scene *s, int i, fault *f)
 {
     const scene_driver *d = &s->driver[i];
     if (!is_used(s, i))
-        return fault_set(f, STATUS_REFUSED, "driver %s: it moves nothing", d->name);
+        return fault_set(f, STATUS_REFUSED,
+                         "driver %s: it moves nothing; drive a coordinate with it, or leave it out",
+                         d->name);
     if (d->value == NULL) {
-        const int known =
-            d->condition_driver >= 0 && d->condition_driver < s->drivers && s->driver[d->condition_driver].value != NULL;
+        const int known = d->condition_driver >= 0 && d->condition_driver < s->drivers &&
+                          s->driver[d->condition_driver].value != NULL;
         if (!known || d->condition_node < 0 || d->condition_node >= s->nodes)
-            return fault_set(f, STATUS_REFUSED, "driver %s: its value is unknown and no condition fixes it", d->name);
+            return fault_set(f, STATUS_REFUSED,
+                             "driver %s: its value is unknown and no condition fixes it; name a "
+                             "node and a driver with known values",
+                             d->name);
         return STATUS_OK;
     }
     for (int k = 0; k < d->stations; k++) {
         if (!isfinite(d->value[k]) || !isfinite(d->path[k]))
-            return fault_set(f, STATUS_REFUSED, "driver %s: station %d is not a number", d->name, k);
+            return fault_set(f, STATUS_REFUSED,
+                             "driver %s: station %d is not a number; give finite values", d->name,
+                             k);
         if (k > 0 && !(d->path[k] > d->path[k - 1]))
-            return fault_set(f, STATUS_REFUSED, "driver %s: its stations must ascend", d->name);
+            return fault_set(f, STATUS_REFUSED,
+                             "driver %s: its stations must ascend; sort them, without repetition",
+                             d->name);
     }
     return STATUS_OK;
 }
@@ -131,22 +163,32 @@ static status check_load(const scene *s, int i, fault *f)
     const scene_load *load = &s->load[i];
     const int limit = load->kind == SCENE_DISTRIBUTED ? s->members : s->nodes;
     if (load->where < 0 || load->where >= limit)
-        return fault_set(f, STATUS_REFUSED, "load %d: it acts on something that does not exist", i);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "load %d: it acts on something that does not exist; add its node or member first", i);
     for (int k = 0; k < 3; k++)
         if (!isfinite(load->vector[k]))
-            return fault_set(f, STATUS_REFUSED, "load %d: it is not a number", i);
+            return fault_set(f, STATUS_REFUSED,
+                             "load %d: it is not a number; give three finite components", i);
     return STATUS_OK;
 }
 
 static status check_continuation(const scene *s, const scene_analysis *a, int i, fault *f)
 {
-    if (a->control_node < 0 || a->control_node >= s->nodes || a->control_component < SCENE_UX || a->control_component > SCENE_UZ)
-        return fault_set(f, STATUS_REFUSED, "analysis %d: continuation needs a translation of a node as control coordinate", i);
+    if (a->control_node < 0 || a->control_node >= s->nodes || a->control_component < SCENE_UX ||
+        a->control_component > SCENE_UZ)
+        return fault_set(f, STATUS_REFUSED,
+                         "analysis %d: continuation needs a translation of a node as control "
+                         "coordinate; name a node and UX, UY or UZ",
+                         i);
     if (!(a->step > 0) || !(a->step_max >= a->step))
-        return fault_set(f, STATUS_REFUSED, "analysis %d: steps of %g to %g; the first must be positive, the largest not smaller",
-                         i, a->step, a->step_max);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "analysis %d: steps of %g to %g; the first must be positive, the largest not smaller",
+            i, a->step, a->step_max);
     if (s->drivers > 0)
-        return fault_set(f, STATUS_REFUSED, "analysis %d: continuation changes loads only; take the drivers away", i);
+        return fault_set(f, STATUS_REFUSED,
+                         "analysis %d: continuation changes loads only; take the drivers away", i);
     return STATUS_OK;
 }
 
@@ -154,19 +196,28 @@ static status check_analysis(const scene *s, int i, fault *f)
 {
     const scene_analysis *a = &s->analysis[i];
     if (a->follows != SCENE_NONE && (a->follows < 0 || a->follows >= i))
-        return fault_set(f, STATUS_REFUSED, "analysis %d: it follows one that does not come before it", i);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "analysis %d: it follows one that does not come before it; name an earlier one", i);
     for (int k = 1; k < a->stations && a->kind != SCENE_CONTINUATION; k++)
         if (!(a->path[k] > a->path[k - 1]))
-            return fault_set(f, STATUS_REFUSED, "analysis %d: its stations must ascend", i);
-    if ((a->kind == SCENE_STATIC || a->kind == SCENE_CONTINUATION || a->kind == SCENE_ROTATION) && a->stations < 1)
-        return fault_set(f, STATUS_REFUSED, "analysis %d: a path needs a station", i);
+            return fault_set(f, STATUS_REFUSED,
+                             "analysis %d: its stations must ascend; sort them, without repetition",
+                             i);
+    if ((a->kind == SCENE_STATIC || a->kind == SCENE_CONTINUATION || a->kind == SCENE_ROTATION) &&
+        a->stations < 1)
+        return fault_set(f, STATUS_REFUSED,
+                         "analysis %d: a path needs a station; give one at least", i);
     for (int k = 0; k < 3; k++)
         if (!isfinite(a->omega[k]) || !isfinite(a->omega_centre[k]))
-            return fault_set(f, STATUS_REFUSED, "analysis %d: its angular velocity is not a number", i);
+            return fault_set(f, STATUS_REFUSED,
+                             "analysis %d: its angular velocity is not a number; give finite "
+                             "components, and a finite point of its axis",
+                             i);
     if (a->kind == SCENE_CONTINUATION)
         return check_continuation(s, a, i, f);
     if (a->kind == SCENE_COMPLIANCE && (a->node < 0 || a->node >= s->nodes))
-        return fault_set(f, STATUS_REFUSED, "analysis %d: a compliance needs a node", i);
+        return fault_set(f, STATUS_REFUSED, "analysis %d: a compliance needs a node; name one", i);
     return STATUS_OK;
 }
 
@@ -175,19 +226,22 @@ static status check_quantity(const scene *s, int i, fault *f)
     const scene_quantity *q = &s->quantity[i];
     for (int k = 0; k < i; k++)
         if (strcmp(s->quantity[k].name, q->name) == 0)
-            return fault_set(f, STATUS_REFUSED, "quantity %s: two of that name", q->name);
+            return fault_set(f, STATUS_REFUSED, "quantity %s: two of that name; rename one",
+                             q->name);
     if (q->analysis < 0 || q->analysis >= s->analyses)
-        return fault_set(f, STATUS_REFUSED, "quantity %s: no such analysis", q->name);
+        return fault_set(f, STATUS_REFUSED, "quantity %s: no such analysis; add the analysis first",
+                         q->name);
     const int at_node = q->kind == SCENE_COORDINATE || q->kind == SCENE_REACTION;
     if (at_node && (q->node < 0 || q->node >= s->nodes || q->row < SCENE_UX || q->row > SCENE_RZ))
-        return fault_set(f, STATUS_REFUSED, "quantity %s: no such coordinate", q->name);
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: no such coordinate; name a node and UX to RZ", q->name);
     return STATUS_OK;
 }
 
 status scene_validate(const scene *s, fault *f)
 {
-    static status (*const check[])(const scene *, int, fault *) = {check_node, check_member,   check_driver,
-                                                                   check_load, check_analysis, check_quantity};
+    static status (*const check[])(const scene *, int, fault *) = {
+        check_node, check_member, check_driver, check_load, check_analysis, check_quantity};
     const int count[] = {s->nodes, s->members, s->drivers, s->loads, s->analyses, s->quantities};
     if (s->out_of_memory)
         return fault_set(f, STATUS_FAULT, "%s: out of memory while the scene was built", s->name);

@@ -1,5 +1,5 @@
-/* A straight cantilever of equal elements along x, solved with dense matrices: enough to compare one formulation with
- * numbers, independent of the harness.  Root clamped, warping fixed there. */
+/* A straight cantilever of equal elements along x, solved with dense matrices: enough to compare
+ * one formulation with numbers, independent of the harness.  Root clamped, warping fixed there. */
 #ifndef BEAMWORK_TEST_CHAIN_H
 #define BEAMWORK_TEST_CHAIN_H
 
@@ -10,9 +10,14 @@
 
 #include "elements/element.h"
 #include "elements/math/dense.h"
-#include "elements/math/rotation.h"
+#include "elements/test/nodes.h"
 
-enum { CHAIN_MAX_ELEMENTS = 40, CHAIN_MAX_NODES = 81, CHAIN_MAX_INNER = 128, CHAIN_MAX_MEMORY = 2048 };
+enum {
+    CHAIN_MAX_ELEMENTS = 40,
+    CHAIN_MAX_NODES = 81,
+    CHAIN_MAX_INNER = 128,
+    CHAIN_MAX_MEMORY = 2048
+};
 
 typedef struct chain {
     const element_type *type;
@@ -27,15 +32,16 @@ typedef struct chain {
         unsigned char bytes[1 << 16];
     } store;
     node_state x[CHAIN_MAX_NODES];
-    double e[CHAIN_MAX_ELEMENTS][ELEMENT_MAX_STRAINS], sigma[CHAIN_MAX_ELEMENTS][ELEMENT_MAX_STRAINS];
+    double e[CHAIN_MAX_ELEMENTS][ELEMENT_MAX_STRAINS],
+        sigma[CHAIN_MAX_ELEMENTS][ELEMENT_MAX_STRAINS];
     double inner[CHAIN_MAX_ELEMENTS][CHAIN_MAX_INNER];
 } chain;
 
 enum { CHAIN_MOST = ELEMENT_MAX_COORDINATES };
 
 /* 0, or -1 when the element refuses. */
-static int chain_start(chain *c, const element_type *type, const double option[], const section *s, double length, int elements,
-                       unsigned features)
+static int chain_start(chain *c, const element_type *type, const double option[], const section *s,
+                       double length, int elements, unsigned features)
 {
     fault f;
     memset(c, 0, sizeof *c);
@@ -50,16 +56,15 @@ static int chain_start(chain *c, const element_type *type, const double option[]
     c->strains = element_strains(type, c->options);
     c->coordinates = 7 * c->per_element;
     c->nodes = elements * (c->per_element - 1) + 1;
-    const element_request request = {.section = &c->section, .length = c->length, .features = features, .options = c->options};
+    const element_request request = {
+        .section = &c->section, .length = c->length, .features = features, .options = c->options};
     gsl_test(type->data_size(&request) > sizeof c->store || c->nodes > CHAIN_MAX_NODES ||
-                 element_inner(type, c->options) > CHAIN_MAX_INNER || element_memory(type, c->options) > CHAIN_MAX_MEMORY,
+                 element_inner(type, c->options) > CHAIN_MAX_INNER ||
+                 element_memory(type, c->options) > CHAIN_MAX_MEMORY,
              "%s: fits into the test's arrays", type->name);
     if (type->prepare(&request, (element_data *)c->store.bytes, &f) != STATUS_OK)
         return -1;
-    for (int i = 0; i < c->nodes; i++) {
-        c->x[i].r[0] = length * i / (c->nodes - 1);
-        c->x[i].R[0] = c->x[i].R[4] = c->x[i].R[8] = 1;
-    }
+    nodes_straight(c->nodes, length, c->x);
     for (int i = 0; i < elements && type->rest != NULL; i++)
         type->rest((element_data *)c->store.bytes, c->inner[i]);
     return 0;
@@ -70,33 +75,24 @@ static const element_data *chain_data(const chain *c)
     return (const element_data *)c->store.bytes;
 }
 
-static void chain_turn(node_state *x, const double step[7])
-{
-    double q[4], R[9], old[9];
-    for (int i = 0; i < 3; i++) {
-        x->r[i] += step[i];
-        x->u[i] += step[i];
-    }
-    rotation_exp(step + 3, q);
-    rotation_matrix(q, R);
-    memcpy(old, x->R, sizeof old);
-    mat3_mul(R, old, x->R);
-    x->a += step[6];
-}
-
 typedef struct chain_linearised {
-    double J[ELEMENT_MAX_STRAINS * CHAIN_MOST], C[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS], sigma[ELEMENT_MAX_STRAINS],
-        gap[ELEMENT_MAX_STRAINS], memory[CHAIN_MAX_MEMORY];
+    double J[ELEMENT_MAX_STRAINS * CHAIN_MOST], C[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS],
+        sigma[ELEMENT_MAX_STRAINS], gap[ELEMENT_MAX_STRAINS], memory[CHAIN_MAX_MEMORY];
 } chain_linearised;
 
 /* Tangent and force of element i. */
-static void chain_linearise(const chain *c, int i, chain_linearised *w, double K[], double force[], int *failures)
+static void chain_linearise(const chain *c, int i, chain_linearised *w, double K[], double force[],
+                            int *failures)
 {
     const int n = c->strains, m = c->coordinates;
-    double e[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS], work[ELEMENT_MAX_STRAINS * CHAIN_MOST];
-    c->type->strain(chain_data(c), &c->x[i * (c->per_element - 1)], &(strain_output){.e = e, .J = w->J, .s = c->sigma[i], .H = K});
-    *failures += c->type->stress(chain_data(c), c->e[i], c->inner[i],
-                                 &(stress_output){.sigma = w->sigma, .C = w->C, .memory = w->memory}) != STATUS_OK;
+    double e[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS],
+        work[ELEMENT_MAX_STRAINS * CHAIN_MOST];
+    c->type->strain(chain_data(c), &c->x[i * (c->per_element - 1)],
+                    &(strain_output){.e = e, .J = w->J, .s = c->sigma[i], .H = K});
+    *failures +=
+        c->type->stress(chain_data(c), c->e[i], c->inner[i],
+                        &(stress_output){.sigma = w->sigma, .C = w->C, .memory = w->memory}) !=
+        STATUS_OK;
     for (int k = 0; k < n; k++)
         w->gap[k] = e[k] - c->e[i][k];
     dense_mul_vec(n, n, w->C, w->gap, more);
@@ -108,7 +104,8 @@ static void chain_linearise(const chain *c, int i, chain_linearised *w, double K
 }
 
 /* Everything but the root's coordinates: K [n x n], residual force [n]. */
-static void chain_assemble(const chain *c, chain_linearised *w, double *K, double *force, int *failures)
+static void chain_assemble(const chain *c, chain_linearised *w, double *K, double *force,
+                           int *failures)
 {
     const int n = 7 * (c->nodes - 1), m = c->coordinates;
     memset(K, 0, (size_t)(n * n) * sizeof *K);
@@ -148,16 +145,17 @@ static void chain_advance(chain *c, chain_linearised *w, const double dx[])
         if (c->type->update != NULL)
             c->type->update(chain_data(c), de, w[e].memory, c->inner[e]);
     }
-    for (int i = 1; i < c->nodes; i++)
-        chain_turn(&c->x[i], &dx[7 * (i - 1)]);
+    nodes_move(c->nodes - 1, 1, dx, c->x + 1);
 }
 
-/* Mixed Newton (N section 4): tip held coordinates move by `step` [7], dead load [7] on the others (moment about fixed axes).
- * Returns the size of the last correction, INFINITY when an element or the tangent failed. */
+/* Mixed Newton (N section 4): tip held coordinates move by `step` [7], dead load [7] on the others
+ * (moment about fixed axes). Returns the size of the last correction, INFINITY when an element or
+ * the tangent failed. */
 static double chain_solve(chain *c, const double step[7], const double load[7])
 {
     const int n = 7 * (c->nodes - 1), tip = n - 7;
-    double *K = malloc((size_t)(n * n) * sizeof *K), *force = malloc((size_t)n * sizeof *force), size = 1;
+    double *K = malloc((size_t)(n * n) * sizeof *K), *force = malloc((size_t)n * sizeof *force),
+           size = 1;
     chain_linearised *w = malloc((size_t)c->elements * sizeof *w);
     int pivot[7 * CHAIN_MAX_NODES], failures = 0;
     for (c->iterations = 0; c->iterations < 40 && size > 1e-11; c->iterations++) {
@@ -180,7 +178,8 @@ static double chain_solve(chain *c, const double step[7], const double load[7])
         chain_advance(c, w, force);
         size = 0;
         for (int i = 0; i < n; i++) {
-            const double length = c->length * c->elements, scale[7] = {length, length, length, 1, 1, 1, 1 / length};
+            const double length = c->length * c->elements,
+                         scale[7] = {length, length, length, 1, 1, 1, 1 / length};
             size = fmax(size, fabs(force[i]) / scale[i % 7]);
         }
     }

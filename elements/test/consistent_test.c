@@ -1,5 +1,6 @@
-/* beamw_consistent: uniform strains of any size, derivatives at large turns, and to second order the same element as J Eq. 66
- * without shear and as the sheet element that is consistent with shear. */
+/* beamw_consistent: uniform strains of any size, derivatives at large turns, and to second order
+ * the same element as J Eq. 66 without shear and as the sheet element that is consistent with
+ * shear. */
 #include "elements/test/pair.h"
 
 extern const element_type element_beamw, element_beamw_consistent, element_sheet_second_consistent;
@@ -21,10 +22,12 @@ static void modified(const subject *s, const node_state x[2], double ebar[STRAIN
     }
 }
 
-/* Local coordinates of size `small`, after a turn of the whole; the elongation of its square (N counts it so). */
+/* Local coordinates of size `small`, after a turn of the whole; the elongation of its square (N
+ * counts it so). */
 static void state(double l0, double small, int planar, node_state x[2])
 {
-    static const double turn[2][3] = {{0.31, -0.62, 0.47}, {-0.55, 0.83, 0.29}}, whole[3] = {0.4, -1.1, 0.7};
+    static const double turn[2][3] = {{0.31, -0.62, 0.47}, {-0.55, 0.83, 0.29}},
+                        whole[3] = {0.4, -1.1, 0.7};
     double d[N] = {0}, q[4];
     for (int node = 0; node < 2; node++)
         for (int i = 0; i < 3; i++)
@@ -32,19 +35,22 @@ static void state(double l0, double small, int planar, node_state x[2])
     d[6] = small * 3.7;
     d[13] = small * -5.9;
     d[7] = 0.37 * l0 * small * small;
-    place(l0, d, x);
+    nodes_place(2, l0, d, x);
     rotation_exp(whole, q);
     for (int node = 0; node < 2; node++) {
-        const double initial[3] = {x[node].r[0] - x[node].u[0], x[node].r[1] - x[node].u[1], x[node].r[2] - x[node].u[2]};
+        const double initial[3] = {x[node].r[0] - x[node].u[0], x[node].r[1] - x[node].u[1],
+                                   x[node].r[2] - x[node].u[2]};
         rotation_apply(q, x[node].r, x[node].r);
-        mul_turn(x[node].R, whole);
+        nodes_turn(x[node].R, whole);
         for (int i = 0; i < 3; i++)
             x[node].u[i] = x[node].r[i] - initial[i];
     }
 }
 
-/* The difference of two elements' strains falls by eight when the state is halved: equal to second order. */
-static void equal_to_second_order(const char *what, const subject *a, const subject *b, double l0, int planar, int strains)
+/* The difference of two elements' strains falls by eight when the state is halved: equal to second
+ * order. */
+static void equal_to_second_order(const char *what, const subject *a, const subject *b, double l0,
+                                  int planar, int strains)
 {
     for (int k = 0; k < strains; k++) {
         double difference[2], largest = 0;
@@ -59,9 +65,10 @@ static void equal_to_second_order(const char *what, const subject *a, const subj
                 largest = fabs(one[k]) / l0;
         }
         const double third = 1e-6; /* small^3 */
-        gsl_test(!(difference[0] < 2 * third && (difference[0] < 1e-15 || difference[1] < difference[0] / 7)),
-                 "%s: strain %d (%.2e l0) differs by %.2e, with half the size by %.2e", what, k + 1, largest, difference[0],
-                 difference[1]);
+        gsl_test(!(difference[0] < 2 * third &&
+                   (difference[0] < 1e-15 || difference[1] < difference[0] / 7)),
+                 "%s: strain %d (%.2e l0) differs by %.2e, with half the size by %.2e", what, k + 1,
+                 largest, difference[0], difference[1]);
     }
 }
 
@@ -70,16 +77,19 @@ static void same_element(void)
     const double l0 = 0.1;
     const section c = sheet();
     subject consistent, other;
-    const unsigned uniform = FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_TRAPEZE, warped = uniform | FEATURE_WARPING;
+    const unsigned uniform = FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_TRAPEZE,
+                   warped = uniform | FEATURE_WARPING;
     start(&consistent, &element_beamw_consistent, &c, l0, uniform);
     start(&other, &element_sheet_second_consistent, &c, l0, uniform);
     equal_to_second_order("sheet_second_consistent", &consistent, &other, l0, 0, 6);
-    /* N's e7 and e8 contain int phi_y' phi_z, which only bending in one plane leaves zero (reference/ERRATA.md, N 37). */
+    /* N's e7 and e8 contain int phi_y' phi_z, which only bending in one plane leaves zero
+     * (reference/ERRATA.md, N 37). */
     start(&consistent, &element_beamw_consistent, &c, l0, warped);
     start(&other, &element_sheet_second_consistent, &c, l0, warped);
     equal_to_second_order("sheet_second_consistent, warping", &consistent, &other, l0, 1, STRAINS);
     for (int haringx = 0; haringx < 2; haringx++) {
-        const unsigned rigid = FEATURE_TRAPEZE | FEATURE_WARPING | (haringx ? FEATURE_HARINGX : FEATURE_ENGESSER);
+        const unsigned rigid =
+            FEATURE_TRAPEZE | FEATURE_WARPING | (haringx ? FEATURE_HARINGX : FEATURE_ENGESSER);
         start(&consistent, &element_beamw_consistent, &c, l0, rigid);
         start(&other, &element_beamw, &c, l0, rigid);
         equal_to_second_order("J Eq. 66 without shear", &consistent, &other, l0, 0, STRAINS);
@@ -89,14 +99,16 @@ static void same_element(void)
 /* A helix with extension and shear: e = (gamma, kappa) times lengths, whatever their size. */
 static void uniform_strains(double size)
 {
-    const double l0 = 1.7, gamma[3] = {0.11 * size, -0.23 * size, 0.31 * size}, psi[3] = {0.5 * size, -0.9 * size, 0.7 * size};
+    const double l0 = 1.7, gamma[3] = {0.11 * size, -0.23 * size, 0.31 * size},
+                 psi[3] = {0.5 * size, -0.9 * size, 0.7 * size};
     const section c = sheet();
     subject s;
     start(&s, &element_beamw_consistent, &c, l0, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_WARPING);
     /* r = int exp(x psi~) (e_x + gamma) l0 dx, closed form of the exponential's integral */
     const double U[3] = {l0 * (1 + gamma[0]), l0 * gamma[1], l0 * gamma[2]}, t = vec3_norm(psi);
     const double half = sin(t / 2), second = 2 * half * half / (t * t);
-    const double third = t < 0.1 ? 1 / 6.0 - t * t / 120 + t * t * t * t / 5040 : (t - sin(t)) / (t * t * t);
+    const double third =
+        t < 0.1 ? 1 / 6.0 - t * t / 120 + t * t * t * t / 5040 : (t - sin(t)) / (t * t * t);
     double once[3], twice[3], d[N] = {0}, e[STRAINS];
     node_state x[2];
     vec3_cross(psi, U, once);
@@ -107,7 +119,7 @@ static void uniform_strains(double size)
     }
     d[6] = 0.3;
     d[13] = -0.2;
-    place(l0, d, x);
+    nodes_place(2, l0, d, x);
     s.type->strain(data_of(&s), x, &(strain_output){.e = e});
     const double expected[STRAINS] = {l0 * gamma[0],
                                       l0 * psi[0],
@@ -121,75 +133,59 @@ static void uniform_strains(double size)
         gsl_test_abs(e[k], expected[k], 1e-14 * l0, "uniform strains, turn %.2f: e%d", t, k + 1);
 }
 
-/* Pure bending by less than half a turn: no work but that of bending, so any number of elements rolls up exactly. */
+/* Pure bending by less than half a turn: no work but that of bending, so any number of elements
+ * rolls up exactly. */
 static void pure_bending(void)
 {
     const double l0 = 1.3, turn = 2.9;
     const section c = sheet();
     subject s;
-    start(&s, &element_beamw_consistent, &c, l0, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_WARPING | FEATURE_TRAPEZE);
+    start(&s, &element_beamw_consistent, &c, l0,
+          FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_WARPING | FEATURE_TRAPEZE);
     double d[N] = {0}, e[STRAINS], energy;
     node_state x[2];
     d[7] = l0 * (sin(turn) / turn - 1);
     d[8] = l0 * (1 - cos(turn)) / turn;
     d[12] = turn;
-    place(l0, d, x);
+    nodes_place(2, l0, d, x);
     s.type->strain(data_of(&s), x, &(strain_output){.e = e});
     s.type->stress(data_of(&s), e, NULL, &(stress_output){.energy = &energy});
-    gsl_test_rel(energy, c.young * c.Iz * turn * turn / (2 * l0), 1e-12, "pure bending by %.1f", turn);
+    gsl_test_rel(energy, c.young * c.Iz * turn * turn / (2 * l0), 1e-12, "pure bending by %.1f",
+                 turn);
 }
 
-/* s . e along a path of constant velocities: its slopes are s . J v and v . H v. */
+/* Gradient and second derivatives at nodes that are far apart and far turned. */
 static void derivatives(double size)
 {
-    const double l0 = 1.7, s[STRAINS] = {0.7, -1.1, 0.4, 0.9, -0.3, 1.3, 0.2, -0.5}, h = 1e-3;
+    static const double s[STRAINS] = {0.7, -1.1, 0.4, 0.9, -0.3, 1.3, 0.2, -0.5};
+    static const double v[N] = {0.3,  -0.7, 0.2, 0.5,  -0.4, 0.8, 1.1,
+                                -0.6, 0.1,  0.9, -0.2, 0.6,  0.3, -0.8};
+    static const double there[N] = {0,    0,   0,    0.1, -0.2, 0.3, 0.1,
+                                    -0.4, 0.7, -0.3, 1.2, -0.9, 1.4, 0.2};
+    const double l0 = 1.7;
     const section c = sheet();
     subject of;
-    start(&of, &element_beamw_consistent, &c, l0, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_WARPING);
-    static const double v[N] = {0.3, -0.7, 0.2, 0.5, -0.4, 0.8, 1.1, -0.6, 0.1, 0.9, -0.2, 0.6, 0.3, -0.8};
-    static const double there[N] = {0, 0, 0, 0.1, -0.2, 0.3, 0.1, -0.4, 0.7, -0.3, 1.2, -0.9, 1.4, 0.2};
-    double value[5], J[STRAINS * N], H[N * N], e[STRAINS], d[N], first = 0, second = 0;
-    node_state x[2], moved[2];
+    double d[N];
+    node_state x[2];
+    start(&of, &element_beamw_consistent, &c, l0,
+          FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_WARPING);
     for (int i = 0; i < N; i++)
         d[i] = size * there[i];
-    place(l0, d, x);
-    for (int k = -2; k <= 2; k++) {
-        memcpy(moved, x, sizeof moved);
-        for (int node = 0; node < 2; node++) {
-            const double *rate = v + 7 * node, turn[3] = {k * h * rate[3], k * h * rate[4], k * h * rate[5]};
-            mul_turn(moved[node].R, turn);
-            moved[node].a += k * h * rate[6];
-            for (int i = 0; i < 3; i++) {
-                moved[node].r[i] += k * h * rate[i];
-                moved[node].u[i] += k * h * rate[i];
-            }
-        }
-        of.type->strain(data_of(&of), moved, &(strain_output){.e = e});
-        value[k + 2] = 0;
-        for (int i = 0; i < STRAINS; i++)
-            value[k + 2] += s[i] * e[i];
-    }
-    of.type->strain(data_of(&of), x, &(strain_output){.J = J, .s = s, .H = H});
-    for (int i = 0; i < N; i++) {
-        for (int k = 0; k < STRAINS; k++)
-            first += s[k] * J[N * k + i] * v[i];
-        for (int j = 0; j < N; j++)
-            second += v[i] * H[N * i + j] * v[j];
-    }
-    gsl_test_abs((8 * (value[3] - value[1]) - value[4] + value[0]) / (12 * h), first, 1e-9 * fabs(first) + 1e-9, "J at size %g",
-                 size);
-    gsl_test_abs((16 * (value[3] + value[1]) - value[4] - value[0] - 30 * value[2]) / (12 * h * h), second, 1e-7 * fabs(second),
-                 "H at size %g", size);
+    nodes_place(2, l0, d, x);
+    const nodes_departure found = nodes_differences(of.type, data_of(&of), 2, STRAINS, x, v, s);
+    gsl_test(!(found.first < 1e-10), "J at size %g (%.1e)", size, found.first);
+    gsl_test(!(found.second < 1e-10), "H at size %g (%.1e)", size, found.second);
 }
 
-/* An inside that follows the stress has less energy, by terms of fourth order: sixteen times less when the state is halved. */
+/* An inside that follows the stress has less energy, by terms of fourth order: sixteen times less
+ * when the state is halved. */
 static void inside_follows(void)
 {
     const double l0 = 0.1;
     const section c = sheet();
     for (int haringx = 0; haringx < 2; haringx++) {
-        const unsigned features =
-            FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WARPING | (haringx ? FEATURE_HARINGX : FEATURE_ENGESSER);
+        const unsigned features = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WARPING |
+                                  (haringx ? FEATURE_HARINGX : FEATURE_ENGESSER);
         double gain[2];
         for (int halved = 0; halved < 2; halved++) {
             node_state x[2];
@@ -199,13 +195,15 @@ static void inside_follows(void)
                 subject s;
                 start_with(&s, &element_beamw_consistent, &c, l0, features, "inside", following);
                 s.type->strain(data_of(&s), x, &(strain_output){.e = e});
-                gsl_test(s.type->stress(data_of(&s), e, NULL, &(stress_output){.energy = &energy[following]}) != STATUS_OK,
+                gsl_test(s.type->stress(data_of(&s), e, NULL,
+                                        &(stress_output){.energy = &energy[following]}) !=
+                             STATUS_OK,
                          "inside: evaluated");
             }
             gain[halved] = (energy[0] - energy[1]) / energy[0];
         }
-        gsl_test(!(gain[0] > 1e-7 && fabs(gain[0] / gain[1] - 4) < 0.2), "inside that follows: %.2e of the energy, %.2e halved",
-                 gain[0], gain[1]);
+        gsl_test(!(gain[0] > 1e-7 && fabs(gain[0] / gain[1] - 4) < 0.2),
+                 "inside that follows: %.2e of the energy, %.2e halved", gain[0], gain[1]);
     }
 }
 

@@ -4,16 +4,11 @@
 #include <string.h>
 
 #include "elements/test/chain.h"
+#include "elements/test/worst.h"
 
 extern const element_type element_geometrically_exact, element_collocation;
 
 enum { MOST = ELEMENT_MAX_COORDINATES, STRAINS = ELEMENT_MAX_STRAINS };
-
-static double random_number(unsigned long long *seed)
-{
-    *seed = *seed * 6364136223846793005ull + 1442695040888963407ull;
-    return (double)(*seed >> 11) / 9007199254740992.0 - 0.5;
-}
 
 static section steel(double width, double height)
 {
@@ -45,71 +40,35 @@ static section products(double EA, double GA, double GJ, double EI)
     return c;
 }
 
-/* Derivative of e along a path of constant spatial increments, by central differences of fourth order. */
-static void differences(const chain *c, const double d[], double first[STRAINS], double *second, const double weight[])
-{
-    static const double at[4] = {-2, -1, 1, 2}, factor[4] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};
-    const double h = 2e-3;
-    memset(first, 0, STRAINS * sizeof *first);
-    *second = 0;
-    for (int t = 0; t < 4; t++) {
-        double e[STRAINS], J[STRAINS * MOST], along[STRAINS], step[MOST];
-        node_state x[ELEMENT_MAX_NODES];
-        memcpy(x, c->x, sizeof x);
-        for (int i = 0; i < c->coordinates; i++)
-            step[i] = at[t] * h * d[i];
-        for (int k = 0; k < c->per_element; k++)
-            chain_turn(&x[k], &step[7 * k]);
-        c->type->strain(chain_data(c), x, &(strain_output){.e = e, .J = J});
-        dense_mul_vec(c->strains, c->coordinates, J, d, along);
-        for (int i = 0; i < c->strains; i++) {
-            first[i] += factor[t] * e[i] / h;
-            *second += factor[t] * weight[i] * along[i] / h;
-        }
-    }
-}
-
 /* J and H of one element whose nodes are turned by up to `size` radians and differ by as much. */
 static void derivatives(const element_type *type, const double option[], double size)
 {
     chain c;
-    unsigned long long seed = 91;
-    double J[STRAINS * MOST], H[MOST * MOST], weight[STRAINS], worst_J = 0, worst_H = 0, asymmetry = 0;
+    double d[MOST], weight[STRAINS], asymmetry = 0;
+    nodes_departure worst = {0, 0, 0};
     const section s = steel(0.1, 0.00225);
     chain_start(&c, type, option, &s, 0.1, 1, FEATURE_SHEAR | FEATURE_WARPING);
-    for (int k = 0; k < c.per_element; k++) {
-        double step[7];
-        for (int i = 0; i < 7; i++)
-            step[i] = size * random_number(&seed) * (i < 3 ? 0.1 : i < 6 ? 1 : 10);
-        chain_turn(&c.x[k], step);
-    }
+    nodes_increments(c.per_element, 0.1, size, 91, d);
+    nodes_move(c.per_element, 1, d, c.x);
     for (int i = 0; i < c.strains; i++)
         weight[i] = cos(3.7 * i + 0.3);
-    c.type->strain(chain_data(&c), c.x, &(strain_output){.J = J, .s = weight, .H = H});
-    for (int trial = 0; trial < 8; trial++) {
-        double d[MOST], first[STRAINS], along[STRAINS], second, exact = 0, scale = 0;
-        for (int i = 0; i < c.coordinates; i++)
-            d[i] = random_number(&seed) * (i % 7 < 3 ? 0.1 : i % 7 < 6 ? 1 : 10);
-        differences(&c, d, first, &second, weight);
-        dense_mul_vec(c.strains, c.coordinates, J, d, along);
-        for (int i = 0; i < c.strains; i++)
-            scale = fmax(scale, fabs(along[i]));
-        for (int i = 0; i < c.strains; i++)
-            worst_J = fmax(worst_J, fabs(first[i] - along[i]) / scale);
-        for (int i = 0; i < c.coordinates; i++)
-            for (int j = 0; j < c.coordinates; j++) {
-                exact += d[i] * H[i * c.coordinates + j] * d[j];
-                asymmetry = fmax(asymmetry, fabs(H[i * c.coordinates + j] - H[j * c.coordinates + i]));
-            }
-        worst_H = fmax(worst_H, fabs(second - exact) / scale);
+    for (unsigned seed = 1; seed <= 8; seed++) {
+        nodes_increments(c.per_element, 0.1, 1, seed, d);
+        const nodes_departure found =
+            nodes_differences(type, chain_data(&c), c.per_element, c.strains, c.x, d, weight);
+        worst.first = worst_of(worst.first, found.first);
+        worst.second = worst_of(worst.second, found.second);
+        asymmetry = found.asymmetry;
     }
-    gsl_test(!(worst_J < 1e-11), "%s: J at %g rad (%.1e)", type->name, size, worst_J);
-    gsl_test(!(worst_H < 1e-11), "%s: H at %g rad (%.1e)", type->name, size, worst_H);
+    gsl_test(!(worst.first < 1e-11), "%s: J at %g rad (%.1e)", type->name, size, worst.first);
+    gsl_test(!(worst.second < 1e-11), "%s: H at %g rad (%.1e)", type->name, size, worst.second);
     gsl_test(!(asymmetry < 1e-15), "%s: H is symmetric (%.1e)", type->name, asymmetry);
 }
 
-/* Simo-Reissner cantilever, L = 1, EI = 10, dead transverse force 10 at the tip: tip displacement [2]. */
-static void shear_elastica(const element_type *type, const double option[], double GA, int n, double u[2])
+/* Simo-Reissner cantilever, L = 1, EI = 10, dead transverse force 10 at the tip: tip displacement
+ * [2]. */
+static void shear_elastica(const element_type *type, const double option[], double GA, int n,
+                           double u[2])
 {
     chain c;
     const section s = products(1e9, GA, 10, 10);
@@ -117,36 +76,45 @@ static void shear_elastica(const element_type *type, const double option[], doub
     const double none[7] = {0};
     for (int i = 1; i <= 4; i++) {
         const double load[7] = {0, 2.5 * i};
-        gsl_test(!(chain_solve(&c, none, load) < 1e-10), "%s: shear_elastica converges", type->name);
+        gsl_test(!(chain_solve(&c, none, load) < 1e-10), "%s: shear_elastica converges",
+                 type->name);
     }
     u[0] = c.x[c.nodes - 1].u[0];
     u[1] = c.x[c.nodes - 1].u[1];
 }
 
 /* Error of the last mesh and order from the last two. */
-static void judge(const element_type *type, const char *what, const double value[2], double exact, double error, double order)
+static void judge(const element_type *type, const char *what, const double value[2], double exact,
+                  double error, double order)
 {
-    const double before = fabs(value[0] / exact - 1), now = fabs(value[1] / exact - 1), observed = log2(before / now);
+    const double before = fabs(value[0] / exact - 1), now = fabs(value[1] / exact - 1),
+                 observed = log2(before / now);
     gsl_test(!(now <= error), "%s: %s: error %.2e", type->name, what, now);
     gsl_test(!(observed > order), "%s: %s: order %.2f", type->name, what, observed);
 }
 
-static void shear_elastica_converges(const element_type *type, const double option[], int n, double error, double order)
+static void shear_elastica_converges(const element_type *type, const double option[], int n,
+                                     double error, double order)
 {
     double coarse[2], fine[2];
     shear_elastica(type, option, 500, n, coarse);
     shear_elastica(type, option, 500, 2 * n, fine);
-    judge(type, "shear_elastica u", (const double[2]){coarse[0], fine[0]}, -0.061315655943, error, order);
-    judge(type, "shear_elastica v", (const double[2]){coarse[1], fine[1]}, 0.317813875879, error, order);
+    judge(type, "shear_elastica u", (const double[2]){coarse[0], fine[0]}, -0.061315655943, error,
+          order);
+    judge(type, "shear_elastica v", (const double[2]){coarse[1], fine[1]}, 0.317813875879, error,
+          order);
 }
 
 /* Sheet flexure of N section 4.1: tip moved across, not turned, warping fixed at both ends. */
-static void sheet(const element_type *type, const double option[], int n, double deflection, double C[2])
+static void sheet(const element_type *type, const double option[], int n, double deflection,
+                  double C[2])
 {
     chain c;
     double compliance[36];
     const section s = steel(0.1, 0.00225);
-    chain_start(&c, type, option, &s, 0.1, n, FEATURE_SHEAR | FEATURE_WARPING | FEATURE_TRAPEZE | FEATURE_HARINGX | FEATURE_LARGE);
+    chain_start(&c, type, option, &s, 0.1, n,
+                FEATURE_SHEAR | FEATURE_WARPING | FEATURE_TRAPEZE | FEATURE_HARINGX |
+                    FEATURE_LARGE);
     c.held[1] = c.held[5] = c.held[6] = 1;
     const double none[7] = {0}, step[7] = {0, deflection / 5};
     for (int i = 1; i <= 5; i++)
@@ -156,7 +124,8 @@ static void sheet(const element_type *type, const double option[], int n, double
     C[1] = compliance[14];
 }
 
-static void sheet_converges(const element_type *type, const double option[], int n, double error, double order)
+static void sheet_converges(const element_type *type, const double option[], int n, double error,
+                            double order)
 {
     double coarse[2], fine[2];
     sheet(type, option, n, 0.015, coarse);
@@ -180,13 +149,15 @@ static double roll_up(const element_type *type, const double option[], int n)
 }
 
 /* One element against the exact beam: errors of C_xx and C_zz. */
-static void one_element(const element_type *type, double stages, double deflection, const double exact[2], const double error[2])
+static void one_element(const element_type *type, double stages, double deflection,
+                        const double exact[2], const double error[2])
 {
     double C[2];
     sheet(type, &stages, 1, deflection, C);
     for (int i = 0; i < 2; i++)
-        gsl_test(!(fabs(C[i] / exact[i] - 1) <= error[i]), "%s: %s of one sheet with %g stages moved by %g m: error %.2e",
-                 type->name, i == 0 ? "C_xx" : "C_zz", stages + 3, deflection, C[i] / exact[i] - 1);
+        gsl_test(!(fabs(C[i] / exact[i] - 1) <= error[i]),
+                 "%s: %s of one sheet with %g stages moved by %g m: error %.2e", type->name,
+                 i == 0 ? "C_xx" : "C_zz", stages + 3, deflection, C[i] / exact[i] - 1);
 }
 
 static void geometrically_exact(void)
@@ -202,17 +173,19 @@ static void geometrically_exact(void)
     shear_elastica_converges(type, three, 4, 8e-6, 3.9);
     sheet_converges(type, two, 16, 2e-3, 1.95);
     sheet_converges(type, three, 4, 5e-4, 3.8);
-    const double closed = roll_up(type, two, 6), circle[2] = {roll_up(type, three, 4), roll_up(type, three, 8)};
+    const double closed = roll_up(type, two, 6),
+                 circle[2] = {roll_up(type, three, 4), roll_up(type, three, 8)};
     gsl_test(!(closed < 1e-13), "%s: regular polygons close (%.1e)", type->name, closed);
-    gsl_test(!(circle[1] < 2e-4 && circle[0] / circle[1] > 15), "%s: three nodes close the circle (%.1e, %.1e)", type->name,
-             circle[0], circle[1]);
+    gsl_test(!(circle[1] < 2e-4 && circle[0] / circle[1] > 15),
+             "%s: three nodes close the circle (%.1e, %.1e)", type->name, circle[0], circle[1]);
 }
 
 static void collocation(void)
 {
     const element_type *type = &element_collocation;
     const double three[1] = {0}, four[1] = {1}, five[1] = {2};
-    const double small[2] = {3.972596107351e-7, 2.620413704209e-8}, large[2] = {1.832361796194e-6, 1.287708251249e-7};
+    const double small[2] = {3.972596107351e-7, 2.620413704209e-8},
+                 large[2] = {1.832361796194e-6, 1.287708251249e-7};
     derivatives(type, five, 0.4);
     shear_elastica_converges(type, three, 4, 2e-9, 5.7);
     sheet_converges(type, three, 4, 8e-7, 6);
@@ -224,8 +197,9 @@ static void collocation(void)
     one_element(type, 2, 0.05, large, (const double[2]){2.8e-4, 2.5e-4});
     one_element(type, 5, 0.05, large, (const double[2]){3.6e-7, 2.7e-6});
     const double circle[2] = {roll_up(type, five, 2), roll_up(type, five, 4)};
-    gsl_test(!(circle[1] < 1e-10 && circle[0] / circle[1] > 900), "%s: two and four elements close the circle (%.1e, %.1e)",
-             type->name, circle[0], circle[1]);
+    gsl_test(!(circle[1] < 1e-10 && circle[0] / circle[1] > 900),
+             "%s: two and four elements close the circle (%.1e, %.1e)", type->name, circle[0],
+             circle[1]);
 }
 
 int main(void)

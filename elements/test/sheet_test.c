@@ -7,11 +7,13 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/sheet/strains.h"
+#include "elements/test/nodes.h"
 
-extern const element_type element_sheet_second, element_sheet_second_consistent, element_sheet_third, element_sheet_third_printed;
+extern const element_type element_sheet_second, element_sheet_second_consistent,
+    element_sheet_third, element_sheet_third_printed;
 
-static const element_type *const types[] = {&element_sheet_second, &element_sheet_second_consistent, &element_sheet_third,
-                                            &element_sheet_third_printed};
+static const element_type *const types[] = {&element_sheet_second, &element_sheet_second_consistent,
+                                            &element_sheet_third, &element_sheet_third_printed};
 enum { TYPES = sizeof types / sizeof types[0], N = 8, NODAL = 14 };
 
 static section sheet_of(double width, double thickness)
@@ -27,11 +29,13 @@ static section sheet_of(double width, double thickness)
     spec.width = width;
     spec.height = thickness;
     spec.shear_factor[0] = spec.shear_factor[1] = 0.853;
-    gsl_test(section_compute(&spec, &c, &f) != STATUS_OK, "section of a sheet %g x %g", width, thickness);
+    gsl_test(section_compute(&spec, &c, &f) != STATUS_OK, "section of a sheet %g x %g", width,
+             thickness);
     return c;
 }
 
-static element_data *prepare(const element_type *type, const section *c, double length, unsigned features, const double k[3])
+static element_data *prepare(const element_type *type, const section *c, double length,
+                             unsigned features, const double k[3])
 {
     element_request request = {.section = c, .length = length, .features = features};
     fault f;
@@ -52,13 +56,17 @@ static double scaled_difference(int n, const double a[], const double b[])
     return worst / largest;
 }
 
-/* N Eq. 37, word for word but for the last term of e1, where L^2 must be L: a length is expected. */
+/* N Eq. 37, word for word but for the last term of e1, where L^2 must be L: a length is
+ * expected. */
 static void printed_strains(double L, double Ite, const double q[N], double e[N])
 {
-    const double u = q[LOCAL_U], px = q[LOCAL_PX], yp = q[LOCAL_YP], yq = q[LOCAL_YQ], zp = q[LOCAL_ZP], zq = q[LOCAL_ZQ],
-                 Wp = q[LOCAL_WP], Wq = q[LOCAL_WQ], L2 = L * L, turn = L * (yp + yq) * (zp - zq) / 2;
-    e[0] = u + L * (2 * yp * yp + 2 * yq * yq + 2 * zp * zp + 2 * zq * zq) / 30 + L * (-yp * yq - zp * zq) / 30 +
-           Ite * (18 * px * px - 3 * L * px * (Wp + Wq)) / (30 * L) + Ite * L * (2 * Wp * Wp - Wp * Wq + 2 * Wq * Wq) / 30;
+    const double u = q[LOCAL_U], px = q[LOCAL_PX], yp = q[LOCAL_YP], yq = q[LOCAL_YQ],
+                 zp = q[LOCAL_ZP], zq = q[LOCAL_ZQ], Wp = q[LOCAL_WP], Wq = q[LOCAL_WQ], L2 = L * L,
+                 turn = L * (yp + yq) * (zp - zq) / 2;
+    e[0] = u + L * (2 * yp * yp + 2 * yq * yq + 2 * zp * zp + 2 * zq * zq) / 30 +
+           L * (-yp * yq - zp * zq) / 30 +
+           Ite * (18 * px * px - 3 * L * px * (Wp + Wq)) / (30 * L) +
+           Ite * L * (2 * Wp * Wp - Wp * Wq + 2 * Wq * Wq) / 30;
     e[1] = L * px - turn;
     e[2] = -L * yp - L * px * (zp - 2 * zq) / 10 - L2 * Wp * zp / 10 + L2 * Wq * (zp - zq) / 30;
     e[3] = L * yq + L * px * (2 * zp + 9 * zq) / 10 + L2 * Wp * (zq - zp) / 30 - L2 * Wq * zq / 10;
@@ -70,9 +78,11 @@ static void printed_strains(double L, double Ite, const double q[N], double e[N]
 
 static void printed_equation(void)
 {
-    const double L = 0.1873, q[N] = {2.385e-3, 0.317, -0.0419, 0.0573, 0.1931, -0.0871, 1.371, -0.713};
+    const double L = 0.1873,
+                 q[N] = {2.385e-3, 0.317, -0.0419, 0.0573, 0.1931, -0.0871, 1.371, -0.713};
     const section c = sheet_of(0.0912, 0.00217);
-    const element_request request = {.section = &c, .length = L, .features = FEATURE_WARPING | FEATURE_TRAPEZE};
+    const element_request request = {
+        .section = &c, .length = L, .features = FEATURE_WARPING | FEATURE_TRAPEZE};
     strains_table table;
     double e[N], printed[N];
     gsl_test(strains_prepare(&request, 0, 0, &table, NULL) != STATUS_OK, "strains are integrated");
@@ -111,62 +121,27 @@ static void strained(double L, node_state x[2])
     }
 }
 
-static void move(const node_state from[2], const double d[NODAL], double t, node_state to[2])
-{
-    for (int k = 0; k < 2; k++) {
-        double turn[3], q[4], R[9];
-        to[k] = from[k];
-        for (int i = 0; i < 3; i++) {
-            to[k].r[i] += t * d[7 * k + i];
-            to[k].u[i] += t * d[7 * k + i];
-            turn[i] = t * d[7 * k + 3 + i];
-        }
-        rotation_exp(turn, q);
-        rotation_matrix(q, R);
-        mat3_mul(R, from[k].R, to[k].R);
-        to[k].a += t * d[7 * k + 6];
-    }
-}
-
-/* J against e and H against J^T s along a direction, by differences of fourth order.  The gradient in the exponential chart of
- * x is m - theta x m/2 where m is the spatial one, so that H d = dm/dt - d x m/2 on the rotations. */
 static void derivatives_of_strain(const element_type *type)
 {
-    static const double stencil[4] = {1, -8, 8, -1}, at[4] = {-2, -1, 1, 2};
-    const double L = 0.1873, h = 2e-4, s[N] = {0.713, -1.37, 0.837, 1.193, -0.571, 0.391, 1.117, -0.673};
-    const double d[NODAL] = {0.031, -0.047, 0.019, 0.713, -0.391, 0.837, 1.31, -0.027, 0.053, 0.011, -0.419, 0.653, 0.297, -2.17};
+    static const double s[N] = {0.713, -1.37, 0.837, 1.193, -0.571, 0.391, 1.117, -0.673};
+    const double L = 0.1873;
     const section c = sheet_of(0.0912, 0.00217);
     element_data *data = prepare(type, &c, L, type->offers & ~(unsigned)FEATURE_CURVATURE, NULL);
-    node_state x[2], moved[2];
-    double J[N * NODAL], H[NODAL * NODAL], along[N], de[N] = {0}, Hd[NODAL], dm[NODAL] = {0}, m[NODAL] = {0};
+    node_state x[2];
     strained(L, x);
-    type->strain(data, x, &(strain_output){.J = J, .s = s, .H = H});
-    for (int k = 0; k < 4; k++) {
-        double e[N], Jk[N * NODAL], mk[NODAL] = {0};
-        move(x, d, at[k] * h, moved);
-        type->strain(data, moved, &(strain_output){.e = e, .J = Jk});
-        dense_add_transpose_mul(NODAL, N, 1, Jk, s, mk);
-        for (int i = 0; i < N; i++)
-            de[i] += stencil[k] * e[i] / (12 * h);
-        for (int i = 0; i < NODAL; i++)
-            dm[i] += stencil[k] * mk[i] / (12 * h);
+    for (unsigned seed = 1; seed <= 4; seed++) {
+        double d[NODAL];
+        nodes_increments(2, L, 1, seed, d);
+        const nodes_departure found = nodes_differences(type, data, 2, N, x, d, s);
+        gsl_test(!(found.first < 1e-11), "%s: J is de/dx (%.1e)", type->name, found.first);
+        gsl_test(!(found.second < 1e-11), "%s: H is the derivative of J^T s (%.1e)", type->name,
+                 found.second);
     }
-    dense_mul_vec(N, NODAL, J, d, along);
-    dense_mul_vec(NODAL, NODAL, H, d, Hd);
-    dense_add_transpose_mul(NODAL, N, 1, J, s, m);
-    for (int node = 0; node < 2; node++) {
-        double moment[3];
-        vec3_cross(d + 7 * node + 3, m + 7 * node + 3, moment);
-        for (int i = 0; i < 3; i++)
-            dm[7 * node + 3 + i] -= moment[i] / 2;
-    }
-    const double first = scaled_difference(N, de, along), second = scaled_difference(NODAL, Hd, dm);
-    gsl_test(!(first < 1e-11), "%s: J is de/dx (%.1e)", type->name, first);
-    gsl_test(!(second < 1e-11), "%s: H is the derivative of J^T s (%.1e)", type->name, second);
     free(data);
 }
 
-/* Energy, sigma and C with every feature and initial curvature on; third-order: G against differences of C. */
+/* Energy, sigma and C with every feature and initial curvature on; third-order: G against
+ * differences of C. */
 static void derivatives_of_stress(const element_type *type)
 {
     static const double stencil[4] = {1, -8, 8, -1}, at[4] = {-2, -1, 1, 2};
@@ -175,7 +150,8 @@ static void derivatives_of_stress(const element_type *type)
     const double d[N] = {0.7e-6, 1.1e-3, 1.3e-5, -2.3e-5, -2.9e-3, 1.7e-3, -1.9e-3, 0.7e-3};
     const section c = sheet_of(0.0912, 0.00217);
     element_data *data = prepare(type, &c, L, type->offers, k);
-    double sigma[N], C[N * N], Cd[N], dP = 0, ds[N] = {0}, work = 0, C0[N * N], stress[N], dC[N * N] = {0}, G[N * N];
+    double sigma[N], C[N * N], Cd[N], dP = 0, ds[N] = {0}, work = 0, C0[N * N], stress[N],
+                                      dC[N * N] = {0}, G[N * N];
     type->stress(data, e, NULL, &(stress_output){.sigma = sigma, .C = C});
     for (int n = 0; n < 4; n++) {
         double moved[N], near[N], P, s[N], Cn[N * N];
@@ -195,14 +171,14 @@ static void derivatives_of_stress(const element_type *type)
     for (int i = 0; i < N; i++)
         work += sigma[i] * d[i];
     gsl_test_rel(dP, work, 1e-10, "%s: sigma is the gradient of the energy", type->name);
-    gsl_test(!(scaled_difference(N, ds, Cd) < 1e-10), "%s: C is the derivative of sigma (%.1e)", type->name,
-             scaled_difference(N, ds, Cd));
+    gsl_test(!(scaled_difference(N, ds, Cd) < 1e-10), "%s: C is the derivative of sigma (%.1e)",
+             type->name, scaled_difference(N, ds, Cd));
     if (type->geometric != NULL) {
         type->stress(data, none, NULL, &(stress_output){.C = C0});
         dense_mul_vec(N, N, C0, d, stress);
         type->geometric(data, stress, G);
-        gsl_test(!(scaled_difference(N * N, dC, G) < 1e-9), "%s: G is the derivative of C (%.1e)", type->name,
-                 scaled_difference(N * N, dC, G));
+        gsl_test(!(scaled_difference(N * N, dC, G) < 1e-9), "%s: G is the derivative of C (%.1e)",
+                 type->name, scaled_difference(N * N, dC, G));
     }
     free(data);
 }
@@ -215,14 +191,18 @@ static void refusals(const element_type *type)
         {.section = &c, .length = 0, .features = FEATURE_WARPING},
         {.section = &c, .length = NAN, .features = FEATURE_WARPING},
         {.section = &c, .length = 1e-70, .features = FEATURE_WARPING},
-        {.section = &c, .length = 1, .features = FEATURE_WAGNER_TORQUE | FEATURE_CURVATURE, .curvature = {0.1, 0, 0}},
+        {.section = &c,
+         .length = 1,
+         .features = FEATURE_WAGNER_TORQUE | FEATURE_CURVATURE,
+         .curvature = {0.1, 0, 0}},
     };
     static const char *const culprit[] = {"length 0", "length nan", "overflows", "torsion"};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         element_data *d = calloc(1, type->data_size(&bad[i]));
         fault f = {""};
         const status outcome = type->prepare(&bad[i], d, &f);
-        gsl_test(outcome != STATUS_REFUSED || strstr(f.text, culprit[i]) == NULL, "%s: refused (%s)", type->name, f.text);
+        gsl_test(outcome != STATUS_REFUSED || strstr(f.text, culprit[i]) == NULL,
+                 "%s: refused (%s)", type->name, f.text);
         free(d);
     }
 }

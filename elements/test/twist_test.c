@@ -1,6 +1,7 @@
-/* Hyperbolic twist of beamw_consistent: one element is exact in the linear theory whatever couples, and its functions and points
- * are accurate from no Saint-Venant torsion to boundary layers. */
+/* Hyperbolic twist of beamw_consistent: one element is exact in the linear theory whatever couples,
+ * and its functions and points are accurate from no Saint-Venant torsion to boundary layers. */
 #include "elements/test/pair.h"
+#include "elements/test/worst.h"
 
 extern const element_type element_beamw_consistent;
 
@@ -36,16 +37,18 @@ static void linear_stiffness(const section *c, double l0, twist_kind torsion, do
     const double none[N] = {0}, e[STRAINS] = {0};
     double J[STRAINS * N], S[STRAINS * STRAINS], work[STRAINS * N];
     node_state x[2];
-    start_with(&s, &element_beamw_consistent, c, l0, FEATURE_SHEAR | FEATURE_WARPING | FEATURE_ECCENTRIC, "torsion", torsion);
-    place(l0, none, x);
+    start_with(&s, &element_beamw_consistent, c, l0,
+               FEATURE_SHEAR | FEATURE_WARPING | FEATURE_ECCENTRIC, "torsion", torsion);
+    nodes_place(2, l0, none, x);
     s.type->strain(data_of(&s), x, &(strain_output){.J = J});
     s.type->stress(data_of(&s), e, NULL, &(stress_output){.C = S});
     memset(K, 0, N * N * sizeof *K);
     dense_add_congruence(STRAINS, N, J, S, K, work);
 }
 
-/* Two halves with their common node eliminated are the whole if and only if the linear solution between the nodes is exact.
- * Returns the largest difference, each coordinate scaled by the root of its stiffness. */
+/* Two halves with their common node eliminated are the whole if and only if the linear solution
+ * between the nodes is exact. Returns the largest difference, each coordinate scaled by the root of
+ * its stiffness. */
 static double halves_against_whole(const section *c, double l0, twist_kind torsion)
 {
     enum { M = 7 };
@@ -71,7 +74,8 @@ static double halves_against_whole(const section *c, double l0, twist_kind torsi
                 sum = half[N * i + j];
             for (int k = 0; k < M; k++)
                 sum -= sides[N * k + i] * solved[N * k + j];
-            worst = fmax(worst, fabs(sum - whole[N * i + j]) / sqrt(whole[(N + 1) * i] * whole[(N + 1) * j]));
+            worst = worst_of(worst, fabs(sum - whole[N * i + j]) /
+                                        sqrt(whole[(N + 1) * i] * whole[(N + 1) * j]));
         }
     return worst;
 }
@@ -84,23 +88,28 @@ static void hyperbolic_twist(void)
         const double cubic = halves_against_whole(&c, lengths[i], TWIST_CUBIC);
         const double exact = halves_against_whole(&c, lengths[i], TWIST_HYPERBOLIC);
         const double lambda = twist_of(&c, lengths[i], 1, TWIST_HYPERBOLIC).lambda;
-        gsl_test(!(exact < 1e-10 && cubic > 1e-8), "lambda %.3f: one hyperbolic element is two (%.1e), a cubic one is not (%.1e)",
+        gsl_test(!(exact < 1e-10 && cubic > 1e-8),
+                 "lambda %.3f: one hyperbolic element is two (%.1e), a cubic one is not (%.1e)",
                  lambda, exact, cubic);
     }
     c.It = 0;
-    gsl_test(!(halves_against_whole(&c, 0.3, TWIST_HYPERBOLIC) < 1e-10), "without Saint-Venant torsion both are");
+    gsl_test(!(halves_against_whole(&c, 0.3, TWIST_HYPERBOLIC) < 1e-10),
+             "without Saint-Venant torsion both are");
 }
 
-/* Linear stiffness at rest K [14 x 14] and, along the nodes' displacement d [14], the energy of third order
- * 1/2 sum_i s_i (d . H_i d + e . Q_i e), e = J d, s = S e: what a prestress of the same kind adds to the stiffness. */
-static double third_order(const section *c, double l0, twist_kind torsion, unsigned features, const double d[N])
+/* Linear stiffness at rest K [14 x 14] and, along the nodes' displacement d [14], the energy of
+ * third order 1/2 sum_i s_i (d . H_i d + e . Q_i e), e = J d, s = S e: what a prestress of the same
+ * kind adds to the stiffness. */
+static double third_order(const section *c, double l0, twist_kind torsion, unsigned features,
+                          const double d[N])
 {
     subject s;
     const double none[N] = {0}, zero[STRAINS] = {0};
-    double J[STRAINS * N], S[STRAINS * STRAINS], e[STRAINS], sigma[STRAINS], G[STRAINS * STRAINS], H[N * N], energy = 0;
+    double J[STRAINS * N], S[STRAINS * STRAINS], e[STRAINS], sigma[STRAINS], G[STRAINS * STRAINS],
+        H[N * N], energy = 0;
     node_state x[2];
     start_with(&s, &element_beamw_consistent, c, l0, features, "torsion", torsion);
-    place(l0, none, x);
+    nodes_place(2, l0, none, x);
     s.type->strain(data_of(&s), x, &(strain_output){.J = J});
     s.type->stress(data_of(&s), zero, NULL, &(stress_output){.C = S});
     dense_mul_vec(STRAINS, N, J, d, e);
@@ -117,7 +126,8 @@ static double third_order(const section *c, double l0, twist_kind torsion, unsig
 }
 
 /* The middle of two halves in linear equilibrium between displaced ends. */
-static void middle_of(const section *c, double l0, twist_kind torsion, const double p[7], const double q[7], double out[7])
+static void middle_of(const section *c, double l0, twist_kind torsion, const double p[7],
+                      const double q[7], double out[7])
 {
     enum { M = 7 };
     double half[N * N], A[M * M];
@@ -134,23 +144,22 @@ static void middle_of(const section *c, double l0, twist_kind torsion, const dou
     dense_lu_solve(M, 1, A, pivot, out);
 }
 
-/* Energy of third order of two halves beside that of the whole, of the sizes of both: zero if and only if the geometric stiffness is
- * integrated over the exact linear solution, since the middle node, being in equilibrium, may follow to first order only. */
-static double third_order_apart(const section *c, double l0, twist_kind torsion, unsigned features, unsigned seed)
+/* Energy of third order of two halves beside that of the whole, of the sizes of both: zero if and
+ * only if the geometric stiffness is integrated over the exact linear solution, since the middle
+ * node, being in equilibrium, may follow to first order only. */
+static double third_order_apart(const section *c, double l0, twist_kind torsion, unsigned features,
+                                unsigned seed)
 {
     double d[N], halves[2][N], middle[7];
-    unsigned long long state = seed;
-    for (int i = 0; i < N; i++) {
-        state = state * 6364136223846793005ull + 1442695040888963407ull;
-        d[i] = ((double)(state >> 11) / 4503599627370496.0 - 1) * (i % 7 < 3 ? l0 : i % 7 < 6 ? 1 : 1 / l0);
-    }
+    nodes_increments(2, l0, 2, seed, d);
     middle_of(c, l0, torsion, d, d + 7, middle);
     memcpy(halves[0], d, 7 * sizeof *d);
     memcpy(halves[0] + 7, middle, sizeof middle);
     memcpy(halves[1], middle, sizeof middle);
     memcpy(halves[1] + 7, d + 7, 7 * sizeof *d);
     const double first = third_order(c, l0 / 2, torsion, features, halves[0]),
-                 second = third_order(c, l0 / 2, torsion, features, halves[1]), whole = third_order(c, l0, torsion, features, d);
+                 second = third_order(c, l0 / 2, torsion, features, halves[1]),
+                 whole = third_order(c, l0, torsion, features, d);
     return fabs(first + second - whole) / (fabs(first) + fabs(second) + fabs(whole));
 }
 
@@ -158,20 +167,24 @@ static double third_order_apart(const section *c, double l0, twist_kind torsion,
 static void hyperbolic_twist_under_stress(void)
 {
     const section c = unsymmetric();
-    const unsigned all = FEATURE_SHEAR | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS;
+    const unsigned all = FEATURE_SHEAR | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_TRAPEZE |
+                         FEATURE_WAGNER_MOMENTS;
     const double lengths[] = {0.03, 0.1, 0.3, 3, 30};
     for (int i = 0; i < 5; i++)
         for (int haringx = 0; haringx < 2; haringx++) {
             const unsigned features = all | (haringx ? FEATURE_HARINGX : FEATURE_ENGESSER);
             double exact = 0, cubic = 0;
             for (unsigned seed = 1; seed <= 10; seed++) {
-                exact = fmax(exact, third_order_apart(&c, lengths[i], TWIST_HYPERBOLIC, features, seed));
-                cubic = fmax(cubic, third_order_apart(&c, lengths[i], TWIST_CUBIC, features, seed));
+                exact = worst_of(
+                    exact, third_order_apart(&c, lengths[i], TWIST_HYPERBOLIC, features, seed));
+                cubic =
+                    worst_of(cubic, third_order_apart(&c, lengths[i], TWIST_CUBIC, features, seed));
             }
-            gsl_test(!(exact < 1e-10 && cubic > 1e-8),
-                     "%g m, %s: geometric stiffness of one hyperbolic element is that of two (%.1e), "
-                     "of a cubic one not (%.1e)",
-                     lengths[i], haringx ? "haringx" : "engesser", exact, cubic);
+            gsl_test(
+                !(exact < 1e-10 && cubic > 1e-8),
+                "%g m, %s: geometric stiffness of one hyperbolic element is that of two (%.1e), "
+                "of a cubic one not (%.1e)",
+                lengths[i], haringx ? "haringx" : "engesser", exact, cubic);
         }
 }
 
@@ -185,7 +198,8 @@ static void twist_functions(void)
         fault f;
         c.Iw = c.shear_modulus * c.It * 1.3 * 1.3 / (c.young * lambdas[k] * lambdas[k]);
         const twist t = twist_of(&c, 1.3, 0, TWIST_HYPERBOLIC);
-        const double h = t.lambda / 2, moment = 1 / (tanh(h) * t.lambda) - (h < 300 ? 1 / (2 * sinh(h) * sinh(h)) : 0);
+        const double h = t.lambda / 2, moment = 1 / (tanh(h) * t.lambda) -
+                                                (h < 300 ? 1 / (2 * sinh(h) * sinh(h)) : 0);
         const int points = twist_points(&t, x, w, &f);
         gsl_test_rel(t.lambda, lambdas[k], 1e-14, "lambda");
         for (int i = 0; i < points; i++) {
@@ -195,21 +209,25 @@ static void twist_functions(void)
             square += w[i] * s.odd * s.odd;
             turn += w[i] * (s.odd_integral + (x[i] - 0.5) * s.odd); /* by parts: zero */
         }
-        gsl_test(!(points > 0 && fabs(even) < 1e-13 && fabs(odd) < 1e-14 && fabs(turn) < 1e-14), "lambda %g: means %.1e %.1e %.1e",
-                 lambdas[k], even, odd, turn);
+        gsl_test(!(points > 0 && fabs(even) < 1e-13 && fabs(odd) < 1e-14 && fabs(turn) < 1e-14),
+                 "lambda %g: means %.1e %.1e %.1e", lambdas[k], even, odd, turn);
         if (lambdas[k] > 0.1)
             gsl_test_rel(square, moment, 1e-12, "lambda %g: square of the odd rate", lambdas[k]);
         const twist_shapes end = twist_at(&t, 1), start_of = twist_at(&t, 0);
         gsl_test_rel(end.odd, -1, 1e-14, "lambda %g: odd rate at the end", lambdas[k]);
         gsl_test_rel(start_of.even, -1, 1e-12, "lambda %g: even rate at the end", lambdas[k]);
-        gsl_test(fabs(end.odd_integral) + fabs(end.even_integral) > 1e-14, "lambda %g: no turn at the end", lambdas[k]);
+        gsl_test(fabs(end.odd_integral) + fabs(end.even_integral) > 1e-14,
+                 "lambda %g: no turn at the end", lambdas[k]);
         if (lambdas[k] < 1e-2) {
-            const twist_shapes hyperbolic = twist_at(&t, 0.3), cubic = twist_at(&(twist){.soft = 1}, 0.3);
+            const twist_shapes hyperbolic = twist_at(&t, 0.3),
+                               cubic = twist_at(&(twist){.soft = 1}, 0.3);
             const double close = lambdas[k] * lambdas[k] + 1e-14;
             gsl_test_rel(hyperbolic.odd, cubic.odd, close, "odd -> linear");
             gsl_test_rel(hyperbolic.even, cubic.even, close, "even -> quadratic");
-            gsl_test_rel(hyperbolic.odd_integral, cubic.odd_integral, close, "turn of odd -> quadratic");
-            gsl_test_rel(hyperbolic.even_integral, cubic.even_integral, close, "turn of even -> cubic");
+            gsl_test_rel(hyperbolic.odd_integral, cubic.odd_integral, close,
+                         "turn of odd -> quadratic");
+            gsl_test_rel(hyperbolic.even_integral, cubic.even_integral, close,
+                         "turn of even -> cubic");
         }
     }
 }

@@ -5,12 +5,11 @@ import pathlib
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
-TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
+from harness.test.program import report, run
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
@@ -44,10 +43,9 @@ class Browser(unittest.TestCase):
         cls.folder = tempfile.mkdtemp()
         results, bench = os.path.join(cls.folder, "results.h5"), os.path.join(cls.folder, "bench.h5")
         cls.site = pathlib.Path(cls.folder) / "site"
-        subprocess.run([PROGRAM, "verify", "-k", "warping_torsion/default or elastica/default", "--shapes", "-o", results], capture_output=True, check=False)
-        subprocess.run([PROGRAM, "bench", "elastica", "-f", "collocation", "-f", "beamw", "-o", bench], capture_output=True, check=False)
-        done = subprocess.run([sys.executable, "-m", "reports", results, TRUTHS, "--bench", bench, "-o", str(cls.site)], capture_output=True, text=True, check=False, cwd=ROOT,
-                              env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+        run("verify", "-k", "warping_torsion/default or elastica/default", "--shapes", "-o", results)
+        run("bench", "elastica", "-f", "collocation", "-f", "beamw", "-o", bench)
+        done = report(results, str(cls.site), "--bench", bench)
         if done.returncode != 0:
             raise AssertionError(done.stderr)
 

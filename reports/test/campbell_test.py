@@ -2,13 +2,12 @@
 import os
 import pathlib
 import shutil
-import subprocess
 import tempfile
 import unittest
 
+from harness.test.program import report, run
 from reports import campbell, data
 from reports.claims import Lookup
-from reports.test.report_test import PROGRAM, report
 
 
 class Campbell(unittest.TestCase):
@@ -16,7 +15,7 @@ class Campbell(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp()
         results = os.path.join(cls.folder, "results.h5")
-        subprocess.run([PROGRAM, "verify", "-k", "rotating_cantilever and beamw_consistent", "-o", results], capture_output=True, check=False)
+        run("verify", "-k", "rotating_cantilever and beamw_consistent", "-o", results)
         cls.done = report(results, os.path.join(cls.folder, "site"))
         cls.look = Lookup(data.read_results(results)[1])
 

@@ -8,8 +8,6 @@ import unittest
 from reports import causes
 from reports.test.results import Site
 
-TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
-
 
 def experiment(kind, gone, what="shear", formulation="beam"):
     return {"kind": kind, "gone": gone, "what": what, "formulation": formulation}

@@ -1,5 +1,4 @@
 """The page of the ledger: what is counted under a rule, what only repeats, how predictions are met."""
-import os
 import unittest
 
 from reference import pack
@@ -7,7 +6,6 @@ from reports import data, errata, ledger, tally
 from reports.site import ROOT
 from reports.test.results import Site, case, series, verdict
 
-TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
 RULE = {
     "rule": "shear",
     "formulations": "sheet_third",

@@ -3,12 +3,10 @@ import os
 import pathlib
 import re
 import subprocess
-import sys
 import tempfile
 import unittest
 
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
-TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
+from harness.test.program import PROGRAM, report, run
 
 
 class Page(unittest.TestCase):
@@ -16,11 +14,11 @@ class Page(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
         self.results = os.path.join(self.folder.name, "r.h5")
-        subprocess.run([PROGRAM, "verify", "-k", "spherical_joint/default and sheet_third", "-o", self.results], capture_output=True, check=False)
+        run("verify", "-k", "spherical_joint/default and sheet_third", "-o", self.results)
 
     def page(self):
         out = os.path.join(self.folder.name, "site")
-        done = subprocess.run([sys.executable, "-B", "-m", "reports", self.results, TRUTHS, "-o", out], capture_output=True, text=True, check=False)
+        done = report(self.results, out)
         self.assertEqual(done.returncode, 0, done.stderr)
         return (pathlib.Path(out) / "mechanisms.html").read_text(encoding="utf-8")
 

@@ -5,9 +5,9 @@ import tempfile
 import unittest
 
 from harness.tools import newton as tool
+from harness.test.program import PROGRAM
 from reports import newton
 
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
 
 STEP = {"path": 1.0, "increment": 1.0, "iterations": 3, "rejected": 0, "corrections": [0.1, 0.01, 1e-4], "residuals": [1.0, None, 1e-6]}
 SUMMARY = {"status": "ok", "reason": "", "steps": 2, "rejected": 1, "iterations": 9, "most_iterations": 5}

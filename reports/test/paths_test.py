@@ -3,17 +3,14 @@ import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
+from harness.test.program import TRUTHS, report, run
 from reports import paths  # noqa: E402
-
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
-TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
 
 
 class Paths(unittest.TestCase):
@@ -21,9 +18,8 @@ class Paths(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp()
         results = os.path.join(cls.folder, "results.h5")
-        subprocess.run([PROGRAM, "verify", "-k", "snap_through and beamw_consistent or c_cantilever and collocation", "-o", results], capture_output=True, check=False)
-        cls.done = subprocess.run([sys.executable, "-m", "reports", results, TRUTHS, "-o", os.path.join(cls.folder, "site")], capture_output=True, text=True, check=False,
-                                  cwd=ROOT, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+        run("verify", "-k", "snap_through and beamw_consistent or c_cantilever and collocation", "-o", results)
+        cls.done = report(results, os.path.join(cls.folder, "site"))
         cls.page = (pathlib.Path(cls.folder) / "site" / "paths.html").read_text(encoding="utf-8") if cls.done.returncode == 0 else ""
 
     @classmethod

@@ -1,18 +1,14 @@
 """Pictures: geometry of what is drawn, and that a report with shapes has them."""
 import os
 import pathlib
-import subprocess
-import sys
 import tempfile
 import unittest
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from harness.test.program import report, run
 from reports import pictures
-
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
-TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
 
 
 class Geometry(unittest.TestCase):
@@ -40,8 +36,8 @@ class Report(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         results, out = os.path.join(folder.name, "r.h5"), os.path.join(folder.name, "site")
-        subprocess.run([PROGRAM, "verify", "-k", "spherical_joint/default", "-f", "sheet_third", *options, "-o", results], capture_output=True, check=False)
-        done = subprocess.run([sys.executable, "-B", "-m", "reports", results, TRUTHS, "-o", out], capture_output=True, text=True, check=False)
+        run("verify", "-k", "spherical_joint/default", "-f", "sheet_third", *options, "-o", results)
+        done = report(results, out)
         self.assertEqual(done.returncode, 0, done.stderr)
         return pathlib.Path(out)
 

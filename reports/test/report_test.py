@@ -9,8 +9,8 @@ import sys
 import tempfile
 import unittest
 
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
-TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
+from harness.test.program import PROGRAM, TRUTHS
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 # What other commands leave beside the results: a little of everything that the pages draw.

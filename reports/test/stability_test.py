@@ -1,16 +1,12 @@
 """The page of stability: what a sweep of extremes found is on it; without one it says so."""
 import json
-import os
 import pathlib
-import subprocess
 import tempfile
 import unittest
 
+from harness.test.program import TRUTHS, run
 from reports import stability
 from reports.site import Site
-
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
-TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
 
 
 class Stability(unittest.TestCase):
@@ -18,7 +14,7 @@ class Stability(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
-        subprocess.run([PROGRAM, "verify", "-k", "warping_torsion and beamw", "-o", self.folder / "results.h5"], capture_output=True, check=False)
+        run("verify", "-k", "warping_torsion and beamw", "-o", self.folder / "results.h5")
 
     def page(self):
         site = Site(self.folder / "results.h5", TRUTHS, self.folder / "site")
@@ -29,7 +25,7 @@ class Stability(unittest.TestCase):
         self.assertIn("make stress", self.page())
 
     def test_sweep(self):
-        done = subprocess.run([PROGRAM, "stress", "-k", "decay_free or twist_wagner", "--json", self.folder / "stress.json"], capture_output=True, check=False)
+        done = run("stress", "-k", "decay_free or twist_wagner", "--json", self.folder / "stress.json")
         self.assertEqual(done.returncode, 0)
         record = json.loads((self.folder / "stress.json").read_text(encoding="utf-8"))
         page = self.page()

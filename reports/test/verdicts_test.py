@@ -1,13 +1,11 @@
 """The words for verdicts: every kind that the judge knows, and what is said beside each."""
-import os
 import re
 import subprocess
 import unittest
 
+from harness.test.program import PROGRAM
 from reports import answers, data, verdicts
 from reports.test.results import verdict
-
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
 
 
 class Kinds(unittest.TestCase):

@@ -58,12 +58,12 @@ static void test_strings(int copies, int masses, double spread, int wanted, int 
 static void test_both_signs(void)
 {
     enum { NODES = 60, SIZE = 3, WANTED = 7 };
-    unsigned long long seed = 77;
+    uint64_t seed = 77;
     sparse K = matrices_chain(NODES, SIZE), A = matrices_chain(NODES, SIZE);
     for (int j = 0; j < K.n; j++)
         for (int k = K.column[j]; k < K.column[j + 1]; k++) {
-            A.value[k] = matrices_random(&seed);
-            K.value[k] = K.row[k] == j ? 7 : matrices_random(&seed);
+            A.value[k] = random_number(&seed);
+            K.value[k] = K.row[k] == j ? 7 : random_number(&seed);
         }
     eigen_result sparse_way = {0}, again = {0}, dense_way = {0};
     fault f = {""};

@@ -32,10 +32,10 @@ static void alloc(int n, problem *p)
 static void fill(problem *p, double gyroscopic, int massless, double softening)
 {
     const int n = p->n;
-    unsigned long long seed = (unsigned long long)n * 77 + 5;
+    uint64_t seed = (unsigned long long)n * 77 + 5;
     double *B = malloc((size_t)n * (size_t)n * sizeof *B);
     for (int i = 0; i < n * n; i++)
-        B[i] = matrices_random(&seed);
+        B[i] = random_number(&seed);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             for (int k = 0; k < n; k++)
@@ -277,8 +277,8 @@ static void counts(void)
 }
 
 /* A string of `masses` oscillators at 1, 2, 3 ... rad/s that do not touch, and a top beside them.
- * Without gyroscopic terms the top is the stiffest part by far; with them its precession lies
- * at 2.5 rad/s: no start without them shows it, and no residual. */
+ * Without gyroscopic terms the top is the stiffest part by far; with them its precession lies at
+ * 2.5 rad/s: no start without them shows it, and no residual. */
 static void hidden_precession(int masses, int wanted_outcome)
 {
     const double slow = 2.5, k = 1e6, g = (k / slow) - slow; /* root of w^2 + g w - k */

@@ -14,13 +14,13 @@ typedef enum kind { DEFINITE, INDEFINITE, UNSYMMETRIC } kind;
 
 /* About four entries in every row beside the diagonal; rows and columns in units that differ by up
  * to 1e3. */
-static void fill_random(int n, kind what, unsigned long long *seed, double A[])
+static void fill_random(int n, kind what, uint64_t *seed, double A[])
 {
     memset(A, 0, (size_t)(n * n) * sizeof *A);
     for (int i = 0; i < n; i++)
         for (int k = 0; k < 4; k++) {
-            const int j = (int)((matrices_random(seed) + 1) / 2 * n);
-            const double value = matrices_random(seed);
+            const int j = (int)((random_number(seed) + 1) / 2 * n);
+            const double value = random_number(seed);
             if (what == UNSYMMETRIC) {
                 A[i * n + j] += value;
             } else if (i != j) { /* Laplacian: positive definite once the diagonal has more */
@@ -31,9 +31,7 @@ static void fill_random(int n, kind what, unsigned long long *seed, double A[])
             }
         }
     for (int i = 0; i < n; i++)
-        A[i * n + i] += what == DEFINITE     ? 0.03
-                        : what == INDEFINITE ? 4 * matrices_random(seed)
-                                             : 1;
+        A[i * n + i] += what == DEFINITE ? 0.03 : what == INDEFINITE ? 4 * random_number(seed) : 1;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             A[i * n + j] *= (i % 3 == 0 ? 1e3 : 1) * (j % 3 == 0 ? 1e3 : 1);
@@ -102,7 +100,7 @@ static int determinant_sign(int n, const double A[])
 
 static void random_matrices(kind what, const char *name, double allowed)
 {
-    unsigned long long seed = 2385;
+    uint64_t seed = 2385;
     double worst = 0, worst_refined = 0, least_condition = INFINITY, most_condition = 0;
     int wrong_inertia = 0, wrong_sign = 0, failures = 0, most_negative = 0;
     for (int sample = 0; sample < 40; sample++) {
@@ -130,7 +128,7 @@ static void random_matrices(kind what, const char *name, double allowed)
             least_condition = fmin(least_condition, condition);
             most_condition = fmax(most_condition, condition);
             for (int i = 0; i < n; i++)
-                b[i] = x[i] = matrices_random(&seed);
+                b[i] = x[i] = random_number(&seed);
             factor_solve(fa, x);
             worst = fmax(worst, distance_from_dense(n, A, x, b));
             factor_solve_refined(fa, &s, memcpy(x, b, sizeof x));

@@ -6,16 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/test/random.h"
 #include "harness/algebra/sparse.h"
 
 #define MATRICES_PI 3.14159265358979323846
-
-/* Uniform in (-1, 1), the same sequence every time. */
-static inline double matrices_random(unsigned long long *seed)
-{
-    *seed = *seed * 6364136223846793005ull + 1442695040888963407ull;
-    return (double)(*seed >> 11) / 4503599627370496.0 - 1;
-}
 
 /* Sparse form of A[n x n]: nonzero entries, and the diagonal in any case. */
 static inline sparse matrices_from_dense(int n, int symmetric, const double A[])

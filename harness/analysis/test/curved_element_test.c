@@ -11,6 +11,8 @@
 #include "elements/math/dense.h"
 #include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
+#include "elements/test/random.h"
+#include "elements/test/worst.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 
@@ -30,12 +32,6 @@ typedef struct subject {
     double inner[INNER];
 } subject;
 
-static double random_number(unsigned long long *state) /* -1 .. 1 */
-{
-    *state = *state * 6364136223846793005ull + 1442695040888963407ull;
-    return (double)(*state >> 11) / 4503599627370496.0 - 1;
-}
-
 static section rectangle(void)
 {
     section_spec spec;
@@ -52,8 +48,8 @@ static section rectangle(void)
 }
 
 /* Turns up to `most` [rad]. Wagner torque and initial torsion are not offered together. */
-static status prepare(const formulation *chosen, const section *c, double most,
-                      unsigned long long *state, subject *out, fault *f)
+static status prepare(const formulation *chosen, const section *c, double most, uint64_t *state,
+                      subject *out, fault *f)
 {
     const element_type *type = chosen->type;
     memset(out, 0, sizeof *out);
@@ -142,7 +138,7 @@ static double stress_of_arc(subject *s, const double motion[6])
         double stiffness = 0;
         for (int j = 0; j < s->strains; j++)
             stiffness += fabs(C[i * s->strains + j]);
-        worst = fmax(worst, fabs(sigma[i]) / (stiffness * s->length));
+        worst = worst_of(worst, fabs(sigma[i]) / (stiffness * s->length));
     }
     return worst;
 }
@@ -163,7 +159,7 @@ static double error_of_stress(subject *s)
             stress_at(s, e, &(stress_output){.energy = &energy[k]});
         }
         e[i] += h;
-        worst = fmax(worst, fabs((energy[0] - energy[1]) / (2 * h) - sigma[i]));
+        worst = worst_of(worst, fabs((energy[0] - energy[1]) / (2 * h) - sigma[i]));
         largest = fmax(largest, fabs(sigma[i]));
     }
     return worst / largest;
@@ -188,7 +184,7 @@ static double error_of_geometric(subject *s)
         stress_at(s, e, &(stress_output){.C = C[k]});
     }
     for (int i = 0; i < n * n; i++) {
-        worst = fmax(worst, fabs((C[1][i] - C[2][i]) / 2e-5 - G[i]));
+        worst = worst_of(worst, fabs((C[1][i] - C[2][i]) / 2e-5 - G[i]));
         largest = fmax(largest, fabs(C[0][i]));
     }
     return worst / largest;
@@ -198,7 +194,7 @@ static void arcs(const formulation *chosen, const section *c)
 {
     const double most = chosen->type->limits & LIMIT_QUARTER_TURN ? 1.5 : 3;
     const double still[6] = {0}, motion[6] = {0.3, -0.2, 0.1, 0.7, -1.1, 0.4};
-    unsigned long long state = 20240101;
+    uint64_t state = 20240101;
     double stress = 0, derived = 0, geometric = 0;
     fault f = {""};
     subject straight;
@@ -210,11 +206,12 @@ static void arcs(const formulation *chosen, const section *c)
         const status outcome = prepare(chosen, c, most * (i + 1) / ARCS, &state, &s, &f);
         gsl_test(outcome != STATUS_OK, "%s: arc %d: %s", chosen->key, i, f.text);
         if (outcome == STATUS_OK) {
-            stress = fmax(stress, fmax(stress_of_arc(&s, still), stress_of_arc(&s, motion)));
+            stress =
+                worst_of(stress, worst_of(stress_of_arc(&s, still), stress_of_arc(&s, motion)));
             if (chosen->type->inner ==
                 NULL) { /* inner unknowns: their stress is that of another state */
-                derived = fmax(derived, error_of_stress(&s));
-                geometric = whole ? fmax(geometric, error_of_geometric(&s)) : 0;
+                derived = worst_of(derived, error_of_stress(&s));
+                geometric = whole ? worst_of(geometric, error_of_geometric(&s)) : 0;
             }
         }
         free(s.data);

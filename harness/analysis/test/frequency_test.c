@@ -6,9 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/analysis/solve.h"
-#include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
+#include "harness/test/ask.h"
 
 enum { MODES = 10, ELEMENTS = 24, RIGID = 6 };
 
@@ -23,12 +22,6 @@ typedef struct request {
     double arm;          /* ... or on a rigid arm beyond it [m] */
     scene_family family; /* of all quantities */
 } request;
-
-typedef struct answer {
-    status status;
-    char reason[FAULT_TEXT];
-    double value[MODES];
-} answer;
 
 static void make(scene *s, const request *what)
 {
@@ -66,32 +59,15 @@ static void make(scene *s, const request *what)
     }
 }
 
-/* 0: the formulation does not offer it. */
-static int ask(const element_type *e, const request *what, answer *out)
+/* 1: answered. */
+static int find(const element_type *e, const request *what, ask_tally *tally, answer *out)
 {
     scene s;
-    model *m = NULL;
-    solve_result r = {0};
-    formulation chosen;
-    fault f = {""};
-    memset(out, 0, sizeof *out);
-    formulation_default(e, &chosen);
     scene_init(&s, "bar");
     make(&s, what);
-    const model_request wanted = {
-        .scene = &s, .type = e, .options = chosen.option, .elements = ELEMENTS};
-    out->status = model_alloc(&wanted, &m, &f);
-    const int offered = out->status != STATUS_REFUSED;
-    if (out->status == STATUS_OK)
-        out->status = solve_scene(&s, m, NULL, &r, &f);
-    snprintf(out->reason, sizeof out->reason, "%s", f.text);
-    for (int i = 0; i < r.quantities; i++)
-        out->value[i] = r.quantity[i].value;
-    gsl_test(offered && out->status != STATUS_OK, "%s: solved (%s)", e->name, out->reason);
-    result_free(&r);
-    model_free(m);
+    ask_scene(&s, e, NULL, ELEMENTS, out);
     scene_free(&s);
-    return offered && out->status == STATUS_OK;
+    return ask_count(tally, out, "bar, force %g N", what->force);
 }
 
 /* f = (k L)^2/(2 pi L^2) sqrt(E I/(rho A)). */
@@ -106,12 +82,12 @@ static const double loose[] = {4.7300407449, 7.8532046241};
 
 /* Bending in pairs; the axial one, c/(4 L), and that of torsion lie between them and are not
  * counted where they are not meant. */
-static void cantilever(const element_type *e)
+static void cantilever(const element_type *e, ask_tally *tally)
 {
-    answer any, axial, across;
+    static answer any, axial, across;
     const request all = {1, 0, 0, SCENE_ANY}, along = {1, 0, 0, SCENE_AXIAL},
                   not_along = {1, 0, 0, SCENE_NOT_AXIAL};
-    if (!ask(e, &all, &any))
+    if (!find(e, &all, tally, &any))
         return;
     for (int i = 0; i < 8; i++)
         gsl_test_rel(any.value[i], bending(clamped[i / 2]), 2e-2, "%s: frequency %d of bending",
@@ -119,7 +95,7 @@ static void cantilever(const element_type *e)
     for (int i = 1; i < 8; i += 2)
         gsl_test_rel(any.value[i], any.value[i - 1], 1e-7, "%s: frequencies %d and %d are equal",
                      e->name, i, i + 1);
-    if (!ask(e, &along, &axial) || !ask(e, &not_along, &across))
+    if (!find(e, &along, tally, &axial) || !find(e, &not_along, tally, &across))
         return;
     const double first = sqrt(young / density) / (4 * length);
     gsl_test_rel(axial.value[0], first, 2e-3, "%s: the axial frequency", e->name);
@@ -133,11 +109,11 @@ static void cantilever(const element_type *e)
     }
 }
 
-static void nothing_held(const element_type *e)
+static void nothing_held(const element_type *e, ask_tally *tally)
 {
-    answer a;
+    static answer a;
     const request free_bar = {0, 0, 0, SCENE_ANY};
-    if (!ask(e, &free_bar, &a))
+    if (!find(e, &free_bar, tally, &a))
         return;
     for (int i = 0; i < RIGID; i++)
         gsl_test_abs(a.value[i], 0, 1e-3 * bending(loose[0]), "%s: motion %d of a rigid body",
@@ -176,15 +152,15 @@ static double first_root(double t)
 
 /* Compressed nearly to Euler's load, to half of it, and stretched by half of it and by twenty times
  * as much. */
-static void loaded(const element_type *e)
+static void loaded(const element_type *e, ask_tally *tally)
 {
     static const double part[] = {-0.999, -0.5, 0.5, 20};
     gsl_test_rel(first_root(0), clamped[0], 1e-9, "the equation gives the bar without load");
     for (int i = 0; i < 4; i++) {
-        answer a;
+        static answer a;
         const double t = part[i] * M_PI * M_PI / (4 * length * length);
         const request state = {1, t * young * pow(side, 4) / 12, 0, SCENE_ANY};
-        if (!(e->offers & FEATURE_GEOMETRIC) || !ask(e, &state, &a))
+        if (!find(e, &state, tally, &a))
             return;
         const double square = pow(a.value[0] / bending(clamped[0]), 2),
                      exact = pow(first_root(t) / clamped[0], 4);
@@ -196,12 +172,12 @@ static void loaded(const element_type *e)
 
 /* On an arm as long as the bar the critical load is k^2 EI with k tan k = 1: there the frequency
  * vanishes, and not at another. */
-static void loaded_on_arm(const element_type *e)
+static void loaded_on_arm(const element_type *e, ask_tally *tally)
 {
     const double critical = 0.86033358901937976 * 0.86033358901937976 * young * pow(side, 4) / 12;
-    answer below;
+    static answer below;
     const request state = {1, -0.999 * critical, length, SCENE_ANY};
-    if (!(e->offers & FEATURE_GEOMETRIC) || !ask(e, &state, &below))
+    if (!find(e, &state, tally, &below))
         return;
     gsl_test_abs(pow(below.value[0] / bending(clamped[0]), 2), 0, 5e-3,
                  "%s: the frequency vanishes at the critical load of an arm", e->name);
@@ -211,14 +187,14 @@ int main(void)
 {
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *e = registry_formulations[i];
-        answer a;
-        const request all = {1, 0, 0, SCENE_ANY};
-        gsl_test((e->offers & FEATURE_MASS) && !ask(e, &all, &a),
+        ask_tally tally = {0};
+        cantilever(e, &tally);
+        nothing_held(e, &tally);
+        loaded(e, &tally);
+        loaded_on_arm(e, &tally);
+        ask_conclude(&tally, e, "frequencies of bars");
+        gsl_test((e->offers & FEATURE_MASS) && tally.count[ASK_ANSWERED] == 0,
                  "%s offers inertia and solves nothing", e->name);
-        cantilever(e);
-        nothing_held(e);
-        loaded(e);
-        loaded_on_arm(e);
     }
     return gsl_test_summary();
 }

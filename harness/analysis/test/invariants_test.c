@@ -1,31 +1,50 @@
 /* What needs no truth, for every formulation on every case it runs on: the same mesh in other
- * words, mirror images, turned symmetric structures, reciprocity. A number that is compared is
- * relative to its size. Two discretisations of the same continuum may differ, but the difference
- * falls with the mesh. */
+ * words, mirror images, turned symmetric structures, reciprocity.  A number that is compared is
+ * relative to its size.  Two discretisations of the same continuum may differ, but the difference
+ * falls with the mesh.  What is asked is counted: see harness/test/ask.h. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/test/worst.h"
+#include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
-#include "harness/study/test/ask.h"
+#include "harness/test/ask.h"
 
-/* Largest relative difference of all values that exist, and whose. Frequencies of a mesh without
+static const scene_edit unchanged = {SCENE_EDIT_NONE, 0};
+
+/* Largest relative difference of all values that exist, and whose.  Frequencies of a mesh without
  * such a mode exist in neither. */
+static double apart_of(double a, double b, double scale)
+{
+    const double size = fmax(fmax(fabs(a), fabs(b)), scale);
+    if (isnan(a) && isnan(b))
+        return 0;
+    return size > 0 ? fabs(a - b) / size : 0;
+}
+
+/* Of the curve's largest value. */
+static double curves_apart(const answer *a, const answer *b, int i)
+{
+    double scale = a->scale[i], worst = a->points[i] == b->points[i] ? 0 : INFINITY;
+    for (int k = 0; k < a->points[i]; k++)
+        scale = fmax(scale, fabs(a->curve[i][k]));
+    for (int k = 0; k < a->points[i] && k < b->points[i]; k++)
+        worst = worst_of(worst, apart_of(a->curve[i][k], b->curve[i][k], scale));
+    return worst;
+}
+
 static double difference(const answer *a, const answer *b, const char **whose)
 {
     double worst = a->count == b->count ? 0 : INFINITY;
     *whose = "their number";
     for (int i = 0; i < a->count && i < b->count; i++) {
-        const double size = fmax(fmax(fabs(a->value[i]), fabs(b->value[i])), a->scale[i]);
-        const double apart = isnan(a->value[i]) && isnan(b->value[i]) ? 0
-                             : size > 0 ? fabs(a->value[i] - b->value[i]) / size
-                                        : 0;
-        if (!(apart <= worst)) {
-            worst = apart;
-            *whose = a->name[i];
-        }
+        const double values = apart_of(a->value[i], b->value[i], a->scale[i]);
+        const double apart = worst_of(values, curves_apart(a, b, i));
+        *whose = apart <= worst ? *whose : a->name[i];
+        worst = worst_of(worst, apart);
     }
     return worst;
 }
@@ -39,37 +58,60 @@ static const char *short_path(const case_type *type)
     return "";
 }
 
-/* One formulation on one case: an edit of the scene changes nothing. */
-static void same(const case_type *type, const element_type *formulation_type, const char *what,
-                 int n, int other_n, scene_edit edit, double tolerance)
+/* One formulation on one case. */
+typedef struct subject {
+    const case_type *type;
+    const element_type *formulation;
+    ask_tally *tally;
+    int coarse; /* elements per member that the case needs: 2, where those can follow it */
+} subject;
+
+static void ask_about(const subject *s, int n, int keep_all, scene_edit edit, answer *out)
 {
-    static answer before, after;
+    ask(&(question){s->type, short_path(s->type), s->formulation, n, keep_all, edit}, out);
+}
+
+static int found(const subject *s, int n, int keep_all, scene_edit edit, answer *out)
+{
+    ask_about(s, n, keep_all, edit, out);
+    return ask_count(s->tally, out, "%s, n = %d", s->type->name, n);
+}
+
+/* Two elements cannot follow every path (a circle): the coarsest mesh that does, and its answer.
+ * 0: none of them answers. */
+static int found_coarsest(subject *s, answer *out)
+{
+    for (s->coarse = 2; s->coarse <= 32; s->coarse *= 2) {
+        ask_about(s, s->coarse, 0, unchanged, out);
+        if (out->outcome != ASK_FAILED)
+            break;
+    }
+    return ask_count(s->tally, out, "%s, n = 2 to 32", s->type->name);
+}
+
+/* An edit of the scene changes nothing. */
+static void same(const subject *s, const char *what, const answer *before, int n, scene_edit edit)
+{
+    static answer after;
     const char *whose;
-    ask(type, short_path(type), formulation_type, n, 0, (scene_edit){SCENE_EDIT_NONE, 0}, &before);
-    if (before.count == 0)
-        return; /* not offered */
-    ask(type, short_path(type), formulation_type, other_n, 0, edit, &after);
-    if (after.status == STATUS_REFUSED)
-        return; /* the edit is not defined for this scene */
-    const double apart = difference(&before, &after, &whose);
-    gsl_test(!(apart <= tolerance), "%s, %s: %s (%s, %.1e)%s%s", type->name, formulation_type->name,
-             what, whose, apart, after.status != STATUS_OK ? " " : "", after.reason);
+    if (!found(s, n, 0, edit, &after))
+        return;
+    const double apart = difference(before, &after, &whose);
+    gsl_test(!(apart <= 1e-8), "%s, %s: %s (%s, %.1e)", s->type->name, s->formulation->name, what,
+             whose, apart);
 }
 
 /* Amplitudes of warping that are kept where nothing warps make the twist of some formulations a
  * cubic: a better mesh, and the same continuum. */
-static void keep_all(const case_type *type, const element_type *e)
+static void keep_all(const subject *s)
 {
-    static const int n[2] = {4, 16};
     static answer lean, full;
-    const scene_edit none = {SCENE_EDIT_NONE, 0};
     double apart[2] = {0, 0};
     const char *whose = "";
     for (int k = 0; k < 2; k++) {
-        ask(type, short_path(type), e, n[k], 0, none, &lean);
-        if (lean.count == 0)
+        const int n = s->coarse * (k == 0 ? 2 : 8);
+        if (!found(s, n, 0, unchanged, &lean) || !found(s, n, 1, unchanged, &full))
             return;
-        ask(type, short_path(type), e, n[k], 1, none, &full);
         apart[k] = difference(&lean, &full, &whose);
         if (apart[k] <= 1e-8)
             break;
@@ -77,26 +119,34 @@ static void keep_all(const case_type *type, const element_type *e)
     gsl_test(
         !(apart[0] <= 1e-8 || apart[1] <= apart[0] / 8),
         "%s, %s: keeping what a scene leaves out changes nothing but the mesh (%s, %.1e, %.1e)",
-        type->name, e->name, whose, apart[0]);
+        s->type->name, s->formulation->name, whose, apart[0], apart[1]);
+}
+
+static void one_case(const case_type *type, const element_type *e, ask_tally *tally)
+{
+    static answer coarse, fine;
+    subject s = {type, e, tally, 0};
+    if (!found_coarsest(&s, &coarse))
+        return;
+    keep_all(&s);
+    /* Others depend on it by a discretisation error, which the sweep of extremes shows. */
+    if (!(e->limits & LIMIT_ORDER_DEPENDENT))
+        same(&s, "the other order of nodes changes nothing", &coarse, s.coarse,
+             (scene_edit){SCENE_EDIT_REVERSE, 0});
+    same(&s, "another unit of length changes nothing", &coarse, s.coarse,
+         (scene_edit){SCENE_EDIT_UNIT, 1000});
+    if (coarse.members == 1 && found(&s, 2 * s.coarse, 0, unchanged, &fine))
+        same(&s, "two members of two elements are one of four", &fine, s.coarse,
+             (scene_edit){SCENE_EDIT_SPLIT, 0.5});
 }
 
 static void every_case(const element_type *e)
 {
-    for (int i = 0; registry_cases[i] != NULL; i++) {
-        static answer whole;
-        const case_type *type = registry_cases[i];
-        keep_all(type, e);
-        if (!(e->limits & LIMIT_ORDER_DEPENDENT)) /* by a discretisation error, which the sweep of
-                                                     extremes shows */
-            same(type, e, "the other order of nodes changes nothing", 2, 2,
-                 (scene_edit){SCENE_EDIT_REVERSE, 0}, 1e-8);
-        same(type, e, "another unit of length changes nothing", 2, 2,
-             (scene_edit){SCENE_EDIT_UNIT, 1000}, 1e-8);
-        ask(type, short_path(type), e, 1, 0, (scene_edit){SCENE_EDIT_NONE, 0}, &whole);
-        if (whole.members == 1)
-            same(type, e, "two members of two elements are one of four", 4, 2,
-                 (scene_edit){SCENE_EDIT_SPLIT, 0.5}, 1e-8);
-    }
+    ask_tally tally = {0};
+    for (int i = 0; registry_cases[i] != NULL; i++)
+        one_case(registry_cases[i], e, &tally);
+    gsl_test(tally.count[ASK_ANSWERED] == 0, "%s: there are cases that it runs on", e->name);
+    ask_conclude(&tally, e, "the same in other words");
 }
 
 /* An image of the structure in a mirror: which values change their sign. */
@@ -115,75 +165,80 @@ static void mirrors(const element_type *e)
         {"sheet_wagner", "wagner=0", "wagner=0;tip_phi_x=-0.15", "C_ux_Fx", "C_ux_My"},
         {"geradin_cardona", "load=600000", "load=-600000", "tip_x", "tip_y"},
     };
+    ask_tally tally = {0};
     for (size_t i = 0; i < sizeof images / sizeof images[0]; i++) {
         static answer one, other;
-        const scene_edit none = {SCENE_EDIT_NONE, 0};
         const case_type *type = case_find(images[i].base, NULL);
-        ask(type, images[i].one, e, 3, 0, none, &one);
-        ask(type, images[i].other, e, 3, 0, none, &other);
-        if (one.count == 0)
+        ask(&(question){type, images[i].one, e, 3, 0, unchanged}, &one);
+        ask(&(question){type, images[i].other, e, 3, 0, unchanged}, &other);
+        const int both = ask_count(&tally, &one, "%s, %s", images[i].base, images[i].one) +
+                         ask_count(&tally, &other, "%s, %s", images[i].base, images[i].other);
+        if (both < 2)
             continue;
-        gsl_test_rel(value_of(&other, images[i].even), value_of(&one, images[i].even), 1e-9,
+        gsl_test_rel(answer_of(&other, images[i].even), answer_of(&one, images[i].even), 1e-9,
                      "%s, %s: %s of the mirror image is the same", images[i].base, e->name,
                      images[i].even);
         if (images[i].odd != NULL)
-            gsl_test_rel(value_of(&other, images[i].odd), -value_of(&one, images[i].odd), 1e-9,
+            gsl_test_rel(answer_of(&other, images[i].odd), -answer_of(&one, images[i].odd), 1e-9,
                          "%s, %s: %s of the mirror image is opposite", images[i].base, e->name,
                          images[i].odd);
     }
+    ask_conclude(&tally, e, "mirror images");
 }
 
 /* Three equal folds: turned by a third of a turn, the joint is the same joint. */
 static void thirds(const element_type *e)
 {
-    cell_result result;
-    formulation chosen;
-    fault f = {""};
-    cell_request request = {
-        .type = case_find("spherical_joint", &f), .formulation = e, .elements = 1};
-    formulation_default(e, &chosen);
-    memcpy(request.option, chosen.option, sizeof request.option);
-    parameters_default(request.type, request.parameter);
-    parameters_set(request.type, "steps=6", request.parameter, &f);
-    if (cell_run(&request, &result, &f) == STATUS_OK)
-        for (int i = 0; i < result.solve.quantities; i++) {
-            const curve *c = &result.solve.quantity[i].curve;
-            for (int k = 0; k + 2 < c->points; k++)
-                gsl_test_rel(c->value[k + 2], c->value[k], 1e-8,
+    static answer a;
+    ask_tally tally = {0};
+    int compared = 0;
+    ask(&(question){case_find("spherical_joint", NULL), "steps=6", e, 1, 0, unchanged}, &a);
+    if (ask_count(&tally, &a, "spherical_joint"))
+        for (int i = 0; i < a.count; i++)
+            for (int k = 0; k + 2 < a.points[i]; k++, compared++)
+                gsl_test_rel(a.curve[i][k + 2], a.curve[i][k], 1e-8,
                              "spherical_joint, %s: the same stiffness a third of a turn on",
                              e->name);
-        }
-    cell_result_free(&result);
+    gsl_test(a.outcome == ASK_ANSWERED && compared == 0, "spherical_joint, %s: has curves",
+             e->name);
+    ask_conclude(&tally, e, "thirds of a turn");
 }
 
 /* Maxwell and Betti hold for loads that have a potential: semitangential moments, and not moments
- * about fixed axes. */
+ * about fixed axes.  Largest difference of C and its transpose. */
+static double asymmetry(const answer *a)
+{
+    static const char *const response[] = {"ux", "uy", "uz", "thx", "thy", "thz"};
+    static const char *const load[] = {"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
+    double C[6][6], worst = 0;
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++) {
+            char name[SCENE_NAME];
+            snprintf(name, sizeof name, "C_%s_%s", response[i], load[j]);
+            C[i][j] = answer_of(a, name);
+        }
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < i; j++)
+            worst = worst_of(worst, fabs(C[i][j] - C[j][i]) / sqrt(fabs(C[i][i] * C[j][j])));
+    return worst;
+}
+
 static void reciprocity(const element_type *e)
 {
-    static const char *const response[] = {"ux", "uy", "uz", "thx", "thy", "thz"}, *const load[] = {
-                                                                                       "Fx", "Fy",
-                                                                                       "Fz", "Mx",
-                                                                                       "My", "Mz"};
     static const char *const convention[] = {"moment_convention=semitangential",
                                              "moment_convention=spatial"};
     const case_type *type = case_find("sheet_wagner", NULL);
+    ask_tally tally = {0};
     double apart[2] = {0, 0};
     for (int k = 0; k < 2; k++) {
         static answer a;
-        ask(type, convention[k], e, 3, 0, (scene_edit){SCENE_EDIT_NONE, 0}, &a);
-        if (a.count == 0)
-            return;
-        double C[6][6];
-        for (int i = 0; i < 6; i++)
-            for (int j = 0; j < 6; j++) {
-                char name[SCENE_NAME];
-                snprintf(name, sizeof name, "C_%s_%s", response[i], load[j]);
-                C[i][j] = value_of(&a, name);
-            }
-        for (int i = 0; i < 6; i++)
-            for (int j = 0; j < i; j++)
-                apart[k] = fmax(apart[k], fabs(C[i][j] - C[j][i]) / sqrt(fabs(C[i][i] * C[j][j])));
+        ask(&(question){type, convention[k], e, 3, 0, unchanged}, &a);
+        if (ask_count(&tally, &a, "sheet_wagner, %s", convention[k]))
+            apart[k] = asymmetry(&a);
     }
+    ask_conclude(&tally, e, "reciprocity");
+    if (tally.count[ASK_ANSWERED] < 2)
+        return;
     if (e->limits & LIMIT_UNSYMMETRIC_TANGENT)
         gsl_test(
             !(apart[0] > 1e-6),

@@ -17,8 +17,11 @@ enum { COMPONENTS = 6, CHOICES = 64 };
  * arc's curvature in slender members. */
 static const double still = 1e-10, unstressed = 1e-12;
 
+enum { FORMULATIONS = 64 };
+
 typedef struct tally {
     int points, checked, not_offered;
+    int of[FORMULATIONS]; /* checked, of each formulation */
 } tally;
 
 static double dimension(const scene *s)
@@ -157,6 +160,8 @@ static void every_formulation(const point *p, tally *t)
             t->not_offered += count;
             continue;
         }
+        gsl_test(i >= FORMULATIONS, "%d formulations", i + 1);
+        t->of[i] += count;
         for (int k = 0; k < count; k++, t->checked++)
             for (int elements = 1; elements <= 2; elements++)
                 rests(p, &list[k], elements);
@@ -187,6 +192,8 @@ int main(void)
            t.not_offered);
     gsl_test(t.checked < t.points, "%d points with %d formulations at rest, %d not offered",
              t.points, t.checked, t.not_offered);
+    for (int i = 0; registry_formulations[i] != NULL; i++)
+        gsl_test(t.of[i] == 0, "%s at rest at %d points", registry_formulations[i]->name, t.of[i]);
     sweep_free(&plan);
     truths_free(&known);
     return gsl_test_summary();

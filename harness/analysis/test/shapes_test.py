@@ -1,7 +1,5 @@
-"""Shapes of solutions: equilibrium along the lines, agreement with the quantities, and the same through VTK's own reader."""
-import os
-import subprocess
-import tempfile
+"""Shapes of solutions: equilibrium along the lines, agreement with the quantities, and the same
+through VTK's own reader."""
 import unittest
 
 import h5py
@@ -13,7 +11,8 @@ try:
 except ImportError:
     vtk = None
 
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
+from harness.test.program import ProgramTest, run
+
 
 
 def turned(q, v):
@@ -22,23 +21,23 @@ def turned(q, v):
     return v + 2 * numpy.cross(u, numpy.cross(u, v) + w * v)
 
 
-class Solution(unittest.TestCase):
+class Solution(ProgramTest):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.path = os.path.join(self.folder.name, "s.h5")
+        super().setUp()
+        self.path = self.folder / "s.h5"
 
     def solve(self, case, formulation, n, *more):
-        done = subprocess.run([PROGRAM, "solve", case, "-f", formulation, "-n", str(n), "-o", self.path, *more], capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.answered("solve", case, "-f", formulation, "-n", n, "-o", self.path, *more)
         file = h5py.File(self.path)
         self.addCleanup(file.close)
         tables = file[f"cases/{case}"]
         return file, next(iter(tables["shapes"].values())), tables
 
     def test_path(self):
-        """The tip of the cantilever is where its quantity says; the resultants there are the reactions."""
-        for formulation, n in (("sheet_third", 1), ("collocation", 3), ("geometrically_exact:nodes=3", 2)):
+        """The tip of the cantilever is where its quantity says; the resultants there are the
+        reactions."""
+        for formulation, n in (("sheet_third", 1), ("collocation", 3),
+                               ("geometrically_exact:nodes=3", 2)):
             _, shapes, tables = self.solve("sheet_cantilever", formulation, n, "--shapes")
             value = {row["quantity"].decode(): row["value"] for row in tables["quantities"][()]}
             position, force = shapes["position"][()], shapes["force"][()]
@@ -65,7 +64,8 @@ class Solution(unittest.TestCase):
         self.assertEqual(list(shapes["value"][()]), [0, 1, 25, 50])
         members, first = shapes["members"][()], shapes["first_point"][()]
         self.assertEqual((len(members), len(first)), (12, 13))
-        numpy.testing.assert_allclose(numpy.sort(numpy.abs(shapes["sections/0"][0]), axis=0)[0], [0.000838 / 2, 0.0282 / 2], rtol=1e-15)
+        numpy.testing.assert_allclose(numpy.sort(numpy.abs(shapes["sections/0"][0]), axis=0)[0],
+                                      [0.000838 / 2, 0.0282 / 2], rtol=1e-15)
         position, nodes = shapes["position"][()], shapes["nodes"][()]
         for i, (p, q, _) in enumerate(members):
             numpy.testing.assert_allclose(position[:, first[i]], nodes[:, p], atol=1e-15)
@@ -74,10 +74,12 @@ class Solution(unittest.TestCase):
         self.assertEqual(sorted(numpy.unique(bodies, return_counts=True)[1]), [3, 3, 6, 9])
         attached = numpy.flatnonzero(bodies >= 0)
         distance = numpy.linalg.norm(nodes[:, attached] - nodes[:, bodies[attached]], axis=2)
-        numpy.testing.assert_allclose(distance, numpy.broadcast_to(distance[0], distance.shape), rtol=1e-12)
+        numpy.testing.assert_allclose(distance, numpy.broadcast_to(distance[0], distance.shape),
+                                      rtol=1e-12)
 
     def test_modes(self):
-        """The first mode of buckling is drawn: a tenth of the length high, or turned by half a radian."""
+        """The first mode of buckling is drawn: a tenth of the length high, or turned by half a
+        radian."""
         _, shapes, _ = self.solve("c_column", "beamw_consistent", 16, "--shapes")
         kinds = list(shapes["kind"].asstr()[()])
         self.assertIn("buckling", kinds)
@@ -87,12 +89,12 @@ class Solution(unittest.TestCase):
         length = numpy.ptp(position[0], axis=0).max()
         moved = numpy.linalg.norm(position[state] - position[0], axis=1).max() / length
         turn = 2 * numpy.arccos(numpy.abs((q[state] * q[0]).sum(axis=1))).max()
-        self.assertAlmostEqual(max(moved / 0.1, turn / 0.5), 1, delta=2e-2)  # the triads' x axes follow the line
+        # the triads' x axes follow the line
+        self.assertAlmostEqual(max(moved / 0.1, turn / 0.5), 1, delta=2e-2)
 
     def test_not_asked(self):
-        done = subprocess.run([PROGRAM, "solve", "elastica", "-f", "collocation", "-n", "2", "--shapes"], capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 2)
-        done = subprocess.run([PROGRAM, "verify", "-k", "elastica/default", "-o", self.path], capture_output=True, text=True, check=False)
+        self.answered("solve", "elastica", "-f", "collocation", "-n", "2", "--shapes", code=2)
+        run("verify", "-k", "elastica/default", "-o", self.path)
         with h5py.File(self.path) as file:
             self.assertNotIn("shapes", file["cases/elastica"])
 
@@ -112,7 +114,8 @@ class Solution(unittest.TestCase):
         points = shapes["position"].shape[1]
         self.assertEqual(grid.GetNumberOfPoints(), 3 * points)
         self.assertEqual(grid.GetNumberOfCells(), points)
-        self.assertEqual(sorted({grid.GetCellType(i) for i in range(grid.GetNumberOfCells())}), [vtk.VTK_POLY_LINE, vtk.VTK_QUAD])
+        self.assertEqual(sorted({grid.GetCellType(i) for i in range(grid.GetNumberOfCells())}),
+                         [vtk.VTK_POLY_LINE, vtk.VTK_QUAD])
         along = []
         for i in range(grid.GetNumberOfCells()):
             cell = grid.GetCell(i)
@@ -120,15 +123,18 @@ class Solution(unittest.TestCase):
                 along += [cell.GetPointId(k) for k in range(cell.GetNumberOfPoints())]
         place = vtk_to_numpy(grid.GetPoints().GetData())
         numpy.testing.assert_array_equal(place[along], shapes["position"][-1])
-        numpy.testing.assert_array_equal(vtk_to_numpy(grid.GetPointData().GetArray("force (N, Qy, Qz)"))[along], shapes["force"][-1])
+        force = vtk_to_numpy(grid.GetPointData().GetArray("force (N, Qy, Qz)"))
+        numpy.testing.assert_array_equal(force[along], shapes["force"][-1])
         area = vtk.vtkCellSizeFilter()
         area.SetInputData(grid)
         area.Update()
         covered = vtk_to_numpy(area.GetOutput().GetCellData().GetArray("Area")).sum()
-        self.assertAlmostEqual(covered / (12 * 0.0681 * 0.0282), 1, delta=2e-3)  # sheets keep their area, twisted quadrilaterals nearly
+        # sheets keep their area, twisted quadrilaterals nearly
+        self.assertAlmostEqual(covered / (12 * 0.0681 * 0.0282), 1, delta=2e-3)
 
     def test_vtk_steps(self):
-        """Several states are time steps: the layout of version 2.0, and each step is the state it says."""
+        """Several states are time steps: the layout of version 2.0, and each step is the state it
+        says."""
         file, shapes, _ = self.solve("sheet_cantilever", "sheet_third", 2, "--shapes")
         root = file["VTKHDF"]
         self.assertEqual(list(root.attrs["Version"]), [2, 0])
@@ -148,7 +154,8 @@ class Solution(unittest.TestCase):
         self.assertEqual(root["Offsets"][-1], root["NumberOfConnectivityIds"][0])
         centre = root["Connectivity"][:shapes["position"].shape[1]]
         for i in range(count):
-            numpy.testing.assert_array_equal(root["Points"][()][i * per_state:][centre], shapes["position"][i])
+            numpy.testing.assert_array_equal(root["Points"][()][i * per_state:][centre],
+                                             shapes["position"][i])
 
 
 if __name__ == "__main__":

@@ -1,80 +1,65 @@
-"""The program as a user meets it: answers, refusals with one line and the documented exit code, no partial file."""
-import json
+"""The program as a user meets it: answers, refusals with one line and the documented exit code,
+no partial file."""
 import os
 import pathlib
 import shutil
-import subprocess
-import tempfile
 import unittest
 
+import h5py
+
+from harness.test.program import TRUTHS, ProgramTest, environment, run
 from reference.pack import seal
 
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
-TRUTHS = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
 
 
-def run(*arguments, **environment):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, env={**os.environ, **environment}, check=False)
+def solve(case, *assignments):
+    """Words that solve a case on a small mesh."""
+    sets = [word for assignment in assignments for word in ("--set", assignment)]
+    return ("solve", case, "-f", "beamw", "-n", "2", *sets)
 
 
-class Refusals(unittest.TestCase):
-    def refused(self, code, word, *arguments, **environment):
-        done = run(*arguments, **environment)
-        self.assertEqual(done.returncode, code, done)
-        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
-        self.assertIn(word, done.stderr)
-
+class Refusals(ProgramTest):
     def test_names(self):
         self.refused(2, "did you mean 'c_column'", "solve", "c_colum", "-f", "beamw", "-n", "2")
         self.refused(2, "did you mean 'beamw'", "solve", "c_column", "-f", "beamv", "-n", "2")
-        self.refused(2, "did you mean 'length'", "solve", "c_column", "-f", "beamw", "-n", "2", "--set", "lenght=2")
+        self.refused(2, "did you mean 'length'", *solve("c_column", "lenght=2"))
         self.refused(2, "did you mean 'verify'", "verifi")
 
     def test_values(self):
         for bad in ("length=-1", "length=nan", "length=inf", "young=0", "flange_thickness=0"):
-            self.refused(2, bad.partition("=")[0], "solve", "c_column", "-f", "beamw", "-n", "2", "--set", bad)
-        self.refused(2, "positive definite", "solve", "c_column", "-f", "beamw", "-n", "2", "--set", "section_data=misprinted")
-        self.refused(2, "poisson", "solve", "sheet_cantilever", "-f", "beamw", "-n", "2", "--set", "poisson=0.5")
-        self.refused(2, "tip_deflection", "solve", "sheet_cantilever", "-f", "beamw", "-n", "2", "--set", "tip_deflection=0.2")
+            self.refused(2, bad.partition("=")[0], *solve("c_column", bad))
+        self.refused(2, "positive definite", *solve("c_column", "section_data=misprinted"))
+        self.refused(2, "poisson", *solve("sheet_cantilever", "poisson=0.5"))
+        self.refused(2, "tip_deflection", *solve("sheet_cantilever", "tip_deflection=0.2"))
         self.refused(2, "elements", "solve", "c_column", "-f", "beamw", "-n", "0")
         self.refused(2, "memory", "solve", "c_column", "-f", "beamw", "-n", "10000000")
         self.refused(2, "does not offer", "solve", "c_column", "-f", "beamw_vlasov", "-n", "2")
 
     def test_truth_files(self):
-        folder = tempfile.mkdtemp()
-        try:
-            foreign, cut = os.path.join(folder, "foreign.h5"), os.path.join(folder, "cut.h5")
-            pathlib.Path(foreign).write_bytes(b"hello")
-            pathlib.Path(cut).write_bytes(pathlib.Path(TRUTHS).read_bytes()[:3000])
-            for path in (foreign, cut, os.path.join(folder, "missing.h5")):
-                self.refused(4, path, "verify", "--truths", path)
-        finally:
-            shutil.rmtree(folder)
+        foreign, cut = self.folder / "foreign.h5", self.folder / "cut.h5"
+        foreign.write_bytes(b"hello")
+        cut.write_bytes(pathlib.Path(TRUTHS).read_bytes()[:3000])
+        for path in (foreign, cut, self.folder / "missing.h5"):
+            self.refused(4, str(path), "verify", "--truths", path)
 
     def test_unwritable_output(self):
-        folder = tempfile.mkdtemp()
-        try:
-            self.refused(4, "cannot be written", "verify", "-k", "warping_torsion", "-o", "/nowhere/results.h5")
-            self.refused(4, "cannot be written", "solve", "warping_torsion", "-f", "beamw", "-n", "2", "-o", folder)
-            self.assertEqual(os.listdir(folder), [])
-        finally:
-            shutil.rmtree(folder)
+        words = "cannot be written"
+        self.refused(4, words, "verify", "-k", "warping_torsion", "-o", "/nowhere/results.h5")
+        self.refused(4, words, *solve("warping_torsion"), "-o", self.folder)
+        self.assertEqual(os.listdir(self.folder), [])
 
     def test_full_disk(self):
         if os.path.exists("/dev/full"):
             with open("/dev/full", "w", encoding="ascii") as full:
-                done = subprocess.run([PROGRAM, "solve", "warping_torsion", "-f", "beamw", "-n", "2"], stdout=full, stderr=subprocess.PIPE, text=True, check=False)
-            self.assertEqual(done.returncode, 4, done.stderr)
+                self.answered(*solve("warping_torsion"), code=4, stdout=full)
 
     def test_nothing_checked(self):
-        self.refused(3, "nothing was checked", "verify", "-k", "no_such_case")
+        self.refused(3, "nothing was checked", "verify", "-k", "no_such_case", silent=False)
 
 
-class Answers(unittest.TestCase):
+class Answers(ProgramTest):
     def test_json(self):
-        done = run("solve", "c_column", "-f", "beamw", "-n", "2", "--set", "section_data=printed", "--format", "json")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        result = json.loads(done.stdout)
+        result = self.record(*solve("c_column", "section_data=printed"))
         self.assertEqual(result["schema_version"], 2)
         self.assertEqual(result["parameters"]["section_data"], "printed")
         load = result["quantities"][0]
@@ -83,21 +68,15 @@ class Answers(unittest.TestCase):
 
     def test_gate(self):
         """A rule that is taken out of the ledger turns the gate red."""
-        import h5py
-        folder = tempfile.mkdtemp()
-        try:
-            path = os.path.join(folder, "t.h5")
-            shutil.copy(TRUTHS, path)
-            selection = ("verify", "-k", "c_column and section_data=printed and beamw", "--truths", path)
-            self.assertEqual(run(*selection).returncode, 0)
-            with h5py.File(path, "r+") as file:
-                file["findings/quantities"][...] = b"gone"
-            seal(path)
-            done = run(*selection)
-            self.assertEqual(done.returncode, 1)
-            self.assertIn("-2.7801%  wrong limit", done.stdout)
-        finally:
-            shutil.rmtree(folder)
+        path = self.folder / "t.h5"
+        shutil.copy(TRUTHS, path)
+        selection = ("-k", "c_column and section_data=printed and beamw", "--truths", path)
+        self.answered("verify", *selection)
+        with h5py.File(path, "r+") as file:
+            file["findings/quantities"][...] = b"gone"
+        seal(path)
+        done = self.answered("verify", *selection, code=1)
+        self.assertIn("-2.7801%  wrong limit", done.stdout)
 
     def test_jobs_agree(self):
         one = run("verify", "-k", "warping_torsion", "-j", "1")
@@ -106,20 +85,19 @@ class Answers(unittest.TestCase):
 
     def test_truth(self):
         """Stored at known points, derived at new ones, refused where no program can."""
-        stored, derived = run("truth", "elastica", "--set", "load=2"), run("truth", "elastica", "--set", "load=2.5")
-        self.assertEqual((stored.returncode, derived.returncode), (0, 0), derived.stderr)
-        for done in (stored, derived):
-            self.assertRegex(done.stdout, r"w_over_L +0\.[45]\d+ \+- \S+ +1 +exact +same +reference/derive/cantilevers.py")
-        self.assertEqual(run("truth", "elastica", "--set", "load=zwei").returncode, 2)
-        self.assertEqual(run("truth", "no_such_case").returncode, 2)
-        away = run("truth", "elastica", "--set", "load=2.5", BEAMWORK_REFERENCE="/nowhere")
-        self.assertEqual(away.returncode, 4)
-        self.assertEqual(len(away.stderr.strip().splitlines()), 1)
+        source = " +1 +exact +same +reference/derive/cantilevers.py"
+        for load in ("load=2", "load=2.5"):
+            done = self.answered("truth", "elastica", "--set", load)
+            self.assertRegex(done.stdout, r"w_over_L +0\.[45]\d+ \+- \S+" + source)
+        self.answered("truth", "elastica", "--set", "load=zwei", code=2)
+        self.answered("truth", "no_such_case", code=2)
+        self.refused(4, "", "truth", "elastica", "--set", "load=2.5",
+                     silent=False, env=environment(BEAMWORK_REFERENCE="/nowhere"))
 
     def test_help(self):
         for verb in ("solve", "verify", "converge", "list"):
-            done = run(verb, "--help", ASAN_OPTIONS="detect_leaks=0")  # the C library's argp leaves a byte when it exits
-            self.assertEqual(done.returncode, 0)
+            # the C library's argp leaves a byte when it exits
+            done = self.answered(verb, "--help", env=environment(ASAN_OPTIONS="detect_leaks=0"))
             self.assertIn("Usage", done.stdout)
         self.assertIn("HDF5", run("--version").stdout)
 

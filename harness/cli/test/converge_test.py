@@ -2,24 +2,25 @@
 import csv
 import io
 import json
-import os
-import subprocess
 import unittest
 
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
+from harness.test.program import run
 
 
 def converge(form):
-    done = subprocess.run([PROGRAM, "converge", "elastica", "-f", "beamw", "-f", "sheet_second:newton=displacement", "-n", "4,8,16", "--format", form],
-                          capture_output=True, text=True, check=True)
+    done = run("converge", "elastica", "-f", "beamw", "-f", "sheet_second:newton=displacement",
+               "-n", "4,8,16", "--format", form)
+    assert done.returncode == 0, done.stderr
     return done.stdout
 
 
 class Forms(unittest.TestCase):
     def test_json_and_csv_agree(self):
         series = json.loads(converge("json"))["series"]
-        self.assertEqual([s["formulation"] for s in series], ["beamw", "sheet_second:newton=displacement"])
-        rows = {(r["formulation"], r["quantity"], int(r["elements"])): r for r in csv.DictReader(io.StringIO(converge("csv")))}
+        self.assertEqual([s["formulation"] for s in series],
+                         ["beamw", "sheet_second:newton=displacement"])
+        rows = {(r["formulation"], r["quantity"], int(r["elements"])): r
+                for r in csv.DictReader(io.StringIO(converge("csv")))}
         seen = 0
         for one in series:
             for quantity in one["quantities"]:
@@ -31,7 +32,8 @@ class Forms(unittest.TestCase):
         self.assertEqual(seen, len(rows))
 
     def test_limit_order_and_verdict(self):
-        one = {q["quantity"]: q for q in json.loads(converge("json"))["series"][0]["quantities"]}["w_over_L"]
+        quantities = json.loads(converge("json"))["series"][0]["quantities"]
+        one = next(q for q in quantities if q["quantity"] == "w_over_L")
         self.assertEqual(one["verdict"], "pass")
         self.assertAlmostEqual(one["order"], 2, delta=0.05)
         self.assertLess(abs(one["error"]), 1e-4)

@@ -1,28 +1,21 @@
 """Words of the command line that say two things or nothing, and a machine that gives too little:
 one line and the documented code."""
 import os
-import pathlib
 import re
 import resource
 import signal
 import subprocess
-import tempfile
 import unittest
 
-from harness.cli.test.program import PROGRAM, VERBS, WORK, run
+from harness.cli.test.work import VERBS, WORK
+from harness.test.program import ProgramTest, environment, run
 
 LISTS = ("formulation", "elements", "set")  # may be given again
 # the C library's argp leaves a byte when it exits
-HELP = {**os.environ, "ASAN_OPTIONS": "detect_leaks=0"}
+HELP = environment(ASAN_OPTIONS="detect_leaks=0")
 
 
-class Words(unittest.TestCase):
-    def refused(self, word, *arguments, code=2):
-        done = run(*arguments)
-        self.assertEqual(done.returncode, code, (arguments, done))
-        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
-        self.assertIn(word, done.stderr)
-
+class Words(ProgramTest):
     def test_options_twice(self):
         """Every option with one value of every verb, as its help lists them."""
         seen = 0
@@ -32,51 +25,48 @@ class Words(unittest.TestCase):
                 if name in LISTS:
                     continue
                 value = {"format": "text", "against": "beamw"}.get(name, "3")
-                self.refused("given twice", verb, f"--{name}={value}", f"--{name}={value}")
+                self.refused(2, "given twice", verb, f"--{name}={value}", f"--{name}={value}")
                 seen += 1
         self.assertGreater(seen, 20)
 
     def test_parameters_twice(self):
         for verb in ("solve", "converge", "bench"):
-            self.refused("given twice", verb, "elastica", "-f", "beamw", "-n", "2", "--set",
+            self.refused(2, "given twice", verb, "elastica", "-f", "beamw", "-n", "2", "--set",
                          "load=1", "--set", "load=1")
-            self.refused("given twice", verb, "elastica", "-f", "beamw", "-n", "2", "--set",
+            self.refused(2, "given twice", verb, "elastica", "-f", "beamw", "-n", "2", "--set",
                          "load=1", "--set", "load")
-        self.refused("given twice", "truth", "elastica", "--set", "load=1", "--set", "load=2")
-        self.refused("given twice", "solve", "elastica", "-n", "2", "-f",
+        self.refused(2, "given twice", "truth", "elastica", "--set", "load=1", "--set", "load=2")
+        self.refused(2, "given twice", "solve", "elastica", "-n", "2", "-f",
                      "beamw:mass=lumped,mass=consistent")
-        self.refused("given twice", "solve", "elastica", "-n", "2", "-f",
+        self.refused(2, "given twice", "solve", "elastica", "-n", "2", "-f",
                      "beamw:newton=mixed,newton=mixed")
-        self.refused("given twice", "converge", "elastica", "-n", "2", "-f", "beamw", "-f",
+        self.refused(2, "given twice", "converge", "elastica", "-n", "2", "-f", "beamw", "-f",
                      "beamw:mass=consistent")
 
     def test_commas(self):
         for stray in (",{}", "{},", ",", "{0},,{0}", ""):
-            self.refused("number of elements", "converge", "elastica", "-f", "beamw", "-n",
+            self.refused(2, "number of elements", "converge", "elastica", "-f", "beamw", "-n",
                          stray.format("2"))
             if stray != "":
-                self.refused("option", "converge", "elastica", "-n", "2", "-f",
+                self.refused(2, "option", "converge", "elastica", "-n", "2", "-f",
                              "beamw:" + stray.format("mass=lumped"))
-            self.refused("threshold", "compare", "old.h5", "new.h5", "--threshold",
+            self.refused(2, "threshold", "compare", "old.h5", "new.h5", "--threshold",
                          stray.format("error=1"))
-        self.refused("option", "converge", "elastica", "-n", "2", "-f", "beamw:")
+        self.refused(2, "option", "converge", "elastica", "-n", "2", "-f", "beamw:")
 
     def test_numbers(self):
         """What a double cannot hold is no value: neither zero nor infinity."""
         for text in ("1e-400", "-1e-400", "1e400", "1e-320", "1e999999999999", "0x1p-2000", "nan",
                      "inf", "1,5", "1e", "", " "):
-            self.refused("parameter load", "solve", "elastica", "-f", "beamw", "-n", "1", "--set",
+            self.refused(2, "parameter load", "solve", "elastica", "-f", "beamw", "-n", "1",
+                         "--set",
                          f"load={text}")
-            self.refused("threshold", "compare", "old.h5", "new.h5", "--threshold", f"error={text}")
+            self.refused(2, "threshold", "compare", "old.h5", "new.h5", "--threshold",
+                         f"error={text}")
 
 
-class Machine(unittest.TestCase):
+class Machine(ProgramTest):
     """A disk, files or a stack that are too small."""
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "needs /dev/full")
     def test_full_disk(self):
@@ -122,19 +112,16 @@ class Machine(unittest.TestCase):
                 self.assertTrue(not hard or "ulimit -s" in done.stderr)
 
 
-class OtherPythons(unittest.TestCase):
+class OtherPythons(ProgramTest):
     """Who works in a virtual environment, or with a Python of his own, has the truths derived all
     the same."""
 
-    def derived(self, **environment):
-        done = run("truth", "elastica", "--set", "load=2.5", env={**os.environ, **environment})
-        self.assertEqual(done.returncode, 0, done.stderr)
+    def derived(self, **changes):
+        done = self.answered("truth", "elastica", "--set", "load=2.5", env=environment(**changes))
         self.assertRegex(done.stdout, r"w_over_L +0\.\d+")
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         (self.folder / "bin").mkdir()
         self.python = self.folder / "bin" / "python3"
 

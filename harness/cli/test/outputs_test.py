@@ -1,15 +1,14 @@
 """Where outputs go: through links, into pipes and devices, never onto an input or onto each
 other, and no work before that is sure."""
 import os
-import pathlib
 import re
 import shutil
 import subprocess
-import tempfile
 import threading
 import unittest
 
-from harness.cli.test.program import PROGRAM, TEXT, TRUTHS, WHOLE, WORK, run
+from harness.cli.test.work import TEXT, WHOLE, WORK
+from harness.test.program import PROGRAM, ROOT, TRUTHS, ProgramTest, run
 
 
 def shape(text):
@@ -17,19 +16,7 @@ def shape(text):
     return re.sub(r"[0-9][0-9.e+-]*", "#", text)
 
 
-class Folder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def refused(self, code, word, *arguments, **options):
-        done = run(*arguments, **options)
-        self.assertEqual(done.returncode, code, (arguments, done))
-        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
-        self.assertIn(word, done.stderr)
-        self.assertEqual(done.stdout, "", "nothing was computed")
-
+class Folder(ProgramTest):
     def stored(self, name):
         path = self.folder / name
         self.assertEqual(run("verify", *WORK["verify"], "-o", path).returncode, 0)
@@ -173,7 +160,7 @@ class LongPaths(Folder):
         program = deep / "build" / "beamwork"
         shutil.copy(PROGRAM, program)
         shutil.copy(TRUTHS, deep / "build" / "truths.h5")
-        (deep / "reference").symlink_to(pathlib.Path(__file__).resolve().parents[3] / "reference")
+        (deep / "reference").symlink_to(ROOT / "reference")
         alone = {k: v for k, v in os.environ.items() if not k.startswith("BEAMWORK")}
         for arguments in (("verify", *WORK["verify"], "-o", deep / "r.h5"),
                           ("truth", "elastica", "--set", "load=2.5"),

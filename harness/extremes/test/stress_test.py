@@ -1,55 +1,51 @@
-"""beamwork stress: exit codes, what its outputs agree on, and that a wrong number is never silent."""
+"""beamwork stress: exit codes, what its outputs agree on, and that a wrong number is never
+silent."""
 import csv
 import io
 import json
-import os
-import pathlib
 import shutil
-import subprocess
 import sys
-import tempfile
 import unittest
 
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
-ROOT = pathlib.Path(__file__).resolve().parents[3]
+from harness.test import program
+from harness.test.program import ROOT, ProgramTest
+
 SMALL = "decay_free or soft_square or twist_wagner"
 
 
 def run(*arguments, truths=None):
-    command = [PROGRAM, "stress", *arguments] + (["--truths", truths] if truths else [])
-    return subprocess.run(command, capture_output=True, text=True, check=False)
+    return program.run("stress", *arguments, *(["--truths", truths] if truths else []))
 
 
-class Stress(unittest.TestCase):
+class Stress(ProgramTest):
     @classmethod
     def setUpClass(cls):
         done = run("-k", SMALL, "--format", "json")
         cls.code, cls.record = done.returncode, json.loads(done.stdout)
 
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
     def altered(self, change):
         """Packed truths of a copy of reference/ that `change` was applied to."""
         copy = self.folder / "reference"
-        shutil.copytree(ROOT / "reference", copy, ignore=shutil.ignore_patterns("__pycache__", "derive", "test"))
+        left_out = shutil.ignore_patterns("__pycache__", "derive", "test")
+        shutil.copytree(ROOT / "reference", copy, ignore=left_out)
         change(copy)
         packed = self.folder / "truths.h5"
-        subprocess.run([sys.executable, ROOT / "reference" / "pack.py", "-o", packed, "--folder", copy], check=True, capture_output=True)
+        self.answered(ROOT / "reference" / "pack.py", "-o", packed, "--folder", copy,
+                      program=sys.executable)
         return packed
 
     def test_as_expected(self):
         self.assertEqual(self.code, 0)
         for o in self.record["outcomes"]:
             self.assertTrue(o["as_expected"], o)
-            self.assertEqual(o["value"] is not None, o["outcome"] in ("value", "coarse", "wrong"), o)
+            has_value = o["outcome"] in ("value", "coarse", "wrong")
+            self.assertEqual(o["value"] is not None, has_value, o)
             self.assertEqual(bool(o["proof"]), o["outcome"] not in ("value", "coarse", "skip"), o)
             if o["outcome"] not in ("value", "coarse"):
                 self.assertTrue(o["reason"], o)
             if o["outcome"] == "value":
-                tolerance = next(e["tolerance"] for e in self.record["extremes"] if e["name"] == o["extreme"])
+                tolerance = next(e["tolerance"] for e in self.record["extremes"]
+                                 if e["name"] == o["extreme"])
                 self.assertLessEqual(abs(o["error"]), tolerance * (1 + 1e-6), o)
                 self.assertGreater(o["condition"], 0)
 
@@ -60,14 +56,17 @@ class Stress(unittest.TestCase):
                 if o["formulation"] == f["formulation"] and o["outcome"] != "skip":
                     cells.setdefault((o["extreme"], o["x"]), set()).add(o["outcome"])
             self.assertEqual(f["tried"], len(cells))
-            self.assertEqual(f["survived"], sum(found <= {"value", "coarse"} for found in cells.values()))
-            self.assertEqual(f["tried"], f["survived"] + f["named_failures"] + f["wrong"] + f["faults"])
+            survived = sum(found <= {"value", "coarse"} for found in cells.values())
+            self.assertEqual(f["survived"], survived)
+            self.assertEqual(f["tried"],
+                             survived + f["named_failures"] + f["wrong"] + f["faults"])
         self.assertGreater(sum(f["wrong"] for f in self.record["formulations"]), 0)
 
     def test_formats_agree(self):
         rows = list(csv.DictReader(io.StringIO(run("-k", SMALL, "--format", "csv").stdout)))
-        self.assertEqual([(r["extreme"], r["formulation"], r["quantity"], r["outcome"]) for r in rows],
-                         [(o["extreme"], o["formulation"], o["quantity"], o["outcome"]) for o in self.record["outcomes"]])
+        keys = ("extreme", "formulation", "quantity", "outcome")
+        self.assertEqual([[r[key] for key in keys] for r in rows],
+                         [[o[key] for key in keys] for o in self.record["outcomes"]])
         for row, outcome in zip(rows, self.record["outcomes"]):
             self.assertEqual(float(row["value"]) if row["value"] else None, outcome["value"])
         written = self.folder / "table.txt"
@@ -77,15 +76,20 @@ class Stress(unittest.TestCase):
     def test_wrong_numbers_are_not_silent(self):
         def no_findings(folder):
             path = folder / "extreme_findings.csv"
-            path.write_text(path.read_text(encoding="utf-8").splitlines()[0] + "\n", encoding="utf-8")
+            header = path.read_text(encoding="utf-8").splitlines()[0]
+            path.write_text(header + "\n", encoding="utf-8")
         done = run("-k", "soft_square", truths=self.altered(no_findings))
         self.assertEqual(done.returncode, 1)
-        self.assertIn("unexpected: soft_square E/G=1000 sheet_second buckling_load: wrong", done.stdout)
+        self.assertIn("unexpected: soft_square E/G=1000 sheet_second buckling_load: wrong",
+                      done.stdout)
 
     def test_a_wrong_truth_is_noticed(self):
         def one_percent(folder):
             path = folder / "extremes" / "warping_torsion.csv"
-            path.write_text(path.read_text(encoding="utf-8").replace("9.900000000000E-1", "9.8E-1").replace("0.9900000000000", "0.98"), encoding="utf-8")
+            text = path.read_text(encoding="utf-8")
+            for right, wrong in (("9.900000000000E-1", "9.8E-1"), ("0.9900000000000", "0.98")):
+                text = text.replace(right, wrong)
+            path.write_text(text, encoding="utf-8")
         done = run("-k", "decay_free and collocation", truths=self.altered(one_percent))
         self.assertEqual(done.returncode, 1, done.stdout)
 
@@ -105,11 +109,10 @@ class Stress(unittest.TestCase):
         self.assertIn("expected singular", done.stdout)
 
     def test_refusals(self):
-        for code, arguments in ((3, ["-k", "nothing_of_this_name"]), (2, ["-k", "and and"]), (2, ["elastica"]), (2, ["-f", "bemw"]), (4, ["--truths", "/none.h5"]),
-                                (4, ["-k", "turns and collocation", "-o", "/none/table.txt"])):
-            done = run(*arguments)
-            self.assertEqual(done.returncode, code, arguments)
-            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        for code, *arguments in ((3, "-k", "nothing_of_this_name"), (2, "-k", "and and"),
+                                 (2, "elastica"), (2, "-f", "bemw"), (4, "--truths", "/none.h5"),
+                                 (4, "-k", "turns and collocation", "-o", "/none/table.txt")):
+            self.refused(code, "", "stress", *arguments, silent=False)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,8 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "elements/test/nodes.h"
+#include "elements/test/worst.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 
@@ -50,7 +52,8 @@ static void test_section(const element_type *type, section *out)
     out->Iw = out->A * pow(0.2, 4); /* so that warping is as large as what is compared with it */
 }
 
-static void prepare(const element_type *type, const double options[], unsigned features, subject *s)
+/* 0: refused, and the test has failed; data to be freed in any case. */
+static int prepare(const element_type *type, const double options[], unsigned features, subject *s)
 {
     fault f = {""};
     s->type = type;
@@ -61,44 +64,9 @@ static void prepare(const element_type *type, const double options[], unsigned f
     const element_request request = {
         .section = &s->section, .length = s->length, .features = features, .options = options};
     s->data = calloc(1, type->data_size(&request));
-    gsl_test(type->prepare(&request, s->data, &f) != STATUS_OK, "%s: prepared (%s)", type->name,
-             f.text);
-}
-
-/* Increments of high entropy, of relative size `size`. */
-static void increments(const subject *s, double size, unsigned seed, double d[])
-{
-    unsigned long long state = seed * 2654435761ull + 12345;
-    for (int i = 0; i < s->coordinates; i++) {
-        state = state * 6364136223846793005ull + 1442695040888963407ull;
-        const double random = (double)(state >> 11) / 9007199254740992.0 - 0.5;
-        const int c = i % 7;
-        d[i] = size * random * (c < 3 ? s->length : c < 6 ? 1 : 1 / s->length);
-    }
-}
-
-static void undeformed(const subject *s, node_state x[])
-{
-    for (int k = 0; k < s->nodes; k++)
-        x[k] =
-            (node_state){.r = {s->length * k / (s->nodes - 1)}, .R = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
-}
-
-static void move(const subject *s, double times, const double d[], node_state x[])
-{
-    for (int k = 0; k < s->nodes; k++) {
-        double turn[3], q[4], T[9], R[9];
-        for (int i = 0; i < 3; i++) {
-            x[k].r[i] += times * d[7 * k + i];
-            x[k].u[i] += times * d[7 * k + i];
-            turn[i] = times * d[7 * k + 3 + i];
-        }
-        x[k].a += times * d[7 * k + 6];
-        rotation_exp(turn, q);
-        rotation_matrix(q, T);
-        mat3_mul(T, x[k].R, R);
-        memcpy(x[k].R, R, sizeof R);
-    }
+    const int made = type->prepare(&request, s->data, &f) == STATUS_OK;
+    gsl_test(!made, "%s: prepared (%s)", type->name, f.text);
+    return made;
 }
 
 static double dot(int n, const double a[], const double b[])
@@ -115,7 +83,7 @@ static double departure(int n, const double A[], double sign)
     double worst = 0, largest = 0;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
-            worst = fmax(worst, fabs(A[i * n + j] - sign * A[j * n + i]));
+            worst = worst_of(worst, fabs(A[i * n + j] - sign * A[j * n + i]));
             largest = fmax(largest, fabs(A[i * n + j]));
         }
     return worst / largest;
@@ -156,7 +124,7 @@ static void own_motion(const subject *s, const node_state x[], int rotary,
                      "%s: the frame's own motion has the centrifugal energy", s->name);
     for (int i = 0; i < n; i++) {
         const double size = i % 7 < 3 ? 1 : s->length;
-        worst = fmax(worst, fabs(Gv[i] + 2 * out->force[i]) / size);
+        worst = worst_of(worst, fabs(Gv[i] + 2 * out->force[i]) / size);
         largest = fmax(largest, fabs(out->force[i]) / size);
     }
     gsl_test(
@@ -172,11 +140,11 @@ static void derivatives(const subject *s, const node_state x[], const inertia_ou
     const int n = s->coordinates;
     const double h = 2e-3;
     double d[MOST], Nd[MOST], V[SAMPLES];
-    increments(s, 1, 37, d);
+    nodes_increments(s->nodes, s->length, 1, 37, d);
     for (int k = 0; k < SAMPLES; k++) {
         node_state at[ELEMENT_MAX_NODES];
         memcpy(at, x, (size_t)s->nodes * sizeof *at);
-        move(s, (k - 2) * h, d, at);
+        nodes_move(s->nodes, (k - 2) * h, d, at);
         s->type->inertia(s->data, at, &turning, &(inertia_output){.potential = &V[k]});
     }
     dense_mul_vec(n, n, out->N, d, Nd);
@@ -219,7 +187,7 @@ static void lumped_moments(const element_type *type, const double options[], con
     const element_request request = {.section = &s.section, .length = s.length, .features = features, .options = options};
     s.data = calloc(1, type->data_size(&request));
     gsl_test(type->prepare(&request, s.data, NULL) != STATUS_OK, "%s: prepared", name);
-    undeformed(&s, x);
+    nodes_straight(s.nodes, s.length, x);
     type->inertia(s.data, x, NULL, &(inertia_output){.M = M});
     for (int k = 0; k < s.nodes; k++) {
         x_moment += M[(7 * k + 1) * (s.coordinates + 1)] * pow(x[k].r[0], 2);
@@ -253,12 +221,15 @@ static void check(const element_type *type, const double options[], int choice, 
     node_state x[ELEMENT_MAX_NODES];
     const unsigned features = type->offers & ~(unsigned)FEATURE_CURVATURE & ~left_out;
     const int rotary = (features & FEATURE_ROTARY_INERTIA) != 0;
-    prepare(type, options, features, &s);
+    if (!prepare(type, options, features, &s)) {
+        free(s.data);
+        return;
+    }
     snprintf(s.name, sizeof s.name, "%s, mass %d%s%s", type->name, choice, rotary ? ", rotary" : "",
              features & FEATURE_WARPING ? ", warping" : "");
-    undeformed(&s, x);
-    increments(&s, 0.05, 31, d);
-    move(&s, 1, d, x);
+    nodes_straight(s.nodes, s.length, x);
+    nodes_increments(s.nodes, s.length, 0.05, 31, d);
+    nodes_move(s.nodes, 1, d, x);
     at_rest(&s, x);
     turning_frame(&s, x, rotary);
     free(s.data);
@@ -272,8 +243,11 @@ static double turning_inertia(const element_type *type, const double options[], 
     double M[MOST * MOST], v[MOST] = {0}, Mv[MOST], omega[3] = {0};
     node_state x[ELEMENT_MAX_NODES];
     omega[axis] = 1;
-    prepare(type, options, features, s);
-    undeformed(s, x);
+    if (!prepare(type, options, features, s)) {
+        free(s->data);
+        return NAN;
+    }
+    nodes_straight(s->nodes, s->length, x);
     for (int k = 0; k < s->nodes; k++) {
         vec3_cross(omega, x[k].r, v + 7 * k);
         memcpy(v + 7 * k + 3, omega, sizeof omega);
@@ -315,8 +289,11 @@ static double twisted_energy(const element_type *type, const double options[], u
 {
     double d[MOST] = {0}, V = NAN;
     node_state x[ELEMENT_MAX_NODES];
-    prepare(type, options, features, s);
-    undeformed(s, x);
+    if (!prepare(type, options, features, s)) {
+        free(s->data);
+        return NAN;
+    }
+    nodes_straight(s->nodes, s->length, x);
     for (int k = 0; k < s->nodes; k++) {
         const double turn = angle * k / (s->nodes - 1), ys = s->section.ys, zs = s->section.zs;
         d[7 * k + 1] =
@@ -325,7 +302,7 @@ static double twisted_energy(const element_type *type, const double options[], u
         d[7 * k + 3] = turn;
         d[7 * k + 6] = sin(angle) / s->length; /* e2 of BEAMW is a sine */
     }
-    move(s, 1, d, x);
+    nodes_move(s->nodes, 1, d, x);
     s->type->inertia(s->data, x, &turning, &(inertia_output){.potential = &V});
     free(s->data);
     return V;

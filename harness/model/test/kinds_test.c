@@ -5,6 +5,7 @@
 
 #include "harness/analysis/solve.h"
 #include "harness/catalogue/registry.h"
+#include "harness/test/ask.h"
 
 enum { SECTIONS = 2, MOST_MEMBERS = 3 };
 static const double young = 1e4, side[SECTIONS] = {0.1, 0.1 * (1 + 1e-6)};
@@ -65,7 +66,7 @@ static int solve(const element_type *type, int count, const link links[], double
     row_of(count, links, force, &s);
     const model_request what = {&s, type, NULL, elements, 0};
     status outcome = model_alloc(&what, &m, &f);
-    const int offered = outcome != STATUS_REFUSED;
+    const int offered = ask_offered(&s, type);
     if (outcome == STATUS_OK) {
         *kinds = model_kinds(m);
         outcome = solve_scene(&s, m, NULL, &r, &f);

@@ -6,17 +6,12 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "elements/test/random.h"
 #include "harness/model/movable.h"
-
-static double random_number(unsigned *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return 2.0 * (*state >> 8) / (1u << 24) - 1;
-}
 
 /* Columns of T: `shifts` displacements along the axes, then turns about unit axes in a plane (or
  * in space) of random orientation, seen at an offset of about `length`. */
-static int fill(unsigned *state, int shifts, int turns, int in_plane, double length, double T[36])
+static int fill(uint64_t *state, int shifts, int turns, int in_plane, double length, double T[36])
 {
     const int columns = shifts + turns;
     double normal[3], offset[3], axis[3];
@@ -72,7 +67,7 @@ static double outside(int columns, const double *T, double length, const movable
 static void dimensions(void)
 {
     static const double length[] = {1e-6, 1, 1e4};
-    unsigned state = 7;
+    uint64_t state = 7;
     for (int trial = 0; trial < 600; trial++) {
         const int shifts = trial % 4, turns = trial / 4 % 4, in_plane = trial / 16 % 2;
         const double size = length[trial / 32 % 3];
@@ -118,7 +113,7 @@ static void nothing(void)
  * space. */
 static void prescribed_moment(void)
 {
-    unsigned state = 3;
+    uint64_t state = 3;
     for (int turns = 0; turns < 4; turns++)
         for (int in_plane = 0; in_plane < 2; in_plane++) {
             double T[36], left[3];

@@ -10,6 +10,7 @@
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
 #include "harness/study/cell.h"
+#include "harness/test/ask.h"
 
 enum { ANGLE = CASE_MAX_PARAMETERS - 1, ORIGINAL = CASE_MAX_PARAMETERS - 2 };
 
@@ -56,6 +57,8 @@ static int compare(int original, const element_type *element)
     cell_result before, after;
     int compared = 0;
     const int runs = solve(original, 0, element, &before) == STATUS_OK;
+    gsl_test(runs != ask_offered(&before.scene, element), "%s, %s: solved where it is offered %s",
+             before.scene.name, element->name, before.solve.reason);
     for (size_t k = 0; k < sizeof angle / sizeof angle[0] && runs; k++) {
         gsl_test(solve(original, angle[k], element, &after) != STATUS_OK, "%s, %s turned by %g: %s",
                  before.scene.name, element->name, angle[k], after.solve.reason);

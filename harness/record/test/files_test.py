@@ -1,7 +1,6 @@
 """Files the program writes: complete or not there at all, and readable by others."""
 import csv
 import io
-import json
 import os
 import pathlib
 import pty
@@ -9,21 +8,16 @@ import re
 import resource
 import signal
 import subprocess
-import tempfile
 import unittest
 import xml.etree.ElementTree
 
 import h5py
 import numpy
 
+from harness.test.program import PROGRAM, TRUTHS, ProgramTest, read_json, run
 from reference.pack import seal
 
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
 SELECTION = ("verify", "-k", "warping_torsion/default")
-
-
-def run(*arguments, **options):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False, **options)
 
 
 def small_files():
@@ -32,13 +26,9 @@ def small_files():
     resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
 
 
-class Folder(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
+class Folder(ProgramTest):
     def path(self, name):
-        return os.path.join(self.folder.name, name)
+        return str(self.folder / name)
 
     def text(self, name):
         return pathlib.Path(self.path(name)).read_text(encoding="utf-8")
@@ -46,7 +36,8 @@ class Folder(unittest.TestCase):
 
 class Complete(Folder):
     def test_full_disk(self):
-        """Each kind of file on a full disk: one line, exit 4, and what was there before is untouched."""
+        """Each kind of file on a full disk: one line, exit 4, and what was there before is
+        untouched."""
         wanted = {"-o": "r.h5", "--json": "v.json", "--junit": "j.xml"}
         for option, name in wanted.items():
             pathlib.Path(self.path(name)).write_bytes(b"before")
@@ -54,7 +45,7 @@ class Complete(Folder):
             self.assertEqual(done.returncode, 4, done.stderr)
             self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
             self.assertEqual(pathlib.Path(self.path(name)).read_bytes(), b"before")
-        self.assertEqual(sorted(os.listdir(self.folder.name)), sorted(wanted.values()))
+        self.assertEqual(sorted(os.listdir(self.folder)), sorted(wanted.values()))
 
     def test_killed(self):
         """Whenever a run is killed, its file is the whole one, or not there: before the work,
@@ -73,18 +64,19 @@ class Complete(Folder):
             process.communicate()
             if os.path.exists(self.path("r.h5")):
                 self.assertAlmostEqual(os.path.getsize(self.path("r.h5")), whole, delta=100)
-                self.assertEqual(run("compare", self.path("whole.h5"), self.path("r.h5"), "--threshold", "error=0,floor=0,work=0").returncode, 0)
-            for left in os.listdir(self.folder.name):
+                self.assertEqual(run("compare", self.path("whole.h5"), self.path("r.h5"),
+                                     "--threshold", "error=0,floor=0,work=0").returncode, 0)
+            for left in os.listdir(self.folder):
                 if left != "whole.h5":
                     os.remove(self.path(left))
 
     def test_nowhere(self):
         for option in ("-o", "--json", "--junit"):
-            for place in (self.folder.name, self.path("none/r")):
+            for place in (self.folder, self.path("none/r")):
                 done = run(*SELECTION, option, place)
                 self.assertEqual(done.returncode, 4, done)
                 self.assertIn("cannot be written", done.stderr)
-        self.assertEqual(os.listdir(self.folder.name), [])
+        self.assertEqual(os.listdir(self.folder), [])
 
 
 class Interrupted(Folder):
@@ -116,18 +108,19 @@ class Interrupted(Folder):
         self.assertEqual(process.returncode, 5, said)
         self.assertIn("r.partial.h5", said)
         self.assertIn("interrupted", out)
-        self.assertEqual(sorted(os.listdir(self.folder.name)),
+        self.assertEqual(sorted(os.listdir(self.folder)),
                          ["j.partial.xml", "r.partial.h5", "v.partial", "v.partial.json"])
         self.assertIn("interrupted", self.text("v.partial"))
         suite = xml.etree.ElementTree.parse(self.path("j.partial.xml")).getroot()[0]
         self.assertEqual(int(suite.get("failures")), len(suite.findall("testcase/failure")))
         self.assertGreater(int(suite.get("failures")), 0)
-        self.check_content(json.loads(self.text("v.partial.json")))
-        for name in os.listdir(self.folder.name):
+        self.check_content(read_json(self.path("v.partial.json")))
+        for name in os.listdir(self.folder):
             os.remove(self.path(name))
 
     def check_content(self, summary):
-        """Values are those of a run that was left alone; limits do without the noise, which is measured last."""
+        """Values are those of a run that was left alone; limits do without the noise, which is
+        measured last."""
         self.assertGreater(summary["unfinished_cells"], 0)
         self.assertGreater(len(summary["verdicts"]), 0)
         with h5py.File(self.path("r.partial.h5")) as file:
@@ -135,7 +128,7 @@ class Interrupted(Folder):
         case = summary["verdicts"][0]["case"]
         name = f"{case}/{summary['verdicts'][0]['parameters'] or 'default'}"
         run("verify", "-k", name.replace(";", " and "), "--json", self.path("whole.json"))
-        whole = json.loads(self.text("whole.json"))
+        whole = read_json(self.path("whole.json"))
         self.assertEqual(whole["unfinished_cells"], 0)
         key = ("case", "parameters", "formulation", "quantity")
         of = {tuple(row[k] for k in key): row for row in whole["verdicts"]}
@@ -158,14 +151,15 @@ class Interrupted(Folder):
         process.send_signal(signal.SIGINT)
         process.communicate()
         self.assertEqual(process.returncode, 0)
-        self.assertEqual(os.listdir(self.folder.name), ["r.h5"])
+        self.assertEqual(os.listdir(self.folder), ["r.h5"])
 
 
 class Readable(Folder):
     def test_results(self):
-        done = run(*SELECTION, "-o", self.path("r.h5"), "--json", self.path("v.json"), "--junit", self.path("j.xml"))
+        done = run(*SELECTION, "-o", self.path("r.h5"), "--json", self.path("v.json"), "--junit",
+                   self.path("j.xml"))
         self.assertEqual(done.returncode, 0, done.stdout)
-        summary = json.loads(pathlib.Path(self.path("v.json")).read_text(encoding="utf-8"))
+        summary = read_json(self.path("v.json"))
         suite = xml.etree.ElementTree.parse(self.path("j.xml")).getroot()[0]
         self.assertEqual(int(suite.get("tests")), len(suite))
         self.assertEqual(int(suite.get("failures")), 0)
@@ -176,11 +170,14 @@ class Readable(Folder):
             points, table, values = case["points"][()], case["verdicts"][()], case["quantities"][()]
             self.assertEqual(points["kL"][points["point"] == b"default"], [1])
             for row in summary["verdicts"]:
-                at = numpy.flatnonzero((table["formulation"] == row["formulation"].encode()) & (table["quantity"] == row["quantity"].encode()))[0]
+                at = numpy.flatnonzero((table["formulation"] == row["formulation"].encode())
+                                       & (table["quantity"] == row["quantity"].encode()))[0]
                 self.assertEqual(table["verdict"][at].decode(), row["verdict"])
-                numpy.testing.assert_equal(table["limit"][at], numpy.nan if row["limit"] is None else row["limit"])
+                numpy.testing.assert_equal(table["limit"][at],
+                                           numpy.nan if row["limit"] is None else row["limit"])
             row = next(row for row in summary["verdicts"] if row["formulation"] == "beamw")
-            finest = max(values[values["formulation"] == b"beamw"], key=lambda value: value["elements"])
+            finest = max(values[values["formulation"] == b"beamw"],
+                         key=lambda value: value["elements"])
             self.assertEqual(finest["value"], row["value"])
             self.assertEqual(finest["unit"], b"1")
 
@@ -191,13 +188,15 @@ class Readable(Folder):
         seen = set()
         with h5py.File(self.path("r.h5")) as file:
             for case in ("elastica", "warping_torsion"):
-                tables = {name: file["cases"][case][name][()] for name in ("verdicts", "quantities")}
+                tables = {name: file["cases"][case][name][()]
+                          for name in ("verdicts", "quantities")}
                 for row in tables["verdicts"]:
                     seen |= self.check_reached(row, tables["quantities"])
         self.assertGreater(len(seen), 3)
 
     def check_reached(self, row, values):
-        own = (values["formulation"] == row["formulation"]) & (values["quantity"] == row["quantity"])
+        own = ((values["formulation"] == row["formulation"])
+               & (values["quantity"] == row["quantity"]))
         value = sorted(zip(values["elements"][own], values["value"][own]))
         seen = set()
         if not value or numpy.isnan(row["truth"]):
@@ -213,18 +212,21 @@ class Readable(Folder):
         return seen
 
     def test_csv(self):
-        done = run("converge", "warping_torsion", "-f", "beamw", "-f", "beamw_vlasov", "-n", "4,2,8", "--format", "csv")
+        done = run("converge", "warping_torsion", "-f", "beamw", "-f", "beamw_vlasov", "-n",
+                   "4,2,8", "--format", "csv")
         rows = list(csv.DictReader(io.StringIO(done.stdout)))
         self.assertEqual([(row["formulation"], row["elements"]) for row in rows],
                          [(name, n) for name in ("beamw", "beamw_vlasov") for n in ("2", "4", "8")])
         for row in rows:
-            self.assertAlmostEqual((float(row["value"]) - float(row["truth"])) / float(row["truth"]), float(row["error"]), delta=1e-12)
+            value, truth, error = (float(row[name]) for name in ("value", "truth", "error"))
+            self.assertAlmostEqual((value - truth) / truth, error, delta=1e-12)
 
     def test_quantity(self):
         """A selection reaches single quantities."""
-        done = run("verify", "-k", "c_column/default and buckling_load", "--json", self.path("v.json"))
+        done = run("verify", "-k", "c_column/default and buckling_load", "--json",
+                   self.path("v.json"))
         self.assertEqual(done.returncode, 0, done.stdout)
-        summary = json.loads(pathlib.Path(self.path("v.json")).read_text(encoding="utf-8"))
+        summary = read_json(self.path("v.json"))
         self.assertEqual({row["quantity"] for row in summary["verdicts"]}, {"buckling_load"})
 
     def test_malformed(self):
@@ -237,8 +239,7 @@ class Readable(Folder):
 class Gate(Folder):
     def altered(self, change):
         """Exit code and output of a run of one case with a copy of the truths that was changed."""
-        truths = os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5")
-        pathlib.Path(self.path("t.h5")).write_bytes(pathlib.Path(truths).read_bytes())
+        pathlib.Path(self.path("t.h5")).write_bytes(pathlib.Path(TRUTHS).read_bytes())
         with h5py.File(self.path("t.h5"), "r+") as file:
             change(file)
         seal(self.path("t.h5"))

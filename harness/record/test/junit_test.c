@@ -1,11 +1,12 @@
-/* JUnit: well-formed XML whose header counts the elements below it, for every kind of verdict, expected or not, and any mixture of
- * what else a run can miss. */
+/* JUnit: well-formed XML whose header counts the elements below it, for every kind of verdict,
+ * expected or not, and any mixture of what else a run can miss. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/test/random.h"
 #include "harness/record/junit.h"
 
 enum { DEEPEST = 8, NAME = 32, HEADER = 3 };
@@ -68,8 +69,8 @@ static const char *read_end_tag(tree *t, const char *at)
 {
     char name[NAME] = "";
     int length = 0;
-    t->bad +=
-        sscanf(at, "</%31[a-z]>%n", name, &length) < 1 || length == 0 || t->depth == 0 || strcmp(t->open[t->depth - 1], name) != 0;
+    t->bad += sscanf(at, "</%31[a-z]>%n", name, &length) < 1 || length == 0 || t->depth == 0 ||
+              strcmp(t->open[t->depth - 1], name) != 0;
     t->depth -= t->depth > 0;
     return at + (length > 0 ? length : 1);
 }
@@ -139,7 +140,10 @@ static void bench_make(bench *b)
 static void add_verdict(bench *b, verdict_kind kind, int matches)
 {
     verdict *v = &b->v[b->j.verdicts++];
-    *v = (verdict){.kind = kind, .expected = matches ? kind : (kind + 1) % (VERDICT_KINDS + 1), .matches = matches, .finest = NAN};
+    *v = (verdict){.kind = kind,
+                   .expected = matches ? kind : (kind + 1) % (VERDICT_KINDS + 1),
+                   .matches = matches,
+                   .finest = NAN};
     v->truth = kind == VERDICT_NO_TRUTH || kind == VERDICT_SKIP ? NULL : &b->row;
     v->predicted = kind == VERDICT_AS_PREDICTED ? &b->row : NULL;
     strcpy(v->reason, "a < b & \"c\" > d");
@@ -170,13 +174,16 @@ static tree written(const bench *b)
 static void check(const bench *b, const char *what)
 {
     const tree t = written(b);
-    const int expected_failures =
-        b->j.unexpected + b->j.disagreements + (b->j.unobserved > 0) + (b->j.unmet > 0) + (b->j.flaws > 0) + (b->s.unfinished > 0);
-    gsl_test(t.bad || t.both || t.outside, "%s: well-formed, every mark in a test of its own", what);
+    const int expected_failures = b->j.unexpected + b->j.disagreements + (b->j.unobserved > 0) +
+                                  (b->j.unmet > 0) + (b->j.flaws > 0) +
+                                   (b->s.unfinished > 0);
+    gsl_test(t.bad || t.both || t.outside, "%s: well-formed, every mark in a test of its own",
+             what);
     gsl_test_int(t.header[0], t.tests, "%s: tests", what);
     gsl_test_int(t.header[1], t.failures, "%s: failures", what);
     gsl_test_int(t.header[2], t.skipped, "%s: skipped", what);
-    gsl_test_int(t.failures, expected_failures, "%s: a failure for everything that fails the gate", what);
+    gsl_test_int(t.failures, expected_failures, "%s: a failure for everything that fails the gate",
+                 what);
 }
 
 static void single_verdicts(void)
@@ -187,7 +194,8 @@ static void single_verdicts(void)
             char what[80];
             bench_make(&b);
             add_verdict(&b, (verdict_kind)kind, matches);
-            snprintf(what, sizeof what, "%s, %s", verdict_name((verdict_kind)kind), matches ? "expected" : "unexpected");
+            snprintf(what, sizeof what, "%s, %s", verdict_name((verdict_kind)kind),
+                     matches ? "expected" : "unexpected");
             check(&b, what);
             const tree t = written(&b);
             gsl_test_int(t.failures, !matches, "%s: it alone", what);
@@ -198,20 +206,20 @@ static void single_verdicts(void)
 
 static void mixtures(void)
 {
-    unsigned state = 1;
+    uint64_t seed = 1;
     for (int round = 0; round < 200; round++) {
         bench b;
         bench_make(&b);
         for (int i = 0; i < 20; i++) {
-            state = state * 1664525u + 1013904223u;
-            add_verdict(&b, (verdict_kind)((state >> 8) % VERDICT_KINDS), (state >> 20) % 3 != 0);
+            add_verdict(&b, (verdict_kind)random_below(&seed, VERDICT_KINDS),
+                        random_below(&seed, 3) != 0);
         }
         for (int i = 0; i < 4; i++)
-            add_agreement(&b, (state >> (12 + i)) % 2 != 0);
-        b.j.unobserved = (state >> 24) % 3 == 0 ? 5 : 0;
-        b.j.unmet = (state >> 26) % 3 == 0 ? 7 : 0;
-        b.j.flaws = (state >> 22) % 3 == 0 ? 2 : 0;
-        b.s.unfinished = (state >> 28) % 3 == 0 ? 9 : 0;
+            add_agreement(&b, random_below(&seed, 2) != 0);
+        b.j.unobserved = random_below(&seed, 3) == 0 ? 5 : 0;
+        b.j.unmet = random_below(&seed, 3) == 0 ? 7 : 0;
+        b.j.flaws = random_below(&seed, 3) == 0 ? 2 : 0;
+        b.s.unfinished = random_below(&seed, 3) == 0 ? 9 : 0;
         check(&b, "a mixture");
         scene_free(&b.p.scene);
     }
@@ -221,14 +229,17 @@ static void mixtures(void)
 static void reader(void)
 {
     static const char head[] = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-    static const char *const bad[] = {"<a>",          "<a></b>", "<testcase x=\"<\"/>",        "<testcase x=\"&\"/>",
-                                      "<testcase x=", "</a>",    "<testcase x=\"1\" x=\"2\"/>"};
+    static const char *const bad[] = {
+        "<a>",          "<a></b>", "<testcase x=\"<\"/>",        "<testcase x=\"&\"/>",
+        "<testcase x=", "</a>",    "<testcase x=\"1\" x=\"2\"/>"};
     char text[200];
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         snprintf(text, sizeof text, "%s%s", head, bad[i]);
         gsl_test(read_tree(text).bad == 0, "not well-formed: %s", bad[i]);
     }
-    snprintf(text, sizeof text, "%s<testsuite tests=\"7\"><testcase><failure m=\"&lt;\"/></testcase></testsuite>\n", head);
+    snprintf(text, sizeof text,
+             "%s<testsuite tests=\"7\"><testcase><failure m=\"&lt;\"/></testcase></testsuite>\n",
+             head);
     const tree t = read_tree(text);
     gsl_test(t.bad || t.tests != 1 || t.failures != 1 || t.header[0] != 7, "well-formed");
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "elements/test/random.h"
 #include "harness/study/plan.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/study/sweep.h"
@@ -21,25 +22,33 @@ static void parameters(void)
     parameters_default(c, value);
     gsl_test(parameters_set(c, "length=7.25", value, &f) != STATUS_OK, "a parameter is set");
     gsl_test(parameters_set(c, "section_data=printed", value, &f) != STATUS_OK, "a choice is set");
-    static const char *const bad[] = {"length=-1", "length=nan",           "length=inf", "length=", "length",
-                                      "lengthh=1", "section_data=painted", "shear=0.5",  "=3",      ""};
+    static const char *const bad[] = {
+        "length=-1", "length=nan",           "length=inf", "length=", "length",
+        "lengthh=1", "section_data=painted", "shear=0.5",  "=3",      ""};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
-        gsl_test(parameters_set(c, bad[i], value, &f) != STATUS_REFUSED || strchr(f.text, '\n') != NULL, "'%s' is refused: %s",
-                 bad[i], f.text);
+        gsl_test(parameters_set(c, bad[i], value, &f) != STATUS_REFUSED ||
+                     strchr(f.text, '\n') != NULL,
+                 "'%s' is refused: %s", bad[i], f.text);
     parameters_text(c, value, text, sizeof text);
     gsl_test(strcmp(text, "length=7.25;section_data=printed") != 0, "text of a point: %s", text);
     gsl_test(parameters_parse(c, text, other, any, &f) != STATUS_OK ||
                  parameters_hash(c, value, NULL) != parameters_hash(c, other, any),
              "text and hash agree");
     gsl_test(parameters_hash(c, value, NULL) == 0, "hash");
-    gsl_test(case_find("c_colum", &f) != NULL || strstr(f.text, "'c_column'") == NULL, "nearest case: %s", f.text);
+    gsl_test(case_find("c_colum", &f) != NULL || strstr(f.text, "'c_column'") == NULL,
+             "nearest case: %s", f.text);
     formulation chosen;
-    gsl_test(formulation_parse("beamw:mass=consistent", &chosen, &f) != STATUS_OK || strcmp(chosen.key, "beamw") != 0,
+    gsl_test(formulation_parse("beamw:mass=consistent", &chosen, &f) != STATUS_OK ||
+                 strcmp(chosen.key, "beamw") != 0,
              "a default option is not in the key");
-    gsl_test(formulation_parse("beamw:mass=lumped", &chosen, &f) != STATUS_OK || strcmp(chosen.key, "beamw:mass=lumped") != 0,
+    gsl_test(formulation_parse("beamw:mass=lumped", &chosen, &f) != STATUS_OK ||
+                 strcmp(chosen.key, "beamw:mass=lumped") != 0,
              "another is");
-    gsl_test(formulation_parse("beamw:mass=heavy", &chosen, &f) != STATUS_REFUSED, "refused: %s", f.text);
-    gsl_test(formulation_parse("beamv", &chosen, &f) != STATUS_REFUSED || strstr(f.text, "beamw") == NULL, "refused: %s", f.text);
+    gsl_test(formulation_parse("beamw:mass=heavy", &chosen, &f) != STATUS_REFUSED, "refused: %s",
+             f.text);
+    gsl_test(formulation_parse("beamv", &chosen, &f) != STATUS_REFUSED ||
+                 strstr(f.text, "beamw") == NULL,
+             "refused: %s", f.text);
 }
 
 /* Any value comes back from its text; so do names of formulations with every option changed. */
@@ -81,67 +90,65 @@ static void meshes(void)
     sweep_free(&s);
 }
 
-static unsigned next_random(unsigned *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return *state >> 10;
-}
-
-/* Pieces of right input put together at random: answered or refused in one line, never a crash or another status. */
+/* Pieces of right input put together at random: answered or refused in one line, never a crash or
+ * another status. */
 static void random_input(void)
 {
-    static const char *const piece[] = {
-        "length",
-        "=",
-        ";",
-        ":",
-        ",",
-        "*",
-        "|",
-        "-1",
-        "1e400",
-        "nan",
-        "7.25",
-        "section_data",
-        "printed",
-        "beamw",
-        "mass",
-        "lumped",
-        "newton",
-        "and",
-        "or",
-        "not",
-        " ",
-        "\t",
-        "%s%n",
-        "\xc3\xa4",
-        "",
-        "0x1p3",
-        "a_word_that_is_longer_than_any_buffer_might_expect_it_to_be_in_a_name_of_a_case_or_a_parameter_of_it"};
+    static const char *const piece[] = {"length",
+                                        "=",
+                                        ";",
+                                        ":",
+                                        ",",
+                                        "*",
+                                        "|",
+                                        "-1",
+                                        "1e400",
+                                        "nan",
+                                        "7.25",
+                                        "section_data",
+                                        "printed",
+                                        "beamw",
+                                        "mass",
+                                        "lumped",
+                                        "newton",
+                                        "and",
+                                        "or",
+                                        "not",
+                                        " ",
+                                        "\t",
+                                        "%s%n",
+                                        "\xc3\xa4",
+                                        "",
+                                        "0x1p3",
+                                        "a_word_that_is_longer_than_any_buffer_might_expect_it_to_"
+                                        "be_in_a_name_of_a_case_or_a_parameter_of_it"};
     const case_type *c = case_find("c_column", NULL);
-    unsigned state = 1;
+    uint64_t state = 1;
     int wrong = 0;
     for (int i = 0; i < 20000; i++) {
         char text[2048] = "";
         double value[CASE_MAX_PARAMETERS];
         int any[CASE_MAX_PARAMETERS];
         formulation chosen;
-        for (unsigned k = next_random(&state) % 12; k > 0; k--)
-            strcat(text, piece[next_random(&state) % (sizeof piece / sizeof piece[0])]);
+        for (int k = random_below(&state, 12); k > 0; k--)
+            strcat(text, piece[random_below(&state, sizeof piece / sizeof piece[0])]);
         fault f[4] = {{""}, {""}, {""}, {""}};
         parameters_default(c, value);
-        const status outcome[4] = {parameters_set(c, text, value, &f[0]), formulation_parse(text, &chosen, &f[1]),
+        const status outcome[4] = {parameters_set(c, text, value, &f[0]),
+                                   formulation_parse(text, &chosen, &f[1]),
                                    case_find(text, &f[2]) != NULL ? STATUS_OK : STATUS_REFUSED,
                                    parameters_parse(c, text, value, any, &f[3])};
         for (int k = 0; k < 4; k++)
-            wrong += outcome[k] != STATUS_OK &&
-                     (outcome[k] != STATUS_REFUSED || f[k].text[0] == '\0' || strchr(f[k].text, '\n') != NULL);
+            wrong +=
+                outcome[k] != STATUS_OK && (outcome[k] != STATUS_REFUSED || f[k].text[0] == '\0' ||
+                                            strchr(f[k].text, '\n') != NULL);
         const int matches = select_matches(text, "c_column/default/beamw/buckling_load");
         wrong += matches < -1 || matches > 1;
         for (int k = 0; k < parameters_count(c); k++)
             wrong += !(value[k] >= (c->parameters[k].choices != NULL ? 0 : c->parameters[k].min));
     }
-    gsl_test_int(wrong, 0, "answers to 20000 random inputs that are neither a value nor a clear refusal");
+    gsl_test_int(wrong, 0,
+                 "answers to 20000 random inputs that are neither a value nor a clear refusal");
 }
 
 static void selection(void)
@@ -165,7 +172,8 @@ static void truth_files(void)
     gsl_test(truths_read("/nowhere/truths.h5", &t, &f) != STATUS_FAULT, "missing: %s", f.text);
     gsl_test(file < 0 || write(file, "this is not HDF5", 16) != 16, "file written");
     close(file);
-    gsl_test(truths_read(path, &t, &f) != STATUS_FAULT || strchr(f.text, '\n') != NULL, "foreign: %s", f.text);
+    gsl_test(truths_read(path, &t, &f) != STATUS_FAULT || strchr(f.text, '\n') != NULL,
+             "foreign: %s", f.text);
     unlink(path);
     const char *real = getenv("BEAMWORK_TRUTHS");
     if (real == NULL)

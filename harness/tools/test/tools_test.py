@@ -1,24 +1,18 @@
 """What each command asks of a machine, and how the runner counts: with a machine that has
 nothing, and with tests that are made up."""
 import os
-import pathlib
 import subprocess
-import tempfile
 import textwrap
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
+from harness.test.program import ROOT, ProgramTest
+
 TOOLS = ROOT / "harness" / "tools"
 COMMANDS = ("build", "verify", "report", "test", "truths")
 OPTIONAL = ("chromium", "vtk")  # of single tests: nobody installs them
 
 
-class Folder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Folder(ProgramTest):
     def script(self, name, *lines):
         path = self.folder / name
         path.write_text("#!/bin/sh\n" + "\n".join(lines) + "\n", encoding="ascii")

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "elements/test/random.h"
 #include "harness/catalogue/registry.h"
 #include "harness/truth/test/truths_file.h"
 #include "harness/truth/truth.h"
@@ -31,7 +32,9 @@ static void good_file(const char *path)
     gsl_test_int(t.rows, 1, "one truth");
     gsl_test_int(t.rules, 1, "one rule");
     const truth *row = truth_of(&t, type, value, "load", "same");
-    gsl_test(row == NULL || row->value != 3 || row->uncertainty != 1e-9 || strcmp(row->unit, "N") != 0, "its fields");
+    gsl_test(row == NULL || row->value != 3 || row->uncertainty != 1e-9 ||
+                 strcmp(row->unit, "N") != 0,
+             "its fields");
     gsl_test(truth_of(&t, type, value, "load", "other") != NULL, "no truth of another model");
     value[0] += 1;
     gsl_test(truth_of(&t, type, value, "load", "same") != NULL, "another point has no truth");
@@ -43,8 +46,8 @@ static void refused(const char *path, const char *word, recipe r, const char *wh
     truths t;
     fault f = {""};
     truths_file_make(path, &r);
-    gsl_test(truths_read(path, &t, &f) != STATUS_FAULT || strstr(f.text, word) == NULL || strchr(f.text, '\n') != NULL ||
-                 strstr(f.text, path) == NULL || t.rows != 0,
+    gsl_test(truths_read(path, &t, &f) != STATUS_FAULT || strstr(f.text, word) == NULL ||
+                 strchr(f.text, '\n') != NULL || strstr(f.text, path) == NULL || t.rows != 0,
              "%s: %s", what, f.text);
 }
 
@@ -119,8 +122,10 @@ static void rows_that_do_not_judge(const char *path)
         double value[CASE_MAX_PARAMETERS] = {0};
         truths_file_make(path, &all[i]);
         parameters_default(registry_cases[0], value);
-        gsl_test(truths_read(path, &t, &f) != STATUS_OK || t.rows != 1, "row %d is read %s", i, f.text);
-        gsl_test(truth_of(&t, registry_cases[0], value, "load", "same") != NULL, "row %d judges nothing", i);
+        gsl_test(truths_read(path, &t, &f) != STATUS_OK || t.rows != 1, "row %d is read %s", i,
+                 f.text);
+        gsl_test(truth_of(&t, registry_cases[0], value, "load", "same") != NULL,
+                 "row %d judges nothing", i);
         truths_free(&t);
     }
 }
@@ -135,7 +140,8 @@ static void new_columns(const char *path)
     r.at = 0.5;
     truths_file_make(path, &r);
     gsl_test(truths_read(path, &t, &f) != STATUS_OK || strcmp(t.row[0].theory, r.theory) != 0 ||
-                 strcmp(t.row[0].convention, r.convention) != 0 || t.row[0].on_curve != 1 || t.row[0].at != 0.5,
+                 strcmp(t.row[0].convention, r.convention) != 0 || t.row[0].on_curve != 1 ||
+                 t.row[0].at != 0.5,
              "theory, convention and abscissa %s", f.text);
     truths_free(&t);
 }
@@ -162,10 +168,9 @@ static void damaged_files(const char *path)
         truths_free(&t);
     }
     gsl_test_int(accepted, 0, "truncated files that were accepted");
-    unsigned random = 12345;
+    uint64_t random = 12345;
     for (int i = 0; i < 400; i++) {
-        random = random * 1664525u + 1013904223u;
-        const size_t at = (random >> 8) % size;
+        const size_t at = (size_t)random_below(&random, (int)size);
         const char kept = bytes[at];
         bytes[at] = (char)(bytes[at] ^ (1 << (i & 7)));
         file = fopen(path, "wb");
@@ -175,7 +180,8 @@ static void damaged_files(const char *path)
         const status outcome = truths_read(path, &t, &f);
         turned += outcome == STATUS_OK;
         left_open += H5Fget_obj_count((hid_t)H5F_OBJ_ALL, H5F_OBJ_ALL) > 0;
-        broken += outcome != STATUS_OK && (outcome != STATUS_FAULT || f.text[0] == '\0' || strchr(f.text, '\n') != NULL);
+        broken += outcome != STATUS_OK &&
+                  (outcome != STATUS_FAULT || f.text[0] == '\0' || strchr(f.text, '\n') != NULL);
         truths_free(&t);
     }
     gsl_test_int(turned, 0, "files with a bit turned over that were accepted");
@@ -190,13 +196,15 @@ static void strangers(const char *path)
     recipe r = right;
     r.case_group = "no_such_case";
     truths_file_make(path, &r);
-    gsl_test(truths_read(path, &t, &f) != STATUS_OK || t.rows != 0 || t.strangers != 1 || strcmp(t.stranger, "no_such_case") != 0,
+    gsl_test(truths_read(path, &t, &f) != STATUS_OK || t.rows != 0 || t.strangers != 1 ||
+                 strcmp(t.stranger, "no_such_case") != 0,
              "truths of an unknown case are counted");
     truths_free(&t);
     r = right;
     r.rule_cases = "no_such_case";
     truths_file_make(path, &r);
-    gsl_test(truths_read(path, &t, &f) != STATUS_OK, "a rule of an unknown case may be there: nobody observes it");
+    gsl_test(truths_read(path, &t, &f) != STATUS_OK,
+             "a rule of an unknown case may be there: nobody observes it");
     truths_free(&t);
 }
 
@@ -208,7 +216,8 @@ static int holds(const char *path, const char *condition, const rule_subject *s)
     recipe r = right;
     r.condition = condition;
     truths_file_make(path, &r);
-    const int read = truths_read(path, &t, &f) == STATUS_OK, out = read && rule_holds(&t.rule[0], s);
+    const int read = truths_read(path, &t, &f) == STATUS_OK,
+              out = read && rule_holds(&t.rule[0], s);
     gsl_test(!read, "condition '%s' is read %s", condition, f.text);
     truths_free(&t);
     return out;
@@ -220,7 +229,8 @@ static void subjects(const char *path)
     const case_type *type = registry_cases[0];
     double value[CASE_MAX_PARAMETERS] = {0};
     parameters_default(type, value);
-    const rule_subject fits = {type, value, FEATURE_SHEAR, "something:mass=lumped", "load", "wrong limit"};
+    const rule_subject fits = {type,   value,        FEATURE_SHEAR, "something:mass=lumped",
+                               "load", "wrong limit"};
     rule_subject s = fits;
     gsl_test(!holds(path, "", &s), "a rule fits: a pattern, its bare name");
     s.formulation = "another:mass=lumped";
@@ -248,12 +258,14 @@ static void conditions(const char *path)
     while (type->parameters[first].choices != NULL)
         first++;
     value[first] = 0.25;
-    const rule_subject s = {type, value, FEATURE_SHEAR | FEATURE_WAGNER_TORQUE, "some", "load", "low order"};
+    const rule_subject s = {type,   value,  FEATURE_SHEAR | FEATURE_WAGNER_TORQUE,
+                            "some", "load", "low order"};
     static const struct {
         const char *sign;
         int holds;
-    } terms[] = {{"=0.25", 1}, {"=0.3", 0},   {"=0.3|0.25", 1}, {"!=0.25", 0}, {"!=0.3", 1}, {"!=0.3|0.25", 0}, {"<0.25", 0},
-                 {"<0.26", 1}, {"<=0.25", 1}, {"<=0.24", 0},    {">0.25", 0},  {">0.24", 1}, {">=0.25", 1},     {">=0.26", 0}};
+    } terms[] = {{"=0.25", 1},      {"=0.3", 0},  {"=0.3|0.25", 1}, {"!=0.25", 0}, {"!=0.3", 1},
+                 {"!=0.3|0.25", 0}, {"<0.25", 0}, {"<0.26", 1},     {"<=0.25", 1}, {"<=0.24", 0},
+                 {">0.25", 0},      {">0.24", 1}, {">=0.25", 1},    {">=0.26", 0}};
     char text[64];
     for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++) {
         snprintf(text, sizeof text, "%s%s", type->parameters[first].name, terms[i].sign);
@@ -264,7 +276,8 @@ static void conditions(const char *path)
     gsl_test_int(holds(path, "warping", &s), 0, "a feature that is not needed");
     gsl_test_int(holds(path, "not warping; wagner torque", &s), 1, "two terms that hold");
     gsl_test_int(holds(path, "wagner torque;warping", &s), 0, "two terms of which one does not");
-    static const char *const wrong[] = {"sheer", "no_parameter=1", "shear=1;", "=3", "shear and warping"};
+    static const char *const wrong[] = {"sheer", "no_parameter=1", "shear=1;", "=3",
+                                        "shear and warping"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         recipe r = right;
         r.condition = wrong[i];
