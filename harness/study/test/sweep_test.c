@@ -295,6 +295,35 @@ static void requests(void)
              "the mask is the one of before");
 }
 
+/* The first case of the registry, in the planning process only. */
+static status build_in_plan(const double value[], scene *s, fault *f)
+{
+    double defaults[CASE_MAX_PARAMETERS] = {0};
+    if (getpid() != (pid_t)value[0])
+        return fault_set(f, STATUS_REFUSED, "the scene is built once more");
+    parameters_default(registry_cases[0], defaults);
+    return registry_cases[0]->build(defaults, s, f);
+}
+
+static void cells_share_a_scene(void)
+{
+    static const case_parameter planner[] = {
+        {"planner", "1", 0, 0, 1e12, NULL, "the process that may build the scene"}, {0}};
+    static const case_type once = {"once", "a case of the test", "none", planner, build_in_plan};
+    static const int mesh[] = {1, 2, 3};
+    const double value[CASE_MAX_PARAMETERS] = {(double)getpid()};
+    const formulation chosen = runner();
+    const sweep_request request = {.jobs = 1};
+    sweep s;
+    fault f = {""};
+    gsl_test(plan_one(&once, value, &chosen, 1, mesh, 3, &s, &f) != STATUS_OK, "%s", f.text);
+    gsl_test(run_sweep(&request, &s, &f) != STATUS_OK, "%s", f.text);
+    for (int i = 0; i < 3; i++)
+        gsl_test(s.series[0].cell[i].solve.status != STATUS_OK, "cell %d %s", i,
+                 s.series[0].cell[i].solve.reason);
+    sweep_free(&s);
+}
+
 int main(void)
 {
     alarm(END);
@@ -309,5 +338,6 @@ int main(void)
     interrupted(SIGTERM);
     requests();
     jobs();
+    cells_share_a_scene();
     return gsl_test_summary();
 }
