@@ -122,7 +122,7 @@ static status take_modes(analysis_context *c, const gyroscopic_result *r, rotati
                          fault *f)
 {
     const model_size size = model_sizes(c->model);
-    const size_t all = (size_t)(size.free + size.driven), count = (size_t)r->count;
+    const size_t all = (size_t)size.free + (size_t)size.driven, count = (size_t)r->count;
     double *mode = calloc(count * all + 1, sizeof *mode);
     out->frequency = calloc(2 * count + 1, sizeof(double));
     out->shape = calloc(count + 1, sizeof *out->shape);

@@ -49,7 +49,7 @@ static size_t collect(const model *m, const mesh_pattern *p, long *key)
     return count;
 }
 
-double *sparse_entry(sparse *a, int row, int column)
+double *assemble_entry(sparse *a, int row, int column)
 {
     int low = a->column[column], high = a->column[column + 1] - 1;
     while (low <= high) {

@@ -49,7 +49,7 @@ static int smooth(const model *m, int count, const model_state *const at[], doub
         if (driver->value == NULL)
             continue;
         for (int i = 0; i <= count; i++)
-            value[i] = driver_value_at(driver, i < count ? at[i]->path : path);
+            value[i] = loads_driver_value(driver, i < count ? at[i]->path : path);
         good &= continues(count, weight, value);
     }
     for (int l = 0; l < m->scene->loads; l++) {

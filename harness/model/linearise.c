@@ -10,7 +10,7 @@
 #include "elements/math/rotation.h"
 #include "harness/model/model_impl.h"
 
-model_slot slot_of(const model *m, int element)
+model_slot linearise_slot(const model *m, int element)
 {
     model_slot w;
     const int n = m->strains;
@@ -88,7 +88,7 @@ static status element_equations(model *m, const model_state *s, int i, int tange
                                 double force[], double K[], double *incompatibility, fault *f)
 {
     const mesh_element *el = &m->element[i];
-    model_slot w = slot_of(m, i);
+    model_slot w = linearise_slot(m, i);
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     double present[ELEMENT_MAX_COORDINATES] = {0}; /* conjugate to sigma, which H belongs to */
     node_state x[ELEMENT_MAX_NODES];
@@ -222,7 +222,7 @@ status model_linearise(model *m, const model_state *s, model_linearisation *lin,
 static double advance_element(model *m, model_state *s, int i, const double dx[])
 {
     const mesh_element *el = &m->element[i];
-    model_slot w = slot_of(m, i);
+    model_slot w = linearise_slot(m, i);
     double local[ELEMENT_MAX_COORDINATES], de[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
     double *e = &s->e[(size_t)i * (size_t)m->strains],
            *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
@@ -276,7 +276,7 @@ double model_advance(model *m, model_state *s, const double dx[], double path)
         if (m->driver_coordinate[d] != NONE)
             s->driver[d] += dx[m->driver_coordinate[d]];
         else if (m->scene->driver[d].value != NULL)
-            s->driver[d] = driver_value_at(&m->scene->driver[d], path);
+            s->driver[d] = loads_driver_value(&m->scene->driver[d], path);
     kinematics_follow(m, s);
     s->path = path;
     return largest;

@@ -36,7 +36,7 @@ static double loads_rate(const scene_load *load, double path)
     return 0;
 }
 
-double driver_value_at(const scene_driver *d, double path)
+double loads_driver_value(const scene_driver *d, double path)
 {
     return interpolate(d->stations, d->path, d->value, path);
 }
@@ -103,7 +103,7 @@ static void subtract(sparse *K, int row, int column, double value)
 {
     if (row < 0 || column < 0 || row >= K->n || column >= K->n || (K->symmetric && row > column))
         return;
-    double *entry = sparse_entry(K, row, column);
+    double *entry = assemble_entry(K, row, column);
     if (entry != NULL)
         *entry -= value;
 }
@@ -191,14 +191,14 @@ void model_drive(const model *m, const model_state *s, double path, double dx[])
     for (int d = 0; d < m->scene->drivers; d++)
         if (m->scene->driver[d].value != NULL && m->driver_coordinate[d] >= m->free)
             dx[m->driver_coordinate[d]] =
-                driver_value_at(&m->scene->driver[d], path) - s->driver[d];
+                loads_driver_value(&m->scene->driver[d], path) - s->driver[d];
     for (int i = 0; i < m->scene->nodes; i++) {
         const mesh_vertex *v = &m->vertex[i];
         if (v->vector_driver[0] == NONE || v->body != i)
             continue;
         double target[3], q[4], turn[3];
         for (int k = 0; k < 3; k++)
-            target[k] = driver_value_at(&m->scene->driver[v->vector_driver[k]], path);
+            target[k] = loads_driver_value(&m->scene->driver[v->vector_driver[k]], path);
         rotation_exp(target, q);
         rotation_between(&s->q[4 * i], q, turn);
         for (int k = 0; k < 3; k++)
@@ -216,7 +216,7 @@ int model_conditions(const model *m, const model_state *s, double path,
             continue;
         out[count].unknown = m->driver_coordinate[d];
         out[count].coordinate = m->driver_coordinate[u->condition_driver];
-        out[count++].increment = driver_value_at(&m->scene->driver[u->condition_driver], path) -
+        out[count++].increment = loads_driver_value(&m->scene->driver[u->condition_driver], path) -
                                  s->driver[u->condition_driver];
     }
     return count;

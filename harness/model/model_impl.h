@@ -144,20 +144,20 @@ status rotating_frame_add(model *m, const node_state x[], int element, double pa
 void assemble_pattern_free(mesh_pattern *p);
 void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out);
 void assemble_vector(const mesh_element *el, int coordinates, const double local[], double out[]);
-double *sparse_entry(sparse *a, int row, int column); /* NULL when not stored */
+double *assemble_entry(sparse *a, int row, int column); /* NULL when not stored */
 
 /* linearise.c: one element's part of model.work between linearise and advance. */
 typedef struct model_slot {
     double *J, *C, *sigma, *incompatibility,
         *memory; /* sigma = P'(e) + C incompatibility, incompatibility = D(x) - e */
 } model_slot;
-model_slot slot_of(const model *m, int element);
+model_slot linearise_slot(const model *m, int element);
 
 /* loads.c */
 double loads_factor(const scene_load *load, double path);
 void loads_add(const model *m, const model_state *s, double path,
                double out[]); /* [free + driven] */
 void loads_subtract_stiffness(const model *m, const model_state *s, double path, sparse *K);
-double driver_value_at(const scene_driver *d, double path);
+double loads_driver_value(const scene_driver *d, double path);
 
 #endif

@@ -11,7 +11,7 @@ void model_material_product(const model *m, const model_state *s, const double x
 {
     for (int i = 0; i < m->elements; i++) {
         const mesh_element *el = &m->element[i];
-        const model_slot w = slot_of(m, i);
+        const model_slot w = linearise_slot(m, i);
         double local[ELEMENT_MAX_COORDINATES], e[ELEMENT_MAX_STRAINS], sigma[ELEMENT_MAX_STRAINS],
             force[ELEMENT_MAX_COORDINATES] = {0};
         kinematics_local(m, s, el, x, local);
@@ -29,7 +29,7 @@ status model_geometric_tangent(model *m, const model_state *s, sparse *G, fault 
     sparse_zero(G);
     for (int i = 0; i < m->elements; i++) {
         const mesh_element *el = &m->element[i];
-        const model_slot w = slot_of(m, i);
+        const model_slot w = linearise_slot(m, i);
         const double *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
         node_state x[ELEMENT_MAX_NODES];
         double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],

@@ -21,8 +21,8 @@
 #include "harness/solver/singular.h"
 
 enum { MAX_ITERATIONS = 30 };
-static const double default_criterion =
-    1e-8; /* largest correction, dimensionless: the next one would be its square */
+/* Largest correction, dimensionless: the next one would be its square. */
+static const double default_criterion = 1e-8;
 
 static status allocate(newton *n, fault *f)
 {
