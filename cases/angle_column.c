@@ -11,14 +11,15 @@ enum { CENTROID, SHEAR_CENTRE, LEG, MOMENT };
 enum { LOADS = 3 };
 
 static const case_parameter parameters[] = {
-    [LOAD] =
-        {"load", "", 0, 0, 0, "centroid|shear_centre|leg|moment",
-         "axial force at the centroid, the shear centre or the axis through the legs' tips; end moments about the strong axis"},
+    [LOAD] = {"load", "", 0, 0, 0, "centroid|shear_centre|leg|moment",
+              "axial force at the centroid, the shear centre or the axis through the legs' tips; "
+              "end moments about the strong axis"},
     [WARPING] = {"warping", "1", 1, 0, 1, NULL, "1: with the warping constant, 0: without"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
-static const double shear_centre = 41.012e-3, length = 1.2; /* [m]; the y axis is that of symmetry */
+static const double shear_centre = 41.012e-3,
+                    length = 1.2; /* [m]; the y axis is that of symmetry */
 
 static int angle(const double value[], scene *s)
 {
@@ -60,7 +61,8 @@ static void add_quantities(scene *s, int load)
     for (int i = 0; i < LOADS; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "critical_%s_%d", load == MOMENT ? "moment" : "load", i + 1);
-        scene_quantity *q = scene_add_quantity(s, name, load == MOMENT ? "N m" : "N", SCENE_CRITICAL_FACTOR, buckling);
+        scene_quantity *q = scene_add_quantity(s, name, load == MOMENT ? "N m" : "N",
+                                               SCENE_CRITICAL_FACTOR, buckling);
         q->order = i;
         q->least_order = 1.8;
     }
@@ -77,7 +79,8 @@ static status build(const double value[], scene *s, fault *f)
     scene_hold(s, head, SCENE_UY, SCENE_RX);
     add_loads(s, load, foot, head);
     add_quantities(s, load);
-    s->needs |= SCENE_NEED_TRAPEZE | (load == SHEAR_CENTRE ? SCENE_NEED_WAGNER_MOMENTS : 0); /* symmetry: no others */
+    s->needs |= SCENE_NEED_TRAPEZE |
+                (load == SHEAR_CENTRE ? SCENE_NEED_WAGNER_MOMENTS : 0); /* symmetry: no others */
     const int meshes[] = {2, 4, 8, 16, 32, 64};
     scene_meshes(s, 6, meshes);
     return STATUS_OK;
@@ -85,8 +88,10 @@ static status build(const double value[], scene *s, fault *f)
 
 const case_type case_angle_column = {
     .name = "angle_column",
-    .summary = "fork-ended equal angle: flexural-torsional buckling under eccentric axial force and end moments",
-    .source = "code_aster V3.01.103 (SSLL103); closed form of the thin-walled column, one half-wave at a time",
+    .summary = "fork-ended equal angle: flexural-torsional buckling under eccentric axial force "
+               "and end moments",
+    .source = "code_aster V3.01.103 (SSLL103); closed form of the thin-walled column, one "
+              "half-wave at a time",
     .parameters = parameters,
     .build = build,
 };

@@ -10,7 +10,8 @@ enum { FORCE, TORSION };
 static const case_parameter parameters[] = {
     [FORCE] = {"force", "N", 600.0, -1e4, 1e4, NULL, "dead tip force across the plane of the arc"},
     [TORSION] = {"torsion", "", 0, 0, 0, "exact|polar",
-                 "exact: J of the square and k = 5/6; polar: J = 1/6 and k = 1, as published tip positions need"},
+                 "exact: J of the square and k = 5/6; polar: J = 1/6 and k = 1, as published tip "
+                 "positions need"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -32,7 +33,8 @@ static status build(const double value[], scene *s, fault *f)
     const int profile = scene_add_section(s, &spec);
     const double y_axis[3] = {0, 1, 0};
     const int root = scene_add_node(s, 0, 0, 0);
-    const int tip = scene_add_node(s, radius * sin(angle), 2 * radius * sin(angle / 2) * sin(angle / 2), 0);
+    const int tip =
+        scene_add_node(s, radius * sin(angle), 2 * radius * sin(angle / 2) * sin(angle / 2), 0);
     scene_member_at(s, scene_add_member(s, root, tip, profile, y_axis))->curvature[2] = 1 / radius;
     scene_hold_all(s, root);
     scene_add_load(s, SCENE_FORCE, tip, 0, 0, value[FORCE]);
@@ -57,7 +59,8 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_bend_45 = {
     .name = "bend_45",
     .summary = "45-degree bend under a force across its plane",
-    .source = "Bathe and Bolourchi, Int. J. Numer. Meth. Eng. 14 (1979); exact solution of the Simo-Reissner beam",
+    .source = "Bathe and Bolourchi, Int. J. Numer. Meth. Eng. 14 (1979); exact solution of the "
+              "Simo-Reissner beam",
     .parameters = parameters,
     .build = build,
 };

@@ -13,18 +13,24 @@ enum { LENGTH, SIZES, LOAD_POINT, LOAD_HEIGHT, SHEAR, WAGNER, OMEGA, DEFLECTION,
 
 static const case_parameter parameters[] = {
     [LENGTH] = {"length", "m", 9.0, 1e-3, 1e4, NULL, "length of the beam"},
-    [SIZES] = {"sizes", "", 0, 0, 0, "overall|centreline", "30 x 10 cm are the section's outer sizes, or those of its centre line"},
-    [LOAD_POINT] = {"load_point", "", 0, 0, 0, "D|E", "end of the web that carries the force: D top, E bottom"},
+    [SIZES] = {"sizes", "", 0, 0, 0, "overall|centreline",
+               "30 x 10 cm are the section's outer sizes, or those of its centre line"},
+    [LOAD_POINT] = {"load_point", "", 0, 0, 0, "D|E",
+                    "end of the web that carries the force: D top, E bottom"},
     [LOAD_HEIGHT] = {"load_height", "", 0, 0, 0, "corner|edge",
-                     "where the web ends: at the corner of the centre line, or at the outer face of the flange"},
+                     "where the web ends: at the corner of the centre line, or at the outer face "
+                     "of the flange"},
     [SHEAR] = {"shear", "1", 0, 0, 1, NULL, "1: flexible in shear, 0: shear-rigid"},
-    [WAGNER] = {"wagner_moments", "1", 0, 0, 1, NULL, "1: with int y (y^2 + z^2) dA in the Wagner moments, 0: without, as J"},
-    [OMEGA] = {"omega", "rad/s", 0, 0, 1e4, NULL, "angular velocity about the vertical axis through the root"},
-    [DEFLECTION] = {"w", "m", 0.5, 1e-4, 5, NULL, "deflection of the load point up to which the load is followed"},
+    [WAGNER] = {"wagner_moments", "1", 0, 0, 1, NULL,
+                "1: with int y (y^2 + z^2) dA in the Wagner moments, 0: without, as J"},
+    [OMEGA] = {"omega", "rad/s", 0, 0, 1e4, NULL,
+               "angular velocity about the vertical axis through the root"},
+    [DEFLECTION] = {"w", "m", 0.5, 1e-4, 5, NULL,
+                    "deflection of the load point up to which the load is followed"},
     [STEP] = {"step", "m", 0, 0, 5, NULL, "steps of w, all of this size; 0: steps that adapt"},
-    [ROTARY] =
-        {"rotary_inertia", "1", 0, 0, 1, NULL,
-         "where omega is not 0: 1: centrifugal moments and bimoments of the section too, 0: forces on the line of centroids"},
+    [ROTARY] = {"rotary_inertia", "1", 0, 0, 1, NULL,
+                "where omega is not 0: 1: centrifugal moments and bimoments of the section too, 0: "
+                "forces on the line of centroids"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -43,14 +49,16 @@ static channel section_sizes(int centreline)
 /* Distance of the web's centre line from the centroid, along y [m]. */
 static double web_offset(const channel *c)
 {
-    const double flanges = 2 * c->width * c->flange_thickness, area = flanges + c->height * c->web_thickness;
+    const double flanges = 2 * c->width * c->flange_thickness,
+                 area = flanges + c->height * c->web_thickness;
     return flanges * c->width / 2 / area;
 }
 
 static int load_node(const double value[], scene *s, const channel *c, int tip)
 {
     const double half = (c->height + (value[LOAD_HEIGHT] != 0 ? c->flange_thickness : 0)) / 2;
-    return scene_add_attached(s, tip, value[LENGTH], web_offset(c), value[LOAD_POINT] == 0 ? half : -half);
+    return scene_add_attached(s, tip, value[LENGTH], web_offset(c),
+                              value[LOAD_POINT] == 0 ? half : -half);
 }
 
 static void add_path(const double value[], scene *s, int node)
@@ -72,8 +80,9 @@ static void add_path(const double value[], scene *s, int node)
     lateral->row = SCENE_UY;
     lateral->least_order = 1.8;
     for (int i = 0; i < 2; i++) {
-        scene_quantity *curve = i == 0 ? scene_add_quantity(s, "curve", "N", SCENE_FACTOR_AT, loading)
-                                       : scene_add_quantity(s, "lateral_curve", "m", SCENE_COORDINATE, loading);
+        scene_quantity *curve =
+            i == 0 ? scene_add_quantity(s, "curve", "N", SCENE_FACTOR_AT, loading)
+                   : scene_add_quantity(s, "lateral_curve", "m", SCENE_COORDINATE, loading);
         curve->node = node;
         curve->row = SCENE_UY;
         curve->reduction = SCENE_CURVE;

@@ -9,7 +9,8 @@ enum { FREQUENCIES = 13 };
 
 static const case_parameter parameters[] = {
     COLUMN_TABLE(1),
-    [ROTARY_INERTIA] = {"rotary_inertia", "1", 1, 0, 1, NULL, "1: rotary and warping inertia, 0: translations only"},
+    [ROTARY_INERTIA] = {"rotary_inertia", "1", 1, 0, 1, NULL,
+                        "1: rotary and warping inertia, 0: translations only"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -25,7 +26,8 @@ static status build(const double value[], scene *s, fault *f)
 
     const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
     scene_analysis_at(s, buckling)->wanted = 1;
-    scene_quantity *load = scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
+    scene_quantity *load =
+        scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
     load->least_order = 1.8;
 
     const int modal = scene_add_analysis(s, SCENE_MODAL);

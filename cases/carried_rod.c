@@ -11,7 +11,8 @@ enum { TURNS, STRAIN };
 
 static const case_parameter parameters[] = {
     [TURNS] = {"turns", "1", 1, 0, 100, NULL, "turns about (1, 2, 3) after the rod was strained"},
-    [STRAIN] = {"strain", "rad", 1, -1.5, 1.5, NULL, "rotation of the tip against the root, about (0.6, 0, 0.8)"},
+    [STRAIN] = {"strain", "rad", 1, -1.5, 1.5, NULL,
+                "rotation of the tip against the root, about (0.6, 0, 0.8)"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -30,13 +31,16 @@ static void add_turn(scene *s, int node, int driver, const double axis[3])
 static status build(const double value[], scene *s, fault *f)
 {
     (void)f;
-    static const char *const moment[3] = {"M_x", "M_y", "M_z"}, *const displacement[3] = {"u_x", "u_y", "u_z"};
+    static const char *const moment[3] = {"M_x", "M_y", "M_z"}, *const displacement[3] = {
+                                                                    "u_x", "u_y", "u_z"};
     const cantilever_stiffness k = {.EA = 1e4, .GJ = 1, .EI = 1};
     const double path[3] = {0, 1, 2}, way[3] = {1, 2, 3}, bend[3] = {0.6, 0, 0.8};
-    const double strain[3] = {0, value[STRAIN], value[STRAIN]}, carry[3] = {0, 0, 2 * 3.14159265358979323846 * value[TURNS]};
+    const double strain[3] = {0, value[STRAIN], value[STRAIN]},
+                 carry[3] = {0, 0, 2 * 3.14159265358979323846 * value[TURNS]};
     int root, tip;
     cantilever_build(1, &k, s, &root, &tip);
-    const int carried = scene_add_driver(s, "carried", 3, path, carry), strained = scene_add_driver(s, "strained", 3, path, strain);
+    const int carried = scene_add_driver(s, "carried", 3, path, carry),
+              strained = scene_add_driver(s, "strained", 3, path, strain);
     for (int i = 0; i < 3; i++)
         scene_node_at(s, root)->angle[i] = SCENE_FREE;
     add_turn(s, root, carried, way);

@@ -17,12 +17,14 @@ static const case_parameter parameters[] = {
     [WIDTH] = {"width", "m", 0.01, 1e-5, 10, NULL, "width of a leaf, along z"},
     [THICKNESS] = {"thickness", "m", 0.3e-3, 1e-7, 0.1, NULL, "thickness of a leaf"},
     [PITCH] = {"pitch", "m", 0.012, 0, 1, NULL, "between the middle planes of the leaves, along z"},
-    [HALF] = {"half_angle", "rad", 0.78539816339744831, 0.1, 1.5, NULL, "half the angle between the leaves, from x"},
+    [HALF] = {"half_angle", "rad", 0.78539816339744831, 0.1, 1.5, NULL,
+              "half the angle between the leaves, from x"},
     [YOUNG] = {"young", "Pa", 200e9, 1, 1e13, NULL, "modulus of elasticity"},
     [POISSON] = {"poisson", "1", 0.3, 0, 0.49, NULL, "Poisson's ratio"},
     [ANGLE] = {"angle", "rad", 0.35, -1, 1, NULL, "turn of the arm about z"},
     [ROTATION] = {"rotation", "", HINGE, 0, 0, "hinge|vector|first|last|between",
-                  "the turn about z alone, tilts held (hinge, vector), or with tilts about x and y free, as the first, last or "
+                  "the turn about z alone, tilts held (hinge, vector), or with tilts about x and y "
+                  "free, as the first, last or "
                   "middle of three"},
     [MOMENTS] = {"moment_convention", "", SCENE_MOMENTS_SPATIAL, 0, 0, SCENE_MOMENTS_CHOICES,
                  "moment of the drive while the arm tilts, in k_z, k_tilt_x and k_tilt_y"},
@@ -40,7 +42,8 @@ static void add_leaves(const double value[], scene *s, int arm)
     sheet_section(value[WIDTH], value[THICKNESS], value[YOUNG], value[POISSON], 0, &spec);
     const int profile = scene_add_section(s, &spec);
     for (int i = 0; i < LEAVES; i++) {
-        const double angle = i == 1 ? value[HALF] : 3.14159265358979323846 - value[HALF], z = (i - 1) * value[PITCH];
+        const double angle = i == 1 ? value[HALF] : 3.14159265358979323846 - value[HALF],
+                     z = (i - 1) * value[PITCH];
         const double x = value[LENGTH] / 2 * cos(angle), y = value[LENGTH] / 2 * sin(angle);
         const double across[3] = {-sin(angle), cos(angle), 0};
         const int base = scene_add_node(s, -x, -y, z), end = scene_add_attached(s, arm, x, y, z);
@@ -72,7 +75,8 @@ static void turn_arm(const double value[], scene *s, int arm)
         turn_in_sequence(value, s, arm, driver);
         return;
     }
-    const int x = scene_add_driver(s, "tilt_x", 2, path, none), y = scene_add_driver(s, "tilt_y", 2, path, none);
+    const int x = scene_add_driver(s, "tilt_x", 2, path, none),
+              y = scene_add_driver(s, "tilt_y", 2, path, none);
     scene_node *n = scene_node_at(s, arm);
     n->rotation = SCENE_ROTATION_VECTOR;
     memcpy(n->angle, (const int[3]){x, y, driver}, sizeof n->angle);
@@ -88,7 +92,8 @@ static void add_path_quantities(scene *s, int path, int arm)
                   {"shift_x", "m", SCENE_COORDINATE, SCENE_UX},
                   {"shift_y", "m", SCENE_COORDINATE, SCENE_UY}};
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
-        scene_quantity *q = scene_add_quantity(s, wanted[i].name, wanted[i].unit, wanted[i].kind, path);
+        scene_quantity *q =
+            scene_add_quantity(s, wanted[i].name, wanted[i].unit, wanted[i].kind, path);
         q->node = arm;
         q->row = wanted[i].row;
         q->tolerance = 1e-3;
@@ -101,7 +106,8 @@ static void add_stiffnesses(scene *s, int turned, int arm, int count)
 {
     static const char *const name[] = {"k_x", "k_y", "k_z", "k_tilt_x", "k_tilt_y"};
     for (int i = 0; i < count; i++) {
-        scene_quantity *q = scene_add_quantity(s, name[i], i < 3 ? "N/m" : "N m/rad", SCENE_STIFFNESS_ENTRY, turned);
+        scene_quantity *q = scene_add_quantity(s, name[i], i < 3 ? "N/m" : "N m/rad",
+                                               SCENE_STIFFNESS_ENTRY, turned);
         q->node = arm;
         q->row = q->column = i;
         q->tolerance = 1e-3;
@@ -112,7 +118,8 @@ static void add_stiffnesses(scene *s, int turned, int arm, int count)
 static status build(const double value[], scene *s, fault *f)
 {
     if (value[THICKNESS] > value[WIDTH])
-        return fault_set(f, STATUS_REFUSED, "thickness %g m: a leaf is not thicker than wide; make it %g m at most",
+        return fault_set(f, STATUS_REFUSED,
+                         "thickness %g m: a leaf is not thicker than wide; make it %g m at most",
                          value[THICKNESS], value[WIDTH]);
     const int arm = scene_add_node(s, 0, 0, 0);
     double station[STATIONS];
@@ -138,7 +145,8 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_cross_flexure = {
     .name = "cross_flexure",
     .summary = "cross-flexure hinge: moment, shift and support stiffness of the turned arm",
-    .source = "truths: geometrically exact beams between rigid bodies (reference/derive/network.py)",
+    .source =
+        "truths: geometrically exact beams between rigid bodies (reference/derive/network.py)",
     .parameters = parameters,
     .build = build,
 };

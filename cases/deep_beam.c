@@ -12,7 +12,8 @@ static const case_parameter parameters[] = {
     [TORSION] = {"torsion", "", 0, 0, 0, "polar|exact",
                  "polar: J = a^4/6, as the published values; exact: Saint-Venant's of the square"},
     [SHEAR] = {"shear", "1", 1, 0, 1, NULL, "1: flexible in shear, k = 5/6; 0: shear-rigid"},
-    [ROTARY_INERTIA] = {"rotary_inertia", "1", 1, 0, 1, NULL, "1: rotary inertia, 0: translations only"},
+    [ROTARY_INERTIA] = {"rotary_inertia", "1", 1, 0, 1, NULL,
+                        "1: rotary inertia, 0: translations only"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -37,7 +38,8 @@ static status build(const double value[], scene *s, fault *f)
 {
     (void)f;
     const double y_axis[3] = {0, 1, 0}, length = 10;
-    const int profile = square(value, s), a = scene_add_node(s, 0, 0, 0), b = scene_add_node(s, length, 0, 0);
+    const int profile = square(value, s), a = scene_add_node(s, 0, 0, 0),
+              b = scene_add_node(s, length, 0, 0);
     scene_add_member(s, a, b, profile, y_axis);
     scene_hold(s, a, SCENE_UX, SCENE_RX);
     scene_hold(s, b, SCENE_UY, SCENE_UZ);
@@ -62,7 +64,8 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_deep_beam = {
     .name = "deep_beam",
     .summary = "deep simply supported beam: frequencies in bending, torsion and extension",
-    .source = "NAFEMS, Selected Benchmarks for Natural Frequency Analysis (1987), test FV5; closed form of the Timoshenko beam",
+    .source = "NAFEMS, Selected Benchmarks for Natural Frequency Analysis (1987), test FV5; closed "
+              "form of the Timoshenko beam",
     .parameters = parameters,
     .build = build,
 };

@@ -6,18 +6,31 @@
 
 #include "cases/shared/joint.h"
 
-enum { BASE_RADIUS = JOINT_PARAMETERS, CRANK_LENGTH, CRANK_AZIMUTH, PLATFORM_RADIUS, PLATFORM_AZIMUTH, HEIGHT, STROKE, STEPS };
+enum {
+    BASE_RADIUS = JOINT_PARAMETERS,
+    CRANK_LENGTH,
+    CRANK_AZIMUTH,
+    PLATFORM_RADIUS,
+    PLATFORM_AZIMUTH,
+    HEIGHT,
+    STROKE,
+    STEPS
+};
 enum { LEGS = 6, MAX_STEPS = 101 };
 
 static const case_parameter parameters[] = {
     JOINT_TABLE,
     [BASE_RADIUS] = {"base_radius", "m", 0.40, 1e-3, 1e3, NULL, "radius of the crank pivots"},
-    [CRANK_LENGTH] = {"crank_length", "m", 0.20, 1e-3, 1e3, NULL, "length of a crank, pointing inwards"},
-    [CRANK_AZIMUTH] = {"crank_azimuth", "rad", 12 * JOINT_DEGREE, 0, 1.04, NULL, "azimuth of a crank from the middle of its pair"},
-    [PLATFORM_RADIUS] = {"platform_radius", "m", 0.16, 1e-3, 1e3, NULL, "radius of the platform's joint centres"},
+    [CRANK_LENGTH] = {"crank_length", "m", 0.20, 1e-3, 1e3, NULL,
+                      "length of a crank, pointing inwards"},
+    [CRANK_AZIMUTH] = {"crank_azimuth", "rad", 12 * JOINT_DEGREE, 0, 1.04, NULL,
+                       "azimuth of a crank from the middle of its pair"},
+    [PLATFORM_RADIUS] = {"platform_radius", "m", 0.16, 1e-3, 1e3, NULL,
+                         "radius of the platform's joint centres"},
     [PLATFORM_AZIMUTH] = {"platform_azimuth", "rad", 48 * JOINT_DEGREE, 0, 1.04, NULL,
                           "azimuth of a platform joint from the middle of its pair"},
-    [HEIGHT] = {"height", "m", 0.30, 1e-3, 1e3, NULL, "height of the platform above the cranks' plane"},
+    [HEIGHT] = {"height", "m", 0.30, 1e-3, 1e3, NULL,
+                "height of the platform above the cranks' plane"},
     [STROKE] = {"stroke", "m", 0.05, 0, 1e2, NULL, "the platform moves from -stroke to +stroke"},
     [STEPS] = {"steps", "1", 11, 2, MAX_STEPS, NULL, "positions of the platform"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
@@ -26,12 +39,14 @@ static const case_parameter parameters[] = {
 /* Joint axes for a rod: z along `direction`, x in the plane of the rod and the global z axis on the upper side. */
 static void joint_axes(const double direction[3], double axes[9])
 {
-    double x[3] = {-direction[2] * direction[0], -direction[2] * direction[1], 1 - direction[2] * direction[2]};
+    double x[3] = {-direction[2] * direction[0], -direction[2] * direction[1],
+                   1 - direction[2] * direction[2]};
     const double length = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
     for (int i = 0; i < 3; i++)
         x[i] /= length;
     const double *z = direction;
-    const double y[3] = {z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]};
+    const double y[3] = {z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2],
+                         z[0] * x[1] - z[1] * x[0]};
     for (int i = 0; i < 3; i++) {
         axes[3 * i] = x[i];
         axes[3 * i + 1] = y[i];
@@ -45,7 +60,8 @@ static int add_crank(const double value[], scene *s, double azimuth, int angle)
     const int crank = scene_add_node(s, pivot * cos(azimuth), pivot * sin(azimuth), 0);
     scene_hold(s, crank, SCENE_UX, SCENE_UZ);
     scene_node *n = scene_node_at(s, crank);
-    n->rotation = SCENE_ROTATION_SEQUENCE; /* about the horizontal tangent: a positive angle lifts the tip */
+    n->rotation =
+        SCENE_ROTATION_SEQUENCE; /* about the horizontal tangent: a positive angle lifts the tip */
     n->axis[0][0] = -sin(azimuth);
     n->axis[0][1] = cos(azimuth);
     n->angle[0] = angle;
@@ -55,10 +71,12 @@ static int add_crank(const double value[], scene *s, double azimuth, int angle)
 static void add_leg(const double value[], scene *s, int profile, int leg, int angle, int platform)
 {
     const double side = leg % 2 == 0 ? -1 : 1, middle = 120 * JOINT_DEGREE * (leg >> 1);
-    const double below = middle + side * value[CRANK_AZIMUTH], above = middle + side * value[PLATFORM_AZIMUTH];
+    const double below = middle + side * value[CRANK_AZIMUTH],
+                 above = middle + side * value[PLATFORM_AZIMUTH];
     const double tip_radius = value[BASE_RADIUS] - value[CRANK_LENGTH];
     const double low[3] = {tip_radius * cos(below), tip_radius * sin(below), 0};
-    const double high[3] = {value[PLATFORM_RADIUS] * cos(above), value[PLATFORM_RADIUS] * sin(above), value[HEIGHT]};
+    const double high[3] = {value[PLATFORM_RADIUS] * cos(above),
+                            value[PLATFORM_RADIUS] * sin(above), value[HEIGHT]};
     double along[3], length = 0;
     for (int i = 0; i < 3; i++)
         length += (high[i] - low[i]) * (high[i] - low[i]);
@@ -75,7 +93,8 @@ static void add_leg(const double value[], scene *s, int profile, int leg, int an
     joint_add(value, s, profile, high, axes, rod, platform);
 }
 
-static void add_stiffnesses(scene *s, int compliance, int platform, const double station[], int steps)
+static void add_stiffnesses(scene *s, int compliance, int platform, const double station[],
+                            int steps)
 {
     for (int i = 0; i <= steps; i++) {
         char name[SCENE_NAME] = "support_stiffness_curve";
@@ -100,8 +119,10 @@ static status build(const double value[], scene *s, fault *f)
     if (outcome != STATUS_OK)
         return outcome;
     if (value[CRANK_LENGTH] >= value[BASE_RADIUS])
-        return fault_set(f, STATUS_REFUSED, "crank_length = %g m reaches beyond the centre; give less than base_radius = %g m",
-                         value[CRANK_LENGTH], value[BASE_RADIUS]);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "crank_length = %g m reaches beyond the centre; give less than base_radius = %g m",
+            value[CRANK_LENGTH], value[BASE_RADIUS]);
     const int platform = scene_add_node(s, 0, 0, value[HEIGHT]);
     const int steps = (int)value[STEPS];
     double station[MAX_STEPS + 1], height[MAX_STEPS + 1];
@@ -123,7 +144,8 @@ static status build(const double value[], scene *s, fault *f)
     c->node = platform;
     c->released = 1u << SCENE_UZ; /* the condition ends: the cranks hold their angle */
     add_stiffnesses(s, compliance, platform, station + 1, steps);
-    scene_quantity *first = scene_add_quantity(s, "crank_angle", "rad", SCENE_DRIVER_VALUE, lifting);
+    scene_quantity *first =
+        scene_add_quantity(s, "crank_angle", "rad", SCENE_DRIVER_VALUE, lifting);
     first->row = angle;
     const int meshes[] = {1, 2, 4, 8};
     scene_meshes(s, 4, meshes);
@@ -132,7 +154,8 @@ static status build(const double value[], scene *s, fault *f)
 
 const case_type case_hexapod = {
     .name = "hexapod",
-    .summary = "flexure-based hexapod of twelve spherical joints: support stiffness along its stroke",
+    .summary =
+        "flexure-based hexapod of twelve spherical joints: support stiffness along its stroke",
     .source = "N section 4.3, Fig. 10; synthetic sizes",
     .parameters = parameters,
     .build = build,

@@ -9,9 +9,11 @@ enum { TIP, DISTRIBUTED, MID, MID_DISTRIBUTED };
 
 static const case_parameter parameters[] = {
     [LOAD] = {"load", "", TIP, 0, 0, "tip|distributed|mid|mid_distributed",
-              "cantilever with a tip or a distributed load; simply supported beam with a mid or a distributed load"},
+              "cantilever with a tip or a distributed load; simply supported beam with a mid or a "
+              "distributed load"},
     [K] = {"K", "1", 0, 0, 1e6, NULL, "L^2 GJ/EIw; 0: nothing warps"},
-    [PREBUCKLING] = {"prebuckling", "", 0, 0, 0, "neglected|included", "deflection before buckling"},
+    [PREBUCKLING] = {"prebuckling", "", 0, 0, 0, "neglected|included",
+                     "deflection before buckling"},
     [RATIO] = {"ratio", "1", 1e4, 1, 1e8, NULL, "strong EI/weak EI"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
@@ -31,7 +33,8 @@ static status build(const double value[], scene *s, fault *f)
     spec.constants.Iw = value[K] > 0 ? 1 / value[K] : 0;
     const int profile = scene_add_section(s, &spec);
     const double y_axis[3] = {0, 1, 0};
-    const int start = scene_add_node(s, 0, 0, 0), middle = scene_add_node(s, 0.5, 0, 0), end = scene_add_node(s, 1, 0, 0);
+    const int start = scene_add_node(s, 0, 0, 0), middle = scene_add_node(s, 0.5, 0, 0),
+              end = scene_add_node(s, 1, 0, 0);
     const int first = scene_add_member(s, start, middle, profile, y_axis),
               second = scene_add_member(s, middle, end, profile, y_axis);
     scene_member_at(s, first)->warp_p = supported ? SCENE_WARP_FREE : SCENE_WARP_FIXED;
@@ -70,7 +73,8 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_lateral_buckling = {
     .name = "lateral_buckling",
     .summary = "lateral-torsional buckling of cantilevers and simply supported beams",
-    .source = "Timoshenko and Gere, Theory of Elastic Stability; boundary-value problem of thin beams",
+    .source =
+        "Timoshenko and Gere, Theory of Elastic Stability; boundary-value problem of thin beams",
     .parameters = parameters,
     .build = build,
 };

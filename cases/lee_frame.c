@@ -9,7 +9,8 @@ enum { PLANE, STEP };
 
 static const case_parameter parameters[] = {
     [PLANE] = {"plane", "1", 1, 0, 1, NULL,
-               "1: too stiff to leave its plane, 0: equal stiffness all round, the frame buckles out of its plane"},
+               "1: too stiff to leave its plane, 0: equal stiffness all round, the frame buckles "
+               "out of its plane"},
     [STEP] = {"step", "1", 0.02, 1e-4, 0.2, NULL, "first step of the arc"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
@@ -41,24 +42,27 @@ static int hinge(scene *s, double x, double y)
 
 static void add_quantities(int plane, scene *s, int path, int node)
 {
-    static const char *const name[] = {"limit_load", "limit_load_back"}, *const at[] = {"deflection_at_limit",
-                                                                                        "deflection_at_limit_back"};
+    static const char *const name[] = {"limit_load", "limit_load_back"},
+                             *const at[] = {"deflection_at_limit", "deflection_at_limit_back"};
     for (int i = 0; i < 4; i++) {
-        scene_quantity *q = scene_add_quantity(s, i < 2 ? name[i] : at[i - 2], i < 2 ? "N" : "m", SCENE_CRITICAL_POINT, path);
+        scene_quantity *q = scene_add_quantity(s, i < 2 ? name[i] : at[i - 2], i < 2 ? "N" : "m",
+                                               SCENE_CRITICAL_POINT, path);
         q->row = SCENE_LIMIT_POINT;
         q->order = i % 2;
         q->column = i / 2;
         q->factor = i < 2 ? 1 : -1;
         q->least_order = 1.8;
     }
-    scene_quantity *q = plane ? NULL : scene_add_quantity(s, "bifurcation_load", "N", SCENE_CRITICAL_POINT, path);
+    scene_quantity *q =
+        plane ? NULL : scene_add_quantity(s, "bifurcation_load", "N", SCENE_CRITICAL_POINT, path);
     if (q != NULL) {
         q->row = SCENE_BIFURCATION;
         q->least_order = 1.8;
     }
     for (int i = 0; i < 2; i++) {
-        scene_quantity *curve = i == 0 ? scene_add_quantity(s, "curve", "N", SCENE_FACTOR_AT, path)
-                                       : scene_add_quantity(s, "sway_curve", "m", SCENE_COORDINATE, path);
+        scene_quantity *curve =
+            i == 0 ? scene_add_quantity(s, "curve", "N", SCENE_FACTOR_AT, path)
+                   : scene_add_quantity(s, "sway_curve", "m", SCENE_COORDINATE, path);
         curve->node = node;
         curve->row = SCENE_UX;
         curve->reduction = SCENE_CURVE;
@@ -73,8 +77,8 @@ static status build(const double value[], scene *s, fault *f)
     (void)f;
     const double across[3] = {0, 0, 1};
     const int profile = profile_of(value[PLANE] != 0, s);
-    const int foot = hinge(s, 0, 0), corner = scene_add_node(s, 0, length, 0), loaded = scene_add_node(s, load_at, length, 0),
-              end = hinge(s, length, length);
+    const int foot = hinge(s, 0, 0), corner = scene_add_node(s, 0, length, 0),
+              loaded = scene_add_node(s, load_at, length, 0), end = hinge(s, length, length);
     scene_add_member(s, foot, corner, profile, across);
     scene_add_member(s, corner, loaded, profile, across);
     scene_add_member(s, loaded, end, profile, across);
@@ -98,7 +102,8 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_lee_frame = {
     .name = "lee_frame",
     .summary = "frame of Lee: snap-through and snap-back between two limit points",
-    .source = "Lee, Manuel and Rossow, J. Eng. Mech. Div. ASCE 94 (1968); exact limit points reference/derive/lee_frame.py",
+    .source = "Lee, Manuel and Rossow, J. Eng. Mech. Div. ASCE 94 (1968); exact limit points "
+              "reference/derive/lee_frame.py",
     .parameters = parameters,
     .build = build,
 };

@@ -9,7 +9,8 @@ enum { WAGNER_MOMENTS = COLUMN_PARAMETERS };
 
 static const case_parameter parameters[] = {
     COLUMN_TABLE(0),
-    [WAGNER_MOMENTS] = {"wagner_moments", "1", 1, 0, 1, NULL, "1: with int y(y^2+z^2) dA and int z(y^2+z^2) dA"},
+    [WAGNER_MOMENTS] = {"wagner_moments", "1", 1, 0, 1, NULL,
+                        "1: with int y(y^2+z^2) dA and int z(y^2+z^2) dA"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -39,7 +40,8 @@ static status build(const double value[], scene *s, fault *f)
 
 const case_type case_moment_buckling = {
     .name = "moment_buckling",
-    .summary = "C-shaped beam with fork ends under uniform end moment: buckling moments of both signs",
+    .summary =
+        "C-shaped beam with fork ends under uniform end moment: buckling moments of both signs",
     .source = "J section 5.1 (section and length); closed form of the monosymmetric beam",
     .parameters = parameters,
     .build = build,

@@ -10,7 +10,8 @@ enum { LEG, DEPTH, THICKNESS, YOUNG, POISSON, ANGLE };
 
 static const case_parameter parameters[] = {
     [LEG] = {"leg", "m", 0.24, 1e-6, 1e6, NULL, "length of a leg"},
-    [DEPTH] = {"depth", "m", 0.03, 1e-9, 1e3, NULL, "depth of the strip, in the plane of the frame"},
+    [DEPTH] = {"depth", "m", 0.03, 1e-9, 1e3, NULL,
+               "depth of the strip, in the plane of the frame"},
     [THICKNESS] = {"thickness", "m", 0.0006, 1e-12, 1e3, NULL, "thickness of the strip"},
     [YOUNG] = {"young", "Pa", 71.24e9, 1e-3, 1e15, NULL, "modulus of elasticity"},
     [POISSON] = {"poisson", "1", 0.31, -0.99, 0.49, NULL, "Poisson's ratio"},
@@ -45,8 +46,10 @@ static status build(const double value[], scene *s, fault *f)
     spec.given.Iw = 0;
     spec.given.It = value[DEPTH] * pow(value[THICKNESS], 3) / 3;
     const int profile = scene_add_section(s, &spec);
-    const double half = value[LEG] * sin(value[ANGLE] / 2), rise = value[LEG] * cos(value[ANGLE] / 2), y_axis[3] = {0, 0, 1};
-    const int left = scene_add_node(s, -half, 0, 0), corner = scene_add_node(s, 0, rise, 0), right = scene_add_node(s, half, 0, 0);
+    const double half = value[LEG] * sin(value[ANGLE] / 2),
+                 rise = value[LEG] * cos(value[ANGLE] / 2), y_axis[3] = {0, 0, 1};
+    const int left = scene_add_node(s, -half, 0, 0), corner = scene_add_node(s, 0, rise, 0),
+              right = scene_add_node(s, half, 0, 0);
     scene_add_member(s, left, corner, profile, y_axis);
     scene_add_member(s, corner, right, profile, y_axis);
     hinge(s, left);

@@ -13,9 +13,12 @@ enum { MODES = 3, LOWEST = 4, MOST_STATIONS = 200 };
 static const case_parameter parameters[] = {
     [OMEGA] = {"omega_star", "1", 6.0, 0, 1e4, NULL, "angular velocity in sqrt(EI/(rho A L^4))"},
     [SLENDERNESS] = {"slenderness", "1", 1000.0, 1, 1e7, NULL, "L/sqrt(I/A)"},
-    [HUB_RADIUS] = {"hub_radius", "1", 0, -100, 100, NULL, "distance of the root from the axis, in L; negative: it points inward"},
-    [AXIS] = {"axis", "rad", 0, 0, 1.57079632679489661923, NULL, "0: axis normal to the beam, pi/2: along it"},
-    [STIFFNESS_RATIO] = {"stiffness_ratio", "1", 1, 1e-6, 1e6, NULL, "bending stiffness in lag over that in flap"},
+    [HUB_RADIUS] = {"hub_radius", "1", 0, -100, 100, NULL,
+                    "distance of the root from the axis, in L; negative: it points inward"},
+    [AXIS] = {"axis", "rad", 0, 0, 1.57079632679489661923, NULL,
+              "0: axis normal to the beam, pi/2: along it"},
+    [STIFFNESS_RATIO] = {"stiffness_ratio", "1", 1, 1e-6, 1e6, NULL,
+                         "bending stiffness in lag over that in flap"},
     [STATIONS] = {"stations", "1", 1, 1, MOST_STATIONS, NULL,
                   "angular velocities of the frequency curves, from zero upwards; 1: no curves"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
@@ -23,7 +26,8 @@ static const case_parameter parameters[] = {
 
 static const double two_pi = 2 * 3.14159265358979323846; /* Hz -> rad/s */
 
-static scene_quantity *add_frequency(scene *s, const char *stem, int order, const char *ending, int rotation, scene_family family)
+static scene_quantity *add_frequency(scene *s, const char *stem, int order, const char *ending,
+                                     int rotation, scene_family family)
 {
     char name[SCENE_NAME];
     snprintf(name, sizeof name, "%s_%d%s", stem, order + 1, ending);
@@ -55,7 +59,8 @@ static void add_frequencies(scene *s, int rotation, double omega, int curves, in
         for (int i = 0; i < MODES && !whirl; i++) {
             add_frequency(s, kind[k].name, i, "", rotation, kind[k].family);
             if (curves)
-                make_curve(add_frequency(s, kind[k].name, i, "_curve", rotation, kind[k].family), omega);
+                make_curve(add_frequency(s, kind[k].name, i, "_curve", rotation, kind[k].family),
+                           omega);
         }
     for (int i = 0; i < LOWEST && whirl; i++) {
         add_frequency(s, "whirl", i, "", rotation, SCENE_ANY);
@@ -76,13 +81,17 @@ static status build(const double value[], scene *s, fault *f)
         c->Iz *= value[STIFFNESS_RATIO];
         c->Ip = c->Iy + c->Iz;
     }
-    const int rotation = scene_add_analysis(s, SCENE_ROTATION), intervals = omega > 0 ? (int)value[STATIONS] - 1 : 0;
+    const int rotation = scene_add_analysis(s, SCENE_ROTATION),
+              intervals = omega > 0 ? (int)value[STATIONS] - 1 : 0;
     double path[MOST_STATIONS + 1];
     for (int i = 0; i <= intervals; i++)
         path[i] = intervals > 0 ? (double)i / intervals : 1;
     scene_set_stations(s, rotation, intervals + 1, path);
     scene_analysis *a = scene_analysis_at(s, rotation);
-    a->steps_between = value[AXIS] > 0 ? 8 : 1; /* an inclined axis bends the beam, which has more than one equilibrium then */
+    a->steps_between =
+        value[AXIS] > 0
+            ? 8
+            : 1; /* an inclined axis bends the beam, which has more than one equilibrium then */
     a->omega[0] = omega * sin(value[AXIS]);
     a->omega[2] = omega * cos(value[AXIS]);
     a->omega_centre[0] = -value[HUB_RADIUS];
@@ -106,7 +115,8 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_rotating_cantilever = {
     .name = "rotating_cantilever",
     .summary = "cantilever that turns steadily: flap and lag frequencies, stretch",
-    .source = "exact flap and lag of the stretched beam (reference/derive/rotating.py); stretch tan k/k - 1",
+    .source = "exact flap and lag of the stretched beam (reference/derive/rotating.py); stretch "
+              "tan k/k - 1",
     .parameters = parameters,
     .build = build,
 };

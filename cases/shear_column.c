@@ -11,7 +11,8 @@ static const case_parameter parameters[] = {
     [SIDE] = {"side", "m", 0.02, 1e-9, 1e3, NULL, "side of the square"},
     [YOUNG] = {"young", "Pa", 70e9, 1e-3, 1e15, NULL, "modulus of elasticity"},
     [SHEAR_MODULUS] = {"shear_modulus", "Pa", 27e9, 1e-6, 1e15, NULL, "shear modulus"},
-    [SHEAR_STABILITY] = {"shear_stability", "", 0, 0, 0, "engesser|haringx", "theory of shear in stability"},
+    [SHEAR_STABILITY] = {"shear_stability", "", 0, 0, 0, "engesser|haringx",
+                         "theory of shear in stability"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -35,10 +36,12 @@ static status build(const double value[], scene *s, fault *f)
     scene_fork(s, foot, x_axis, y_axis);
     scene_fork(s, head, x_axis, y_axis);
     scene_add_load(s, SCENE_FORCE, head, -1, 0, 0);
-    s->needs |= SCENE_NEED_SHEAR | (value[SHEAR_STABILITY] == 0 ? SCENE_NEED_ENGESSER : SCENE_NEED_HARINGX);
+    s->needs |=
+        SCENE_NEED_SHEAR | (value[SHEAR_STABILITY] == 0 ? SCENE_NEED_ENGESSER : SCENE_NEED_HARINGX);
     const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
     scene_analysis_at(s, buckling)->wanted = 1;
-    scene_quantity *load = scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
+    scene_quantity *load =
+        scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
     load->least_order = 1.8;
     const int meshes[] = {2, 4, 8, 16, 32};
     scene_meshes(s, 5, meshes);

@@ -16,8 +16,10 @@ static const case_parameter parameters[] = {
     [MODES] = {"modes", "1", 0, 0, MOST_MODES, NULL,
                "natural frequencies of the deflected sheet, its tip held along y and about z"},
     [DENSITY] = {"density", "kg/m^3", 7850, 1e-3, 1e6, NULL, "of the sheet"},
-    [ROTARY] = {"rotary_inertia", "1", 1, 0, 1, NULL, "1: rotary and warping inertia, 0: translations and twist only"},
-    [STATIONS] = {"stations", "1", 15, 1, MOST_STATIONS, NULL, "states from rest to the deflection, at equal distances"},
+    [ROTARY] = {"rotary_inertia", "1", 1, 0, 1, NULL,
+                "1: rotary and warping inertia, 0: translations and twist only"},
+    [STATIONS] = {"stations", "1", 15, 1, MOST_STATIONS, NULL,
+                  "states from rest to the deflection, at equal distances"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -27,7 +29,8 @@ static const int entries[][2] = {
     {2, 2}, {2, 3}, {2, 4}, {3, 2}, {3, 3}, {3, 4}, {4, 2}, {4, 3}, {4, 4},
 };
 
-static void add_gated(scene *s, const char *name, const char *unit, scene_quantity_kind kind, int analysis, int node, int row)
+static void add_gated(scene *s, const char *name, const char *unit, scene_quantity_kind kind,
+                      int analysis, int node, int row)
 {
     scene_quantity *q = scene_add_quantity(s, name, unit, kind, analysis);
     q->node = node;
@@ -36,7 +39,8 @@ static void add_gated(scene *s, const char *name, const char *unit, scene_quanti
     q->least_order = 1.8;
 }
 
-static void add_curve(scene *s, const char *name, int analysis, int node, int row, double deflection)
+static void add_curve(scene *s, const char *name, int analysis, int node, int row,
+                      double deflection)
 {
     scene_quantity *q = scene_add_quantity(s, name, "m/N", SCENE_COMPLIANCE_ENTRY, analysis);
     q->node = node;
@@ -68,8 +72,9 @@ static void add_predictions(const double value[], scene *s)
     section c;
     if (section_compute(&s->section[0], &c, NULL) != STATUS_OK)
         return; /* model_alloc says why */
-    const sheet_prediction p = sheet_predict(&c, value[SHEET_LENGTH], value[SHEET_DEFLECTION], value[SHEET_TIP_WARPING] != 0,
-                                             value[SHEET_SHEAR] != 0, (scene_moments)value[SHEET_MOMENTS]);
+    const sheet_prediction p = sheet_predict(&c, value[SHEET_LENGTH], value[SHEET_DEFLECTION],
+                                             value[SHEET_TIP_WARPING] != 0, value[SHEET_SHEAR] != 0,
+                                             (scene_moments)value[SHEET_MOMENTS]);
     const struct {
         const char *name;
         double value;

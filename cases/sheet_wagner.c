@@ -10,7 +10,8 @@ enum { STATIONS_BENT = 5, STATIONS_TWISTED = 5 };
 static const case_parameter parameters[] = {
     SHEET_TABLE(1),
     [TIP_PHI_Z] = {"tip_phi_z", "rad", 0.15, -1.5, 1.5, NULL, "prescribed tip rotation about z"},
-    [TIP_PHI_X] = {"tip_phi_x", "rad", 0.15, -1.5, 1.5, NULL, "prescribed tip twist, after the bending"},
+    [TIP_PHI_X] = {"tip_phi_x", "rad", 0.15, -1.5, 1.5, NULL,
+                   "prescribed tip twist, after the bending"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -44,7 +45,8 @@ static status build(const double value[], scene *s, fault *f)
     const int path_analysis = scene_add_analysis(s, SCENE_STATIC);
     double stations[STATIONS_BENT + STATIONS_TWISTED];
     for (int i = 0; i < STATIONS_BENT + STATIONS_TWISTED; i++)
-        stations[i] = i < STATIONS_BENT ? (i + 1.0) / STATIONS_BENT : 1 + (i + 1.0 - STATIONS_BENT) / STATIONS_TWISTED;
+        stations[i] = i < STATIONS_BENT ? (i + 1.0) / STATIONS_BENT
+                                        : 1 + (i + 1.0 - STATIONS_BENT) / STATIONS_TWISTED;
     scene_set_stations(s, path_analysis, STATIONS_BENT + STATIONS_TWISTED, stations);
     const int compliance = scene_add_analysis(s, SCENE_COMPLIANCE);
     scene_analysis *c = scene_analysis_at(s, compliance);
@@ -66,11 +68,13 @@ static status build(const double value[], scene *s, fault *f)
         scene_quantity_kind kind;
         int row;
     } motions[] = {
-        {"u_x", "m", SCENE_COORDINATE, SCENE_UX}, {"u_z", "m", SCENE_COORDINATE, SCENE_UZ}, {"F_y", "N", SCENE_REACTION, SCENE_UY},
-        {"M_x", "N m", SCENE_REACTION, SCENE_RX}, {"M_z", "N m", SCENE_REACTION, SCENE_RZ},
+        {"u_x", "m", SCENE_COORDINATE, SCENE_UX}, {"u_z", "m", SCENE_COORDINATE, SCENE_UZ},
+        {"F_y", "N", SCENE_REACTION, SCENE_UY},   {"M_x", "N m", SCENE_REACTION, SCENE_RX},
+        {"M_z", "N m", SCENE_REACTION, SCENE_RZ},
     };
     for (size_t i = 0; i < sizeof motions / sizeof motions[0]; i++) {
-        scene_quantity *q = scene_add_quantity(s, motions[i].name, motions[i].unit, motions[i].kind, path_analysis);
+        scene_quantity *q =
+            scene_add_quantity(s, motions[i].name, motions[i].unit, motions[i].kind, path_analysis);
         q->node = tip;
         q->row = motions[i].row;
         q->least_order = 1.8;

@@ -12,8 +12,10 @@ enum { ANGLE, CONTROL, STEP };
 
 static const case_parameter parameters[] = {
     [ANGLE] = {"angle", "rad", 0.3, 0.01, 1.5, NULL, "inclination of the bars"},
-    [CONTROL] = {"control", "", 0, 0, 0, "arc|displacement", "what is given along the path: the arc or the apex's deflection"},
-    [STEP] = {"step", "1", 0.02, 1e-5, 1, NULL, "first step: of the arc, or of the deflection over the length"},
+    [CONTROL] = {"control", "", 0, 0, 0, "arc|displacement",
+                 "what is given along the path: the arc or the apex's deflection"},
+    [STEP] = {"step", "1", 0.02, 1e-5, 1, NULL,
+              "first step: of the arc, or of the deflection over the length"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -38,7 +40,8 @@ static void add_quantities(scene *s, int path, int apex, double height)
         load->row = SCENE_LIMIT_POINT;
         load->order = i;
     }
-    scene_quantity *deflection = scene_add_quantity(s, "deflection_at_limit", "m", SCENE_CRITICAL_POINT, path);
+    scene_quantity *deflection =
+        scene_add_quantity(s, "deflection_at_limit", "m", SCENE_CRITICAL_POINT, path);
     deflection->row = SCENE_LIMIT_POINT;
     deflection->column = 1;
     deflection->factor = -1;
@@ -58,7 +61,8 @@ static status build(const double value[], scene *s, fault *f)
     (void)f;
     const double height = sin(value[ANGLE]), y_axis[3] = {0, 0, 1};
     const int profile = stiff_bar(s);
-    const int base = scene_add_node(s, -cos(value[ANGLE]), 0, 0), apex = scene_add_node(s, 0, height, 0);
+    const int base = scene_add_node(s, -cos(value[ANGLE]), 0, 0),
+              apex = scene_add_node(s, 0, height, 0);
     scene_add_member(s, base, apex, profile, y_axis);
     scene_hold(s, base, SCENE_UX, SCENE_RY);
     scene_hold(s, apex, SCENE_UX, SCENE_UX);

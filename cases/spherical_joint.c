@@ -29,14 +29,16 @@ static void prescribe_rotation(const double value[], scene *s, int effector, dou
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k <= steps; k++) {
             const double azimuth = 2 * 3.14159265358979323846 * (k - 1) / steps;
-            component[k] = k == 0 || i == 2 ? 0 : value[TILT] * (i == 0 ? cos(azimuth) : sin(azimuth));
+            component[k] =
+                k == 0 || i == 2 ? 0 : value[TILT] * (i == 0 ? cos(azimuth) : sin(azimuth));
         }
         const int driver = scene_add_driver(s, name[i], steps + 1, station, component);
         scene_node_at(s, effector)->angle[i] = driver;
     }
 }
 
-static scene_quantity *add_stiffness(scene *s, const char *name, int analysis, int effector, scene_reduction reduction)
+static scene_quantity *add_stiffness(scene *s, const char *name, int analysis, int effector,
+                                     scene_reduction reduction)
 {
     scene_quantity *q = scene_add_quantity(s, name, "N/m", SCENE_STIFFNESS_ENTRY, analysis);
     q->node = effector;
@@ -61,14 +63,16 @@ static status build(const double value[], scene *s, fault *f)
 
     const int tilting = scene_add_analysis(s, SCENE_STATIC);
     scene_set_stations(s, tilting, (int)value[STEPS], station + 1);
-    const int tilted = scene_add_analysis(s, SCENE_COMPLIANCE), rest = scene_add_analysis(s, SCENE_COMPLIANCE);
+    const int tilted = scene_add_analysis(s, SCENE_COMPLIANCE),
+              rest = scene_add_analysis(s, SCENE_COMPLIANCE);
     scene_analysis_at(s, tilted)->follows = tilting;
     scene_analysis_at(s, tilted)->node = effector;
     scene_analysis_at(s, rest)->node = effector;
     add_stiffness(s, "support_stiffness_max", tilted, effector, SCENE_MAX);
     add_stiffness(s, "support_stiffness_min", tilted, effector, SCENE_MIN);
     add_stiffness(s, "support_stiffness_undeformed", rest, effector, SCENE_LAST);
-    scene_quantity *curve = add_stiffness(s, "support_stiffness_curve", tilted, effector, SCENE_CURVE);
+    scene_quantity *curve =
+        add_stiffness(s, "support_stiffness_curve", tilted, effector, SCENE_CURVE);
     curve->x_factor = 2 * 3.14159265358979323846 / value[STEPS];
     curve->x_offset = -curve->x_factor; /* station 1 is azimuth 0 */
     snprintf(curve->x_name, sizeof curve->x_name, "azimuth");
@@ -80,7 +84,8 @@ static status build(const double value[], scene *s, fault *f)
 
 const case_type case_spherical_joint = {
     .name = "spherical_joint",
-    .summary = "spherical flexure joint of six folded sheets: support stiffness around one turn of the tilt axis",
+    .summary = "spherical flexure joint of six folded sheets: support stiffness around one turn of "
+               "the tilt axis",
     .source = "N section 4.2, Fig. 8, Table 1; geometry reconstructed",
     .parameters = parameters,
     .build = build,

@@ -15,9 +15,12 @@ static const case_parameter parameters[] = {
     [SHEAR_MODULUS] = {"shear_modulus", "Pa", 80e9, 1e-6, 1e15, NULL, "shear modulus"},
     [DENSITY] = {"density", "kg/m^3", 7850.0, 1e-9, 1e9, NULL, "density"},
     [SHEAR] = {"shear", "1", 1, 0, 1, NULL, "1: flexible in shear, 0: shear-rigid"},
-    [SHEAR_STABILITY] = {"shear_stability", "", 0, 0, 0, "engesser|haringx", "theory of shear in stability"},
-    [ROTARY_INERTIA] = {"rotary_inertia", "1", 1, 0, 1, NULL, "1: rotary and warping inertia, 0: translations and twist only"},
-    [AXIAL_LOAD] = {"axial_load", "N", 5000.0, -1e9, 1e9, NULL, "compression under which the column vibrates"},
+    [SHEAR_STABILITY] = {"shear_stability", "", 0, 0, 0, "engesser|haringx",
+                         "theory of shear in stability"},
+    [ROTARY_INERTIA] = {"rotary_inertia", "1", 1, 0, 1, NULL,
+                        "1: rotary and warping inertia, 0: translations and twist only"},
+    [AXIAL_LOAD] = {"axial_load", "N", 5000.0, -1e9, 1e9, NULL,
+                    "compression under which the column vibrates"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -61,7 +64,8 @@ static status build(const double value[], scene *s, fault *f)
     section_spec spec;
     branched_section(value, &spec);
     const int profile = scene_add_section(s, &spec);
-    const double x_axis[3] = {1, 0, 0}, y_axis[3] = {0, 1, 0}, load = value[AXIAL_LOAD] != 0 ? value[AXIAL_LOAD] : 1;
+    const double x_axis[3] = {1, 0, 0}, y_axis[3] = {0, 1, 0},
+                 load = value[AXIAL_LOAD] != 0 ? value[AXIAL_LOAD] : 1;
     const int foot = scene_add_node(s, 0, 0, 0), head = scene_add_node(s, value[LENGTH], 0, 0);
     scene_add_member(s, foot, head, profile, y_axis);
     scene_hold(s, foot, SCENE_UX, SCENE_UZ);
@@ -71,17 +75,20 @@ static status build(const double value[], scene *s, fault *f)
     scene_add_load(s, SCENE_FORCE, head, -load, 0, 0);
     s->needs |= SCENE_NEED_TRAPEZE;
     if (value[SHEAR] != 0)
-        s->needs |= SCENE_NEED_SHEAR | (value[SHEAR_STABILITY] == 0 ? SCENE_NEED_ENGESSER : SCENE_NEED_HARINGX);
+        s->needs |= SCENE_NEED_SHEAR |
+                    (value[SHEAR_STABILITY] == 0 ? SCENE_NEED_ENGESSER : SCENE_NEED_HARINGX);
     if (value[ROTARY_INERTIA] != 0)
         s->needs |= SCENE_NEED_ROTARY_INERTIA;
 
     const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
     scene_analysis_at(s, buckling)->wanted = 1;
-    scene_quantity *critical = scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
+    scene_quantity *critical =
+        scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
     critical->sign = load > 0 ? 1 : -1;
     critical->factor = load;
     critical->least_order = 1.8;
-    const int loading = scene_add_analysis(s, SCENE_LINEAR), modal = scene_add_analysis(s, SCENE_MODAL);
+    const int loading = scene_add_analysis(s, SCENE_LINEAR),
+              modal = scene_add_analysis(s, SCENE_MODAL);
     scene_analysis_at(s, modal)->follows = value[AXIAL_LOAD] != 0 ? loading : SCENE_NONE;
     add_frequencies(s, modal);
     const int meshes[] = {2, 4, 8, 16, 32, 64};
@@ -91,7 +98,8 @@ static status build(const double value[], scene *s, fault *f)
 
 const case_type case_unsymmetric_column = {
     .name = "unsymmetric_column",
-    .summary = "fork-ended column of an unsymmetric section: buckling load, frequencies under axial load",
+    .summary =
+        "fork-ended column of an unsymmetric section: buckling load, frequencies under axial load",
     .source = "closed form of the thin-walled column, one half-wave at a time",
     .parameters = parameters,
     .build = build,

@@ -42,7 +42,8 @@ static status build(const double value[], scene *s, fault *f)
     scene_quantity *moment = scene_add_quantity(s, "moment", "N m", SCENE_REACTION, twisting);
     moment->node = tip;
     moment->row = SCENE_RX;
-    scene_quantity *shortening = scene_add_quantity(s, "shortening", "m", SCENE_COORDINATE, twisting);
+    scene_quantity *shortening =
+        scene_add_quantity(s, "shortening", "m", SCENE_COORDINATE, twisting);
     shortening->node = tip;
     shortening->row = SCENE_UX;
     shortening->factor = -1;

@@ -10,11 +10,13 @@ static status prepare(const element_request *request, element_data *out, fault *
 
 const element_type element_beamw = {
     .name = "beamw",
-    .summary = "BEAMW as printed, misprints corrected: shear-deformable thin-walled beam, second order",
+    .summary =
+        "BEAMW as printed, misprints corrected: shear-deformable thin-walled beam, second order",
     .source = "J Eqs. 7, 66, App. A",
     .abi = ELEMENT_ABI,
-    .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_HARINGX | FEATURE_WARPING | FEATURE_ECCENTRIC |
-              FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
+    .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_HARINGX |
+              FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC | FEATURE_LARGE |
+              FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .limits = LIMIT_QUARTER_TURN,
     .shear_theories = SHEAR_OWN,
     .own_theory = "J Eq. 66: modified modes that see no shear (reference/ERRATA.md, J 58/62/66)",

@@ -21,9 +21,11 @@ static status prepare(const element_request *request, element_data *out, fault *
     return prepare_consistent(request, (consistent_data *)(void *)out, f);
 }
 
-static status stress(const element_data *d, const double e[], const double inner[], stress_output *out)
+static status stress(const element_data *d, const double e[], const double inner[],
+                     stress_output *out)
 {
-    return whole(d)->following ? follow_stress(&whole(d)->inside, e, out) : forms_stress(d, e, inner, out);
+    return whole(d)->following ? follow_stress(&whole(d)->inside, e, out)
+                               : forms_stress(d, e, inner, out);
 }
 
 const element_type element_beamw_consistent = {
@@ -31,8 +33,9 @@ const element_type element_beamw_consistent = {
     .summary = "BEAMW with coupled shear stiffness and modified modes consistent with it",
     .source = "J; stiffness and modes: reference/ERRATA.md, J 58/62/66, App. A",
     .abi = ELEMENT_ABI,
-    .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_HARINGX | FEATURE_WAGNER_MOMENTS | FEATURE_WARPING |
-              FEATURE_ECCENTRIC | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
+    .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_HARINGX |
+              FEATURE_WAGNER_MOMENTS | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC |
+              FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .shear_theories = SHEAR_ENGESSER | SHEAR_HARINGX,
     .options = prepare_options_consistent,
     .data_size = data_size,

@@ -12,8 +12,8 @@ const element_type element_beamw_vlasov = {
     .summary = "BEAMW in the shear-rigid limit (Vlasov)",
     .source = "J Eqs. 7, 66, App. A with Phi = 0",
     .abi = ELEMENT_ABI,
-    .offers = FEATURE_TRAPEZE | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS |
-              FEATURE_ROTARY_INERTIA,
+    .offers = FEATURE_TRAPEZE | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC |
+              FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .limits = LIMIT_NO_STRESS_FREE_SHEAR | LIMIT_QUARTER_TURN,
     .options = prepare_options,
     .data_size = forms_data_size,

@@ -16,7 +16,8 @@ struct element_data {
 };
 
 static const element_option options[] = {
-    [OPTION_STAGES] = {"stages", "3|4|5|6|7|8", 2, 0, 5, "Gauss points inside an element: order twice their number in statics", 0},
+    [OPTION_STAGES] = {"stages", "3|4|5|6|7|8", 2, 0, 5,
+                       "Gauss points inside an element: order twice their number in statics", 0},
     {NULL, NULL, 0, 0, 0, NULL, 0},
 };
 
@@ -86,7 +87,8 @@ static int eliminate(const stages *s, const stages_derivatives *d, double X[])
     return failed;
 }
 
-static void condense(const stages *s, const stages_derivatives *d, const double X[], stress_output *out)
+static void condense(const stages *s, const stages_derivatives *d, const double X[],
+                     stress_output *out)
 {
     const int m = s->unknowns, n = m + OUTER;
     const double l0 = s->line.l0, energy = s->c.energy;
@@ -114,7 +116,8 @@ static void condense(const stages *s, const stages_derivatives *d, const double 
         *out->residual = residual;
 }
 
-static status stress(const element_data *data, const double e[], const double inner[], stress_output *out)
+static status stress(const element_data *data, const double e[], const double inner[],
+                     stress_output *out)
 {
     const stages *s = &data->stages;
     double scaled[OUTER], X[STAGES_UNKNOWNS * (OUTER + 1)];
@@ -147,7 +150,8 @@ static void geometric(const element_data *data, const double sigma[], double G[]
         G[i] *= largest / s->line.l0; /* energy/l0^2 times largest/(energy/l0) */
 }
 
-static double update(const element_data *data, const double de[], const double memory[], double inner[])
+static double update(const element_data *data, const double de[], const double memory[],
+                     double inner[])
 {
     const stages *s = &data->stages;
     double largest = 0, force = 1;
@@ -157,7 +161,9 @@ static double update(const element_data *data, const double de[], const double m
             change -= memory[i * (OUTER + 1) + j] * de[j] / s->line.l0;
         inner[i] += change;
         if (i < 3)
-            force = fmax(force, fabs(inner[i])); /* they come first: forces are relative, rotations are not */
+            force =
+                fmax(force,
+                     fabs(inner[i])); /* they come first: forces are relative, rotations are not */
         largest = fmax(largest, fabs(change) / (i < 3 ? force : 1));
     }
     return largest;
@@ -169,19 +175,22 @@ static int strains(const double value[])
     return OUTER;
 }
 
-static status inertia(const element_data *d, const node_state x[], const element_spin *spin, inertia_output *out)
+static status inertia(const element_data *d, const node_state x[], const element_spin *spin,
+                      inertia_output *out)
 {
     return lumped_element(&d->mass, 2, x, spin, out);
 }
 
 const element_type element_collocation = {
     .name = "collocation",
-    .summary = "geometrically exact beam with warping solved inside the element by Gauss collocation",
-    .source = "ours; theory: Reissner, J. Appl. Math. Phys. 32 (1981); Simo, Comput. Methods Appl. Mech. Eng. 49 (1985)",
+    .summary =
+        "geometrically exact beam with warping solved inside the element by Gauss collocation",
+    .source = "ours; theory: Reissner, J. Appl. Math. Phys. 32 (1981); Simo, Comput. Methods Appl. "
+              "Mech. Eng. 49 (1985)",
     .abi = ELEMENT_ABI,
-    .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS |
-              FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_CURVATURE | FEATURE_MASS |
-              FEATURE_ROTARY_INERTIA,
+    .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE |
+              FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_GEOMETRIC |
+              FEATURE_LARGE | FEATURE_CURVATURE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .limits = 0,
     .shear_theories = SHEAR_HARINGX,
     .options = options,

@@ -30,17 +30,17 @@ enum {
 
 /* Physics an element can be asked for.  A scene's needs must be a subset of what the type offers. */
 enum element_feature {
-    FEATURE_WARPING = 1 << 0,         /* warping amplitude as a coordinate, bimoment */
-    FEATURE_SHEAR = 1 << 1,           /* transverse (and warping) shear flexibility */
-    FEATURE_ECCENTRIC = 1 << 2,       /* shear centre off the centroid */
-    FEATURE_TRAPEZE = 1 << 3,         /* torsion-elongation coupling Ip/A phi'^2/2 */
-    FEATURE_WAGNER_MOMENTS = 1 << 4,  /* int y(y^2+z^2), int z(y^2+z^2) */
-    FEATURE_WAGNER_TORQUE = 1 << 5,   /* torque cubic in the twist rate */
-    FEATURE_ENGESSER = 1 << 6,        /* shear in stability: 1/2 (v'^2 + w'^2) of the fibre */
-    FEATURE_HARINGX = 1 << 7,         /* shear in stability: rotation of the section (Simo-Reissner) */
-    FEATURE_GEOMETRIC = 1 << 8,       /* stiffness of the prestressed undeformed state */
-    FEATURE_LARGE = 1 << 9,           /* large displacements and rotations of the structure */
-    FEATURE_MASS = 1 << 10,           /* inertia */
+    FEATURE_WARPING = 1 << 0,        /* warping amplitude as a coordinate, bimoment */
+    FEATURE_SHEAR = 1 << 1,          /* transverse (and warping) shear flexibility */
+    FEATURE_ECCENTRIC = 1 << 2,      /* shear centre off the centroid */
+    FEATURE_TRAPEZE = 1 << 3,        /* torsion-elongation coupling Ip/A phi'^2/2 */
+    FEATURE_WAGNER_MOMENTS = 1 << 4, /* int y(y^2+z^2), int z(y^2+z^2) */
+    FEATURE_WAGNER_TORQUE = 1 << 5,  /* torque cubic in the twist rate */
+    FEATURE_ENGESSER = 1 << 6,       /* shear in stability: 1/2 (v'^2 + w'^2) of the fibre */
+    FEATURE_HARINGX = 1 << 7,   /* shear in stability: rotation of the section (Simo-Reissner) */
+    FEATURE_GEOMETRIC = 1 << 8, /* stiffness of the prestressed undeformed state */
+    FEATURE_LARGE = 1 << 9,     /* large displacements and rotations of the structure */
+    FEATURE_MASS = 1 << 10,     /* inertia */
     FEATURE_ROTARY_INERTIA = 1 << 11, /* rotary and warping inertia in it */
     FEATURE_CURVATURE = 1 << 12       /* initial curvature and strain */
 };
@@ -50,9 +50,13 @@ enum element_limit {
     LIMIT_RECTANGLE = 1 << 0,           /* solid rectangular sections only */
     LIMIT_DOUBLY_SYMMETRIC = 1 << 1,    /* shear centre at the centroid, D diagonal */
     LIMIT_UNSYMMETRIC_TANGENT = 1 << 2, /* the stress function's Jacobian is not symmetric */
-    LIMIT_ORDER_DEPENDENT = 1 << 3,     /* exchanging p and q changes the answer (by a discretisation error) */
-    LIMIT_SMALL_DEFORMATION = 1 << 4,   /* rigid motion changes strains only through truncated terms: none known */
-    LIMIT_QUARTER_TURN = 1 << 6, /* strains are sines of the turn between the nodes: beyond pi/2 another state has the same ones */
+    LIMIT_ORDER_DEPENDENT =
+        1 << 3, /* exchanging p and q changes the answer (by a discretisation error) */
+    LIMIT_SMALL_DEFORMATION =
+        1 << 4, /* rigid motion changes strains only through truncated terms: none known */
+    LIMIT_QUARTER_TURN =
+        1
+        << 6, /* strains are sines of the turn between the nodes: beyond pi/2 another state has the same ones */
     LIMIT_NO_STRESS_FREE_SHEAR = 1 << 5 /* shear-rigid by construction */
 };
 
@@ -71,7 +75,7 @@ enum shear_theory {
 
 /* What an order of convergence depends on. */
 typedef enum element_analysis {
-    ELEMENT_STATICS,   /* equilibrium, linear or not, and what follows from its tangent (compliance, critical points of a path) */
+    ELEMENT_STATICS, /* equilibrium, linear or not, and what follows from its tangent (compliance, critical points of a path) */
     ELEMENT_VIBRATION, /* whatever inertia has part in: frequencies, states that turn */
     ELEMENT_BUCKLING,  /* linear: the geometric stiffness of a prestress */
     ELEMENT_ANALYSES
@@ -90,7 +94,8 @@ typedef struct element_option {
     double value;        /* default */
     double min, max;     /* of a number */
     const char *summary;
-    unsigned judged; /* enum element_feature: verify judges every choice where a quantity depends on one of these; 0: the default */
+    unsigned
+        judged; /* enum element_feature: verify judges every choice where a quantity depends on one of these; 0: the default */
 } element_option;
 
 typedef struct element_request {
@@ -99,10 +104,12 @@ typedef struct element_request {
     unsigned features;     /* exactly what is to be active */
     const double *options; /* values in the order of type->options */
     double curvature[3];   /* initial torsion and curvatures kx, ky, kz [1/m] */
-    double strain[3];      /* initial elongation and shear strains gx, gy, gz of the stress-free element */
+    double
+        strain[3]; /* initial elongation and shear strains gx, gy, gz of the stress-free element */
 } element_request;
 
-typedef struct element_data element_data; /* opaque; one per kind of element, shared by identical ones */
+typedef struct element_data
+    element_data; /* opaque; one per kind of element, shared by identical ones */
 
 typedef struct node_state {
     double r[3]; /* position [m] */
@@ -130,7 +137,7 @@ typedef struct stress_output {
     double *sigma;    /* [strains] [N]; with inner unknowns: after eliminating their residual */
     double *C;        /* [strains x strains] dsigma/de [N/m], inner unknowns eliminated */
     double *residual; /* [1] dimensionless size of the inner residual (0 without inner unknowns) */
-    double *memory;   /* [memory] filled by stress, read by update: the eliminated inner equations */
+    double *memory; /* [memory] filled by stress, read by update: the eliminated inner equations */
 } stress_output;
 
 typedef struct inertia_output {
@@ -143,16 +150,18 @@ typedef struct inertia_output {
 } inertia_output;
 
 typedef struct element_type {
-    const char *name;              /* file name = exported symbol without element_ = command line = results key */
-    const char *summary;           /* one line */
-    const char *source;            /* paper and equations */
-    unsigned abi;                  /* ELEMENT_ABI */
-    unsigned offers;               /* element_feature */
-    unsigned limits;               /* element_limit */
-    unsigned lacks;                /* element_lack */
-    const char *lacks_by;          /* the equations that leave it out; NULL: nothing is lacking */
-    unsigned shear_theories;       /* shear_theory */
-    const char *own_theory;        /* of SHEAR_OWN, one line: what it is and where it is derived; else NULL */
+    const char
+        *name; /* file name = exported symbol without element_ = command line = results key */
+    const char *summary;     /* one line */
+    const char *source;      /* paper and equations */
+    unsigned abi;            /* ELEMENT_ABI */
+    unsigned offers;         /* element_feature */
+    unsigned limits;         /* element_limit */
+    unsigned lacks;          /* element_lack */
+    const char *lacks_by;    /* the equations that leave it out; NULL: nothing is lacking */
+    unsigned shear_theories; /* shear_theory */
+    const char
+        *own_theory; /* of SHEAR_OWN, one line: what it is and where it is derived; else NULL */
     const element_option *options; /* ends with a NULL name; NULL: none */
     element_order (*order)(element_analysis, const double options[]); /* NULL: least 2, highest 4 */
     /* Sizes may depend on the options (stages, nodes). */
@@ -167,16 +176,19 @@ typedef struct element_type {
     /* NOT_CONVERGED or SINGULAR when the state is outside what the formulation can evaluate. */
     status (*stress)(const element_data *, const double e[], const double inner[], stress_output *);
     /* inner += (correction from the last stress) for the strain increment de; returns the dimensionless size of the change. */
-    double (*update)(const element_data *, const double de[], const double memory[], double inner[]);
+    double (*update)(const element_data *, const double de[], const double memory[],
+                     double inner[]);
     /* Inner unknowns of the undeformed state. */
     void (*rest)(const element_data *, double inner[]);
     /* G[strains x strains] = derivative of C at e = 0 in the direction of the prestress sigma: sum sigma_i Q_i. NULL: zero. */
     void (*geometric)(const element_data *, const double sigma[], double G[]);
     /* spin NULL: the frame is at rest. */
-    status (*inertia)(const element_data *, const node_state x[], const element_spin *, inertia_output *);
+    status (*inertia)(const element_data *, const node_state x[], const element_spin *,
+                      inertia_output *);
 } element_type;
 
-static inline element_order element_order_in(const element_type *t, element_analysis a, const double options[])
+static inline element_order element_order_in(const element_type *t, element_analysis a,
+                                             const double options[])
 {
     const element_order usual = {2, 4};
     return t->order ? t->order(a, options) : usual;

@@ -16,7 +16,8 @@ struct element_data {
 };
 
 static const element_option options[] = {
-    [OPTION_NODES] = {"nodes", "2|3", 1, 0, 1, "nodes of an element; one integration point fewer", 0},
+    [OPTION_NODES] = {"nodes", "2|3", 1, 0, 1, "nodes of an element; one integration point fewer",
+                      0},
     {NULL, NULL, 0, 0, 0, NULL, 0},
 };
 
@@ -53,7 +54,8 @@ static void strain(const element_data *d, const node_state x[], strain_output *o
     strain_of(&d->line, x, out);
 }
 
-static status stress(const element_data *d, const double e[], const double inner[], stress_output *out)
+static status stress(const element_data *d, const double e[], const double inner[],
+                     stress_output *out)
 {
     (void)inner;
     return stiffness_stress(&d->stiffness, e, out);
@@ -64,7 +66,8 @@ static void geometric(const element_data *d, const double sigma[], double G[])
     stiffness_geometric(&d->stiffness, sigma, G);
 }
 
-static status inertia(const element_data *d, const node_state x[], const element_spin *spin, inertia_output *out)
+static status inertia(const element_data *d, const node_state x[], const element_spin *spin,
+                      inertia_output *out)
 {
     return lumped_element(&d->mass, d->nodes, x, spin, out);
 }
@@ -72,12 +75,13 @@ static status inertia(const element_data *d, const node_state x[], const element
 const element_type element_geometrically_exact = {
     .name = "geometrically_exact",
     .summary = "geometrically exact beam with warping, two or three nodes, reduced integration",
-    .source = "Reissner, J. Appl. Math. Phys. 32 (1981); Simo, Comput. Methods Appl. Mech. Eng. 49 (1985); interpolation of "
+    .source = "Reissner, J. Appl. Math. Phys. 32 (1981); Simo, Comput. Methods Appl. Mech. Eng. 49 "
+              "(1985); interpolation of "
               "rotations ours",
     .abi = ELEMENT_ABI,
-    .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS |
-              FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_CURVATURE | FEATURE_MASS |
-              FEATURE_ROTARY_INERTIA,
+    .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE |
+              FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_GEOMETRIC |
+              FEATURE_LARGE | FEATURE_CURVATURE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .limits = 0,
     .shear_theories = SHEAR_HARINGX,
     .options = options,

@@ -138,7 +138,8 @@ static int add_driver(scene *s, const char *name)
     return i;
 }
 
-int scene_add_driver(scene *s, const char *name, int stations, const double path[], const double value[])
+int scene_add_driver(scene *s, const char *name, int stations, const double path[],
+                     const double value[])
 {
     const int i = add_driver(s, name);
     if (i >= 0) {
@@ -149,7 +150,8 @@ int scene_add_driver(scene *s, const char *name, int stations, const double path
     return i;
 }
 
-int scene_add_unknown_driver(scene *s, const char *name, int node, int component, int condition_driver)
+int scene_add_unknown_driver(scene *s, const char *name, int node, int component,
+                             int condition_driver)
 {
     const int i = add_driver(s, name);
     if (i >= 0) {
@@ -193,7 +195,8 @@ int scene_set_stations(scene *s, int analysis, int stations, const double path[]
     return analysis;
 }
 
-scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit, scene_quantity_kind kind, int analysis)
+scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit,
+                                   scene_quantity_kind kind, int analysis)
 {
     const int i = grow(s, &s->quantity, &s->quantities, sizeof *s->quantity);
     scene_quantity *q = i >= 0 ? &s->quantity[i] : &s->scrap_quantity;
@@ -246,5 +249,7 @@ void scene_meshes(scene *s, int count, const int mesh[])
 const char *scene_convention(const scene *s, const scene_quantity *q)
 {
     const int matrix = q->kind == SCENE_COMPLIANCE_ENTRY || q->kind == SCENE_STIFFNESS_ENTRY;
-    return matrix && q->analysis >= 0 && q->analysis < s->analyses ? scene_moments_name(s->analysis[q->analysis].moments) : NULL;
+    return matrix && q->analysis >= 0 && q->analysis < s->analyses
+               ? scene_moments_name(s->analysis[q->analysis].moments)
+               : NULL;
 }

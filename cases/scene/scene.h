@@ -25,37 +25,44 @@ enum { SCENE_WARP_FREE = -1, SCENE_WARP_FIXED = -2 };
 enum { SCENE_FREE = -1, SCENE_HELD = -2 };
 
 typedef enum scene_rotation {
-    SCENE_ROTATION_SPATIAL,  /* three increments about fixed axes, each free or held (all held: clamped) */
+    SCENE_ROTATION_SPATIAL, /* three increments about fixed axes, each free or held (all held: clamped) */
     SCENE_ROTATION_SEQUENCE, /* R = exp(axis_1 t_1) exp(axis_2 t_2) exp(axis_3 t_3); each angle free, held or driven */
-    SCENE_ROTATION_VECTOR,   /* rotation vector = its three drivers' values: prescribed entirely, any path */
-    SCENE_ROTATION_FORK      /* no turn about the section's own axis, the other two free: see scene_fork */
+    SCENE_ROTATION_VECTOR, /* rotation vector = its three drivers' values: prescribed entirely, any path */
+    SCENE_ROTATION_FORK /* no turn about the section's own axis, the other two free: see scene_fork */
 } scene_rotation;
 
 typedef struct scene_node {
     double position[3]; /* [m] */
-    int attached;       /* node this one is rigidly attached to (a rigid body is a node others are attached to), or SCENE_NONE */
+    int attached; /* node this one is rigidly attached to (a rigid body is a node others are attached to), or SCENE_NONE */
     int translation[3]; /* SCENE_FREE, SCENE_HELD or a driver */
     scene_rotation rotation;
-    int angle[3];      /* SCENE_FREE, SCENE_HELD or a driver: of the spatial components, the angles or the vector */
-    double axis[3][3]; /* of the sequence; a zero axis ends it. Of a fork: the section's own axis, and the web's direction */
+    int angle
+        [3]; /* SCENE_FREE, SCENE_HELD or a driver: of the spatial components, the angles or the vector */
+    double axis
+        [3]
+        [3]; /* of the sequence; a zero axis ends it. Of a fork: the section's own axis, and the web's direction */
 } scene_node;
 
 typedef struct scene_member {
     int p, q, section;
-    double y_axis[3];    /* direction of the y axis in which the section is described (its part across the member) */
-    int warp_p, warp_q;  /* SCENE_WARP_FREE, SCENE_WARP_FIXED or a shared name */
-    double curvature[3]; /* initial torsion, curvatures about local y and z [1/m]; position of interior nodes follows the arc */
-    double strain[3];    /* initial elongation and shear strains that would leave no stress: heat, a misfit */
-    int divisions;       /* 0: the mesh's -n; else this many elements always */
+    double y_axis
+        [3]; /* direction of the y axis in which the section is described (its part across the member) */
+    int warp_p, warp_q; /* SCENE_WARP_FREE, SCENE_WARP_FIXED or a shared name */
+    double curvature
+        [3]; /* initial torsion, curvatures about local y and z [1/m]; position of interior nodes follows the arc */
+    double strain
+        [3]; /* initial elongation and shear strains that would leave no stress: heat, a misfit */
+    int divisions; /* 0: the mesh's -n; else this many elements always */
 } scene_member;
 
 /* One scalar that moves coordinates; piecewise linear in the path parameter between its stations. */
 typedef struct scene_driver {
     char name[SCENE_NAME];
     int stations;
-    double *path, *value;                    /* [stations]; value in m or rad; NULL: unknown, fixed by the condition */
-    int condition_node, condition_component; /* unknown driver: this coordinate is prescribed instead, by ... */
-    int condition_driver;                    /* ... the value of this driver; SCENE_NONE for a known driver */
+    double *path, *value; /* [stations]; value in m or rad; NULL: unknown, fixed by the condition */
+    int condition_node,
+        condition_component; /* unknown driver: this coordinate is prescribed instead, by ... */
+    int condition_driver;    /* ... the value of this driver; SCENE_NONE for a known driver */
 } scene_driver;
 
 typedef enum scene_load_kind { SCENE_FORCE, SCENE_MOMENT, SCENE_DISTRIBUTED } scene_load_kind;
@@ -69,9 +76,9 @@ typedef struct scene_load {
 } scene_load;
 
 typedef enum scene_analysis_kind {
-    SCENE_LINEAR,       /* one linear solution with the loads at factor 1 */
-    SCENE_STATIC,       /* nonlinear equilibrium along the path */
-    SCENE_BUCKLING,     /* linear prestress about the undeformed state, or about the state of the static path before it */
+    SCENE_LINEAR, /* one linear solution with the loads at factor 1 */
+    SCENE_STATIC, /* nonlinear equilibrium along the path */
+    SCENE_BUCKLING, /* linear prestress about the undeformed state, or about the state of the static path before it */
     SCENE_MODAL,        /* natural frequencies about the present state */
     SCENE_COMPLIANCE,   /* at every station of the static path before it */
     SCENE_CONTINUATION, /* path of a load factor, controlled by arc length or by one coordinate */
@@ -79,7 +86,11 @@ typedef enum scene_analysis_kind {
 } scene_analysis_kind;
 
 /* What a reaction's moment does while its node turns (harness/solver/convention.h). */
-typedef enum scene_moments { SCENE_MOMENTS_SPATIAL, SCENE_MOMENTS_SEMITANGENTIAL, SCENE_MOMENTS_SYMMETRISED } scene_moments;
+typedef enum scene_moments {
+    SCENE_MOMENTS_SPATIAL,
+    SCENE_MOMENTS_SEMITANGENTIAL,
+    SCENE_MOMENTS_SYMMETRISED
+} scene_moments;
 #define SCENE_MOMENTS_CHOICES "spatial|semitangential|symmetrised"
 const char *scene_moments_name(scene_moments);
 
@@ -88,11 +99,12 @@ typedef struct scene_analysis {
     int follows; /* analysis whose state(s) this one is about, or SCENE_NONE: the undeformed state */
     int stations; /* static, rotation: path parameter values to stop at, ascending; continuation: of the control coordinate, as met */
     double *path;
-    int steps_between;       /* first try of load steps from one station to the next (adaptive from there); >= 1 */
-    int wanted;              /* buckling, modal, rotation: how many eigenvalues (of each sign in buckling) */
-    int node;                /* compliance: where */
-    scene_moments moments;   /* convention of compliance */
-    unsigned released; /* compliance: bit i: component i at `node`, though prescribed, is free and its reaction is a dead load */
+    int steps_between; /* first try of load steps from one station to the next (adaptive from there); >= 1 */
+    int wanted; /* buckling, modal, rotation: how many eigenvalues (of each sign in buckling) */
+    int node;   /* compliance: where */
+    scene_moments moments; /* convention of compliance */
+    unsigned
+        released; /* compliance: bit i: component i at `node`, though prescribed, is free and its reaction is a dead load */
     /* Continuation of proportional loads: their factor is unknown. The control coordinate is a translation of any node, also of an
      * attached one; by arc length it is what curves are drawn over. The arc is the root of the mean, over all nodes, of
      * (displacement/size of the scene)^2 + rotation^2, dimensionless. */
@@ -106,24 +118,37 @@ typedef struct scene_analysis {
 } scene_analysis;
 
 typedef enum scene_quantity_kind {
-    SCENE_COORDINATE,       /* displacement or rotation-vector component of `node` in a static or linear analysis */
+    SCENE_COORDINATE, /* displacement or rotation-vector component of `node` in a static or linear analysis */
     SCENE_REACTION,         /* of a prescribed component at `node` */
     SCENE_COMPLIANCE_ENTRY, /* row, column of the 6 x 6 matrix */
-    SCENE_STIFFNESS_ENTRY,  /* 1 / compliance entry (row, row) with only the non-held coordinates free */
-    SCENE_CRITICAL_FACTOR,  /* order-th positive (sign +1) or negative (sign -1) load factor, counted from 0 */
-    SCENE_GROWTH,           /* rotation: largest rate of growth of a small motion [1/s]; 0: stable */
-    SCENE_FREQUENCY,        /* [Hz] by order among the modes of the wanted family and half-waves */
+    SCENE_STIFFNESS_ENTRY, /* 1 / compliance entry (row, row) with only the non-held coordinates free */
+    SCENE_CRITICAL_FACTOR, /* order-th positive (sign +1) or negative (sign -1) load factor, counted from 0 */
+    SCENE_GROWTH,    /* rotation: largest rate of growth of a small motion [1/s]; 0: stable */
+    SCENE_FREQUENCY, /* [Hz] by order among the modes of the wanted family and half-waves */
     SCENE_FACTOR_AT, /* continuation: load factor at the station `at` of the control coordinate, or all along (SCENE_CURVE) */
     SCENE_CRITICAL_POINT, /* continuation: the order-th point of kind `row` (scene_critical): load factor (column 0) or control coordinate (1) */
-    SCENE_DRIVER_VALUE /* of an unknown driver */
+    SCENE_DRIVER_VALUE    /* of an unknown driver */
 } scene_quantity_kind;
 
 /* A point of a path at which the tangent stiffness is singular. */
 typedef enum scene_critical { SCENE_LIMIT_POINT, SCENE_BIFURCATION } scene_critical;
 
-typedef enum scene_family { SCENE_ANY, SCENE_NOT_AXIAL, SCENE_AXIAL, SCENE_BENDING_Y, SCENE_BENDING_Z, SCENE_TORSION } scene_family;
+typedef enum scene_family {
+    SCENE_ANY,
+    SCENE_NOT_AXIAL,
+    SCENE_AXIAL,
+    SCENE_BENDING_Y,
+    SCENE_BENDING_Z,
+    SCENE_TORSION
+} scene_family;
 
-typedef enum scene_reduction { SCENE_LAST, SCENE_MAX, SCENE_MIN, SCENE_AT, SCENE_CURVE } scene_reduction;
+typedef enum scene_reduction {
+    SCENE_LAST,
+    SCENE_MAX,
+    SCENE_MIN,
+    SCENE_AT,
+    SCENE_CURVE
+} scene_reduction;
 
 typedef struct scene_quantity {
     char name[SCENE_NAME], unit[16];
@@ -133,12 +158,15 @@ typedef struct scene_quantity {
     scene_family family;
     int half_waves; /* 0: any */
     scene_reduction reduction;
-    double at;                           /* path value for SCENE_AT, controlled value for SCENE_FACTOR_AT */
-    double factor, offset;               /* reported value = factor * extracted value + offset (factor 0 means 1) */
-    double near_zero;                    /* absolute scale for relative errors of values near zero; 0: |value| */
-    double tolerance;                    /* relative, of the limit against the truth: SCENE_TOLERANCE unless a case says why not */
-    double least_order;                  /* of convergence in the number of elements */
-    double prediction;                   /* [unit] of an analytic model with an error of its own: shown, never judged ... */
+    double at; /* path value for SCENE_AT, controlled value for SCENE_FACTOR_AT */
+    double factor,
+        offset;       /* reported value = factor * extracted value + offset (factor 0 means 1) */
+    double near_zero; /* absolute scale for relative errors of values near zero; 0: |value| */
+    double
+        tolerance; /* relative, of the limit against the truth: SCENE_TOLERANCE unless a case says why not */
+    double least_order; /* of convergence in the number of elements */
+    double
+        prediction; /* [unit] of an analytic model with an error of its own: shown, never judged ... */
     const char *predicted_by;            /* ... and its source; NULL: there is none */
     char x_name[SCENE_NAME], x_unit[16]; /* of a curve */
     int x_driver; /* curve: abscissa is this driver's value; SCENE_NONE: the path parameter times x_factor plus x_offset */
@@ -155,8 +183,9 @@ typedef struct scene {
     scene_load *load;
     scene_analysis *analysis;
     scene_quantity *quantity;
-    unsigned needs; /* physics that cannot be derived from the data: FEATURE_* bits given by scene_need */
-    int meshes;     /* default -n values of verify and converge */
+    unsigned
+        needs; /* physics that cannot be derived from the data: FEATURE_* bits given by scene_need */
+    int meshes; /* default -n values of verify and converge */
     int mesh[16];
     int out_of_memory;
     /* What the accessors below point to when an index is -1, so that a case can write without asking. */
@@ -184,24 +213,31 @@ void scene_free(scene *s);
 
 int scene_add_section(scene *s, const section_spec *spec);
 int scene_add_node(scene *s, double x, double y, double z);
-int scene_add_attached(scene *s, int body, double x, double y, double z);          /* absolute undeformed position */
-int scene_add_member(scene *s, int p, int q, int profile, const double y_axis[3]); /* profile: a section of the scene */
-int scene_add_driver(scene *s, const char *name, int stations, const double path[], const double value[]);
-int scene_add_unknown_driver(scene *s, const char *name, int node, int component, int condition_driver);
+int scene_add_attached(scene *s, int body, double x, double y,
+                       double z); /* absolute undeformed position */
+int scene_add_member(scene *s, int p, int q, int profile,
+                     const double y_axis[3]); /* profile: a section of the scene */
+int scene_add_driver(scene *s, const char *name, int stations, const double path[],
+                     const double value[]);
+int scene_add_unknown_driver(scene *s, const char *name, int node, int component,
+                             int condition_driver);
 int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y, double z);
 int scene_add_analysis(scene *s, scene_analysis_kind kind);
 int scene_set_stations(scene *s, int analysis, int stations, const double path[]);
 /* The new quantity, to be filled further: name, unit, kind and analysis are set, nodes and drivers SCENE_NONE, sign 1,
  * tolerance SCENE_TOLERANCE, the rest 0. */
-scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit, scene_quantity_kind kind, int analysis);
+scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit,
+                                   scene_quantity_kind kind, int analysis);
 /* Entry of a list, to be filled further; never NULL. */
 scene_node *scene_node_at(scene *s, int index);
 scene_member *scene_member_at(scene *s, int index);
 scene_load *scene_load_at(scene *s, int index);
 scene_analysis *scene_analysis_at(scene *s, int index);
-void scene_hold(scene *s, int node, int first, int last); /* components SCENE_UX .. SCENE_RZ, inclusive */
+void scene_hold(scene *s, int node, int first,
+                int last); /* components SCENE_UX .. SCENE_RZ, inclusive */
 void scene_hold_all(scene *s, int node);
-void scene_drive(scene *s, int node, int component, int driver); /* a translation, or a spatial rotation component */
+void scene_drive(scene *s, int node, int component,
+                 int driver); /* a translation, or a spatial rotation component */
 /* A fork: its guides stand on both sides of the web, and their normal n = web x axis is fixed.  The web stays between them, R web . n = 0,
  * whichever way the section is bent: R = exp(n t_1) exp(web t_2).  While the bending is in the plane of axis and web, the section does not
  * turn about its own present axis, R axis, and the fork's moment is along it.  (A held SCENE_RX is a moment along the fixed x axis.)

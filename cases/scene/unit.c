@@ -44,10 +44,12 @@ static void scale_constants(section *c, double x)
 
 static void scale_section(section_spec *spec, double x)
 {
-    const scaled list[] = {{&spec->young, -2},    {&spec->shear_modulus, -2}, {&spec->density, -4}, {&spec->width, 1},
-                           {&spec->height, 1},    {&spec->given.Iw, 6},       {&spec->given.ys, 1}, {&spec->given.zs, 1},
-                           {&spec->given.Dy, 2},  {&spec->given.Dz, 2},       {&spec->given.Dw, 4}, {&spec->given.Dyz, 2},
-                           {&spec->given.Dyw, 3}, {&spec->given.Dzw, 3},      {&spec->given.It, 4}, {&spec->given.Ip, 4}};
+    const scaled list[] = {{&spec->young, -2},    {&spec->shear_modulus, -2}, {&spec->density, -4},
+                           {&spec->width, 1},     {&spec->height, 1},         {&spec->given.Iw, 6},
+                           {&spec->given.ys, 1},  {&spec->given.zs, 1},       {&spec->given.Dy, 2},
+                           {&spec->given.Dz, 2},  {&spec->given.Dw, 4},       {&spec->given.Dyz, 2},
+                           {&spec->given.Dyw, 3}, {&spec->given.Dzw, 3},      {&spec->given.It, 4},
+                           {&spec->given.Ip, 4}};
     SCALE(list, x);
     for (int i = 0; i < spec->points; i++)
         for (int k = 0; k < 2; k++)
@@ -77,7 +79,8 @@ static status scale_drivers(scene *s, double x, fault *f)
     for (int i = 0; i < s->drivers; i++) {
         const int length = is_length(s, i);
         if (length < 0)
-            return fault_set(f, STATUS_REFUSED, "driver '%s' moves lengths and angles: it has no unit of length",
+            return fault_set(f, STATUS_REFUSED,
+                             "driver '%s' moves lengths and angles: it has no unit of length",
                              s->driver[i].name);
         for (int k = 0; k < s->driver[i].stations && s->driver[i].value != NULL && length; k++)
             s->driver[i].value[k] *= x;
@@ -135,14 +138,16 @@ static int power_of(const scene *s, const scene_quantity *q)
 static void scale_quantity(const scene *s, scene_quantity *q, double x)
 {
     q->factor = (q->factor != 0 ? q->factor : 1) * pow(x, -power_of(s, q));
-    if (q->analysis >= 0 && q->analysis < s->analyses && s->analysis[q->analysis].kind == SCENE_CONTINUATION)
+    if (q->analysis >= 0 && q->analysis < s->analyses &&
+        s->analysis[q->analysis].kind == SCENE_CONTINUATION)
         q->at *= x;
 }
 
 status scene_change_unit(scene *s, double x, fault *f)
 {
     if (!(x > 0 && isfinite(x)))
-        return fault_set(f, STATUS_REFUSED, "no unit of length has %g of it to the metre; give a positive number", x);
+        return fault_set(f, STATUS_REFUSED,
+                         "no unit of length has %g of it to the metre; give a positive number", x);
     for (int i = 0; i < s->sections; i++)
         scale_section(&s->section[i], x);
     for (int i = 0; i < s->nodes; i++)

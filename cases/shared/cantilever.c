@@ -36,7 +36,8 @@ int cantilever_path(scene *s, int steps)
     return path;
 }
 
-void cantilever_quantity(scene *s, const char *name, const char *unit, int analysis, int tip, int row, double factor, double offset)
+void cantilever_quantity(scene *s, const char *name, const char *unit, int analysis, int tip,
+                         int row, double factor, double offset)
 {
     scene_quantity *q = scene_add_quantity(s, name, unit, SCENE_COORDINATE, analysis);
     q->node = tip;

@@ -17,7 +17,7 @@ void cantilever_build(double length, const cantilever_stiffness *k, scene *s, in
 int cantilever_path(scene *s, int steps);
 
 /* Adds a quantity of the tip at the end of the path; row: SCENE_UX ..; reported = factor * value + offset. */
-void cantilever_quantity(scene *s, const char *name, const char *unit, int analysis, int tip, int row, double factor,
-                         double offset);
+void cantilever_quantity(scene *s, const char *name, const char *unit, int analysis, int tip,
+                         int row, double factor, double offset);
 
 #endif

@@ -10,17 +10,19 @@ static const char *first_changed_size(const case_parameter parameters[], const d
     return NULL;
 }
 
-status column_build(const case_parameter parameters[], const double value[], scene *s, int ends[2], fault *f)
+status column_build(const case_parameter parameters[], const double value[], scene *s, int ends[2],
+                    fault *f)
 {
-    const channel c = {value[COLUMN_HEIGHT], value[COLUMN_WIDTH],         value[COLUMN_FLANGE], value[COLUMN_WEB],
-                       value[COLUMN_YOUNG],  value[COLUMN_SHEAR_MODULUS], value[COLUMN_DENSITY]};
+    const channel c = {value[COLUMN_HEIGHT], value[COLUMN_WIDTH], value[COLUMN_FLANGE],
+                       value[COLUMN_WEB],    value[COLUMN_YOUNG], value[COLUMN_SHEAR_MODULUS],
+                       value[COLUMN_DENSITY]};
     const int data = (int)value[COLUMN_DATA];
     const char *changed = first_changed_size(parameters, value);
     if (data != CHANNEL_SHEAR_FLOW && changed != NULL)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "section_data: the printed constants belong to the default sizes, but %s was changed; use section_data=shear_flow",
-            changed);
+        return fault_set(f, STATUS_REFUSED,
+                         "section_data: the printed constants belong to the default sizes, but %s "
+                         "was changed; use section_data=shear_flow",
+                         changed);
     section_spec spec;
     channel_section(&c, &spec);
     channel_print_constants(data, &spec);
@@ -35,7 +37,8 @@ status column_build(const case_parameter parameters[], const double value[], sce
     for (int i = 0; i < 2; i++)
         scene_fork(s, ends[i], x_axis, y_axis); /* moments are about z */
     if (value[COLUMN_SHEAR] != 0)
-        s->needs |= SCENE_NEED_SHEAR | (value[COLUMN_STABILITY] == 0 ? SCENE_NEED_ENGESSER : SCENE_NEED_HARINGX);
+        s->needs |= SCENE_NEED_SHEAR |
+                    (value[COLUMN_STABILITY] == 0 ? SCENE_NEED_ENGESSER : SCENE_NEED_HARINGX);
     s->needs |= SCENE_NEED_TRAPEZE;
     const int meshes[] = {2, 4, 8, 16, 32, 64, 128};
     scene_meshes(s, 7, meshes);

@@ -10,10 +10,12 @@ status joint_prepare(const double value[], scene *s, int *profile, fault *f)
 {
     if (value[JOINT_RADIUS] <= value[JOINT_WIDTH])
         return fault_set(f, STATUS_REFUSED,
-                         "radius = %g m: a fold line of width %g m would reach through the centre; give a larger radius",
+                         "radius = %g m: a fold line of width %g m would reach through the centre; "
+                         "give a larger radius",
                          value[JOINT_RADIUS], value[JOINT_WIDTH]);
     section_spec spec;
-    sheet_section(value[JOINT_WIDTH], value[JOINT_THICKNESS], value[JOINT_YOUNG], value[JOINT_POISSON], 0, &spec);
+    sheet_section(value[JOINT_WIDTH], value[JOINT_THICKNESS], value[JOINT_YOUNG],
+                  value[JOINT_POISSON], 0, &spec);
     *profile = scene_add_section(s, &spec);
     s->needs |= SCENE_NEED_SHEAR | SCENE_NEED_HARINGX | SCENE_NEED_TRAPEZE;
     if (value[JOINT_WAGNER] != 0)
@@ -22,20 +24,23 @@ status joint_prepare(const double value[], scene *s, int *profile, fault *f)
 }
 
 /* A point given in the joint's axes, in global coordinates. */
-static void to_global(const double centre[3], const double axes[9], const double local[3], double global[3])
+static void to_global(const double centre[3], const double axes[9], const double local[3],
+                      double global[3])
 {
     for (int i = 0; i < 3; i++)
-        global[i] = centre[i] + axes[3 * i] * local[0] + axes[3 * i + 1] * local[1] + axes[3 * i + 2] * local[2];
+        global[i] = centre[i] + axes[3 * i] * local[0] + axes[3 * i + 1] * local[1] +
+                    axes[3 * i + 2] * local[2];
 }
 
 /* The direction of its elements matters to formulations that do not treat both ends alike. */
-static void add_sheet(const double value[], scene *s, int profile, int body, const double end[3], int fold, const double normal[3],
-                      int side)
+static void add_sheet(const double value[], scene *s, int profile, int body, const double end[3],
+                      int fold, const double normal[3], int side)
 {
     const int clamp = scene_add_attached(s, body, end[0], end[1], end[2]);
     const int from_fold = value[JOINT_DIRECTION] != 0 && side == 1;
     scene_member *sheet =
-        scene_member_at(s, scene_add_member(s, from_fold ? fold : clamp, from_fold ? clamp : fold, profile, normal));
+        scene_member_at(s, scene_add_member(s, from_fold ? fold : clamp, from_fold ? clamp : fold,
+                                            profile, normal));
     const int at_fold[] = {fold, SCENE_WARP_FREE, SCENE_WARP_FIXED};
     *(from_fold ? &sheet->warp_q : &sheet->warp_p) = SCENE_WARP_FIXED;
     *(from_fold ? &sheet->warp_p : &sheet->warp_q) = at_fold[(int)value[JOINT_FOLD_WARPING]];
@@ -43,18 +48,20 @@ static void add_sheet(const double value[], scene *s, int profile, int body, con
 
 /* Fold at one azimuth; up = +1: first set (fold line above the centre), -1: its mirror image in the xy plane.
  * The sheet on the +azimuth side goes to body[0], the other to body[1]. */
-static void add_fold(const double value[], scene *s, int profile, const double centre[3], const double axes[9], double azimuth,
-                     int up, const int body[2])
+static void add_fold(const double value[], scene *s, int profile, const double centre[3],
+                     const double axes[9], double azimuth, int up, const int body[2])
 {
     static const double origin[3] = {0, 0, 0};
     const double polar = value[JOINT_POLAR], half = value[JOINT_FOLD_ANGLE] / 2;
-    const double radial[3] = {cos(azimuth), sin(azimuth), 0}, tangent[3] = {-sin(azimuth), cos(azimuth), 0};
+    const double radial[3] = {cos(azimuth), sin(azimuth), 0},
+                 tangent[3] = {-sin(azimuth), cos(azimuth), 0};
     const double middle = value[JOINT_RADIUS] - value[JOINT_WIDTH] / 2;
     double centre_line[3], outward[3];
     for (int i = 0; i < 3; i++) {
         const double z = i == 2 ? up : 0;
         centre_line[i] = sin(polar) * radial[i] + cos(polar) * z; /* of the fold */
-        outward[i] = cos(polar) * radial[i] - sin(polar) * z;     /* bisects the sheets, across the fold line */
+        outward[i] =
+            cos(polar) * radial[i] - sin(polar) * z; /* bisects the sheets, across the fold line */
     }
     double point[3], global[3];
     for (int i = 0; i < 3; i++)
@@ -65,7 +72,8 @@ static void add_fold(const double value[], scene *s, int profile, const double c
         const double sign = side == 0 ? 1 : -1;
         double end[3], across[3], end_global[3], normal[3];
         for (int i = 0; i < 3; i++) {
-            end[i] = point[i] + value[JOINT_LENGTH] * (cos(half) * outward[i] + sign * sin(half) * tangent[i]);
+            end[i] = point[i] +
+                     value[JOINT_LENGTH] * (cos(half) * outward[i] + sign * sin(half) * tangent[i]);
             across[i] = -sin(half) * outward[i] + sign * cos(half) * tangent[i];
         }
         to_global(centre, axes, end, end_global);
@@ -74,7 +82,8 @@ static void add_fold(const double value[], scene *s, int profile, const double c
     }
 }
 
-int joint_add(const double value[], scene *s, int profile, const double centre[3], const double axes[9], int base, int effector)
+int joint_add(const double value[], scene *s, int profile, const double centre[3],
+              const double axes[9], int base, int effector)
 {
     const double third = 120 * JOINT_DEGREE;
     const int intermediate = scene_add_node(s, centre[0], centre[1], centre[2]);
@@ -82,6 +91,7 @@ int joint_add(const double value[], scene *s, int profile, const double centre[3
     for (int k = 0; k < FOLDS; k++)
         add_fold(value, s, profile, centre, axes, value[JOINT_AZIMUTH] + k * third, 1, first);
     for (int k = 0; k < FOLDS; k++)
-        add_fold(value, s, profile, centre, axes, value[JOINT_AZIMUTH] + (k + 0.5) * third, -1, second);
+        add_fold(value, s, profile, centre, axes, value[JOINT_AZIMUTH] + (k + 0.5) * third, -1,
+                 second);
     return intermediate;
 }

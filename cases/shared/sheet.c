@@ -3,7 +3,8 @@
 #include <math.h>
 #include <stdio.h>
 
-void sheet_section(double width, double thickness, double young, double poisson, double shear_factor, section_spec *out)
+void sheet_section(double width, double thickness, double young, double poisson,
+                   double shear_factor, section_spec *out)
 {
     section_spec_init(out);
     out->kind = SECTION_RECTANGLE;
@@ -19,11 +20,13 @@ status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f
 {
     const double length = value[SHEET_LENGTH];
     if (fabs(value[SHEET_DEFLECTION]) >= length)
-        return fault_set(f, STATUS_REFUSED, "tip_deflection = %g m cannot be reached by a sheet of length %g m; give a smaller one",
-                         value[SHEET_DEFLECTION], length);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "tip_deflection = %g m cannot be reached by a sheet of length %g m; give a smaller one",
+            value[SHEET_DEFLECTION], length);
     section_spec spec;
-    sheet_section(value[SHEET_WIDTH], value[SHEET_THICKNESS], value[SHEET_YOUNG], value[SHEET_POISSON], value[SHEET_SHEAR_FACTOR],
-                  &spec);
+    sheet_section(value[SHEET_WIDTH], value[SHEET_THICKNESS], value[SHEET_YOUNG],
+                  value[SHEET_POISSON], value[SHEET_SHEAR_FACTOR], &spec);
     if (value[SHEET_WARPING] == 0)
         spec.given.Iw = 0;
     const int profile = scene_add_section(s, &spec);
@@ -53,7 +56,8 @@ void sheet_add_compliance(scene *s, int analysis, int tip, const int (*entries)[
         const int row = entries[i][0], column = entries[i][1];
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "C_%s_%s", response[row], load[column]);
-        const char *unit = row < 3 ? (column < 3 ? "m/N" : "1/N") : (column < 3 ? "rad/N" : "rad/(N m)");
+        const char *unit =
+            row < 3 ? (column < 3 ? "m/N" : "1/N") : (column < 3 ? "rad/N" : "rad/(N m)");
         scene_quantity *q = scene_add_quantity(s, name, unit, SCENE_COMPLIANCE_ENTRY, analysis);
         q->node = tip;
         q->row = row;

@@ -27,11 +27,14 @@ typedef struct plane {
 static void energy(plane *p, double u, double zp, double zq)
 {
     const double L = p->L, a = (zp + zq) / 2, c = (zq - zp) / 2, flexible = L * L * L / p->EIz;
-    const double g = u + L * (a * a / 10 + c * c / 6), k = L / p->EA + flexible * (a * a / 700 + c * c / 180);
-    const double dg[3] = {1, L * a / 5, L * c / 3}, dk[3] = {0, flexible * a / 350, flexible * c / 90};
+    const double g = u + L * (a * a / 10 + c * c / 6),
+                 k = L / p->EA + flexible * (a * a / 700 + c * c / 180);
+    const double dg[3] = {1, L * a / 5, L * c / 3},
+                 dk[3] = {0, flexible * a / 350, flexible * c / 90};
     const double d2g[3] = {0, L / 5, L / 3}, d2k[3] = {0, flexible / 350, flexible / 90},
                  V0[3] = {0, 12 * p->EIz / L, 4 * p->EIz / L};
-    const double T[3][3] = {{1, 0, 0}, {0, 0.5, 0.5}, {0, -0.5, 0.5}}, at[3] = {0, a, c}; /* (u, a, c) by (u, zp, zq) */
+    const double T[3][3] = {{1, 0, 0}, {0, 0.5, 0.5}, {0, -0.5, 0.5}},
+                 at[3] = {0, a, c}; /* (u, a, c) by (u, zp, zq) */
     double gradient[3], hessian[3][3];
     p->F = g / k;
     for (int i = 0; i < 3; i++) {
@@ -56,7 +59,8 @@ static void energy(plane *p, double u, double zp, double zq)
 /* Forces and stiffness by the tip's X = L + w, Y and rotation; u = sqrt(X^2 + Y^2) - L, zp = -alpha, zq = rotation - alpha. */
 static void tip(plane *p, double w, double Y, double force[3], double K[9])
 {
-    const double X = p->L + w, l = hypot(X, Y), alpha = atan2(Y, X), n[2] = {X / l, Y / l}, t[2] = {-Y / l, X / l};
+    const double X = p->L + w, l = hypot(X, Y), alpha = atan2(Y, X), n[2] = {X / l, Y / l},
+                 t[2] = {-Y / l, X / l};
     const double J[3][3] = {{n[0], n[1], 0}, {-t[0] / l, -t[1] / l, 0}, {-t[0] / l, -t[1] / l, 1}};
     energy(p, (w * (2 * p->L + w) + Y * Y) / (l + p->L), -alpha, -alpha);
     for (int i = 0; i < 3; i++) {
@@ -70,7 +74,8 @@ static void tip(plane *p, double w, double Y, double force[3], double K[9])
                     K[3 * i + j] += J[m][i] * p->hessian[3 * m + q] * J[q][j];
             if (i < 2 && j < 2) /* d2l = t t/l, d2alpha = -(n t + t n)/l^2 */
                 K[3 * i + j] +=
-                    p->gradient[0] * t[i] * t[j] / l + (p->gradient[1] + p->gradient[2]) * (n[i] * t[j] + t[i] * n[j]) / (l * l);
+                    p->gradient[0] * t[i] * t[j] / l +
+                    (p->gradient[1] + p->gradient[2]) * (n[i] * t[j] + t[i] * n[j]) / (l * l);
         }
     }
 }
@@ -85,34 +90,43 @@ static double hyperbolic(double lambda, double x)
 static double twist(double lambda, const double m[4], double x)
 {
     const double more = isinf(lambda) ? 0 : 1 / (lambda * lambda);
-    const double value = m[0] + x * (m[1] + x * (m[2] + x * m[3])) + more * (2 * m[2] + 6 * m[3] * x);
-    const double start = m[0] + more * 2 * m[2], end = m[0] + m[1] + m[2] + m[3] + more * (2 * m[2] + 6 * m[3]);
+    const double value =
+        m[0] + x * (m[1] + x * (m[2] + x * m[3])) + more * (2 * m[2] + 6 * m[3] * x);
+    const double start = m[0] + more * 2 * m[2],
+                 end = m[0] + m[1] + m[2] + m[3] + more * (2 * m[2] + 6 * m[3]);
     return value - start * hyperbolic(lambda, 1 - x) - end * hyperbolic(lambda, x);
 }
 
 /* K[4 x 4] by (phi_x, yp, yq, Wq) about the plane state. */
-static status local_stiffness(const section *s, const plane *p, double zp, double shear, double K[LOCAL * LOCAL])
+static status local_stiffness(const section *s, const plane *p, double zp, double shear,
+                              double K[LOCAL * LOCAL])
 {
     const double L = p->L, E = s->young, G = s->shear_modulus, GJ = G * s->It,
                  lambda = s->Iw > 0 ? L * sqrt(GJ / (E * s->Iw)) : INFINITY;
     /* u_y = L zp (x - 3 x^2 + 2 x^3) for zp = zq; M_x of unit M~x, M~yp, M~yq */
-    const double m[STRESSES][4] = {{1, 0, 0, 0}, {-zp, 6 * zp, -9 * zp, 4 * zp}, {0, 0, -3 * zp, 4 * zp}};
+    const double m[STRESSES][4] = {
+        {1, 0, 0, 0}, {-zp, 6 * zp, -9 * zp, 4 * zp}, {0, 0, -3 * zp, 4 * zp}};
     const double M = 6 * p->EIz * zp / L + zp * L * p->F / 10; /* M~zp = M~zq */
-    double D[STRESSES * STRESSES] = {0}, B[STRESSES * LOCAL] = {0}, S[STRESSES * LOCAL], W[LOCAL * LOCAL] = {0};
+    double D[STRESSES * STRESSES] = {0}, B[STRESSES * LOCAL] = {0}, S[STRESSES * LOCAL],
+                        W[LOCAL * LOCAL] = {0};
     double at[POINTS], weight[POINTS];
     int pivot[STRESSES];
     if (quadrature_points(POINTS, at, weight, NULL) != STATUS_OK)
         return STATUS_FAULT;
     for (int point = 0; point < POINTS; point++) {
         const double x = at[point], ds = weight[point] * L;
-        const double My[STRESSES] = {0, x - 1, x}, phi[2] = {x * x * (3 - 2 * x), -L * x * x * (1 - x)};
-        const double rate[2] = {6 * x * (1 - x) / L,
-                                -x * (2 - 3 * x) - hyperbolic(lambda, x)}; /* of Wq: less its own share of kappa_x */
-        const double curvature = (M * (2 * x - 1) + L * zp * x * (1 - x) * (1 - 2 * x) * p->F) / p->EIz;
+        const double My[STRESSES] = {0, x - 1, x},
+                     phi[2] = {x * x * (3 - 2 * x), -L * x * x * (1 - x)};
+        const double rate[2] = {
+            6 * x * (1 - x) / L,
+            -x * (2 - 3 * x) - hyperbolic(lambda, x)}; /* of Wq: less its own share of kappa_x */
+        const double curvature =
+            (M * (2 * x - 1) + L * zp * x * (1 - x) * (1 - 2 * x) * p->F) / p->EIz;
         for (int i = 0; i < STRESSES; i++) {
             const double Mx = m[i][0] + x * (m[i][1] + x * (m[i][2] + x * m[i][3]));
             for (int j = 0; j < STRESSES; j++)
-                D[STRESSES * i + j] += ds * (Mx * twist(lambda, m[j], x) / GJ + My[i] * My[j] / (E * s->Iy));
+                D[STRESSES * i + j] +=
+                    ds * (Mx * twist(lambda, m[j], x) / GJ + My[i] * My[j] / (E * s->Iy));
             for (int j = 0; j < 2; j++)
                 B[LOCAL * i + 3 * j] += ds * (Mx * rate[j] + My[i] * phi[j] * curvature);
         }
@@ -133,8 +147,9 @@ static status local_stiffness(const section *s, const plane *p, double zp, doubl
 }
 
 /* Out of the plane by the tip's (u_z, theta_x, theta_y): C_zz. */
-static double compliance_zz(const section *s, const plane *p, double X, double Y, const double force[3], int tip_warps,
-                            double shear, scene_moments moments)
+static double compliance_zz(const section *s, const plane *p, double X, double Y,
+                            const double force[3], int tip_warps, double shear,
+                            scene_moments moments)
 {
     const double l = hypot(X, Y), alpha = atan2(Y, X), sine = Y / l, cosine = X / l;
     double K[LOCAL * LOCAL], H[9] = {0}, C[3] = {1, 0, 0};
@@ -146,7 +161,8 @@ static double compliance_zz(const section *s, const plane *p, double X, double Y
         for (int j = 0; j < 3; j++)
             K[LOCAL * i + j] -= K[LOCAL * i + 3] * K[LOCAL * 3 + j] / WW;
     /* phi_x = theta'_x/cos, yp = u_z/l, yq = yp + theta'_y + phi_x sin, with theta' in the chord's axes */
-    const double T[3][3] = {{0, 1, sine / cosine}, {1 / l, 0, 0}, {1 / l, 0, cosine + sine * sine / cosine}};
+    const double T[3][3] = {
+        {0, 1, sine / cosine}, {1 / l, 0, 0}, {1 / l, 0, cosine + sine * sine / cosine}};
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             for (int m = 0; m < 3; m++)
@@ -164,7 +180,8 @@ static double compliance_zz(const section *s, const plane *p, double X, double Y
     return C[0];
 }
 
-sheet_prediction sheet_predict(const section *c, double length, double deflection, int tip_warps, int shear, scene_moments moments)
+sheet_prediction sheet_predict(const section *c, double length, double deflection, int tip_warps,
+                               int shear, scene_moments moments)
 {
     plane p = {.EA = c->young * c->A, .EIz = c->young * c->Iz, .L = length};
     double w = 0, force[3], K[9], C[3] = {1, 0, 0};

@@ -5,8 +5,17 @@
 
 #include "elements/math/dense.h"
 
-enum { E = FORMS_STRAINS, N = MODIFIED_VARIABLES, M = FORMS_MODIFIED, EVEN = FOLLOW_EVEN, ALL = FOLLOW_ALL, INNER = 6, MOST = 30 };
-static const double close_enough = 1e-7; /* of the size of z: what is left is of the size of its square */
+enum {
+    E = FORMS_STRAINS,
+    N = MODIFIED_VARIABLES,
+    M = FORMS_MODIFIED,
+    EVEN = FOLLOW_EVEN,
+    ALL = FOLLOW_ALL,
+    INNER = 6,
+    MOST = 30
+};
+static const double close_enough =
+    1e-7; /* of the size of z: what is left is of the size of its square */
 
 /* Uniform torsion: no A, no warping part, rows and columns of z_w empty. */
 static void without_warping(follow *out)
@@ -28,14 +37,15 @@ static void without_warping(follow *out)
     memset(out->hg + 2 * E, 0, E * sizeof(double));
 }
 
-void follow_prepare(const section *c, double l, int shear, int warping, const twist *t, const stiffness_fields *fields,
-                    double Q[FORMS_MODIFIED][N * N], follow *out)
+void follow_prepare(const section *c, double l, int shear, int warping, const twist *t,
+                    const stiffness_fields *fields, double Q[FORMS_MODIFIED][N * N], follow *out)
 {
     const double l3 = l * l * l;
-    const double k[EVEN] = {c->young * c->A / l, c->shear_modulus * c->It / l3, c->young * c->Iy / l3, c->young * c->Iz / l3,
-                            t->opposite};
+    const double k[EVEN] = {c->young * c->A / l, c->shear_modulus * c->It / l3,
+                            c->young * c->Iy / l3, c->young * c->Iz / l3, t->opposite};
     const double Ka[3] = {12 * c->young * c->Iz / l, 12 * c->young * c->Iy / l, t->uneven};
-    const double P[EVEN][E] = {{1}, {0, 1}, {0, 0, 1, 1}, {0, 0, 0, 0, 1, 1}, {0, 0, 0, 0, 0, 0, 0.5, -0.5}};
+    const double P[EVEN][E] = {
+        {1}, {0, 1}, {0, 0, 1, 1}, {0, 0, 0, 0, 1, 1}, {0, 0, 0, 0, 0, 0, 0.5, -0.5}};
     memcpy(out->k, k, sizeof k);
     memcpy(out->Ka, Ka, sizeof Ka);
     memcpy(out->P, P, sizeof P);

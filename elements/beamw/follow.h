@@ -20,7 +20,8 @@ typedef struct follow {
 } follow;
 
 /* Q as of modified_consistent; warping 0: e7 = e8 = e2, nothing warps. */
-void follow_prepare(const section *c, double l0, int shear, int warping, const twist *t, const stiffness_fields *fields,
+void follow_prepare(const section *c, double l0, int shear, int warping, const twist *t,
+                    const stiffness_fields *fields,
                     double Q[FORMS_MODIFIED][MODIFIED_VARIABLES * MODIFIED_VARIABLES], follow *out);
 
 /* As element_type.stress; NOT_CONVERGED where the inside has no equilibrium. */

@@ -18,7 +18,8 @@ void forms_merge_torsion(int n, double A[])
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < n; i++)
             for (int k = 6; k < 8; k++) {
-                double *from = pass == 0 ? &A[n * i + k] : &A[n * k + i], *to = pass == 0 ? &A[n * i + 1] : &A[n + i];
+                double *from = pass == 0 ? &A[n * i + k] : &A[n * k + i],
+                       *to = pass == 0 ? &A[n * i + 1] : &A[n + i];
                 *to += *from;
                 *from = 0;
             }
@@ -42,7 +43,8 @@ void forms_strain(const element_data *d, const node_state x[], strain_output *ou
     modes_strain(d->l0, x, out);
 }
 
-status forms_stress(const element_data *d, const double e[], const double inner[], stress_output *out)
+status forms_stress(const element_data *d, const double e[], const double inner[],
+                    stress_output *out)
 {
     (void)inner;
     double B[8 * 8] = {0}, modified[8], conjugate[8];

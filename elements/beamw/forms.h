@@ -20,7 +20,7 @@ struct element_data {
     int modified;                                           /* 0: every Q is zero */
     lumped_mass lumped;                                     /* inertia of half the element */
     double field[FORMS_GAUSS][FORMS_FIELDS][FORMS_STRAINS]; /* functionals of e: see inertia.c */
-    double share;                                           /* of the consistent mass: 0 lumped, 1 consistent, 1/2 averaged */
+    double share; /* of the consistent mass: 0 lumped, 1 consistent, 1/2 averaged */
 };
 
 /* Q += c (a b^T + b a^T): the quadratic c (a . e)(b . e). */
@@ -32,7 +32,8 @@ void forms_drop_warping(element_data *d);
 
 size_t forms_data_size(const element_request *);
 void forms_strain(const element_data *d, const node_state x[], strain_output *out);
-status forms_stress(const element_data *d, const double e[], const double inner[], stress_output *out);
+status forms_stress(const element_data *d, const double e[], const double inner[],
+                    stress_output *out);
 void forms_geometric(const element_data *d, const double sigma[], double G[]);
 
 #endif

@@ -20,34 +20,40 @@ enum { N = 14, TP = 3, TQ = 10 };
 enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z, PSI }; /* the last: warping amplitude */
 
 /* Gauss's rule: exact for the square of a cubic. */
-static const double gauss_at[FORMS_GAUSS] = {0.06943184420297371239, 0.33000947820757186760, 0.66999052179242813240,
-                                             0.93056815579702628761};
-static const double gauss_weight[FORMS_GAUSS] = {0.17392742256872692869, 0.32607257743127307131, 0.32607257743127307131,
-                                                 0.17392742256872692869};
+static const double gauss_at[FORMS_GAUSS] = {0.06943184420297371239, 0.33000947820757186760,
+                                             0.66999052179242813240, 0.93056815579702628761};
+static const double gauss_weight[FORMS_GAUSS] = {0.17392742256872692869, 0.32607257743127307131,
+                                                 0.32607257743127307131, 0.17392742256872692869};
 
-static void functionals_at(const section *c, double l, const stiffness_fields *s, double x, double field[FORMS_FIELDS][8])
+static void functionals_at(const section *c, double l, const stiffness_fields *s, double x,
+                           double field[FORMS_FIELDS][8])
 {
     const double e2[8] = {0, 1}, sum_y[8] = {0, 0, 1, 1}, sum_z[8] = {0, 0, 0, 0, 1, 1};
-    const double bend_y[8] = {0, 0, 1 - x, -x}, bend_z[8] = {0, 0, 0, 0, 1 - x, -x}; /* slope of the chord less lin(theta) */
+    const double bend_y[8] = {0, 0, 1 - x, -x},
+                 bend_z[8] = {0, 0, 0, 0, 1 - x, -x}; /* slope of the chord less lin(theta) */
     const double b = x * (1 - x), cubic = b * (1 - 2 * x), db = 1 - 2 * x, dcubic = 1 - 6 * b;
     for (int k = 0; k < 8; k++) {
         const double chi_x = (b * s->A[k] - cubic * s->tw[k]) / l;
         field[CHI_X][k] = chi_x;
         field[NU_Y][k] = c->zs * chi_x - b / 2 * sum_z[k] - l * cubic * s->hg[0][k];
         field[NU_Z][k] = -c->ys * chi_x + b / 2 * sum_y[k] - l * cubic * s->hg[1][k];
-        field[CHI_Z][k] = (bend_z[k] - db / 2 * sum_z[k]) / l - c->zs * e2[k] / (l * l) - dcubic * s->hg[0][k] - s->g[0][k];
-        field[CHI_Y][k] = (bend_y[k] - db / 2 * sum_y[k]) / l - c->ys * e2[k] / (l * l) + dcubic * s->hg[1][k] + s->g[1][k];
+        field[CHI_Z][k] = (bend_z[k] - db / 2 * sum_z[k]) / l - c->zs * e2[k] / (l * l) -
+                          dcubic * s->hg[0][k] - s->g[0][k];
+        field[CHI_Y][k] = (bend_y[k] - db / 2 * sum_y[k]) / l - c->ys * e2[k] / (l * l) +
+                          dcubic * s->hg[1][k] + s->g[1][k];
         field[PSI][k] = (e2[k] + db * s->A[k] - dcubic * s->tw[k]) / (l * l) - s->g[2][k];
     }
 }
 
-void inertia_prepare(const section *c, unsigned features, inertia_kind kind, const stiffness_fields *fields, element_data *d)
+void inertia_prepare(const section *c, unsigned features, inertia_kind kind,
+                     const stiffness_fields *fields, element_data *d)
 {
     d->lumped = lumped_of(c, features, d->l0 / 2);
     d->share = kind == INERTIA_LUMPED ? 0 : kind == INERTIA_CONSISTENT ? 1 : 0.5;
     for (int g = 0; g < FORMS_GAUSS && d->share > 0; g++) {
         functionals_at(c, d->l0, fields, gauss_at[g], d->field[g]);
-        for (int k = 0; k < FORMS_FIELDS && !(features & FEATURE_WARPING); k++) { /* uniform torsion: e7 and e8 follow e2 */
+        for (int k = 0; k < FORMS_FIELDS && !(features & FEATURE_WARPING);
+             k++) { /* uniform torsion: e7 and e8 follow e2 */
             d->field[g][k][1] += d->field[g][k][6] + d->field[g][k][7];
             d->field[g][k][6] = d->field[g][k][7] = 0;
         }
@@ -74,7 +80,8 @@ typedef struct interpolation {
     double sign[3];
 } interpolation;
 
-static void linear_part(const configuration *c, const interpolation *y, moving_vector *v, double T[3 * N], double fixed[2][3])
+static void linear_part(const configuration *c, const interpolation *y, moving_vector *v,
+                        double T[3 * N], double fixed[2][3])
 {
     const double weight[2] = {1 - y->x, y->x};
     for (int node = 0; node < 2; node++)
@@ -84,13 +91,15 @@ static void linear_part(const configuration *c, const interpolation *y, moving_v
                 v->y[i] += fixed[node][i];
             } else if (y->director == POSITION) {
                 T[N * i + 7 * node + i] = weight[node];
-                v->y[i] += weight[node] * (c->x[node].r[i] - (c->spin != NULL ? c->spin->centre[i] : 0));
+                v->y[i] +=
+                    weight[node] * (c->x[node].r[i] - (c->spin != NULL ? c->spin->centre[i] : 0));
             }
         }
 }
 
 /* N -= h g^T + g h^T with h = d(F . m_k)/dx and g = d(functional . e)/dx; F . m_k is the functional's share of the stress. */
-static void add_curvature(configuration *c, const double F[3], int k, double sign, const double functional[8], const double g[N])
+static void add_curvature(configuration *c, const double F[3], int k, double sign,
+                          const double functional[8], const double g[N])
 {
     const double size = sign * vec3_dot(F, c->mean[k]);
     for (int i = 0; i < 8; i++)
@@ -153,7 +162,8 @@ static void add_scalar(const configuration *c, double mass, const double row[N])
 static void add_point(configuration *c, const element_data *d, int g)
 {
     const double weight = d->share * 2 * gauss_weight[g], x = gauss_at[g];
-    const double *const chi_x = d->field[g][CHI_X], *const chi_y = d->field[g][CHI_Y], *const chi_z = d->field[g][CHI_Z];
+    const double *const chi_x = d->field[g][CHI_X], *const chi_y = d->field[g][CHI_Y],
+                        *const chi_z = d->field[g][CHI_Z];
     double row[N] = {0}, j[3];
     add_interpolated(c, &(interpolation){.mass = weight * d->lumped.mass,
                                          .x = x,
@@ -187,7 +197,8 @@ static void add_point(configuration *c, const element_data *d, int g)
                                              .sign = {1, 0, 0}});
 }
 
-static void add_consistent(const element_data *d, const node_state x[2], const element_spin *spin, inertia_output *out)
+static void add_consistent(const element_data *d, const node_state x[2], const element_spin *spin,
+                           inertia_output *out)
 {
     configuration c = {.x = x, .spin = spin, .out = out};
     for (int k = 0; k < 3; k++)
@@ -207,7 +218,8 @@ static void add_consistent(const element_data *d, const node_state x[2], const e
         out->N[i] -= H[i];
 }
 
-status inertia_of(const element_data *d, const node_state x[], const element_spin *spin, inertia_output *out)
+status inertia_of(const element_data *d, const node_state x[], const element_spin *spin,
+                  inertia_output *out)
 {
     moving_clear(N, out);
     for (int node = 0; node < 2 && d->share < 1; node++)

@@ -9,8 +9,10 @@ typedef enum inertia_kind { INERTIA_LUMPED, INERTIA_CONSISTENT, INERTIA_AVERAGED
 
 /* Fills lumped, field and share.  Without FEATURE_ROTARY_INERTIA only translations and the polar moment of the
  * twist count, so that the matrix is singular in the other rotations and in the warping.  fields: NULL for lumped. */
-void inertia_prepare(const section *c, unsigned features, inertia_kind kind, const stiffness_fields *fields, element_data *d);
+void inertia_prepare(const section *c, unsigned features, inertia_kind kind,
+                     const stiffness_fields *fields, element_data *d);
 
-status inertia_of(const element_data *d, const node_state x[], const element_spin *spin, inertia_output *out);
+status inertia_of(const element_data *d, const node_state x[], const element_spin *spin,
+                  inertia_output *out);
 
 #endif

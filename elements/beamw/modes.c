@@ -88,7 +88,8 @@ static void add_bending(const chord *b, const double v[3], int turn, double H[N 
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             const double nn = b->n[i] * b->n[j];
-            rr[3 * i + j] = (-(b->n[i] * v[j] + v[i] * b->n[j]) - (i == j ? dot : 0) + 3 * dot * nn) / (l * l);
+            rr[3 * i + j] =
+                (-(b->n[i] * v[j] + v[i] * b->n[j]) - (i == j ? dot : 0) + 3 * dot * nn) / (l * l);
             double P_skew = 0;
             for (int k = 0; k < 3; k++)
                 P_skew += ((i == k) - b->n[i] * b->n[k]) * skew[3 * k + j];
@@ -117,8 +118,9 @@ static void add_twist(double c, const double u[3], const double v[3], double H[N
     add_pair(H, TP, TQ, c, cross);
 }
 
-static void second_derivatives(double l0, const chord *b, const double yp[3], const double zp[3], const double yq[3],
-                               const double zq[3], const double s[8], double H[N * N])
+static void second_derivatives(double l0, const chord *b, const double yp[3], const double zp[3],
+                               const double yq[3], const double zq[3], const double s[8],
+                               double H[N * N])
 {
     double vp[3], vq[3], rr[9];
     memset(H, 0, N * N * sizeof(double));
@@ -137,8 +139,8 @@ static void second_derivatives(double l0, const chord *b, const double yp[3], co
     add_twist(-l0 / 2 * s[1], yp, zq, H);
 }
 
-static void gradient(double l0, const chord *b, const double yp[3], const double zp[3], const double yq[3], const double zq[3],
-                     double J[8 * N])
+static void gradient(double l0, const chord *b, const double yp[3], const double zp[3],
+                     const double yq[3], const double zq[3], double J[8 * N])
 {
     double first[3], second[3], moment[3];
     memset(J, 0, 8 * N * sizeof(double));

@@ -20,12 +20,13 @@ static void add_term(element_data *d, const term *t, double scale)
 
 /* l0 times the bilinear part of J Eq. 66. */
 static const term eq66[] = {
-    {1, 3, 3, 2 / 30.0},  {1, 3, 4, 1 / 30.0},  {1, 4, 4, 2 / 30.0},  {1, 5, 5, 2 / 30.0},  {1, 5, 6, 1 / 30.0},
-    {1, 6, 6, 2 / 30.0},  {2, 4, 5, 1},         {2, 3, 6, -1},        {3, 2, 5, 1 / 10.0},  {3, 2, 6, 1 / 5.0},
-    {3, 5, 7, 1 / 10.0},  {3, 5, 8, -1 / 30.0}, {3, 6, 8, -1 / 30.0}, {4, 2, 5, -1 / 5.0},  {4, 2, 6, -1 / 10.0},
-    {4, 5, 7, 1 / 30.0},  {4, 6, 7, 1 / 30.0},  {4, 6, 8, -1 / 10.0}, {5, 2, 3, -1 / 10.0}, {5, 2, 4, -1 / 5.0},
-    {5, 3, 7, -1 / 10.0}, {5, 3, 8, 1 / 30.0},  {5, 4, 8, 1 / 30.0},  {6, 2, 3, 1 / 5.0},   {6, 2, 4, 1 / 10.0},
-    {6, 3, 7, -1 / 30.0}, {6, 4, 7, -1 / 30.0}, {6, 4, 8, 1 / 10.0},
+    {1, 3, 3, 2 / 30.0},  {1, 3, 4, 1 / 30.0},  {1, 4, 4, 2 / 30.0},  {1, 5, 5, 2 / 30.0},
+    {1, 5, 6, 1 / 30.0},  {1, 6, 6, 2 / 30.0},  {2, 4, 5, 1},         {2, 3, 6, -1},
+    {3, 2, 5, 1 / 10.0},  {3, 2, 6, 1 / 5.0},   {3, 5, 7, 1 / 10.0},  {3, 5, 8, -1 / 30.0},
+    {3, 6, 8, -1 / 30.0}, {4, 2, 5, -1 / 5.0},  {4, 2, 6, -1 / 10.0}, {4, 5, 7, 1 / 30.0},
+    {4, 6, 7, 1 / 30.0},  {4, 6, 8, -1 / 10.0}, {5, 2, 3, -1 / 10.0}, {5, 2, 4, -1 / 5.0},
+    {5, 3, 7, -1 / 10.0}, {5, 3, 8, 1 / 30.0},  {5, 4, 8, 1 / 30.0},  {6, 2, 3, 1 / 5.0},
+    {6, 2, 4, 1 / 10.0},  {6, 3, 7, -1 / 30.0}, {6, 4, 7, -1 / 30.0}, {6, 4, 8, 1 / 10.0},
 };
 
 void modified_printed(const section *c, unsigned features, element_data *d)
@@ -33,7 +34,8 @@ void modified_printed(const section *c, unsigned features, element_data *d)
     const double l = d->l0, l3 = l * l * l;
     for (size_t i = 0; i < sizeof eq66 / sizeof eq66[0]; i++)
         add_term(d, &eq66[i], 1 / l);
-    const double e2[8] = {0, 1}, A[8] = {[6] = 0.5, [7] = -0.5}, t[8] = {[1] = 1, [6] = -0.5, [7] = -0.5};
+    const double e2[8] = {0, 1}, A[8] = {[6] = 0.5, [7] = -0.5},
+                 t[8] = {[1] = 1, [6] = -0.5, [7] = -0.5};
     if (features & FEATURE_TRAPEZE) {
         const double k = c->Ip / c->A / (2 * l3);
         forms_add_product(d->Q[0], k, e2, e2);
@@ -70,15 +72,18 @@ typedef struct point_fields {
 } point_fields;
 
 /* turn = rate of change times x - 1/2 plus what bends or twists unevenly; shear is constant at the shear centre. */
-static void fields_at(const section *c, double l, double x, const twist *t, const stiffness_fields *s, point_fields *out)
+static void fields_at(const section *c, double l, double x, const twist *t,
+                      const stiffness_fields *s, point_fields *out)
 {
     const double bubble = x * (1 - x), odd = 1 - 2 * x;
     const twist_shapes shape = twist_at(t, x);
     const double mean[3][N] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
     for (int k = 0; k < N; k++) {
         const int own = k >= Z; /* one of z: bending (y, z) and warping parts of h */
-        const double bend[3] = {0, k == Z + 1 ? -6 : 0, k == Z ? 6 : 0}, tw = k == Z + 2 ? l * l : 0;
-        const double A = own ? 0 : s->A[k], g[2] = {own ? -(k == Z) : s->h[0][k], own ? -(k == Z + 1) : s->h[1][k]};
+        const double bend[3] = {0, k == Z + 1 ? -6 : 0, k == Z ? 6 : 0},
+                     tw = k == Z + 2 ? l * l : 0;
+        const double A = own ? 0 : s->A[k],
+                     g[2] = {own ? -(k == Z) : s->h[0][k], own ? -(k == Z + 1) : s->h[1][k]};
         for (int i = 0; i < 3; i++) {
             out->turn[i][k] = mean[i][k] * (x - 0.5) + bend[i] * bubble;
             out->rate[i][k] = (mean[i][k] + bend[i] * odd) / l;
@@ -121,7 +126,8 @@ static void strains_at(const point_fields *f, point_strains *out)
 /* Fibres elongate by gamma_x + z kappa_y - y kappa_z and half the square of how far they lean to the section's normal: all of
  * it after Engesser, (shear_y - z kx, shear_z + y kx); after Haringx the part without shear, kx times the distance from the
  * shear centre.  Its mean and first moments count. */
-static void fibres_at(const section *c, unsigned features, const point_fields *f, point_strains *out)
+static void fibres_at(const section *c, unsigned features, const point_fields *f,
+                      point_strains *out)
 {
     const double *kx = f->rate[0];
     if (features & FEATURE_HARINGX) {
@@ -142,8 +148,9 @@ static void fibres_at(const section *c, unsigned features, const point_fields *f
     }
 }
 
-status modified_consistent(const section *c, unsigned features, double l, const twist *t, const stiffness_fields *fields,
-                           double Q[FORMS_MODIFIED][N * N], fault *f)
+status modified_consistent(const section *c, unsigned features, double l, const twist *t,
+                           const stiffness_fields *fields, double Q[FORMS_MODIFIED][N * N],
+                           fault *f)
 {
     double x[TWIST_MAX_POINTS], w[TWIST_MAX_POINTS];
     const int points = twist_points(t, x, w, f);
@@ -176,7 +183,8 @@ status modified_consistent(const section *c, unsigned features, double l, const 
 }
 
 /* Q of e alone: T^T Q T, T = (1, hg). */
-void modified_reduce(const stiffness_fields *fields, double Q[FORMS_MODIFIED][N * N], element_data *d)
+void modified_reduce(const stiffness_fields *fields, double Q[FORMS_MODIFIED][N * N],
+                     element_data *d)
 {
     double T[N * FORMS_STRAINS] = {0}, work[N * FORMS_STRAINS];
     for (int i = 0; i < FORMS_STRAINS; i++) {

@@ -8,10 +8,11 @@
 
 enum { OPTION_MASS, OPTION_TORSION, OPTION_INSIDE };
 
-#define MASS_OPTION                                                                                                                \
-    {                                                                                                                              \
-        "mass", "lumped|consistent|averaged", INERTIA_CONSISTENT, 0, 2,                                                            \
-            "mass matrix: J Eq. 73, from the shape functions, or the mean of the two", FEATURE_MASS                                \
+#define MASS_OPTION                                                                                \
+    {                                                                                              \
+        "mass", "lumped|consistent|averaged", INERTIA_CONSISTENT, 0, 2,                            \
+            "mass matrix: J Eq. 73, from the shape functions, or the mean of the two",             \
+            FEATURE_MASS                                                                           \
     }
 
 const element_option prepare_options[] = {
@@ -21,35 +22,44 @@ const element_option prepare_options[] = {
 
 const element_option prepare_options_consistent[] = {
     [OPTION_MASS] = MASS_OPTION,
-    [OPTION_TORSION] = {"torsion", "cubic|hyperbolic", TWIST_CUBIC, 0, 1,
-                        "twist along the element: J Eq. 38, or the exact functions of non-uniform torsion", FEATURE_WARPING},
+    [OPTION_TORSION] =
+        {"torsion", "cubic|hyperbolic", TWIST_CUBIC, 0, 1,
+         "twist along the element: J Eq. 38, or the exact functions of non-uniform torsion",
+         FEATURE_WARPING},
     [OPTION_INSIDE] = {"inside", "linear|following", 1, 0, 1,
-                       "bending, shear and warping inside the element: as without stress, or in equilibrium with it", 0},
+                       "bending, shear and warping inside the element: as without stress, or in "
+                       "equilibrium with it",
+                       0},
     {NULL, NULL, 0, 0, 0, NULL, 0},
 };
 
 static status length_of(const element_request *request, fault *f)
 {
     if (!(request->length > 0) || !isfinite(request->length))
-        return fault_set(f, STATUS_REFUSED, "element length %g m: it must be positive", request->length);
+        return fault_set(f, STATUS_REFUSED, "element length %g m: it must be positive",
+                         request->length);
     return STATUS_OK;
 }
 
 /* Mass, uniform torsion, sizes. */
-static status finish(const element_request *request, const stiffness_fields *fields, element_data *out, fault *f)
+static status finish(const element_request *request, const stiffness_fields *fields,
+                     element_data *out, fault *f)
 {
     if (request->features & FEATURE_MASS)
-        inertia_prepare(request->section, request->features, (inertia_kind)request->options[OPTION_MASS], fields, out);
+        inertia_prepare(request->section, request->features,
+                        (inertia_kind)request->options[OPTION_MASS], fields, out);
     if (!(request->features & FEATURE_WARPING))
         forms_drop_warping(out);
     for (int i = 0; i < 64; i++)
         if (!isfinite(out->S[i]))
-            return fault_set(f, STATUS_REFUSED, "element of length %g m: its stiffness overflows; use fewer elements",
+            return fault_set(f, STATUS_REFUSED,
+                             "element of length %g m: its stiffness overflows; use fewer elements",
                              request->length);
     return STATUS_OK;
 }
 
-status prepare_form(const element_request *request, stiffness_shear shear, prepare_modes modes, element_data *out, fault *f)
+status prepare_form(const element_request *request, stiffness_shear shear, prepare_modes modes,
+                    element_data *out, fault *f)
 {
     const section *c = request->section;
     const status sound = length_of(request, f);
@@ -72,15 +82,19 @@ status prepare_consistent(const element_request *request, consistent_data *out, 
     const status sound = length_of(request, f);
     if (sound != STATUS_OK)
         return sound;
-    const int flexible = (request->features & FEATURE_SHEAR) != 0, warping = (request->features & FEATURE_WARPING) != 0;
-    const twist t = twist_of(c, request->length, flexible, (twist_kind)request->options[OPTION_TORSION]);
+    const int flexible = (request->features & FEATURE_SHEAR) != 0,
+              warping = (request->features & FEATURE_WARPING) != 0;
+    const twist t =
+        twist_of(c, request->length, flexible, (twist_kind)request->options[OPTION_TORSION]);
     double Q[FORMS_MODIFIED][MODIFIED_VARIABLES * MODIFIED_VARIABLES];
     stiffness_fields fields;
     memset(out, 0, sizeof *out);
     out->form.l0 = request->length;
     out->following = request->options[OPTION_INSIDE] != 0;
-    stiffness_of(c, request->length, flexible ? STIFFNESS_COUPLED : STIFFNESS_RIGID, &t, &fields, out->form.S);
-    const status made = modified_consistent(c, request->features, request->length, &t, &fields, Q, f);
+    stiffness_of(c, request->length, flexible ? STIFFNESS_COUPLED : STIFFNESS_RIGID, &t, &fields,
+                 out->form.S);
+    const status made =
+        modified_consistent(c, request->features, request->length, &t, &fields, Q, f);
     if (made != STATUS_OK)
         return made;
     modified_reduce(&fields, Q, &out->form);

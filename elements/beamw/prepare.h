@@ -10,7 +10,8 @@ typedef enum prepare_modes {
 } prepare_modes;
 
 /* Without FEATURE_SHEAR in the request the stiffness is shear-rigid, whatever `shear` says. */
-status prepare_form(const element_request *request, stiffness_shear shear, prepare_modes modes, element_data *out, fault *f);
+status prepare_form(const element_request *request, stiffness_shear shear, prepare_modes modes,
+                    element_data *out, fault *f);
 
 /* modified_consistent; `form` is first, so that a pointer to the whole is one to it. */
 typedef struct consistent_data {

@@ -48,8 +48,10 @@ static factors factors_of(double square)
         f.tau[1] = f.tau[0] * (f.tau[0] - 2 * f.mu[1]) / (2 * cotangent);
         return f;
     }
-    const double a = sqrt(square), s = sin(a), c = cos(a), tangent = tan(a / 2), p = (s - a * c) / (s * s);
-    const double slope = (a * s * s - 2 * c * (s - a * c)) / (s * s * s); /* of p, itself the slope of a/sin a */
+    const double a = sqrt(square), s = sin(a), c = cos(a), tangent = tan(a / 2),
+                 p = (s - a * c) / (s * s);
+    const double slope =
+        (a * s * s - 2 * c * (s - a * c)) / (s * s * s); /* of p, itself the slope of a/sin a */
     f.mu[0] = a / s;
     f.mu[1] = p / (2 * a);
     f.nu[0] = (1 - f.mu[0]) / square;
@@ -94,7 +96,8 @@ static screw screw_of(double l0, const node_state x[2])
     }
     mat3_transpose_mul_vec(w.R, d, w.D);
     /* D_x^2 - l0^2 without a difference of lengths: |d|^2 - l0^2 = (2 d - moved) . moved */
-    const double squares = 2 * vec3_dot(d, moved) - vec3_dot(moved, moved) - w.D[1] * w.D[1] - w.D[2] * w.D[2];
+    const double squares =
+        2 * vec3_dot(d, moved) - vec3_dot(moved, moved) - w.D[1] * w.D[1] - w.D[2] * w.D[2];
     w.extension = w.D[0] > 0 ? squares / (w.D[0] + l0) : w.D[0] - l0;
     const double square = vec3_dot(w.a, w.a);
     w.f = factors_of(square);
@@ -164,7 +167,8 @@ static void skew(const double v[3], double A[9])
 }
 
 /* Second derivatives of f . U with respect to (D, psi): bent [psi, psi], mixed [psi, D]. */
-static void second_of_translation(const screw *w, const double f[3], double bent[9], double mixed[9])
+static void second_of_translation(const screw *w, const double f[3], double bent[9],
+                                  double mixed[9])
 {
     const double square = vec3_dot(w->a, w->a), fD = vec3_dot(f, w->D), fa = vec3_dot(f, w->a),
                  across = fa * w->along - square * fD;
@@ -174,10 +178,12 @@ static void second_of_translation(const screw *w, const double f[3], double bent
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             const double p = w->a[i], q = w->a[j];
-            bent[3 * i + j] = w->f.nu[0] / 4 * (f[i] * w->D[j] + w->D[i] * f[j] - (i == j ? 2 * fD : 0)) +
-                              w->f.nu[1] / 2 * (p * turn[j] + turn[i] * q + (i == j ? across : 0)) + w->f.nu[2] * across * p * q;
-            mixed[3 * i + j] =
-                w->f.nu[0] / 2 * (f[i] * q + (i == j ? fa : 0) - 2 * p * f[j]) + w->f.nu[1] * p * (q * fa - square * f[j]);
+            bent[3 * i + j] =
+                w->f.nu[0] / 4 * (f[i] * w->D[j] + w->D[i] * f[j] - (i == j ? 2 * fD : 0)) +
+                w->f.nu[1] / 2 * (p * turn[j] + turn[i] * q + (i == j ? across : 0)) +
+                w->f.nu[2] * across * p * q;
+            mixed[3 * i + j] = w->f.nu[0] / 2 * (f[i] * q + (i == j ? fa : 0) - 2 * p * f[j]) +
+                               w->f.nu[1] * p * (q * fa - square * f[j]);
         }
 }
 
@@ -197,7 +203,8 @@ static void form_of_middle(const screw *w, const work *k, const double f[3], for
     skew(k->g, gx);
     vec3_cross(k->m, w->a, side);
     const double gD = vec3_dot(k->g, w->D), ma = vec3_dot(k->m, w->a), ta = vec3_dot(k->t, w->a);
-    const double c1 = (c->tau[1] + c->tau[0] * c->nu[0] / 2) / 4, c2 = (c->mu[1] + c->nu[0] * c->mu[0] / 2) / 2;
+    const double c1 = (c->tau[1] + c->tau[0] * c->nu[0] / 2) / 4,
+                 c2 = (c->mu[1] + c->nu[0] * c->mu[0] / 2) / 2;
     const double c3 = ta * (c->nu[1] + c->nu[0] * c->nu[0]), c4 = ta * c->nu[0] * c->mu[0] / 2;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
@@ -206,8 +213,10 @@ static void form_of_middle(const screw *w, const work *k, const double f[3], for
             out->vs[at] = gx[mirrored];
             out->vd[at] = VM[mirrored];
             out->ss[at] = (k->g[i] * w->D[j] + w->D[i] * k->g[j]) / 2 - (same ? gD : 0);
-            out->sd[at] = VMD[mirrored] + (c->tau[0] / 2 * ((same ? ma : 0) - k->m[i] * a[j]) + moment[at]) / 2;
-            out->dd[at] += c1 * (a[i] * side[j] + side[i] * a[j]) + c2 * (a[i] * k->t[j] + k->t[i] * a[j]) + c3 * a[i] * a[j] +
+            out->sd[at] = VMD[mirrored] +
+                          (c->tau[0] / 2 * ((same ? ma : 0) - k->m[i] * a[j]) + moment[at]) / 2;
+            out->dd[at] += c1 * (a[i] * side[j] + side[i] * a[j]) +
+                           c2 * (a[i] * k->t[j] + k->t[i] * a[j]) + c3 * a[i] * a[j] +
                            (same ? c4 : 0);
         }
 }
@@ -291,7 +300,8 @@ void screw_strain(const element_data *d, const node_state x[], strain_output *ou
     if (out->J != NULL) {
         double U[3 * COORDINATES], turn[3 * COORDINATES];
         for (int i = 0; i < 3; i++) {
-            const double none[3] = {0}, f[3] = {i == 0, i == 1, i == 2}, t[3] = {l0 * f[0], l0 * f[1], l0 * f[2]};
+            const double none[3] = {0}, f[3] = {i == 0, i == 1, i == 2},
+                         t[3] = {l0 * f[0], l0 * f[1], l0 * f[2]};
             const work translating = work_of(&w, f, none), turning = work_of(&w, none, t);
             nodal_row(&w, &translating, U + COORDINATES * i);
             nodal_row(&w, &turning, turn + COORDINATES * i);

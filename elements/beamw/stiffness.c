@@ -25,14 +25,17 @@ static void antisymmetric_functionals(const section *c, double l, stiffness_fiel
 }
 
 /* Part of h that is bending: hg = M h. */
-static void split(const section *c, double l, stiffness_shear kind, const double stiffness[3], double M[9])
+static void split(const section *c, double l, stiffness_shear kind, const double stiffness[3],
+                  double M[9])
 {
     memset(M, 0, 9 * sizeof(double));
     if (kind != STIFFNESS_COUPLED) {
         const double inertia[3] = {c->Iz, c->Iy, c->Iw};
         for (int i = 0; i < 3; i++) {
             const double D = c->D[4 * i];
-            const double Phi = kind == STIFFNESS_RIGID || D == 0 ? 0 : 12 * c->young * inertia[i] / (c->shear_modulus * D * l * l);
+            const double Phi = kind == STIFFNESS_RIGID || D == 0
+                                   ? 0
+                                   : 12 * c->young * inertia[i] / (c->shear_modulus * D * l * l);
             M[4 * i] = 1 / (1 + Phi);
         }
         return;
@@ -50,17 +53,22 @@ static void split(const section *c, double l, stiffness_shear kind, const double
 }
 
 /* K of the energy 1/2 h^T K h. */
-static void series(const section *c, double l, stiffness_shear kind, const double stiffness[3], const double M[9], double K[9])
+static void series(const section *c, double l, stiffness_shear kind, const double stiffness[3],
+                   const double M[9], double K[9])
 {
-    const double bend[3] = {stiffness[0], stiffness[1], 12 * c->young * c->Iw / l}, torsion = c->shear_modulus * c->It * l / 5;
+    const double bend[3] = {stiffness[0], stiffness[1], 12 * c->young * c->Iw / l},
+                 torsion = c->shear_modulus * c->It * l / 5;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             if (kind != STIFFNESS_DIAGONAL)
                 K[3 * i + j] = (stiffness[i] * M[3 * i + j] + stiffness[j] * M[3 * j + i]) / 2;
-            else if (i == j) /* J App. A: bending and shear in series, Saint-Venant torsion of the flexible field */
+            else if (
+                i ==
+                j) /* J App. A: bending and shear in series, Saint-Venant torsion of the flexible field */
                 K[4 * i] = bend[i] * M[4 * i] + (i == W ? torsion * M[4 * i] * M[4 * i] : 0);
             else
-                K[3 * i + j] = c->shear_modulus * l * c->D[3 * i + j] * (1 - M[4 * i]) * (1 - M[4 * j]);
+                K[3 * i + j] =
+                    c->shear_modulus * l * c->D[3 * i + j] * (1 - M[4 * i]) * (1 - M[4 * j]);
         }
 }
 
@@ -69,7 +77,8 @@ static void add_square(double S[8 * 8], double k, const double a[8])
     forms_add_product(S, k / 2, a, a);
 }
 
-void stiffness_of(const section *c, double l, stiffness_shear kind, const twist *t, stiffness_fields *f, double S[8 * 8])
+void stiffness_of(const section *c, double l, stiffness_shear kind, const twist *t,
+                  stiffness_fields *f, double S[8 * 8])
 {
     const double E = c->young, G = c->shear_modulus, l3 = l * l * l;
     const double Ka[3] = {12 * E * c->Iz / l, 12 * E * c->Iy / l, t->uneven};
@@ -86,7 +95,8 @@ void stiffness_of(const section *c, double l, stiffness_shear kind, const twist 
     for (int k = 0; k < 8; k++)
         f->tw[k] = l * l * f->hg[W][k];
 
-    const double e1[8] = {1}, e2[8] = {0, 1}, sum_y[8] = {0, 0, 1, 1}, sum_z[8] = {0, 0, 0, 0, 1, 1};
+    const double e1[8] = {1}, e2[8] = {0, 1}, sum_y[8] = {0, 0, 1, 1},
+                 sum_z[8] = {0, 0, 0, 0, 1, 1};
     memset(S, 0, 64 * sizeof(double));
     add_square(S, E * c->A / l, e1);
     add_square(S, E * c->Iy / l3, sum_y);

@@ -8,12 +8,14 @@
 typedef enum stiffness_shear {
     STIFFNESS_RIGID,    /* Phi = 0: Vlasov */
     STIFFNESS_DIAGONAL, /* J App. A, whose Phi see only the diagonal of D */
-    STIFFNESS_COUPLED   /* the whole of D: nodally exact for any positive definite D if It = 0 or with hyperbolic twist */
+    STIFFNESS_COUPLED /* the whole of D: nodally exact for any positive definite D if It = 0 or with hyperbolic twist */
 } stiffness_shear;
 
 /* Linear functionals of e that stiffness, modified modes and inertia are made of. */
 typedef struct stiffness_fields {
-    double h[3][8];  /* [1/m, 1/m, 1/m^2] mean antisymmetric deformation (y, z, omega) = bending part + shear strain */
+    double h
+        [3]
+        [8]; /* [1/m, 1/m, 1/m^2] mean antisymmetric deformation (y, z, omega) = bending part + shear strain */
     double hg[3][8]; /* its bending part (warping part for omega) */
     double g[3][8];  /* shear strains g_y, g_z [1], g_w [1/m] */
     double A[8];     /* (e7 - e8)/2 */
@@ -21,6 +23,7 @@ typedef struct stiffness_fields {
 } stiffness_fields;
 
 /* t: twist_of the same section, length and shear. */
-void stiffness_of(const section *c, double l0, stiffness_shear kind, const twist *t, stiffness_fields *fields, double S[8 * 8]);
+void stiffness_of(const section *c, double l0, stiffness_shear kind, const twist *t,
+                  stiffness_fields *fields, double S[8 * 8]);
 
 #endif

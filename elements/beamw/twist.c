@@ -9,7 +9,8 @@
 #include "elements/math/quadrature.h"
 
 enum { CUBIC_POINTS = 4, PANEL_POINTS = 16, LAYER_PANELS = 4 };
-static const double panel_decay = 10; /* lambda times the width of a panel: e^-20 within 16 points */
+static const double panel_decay =
+    10; /* lambda times the width of a panel: e^-20 within 16 points */
 
 /* sinh h - h. */
 static double sinh_excess(double h)
@@ -27,14 +28,17 @@ static double sinh_excess(double h)
 /* sinh(lambda y)/sinh(lambda/2), |y| <= 1/2. */
 static double sinh_ratio(double lambda, double y)
 {
-    const double a = fabs(y), ratio = exp(lambda * (a - 0.5)) * expm1(-2 * lambda * a) / expm1(-lambda);
+    const double a = fabs(y),
+                 ratio = exp(lambda * (a - 0.5)) * expm1(-2 * lambda * a) / expm1(-lambda);
     return y < 0 ? -ratio : ratio;
 }
 
 twist twist_of(const section *c, double l, int shear, twist_kind kind)
 {
     const double EIw = c->young * c->Iw, GIt = c->shear_modulus * c->It, l3 = l * l * l;
-    twist t = {.uneven = 12 * EIw / l + GIt * l / 5, .opposite = GIt / (3 * l3) + 4 * EIw / (l3 * l * l), .soft = 1};
+    twist t = {.uneven = 12 * EIw / l + GIt * l / 5,
+               .opposite = GIt / (3 * l3) + 4 * EIw / (l3 * l * l),
+               .soft = 1};
     if (kind == TWIST_CUBIC || !(GIt > 0) || !(EIw > 0))
         return t;
     if (shear) {
@@ -44,7 +48,8 @@ twist twist_of(const section *c, double l, int shear, twist_kind kind)
     }
     t.lambda = l * sqrt(GIt / EIw / t.soft);
     const double h = t.lambda / 2, half = sinh(fmin(h, 1) / 2);
-    t.excess = h < 1 ? (2 * h * half * half - sinh_excess(h)) / sinh(h) : h * (1 + exp(-2 * h)) / -expm1(-2 * h) - 1;
+    t.excess = h < 1 ? (2 * h * half * half - sinh_excess(h)) / sinh(h)
+                     : h * (1 + exp(-2 * h)) / -expm1(-2 * h) - 1;
     t.uneven = EIw / l * (t.lambda * t.lambda / t.excess);
     t.opposite = 4 * EIw / (l3 * l * l) * (1 + t.excess);
     return t;
@@ -63,13 +68,15 @@ twist_shapes twist_at(const twist *t, double x)
     }
     const double ratio = sinh_ratio(t->lambda, y);
     s.odd = -ratio / t->soft;
-    s.odd_integral = expm1(-2 * h * x) * expm1(-2 * h * (1 - x)) / (-2 * h * expm1(-2 * h)) / t->soft;
+    s.odd_integral =
+        expm1(-2 * h * x) * expm1(-2 * h * (1 - x)) / (-2 * h * expm1(-2 * h)) / t->soft;
     if (h < 1) {
         const double half = sinh(h * y), scale = sinh(h) * t->excess * t->soft;
         s.even = (sinh_excess(h) - 2 * h * half * half) / scale;
         s.even_integral = (y * sinh_excess(h) - sinh_excess(2 * h * y) / 2) / scale;
     } else {
-        const double a = t->lambda * fabs(y), cosh_ratio = exp(a - h) * (1 + exp(-2 * a)) / -expm1(-2 * h);
+        const double a = t->lambda * fabs(y),
+                     cosh_ratio = exp(a - h) * (1 + exp(-2 * a)) / -expm1(-2 * h);
         s.even = (1 - h * cosh_ratio) / (t->excess * t->soft);
         s.even_integral = (y - ratio / 2) / (t->excess * t->soft);
     }

@@ -16,7 +16,8 @@ typedef struct twist {
     double lambda;   /* 0: cubic */
     double excess;   /* lambda/2 coth(lambda/2) - 1 */
     double soft;     /* 1 + r */
-    double lag[2];   /* G It (f_yw, f_zw) [m]: kx above its mean takes so much from the shear strains */
+    double
+        lag[2]; /* G It (f_yw, f_zw) [m]: kx above its mean takes so much from the shear strains */
 } twist;
 
 /* shear: 0 where the section is rigid in shear.  Iw = 0 has cubic functions only: nothing warps. */

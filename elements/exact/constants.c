@@ -7,7 +7,8 @@ status constants_of(const element_request *request, constants *out, fault *f)
 {
     const section *c = request->section;
     const unsigned has = request->features;
-    const double l0 = request->length, EI = c->young * fmin(c->Iy, c->Iz), E = c->young / EI, G = c->shear_modulus / EI;
+    const double l0 = request->length, EI = c->young * fmin(c->Iy, c->Iz), E = c->young / EI,
+                 G = c->shear_modulus / EI;
     if (!(l0 > 0) || !isfinite(l0))
         return fault_set(f, STATUS_REFUSED, "element length %g m: it must be positive", l0);
     memset(out, 0, sizeof *out);
@@ -43,6 +44,8 @@ status constants_of(const element_request *request, constants *out, fault *f)
                           out->EIw,    out->F[0], out->F[4], out->F[8], out->torque};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         if (!isfinite(all[i]))
-            return fault_set(f, STATUS_REFUSED, "element of length %g m: its stiffness overflows; use fewer elements", l0);
+            return fault_set(f, STATUS_REFUSED,
+                             "element of length %g m: its stiffness overflows; use fewer elements",
+                             l0);
     return STATUS_OK;
 }

@@ -9,11 +9,12 @@
 typedef struct constants {
     double energy; /* unit of energy EI/l0 [J], EI the smaller one */
     double EA, EIy, EIz, GJ, EIw;
-    double F[9];                    /* shear flexibility F/G: (g_y, g_z, g_w) = F (Q_y, Q_z, M_w); zero: rigid */
-    double ys, zs;                  /* shear centre */
-    double trapeze, bend_y, bend_z; /* N, My, Mz see gamma_x, kappa_y, kappa_z plus these times kappa_x^2/2 */
-    double torque;                  /* energy torque kappa_x^4 per length */
-    double initial[3];              /* strains gx, gy, gz without stress */
+    double F[9];   /* shear flexibility F/G: (g_y, g_z, g_w) = F (Q_y, Q_z, M_w); zero: rigid */
+    double ys, zs; /* shear centre */
+    double trapeze, bend_y,
+        bend_z;        /* N, My, Mz see gamma_x, kappa_y, kappa_z plus these times kappa_x^2/2 */
+    double torque;     /* energy torque kappa_x^4 per length */
+    double initial[3]; /* strains gx, gy, gz without stress */
     int warping;
 } constants;
 

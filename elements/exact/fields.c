@@ -20,9 +20,11 @@ static void add_product(fields *f, double k, int i, int j)
 }
 
 /* a and a' at x as rows on (strains, bubbles). */
-static void amplitude(const fields *f, double x, double a[FIELDS_MAX_FREE], double da[FIELDS_MAX_FREE])
+static void amplitude(const fields *f, double x, double a[FIELDS_MAX_FREE],
+                      double da[FIELDS_MAX_FREE])
 {
-    double at[ELEMENT_MAX_NODES], L[ELEMENT_MAX_NODES], dL[ELEMENT_MAX_NODES], bubble = 1, slope = 0;
+    double at[ELEMENT_MAX_NODES], L[ELEMENT_MAX_NODES], dL[ELEMENT_MAX_NODES], bubble = 1,
+                                                                               slope = 0;
     memset(a, 0, FIELDS_MAX_FREE * sizeof *a);
     memset(da, 0, FIELDS_MAX_FREE * sizeof *da);
     for (int k = 0; k < f->nodes; k++) {
@@ -72,7 +74,8 @@ static void residual_bending(fields *f, int g, int Q, int M, double sign, double
     row[f->free + FIELDS_STRESSES * g + Q] = 1;
     if (f->points == 2)
         for (int h = 0; h < 2; h++)
-            row[f->free + FIELDS_STRESSES * h + M] = -sign * (h == 0 ? -1 : 1) / (f->x[1] - f->x[0]);
+            row[f->free + FIELDS_STRESSES * h + M] =
+                -sign * (h == 0 ? -1 : 1) / (f->x[1] - f->x[0]);
     for (int i = f->free; i < f->all; i++)
         for (int j = f->free; j < f->all; j++)
             f->energy[i * f->all + j] -= f->w[g] * flexibility * row[i] * row[j];

@@ -16,13 +16,14 @@ enum {
 /* Before elimination: strains, bubbles, stresses. */
 typedef struct fields {
     int nodes, points, strains, warping_bubbles, free, all, field;
-    double x[STRAIN_MAX_POINTS], w[STRAIN_MAX_POINTS];           /* points of the strains */
-    double at[STIFFNESS_MAX_FIELD], weight[STIFFNESS_MAX_FIELD]; /* points that integrate the fourth power of the twist rate */
-    double through[STIFFNESS_MAX_FIELD][STRAIN_MAX_POINTS];      /* Lagrange polynomials on x, at `at` */
-    double twist[STIFFNESS_MAX_FIELD][FIELDS_MAX_FREE];          /* kappa_x */
-    double slope[STIFFNESS_MAX_FIELD][FIELDS_MAX_FREE];          /* a' */
-    double mean[STRAIN_MAX_POINTS][FIELDS_MAX_FREE];             /* P a at the points */
-    double energy[FIELDS_MAX_ALL * FIELDS_MAX_ALL];              /* 2 x the quadratic form */
+    double x[STRAIN_MAX_POINTS], w[STRAIN_MAX_POINTS]; /* points of the strains */
+    double at[STIFFNESS_MAX_FIELD],
+        weight[STIFFNESS_MAX_FIELD]; /* points that integrate the fourth power of the twist rate */
+    double through[STIFFNESS_MAX_FIELD][STRAIN_MAX_POINTS]; /* Lagrange polynomials on x, at `at` */
+    double twist[STIFFNESS_MAX_FIELD][FIELDS_MAX_FREE];     /* kappa_x */
+    double slope[STIFFNESS_MAX_FIELD][FIELDS_MAX_FREE];     /* a' */
+    double mean[STRAIN_MAX_POINTS][FIELDS_MAX_FREE];        /* P a at the points */
+    double energy[FIELDS_MAX_ALL * FIELDS_MAX_ALL];         /* 2 x the quadratic form */
 } fields;
 
 void fields_prepare(const constants *c, int nodes, fields *f);

@@ -49,5 +49,6 @@ void measure_second(measure_kind kind, const double x[3], const double n[3], dou
     const double along = vec3_dot(n, x);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            H[3 * i + j] = m[1] / 8 * (n[i] * x[j] + x[i] * n[j] + (i == j ? along : 0)) + m[2] / 64 * along * x[i] * x[j];
+            H[3 * i + j] = m[1] / 8 * (n[i] * x[j] + x[i] * n[j] + (i == j ? along : 0)) +
+                           m[2] / 64 * along * x[i] * x[j];
 }

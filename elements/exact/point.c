@@ -22,7 +22,8 @@ void point_align(int nodes, double q[][4])
     }
 }
 
-void point_at(int nodes, const double q[], const double N[], const double dN[], const double y[3], point *p)
+void point_at(int nodes, const double q[], const double N[], const double dN[], const double y[3],
+              point *p)
 {
     double Q[4] = {0}, S[4] = {0}, inverse[4], h[4];
     for (int k = 0; k < nodes; k++)
@@ -73,7 +74,8 @@ static void to_fixed(const point *p, double W[16], double out[16])
     }
 }
 
-void point_hessian(const point *p, const double n[3], const double f[3], double QQ[16], double QS[16], double QY[12])
+void point_hessian(const point *p, const double n[3], const double f[3], double QQ[16],
+                   double QS[16], double QY[12])
 {
     double across[3], turn[3], AA[16], AD[16], AY[12] = {0};
     const double *v = p->v, nk = vec3_dot(n, p->kappa), fv = vec3_dot(f, v);
@@ -84,7 +86,8 @@ void point_hessian(const point *p, const double n[3], const double f[3], double 
     for (int i = 0; i < 3; i++) {
         AA[i + 1] = AA[4 * (i + 1)] = 4 * p->eta * n[i] + 2 * across[i] + 2 * turn[i];
         for (int j = 0; j < 3; j++)
-            AA[4 * (i + 1) + j + 1] = 2 * (f[i] * v[j] + v[i] * f[j]) - (i == j ? 2 * nk + 4 * fv : 0);
+            AA[4 * (i + 1) + j + 1] =
+                2 * (f[i] * v[j] + v[i] * f[j]) - (i == j ? 2 * nk + 4 * fv : 0);
         AD[i + 1] = AD[4 * (i + 1)] = -2 * n[i];
     }
     for (int i = 0; i < 3; i++) {
@@ -97,7 +100,9 @@ void point_hessian(const point *p, const double n[3], const double f[3], double 
     to_fixed(p, AA, QQ);
     to_fixed(p, AD, QS);
     double half[12];
-    dense_mul(4, 3, 3, AY, (const double[9]){p->R[0], p->R[3], p->R[6], p->R[1], p->R[4], p->R[7], p->R[2], p->R[5], p->R[8]},
+    dense_mul(4, 3, 3, AY,
+              (const double[9]){p->R[0], p->R[3], p->R[6], p->R[1], p->R[4], p->R[7], p->R[2],
+                                p->R[5], p->R[8]},
               half);
     for (int j = 0; j < 3; j++) {
         double column[4];

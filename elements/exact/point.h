@@ -21,13 +21,15 @@ typedef struct point {
 void point_align(int nodes, double q[][4]);
 
 /* q [nodes x 4], N and dN [nodes]. */
-void point_at(int nodes, const double q[], const double N[], const double dN[], const double y[3], point *p);
+void point_at(int nodes, const double q[], const double N[], const double dN[], const double y[3],
+              point *p);
 
 /* Gradient of n . kappa + f . v with respect to Q and Q'.  That with respect to y is R f. */
 void point_gradient(const point *p, const double n[3], const double f[3], double Q[4], double S[4]);
 
 /* Its second derivatives: QQ symmetric, QS [Q x Q'], QY [Q x y]; those with respect to Q' and Q', Q' and y, y and y vanish. */
-void point_hessian(const point *p, const double n[3], const double f[3], double QQ[16], double QS[16], double QY[12]);
+void point_hessian(const point *p, const double n[3], const double f[3], double QQ[16],
+                   double QS[16], double QY[12]);
 
 /* theta q as a matrix [4 x 3] on theta. */
 void point_turn(const double q[4], double P[12]);

@@ -14,7 +14,8 @@
 static void linear_state(const stages *s, const double sigma[], double change[], double Z[])
 {
     const int m = s->unknowns, n = m + STAGES_OUTER;
-    double rest[STAGES_UNKNOWNS] = {0}, none[STAGES_OUTER] = {0}, K[STAGES_UNKNOWNS * STAGES_UNKNOWNS];
+    double rest[STAGES_UNKNOWNS] = {0}, none[STAGES_OUTER] = {0},
+           K[STAGES_UNKNOWNS * STAGES_UNKNOWNS];
     stages_derivatives d;
     int pivot[STAGES_ALL];
     memcpy(rest + 3, s->rest_x[1], 3 * (size_t)(s->stages - 1) * sizeof(double));
@@ -35,7 +36,8 @@ static void linear_state(const stages *s, const double sigma[], double change[],
 }
 
 /* Hessian at rest with stresses `factor` times those of the linear state. */
-static void stressed_hessian(const stages *s, const double change[], double factor, double hessian[])
+static void stressed_hessian(const stages *s, const double change[], double factor,
+                             double hessian[])
 {
     const int n = s->unknowns + STAGES_OUTER;
     double force[3], Sz[WARPING_MAX] = {0}, dz[WARPING_MAX], ignored[STAGES_ALL] = {0};
@@ -52,10 +54,12 @@ static void stressed_hessian(const stages *s, const double change[], double fact
         stage_rows(&p[i], none, D);
         sums_follow(s, i, change, x, slope);
         for (int k = 0; k < 6; k++)
-            strain[k] = vec3_dot(&D[k][STAGE_TURN], x) + vec3_dot(&D[k][STAGE_SLOPE], slope) + vec3_dot(&D[k][STAGE_FORCE], change);
+            strain[k] = vec3_dot(&D[k][STAGE_TURN], x) + vec3_dot(&D[k][STAGE_SLOPE], slope) +
+                        vec3_dot(&D[k][STAGE_FORCE], change);
         dz[i] = strain[0] - s->c.F[6] * strain[4] - s->c.F[7] * strain[5];
         dense_mul_vec(6, 6, M, strain, moment[i]);
-        memcpy(moment[i] + 3, strain + 3, 3 * sizeof(double)); /* N itself, for the terms it makes stiff in torsion */
+        memcpy(moment[i] + 3, strain + 3,
+               3 * sizeof(double)); /* N itself, for the terms it makes stiff in torsion */
     }
     if (s->warps) {
         dz[s->stages] = change[s->unknowns + 6];
@@ -71,7 +75,8 @@ static void stressed_hessian(const stages *s, const double change[], double fact
         memcpy(stiff, M, sizeof stiff);
         for (int k = 0; k < 3; k++)
             gradient[k] = factor * (moment[i][k] + (k == 0 ? Sz[i] / s->w[i] : 0));
-        stiff[0] += factor * (s->c.trapeze * moment[i][3] + s->c.bend_y * moment[i][1] + s->c.bend_z * moment[i][2]);
+        stiff[0] += factor * (s->c.trapeze * moment[i][3] + s->c.bend_y * moment[i][1] +
+                              s->c.bend_z * moment[i][2]);
         stage_at(s->stages + 1, s->N[i], s->dN[i], s->rest_x[0], force, s->rest_kappa[i], &p[i]);
         sums_add(s, i, &p[i], force, gradient, stiff, &a);
     }
@@ -81,7 +86,8 @@ static void stressed_hessian(const stages *s, const double change[], double fact
 void prestress_stiffness(const stages *s, const double sigma[], double G[])
 {
     const int m = s->unknowns, n = m + STAGES_OUTER;
-    double change[STAGES_ALL], W[STAGES_ALL * STAGES_OUTER] = {0}, plus[STAGES_ALL * STAGES_ALL], minus[STAGES_ALL * STAGES_ALL],
+    double change[STAGES_ALL], W[STAGES_ALL * STAGES_OUTER] = {0}, plus[STAGES_ALL * STAGES_ALL],
+                                              minus[STAGES_ALL * STAGES_ALL],
                                               work[STAGES_ALL * STAGES_OUTER];
     linear_state(s, sigma, change, W);
     for (int j = 0; j < STAGES_OUTER; j++)

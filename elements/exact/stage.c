@@ -4,8 +4,8 @@
 
 #include "elements/math/dense.h"
 
-void stage_at(int nodes, const double N[], const double dN[], const double x[], const double force[3], const double rest_kappa[3],
-              stage *p)
+void stage_at(int nodes, const double N[], const double dN[], const double x[],
+              const double force[3], const double rest_kappa[3], stage *p)
 {
     for (int j = 0; j < 3; j++) {
         p->x[j] = p->slope[j] = 0;
@@ -21,10 +21,12 @@ void stage_at(int nodes, const double N[], const double dN[], const double x[], 
         p->kappa[j] -= rest_kappa[j];
 }
 
-double stage_material(const constants *c, const double kappa[3], const double N[3], double T, double gradient[6], double M[36])
+double stage_material(const constants *c, const double kappa[3], const double N[3], double T,
+                      double gradient[6], double M[36])
 {
     const double k = kappa[0];
-    const double ky = kappa[1] + c->bend_y * k * k / 2, kz = kappa[2] + c->bend_z * k * k / 2, My = c->EIy * ky, Mz = c->EIz * kz;
+    const double ky = kappa[1] + c->bend_y * k * k / 2, kz = kappa[2] + c->bend_z * k * k / 2,
+                 My = c->EIy * ky, Mz = c->EIz * kz;
     const double gy = c->F[0] * N[1] + c->F[1] * N[2], gz = c->F[3] * N[1] + c->F[4] * N[2];
     const double torsion = c->GJ + c->trapeze * N[0] + c->bend_y * My + c->bend_z * Mz;
     const double eccentric = c->ys * N[2] - c->zs * N[1];
@@ -35,7 +37,9 @@ double stage_material(const constants *c, const double kappa[3], const double N[
     gradient[4] = -gy - c->initial[1] - c->zs * k - c->F[6] * T;
     gradient[5] = -gz - c->initial[2] + c->ys * k - c->F[7] * T;
     memset(M, 0, 36 * sizeof *M);
-    M[0] = torsion + (c->EIy * c->bend_y * c->bend_y + c->EIz * c->bend_z * c->bend_z + 12 * c->torque) * k * k;
+    M[0] =
+        torsion +
+        (c->EIy * c->bend_y * c->bend_y + c->EIz * c->bend_z * c->bend_z + 12 * c->torque) * k * k;
     M[1] = M[6] = c->EIy * c->bend_y * k;
     M[2] = M[12] = c->EIz * c->bend_z * k;
     M[3] = M[18] = c->trapeze * k;
@@ -48,8 +52,9 @@ double stage_material(const constants *c, const double kappa[3], const double N[
     M[29] = M[34] = -c->F[1];
     M[35] = -c->F[4];
     const double initial = c->initial[0] * N[0] + c->initial[1] * N[1] + c->initial[2] * N[2];
-    return -N[0] - initial - N[0] * N[0] / (2 * c->EA) - (N[1] * gy + N[2] * gz) / 2 + eccentric * k +
-           c->trapeze * N[0] * k * k / 2 + My * ky / 2 + Mz * kz / 2 + c->GJ * k * k / 2 + c->torque * k * k * k * k;
+    return -N[0] - initial - N[0] * N[0] / (2 * c->EA) - (N[1] * gy + N[2] * gz) / 2 +
+           eccentric * k + c->trapeze * N[0] * k * k / 2 + My * ky / 2 + Mz * kz / 2 +
+           c->GJ * k * k / 2 + c->torque * k * k * k * k;
 }
 
 void stage_rows(const stage *p, const double force[3], double D[6][STAGE_SPACE])
@@ -59,12 +64,14 @@ void stage_rows(const stage *p, const double force[3], double D[6][STAGE_SPACE])
         double unit[3] = {0};
         unit[i] = 1;
         turn_gradient(&p->curvature, p->x, unit, p->slope, &D[i][STAGE_TURN], &D[i][STAGE_SLOPE]);
-        turn_gradient(&p->orientation, p->x, unit, force, &D[3 + i][STAGE_TURN], &D[3 + i][STAGE_FORCE]);
+        turn_gradient(&p->orientation, p->x, unit, force, &D[3 + i][STAGE_TURN],
+                      &D[3 + i][STAGE_FORCE]);
     }
 }
 
-void stage_hessian(const stage *p, const double force[3], const double gradient[6], const double M[36], double w,
-                   double D[6][STAGE_SPACE], double H[STAGE_SPACE][STAGE_SPACE])
+void stage_hessian(const stage *p, const double force[3], const double gradient[6],
+                   const double M[36], double w, double D[6][STAGE_SPACE],
+                   double H[STAGE_SPACE][STAGE_SPACE])
 {
     double MD[6][STAGE_SPACE], PP[9] = {0}, PS[9] = {0}, PF[9] = {0};
     turn_add_hessian(&p->curvature, p->x, gradient, p->slope, PP, PS);

@@ -20,7 +20,8 @@ static void no_warping(const stages *s, const double e[], stages_derivatives *ou
     }
 }
 
-void stages_evaluate(const stages *s, const double e[], const double inner[], stages_derivatives *out)
+void stages_evaluate(const stages *s, const double e[], const double inner[],
+                     stages_derivatives *out)
 {
     const int last = s->stages, n = s->unknowns + STAGES_OUTER;
     double x[STAGES_NODES][3], Sz[WARPING_MAX] = {0};
@@ -57,7 +58,8 @@ void stages_evaluate(const stages *s, const double e[], const double inner[], st
     }
     for (int i = 0; i < last + 2; i++)
         out->P += a.z[i] * Sz[i] / 2;
-    out->gradient[s->unknowns + 6] += Sz[last]; /* the points' part of the gradient is there already */
+    out->gradient[s->unknowns + 6] +=
+        Sz[last]; /* the points' part of the gradient is there already */
     out->gradient[s->unknowns + 7] += Sz[last + 1];
 }
 
@@ -92,7 +94,8 @@ status stages_prepare(const element_request *request, int count, stages *out, fa
     line_gauss(count, point, out->w);
     const double turn = vec3_norm(request->curvature) * request->length;
     for (int k = 0; k <= count; k++) {
-        at[k] = (1 - cos(pi * k / count)) / 2; /* any distinct points would do: Chebyshev's keep the numbers of a size */
+        at[k] = (1 - cos(pi * k / count)) /
+                2; /* any distinct points would do: Chebyshev's keep the numbers of a size */
         const double length = turn > 0 ? 4 * tan(turn * (at[k] - 0.5) / 4) / turn : 0;
         for (int i = 0; i < 3; i++)
             out->rest_x[k][i] = request->curvature[i] * request->length * length;
@@ -100,7 +103,8 @@ status stages_prepare(const element_request *request, int count, stages *out, fa
     for (int i = 0; i < count; i++) {
         stage p;
         double axis[3];
-        const double unit[3] = {1, 0, 0}, strained[3] = {1 + request->strain[0], request->strain[1], request->strain[2]};
+        const double unit[3] = {1, 0, 0},
+                     strained[3] = {1 + request->strain[0], request->strain[1], request->strain[2]};
         line_lagrange(count + 1, at, point[i], out->N[i], out->dN[i]);
         stage_at(count + 1, out->N[i], out->dN[i], out->rest_x[0], unit, none, &p);
         memcpy(out->rest_kappa[i], p.kappa, sizeof p.kappa);

@@ -43,6 +43,7 @@ typedef struct stages_derivatives {
 status stages_prepare(const element_request *request, int count, stages *out, fault *f);
 
 /* e [8], inner [unknowns]; dimensionless. */
-void stages_evaluate(const stages *s, const double e[], const double inner[], stages_derivatives *out);
+void stages_evaluate(const stages *s, const double e[], const double inner[],
+                     stages_derivatives *out);
 
 #endif

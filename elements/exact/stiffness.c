@@ -14,7 +14,9 @@ static void condense(const constants *c, const fields *f, const double X[], stif
         for (int j = 0; j < m; j++) {
             double sum = 0;
             for (int k = 0; k < f->all - m; k++)
-                sum += (f->energy[i * f->all + m + k] * X[k * m + j] + f->energy[j * f->all + m + k] * X[k * m + i]) / 2;
+                sum += (f->energy[i * f->all + m + k] * X[k * m + j] +
+                        f->energy[j * f->all + m + k] * X[k * m + i]) /
+                       2;
             out->S[i * m + j] = unit * (f->energy[i * f->all + j] + sum);
         }
     for (int i = 0; i < f->field; i++) {
@@ -27,12 +29,13 @@ static void condense(const constants *c, const fields *f, const double X[], stif
         for (int g = 0; g < f->points; g++)
             for (int j = 0; j < m; j++)
                 for (int k = 0; k < m; k++)
-                    out->Q[g][j * m + k] +=
-                        f->weight[i] * f->through[i][g] / (f->w[g] * out->l0) * out->twist[i][j] * out->twist[i][k];
+                    out->Q[g][j * m + k] += f->weight[i] * f->through[i][g] / (f->w[g] * out->l0) *
+                                            out->twist[i][j] * out->twist[i][k];
     }
 }
 
-status stiffness_prepare(const element_request *request, int nodes, stiffness *out, fault *fault_out)
+status stiffness_prepare(const element_request *request, int nodes, stiffness *out,
+                         fault *fault_out)
 {
     constants c;
     fields f;
@@ -51,8 +54,10 @@ status stiffness_prepare(const element_request *request, int nodes, stiffness *o
     out->r[1] = c.bend_y;
     out->r[2] = c.bend_z;
     if (fields_eliminate(&f, X) != 0)
-        return fault_set(fault_out, STATUS_REFUSED,
-                         "element of length %g m: its shear flexibility cannot be separated from bending", request->length);
+        return fault_set(
+            fault_out, STATUS_REFUSED,
+            "element of length %g m: its shear flexibility cannot be separated from bending",
+            request->length);
     condense(&c, &f, X, out);
     return STATUS_OK;
 }
@@ -72,7 +77,8 @@ static double along(const stiffness *k, const double stress[], int g)
 }
 
 /* C += S r_g t_g^T + t_g (S r_g)^T + t_g (r_g . S r_h) t_h^T + tau_g Q_g */
-static void add_modified_tangent(const stiffness *k, double t[][STIFFNESS_MAX_STRAINS], const double tau[], double C[])
+static void add_modified_tangent(const stiffness *k, double t[][STIFFNESS_MAX_STRAINS],
+                                 const double tau[], double C[])
 {
     const int n = k->strains;
     double Sr[STRAIN_MAX_POINTS][STIFFNESS_MAX_STRAINS] = {{0}};
@@ -83,7 +89,8 @@ static void add_modified_tangent(const stiffness *k, double t[][STIFFNESS_MAX_ST
     for (int g = 0; g < k->points; g++)
         for (int i = 0; i < n; i++)
             for (int j = 0; j < n; j++)
-                C[i * n + j] += Sr[g][i] * t[g][j] + t[g][i] * Sr[g][j] + tau[g] * k->Q[g][i * n + j];
+                C[i * n + j] +=
+                    Sr[g][i] * t[g][j] + t[g][i] * Sr[g][j] + tau[g] * k->Q[g][i * n + j];
     for (int g = 0; g < k->points; g++)
         for (int h = 0; h < k->points; h++) {
             const double coupling = along(k, Sr[g], h);
@@ -102,7 +109,8 @@ static double add_torque(const stiffness *k, const double e[], double sigma[], d
         double twist = 0;
         for (int i = 0; i < n; i++)
             twist += k->twist[p][i] * e[i];
-        const double force = 4 * k->torque[p] * twist * twist * twist, slope = 12 * k->torque[p] * twist * twist;
+        const double force = 4 * k->torque[p] * twist * twist * twist,
+                     slope = 12 * k->torque[p] * twist * twist;
         energy += force * twist / 4;
         for (int i = 0; i < n; i++) {
             if (sigma != NULL)
@@ -117,8 +125,8 @@ static double add_torque(const stiffness *k, const double e[], double sigma[], d
 status stiffness_stress(const stiffness *k, const double e[], stress_output *out)
 {
     const int n = k->strains;
-    double modified[STIFFNESS_MAX_STRAINS], stress[STIFFNESS_MAX_STRAINS], t[STRAIN_MAX_POINTS][STIFFNESS_MAX_STRAINS],
-        tau[STRAIN_MAX_POINTS], energy = 0;
+    double modified[STIFFNESS_MAX_STRAINS], stress[STIFFNESS_MAX_STRAINS],
+        t[STRAIN_MAX_POINTS][STIFFNESS_MAX_STRAINS], tau[STRAIN_MAX_POINTS], energy = 0;
     memcpy(modified, e, (size_t)n * sizeof *e);
     for (int g = 0; g < k->points && k->modified; g++) {
         double half = 0;

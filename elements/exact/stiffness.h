@@ -16,17 +16,21 @@
 #include "elements/exact/constants.h"
 #include "elements/exact/strain.h"
 
-enum { STIFFNESS_MAX_STRAINS = 6 * STRAIN_MAX_POINTS + ELEMENT_MAX_NODES, STIFFNESS_MAX_FIELD = 4 * STRAIN_MAX_POINTS + 1 };
+enum {
+    STIFFNESS_MAX_STRAINS = 6 * STRAIN_MAX_POINTS + ELEMENT_MAX_NODES,
+    STIFFNESS_MAX_FIELD = 4 * STRAIN_MAX_POINTS + 1
+};
 
 typedef struct stiffness {
     int strains, points, field;
     double l0;
-    int modified;                                                               /* 0: ebar = e */
-    double S[STIFFNESS_MAX_STRAINS * STIFFNESS_MAX_STRAINS];                    /* [N/m] */
-    double Q[STRAIN_MAX_POINTS][STIFFNESS_MAX_STRAINS * STIFFNESS_MAX_STRAINS]; /* [1/m]: mean of kappa_x^2 about a point */
-    double r[3];                                                                /* on gamma_x, kappa_y, kappa_z of the point */
-    double torque[STIFFNESS_MAX_FIELD];                                         /* weight of kappa_x^4 [N/m^3] */
-    double twist[STIFFNESS_MAX_FIELD][STIFFNESS_MAX_STRAINS];                   /* l0^2 kappa_x = twist . e */
+    int modified;                                            /* 0: ebar = e */
+    double S[STIFFNESS_MAX_STRAINS * STIFFNESS_MAX_STRAINS]; /* [N/m] */
+    double Q[STRAIN_MAX_POINTS][STIFFNESS_MAX_STRAINS *
+                                STIFFNESS_MAX_STRAINS]; /* [1/m]: mean of kappa_x^2 about a point */
+    double r[3];                        /* on gamma_x, kappa_y, kappa_z of the point */
+    double torque[STIFFNESS_MAX_FIELD]; /* weight of kappa_x^4 [N/m^3] */
+    double twist[STIFFNESS_MAX_FIELD][STIFFNESS_MAX_STRAINS]; /* l0^2 kappa_x = twist . e */
 } stiffness;
 
 status stiffness_prepare(const element_request *request, int nodes, stiffness *out, fault *f);

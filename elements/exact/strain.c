@@ -16,7 +16,8 @@ typedef struct nodes {
     double r[ELEMENT_MAX_NODES][3], u[ELEMENT_MAX_NODES][3]; /* per l0 */
 } nodes;
 
-static void observe(const strain_line *line, const nodes *s, int g, point *p, double y[3], double dy[3])
+static void observe(const strain_line *line, const nodes *s, int g, point *p, double y[3],
+                    double dy[3])
 {
     for (int i = 0; i < 3; i++) {
         y[i] = dy[i] = 0;
@@ -29,15 +30,18 @@ static void observe(const strain_line *line, const nodes *s, int g, point *p, do
 }
 
 /* v - v0; the part along x from |v|^2 - |v0|^2 = (2 y0 + dy) . dy, so that a small elongation is no difference of lengths. */
-static void stretch(const double v[3], const double v0[3], const double y[3], const double dy[3], double e[3])
+static void stretch(const double v[3], const double v0[3], const double y[3], const double dy[3],
+                    double e[3])
 {
     e[1] = v[1] - v0[1];
     e[2] = v[2] - v0[2];
-    const double squares = 2 * vec3_dot(y, dy) - vec3_dot(dy, dy) - e[1] * (v[1] + v0[1]) - e[2] * (v[2] + v0[2]);
+    const double squares =
+        2 * vec3_dot(y, dy) - vec3_dot(dy, dy) - e[1] * (v[1] + v0[1]) - e[2] * (v[2] + v0[2]);
     e[0] = v[0] + v0[0] > 1 ? squares / (v[0] + v0[0]) : v[0] - v0[0];
 }
 
-static void strains_at(const strain_line *line, int g, const point *p, const double y[3], const double dy[3], double e[6])
+static void strains_at(const strain_line *line, int g, const point *p, const double y[3],
+                       const double dy[3], double e[6])
 {
     double psi[3], T[9];
     stretch(p->v, line->rest[g], y, dy, e);
@@ -67,7 +71,8 @@ static void first(const strain_line *line, const nodes *s, int g, const point *p
             rotation_conjugate(s->q[k], inverse);
             rotation_compose(weight, inverse, turn); /* w . (theta q) = theta . Im(w q^-1) */
             for (int i = 0; i < 3; i++) {
-                out[i] = row < 3 ? line->dN[g][k] * p->R[3 * i + row] : 0; /* r per l0, e times l0 */
+                out[i] =
+                    row < 3 ? line->dN[g][k] * p->R[3 * i + row] : 0; /* r per l0, e times l0 */
                 out[3 + i] = l0 / 2 * turn[i + 1];
             }
             out[6] = 0;
@@ -76,15 +81,17 @@ static void first(const strain_line *line, const nodes *s, int g, const point *p
 }
 
 /* H += second derivatives of f . v + n . kappa between nodes k and l; both weights in [N m]. */
-static void second_of_pair(const strain_line *line, const nodes *s, int g, int k, int l, const double QQ[16], const double QS[16],
-                           const double QY[12], double H[])
+static void second_of_pair(const strain_line *line, const nodes *s, int g, int k, int l,
+                           const double QQ[16], const double QS[16], const double QY[12],
+                           double H[])
 {
     const int n = 7 * line->nodes;
     const double Nk = line->N[g][k], Nl = line->N[g][l], dk = line->dN[g][k], dl = line->dN[g][l];
     double X[16], Pk[12], Pl[12], XP[12], block[9] = {0}, mixed[9] = {0};
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
-            X[4 * i + j] = (Nk * Nl * QQ[4 * i + j] + Nk * dl * QS[4 * i + j] + dk * Nl * QS[4 * j + i]) / 4;
+            X[4 * i + j] =
+                (Nk * Nl * QQ[4 * i + j] + Nk * dl * QS[4 * i + j] + dk * Nl * QS[4 * j + i]) / 4;
     point_turn(s->q[k], Pk);
     point_turn(s->q[l], Pl);
     dense_mul(4, 4, 3, X, Pl, XP);
@@ -99,8 +106,8 @@ static void second_of_pair(const strain_line *line, const nodes *s, int g, int k
         }
 }
 
-static void second(const strain_line *line, const nodes *s, int g, const point *p, const double weight[6], const double J[],
-                   double H[])
+static void second(const strain_line *line, const nodes *s, int g, const point *p,
+                   const double weight[6], const double J[], double H[])
 {
     const int n = 7 * line->nodes;
     double turn[3], stretching[3], Q[4], S[4], QQ[16], QS[16], QY[12];
@@ -110,7 +117,8 @@ static void second(const strain_line *line, const nodes *s, int g, const point *
     }
     if (line->rotation != MEASURE_QUARTER) {
         /* n . psi(x): T^T n takes n's place, and the second derivative of psi meets dx = T^-1 J twice. */
-        double psi[3], T[9], inner[9], inverse[9], bent[9], dx[3 * 7 * ELEMENT_MAX_NODES], weighted[3];
+        double psi[3], T[9], inner[9], inverse[9], bent[9], dx[3 * 7 * ELEMENT_MAX_NODES],
+            weighted[3];
         int pivot[3];
         measure_of(line->rotation, p->kappa, psi, T);
         measure_second(line->rotation, p->kappa, turn, inner);
@@ -178,8 +186,8 @@ void strain_of(const strain_line *line, const node_state x[], strain_output *out
 }
 
 /* R^T r' and measures of rotation at the points, of nodes along the arc without stress. */
-static void observe_rest(strain_line *line, const double turn[3], const double e[3], const double at[],
-                         double rest[STRAIN_MAX_POINTS][6])
+static void observe_rest(strain_line *line, const double turn[3], const double e[3],
+                         const double at[], double rest[STRAIN_MAX_POINTS][6])
 {
     nodes s;
     memset(s.u, 0, sizeof s.u);
@@ -194,12 +202,14 @@ static void observe_rest(strain_line *line, const double turn[3], const double e
     }
 }
 
-void strain_prepare(int nodes_count, int points, double l0, const double curvature[3], const double strain[3],
-                    measure_kind rotation, strain_line *line)
+void strain_prepare(int nodes_count, int points, double l0, const double curvature[3],
+                    const double strain[3], measure_kind rotation, strain_line *line)
 {
-    const double turn[3] = {curvature[0] * l0, curvature[1] * l0, curvature[2] * l0}, along[3] = {1, 0, 0};
+    const double turn[3] = {curvature[0] * l0, curvature[1] * l0, curvature[2] * l0},
+                 along[3] = {1, 0, 0};
     const double strained[3] = {1 + strain[0], strain[1], strain[2]};
-    double x[STRAIN_MAX_POINTS], w[STRAIN_MAX_POINTS], at[ELEMENT_MAX_NODES], without[STRAIN_MAX_POINTS][6];
+    double x[STRAIN_MAX_POINTS], w[STRAIN_MAX_POINTS], at[ELEMENT_MAX_NODES],
+        without[STRAIN_MAX_POINTS][6];
     memset(line, 0, sizeof *line);
     line->nodes = nodes_count;
     line->points = points;

@@ -12,17 +12,21 @@ static int variables(const stages *s, int k, double *factor)
     return end ? s->unknowns + 3 : 3 * k;
 }
 
-static void add_point(int nodes, const double N[], const double dN[], const double gradient[STAGE_SPACE],
-                      double H[STAGE_SPACE][STAGE_SPACE], sums *a)
+static void add_point(int nodes, const double N[], const double dN[],
+                      const double gradient[STAGE_SPACE], double H[STAGE_SPACE][STAGE_SPACE],
+                      sums *a)
 {
     for (int l = 0; l < nodes; l++) {
         double turn[9], slope[9];
         for (int i = 0; i < 3; i++) {
             a->g[l][i] += N[l] * gradient[STAGE_TURN + i] + dN[l] * gradient[STAGE_SLOPE + i];
             for (int j = 0; j < 3; j++) {
-                turn[3 * i + j] = H[STAGE_TURN + i][STAGE_TURN + j] * N[l] + H[STAGE_TURN + i][STAGE_SLOPE + j] * dN[l];
-                slope[3 * i + j] = H[STAGE_SLOPE + i][STAGE_TURN + j] * N[l] + H[STAGE_SLOPE + i][STAGE_SLOPE + j] * dN[l];
-                a->Y[l][3 * i + j] += N[l] * H[STAGE_TURN + i][STAGE_FORCE + j] + dN[l] * H[STAGE_SLOPE + i][STAGE_FORCE + j];
+                turn[3 * i + j] = H[STAGE_TURN + i][STAGE_TURN + j] * N[l] +
+                                  H[STAGE_TURN + i][STAGE_SLOPE + j] * dN[l];
+                slope[3 * i + j] = H[STAGE_SLOPE + i][STAGE_TURN + j] * N[l] +
+                                   H[STAGE_SLOPE + i][STAGE_SLOPE + j] * dN[l];
+                a->Y[l][3 * i + j] += N[l] * H[STAGE_TURN + i][STAGE_FORCE + j] +
+                                      dN[l] * H[STAGE_SLOPE + i][STAGE_FORCE + j];
             }
         }
         for (int k = 0; k <= l; k++)
@@ -46,13 +50,15 @@ static void warping_row(const stages *s, int i, double D[6][STAGE_SPACE], sums *
         double factor;
         const int first = variables(s, k, &factor);
         for (int j = 0; j < 3; j++)
-            dz[first + j] += factor * (s->N[i][k] * row[STAGE_TURN + j] + s->dN[i][k] * row[STAGE_SLOPE + j]);
+            dz[first + j] +=
+                factor * (s->N[i][k] * row[STAGE_TURN + j] + s->dN[i][k] * row[STAGE_SLOPE + j]);
     }
     for (int j = 0; j < 3; j++)
         dz[j] += row[STAGE_FORCE + j];
 }
 
-void sums_add(const stages *s, int i, const stage *p, const double force[3], const double gradient[6], const double M[36], sums *a)
+void sums_add(const stages *s, int i, const stage *p, const double force[3],
+              const double gradient[6], const double M[36], sums *a)
 {
     double D[6][STAGE_SPACE], H[STAGE_SPACE][STAGE_SPACE], slope[STAGE_SPACE] = {0};
     stage_rows(p, force, D);

@@ -5,7 +5,8 @@
 void turn_forms(double t, turn_form *orientation, turn_form *curvature)
 {
     /* u = cos^2(angle/4); u' = -u^2/16 */
-    const double u = 16 / (16 + t), u2 = u * u, first[2] = {-u2 / 16, -u2 * u / 8}, second[2] = {u2 * u / 128, 3 * u2 * u2 / 128};
+    const double u = 16 / (16 + t), u2 = u * u, first[2] = {-u2 / 16, -u2 * u / 8},
+                 second[2] = {u2 * u / 128, 3 * u2 * u2 / 128};
     *orientation = (turn_form){
         .s = {1, 0, 0},
         .p = {2 * u2 - u, 2 * first[1] - first[0], 2 * second[1] - second[0]},
@@ -27,20 +28,23 @@ void turn_vector(const turn_form *f, const double x[3], const double y[3], doubl
         out[i] = f->s[0] * y[i] - f->p[0] * once[i] + f->q[0] * twice[i];
 }
 
-void turn_gradient(const turn_form *f, const double x[3], const double w[3], const double y[3], double dx[3], double dy[3])
+void turn_gradient(const turn_form *f, const double x[3], const double w[3], const double y[3],
+                   double dx[3], double dy[3])
 {
     double yw[3], wx[3];
     vec3_cross(y, w, yw);
     vec3_cross(w, x, wx);
     const double t = vec3_dot(x, x), wy = vec3_dot(w, y), xw = vec3_dot(x, w), xy = vec3_dot(x, y);
-    const double along = 2 * (f->s[1] * wy - f->p[1] * vec3_dot(x, yw) + f->q[1] * (xw * xy - t * wy) - f->q[0] * wy);
+    const double along = 2 * (f->s[1] * wy - f->p[1] * vec3_dot(x, yw) +
+                              f->q[1] * (xw * xy - t * wy) - f->q[0] * wy);
     for (int i = 0; i < 3; i++) {
         dx[i] = along * x[i] - f->p[0] * yw[i] + f->q[0] * (w[i] * xy + y[i] * xw);
         dy[i] = (f->s[0] - f->q[0] * t) * w[i] - f->p[0] * wx[i] + f->q[0] * xw * x[i];
     }
 }
 
-void turn_add_hessian(const turn_form *f, const double x[3], const double w[3], const double y[3], double XX[9], double XY[9])
+void turn_add_hessian(const turn_form *f, const double x[3], const double w[3], const double y[3],
+                      double XX[9], double XY[9])
 {
     double yw[3], wx[3], slope[3];
     vec3_cross(y, w, yw);
@@ -53,10 +57,14 @@ void turn_add_hessian(const turn_form *f, const double x[3], const double w[3], 
         slope[i] = 2 * (f->q[1] * (w[i] * xy + y[i] * xw - 2 * x[i] * wy) - f->p[1] * yw[i]);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
-            const double cross = i == j ? 0 : (j - i + 3) % 3 == 1 ? w[3 - i - j] : -w[3 - i - j]; /* w~ transposed */
-            XX[3 * i + j] += bent * x[i] * x[j] + slope[i] * x[j] + x[i] * slope[j] + f->q[0] * (w[i] * y[j] + y[i] * w[j]) +
-                             (i == j ? level : 0);
-            XY[3 * i + j] += 2 * x[i] * ((f->s[1] - f->q[1] * t - f->q[0]) * w[j] - f->p[1] * wx[j] + f->q[1] * xw * x[j]) -
+            const double cross = i == j                 ? 0
+                                 : (j - i + 3) % 3 == 1 ? w[3 - i - j]
+                                                        : -w[3 - i - j]; /* w~ transposed */
+            XX[3 * i + j] += bent * x[i] * x[j] + slope[i] * x[j] + x[i] * slope[j] +
+                             f->q[0] * (w[i] * y[j] + y[i] * w[j]) + (i == j ? level : 0);
+            XY[3 * i + j] += 2 * x[i] *
+                                 ((f->s[1] - f->q[1] * t - f->q[0]) * w[j] - f->p[1] * wx[j] +
+                                  f->q[1] * xw * x[j]) -
                              f->p[0] * cross + f->q[0] * (w[i] * x[j] + (i == j ? xw : 0));
         }
 }

@@ -16,9 +16,11 @@ void turn_forms(double t, turn_form *orientation, turn_form *curvature);
 void turn_vector(const turn_form *f, const double x[3], const double y[3], double out[3]);
 
 /* Gradients of B with respect to x and y. */
-void turn_gradient(const turn_form *f, const double x[3], const double w[3], const double y[3], double dx[3], double dy[3]);
+void turn_gradient(const turn_form *f, const double x[3], const double w[3], const double y[3],
+                   double dx[3], double dy[3]);
 
 /* XX += d2B/dx2, XY += d2B/dx dy (rows x). */
-void turn_add_hessian(const turn_form *f, const double x[3], const double w[3], const double y[3], double XX[9], double XY[9]);
+void turn_add_hessian(const turn_form *f, const double x[3], const double w[3], const double y[3],
+                      double XX[9], double XY[9]);
 
 #endif

@@ -16,7 +16,8 @@ enum {
     ORDER = 16,
     POINTS = INTERVALS * ORDER
 };
-static const double lambda_short = 20; /* beyond it the layers are functions of their own, and few polynomials are needed */
+static const double lambda_short =
+    20; /* beyond it the layers are functions of their own, and few polynomials are needed */
 
 typedef struct basis {
     int bubbles, layers;
@@ -71,8 +72,9 @@ static void graded_points(double lambda, double x[], double rest[], double w[])
 }
 
 /* Mean[stages][functions]: P of every function at the stages; K: 2 x energy of their slopes and of what P does not see. */
-static void integrate(const constants *c, const basis *b, int stages, const double x[], const double w[],
-                      double mean[STAGES * FUNCTIONS], double K[FUNCTIONS * FUNCTIONS])
+static void integrate(const constants *c, const basis *b, int stages, const double x[],
+                      const double w[], double mean[STAGES * FUNCTIONS],
+                      double K[FUNCTIONS * FUNCTIONS])
 {
     const int n = b->bubbles + 2;
     double at[POINTS], rest[POINTS], weight[POINTS];
@@ -92,18 +94,21 @@ static void integrate(const constants *c, const basis *b, int stages, const doub
                         value[j] -= L[i] * mean[i * n + j];
             for (int i = 0; i < n && pass == 1; i++)
                 for (int j = 0; j < n; j++)
-                    K[i * n + j] += weight[k] * (c->EIw * slope[i] * slope[j] + c->GJ * value[i] * value[j]);
+                    K[i * n + j] +=
+                        weight[k] * (c->EIw * slope[i] * slope[j] + c->GJ * value[i] * value[j]);
         }
 }
 
-void warping_energy(const constants *c, int stages, const double x[], const double w[], double S[WARPING_MAX * WARPING_MAX])
+void warping_energy(const constants *c, int stages, const double x[], const double w[],
+                    double S[WARPING_MAX * WARPING_MAX])
 {
     enum { SIZE = BUBBLES + STAGES };
     const double lambda = sqrt(c->GJ / c->EIw);
     const int layers = lambda > lambda_short;
     const basis b = {.layers = layers, .bubbles = layers ? stages + 3 : BUBBLES, .lambda = lambda};
     const int n = b.bubbles + 2, m = stages + 2, size = b.bubbles + stages;
-    double mean[STAGES * FUNCTIONS], K[FUNCTIONS * FUNCTIONS], A[SIZE * SIZE] = {0}, X[SIZE * WARPING_MAX] = {0};
+    double mean[STAGES * FUNCTIONS], K[FUNCTIONS * FUNCTIONS], A[SIZE * SIZE] = {0},
+                                                                        X[SIZE * WARPING_MAX] = {0};
     int pivot[SIZE];
     integrate(c, &b, stages, x, w, mean, K);
     /* Unknown: bubbles and w T, T the warping torque at the stages: 1/2 a K a + T w (kappa - P a) - 1/2 flexibility w T^2. */
@@ -122,7 +127,9 @@ void warping_energy(const constants *c, int stages, const double x[], const doub
         for (int j = 0; j < 2; j++)
             X[row * m + stages + j] = mean[k * n + j];
     }
-    dense_lu(size, A, pivot); /* never singular: K is positive definite on the bubbles, which outnumber the stages */
+    dense_lu(
+        size, A,
+        pivot); /* never singular: K is positive definite on the bubbles, which outnumber the stages */
     dense_lu_solve(size, m, A, pivot, X);
     /* The gradient with respect to z: w T at the stages, and K a - P^T w T at the ends. */
     memset(S, 0, WARPING_MAX * WARPING_MAX * sizeof *S);

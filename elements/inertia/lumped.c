@@ -23,7 +23,8 @@ void lumped_directors(const double rotary[3], double j[3])
         j[k] = half - rotary[k];
 }
 
-static void add_translation(double mass, const node_state *x, const element_spin *spin, int at, int n, inertia_output *out)
+static void add_translation(double mass, const node_state *x, const element_spin *spin, int at,
+                            int n, inertia_output *out)
 {
     static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     moving_vector v = {.mass = mass, .at = at, .columns = 3, .T = identity};
@@ -33,15 +34,18 @@ static void add_translation(double mass, const node_state *x, const element_spin
     moving_add(&v, spin, n, out, F);
 }
 
-static void add_rotation(const lumped_mass *l, double share, const node_state *x, const element_spin *spin, int at, int n,
-                         inertia_output *out)
+static void add_rotation(const lumped_mass *l, double share, const node_state *x,
+                         const element_spin *spin, int at, int n, inertia_output *out)
 {
     double j[3];
     lumped_directors(l->rotary, j);
     for (int k = 0; k < 3; k++) {
         double T[9] = {0}, F[3];
-        const moving_vector v = {
-            .mass = share * j[k], .y = {x->R[k], x->R[3 + k], x->R[6 + k]}, .at = at + 3, .columns = 3, .T = T};
+        const moving_vector v = {.mass = share * j[k],
+                                 .y = {x->R[k], x->R[3 + k], x->R[6 + k]},
+                                 .at = at + 3,
+                                 .columns = 3,
+                                 .T = T};
         moving_turning(v.y, 0, 3, T);
         moving_add(&v, spin, n, out, F);
         if (out->N != NULL)
@@ -50,7 +54,8 @@ static void add_rotation(const lumped_mass *l, double share, const node_state *x
 }
 
 /* Warping moves the section along its normal by -omega a, in a turning frame away from the axis: a vector a n_X of mass rho Iw. */
-static void add_warping(double mass, const node_state *x, const element_spin *spin, int at, int n, inertia_output *out)
+static void add_warping(double mass, const node_state *x, const element_spin *spin, int at, int n,
+                        inertia_output *out)
 {
     enum { COLUMNS = 4, A = 3 };
     const double normal[3] = {x->R[0], x->R[3], x->R[6]};
@@ -72,8 +77,8 @@ static void add_warping(double mass, const node_state *x, const element_spin *sp
     }
 }
 
-void lumped_add(const lumped_mass *l, double share, const node_state *x, const element_spin *spin, int at, int n,
-                inertia_output *out)
+void lumped_add(const lumped_mass *l, double share, const node_state *x, const element_spin *spin,
+                int at, int n, inertia_output *out)
 {
     add_translation(share * l->mass, x, spin, at, n, out);
     if (l->turns)
@@ -82,10 +87,12 @@ void lumped_add(const lumped_mass *l, double share, const node_state *x, const e
         add_warping(share * l->warping, x, spin, at, n, out);
     for (int i = 0; i < 3 && !l->turns && out->M != NULL; i++)
         for (int k = 0; k < 3; k++)
-            out->M[(at + 3 + i) * n + at + 3 + k] += share * l->rotary[0] * x->R[3 * i] * x->R[3 * k];
+            out->M[(at + 3 + i) * n + at + 3 + k] +=
+                share * l->rotary[0] * x->R[3 * i] * x->R[3 * k];
 }
 
-status lumped_element(const lumped_mass *whole, int nodes, const node_state x[], const element_spin *spin, inertia_output *out)
+status lumped_element(const lumped_mass *whole, int nodes, const node_state x[],
+                      const element_spin *spin, inertia_output *out)
 {
     static const double two[] = {0.5, 0.5}, three[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
     const int n = NODE_COORDINATES * nodes;

@@ -8,18 +8,19 @@ typedef struct lumped_mass {
     double mass;      /* [kg] */
     double rotary[3]; /* Ip, Iy, Iz about the columns of R [kg m^2] */
     double warping;   /* [kg m^4] */
-    int turns;        /* 1: rotary inertia; 0: a twist has inertia, but a rotating frame does nothing to it */
+    int turns; /* 1: rotary inertia; 0: a twist has inertia, but a rotating frame does nothing to it */
 } lumped_mass;
 
 /* Of `length` [m] of beam.  Without FEATURE_ROTARY_INERTIA only translations and the polar moment of the twist count. */
 lumped_mass lumped_of(const section *c, unsigned features, double length);
 
 /* Adds `share` of it at a node whose coordinates begin at `at` of n. */
-void lumped_add(const lumped_mass *l, double share, const node_state *x, const element_spin *spin, int at, int n,
-                inertia_output *out);
+void lumped_add(const lumped_mass *l, double share, const node_state *x, const element_spin *spin,
+                int at, int n, inertia_output *out);
 
 /* An element of two or three nodes that carry its mass: a half each, or Simpson's shares. */
-status lumped_element(const lumped_mass *whole, int nodes, const node_state x[], const element_spin *spin, inertia_output *out);
+status lumped_element(const lumped_mass *whole, int nodes, const node_state x[],
+                      const element_spin *spin, inertia_output *out);
 
 /* Masses j of the three unit vectors of a section that have the rotary inertia diag(Ip, Iy, Iz) = sum_k j_k (1 - e_k e_k^T). */
 void lumped_directors(const double rotary[3], double j[3]);

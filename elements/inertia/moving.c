@@ -31,7 +31,8 @@ static void project(const double omega[3], const double y[3], double Py[3])
     vec3_cross(wy, omega, Py);
 }
 
-void moving_add(const moving_vector *v, const element_spin *spin, int n, inertia_output *out, double F[3])
+void moving_add(const moving_vector *v, const element_spin *spin, int n, inertia_output *out,
+                double F[3])
 {
     static const double none[3] = {0, 0, 0};
     const double *omega = spin != NULL ? spin->omega : none;

@@ -12,7 +12,8 @@ void arc_at(const double turn[3], const double e[3], double x, double r[3], doub
     /* (1 - cos w)/w^2 and (w - sin w)/w^3 */
     const double a = w < 1e-4 ? 0.5 - w * w / 24 : 2 * half * half / (w * w);
     const double b =
-        w < 0.3 ? (1 - w * w / 20 * (1 - w * w / 42 * (1 - w * w / 72 * (1 - w * w / 110)))) / 6 : (w - sin(w)) / (w * w * w);
+        w < 0.3 ? (1 - w * w / 20 * (1 - w * w / 42 * (1 - w * w / 72 * (1 - w * w / 110)))) / 6
+                : (w - sin(w)) / (w * w * w);
     double once[3], twice[3];
     vec3_cross(part, e, once);
     vec3_cross(part, once, twice);

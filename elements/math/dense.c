@@ -4,7 +4,8 @@
 #include <float.h>
 #include <string.h>
 
-void dense_mul(int m, int k, int n, const double *restrict A, const double *restrict B, double *restrict C)
+void dense_mul(int m, int k, int n, const double *restrict A, const double *restrict B,
+               double *restrict C)
 {
     memset(C, 0, sizeof(double) * (size_t)m * (size_t)n);
     for (int i = 0; i < m; i++)
@@ -17,7 +18,8 @@ void dense_mul(int m, int k, int n, const double *restrict A, const double *rest
         }
 }
 
-void dense_add_transpose_mul(int m, int k, int n, const double *restrict A, const double *restrict B, double *restrict C)
+void dense_add_transpose_mul(int m, int k, int n, const double *restrict A,
+                             const double *restrict B, double *restrict C)
 {
     for (int l = 0; l < k && n == 1; l++)
         for (int i = 0; i < m; i++)
@@ -60,8 +62,8 @@ void dense_mul_vec(int m, int n, const double *A, const double *x, double *y)
 }
 
 /* K += J^T (S J); sizes that are known where it is inlined make straight code. */
-static inline void congruence(int m, int n, const double *restrict J, const double *restrict S, double *restrict K,
-                              double *restrict work)
+static inline void congruence(int m, int n, const double *restrict J, const double *restrict S,
+                              double *restrict K, double *restrict work)
 {
     for (int i = 0; i < m; i++) {
         double *row = work + i * n;

@@ -10,7 +10,8 @@ static inline double vec3_dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-static inline void vec3_cross(const double a[3], const double b[3], double c[3]) /* c must not alias */
+static inline void vec3_cross(const double a[3], const double b[3],
+                              double c[3]) /* c must not alias */
 {
     c[0] = a[1] * b[2] - a[2] * b[1];
     c[1] = a[2] * b[0] - a[0] * b[2];
@@ -29,14 +30,16 @@ static inline double vec3_elongation(const double d[3], const double moved[3], d
     return vec3_dot(sum, moved) / (sqrt(vec3_dot(d, d)) + l0);
 }
 
-static inline void mat3_mul(const double A[9], const double B[9], double C[9]) /* C = A B, no alias */
+static inline void mat3_mul(const double A[9], const double B[9],
+                            double C[9]) /* C = A B, no alias */
 {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             C[3 * i + j] = A[3 * i] * B[j] + A[3 * i + 1] * B[3 + j] + A[3 * i + 2] * B[6 + j];
 }
 
-static inline void mat3_transpose_mul(const double A[9], const double B[9], double C[9]) /* C = A^T B, no alias */
+static inline void mat3_transpose_mul(const double A[9], const double B[9],
+                                      double C[9]) /* C = A^T B, no alias */
 {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
@@ -49,7 +52,8 @@ static inline void mat3_mul_vec(const double A[9], const double v[3], double w[3
         w[i] = A[3 * i] * v[0] + A[3 * i + 1] * v[1] + A[3 * i + 2] * v[2];
 }
 
-static inline void mat3_transpose_mul_vec(const double A[9], const double v[3], double w[3]) /* w = A^T v, no alias */
+static inline void mat3_transpose_mul_vec(const double A[9], const double v[3],
+                                          double w[3]) /* w = A^T v, no alias */
 {
     for (int i = 0; i < 3; i++)
         w[i] = A[i] * v[0] + A[3 + i] * v[1] + A[6 + i] * v[2];

@@ -26,7 +26,8 @@ void rotation_log(const double q[4], double phi[3])
 {
     const double v = vec3_norm(q + 1), sign = q[0] < 0 ? -1 : 1;
     /* angle = 2 atan2(v, |w|); angle/v = 2/w (1 - (v/w)^2/3 + ..) near 0, where |w| = 1 */
-    const double scale = v > 1e-5 ? 2 * atan2(v, sign * q[0]) / v : 2 / (sign * q[0]) * (1 - v * v / 3);
+    const double scale =
+        v > 1e-5 ? 2 * atan2(v, sign * q[0]) / v : 2 / (sign * q[0]) * (1 - v * v / 3);
     for (int i = 0; i < 3; i++)
         phi[i] = sign * scale * q[i + 1];
 }

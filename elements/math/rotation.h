@@ -8,9 +8,10 @@
 #define BEAMWORK_ROTATION_H
 
 void rotation_identity(double q[4]);
-void rotation_exp(const double phi[3], double q[4]);                       /* phi [rad] */
-void rotation_log(const double q[4], double phi[3]);                       /* |phi| <= pi, the shorter way */
-void rotation_compose(const double a[4], const double b[4], double ab[4]); /* ab = a o b; ab may alias */
+void rotation_exp(const double phi[3], double q[4]); /* phi [rad] */
+void rotation_log(const double q[4], double phi[3]); /* |phi| <= pi, the shorter way */
+void rotation_compose(const double a[4], const double b[4],
+                      double ab[4]); /* ab = a o b; ab may alias */
 void rotation_conjugate(const double q[4], double inverse[4]);
 void rotation_normalise(double q[4]);
 void rotation_matrix(const double q[4], double R[9]);

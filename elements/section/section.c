@@ -10,8 +10,9 @@
 void section_spec_init(section_spec *spec)
 {
     memset(spec, 0, sizeof *spec);
-    double *given[] = {&spec->given.Iw,  &spec->given.ys,  &spec->given.zs,  &spec->given.Dy, &spec->given.Dz, &spec->given.Dw,
-                       &spec->given.Dyz, &spec->given.Dyw, &spec->given.Dzw, &spec->given.It, &spec->given.Ip};
+    double *given[] = {&spec->given.Iw,  &spec->given.ys, &spec->given.zs,  &spec->given.Dy,
+                       &spec->given.Dz,  &spec->given.Dw, &spec->given.Dyz, &spec->given.Dyw,
+                       &spec->given.Dzw, &spec->given.It, &spec->given.Ip};
     for (size_t i = 0; i < sizeof given / sizeof given[0]; i++)
         *given[i] = NAN;
 }
@@ -30,9 +31,11 @@ static status rectangle(const section_spec *s, section *out, fault *f)
 {
     const double w = s->width, h = s->height;
     if (!(w > 0) || !isfinite(w))
-        return fault_set(f, STATUS_REFUSED, "section: width of the rectangle is %g m; it must be positive", w);
+        return fault_set(f, STATUS_REFUSED,
+                         "section: width of the rectangle is %g m; it must be positive", w);
     if (!(h > 0) || !isfinite(h))
-        return fault_set(f, STATUS_REFUSED, "section: thickness of the rectangle is %g m; it must be positive", h);
+        return fault_set(f, STATUS_REFUSED,
+                         "section: thickness of the rectangle is %g m; it must be positive", h);
     const double wide = fmax(w, h), thin = fmin(w, h);
     out->A = w * h;
     out->Iy = h * w * w * w / 12;
@@ -63,7 +66,8 @@ static status invert_on_support(const double from[9], double to[9], const char *
     static const char *const axis[] = {"y", "z", "w"};
     for (int i = 0; i < n; i++) {
         if (!(from[4 * index[i]] > 0))
-            return fault_set(f, STATUS_REFUSED, "section: %s_%s = %g must be positive", name, axis[index[i]], from[4 * index[i]]);
+            return fault_set(f, STATUS_REFUSED, "section: %s_%s = %g must be positive", name,
+                             axis[index[i]], from[4 * index[i]]);
         scale[i] = sqrt(from[4 * index[i]]);
     }
     double inverse[9] = {0};
@@ -74,7 +78,8 @@ static status invert_on_support(const double from[9], double to[9], const char *
     }
     if (dense_cholesky(n, scaled) != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "section: the shear rigidity matrix %s is not positive definite (its terms off the diagonal are too large "
+                         "section: the shear rigidity matrix %s is not positive definite (its "
+                         "terms off the diagonal are too large "
                          "for %s_y = %g, %s_z = %g, %s_w = %g); correct the section's data",
                          name, name, from[0], name, from[4], name, from[8]);
     dense_cholesky_solve(n, n, scaled, inverse);
@@ -97,7 +102,8 @@ static status apply_given(const section_spec *s, section *out, fault *f)
     override(&out->zs, s->given.zs);
     override(&out->It, s->given.It);
     override(&out->Ip, s->given.Ip);
-    const double diagonal[3] = {s->given.Dy, s->given.Dz, s->given.Dw}, off[3] = {s->given.Dyz, s->given.Dyw, s->given.Dzw};
+    const double diagonal[3] = {s->given.Dy, s->given.Dz, s->given.Dw},
+                 off[3] = {s->given.Dyz, s->given.Dyw, s->given.Dzw};
     static const int row[3] = {0, 0, 1}, column[3] = {1, 2, 2};
     int changed = 0;
     for (int i = 0; i < 3; i++)
@@ -115,13 +121,17 @@ static status apply_given(const section_spec *s, section *out, fault *f)
 static status check_material(const section_spec *s, fault *f)
 {
     if (!(s->young > 0) || !isfinite(s->young))
-        return fault_set(f, STATUS_REFUSED, "section: young = %g Pa; the modulus of elasticity must be positive", s->young);
+        return fault_set(f, STATUS_REFUSED,
+                         "section: young = %g Pa; the modulus of elasticity must be positive",
+                         s->young);
     if (!(s->shear_modulus > 0) || !isfinite(s->shear_modulus))
         return fault_set(f, STATUS_REFUSED,
-                         "section: shear_modulus = %g Pa; it must be positive (Poisson's ratio between -1 and 0.5)",
+                         "section: shear_modulus = %g Pa; it must be positive (Poisson's ratio "
+                         "between -1 and 0.5)",
                          s->shear_modulus);
     if (!(s->density >= 0) || !isfinite(s->density))
-        return fault_set(f, STATUS_REFUSED, "section: density = %g kg/m^3; it must not be negative", s->density);
+        return fault_set(f, STATUS_REFUSED, "section: density = %g kg/m^3; it must not be negative",
+                         s->density);
     return STATUS_OK;
 }
 
@@ -131,13 +141,16 @@ static status check_constants(const section *c, fault *f)
         const char *name;
         double value;
         int may_vanish;
-    } all[] = {{"A", c->A, 0}, {"Iy", c->Iy, 0}, {"Iz", c->Iz, 0}, {"It", c->It, 1}, {"Iw", c->Iw, 1}, {"Ip", c->Ip, 0}};
+    } all[] = {{"A", c->A, 0},   {"Iy", c->Iy, 0}, {"Iz", c->Iz, 0},
+               {"It", c->It, 1}, {"Iw", c->Iw, 1}, {"Ip", c->Ip, 0}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        if (!(all[i].value > 0 || (all[i].may_vanish && all[i].value == 0)) || !isfinite(all[i].value))
-            return fault_set(f, STATUS_REFUSED, "section: %s = %g; it must be %s", all[i].name, all[i].value,
-                             all[i].may_vanish ? "positive or zero" : "positive");
+        if (!(all[i].value > 0 || (all[i].may_vanish && all[i].value == 0)) ||
+            !isfinite(all[i].value))
+            return fault_set(f, STATUS_REFUSED, "section: %s = %g; it must be %s", all[i].name,
+                             all[i].value, all[i].may_vanish ? "positive or zero" : "positive");
     if (!isfinite(c->ys) || !isfinite(c->zs))
-        return fault_set(f, STATUS_REFUSED, "section: the shear centre (%g, %g) m is not finite", c->ys, c->zs);
+        return fault_set(f, STATUS_REFUSED, "section: the shear centre (%g, %g) m is not finite",
+                         c->ys, c->zs);
     return STATUS_OK;
 }
 
@@ -159,8 +172,8 @@ status section_compute(const section_spec *spec, section *out, fault *f)
     out->shear_modulus = spec->shear_modulus;
     out->density = spec->density;
     /* Whichever of D and F is there gives the other; both zero: rigid in shear. */
-    outcome =
-        out->F[0] == 0 && out->D[0] != 0 ? invert_on_support(out->D, out->F, "D", f) : invert_on_support(out->F, out->D, "F", f);
+    outcome = out->F[0] == 0 && out->D[0] != 0 ? invert_on_support(out->D, out->F, "D", f)
+                                               : invert_on_support(out->F, out->D, "F", f);
     if (outcome == STATUS_OK)
         outcome = apply_given(spec, out, f);
     return outcome == STATUS_OK ? check_constants(out, f) : outcome;

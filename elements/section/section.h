@@ -22,14 +22,16 @@ typedef struct section {
     double Ip;            /* polar moment Iy + Iz about the centroid [m^4] */
     double wagner_y;      /* int y (y^2 + z^2) dA [m^5] */
     double wagner_z;      /* int z (y^2 + z^2) dA [m^5] */
-    double wagner_torque; /* c of the energy E c kx^4 per length: w^5 t / 1440 for a sheet [m^6] (N Eq. 46) */
     double
-        D[9]; /* shear rigidities / G, order y, z, omega [m^2, m^2, m^4; m^3 off the diagonal]: (Qy, Qz, Mw) = G D (gy, gz, gw) */
-    double F[9];          /* D^-1, kept because it exists when D would be infinite (F = 0: shear-rigid) */
-    double axes_angle;    /* beta [rad]: principal y axis from the wall y axis */
-    double centroid[2];   /* in wall coordinates [m] */
-    int rectangle;        /* 1: a solid rectangle with the sizes below */
-    double width, height; /* of the rectangle: `width` along z (the sheet's w), `height` along y (its t) [m] */
+        wagner_torque; /* c of the energy E c kx^4 per length: w^5 t / 1440 for a sheet [m^6] (N Eq. 46) */
+    double D
+        [9]; /* shear rigidities / G, order y, z, omega [m^2, m^2, m^4; m^3 off the diagonal]: (Qy, Qz, Mw) = G D (gy, gz, gw) */
+    double F[9]; /* D^-1, kept because it exists when D would be infinite (F = 0: shear-rigid) */
+    double axes_angle;  /* beta [rad]: principal y axis from the wall y axis */
+    double centroid[2]; /* in wall coordinates [m] */
+    int rectangle;      /* 1: a solid rectangle with the sizes below */
+    double width,
+        height; /* of the rectangle: `width` along z (the sheet's w), `height` along y (its t) [m] */
 } section;
 
 typedef enum section_kind { SECTION_WALLS, SECTION_RECTANGLE, SECTION_CONSTANTS } section_kind;
@@ -44,11 +46,12 @@ typedef struct section_spec {
         int from, to;
         double thickness;
     } wall[SECTION_MAX_WALLS]; /* thickness [m] */
-    int thickness_terms;       /* 1: add the t^3 terms of formulation notes section 2 (off for thin-walled work) */
-    double width, height;      /* rectangle: along z and along y [m] */
-    double shear_factor[2];    /* rectangle: k for Qy and Qz; 0: 5/6 from the thickness terms; both 0: their warping shear too */
-    int sheet_warping;         /* rectangle: Iw = w^3 t^3/144 (same) and It = exact Saint-Venant series in either case */
-    section constants;         /* SECTION_CONSTANTS: taken as given; D or F must be given */
+    int thickness_terms; /* 1: add the t^3 terms of formulation notes section 2 (off for thin-walled work) */
+    double width, height; /* rectangle: along z and along y [m] */
+    double shear_factor
+        [2]; /* rectangle: k for Qy and Qz; 0: 5/6 from the thickness terms; both 0: their warping shear too */
+    int sheet_warping; /* rectangle: Iw = w^3 t^3/144 (same) and It = exact Saint-Venant series in either case */
+    section constants; /* SECTION_CONSTANTS: taken as given; D or F must be given */
     /* Overrides applied after computing (a printed table's rounded values); NAN: keep what was computed. */
     struct {
         double Iw, ys, zs, Dy, Dz, Dw, Dyz, Dyw, Dzw, It, Ip;

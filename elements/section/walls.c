@@ -29,7 +29,8 @@ static double product(const section_spec *s, const double f[], const double g[])
     double sum = 0;
     for (int w = 0; w < s->walls; w++)
         for (int k = 0; k < GAUSS; k++)
-            sum += gauss_weight[k] / 2 * wall_length(s, w) * s->wall[w].thickness * along(s, w, f, k) * along(s, w, g, k);
+            sum += gauss_weight[k] / 2 * wall_length(s, w) * s->wall[w].thickness *
+                   along(s, w, f, k) * along(s, w, g, k);
     return sum;
 }
 
@@ -50,7 +51,9 @@ static status grow_tree(const section_spec *s, tree *t, fault *f)
                 continue;
             if (reached[a] && reached[b])
                 return fault_set(f, STATUS_REFUSED,
-                                 "section: wall %d (points %d-%d) closes a cell; only open sections are offered: open it", w, a, b);
+                                 "section: wall %d (points %d-%d) closes a cell; only open "
+                                 "sections are offered: open it",
+                                 w, a, b);
             used[w] = grown = 1;
             t->wall[count] = w;
             t->near[count] = reached[a] ? a : b;
@@ -62,36 +65,43 @@ static status grow_tree(const section_spec *s, tree *t, fault *f)
     for (int w = 0; w < s->walls; w++)
         if (!used[w])
             return fault_set(f, STATUS_REFUSED,
-                             "section: wall %d (points %d-%d) is not connected to wall 0; join the walls at shared points", w,
-                             s->wall[w].from, s->wall[w].to);
+                             "section: wall %d (points %d-%d) is not connected to wall 0; join the "
+                             "walls at shared points",
+                             w, s->wall[w].from, s->wall[w].to);
     for (int p = 0; p < s->points; p++)
         if (!reached[p])
-            return fault_set(f, STATUS_REFUSED, "section: point %d belongs to no wall; remove it", p);
+            return fault_set(f, STATUS_REFUSED, "section: point %d belongs to no wall; remove it",
+                             p);
     return STATUS_OK;
 }
 
 static status check_walls(const section_spec *s, fault *f)
 {
-    if (s->walls < 1 || s->walls > SECTION_MAX_WALLS || s->points < 2 || s->points > SECTION_MAX_POINTS)
-        return fault_set(f, STATUS_REFUSED, "section: %d walls and %d points; give 1 to %d walls", s->walls, s->points,
-                         SECTION_MAX_WALLS);
+    if (s->walls < 1 || s->walls > SECTION_MAX_WALLS || s->points < 2 ||
+        s->points > SECTION_MAX_POINTS)
+        return fault_set(f, STATUS_REFUSED, "section: %d walls and %d points; give 1 to %d walls",
+                         s->walls, s->points, SECTION_MAX_WALLS);
     for (int w = 0; w < s->walls; w++) {
         const int a = s->wall[w].from, b = s->wall[w].to;
         if (a < 0 || a >= s->points || b < 0 || b >= s->points)
-            return fault_set(f, STATUS_REFUSED, "section: wall %d names point %d of %d; number points from 0", w,
+            return fault_set(f, STATUS_REFUSED,
+                             "section: wall %d names point %d of %d; number points from 0", w,
                              a < 0 || a >= s->points ? a : b, s->points);
         if (!(s->wall[w].thickness > 0) || !isfinite(s->wall[w].thickness))
-            return fault_set(f, STATUS_REFUSED, "section: thickness of wall %d is %g m; it must be positive", w,
+            return fault_set(f, STATUS_REFUSED,
+                             "section: thickness of wall %d is %g m; it must be positive", w,
                              s->wall[w].thickness);
         if (!(wall_length(s, w) > 0) || !isfinite(wall_length(s, w)))
-            return fault_set(f, STATUS_REFUSED, "section: length of wall %d is %g m; it must be positive", w, wall_length(s, w));
+            return fault_set(f, STATUS_REFUSED,
+                             "section: length of wall %d is %g m; it must be positive", w,
+                             wall_length(s, w));
     }
     return STATUS_OK;
 }
 
 /* Sectorial coordinate about a pole, zero mean: omega = int (y dz - z dy). */
-static void sectorial(const section_spec *s, const tree *t, const double y[], const double z[], double yp, double zp, double area,
-                      double omega[])
+static void sectorial(const section_spec *s, const tree *t, const double y[], const double z[],
+                      double yp, double zp, double area, double omega[])
 {
     double one[SECTION_MAX_POINTS];
     for (int p = 0; p < SECTION_MAX_POINTS; p++)
@@ -114,11 +124,13 @@ typedef struct wall_frame {
 static wall_frame frame_of(const section_spec *s, int w, const double y[], const double z[])
 {
     const int a = s->wall[w].from, b = s->wall[w].to;
-    const double length = wall_length(s, w), ty = (y[b] - y[a]) / length, tz = (z[b] - z[a]) / length;
+    const double length = wall_length(s, w), ty = (y[b] - y[a]) / length,
+                 tz = (z[b] - z[a]) / length;
     return (wall_frame){length, ty, tz, tz, -ty};
 }
 
-static void second_moments(const section_spec *s, const double y[], const double z[], double *Iyy, double *Izz, double *Iyz)
+static void second_moments(const section_spec *s, const double y[], const double z[], double *Iyy,
+                           double *Izz, double *Iyz)
 {
     *Iyy = product(s, z, z);
     *Izz = product(s, y, y);
@@ -132,23 +144,27 @@ static void second_moments(const section_spec *s, const double y[], const double
     }
 }
 
-static void wagner_constants(const section_spec *s, const double y[], const double z[], section *out)
+static void wagner_constants(const section_spec *s, const double y[], const double z[],
+                             section *out)
 {
     for (int w = 0; w < s->walls; w++) {
         const wall_frame n = frame_of(s, w, y, z);
         const double t = s->wall[w].thickness, bend = s->thickness_terms ? t * t * t / 12 : 0;
         for (int k = 0; k < GAUSS; k++) {
-            const double ds = gauss_weight[k] / 2 * n.length, yk = along(s, w, y, k), zk = along(s, w, z, k),
-                         square = yk * yk + zk * zk;
-            out->wagner_y += ds * (t * yk * square + bend * (yk * (1 + 2 * n.ny * n.ny) + 2 * zk * n.ny * n.nz));
-            out->wagner_z += ds * (t * zk * square + bend * (zk * (1 + 2 * n.nz * n.nz) + 2 * yk * n.ny * n.nz));
+            const double ds = gauss_weight[k] / 2 * n.length, yk = along(s, w, y, k),
+                         zk = along(s, w, z, k), square = yk * yk + zk * zk;
+            out->wagner_y +=
+                ds * (t * yk * square + bend * (yk * (1 + 2 * n.ny * n.ny) + 2 * zk * n.ny * n.nz));
+            out->wagner_z +=
+                ds * (t * zk * square + bend * (zk * (1 + 2 * n.nz * n.nz) + 2 * yk * n.ny * n.nz));
         }
     }
 }
 
 /* int S_i S_j / t ds of the shear flows, plus the share across the thickness. The walls are taken from the free ends
  * towards the root, so that the moments of everything beyond are known. */
-static void shear_flow(const section_spec *s, const tree *t, const double *value[3], const double pole[2], double sum[9])
+static void shear_flow(const section_spec *s, const tree *t, const double *value[3],
+                       const double pole[2], double sum[9])
 {
     double beyond[SECTION_MAX_POINTS][3] = {{0}};
     for (int k = s->walls - 1; k >= 0; k--) {
@@ -158,7 +174,9 @@ static void shear_flow(const section_spec *s, const tree *t, const double *value
             const double x = (1 + gauss_point[g]) / 2, ds = gauss_weight[g] / 2 * length;
             double S[3];
             for (int i = 0; i < 3; i++)
-                S[i] = beyond[far][i] + h * length * (x * value[i][far] + x * x / 2 * (value[i][near] - value[i][far]));
+                S[i] =
+                    beyond[far][i] +
+                    h * length * (x * value[i][far] + x * x / 2 * (value[i][near] - value[i][far]));
             for (int i = 0; i < 3; i++)
                 for (int j = 0; j < 3; j++)
                     sum[3 * i + j] += ds * S[i] * S[j] / h;
@@ -170,10 +188,12 @@ static void shear_flow(const section_spec *s, const tree *t, const double *value
         const wall_frame n = frame_of(s, w, value[0], value[1]);
         for (int g = 0; g < GAUSS; g++) {
             const double yk = along(s, w, value[0], g), zk = along(s, w, value[1], g);
-            const double r = (yk - pole[0]) * n.ty + (zk - pole[1]) * n.tz, slope[3] = {n.ny, n.nz, -r};
+            const double r = (yk - pole[0]) * n.ty + (zk - pole[1]) * n.tz,
+                         slope[3] = {n.ny, n.nz, -r};
             for (int i = 0; i < 3; i++)
                 for (int j = 0; j < 3; j++)
-                    sum[3 * i + j] += gauss_weight[g] / 2 * n.length * pow(h, 5) / 120 * slope[i] * slope[j];
+                    sum[3 * i + j] +=
+                        gauss_weight[g] / 2 * n.length * pow(h, 5) / 120 * slope[i] * slope[j];
         }
     }
 }
@@ -191,14 +211,15 @@ static double principal_angle(double Iyy, double Izz, double Iyz)
     return atan2(up, across) / 2;
 }
 
-static double warping_constant(const section_spec *s, const double y[], const double z[], const double omega[],
-                               const double pole[2])
+static double warping_constant(const section_spec *s, const double y[], const double z[],
+                               const double omega[], const double pole[2])
 {
     double Iw = product(s, omega, omega);
     for (int w = 0; w < s->walls && s->thickness_terms; w++) {
         const wall_frame n = frame_of(s, w, y, z);
         for (int k = 0; k < GAUSS; k++) {
-            const double r = (along(s, w, y, k) - pole[0]) * n.ty + (along(s, w, z, k) - pole[1]) * n.tz;
+            const double r =
+                (along(s, w, y, k) - pole[0]) * n.ty + (along(s, w, z, k) - pole[1]) * n.tz;
             Iw += gauss_weight[k] / 2 * n.length * pow(s->wall[w].thickness, 3) / 12 * r * r;
         }
     }
@@ -213,7 +234,8 @@ status section_walls(const section_spec *s, section *out, fault *f)
         outcome = grow_tree(s, &t, f);
     if (outcome != STATUS_OK)
         return outcome;
-    double y[SECTION_MAX_POINTS] = {0}, z[SECTION_MAX_POINTS] = {0}, omega[SECTION_MAX_POINTS] = {0}, first[2] = {0, 0};
+    double y[SECTION_MAX_POINTS] = {0}, z[SECTION_MAX_POINTS] = {0},
+           omega[SECTION_MAX_POINTS] = {0}, first[2] = {0, 0};
     for (int w = 0; w < s->walls; w++) {
         const double area = wall_length(s, w) * s->wall[w].thickness;
         out->A += area;
@@ -240,7 +262,8 @@ status section_walls(const section_spec *s, section *out, fault *f)
     out->Ip = out->Iy + out->Iz;
     if (!(out->Iy > 1e-14 * out->Ip) || !(out->Iz > 1e-14 * out->Ip))
         return fault_set(f, STATUS_REFUSED,
-                         "section: the walls lie on one line, so the mid-line has no bending stiffness across it; switch "
+                         "section: the walls lie on one line, so the mid-line has no bending "
+                         "stiffness across it; switch "
                          "thickness_terms on or give a rectangle");
 
     double pole[2] = {0, 0};
@@ -262,6 +285,7 @@ status section_walls(const section_spec *s, section *out, fault *f)
     shear_flow(s, &t, value, pole, out->F);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            out->F[3 * i + j] = (i == 2 || j == 2) && !warps ? 0 : out->F[3 * i + j] / (inertia[i] * inertia[j]);
+            out->F[3 * i + j] =
+                (i == 2 || j == 2) && !warps ? 0 : out->F[3 * i + j] / (inertia[i] * inertia[j]);
     return STATUS_OK;
 }

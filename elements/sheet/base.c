@@ -20,7 +20,8 @@ status base_prepare(const element_request *request, base_shear shear, base_data 
     memset(out, 0, sizeof *out);
     if (!fields_warp(request))
         c.Iw = 0;
-    const double Phi_y = flexible ? elastic_phi_y(&c, l0) : 0, Phi_z = flexible ? elastic_phi_z(&c, l0) : 0;
+    const double Phi_y = flexible ? elastic_phi_y(&c, l0) : 0,
+                 Phi_z = flexible ? elastic_phi_z(&c, l0) : 0;
     status made = strains_prepare(request, whole ? Phi_y : 0, whole ? Phi_z : 0, &out->table, f);
     if (made == STATUS_OK)
         made = wagner_prepare(request, &out->wagner, f);
@@ -30,7 +31,9 @@ status base_prepare(const element_request *request, base_shear shear, base_data 
     elastic_stiffness(&c, l0, Phi_y, Phi_z, out->linear.S);
     for (int i = 0; i < SHEET_STRAINS * SHEET_STRAINS; i++)
         if (!isfinite(out->linear.S[i]))
-            return fault_set(f, STATUS_REFUSED, "element of length %g m: its stiffness overflows; use fewer elements", l0);
+            return fault_set(f, STATUS_REFUSED,
+                             "element of length %g m: its stiffness overflows; use fewer elements",
+                             l0);
     strains_set_rest(request, &out->table);
     if (request->features & FEATURE_MASS)
         inertia_prepare(request->section, request->features, INERTIA_LUMPED, NULL, &out->linear);
@@ -42,7 +45,8 @@ void base_strain(const element_data *d, const node_state x[], strain_output *out
     strains_evaluate(&data_of(d)->table, x, out);
 }
 
-status base_inertia(const element_data *d, const node_state x[], const element_spin *spin, inertia_output *out)
+status base_inertia(const element_data *d, const node_state x[], const element_spin *spin,
+                    inertia_output *out)
 {
     return inertia_of(&data_of(d)->linear, x, spin, out);
 }

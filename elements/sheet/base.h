@@ -19,8 +19,9 @@ typedef struct base_data {
 
 /* What every one of them offers and is limited to. */
 enum {
-    BASE_OFFERS = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_ENGESSER |
-                  FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA | FEATURE_CURVATURE,
+    BASE_OFFERS = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE |
+                  FEATURE_HARINGX | FEATURE_ENGESSER | FEATURE_GEOMETRIC | FEATURE_LARGE |
+                  FEATURE_MASS | FEATURE_ROTARY_INERTIA | FEATURE_CURVATURE,
     BASE_LIMITS = LIMIT_DOUBLY_SYMMETRIC | LIMIT_ORDER_DEPENDENT | LIMIT_QUARTER_TURN
 };
 
@@ -28,6 +29,7 @@ status base_prepare(const element_request *request, base_shear shear, base_data 
 
 /* Members of element_type; the data begin with base_data. */
 void base_strain(const element_data *d, const node_state x[], strain_output *out);
-status base_inertia(const element_data *d, const node_state x[], const element_spin *spin, inertia_output *out);
+status base_inertia(const element_data *d, const node_state x[], const element_spin *spin,
+                    inertia_output *out);
 
 #endif

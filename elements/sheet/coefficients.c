@@ -56,7 +56,8 @@ static void add_bending(const element_request *r, double x, double ds, const fie
         Mz[MYP][1 + k] = -f->phi_x[k] * shape[0];
         Mz[MYQ][1 + k] = -f->phi_x[k] * shape[1];
         for (int m = 0; m < LOCAL_COORDINATES; m++)
-            out->b[FX][1 + k][1 + m] -= ds * f->duy[k] * f->duy[m] / 2; /* int (u_y u_y'' + u_y'^2/2) ds */
+            out->b[FX][1 + k][1 + m] -=
+                ds * f->duy[k] * f->duy[m] / 2; /* int (u_y u_y'' + u_y'^2/2) ds */
     }
     for (int i = 0; i < STRESSES; i++) {
         for (int j = 0; j < STRESSES; j++) {
@@ -66,7 +67,8 @@ static void add_bending(const element_request *r, double x, double ds, const fie
                     out->A[i][j][a][b] += ds * Mz[i][a] * Mz[j][b] / EIz;
         }
         for (int a = 0; a < V && initial; a++)
-            out->b[i][ONE][a] -= ds * (Mz[i][a] * r->curvature[2] + (a == ONE ? My[i] * r->curvature[1] : 0));
+            out->b[i][ONE][a] -=
+                ds * (Mz[i][a] * r->curvature[2] + (a == ONE ? My[i] * r->curvature[1] : 0));
     }
     if (initial) { /* F_x = F~x, F_z = (M~yp + M~yq)/L; no F_y */
         out->b[FX][ONE][ONE] -= ds * r->strain[0];
@@ -75,10 +77,12 @@ static void add_bending(const element_request *r, double x, double ds, const fie
     }
 }
 
-static status add_torsion(const element_request *r, const double t[TORSION_MODES][TORSION_DEGREE + 1], sums *out, fault *f)
+static status add_torsion(const element_request *r,
+                          const double t[TORSION_MODES][TORSION_DEGREE + 1], sums *out, fault *f)
 {
     const section *c = r->section;
-    const double L = r->length, GJ = c->shear_modulus * c->It, EIw = fields_warp(r) ? c->young * c->Iw : 0;
+    const double L = r->length, GJ = c->shear_modulus * c->It,
+                 EIw = fields_warp(r) ? c->young * c->Iw : 0;
     const double kx = r->features & FEATURE_CURVATURE ? r->curvature[0] : 0;
     torsion_integrals integral;
     const status made = torsion_integrate(EIw > 0 ? L * sqrt(GJ / EIw) : INFINITY, t, &integral, f);
@@ -87,7 +91,8 @@ static status add_torsion(const element_request *r, const double t[TORSION_MODES
     for (int k = 0; k < TORSION_MODES; k++) {
         double(*b)[V] = out->b[mode[k].stress];
         for (int l = 0; l < TORSION_MODES; l++)
-            out->A[mode[k].stress][mode[l].stress][mode[k].variable][mode[l].variable] += L / GJ * integral.compliance[k][l];
+            out->A[mode[k].stress][mode[l].stress][mode[k].variable][mode[l].variable] +=
+                L / GJ * integral.compliance[k][l];
         b[mode[k].variable][PX] += integral.work[k][TORSION_PX];
         b[mode[k].variable][WP] += L * integral.work[k][TORSION_WP];
         b[mode[k].variable][WQ] += L * integral.work[k][TORSION_WQ];
@@ -110,7 +115,8 @@ static void add_idle_amplitudes(const element_request *r, sums *out)
 }
 
 /* The terms of one degree in x. */
-static void append(int degree, potential_term terms[], int most, int *count, int i, int j, double table[V][V])
+static void append(int degree, potential_term terms[], int most, int *count, int i, int j,
+                   double table[V][V])
 {
     for (int a = 0; a < V; a++)
         for (int b = a; b < V; b++) {
@@ -125,9 +131,8 @@ static void append(int degree, potential_term terms[], int most, int *count, int
 
 static void list_terms(sums *total, potential *out)
 {
-    int *const linear[3] = {&out->linear_A, &out->linear_b, &out->linear_P0}, *const quadratic[3] = {&out->quadratic_A,
-                                                                                                     &out->quadratic_b,
-                                                                                                     &out->quadratic_P0};
+    int *const linear[3] = {&out->linear_A, &out->linear_b, &out->linear_P0},
+               *const quadratic[3] = {&out->quadratic_A, &out->quadratic_b, &out->quadratic_P0};
     for (int degree = 0; degree <= 2; degree++) {
         for (int i = 0; i < STRESSES; i++) {
             append(degree, out->b, TERMS_B, &out->terms_b, i, 0, total->b[i]);
@@ -144,14 +149,17 @@ static void list_terms(sums *total, potential *out)
 status potential_prepare(const element_request *r, int printed, potential *out, fault *f)
 {
     const section *c = r->section;
-    const double L = r->length, shear = r->features & FEATURE_SHEAR ? c->F[4] / c->shear_modulus : 0;
+    const double L = r->length,
+                 shear = r->features & FEATURE_SHEAR ? c->F[4] / c->shear_modulus : 0;
     const double(*torque)[TORSION_DEGREE + 1] = printed ? printed_torque : corrected_torque;
     double x[POINTS], w[POINTS];
     sums total;
     memset(&total, 0, sizeof total);
     memset(out, 0, sizeof *out);
     if (!(c->shear_modulus * c->It > 0))
-        return fault_set(f, STATUS_REFUSED, "section: It = %g m^4; the third-order element needs a torsional stiffness", c->It);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "section: It = %g m^4; the third-order element needs a torsional stiffness", c->It);
     status made = quadrature_points(POINTS, x, w, f);
     for (int i = 0; i < POINTS && made == STATUS_OK; i++) {
         const fields at = fields_at(L, x[i], 0, 0, fields_warp(r));

@@ -29,7 +29,8 @@ void elastic_stiffness(const section *c, double l0, double Phi_y, double Phi_z, 
     static const int torsion[3] = {1, 6, 7};
     static const double saint_venant[3][3] = {{36, -3, -3}, {-3, 4, -1}, {-3, -1, 4}};
     static const double warping[3][3] = {{12, -6, -6}, {-6, 4, 2}, {-6, 2, 4}};
-    const double l3 = l0 * l0 * l0, GJ = c->shear_modulus * c->It / (30 * l3), EIw = c->young * c->Iw / (l3 * l0 * l0);
+    const double l3 = l0 * l0 * l0, GJ = c->shear_modulus * c->It / (30 * l3),
+                 EIw = c->young * c->Iw / (l3 * l0 * l0);
     memset(S, 0, N * N * sizeof(double));
     S[0] = c->young * c->A / l0;
     for (int i = 0; i < 3; i++)

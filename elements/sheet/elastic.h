@@ -9,6 +9,7 @@ double elastic_phi_y(const section *c, double l0);
 double elastic_phi_z(const section *c, double l0);
 
 /* S[8 x 8] [N/m]. */
-void elastic_stiffness(const section *c, double l0, double Phi_y, double Phi_z, double S[SHEET_STRAINS * SHEET_STRAINS]);
+void elastic_stiffness(const section *c, double l0, double Phi_y, double Phi_z,
+                       double S[SHEET_STRAINS * SHEET_STRAINS]);
 
 #endif

@@ -4,11 +4,14 @@
 
 /* With the antisymmetric cubic c = x - 3x^2 + 2x^3 and the shear share r = Phi/(2 + 2 Phi):
  * a deflection v with end slopes a, b is l0 [a (x-2x^2+x^3) + b (-x^2+x^3) - r (a+b) c], the rotation v' + r (a+b). */
-static void bending(double l0, double x, double Phi, int at, double sign, double v[], double dv[], double turn[], double dturn[])
+static void bending(double l0, double x, double Phi, int at, double sign, double v[], double dv[],
+                    double turn[], double dturn[])
 {
-    const double r = Phi / (2 + 2 * Phi), c = x * (1 - x) * (1 - 2 * x), dc = 1 - 6 * x * (1 - x), ddc = 12 * x - 6;
+    const double r = Phi / (2 + 2 * Phi), c = x * (1 - x) * (1 - 2 * x), dc = 1 - 6 * x * (1 - x),
+                 ddc = 12 * x - 6;
     const double shape[2] = {x * (1 - x) * (1 - x), -x * x * (1 - x)};
-    const double slope[2] = {(1 - x) * (1 - 3 * x), x * (3 * x - 2)}, second[2] = {6 * x - 4, 6 * x - 2};
+    const double slope[2] = {(1 - x) * (1 - 3 * x), x * (3 * x - 2)},
+                 second[2] = {6 * x - 4, 6 * x - 2};
     for (int i = 0; i < 2; i++) {
         if (v != NULL)
             v[at + i] = sign * l0 * (shape[i] - r * c);

@@ -6,8 +6,9 @@
 
 /* Each row[8]: value = row . q.  Primes are d/ds. */
 typedef struct fields {
-    double uy[LOCAL_COORDINATES], duy[LOCAL_COORDINATES], duz[LOCAL_COORDINATES]; /* u_y [m], u_y', u_z' */
-    double phi_x[LOCAL_COORDINATES], dphi_x[LOCAL_COORDINATES];                   /* phi_x [rad], phi_x' [rad/m] */
+    double uy[LOCAL_COORDINATES], duy[LOCAL_COORDINATES],
+        duz[LOCAL_COORDINATES];                                 /* u_y [m], u_y', u_z' */
+    double phi_x[LOCAL_COORDINATES], dphi_x[LOCAL_COORDINATES]; /* phi_x [rad], phi_x' [rad/m] */
     double phi_y[LOCAL_COORDINATES], dphi_y[LOCAL_COORDINATES];
     double phi_z[LOCAL_COORDINATES], dphi_z[LOCAL_COORDINATES];
 } fields;

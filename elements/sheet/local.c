@@ -91,7 +91,8 @@ void local_rates(const local_state *s, double R[LOCAL_COORDINATES * RATES])
 }
 
 /* A += c a b^T; a is often sparse. */
-static void add_product(double c, const double a[RATE_TURNS], const double b[RATE_TURNS], double A[RATE_TURNS * RATE_TURNS])
+static void add_product(double c, const double a[RATE_TURNS], const double b[RATE_TURNS],
+                        double A[RATE_TURNS * RATE_TURNS])
 {
     for (int i = 0; i < RATE_TURNS; i++)
         for (int j = 0; j < RATE_TURNS && a[i] != 0; j++)
@@ -99,8 +100,8 @@ static void add_product(double c, const double a[RATE_TURNS], const double b[RAT
 }
 
 /* Weights of the accelerations dv/dt, dP/dt, dQ/dt in sum t_k d2q_k/dt2, from those of dw/dt and d(bend)/dt. */
-static void acceleration_weights(const local_state *s, const double t[LOCAL_COORDINATES], const double relative[3], double bend,
-                                 double g[RATE_TURNS])
+static void acceleration_weights(const local_state *s, const double t[LOCAL_COORDINATES],
+                                 const double relative[3], double bend, double g[RATE_TURNS])
 {
     const double turn = bend + s->tan_yp * relative[0];
     g[RATE_V] = t[LOCAL_U];
@@ -114,7 +115,8 @@ static void acceleration_weights(const local_state *s, const double t[LOCAL_COOR
 }
 
 /* Vectors turn with the frame, lengths change: terms of the accelerations. */
-static void add_frame_terms(const local_state *s, const spins *w, const double g[RATE_TURNS], double A[RATE_TURNS * RATE_TURNS])
+static void add_frame_terms(const local_state *s, const spins *w, const double g[RATE_TURNS],
+                            double A[RATE_TURNS * RATE_TURNS])
 {
     for (int i = 0; i < 3; i++) { /* g . (a x w_F) = w_F . (g x a) for a = v, P, Q */
         const int next = (i + 1) % 3, last = (i + 2) % 3;
@@ -129,24 +131,27 @@ static void add_frame_terms(const local_state *s, const spins *w, const double g
     A[RATE_V + 2] -= g[RATE_V + 2] / s->l;
 }
 
-void local_add_second(const local_state *s, const double R[LOCAL_COORDINATES * RATES], const double t[LOCAL_COORDINATES],
-                      double H[RATES * RATES])
+void local_add_second(const local_state *s, const double R[LOCAL_COORDINATES * RATES],
+                      const double t[LOCAL_COORDINATES], double H[RATES * RATES])
 {
     const spins w = spins_of(s);
     /* weights of d(across)/dt, dw/dt and d(bend)/dt */
-    const double across = t[LOCAL_PX] * s->sec_zq - t[LOCAL_YQ] * s->tan_zq, bend = t[LOCAL_ZP] * s->sec_yp;
+    const double across = t[LOCAL_PX] * s->sec_zq - t[LOCAL_YQ] * s->tan_zq,
+                 bend = t[LOCAL_ZP] * s->sec_yp;
     const double relative[3] = {t[LOCAL_ZQ] * s->sin_yq + across * s->cos_yq, t[LOCAL_YQ],
                                 t[LOCAL_ZQ] * s->cos_yq - across * s->sin_yq};
     double g[RATE_TURNS], A[RATE_TURNS * RATE_TURNS] = {0}, zq_and_across[RATE_TURNS];
     acceleration_weights(s, t, relative, bend, g);
     add_frame_terms(s, &w, g, A);
     /* d(1/cos yp)/dt in zp, d(tan yp)/dt in w_x */
-    add_product((bend * s->tan_yp + relative[0] * s->sec_yp * s->sec_yp), w.bend, R + LOCAL_YP * RATES, A);
+    add_product((bend * s->tan_yp + relative[0] * s->sec_yp * s->sec_yp), w.bend,
+                R + LOCAL_YP * RATES, A);
     /* d(across)/dt = .. - yq' zq', d(zq')/dt = .. + yq' across; d(1/cos zq)/dt in px, d(tan zq)/dt in yq */
     for (int j = 0; j < RATE_TURNS; j++)
         zq_and_across[j] = t[LOCAL_ZQ] * w.across[j] - across * R[LOCAL_ZQ * RATES + j];
     add_product(1, R + LOCAL_YQ * RATES, zq_and_across, A);
-    add_product((t[LOCAL_PX] * s->tan_zq - t[LOCAL_YQ] * s->sec_zq) * s->sec_zq, R + LOCAL_ZQ * RATES, w.across, A);
+    add_product((t[LOCAL_PX] * s->tan_zq - t[LOCAL_YQ] * s->sec_zq) * s->sec_zq,
+                R + LOCAL_ZQ * RATES, w.across, A);
     for (int i = 0; i < RATE_TURNS; i++)
         for (int j = 0; j < RATE_TURNS; j++)
             H[RATES * i + j] += (A[RATE_TURNS * i + j] + A[RATE_TURNS * j + i]) / 2;
@@ -168,14 +173,17 @@ void local_nodal_gradient(const local_state *s, int m, const double A[], double 
 }
 
 /* K(row + i, column + j) = K(column + j, row + i) = B_ij. */
-static void put(int row, int column, double sign, const double B[9], double K[LOCAL_NODAL * LOCAL_NODAL])
+static void put(int row, int column, double sign, const double B[9],
+                double K[LOCAL_NODAL * LOCAL_NODAL])
 {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            K[LOCAL_NODAL * (row + i) + column + j] = K[LOCAL_NODAL * (column + j) + row + i] = sign * B[3 * i + j];
+            K[LOCAL_NODAL * (row + i) + column + j] = K[LOCAL_NODAL * (column + j) + row + i] =
+                sign * B[3 * i + j];
 }
 
-void local_nodal_form(const local_state *s, const double H[RATES * RATES], double K[LOCAL_NODAL * LOCAL_NODAL])
+void local_nodal_form(const local_state *s, const double H[RATES * RATES],
+                      double K[LOCAL_NODAL * LOCAL_NODAL])
 {
     static const int place[3] = {7, 3, 10}; /* of v, P, Q; v is minus the motion of p too */
     for (int a = 0; a < 3; a++)
@@ -198,5 +206,6 @@ void local_nodal_form(const local_state *s, const double H[RATES * RATES], doubl
     local_nodal_gradient(s, 2, H + RATES * RATE_WP, rows);
     for (int k = 0; k < 2; k++)
         for (int j = 0; j < LOCAL_NODAL; j++)
-            K[LOCAL_NODAL * (6 + 7 * k) + j] = K[LOCAL_NODAL * j + 6 + 7 * k] = rows[LOCAL_NODAL * k + j];
+            K[LOCAL_NODAL * (6 + 7 * k) + j] = K[LOCAL_NODAL * j + 6 + 7 * k] =
+                rows[LOCAL_NODAL * k + j];
 }

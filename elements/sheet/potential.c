@@ -107,7 +107,8 @@ static double value(const potential *p, const point *at)
 
 /* P,k = P0,k + s.b,k - s^T A,k s/2,
  * P,kl = P0,kl + s.b,kl - s^T A,kl s/2 + (b,k - A,k s)^T A^-1 (b,l - A,l s). */
-status potential_evaluate(const potential *p, const double x[N], double *P, double *gradient, double *hessian)
+status potential_evaluate(const potential *p, const double x[N], double *P, double *gradient,
+                          double *hessian)
 {
     point at;
     double g[V] = {0}, h[V * V] = {0};
@@ -139,8 +140,8 @@ status potential_evaluate(const potential *p, const double x[N], double *P, doub
 status potential_third(const potential *p, const double x[N], const double dx[N], double T[N * N])
 {
     point at;
-    double g[V] = {0}, h[V * V] = {0}, d[V], sd[STRESSES] = {0}, S[STRESSES][V], Wd[STRESSES][V] = {{0}},
-           Ad[STRESSES][STRESSES] = {{0}};
+    double g[V] = {0}, h[V * V] = {0}, d[V], sd[STRESSES] = {0}, S[STRESSES][V],
+           Wd[STRESSES][V] = {{0}}, Ad[STRESSES][STRESSES] = {{0}};
     const status outcome = solve(p, x, &at);
     if (outcome != STATUS_OK)
         return outcome;
@@ -162,9 +163,10 @@ status potential_third(const potential *p, const double x[N], const double dx[N]
     }
     for (int k = 0; k < p->terms_A; k++) {
         const potential_term *t = &p->A[k];
-        const double c = t->i == t->j ? t->c / 2 : t->c, va = at.v[t->a], vb = at.v[t->b], da = d[t->a], db = d[t->b];
-        const double si = at.s[t->i], sj = at.s[t->j], di = sd[t->i], dj = sd[t->j], along = c * (va * db + vb * da),
-                     work = c * (si * dj + sj * di);
+        const double c = t->i == t->j ? t->c / 2 : t->c, va = at.v[t->a], vb = at.v[t->b],
+                     da = d[t->a], db = d[t->b];
+        const double si = at.s[t->i], sj = at.s[t->j], di = sd[t->i], dj = sd[t->j],
+                     along = c * (va * db + vb * da), work = c * (si * dj + sj * di);
         h[V * t->a + t->b] -= work;
         h[V * t->b + t->a] -= work;
         Wd[t->i][t->a] -= c * (db * sj + vb * dj);

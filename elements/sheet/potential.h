@@ -26,10 +26,12 @@ typedef struct potential {
 status potential_prepare(const element_request *request, int printed, potential *out, fault *f);
 
 /* P[1], its gradient[8] and Hessian[8 x 8] at x; NULL: not wanted.  SINGULAR when A is not positive definite there. */
-status potential_evaluate(const potential *p, const double x[LOCAL_COORDINATES], double *P, double *gradient, double *hessian);
+status potential_evaluate(const potential *p, const double x[LOCAL_COORDINATES], double *P,
+                          double *gradient, double *hessian);
 
 /* T[8 x 8] = derivative of the Hessian at x in the direction dx. */
-status potential_third(const potential *p, const double x[LOCAL_COORDINATES], const double dx[LOCAL_COORDINATES],
+status potential_third(const potential *p, const double x[LOCAL_COORDINATES],
+                       const double dx[LOCAL_COORDINATES],
                        double T[LOCAL_COORDINATES * LOCAL_COORDINATES]);
 
 #endif

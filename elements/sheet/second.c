@@ -15,7 +15,8 @@ status second_prepare(const element_request *request, base_shear shear, element_
     return base_prepare(request, shear, (base_data *)(void *)out, f);
 }
 
-status second_stress(const element_data *data, const double e[], const double inner[], stress_output *out)
+status second_stress(const element_data *data, const double e[], const double inner[],
+                     stress_output *out)
 {
     enum { N = SHEET_STRAINS };
     const base_data *d = (const base_data *)(const void *)data;

@@ -5,7 +5,9 @@
 #include "elements/sheet/base.h"
 
 size_t second_data_size(const element_request *request);
-status second_prepare(const element_request *request, base_shear shear, element_data *out, fault *f);
-status second_stress(const element_data *d, const double e[], const double inner[], stress_output *out);
+status second_prepare(const element_request *request, base_shear shear, element_data *out,
+                      fault *f);
+status second_stress(const element_data *d, const double e[], const double inner[],
+                     stress_output *out);
 
 #endif

@@ -27,7 +27,8 @@ static void add_product(double c, const double a[N], const double b[N], double Q
             Q[N * i + j] += c * (a[i] * b[j] + b[i] * a[j]);
 }
 
-static void add_point(double x, double ds, double l0, double trapeze, const fields *f, double Q[STRAINS_LISTED][N * N])
+static void add_point(double x, double ds, double l0, double trapeze, const fields *f,
+                      double Q[STRAINS_LISTED][N * N])
 {
     double lag_y[N], lag_z[N];
     for (int i = 0; i < N; i++) {
@@ -64,10 +65,12 @@ static void list_terms(double Q[STRAINS_LISTED][N * N], strains_table *out)
                 }
 }
 
-status strains_prepare(const element_request *request, double Phi_y, double Phi_z, strains_table *out, fault *f)
+status strains_prepare(const element_request *request, double Phi_y, double Phi_z,
+                       strains_table *out, fault *f)
 {
     const section *c = request->section;
-    const double l0 = request->length, trapeze = request->features & FEATURE_TRAPEZE ? c->Ip / c->A : 0;
+    const double l0 = request->length,
+                 trapeze = request->features & FEATURE_TRAPEZE ? c->Ip / c->A : 0;
     const int amplitude = (request->features & FEATURE_WARPING) != 0;
     double x[POINTS], w[POINTS], Q[STRAINS_LISTED][N * N] = {{0}};
     memset(out, 0, sizeof *out);
@@ -94,7 +97,8 @@ status strains_prepare(const element_request *request, double Phi_y, double Phi_
 }
 
 /* E[8 x 8] = de/dq at q, e[8]. */
-static void gradient(const strains_table *m, const double q[N], double e[SHEET_STRAINS], double E[SHEET_STRAINS * N])
+static void gradient(const strains_table *m, const double q[N], double e[SHEET_STRAINS],
+                     double E[SHEET_STRAINS * N])
 {
     double turn[SHEET_STRAINS][N] = {{0}};
     for (int t = 0; t < m->terms; t++) {
@@ -126,7 +130,10 @@ static void weighted(const strains_table *m, const double s[SHEET_STRAINS], doub
             Q[N * j + k] = Q[N * k + j];
 }
 
-enum { ANGLES = LOCAL_WP - LOCAL_PX, FIRST = LOCAL_PX * RATES }; /* rows of R that are not single ones */
+enum {
+    ANGLES = LOCAL_WP - LOCAL_PX,
+    FIRST = LOCAL_PX * RATES
+}; /* rows of R that are not single ones */
 
 /* A[m x 11] = E[m x 8] R. */
 static void chain(int m, const double E[], const double R[N * RATES], double A[])
@@ -192,7 +199,8 @@ void strains_evaluate(const strains_table *table, const node_state x[2], strain_
 void strains_set_rest(const element_request *request, strains_table *out)
 {
     const double l0 = request->length, *k = request->curvature, *g = request->strain;
-    const double turn[3] = {k[0] * l0, k[1] * l0, k[2] * l0}, along[3] = {1, 0, 0}, strained[3] = {1 + g[0], g[1], g[2]};
+    const double turn[3] = {k[0] * l0, k[1] * l0, k[2] * l0}, along[3] = {1, 0, 0},
+                 strained[3] = {1 + g[0], g[1], g[2]};
     double arc[3], unstressed[3], q[4], rest[SHEET_STRAINS];
     node_state x[2];
     memset(x, 0, sizeof x);

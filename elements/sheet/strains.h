@@ -10,9 +10,9 @@
 enum { SHEET_STRAINS = 8, STRAINS_LISTED = 6, STRAINS_TERMS = STRAINS_LISTED * 36 };
 
 typedef struct strains_table {
-    double chord;                                     /* of the undeformed arc [m] */
-    double torsion;                                   /* initial: amplitudes of the nodes are twist rates beyond it [rad/m] */
-    double rest[SHEET_STRAINS];                       /* of the element free of stress, which the strains are less [m] */
+    double chord;   /* of the undeformed arc [m] */
+    double torsion; /* initial: amplitudes of the nodes are twist rates beyond it [rad/m] */
+    double rest[SHEET_STRAINS]; /* of the element free of stress, which the strains are less [m] */
     double Lambda[SHEET_STRAINS * LOCAL_COORDINATES]; /* [m per coordinate] */
     int terms; /* Q_i jk and Q_i kj, j <= k, that are not zero; Q_7 = Q_8 = Q_2 are not listed */
     struct {
@@ -23,7 +23,8 @@ typedef struct strains_table {
 
 /* Phi_y, Phi_z: shear parameters of the displacement fields (N Eq. 18); both 0: N Eq. 37, where shear is left out; the
  * section's own: consistent with shear, ours.  Features: warping, trapeze. */
-status strains_prepare(const element_request *request, double Phi_y, double Phi_z, strains_table *out, fault *f);
+status strains_prepare(const element_request *request, double Phi_y, double Phi_z,
+                       strains_table *out, fault *f);
 
 /* Counts the strains from the element free of stress. */
 void strains_set_rest(const element_request *request, strains_table *out);

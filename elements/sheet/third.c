@@ -37,9 +37,11 @@ static void partial_inverse(double L, int warp, third_data *d)
     static const struct {
         int row, i, j; /* strains counted from 1 */
         double c;      /* times 1/L for u, 1/L^2 for the angles */
-    } term[] = {{0, 5, 5, -2.0 / 30}, {0, 5, 6, -1.0 / 30}, {0, 6, 6, -2.0 / 30}, {1, 2, 5, 1.0 / 10}, {1, 2, 6, 2.0 / 10},
-                {1, 7, 5, 1.0 / 10},  {1, 8, 5, -1.0 / 30}, {1, 8, 6, -1.0 / 30}, {2, 2, 5, 2.0 / 10}, {2, 2, 6, -9.0 / 10},
-                {2, 8, 6, 1.0 / 10},  {2, 7, 5, -1.0 / 30}, {2, 7, 6, -1.0 / 30}};
+    } term[] = {{0, 5, 5, -2.0 / 30}, {0, 5, 6, -1.0 / 30}, {0, 6, 6, -2.0 / 30},
+                {1, 2, 5, 1.0 / 10},  {1, 2, 6, 2.0 / 10},  {1, 7, 5, 1.0 / 10},
+                {1, 8, 5, -1.0 / 30}, {1, 8, 6, -1.0 / 30}, {2, 2, 5, 2.0 / 10},
+                {2, 2, 6, -9.0 / 10}, {2, 8, 6, 1.0 / 10},  {2, 7, 5, -1.0 / 30},
+                {2, 7, 6, -1.0 / 30}};
     const double linear[N] = {1, 1 / L, -1 / L, 1 / L, -1 / L, 1 / L, 1 / (L * L), 1 / (L * L)};
     memcpy(d->scale, linear, sizeof linear);
     for (size_t k = 0; k < sizeof term / sizeof term[0]; k++) {
@@ -74,7 +76,8 @@ static void multiply(const third_data *d, double row[CURVED][N], double A[N * N]
         for (int r = 0; r < CURVED; r++)
             factor[r] = a[curved[r]];
         for (int k = 0; k < N; k++)
-            a[k] = a[k] * d->scale[k] + factor[0] * row[0][k] + factor[1] * row[1][k] + factor[2] * row[2][k];
+            a[k] = a[k] * d->scale[k] + factor[0] * row[0][k] + factor[1] * row[1][k] +
+                   factor[2] * row[2][k];
     }
 }
 
@@ -89,7 +92,8 @@ static void transpose(double A[N * N])
 }
 
 /* C = (dx/de)^T h (dx/de) + sum_k g_k d2x_k/de2. */
-static void second_derivative(const third_data *d, double row[CURVED][N], const double g[N], const double h[N * N], double C[N * N])
+static void second_derivative(const third_data *d, double row[CURVED][N], const double g[N],
+                              const double h[N * N], double C[N * N])
 {
     memcpy(C, h, N * N * sizeof(double));
     multiply(d, row, C);
@@ -100,19 +104,21 @@ static void second_derivative(const third_data *d, double row[CURVED][N], const 
             C[k] += g[curved[r]] * d->X[r][k];
 }
 
-status third_stress(const element_data *data, const double e[], const double inner[], stress_output *out)
+status third_stress(const element_data *data, const double e[], const double inner[],
+                    stress_output *out)
 {
     const third_data *d = data_of(data);
     double x[N], row[CURVED][N], g[N], h[N * N];
     const int first = out->sigma != NULL || out->C != NULL;
     (void)inner;
     invert(d, e, x, row);
-    const status outcome = potential_evaluate(&d->potential, x, out->energy, first ? g : NULL, out->C != NULL ? h : NULL);
+    const status outcome = potential_evaluate(&d->potential, x, out->energy, first ? g : NULL,
+                                              out->C != NULL ? h : NULL);
     if (outcome != STATUS_OK)
         return outcome;
     for (int k = 0; k < N && out->sigma != NULL; k++)
-        out->sigma[k] =
-            d->scale[k] * g[k] + row[0][k] * g[curved[0]] + row[1][k] * g[curved[1]] + row[2][k] * g[curved[2]] - d->rest_stress[k];
+        out->sigma[k] = d->scale[k] * g[k] + row[0][k] * g[curved[0]] + row[1][k] * g[curved[1]] +
+                        row[2][k] * g[curved[2]] - d->rest_stress[k];
     if (out->energy != NULL) {
         *out->energy -= d->rest_energy;
         for (int k = 0; k < N; k++)
@@ -133,8 +139,10 @@ static status set_rest(const element_request *request, third_data *out, fault *f
     double energy, stress[N];
     stress_output there = {.energy = &energy, .sigma = stress};
     if (third_stress((const element_data *)(const void *)out, none, NULL, &there) != STATUS_OK)
-        return fault_set(f, STATUS_REFUSED, "element of length %g m: its initial curvature is too large; use more elements",
-                         request->length);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "element of length %g m: its initial curvature is too large; use more elements",
+            request->length);
     out->rest_energy = energy;
     memcpy(out->rest_stress, stress, sizeof stress);
     return STATUS_OK;
@@ -148,8 +156,10 @@ status third_prepare(const element_request *request, int printed, element_data *
     if (made != STATUS_OK)
         return made;
     if (request->strain[1] != 0)
-        return fault_set(f, STATUS_REFUSED, "initial shear strain %g along the thickness: N Eq. 50 knows none; leave it out",
-                         request->strain[1]);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "initial shear strain %g along the thickness: N Eq. 50 knows none; leave it out",
+            request->strain[1]);
     partial_inverse(request->length, fields_warp(request), out);
     const status complete = potential_prepare(request, printed, &out->potential, f);
     return complete == STATUS_OK ? set_rest(request, out, f) : complete;
@@ -160,7 +170,8 @@ void third_geometric(const element_data *data, const double sigma[], double G[])
 {
     const third_data *d = data_of(data);
     const double zero[N] = {0};
-    double x[N], row[CURVED][N], turning[CURVED][N], g[N], h[N * N], T[N * N], v[N], LU[N * N], along[N], dx[N], mixed[N * N];
+    double x[N], row[CURVED][N], turning[CURVED][N], g[N], h[N * N], T[N * N], v[N], LU[N * N],
+        along[N], dx[N], mixed[N * N];
     int pivot[N];
     memset(G, 0, N * N * sizeof *G);
     invert(d, zero, x, row);

@@ -38,21 +38,25 @@ static double integral_of_product(const double a[COEFFICIENTS], const double b[C
 /* int t h_q dx (end 1) or int t h_p dx (end 0): twice by parts with h'' = lambda^2 h. */
 static double end_integral(double lambda, const double t[COEFFICIENTS], int end)
 {
-    const double decay = exp(-lambda), scale = -expm1(-2 * lambda), coth = (1 + decay * decay) / scale, csch = 2 * decay / scale;
+    const double decay = exp(-lambda), scale = -expm1(-2 * lambda),
+                 coth = (1 + decay * decay) / scale, csch = 2 * decay / scale;
     const double l2 = lambda * lambda, slope = t[1] + end * (2 * t[2] + 3 * t[3]) + 6 * t[3] / l2;
-    const double near = value(t, end) + second(t, end) / l2, far = value(t, 1 - end) + second(t, 1 - end) / l2;
+    const double near = value(t, end) + second(t, end) / l2,
+                 far = value(t, 1 - end) + second(t, 1 - end) / l2;
     return (lambda * (near * coth - far * csch) - (end == 1 ? slope : -slope)) / l2;
 }
 
 /* lambda^2 g = t + t''/lambda^2 less its end values times h_p, h_q. */
-static void closed(double lambda, const double t[TORSION_MODES][COEFFICIENTS], torsion_integrals *out)
+static void closed(double lambda, const double t[TORSION_MODES][COEFFICIENTS],
+                   torsion_integrals *out)
 {
     const double l2 = lambda * lambda;
     for (int k = 0; k < TORSION_MODES; k++) {
         const double end[2] = {end_integral(lambda, t[k], 0), end_integral(lambda, t[k], 1)};
         for (int l = 0; l < TORSION_MODES; l++) {
             const double curved[COEFFICIENTS] = {2 * t[l][2], 6 * t[l][3]}; /* t_l'' */
-            out->compliance[k][l] = integral_of_product(t[k], t[l]) + integral_of_product(t[k], curved) / l2 -
+            out->compliance[k][l] = integral_of_product(t[k], t[l]) +
+                                    integral_of_product(t[k], curved) / l2 -
                                     (value(t[l], 0) + second(t[l], 0) / l2) * end[0] -
                                     (value(t[l], 1) + second(t[l], 1) / l2) * end[1];
         }
@@ -63,8 +67,9 @@ static void closed(double lambda, const double t[TORSION_MODES][COEFFICIENTS], t
 
 /* Green's function sinh(lambda y) sinh(lambda (1 - x))/(lambda sinh(lambda)), y < x, over the triangle y = x z.  It also gives
  * the ends: chord - h solves lambda^2 g - g'' = lambda^2 chord. */
-static void by_quadrature(double lambda, const double t[TORSION_MODES][COEFFICIENTS], const double point[POINTS],
-                          const double weight[POINTS], torsion_integrals *out)
+static void by_quadrature(double lambda, const double t[TORSION_MODES][COEFFICIENTS],
+                          const double point[POINTS], const double weight[POINTS],
+                          torsion_integrals *out)
 {
     double sum[TORSION_MODES][LOADS] = {{0}};
     for (int i = 0; i < POINTS; i++) {
@@ -73,7 +78,8 @@ static void by_quadrature(double lambda, const double t[TORSION_MODES][COEFFICIE
         for (int k = 0; k < LOADS; k++)
             at_x[k] = value(k < TORSION_MODES ? t[k] : chord[k - TORSION_MODES], x);
         for (int j = 0; j < POINTS; j++) {
-            const double y = x * point[j], kernel = weight[i] * weight[j] * x * lambda * sinh(lambda * y) * h_p;
+            const double y = x * point[j],
+                         kernel = weight[i] * weight[j] * x * lambda * sinh(lambda * y) * h_p;
             for (int k = 0; k < LOADS; k++)
                 at_y[k] = value(k < TORSION_MODES ? t[k] : chord[k - TORSION_MODES], y);
             for (int k = 0; k < TORSION_MODES; k++)
@@ -88,7 +94,8 @@ static void by_quadrature(double lambda, const double t[TORSION_MODES][COEFFICIE
             double gap[COEFFICIENTS];
             for (int i = 0; i < COEFFICIENTS; i++)
                 gap[i] = rate[TORSION_WP + end][i] - chord[end][i];
-            out->work[k][TORSION_WP + end] = integral_of_product(t[k], gap) + sum[k][TORSION_MODES + end];
+            out->work[k][TORSION_WP + end] =
+                integral_of_product(t[k], gap) + sum[k][TORSION_MODES + end];
         }
     }
 }
@@ -103,7 +110,8 @@ static void uniform(const double t[TORSION_MODES][COEFFICIENTS], torsion_integra
     }
 }
 
-status torsion_integrate(double lambda, const double t[TORSION_MODES][COEFFICIENTS], torsion_integrals *out, fault *f)
+status torsion_integrate(double lambda, const double t[TORSION_MODES][COEFFICIENTS],
+                         torsion_integrals *out, fault *f)
 {
     *out = (torsion_integrals){0};
     if (isinf(lambda)) {

@@ -22,6 +22,7 @@ typedef struct torsion_integrals {
 } torsion_integrals;
 
 /* Torque modes t_k(x) = sum_i t[k][i] x^i, whole numbers.  lambda INFINITY: nothing warps, the twist of phi_x is uniform. */
-status torsion_integrate(double lambda, const double t[TORSION_MODES][TORSION_DEGREE + 1], torsion_integrals *out, fault *f);
+status torsion_integrate(double lambda, const double t[TORSION_MODES][TORSION_DEGREE + 1],
+                         torsion_integrals *out, fault *f);
 
 #endif

@@ -8,7 +8,8 @@ static const int strain_of[WAGNER_STRAINS] = {1, 6, 7};
 
 status wagner_prepare(const element_request *request, wagner_term *out, fault *f)
 {
-    const double l0 = request->length, stiffness = request->section->young * request->section->wagner_torque;
+    const double l0 = request->length,
+                 stiffness = request->section->young * request->section->wagner_torque;
     double x[WAGNER_POINTS], w[WAGNER_POINTS];
     memset(out, 0, sizeof *out);
     out->active = (request->features & FEATURE_WAGNER_TORQUE) != 0 && stiffness != 0;
@@ -16,7 +17,8 @@ status wagner_prepare(const element_request *request, wagner_term *out, fault *f
         return STATUS_OK;
     if ((request->features & FEATURE_CURVATURE) && request->curvature[0] != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "initial torsion %g 1/m: the Wagner torque is known without it only; leave one of them out",
+                         "initial torsion %g 1/m: the Wagner torque is known without it only; "
+                         "leave one of them out",
                          request->curvature[0]);
     const status made = quadrature_points(WAGNER_POINTS, x, w, f);
     for (int i = 0; made == STATUS_OK && i < WAGNER_POINTS; i++) {
@@ -28,10 +30,12 @@ status wagner_prepare(const element_request *request, wagner_term *out, fault *f
     return made;
 }
 
-void wagner_add(const wagner_term *w, const double e[SHEET_STRAINS], double *energy, double *sigma, double *C)
+void wagner_add(const wagner_term *w, const double e[SHEET_STRAINS], double *energy, double *sigma,
+                double *C)
 {
     for (int i = 0; i < WAGNER_POINTS && w->active; i++) {
-        const double *rate = w->rate[i], kx = rate[0] * e[1] + rate[1] * e[6] + rate[2] * e[7], square = w->weight[i] * kx * kx;
+        const double *rate = w->rate[i], kx = rate[0] * e[1] + rate[1] * e[6] + rate[2] * e[7],
+                     square = w->weight[i] * kx * kx;
         if (energy != NULL)
             *energy += square * kx * kx;
         for (int k = 0; k < WAGNER_STRAINS; k++) {

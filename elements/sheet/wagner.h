@@ -16,6 +16,7 @@ typedef struct wagner_term {
 status wagner_prepare(const element_request *request, wagner_term *out, fault *f);
 
 /* Adds to energy[1], sigma[8], C[8 x 8]; NULL: not wanted. */
-void wagner_add(const wagner_term *w, const double e[SHEET_STRAINS], double *energy, double *sigma, double *C);
+void wagner_add(const wagner_term *w, const double e[SHEET_STRAINS], double *energy, double *sigma,
+                double *C);
 
 #endif

@@ -8,7 +8,8 @@
 #include "elements/math/rotation.h"
 #include "elements/test/check_values.h"
 
-extern const element_type element_beamw_first, element_beamw, element_beamw_vlasov, element_beamw_consistent;
+extern const element_type element_beamw_first, element_beamw, element_beamw_vlasov,
+    element_beamw_consistent;
 
 /* The prototype's section; unit 1 = mm and kN. */
 static section check_section(void)
@@ -50,7 +51,8 @@ static void check_state_of(double l, node_state x[2])
     }
 }
 
-static void compare(const char *what, const char *name, int n, const double got[], const double expected[], double tolerance)
+static void compare(const char *what, const char *name, int n, const double got[],
+                    const double expected[], double tolerance)
 {
     double scale = 0, worst = 0;
     for (int i = 0; i < n; i++)
@@ -69,7 +71,10 @@ static void check_form_of(const element_type *type, const check_form *expected)
     element_data *data = (element_data *)store.bytes;
     const section c = check_section();
     const double lumped[ELEMENT_MAX_OPTIONS] = {0};
-    const element_request request = {.section = &c, .length = 300, .features = type->offers & ~FEATURE_HARINGX, .options = lumped};
+    const element_request request = {.section = &c,
+                                     .length = 300,
+                                     .features = type->offers & ~FEATURE_HARINGX,
+                                     .options = lumped};
     fault f;
     gsl_test(type->data_size(&request) > sizeof store, "%s: data fits", type->name);
     gsl_test(type->prepare(&request, data, &f) != STATUS_OK, "%s: prepared", type->name);
@@ -83,12 +88,14 @@ static void check_form_of(const element_type *type, const check_form *expected)
     dense_add_congruence(8, 14, J, C, H, work);
     compare("e", type->name, 8, e, expected->e, 1e-14);
     compare("energy", type->name, 1, &energy, &expected->energy, 1e-12);
-    compare("force", type->name, 14, force, expected->force, 1e-12); /* determines sigma: J has full rank */
+    compare("force", type->name, 14, force, expected->force,
+            1e-12); /* determines sigma: J has full rank */
     compare("tangent", type->name, 14 * 14, H, expected->tangent, 1e-12);
 }
 
 /* C of a form at e = 0 is its linear stiffness. */
-static void linear_stiffness(const element_type *type, const section *c, double l, unsigned without, double S[64])
+static void linear_stiffness(const element_type *type, const section *c, double l, unsigned without,
+                             double S[64])
 {
     union {
         double align;
@@ -96,7 +103,8 @@ static void linear_stiffness(const element_type *type, const section *c, double 
     } store;
     element_data *data = (element_data *)store.bytes;
     const double lumped[ELEMENT_MAX_OPTIONS] = {0}, e[8] = {0};
-    const element_request request = {.section = c, .length = l, .features = type->offers & ~without, .options = lumped};
+    const element_request request = {
+        .section = c, .length = l, .features = type->offers & ~without, .options = lumped};
     fault f;
     gsl_test(type->prepare(&request, data, &f) != STATUS_OK, "%s: prepared", type->name);
     type->stress(data, e, NULL, &(stress_output){.C = S});
@@ -111,14 +119,16 @@ static void one_element_is_exact(void)
     const double l = 300, G = c.shear_modulus, E = c.young;
     double S[64], L[8][14] = {{0}}, K[14 * 14] = {0}, work[8 * 14];
     linear_stiffness(&element_beamw_consistent, &c, l, FEATURE_HARINGX, S);
-    node_state x[2] = {{.R = {1, 0, 0, 0, 1, 0, 0, 0, 1}}, {.r = {l, 0, 0}, .R = {1, 0, 0, 0, 1, 0, 0, 0, 1}}};
+    node_state x[2] = {{.R = {1, 0, 0, 0, 1, 0, 0, 0, 1}},
+                       {.r = {l, 0, 0}, .R = {1, 0, 0, 0, 1, 0, 0, 0, 1}}};
     union {
         double align;
         unsigned char bytes[1 << 15];
     } store;
     element_data *data = (element_data *)store.bytes;
     const double lumped[ELEMENT_MAX_OPTIONS] = {0};
-    const element_request request = {.section = &c, .length = l, .features = FEATURE_WARPING | FEATURE_SHEAR, .options = lumped};
+    const element_request request = {
+        .section = &c, .length = l, .features = FEATURE_WARPING | FEATURE_SHEAR, .options = lumped};
     fault f;
     element_beamw_consistent.prepare(&request, data, &f);
     element_beamw_consistent.strain(data, x, &(strain_output){.J = &L[0][0]});
@@ -138,14 +148,16 @@ static void one_element_is_exact(void)
     mat3_mul_vec(c.F, Q, g);
     for (int i = 0; i < 3; i++)
         g[i] /= G;
-    const double theta_z = (Fy * l * l / 2 + Mz * l) / (E * c.Iz), theta_y = (-Fz * l * l / 2 + My * l) / (E * c.Iy);
+    const double theta_z = (Fy * l * l / 2 + Mz * l) / (E * c.Iz),
+                 theta_y = (-Fz * l * l / 2 + My * l) / (E * c.Iy);
     const double a = (T * l * l / 2 + B * l) / (E * c.Iw);
     const double vs = (Fy * l * l * l / 3 + Mz * l * l / 2) / (E * c.Iz) + g[0] * l,
                  ws = (Fz * l * l * l / 3 - My * l * l / 2) / (E * c.Iy) + g[1] * l;
     const double phi = (T * l * l * l / 3 + B * l * l / 2) / (E * c.Iw) + g[2] * l;
     const double exact[7] = {0, vs + c.zs * phi, ws - c.ys * phi, phi, theta_y, theta_z, a};
     for (int i = 1; i < 7; i++)
-        gsl_test_rel(b[i], exact[i], 1e-9, "one coupled element of an unsymmetric cantilever is exact, coordinate %d", i);
+        gsl_test_rel(b[i], exact[i], 1e-9,
+                     "one coupled element of an unsymmetric cantilever is exact, coordinate %d", i);
 }
 
 static void rigid_motion(void)
@@ -156,8 +168,10 @@ static void rigid_motion(void)
         unsigned char bytes[1 << 15];
     } store;
     element_data *data = (element_data *)store.bytes;
-    const double lumped[ELEMENT_MAX_OPTIONS] = {0}, l = 300, turn[3] = {0.7, -1.9, 2.3}, shift[3] = {231.7, -87.9, 512.3};
-    const element_request request = {.section = &c, .length = l, .features = element_beamw.offers, .options = lumped};
+    const double lumped[ELEMENT_MAX_OPTIONS] = {0}, l = 300, turn[3] = {0.7, -1.9, 2.3},
+                 shift[3] = {231.7, -87.9, 512.3};
+    const element_request request = {
+        .section = &c, .length = l, .features = element_beamw.offers, .options = lumped};
     fault f;
     element_beamw.prepare(&request, data, &f);
     node_state x[2];

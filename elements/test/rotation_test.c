@@ -31,7 +31,8 @@ static void rodrigues(double angle, const double v[3], double out[3])
     const double along = axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2];
     vec3_cross(axis, v, across);
     for (int i = 0; i < 3; i++)
-        out[i] = v[i] * cos(angle) + across[i] * sin(angle) + axis[i] * along * 2 * sin(angle / 2) * sin(angle / 2);
+        out[i] = v[i] * cos(angle) + across[i] * sin(angle) +
+                 axis[i] * along * 2 * sin(angle / 2) * sin(angle / 2);
 }
 
 static void one_angle(double angle)
@@ -41,17 +42,20 @@ static void one_angle(double angle)
     turn(angle, q);
     rodrigues(angle, v, expected);
     rotation_apply(q, v, found);
-    gsl_test(!(largest_difference(3, found, expected) < 4 * eps), "angle %g: turns a vector as Rodrigues does", angle);
+    gsl_test(!(largest_difference(3, found, expected) < 4 * eps),
+             "angle %g: turns a vector as Rodrigues does", angle);
     rotation_matrix(q, R);
     for (int i = 0; i < 3; i++)
         column[i] = R[3 * i] * v[0] + R[3 * i + 1] * v[1] + R[3 * i + 2] * v[2];
-    gsl_test(!(largest_difference(3, column, expected) < 4 * eps), "angle %g: so does the matrix", angle);
+    gsl_test(!(largest_difference(3, column, expected) < 4 * eps), "angle %g: so does the matrix",
+             angle);
     rotation_from_matrix(R, again);
-    const double side = again[0] * q[0] + again[1] * q[1] + again[2] * q[2] + again[3] * q[3] < 0 ? -1 : 1;
+    const double side =
+        again[0] * q[0] + again[1] * q[1] + again[2] * q[2] + again[3] * q[3] < 0 ? -1 : 1;
     for (int i = 0; i < 4; i++)
         again[i] *= side;
-    gsl_test(!(largest_difference(4, again, q) < 4 * eps), "angle %g: the matrix gives the quaternion back, or its negative",
-             angle);
+    gsl_test(!(largest_difference(4, again, q) < 4 * eps),
+             "angle %g: the matrix gives the quaternion back, or its negative", angle);
 
     /* The shorter way, for q and for -q, which are the same rotation. */
     const double shorter = remainder(angle, 2 * pi);
@@ -59,11 +63,13 @@ static void one_angle(double angle)
         expected[i] = shorter * axis[i];
     for (int i = 0; i < 4; i++)
         minus[i] = -q[i];
-    const double allowed = fabs(fabs(shorter) - pi) < 1e-15 ? 2 * pi + 1 : 8 * eps; /* at pi both ways are as short */
+    const double allowed =
+        fabs(fabs(shorter) - pi) < 1e-15 ? 2 * pi + 1 : 8 * eps; /* at pi both ways are as short */
     rotation_log(q, phi);
     gsl_test(!(largest_difference(3, phi, expected) < allowed), "angle %g: its vector", angle);
     rotation_log(minus, phi);
-    gsl_test(!(largest_difference(3, phi, expected) < allowed), "angle %g: the vector of the negative", angle);
+    gsl_test(!(largest_difference(3, phi, expected) < allowed),
+             "angle %g: the vector of the negative", angle);
     gsl_test(!(vec3_norm(phi) <= pi * (1 + eps)), "angle %g: at most half a turn", angle);
 }
 
@@ -74,13 +80,15 @@ static void small_angles(void)
         turn(angle, q);
         rotation_log(q, phi);
         for (int i = 0; i < 3; i++)
-            gsl_test_rel(phi[i], angle * axis[i], 8 * eps, "angle %g: exponential and logarithm", angle);
+            gsl_test_rel(phi[i], angle * axis[i], 8 * eps, "angle %g: exponential and logarithm",
+                         angle);
     }
 }
 
 static void products(void)
 {
-    const double first[3] = {0.3, -1.1, 0.7}, second[3] = {-0.9, 0.2, 1.6}, v[3] = {0.713, 2.385, -1.17};
+    const double first[3] = {0.3, -1.1, 0.7}, second[3] = {-0.9, 0.2, 1.6},
+                 v[3] = {0.713, 2.385, -1.17};
     double a[4], b[4], ab[4], back[4], step[4], phi[3], one[3], two[3], both[3];
     rotation_exp(first, a);
     rotation_exp(second, b);
@@ -101,12 +109,14 @@ static void products(void)
     const double side = ab[0] * b[0] < 0 ? -1 : 1;
     for (int i = 0; i < 4; i++)
         ab[i] *= side;
-    gsl_test(!(largest_difference(4, ab, b) < 4 * eps), "the increment from a to b, in fixed axes, turns a into b");
+    gsl_test(!(largest_difference(4, ab, b) < 4 * eps),
+             "the increment from a to b, in fixed axes, turns a into b");
 }
 
 static void triads(void)
 {
-    const double x[3] = {2, -3, 6}, y[3] = {1, 1, 1}, parallel[3] = {-4, 6, -12}, zero[3] = {0, 0, 0};
+    const double x[3] = {2, -3, 6}, y[3] = {1, 1, 1}, parallel[3] = {-4, 6, -12},
+                 zero[3] = {0, 0, 0};
     double R[9], q[4], again[9];
     gsl_test_int(rotation_triad(x, y, R), 0, "a triad");
     for (int i = 0; i < 3; i++)

@@ -55,7 +55,8 @@ static section rectangle(double width, double height, double ky, double kz)
 /* Without given factors: shear and warping shear of a wall. Its long side is y; the rectangle's is z where it is wide. */
 static void rectangle_is_a_wall(double h, double t)
 {
-    const section wall = wall_section(h, t, 0, 0, 0), wide = rectangle(h, t, 0, 0), high = rectangle(t, h, 0, 0);
+    const section wall = wall_section(h, t, 0, 0, 0), wide = rectangle(h, t, 0, 0),
+                  high = rectangle(t, h, 0, 0);
     gsl_test_rel(wide.A, wall.A, 1e-14, "area of %g x %g", h, t);
     gsl_test_rel(wide.Iy, wall.Iz, 1e-13, "stiff bending");
     gsl_test_rel(wide.Iz, wall.Iy, 1e-13, "soft bending");
@@ -70,7 +71,8 @@ static void rectangle_is_a_wall(double h, double t)
 
 static void given_factors(void)
 {
-    const section one = rectangle(0.1, 0.02, 0.85, 0), none = rectangle(0.1, 0.02, 0, 0), both = rectangle(0.1, 0.02, 0.85, 0.85);
+    const section one = rectangle(0.1, 0.02, 0.85, 0), none = rectangle(0.1, 0.02, 0, 0),
+                  both = rectangle(0.1, 0.02, 0.85, 0.85);
     gsl_test_rel(one.F[0], both.F[0], 1e-14, "a factor that is given counts");
     gsl_test_rel(one.F[4], none.F[4], 1e-14, "the one beside it is 5/6");
     gsl_test(one.F[8] != 0 || both.F[8] != 0, "with given factors there is no warping shear");
@@ -102,11 +104,13 @@ static void area_moments(const section_spec *s, double sum[3][3])
     for (int i = 0; i < 9; i++)
         sum[i / 3][i % 3] = 0;
     for (int k = 0; k < s->walls; k++) {
-        const double *p = s->point[s->wall[k].from], *q = s->point[s->wall[k].to], t = s->wall[k].thickness;
+        const double *p = s->point[s->wall[k].from], *q = s->point[s->wall[k].to],
+                     t = s->wall[k].thickness;
         const double along[2] = {q[0] - p[0], q[1] - p[1]}, length = hypot(along[0], along[1]);
         for (int i = 0; i < N * N; i++) {
             const double u = x[i / N], v = (x[i % N] - 0.5) * t / length;
-            const double point[3] = {p[0] + u * along[0] - v * along[1], p[1] + u * along[1] + v * along[0], 1};
+            const double point[3] = {p[0] + u * along[0] - v * along[1],
+                                     p[1] + u * along[1] + v * along[0], 1};
             for (int j = 0; j < 9; j++)
                 sum[j / 3][j % 3] += w[i / N] * w[i % N] * t * length * point[j / 3] * point[j % 3];
         }
@@ -133,7 +137,8 @@ static void thick_walls(void)
     double m[3][3];
     area_moments(&spec, m);
     const double yc = m[0][2] / m[2][2], zc = m[1][2] / m[2][2];
-    const double yy = m[0][0] - m[2][2] * yc * yc, zz = m[1][1] - m[2][2] * zc * zc, yz = m[0][1] - m[2][2] * yc * zc;
+    const double yy = m[0][0] - m[2][2] * yc * yc, zz = m[1][1] - m[2][2] * zc * zc,
+                 yz = m[0][1] - m[2][2] * yc * zc;
     const double mean = (yy + zz) / 2, radius = hypot((yy - zz) / 2, yz);
     gsl_test_rel(c.A, m[2][2], 1e-13, "area of thick walls");
     gsl_test_rel(c.centroid[0], yc, 1e-12, "centroid, y");
@@ -141,7 +146,8 @@ static void thick_walls(void)
     gsl_test_rel(fmax(c.Iy, c.Iz), mean + radius, 1e-12, "larger second moment of thick walls");
     gsl_test_rel(fmin(c.Iy, c.Iz), mean - radius, 1e-12, "smaller second moment of thick walls");
     gsl_test_rel(c.Ip, yy + zz, 1e-12, "polar moment of thick walls");
-    const double a = c.axes_angle, about_y = yy * cos(a) * cos(a) + zz * sin(a) * sin(a) + 2 * yz * sin(a) * cos(a);
+    const double a = c.axes_angle,
+                 about_y = yy * cos(a) * cos(a) + zz * sin(a) * sin(a) + 2 * yz * sin(a) * cos(a);
     gsl_test_rel(c.Iz, about_y, 1e-12, "Iz belongs to the y axis that was found");
 }
 
@@ -154,8 +160,10 @@ static void torsion_of_a_rectangle(double a, double b)
     for (int m = 999; m >= 1; m -= 2)
         for (int n = 999; n >= 1; n -= 2)
             sum += a * b / ((double)m * m * n * n * (m * m / (a * a) + n * n / (b * b)));
-    gsl_test_rel(section_rectangle_torsion(a, b), 256 / pow(pi, 6) * sum, 1e-7, "torsion of %g x %g", a, b);
-    gsl_test_rel(section_rectangle_torsion(b, a), section_rectangle_torsion(a, b), 1e-14, "the sides exchanged");
+    gsl_test_rel(section_rectangle_torsion(a, b), 256 / pow(pi, 6) * sum, 1e-7,
+                 "torsion of %g x %g", a, b);
+    gsl_test_rel(section_rectangle_torsion(b, a), section_rectangle_torsion(a, b), 1e-14,
+                 "the sides exchanged");
 }
 
 /* Torque cubic in the twist rate of a thin rectangle: 1/8 of the variance of y^2 over the area, int (y^2 - mean)^2 dA. */
@@ -170,7 +178,8 @@ static void wagner_torque(void)
     for (int i = 0; i < N; i++)
         variance += w[i] * pow(pow((x[i] - 0.5) * h, 2) - mean, 2);
     const section wide = rectangle(h, t, 0, 0), high = rectangle(t, h, 0, 0);
-    gsl_test_rel(wide.wagner_torque, variance * h * t / 8, 1e-13, "cubic torque of a thin rectangle");
+    gsl_test_rel(wide.wagner_torque, variance * h * t / 8, 1e-13,
+                 "cubic torque of a thin rectangle");
     gsl_test_rel(high.wagner_torque, wide.wagner_torque, 1e-14, "it knows no side");
 }
 
@@ -181,9 +190,12 @@ static void refusals(void)
         const char *word;
         size_t offset;
         double value;
-    } row[] = {{"young", offsetof(section_spec, young), 0},      {"shear_modulus", offsetof(section_spec, shear_modulus), -1},
-               {"density", offsetof(section_spec, density), -1}, {"density", offsetof(section_spec, density), NAN},
-               {"width", offsetof(section_spec, width), 0},      {"thickness", offsetof(section_spec, height), INFINITY}};
+    } row[] = {{"young", offsetof(section_spec, young), 0},
+               {"shear_modulus", offsetof(section_spec, shear_modulus), -1},
+               {"density", offsetof(section_spec, density), -1},
+               {"density", offsetof(section_spec, density), NAN},
+               {"width", offsetof(section_spec, width), 0},
+               {"thickness", offsetof(section_spec, height), INFINITY}};
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         section c;
         fault f = {""};
@@ -191,8 +203,9 @@ static void refusals(void)
         spec.width = 0.1;
         spec.height = 0.02;
         *(double *)(void *)((char *)&spec + row[i].offset) = row[i].value;
-        gsl_test(section_compute(&spec, &c, &f) != STATUS_REFUSED || strstr(f.text, row[i].word) == NULL, "%s = %g: %s",
-                 row[i].word, row[i].value, f.text);
+        gsl_test(section_compute(&spec, &c, &f) != STATUS_REFUSED ||
+                     strstr(f.text, row[i].word) == NULL,
+                 "%s = %g: %s", row[i].word, row[i].value, f.text);
     }
 }
 

@@ -10,7 +10,8 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-extern const element_type element_sheet_second, element_sheet_second_consistent, element_sheet_third, element_sheet_third_printed;
+extern const element_type element_sheet_second, element_sheet_second_consistent,
+    element_sheet_third, element_sheet_third_printed;
 
 enum { N = 8, NODE = 7, NODAL = 14, MOST = 20, SIZE = NODE * MOST, STEPS = 15, ITERATIONS = 12 };
 enum { TIP_UY = 1, TIP_THZ = 5, TIP_WARP = 6 };
@@ -24,8 +25,8 @@ typedef struct cantilever {
 } cantilever;
 
 /* What one element adds: K += J^T C J + H, force += J^T [P'(e) + C (D(x) - e)] (N section 4, condensed). */
-static void element_terms(const cantilever *c, int i, double K[NODAL * NODAL], double force[NODAL], double J[N * NODAL],
-                          double gap[N], double P[N], double C[N * N])
+static void element_terms(const cantilever *c, int i, double K[NODAL * NODAL], double force[NODAL],
+                          double J[N * NODAL], double gap[N], double P[N], double C[N * N])
 {
     static const double half_turn[9] = {-1, 0, 0, 0, 1, 0, 0, 0, -1};
     double e[N], work[N * NODAL], s[N];
@@ -86,7 +87,8 @@ static void hold(int size, double *K, double *right, int coordinate, double moti
 static void advance(cantilever *c, const double *dx)
 {
     for (int i = 0; i < c->n; i++) {
-        double Ke[NODAL * NODAL], fe[NODAL], J[N * NODAL], gap[N], P[N], C[N * N], motion[NODAL] = {0}, de[N], ds[N];
+        double Ke[NODAL * NODAL], fe[NODAL], J[N * NODAL], gap[N], P[N], C[N * N],
+            motion[NODAL] = {0}, de[N], ds[N];
         element_terms(c, i, Ke, fe, J, gap, P, C);
         for (int a = 0; a < NODAL; a++)
             motion[a] = row_of(c, i, a) >= 0 ? dx[row_of(c, i, a)] : 0;
@@ -176,8 +178,10 @@ static void solve(const element_type *type, int n, int reversed, double *C_xx, d
     spec.height = 0.00225;
     spec.shear_factor[0] = spec.shear_factor[1] = 10 * (1 + nu) / (12 + 11 * nu);
     gsl_test(section_compute(&spec, &s, NULL) != STATUS_OK, "section");
-    const element_request request = {
-        .section = &s, .length = L / n, .features = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_LARGE};
+    const element_request request = {.section = &s,
+                                     .length = L / n,
+                                     .features = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE |
+                                                 FEATURE_LARGE};
     c->type = type;
     c->n = n;
     c->reversed = reversed;
@@ -206,16 +210,24 @@ int main(void)
         int n;
         double C_xx, C_zz; /* [m/N] */
     } row[] = {
-        {&element_sheet_second, 1, 3.9369867e-7, 1.987331e-8},  {&element_sheet_second, 2, 3.9619195e-7, 2.348288e-8},
-        {&element_sheet_second, 3, 3.9703679e-7, 2.542387e-8},  {&element_sheet_second, 4, 3.9718827e-7, 2.593329e-8},
-        {&element_sheet_second, 20, 3.9725972e-7, 2.623353e-8}, {&element_sheet_third, 1, 3.9472445e-7, 2.633920e-8},
-        {&element_sheet_third, 2, 3.9673504e-7, 2.632057e-8},   {&element_sheet_third_printed, 1, 3.9472445e-7, 2.470177e-8},
+        {&element_sheet_second, 1, 3.9369867e-7, 1.987331e-8},
+        {&element_sheet_second, 2, 3.9619195e-7, 2.348288e-8},
+        {&element_sheet_second, 3, 3.9703679e-7, 2.542387e-8},
+        {&element_sheet_second, 4, 3.9718827e-7, 2.593329e-8},
+        {&element_sheet_second, 20, 3.9725972e-7, 2.623353e-8},
+        {&element_sheet_third, 1, 3.9472445e-7, 2.633920e-8},
+        {&element_sheet_third, 2, 3.9673504e-7, 2.632057e-8},
+        {&element_sheet_third_printed, 1, 3.9472445e-7, 2.470177e-8},
     };
     /* shear kept in the strains: error in C_zz against the geometrically exact beam, in percent, and half of its last digit */
     static const struct {
         int n;
         double percent, rounding;
-    } consistent[] = {{1, -24.45, 5e-3}, {2, -10.59, 5e-3}, {4, -1.156, 5e-4}, {8, -0.0901, 5e-5}, {16, -0.0070, 5e-5}};
+    } consistent[] = {{1, -24.45, 5e-3},
+                      {2, -10.59, 5e-3},
+                      {4, -1.156, 5e-4},
+                      {8, -0.0901, 5e-5},
+                      {16, -0.0070, 5e-5}};
     const double exact = 2.620413704e-8;
     double C_xx, C_zz;
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {

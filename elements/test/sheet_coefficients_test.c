@@ -12,15 +12,24 @@
 extern const element_type element_sheet_second, element_sheet_third, element_sheet_third_printed;
 
 enum { N = 8, MX = 1, MYP, MYQ, MODES = 5 };
-enum { ONE, PX = 1 + LOCAL_PX, ZP = 1 + LOCAL_ZP, ZQ = 1 + LOCAL_ZQ, WP = 1 + LOCAL_WP, WQ = 1 + LOCAL_WQ };
+enum {
+    ONE,
+    PX = 1 + LOCAL_PX,
+    ZP = 1 + LOCAL_ZP,
+    ZQ = 1 + LOCAL_ZQ,
+    WP = 1 + LOCAL_WP,
+    WQ = 1 + LOCAL_WQ
+};
 
 /* Unit torques M, PP, PQ, QP, QQ: stress and the variable it is multiplied with. */
-static const int stress_of[MODES] = {MX, MYP, MYP, MYQ, MYQ}, variable_of[MODES] = {ONE, ZP, ZQ, ZP, ZQ};
+static const int stress_of[MODES] = {MX, MYP, MYP, MYQ, MYQ},
+                 variable_of[MODES] = {ONE, ZP, ZQ, ZP, ZQ};
 
 static double find(int count, const potential_term terms[], int i, int j, int a, int b)
 {
     for (int k = 0; k < count; k++)
-        if (terms[k].i == i && terms[k].j == j && ((terms[k].a == a && terms[k].b == b) || (terms[k].a == b && terms[k].b == a)))
+        if (terms[k].i == i && terms[k].j == j &&
+            ((terms[k].a == a && terms[k].b == b) || (terms[k].a == b && terms[k].b == a)))
             return terms[k].c;
     return 0;
 }
@@ -43,7 +52,8 @@ static double expected_compliance(const double value[], int i, int j, int a, int
     for (int k = 0; k < MODES; k++)
         for (int l = 0; l < MODES; l++) {
             const int va = variable_of[k], vb = variable_of[l];
-            if (stress_of[k] == i && stress_of[l] == j && ((va == a && vb == b) || (va == b && vb == a)))
+            if (stress_of[k] == i && stress_of[l] == j &&
+                ((va == a && vb == b) || (va == b && vb == a)))
                 sum += compliance(value, k, l);
         }
     return sum;
@@ -56,28 +66,40 @@ static void coefficients(void)
     for (size_t row = 0; row < sizeof bimoment_values / sizeof bimoment_values[0]; row++) {
         const double lambda = bimoment_values[row].lambda, *value = bimoment_values[row].value;
         /* L = GJ = 1, EIw = 1/lambda^2 */
-        const section c = {.young = 1, .shear_modulus = 1, .A = 1, .Iy = 1, .Iz = 1, .It = 1, .Iw = 1 / (lambda * lambda), .Ip = 2};
+        const section c = {.young = 1,
+                           .shear_modulus = 1,
+                           .A = 1,
+                           .Iy = 1,
+                           .Iz = 1,
+                           .It = 1,
+                           .Iw = 1 / (lambda * lambda),
+                           .Ip = 2};
         const element_request request = {.section = &c, .length = 1, .features = FEATURE_WARPING};
         potential p;
-        gsl_test(potential_prepare(&request, bimoment_values[row].printed, &p, NULL) != STATUS_OK, "potential, lambda = %g",
-                 lambda);
+        gsl_test(potential_prepare(&request, bimoment_values[row].printed, &p, NULL) != STATUS_OK,
+                 "potential, lambda = %g", lambda);
         double error = 0;
         for (int k = 0; k < MODES; k++)
             for (int l = 0; l <= k; l++) {
-                const int i = stress_of[k], j = stress_of[l], a = variable_of[k], b = variable_of[l];
-                error = fmax(error, error_of(find(p.terms_A, p.A, i, j, a, b), expected_compliance(value, i, j, a, b)));
+                const int i = stress_of[k], j = stress_of[l], a = variable_of[k],
+                          b = variable_of[l];
+                error = fmax(error, error_of(find(p.terms_A, p.A, i, j, a, b),
+                                             expected_compliance(value, i, j, a, b)));
             }
         for (int k = 0; k < MODES; k++)
             for (int m = 0; m < 3; m++)
-                error =
-                    fmax(error, error_of(find(p.terms_b, p.b, stress_of[k], 0, variable_of[k], twist[m]), value[15 + 3 * k + m]));
+                error = fmax(
+                    error, error_of(find(p.terms_b, p.b, stress_of[k], 0, variable_of[k], twist[m]),
+                                    value[15 + 3 * k + m]));
         for (int m = 0; m < 3; m++)
-            error = fmax(error, error_of(find(p.terms_P0, p.P0, 0, 0, ends[m][0], ends[m][1]), value[30 + m]));
+            error = fmax(error, error_of(find(p.terms_P0, p.P0, 0, 0, ends[m][0], ends[m][1]),
+                                         value[30 + m]));
         gsl_test(!(error < 2e-14), "lambda = %g, sign of u_y %s: coefficients (%.1e)", lambda,
                  bimoment_values[row].printed ? "printed" : "corrected", error);
         worst = fmax(worst, error);
     }
-    gsl_test(!(worst > 0 && worst < 2e-14), "largest relative error of all coefficients: %.1e", worst);
+    gsl_test(!(worst > 0 && worst < 2e-14), "largest relative error of all coefficients: %.1e",
+             worst);
 }
 
 /* Without warping stiffness the torque twists by t/GJ: the limit lambda -> inf, reached like 1/lambda. */
@@ -94,16 +116,18 @@ static void uniform_torsion(void)
             for (int l = 0; l < TORSION_MODES; l++)
                 error[n] = fmax(error[n], fabs(near[n].compliance[k][l] - limit.compliance[k][l]));
     }
-    gsl_test(!(error[0] < 3e-6 && fabs(error[1] / error[0] - 0.01) < 1e-3), "lambda -> inf is uniform torsion (%.1e, %.1e)",
-             error[0], error[1]);
+    gsl_test(!(error[0] < 3e-6 && fabs(error[1] / error[0] - 0.01) < 1e-3),
+             "lambda -> inf is uniform torsion (%.1e, %.1e)", error[0], error[1]);
 }
 
-static void stiffness_at_rest(const element_type *type, const section *c, unsigned features, double C[N * N])
+static void stiffness_at_rest(const element_type *type, const section *c, unsigned features,
+                              double C[N * N])
 {
     const double e[N] = {0};
     const element_request request = {.section = c, .length = 0.9, .features = features};
     element_data *d = calloc(1, type->data_size(&request));
-    gsl_test(d == NULL || type->prepare(&request, d, NULL) != STATUS_OK, "%s: prepared", type->name);
+    gsl_test(d == NULL || type->prepare(&request, d, NULL) != STATUS_OK, "%s: prepared",
+             type->name);
     type->stress(d, e, NULL, &(stress_output){.C = C});
     free(d);
 }
@@ -112,13 +136,21 @@ static void stiffness_at_rest(const element_type *type, const section *c, unsign
  * hyperbolic twist, which is the cubic one for lambda -> 0. */
 static void second_order_limit(void)
 {
-    section c = {.young = 3.1, .shear_modulus = 1.3, .A = 0.7, .Iy = 0.23, .Iz = 0.0117, .It = 0.031, .Iw = 1e4, .Ip = 0.2417};
+    section c = {.young = 3.1,
+                 .shear_modulus = 1.3,
+                 .A = 0.7,
+                 .Iy = 0.23,
+                 .Iz = 0.0117,
+                 .It = 0.031,
+                 .Iw = 1e4,
+                 .Ip = 0.2417};
     double second[N * N], third[N * N], worst = 0;
     c.F[4] = 1 / (0.83 * c.A);
     for (int warping = 0; warping < 2; warping++)
         for (int printed = 0; printed < 2; printed++) {
             const unsigned features = FEATURE_SHEAR | (warping ? FEATURE_WARPING : 0);
-            const element_type *type = printed ? &element_sheet_third_printed : &element_sheet_third;
+            const element_type *type =
+                printed ? &element_sheet_third_printed : &element_sheet_third;
             stiffness_at_rest(&element_sheet_second, &c, features, second);
             stiffness_at_rest(type, &c, features, third);
             /* without amplitudes e7 = e8 = e2: only their sum of stiffness counts */
@@ -131,10 +163,12 @@ static void second_order_limit(void)
             }
             for (int i = 0; i < N; i++)
                 for (int j = 0; j < N; j++)
-                    worst = fmax(worst, fabs(third[N * i + j] - second[N * i + j]) /
-                                            (sqrt(second[(N + 1) * i] * second[(N + 1) * j]) + 1e-300));
+                    worst =
+                        fmax(worst, fabs(third[N * i + j] - second[N * i + j]) /
+                                        (sqrt(second[(N + 1) * i] * second[(N + 1) * j]) + 1e-300));
         }
-    gsl_test(!(worst < 1e-14), "the undeformed third-order element is the second-order one (%.1e)", worst);
+    gsl_test(!(worst < 1e-14), "the undeformed third-order element is the second-order one (%.1e)",
+             worst);
 }
 
 int main(void)

@@ -26,8 +26,9 @@ static const char *case_name(const void *context, int i)
 
 static status unknown(fault *f, const char *what, const char *name, const char *near)
 {
-    return fault_set(f, STATUS_REFUSED, "unknown %s '%s'%s%s%s; 'beamwork list' shows them all", what, name,
-                     near != NULL ? ", did you mean '" : "", near != NULL ? near : "", near != NULL ? "'?" : "");
+    return fault_set(f, STATUS_REFUSED, "unknown %s '%s'%s%s%s; 'beamwork list' shows them all",
+                     what, name, near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
+                     near != NULL ? "'?" : "");
 }
 
 const case_type *case_find(const char *name, fault *f)
@@ -43,7 +44,8 @@ const element_type *formulation_find(const char *key)
 {
     const size_t length = strcspn(key, ":");
     for (int i = 0; registry_formulations[i] != NULL; i++)
-        if (strlen(registry_formulations[i]->name) == length && strncmp(registry_formulations[i]->name, key, length) == 0)
+        if (strlen(registry_formulations[i]->name) == length &&
+            strncmp(registry_formulations[i]->name, key, length) == 0)
             return registry_formulations[i];
     return NULL;
 }
@@ -60,11 +62,12 @@ static void write_key(formulation *out)
             choice_name(o[i].choices, (int)out->option[i], text, sizeof text);
         else
             snprintf(text, sizeof text, "%g", out->option[i]);
-        used += snprintf(out->key + used, (size_t)(FORMULATION_KEY - used), "%s%s=%s", given++ > 0 ? "," : ":", o[i].name, text);
+        used += snprintf(out->key + used, (size_t)(FORMULATION_KEY - used), "%s%s=%s",
+                         given++ > 0 ? "," : ":", o[i].name, text);
     }
     if (out->newton != SOLVE_MIXED && used < FORMULATION_KEY)
-        snprintf(out->key + used, (size_t)(FORMULATION_KEY - used), "%snewton=%s", given > 0 ? "," : ":",
-                 newton_names[out->newton]);
+        snprintf(out->key + used, (size_t)(FORMULATION_KEY - used), "%snewton=%s",
+                 given > 0 ? "," : ":", newton_names[out->newton]);
 }
 
 void formulation_default(const element_type *type, formulation *out)
@@ -111,9 +114,10 @@ static status set_option(formulation *out, const char *name, const char *value, 
     if (strcmp(name, "newton") == 0) {
         const int index = choice_index(formulation_newtons, value);
         out->newton = index >= 0 ? (solve_newton)index : SOLVE_MIXED;
-        return index >= 0
-                   ? STATUS_OK
-                   : fault_set(f, STATUS_REFUSED, "option newton: unknown choice '%s'; give one of %s", value, formulation_newtons);
+        return index >= 0 ? STATUS_OK
+                          : fault_set(f, STATUS_REFUSED,
+                                      "option newton: unknown choice '%s'; give one of %s", value,
+                                      formulation_newtons);
     }
     const element_option *o = out->type->options;
     int i = 0;
@@ -121,24 +125,28 @@ static status set_option(formulation *out, const char *name, const char *value, 
         i++;
     if (o == NULL || o[i].name == NULL) {
         const char *near = nearest_name(name, option_name, o);
-        return fault_set(f, STATUS_REFUSED, "formulation %s has no option '%s'%s%s%s; 'beamwork list formulations' shows them",
-                         out->type->name, name, near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
-                         near != NULL ? "'?" : "");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "formulation %s has no option '%s'%s%s%s; 'beamwork list formulations' shows them",
+            out->type->name, name, near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
+            near != NULL ? "'?" : "");
     }
     if (o[i].choices != NULL) {
         const int index = choice_index(o[i].choices, value);
         if (index < 0)
-            return fault_set(f, STATUS_REFUSED, "option %s of %s: unknown choice '%s'; give one of %s", name, out->type->name,
-                             value, o[i].choices);
+            return fault_set(f, STATUS_REFUSED,
+                             "option %s of %s: unknown choice '%s'; give one of %s", name,
+                             out->type->name, value, o[i].choices);
         out->option[i] = index;
         return STATUS_OK;
     }
     const char *end;
     double number;
-    if (!number_read(value, &end, &number) || *end != '\0' || !(number >= o[i].min && number <= o[i].max) ||
-        number != floor(number))
-        return fault_set(f, STATUS_REFUSED, "option %s of %s: '%s'; give a whole number from %g to %g", name, out->type->name,
-                         value, o[i].min, o[i].max);
+    if (!number_read(value, &end, &number) || *end != '\0' ||
+        !(number >= o[i].min && number <= o[i].max) || number != floor(number))
+        return fault_set(f, STATUS_REFUSED,
+                         "option %s of %s: '%s'; give a whole number from %g to %g", name,
+                         out->type->name, value, o[i].min, o[i].max);
     out->option[i] = number;
     return STATUS_OK;
 }
@@ -162,11 +170,14 @@ status formulation_parse(const char *text, formulation *out, fault *f)
     for (char *one = strsep(&rest, ","); one != NULL; one = strsep(&rest, ",")) {
         char *equals = strchr(one, '=');
         if (equals == NULL)
-            return fault_set(f, STATUS_REFUSED, "option '%s' of %s: write it as key=value, joined by single commas", one, copy);
+            return fault_set(f, STATUS_REFUSED,
+                             "option '%s' of %s: write it as key=value, joined by single commas",
+                             one, copy);
         *equals = '\0';
         for (int i = 0; i < count; i++)
             if (strcmp(given[i], one) == 0)
-                return fault_set(f, STATUS_REFUSED, "option %s of %s is given twice; give it one value", one, copy);
+                return fault_set(f, STATUS_REFUSED,
+                                 "option %s of %s is given twice; give it one value", one, copy);
         if (count <= ELEMENT_MAX_OPTIONS)
             given[count++] = one;
         const status outcome = set_option(out, one, equals + 1, f);

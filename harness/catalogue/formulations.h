@@ -11,10 +11,12 @@ typedef struct formulation {
     const element_type *type;
     double option[ELEMENT_MAX_OPTIONS];
     solve_newton newton;
-    char key[FORMULATION_KEY]; /* name, and the options that differ from their defaults, in table order */
+    char key
+        [FORMULATION_KEY]; /* name, and the options that differ from their defaults, in table order */
 } formulation;
 
-extern const char formulation_newtons[]; /* choices of the option newton, which every formulation takes */
+extern const char
+    formulation_newtons[]; /* choices of the option newton, which every formulation takes */
 
 status formulation_parse(const char *text, formulation *out, fault *f);
 /* The type that "name" or "name:key=value,..." means, or NULL. */

@@ -41,7 +41,8 @@ void choice_name(const char *choices, int index, char *text, int size)
         at = strchr(at, '|');
         at = at != NULL ? at + 1 : NULL;
     }
-    snprintf(text, (size_t)size, "%.*s", at != NULL ? (int)strcspn(at, "|") : 0, at != NULL ? at : "");
+    snprintf(text, (size_t)size, "%.*s", at != NULL ? (int)strcspn(at, "|") : 0,
+             at != NULL ? at : "");
 }
 
 enum { LONGEST = 64 };
@@ -65,7 +66,8 @@ static int distance(const char *a, const char *b)
     return row[n];
 }
 
-const char *nearest_name(const char *word, const char *(*next)(const void *, int), const void *context)
+const char *nearest_name(const char *word, const char *(*next)(const void *, int),
+                         const void *context)
 {
     const char *nearest = NULL, *name;
     int least = (int)strnlen(word, LONGEST) / 2 + 2;
@@ -90,17 +92,20 @@ static status set_value(const case_parameter *p, const char *text, double *value
     if (p->choices != NULL) {
         const int index = choice_index(p->choices, text);
         if (index < 0)
-            return fault_set(f, STATUS_REFUSED, "parameter %s: unknown choice '%s'; give one of %s", p->name, text, p->choices);
+            return fault_set(f, STATUS_REFUSED, "parameter %s: unknown choice '%s'; give one of %s",
+                             p->name, text, p->choices);
         *value = index;
         return STATUS_OK;
     }
     const char *end;
     double number;
     if (!number_read(text, &end, &number) || *end != '\0')
-        return fault_set(f, STATUS_REFUSED, "parameter %s: '%.60s' is not a finite number, or too small for one", p->name, text);
+        return fault_set(f, STATUS_REFUSED,
+                         "parameter %s: '%.60s' is not a finite number, or too small for one",
+                         p->name, text);
     if (number < p->min || number > p->max)
-        return fault_set(f, STATUS_REFUSED, "parameter %s = %g %s is outside its range %g .. %g", p->name, number, p->unit, p->min,
-                         p->max);
+        return fault_set(f, STATUS_REFUSED, "parameter %s = %g %s is outside its range %g .. %g",
+                         p->name, number, p->unit, p->min, p->max);
     const int whole = strcmp(p->unit, "1") == 0 && p->min == 0 && p->max == 1;
     if (whole && number != 0 && number != 1)
         return fault_set(f, STATUS_REFUSED, "parameter %s = %g: give 0 or 1", p->name, number);
@@ -111,14 +116,16 @@ static status set_value(const case_parameter *p, const char *text, double *value
 static const case_parameter *find(const case_type *c, const char *name, size_t length, int *index)
 {
     for (int i = 0; c->parameters[i].name != NULL; i++)
-        if (strlen(c->parameters[i].name) == length && strncmp(c->parameters[i].name, name, length) == 0) {
+        if (strlen(c->parameters[i].name) == length &&
+            strncmp(c->parameters[i].name, name, length) == 0) {
             *index = i;
             return &c->parameters[i];
         }
     return NULL;
 }
 
-static status set_one(const case_type *c, const char *assignment, double value[], int any[], fault *f)
+static status set_one(const case_type *c, const char *assignment, double value[], int any[],
+                      fault *f)
 {
     const char *equals = strchr(assignment, '=');
     const size_t length = equals != NULL ? (size_t)(equals - assignment) : strlen(assignment);
@@ -129,10 +136,12 @@ static status set_one(const case_type *c, const char *assignment, double value[]
         snprintf(name, sizeof name, "%.*s", (int)length, assignment);
         const char *near = nearest_name(name, parameter_name, c);
         return fault_set(f, STATUS_REFUSED, "case %s has no parameter '%s'%s%s%s", c->name, name,
-                         near != NULL ? "; did you mean '" : "", near != NULL ? near : "", near != NULL ? "'?" : "");
+                         near != NULL ? "; did you mean '" : "", near != NULL ? near : "",
+                         near != NULL ? "'?" : "");
     }
     if (equals == NULL)
-        return fault_set(f, STATUS_REFUSED, "parameter %s: no value; write %s=VALUE", p->name, p->name);
+        return fault_set(f, STATUS_REFUSED, "parameter %s: no value; write %s=VALUE", p->name,
+                         p->name);
     if (any != NULL && strcmp(equals + 1, "*") == 0) {
         any[index] = 1;
         return STATUS_OK;
@@ -187,7 +196,8 @@ void parameters_text(const case_type *c, const double value[], char *text, int s
         if (value[i] == c->parameters[i].value)
             continue;
         parameters_value_text(&c->parameters[i], value[i], number, sizeof number);
-        used += snprintf(text + used, (size_t)(size - used), "%s%s=%s", used > 0 ? ";" : "", c->parameters[i].name, number);
+        used += snprintf(text + used, (size_t)(size - used), "%s%s=%s", used > 0 ? ";" : "",
+                         c->parameters[i].name, number);
     }
 }
 

@@ -22,7 +22,8 @@ void parameters_value_text(const case_parameter *p, double value, char *text, in
 uint64_t parameters_hash(const case_type *c, const double value[], const int any[]);
 
 /* The candidate nearest to a misspelt word (edit distance), or NULL when none is near. next(context, i): NULL ends. */
-const char *nearest_name(const char *word, const char *(*next)(const void *context, int i), const void *context);
+const char *nearest_name(const char *word, const char *(*next)(const void *context, int i),
+                         const void *context);
 
 /* Index of `word` in "a|b|c", or -1. */
 int choice_index(const char *choices, const char *word);

@@ -1,11 +1,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "harness/catalogue/registry.h"
+#include "harness/cli/cli.h"
 #include "harness/model/features.h"
 #include "harness/model/lacks.h"
 #include "harness/model/missing.h"
-#include "harness/catalogue/registry.h"
-#include "harness/cli/cli.h"
 
 static void list_option(const element_option *o)
 {

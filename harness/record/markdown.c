@@ -88,8 +88,8 @@ static void write_formulations(FILE *to, const sweep *s, const judgement *j)
 
 void markdown_write(FILE *to, const sweep *s, const judgement *j, const environment *e)
 {
-    const int bad = j->unexpected > 0 || j->disagreements > 0 || j->unobserved > 0 || j->unmet > 0 ||
-                    j->flaws > 0;
+    const int bad = j->unexpected > 0 || j->disagreements > 0 || j->unobserved > 0 ||
+                    j->unmet > 0 || j->flaws > 0;
     fprintf(to, "## beamwork: %s%s\n\n", s->unfinished > 0 ? "interrupted; until then " : "",
             j->judged == 0 ? "nothing was checked"
             : bad          ? "not as expected"

@@ -224,7 +224,8 @@ static void cells_that_contradict_themselves(FILE *to, const sweep *s, const jud
         const series *one = &s->series[c->series];
         const point *p = &s->point[one->point];
         fprintf(to, "\n%s%s%s, %s, n = %d contradicts itself: %s\n", p->type->name,
-                p->text[0] != '\0' ? ": " : "", p->text, one->formulation.key, one->mesh[c->mesh], c->why);
+                p->text[0] != '\0' ? ": " : "", p->text, one->formulation.key, one->mesh[c->mesh],
+                c->why);
     }
 }
 

@@ -61,7 +61,8 @@ void table_matrices(FILE *to, const solve_result *r)
 
 static void row_of_event(FILE *to, const path_event *e)
 {
-    fprintf(to, "%s at %.9g m, load factor %.9g", result_event_name(e->kind), e->control, e->factor);
+    fprintf(to, "%s at %.9g m, load factor %.9g", result_event_name(e->kind), e->control,
+            e->factor);
     if (e->kind == EVENT_BRANCH_JUMP)
         fprintf(to, ": a step led to another branch with %.9g\n", e->other_factor);
     else if (e->negative_before >= 0)

@@ -20,7 +20,7 @@ static double error_on(const sweep *s, const verdict *v, int mesh)
     const solve_result *r = &one->cell[mesh].solve;
     return v->quantity < r->quantities
                ? verdict_error(&s->point[one->point].scene.quantity[v->quantity],
-                                r->quantity[v->quantity].value, v->truth->value)
+                               r->quantity[v->quantity].value, v->truth->value)
                : NAN;
 }
 

@@ -61,7 +61,9 @@ static status residual_of(analysis_context *c, const double load[], const double
 /* Iterative refinement with residuals from the strains: twice always, and on as long as it helps
  * where digits are still missing. */
 enum { REFINEMENTS = 2, MOST_REFINEMENTS = 30 };
-static const double sure_digits = 1e-9; /* of the last correction beside the solution */
+/* Of a correction beside the solution: what ends the refinement, and what it may settle at where
+ * round-off keeps it from going on, as in a slender bar pushed along an oblique axis. */
+static const double sure_digits = 1e-9, enough_digits = 1e-6;
 
 static double weighted_size(int n, const double weight[], const double x[])
 {
@@ -104,8 +106,11 @@ static status refine(analysis_context *c, linear_system *s, refinement *w, doubl
             weighted_size(n, w->weight, w->r) / weighted_size(n, w->weight, x);
         if (i >= REFINEMENTS && !(correction > sure_digits))
             return STATUS_OK;
-        if (i > REFINEMENTS && !(correction < last / 2))
+        if (i > REFINEMENTS && !(correction < last / 2)) {
+            if (correction <= enough_digits)
+                return STATUS_OK;
             break;
+        }
         last = correction;
     }
     c->singular = 1;

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/features.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
+#include "harness/model/features.h"
 #include "harness/model/model.h"
 #include "harness/truth/columns.h"
 

@@ -5,6 +5,7 @@ import pathlib
 import tempfile
 import unittest
 
+from harness.test.program import TRUTHS
 from reports import causes
 from reports.test.results import Site
 

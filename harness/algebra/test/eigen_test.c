@@ -215,8 +215,8 @@ static void test_missed_copies(void)
     const double apart = departure(&s.K, p.count, p.x);
     gsl_test(!(apart < 1e-12), "candidates are orthonormal within %.1e", apart);
     gsl_test(candidates_add(&p, 1, all, 0, NULL) != STATUS_OK, "the same vector again");
-    gsl_test_int((int)candidates_missing(&p, COPIES + 2, &missing, &work, NULL), STATUS_NOT_CONVERGED,
-                 "counts too many");
+    gsl_test_int((int)candidates_missing(&p, COPIES + 2, &missing, &work, NULL),
+                 STATUS_NOT_CONVERGED, "counts too many");
     candidates_free(&p);
     factor_free(e.K_factor);
     strings_free(&s);

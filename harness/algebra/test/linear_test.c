@@ -237,7 +237,8 @@ static void condition_of_a_triangle(void)
 {
     enum { N = 6 };
     int column[N + 1] = {0}, row[3 * N], whole_column[N + 1] = {0}, whole_row[3 * N];
-    double value[3 * N], whole_value[3 * N], dense[N * N] = {0}, inverse[N * N] = {0}, norm[2] = {0};
+    double value[3 * N], whole_value[3 * N], dense[N * N] = {0}, inverse[N * N] = {0},
+                                                       norm[2] = {0};
     int count = 0, whole = 0, pivot[N];
     for (int j = 0; j < N; j++) {
         for (int i = j > 0 ? j - 1 : 0; i <= j + 1 && i < N; i++) {
@@ -272,9 +273,11 @@ static void condition_of_a_triangle(void)
     const sparse of[2] = {{N, 1, column, row, value}, {N, 0, whole_column, whole_row, whole_value}};
     for (int k = 0; k < 2; k++) {
         factor *fa;
-        gsl_test(factor_alloc(&of[k], &fa, NULL) != STATUS_OK || factor_numeric(fa, &of[k], NULL) != STATUS_OK, "factored");
-        gsl_test_rel(factor_condition(fa, &of[k]), norm[0] * norm[1], 1e-12, "condition from the %s",
-                     k == 0 ? "triangle" : "whole");
+        gsl_test(factor_alloc(&of[k], &fa, NULL) != STATUS_OK ||
+                     factor_numeric(fa, &of[k], NULL) != STATUS_OK,
+                 "factored");
+        gsl_test_rel(factor_condition(fa, &of[k]), norm[0] * norm[1], 1e-12,
+                     "condition from the %s", k == 0 ? "triangle" : "whole");
         factor_free(fa);
     }
 }

@@ -2,15 +2,15 @@
 #include <gsl/gsl_test.h>
 #include <stdio.h>
 
-#include "harness/extremes/extreme_run.h"
 #include "harness/extremes/extreme_expect.h"
 #include "harness/extremes/extreme_judge.h"
+#include "harness/extremes/extreme_run.h"
 
 static char all[] = "*", word[32];
 
 /* Cells of one quantity, all of one kind, and a finding that speaks of another one or of this. */
 static extreme_count judged(outcome_kind kind, const char *expected, int whole, int *unexpected,
-                           int *code)
+                            int *code)
 {
     extreme_outcome o = {.kind = kind, .x = 1, .neighbours = -1};
     extreme_finding row = {
@@ -18,12 +18,12 @@ static extreme_count judged(outcome_kind kind, const char *expected, int whole, 
     formulation chosen = {.key = "element"};
     extreme_count count = {0};
     extreme_sweep s = {.formulations = 1,
-                .outcomes = 1,
-                .findings = expected != NULL,
-                .formulation = &chosen,
-                .outcome = &o,
-                .finding = &row,
-                .count = &count};
+                       .outcomes = 1,
+                       .findings = expected != NULL,
+                       .formulation = &chosen,
+                       .outcome = &o,
+                       .finding = &row,
+                       .count = &count};
     snprintf(word, sizeof word, "%s", expected != NULL ? expected : "");
     extreme_expect(&s, whole);
     *unexpected = s.unexpected;
@@ -36,7 +36,8 @@ static void kinds(void)
     for (int k = 0; k < OUTCOME_KINDS; k++) {
         int unexpected, code;
         const outcome_kind kind = (outcome_kind)k;
-        const int good = kind == OUTCOME_VALUE || kind == OUTCOME_COARSE, skip = kind == OUTCOME_SKIP;
+        const int good = kind == OUTCOME_VALUE || kind == OUTCOME_COARSE,
+                  skip = kind == OUTCOME_SKIP;
         const extreme_count c = judged(kind, NULL, 1, &unexpected, &code);
         gsl_test_int(unexpected, !good && !skip, "%s: without a finding", outcome_name(kind));
         gsl_test_int(code, skip ? 3 : good ? 0 : 1, "%s: its exit code", outcome_name(kind));
@@ -60,20 +61,20 @@ static void unobserved(void)
     for (int whole = 0; whole < 2; whole++) {
         extreme_outcome o = {.kind = OUTCOME_VALUE, .x = 1, .neighbours = -1};
         extreme_finding row = {.extreme = all,
-                              .formulation = all,
-                              .quantity = all,
-                              .outcome = word,
-                              .from = 2,
-                              .to = 3};
+                               .formulation = all,
+                               .quantity = all,
+                               .outcome = word,
+                               .from = 2,
+                               .to = 3};
         formulation chosen = {.key = "element"};
         extreme_count count = {0};
         extreme_sweep s = {.formulations = 1,
-                    .outcomes = 1,
-                    .findings = 1,
-                    .formulation = &chosen,
-                    .outcome = &o,
-                    .finding = &row,
-                    .count = &count};
+                           .outcomes = 1,
+                           .findings = 1,
+                           .formulation = &chosen,
+                           .outcome = &o,
+                           .finding = &row,
+                           .count = &count};
         extreme_expect(&s, whole);
         gsl_test_int(s.unexpected, 0, "the outcome is as expected");
         gsl_test_int(s.unobserved, whole, "the finding is elsewhere");

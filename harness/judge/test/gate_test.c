@@ -10,11 +10,15 @@
 #include "harness/judge/reach.h"
 
 /* Counts of which each alone fails the gate. */
-static const size_t failing[] = {offsetof(judgement, unexpected), offsetof(judgement, disagreements),
-                                 offsetof(judgement, unobserved), offsetof(judgement, unmet), offsetof(judgement, flaws)};
+static const size_t failing[] = {
+    offsetof(judgement, unexpected), offsetof(judgement, disagreements),
+    offsetof(judgement, unobserved), offsetof(judgement, unmet), offsetof(judgement, flaws)};
 /* Counts of what was checked: with none of these there is no answer. */
 static const size_t checking[] = {offsetof(judgement, judged), offsetof(judgement, agreements)};
-enum { FAILING = sizeof failing / sizeof failing[0], CHECKING = sizeof checking / sizeof checking[0] };
+enum {
+    FAILING = sizeof failing / sizeof failing[0],
+    CHECKING = sizeof checking / sizeof checking[0]
+};
 
 static int is_among(size_t offset, int count, const size_t list[])
 {
@@ -26,8 +30,8 @@ static int is_among(size_t offset, int count, const size_t list[])
 
 static int is_pointer(size_t offset)
 {
-    static const size_t pointer[] = {offsetof(judgement, verdict), offsetof(judgement, agreement), offsetof(judgement, coverage),
-                                     offsetof(judgement, flaw)};
+    static const size_t pointer[] = {offsetof(judgement, verdict), offsetof(judgement, agreement),
+                                     offsetof(judgement, coverage), offsetof(judgement, flaw)};
     for (size_t i = 0; i < sizeof pointer / sizeof pointer[0]; i++)
         if (offset >= pointer[i] && offset < pointer[i] + sizeof(void *))
             return 1;
@@ -52,12 +56,13 @@ static void exit_codes(void)
             set(&j, checking[k], 1);
             gsl_test_int(judgement_exit(&j), 0, "something was checked, nothing differs");
             set(&j, at, 1);
-            gsl_test_int(judgement_exit(&j), is_among(at, FAILING, failing), "the count at byte %d alone", (int)at);
+            gsl_test_int(judgement_exit(&j), is_among(at, FAILING, failing),
+                         "the count at byte %d alone", (int)at);
         }
         judgement none = {0};
         set(&none, at, 1);
-        gsl_test_int(judgement_exit(&none), is_among(at, CHECKING, checking) ? 0 : 3, "nothing else: the count at byte %d",
-                     (int)at);
+        gsl_test_int(judgement_exit(&none), is_among(at, CHECKING, checking) ? 0 : 3,
+                     "nothing else: the count at byte %d", (int)at);
     }
     gsl_test(walked < FAILING + CHECKING + VERDICT_KINDS, "%d counts", walked);
 }
@@ -112,7 +117,8 @@ static double uniform(void)
 static void throw_errors(double error[MESHES])
 {
     for (int i = 0; i < MESHES; i++) {
-        const double size = uniform() < 0.2 ? reach_level[rand() % REACH_LEVELS] : pow(10, -6 * uniform());
+        const double size =
+            uniform() < 0.2 ? reach_level[rand() % REACH_LEVELS] : pow(10, -6 * uniform());
         error[i] = uniform() < 0.1 ? NAN : uniform() < 0.5 ? -size : size;
     }
 }

@@ -20,8 +20,9 @@ static const int grid[GRIDS][MOST] = {{1, 2, 4, 8, 16, 32, 64},
 /* What one sequence is made of. */
 typedef struct draw {
     double order, order_2, order_3;
-    double ratio, ratio_3; /* of the second and third term to the first, on the coarsest mesh; signed */
-    double bend;           /* elements at which the behaviour changes */
+    double ratio,
+        ratio_3; /* of the second and third term to the first, on the coarsest mesh; signed */
+    double bend; /* elements at which the behaviour changes */
     double phase;
     int first, last; /* meshes */
 } draw;
@@ -145,7 +146,8 @@ static draw draw_from(gsl_rng *r, const family *f, const int n[], int meshes)
     d.order_2 = d.order + 1 + (double)gsl_rng_uniform_int(r, 2);
     d.order_3 = d.order_2 + 1;
     const double size = between_log(r, 0.1, 10), weak = between_log(r, 10, 100), finest = d.last;
-    const double crossing = pow((double)n[gsl_rng_uniform_int(r, (unsigned long)meshes)] / d.first, d.order_2 - d.order);
+    const double crossing = pow((double)n[gsl_rng_uniform_int(r, (unsigned long)meshes)] / d.first,
+                                d.order_2 - d.order);
     switch (f->mixture) {
     case ONE_TERM:
         break;
@@ -186,9 +188,12 @@ static int is_covered(gsl_rng *r, const family *f, int meshes)
 {
     const int *n = grid[gsl_rng_uniform_int(r, GRIDS)];
     const draw d = draw_from(r, f, n, meshes);
-    const double round_off = 1e-14, first = sign(r) * between_log(r, 1e-3, 0.3) * value / f->error(&d, 0, n[0]);
+    const double round_off = 1e-14,
+                 first = sign(r) * between_log(r, 1e-3, 0.3) * value / f->error(&d, 0, n[0]);
     const double usual =
-        fmin(first, 0.3 * value / fabs(f->error(&d, 1, n[1]))); /* where the first two cancel on the coarsest mesh */
+        fmin(first,
+             0.3 * value /
+                 fabs(f->error(&d, 1, n[1]))); /* where the first two cancel on the coarsest mesh */
     double v[MOST];
     for (int i = 0; i < meshes; i++)
         v[i] = value + usual * f->error(&d, i, n[i]) + value * gsl_ran_gaussian(r, round_off);
@@ -206,8 +211,9 @@ static void coverage_of_families(void)
             gsl_rng_set(r, 20260 + 10 * k + (unsigned long)meshes);
             for (int i = 0; i < DRAWS; i++)
                 covered += is_covered(r, &families[k], meshes);
-            gsl_test(covered < families[k].covered * DRAWS, "%s, %d meshes: %d of %d limits within their uncertainty",
-                     families[k].name, meshes, covered, DRAWS);
+            gsl_test(covered < families[k].covered * DRAWS,
+                     "%s, %d meshes: %d of %d limits within their uncertainty", families[k].name,
+                     meshes, covered, DRAWS);
         }
     gsl_rng_free(r);
 }
@@ -227,15 +233,18 @@ static void coverage_under_noise(void)
                 for (int i = 0; i < DRAWS; i++) {
                     double v[MOST];
                     const draw d = draw_from(r, &noisy[k], grid[0], meshes);
-                    const double first = sign(r) * between_log(r, 1e-3, 0.3) * value / noisy[k].error(&d, 0, 1);
+                    const double first =
+                        sign(r) * between_log(r, 1e-3, 0.3) * value / noisy[k].error(&d, 0, 1);
                     for (int j = 0; j < meshes; j++)
-                        v[j] = value * (1 + gsl_ran_gaussian(r, size)) + first * noisy[k].error(&d, j, grid[0][j]);
-                    const limit_sequence s = {meshes, grid[0], v, size * between_log(r, 1.0 / 3, 3), 1, 8, 0};
+                        v[j] = value * (1 + gsl_ran_gaussian(r, size)) +
+                               first * noisy[k].error(&d, j, grid[0][j]);
+                    const limit_sequence s = {meshes, grid[0], v, size * between_log(r, 1.0 / 3, 3),
+                                              1,      8,       0};
                     const mesh_limit l = limit_of(&s);
                     covered += fabs(l.limit - value) <= l.limit_uncertainty;
                 }
-                gsl_test(covered < noisy[k].covered * DRAWS, "%s, %d meshes, noise %.0e: %d of %d", noisy[k].name, meshes, size,
-                         covered, DRAWS);
+                gsl_test(covered < noisy[k].covered * DRAWS, "%s, %d meshes, noise %.0e: %d of %d",
+                         noisy[k].name, meshes, size, covered, DRAWS);
             }
     gsl_rng_free(r);
 }
@@ -289,17 +298,20 @@ static mesh_limit of_changes(int changes, const double change[], double noise)
  * value. */
 static void worked(void)
 {
-    const double pure[] = {-16, -4, -1}, agreeing_by_accident[] = {-20, -4, -1, -0.25}, unsettled[] = {-16, -4, -1, -0.24};
+    const double pure[] = {-16, -4, -1}, agreeing_by_accident[] = {-20, -4, -1, -0.25},
+                 unsettled[] = {-16, -4, -1, -0.24};
     gsl_test_rel(of_changes(3, pure, 0).limit, -21 - 1.0 / 3, 1e-12, "changes of ratio 4");
     gsl_test_abs(of_changes(3, pure, 0).limit_uncertainty, 0, 1e-12, "are of one term");
     gsl_test_rel(of_changes(3, pure, NAN).limit_uncertainty, 1.25 * 0.02 / 3, 1e-6,
                  "2 % of a step is doubted without a measure of noise");
     /* Ratios 5, 4, 4: the limits are -24 - 4/4 = -25, then twice -25.3333: 1/3 of former change, reduced by order 2 + 2. */
-    gsl_test_rel(of_changes(4, agreeing_by_accident, 0).limit_uncertainty, 1.25 * (1.0 / 3 - 0) / 16, 1e-9,
+    gsl_test_rel(of_changes(4, agreeing_by_accident, 0).limit_uncertainty,
+                 1.25 * (1.0 / 3 - 0) / 16, 1e-9,
                  "a change of the limit that is small by accident");
     /* Ratios 4, 4, 4.1667: the limits are twice -21.3333, then -21.24 - 0.24/3.1667 = -21.31579: they do not settle. */
     const double change = 4.0 / 3 - 1 - 0.24 * (1 + 6.0 / 19);
-    gsl_test_rel(of_changes(4, unsettled, 0).limit_uncertainty, 1.25 * change, 1e-9, "the change of the limit");
+    gsl_test_rel(of_changes(4, unsettled, 0).limit_uncertainty, 1.25 * change, 1e-9,
+                 "the change of the limit");
     gsl_test_rel(of_changes(4, unsettled, NAN).limit_uncertainty, 3 * change, 1e-6,
                  "which noise may have made, where it is not known");
     double v[MOST];
@@ -334,18 +346,23 @@ static void settled(void)
     const double equal[] = {2, 2, 2, 2}, zero[] = {0, 0, 0, 0}, last_two[] = {2, 2.3, 2.5, 2.5};
     mesh_limit l = doubled(4, equal);
     is_kind(l, LIMIT_NOISE_DOMINATED, "equal values");
-    gsl_test_rel(l.limit_uncertainty, 4 * 3e-11 * 2, 1e-12, "are known to the noise that is assumed");
+    gsl_test_rel(l.limit_uncertainty, 4 * 3e-11 * 2, 1e-12,
+                 "are known to the noise that is assumed");
     l = limit_of(&(limit_sequence){4, grid[0], equal, 0, 2, 4, 0});
-    gsl_test_rel(l.limit_uncertainty, 4 * 2.3e-16 * 2, 1e-12, "or to round-off, where it was measured");
+    gsl_test_rel(l.limit_uncertainty, 4 * 2.3e-16 * 2, 1e-12,
+                 "or to round-off, where it was measured");
     l = doubled(4, zero);
     gsl_test(l.limit != 0 || l.limit_uncertainty != 0, "nothing but zeros is zero");
     l = limit_of(&(limit_sequence){4, grid[0], zero, NAN, 2, 4, 5});
-    gsl_test_rel(l.limit_uncertainty, 4 * 3e-11 * 5, 1e-12, "zeros of a quantity of size 5 are known to its noise");
+    gsl_test_rel(l.limit_uncertainty, 4 * 3e-11 * 5, 1e-12,
+                 "zeros of a quantity of size 5 are known to its noise");
     l = doubled(4, last_two);
-    gsl_test(!(l.limit_uncertainty >= 3 * 0.2 / 4), "the last two are equal by accident: the change before counts (%g)",
+    gsl_test(!(l.limit_uncertainty >= 3 * 0.2 / 4),
+             "the last two are equal by accident: the change before counts (%g)",
              l.limit_uncertainty);
     double v[DOUBLED];
-    fill(DOUBLED, grid[0], 0.3, 8, v); /* the last change is 0.3/16^8 = 7e-11 of 3, the one before 2e-8 */
+    fill(DOUBLED, grid[0], 0.3, 8,
+         v); /* the last change is 0.3/16^8 = 7e-11 of 3, the one before 2e-8 */
     l = limit_of(&(limit_sequence){DOUBLED, grid[0], v, NAN, 2, 8, 0});
     is_kind(l, LIMIT_SETTLED, "a high order that has reached the noise");
     gsl_test_rel(l.order, 8, 0.02, "shows its order above it");

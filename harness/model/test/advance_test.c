@@ -7,11 +7,11 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/supports.h"
-#include "harness/model/linearise.h"
-#include "harness/model/kinematics.h"
 #include "harness/catalogue/registry.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/linearise.h"
 #include "harness/model/model.h"
+#include "harness/model/supports.h"
 
 static const double length = 2;
 

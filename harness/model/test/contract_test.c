@@ -9,10 +9,10 @@
 #include "elements/math/rotation.h"
 #include "elements/test/nodes.h"
 #include "elements/test/worst.h"
-#include "harness/model/missing.h"
-#include "harness/model/features.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
+#include "harness/model/features.h"
+#include "harness/model/missing.h"
 #include "harness/model/model.h"
 
 enum { MOST_STRAINS = ELEMENT_MAX_STRAINS, MOST = ELEMENT_MAX_COORDINATES };

@@ -184,7 +184,8 @@ static void lumped_moments(const element_type *type, const double options[], con
     s.coordinates = 7 * s.nodes;
     test_section(type, &s.section);
     s.section.Ip *= 1.3;
-    const element_request request = {.section = &s.section, .length = s.length, .features = features, .options = options};
+    const element_request request = {
+        .section = &s.section, .length = s.length, .features = features, .options = options};
     s.data = calloc(1, type->data_size(&request));
     gsl_test(type->prepare(&request, s.data, NULL) != STATUS_OK, "%s: prepared", name);
     nodes_straight(s.nodes, s.length, x);
@@ -194,8 +195,10 @@ static void lumped_moments(const element_type *type, const double options[], con
         polar += M[(7 * k + 3) * (s.coordinates + 1)];
     }
     const double mass = s.section.density * s.section.A * s.length;
-    gsl_test_rel(x_moment, mass * s.length * s.length / (s.nodes == 2 ? 2 : 3), 1e-13, "%s: second moment of the masses", name);
-    gsl_test_rel(polar, s.section.density * s.section.Ip * s.length, 1e-13, "%s: polar inertia", name);
+    gsl_test_rel(x_moment, mass * s.length * s.length / (s.nodes == 2 ? 2 : 3), 1e-13,
+                 "%s: second moment of the masses", name);
+    gsl_test_rel(polar, s.section.density * s.section.Ip * s.length, 1e-13, "%s: polar inertia",
+                 name);
     free(s.data);
 }
 
@@ -329,7 +332,8 @@ static void warping_in_a_turning_frame(const element_type *type, const double op
 
 static void lumped_elements(void)
 {
-    static const char *const name[] = {"geometrically_exact:nodes=2", "geometrically_exact:nodes=3", "collocation"};
+    static const char *const name[] = {"geometrically_exact:nodes=2", "geometrically_exact:nodes=3",
+                                       "collocation"};
     for (size_t i = 0; i < sizeof name / sizeof name[0]; i++) {
         formulation chosen;
         gsl_test(formulation_parse(name[i], &chosen, NULL) != STATUS_OK, "%s", name[i]);

@@ -128,11 +128,14 @@ static void no_energy_at_rest(const char *name)
     spec.shear_modulus = 8e10;
     spec.width = 0.05;
     spec.height = 0.001;
-    gsl_test(formulation_parse(name, &chosen, &f) != STATUS_OK || section_compute(&spec, &c, &f) != STATUS_OK, "%s", f.text);
+    gsl_test(formulation_parse(name, &chosen, &f) != STATUS_OK ||
+                 section_compute(&spec, &c, &f) != STATUS_OK,
+             "%s", f.text);
     const double length = 0.3;
     const element_request request = {.section = &c,
                                      .length = length,
-                                     .features = chosen.type->offers & ~(unsigned)FEATURE_WAGNER_TORQUE,
+                                     .features =
+                                         chosen.type->offers & ~(unsigned)FEATURE_WAGNER_TORQUE,
                                      .options = chosen.option,
                                      .curvature = {0.2, 0.3, 0.9}};
     element_data *data = calloc(1, chosen.type->data_size(&request));
@@ -141,7 +144,8 @@ static void no_energy_at_rest(const char *name)
         chosen.type->rest(data, inner);
     chosen.type->stress(data, none, inner, &(stress_output){.energy = &energy});
     const double bending = c.young * c.Iz * 0.9 * 0.9 * length / 2;
-    gsl_test(!(fabs(energy) <= 1e-12 * bending), "%s: energy at rest, by that of straightening it: %.1e", name, energy / bending);
+    gsl_test(!(fabs(energy) <= 1e-12 * bending),
+             "%s: energy at rest, by that of straightening it: %.1e", name, energy / bending);
     free(data);
 }
 

@@ -241,7 +241,9 @@ static void stiffness_of_angles(int body, scene_load_kind kind)
     const sparse *pattern;
     sparse K;
     prepare(body, kind, &s);
-    gsl_test(model_pattern(s.m, 0, &pattern, &f) != STATUS_OK || sparse_alloc_like(pattern, &K, &f) != STATUS_OK, "pattern");
+    gsl_test(model_pattern(s.m, 0, &pattern, &f) != STATUS_OK ||
+                 sparse_alloc_like(pattern, &K, &f) != STATUS_OK,
+             "pattern");
     model_load_stiffness(s.m, s.turned, 1, &K);
     for (int j = 0; j < s.n; j++) {
         double load[2][MOST];
@@ -256,8 +258,10 @@ static void stiffness_of_angles(int body, scene_load_kind kind)
         for (int k = K.column[j]; k < K.column[j + 1]; k++) {
             const int i = K.row[k];
             const double change = (load[1][i] - load[0][i]) / (2 * step);
-            gsl_test(!(fabs(K.value[k] + change) <= 1e-5), "%s, %s: stiffness (%d, %d) is %.8g, the load changes by %.8g",
-                     body_name[body], kind == SCENE_FORCE ? "force" : "moment", i, j, K.value[k], change);
+            gsl_test(!(fabs(K.value[k] + change) <= 1e-5),
+                     "%s, %s: stiffness (%d, %d) is %.8g, the load changes by %.8g",
+                     body_name[body], kind == SCENE_FORCE ? "force" : "moment", i, j, K.value[k],
+                     change);
         }
     }
     sparse_free_values(&K);
@@ -268,7 +272,8 @@ static void stiffness_of_angles(int body, scene_load_kind kind)
 static void factors(void)
 {
     static const double path[] = {0.5, 1, 3}, value[] = {0.25, 2, 1};
-    static const double row[][2] = {{0, 0.25}, {0.5, 0.25}, {0.75, 1.125}, {1, 2}, {2, 1.5}, {3, 1}, {4, 1}};
+    static const double row[][2] = {{0, 0.25}, {0.5, 0.25}, {0.75, 1.125}, {1, 2},
+                                    {2, 1.5},  {3, 1},      {4, 1}};
     subject s;
     prepare(FREE_TURNS, SCENE_FORCE, &s);
     scene_load *load = &s.scene.load[0];
@@ -294,7 +299,8 @@ enum { LINE, SPIN };
 
 /* Forces of one component on the vertices of a member of length 2 along x: of a load along it, or of a frame that turns
  * about z. The ends come first. */
-static void forces_along(int what, const char *name, double path, int follows, int nodes, double out[])
+static void forces_along(int what, const char *name, double path, int follows, int nodes,
+                         double out[])
 {
     const double y[3] = {0, 1, 0}, z[3] = {0, 0, 0.3}, origin[3] = {0, 0, 0}, end = 1;
     section_spec spec;
@@ -352,7 +358,8 @@ static void turning_faster(void)
     forces_along(SPIN, name, 0.5, 0, 2, steady);
     for (int k = 0; k < 2; k++) {
         gsl_test_abs(half[k], whole[k] / 4, 1e-15, "half the angular velocity, force %d", k);
-        gsl_test_abs(steady[k], whole[k], 1e-15, "an angular velocity that does not follow the path, force %d", k);
+        gsl_test_abs(steady[k], whole[k], 1e-15,
+                     "an angular velocity that does not follow the path, force %d", k);
     }
     gsl_test_rel(whole[1], 0.3 * 0.3 * 2, 1e-13, "half of the mass at the end, at radius 2");
 }
@@ -373,7 +380,8 @@ static void foot_of_an_arm(const element_type *type)
     spec.width = 0.1;
     spec.height = 0.08;
     scene_init(&s, "arm");
-    const int foot = scene_add_node(&s, 0, 0, 0), arm = scene_add_attached(&s, foot, 0.3, -0.4, 0.2);
+    const int foot = scene_add_node(&s, 0, 0, 0),
+              arm = scene_add_attached(&s, foot, 0.3, -0.4, 0.2);
     const int tip = scene_add_node(&s, 1.3, -0.4, 0.2);
     scene_hold_all(&s, foot);
     scene_add_member(&s, arm, tip, scene_add_section(&s, &spec), y);
@@ -383,18 +391,23 @@ static void foot_of_an_arm(const element_type *type)
     for (int k = 0; k < 9; k++) {
         char name[8];
         snprintf(name, sizeof name, "q%d", k);
-        scene_quantity *q = scene_add_quantity(&s, name, "1", k < 6 ? SCENE_REACTION : SCENE_COORDINATE, 0);
+        scene_quantity *q =
+            scene_add_quantity(&s, name, "1", k < 6 ? SCENE_REACTION : SCENE_COORDINATE, 0);
         q->node = k < 6 ? foot : tip;
         q->row = k % 6;
     }
     const model_request request = {&s, type, NULL, 2, 0};
-    if (model_alloc(&request, &m, &f) == STATUS_OK && solve_scene(&s, m, NULL, &r, &f) == STATUS_OK) {
-        const double x[3] = {1.3 + r.quantity[6].value, -0.4 + r.quantity[7].value, 0.2 + r.quantity[8].value};
+    if (model_alloc(&request, &m, &f) == STATUS_OK &&
+        solve_scene(&s, m, NULL, &r, &f) == STATUS_OK) {
+        const double x[3] = {1.3 + r.quantity[6].value, -0.4 + r.quantity[7].value,
+                             0.2 + r.quantity[8].value};
         double moment[3];
         vec3_cross(x, P, moment);
         for (int i = 0; i < 3; i++) {
-            gsl_test_abs(r.quantity[i].value, -P[i] - 5 - i, 1e-9, "%s: reaction %d at the foot", type->name, i);
-            gsl_test_abs(r.quantity[3 + i].value, -moment[i], 1e-9, "%s: reacting moment %d at the foot", type->name, i);
+            gsl_test_abs(r.quantity[i].value, -P[i] - 5 - i, 1e-9, "%s: reaction %d at the foot",
+                         type->name, i);
+            gsl_test_abs(r.quantity[3 + i].value, -moment[i], 1e-9,
+                         "%s: reacting moment %d at the foot", type->name, i);
         }
     } else {
         gsl_test(1, "%s: %s", type->name, f.text);

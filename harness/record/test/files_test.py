@@ -163,7 +163,7 @@ class Readable(Folder):
         suite = xml.etree.ElementTree.parse(self.path("j.xml")).getroot()[0]
         self.assertEqual(int(suite.get("tests")), len(suite))
         self.assertEqual(int(suite.get("failures")), 0)
-        self.assertEqual(len(suite), len(summary["verdicts"]) + len(summary["agreements"]) + 2)
+        self.assertEqual(len(suite), len(summary["verdicts"]) + len(summary["agreements"]) + 3)
         with h5py.File(self.path("r.h5")) as file:
             self.assertEqual(file.attrs["schema"], b"beamwork-results")
             case = file["cases/warping_torsion"]

@@ -175,8 +175,7 @@ static void check(const bench *b, const char *what)
 {
     const tree t = written(b);
     const int expected_failures = b->j.unexpected + b->j.disagreements + (b->j.unobserved > 0) +
-                                  (b->j.unmet > 0) + (b->j.flaws > 0) +
-                                   (b->s.unfinished > 0);
+                                  (b->j.unmet > 0) + (b->j.flaws > 0) + (b->s.unfinished > 0);
     gsl_test(t.bad || t.both || t.outside, "%s: well-formed, every mark in a test of its own",
              what);
     gsl_test_int(t.header[0], t.tests, "%s: tests", what);

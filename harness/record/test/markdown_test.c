@@ -42,8 +42,8 @@ int main(void)
     char *text = written(&s, &j);
     holds(text, "## beamwork: not as expected");
     holds(text, "1 verdicts against truths in 0 cells: 1 differ");
-    holds(text,
-          "| case_of_test | a=1 | `beam:option=2` | load | **wrong limit** | pass | 2.5 | 2 | +25 % | left \\| right below |");
+    holds(text, "| case_of_test | a=1 | `beam:option=2` | load | **wrong limit** | pass | 2.5 | 2 "
+                "| +25 % | left \\| right below |");
     free(text);
 
     v.matches = 1;

@@ -30,8 +30,8 @@ static int readable(const char *path, int count)
 {
     hsize_t size = 0;
     double last = 0;
-    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), set = H5Dopen2(file, "ramp", H5P_DEFAULT),
-                space = H5Dget_space(set);
+    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT),
+                set = H5Dopen2(file, "ramp", H5P_DEFAULT), space = H5Dget_space(set);
     double *value = calloc((size_t)count, sizeof *value);
     if (H5Sget_simple_extent_dims(space, &size, NULL) == 1 && size == (hsize_t)count &&
         H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0)
@@ -56,7 +56,8 @@ static void write_record(const char *path, const char *folder, int good, const c
     gsl_test(record_open(&r, &f) != STATUS_OK, "opened %s", f.text);
     H5Dclose(record_values(&r, r.file, "ramp", 1, &size, ramp, "m"));
     const status outcome = record_close(&r, path, &f);
-    gsl_test(good ? outcome != STATUS_OK : outcome != STATUS_FAULT || strchr(f.text, '\n') != NULL, "%s: %s", what, f.text);
+    gsl_test(good ? outcome != STATUS_OK : outcome != STATUS_FAULT || strchr(f.text, '\n') != NULL,
+             "%s: %s", what, f.text);
     gsl_test_int(entries(folder) - before, good, "%s: files left", what);
     gsl_test(good && !readable(path, COUNT), "%s: the file can be read", what);
 }
@@ -152,20 +153,25 @@ static mode_t mode_of(const char *file)
 static void links(void)
 {
     const folder of = folder_make();
-    const path target = in(&of, "target"), far = in(&of, "far"), near = in(&of, "near"), chain = in(&of, "chain"),
-               new_one = in(&of, "new"), dangling = in(&of, "dangling"), circle = in(&of, "circle");
+    const path target = in(&of, "target"), far = in(&of, "far"), near = in(&of, "near"),
+               chain = in(&of, "chain"), new_one = in(&of, "new"), dangling = in(&of, "dangling"),
+               circle = in(&of, "circle");
     fault f = {""};
     gsl_test(write_text(target.text, "before", &f) != STATUS_OK, "a file %s", f.text);
-    gsl_test(symlink(target.text, far.text) | symlink("target", near.text) | symlink("near", chain.text) |
-                 symlink("new", dangling.text) | symlink("circle", circle.text),
+    gsl_test(symlink(target.text, far.text) | symlink("target", near.text) |
+                 symlink("near", chain.text) | symlink("new", dangling.text) |
+                 symlink("circle", circle.text),
              "links");
     const path link[] = {far, near, chain};
     for (int i = 0; i < 3; i++) {
-        gsl_test(write_text(link[i].text, link[i].text, &f) != STATUS_OK, "written through %s %s", link[i].text, f.text);
-        gsl_test(!S_ISLNK(mode_of(link[i].text)) || !S_ISREG(mode_of(target.text)) || !holds(target.text, link[i].text),
+        gsl_test(write_text(link[i].text, link[i].text, &f) != STATUS_OK, "written through %s %s",
+                 link[i].text, f.text);
+        gsl_test(!S_ISLNK(mode_of(link[i].text)) || !S_ISREG(mode_of(target.text)) ||
+                     !holds(target.text, link[i].text),
                  "it is the link that stays and its target that is new");
     }
-    gsl_test(write_text(dangling.text, "made", &f) != STATUS_OK || !holds(new_one.text, "made"), "where the link leads to");
+    gsl_test(write_text(dangling.text, "made", &f) != STATUS_OK || !holds(new_one.text, "made"),
+             "where the link leads to");
     gsl_test(!S_ISLNK(mode_of(dangling.text)), "and it stays a link");
     gsl_test(write_text(circle.text, "never", &f) != STATUS_FAULT, "links in a circle: %s", f.text);
     gsl_test_int(entries(of.path), 7, "nothing else is left");
@@ -208,8 +214,8 @@ static void temporary_names(void)
         struct stat there;
         for (int k = 0; k < i; k++)
             same += strcmp(o[i].temporary, o[k].temporary) == 0;
-        beside +=
-            strncmp(o[i].temporary, of.path, strlen(of.path)) == 0 && lstat(o[i].temporary, &there) == 0 && S_ISREG(there.st_mode);
+        beside += strncmp(o[i].temporary, of.path, strlen(of.path)) == 0 &&
+                  lstat(o[i].temporary, &there) == 0 && S_ISREG(there.st_mode);
     }
     gsl_test_int(same, 0, "names given twice");
     gsl_test_int(beside, NAMES, "files beside the one that is written");
@@ -228,19 +234,27 @@ static void streams(void)
     char got[20] = "";
     output o;
     fault f = {""};
-    gsl_test(mkfifo(fifo.text, 0600) != 0 || symlink("fifo", link.text) != 0, "a pipe with a name, and a link to it");
+    gsl_test(mkfifo(fifo.text, 0600) != 0 || symlink("fifo", link.text) != 0,
+             "a pipe with a name, and a link to it");
     const int reader = open(fifo.text, O_RDONLY | O_NONBLOCK);
-    gsl_test(write_text(fifo.text, "one", &f) != STATUS_OK || write_text(link.text, "two", &f) != STATUS_OK, "written %s", f.text);
-    gsl_test(read(reader, got, sizeof got - 1) != 6 || strcmp(got, "onetwo") != 0, "and read: %s", got);
+    gsl_test(write_text(fifo.text, "one", &f) != STATUS_OK ||
+                 write_text(link.text, "two", &f) != STATUS_OK,
+             "written %s", f.text);
+    gsl_test(read(reader, got, sizeof got - 1) != 6 || strcmp(got, "onetwo") != 0, "and read: %s",
+             got);
     gsl_test(write_text("/dev/null", "x", &f) != STATUS_OK, "to a device %s", f.text);
     if (access("/dev/full", W_OK) == 0)
         gsl_test(write_text("/dev/full", "x", &f) != STATUS_FAULT, "to a full one: %s", f.text);
     for (size_t i = 0; i < sizeof stream / sizeof stream[0]; i++) {
         place where;
-        gsl_test(output_open_whole(stream[i], &o, &f) != STATUS_REFUSED || strstr(f.text, "regular file") == NULL, "%s", f.text);
-        gsl_test(output_try(stream[i], OUTPUT_WHOLE_FILE, &where, &f) != STATUS_REFUSED, "noticed before");
+        gsl_test(output_open_whole(stream[i], &o, &f) != STATUS_REFUSED ||
+                     strstr(f.text, "regular file") == NULL,
+                 "%s", f.text);
+        gsl_test(output_try(stream[i], OUTPUT_WHOLE_FILE, &where, &f) != STATUS_REFUSED,
+                 "noticed before");
     }
-    gsl_test(!S_ISFIFO(mode_of(fifo.text)) || !S_ISLNK(mode_of(link.text)) || !S_ISCHR(mode_of("/dev/null")),
+    gsl_test(!S_ISFIFO(mode_of(fifo.text)) || !S_ISLNK(mode_of(link.text)) ||
+                 !S_ISCHR(mode_of("/dev/null")),
              "all are what they were");
     gsl_test_int(entries(of.path), 2, "nothing else is left");
     close(reader);
@@ -263,8 +277,8 @@ static void no_places(void)
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         fault f = {""};
         place where;
-        gsl_test(output_try(bad[i].path, OUTPUT_TEXT, &where, &f) != bad[i].outcome || strchr(f.text, '\n') != NULL ||
-                     f.text[0] == '\0',
+        gsl_test(output_try(bad[i].path, OUTPUT_TEXT, &where, &f) != bad[i].outcome ||
+                     strchr(f.text, '\n') != NULL || f.text[0] == '\0',
                  "'%.60s': %s", bad[i].path, f.text);
     }
     gsl_test_int(entries(of.path), 0, "nothing is left");
@@ -275,24 +289,34 @@ static void no_places(void)
 static void same_places(void)
 {
     const folder of = folder_make();
-    const path a = in(&of, "a"), dotted = in(&of, "./a"), link = in(&of, "link"), hard = in(&of, "hard"), b = in(&of, "b"),
-               free_a = in(&of, "free"), free_dotted = in(&of, ".//free"), free_link = in(&of, "free_link"),
+    const path a = in(&of, "a"), dotted = in(&of, "./a"), link = in(&of, "link"),
+               hard = in(&of, "hard"), b = in(&of, "b"), free_a = in(&of, "free"),
+               free_dotted = in(&of, ".//free"), free_link = in(&of, "free_link"),
                free_b = in(&of, "freed");
     const char *const one[] = {a.text, dotted.text, link.text, hard.text};
     const char *const other[] = {free_a.text, free_dotted.text, free_link.text};
     fault f = {""};
     place x, y;
-    gsl_test(write_text(a.text, "x", &f) != STATUS_OK || write_text(b.text, "x", &f) != STATUS_OK, "two files %s", f.text);
-    gsl_test(symlink(a.text, link.text) != 0 || linkat(AT_FDCWD, a.text, AT_FDCWD, hard.text, 0) != 0 ||
+    gsl_test(write_text(a.text, "x", &f) != STATUS_OK || write_text(b.text, "x", &f) != STATUS_OK,
+             "two files %s", f.text);
+    gsl_test(symlink(a.text, link.text) != 0 ||
+                 linkat(AT_FDCWD, a.text, AT_FDCWD, hard.text, 0) != 0 ||
                  symlink("free", free_link.text) != 0,
              "links");
     for (int i = 0; i < 4; i++)
-        gsl_test(place_find(a.text, &x, &f) | place_find(one[i], &y, &f) || !place_same(&x, &y), "the same: %s", one[i]);
+        gsl_test(place_find(a.text, &x, &f) | place_find(one[i], &y, &f) || !place_same(&x, &y),
+                 "the same: %s", one[i]);
     for (int i = 0; i < 3; i++)
-        gsl_test(place_find(free_a.text, &x, &f) | place_find(other[i], &y, &f) || !place_same(&x, &y), "the same: %s", other[i]);
-    gsl_test(place_find(a.text, &x, &f) | place_find(b.text, &y, &f) || place_same(&x, &y), "two files are two");
-    gsl_test(place_find(free_a.text, &x, &f) | place_find(free_b.text, &y, &f) || place_same(&x, &y), "two new ones are two");
-    gsl_test(place_find(a.text, &x, &f) | place_find(free_a.text, &y, &f) || place_same(&x, &y), "one and a new one are two");
+        gsl_test(place_find(free_a.text, &x, &f) | place_find(other[i], &y, &f) ||
+                     !place_same(&x, &y),
+                 "the same: %s", other[i]);
+    gsl_test(place_find(a.text, &x, &f) | place_find(b.text, &y, &f) || place_same(&x, &y),
+             "two files are two");
+    gsl_test(place_find(free_a.text, &x, &f) | place_find(free_b.text, &y, &f) ||
+                 place_same(&x, &y),
+             "two new ones are two");
+    gsl_test(place_find(a.text, &x, &f) | place_find(free_a.text, &y, &f) || place_same(&x, &y),
+             "one and a new one are two");
     folder_remove(&of);
 }
 
@@ -306,8 +330,9 @@ static void partial_names(void)
     for (size_t i = 0; i < sizeof name / sizeof name[0]; i++) {
         char partial[PATH_MAX];
         fault f = {""};
-        gsl_test(output_partial(name[i][0], partial, &f) != STATUS_OK || strcmp(partial, name[i][1]) != 0, "%s: %s", name[i][0],
-                 partial);
+        gsl_test(output_partial(name[i][0], partial, &f) != STATUS_OK ||
+                     strcmp(partial, name[i][1]) != 0,
+                 "%s: %s", name[i][0], partial);
     }
 }
 

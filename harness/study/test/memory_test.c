@@ -93,24 +93,26 @@ static void exhaust(const char *name, attempt *run, const void *what, int most)
         refused_call = k;
         const status outcome = run(what, &value, &why);
         refused_call = 0;
-        const int says_so = outcome == STATUS_FAULT || (outcome == STATUS_REFUSED && strstr(why.text, "memory") != NULL);
-        const int good = outcome == STATUS_OK ? fabs(value - right) <= 1e-13 * fabs(right)
-                                              : says_so && why.text[0] != '\0' && strchr(why.text, '\n') == NULL;
+        const int says_so = outcome == STATUS_FAULT ||
+                            (outcome == STATUS_REFUSED && strstr(why.text, "memory") != NULL);
+        const int good = outcome == STATUS_OK
+                             ? fabs(value - right) <= 1e-13 * fabs(right)
+                             : says_so && why.text[0] != '\0' && strchr(why.text, '\n') == NULL;
         bad_status += outcome != STATUS_OK && !says_so;
         bad_line += outcome != STATUS_OK && says_so && !good;
         wrong += outcome == STATUS_OK && !good;
         leaks += live != before;
         if ((!good || live != before) && worst[0] == '\0')
-            snprintf(worst, sizeof worst, "call %ld of %ld: %s '%s', %ld live", k, all, status_name(outcome), why.text,
-                     live - before);
+            snprintf(worst, sizeof worst, "call %ld of %ld: %s '%s', %ld live", k, all,
+                     status_name(outcome), why.text, live - before);
         if (getenv("MEMORY_TEST_ALL") != NULL && (!good || live != before))
-            fprintf(stderr, "%s: call %ld of %ld: %s '%s', value %.17g (%.17g), %ld live\n", name, k, all, status_name(outcome),
-                    why.text, value, right, live - before);
+            fprintf(stderr, "%s: call %ld of %ld: %s '%s', value %.17g (%.17g), %ld live\n", name,
+                    k, all, status_name(outcome), why.text, value, right, live - before);
         live = before;
     }
     gsl_test(all < 10, "%s: %ld allocations", name, all);
-    gsl_test(bad_status + bad_line > 0, "%s: %d failures of another kind, %d without a line; %s", name, bad_status, bad_line,
-             worst);
+    gsl_test(bad_status + bad_line > 0, "%s: %d failures of another kind, %d without a line; %s",
+             name, bad_status, bad_line, worst);
     gsl_test(wrong > 0, "%s: %d wrong answers; %s", name, wrong, worst);
     gsl_test(leaks > 0, "%s: %d leaks; %s", name, leaks, worst);
 }
@@ -181,11 +183,13 @@ static status write_results(const void *what, double *value, fault *f)
 
 int main(void)
 {
-    static const cell_choice choice[] = {{"elastica", "collocation", 2},        {"elastica", "beamw:newton=dense", 4},
-                                         {"c_column", "beamw_consistent", 2},   {"sheet_cantilever", "sheet_third", 1},
-                                         {"spherical_joint", "sheet_third", 1}, {"moment_buckling", "geometrically_exact", 2},
-                                         {"warping_torsion", "beamw_vlasov", 2}};
-    const char *truths_path = getenv("BEAMWORK_TRUTHS") != NULL ? getenv("BEAMWORK_TRUTHS") : "build/truths.h5";
+    static const cell_choice choice[] = {
+        {"elastica", "collocation", 2},        {"elastica", "beamw:newton=dense", 4},
+        {"c_column", "beamw_consistent", 2},   {"sheet_cantilever", "sheet_third", 1},
+        {"spherical_joint", "sheet_third", 1}, {"moment_buckling", "geometrically_exact", 2},
+        {"warping_torsion", "beamw_vlasov", 2}};
+    const char *truths_path =
+        getenv("BEAMWORK_TRUTHS") != NULL ? getenv("BEAMWORK_TRUTHS") : "build/truths.h5";
     char path[64];
     for (size_t i = 0; i < sizeof choice / sizeof choice[0]; i++) {
         char name[100];

@@ -24,7 +24,8 @@ static int plan(const case_type *type, sweep *s)
         count++;
     }
     const status outcome = plan_one(type, value, all, count, mesh, 2, s, &f);
-    gsl_test(outcome != STATUS_OK || run_sweep(&request, s, &f) != STATUS_OK, "%s: %s", type->name, f.text);
+    gsl_test(outcome != STATUS_OK || run_sweep(&request, s, &f) != STATUS_OK, "%s: %s", type->name,
+             f.text);
     return count;
 }
 
@@ -39,7 +40,8 @@ static void rounding(const case_type *type)
     const int count = plan(type, &s);
     double largest = 0;
     int measured = 0;
-    gsl_test(noise_measure(&request, wanted, &s, &f) != STATUS_OK, "%s: measured %s", type->name, f.text);
+    gsl_test(noise_measure(&request, wanted, &s, &f) != STATUS_OK, "%s: measured %s", type->name,
+             f.text);
     gsl_test(s.series[0].noise != NULL, "not where it is not wanted");
     for (int i = 1; i < count; i++)
         for (int q = 0; q < s.point[0].scene.quantities && s.series[i].noise != NULL; q++)
@@ -47,8 +49,10 @@ static void rounding(const case_type *type)
                 measured++;
                 largest = fmax(largest, s.series[i].noise[q]);
             }
-    gsl_test(measured == 0 || !(largest > 0 && largest < 1e-6), "%s: %d values, largest noise %.1e", type->name, measured, largest);
-    gsl_test_int(noise_cells(&s), 2 * (sweep_cells(&s) / 2 - (s.series[0].missing[0] == '\0')), "two cells for each series");
+    gsl_test(measured == 0 || !(largest > 0 && largest < 1e-6), "%s: %d values, largest noise %.1e",
+             type->name, measured, largest);
+    gsl_test_int(noise_cells(&s), 2 * (sweep_cells(&s) / 2 - (s.series[0].missing[0] == '\0')),
+                 "two cells for each series");
     sweep_free(&s);
 }
 
@@ -68,12 +72,14 @@ static void size_of_it(const case_type *type)
     gsl_test(noise_measure(&request, wanted, &s, &f) != STATUS_OK, "measured %s", f.text);
     gsl_test_rel(s.series[i].noise[0], 2e-3 / (1 + 1e-3), 1e-4, "twice the larger difference");
     finest->value = NAN;
-    gsl_test(noise_measure(&request, wanted, &s, &f) != STATUS_OK || isfinite(s.series[i].noise[0]), "no value has no noise");
+    gsl_test(noise_measure(&request, wanted, &s, &f) != STATUS_OK || isfinite(s.series[i].noise[0]),
+             "no value has no noise");
     sweep_free(&s);
 }
 
 /* One value of a case and formulation, its scene in other words. */
-static double in_other_words(const case_type *type, const formulation *chosen, scene_edit edit, int quantity)
+static double in_other_words(const case_type *type, const formulation *chosen, scene_edit edit,
+                             int quantity)
 {
     static const int mesh[] = {2};
     double value[CASE_MAX_PARAMETERS] = {0};
@@ -81,7 +87,9 @@ static double in_other_words(const case_type *type, const formulation *chosen, s
     fault f = {""};
     parameters_default(type, value);
     gsl_test(plan_add(&s, type, value, &edit, mesh, 1, &f) != STATUS_OK, "planned %s", f.text);
-    gsl_test(plan_extend(&s, chosen, 1, &f) != STATUS_OK || run_sweep(&request, &s, &f) != STATUS_OK, "run %s", f.text);
+    gsl_test(plan_extend(&s, chosen, 1, &f) != STATUS_OK ||
+                 run_sweep(&request, &s, &f) != STATUS_OK,
+             "run %s", f.text);
     const double out = s.series[0].cell[0].solve.quantity[quantity].value;
     sweep_free(&s);
     return out;
@@ -102,9 +110,14 @@ static void larger_of_two(const case_type *type)
         if (one->noise == NULL || (one->formulation.type->limits & LIMIT_ORDER_DEPENDENT))
             continue;
         const double value = one->cell[1].solve.quantity[0].value;
-        const double a = fabs(in_other_words(type, &one->formulation, (scene_edit){SCENE_EDIT_UNIT, 1000}, 0) - value),
-                     b = fabs(in_other_words(type, &one->formulation, (scene_edit){SCENE_EDIT_REVERSE, 0}, 0) - value);
-        gsl_test_abs(one->noise[0], 2 * fmax(a, b) / fabs(value), 0, "%s, %s: %g and %g", type->name, one->formulation.key, a, b);
+        const double a = fabs(in_other_words(type, &one->formulation,
+                                             (scene_edit){SCENE_EDIT_UNIT, 1000}, 0) -
+                              value),
+                     b = fabs(in_other_words(type, &one->formulation,
+                                             (scene_edit){SCENE_EDIT_REVERSE, 0}, 0) -
+                              value);
+        gsl_test_abs(one->noise[0], 2 * fmax(a, b) / fabs(value), 0, "%s, %s: %g and %g",
+                     type->name, one->formulation.key, a, b);
         differ += a != b;
     }
     gsl_test(differ == 0, "%s: the repetitions differ somewhere", type->name);

@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include "elements/test/random.h"
-#include "harness/study/plan.h"
 #include "harness/catalogue/formulations.h"
+#include "harness/study/plan.h"
 #include "harness/study/sweep.h"
 #include "harness/truth/truth.h"
 
@@ -54,20 +54,23 @@ static void parameters(void)
 /* Any value comes back from its text; so do names of formulations with every option changed. */
 static void texts(void)
 {
-    static const double value[] = {1.0 / 3, 0.1 + 0.2, 1e-300, 123456789.123456789, 2e22, 1 - 1e-16};
+    static const double value[] = {1.0 / 3, 0.1 + 0.2, 1e-300, 123456789.123456789,
+                                   2e22,    1 - 1e-16};
     static const case_parameter any = {"any", "", 0, -1e300, 1e300, NULL, "any number"};
     char text[64];
     for (size_t i = 0; i < sizeof value / sizeof value[0]; i++) {
         parameters_value_text(&any, value[i], text, sizeof text);
         gsl_test(strtod(text, NULL) != value[i], "%.17g comes back from '%s'", value[i], text);
     }
-    static const char *const name[] = {"beamw:mass=lumped,newton=dense", "geometrically_exact:nodes=2,newton=displacement",
-                                       "beamw_consistent:mass=lumped,torsion=hyperbolic,newton=displacement"};
+    static const char *const name[] = {
+        "beamw:mass=lumped,newton=dense", "geometrically_exact:nodes=2,newton=displacement",
+        "beamw_consistent:mass=lumped,torsion=hyperbolic,newton=displacement"};
     for (size_t i = 0; i < sizeof name / sizeof name[0]; i++) {
         formulation given, again;
         fault f = {""};
         gsl_test(formulation_parse(name[i], &given, &f) != STATUS_OK, "%s: %s", name[i], f.text);
-        gsl_test(formulation_parse(given.key, &again, &f) != STATUS_OK || given.newton != again.newton ||
+        gsl_test(formulation_parse(given.key, &again, &f) != STATUS_OK ||
+                     given.newton != again.newton ||
                      memcmp(given.option, again.option, sizeof given.option) != 0,
                  "%s comes back from %s", name[i], given.key);
     }

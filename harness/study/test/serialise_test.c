@@ -58,11 +58,19 @@ static void fill_text(dice *d, size_t size, char text[])
 
 static void fill_counts(dice *d, cell_result *c)
 {
-    int *const size[] = {&c->size.elements, &c->size.vertices, &c->size.free, &c->size.driven, &c->size.strains, &c->size.inner};
+    int *const size[] = {&c->size.elements, &c->size.vertices, &c->size.free,
+                         &c->size.driven,   &c->size.strains,  &c->size.inner};
     counters *k = &c->counters;
-    long *const count[] = {
-        &k->strain_evaluations, &k->stress_evaluations, &k->inertia_evaluations, &k->iterations,     &k->steps,
-        &k->rejected_steps,     &k->factorisations,     &k->solutions,           &k->factor_entries, &k->negative_pivots};
+    long *const count[] = {&k->strain_evaluations,
+                           &k->stress_evaluations,
+                           &k->inertia_evaluations,
+                           &k->iterations,
+                           &k->steps,
+                           &k->rejected_steps,
+                           &k->factorisations,
+                           &k->solutions,
+                           &k->factor_entries,
+                           &k->negative_pivots};
     for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
         *size[i] = whole(d, 1 << 30);
     for (size_t i = 0; i < sizeof count / sizeof count[0]; i++)
@@ -106,7 +114,8 @@ static void fill_steps(dice *d, solve_result *s)
                                    .first = whole(d, 99),
                                    .energy = number(d)};
     for (int i = 0; i < s->iterations; i++)
-        s->iteration[i] = (iteration_record){.residual = number(d), .correction = number(d), .incompatibility = number(d)};
+        s->iteration[i] = (iteration_record){
+            .residual = number(d), .correction = number(d), .incompatibility = number(d)};
 }
 
 static void fill_events(dice *d, solve_result *s)
@@ -141,13 +150,18 @@ static void fill_matrices(dice *d, solve_result *s)
 
 static void fill_shapes(dice *d, shapes *s)
 {
-    *s = (shapes){.states = 1 + whole(d, 2), .members = 1 + whole(d, 2), .points = 1 + whole(d, 4), .nodes = 1 + whole(d, 3)};
+    *s = (shapes){.states = 1 + whole(d, 2),
+                  .members = 1 + whole(d, 2),
+                  .points = 1 + whole(d, 4),
+                  .nodes = 1 + whole(d, 3)};
     gsl_test(shapes_alloc(s, NULL) != STATUS_OK, "memory for the shapes");
     for (int i = 0; i <= s->members; i++)
         s->first[i] = whole(d, 99);
     for (int i = 0; i < s->states; i++)
-        s->state[i] = (shape_state){
-            .kind = (shape_kind)whole(d, SHAPE_MODE), .analysis = whole(d, 9), .value = number(d), .scale = number(d)};
+        s->state[i] = (shape_state){.kind = (shape_kind)whole(d, SHAPE_MODE),
+                                    .analysis = whole(d, 9),
+                                    .value = number(d),
+                                    .scale = number(d)};
     for (int i = 0; i < s->states * s->points; i++) {
         centreline_point *p = &s->point[i];
         fill(d, 3, p->r);
@@ -200,8 +214,9 @@ static void compare(difference *out, const char *name, const void *a, const void
         out->name = name;
 }
 
-#define SAME(field)              compare(out, #field, &a->field, &b->field, sizeof a->field)
-#define SAME_ARRAY(field, count) compare(out, #field "[]", a->field, b->field, (size_t)(count) * sizeof *a->field)
+#define SAME(field) compare(out, #field, &a->field, &b->field, sizeof a->field)
+#define SAME_ARRAY(field, count)                                                                   \
+    compare(out, #field "[]", a->field, b->field, (size_t)(count) * sizeof *a->field)
 
 static void compare_text(difference *out, const char *name, const char *a, const char *b)
 {
@@ -363,13 +378,19 @@ static difference compare_cells(const cell_result *a, const cell_result *b)
 /* Everything that could be forgotten must be filled: a struct that has grown (padding included) needs its new member here. */
 static void complete(void)
 {
-    gsl_test_int((int)sizeof(counters), (int)(10 * sizeof(long) + 2 * sizeof(double)), "counters as filled above");
+    gsl_test_int((int)sizeof(counters), (int)(10 * sizeof(long) + 2 * sizeof(double)),
+                 "counters as filled above");
     gsl_test_int((int)sizeof(model_size), 7 * (int)sizeof(int), "sizes as filled above");
-    gsl_test_int((int)sizeof(step_record), (int)(6 * sizeof(double) + 6 * sizeof(int)), "steps as filled above");
-    gsl_test_int((int)sizeof(iteration_record), (int)(3 * sizeof(double)), "iterations as filled above");
-    gsl_test_int((int)sizeof(path_event), (int)(4 * sizeof(double) + 4 * sizeof(int)), "events as filled above");
-    gsl_test_int((int)sizeof(centreline_point), (int)(14 * sizeof(double)), "points as filled above");
-    gsl_test_int((int)sizeof(shape_state), (int)(2 * sizeof(double) + 2 * sizeof(int)), "states as filled above");
+    gsl_test_int((int)sizeof(step_record), (int)(6 * sizeof(double) + 6 * sizeof(int)),
+                 "steps as filled above");
+    gsl_test_int((int)sizeof(iteration_record), (int)(3 * sizeof(double)),
+                 "iterations as filled above");
+    gsl_test_int((int)sizeof(path_event), (int)(4 * sizeof(double) + 4 * sizeof(int)),
+                 "events as filled above");
+    gsl_test_int((int)sizeof(centreline_point), (int)(14 * sizeof(double)),
+                 "points as filled above");
+    gsl_test_int((int)sizeof(shape_state), (int)(2 * sizeof(double) + 2 * sizeof(int)),
+                 "states as filled above");
 }
 
 static void round_trips(dice *d)
@@ -395,7 +416,8 @@ static void round_trips(dice *d)
     }
     gsl_test_int(unwritten, 0, "cells that were not sent");
     gsl_test_int(unread, 0, "cells that did not arrive");
-    gsl_test(first.name != NULL, "what arrives is what was sent (%s)", first.name != NULL ? first.name : "all");
+    gsl_test(first.name != NULL, "what arrives is what was sent (%s)",
+             first.name != NULL ? first.name : "all");
     gsl_test_int(fgetc(file), EOF, "and nothing more");
     fclose(file);
 }
@@ -408,7 +430,8 @@ static void empty_cell(void)
     FILE *file = tmpfile();
     gsl_test(file == NULL || serialise_write(file, &sent) != 0, "sent");
     rewind(file);
-    gsl_test(serialise_read(file, &got) != 0 || compare_cells(&sent, &got).name != NULL, "an empty cell arrives");
+    gsl_test(serialise_read(file, &got) != 0 || compare_cells(&sent, &got).name != NULL,
+             "an empty cell arrives");
     cell_result_free(&got);
     fclose(file);
 }
@@ -416,9 +439,9 @@ static void empty_cell(void)
 static int is_empty(const cell_result *c)
 {
     const solve_result *s = &c->solve;
-    return c->left_out == NULL && s->quantity == NULL && s->step == NULL && s->iteration == NULL && s->event == NULL &&
-           s->matrices == NULL && s->shapes.first == NULL && s->shapes.state == NULL && s->shapes.point == NULL &&
-           s->shapes.node == NULL;
+    return c->left_out == NULL && s->quantity == NULL && s->step == NULL && s->iteration == NULL &&
+           s->event == NULL && s->matrices == NULL && s->shapes.first == NULL &&
+           s->shapes.state == NULL && s->shapes.point == NULL && s->shapes.node == NULL;
 }
 
 /* Every truncation is noticed and leaves nothing behind, whichever part comes last. */

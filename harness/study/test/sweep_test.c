@@ -12,8 +12,8 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "harness/model/missing.h"
 #include "harness/catalogue/registry.h"
+#include "harness/model/missing.h"
 #include "harness/study/interrupt.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"

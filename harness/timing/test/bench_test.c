@@ -8,15 +8,16 @@
 #include "harness/catalogue/registry.h"
 #include "harness/judge/reach.h"
 #include "harness/study/cell.h"
-#include "harness/timing/clock.h"
 #include "harness/timing/against.h"
+#include "harness/timing/clock.h"
 
 enum { PAIRS = 101, TRIALS = 300 };
 
 /* A lap of 1.7 ms with the noise of a shared machine: mostly small, at times long, and drifting. */
 static double noisy(const gsl_rng *random, double drift)
 {
-    const double tail = gsl_ran_exponential(random, 1) * (gsl_rng_uniform(random) < 0.1 ? 0.5 : 0.01);
+    const double tail =
+        gsl_ran_exponential(random, 1) * (gsl_rng_uniform(random) < 0.1 ? 0.5 : 0.01);
     return 1.7e-3 * (1 + drift + tail + fabs(gsl_ran_gaussian(random, 0.03)));
 }
 
@@ -45,9 +46,12 @@ static void test_against(void)
     gsl_test_int(outcomes[AGAINST_SLOWER], TRIALS, "a slow-down of 20 %% is found");
     count_outcomes(-1.0 / 6, outcomes);
     gsl_test_int(outcomes[AGAINST_FASTER], TRIALS, "and seen from the other side");
-    const double few[10] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, twice[10] = {2, 2, 2, 2, 2, 2, 2, 2, 2, 2};
-    gsl_test_int(against_judge(10, few, twice).outcome, AGAINST_UNDECIDED, "ten pairs cannot give 99.9 %% confidence");
-    gsl_test_int(against_judge(0, few, twice).outcome, AGAINST_UNDECIDED, "no pair decides nothing");
+    const double few[10] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1},
+                 twice[10] = {2, 2, 2, 2, 2, 2, 2, 2, 2, 2};
+    gsl_test_int(against_judge(10, few, twice).outcome, AGAINST_UNDECIDED,
+                 "ten pairs cannot give 99.9 %% confidence");
+    gsl_test_int(against_judge(0, few, twice).outcome, AGAINST_UNDECIDED,
+                 "no pair decides nothing");
 }
 
 /* The median of 101 draws: P(Binomial(101, 1/2) < 34) = 3.2e-4 and P(< 35) = 6.7e-4 enclose the tail of 5e-4. */
@@ -130,13 +134,15 @@ static void test_counts(void)
         if (i == 0)
             first = cell.counters;
         else
-            gsl_test(memcmp(&first, &cell.counters, sizeof first) != 0, "the same work is counted again");
+            gsl_test(memcmp(&first, &cell.counters, sizeof first) != 0,
+                     "the same work is counted again");
         cell_result_free(&cell);
     }
     request.solve.steps_between = 20; /* planted work */
     cell_result more;
     gsl_test(cell_run(&request, &more, &f) != STATUS_OK, "run with more steps %s", f.text);
-    gsl_test(more.counters.strain_evaluations <= first.strain_evaluations, "more steps are seen in the counts");
+    gsl_test(more.counters.strain_evaluations <= first.strain_evaluations,
+             "more steps are seen in the counts");
     cell_result_free(&more);
 }
 
@@ -156,7 +162,8 @@ static void test_rounds(void)
     gsl_test_int(c.rounds, CLOCK_ROUNDS, "rounds end");
     gsl_test_int(c.repeats, CLOCK_ROUNDS, "at least one repetition in each");
     gsl_test(!(c.setup > 0 && c.solve > 0), "set-up and solution both take time");
-    gsl_test_rel(c.setup + c.solve, clock_least(&c), 1e-12, "both belong to the fastest repetition");
+    gsl_test_rel(c.setup + c.solve, clock_least(&c), 1e-12,
+                 "both belong to the fastest repetition");
 }
 
 int main(void)

@@ -14,8 +14,8 @@
 
 /* What a file is made with; the defaults are right. */
 typedef struct recipe {
-    const char *schema, *case_group, *kind, *model, *theory, *convention, *formulation, *parameters, *left_out_column, *rule_cases,
-        *condition, *predicted;
+    const char *schema, *case_group, *kind, *model, *theory, *convention, *formulation, *parameters,
+        *left_out_column, *rule_cases, *condition, *predicted;
     int version, elements, short_column;
     double value, uncertainty, at;
     uint64_t hash_change;
@@ -61,7 +61,8 @@ static void put_truth(hid_t file, const recipe *r, const case_type *type)
     parameters_parse(type, r->parameters, value, any, NULL);
     const uint64_t hash = parameters_hash(type, value, any) + r->hash_change;
     const hid_t all = H5Gcreate2(file, "truths", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    const hid_t at = H5Gcreate2(all, r->case_group != NULL ? r->case_group : type->name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t at = H5Gcreate2(all, r->case_group != NULL ? r->case_group : type->name,
+                                H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     put_text(at, r, "parameters", r->parameters);
     put_text(at, r, "formulation", r->formulation);
     put_text(at, r, "quantity", "load");
@@ -118,7 +119,8 @@ static void truths_file_checksum(const char *path)
 
 static void truths_file_make(const char *path, const recipe *r)
 {
-    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), scalar = H5Screate(H5S_SCALAR);
+    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+                scalar = H5Screate(H5S_SCALAR);
     const hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, strlen(r->schema) + 1);
     hid_t a = H5Acreate2(file, "schema", type, scalar, H5P_DEFAULT, H5P_DEFAULT);
