@@ -1,16 +1,41 @@
 #include "harness/extremes/extreme_judge.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "harness/judge/verdict.h"
 #include "harness/truth/truth.h"
+
+static int quantity_index(const extreme_outcome *o, const point *p)
+{
+    const char *name = extremes[o->extreme].quantity[o->quantity].name;
+    int q = 0;
+    while (q < p->scene.quantities && strcmp(p->scene.quantity[q].name, name) != 0)
+        q++;
+    return q;
+}
+
+/* The exact value, of the formulation's own theory of shear; or NULL. */
+static const truth *exact_value(const extreme_sweep *s, const truths *t, const extreme_outcome *o)
+{
+    const point *p = &s->first.point[o->point];
+    const int q = quantity_index(o, p);
+    return q < p->scene.quantities ? verdict_truth(t, p, &s->formulation[o->formulation], q) : NULL;
+}
+
+/* Is there an exact value, but of another theory of shear only? */
+static int has_other_theory(const extreme_sweep *s, const truths *t, const extreme_outcome *o)
+{
+    const point *p = &s->first.point[o->point];
+    const char *name = extremes[o->extreme].quantity[o->quantity].name;
+    return exact_value(s, t, o) == NULL && truth_of(t, p->type, p->parameter, name, "same") != NULL;
+}
 
 /* What the value should be, and how well that is known (relative). */
 static double reference_of(const extreme_sweep *s, const truths *t, const extreme_outcome *o,
                            int refinement, double *uncertainty)
 {
     const extreme *e = &extremes[o->extreme];
-    const point *p = &s->first.point[o->point];
     *uncertainty = 0;
     if (e->judge == EXTREME_SAME) {
         const extreme_outcome *base = extreme_sweep_base(s, o);
@@ -19,7 +44,7 @@ static double reference_of(const extreme_sweep *s, const truths *t, const extrem
                    ? extreme_sweep_value(s, base, refinement) * pow(o->x / e->same_as, power)
                    : NAN;
     }
-    const truth *row = truth_of(t, p->type, p->parameter, e->quantity[o->quantity].name, "same");
+    const truth *row = exact_value(s, t, o);
     if (row != NULL && row->value != 0)
         *uncertainty = fabs(row->uncertainty / row->value);
     return row != NULL ? row->value : NAN;
@@ -76,7 +101,8 @@ status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outc
     for (int i = 0; i < OUTCOME_NEIGHBOURS; i++)
         o->neighbour_error[i] = NAN;
     o->reference = reference_of(s, t, o, 0, &uncertainty);
-    if (e->judge == EXTREME_EXACT && !isfinite(o->reference))
+    const int other = e->judge == EXTREME_EXACT && has_other_theory(s, t, o);
+    if (e->judge == EXTREME_EXACT && !isfinite(o->reference) && !other)
         return fault_set(f, STATUS_FAULT,
                          "extreme %s: no exact value of %s at %s; derive it "
                          "(reference/derive/extremes.py)",
@@ -85,6 +111,8 @@ status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outc
     const quantity_result *r = extreme_sweep_result(s, o, &one->cell[0]);
     if (one->missing[0] != '\0')
         set_kind(o, OUTCOME_SKIP, one->missing);
+    else if (other)
+        set_kind(o, OUTCOME_SKIP, "the exact value is of another theory of shear");
     else if (p->status != STATUS_OK)
         set_failure(o, p->status, p->reason);
     else if (r == NULL)
