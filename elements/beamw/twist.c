@@ -9,8 +9,8 @@
 #include "elements/math/quadrature.h"
 
 enum { CUBIC_POINTS = 4, PANEL_POINTS = 16, LAYER_PANELS = 4 };
-static const double panel_decay =
-    10; /* lambda times the width of a panel: e^-20 within 16 points */
+/* Lambda times the width of a panel: e^-20 within 16 points. */
+static const double panel_decay = 10;
 
 /* sinh h - h. */
 static double sinh_excess(double h)

@@ -208,8 +208,8 @@ void strain_prepare(int nodes_count, int points, double l0, const double curvatu
     const double turn[3] = {curvature[0] * l0, curvature[1] * l0, curvature[2] * l0},
                  along[3] = {1, 0, 0};
     const double strained[3] = {1 + strain[0], strain[1], strain[2]};
-    double x[STRAIN_MAX_POINTS], w[STRAIN_MAX_POINTS], at[ELEMENT_MAX_NODES],
-        without[STRAIN_MAX_POINTS][6];
+    double x[STRAIN_MAX_POINTS], w[STRAIN_MAX_POINTS], at[ELEMENT_MAX_NODES] = {0},
+                                                       without[STRAIN_MAX_POINTS][6];
     memset(line, 0, sizeof *line);
     line->nodes = nodes_count;
     line->points = points;

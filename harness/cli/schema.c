@@ -30,8 +30,9 @@ static const char about[] =
     "points has a column for each parameter of the case besides. Keyed by point, formulation and "
     "elements.\n";
 
+/* Ends with NULL. */
 static const record_type *const of_extremes[] = {&record_extreme, &record_extreme_count,
-                                                 &record_outcome};
+                                                 &record_outcome, NULL};
 
 static void show_field(const schema_field *which)
 {
@@ -58,7 +59,7 @@ static status write_json(fault *f)
     for (int i = 0; record_types[i] != NULL; i++)
         json_array_append_new(records, json_record_type(record_types[i]));
     json_array_append_new(records, json_record_type(&record_truth));
-    for (size_t i = 0; i < sizeof of_extremes / sizeof *of_extremes; i++)
+    for (int i = 0; of_extremes[i] != NULL; i++)
         json_array_append_new(records, json_record_type(of_extremes[i]));
     return json_finish(json_pack("{s:s,s:i,s:o}", "schema", SCHEMA_NAME, "schema_version",
                                  SCHEMA_VERSION, "records", records),
@@ -84,7 +85,7 @@ int cli_schema(int count, char **arguments)
     for (int i = 0; record_types[i] != NULL; i++)
         show("/cases/CASE/", record_types[i]);
     show("solve --format json, ", &record_truth);
-    for (size_t i = 0; i < sizeof of_extremes / sizeof *of_extremes; i++)
+    for (int i = 0; of_extremes[i] != NULL; i++)
         show("stress --json, ", of_extremes[i]);
     return fflush(stdout) == 0 ? EXIT_AS_EXPECTED
                                : cli_fail(STATUS_FAULT, "standard output cannot be written");
