@@ -5,6 +5,7 @@ reference/test does without it: what derives truths shares nothing with what the
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -13,6 +14,9 @@ import unittest
 PROGRAM = os.path.abspath(os.environ.get("BEAMWORK", "build/beamwork"))
 TRUTHS = os.path.abspath(os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5"))
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# A shell's background job ignores it, and the program leaves ignored what was ignored.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def run(*arguments, program=PROGRAM, **options):
