@@ -79,8 +79,9 @@ static status build(const double value[], scene *s, fault *f)
     scene_hold(s, head, SCENE_UY, SCENE_RX);
     add_loads(s, load, foot, head);
     add_quantities(s, load);
-    s->needs |= SCENE_NEED_TRAPEZE |
-                (load == SHEAR_CENTRE ? SCENE_NEED_WAGNER_MOMENTS : 0); /* symmetry: no others */
+    scene_need(s, FEATURE_TRAPEZE);
+    if (load == SHEAR_CENTRE) /* symmetry: no others */
+        scene_need(s, FEATURE_WAGNER_MOMENTS);
     const int meshes[] = {2, 4, 8, 16, 32, 64};
     scene_meshes(s, 6, meshes);
     return STATUS_OK;

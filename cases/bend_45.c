@@ -38,7 +38,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_member_at(s, scene_add_member(s, root, tip, profile, y_axis))->curvature[2] = 1 / radius;
     scene_hold_all(s, root);
     scene_add_load(s, SCENE_FORCE, tip, 0, 0, value[FORCE]);
-    s->needs |= SCENE_NEED_SHEAR | SCENE_NEED_HARINGX;
+    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
 
     const int path = scene_add_analysis(s, SCENE_STATIC);
     const double end = 1;

@@ -105,13 +105,13 @@ static status build(const double value[], scene *s, fault *f)
     scene_hold_all(s, root);
     const int node = load_node(value, s, &c, tip);
     scene_add_load(s, SCENE_FORCE, node, 0, 0, -1);
-    s->needs |= SCENE_NEED_TRAPEZE;
+    scene_need(s, FEATURE_TRAPEZE);
     if (value[SHEAR] != 0)
-        s->needs |= SCENE_NEED_SHEAR | SCENE_NEED_HARINGX;
+        scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
     if (value[WAGNER] != 0)
-        s->needs |= SCENE_NEED_WAGNER_MOMENTS;
+        scene_need(s, FEATURE_WAGNER_MOMENTS);
     if (value[ROTARY] != 0 && value[OMEGA] != 0)
-        s->needs |= SCENE_NEED_ROTARY_INERTIA;
+        scene_need(s, FEATURE_ROTARY_INERTIA);
     add_path(value, s, node);
     const int meshes[] = {5, 10, 20, 40, 80};
     scene_meshes(s, 5, meshes);

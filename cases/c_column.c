@@ -21,7 +21,7 @@ static status build(const double value[], scene *s, fault *f)
     if (outcome != STATUS_OK)
         return outcome;
     if (value[ROTARY_INERTIA] != 0)
-        s->needs |= SCENE_NEED_ROTARY_INERTIA;
+        scene_need(s, FEATURE_ROTARY_INERTIA);
     scene_add_load(s, SCENE_FORCE, ends[1], -1, 0, 0);
 
     const int buckling = scene_add_analysis(s, SCENE_BUCKLING);

@@ -125,7 +125,7 @@ static status build(const double value[], scene *s, fault *f)
     double station[STATIONS];
     add_leaves(value, s, arm);
     turn_arm(value, s, arm);
-    s->needs |= SCENE_NEED_SHEAR | SCENE_NEED_HARINGX | SCENE_NEED_TRAPEZE;
+    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_TRAPEZE);
     for (int i = 0; i < STATIONS; i++)
         station[i] = (i + 1.0) / STATIONS;
     const int path = scene_add_analysis(s, SCENE_STATIC);

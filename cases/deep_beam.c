@@ -44,9 +44,9 @@ static status build(const double value[], scene *s, fault *f)
     scene_hold(s, a, SCENE_UX, SCENE_RX);
     scene_hold(s, b, SCENE_UY, SCENE_UZ);
     if (value[SHEAR] != 0)
-        s->needs |= SCENE_NEED_SHEAR | SCENE_NEED_HARINGX;
+        scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
     if (value[ROTARY_INERTIA] != 0)
-        s->needs |= SCENE_NEED_ROTARY_INERTIA;
+        scene_need(s, FEATURE_ROTARY_INERTIA);
     const int modal = scene_add_analysis(s, SCENE_MODAL);
     scene_analysis_at(s, modal)->wanted = FREQUENCIES;
     for (int i = 0; i < FREQUENCIES; i++) {

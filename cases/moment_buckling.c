@@ -28,7 +28,7 @@ static status build(const double value[], scene *s, fault *f)
     if (outcome != STATUS_OK)
         return outcome;
     if (value[WAGNER_MOMENTS] != 0)
-        s->needs |= SCENE_NEED_WAGNER_MOMENTS;
+        scene_need(s, FEATURE_WAGNER_MOMENTS);
     scene_add_load(s, SCENE_MOMENT, ends[0], 0, 0, -1);
     scene_add_load(s, SCENE_MOMENT, ends[1], 0, 0, 1);
     const int buckling = scene_add_analysis(s, SCENE_BUCKLING);

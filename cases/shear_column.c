@@ -36,8 +36,8 @@ static status build(const double value[], scene *s, fault *f)
     scene_fork(s, foot, x_axis, y_axis);
     scene_fork(s, head, x_axis, y_axis);
     scene_add_load(s, SCENE_FORCE, head, -1, 0, 0);
-    s->needs |=
-        SCENE_NEED_SHEAR | (value[SHEAR_STABILITY] == 0 ? SCENE_NEED_ENGESSER : SCENE_NEED_HARINGX);
+    scene_need(s,
+               FEATURE_SHEAR | (value[SHEAR_STABILITY] == 0 ? FEATURE_ENGESSER : FEATURE_HARINGX));
     const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
     scene_analysis_at(s, buckling)->wanted = 1;
     scene_quantity *load =

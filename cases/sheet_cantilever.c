@@ -125,7 +125,8 @@ static status build(const double value[], scene *s, fault *f)
         add_predictions(value, s);
     if (value[MODES] > 0) {
         add_frequencies(s, path_analysis, (int)value[MODES]);
-        s->needs |= value[ROTARY] != 0 ? SCENE_NEED_ROTARY_INERTIA : 0;
+        if (value[ROTARY] != 0)
+            scene_need(s, FEATURE_ROTARY_INERTIA);
     }
     return STATUS_OK;
 }

@@ -33,7 +33,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_hold(s, tip, SCENE_RY, SCENE_RZ);
     const double path[2] = {0, 1}, angle[2] = {0, value[ANGLE]};
     scene_drive(s, tip, SCENE_RX, scene_add_driver(s, "angle", 2, path, angle));
-    s->needs |= SCENE_NEED_TRAPEZE | SCENE_NEED_WAGNER_TORQUE;
+    scene_need(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
 
     const int twisting = scene_add_analysis(s, SCENE_STATIC);
     const double end = 1;

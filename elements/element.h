@@ -16,6 +16,7 @@
 
 #include <stddef.h>
 
+#include "elements/feature.h"
 #include "elements/math/status.h"
 #include "elements/section/section.h"
 
@@ -26,23 +27,6 @@ enum {
     ELEMENT_MAX_COORDINATES = 21,
     ELEMENT_MAX_STRAINS = 24,
     ELEMENT_MAX_OPTIONS = 6
-};
-
-/* Physics an element can be asked for.  A scene's needs must be a subset of what the type offers. */
-enum element_feature {
-    FEATURE_WARPING = 1 << 0,        /* warping amplitude as a coordinate, bimoment */
-    FEATURE_SHEAR = 1 << 1,          /* transverse (and warping) shear flexibility */
-    FEATURE_ECCENTRIC = 1 << 2,      /* shear centre off the centroid */
-    FEATURE_TRAPEZE = 1 << 3,        /* torsion-elongation coupling Ip/A phi'^2/2 */
-    FEATURE_WAGNER_MOMENTS = 1 << 4, /* int y(y^2+z^2), int z(y^2+z^2) */
-    FEATURE_WAGNER_TORQUE = 1 << 5,  /* torque cubic in the twist rate */
-    FEATURE_ENGESSER = 1 << 6,       /* shear in stability: 1/2 (v'^2 + w'^2) of the fibre */
-    FEATURE_HARINGX = 1 << 7,   /* shear in stability: rotation of the section (Simo-Reissner) */
-    FEATURE_GEOMETRIC = 1 << 8, /* stiffness of the prestressed undeformed state */
-    FEATURE_LARGE = 1 << 9,     /* large displacements and rotations of the structure */
-    FEATURE_MASS = 1 << 10,     /* inertia */
-    FEATURE_ROTARY_INERTIA = 1 << 11, /* rotary and warping inertia in it */
-    FEATURE_CURVATURE = 1 << 12       /* initial curvature and strain */
 };
 
 /* What a type is restricted to. */

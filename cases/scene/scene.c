@@ -240,6 +240,11 @@ void scene_fork(scene *s, int node, const double axis[3], const double web[3])
     memcpy(n->axis[1], web, sizeof n->axis[1]);
 }
 
+void scene_need(scene *s, unsigned features)
+{
+    s->needs |= features;
+}
+
 void scene_meshes(scene *s, int count, const int mesh[])
 {
     s->meshes = count < 16 ? count : 16;

@@ -7,6 +7,7 @@
 #ifndef BEAMWORK_SCENE_H
 #define BEAMWORK_SCENE_H
 
+#include "elements/feature.h"
 #include "elements/math/status.h"
 #include "elements/section/section.h"
 
@@ -183,9 +184,8 @@ typedef struct scene {
     scene_load *load;
     scene_analysis *analysis;
     scene_quantity *quantity;
-    unsigned
-        needs; /* physics that cannot be derived from the data: FEATURE_* bits given by scene_need */
-    int meshes; /* default -n values of verify and converge */
+    unsigned needs; /* FEATURE_* bits that cannot be derived from the data: scene_need sets them */
+    int meshes;     /* default -n values of verify and converge */
     int mesh[16];
     int out_of_memory;
     /* What the accessors below point to when an index is -1, so that a case can write without asking. */
@@ -195,18 +195,6 @@ typedef struct scene {
     scene_analysis scrap_analysis;
     scene_quantity scrap_quantity;
 } scene;
-
-/* Physics a case asks for by name, because data alone cannot tell.  The same words appear in results. */
-typedef enum scene_physics {
-    SCENE_NEED_SHEAR = 1 << 0,
-    SCENE_NEED_TRAPEZE = 1 << 1,
-    SCENE_NEED_WAGNER_MOMENTS = 1 << 2,
-    SCENE_NEED_WAGNER_TORQUE = 1 << 3,
-    SCENE_NEED_ENGESSER = 1 << 4,
-    SCENE_NEED_HARINGX = 1 << 5,
-    SCENE_NEED_ROTARY_INERTIA = 1 << 6,
-    SCENE_NEED_WARPING = 1 << 7
-} scene_physics;
 
 void scene_init(scene *s, const char *name);
 void scene_free(scene *s);
@@ -245,6 +233,8 @@ void scene_drive(scene *s, int node, int component,
 void scene_fork(scene *s, int node, const double axis[3], const double web[3]);
 /* Convention of moments that a quantity depends on, or NULL. */
 const char *scene_convention(const scene *s, const scene_quantity *q);
+/* Physics (FEATURE_* bits) that the scene is to have; the data say the rest: analyses, sections. */
+void scene_need(scene *s, unsigned features);
 void scene_meshes(scene *s, int count, const int mesh[]);
 
 /* Indices in range, members of positive length, supports that do not contradict, drivers that are used,

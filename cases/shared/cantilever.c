@@ -22,7 +22,7 @@ void cantilever_build(double length, const cantilever_stiffness *k, scene *s, in
     scene_add_member(s, *root, *tip, profile, y_axis);
     scene_hold_all(s, *root);
     if (k->GA > 0)
-        s->needs |= SCENE_NEED_SHEAR | SCENE_NEED_HARINGX;
+        scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
     const int meshes[] = {1, 2, 4, 8, 16, 32};
     scene_meshes(s, 6, meshes);
 }

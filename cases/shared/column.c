@@ -37,9 +37,9 @@ status column_build(const case_parameter parameters[], const double value[], sce
     for (int i = 0; i < 2; i++)
         scene_fork(s, ends[i], x_axis, y_axis); /* moments are about z */
     if (value[COLUMN_SHEAR] != 0)
-        s->needs |= SCENE_NEED_SHEAR |
-                    (value[COLUMN_STABILITY] == 0 ? SCENE_NEED_ENGESSER : SCENE_NEED_HARINGX);
-    s->needs |= SCENE_NEED_TRAPEZE;
+        scene_need(s, FEATURE_SHEAR |
+                          (value[COLUMN_STABILITY] == 0 ? FEATURE_ENGESSER : FEATURE_HARINGX));
+    scene_need(s, FEATURE_TRAPEZE);
     const int meshes[] = {2, 4, 8, 16, 32, 64, 128};
     scene_meshes(s, 7, meshes);
     return STATUS_OK;

@@ -17,9 +17,9 @@ status joint_prepare(const double value[], scene *s, int *profile, fault *f)
     sheet_section(value[JOINT_WIDTH], value[JOINT_THICKNESS], value[JOINT_YOUNG],
                   value[JOINT_POISSON], 0, &spec);
     *profile = scene_add_section(s, &spec);
-    s->needs |= SCENE_NEED_SHEAR | SCENE_NEED_HARINGX | SCENE_NEED_TRAPEZE;
+    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_TRAPEZE);
     if (value[JOINT_WAGNER] != 0)
-        s->needs |= SCENE_NEED_WAGNER_TORQUE;
+        scene_need(s, FEATURE_WAGNER_TORQUE);
     return STATUS_OK;
 }
 

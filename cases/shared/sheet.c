@@ -38,11 +38,11 @@ status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f
     sheet->warp_q = value[SHEET_TIP_WARPING] == 0 ? SCENE_WARP_FIXED : SCENE_WARP_FREE;
     scene_hold_all(s, *root);
     if (value[SHEET_SHEAR] != 0)
-        s->needs |= SCENE_NEED_SHEAR | SCENE_NEED_HARINGX;
+        scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
     if (value[SHEET_TRAPEZE] != 0)
-        s->needs |= SCENE_NEED_TRAPEZE;
+        scene_need(s, FEATURE_TRAPEZE);
     if (value[SHEET_WAGNER] != 0)
-        s->needs |= SCENE_NEED_WAGNER_TORQUE;
+        scene_need(s, FEATURE_WAGNER_TORQUE);
     const int meshes[] = {1, 2, 3, 4, 8, 16, 32, 64};
     scene_meshes(s, 8, meshes);
     return STATUS_OK;

@@ -1,9 +1,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "elements/feature.h"
 #include "harness/catalogue/registry.h"
 #include "harness/cli/cli.h"
-#include "harness/model/features.h"
 #include "harness/model/lacks.h"
 #include "harness/model/missing.h"
 
@@ -54,17 +54,22 @@ static void list_formulations(void)
     printf("formulations (-f NAME[:KEY=VALUE,...]); all take newton=%s\n", formulation_newtons);
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *t = registry_formulations[i];
-        printf("  %-24s %s\n  %-24s source: %s\n  %-24s offers:", t->name, t->summary, "",
-               t->source, "");
-        for (unsigned bit = 1; bit <= FEATURE_CURVATURE; bit <<= 1)
-            if (t->offers & bit)
-                printf(" %s%s", model_feature_name(bit),
-                       (t->offers & ~(2 * bit - 1)) != 0 ? "," : "\n");
+        char words[200];
+        feature_words(t->offers, words, sizeof words);
+        printf("  %-24s %s\n  %-24s source: %s\n  %-24s offers: %s\n", t->name, t->summary, "",
+               t->source, "", words);
         list_declarations(t);
         if (t->options != NULL)
             for (int k = 0; t->options[k].name != NULL; k++)
                 list_option(&t->options[k]);
     }
+}
+
+static void list_features(void)
+{
+    printf("physics that a case can need and a formulation can offer\n");
+    for (unsigned bit = 1; bit < FEATURE_END; bit <<= 1)
+        printf("  %-24s %s\n", feature_name(bit), feature_summary(bit));
 }
 
 static void list_cases(void)
@@ -130,6 +135,8 @@ int cli_list(int count, char **arguments)
         list_cases();
     if (r.case_name == NULL || strcmp(r.case_name, "formulations") == 0)
         list_formulations();
+    if (r.case_name == NULL || strcmp(r.case_name, "formulations") == 0)
+        list_features();
     if (r.case_name == NULL || strcmp(r.case_name, "cases") == 0 ||
         strcmp(r.case_name, "formulations") == 0)
         return EXIT_AS_EXPECTED;

@@ -2,49 +2,9 @@
 #include "harness/model/features.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "elements/math/dense.h"
 #include "harness/model/model_impl.h"
-
-static const struct {
-    unsigned bit;
-    const char *name;
-} names[] = {
-    {FEATURE_WARPING, "warping"},
-    {FEATURE_SHEAR, "shear"},
-    {FEATURE_ECCENTRIC, "eccentric shear centre"},
-    {FEATURE_TRAPEZE, "trapeze"},
-    {FEATURE_WAGNER_MOMENTS, "wagner moments"},
-    {FEATURE_WAGNER_TORQUE, "wagner torque"},
-    {FEATURE_ENGESSER, "engesser"},
-    {FEATURE_HARINGX, "haringx"},
-    {FEATURE_GEOMETRIC, "geometric"},
-    {FEATURE_LARGE, "large rotations"},
-    {FEATURE_MASS, "mass"},
-    {FEATURE_ROTARY_INERTIA, "rotary inertia"},
-    {FEATURE_CURVATURE, "initial curvature"},
-};
-enum { NAMES = sizeof names / sizeof names[0] };
-
-const char *model_feature_name(unsigned bit)
-{
-    for (int i = 0; i < NAMES; i++)
-        if (names[i].bit == bit)
-            return names[i].name;
-    return "unknown";
-}
-
-int features_words(unsigned features, char *words, int size)
-{
-    int used = 0;
-    for (int i = 0; i < NAMES; i++)
-        if ((features & names[i].bit) && used < size)
-            used += snprintf(words + used, (size_t)(size - used), "%s%s", used > 0 ? ", " : "",
-                             names[i].name);
-    return used;
-}
 
 int features_eccentric(const section *c)
 {
@@ -83,25 +43,9 @@ static unsigned needs_of_analyses(const scene *s)
 
 unsigned model_needs(const scene *s)
 {
-    static const struct {
-        scene_physics physics;
-        unsigned feature;
-    } map[] = {
-        {SCENE_NEED_SHEAR, FEATURE_SHEAR},
-        {SCENE_NEED_TRAPEZE, FEATURE_TRAPEZE},
-        {SCENE_NEED_WAGNER_MOMENTS, FEATURE_WAGNER_MOMENTS},
-        {SCENE_NEED_WAGNER_TORQUE, FEATURE_WAGNER_TORQUE},
-        {SCENE_NEED_ENGESSER, FEATURE_ENGESSER},
-        {SCENE_NEED_HARINGX, FEATURE_HARINGX},
-        {SCENE_NEED_ROTARY_INERTIA, FEATURE_ROTARY_INERTIA},
-        {SCENE_NEED_WARPING, FEATURE_WARPING},
-    };
-    unsigned needs = needs_of_analyses(s);
+    unsigned needs = s->needs | needs_of_analyses(s);
     for (int i = 0; i < s->members; i++)
         needs |= vec3_norm(s->member[i].strain) > 0 ? FEATURE_CURVATURE : 0;
-    for (size_t i = 0; i < sizeof map / sizeof map[0]; i++)
-        if (s->needs & map[i].physics)
-            needs |= map[i].feature;
     for (int i = 0; i < s->sections; i++) {
         section c;
         if (section_compute(&s->section[i], &c, NULL) != STATUS_OK)

@@ -16,7 +16,5 @@ unsigned model_theory(const scene *, const element_type *);
 /* Those of them that one quantity depends on: inertia only where it is a frequency or of a rotating
  * structure. */
 unsigned model_quantity_needs(const scene *, int quantity);
-/* Comma-free words of a feature, for results: "warping", "shear", ... */
-const char *model_feature_name(unsigned bit);
 
 #endif

@@ -39,7 +39,7 @@ int model_missing(const scene *s, const element_type *type, char *words, int siz
     if (size > 0)
         words[0] = '\0';
     if (missing != 0) {
-        features_words(missing, words, size);
+        feature_words(missing, words, size);
         return 1;
     }
     if (limit_hit(s, type, words, size) || model_lacks(s, type, words, size) > 1)

@@ -102,8 +102,6 @@ struct model_state {
 };
 
 /* features.c */
-/* Their names into words[size], separated by commas; returns the characters they take. */
-int features_words(unsigned features, char *words, int size);
 int features_eccentric(const section *c); /* its shear centre is not its centroid */
 status features_of_section(const model *m, int section, unsigned *features, fault *f);
 

@@ -1,17 +1,12 @@
 /* Records of parameter points, of series of meshes and of one mesh: size, work, times. */
 #include <string.h>
 
-#include "harness/model/features.h"
+#include "elements/feature.h"
 #include "harness/schema/fields_keys.h"
 
 static void get_features(const subject *s, field_value *out)
 {
-    size_t used = 0;
-    out->room[0] = '\0';
-    for (unsigned bit = 1; bit <= FEATURE_CURVATURE; bit <<= 1)
-        if (subject_cell(s)->size.features & bit)
-            used += (size_t)snprintf(out->room + used, sizeof out->room - used, "%s%s",
-                                     used > 0 ? ", " : "", model_feature_name(bit));
+    feature_words(subject_cell(s)->size.features, out->room, sizeof out->room);
     out->text = out->room;
 }
 

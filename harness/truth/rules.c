@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/feature.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
-#include "harness/model/features.h"
 #include "harness/model/model.h"
 #include "harness/truth/columns.h"
 
@@ -37,14 +37,6 @@ static int list_has_formulation(const char *list, const char *key)
     char bare[WORD];
     snprintf(bare, sizeof bare, "%.*s", (int)strcspn(key, ":"), key);
     return list_has(list, key) || list_has(list, bare);
-}
-
-static unsigned feature_named(const char *word)
-{
-    for (unsigned bit = 1; bit <= FEATURE_CURVATURE; bit <<= 1)
-        if (strcmp(model_feature_name(bit), word) == 0)
-            return bit;
-    return 0;
 }
 
 /* One term, without the blanks around it. */

@@ -48,7 +48,7 @@ static void bent_beam(const double Q[9], const double force[3], scene *s)
     scene_fork(s, first, axis, web);
     scene_fork(s, last, axis, web);
     scene_add_load(s, SCENE_FORCE, middle, load[0], load[1], load[2]);
-    s->needs |= SCENE_NEED_SHEAR | SCENE_NEED_HARINGX;
+    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
     const int path = scene_add_analysis(s, SCENE_STATIC);
     scene_set_stations(s, path, 1, &end);
     for (int i = 0; i < VALUES; i++) {

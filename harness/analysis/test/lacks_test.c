@@ -40,7 +40,7 @@ static void guided(scene *s, double across_y, double across_z, int direction, in
     scene_hold(s, tip, SCENE_RX, SCENE_RZ);
     force[direction] = 1;
     scene_add_load(s, SCENE_FORCE, tip, force[0], force[1], force[2]);
-    s->needs |= SCENE_NEED_SHEAR;
+    scene_need(s, FEATURE_SHEAR);
     scene_quantity *q =
         scene_add_quantity(s, "u", "m", SCENE_COORDINATE, scene_add_analysis(s, SCENE_LINEAR));
     q->node = tip;

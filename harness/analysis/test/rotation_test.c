@@ -122,7 +122,7 @@ static status build_with_body(const double value[], scene *s, fault *f)
                         : scene_add_node(s, 6, 1, 0.5);
     scene_add_member(s, root, tip, profile, y_axis);
     scene_hold_all(s, root);
-    s->needs |= SCENE_NEED_TRAPEZE | SCENE_NEED_ROTARY_INERTIA;
+    scene_need(s, FEATURE_TRAPEZE | FEATURE_ROTARY_INERTIA);
     const int rotation = scene_add_analysis(s, SCENE_ROTATION);
     const double end = 1;
     scene_set_stations(s, rotation, 1, &end);

@@ -299,7 +299,7 @@ static void theories(void)
     haringx.offers = FEATURE_SHEAR | FEATURE_HARINGX;
     haringx.shear_theories = SHEAR_HARINGX;
     b.one.formulation.type = &haringx;
-    b.p.scene.needs = SCENE_NEED_SHEAR | SCENE_NEED_ENGESSER;
+    b.p.scene.needs = FEATURE_SHEAR | FEATURE_ENGESSER;
     bench_fill(&b, 3.003, 0.7, 2);
     b.row[0].theory = words[ENGESSER];
     expect(&b, VERDICT_NO_TRUTH, 3, "a truth of another theory does not judge");

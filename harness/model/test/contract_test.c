@@ -309,12 +309,12 @@ static void single_features(const element_type *type)
                  {FEATURE_ROTARY_INERTIA, FEATURE_MASS}};
     accepted(type, 0, "no feature");
     accepted(type, type->offers & ~(unsigned)FEATURE_CURVATURE, "all features");
-    for (unsigned bit = 1; bit <= FEATURE_CURVATURE; bit <<= 1) {
+    for (unsigned bit = 1; bit < FEATURE_END; bit <<= 1) {
         unsigned features = bit;
         for (size_t k = 0; k < sizeof needs / sizeof needs[0]; k++)
             features |= needs[k].feature == bit ? needs[k].presupposes : 0;
         if ((features & ~type->offers) == 0)
-            accepted(type, features, model_feature_name(bit));
+            accepted(type, features, feature_name(bit));
     }
 }
 

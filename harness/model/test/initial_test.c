@@ -42,7 +42,7 @@ static void solve(const char *name, const double g[3], const int held[6], double
     scene_hold_all(&s, root);
     const int path = scene_add_analysis(&s, SCENE_STATIC);
     scene_set_stations(&s, path, 1, &end);
-    s.needs |= SCENE_NEED_SHEAR | SCENE_NEED_HARINGX;
+    scene_need(&s, FEATURE_SHEAR | FEATURE_HARINGX);
     for (int i = 0; i < 6; i++)
         if (held[i])
             scene_hold(&s, tip, i, i);
