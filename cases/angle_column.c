@@ -56,8 +56,7 @@ static void add_loads(scene *s, int load, int foot, int head)
 
 static void add_quantities(scene *s, int load)
 {
-    const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
-    scene_analysis_at(s, buckling)->wanted = LOADS;
+    const int buckling = scene_add_buckling(s, SCENE_NONE);
     for (int i = 0; i < LOADS; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "critical_%s_%d", load == MOMENT ? "moment" : "load", i + 1);

@@ -40,10 +40,8 @@ static status build(const double value[], scene *s, fault *f)
     scene_add_load(s, SCENE_FORCE, tip, 0, 0, value[FORCE]);
     scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
 
-    const int path = scene_add_analysis(s, SCENE_STATIC);
     const double end = 1;
-    scene_set_stations(s, path, 1, &end);
-    scene_analysis_at(s, path)->steps_between = 4;
+    const int path = scene_add_static(s, 1, &end, 4);
     static const char *const name[3] = {"u_tangent", "u_radial", "u_load"};
     for (int i = 0; i < 3; i++) {
         scene_quantity *q = scene_add_quantity(s, name[i], "m", SCENE_COORDINATE, path);

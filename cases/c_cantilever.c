@@ -64,15 +64,14 @@ static int load_node(const double value[], scene *s, const channel *c, int tip)
 static void add_path(const double value[], scene *s, int node)
 {
     const double end = -value[DEFLECTION], step = value[STEP];
-    const int loading = scene_add_analysis(s, SCENE_CONTINUATION);
-    scene_set_stations(s, loading, 1, &end);
-    scene_analysis *a = scene_analysis_at(s, loading);
-    a->control_node = node;
-    a->control_component = SCENE_UZ;
-    a->step = step > 0 ? step : value[LENGTH] / 900;
-    a->step_max = step > 0 ? step : value[LENGTH] / 40;
-    a->constant_steps = step > 0;
-    a->omega[2] = value[OMEGA];
+    const int loading =
+        scene_add_continuation(s, 1, &end,
+                               (scene_control){.node = node,
+                                               .component = SCENE_UZ,
+                                               .step = step > 0 ? step : value[LENGTH] / 900,
+                                               .step_max = step > 0 ? step : value[LENGTH] / 40,
+                                               .constant_steps = step > 0});
+    scene_set_spin(s, loading, (scene_spin){.omega = {0, 0, value[OMEGA]}});
     scene_quantity *at = scene_add_quantity(s, "load_at_w", "N", SCENE_FACTOR_AT, loading);
     at->least_order = 1.8;
     scene_quantity *lateral = scene_add_quantity(s, "lateral", "m", SCENE_COORDINATE, loading);

@@ -24,14 +24,12 @@ static status build(const double value[], scene *s, fault *f)
         scene_need(s, FEATURE_ROTARY_INERTIA);
     scene_add_load(s, SCENE_FORCE, ends[1], -1, 0, 0);
 
-    const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
-    scene_analysis_at(s, buckling)->wanted = 1;
+    const int buckling = scene_add_buckling(s, SCENE_NONE);
     scene_quantity *load =
         scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
     load->least_order = 1.8;
 
-    const int modal = scene_add_analysis(s, SCENE_MODAL);
-    scene_analysis_at(s, modal)->wanted = FREQUENCIES;
+    const int modal = scene_add_modal(s, SCENE_NONE);
     for (int i = 0; i < FREQUENCIES; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "frequency_%d", i + 1);

@@ -47,9 +47,7 @@ static status build(const double value[], scene *s, fault *f)
     add_turn(s, tip, carried, way);
     add_turn(s, tip, strained, bend);
 
-    const int carrying = scene_add_analysis(s, SCENE_STATIC);
-    scene_set_stations(s, carrying, 2, path + 1);
-    scene_analysis_at(s, carrying)->steps_between = 2 + (int)ceil(12 * value[TURNS]);
+    const int carrying = scene_add_static(s, 2, path + 1, 2 + (int)ceil(12 * value[TURNS]));
     for (int i = 0; i < 3; i++) {
         scene_quantity *q = scene_add_quantity(s, moment[i], "N m", SCENE_REACTION, carrying);
         q->node = tip;

@@ -128,13 +128,9 @@ static status build(const double value[], scene *s, fault *f)
     scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_TRAPEZE);
     for (int i = 0; i < STATIONS; i++)
         station[i] = (i + 1.0) / STATIONS;
-    const int path = scene_add_analysis(s, SCENE_STATIC);
-    scene_set_stations(s, path, STATIONS, station);
-    const int turned = scene_add_analysis(s, SCENE_COMPLIANCE);
-    scene_analysis *c = scene_analysis_at(s, turned);
-    c->follows = path;
-    c->node = arm;
-    c->moments = (scene_moments)value[MOMENTS];
+    const int path = scene_add_static(s, STATIONS, station, 1);
+    const int turned = scene_add_compliance(
+        s, path, (scene_compliance){.node = arm, .moments = (scene_moments)value[MOMENTS]});
     add_path_quantities(s, path, arm);
     add_stiffnesses(s, turned, arm, has_free_tilts(value) ? 5 : 3);
     const int meshes[] = {1, 2, 4, 8, 16, 32, 64};

@@ -47,8 +47,7 @@ static status build(const double value[], scene *s, fault *f)
         scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
     if (value[ROTARY_INERTIA] != 0)
         scene_need(s, FEATURE_ROTARY_INERTIA);
-    const int modal = scene_add_analysis(s, SCENE_MODAL);
-    scene_analysis_at(s, modal)->wanted = FREQUENCIES;
+    const int modal = scene_add_modal(s, SCENE_NONE);
     for (int i = 0; i < FREQUENCIES; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "frequency_%d", i + 1);

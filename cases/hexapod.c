@@ -136,13 +136,10 @@ static status build(const double value[], scene *s, fault *f)
     for (int leg = 0; leg < LEGS; leg++)
         add_leg(value, s, profile, leg, angle, platform);
 
-    const int lifting = scene_add_analysis(s, SCENE_STATIC);
-    scene_set_stations(s, lifting, steps, station + 1);
-    const int compliance = scene_add_analysis(s, SCENE_COMPLIANCE);
-    scene_analysis *c = scene_analysis_at(s, compliance);
-    c->follows = lifting;
-    c->node = platform;
-    c->released = 1u << SCENE_UZ; /* the condition ends: the cranks hold their angle */
+    const int lifting = scene_add_static(s, steps, station + 1, 1);
+    /* The condition ends: the cranks hold their angle. */
+    const int compliance = scene_add_compliance(
+        s, lifting, (scene_compliance){.node = platform, .released = 1u << SCENE_UZ});
     add_stiffnesses(s, compliance, platform, station + 1, steps);
     scene_quantity *first =
         scene_add_quantity(s, "crank_angle", "rad", SCENE_DRIVER_VALUE, lifting);

@@ -57,12 +57,9 @@ static status build(const double value[], scene *s, fault *f)
     int path = SCENE_NONE;
     if (value[PREBUCKLING] != 0) {
         const double one = 1; /* well below every critical load */
-        path = scene_add_analysis(s, SCENE_STATIC);
-        scene_set_stations(s, path, 1, &one);
+        path = scene_add_static(s, 1, &one, 1);
     }
-    const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
-    scene_analysis_at(s, buckling)->wanted = 1;
-    scene_analysis_at(s, buckling)->follows = path;
+    const int buckling = scene_add_buckling(s, path);
     scene_quantity *q = scene_add_quantity(s, "load_factor", "1", SCENE_CRITICAL_FACTOR, buckling);
     q->least_order = 1.8;
     const int meshes[] = {1, 2, 4, 8, 16, 32};

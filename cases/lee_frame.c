@@ -84,15 +84,13 @@ static status build(const double value[], scene *s, fault *f)
     scene_add_member(s, loaded, end, profile, across);
     scene_add_load(s, SCENE_FORCE, loaded, 0, -1, 0);
 
-    const int path = scene_add_analysis(s, SCENE_CONTINUATION);
     const double far = -90;
-    scene_set_stations(s, path, 1, &far);
-    scene_analysis *a = scene_analysis_at(s, path);
-    a->control_node = loaded;
-    a->control_component = SCENE_UY;
-    a->by_arc = 1;
-    a->step = value[STEP];
-    a->step_max = 5 * value[STEP];
+    const int path = scene_add_continuation(s, 1, &far,
+                                            (scene_control){.node = loaded,
+                                                            .component = SCENE_UY,
+                                                            .by_arc = 1,
+                                                            .step = value[STEP],
+                                                            .step_max = 5 * value[STEP]});
     add_quantities(value[PLANE] != 0, s, path, loaded);
     const int meshes[] = {4, 8, 16, 32, 64};
     scene_meshes(s, value[PLANE] != 0 ? 5 : 4, meshes);

@@ -31,8 +31,7 @@ static status build(const double value[], scene *s, fault *f)
         scene_need(s, FEATURE_WAGNER_MOMENTS);
     scene_add_load(s, SCENE_MOMENT, ends[0], 0, 0, -1);
     scene_add_load(s, SCENE_MOMENT, ends[1], 0, 0, 1);
-    const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
-    scene_analysis_at(s, buckling)->wanted = 1;
+    const int buckling = scene_add_buckling(s, SCENE_NONE);
     add_moment(s, buckling, "buckling_moment_negative", -1);
     add_moment(s, buckling, "buckling_moment_positive", 1);
     return STATUS_OK;

@@ -57,8 +57,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_hold(s, corner, SCENE_UX, SCENE_UX);
     scene_add_load(s, SCENE_MOMENT, left, 0, 0, 1);
     scene_add_load(s, SCENE_MOMENT, right, 0, 0, -1);
-    const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
-    scene_analysis_at(s, buckling)->wanted = 2;
+    const int buckling = scene_add_buckling(s, SCENE_NONE);
     add_moment(s, buckling, "critical_moment", 0);
     add_moment(s, buckling, "critical_moment_2", 1);
     const int meshes[] = {2, 4, 8, 16, 32, 64};

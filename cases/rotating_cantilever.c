@@ -54,7 +54,6 @@ static void add_frequencies(scene *s, int rotation, double omega, int curves, in
         const char *name;
         scene_family family;
     } kind[] = {{"flap", SCENE_BENDING_Z}, {"lag", SCENE_BENDING_Y}};
-    scene_analysis_at(s, rotation)->wanted = 2 * MODES;
     for (int k = 0; k < 2; k++)
         for (int i = 0; i < MODES && !whirl; i++) {
             add_frequency(s, kind[k].name, i, "", rotation, kind[k].family);
@@ -81,20 +80,16 @@ static status build(const double value[], scene *s, fault *f)
         c->Iz *= value[STIFFNESS_RATIO];
         c->Ip = c->Iy + c->Iz;
     }
-    const int rotation = scene_add_analysis(s, SCENE_ROTATION),
-              intervals = omega > 0 ? (int)value[STATIONS] - 1 : 0;
+    const int intervals = omega > 0 ? (int)value[STATIONS] - 1 : 0;
     double path[MOST_STATIONS + 1];
     for (int i = 0; i <= intervals; i++)
         path[i] = intervals > 0 ? (double)i / intervals : 1;
-    scene_set_stations(s, rotation, intervals + 1, path);
-    scene_analysis *a = scene_analysis_at(s, rotation);
-    a->steps_between =
-        value[AXIS] > 0
-            ? 8
-            : 1; /* an inclined axis bends the beam, which has more than one equilibrium then */
-    a->omega[0] = omega * sin(value[AXIS]);
-    a->omega[2] = omega * cos(value[AXIS]);
-    a->omega_centre[0] = -value[HUB_RADIUS];
+    /* An inclined axis bends the beam, which has more than one equilibrium then. */
+    const int steps = value[AXIS] > 0 ? 8 : 1;
+    const int rotation = scene_add_rotation(
+        s, intervals + 1, path, steps, 2 * MODES,
+        (scene_spin){.omega = {omega * sin(value[AXIS]), 0, omega * cos(value[AXIS])},
+                     .centre = {-value[HUB_RADIUS], 0, 0}});
     add_frequencies(s, rotation, omega, intervals > 0, value[AXIS] > 1.5);
     scene_quantity *growth = scene_add_quantity(s, "growth", "1", SCENE_GROWTH, rotation);
     growth->near_zero = 1;

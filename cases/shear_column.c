@@ -38,8 +38,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_add_load(s, SCENE_FORCE, head, -1, 0, 0);
     scene_need(s,
                FEATURE_SHEAR | (value[SHEAR_STABILITY] == 0 ? FEATURE_ENGESSER : FEATURE_HARINGX));
-    const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
-    scene_analysis_at(s, buckling)->wanted = 1;
+    const int buckling = scene_add_buckling(s, SCENE_NONE);
     scene_quantity *load =
         scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
     load->least_order = 1.8;

@@ -54,9 +54,7 @@ static void add_curve(scene *s, const char *name, int analysis, int node, int ro
 /* About the last state of the path.  The rotation about z is held in the sense of the rotation vector from there. */
 static void add_frequencies(scene *s, int path, int count)
 {
-    const int modal = scene_add_analysis(s, SCENE_MODAL);
-    scene_analysis_at(s, modal)->follows = path;
-    scene_analysis_at(s, modal)->wanted = count;
+    const int modal = scene_add_modal(s, path);
     for (int i = 0; i < count; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "frequency_%d", i + 1);
@@ -100,18 +98,16 @@ static status build(const double value[], scene *s, fault *f)
     scene_drive(s, tip, SCENE_UY, scene_add_driver(s, "tip_deflection", 2, path, deflection));
     scene_drive(s, tip, SCENE_RZ, scene_add_driver(s, "tip_rotation", 2, path, none));
 
-    const int path_analysis = scene_add_analysis(s, SCENE_STATIC);
     double station[MOST_STATIONS];
     const int stations = (int)value[STATIONS];
     for (int i = 0; i < stations; i++)
         station[i] = (i + 1.0) / stations;
-    scene_set_stations(s, path_analysis, stations, station);
-    const int compliance = scene_add_analysis(s, SCENE_COMPLIANCE);
-    scene_analysis *c = scene_analysis_at(s, compliance);
-    c->follows = path_analysis;
-    c->node = tip;
-    c->moments = (scene_moments)value[SHEET_MOMENTS];
-    c->released = 1u << SCENE_UY | 1u << SCENE_RZ;
+    const int path_analysis = scene_add_static(s, stations, station, 1);
+    const int compliance =
+        scene_add_compliance(s, path_analysis,
+                             (scene_compliance){.node = tip,
+                                                .moments = (scene_moments)value[SHEET_MOMENTS],
+                                                .released = 1u << SCENE_UY | 1u << SCENE_RZ});
 
     add_gated(s, "C_xx", "m/N", SCENE_COMPLIANCE_ENTRY, compliance, tip, SCENE_UX);
     add_gated(s, "C_zz", "m/N", SCENE_COMPLIANCE_ENTRY, compliance, tip, SCENE_UZ);

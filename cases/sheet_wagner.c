@@ -42,18 +42,17 @@ static status build(const double value[], scene *s, fault *f)
     if (outcome != STATUS_OK)
         return outcome;
     prescribe_tip(s, tip, value);
-    const int path_analysis = scene_add_analysis(s, SCENE_STATIC);
     double stations[STATIONS_BENT + STATIONS_TWISTED];
     for (int i = 0; i < STATIONS_BENT + STATIONS_TWISTED; i++)
         stations[i] = i < STATIONS_BENT ? (i + 1.0) / STATIONS_BENT
                                         : 1 + (i + 1.0 - STATIONS_BENT) / STATIONS_TWISTED;
-    scene_set_stations(s, path_analysis, STATIONS_BENT + STATIONS_TWISTED, stations);
-    const int compliance = scene_add_analysis(s, SCENE_COMPLIANCE);
-    scene_analysis *c = scene_analysis_at(s, compliance);
-    c->follows = path_analysis;
-    c->node = tip;
-    c->moments = (scene_moments)value[SHEET_MOMENTS];
-    c->released = 1u << SCENE_UY | 1u << SCENE_RX | 1u << SCENE_RY | 1u << SCENE_RZ;
+    const int path_analysis = scene_add_static(s, STATIONS_BENT + STATIONS_TWISTED, stations, 1);
+    const int compliance =
+        scene_add_compliance(s, path_analysis,
+                             (scene_compliance){.node = tip,
+                                                .moments = (scene_moments)value[SHEET_MOMENTS],
+                                                .released = 1u << SCENE_UY | 1u << SCENE_RX |
+                                                            1u << SCENE_RY | 1u << SCENE_RZ});
 
     int entries[36][2];
     for (int i = 0; i < 36; i++) {

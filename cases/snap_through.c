@@ -69,15 +69,13 @@ static status build(const double value[], scene *s, fault *f)
     scene_hold(s, apex, SCENE_UZ, SCENE_RY);
     scene_add_load(s, SCENE_FORCE, apex, 0, -0.5, 0);
 
-    const int path = scene_add_analysis(s, SCENE_CONTINUATION);
     const double end = -2.5 * height;
-    scene_set_stations(s, path, 1, &end);
-    scene_analysis *a = scene_analysis_at(s, path);
-    a->control_node = apex;
-    a->control_component = SCENE_UY;
-    a->by_arc = value[CONTROL] == 0;
-    a->step = value[STEP];
-    a->step_max = 5 * value[STEP];
+    const int path = scene_add_continuation(s, 1, &end,
+                                            (scene_control){.node = apex,
+                                                            .component = SCENE_UY,
+                                                            .by_arc = value[CONTROL] == 0,
+                                                            .step = value[STEP],
+                                                            .step_max = 5 * value[STEP]});
     add_quantities(s, path, apex, height);
     const int meshes[] = {1, 2, 4, 8};
     scene_meshes(s, 4, meshes);

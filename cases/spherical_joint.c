@@ -61,13 +61,10 @@ static status build(const double value[], scene *s, fault *f)
     double station[MAX_STEPS + 1];
     prescribe_rotation(value, s, effector, station);
 
-    const int tilting = scene_add_analysis(s, SCENE_STATIC);
-    scene_set_stations(s, tilting, (int)value[STEPS], station + 1);
-    const int tilted = scene_add_analysis(s, SCENE_COMPLIANCE),
-              rest = scene_add_analysis(s, SCENE_COMPLIANCE);
-    scene_analysis_at(s, tilted)->follows = tilting;
-    scene_analysis_at(s, tilted)->node = effector;
-    scene_analysis_at(s, rest)->node = effector;
+    const int tilting = scene_add_static(s, (int)value[STEPS], station + 1, 1);
+    const scene_compliance of_effector = {.node = effector};
+    const int tilted = scene_add_compliance(s, tilting, of_effector),
+              rest = scene_add_compliance(s, SCENE_NONE, of_effector);
     add_stiffness(s, "support_stiffness_max", tilted, effector, SCENE_MAX);
     add_stiffness(s, "support_stiffness_min", tilted, effector, SCENE_MIN);
     add_stiffness(s, "support_stiffness_undeformed", rest, effector, SCENE_LAST);

@@ -47,7 +47,6 @@ static void branched_section(const double value[], section_spec *spec)
 
 static void add_frequencies(scene *s, int modal)
 {
-    scene_analysis_at(s, modal)->wanted = FREQUENCIES;
     for (int i = 0; i < FREQUENCIES; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "frequency_%d", i + 1);
@@ -80,16 +79,14 @@ static status build(const double value[], scene *s, fault *f)
     if (value[ROTARY_INERTIA] != 0)
         scene_need(s, FEATURE_ROTARY_INERTIA);
 
-    const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
-    scene_analysis_at(s, buckling)->wanted = 1;
+    const int buckling = scene_add_buckling(s, SCENE_NONE);
     scene_quantity *critical =
         scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
     critical->sign = load > 0 ? 1 : -1;
     critical->factor = load;
     critical->least_order = 1.8;
-    const int loading = scene_add_analysis(s, SCENE_LINEAR),
-              modal = scene_add_analysis(s, SCENE_MODAL);
-    scene_analysis_at(s, modal)->follows = value[AXIAL_LOAD] != 0 ? loading : SCENE_NONE;
+    const int loading = scene_add_linear(s),
+              modal = scene_add_modal(s, value[AXIAL_LOAD] != 0 ? loading : SCENE_NONE);
     add_frequencies(s, modal);
     const int meshes[] = {2, 4, 8, 16, 32, 64};
     scene_meshes(s, 6, meshes);

@@ -35,10 +35,8 @@ static status build(const double value[], scene *s, fault *f)
     scene_drive(s, tip, SCENE_RX, scene_add_driver(s, "angle", 2, path, angle));
     scene_need(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
 
-    const int twisting = scene_add_analysis(s, SCENE_STATIC);
     const double end = 1;
-    scene_set_stations(s, twisting, 1, &end);
-    scene_analysis_at(s, twisting)->steps_between = 2;
+    const int twisting = scene_add_static(s, 1, &end, 2);
     scene_quantity *moment = scene_add_quantity(s, "moment", "N m", SCENE_REACTION, twisting);
     moment->node = tip;
     moment->row = SCENE_RX;

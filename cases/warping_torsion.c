@@ -37,7 +37,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_member_at(s, member)->warp_q = value[ENDS] == 0 ? SCENE_WARP_FREE : SCENE_WARP_FIXED;
     scene_hold_all(s, root);
     scene_add_load(s, SCENE_MOMENT, tip, 1, 0, 0);
-    const int linear = scene_add_analysis(s, SCENE_LINEAR);
+    const int linear = scene_add_linear(s);
     scene_quantity *twist = scene_add_quantity(s, "twist_ratio", "1", SCENE_COORDINATE, linear);
     twist->node = tip;
     twist->row = SCENE_RX;

@@ -1,15 +1,9 @@
-#include "cases/scene/scene.h"
+#include "cases/scene/list.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-const char *scene_moments_name(scene_moments moments)
-{
-    static const char *const name[] = {"spatial", "semitangential", "symmetrised"};
-    return name[moments];
-}
 
 void scene_init(scene *s, const char *name)
 {
@@ -28,7 +22,8 @@ void scene_free(scene *s)
         free(s->load[i].factor);
     }
     for (int i = 0; i < s->analyses; i++)
-        free(s->analysis[i].path);
+        if (scene_path_of(&s->analysis[i]) != NULL)
+            free(scene_path_of(&s->analysis[i])->value);
     free(s->section);
     free(s->node);
     free(s->member);
@@ -39,38 +34,9 @@ void scene_free(scene *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Room for one more entry, zeroed: its index, or -1. Lists double when their count is a power of two. */
-static int grow(scene *s, void *list, int *count, size_t size)
-{
-    void *entries;
-    memcpy(&entries, list, sizeof entries);
-    const int n = *count;
-    if ((n & (n - 1)) == 0) {
-        void *larger = realloc(entries, (n == 0 ? 1 : 2 * (size_t)n) * size);
-        if (larger == NULL) {
-            s->out_of_memory = 1;
-            return SCENE_NONE;
-        }
-        entries = larger;
-        memcpy(list, &entries, sizeof entries);
-    }
-    memset((char *)entries + (size_t)n * size, 0, size);
-    return (*count)++;
-}
-
-static double *copy(scene *s, int n, const double from[])
-{
-    double *to = malloc((size_t)(n > 0 ? n : 1) * sizeof *to);
-    if (to == NULL)
-        s->out_of_memory = 1;
-    else if (n > 0)
-        memcpy(to, from, (size_t)n * sizeof *to);
-    return to;
-}
-
 int scene_add_section(scene *s, const section_spec *spec)
 {
-    const int i = grow(s, &s->section, &s->sections, sizeof *s->section);
+    const int i = scene_grow(s, &s->section, &s->sections, sizeof *s->section);
     if (i >= 0)
         s->section[i] = *spec;
     return i;
@@ -86,19 +52,9 @@ scene_member *scene_member_at(scene *s, int i)
     return i >= 0 && i < s->members ? &s->member[i] : &s->scrap_member;
 }
 
-scene_load *scene_load_at(scene *s, int i)
-{
-    return i >= 0 && i < s->loads ? &s->load[i] : &s->scrap_load;
-}
-
-scene_analysis *scene_analysis_at(scene *s, int i)
-{
-    return i >= 0 && i < s->analyses ? &s->analysis[i] : &s->scrap_analysis;
-}
-
 int scene_add_node(scene *s, double x, double y, double z)
 {
-    const int i = grow(s, &s->node, &s->nodes, sizeof *s->node);
+    const int i = scene_grow(s, &s->node, &s->nodes, sizeof *s->node);
     scene_node *n = scene_node_at(s, i);
     n->position[0] = x;
     n->position[1] = y;
@@ -118,7 +74,7 @@ int scene_add_attached(scene *s, int body, double x, double y, double z)
 
 int scene_add_member(scene *s, int p, int q, int profile, const double y_axis[3])
 {
-    const int i = grow(s, &s->member, &s->members, sizeof *s->member);
+    const int i = scene_grow(s, &s->member, &s->members, sizeof *s->member);
     scene_member *m = scene_member_at(s, i);
     m->p = p;
     m->q = q;
@@ -130,7 +86,7 @@ int scene_add_member(scene *s, int p, int q, int profile, const double y_axis[3]
 
 static int add_driver(scene *s, const char *name)
 {
-    const int i = grow(s, &s->driver, &s->drivers, sizeof *s->driver);
+    const int i = scene_grow(s, &s->driver, &s->drivers, sizeof *s->driver);
     if (i >= 0) {
         snprintf(s->driver[i].name, SCENE_NAME, "%s", name);
         s->driver[i].condition_node = s->driver[i].condition_driver = SCENE_NONE;
@@ -144,8 +100,8 @@ int scene_add_driver(scene *s, const char *name, int stations, const double path
     const int i = add_driver(s, name);
     if (i >= 0) {
         s->driver[i].stations = stations;
-        s->driver[i].path = copy(s, stations, path);
-        s->driver[i].value = copy(s, stations, value);
+        s->driver[i].path = scene_copy(s, stations, path);
+        s->driver[i].value = scene_copy(s, stations, value);
     }
     return i;
 }
@@ -164,41 +120,16 @@ int scene_add_unknown_driver(scene *s, const char *name, int node, int component
 
 int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y, double z)
 {
-    const int i = grow(s, &s->load, &s->loads, sizeof *s->load);
-    scene_load *load = scene_load_at(s, i);
-    load->kind = kind;
-    load->where = where;
-    load->vector[0] = x;
-    load->vector[1] = y;
-    load->vector[2] = z;
+    const int i = scene_grow(s, &s->load, &s->loads, sizeof *s->load);
+    if (i >= 0)
+        s->load[i] = (scene_load){.kind = kind, .where = where, .vector = {x, y, z}};
     return i;
-}
-
-int scene_add_analysis(scene *s, scene_analysis_kind kind)
-{
-    const int i = grow(s, &s->analysis, &s->analyses, sizeof *s->analysis);
-    scene_analysis *a = scene_analysis_at(s, i);
-    a->kind = kind;
-    a->follows = a->node = a->control_node = SCENE_NONE;
-    a->steps_between = 1;
-    return i;
-}
-
-int scene_set_stations(scene *s, int analysis, int stations, const double path[])
-{
-    scene_analysis *a = scene_analysis_at(s, analysis);
-    if (a == &s->scrap_analysis)
-        return SCENE_NONE;
-    free(a->path);
-    a->path = copy(s, stations, path);
-    a->stations = stations;
-    return analysis;
 }
 
 scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit,
                                    scene_quantity_kind kind, int analysis)
 {
-    const int i = grow(s, &s->quantity, &s->quantities, sizeof *s->quantity);
+    const int i = scene_grow(s, &s->quantity, &s->quantities, sizeof *s->quantity);
     scene_quantity *q = i >= 0 ? &s->quantity[i] : &s->scrap_quantity;
     memset(q, 0, sizeof *q);
     snprintf(q->name, sizeof q->name, "%s", name);
@@ -255,6 +186,6 @@ const char *scene_convention(const scene *s, const scene_quantity *q)
 {
     const int matrix = q->kind == SCENE_COMPLIANCE_ENTRY || q->kind == SCENE_STIFFNESS_ENTRY;
     return matrix && q->analysis >= 0 && q->analysis < s->analyses
-               ? scene_moments_name(s->analysis[q->analysis].moments)
+               ? scene_moments_name(scene_compliance_of(&s->analysis[q->analysis])->moments)
                : NULL;
 }

@@ -7,6 +7,7 @@
 #ifndef BEAMWORK_SCENE_H
 #define BEAMWORK_SCENE_H
 
+#include "cases/scene/analysis.h"
 #include "elements/feature.h"
 #include "elements/math/status.h"
 #include "elements/section/section.h"
@@ -76,48 +77,6 @@ typedef struct scene_load {
     double *path, *factor;
 } scene_load;
 
-typedef enum scene_analysis_kind {
-    SCENE_LINEAR, /* one linear solution with the loads at factor 1 */
-    SCENE_STATIC, /* nonlinear equilibrium along the path */
-    SCENE_BUCKLING, /* linear prestress about the undeformed state, or about the state of the static path before it */
-    SCENE_MODAL,        /* natural frequencies about the present state */
-    SCENE_COMPLIANCE,   /* at every station of the static path before it */
-    SCENE_CONTINUATION, /* path of a load factor, controlled by arc length or by one coordinate */
-    SCENE_ROTATION      /* stationary rotation: equilibrium and frequencies in the rotating frame */
-} scene_analysis_kind;
-
-/* What a reaction's moment does while its node turns (harness/solver/convention.h). */
-typedef enum scene_moments {
-    SCENE_MOMENTS_SPATIAL,
-    SCENE_MOMENTS_SEMITANGENTIAL,
-    SCENE_MOMENTS_SYMMETRISED
-} scene_moments;
-#define SCENE_MOMENTS_CHOICES "spatial|semitangential|symmetrised"
-const char *scene_moments_name(scene_moments);
-
-typedef struct scene_analysis {
-    scene_analysis_kind kind;
-    int follows; /* analysis whose state(s) this one is about, or SCENE_NONE: the undeformed state */
-    int stations; /* static, rotation: path parameter values to stop at, ascending; continuation: of the control coordinate, as met */
-    double *path;
-    int steps_between; /* first try of load steps from one station to the next (adaptive from there); >= 1 */
-    int wanted; /* buckling, modal, rotation: how many eigenvalues (of each sign in buckling) */
-    int node;   /* compliance: where */
-    scene_moments moments; /* convention of compliance */
-    unsigned
-        released; /* compliance: bit i: component i at `node`, though prescribed, is free and its reaction is a dead load */
-    /* Continuation of proportional loads: their factor is unknown. The control coordinate is a translation of any node, also of an
-     * attached one; by arc length it is what curves are drawn over. The arc is the root of the mean, over all nodes, of
-     * (displacement/size of the scene)^2 + rotation^2, dimensionless. */
-    int control_node, control_component;
-    int by_arc;            /* 1: steps are lengths of arc, 0: steps of the control coordinate */
-    double step, step_max; /* first and largest step [m, or 1 by arc length] */
-    int constant_steps; /* 1: all steps are `step`, and a branch jump ends the path; 0: steps adapt, and a jump is walked around */
-    /* Angular velocity [rad/s] of the axes and a point on its axis [m]; static, continuation: constant along the path; rotation:
-     * times the path parameter. Zero: at rest. */
-    double omega[3], omega_centre[3];
-} scene_analysis;
-
 typedef enum scene_quantity_kind {
     SCENE_COORDINATE, /* displacement or rotation-vector component of `node` in a static or linear analysis */
     SCENE_REACTION,         /* of a prescribed component at `node` */
@@ -174,7 +133,7 @@ typedef struct scene_quantity {
     double x_factor, x_offset;
 } scene_quantity;
 
-typedef struct scene {
+struct scene {
     char name[SCENE_NAME];
     int sections, nodes, members, drivers, loads, analyses, quantities;
     section_spec *section;
@@ -191,10 +150,8 @@ typedef struct scene {
     /* What the accessors below point to when an index is -1, so that a case can write without asking. */
     scene_node scrap_node;
     scene_member scrap_member;
-    scene_load scrap_load;
-    scene_analysis scrap_analysis;
     scene_quantity scrap_quantity;
-} scene;
+};
 
 void scene_init(scene *s, const char *name);
 void scene_free(scene *s);
@@ -210,8 +167,6 @@ int scene_add_driver(scene *s, const char *name, int stations, const double path
 int scene_add_unknown_driver(scene *s, const char *name, int node, int component,
                              int condition_driver);
 int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y, double z);
-int scene_add_analysis(scene *s, scene_analysis_kind kind);
-int scene_set_stations(scene *s, int analysis, int stations, const double path[]);
 /* The new quantity, to be filled further: name, unit, kind and analysis are set, nodes and drivers SCENE_NONE, sign 1,
  * tolerance SCENE_TOLERANCE, the rest 0. */
 scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit,
@@ -219,8 +174,6 @@ scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit,
 /* Entry of a list, to be filled further; never NULL. */
 scene_node *scene_node_at(scene *s, int index);
 scene_member *scene_member_at(scene *s, int index);
-scene_load *scene_load_at(scene *s, int index);
-scene_analysis *scene_analysis_at(scene *s, int index);
 void scene_hold(scene *s, int node, int first,
                 int last); /* components SCENE_UX .. SCENE_RZ, inclusive */
 void scene_hold_all(scene *s, int node);

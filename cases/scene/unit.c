@@ -98,14 +98,17 @@ static void scale_load(scene_load *load, double x)
 
 static void scale_analysis(scene_analysis *a, double x)
 {
-    scale_vector(a->omega_centre, x);
+    if (a->kind == SCENE_STATIC || a->kind == SCENE_ROTATION)
+        scale_vector(a->of.walk.spin.centre, x);
     if (a->kind != SCENE_CONTINUATION)
         return;
-    for (int i = 0; i < a->stations; i++) /* of the control coordinate, a translation */
-        a->path[i] *= x;
-    if (!a->by_arc) {
-        a->step *= x;
-        a->step_max *= x;
+    scene_continuation *c = &a->of.continuation;
+    scale_vector(c->spin.centre, x);
+    for (int i = 0; i < c->path.stations; i++) /* of the control coordinate, a translation */
+        c->path.value[i] *= x;
+    if (!c->control.by_arc) {
+        c->control.step *= x;
+        c->control.step_max *= x;
     }
 }
 

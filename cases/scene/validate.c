@@ -173,22 +173,47 @@ static status check_load(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-static status check_continuation(const scene *s, const scene_analysis *a, int i, fault *f)
+static status check_continuation(const scene *s, int i, fault *f)
 {
-    if (a->control_node < 0 || a->control_node >= s->nodes || a->control_component < SCENE_UX ||
-        a->control_component > SCENE_UZ)
+    const scene_control *c = &scene_continuation_of(&s->analysis[i])->control;
+    if (c->node < 0 || c->node >= s->nodes || c->component < SCENE_UX || c->component > SCENE_UZ)
         return fault_set(f, STATUS_REFUSED,
                          "analysis %d: continuation needs a translation of a node as control "
                          "coordinate; name a node and UX, UY or UZ",
                          i);
-    if (!(a->step > 0) || !(a->step_max >= a->step))
+    if (!(c->step > 0) || !(c->step_max >= c->step))
         return fault_set(
             f, STATUS_REFUSED,
             "analysis %d: steps of %g to %g; the first must be positive, the largest not smaller",
-            i, a->step, a->step_max);
+            i, c->step, c->step_max);
     if (s->drivers > 0)
         return fault_set(f, STATUS_REFUSED,
                          "analysis %d: continuation changes loads only; take the drivers away", i);
+    return STATUS_OK;
+}
+
+static status check_path(const scene_analysis *a, int i, fault *f)
+{
+    const scene_path *path = scene_path_of(a);
+    if (path->stations < 1)
+        return fault_set(f, STATUS_REFUSED,
+                         "analysis %d: a path needs a station; give one at least", i);
+    for (int k = 1; k < path->stations && a->kind != SCENE_CONTINUATION; k++)
+        if (!(path->value[k] > path->value[k - 1]))
+            return fault_set(f, STATUS_REFUSED,
+                             "analysis %d: its stations must ascend; sort them, without repetition",
+                             i);
+    return STATUS_OK;
+}
+
+static status check_spin(const scene_spin *spin, int i, fault *f)
+{
+    for (int k = 0; k < 3; k++)
+        if (!isfinite(spin->omega[k]) || !isfinite(spin->centre[k]))
+            return fault_set(f, STATUS_REFUSED,
+                             "analysis %d: its angular velocity is not a number; give finite "
+                             "components, and a finite point of its axis",
+                             i);
     return STATUS_OK;
 }
 
@@ -199,24 +224,14 @@ static status check_analysis(const scene *s, int i, fault *f)
         return fault_set(
             f, STATUS_REFUSED,
             "analysis %d: it follows one that does not come before it; name an earlier one", i);
-    for (int k = 1; k < a->stations && a->kind != SCENE_CONTINUATION; k++)
-        if (!(a->path[k] > a->path[k - 1]))
-            return fault_set(f, STATUS_REFUSED,
-                             "analysis %d: its stations must ascend; sort them, without repetition",
-                             i);
-    if ((a->kind == SCENE_STATIC || a->kind == SCENE_CONTINUATION || a->kind == SCENE_ROTATION) &&
-        a->stations < 1)
-        return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: a path needs a station; give one at least", i);
-    for (int k = 0; k < 3; k++)
-        if (!isfinite(a->omega[k]) || !isfinite(a->omega_centre[k]))
-            return fault_set(f, STATUS_REFUSED,
-                             "analysis %d: its angular velocity is not a number; give finite "
-                             "components, and a finite point of its axis",
-                             i);
+    if (scene_path_of(a) != NULL)
+        TRY(check_path(a, i, f));
+    if (scene_spin_of(a) != NULL)
+        TRY(check_spin(scene_spin_of(a), i, f));
     if (a->kind == SCENE_CONTINUATION)
-        return check_continuation(s, a, i, f);
-    if (a->kind == SCENE_COMPLIANCE && (a->node < 0 || a->node >= s->nodes))
+        return check_continuation(s, i, f);
+    if (a->kind == SCENE_COMPLIANCE &&
+        (scene_compliance_of(a)->node < 0 || scene_compliance_of(a)->node >= s->nodes))
         return fault_set(f, STATUS_REFUSED, "analysis %d: a compliance needs a node; name one", i);
     return STATUS_OK;
 }

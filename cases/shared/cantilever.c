@@ -29,11 +29,8 @@ void cantilever_build(double length, const cantilever_stiffness *k, scene *s, in
 
 int cantilever_path(scene *s, int steps)
 {
-    const int path = scene_add_analysis(s, SCENE_STATIC);
     const double end = 1;
-    scene_set_stations(s, path, 1, &end);
-    scene_analysis_at(s, path)->steps_between = steps;
-    return path;
+    return scene_add_static(s, 1, &end, steps);
 }
 
 void cantilever_quantity(scene *s, const char *name, const char *unit, int analysis, int tip,

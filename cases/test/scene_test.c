@@ -25,8 +25,7 @@ static void sound(scene *s)
     scene_hold_all(s, ROOT);
     scene_drive(s, TIP, SCENE_UY, scene_add_driver(s, "push", 2, station, station));
     scene_add_load(s, SCENE_FORCE, TIP, 1, 0, 0);
-    const int path = scene_add_analysis(s, SCENE_STATIC);
-    scene_set_stations(s, path, 2, station);
+    const int path = scene_add_static(s, 2, station, 1);
     scene_quantity *q = scene_add_quantity(s, "u", "m", SCENE_COORDINATE, path);
     q->node = TIP;
     q->row = SCENE_UX;
@@ -35,11 +34,12 @@ static void sound(scene *s)
 /* The path of an unknown load factor, which changes loads only. */
 static void driven(scene *s)
 {
-    scene_analysis *a = scene_analysis_at(s, 0);
-    a->kind = SCENE_CONTINUATION;
-    a->control_node = TIP;
-    a->control_component = SCENE_UX;
-    a->step = a->step_max = 0.1;
+    const double station[] = {0, 1};
+    free(scene_path_of(&s->analysis[0])->value);
+    s->analyses = 0;
+    scene_add_continuation(
+        s, 2, station,
+        (scene_control){.node = TIP, .component = SCENE_UX, .step = 0.1, .step_max = 0.1});
 }
 
 static void continued(scene *s)
@@ -153,15 +153,15 @@ static void follows_itself(scene *s)
 }
 static void stations(scene *s)
 {
-    s->analysis[0].path[1] = -1;
+    s->analysis[0].of.walk.path.value[1] = -1;
 }
 static void no_station(scene *s)
 {
-    s->analysis[0].stations = 0;
+    s->analysis[0].of.walk.path.stations = 0;
 }
 static void spin(scene *s)
 {
-    s->analysis[0].omega[2] = NAN;
+    scene_set_spin(s, 0, (scene_spin){.omega = {0, 0, NAN}});
 }
 static void two_names(scene *s)
 {
@@ -189,24 +189,24 @@ static void condition_nowhere(scene *s)
 static void uncontrolled(scene *s)
 {
     continued(s);
-    s->analysis[0].control_component = SCENE_RX;
+    s->analysis[0].of.continuation.control.component = SCENE_RX;
 }
 
 static void step(scene *s)
 {
     continued(s);
-    s->analysis[0].step = 0;
+    s->analysis[0].of.continuation.control.step = 0;
 }
 
 static void smaller_step(scene *s)
 {
     continued(s);
-    s->analysis[0].step_max = 0.05;
+    s->analysis[0].of.continuation.control.step_max = 0.05;
 }
 
 static void compliance_nowhere(scene *s)
 {
-    scene_add_analysis(s, SCENE_COMPLIANCE);
+    scene_add_compliance(s, SCENE_NONE, (scene_compliance){.node = SCENE_NONE});
 }
 
 typedef void spoil(scene *);

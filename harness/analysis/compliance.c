@@ -33,30 +33,30 @@ static void forget_columns(unsigned known, double C[36])
 }
 
 /* C and K [6 x 6]; columns of C that nothing asks for, and with them K, are not numbers. */
-static status compliance_at(analysis_context *c, const scene_analysis *a, const model_state *s,
+static status compliance_at(analysis_context *c, const scene_compliance *what, const model_state *s,
                             tangent *t, unsigned wanted, double C[36], double K[36], fault *f)
 {
     double reaction[6], load[6];
     movable motions;
-    model_node_force(c->model, s, a->node, reaction);
-    model_node_load(c->model, s, a->node, load);
+    model_node_force(c->model, s, what->node, reaction);
+    model_node_load(c->model, s, what->node, load);
     for (int i = 0; i < 6; i++)
         reaction[i] -= load[i];
-    TRY(tangent_at(c, a, s, reaction, t, f));
+    TRY(tangent_at(c, what, s, reaction, t, f));
     tangent_movable(c->model, t, &motions);
     tangent_prescribed(t, reaction + 3);
     const unsigned turns = motions.components & 0x38, held = 0x3f & ~motions.components;
-    if (turns && convention_changes(a->moments, reaction + 3))
+    if (turns && convention_changes(what->moments, reaction + 3))
         wanted = 0x3f;
     TRY(tangent_compliance(c, t, wanted, motions.components, C, f));
     if (motions.count > 0 && (wanted | held) == 0x3f)
-        return convention_apply(a->moments, &motions, reaction + 3, C, K, f);
+        return convention_apply(what->moments, &motions, reaction + 3, C, K, f);
     forget_columns(wanted | held, C);
     forget_columns(0, K);
     return STATUS_OK;
 }
 
-static status matrices_alloc(solve_result *r, const scene_analysis *a, int stations,
+static status matrices_alloc(solve_result *r, const scene_compliance *what, int stations,
                              nodal_matrices **out, fault *f)
 {
     nodal_matrices *more = realloc(r->matrices, ((size_t)r->matrix_sets + 1) * sizeof *more);
@@ -64,7 +64,7 @@ static status matrices_alloc(solve_result *r, const scene_analysis *a, int stati
         return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
     r->matrices = more;
     *out = &more[r->matrix_sets++];
-    **out = (nodal_matrices){.node = a->node, .moments = a->moments};
+    **out = (nodal_matrices){.node = what->node, .moments = what->moments};
     (*out)->path = calloc((size_t)stations + 1, sizeof *(*out)->path);
     (*out)->compliance = calloc((size_t)stations * 36 + 1, sizeof *(*out)->compliance);
     (*out)->stiffness = calloc((size_t)stations * 36 + 1, sizeof *(*out)->stiffness);
@@ -77,20 +77,21 @@ static status matrices_alloc(solve_result *r, const scene_analysis *a, int stati
 static status solve(analysis_context *c, int analysis, tangent *t, analysis_outcome *o, fault *f)
 {
     const scene_analysis *a = &c->scene->analysis[analysis];
+    const scene_compliance *what = scene_compliance_of(a);
     const analysis_outcome *path = a->follows == SCENE_NONE ? NULL : &c->outcomes[a->follows];
     const int reached = path != NULL ? path->reached : 1;
     const unsigned wanted = wanted_columns(c, analysis);
     nodal_matrices *m = NULL;
     o->stations = path != NULL ? path->stations : 1;
-    TRY(tangent_alloc(c, a, t, f));
-    TRY(matrices_alloc(c->result, a, o->stations, &m, f));
+    TRY(tangent_alloc(c, what, t, f));
+    TRY(matrices_alloc(c->result, what, o->stations, &m, f));
     o->compliance = m->compliance;
     o->path = calloc((size_t)o->stations + 1, sizeof *o->path);
     if (o->path == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
     for (int i = 0; i < reached; i++) {
         const model_state *s = path != NULL ? path->state[i] : model_rest(c->model);
-        TRY(compliance_at(c, a, s, t, wanted, m->compliance + 36 * (size_t)i,
+        TRY(compliance_at(c, what, s, t, wanted, m->compliance + 36 * (size_t)i,
                           m->stiffness + 36 * (size_t)i, f));
         o->path[i] = m->path[i] = path != NULL ? path->path[i] : 0;
         m->stations = ++o->reached;

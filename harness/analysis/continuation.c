@@ -111,7 +111,7 @@ static double next_size(const continuation *p, double size, double length, const
 {
     const double wanted = length * fmin(2, fmax(0.5, 0.5 / t->swing)) *
                           (t->record.iterations > MANY_ITERATIONS ? 0.5 : 1);
-    return fmin(p->a->step_max, wanted < length ? wanted : fmax(size, wanted));
+    return fmin(p->by->step_max, wanted < length ? wanted : fmax(size, wanted));
 }
 
 static double length_left(const continuation *p, path_goal goal, double gone)
@@ -146,7 +146,7 @@ static path_goal part_of(const continuation *p, path_goal goal, double from, dou
 static status retrace(continuation *p, path_goal goal, double station, const rival *r, double *size,
                       fault *f)
 {
-    const double from = p->here.control, smallest = ldexp(p->a->step, -HALVINGS);
+    const double from = p->here.control, smallest = ldexp(p->by->step, -HALVINGS);
     double gone = 0, nearest = INFINITY;
     int rejected = 1;
     while (!arrived(p, goal, station, r, gone, nearest)) {
@@ -218,8 +218,8 @@ static status reach(continuation *p, path_goal goal, double station, double *siz
 static path_goal next_goal(const continuation *p, double station, double length)
 {
     const double left = station - p->here.control;
-    if (p->a->by_arc)
-        return (path_goal){p->a->by_arc, length};
+    if (p->by->by_arc)
+        return (path_goal){p->by->by_arc, length};
     if (length * (1 + 1e-9) >= fabs(left))
         return (path_goal){0, station};
     return (path_goal){0, p->here.control + copysign(length, left)};
@@ -231,7 +231,7 @@ static status walk_to(continuation *p, double station, double *size, fault *f)
         if (p->o->points >= MOST_POINTS)
             return fault_set(f, STATUS_NOT_CONVERGED, "%d points of the path and none at %g m",
                              MOST_POINTS, station);
-        const double length = p->a->constant_steps ? p->a->step : *size;
+        const double length = p->by->constant_steps ? p->by->step : *size;
         TRY(reach(p, next_goal(p, station, length), station, size, f));
     }
     return STATUS_OK;
@@ -248,11 +248,11 @@ static status start(continuation *p, fault *f)
 
 static status walk(continuation *p, fault *f)
 {
-    double size = p->a->step;
+    double size = p->by->step;
     TRY(start(p, f));
-    for (int i = 0; i < p->a->stations; i++) {
-        TRY(walk_to(p, p->a->path[i], &size, f));
-        TRY(outcome_keep(p->o, p->c->model, p->n.state, p->a->path[i], f));
+    for (int i = 0; i < p->path->stations; i++) {
+        TRY(walk_to(p, p->path->value[i], &size, f));
+        TRY(outcome_keep(p->o, p->c->model, p->n.state, p->path->value[i], f));
     }
     return STATUS_OK;
 }

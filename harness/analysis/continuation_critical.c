@@ -144,8 +144,8 @@ static status report_critical(continuation *p, path_goal goal, int by_rate, int 
                         .negative_before = p->here.negative,
                         .negative_after = p->next.negative,
                         .factor = model_state_path(p->n.state),
-                        .control = model_component(p->c->model, p->n.state, p->a->control_node,
-                                                   p->a->control_component),
+                        .control =
+                            model_component(p->c->model, p->n.state, p->by->node, p->by->component),
                         .other_factor = NAN};
     least_eigenvalue(p);
     event.measure = load_work(p);

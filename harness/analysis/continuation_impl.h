@@ -27,7 +27,8 @@ typedef struct path_goal {
 
 typedef struct continuation {
     analysis_context *c;
-    const scene_analysis *a;
+    const scene_control *by;
+    const scene_path *path;
     analysis_outcome *o;
     int analysis, room; /* room: for points in the outcome */
     int keeps_states;   /* 1: the outcome keeps the state of every point */

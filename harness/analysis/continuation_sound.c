@@ -46,7 +46,7 @@ status continuation_report_jump(continuation *p, const rival *r, double from, fa
                               .other_factor = r->factor,
                               .measure = model_distance(p->c->model, p->n.state, r->state)};
     TRY(history_add_event(p->c->result, &event, f));
-    if (p->a->constant_steps)
+    if (p->by->constant_steps)
         return fault_set(f, STATUS_NOT_CONVERGED,
                          "the step from %g to %g m jumps to another branch (load factor %g, on "
                          "this one %g): use smaller steps",

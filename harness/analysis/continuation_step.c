@@ -16,7 +16,8 @@ status continuation_alloc(analysis_context *c, int analysis, analysis_outcome *o
 {
     memset(p, 0, sizeof *p);
     p->c = c;
-    p->a = &c->scene->analysis[analysis];
+    p->by = &scene_continuation_of(&c->scene->analysis[analysis])->control;
+    p->path = scene_path_of(&c->scene->analysis[analysis]);
     p->o = o;
     p->analysis = analysis;
     p->keeps_states = continuation_extract_keeps_states(c->scene, analysis);
@@ -25,7 +26,7 @@ status continuation_alloc(analysis_context *c, int analysis, analysis_outcome *o
             f, STATUS_REFUSED,
             "continuation needs a factored tangent; give newton=mixed or newton=displacement");
     TRY(newton_alloc(c, &p->n, f));
-    TRY(outcome_stations(o, p->a->stations, f));
+    TRY(outcome_stations(o, p->path->stations, f));
     TRY(model_state_alloc(c->model, &p->end, f));
     double **const vector[] = {&p->weight, &p->load,         &p->response,     &p->moved,
                                &p->mode,   &p->here.tangent, &p->next.tangent, &p->trial.tangent};
@@ -76,7 +77,7 @@ static status directions(continuation *p, step_record *record, fault *f)
 
 static double control_value(const continuation *p)
 {
-    return model_component(p->c->model, p->n.state, p->a->control_node, p->a->control_component);
+    return model_component(p->c->model, p->n.state, p->by->node, p->by->component);
 }
 
 /* What the constraint still lacks. */
@@ -93,9 +94,9 @@ static double change_of(const continuation *p, path_goal goal, const double dx[]
         return continuation_dot(p, p->here.tangent, dx);
     int index[6];
     double T[36], sum = 0;
-    const int n = model_node_jacobian(p->c->model, p->n.state, p->a->control_node, 6, index, T);
+    const int n = model_node_jacobian(p->c->model, p->n.state, p->by->node, 6, index, T);
     for (int k = 0; k < n; k++)
-        sum += T[p->a->control_component * n + k] * dx[index[k]];
+        sum += T[p->by->component * n + k] * dx[index[k]];
     return sum;
 }
 

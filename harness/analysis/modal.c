@@ -19,7 +19,7 @@
 int modal_wanted(const analysis_context *c, int analysis)
 {
     const int others = 6; /* axial modes and other families lie between */
-    int wanted = c->scene->analysis[analysis].wanted;
+    int wanted = 0;
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
         if (q->kind == SCENE_FREQUENCY && q->analysis == analysis && wanted < q->order + 1)

@@ -154,7 +154,7 @@ static int asks_for_modes(const analysis_context *c, int analysis, int everywher
 /* How many modes to begin with. */
 static int modes_wanted(const analysis_context *c, int analysis)
 {
-    int wanted = c->scene->analysis[analysis].wanted;
+    int wanted = scene_walk_of(&c->scene->analysis[analysis])->modes;
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
         if (q->analysis == analysis && q->kind == SCENE_FREQUENCY && wanted < q->order + 1)

@@ -44,6 +44,13 @@ static analysis_function *function_of(const scene *s, const scene_analysis *a)
     return NULL;
 }
 
+static void set_frame(model *m, const scene_analysis *a)
+{
+    static const scene_spin rest = {{0}, {0}};
+    const scene_spin *spin = scene_spin_of(a) != NULL ? scene_spin_of(a) : &rest;
+    model_set_rotating_frame(m, spin->omega, spin->centre, a->kind == SCENE_ROTATION);
+}
+
 /* The first failure names the whole. */
 static void run_analyses(analysis_context *c)
 {
@@ -52,7 +59,7 @@ static void run_analyses(analysis_context *c)
         fault f = {""};
         const scene_analysis *a = &c->scene->analysis[i];
         analysis_function *run = function_of(c->scene, a);
-        model_set_rotating_frame(c->model, a->omega, a->omega_centre, a->kind == SCENE_ROTATION);
+        set_frame(c->model, a);
         if (c->options->sample > 0 && a->kind != SCENE_STATIC)
             continue;
         c->singular = 0;

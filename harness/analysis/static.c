@@ -63,39 +63,39 @@ static status sample(newton *n, double path, fault *f)
 }
 
 /* Steps to every station, whose states are kept. */
-static status walk(newton *n, const scene_analysis *a, analysis_outcome *o, fault *f)
+static status walk(newton *n, const scene_walk *a, analysis_outcome *o, fault *f)
 {
     analysis_context *c = n->c;
     const int between =
         c->options->steps_between > 0 ? c->options->steps_between : a->steps_between;
     const int steps = between > 0 ? between : 1;
-    for (int i = 0; i < a->stations; i++) {
-        const double from = i > 0 ? a->path[i - 1] : 0;
-        double increment = (a->path[i] - from) / steps;
-        TRY(static_walk(n, a->path[i], &increment, f));
+    for (int i = 0; i < a->path.stations; i++) {
+        const double from = i > 0 ? a->path.value[i - 1] : 0;
+        double increment = (a->path.value[i] - from) / steps;
+        TRY(static_walk(n, a->path.value[i], &increment, f));
         if (c->options->newton != SOLVE_DENSE)
             context_count_condition(c, n->factor, &n->K);
-        TRY(outcome_keep(o, c->model, n->state, a->path[i], f));
+        TRY(outcome_keep(o, c->model, n->state, a->path.value[i], f));
     }
     return STATUS_OK;
 }
 
 /* With what static_analysis frees. */
-static status solve(analysis_context *c, const scene_analysis *a, newton *n, predictor *t,
+static status solve(analysis_context *c, const scene_walk *a, newton *n, predictor *t,
                     analysis_outcome *o, fault *f)
 {
     TRY(newton_alloc(c, n, f));
     TRY(predictor_alloc(c->model, t, f));
     n->predictor = t;
-    TRY(outcome_stations(o, a->stations, f));
-    return c->options->sample > 0 ? sample(n, a->path[0], f) : walk(n, a, o, f);
+    TRY(outcome_stations(o, a->path.stations, f));
+    return c->options->sample > 0 ? sample(n, a->path.value[0], f) : walk(n, a, o, f);
 }
 
 status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     newton n;
     predictor t = {0};
-    const status result = solve(c, &c->scene->analysis[analysis], &n, &t, o, f);
+    const status result = solve(c, scene_walk_of(&c->scene->analysis[analysis]), &n, &t, o, f);
     predictor_free(&t);
     newton_free(&n);
     return result;

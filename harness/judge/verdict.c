@@ -70,8 +70,7 @@ static history history_of(const series *s, int quantity)
 static element_analysis analysis_of(const scene *s, const scene_quantity *q)
 {
     const scene_analysis *a = &s->analysis[q->analysis];
-    const int turns = a->omega[0] != 0 || a->omega[1] != 0 || a->omega[2] != 0;
-    if (a->kind == SCENE_MODAL || a->kind == SCENE_ROTATION || turns)
+    if (a->kind == SCENE_MODAL || a->kind == SCENE_ROTATION || scene_spins(a))
         return ELEMENT_VIBRATION;
     return a->kind == SCENE_BUCKLING ? ELEMENT_BUCKLING : ELEMENT_STATICS;
 }

@@ -11,11 +11,6 @@ int features_eccentric(const section *c)
     return hypot(c->ys, c->zs) > 1e-12 * sqrt(c->Ip / c->A);
 }
 
-static int turns(const scene_analysis *a)
-{
-    return a->omega[0] != 0 || a->omega[1] != 0 || a->omega[2] != 0;
-}
-
 static unsigned needs_of_analyses(const scene *s)
 {
     unsigned needs = 0;
@@ -26,7 +21,7 @@ static unsigned needs_of_analyses(const scene *s)
             break;
         case SCENE_STATIC:
         case SCENE_CONTINUATION:
-            needs |= FEATURE_LARGE | (turns(&s->analysis[i]) ? FEATURE_MASS : 0);
+            needs |= FEATURE_LARGE | (scene_spins(&s->analysis[i]) ? FEATURE_MASS : 0);
             break;
         case SCENE_BUCKLING:
             needs |= FEATURE_GEOMETRIC;
@@ -88,7 +83,7 @@ unsigned model_quantity_needs(const scene *s, int quantity)
     const int analysis = s->quantity[quantity].analysis;
     const int moves = analysis >= 0 && (s->analysis[analysis].kind == SCENE_MODAL ||
                                         s->analysis[analysis].kind == SCENE_ROTATION ||
-                                        turns(&s->analysis[analysis]));
+                                        scene_spins(&s->analysis[analysis]));
     return model_needs(s) & (moves ? ~0U : ~inertia);
 }
 

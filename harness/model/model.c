@@ -38,6 +38,11 @@ static void choose_options(model *m, const double options[])
     m->work_size = m->strains * (m->coordinates + m->strains + 2) + m->memory;
 }
 
+static int stations_of(const scene_analysis *a)
+{
+    return scene_path_of(a) != NULL ? scene_path_of(a)->stations : 0;
+}
+
 /* At least what the elements, the pattern of their matrices and the states kept along the path
  * take. */
 static status check_memory(const model *m, int elements, fault *f)
@@ -49,7 +54,7 @@ static status check_memory(const model *m, int elements, fault *f)
     for (int i = 0; i < m->scene->members; i++)
         count += m->scene->member[i].divisions > 0 ? m->scene->member[i].divisions : elements;
     for (int i = 0; i < m->scene->analyses; i++)
-        states += m->scene->analysis[i].stations;
+        states += stations_of(&m->scene->analysis[i]);
     const double each = sizeof(mesh_element) + (m->nodes - 1) * sizeof(mesh_vertex) +
                         sizeof(double) * (m->work_size + states * words) +
                         (2 * sizeof(int) + sizeof(double)) * entries;

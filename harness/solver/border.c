@@ -6,7 +6,7 @@
 #include "harness/model/kinematics.h"
 #include "harness/solver/context.h"
 
-static int is_released(const analysis_context *c, const scene_analysis *a, int coordinate)
+static int is_released(const analysis_context *c, const scene_compliance *a, int coordinate)
 {
     for (int k = 0; k < TANGENT_COMPONENTS; k++)
         if ((a->released >> k & 1u) && model_coordinate(c->model, a->node, k) == coordinate)
@@ -14,7 +14,7 @@ static int is_released(const analysis_context *c, const scene_analysis *a, int c
     return 0;
 }
 
-status border_alloc(const analysis_context *c, const scene_analysis *a, border *b, fault *f)
+status border_alloc(const analysis_context *c, const scene_compliance *a, border *b, fault *f)
 {
     const model_size size = model_sizes(c->model);
     for (int i = size.free; i < size.free + size.driven; i++)

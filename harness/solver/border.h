@@ -17,7 +17,7 @@ typedef struct border {
 /* Index of a released coordinate, or -1. */
 int border_place(const border *, int coordinate);
 /* Those of the analysis' node; the matrices have room and no values. */
-status border_alloc(const analysis_context *, const scene_analysis *, border *, fault *);
+status border_alloc(const analysis_context *, const scene_compliance *, border *, fault *);
 void border_free(border *);
 /* From K of all coordinates. */
 void border_fill(border *, int free_count, const sparse *K);

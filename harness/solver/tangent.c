@@ -32,7 +32,7 @@ static void copy_inside(tangent *t)
                (size_t)(t->inside.column[j + 1] - t->inside.column[j]) * sizeof *t->inside.value);
 }
 
-static status allocate(const analysis_context *c, const scene_analysis *a, tangent *t, fault *f)
+static status allocate(const analysis_context *c, const scene_compliance *a, tangent *t, fault *f)
 {
     const sparse *inside, *whole;
     const model_size size = model_sizes(c->model);
@@ -54,7 +54,7 @@ static status allocate(const analysis_context *c, const scene_analysis *a, tange
     return factor_alloc(inside, &t->factor, f);
 }
 
-status tangent_alloc(analysis_context *c, const scene_analysis *a, tangent *t, fault *f)
+status tangent_alloc(analysis_context *c, const scene_compliance *a, tangent *t, fault *f)
 {
     const double start = clock_processor_seconds();
     memset(t, 0, sizeof *t);
@@ -75,7 +75,7 @@ void tangent_free(tangent *t)
 }
 
 /* K of the state and the factors of its free block. */
-static status factor_at(analysis_context *c, const scene_analysis *a, const model_state *s,
+static status factor_at(analysis_context *c, const scene_compliance *a, const model_state *s,
                         const double reaction[6], tangent *t, fault *f)
 {
     model_linearisation lin = {.path = model_state_path(s), .K = &t->K, .residual = t->residual};
@@ -94,7 +94,7 @@ static void count_factors(const tangent *t, counters *n)
         counts.negative_pivots > n->negative_pivots ? counts.negative_pivots : n->negative_pivots;
 }
 
-status tangent_at(analysis_context *c, const scene_analysis *a, const model_state *s,
+status tangent_at(analysis_context *c, const scene_compliance *a, const model_state *s,
                   const double reaction[6], tangent *t, fault *f)
 {
     const status factored = factor_at(c, a, s, reaction, t, f);

@@ -20,10 +20,10 @@ typedef struct tangent {
     double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS];
 } tangent;
 
-status tangent_alloc(analysis_context *c, const scene_analysis *a, tangent *t, fault *f);
+status tangent_alloc(analysis_context *c, const scene_compliance *a, tangent *t, fault *f);
 void tangent_free(tangent *t);
 /* reaction[6]: force and moment of the prescription on the node [N, N m]. */
-status tangent_at(analysis_context *c, const scene_analysis *a, const model_state *s,
+status tangent_at(analysis_context *c, const scene_compliance *a, const model_state *s,
                   const double reaction[6], tangent *t, fault *f);
 /* Takes out of the reaction's moment what acts along free turns: there is no prescription that
  * exerts it. */

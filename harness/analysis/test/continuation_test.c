@@ -92,12 +92,9 @@ static status build_column(const double value[], scene *s, fault *f)
     scene_add_load(s, SCENE_FORCE, tip, -1, 0, 0);
     if (value[0] != 0) /* an unsymmetric pattern */
         scene_add_load(s, SCENE_MOMENT, tip, 0, 0, 0);
-    const int path = scene_add_analysis(s, SCENE_CONTINUATION);
-    scene_set_stations(s, path, 1, &end);
-    scene_analysis *a = scene_analysis_at(s, path);
-    a->control_node = tip;
-    a->control_component = SCENE_UX;
-    a->step = a->step_max = 0.0123;
+    const int path = scene_add_continuation(
+        s, 1, &end,
+        (scene_control){.node = tip, .component = SCENE_UX, .step = 0.0123, .step_max = 0.0123});
     scene_quantity *load_1 = scene_add_quantity(s, "bifurcation", "N", SCENE_CRITICAL_POINT, path);
     load_1->row = SCENE_BIFURCATION;
     return STATUS_OK;
@@ -177,7 +174,7 @@ static void jump_ends_constant_steps(void)
 static status build_adaptive(const double value[], scene *s, fault *f)
 {
     const status outcome = case_find("c_cantilever", f)->build(value, s, f);
-    s->analysis[0].constant_steps = 0;
+    s->analysis[0].of.continuation.control.constant_steps = 0;
     return outcome;
 }
 
@@ -197,9 +194,9 @@ static void jump_is_walked_around(void)
 static status build_long_arcs(const double value[], scene *s, fault *f)
 {
     const status outcome = case_find("lee_frame", f)->build(value, s, f);
-    s->analysis[0].constant_steps = 1;
-    s->analysis[0].step *= 5;
-    s->analysis[0].step_max *= 5;
+    s->analysis[0].of.continuation.control.constant_steps = 1;
+    s->analysis[0].of.continuation.control.step *= 5;
+    s->analysis[0].of.continuation.control.step_max *= 5;
     return outcome;
 }
 
@@ -240,11 +237,11 @@ static void refusals(void)
     parameters_default(type, value);
     scene_init(&s, "refused");
     gsl_test_int((int)type->build(value, &s, &f), STATUS_OK, "a scene to spoil");
-    s.analysis[0].control_component = SCENE_RX;
+    s.analysis[0].of.continuation.control.component = SCENE_RX;
     gsl_test_int((int)scene_validate(&s, &f), STATUS_REFUSED,
                  "a rotation as control coordinate: %s", f.text);
-    s.analysis[0].control_component = SCENE_UZ;
-    s.analysis[0].step = 0;
+    s.analysis[0].of.continuation.control.component = SCENE_UZ;
+    s.analysis[0].of.continuation.control.step = 0;
     gsl_test_int((int)scene_validate(&s, &f), STATUS_REFUSED, "steps of no length: %s", f.text);
     scene_free(&s);
     cell_result r = solve(type, "beamw_first:newton=dense", 5, "");

@@ -46,7 +46,7 @@ typedef void build(scene *s, const double direction[3]);
 
 static void ask_for_loads(scene *s, int signs)
 {
-    const int buckling = scene_add_analysis(s, SCENE_BUCKLING);
+    const int buckling = scene_add_buckling(s, SCENE_NONE);
     for (int sign = 0; sign < signs; sign++)
         for (int i = 0; i < WANTED; i++) {
             char name[SCENE_NAME];

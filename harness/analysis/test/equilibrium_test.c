@@ -86,10 +86,9 @@ static status solve_column(scene_analysis_kind kind, double P, double M, double 
         scene_add_load(&s, SCENE_FORCE, tip, -P, 0, 0);
     if (M != 0)
         scene_add_load(&s, SCENE_MOMENT, tip, 0, 0, M);
-    const int path = scene_add_analysis(&s, SCENE_STATIC);
-    scene_set_stations(&s, path, 1, &end);
-    const int about = scene_add_analysis(&s, kind);
-    scene_analysis_at(&s, about)->follows = path;
+    const int path = scene_add_static(&s, 1, &end, 1);
+    const int about =
+        kind == SCENE_MODAL ? scene_add_modal(&s, path) : scene_add_buckling(&s, path);
     scene_add_quantity(&s, "wanted", "1",
                        kind == SCENE_MODAL ? SCENE_FREQUENCY : SCENE_CRITICAL_FACTOR, about);
     gsl_test(formulation_parse("beamw", &fm, f) != STATUS_OK, "beamw exists");

@@ -49,8 +49,7 @@ static void bent_beam(const double Q[9], const double force[3], scene *s)
     scene_fork(s, last, axis, web);
     scene_add_load(s, SCENE_FORCE, middle, load[0], load[1], load[2]);
     scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
-    const int path = scene_add_analysis(s, SCENE_STATIC);
-    scene_set_stations(s, path, 1, &end);
+    const int path = scene_add_static(s, 1, &end, 1);
     for (int i = 0; i < VALUES; i++) {
         scene_quantity *q = scene_add_quantity(
             s, name[i], "1", i >= MOMENT && i < TURN ? SCENE_REACTION : SCENE_COORDINATE, path);

@@ -32,8 +32,7 @@ static status build(const double value[], scene *s, fault *f)
     const int profile = scene_add_section(s, &spec);
     scene_add_member(s, scene_add_node(s, 0, 0, 0), scene_add_node(s, length, 0, 0), profile,
                      y_axis);
-    const int modal = scene_add_analysis(s, SCENE_MODAL);
-    scene_analysis_at(s, modal)->wanted = MODES;
+    const int modal = scene_add_modal(s, SCENE_NONE);
     for (int i = 0; i < MODES; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "frequency_%d", i);

@@ -46,10 +46,9 @@ static void make(scene *s, const request *what)
                                                             at * direction[1], at * direction[2]);
         scene_add_load(s, SCENE_FORCE, end, what->force * direction[0], what->force * direction[1],
                        what->force * direction[2]);
-        state = scene_add_analysis(s, SCENE_LINEAR);
+        state = scene_add_linear(s);
     }
-    const int modal = scene_add_analysis(s, SCENE_MODAL);
-    scene_analysis_at(s, modal)->follows = state;
+    const int modal = scene_add_modal(s, state);
     for (int i = 0; i < MODES; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "frequency_%d", i + 1);

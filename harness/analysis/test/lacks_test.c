@@ -41,8 +41,7 @@ static void guided(scene *s, double across_y, double across_z, int direction, in
     force[direction] = 1;
     scene_add_load(s, SCENE_FORCE, tip, force[0], force[1], force[2]);
     scene_need(s, FEATURE_SHEAR);
-    scene_quantity *q =
-        scene_add_quantity(s, "u", "m", SCENE_COORDINATE, scene_add_analysis(s, SCENE_LINEAR));
+    scene_quantity *q = scene_add_quantity(s, "u", "m", SCENE_COORDINATE, scene_add_linear(s));
     q->node = tip;
     q->row = direction;
 }

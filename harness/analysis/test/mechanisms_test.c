@@ -176,7 +176,7 @@ static void straight_column(scene *s, int stations, const double path[])
     scene_hold_all(s, root);
     scene_add_member(s, root, tip, scene_add_section(s, &spec), y);
     scene_add_load(s, SCENE_FORCE, tip, -1, 0, 0);
-    scene_set_stations(s, scene_add_analysis(s, SCENE_STATIC), stations, path);
+    scene_add_static(s, stations, path, 1);
 }
 
 /* Newton stays on the straight path, where the tangent has as many negative eigenvalues as there

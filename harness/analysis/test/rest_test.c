@@ -56,8 +56,11 @@ static void leave_alone(scene *s)
                 s->driver[i].value[k] = 0;
     for (int i = 0; i < s->members; i++)
         memset(s->member[i].strain, 0, sizeof s->member[i].strain);
-    while (s->analyses > 0)
-        free(s->analysis[--s->analyses].path);
+    while (s->analyses > 0) {
+        const scene_path *path = scene_path_of(&s->analysis[--s->analyses]);
+        if (path != NULL)
+            free(path->value);
+    }
     s->quantities = 0;
 }
 
@@ -74,9 +77,7 @@ static int carries(const scene_node *n, int component)
 static void ask_for_all(scene *s)
 {
     const double end = 1;
-    const int path = scene_add_analysis(s, SCENE_STATIC);
-    scene_set_stations(s, path, 1, &end);
-    scene_analysis_at(s, path)->steps_between = 1;
+    const int path = scene_add_static(s, 1, &end, 1);
     for (int reaction = 0; reaction < 2; reaction++)
         for (int node = 0; node < s->nodes; node++)
             for (int c = 0; c < COMPONENTS; c++) {

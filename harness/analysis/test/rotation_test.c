@@ -123,13 +123,9 @@ static status build_with_body(const double value[], scene *s, fault *f)
     scene_add_member(s, root, tip, profile, y_axis);
     scene_hold_all(s, root);
     scene_need(s, FEATURE_TRAPEZE | FEATURE_ROTARY_INERTIA);
-    const int rotation = scene_add_analysis(s, SCENE_ROTATION);
     const double end = 1;
-    scene_set_stations(s, rotation, 1, &end);
-    scene_analysis *a = scene_analysis_at(s, rotation);
-    a->steps_between = 8;
-    a->omega[0] = 3, a->omega[1] = -7, a->omega[2] = 21;
-    a->omega_centre[0] = -0.3, a->omega_centre[1] = 0.2;
+    const int rotation = scene_add_rotation(
+        s, 1, &end, 8, 0, (scene_spin){.omega = {3, -7, 21}, .centre = {-0.3, 0.2, 0}});
     for (int i = 0; i < 4; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "frequency_%d", i);

@@ -30,7 +30,7 @@ static void two_beams(scene *s)
     }
     scene_hold_all(s, 0);
     scene_hold_all(s, 2);
-    scene_set_stations(s, scene_add_analysis(s, SCENE_STATIC), 1, &end);
+    scene_add_static(s, 1, &end, 1);
 }
 
 static void let_go(scene *s, int node, int first, int last)
@@ -240,7 +240,7 @@ static void driver_that_moves_nothing(double half_angle, int condition_component
     scene_drive(&s, apex, condition_component, known);
     scene_drive(&s, tip, SCENE_UX,
                 scene_add_unknown_driver(&s, "unknown", apex, condition_component, known));
-    scene_set_stations(&s, scene_add_analysis(&s, SCENE_STATIC), 1, &end);
+    scene_add_static(&s, 1, &end, 1);
     formulation_parse("collocation", &fm, &f);
     const model_request what = {&s, fm.type, fm.option, 1, 0};
     gsl_test(scene_validate(&s, &f) != STATUS_OK || model_alloc(&what, &m, &f) != STATUS_OK,

@@ -18,12 +18,25 @@ typedef struct bench {
     step_record step[STEPS];
 } bench;
 
+static void add_analysis(scene_analysis_kind kind, scene *s)
+{
+    const double end = 1;
+    if (kind == SCENE_STATIC)
+        scene_add_static(s, 1, &end, 1);
+    else if (kind == SCENE_COMPLIANCE)
+        scene_add_compliance(s, SCENE_NONE, (scene_compliance){.node = 0});
+    else if (kind == SCENE_CONTINUATION)
+        scene_add_continuation(s, 1, &end, (scene_control){.node = 0});
+    else
+        scene_add_rotation(s, 1, &end, 1, 0, (scene_spin){{0}, {0}});
+}
+
 /* Three steps of four iterations. */
 static void make(scene_analysis_kind kind, bench *b)
 {
     memset(b, 0, sizeof *b);
     scene_init(&b->s, "made_up");
-    scene_add_analysis(&b->s, kind);
+    add_analysis(kind, &b->s);
     for (int i = 0; i < STEPS; i++)
         b->step[i] = (step_record){.iterations = 4, .correction = 1e-9};
     const long iterations = 4 * STEPS, evaluations = iterations * ELEMENTS;

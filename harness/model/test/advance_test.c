@@ -32,7 +32,7 @@ static int warping_member(const element_type *type, int first, int last, scene *
     scene_add_member(s, p, q, scene_add_section(s, &spec), y);
     if (first <= last)
         scene_hold(s, q, first, last);
-    scene_set_stations(s, scene_add_analysis(s, SCENE_STATIC), 1, &end);
+    scene_add_static(s, 1, &end, 1);
     const model_request request = {s, type, NULL, 3, 0};
     const status made = model_alloc(&request, m, &f);
     gsl_test(made != STATUS_OK, "%s: %s", type->name, f.text);

@@ -40,9 +40,8 @@ static void solve(const char *name, const double g[3], const int held[6], double
     const int member = scene_add_member(&s, root, tip, scene_add_section(&s, &spec), y_axis);
     memcpy(scene_member_at(&s, member)->strain, g, sizeof scene_member_at(&s, member)->strain);
     scene_hold_all(&s, root);
-    const int path = scene_add_analysis(&s, SCENE_STATIC);
-    scene_set_stations(&s, path, 1, &end);
     scene_need(&s, FEATURE_SHEAR | FEATURE_HARINGX);
+    const int path = scene_add_static(&s, 1, &end, 1);
     for (int i = 0; i < 6; i++)
         if (held[i])
             scene_hold(&s, tip, i, i);

@@ -44,8 +44,7 @@ static void row_of(int count, const link links[], double force, scene *s)
     }
     scene_hold_all(s, last);
     scene_add_load(s, SCENE_FORCE, 1, force, 0, 0);
-    const int path = scene_add_analysis(s, SCENE_STATIC);
-    scene_set_stations(s, path, 1, &end);
+    const int path = scene_add_static(s, 1, &end, 1);
     static const char *const name[] = {"reaction", "shift"};
     for (int i = 0; i < 2; i++) {
         scene_quantity *q =

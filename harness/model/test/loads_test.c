@@ -46,7 +46,7 @@ static void beam_and_body(int body, scene_load_kind kind, scene *s)
         scene_fork(s, node, x, z);
     }
     scene_add_load(s, kind, edge, 0.7, -1.1, 0.4);
-    scene_set_stations(s, scene_add_analysis(s, SCENE_STATIC), 1, &end);
+    scene_add_static(s, 1, &end, 1);
 }
 
 typedef struct subject {
@@ -315,7 +315,7 @@ static void forces_along(int what, const char *name, double path, int follows, i
     scene_init(&s, "member");
     const int p = scene_add_node(&s, 0, 0, 0), q = scene_add_node(&s, 2, 0, 0);
     const int member = scene_add_member(&s, p, q, scene_add_section(&s, &spec), y);
-    scene_set_stations(&s, scene_add_analysis(&s, SCENE_STATIC), 1, &end);
+    scene_add_static(&s, 1, &end, 1);
     if (what == LINE)
         scene_add_load(&s, SCENE_DISTRIBUTED, member, 0, 3, 0);
     gsl_test(formulation_parse(name, &chosen, &f) != STATUS_OK, "%s", f.text);
@@ -387,7 +387,7 @@ static void foot_of_an_arm(const element_type *type)
     scene_add_member(&s, arm, tip, scene_add_section(&s, &spec), y);
     scene_add_load(&s, SCENE_FORCE, tip, P[0], P[1], P[2]);
     scene_add_load(&s, SCENE_FORCE, foot, 5, 6, 7); /* into the ground at once */
-    scene_set_stations(&s, scene_add_analysis(&s, SCENE_STATIC), 1, &end);
+    scene_add_static(&s, 1, &end, 1);
     for (int k = 0; k < 9; k++) {
         char name[8];
         snprintf(name, sizeof name, "q%d", k);

@@ -46,11 +46,10 @@ static void frequencies(void)
 {
     scene s;
     member(0, 0, 0, &s);
-    const int loading = scene_add_analysis(&s, SCENE_LINEAR),
-              modal = scene_add_analysis(&s, SCENE_MODAL);
+    const int loading = scene_add_linear(&s), modal = scene_add_modal(&s, SCENE_NONE);
     gsl_test((model_needs(&s) & FEATURE_GEOMETRIC) != 0,
              "frequencies at rest need no stiffness of loads");
-    scene_analysis_at(&s, modal)->follows = loading;
+    s.analysis[modal].follows = loading;
     gsl_test((model_needs(&s) & FEATURE_GEOMETRIC) == 0, "frequencies under a load do");
     scene_free(&s);
 }

@@ -1,0 +1,144 @@
+#include "cases/scene/analysis.h"
+
+#include <assert.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include "cases/scene/list.h"
+
+const char *scene_moments_name(scene_moments moments)
+{
+    static const char *const name[] = {"spatial", "semitangential", "symmetrised"};
+    return name[moments];
+}
+
+/* Index of a new analysis, or -1. */
+static int add(scene *s, scene_analysis analysis)
+{
+    const int i = scene_grow(s, &s->analysis, &s->analyses, sizeof *s->analysis);
+    if (i >= 0)
+        s->analysis[i] = analysis;
+    return i;
+}
+
+static scene_path path_of(scene *s, int stations, const double path[])
+{
+    return (scene_path){stations, scene_copy(s, stations, path)};
+}
+
+int scene_add_linear(scene *s)
+{
+    return add(s, (scene_analysis){.kind = SCENE_LINEAR, .follows = SCENE_NONE});
+}
+
+static int add_walk(scene *s, scene_analysis_kind kind, scene_walk walk)
+{
+    const int i = add(s, (scene_analysis){kind, SCENE_NONE, {.walk = walk}});
+    if (i < 0)
+        free(walk.path.value);
+    return i;
+}
+
+int scene_add_static(scene *s, int stations, const double path[], int steps_between)
+{
+    const scene_walk walk = {.path = path_of(s, stations, path), .steps_between = steps_between};
+    return add_walk(s, SCENE_STATIC, walk);
+}
+
+int scene_add_rotation(scene *s, int stations, const double path[], int steps_between, int modes,
+                       scene_spin spin)
+{
+    const scene_walk walk = {path_of(s, stations, path), steps_between, modes, spin};
+    return add_walk(s, SCENE_ROTATION, walk);
+}
+
+int scene_add_buckling(scene *s, int follows)
+{
+    return add(s, (scene_analysis){.kind = SCENE_BUCKLING, .follows = follows});
+}
+
+int scene_add_modal(scene *s, int follows)
+{
+    return add(s, (scene_analysis){.kind = SCENE_MODAL, .follows = follows});
+}
+
+int scene_add_compliance(scene *s, int follows, scene_compliance what)
+{
+    return add(s, (scene_analysis){SCENE_COMPLIANCE, follows, {.compliance = what}});
+}
+
+int scene_add_continuation(scene *s, int stations, const double path[], scene_control control)
+{
+    const scene_continuation what = {.path = path_of(s, stations, path), .control = control};
+    const int i = add(s, (scene_analysis){SCENE_CONTINUATION, SCENE_NONE, {.continuation = what}});
+    if (i < 0)
+        free(what.path.value);
+    return i;
+}
+
+void scene_set_spin(scene *s, int analysis, scene_spin spin)
+{
+    if (analysis < 0) /* memory ran out */
+        return;
+    scene_analysis *a = &s->analysis[analysis];
+    assert(scene_spin_of(a) != NULL);
+    *(a->kind == SCENE_CONTINUATION ? &a->of.continuation.spin : &a->of.walk.spin) = spin;
+}
+
+const scene_walk *scene_walk_of(const scene_analysis *a)
+{
+    assert(a->kind == SCENE_STATIC || a->kind == SCENE_ROTATION);
+    return &a->of.walk;
+}
+
+const scene_compliance *scene_compliance_of(const scene_analysis *a)
+{
+    assert(a->kind == SCENE_COMPLIANCE);
+    return &a->of.compliance;
+}
+
+const scene_continuation *scene_continuation_of(const scene_analysis *a)
+{
+    assert(a->kind == SCENE_CONTINUATION);
+    return &a->of.continuation;
+}
+
+const scene_path *scene_path_of(const scene_analysis *a)
+{
+    switch (a->kind) {
+    case SCENE_STATIC:
+    case SCENE_ROTATION:
+        return &a->of.walk.path;
+    case SCENE_CONTINUATION:
+        return &a->of.continuation.path;
+    case SCENE_LINEAR:
+    case SCENE_BUCKLING:
+    case SCENE_MODAL:
+    case SCENE_COMPLIANCE:
+        break;
+    }
+    return NULL;
+}
+
+const scene_spin *scene_spin_of(const scene_analysis *a)
+{
+    switch (a->kind) {
+    case SCENE_STATIC:
+    case SCENE_ROTATION:
+        return &a->of.walk.spin;
+    case SCENE_CONTINUATION:
+        return &a->of.continuation.spin;
+    case SCENE_LINEAR:
+    case SCENE_BUCKLING:
+    case SCENE_MODAL:
+    case SCENE_COMPLIANCE:
+        break;
+    }
+    return NULL;
+}
+
+int scene_spins(const scene_analysis *a)
+{
+    const scene_spin *spin = scene_spin_of(a);
+    return spin != NULL && (spin->omega[0] != 0 || spin->omega[1] != 0 || spin->omega[2] != 0);
+}

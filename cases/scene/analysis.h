@@ -1,0 +1,106 @@
+/* What is analysed: a kind, and what that kind alone needs.  Every scene_add_* returns the index of
+ * the new analysis, or -1 when memory ran out.  What a kind has is read through its function below,
+ * which ends the program when the analysis is of another kind: nothing else names the union. */
+#ifndef BEAMWORK_SCENE_ANALYSIS_H
+#define BEAMWORK_SCENE_ANALYSIS_H
+
+typedef struct scene scene;
+
+typedef enum scene_analysis_kind {
+    SCENE_LINEAR,     /* one linear solution with the loads at factor 1 */
+    SCENE_STATIC,     /* nonlinear equilibrium along the path */
+    SCENE_BUCKLING,   /* linear prestress about the undeformed state, or about the last of a path */
+    SCENE_MODAL,      /* natural frequencies about the present state */
+    SCENE_COMPLIANCE, /* at every station of the static path before it */
+    SCENE_CONTINUATION, /* path of a load factor, by arc length or by one coordinate */
+    SCENE_ROTATION      /* stationary: equilibrium and frequencies in the rotating frame */
+} scene_analysis_kind;
+
+/* What a reaction's moment does while its node turns (harness/solver/convention.h). */
+typedef enum scene_moments {
+    SCENE_MOMENTS_SPATIAL,
+    SCENE_MOMENTS_SEMITANGENTIAL,
+    SCENE_MOMENTS_SYMMETRISED
+} scene_moments;
+#define SCENE_MOMENTS_CHOICES "spatial|semitangential|symmetrised"
+const char *scene_moments_name(scene_moments);
+
+/* Where to stop: of the path parameter, ascending; of a continuation: of its control coordinate
+ * [m], as met. */
+typedef struct scene_path {
+    int stations;
+    double *value; /* [stations] */
+} scene_path;
+
+/* The scene's axes turn.  Along a static path or a continuation this is constant, in a stationary
+ * rotation it is times the path parameter.  Zero: at rest. */
+typedef struct scene_spin {
+    double omega[3];  /* angular velocity [rad/s] */
+    double centre[3]; /* a point on its axis [m] */
+} scene_spin;
+
+/* Static, rotation. */
+typedef struct scene_walk {
+    scene_path path;
+    int steps_between; /* first try of load steps from one station to the next; >= 1 */
+    int modes;         /* rotation: how many to look for at first, of all families together */
+    scene_spin spin;
+} scene_walk;
+
+typedef struct scene_compliance {
+    int node;
+    scene_moments moments;
+    unsigned released; /* bit i: component i at the node, though prescribed, is free and its
+                          reaction is a dead load */
+} scene_compliance;
+
+/* How the path of proportional loads is followed, whose factor is unknown.  The control coordinate
+ * is a translation of any node, also of an attached one; by arc length it is what curves are drawn
+ * over.  The arc is the root of the mean, over all nodes, of (displacement/size of the scene)^2 +
+ * rotation^2, dimensionless. */
+typedef struct scene_control {
+    int node, component;
+    int by_arc;            /* 1: steps are lengths of arc, 0: steps of the control coordinate */
+    double step, step_max; /* first and largest step [m, or 1 by arc length] */
+    int constant_steps; /* 1: all steps are `step`, and a branch jump ends the path; 0: steps adapt,
+                           and a jump is walked around */
+} scene_control;
+
+typedef struct scene_continuation {
+    scene_path path;
+    scene_spin spin;
+    scene_control control;
+} scene_continuation;
+
+typedef struct scene_analysis {
+    scene_analysis_kind kind;
+    int follows; /* analysis whose state(s) this one is about, or SCENE_NONE: undeformed */
+    union {
+        scene_walk walk;
+        scene_compliance compliance;
+        scene_continuation continuation;
+    } of;
+} scene_analysis;
+
+int scene_add_linear(scene *s);
+int scene_add_static(scene *s, int stations, const double path[], int steps_between);
+/* As many eigenvalues as the quantities ask for. */
+int scene_add_buckling(scene *s, int follows);
+int scene_add_modal(scene *s, int follows);
+int scene_add_compliance(scene *s, int follows, scene_compliance what);
+int scene_add_continuation(scene *s, int stations, const double path[], scene_control control);
+int scene_add_rotation(scene *s, int stations, const double path[], int steps_between, int modes,
+                       scene_spin spin);
+/* Turns the axes of a static path or a continuation. */
+void scene_set_spin(scene *s, int analysis, scene_spin spin);
+
+const scene_walk *scene_walk_of(const scene_analysis *a);
+const scene_compliance *scene_compliance_of(const scene_analysis *a);
+const scene_continuation *scene_continuation_of(const scene_analysis *a);
+/* NULL: the kind has none. */
+const scene_path *scene_path_of(const scene_analysis *a);
+const scene_spin *scene_spin_of(const scene_analysis *a);
+/* Do the axes turn? */
+int scene_spins(const scene_analysis *a);
+
+#endif
