@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "elements/exact/prestress.h"
-#include "elements/inertia/lumped.h"
 #include "elements/math/dense.h"
+#include "elements/shared/lumped.h"
 
 enum { OPTION_STAGES, FEWEST = 3, OUTER = STAGES_OUTER };
 

@@ -17,8 +17,8 @@
 #include <stddef.h>
 
 #include "elements/feature.h"
-#include "elements/math/status.h"
 #include "elements/section/section.h"
+#include "elements/shared/status.h"
 
 enum { ELEMENT_ABI = 2 };
 enum {

@@ -4,7 +4,7 @@
 
 #include "elements/exact/stiffness.h"
 #include "elements/exact/strain.h"
-#include "elements/inertia/lumped.h"
+#include "elements/shared/lumped.h"
 
 enum { OPTION_NODES };
 

@@ -9,8 +9,8 @@
 
 #include "cases/scene/analysis.h"
 #include "elements/feature.h"
-#include "elements/math/status.h"
 #include "elements/section/section.h"
+#include "elements/shared/status.h"
 
 enum { SCENE_NONE = -1, SCENE_NAME = 48 };
 

@@ -4,7 +4,7 @@
 #define BEAMWORK_BEAMW_FORMS_H
 
 #include "elements/element.h"
-#include "elements/inertia/lumped.h"
+#include "elements/shared/lumped.h"
 
 enum {
     FORMS_STRAINS = 8,

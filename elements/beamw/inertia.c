@@ -13,8 +13,8 @@
 #include <string.h>
 
 #include "elements/beamw/modes.h"
-#include "elements/inertia/moving.h"
 #include "elements/math/dense.h"
+#include "elements/shared/moving.h"
 
 enum { N = 14, TP = 3, TQ = 10 };
 enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z, PSI }; /* the last: warping amplitude */

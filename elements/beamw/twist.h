@@ -5,8 +5,8 @@
 #ifndef BEAMWORK_BEAMW_TWIST_H
 #define BEAMWORK_BEAMW_TWIST_H
 
-#include "elements/math/status.h"
 #include "elements/section/section.h"
+#include "elements/shared/status.h"
 
 typedef enum twist_kind { TWIST_CUBIC, TWIST_HYPERBOLIC } twist_kind;
 

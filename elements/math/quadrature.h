@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_QUADRATURE_H
 #define BEAMWORK_QUADRATURE_H
 
-#include "elements/math/status.h"
+#include "elements/shared/status.h"
 
 enum { QUADRATURE_MAX_POINTS = 32 };
 

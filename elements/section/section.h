@@ -5,7 +5,7 @@
 #ifndef BEAMWORK_SECTION_H
 #define BEAMWORK_SECTION_H
 
-#include "elements/math/status.h"
+#include "elements/shared/status.h"
 
 enum { SECTION_MAX_POINTS = 32, SECTION_MAX_WALLS = 32 };
 

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "elements/beamw/inertia.h"
 #include "elements/sheet/elastic.h"
 #include "elements/sheet/fields.h"
 
@@ -27,16 +26,15 @@ status base_prepare(const element_request *request, base_shear shear, base_data 
         made = wagner_prepare(request, &out->wagner, f);
     if (made != STATUS_OK)
         return made;
-    out->linear.l0 = l0;
-    elastic_stiffness(&c, l0, Phi_y, Phi_z, out->linear.S);
+    elastic_stiffness(&c, l0, Phi_y, Phi_z, out->S);
     for (int i = 0; i < SHEET_STRAINS * SHEET_STRAINS; i++)
-        if (!isfinite(out->linear.S[i]))
+        if (!isfinite(out->S[i]))
             return fault_set(f, STATUS_REFUSED,
                              "element of length %g m: its stiffness overflows; use fewer elements",
                              l0);
     strains_set_rest(request, &out->table);
     if (request->features & FEATURE_MASS)
-        inertia_prepare(request->section, request->features, INERTIA_LUMPED, NULL, &out->linear);
+        out->lumped = lumped_of(request->section, request->features, l0);
     return STATUS_OK;
 }
 
@@ -48,5 +46,5 @@ void base_strain(const element_data *d, const node_state x[], strain_output *out
 status base_inertia(const element_data *d, const node_state x[], const element_spin *spin,
                     inertia_output *out)
 {
-    return inertia_of(&data_of(d)->linear, x, spin, out);
+    return lumped_element(&data_of(d)->lumped, 2, x, spin, out);
 }

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_SHEET_BASE_H
 #define BEAMWORK_SHEET_BASE_H
 
-#include "elements/beamw/forms.h"
+#include "elements/shared/lumped.h"
 #include "elements/sheet/strains.h"
 #include "elements/sheet/wagner.h"
 
@@ -12,7 +12,8 @@ typedef enum base_shear {
 } base_shear;
 
 typedef struct base_data {
-    element_data linear; /* S of N Eqs. 33-36, lumped inertia */
+    double S[SHEET_STRAINS * SHEET_STRAINS]; /* N Eqs. 33-36 [N/m] */
+    lumped_mass lumped;                      /* of the whole element */
     strains_table table;
     wagner_term wagner;
 } base_data;

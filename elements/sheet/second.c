@@ -22,7 +22,7 @@ status second_stress(const element_data *data, const double e[], const double in
     const base_data *d = (const base_data *)(const void *)data;
     double sigma[N];
     (void)inner;
-    dense_mul_vec(N, N, d->linear.S, e, sigma);
+    dense_mul_vec(N, N, d->S, e, sigma);
     if (out->energy != NULL) {
         *out->energy = 0;
         for (int i = 0; i < N; i++)
@@ -31,7 +31,7 @@ status second_stress(const element_data *data, const double e[], const double in
     if (out->sigma != NULL)
         memcpy(out->sigma, sigma, sizeof sigma);
     if (out->C != NULL)
-        memcpy(out->C, d->linear.S, sizeof d->linear.S);
+        memcpy(out->C, d->S, sizeof d->S);
     if (out->residual != NULL)
         *out->residual = 0;
     wagner_add(&d->wagner, e, out->energy, out->sigma, out->C);

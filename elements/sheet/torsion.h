@@ -9,7 +9,7 @@
 #ifndef BEAMWORK_SHEET_TORSION_H
 #define BEAMWORK_SHEET_TORSION_H
 
-#include "elements/math/status.h"
+#include "elements/shared/status.h"
 
 enum { TORSION_DEGREE = 3, TORSION_MODES = 5 };
 enum { TORSION_PX, TORSION_WP, TORSION_WQ, TORSION_TWISTS };

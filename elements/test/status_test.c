@@ -2,7 +2,7 @@
 #include <gsl/gsl_test.h>
 #include <string.h>
 
-#include "elements/math/status.h"
+#include "elements/shared/status.h"
 
 static void line_of(int length, int middle)
 {

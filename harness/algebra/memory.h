@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_MEMORY_H
 #define BEAMWORK_MEMORY_H
 
-#include "elements/math/status.h"
+#include "elements/shared/status.h"
 
 /* Memory of the machine, or what this process may use of it [byte]. */
 double memory_limit(void);

@@ -5,7 +5,7 @@
 #ifndef BEAMWORK_SPARSE_H
 #define BEAMWORK_SPARSE_H
 
-#include "elements/math/status.h"
+#include "elements/shared/status.h"
 
 typedef struct sparse {
     int n, symmetric;

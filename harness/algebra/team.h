@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_TEAM_H
 #define BEAMWORK_TEAM_H
 
-#include "elements/math/status.h"
+#include "elements/shared/status.h"
 
 typedef struct team team;
 typedef void team_work(void *context, int first, int end); /* [first, end) */

@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "cases/scene/scene.h"
-#include "elements/math/status.h"
+#include "elements/shared/status.h"
 
 typedef enum results_work {
     WORK_ITERATIONS,

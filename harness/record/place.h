@@ -5,7 +5,7 @@
 #include <limits.h>
 #include <sys/types.h>
 
-#include "elements/math/status.h"
+#include "elements/shared/status.h"
 
 typedef enum place_kind {
     PLACE_FREE,   /* nothing is there, its folder is */

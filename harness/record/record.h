@@ -6,7 +6,7 @@
 
 #include <hdf5.h>
 
-#include "elements/math/status.h"
+#include "elements/shared/status.h"
 
 typedef struct record {
     hid_t file, scalar; /* scalar: the shape of an attribute */

@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_AGAINST_H
 #define BEAMWORK_AGAINST_H
 
-#include "elements/math/status.h"
+#include "elements/shared/status.h"
 
 typedef enum against_outcome { AGAINST_UNDECIDED, AGAINST_FASTER, AGAINST_SLOWER } against_outcome;
 

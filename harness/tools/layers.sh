@@ -14,7 +14,11 @@ rule() {
     fi
 }
 rule elements 'cases/|harness/|reference/|reports/' 'elements know no case, truth or solver'
-rule elements/math 'elements/(section|element|beamw|sheet|exact)' 'math is the lowest floor'
+rule elements/math 'elements/(section|element|feature|beamw|sheet|exact|shared/[^s])' 'math is the lowest floor, but for status'
+rule elements/shared 'elements/(beamw|sheet|exact)' 'what all families share names none'
+rule elements/sheet 'elements/(beamw|exact)' 'families borrow from shared/ only'
+rule elements/beamw 'elements/(sheet|exact)' 'families borrow from shared/ only'
+rule elements/exact 'elements/(sheet|beamw)' 'families borrow from shared/ only'
 rule elements/section 'elements/(element|beamw|sheet|exact)' 'a section knows no element'
 rule cases 'harness/|reference/|reports/|elements/(element|beamw|sheet|exact)' 'a case knows no formulation and no solver'
 # The floors of the harness, lowest first: a room includes itself and those before it.

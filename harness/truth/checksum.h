@@ -6,7 +6,7 @@
 
 #include <stddef.h>
 
-#include "elements/math/status.h"
+#include "elements/shared/status.h"
 
 enum { CHECKSUM_LENGTH = 40 }; /* "beamwork-seal %016zx %08x\n" */
 

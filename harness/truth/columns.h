@@ -5,7 +5,7 @@
 
 #include <hdf5.h>
 
-#include "elements/math/status.h"
+#include "elements/shared/status.h"
 
 typedef struct columns {
     const char *path; /* of the file, for messages */

@@ -1,4 +1,4 @@
-#include "elements/inertia/moving.h"
+#include "elements/shared/moving.h"
 
 #include <string.h>
 

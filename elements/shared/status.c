@@ -1,5 +1,5 @@
 /* Outcomes and their words. */
-#include "elements/math/status.h"
+#include "elements/shared/status.h"
 
 #include <stdarg.h>
 #include <stdio.h>

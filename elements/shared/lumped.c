@@ -1,10 +1,10 @@
-#include "elements/inertia/lumped.h"
+#include "elements/shared/lumped.h"
 
 #include <assert.h>
 #include <string.h>
 
-#include "elements/inertia/moving.h"
 #include "elements/math/dense.h"
+#include "elements/shared/moving.h"
 
 lumped_mass lumped_of(const section *c, unsigned features, double length)
 {
