@@ -14,6 +14,15 @@ static int iterations_of_steps(const solve_result *r)
     return sum;
 }
 
+/* Tries of longer steps that failed before the ones that were kept. */
+static long rejected_before_steps(const solve_result *r)
+{
+    long sum = 0;
+    for (int i = 0; i < r->steps; i++)
+        sum += r->step[i].rejected;
+    return sum;
+}
+
 /* The first step that ended too soon, or -1. */
 static int unfinished_step(const solve_result *r)
 {
@@ -58,9 +67,13 @@ int sound_cell(const cell_result *cell, const scene *s, solve_newton newton, cha
     if (r->status != STATUS_OK)
         return 1;
     const int iterations = iterations_of_steps(r), early = unfinished_step(r);
+    const long rejected = rejected_before_steps(r);
     const char *count = wrong_count(cell, is_plain(cell, s, newton));
     if (c->steps != r->steps)
         snprintf(why, FAULT_TEXT, "%ld steps were counted and %d kept", c->steps, r->steps);
+    else if (c->rejected_steps != rejected)
+        snprintf(why, FAULT_TEXT, "%ld rejected steps were counted, %ld by the steps after them",
+                 c->rejected_steps, rejected);
     else if (iterations > r->iterations || r->iterations > c->iterations)
         snprintf(why, FAULT_TEXT, "%d iterations of steps, %d kept, %ld counted", iterations,
                  r->iterations, c->iterations);

@@ -277,11 +277,11 @@ static void counts(void)
 }
 
 /* A string of `masses` oscillators at 1, 2, 3 ... rad/s that do not touch, and a top beside them.
- * Without gyroscopic terms the top is the stiffest part by far; with them its precession lies at
- * 2.5 rad/s: no start without them shows it, and no residual. */
-static void hidden_precession(int masses, int wanted_outcome)
+ * Without gyroscopic terms the top is the stiffest part by far; with them its precession lies half
+ * a rad/s above oscillator number `behind`: no start without them shows it, and no residual. */
+static void hidden_precession(int masses, int behind, int wanted_outcome)
 {
-    const double slow = 2.5, k = 1e6, g = (k / slow) - slow; /* root of w^2 + g w - k */
+    const double slow = behind + 0.5, k = 1e6, g = (k / slow) - slow; /* root of w^2 + g w - k */
     problem p;
     gyroscopic_result r = {0};
     fault f = {""};
@@ -293,15 +293,18 @@ static void hidden_precession(int masses, int wanted_outcome)
     p.G[masses * p.n + masses + 1] = -g;
     p.G[(masses + 1) * p.n + masses] = g;
     const status outcome = solve(&p, &r, &f);
-    gsl_test_int((int)outcome, wanted_outcome, "%d oscillators and a top: %s", masses, f.text);
+    gsl_test_int((int)outcome, wanted_outcome, "%d oscillators and a top at %g: %s", masses, slow,
+                 f.text);
     if (wanted_outcome != STATUS_OK)
         gsl_test(strstr(f.text, "missing") == NULL, "what is missing is noticed: %s", f.text);
+    if (outcome == STATUS_OK)
+        gsl_test_int(r.count, WANTED, "%d oscillators and a top at %g: all found", masses, slow);
     for (int i = 0; i < r.count && outcome == STATUS_OK; i++)
         gsl_test_rel(r.frequency[i],
-                     i < 2    ? i + 1
-                     : i == 2 ? slow
-                              : i,
-                     1e-9, "%d oscillators and a top: frequency %d", masses, i);
+                     i < behind    ? i + 1
+                     : i == behind ? slow
+                                   : i,
+                     1e-9, "%d oscillators and a top at %g: frequency %d", masses, slow, i);
     gyroscopic_free(&r);
     compare_counts(&p, "oscillators and a top");
     free(p.K);
@@ -310,8 +313,9 @@ static void hidden_precession(int masses, int wanted_outcome)
 int main(void)
 {
     counts();
-    hidden_precession(12, STATUS_OK);
-    hidden_precession(60, STATUS_NOT_CONVERGED);
+    for (int behind = 0; behind < WANTED; behind++)
+        hidden_precession(12, behind, STATUS_OK);
+    hidden_precession(60, 2, STATUS_NOT_CONVERGED);
     definite();
     equal_frequencies();
     indefinite();

@@ -2,125 +2,10 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "harness/judge/judgement.h"
 #include "harness/judge/sentence.h"
-
-enum { MESHES = 5 };
-static const int mesh[MESHES] = {2, 4, 8, 16, 32};
-
-static const case_parameter parameter[] = {{"length", "m", 2, 1, 9, NULL, "some length"}, {0}};
-
-static status no_build(const double value[], scene *s, fault *f)
-{
-    (void)value;
-    (void)s;
-    return fault_set(f, STATUS_FAULT, "not to be built");
-}
-
-static const case_type made_up = {"made_up", "a case of the test", "none", parameter, no_build};
-static const element_type element = {.name = "element", .abi = ELEMENT_ABI};
-
-/* One point, one series of five meshes, one quantity; the truth is 3, tolerance 1e-4, least order 2. */
-typedef struct bench {
-    sweep s;
-    point p;
-    series one;
-    cell_result cell[MESHES];
-    quantity_result quantity[MESHES];
-    truths t;
-    truth row[2];
-    rule known, twice[2];
-    judgement j;
-} bench;
-
-static char words[][32] = {
-    "load",        "N",       "exact",        "same",      "test",        "",          "element",
-    "wrong limit", "why",     "kN",           "low order", "other",       "published", "predicted",
-    "engesser",    "haringx", "unrepeatable", "made_up",   "made_up/load"};
-enum {
-    LOAD,
-    NEWTON,
-    EXACT,
-    SAME,
-    TEST,
-    NOTHING,
-    ELEMENT,
-    WRONG_LIMIT,
-    WHY,
-    KILONEWTON,
-    LOW_ORDER,
-    OTHER,
-    PUBLISHED,
-    PREDICTED,
-    ENGESSER,
-    HARINGX,
-    UNREPEATABLE,
-    MADE_UP,
-    LOAD_OF_IT
-};
-
-static void bench_make(bench *b)
-{
-    memset(b, 0, sizeof *b);
-    b->p.type = &made_up;
-    b->p.parameter[0] = 2;
-    scene_init(&b->p.scene, "made_up");
-    scene_quantity *q = scene_add_quantity(&b->p.scene, "load", "N", SCENE_COORDINATE, 0);
-    q->tolerance = 1e-4;
-    q->least_order = 2;
-    b->one = (series){
-        .formulation = {.type = &element, .key = "element"}, .meshes = MESHES, .cell = b->cell};
-    memcpy(b->one.mesh, mesh, sizeof mesh);
-    for (int i = 0; i < MESHES; i++) {
-        b->quantity[i].value = NAN;
-        b->cell[i].solve.quantities = 1;
-        b->cell[i].solve.quantity = &b->quantity[i];
-    }
-    b->s = (sweep){.points = 1, .seriess = 1, .point = &b->p, .series = &b->one};
-    b->row[0] = (truth){.type = &made_up,
-                        .parameter = {2},
-                        .formulation = words[NOTHING],
-                        .theory = words[NOTHING],
-                        .quantity = words[LOAD],
-                        .unit = words[NEWTON],
-                        .kind = words[EXACT],
-                        .model = words[SAME],
-                        .source = words[TEST],
-                        .value = 3};
-    b->t = (truths){.rows = 1, .row = b->row};
-}
-
-/* limit + size n^-order */
-static void bench_fill(bench *b, double limit, double size, double order)
-{
-    for (int i = 0; i < MESHES; i++)
-        b->quantity[i].value = limit + size * pow(mesh[i], -order);
-}
-
-static const verdict *bench_judge(bench *b)
-{
-    fault f = {""};
-    judgement_free(&b->j);
-    gsl_test(judgement_make(&b->s, &b->t, 1, &b->j, &f) != STATUS_OK || b->j.verdicts != 1,
-             "one verdict: %s", f.text);
-    return &b->j.verdict[0];
-}
-
-static void bench_free(bench *b)
-{
-    judgement_free(&b->j);
-    scene_free(&b->p.scene);
-}
-
-static void expect(bench *b, verdict_kind kind, int code, const char *what)
-{
-    const verdict *v = bench_judge(b);
-    gsl_test(v->kind != kind, "%s: %s", what, verdict_name(v->kind));
-    gsl_test_int(judgement_exit(&b->j), code, "%s: exit code", what);
-}
+#include "harness/judge/test/bench.h"
 
 /* The verdict in words. */
 static void says(const bench *b, const char *words_of_it)
@@ -135,29 +20,30 @@ static void limits(void)
     bench b;
     bench_make(&b);
     bench_fill(&b, 3, 0.7, 2);
-    expect(&b, VERDICT_PASS, 0, "right limit, right order, coarse meshes far off");
+    bench_expect(&b, VERDICT_PASS, 0, "right limit, right order, coarse meshes far off");
     gsl_test_rel(b.j.verdict[0].fit.order, 2, 1e-6, "its order");
     gsl_test_int(b.j.verdict[0].fit.from, 4, "the four finest meshes show it");
     says(&b, "converges to the truth, order 2");
     bench_fill(&b, 3.003, 0.7, 2);
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "smooth convergence to +0.1 %");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "smooth convergence to +0.1 %");
     gsl_test_rel(b.j.verdict[0].error, 1e-3, 1e-9, "the error is the limit's");
     says(&b, "converges to a wrong limit: +0.1 %");
     bench_fill(&b, 3 * (1 - 0.00115), 0.7, 4);
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "fast convergence to -0.115 %");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "fast convergence to -0.115 %");
     says(&b, "converges to a wrong limit: -0.115 %");
     bench_fill(&b, 3 * (1 + 0.8e-4), 0.7, 2);
-    expect(&b, VERDICT_BIASED, 1, "limit within the tolerance, and sharp");
+    bench_expect(&b, VERDICT_BIASED, 1, "limit within the tolerance, and sharp");
     says(&b, "has a limit of its own within the tolerance: +0.008 %");
     bench_fill(&b, 3 * (1 + 1.2e-4), 0.7, 2);
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "limit just outside, and sharp");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "limit just outside, and sharp");
     bench_fill(&b, 3 * (1 + 2e-4), -6e-4 * 1024 * 0.9, 2);
-    expect(&b, VERDICT_WRONG_LIMIT, 1,
-           "the finest mesh hits the truth on the way to another limit");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1,
+                 "the finest mesh hits the truth on the way to another limit");
     gsl_test(fabs(b.j.verdict[0].finest - 3) > 3e-4, "(it does: %.17g)", b.j.verdict[0].finest);
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3.05 + 1e-5 * (i % 2 ? 1 : -1);
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "values without an order, that have settled elsewhere");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1,
+                 "values without an order, that have settled elsewhere");
     gsl_test(isfinite(b.j.verdict[0].fit.order) ||
                  !isfinite(b.j.verdict[0].fit.limit_uncertainty) || b.j.verdict[0].fit.from == 0,
              "and say how well their limit is known, and from which meshes");
@@ -169,15 +55,16 @@ static void orders(void)
     bench b;
     bench_make(&b);
     bench_fill(&b, 3, 0.07, 1);
-    expect(&b, VERDICT_LOW_ORDER, 1, "right limit, first order instead of second");
+    bench_expect(&b, VERDICT_LOW_ORDER, 1, "right limit, first order instead of second");
     says(&b, "converges to the truth, but with order 1 instead of 2");
     b.row[0].uncertainty = 0.05;
-    expect(&b, VERDICT_PASS, 0, "changes that the truth's own uncertainty hides show no order");
+    bench_expect(&b, VERDICT_PASS, 0,
+                 "changes that the truth's own uncertainty hides show no order");
     b.row[0].uncertainty = 0;
     bench_fill(&b, 3, 0.7, 1.8);
-    expect(&b, VERDICT_PASS, 0, "an order within what finite meshes show");
+    bench_expect(&b, VERDICT_PASS, 0, "an order within what finite meshes show");
     bench_fill(&b, 3, 1e-14, 1);
-    expect(&b, VERDICT_PASS, 0, "at the round-off floor no order is asked for");
+    bench_expect(&b, VERDICT_PASS, 0, "at the round-off floor no order is asked for");
     says(&b, "has converged to the truth: the last meshes differ by noise only");
     bench_free(&b);
 }
@@ -188,17 +75,17 @@ static void doubts(void)
     bench_make(&b);
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 0.01 : -0.01);
-    expect(&b, VERDICT_UNDECIDED, 1, "alternating values");
+    bench_expect(&b, VERDICT_UNDECIDED, 1, "alternating values");
     says(&b, "undecided: its limit is -0.333 % off, known to 0.06 only (oscillating, 5 meshes)");
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 1e-6 : -1e-6);
-    expect(&b, VERDICT_PASS, 0, "alternating values that surely stay inside the tolerance");
+    bench_expect(&b, VERDICT_PASS, 0, "alternating values that surely stay inside the tolerance");
     says(&b, "agrees with the truth within the tolerance, without an order");
     bench_fill(&b, 4, 0.01, 2);
     b.one.meshes = 3;
-    expect(&b, VERDICT_UNDECIDED, 1, "three meshes never say that a limit is wrong");
+    bench_expect(&b, VERDICT_UNDECIDED, 1, "three meshes never say that a limit is wrong");
     b.one.meshes = MESHES;
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "more do");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "more do");
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 1 : -1) * pow(4, -i);
     bench_judge(&b);
@@ -206,18 +93,18 @@ static void doubts(void)
                  "without an order the case's own reduces former changes");
     b.one.meshes = 1;
     b.quantity[0].value = 3;
-    expect(&b, VERDICT_UNDECIDED, 1, "one mesh shows no limit, even if it is right");
+    bench_expect(&b, VERDICT_UNDECIDED, 1, "one mesh shows no limit, even if it is right");
     says(&b, "undecided: one mesh shows no limit");
     b.one.meshes = MESHES;
     bench_fill(&b, 3 * (1 + 1e-9), 1e-7, 1);
     b.row[0].uncertainty = 4e-9;
-    expect(&b, VERDICT_PASS, 0, "a limit that the truth's own digits do not tell from it");
+    bench_expect(&b, VERDICT_PASS, 0, "a limit that the truth's own digits do not tell from it");
     says(&b, "converges to the truth, order 1; the difference is below the truth's digits");
     double noise[1] = {1e-3};
     bench_fill(&b, 3 * (1 + 2e-4), 0.7, 2);
     b.one.noise = noise;
     b.row[0].uncertainty = 0;
-    expect(&b, VERDICT_UNDECIDED, 1, "noise that was measured hides a wrong limit");
+    bench_expect(&b, VERDICT_UNDECIDED, 1, "noise that was measured hides a wrong limit");
     bench_free(&b);
 }
 
@@ -227,18 +114,18 @@ static void failures(void)
     bench_make(&b);
     bench_fill(&b, 3, 0.7, 2);
     b.quantity[4].value = NAN;
-    expect(&b, VERDICT_DIVERGED, 1, "no number on the finest mesh");
+    bench_expect(&b, VERDICT_DIVERGED, 1, "no number on the finest mesh");
     b.quantity[4].status = STATUS_SINGULAR;
     snprintf(b.quantity[4].reason, sizeof b.quantity[4].reason, "singular at path 0.3");
-    expect(&b, VERDICT_DIVERGED, 1, "singular on the finest mesh");
+    bench_expect(&b, VERDICT_DIVERGED, 1, "singular on the finest mesh");
     gsl_test(strcmp(b.j.verdict[0].reason, "singular at path 0.3") != 0, "with its reason");
     says(&b, "has no value on the finest mesh: singular at path 0.3");
     b.quantity[4].status = STATUS_REFUSED;
-    expect(&b, VERDICT_REFUSED, 1, "refused");
+    bench_expect(&b, VERDICT_REFUSED, 1, "refused");
     bench_fill(&b, 3, 0.7, 2);
     b.quantity[4].status = STATUS_OK;
     b.quantity[0].value = NAN;
-    expect(&b, VERDICT_PASS, 0, "a coarse mesh without a value does not count");
+    bench_expect(&b, VERDICT_PASS, 0, "a coarse mesh without a value does not count");
     bench_free(&b);
 }
 
@@ -253,18 +140,18 @@ static void predictions(void)
     b.row[1].value = 3.003;
     b.row[1].uncertainty = 1e-8;
     b.t.rows = 2;
-    expect(&b, VERDICT_AS_PREDICTED, 1, "a wrong limit that was derived");
+    bench_expect(&b, VERDICT_AS_PREDICTED, 1, "a wrong limit that was derived");
     says(&b, "converges to the limit that was derived for it, 3.003: +0.1 % from the truth");
     b.row[1].value = 3.0041;
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "another wrong limit than the one that was derived");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "another wrong limit than the one that was derived");
     gsl_test(strstr(b.j.verdict[0].reason, "3.0041") == NULL, "says which: %s",
              b.j.verdict[0].reason);
     b.row[1].value = 3.003;
     b.row[1].formulation = words[WHY];
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "a limit derived for another formulation");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "a limit derived for another formulation");
     b.row[1].formulation = words[ELEMENT];
     b.row[1].on_curve = 1;
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "a point of a curve is not the limit");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "a point of a curve is not the limit");
     bench_free(&b);
 }
 
@@ -302,19 +189,19 @@ static void theories(void)
     b.p.scene.needs = FEATURE_SHEAR | FEATURE_ENGESSER;
     bench_fill(&b, 3.003, 0.7, 2);
     b.row[0].theory = words[ENGESSER];
-    expect(&b, VERDICT_NO_TRUTH, 3, "a truth of another theory does not judge");
+    bench_expect(&b, VERDICT_NO_TRUTH, 3, "a truth of another theory does not judge");
     gsl_test_rel(b.j.verdict[0].model_error, 1e-3, 1e-6, "the models differ");
     says(&b, "no truth of its theory of shear; its limit is +0.1 % from that of engesser");
     b.row[1] = b.row[0];
     b.row[1].theory = words[HARINGX];
     b.row[1].value = 3.003;
     b.t.rows = 2;
-    expect(&b, VERDICT_PASS, 0, "one of its own does");
+    bench_expect(&b, VERDICT_PASS, 0, "one of its own does");
     haringx.shear_theories = SHEAR_ENGESSER | SHEAR_HARINGX;
     haringx.offers |= FEATURE_ENGESSER;
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "of two theories the one that is asked for");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "of two theories the one that is asked for");
     haringx.shear_theories = SHEAR_OWN;
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "one of its own is shown against what there is");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "one of its own is shown against what there is");
     bench_free(&b);
 }
 
@@ -328,10 +215,10 @@ static void publications(void)
     b.row[1].value = 3.01;
     b.row[1].uncertainty = 0.005;
     b.t.rows = 2;
-    expect(&b, VERDICT_PASS, 0, "an exact truth judges beside a published one");
+    bench_expect(&b, VERDICT_PASS, 0, "an exact truth judges beside a published one");
     gsl_test(b.j.verdict[0].contradicted != &b.row[1], "which the limit contradicts");
     b.row[1].uncertainty = 0.011;
-    expect(&b, VERDICT_PASS, 0, "a published value with fewer digits");
+    bench_expect(&b, VERDICT_PASS, 0, "a published value with fewer digits");
     gsl_test(b.j.verdict[0].contradicted != NULL, "is not contradicted");
     bench_free(&b);
 }
@@ -342,7 +229,7 @@ static void coverages(void)
     bench b;
     bench_make(&b);
     bench_fill(&b, 3, 0.7, 2);
-    expect(&b, VERDICT_PASS, 0, "a series");
+    bench_expect(&b, VERDICT_PASS, 0, "a series");
     gsl_test_int(b.j.coverages, 1, "of one formulation");
     for (int k = 0; k < COVERAGE_MESHES; k++)
         gsl_test(b.j.coverage[0].series[k] != (k < MESHES - 2) ||
@@ -350,10 +237,10 @@ static void coverages(void)
                  "without %d meshes: %d of %d", k, b.j.coverage[0].covered[k],
                  b.j.coverage[0].series[k]);
     bench_fill(&b, 3.001, 0.7, 2);
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "another limit");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "another limit");
     gsl_test_int(b.j.coverage[0].covered[0], 0, "is not covered");
     b.row[0].kind = words[PUBLISHED];
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "a truth that is not exact");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "a truth that is not exact");
     gsl_test_int(b.j.coverages, 0, "says nothing of coverage");
     bench_free(&b);
 }
@@ -363,11 +250,11 @@ static void expectations(void)
     bench b;
     bench_make(&b);
     snprintf(b.one.missing, sizeof b.one.missing, "shear");
-    expect(&b, VERDICT_SKIP, 3, "nothing but skips: nothing was checked");
+    bench_expect(&b, VERDICT_SKIP, 3, "nothing but skips: nothing was checked");
     gsl_test_int(b.j.waiting, 1, "a truth that everybody skips waits");
     b.one.missing[0] = '\0';
     b.p.status = STATUS_REFUSED;
-    expect(&b, VERDICT_REFUSED, 1, "a point whose scene is refused");
+    bench_expect(&b, VERDICT_REFUSED, 1, "a point whose scene is refused");
     b.p.status = STATUS_OK;
     bench_fill(&b, 3.003, 0.7, 2);
     b.known = (rule){.name = words[WHY],
@@ -380,38 +267,40 @@ static void expectations(void)
                      .largest_error = 0.002};
     b.t.rule = &b.known;
     b.t.rules = 1;
-    expect(&b, VERDICT_WRONG_LIMIT, 0, "a known wrong limit");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 0, "a known wrong limit");
     b.known.largest_error = 0.0009;
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "a wrong limit that is farther off than its cause explains");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1,
+                 "a wrong limit that is farther off than its cause explains");
     b.known.largest_error = NAN;
     b.known.verdicts = words[LOW_ORDER];
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "another defect than the known one");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "another defect than the known one");
     b.known.verdicts = words[WRONG_LIMIT];
     b.twice[0] = b.twice[1] = b.known;
     b.t.rule = b.twice;
     b.t.rules = 2;
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "two rules for one verdict");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "two rules for one verdict");
     b.t.rule = &b.known;
     b.t.rules = 1;
     b.known.predicted = words[LOAD_OF_IT];
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "a rule whose prediction no verdict met");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "a rule whose prediction no verdict met");
     b.known.predicted = words[NOTHING];
     bench_fill(&b, 3, 0.7, 2);
-    expect(&b, VERDICT_PASS, 1, "a known defect that is gone");
+    bench_expect(&b, VERDICT_PASS, 1, "a known defect that is gone");
     gsl_test_int(b.j.unobserved, 1, "is a rule nobody observed");
     b.t.rules = 0;
     b.row[0].parameter[0] = 5;
-    expect(&b, VERDICT_NO_TRUTH, 3, "a truth of other parameters does not judge");
+    bench_expect(&b, VERDICT_NO_TRUTH, 3, "a truth of other parameters does not judge");
     gsl_test_int(b.j.unmet, 1, "and is missed");
     b.row[0].any[0] = 1;
-    expect(&b, VERDICT_PASS, 0, "a truth of any length does");
+    bench_expect(&b, VERDICT_PASS, 0, "a truth of any length does");
     b.row[0].any[0] = 0;
     b.row[0].parameter[0] = 2;
     bench_fill(&b, 3.003, 0.7, 2);
     b.row[0].uncertainty = 0.0029;
-    expect(&b, VERDICT_PASS, 0, "a limit within the tolerance and the truth's own uncertainty");
+    bench_expect(&b, VERDICT_PASS, 0,
+                 "a limit within the tolerance and the truth's own uncertainty");
     b.row[0].uncertainty = 0.0026;
-    expect(&b, VERDICT_WRONG_LIMIT, 1, "and one beyond both");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "and one beyond both");
     b.row[0].uncertainty = 0;
     bench_fill(&b, 3, 0.7, 2);
     b.row[1] = b.row[0];
@@ -420,22 +309,22 @@ static void expectations(void)
     for (int exact = 0; exact < 2; exact++) {
         b.row[exact].kind = words[EXACT];
         b.row[1 - exact].kind = words[PUBLISHED];
-        expect(&b, exact == 0 ? VERDICT_PASS : VERDICT_WRONG_LIMIT, exact,
-               "an exact truth judges, a published one that contradicts it does not");
+        bench_expect(&b, exact == 0 ? VERDICT_PASS : VERDICT_WRONG_LIMIT, exact,
+                     "an exact truth judges, a published one that contradicts it does not");
     }
     b.row[0].kind = words[EXACT];
     b.t.rows = 1;
     b.row[0].model = words[OTHER];
-    expect(&b, VERDICT_NO_TRUTH, 3, "a truth of another model does not judge");
+    bench_expect(&b, VERDICT_NO_TRUTH, 3, "a truth of another model does not judge");
     gsl_test_abs(b.j.verdict[0].model_error, 0, 1e-6, "it gives the model error");
     b.row[0].model = words[SAME];
     b.row[0].quantity = words[WHY];
-    expect(&b, VERDICT_NO_TRUTH, 3, "a truth of a quantity that does not exist");
+    bench_expect(&b, VERDICT_NO_TRUTH, 3, "a truth of a quantity that does not exist");
     gsl_test_int(b.j.unmet, 1, "is missed");
     b.row[0].quantity = words[LOAD];
-    expect(&b, VERDICT_PASS, 0, "all truths are met");
+    bench_expect(&b, VERDICT_PASS, 0, "all truths are met");
     b.t.strangers = 1;
-    expect(&b, VERDICT_PASS, 1, "but for those of a case that does not exist");
+    bench_expect(&b, VERDICT_PASS, 1, "but for those of a case that does not exist");
     gsl_test_int(b.j.unmet, 1, "which is missed");
     bench_free(&b);
 }
@@ -451,18 +340,18 @@ static void stored_values(void)
     b.row[1].elements = 4;
     b.row[1].value = b.quantity[1].value * (1 + 0.9e-6);
     b.t.rows = 2;
-    expect(&b, VERDICT_PASS, 0, "a mesh agrees with its stored value");
+    bench_expect(&b, VERDICT_PASS, 0, "a mesh agrees with its stored value");
     gsl_test_int(b.j.agreements, 1, "one stored value");
     b.row[1].value = b.quantity[1].value * (1 + 1.1e-6);
-    expect(&b, VERDICT_PASS, 1, "a mesh differs from its stored value");
+    bench_expect(&b, VERDICT_PASS, 1, "a mesh differs from its stored value");
     b.row[1].uncertainty = 1e-4;
-    expect(&b, VERDICT_PASS, 0, "by less than it was printed to");
+    bench_expect(&b, VERDICT_PASS, 0, "by less than it was printed to");
     b.quantity[1].value = NAN;
-    expect(&b, VERDICT_PASS, 1, "a mesh without a value does not agree");
+    bench_expect(&b, VERDICT_PASS, 1, "a mesh without a value does not agree");
     b.cell[1].solve.quantities = 0;
-    expect(&b, VERDICT_PASS, 1, "nor does one that crashed");
+    bench_expect(&b, VERDICT_PASS, 1, "nor does one that crashed");
     b.row[1].kind = words[UNREPEATABLE];
-    expect(&b, VERDICT_PASS, 0, "a figure that nobody can compute again");
+    bench_expect(&b, VERDICT_PASS, 0, "a figure that nobody can compute again");
     gsl_test_int(b.j.agreements, 0, "is compared with nothing");
     b.row[1].kind = words[EXACT];
     b.row[0].unit = words[KILONEWTON];
@@ -480,7 +369,7 @@ static void selection(void)
     bench_make(&b);
     bench_fill(&b, 3, 0.7, 2);
     b.s.select = "made_up and load";
-    expect(&b, VERDICT_PASS, 0, "a quantity is selected");
+    bench_expect(&b, VERDICT_PASS, 0, "a quantity is selected");
     b.s.select = "not load";
     judgement_free(&b.j);
     gsl_test(judgement_make(&b.s, &b.t, 0, &b.j, &f) != STATUS_OK || b.j.verdicts != 0 ||

@@ -78,7 +78,7 @@ static void counts(scene_analysis_kind kind)
             *count += more;
             expect(&b, more == 0 || (more > 0 && !(row[i].exact && kind == SCENE_STATIC)),
                    row[i].name);
-            b.cell.counters.rejected_steps = 1;
+            b.cell.counters.rejected_steps = b.step[STEPS - 1].rejected = 1;
             expect(&b, more >= 0, "the same with a step in vain");
             scene_free(&b.s);
         }
@@ -102,6 +102,17 @@ static void steps(void)
     b.cell.counters.steps -= 2;
     expect(&b, 0, "a step that was not counted");
     b.cell.counters.steps++;
+    for (int i = 0; i < STEPS; i++) {
+        b.step[i].rejected = 2;
+        expect(&b, 0, "rejected steps that were not counted");
+        b.cell.counters.rejected_steps = 2 * (i + 1);
+        expect(&b, 1, "rejected steps");
+    }
+    b.cell.counters.rejected_steps--;
+    expect(&b, 0, "a rejected step that was not counted");
+    for (int i = 0; i < STEPS; i++)
+        b.step[i].rejected = 0;
+    b.cell.counters.rejected_steps = 0;
     b.step[0].iterations++;
     expect(&b, 0, "an iteration that was not kept");
     b.step[0].iterations--;
@@ -138,8 +149,8 @@ static status counted_inertia(const element_data *d, const node_state x[], const
 
 /* A real cell: the counters are what the elements count. Strains that reactions are read from
  * are not counted. */
-static void real(const char *name, const char *formulation_name, const char *parameters,
-                 solve_newton newton, int reactions)
+static void real(const char *name, int elements, const char *formulation_name,
+                 const char *parameters, solve_newton newton, int reactions)
 {
     cell_result cell;
     formulation chosen;
@@ -153,7 +164,7 @@ static void real(const char *name, const char *formulation_name, const char *par
     formulation_default(inner, &chosen);
     cell_request request = {.type = case_find(name, &f),
                             .formulation = &counted,
-                            .elements = 3,
+                            .elements = elements,
                             .solve.newton = newton};
     memcpy(request.option, chosen.option, sizeof request.option);
     parameters_default(request.type, request.parameter);
@@ -185,14 +196,17 @@ int main(void)
         counts(kind[i]);
     steps();
     for (int newton = 0; newton < SOLVE_NEWTONS; newton++) {
-        real("elastica", "beamw_consistent", "", newton, 0);
-        real("bend_45", "geometrically_exact", "", newton, 0);
-        real("sheet_cantilever", "sheet_third", "", newton, 1);
+        real("elastica", 3, "beamw_consistent", "", newton, 0);
+        real("bend_45", 3, "geometrically_exact", "", newton, 0);
+        real("sheet_cantilever", 3, "sheet_third", "", newton, 1);
     }
-    real("c_column", "beamw_consistent", "", SOLVE_MIXED, 0);
-    real("lateral_buckling", "collocation", "prebuckling=included;ratio=4", SOLVE_MIXED, 0);
-    real("rotating_cantilever", "geometrically_exact", "", SOLVE_MIXED, 1);
-    real("snap_through", "collocation", "", SOLVE_MIXED, 0);
-    real("hexapod", "sheet_third", "steps=3", SOLVE_MIXED, 1);
+    real("c_column", 3, "beamw_consistent", "", SOLVE_MIXED, 0);
+    real("lateral_buckling", 3, "collocation", "prebuckling=included;ratio=4", SOLVE_MIXED, 0);
+    real("rotating_cantilever", 3, "geometrically_exact", "", SOLVE_MIXED, 1);
+    real("snap_through", 3, "collocation", "", SOLVE_MIXED, 0);
+    real("shear_elastica", 1, "beamw_consistent", "", SOLVE_MIXED, 0);
+    real("roll_up", 4, "sheet_third", "", SOLVE_MIXED, 0);
+    real("c_cantilever", 3, "beamw_vlasov", "w=1.0;step=0.1", SOLVE_MIXED, 0);
+    real("hexapod", 3, "sheet_third", "steps=3", SOLVE_MIXED, 1);
     return gsl_test_summary();
 }
