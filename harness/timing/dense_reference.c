@@ -22,9 +22,10 @@ static void sample(const cell_request *dense, dense_reference *out)
     double seconds = 0;
     const double start = clock_processor_seconds();
     one.solve.sample = one.solve.phases = 1;
-    if (cell_run(&one, &cell, &f) == STATUS_OK) {
+    if (cell_run(&one, &cell, &f) == STATUS_OK)
         for (int k = 0; k < PHASES; k++)
             seconds += cell.solve.phase[k];
+    if (seconds > 0) { /* a path that is continued has no dense form: nothing was sampled */
         /* a long one is interrupted now and then */
         seconds = fmin(seconds, clock_processor_seconds() - start);
         out->iteration = out->unknowns > 0 ? fmin(out->iteration, seconds) : seconds;
