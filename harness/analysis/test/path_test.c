@@ -1,0 +1,183 @@
+/* What a path says of itself: where its points are drawn, and which of them are limit points.
+ *
+ * At a limit point the load factor has an extremum, at a bifurcation it has none: the points of the
+ * path alone tell how many there are of the first kind. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/parameters.h"
+#include "harness/catalogue/registry.h"
+#include "harness/test/ask.h"
+
+static const double factor = -3, offset = 0.7; /* of the abscissa */
+
+/* A cantilever bent by a force that rises, falls and rises again: the largest deflection is at the
+ * station 0.4. Or continued in its deflection. */
+static status build(const double value[], scene *s, fault *f)
+{
+    static const double station[] = {0.1, 0.4, 0.7, 1}, deflection[] = {0.1, 0.2, 0.3},
+                        rise[] = {0, 0.4, 0.7, 1}, force[] = {0, 0.5, -0.4, 0.3}, y[] = {0, 1, 0};
+    (void)f;
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = SECTION_RECTANGLE;
+    spec.young = 12e4;
+    spec.shear_modulus = 5e4;
+    spec.width = spec.height = 0.1;
+    const int continued = value[0] != 0, root = scene_add_node(s, 0, 0, 0),
+              tip = scene_add_node(s, 1, 0, 0),
+              path = scene_add_analysis(s, continued ? SCENE_CONTINUATION : SCENE_STATIC);
+    scene_add_member(s, root, tip, scene_add_section(s, &spec), y);
+    scene_hold_all(s, root);
+    scene_load *load = scene_load_at(s, scene_add_load(s, SCENE_FORCE, tip, 0, 1, 0));
+    if (continued) {
+        scene_set_stations(s, path, 3, deflection);
+        scene_analysis *a = scene_analysis_at(s, path);
+        a->control_node = tip;
+        a->control_component = SCENE_UY;
+        a->step = a->step_max = 0.05;
+    } else {
+        scene_set_stations(s, path, 4, station);
+        load->path = malloc(sizeof rise);
+        load->factor = malloc(sizeof force);
+        if (load->path == NULL || load->factor == NULL)
+            return STATUS_FAULT;
+        load->stations = 4;
+        memcpy(load->path, rise, sizeof rise);
+        memcpy(load->factor, force, sizeof force);
+    }
+    static const scene_reduction reduction[] = {SCENE_CURVE, SCENE_CURVE, SCENE_MAX,
+                                                SCENE_MIN,   SCENE_LAST,  SCENE_AT};
+    for (int i = 0; i < 6; i++) {
+        char name[SCENE_NAME];
+        snprintf(name, sizeof name, "deflection_%d", i);
+        scene_quantity *q = scene_add_quantity(s, name, "m", SCENE_COORDINATE, path);
+        q->node = tip;
+        q->row = SCENE_UY;
+        q->reduction = reduction[i];
+        q->at = continued ? 0.2 : 0.7;
+        snprintf(q->x_name, sizeof q->x_name, "x");
+        if (i > 0) {
+            q->x_factor = factor;
+            q->x_offset = offset;
+        }
+    }
+    return STATUS_OK;
+}
+
+static const case_parameter table[] = {
+    {"continued", "1", 0, 0, 1, NULL, "1: in its deflection, 0: by its load"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL}};
+static const case_type drawn = {.name = "drawn", .parameters = table, .build = build};
+
+static status solve(const case_type *type, const element_type *formulation_type, int n,
+                    const char *parameters, cell_result *out)
+{
+    cell_request request = {.type = type, .formulation = formulation_type, .elements = n};
+    formulation chosen;
+    fault f = {""};
+    formulation_default(formulation_type, &chosen);
+    memcpy(request.option, chosen.option, sizeof request.option);
+    parameters_default(type, request.parameter);
+    gsl_test(parameters_parse(type, parameters, request.parameter, NULL, &f) != STATUS_OK,
+             "%s %s: %s", type->name, parameters, f.text);
+    return cell_run(&request, out, &f);
+}
+
+/* Of what is drawn over the path, or of its control coordinate, each by itself and with a factor
+ * and an offset. */
+static void abscissas(int continued)
+{
+    cell_result r;
+    const char *what = continued ? "continued" : "loaded";
+    gsl_test(solve(&drawn, formulation_find("collocation"), 4,
+                   continued ? "continued=1" : "continued=0", &r) != STATUS_OK,
+             "%s: %s", what, r.solve.reason);
+    const quantity_result *q = r.solve.quantity;
+    const curve *plain = &q[0].curve, *moved = &q[1].curve;
+    gsl_test(plain->points < 3 || moved->points != plain->points, "%s: %d points", what,
+             plain->points);
+    for (int i = 0; i < plain->points && i < moved->points; i++) {
+        gsl_test(moved->value[i] != plain->value[i], "%s: values of point %d", what, i);
+        gsl_test_abs(moved->x[i], factor * plain->x[i] + offset, 1e-15, "%s: abscissa of point %d",
+                     what, i);
+        /* the control coordinate is what is drawn */
+        gsl_test_abs(plain->x[i], continued ? plain->value[i] : r.scene.analysis[0].path[i], 1e-9,
+                     "%s: point %d itself", what, i);
+    }
+    static const double place[2][4] = {{0.4, 0.7, 1, 0.7}, {0.3, 0.1, 0.3, 0.2}};
+    for (int i = 0; i < 4; i++)
+        gsl_test_abs(q[2 + i].x, factor * place[continued][i] + offset, 1e-12,
+                     "%s: abscissa of reduction %d", what, i);
+    cell_result_free(&r);
+}
+
+/* How often the load factor turns along the points of a path. */
+static int turns_of(const curve *c)
+{
+    int turns = 0;
+    for (int i = 2; i < c->points; i++)
+        turns += (c->value[i] - c->value[i - 1]) * (c->value[i - 1] - c->value[i - 2]) < 0;
+    return turns;
+}
+
+static const curve *load_curve(const cell_result *r)
+{
+    for (int i = 0; i < r->solve.quantities; i++)
+        if (r->scene.quantity[i].kind == SCENE_FACTOR_AT && r->solve.quantity[i].curve.points > 0)
+            return &r->solve.quantity[i].curve;
+    return NULL;
+}
+
+/* Points of the last step have no turn behind them: they may show one point less. */
+static void kinds_of(const char *name, const element_type *type, int n, const char *parameters,
+                     int count[EVENT_KINDS])
+{
+    cell_result r;
+    solve(case_find(name, NULL), type, n, parameters, &r);
+    const curve *load = load_curve(&r);
+    int limits = 0;
+    for (int i = 0; i < r.solve.events; i++) {
+        const path_event *e = &r.solve.event[i];
+        count[e->kind]++;
+        limits += e->kind == EVENT_LIMIT_POINT;
+        if (e->kind != EVENT_BRANCH_JUMP)
+            gsl_test((e->measure > 1e-5) != (e->kind == EVENT_LIMIT_POINT),
+                     "%s %s, %s: a %s on whose null vector the load does %.1e of its work", name,
+                     parameters, type->name, result_event_name(e->kind), e->measure);
+    }
+    if (load != NULL && r.solve.status == STATUS_OK)
+        gsl_test_int(limits, turns_of(load), "%s %s, %s: limit points, and turns of the load", name,
+                     parameters, type->name);
+    cell_result_free(&r);
+}
+
+static void events(void)
+{
+    static const char *const path[][2] = {{"snap_through", ""},
+                                          {"snap_through", "control=arc"},
+                                          {"snap_through", "control=arc;step=0.1"},
+                                          {"lee_frame", ""},
+                                          {"lee_frame", "plane=0"},
+                                          {"lee_frame", "plane=0;step=0.2"},
+                                          {"c_cantilever", "w=1.0"}};
+    int count[EVENT_KINDS] = {0};
+    for (size_t i = 0; i < sizeof path / sizeof path[0]; i++)
+        for (int k = 0; registry_formulations[k] != NULL; k++)
+            kinds_of(path[i][0], registry_formulations[k], 4, path[i][1], count);
+    gsl_test(count[EVENT_LIMIT_POINT] < 40 || count[EVENT_BIFURCATION] < 8,
+             "%d limit points and %d bifurcations", count[EVENT_LIMIT_POINT],
+             count[EVENT_BIFURCATION]);
+}
+
+int main(void)
+{
+    abscissas(0);
+    abscissas(1);
+    events();
+    return gsl_test_summary();
+}
