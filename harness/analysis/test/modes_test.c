@@ -33,8 +33,8 @@ static int make(const double R[9], scene *s, model **m)
                   q = scene_add_node(s, 5 * i + length * R[0], length * R[3], length * R[6]);
         scene_add_member(s, p, q, profile, y);
     }
-    s->needs = SCENE_NEED_WARPING;
-    scene_add_analysis(s, SCENE_MODAL);
+    scene_need(s, FEATURE_WARPING);
+    scene_add_modal(s, SCENE_NONE);
     const model_request request = {s, formulation_find("geometrically_exact"), NULL, ELEMENTS, 1};
     const status made = model_alloc(&request, m, &f);
     gsl_test(made != STATUS_OK, "two members: %s", f.text);
@@ -46,7 +46,7 @@ static int make(const double R[9], scene *s, model **m)
 static void add(const model *m, const double R[9], int member, int k, int waves, double size,
                 double x[])
 {
-    int vertex[ELEMENTS + 1];
+    int vertex[2 * ELEMENTS + 1];
     const int count = model_member_vertices(m, member, vertex);
     for (int i = 0; i < count; i++) {
         const double value = size * sin(waves * pi * (i + 0.3) / (count - 1 + 0.6));

@@ -11,9 +11,10 @@
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
+#include "harness/study/cell.h"
 #include "harness/test/ask.h"
 
-static const double factor = -3, offset = 0.7; /* of the abscissa */
+static const double times = -3, shift = 0.7; /* of the abscissa */
 
 /* A cantilever bent by a force that rises, falls and rises again: the largest deflection is at the
  * station 0.4. Or continued in its deflection. */
@@ -29,19 +30,18 @@ static status build(const double value[], scene *s, fault *f)
     spec.shear_modulus = 5e4;
     spec.width = spec.height = 0.1;
     const int continued = value[0] != 0, root = scene_add_node(s, 0, 0, 0),
-              tip = scene_add_node(s, 1, 0, 0),
-              path = scene_add_analysis(s, continued ? SCENE_CONTINUATION : SCENE_STATIC);
+              tip = scene_add_node(s, 1, 0, 0);
     scene_add_member(s, root, tip, scene_add_section(s, &spec), y);
     scene_hold_all(s, root);
-    scene_load *load = scene_load_at(s, scene_add_load(s, SCENE_FORCE, tip, 0, 1, 0));
-    if (continued) {
-        scene_set_stations(s, path, 3, deflection);
-        scene_analysis *a = scene_analysis_at(s, path);
-        a->control_node = tip;
-        a->control_component = SCENE_UY;
-        a->step = a->step_max = 0.05;
-    } else {
-        scene_set_stations(s, path, 4, station);
+    const int pull = scene_add_load(s, SCENE_FORCE, tip, 0, 1, 0);
+    const int path = continued ? scene_add_continuation(s, 3, deflection,
+                                                        (scene_control){.node = tip,
+                                                                        .component = SCENE_UY,
+                                                                        .step = 0.05,
+                                                                        .step_max = 0.05})
+                               : scene_add_static(s, 4, station, 1);
+    if (!continued) {
+        scene_load *load = &s->load[pull];
         load->path = malloc(sizeof rise);
         load->factor = malloc(sizeof force);
         if (load->path == NULL || load->factor == NULL)
@@ -62,8 +62,8 @@ static status build(const double value[], scene *s, fault *f)
         q->at = continued ? 0.2 : 0.7;
         snprintf(q->x_name, sizeof q->x_name, "x");
         if (i > 0) {
-            q->x_factor = factor;
-            q->x_offset = offset;
+            q->x_factor = times;
+            q->x_offset = shift;
         }
     }
     return STATUS_OK;
@@ -103,15 +103,16 @@ static void abscissas(int continued)
              plain->points);
     for (int i = 0; i < plain->points && i < moved->points; i++) {
         gsl_test(moved->value[i] != plain->value[i], "%s: values of point %d", what, i);
-        gsl_test_abs(moved->x[i], factor * plain->x[i] + offset, 1e-15, "%s: abscissa of point %d",
+        gsl_test_abs(moved->x[i], times * plain->x[i] + shift, 1e-15, "%s: abscissa of point %d",
                      what, i);
         /* the control coordinate is what is drawn */
-        gsl_test_abs(plain->x[i], continued ? plain->value[i] : r.scene.analysis[0].path[i], 1e-9,
-                     "%s: point %d itself", what, i);
+        gsl_test_abs(plain->x[i],
+                     continued ? plain->value[i] : scene_path_of(&r.scene.analysis[0])->value[i],
+                     1e-9, "%s: point %d itself", what, i);
     }
     static const double place[2][4] = {{0.4, 0.7, 1, 0.7}, {0.3, 0.1, 0.3, 0.2}};
     for (int i = 0; i < 4; i++)
-        gsl_test_abs(q[2 + i].x, factor * place[continued][i] + offset, 1e-12,
+        gsl_test_abs(q[2 + i].x, times * place[continued][i] + shift, 1e-12,
                      "%s: abscissa of reduction %d", what, i);
     cell_result_free(&r);
 }

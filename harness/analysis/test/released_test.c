@@ -42,15 +42,10 @@ static void make(scene *s, const request *what)
     const double F = what->force * EI / (length * length), M = what->moment * EI / length;
     scene_add_load(s, SCENE_FORCE, tip, 0.5 * F, F, -0.7 * F);
     scene_add_load(s, SCENE_MOMENT, tip, -0.4 * M, M, 0.8 * M);
-    const int state = scene_add_analysis(s, SCENE_STATIC);
-    scene_set_stations(s, state, 1, &path[1]);
-    scene_analysis_at(s, state)->steps_between = 5;
-    const int compliance = scene_add_analysis(s, SCENE_COMPLIANCE);
-    scene_analysis *a = scene_analysis_at(s, compliance);
-    a->follows = state;
-    a->node = tip;
-    a->moments = SCENE_MOMENTS_SPATIAL;
-    a->released = what->driven;
+    const int compliance = scene_add_compliance(s, scene_add_static(s, 1, &path[1], 5),
+                                                (scene_compliance){.node = tip,
+                                                                   .moments = SCENE_MOMENTS_SPATIAL,
+                                                                   .released = what->driven});
     for (int k = 0; k < 36; k++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "C_%d%d", k / 6, k % 6);

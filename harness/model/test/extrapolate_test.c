@@ -33,7 +33,7 @@ static int corner(scene *s, model **m)
     scene_add_member(s, root, middle, profile, y);
     scene_add_member(s, middle, tip, profile, y);
     scene_hold_all(s, root);
-    scene_set_stations(s, scene_add_analysis(s, SCENE_STATIC), 1, &end);
+    scene_add_static(s, 1, &end, 1);
     const model_request request = {s, formulation_find("geometrically_exact"), NULL, 2, 0};
     const status made = model_alloc(&request, m, &f);
     gsl_test(made != STATUS_OK, "a corner: %s", f.text);
