@@ -5,7 +5,7 @@
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
-    return prepare_form(request, STIFFNESS_DIAGONAL, PREPARE_PRINTED, out, f);
+    return beamw_prepare_variant(request, BEAMW_STIFFNESS_DIAGONAL, BEAMW_PREPARE_PRINTED, out, f);
 }
 
 const element_type element_beamw = {
@@ -20,11 +20,11 @@ const element_type element_beamw = {
     .limits = LIMIT_QUARTER_TURN,
     .shear_theories = SHEAR_OWN,
     .own_theory = "J Eq. 66: modified modes that see no shear (reference/ERRATA.md, J 58/62/66)",
-    .options = prepare_options,
-    .data_size = forms_data_size,
+    .options = beamw_prepare_options,
+    .data_size = beamw_variants_data_size,
     .prepare = prepare,
-    .strain = forms_strain,
-    .stress = forms_stress,
-    .geometric = forms_geometric,
-    .inertia = inertia_of,
+    .strain = beamw_variants_strain,
+    .stress = beamw_variants_stress,
+    .geometric = beamw_variants_geometric,
+    .inertia = beamw_inertia_of,
 };

@@ -1,31 +1,31 @@
-/* BEAMW repaired: the whole of D in the stiffness, strains that see uniform shear of any size (elements/beamw/screw.h), and modified
+/* BEAMW repaired: the whole of D in the stiffness, strains that see uniform shear of any size (elements/beamw/helicoidal.h), and modified
  * modes from the strains of the Simo-Reissner beam over the full linear solution (elements/beamw/modified.c); what bends, shears and
- * warps inside the element follows its stress (elements/beamw/follow.c). */
+ * warps inside the element are internal modes, condensed in equilibrium (elements/beamw/condensed.c). */
+#include "elements/beamw/helicoidal.h"
 #include "elements/beamw/inertia.h"
 #include "elements/beamw/prepare.h"
-#include "elements/beamw/screw.h"
 
-static const consistent_data *whole(const element_data *d)
+static const beamw_consistent_data *whole(const element_data *d)
 {
-    return (const consistent_data *)(const void *)d;
+    return (const beamw_consistent_data *)(const void *)d;
 }
 
 static size_t data_size(const element_request *request)
 {
     (void)request;
-    return sizeof(consistent_data);
+    return sizeof(beamw_consistent_data);
 }
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
-    return prepare_consistent(request, (consistent_data *)(void *)out, f);
+    return beamw_prepare_consistent(request, (beamw_consistent_data *)(void *)out, f);
 }
 
 static status stress(const element_data *d, const double e[], const double inner[],
                      stress_output *out)
 {
-    return whole(d)->following ? follow_stress(&whole(d)->inside, e, out)
-                               : forms_stress(d, e, inner, out);
+    return whole(d)->condensed ? beamw_condensed_stress(&whole(d)->internal, e, out)
+                               : beamw_variants_stress(d, e, inner, out);
 }
 
 const element_type element_beamw_consistent = {
@@ -37,11 +37,11 @@ const element_type element_beamw_consistent = {
               FEATURE_WAGNER_MOMENTS | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC |
               FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .shear_theories = SHEAR_ENGESSER | SHEAR_HARINGX,
-    .options = prepare_options_consistent,
+    .options = beamw_prepare_options_consistent,
     .data_size = data_size,
     .prepare = prepare,
-    .strain = screw_strain,
+    .strain = beamw_helicoidal_strain,
     .stress = stress,
-    .geometric = forms_geometric,
-    .inertia = inertia_of,
+    .geometric = beamw_variants_geometric,
+    .inertia = beamw_inertia_of,
 };

@@ -4,7 +4,8 @@
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
-    return prepare_form(request, STIFFNESS_DIAGONAL, PREPARE_FIRST_ORDER, out, f);
+    return beamw_prepare_variant(request, BEAMW_STIFFNESS_DIAGONAL, BEAMW_PREPARE_FIRST_ORDER, out,
+                                 f);
 }
 
 const element_type element_beamw_first = {
@@ -17,11 +18,11 @@ const element_type element_beamw_first = {
               FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .limits = LIMIT_QUARTER_TURN,
     .shear_theories = SHEAR_ENGESSER,
-    .options = prepare_options,
-    .data_size = forms_data_size,
+    .options = beamw_prepare_options,
+    .data_size = beamw_variants_data_size,
     .prepare = prepare,
-    .strain = forms_strain,
-    .stress = forms_stress,
-    .geometric = forms_geometric,
-    .inertia = inertia_of,
+    .strain = beamw_variants_strain,
+    .stress = beamw_variants_stress,
+    .geometric = beamw_variants_geometric,
+    .inertia = beamw_inertia_of,
 };

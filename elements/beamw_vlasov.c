@@ -4,7 +4,7 @@
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
-    return prepare_form(request, STIFFNESS_RIGID, PREPARE_PRINTED, out, f);
+    return beamw_prepare_variant(request, BEAMW_STIFFNESS_RIGID, BEAMW_PREPARE_PRINTED, out, f);
 }
 
 const element_type element_beamw_vlasov = {
@@ -15,11 +15,11 @@ const element_type element_beamw_vlasov = {
     .offers = FEATURE_TRAPEZE | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC |
               FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .limits = LIMIT_NO_STRESS_FREE_SHEAR | LIMIT_QUARTER_TURN,
-    .options = prepare_options,
-    .data_size = forms_data_size,
+    .options = beamw_prepare_options,
+    .data_size = beamw_variants_data_size,
     .prepare = prepare,
-    .strain = forms_strain,
-    .stress = forms_stress,
-    .geometric = forms_geometric,
-    .inertia = inertia_of,
+    .strain = beamw_variants_strain,
+    .stress = beamw_variants_stress,
+    .geometric = beamw_variants_geometric,
+    .inertia = beamw_inertia_of,
 };

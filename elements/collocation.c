@@ -8,10 +8,10 @@
 #include "elements/math/dense.h"
 #include "elements/shared/lumped.h"
 
-enum { OPTION_STAGES, FEWEST = 3, OUTER = STAGES_OUTER };
+enum { OPTION_STAGES, FEWEST = 3, OUTER = EXACT_STAGES_OUTER };
 
 struct element_data {
-    stages stages;
+    exact_stages stages;
     lumped_mass mass;
 };
 
@@ -55,27 +55,27 @@ static size_t data_size(const element_request *request)
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
     out->mass = lumped_of(request->section, request->features, request->length);
-    return stages_prepare(request, stage_count(request->options), &out->stages, f);
+    return exact_stages_prepare(request, stage_count(request->options), &out->stages, f);
 }
 
 static void strain(const element_data *d, const node_state x[], strain_output *out)
 {
-    strain_of(&d->stages.line, x, out);
+    exact_strain_of(&d->stages.line, x, out);
 }
 
 static void rest(const element_data *d, double inner[])
 {
-    const stages *s = &d->stages;
+    const exact_stages *s = &d->stages;
     memset(inner, 0, 3 * sizeof *inner);
     memcpy(inner + 3, s->rest_x[1], 3 * (size_t)(s->stages - 1) * sizeof *inner);
 }
 
 /* Eliminates the unknowns: X [unknowns x (OUTER + 1)] = K_zz^-1 (K_ze | r_z). */
-static int eliminate(const stages *s, const stages_derivatives *d, double X[])
+static int eliminate(const exact_stages *s, const exact_stages_derivatives *d, double X[])
 {
     const int m = s->unknowns, n = m + OUTER;
-    double K[STAGES_UNKNOWNS * STAGES_UNKNOWNS];
-    int pivot[STAGES_UNKNOWNS];
+    double K[EXACT_STAGES_UNKNOWNS * EXACT_STAGES_UNKNOWNS];
+    int pivot[EXACT_STAGES_UNKNOWNS];
     for (int i = 0; i < m; i++) {
         memcpy(&K[i * m], &d->hessian[i * n], (size_t)m * sizeof *K);
         memcpy(&X[i * (OUTER + 1)], &d->hessian[i * n + m], OUTER * sizeof *X);
@@ -87,7 +87,7 @@ static int eliminate(const stages *s, const stages_derivatives *d, double X[])
     return failed;
 }
 
-static void condense(const stages *s, const stages_derivatives *d, const double X[],
+static void condense(const exact_stages *s, const exact_stages_derivatives *d, const double X[],
                      stress_output *out)
 {
     const int m = s->unknowns, n = m + OUTER;
@@ -119,12 +119,12 @@ static void condense(const stages *s, const stages_derivatives *d, const double 
 static status stress(const element_data *data, const double e[], const double inner[],
                      stress_output *out)
 {
-    const stages *s = &data->stages;
-    double scaled[OUTER], X[STAGES_UNKNOWNS * (OUTER + 1)];
-    stages_derivatives d;
+    const exact_stages *s = &data->stages;
+    double scaled[OUTER], X[EXACT_STAGES_UNKNOWNS * (OUTER + 1)];
+    exact_stages_derivatives d;
     for (int i = 0; i < OUTER; i++)
         scaled[i] = e[i] / s->line.l0;
-    stages_evaluate(s, scaled, inner, &d);
+    exact_stages_evaluate(s, scaled, inner, &d);
     if (eliminate(s, &d, X) != 0)
         return STATUS_SINGULAR;
     condense(s, &d, X, out);
@@ -135,7 +135,7 @@ static status stress(const element_data *data, const double e[], const double in
 
 static void geometric(const element_data *data, const double sigma[], double G[])
 {
-    const stages *s = &data->stages;
+    const exact_stages *s = &data->stages;
     double scaled[OUTER], largest = 0;
     memset(G, 0, OUTER * OUTER * sizeof *G);
     for (int i = 0; i < OUTER; i++)
@@ -145,7 +145,7 @@ static void geometric(const element_data *data, const double sigma[], double G[]
     /* Of the size of one, so that the part linear in the prestress is neither small nor large beside the stiffness. */
     for (int i = 0; i < OUTER; i++)
         scaled[i] = sigma[i] / largest;
-    prestress_stiffness(s, scaled, G);
+    exact_prestress_stiffness(s, scaled, G);
     for (int i = 0; i < OUTER * OUTER; i++)
         G[i] *= largest / s->line.l0; /* energy/l0^2 times largest/(energy/l0) */
 }
@@ -153,7 +153,7 @@ static void geometric(const element_data *data, const double sigma[], double G[]
 static double update(const element_data *data, const double de[], const double memory[],
                      double inner[])
 {
-    const stages *s = &data->stages;
+    const exact_stages *s = &data->stages;
     double largest = 0, force = 1;
     for (int i = 0; i < s->unknowns; i++) {
         double change = -memory[i * (OUTER + 1) + OUTER];

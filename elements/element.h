@@ -1,6 +1,10 @@
 /* The element interface: a beam formulation is a deformation function e = D(x),
- * a stress function sigma = S(e) that derives from an energy, and inertia
- * (Nijenhuis et al. 2024, section 2.5).
+ * a stress function sigma = S(e) that derives from an energy, and inertia (N section 2.5).
+ *
+ * "J Eq. 66" and "N Eq. 37" are equations of
+ *   J: J.B. Jonker, the thin-walled beam element BEAMW with shear deformation and warping,
+ *   N: M. Nijenhuis, J.P. Meijaard, M. Naves, R.G.K.M. Aarts (2024), third-order beam element for
+ *      sheet flexures; what they misprint: reference/ERRATA.md.
  *
  * One file in elements/ defines one const element_type whose symbol is
  * element_<file name>; the registry is generated from the files that exist.

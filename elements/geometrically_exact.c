@@ -9,8 +9,8 @@
 enum { OPTION_NODES };
 
 struct element_data {
-    strain_line line;
-    stiffness stiffness;
+    exact_strain_line line;
+    exact_stiffness stiffness;
     lumped_mass mass;
     int nodes;
 };
@@ -40,30 +40,30 @@ static size_t data_size(const element_request *request)
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
     const int count = nodes(request->options);
-    const status outcome = stiffness_prepare(request, count, &out->stiffness, f);
+    const status outcome = exact_stiffness_prepare(request, count, &out->stiffness, f);
     out->mass = lumped_of(request->section, request->features, request->length);
     out->nodes = count;
     if (outcome == STATUS_OK)
-        strain_prepare(count, count - 1, request->length, request->curvature, request->strain,
-                       count == 2 ? MEASURE_ANGLE : MEASURE_QUARTER, &out->line);
+        exact_strain_prepare(count, count - 1, request->length, request->curvature, request->strain,
+                             count == 2 ? EXACT_MEASURE_ANGLE : EXACT_MEASURE_QUARTER, &out->line);
     return outcome;
 }
 
 static void strain(const element_data *d, const node_state x[], strain_output *out)
 {
-    strain_of(&d->line, x, out);
+    exact_strain_of(&d->line, x, out);
 }
 
 static status stress(const element_data *d, const double e[], const double inner[],
                      stress_output *out)
 {
     (void)inner;
-    return stiffness_stress(&d->stiffness, e, out);
+    return exact_stiffness_stress(&d->stiffness, e, out);
 }
 
 static void geometric(const element_data *d, const double sigma[], double G[])
 {
-    stiffness_geometric(&d->stiffness, sigma, G);
+    exact_stiffness_geometric(&d->stiffness, sigma, G);
 }
 
 static status inertia(const element_data *d, const node_state x[], const element_spin *spin,

@@ -4,7 +4,7 @@
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
-    return second_prepare(request, BASE_PRINTED, out, f);
+    return sheet_second_prepare(request, SHEET_BASE_PRINTED, out, f);
 }
 
 const element_type element_sheet_second = {
@@ -12,13 +12,13 @@ const element_type element_sheet_second = {
     .summary = "second-order sheet-flexure element (Hu-Washizu)",
     .source = "N Eqs. 33-37, 40-42",
     .abi = ELEMENT_ABI,
-    .offers = BASE_OFFERS,
-    .limits = BASE_LIMITS,
+    .offers = SHEET_BASE_OFFERS,
+    .limits = SHEET_BASE_LIMITS,
     .shear_theories = SHEAR_OWN,
     .own_theory = "N Eq. 37: generalized strains that see no shear (reference/ERRATA.md, N 37)",
-    .data_size = second_data_size,
+    .data_size = sheet_second_data_size,
     .prepare = prepare,
-    .strain = base_strain,
-    .stress = second_stress,
-    .inertia = base_inertia,
+    .strain = sheet_base_strain,
+    .stress = sheet_second_stress,
+    .inertia = sheet_base_inertia,
 };

@@ -4,7 +4,7 @@
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
-    return second_prepare(request, BASE_CONSISTENT, out, f);
+    return sheet_second_prepare(request, SHEET_BASE_CONSISTENT, out, f);
 }
 
 const element_type element_sheet_second_consistent = {
@@ -12,12 +12,13 @@ const element_type element_sheet_second_consistent = {
     .summary = "second-order sheet-flexure element with shear kept in its deformation function",
     .source = "N Eqs. 7, 13-17, 33-36; reference/ERRATA.md, N 37",
     .abi = ELEMENT_ABI,
-    .offers = BASE_OFFERS & ~(unsigned)FEATURE_ENGESSER, /* Simo-Reissner: the section's rotation */
-    .limits = BASE_LIMITS,
+    .offers =
+        SHEET_BASE_OFFERS & ~(unsigned)FEATURE_ENGESSER, /* Simo-Reissner: the section's rotation */
+    .limits = SHEET_BASE_LIMITS,
     .shear_theories = SHEAR_HARINGX,
-    .data_size = second_data_size,
+    .data_size = sheet_second_data_size,
     .prepare = prepare,
-    .strain = base_strain,
-    .stress = second_stress,
-    .inertia = base_inertia,
+    .strain = sheet_base_strain,
+    .stress = sheet_second_stress,
+    .inertia = sheet_base_inertia,
 };

@@ -3,7 +3,7 @@
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
-    return third_prepare(request, 0, out, f);
+    return sheet_third_prepare(request, 0, out, f);
 }
 
 const element_type element_sheet_third = {
@@ -11,16 +11,16 @@ const element_type element_sheet_third = {
     .summary = "third-order sheet-flexure element (Hellinger-Reissner), sign of u_y corrected",
     .source = "N Eqs. 37, 44-52, 55-65; reference/ERRATA.md, N 49",
     .abi = ELEMENT_ABI,
-    .offers = BASE_OFFERS,
-    .limits = BASE_LIMITS,
+    .offers = SHEET_BASE_OFFERS,
+    .limits = SHEET_BASE_LIMITS,
     .lacks = LACKS_SHEAR_Y,
     .lacks_by = "N Eq. 50",
     .shear_theories = SHEAR_OWN,
     .own_theory = "N Eq. 37: generalized strains that see no shear (reference/ERRATA.md, N 37)",
-    .data_size = third_data_size,
+    .data_size = sheet_third_data_size,
     .prepare = prepare,
-    .strain = base_strain,
-    .stress = third_stress,
-    .geometric = third_geometric,
-    .inertia = base_inertia,
+    .strain = sheet_base_strain,
+    .stress = sheet_third_stress,
+    .geometric = sheet_third_geometric,
+    .inertia = sheet_base_inertia,
 };

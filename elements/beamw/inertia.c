@@ -20,13 +20,13 @@ enum { N = 14, TP = 3, TQ = 10 };
 enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z, PSI }; /* the last: warping amplitude */
 
 /* Gauss's rule: exact for the square of a cubic. */
-static const double gauss_at[FORMS_GAUSS] = {0.06943184420297371239, 0.33000947820757186760,
+static const double gauss_at[BEAMW_GAUSS] = {0.06943184420297371239, 0.33000947820757186760,
                                              0.66999052179242813240, 0.93056815579702628761};
-static const double gauss_weight[FORMS_GAUSS] = {0.17392742256872692869, 0.32607257743127307131,
+static const double gauss_weight[BEAMW_GAUSS] = {0.17392742256872692869, 0.32607257743127307131,
                                                  0.32607257743127307131, 0.17392742256872692869};
 
-static void functionals_at(const section *c, double l, const stiffness_fields *s, double x,
-                           double field[FORMS_FIELDS][8])
+static void functionals_at(const section *c, double l, const beamw_stiffness_fields *s, double x,
+                           double field[BEAMW_FIELDS][8])
 {
     const double e2[8] = {0, 1}, sum_y[8] = {0, 0, 1, 1}, sum_z[8] = {0, 0, 0, 0, 1, 1};
     const double bend_y[8] = {0, 0, 1 - x, -x},
@@ -45,14 +45,14 @@ static void functionals_at(const section *c, double l, const stiffness_fields *s
     }
 }
 
-void inertia_prepare(const section *c, unsigned features, inertia_kind kind,
-                     const stiffness_fields *fields, element_data *d)
+void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_kind kind,
+                           const beamw_stiffness_fields *fields, element_data *d)
 {
     d->lumped = lumped_of(c, features, d->l0 / 2);
-    d->share = kind == INERTIA_LUMPED ? 0 : kind == INERTIA_CONSISTENT ? 1 : 0.5;
-    for (int g = 0; g < FORMS_GAUSS && d->share > 0; g++) {
+    d->share = kind == BEAMW_INERTIA_LUMPED ? 0 : kind == BEAMW_INERTIA_CONSISTENT ? 1 : 0.5;
+    for (int g = 0; g < BEAMW_GAUSS && d->share > 0; g++) {
         functionals_at(c, d->l0, fields, gauss_at[g], d->field[g]);
-        for (int k = 0; k < FORMS_FIELDS && !(features & FEATURE_WARPING);
+        for (int k = 0; k < BEAMW_FIELDS && !(features & FEATURE_WARPING);
              k++) { /* uniform torsion: e7 and e8 follow e2 */
             d->field[g][k][1] += d->field[g][k][6] + d->field[g][k][7];
             d->field[g][k][6] = d->field[g][k][7] = 0;
@@ -207,19 +207,19 @@ static void add_consistent(const element_data *d, const node_state x[2], const e
                 c.vector[node][k][i] = x[node].R[3 * i + k];
             c.mean[k][i] = (c.vector[0][k][i] + c.vector[1][k][i]) / 2;
         }
-    modes_strain(d->l0, x, &(strain_output){.e = c.e, .J = c.J});
-    for (int g = 0; g < FORMS_GAUSS; g++)
+    beamw_modes_strain(d->l0, x, &(strain_output){.e = c.e, .J = c.J});
+    for (int g = 0; g < BEAMW_GAUSS; g++)
         add_point(&c, d, g);
     if (out->N == NULL || spin == NULL)
         return;
     double H[N * N];
-    modes_strain(d->l0, x, &(strain_output){.s = c.s, .H = H});
+    beamw_modes_strain(d->l0, x, &(strain_output){.s = c.s, .H = H});
     for (int i = 0; i < N * N; i++)
         out->N[i] -= H[i];
 }
 
-status inertia_of(const element_data *d, const node_state x[], const element_spin *spin,
-                  inertia_output *out)
+status beamw_inertia_of(const element_data *d, const node_state x[], const element_spin *spin,
+                        inertia_output *out)
 {
     moving_clear(N, out);
     for (int node = 0; node < 2 && d->share < 1; node++)

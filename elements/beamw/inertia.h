@@ -5,14 +5,18 @@
 
 #include "elements/beamw/stiffness.h"
 
-typedef enum inertia_kind { INERTIA_LUMPED, INERTIA_CONSISTENT, INERTIA_AVERAGED } inertia_kind;
+typedef enum beamw_inertia_kind {
+    BEAMW_INERTIA_LUMPED,
+    BEAMW_INERTIA_CONSISTENT,
+    BEAMW_INERTIA_AVERAGED
+} beamw_inertia_kind;
 
 /* Fills lumped, field and share.  Without FEATURE_ROTARY_INERTIA only translations and the polar moment of the
  * twist count, so that the matrix is singular in the other rotations and in the warping.  fields: NULL for lumped. */
-void inertia_prepare(const section *c, unsigned features, inertia_kind kind,
-                     const stiffness_fields *fields, element_data *d);
+void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_kind kind,
+                           const beamw_stiffness_fields *fields, element_data *d);
 
-status inertia_of(const element_data *d, const node_state x[], const element_spin *spin,
-                  inertia_output *out);
+status beamw_inertia_of(const element_data *d, const node_state x[], const element_spin *spin,
+                        inertia_output *out);
 
 #endif

@@ -159,7 +159,7 @@ static void gradient(double l0, const chord *b, const double yp[3], const double
     J[6 * N + AP] = J[7 * N + AQ] = l0 * l0;
 }
 
-void modes_strain(double l0, const node_state x[2], strain_output *out)
+void beamw_modes_strain(double l0, const node_state x[2], strain_output *out)
 {
     const chord b = chord_of(l0, x);
     double yp[3], zp[3], yq[3], zq[3];

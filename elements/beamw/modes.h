@@ -6,6 +6,6 @@
 #include "elements/element.h"
 
 /* l0: initial length [m].  Same conventions as element_type.strain: e[8], J[8 x 14], s[8] in, H[14 x 14]. */
-void modes_strain(double l0, const node_state x[2], strain_output *out);
+void beamw_modes_strain(double l0, const node_state x[2], strain_output *out);
 
 #endif

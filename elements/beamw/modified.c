@@ -15,7 +15,7 @@ static void add_term(element_data *d, const term *t, double scale)
 {
     double a[8] = {0}, b[8] = {0};
     a[t->i - 1] = b[t->j - 1] = 1;
-    forms_add_product(d->Q[t->mode - 1], t->c * scale, a, b);
+    beamw_variants_add_product(d->Q[t->mode - 1], t->c * scale, a, b);
 }
 
 /* l0 times the bilinear part of J Eq. 66. */
@@ -29,7 +29,7 @@ static const term eq66[] = {
     {6, 2, 4, 1 / 10.0},  {6, 3, 7, -1 / 30.0}, {6, 4, 7, -1 / 30.0}, {6, 4, 8, 1 / 10.0},
 };
 
-void modified_printed(const section *c, unsigned features, element_data *d)
+void beamw_modified_printed(const section *c, unsigned features, element_data *d)
 {
     const double l = d->l0, l3 = l * l * l;
     for (size_t i = 0; i < sizeof eq66 / sizeof eq66[0]; i++)
@@ -38,11 +38,11 @@ void modified_printed(const section *c, unsigned features, element_data *d)
                  t[8] = {[1] = 1, [6] = -0.5, [7] = -0.5};
     if (features & FEATURE_TRAPEZE) {
         const double k = c->Ip / c->A / (2 * l3);
-        forms_add_product(d->Q[0], k, e2, e2);
-        forms_add_product(d->Q[0], k / 3, A, A);
-        forms_add_product(d->Q[0], k / 5, t, t);
+        beamw_variants_add_product(d->Q[0], k, e2, e2);
+        beamw_variants_add_product(d->Q[0], k / 3, A, A);
+        beamw_variants_add_product(d->Q[0], k / 5, t, t);
     }
-    forms_add_product(d->Q[0], -(c->ys * c->ys + c->zs * c->zs) / (10 * l3), e2, e2);
+    beamw_variants_add_product(d->Q[0], -(c->ys * c->ys + c->zs * c->zs) / (10 * l3), e2, e2);
     d->modified = 1;
 }
 
@@ -55,7 +55,7 @@ void modified_printed(const section *c, unsigned features, element_data *d)
  * the fibre (Engesser, J) enters only when the squares of the shear strains are added to gamma_x, as J's kinematics does
  * (fibres_at below).  Proof and reduction to J Eq. 66: reference/derive/second_order.py. */
 
-enum { N = MODIFIED_VARIABLES, Z = FORMS_STRAINS };
+enum { N = BEAMW_MODIFIED_VARIABLES, Z = BEAMW_STRAINS };
 
 /* Q += c (a b^T + b a^T). */
 static void add_product(double Q[N * N], double c, const double a[N], const double b[N])
@@ -68,15 +68,15 @@ static void add_product(double Q[N * N], double c, const double a[N], const doub
 /* Linear fields of J section 3.2 at a point, as functionals of e and z: rotation of the section against the middle of the
  * element, twist and bending rates [1/m], shear at the centroid, extension. */
 typedef struct point_fields {
-    double turn[3][N], rate[3][N], shear_y[N], shear_z[N], extension[N];
+    double rotation[3][N], rate[3][N], shear_y[N], shear_z[N], extension[N];
 } point_fields;
 
-/* turn = rate of change times x - 1/2 plus what bends or twists unevenly; shear is constant at the shear centre. */
-static void fields_at(const section *c, double l, double x, const twist *t,
-                      const stiffness_fields *s, point_fields *out)
+/* rotation = rate of change times x - 1/2 plus what bends or twists unevenly; shear is constant at the shear centre. */
+static void fields_at(const section *c, double l, double x, const beamw_twist *t,
+                      const beamw_stiffness_fields *s, point_fields *out)
 {
     const double bubble = x * (1 - x), odd = 1 - 2 * x;
-    const twist_shapes shape = twist_at(t, x);
+    const beamw_twist_shapes shape = beamw_twist_at(t, x);
     const double mean[3][N] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
     for (int k = 0; k < N; k++) {
         const int own = k >= Z; /* one of z: bending (y, z) and warping parts of h */
@@ -85,11 +85,11 @@ static void fields_at(const section *c, double l, double x, const twist *t,
         const double A = own ? 0 : s->A[k],
                      g[2] = {own ? -(k == Z) : s->h[0][k], own ? -(k == Z + 1) : s->h[1][k]};
         for (int i = 0; i < 3; i++) {
-            out->turn[i][k] = mean[i][k] * (x - 0.5) + bend[i] * bubble;
+            out->rotation[i][k] = mean[i][k] * (x - 0.5) + bend[i] * bubble;
             out->rate[i][k] = (mean[i][k] + bend[i] * odd) / l;
         }
         const double uneven = (A * shape.odd + tw * shape.even) / (l * l);
-        out->turn[0][k] += (A * shape.odd_integral + tw * shape.even_integral) / l;
+        out->rotation[0][k] += (A * shape.odd_integral + tw * shape.even_integral) / l;
         out->rate[0][k] += uneven;
         out->shear_y[k] = g[0] - t->lag[0] * uneven + c->zs * out->rate[0][k];
         out->shear_z[k] = g[1] - t->lag[1] * uneven - c->ys * out->rate[0][k];
@@ -97,7 +97,7 @@ static void fields_at(const section *c, double l, double x, const twist *t,
     }
 }
 
-/* Parts of second order of the strains of the Simo-Reissner beam, r' = R (e_x + gamma), R = exp(turn~): with w = turn,
+/* Parts of second order of the strains of the Simo-Reissner beam, r' = R (e_x + gamma), R = exp(w~): with w the rotation,
  * kappa = w' - 1/2 w x w',  gamma = u' - w x e_x + 1/2 w x (w x e_x) - w x u'. */
 typedef struct point_strains {
     double gamma[3][N * N], kappa[3][N * N];
@@ -108,19 +108,19 @@ static void strains_at(const point_fields *f, point_strains *out)
     memset(out, 0, sizeof *out);
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
-        add_product(out->kappa[i], -0.5, f->turn[j], f->rate[k]);
-        add_product(out->kappa[i], 0.5, f->turn[k], f->rate[j]);
+        add_product(out->kappa[i], -0.5, f->rotation[j], f->rate[k]);
+        add_product(out->kappa[i], 0.5, f->rotation[k], f->rate[j]);
     }
-    add_product(out->gamma[0], 0.5, f->turn[1], f->turn[1]);
-    add_product(out->gamma[0], 0.5, f->turn[2], f->turn[2]);
-    add_product(out->gamma[0], 1, f->turn[2], f->shear_y);
-    add_product(out->gamma[0], -1, f->turn[1], f->shear_z);
-    add_product(out->gamma[1], -0.5, f->turn[0], f->turn[1]);
-    add_product(out->gamma[1], 1, f->turn[0], f->shear_z);
-    add_product(out->gamma[1], -1, f->turn[2], f->extension);
-    add_product(out->gamma[2], -0.5, f->turn[0], f->turn[2]);
-    add_product(out->gamma[2], -1, f->turn[0], f->shear_y);
-    add_product(out->gamma[2], 1, f->turn[1], f->extension);
+    add_product(out->gamma[0], 0.5, f->rotation[1], f->rotation[1]);
+    add_product(out->gamma[0], 0.5, f->rotation[2], f->rotation[2]);
+    add_product(out->gamma[0], 1, f->rotation[2], f->shear_y);
+    add_product(out->gamma[0], -1, f->rotation[1], f->shear_z);
+    add_product(out->gamma[1], -0.5, f->rotation[0], f->rotation[1]);
+    add_product(out->gamma[1], 1, f->rotation[0], f->shear_z);
+    add_product(out->gamma[1], -1, f->rotation[2], f->extension);
+    add_product(out->gamma[2], -0.5, f->rotation[0], f->rotation[2]);
+    add_product(out->gamma[2], -1, f->rotation[0], f->shear_y);
+    add_product(out->gamma[2], 1, f->rotation[1], f->extension);
 }
 
 /* Fibres elongate by gamma_x + z kappa_y - y kappa_z and half the square of how far they lean to the section's normal: all of
@@ -148,13 +148,13 @@ static void fibres_at(const section *c, unsigned features, const point_fields *f
     }
 }
 
-status modified_consistent(const section *c, unsigned features, double l, const twist *t,
-                           const stiffness_fields *fields, double Q[FORMS_MODIFIED][N * N],
-                           fault *f)
+status beamw_modified_consistent(const section *c, unsigned features, double l,
+                                 const beamw_twist *t, const beamw_stiffness_fields *fields,
+                                 double Q[BEAMW_MODIFIED][N * N], fault *f)
 {
-    double x[TWIST_MAX_POINTS], w[TWIST_MAX_POINTS];
-    const int points = twist_points(t, x, w, f);
-    memset(Q, 0, FORMS_MODIFIED * sizeof Q[0]);
+    double x[BEAMW_TWIST_MAX_POINTS], w[BEAMW_TWIST_MAX_POINTS];
+    const int points = beamw_twist_points(t, x, w, f);
+    memset(Q, 0, BEAMW_MODIFIED * sizeof Q[0]);
     for (int p = 0; p < points; p++) {
         point_fields at;
         point_strains strain;
@@ -171,7 +171,7 @@ status modified_consistent(const section *c, unsigned features, double l, const 
             Q[5][i] += ds * (from_p * strain.kappa[2][i] - strain.gamma[1][i]);
         }
     }
-    /* The screw's share is in e already: -1/24 psi x (psi x U), what a straight chord is shorter than its arc. */
+    /* The share of the helicoidal strains is in e already: -1/24 psi x (psi x U), what a straight chord is shorter than its arc. */
     const double psi[3][N] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
     add_product(Q[0], -l / 24, psi[1], psi[1]);
     add_product(Q[0], -l / 24, psi[2], psi[2]);
@@ -183,16 +183,16 @@ status modified_consistent(const section *c, unsigned features, double l, const 
 }
 
 /* Q of e alone: T^T Q T, T = (1, hg). */
-void modified_reduce(const stiffness_fields *fields, double Q[FORMS_MODIFIED][N * N],
-                     element_data *d)
+void beamw_modified_reduce(const beamw_stiffness_fields *fields, double Q[BEAMW_MODIFIED][N * N],
+                           element_data *d)
 {
-    double T[N * FORMS_STRAINS] = {0}, work[N * FORMS_STRAINS];
-    for (int i = 0; i < FORMS_STRAINS; i++) {
-        T[(FORMS_STRAINS + 1) * i] = 1;
+    double T[N * BEAMW_STRAINS] = {0}, work[N * BEAMW_STRAINS];
+    for (int i = 0; i < BEAMW_STRAINS; i++) {
+        T[(BEAMW_STRAINS + 1) * i] = 1;
         for (int k = 0; k < 3; k++)
-            T[FORMS_STRAINS * (Z + k) + i] = fields->hg[k][i];
+            T[BEAMW_STRAINS * (Z + k) + i] = fields->hg[k][i];
     }
-    for (int k = 0; k < FORMS_MODIFIED; k++)
-        dense_add_congruence(N, FORMS_STRAINS, T, Q[k], d->Q[k], work);
+    for (int k = 0; k < BEAMW_MODIFIED; k++)
+        dense_add_congruence(N, BEAMW_STRAINS, T, Q[k], d->Q[k], work);
     d->modified = 1;
 }

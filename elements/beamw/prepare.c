@@ -10,20 +10,20 @@ enum { OPTION_MASS, OPTION_TORSION, OPTION_INSIDE };
 
 #define MASS_OPTION                                                                                \
     {                                                                                              \
-        "mass", "lumped|consistent|averaged", INERTIA_CONSISTENT, 0, 2,                            \
+        "mass", "lumped|consistent|averaged", BEAMW_INERTIA_CONSISTENT, 0, 2,                      \
             "mass matrix: J Eq. 73, from the shape functions, or the mean of the two",             \
             FEATURE_MASS                                                                           \
     }
 
-const element_option prepare_options[] = {
+const element_option beamw_prepare_options[] = {
     [OPTION_MASS] = MASS_OPTION,
     {NULL, NULL, 0, 0, 0, NULL, 0},
 };
 
-const element_option prepare_options_consistent[] = {
+const element_option beamw_prepare_options_consistent[] = {
     [OPTION_MASS] = MASS_OPTION,
     [OPTION_TORSION] =
-        {"torsion", "cubic|hyperbolic", TWIST_CUBIC, 0, 1,
+        {"torsion", "cubic|hyperbolic", BEAMW_TWIST_CUBIC, 0, 1,
          "twist along the element: J Eq. 38, or the exact functions of non-uniform torsion",
          FEATURE_WARPING},
     [OPTION_INSIDE] = {"inside", "linear|following", 1, 0, 1,
@@ -42,14 +42,14 @@ static status length_of(const element_request *request, fault *f)
 }
 
 /* Mass, uniform torsion, sizes. */
-static status finish(const element_request *request, const stiffness_fields *fields,
+static status finish(const element_request *request, const beamw_stiffness_fields *fields,
                      element_data *out, fault *f)
 {
     if (request->features & FEATURE_MASS)
-        inertia_prepare(request->section, request->features,
-                        (inertia_kind)request->options[OPTION_MASS], fields, out);
+        beamw_inertia_prepare(request->section, request->features,
+                              (beamw_inertia_kind)request->options[OPTION_MASS], fields, out);
     if (!(request->features & FEATURE_WARPING))
-        forms_drop_warping(out);
+        beamw_variants_drop_warping(out);
     for (int i = 0; i < 64; i++)
         if (!isfinite(out->S[i]))
             return fault_set(f, STATUS_REFUSED,
@@ -58,25 +58,27 @@ static status finish(const element_request *request, const stiffness_fields *fie
     return STATUS_OK;
 }
 
-status prepare_form(const element_request *request, stiffness_shear shear, prepare_modes modes,
-                    element_data *out, fault *f)
+status beamw_prepare_variant(const element_request *request, beamw_stiffness_shear shear,
+                             beamw_prepare_modes modes, element_data *out, fault *f)
 {
     const section *c = request->section;
     const status sound = length_of(request, f);
     if (sound != STATUS_OK)
         return sound;
-    stiffness_fields fields;
+    beamw_stiffness_fields fields;
     memset(out, 0, sizeof *out);
     out->l0 = request->length;
     const int flexible = (request->features & FEATURE_SHEAR) != 0;
-    const twist t = twist_of(c, request->length, flexible, TWIST_CUBIC);
-    stiffness_of(c, request->length, flexible ? shear : STIFFNESS_RIGID, &t, &fields, out->S);
-    if (modes == PREPARE_PRINTED)
-        modified_printed(c, request->features, out);
+    const beamw_twist t = beamw_twist_of(c, request->length, flexible, BEAMW_TWIST_CUBIC);
+    beamw_stiffness_of(c, request->length, flexible ? shear : BEAMW_STIFFNESS_RIGID, &t, &fields,
+                       out->S);
+    if (modes == BEAMW_PREPARE_PRINTED)
+        beamw_modified_printed(c, request->features, out);
     return finish(request, &fields, out, f);
 }
 
-status prepare_consistent(const element_request *request, consistent_data *out, fault *f)
+status beamw_prepare_consistent(const element_request *request, beamw_consistent_data *out,
+                                fault *f)
 {
     const section *c = request->section;
     const status sound = length_of(request, f);
@@ -84,20 +86,21 @@ status prepare_consistent(const element_request *request, consistent_data *out, 
         return sound;
     const int flexible = (request->features & FEATURE_SHEAR) != 0,
               warping = (request->features & FEATURE_WARPING) != 0;
-    const twist t =
-        twist_of(c, request->length, flexible, (twist_kind)request->options[OPTION_TORSION]);
-    double Q[FORMS_MODIFIED][MODIFIED_VARIABLES * MODIFIED_VARIABLES];
-    stiffness_fields fields;
+    const beamw_twist t = beamw_twist_of(c, request->length, flexible,
+                                         (beamw_twist_kind)request->options[OPTION_TORSION]);
+    double Q[BEAMW_MODIFIED][BEAMW_MODIFIED_VARIABLES * BEAMW_MODIFIED_VARIABLES];
+    beamw_stiffness_fields fields;
     memset(out, 0, sizeof *out);
-    out->form.l0 = request->length;
-    out->following = request->options[OPTION_INSIDE] != 0;
-    stiffness_of(c, request->length, flexible ? STIFFNESS_COUPLED : STIFFNESS_RIGID, &t, &fields,
-                 out->form.S);
+    out->variant.l0 = request->length;
+    out->condensed = request->options[OPTION_INSIDE] != 0;
+    beamw_stiffness_of(c, request->length,
+                       flexible ? BEAMW_STIFFNESS_COUPLED : BEAMW_STIFFNESS_RIGID, &t, &fields,
+                       out->variant.S);
     const status made =
-        modified_consistent(c, request->features, request->length, &t, &fields, Q, f);
+        beamw_modified_consistent(c, request->features, request->length, &t, &fields, Q, f);
     if (made != STATUS_OK)
         return made;
-    modified_reduce(&fields, Q, &out->form);
-    follow_prepare(c, request->length, flexible, warping, &t, &fields, Q, &out->inside);
-    return finish(request, &fields, &out->form, f);
+    beamw_modified_reduce(&fields, Q, &out->variant);
+    beamw_condensed_prepare(c, request->length, flexible, warping, &t, &fields, Q, &out->internal);
+    return finish(request, &fields, &out->variant, f);
 }

@@ -9,7 +9,7 @@
 
 enum { Y, Z, W };
 
-static void antisymmetric_functionals(const section *c, double l, stiffness_fields *f)
+static void antisymmetric_functionals(const section *c, double l, beamw_stiffness_fields *f)
 {
     memset(f, 0, sizeof *f);
     f->h[Y][4] = 1 / (2 * l);
@@ -25,15 +25,15 @@ static void antisymmetric_functionals(const section *c, double l, stiffness_fiel
 }
 
 /* Part of h that is bending: hg = M h. */
-static void split(const section *c, double l, stiffness_shear kind, const double stiffness[3],
+static void split(const section *c, double l, beamw_stiffness_shear kind, const double stiffness[3],
                   double M[9])
 {
     memset(M, 0, 9 * sizeof(double));
-    if (kind != STIFFNESS_COUPLED) {
+    if (kind != BEAMW_STIFFNESS_COUPLED) {
         const double inertia[3] = {c->Iz, c->Iy, c->Iw};
         for (int i = 0; i < 3; i++) {
             const double D = c->D[4 * i];
-            const double Phi = kind == STIFFNESS_RIGID || D == 0
+            const double Phi = kind == BEAMW_STIFFNESS_RIGID || D == 0
                                    ? 0
                                    : 12 * c->young * inertia[i] / (c->shear_modulus * D * l * l);
             M[4 * i] = 1 / (1 + Phi);
@@ -53,14 +53,14 @@ static void split(const section *c, double l, stiffness_shear kind, const double
 }
 
 /* K of the energy 1/2 h^T K h. */
-static void series(const section *c, double l, stiffness_shear kind, const double stiffness[3],
-                   const double M[9], double K[9])
+static void series(const section *c, double l, beamw_stiffness_shear kind,
+                   const double stiffness[3], const double M[9], double K[9])
 {
     const double bend[3] = {stiffness[0], stiffness[1], 12 * c->young * c->Iw / l},
                  torsion = c->shear_modulus * c->It * l / 5;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
-            if (kind != STIFFNESS_DIAGONAL)
+            if (kind != BEAMW_STIFFNESS_DIAGONAL)
                 K[3 * i + j] = (stiffness[i] * M[3 * i + j] + stiffness[j] * M[3 * j + i]) / 2;
             else if (
                 i ==
@@ -74,11 +74,11 @@ static void series(const section *c, double l, stiffness_shear kind, const doubl
 
 static void add_square(double S[8 * 8], double k, const double a[8])
 {
-    forms_add_product(S, k / 2, a, a);
+    beamw_variants_add_product(S, k / 2, a, a);
 }
 
-void stiffness_of(const section *c, double l, stiffness_shear kind, const twist *t,
-                  stiffness_fields *f, double S[8 * 8])
+void beamw_stiffness_of(const section *c, double l, beamw_stiffness_shear kind,
+                        const beamw_twist *t, beamw_stiffness_fields *f, double S[8 * 8])
 {
     const double E = c->young, G = c->shear_modulus, l3 = l * l * l;
     const double Ka[3] = {12 * E * c->Iz / l, 12 * E * c->Iy / l, t->uneven};
@@ -105,5 +105,5 @@ void stiffness_of(const section *c, double l, stiffness_shear kind, const twist 
     add_square(S, t->opposite, f->A);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            forms_add_product(S, K[3 * i + j] / 2, f->h[i], f->h[j]);
+            beamw_variants_add_product(S, K[3 * i + j] / 2, f->h[i], f->h[j]);
 }

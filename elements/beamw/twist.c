@@ -33,13 +33,13 @@ static double sinh_ratio(double lambda, double y)
     return y < 0 ? -ratio : ratio;
 }
 
-twist twist_of(const section *c, double l, int shear, twist_kind kind)
+beamw_twist beamw_twist_of(const section *c, double l, int shear, beamw_twist_kind kind)
 {
     const double EIw = c->young * c->Iw, GIt = c->shear_modulus * c->It, l3 = l * l * l;
-    twist t = {.uneven = 12 * EIw / l + GIt * l / 5,
-               .opposite = GIt / (3 * l3) + 4 * EIw / (l3 * l * l),
-               .soft = 1};
-    if (kind == TWIST_CUBIC || !(GIt > 0) || !(EIw > 0))
+    beamw_twist t = {.uneven = 12 * EIw / l + GIt * l / 5,
+                     .opposite = GIt / (3 * l3) + 4 * EIw / (l3 * l * l),
+                     .soft = 1};
+    if (kind == BEAMW_TWIST_CUBIC || !(GIt > 0) || !(EIw > 0))
         return t;
     if (shear) {
         t.soft = 1 + c->F[8] * c->It;
@@ -55,10 +55,10 @@ twist twist_of(const section *c, double l, int shear, twist_kind kind)
     return t;
 }
 
-twist_shapes twist_at(const twist *t, double x)
+beamw_twist_shapes beamw_twist_at(const beamw_twist *t, double x)
 {
     const double y = x - 0.5, h = t->lambda / 2;
-    twist_shapes s;
+    beamw_twist_shapes s;
     if (t->lambda == 0) {
         s.odd = 1 - 2 * x;
         s.even = 6 * x * (1 - x) - 1;
@@ -83,7 +83,8 @@ twist_shapes twist_at(const twist *t, double x)
     return s;
 }
 
-int twist_points(const twist *t, double x[TWIST_MAX_POINTS], double w[TWIST_MAX_POINTS], fault *f)
+int beamw_twist_points(const beamw_twist *t, double x[BEAMW_TWIST_MAX_POINTS],
+                       double w[BEAMW_TWIST_MAX_POINTS], fault *f)
 {
     double point[PANEL_POINTS], weight[PANEL_POINTS], edge[2 * LAYER_PANELS + 2] = {0};
     const int each = t->lambda == 0 ? CUBIC_POINTS : PANEL_POINTS;

@@ -8,9 +8,9 @@
 #include "elements/section/section.h"
 #include "elements/shared/status.h"
 
-typedef enum twist_kind { TWIST_CUBIC, TWIST_HYPERBOLIC } twist_kind;
+typedef enum beamw_twist_kind { BEAMW_TWIST_CUBIC, BEAMW_TWIST_HYPERBOLIC } beamw_twist_kind;
 
-typedef struct twist {
+typedef struct beamw_twist {
     double uneven;   /* [N m^3] stiffness of hg_w, the even part of the warping */
     double opposite; /* [N/m] of A = (e7 - e8)/2, the odd part */
     double lambda;   /* 0: cubic */
@@ -18,21 +18,22 @@ typedef struct twist {
     double soft;     /* 1 + r */
     double
         lag[2]; /* G It (f_yw, f_zw) [m]: kx above its mean takes so much from the shear strains */
-} twist;
+} beamw_twist;
 
 /* shear: 0 where the section is rigid in shear.  Iw = 0 has cubic functions only: nothing warps. */
-twist twist_of(const section *c, double l, int shear, twist_kind kind);
+beamw_twist beamw_twist_of(const section *c, double l, int shear, beamw_twist_kind kind);
 
-typedef struct twist_shapes {
+typedef struct beamw_twist_shapes {
     double odd, even;                   /* as above */
     double odd_integral, even_integral; /* from 0 to x */
-} twist_shapes;
+} beamw_twist_shapes;
 
-twist_shapes twist_at(const twist *t, double x);
+beamw_twist_shapes beamw_twist_at(const beamw_twist *t, double x);
 
-enum { TWIST_MAX_POINTS = 144 };
+enum { BEAMW_TWIST_MAX_POINTS = 144 };
 
 /* Points and weights on [0, 1] that integrate products of two of the shapes with polynomials; returns how many. */
-int twist_points(const twist *t, double x[TWIST_MAX_POINTS], double w[TWIST_MAX_POINTS], fault *f);
+int beamw_twist_points(const beamw_twist *t, double x[BEAMW_TWIST_MAX_POINTS],
+                       double w[BEAMW_TWIST_MAX_POINTS], fault *f);
 
 #endif

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-status constants_of(const element_request *request, constants *out, fault *f)
+status exact_constants_of(const element_request *request, exact_constants *out, fault *f)
 {
     const section *c = request->section;
     const unsigned has = request->features;

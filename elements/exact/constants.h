@@ -6,7 +6,7 @@
 #include "elements/element.h"
 
 /* Forces in units of EI/l0^2, moments of EI/l0, bimoments of EI, lengths of l0. */
-typedef struct constants {
+typedef struct exact_constants {
     double energy; /* unit of energy EI/l0 [J], EI the smaller one */
     double EA, EIy, EIz, GJ, EIw;
     double F[9];   /* shear flexibility F/G: (g_y, g_z, g_w) = F (Q_y, Q_z, M_w); zero: rigid */
@@ -16,8 +16,8 @@ typedef struct constants {
     double torque;     /* energy torque kappa_x^4 per length */
     double initial[3]; /* strains gx, gy, gz without stress */
     int warping;
-} constants;
+} exact_constants;
 
-status constants_of(const element_request *request, constants *out, fault *f);
+status exact_constants_of(const element_request *request, exact_constants *out, fault *f);
 
 #endif

@@ -6,33 +6,33 @@
 #include "elements/exact/line.h"
 #include "elements/math/dense.h"
 
-static void add_square(fields *f, double k, const double row[])
+static void add_square(exact_fields *f, double k, const double row[])
 {
     for (int i = 0; i < f->free; i++)
         for (int j = 0; j < f->free && row[i] != 0; j++)
             f->energy[i * f->all + j] += k * row[i] * row[j];
 }
 
-static void add_product(fields *f, double k, int i, int j)
+static void add_product(exact_fields *f, double k, int i, int j)
 {
     f->energy[i * f->all + j] += k;
     f->energy[j * f->all + i] += k;
 }
 
 /* a and a' at x as rows on (strains, bubbles). */
-static void amplitude(const fields *f, double x, double a[FIELDS_MAX_FREE],
-                      double da[FIELDS_MAX_FREE])
+static void amplitude(const exact_fields *f, double x, double a[EXACT_FIELDS_MAX_FREE],
+                      double da[EXACT_FIELDS_MAX_FREE])
 {
     double at[ELEMENT_MAX_NODES], L[ELEMENT_MAX_NODES], dL[ELEMENT_MAX_NODES], bubble = 1,
                                                                                slope = 0;
-    memset(a, 0, FIELDS_MAX_FREE * sizeof *a);
-    memset(da, 0, FIELDS_MAX_FREE * sizeof *da);
+    memset(a, 0, EXACT_FIELDS_MAX_FREE * sizeof *a);
+    memset(da, 0, EXACT_FIELDS_MAX_FREE * sizeof *da);
     for (int k = 0; k < f->nodes; k++) {
         at[k] = (double)k / (f->nodes - 1);
         slope = slope * 4 * (x - at[k]) + bubble * 4;
         bubble *= 4 * (x - at[k]);
     }
-    line_lagrange(f->nodes, at, x, L, dL);
+    exact_line_lagrange(f->nodes, at, x, L, dL);
     for (int k = 0; k < f->nodes; k++) {
         a[6 * f->points + k] = L[k];
         da[6 * f->points + k] = dL[k];
@@ -45,11 +45,11 @@ static void amplitude(const fields *f, double x, double a[FIELDS_MAX_FREE],
     }
 }
 
-static void twist_fields(fields *f)
+static void twist_fields(exact_fields *f)
 {
-    double a[STIFFNESS_MAX_FIELD][FIELDS_MAX_FREE];
+    double a[EXACT_STIFFNESS_MAX_FIELD][EXACT_FIELDS_MAX_FREE];
     for (int i = 0; i < f->field; i++) {
-        line_lagrange(f->points, f->x, f->at[i], f->through[i], NULL);
+        exact_line_lagrange(f->points, f->x, f->at[i], f->through[i], NULL);
         for (int g = 0; g < f->points; g++)
             f->twist[i][6 * g + 3] = f->through[i][g];
         if (f->warping_bubbles == 0)
@@ -68,13 +68,13 @@ static void twist_fields(fields *f)
 }
 
 /* -1/2 w/(k EI) (Q -+ M')^2: what the part of the moment above the points' polynomial makes flexible, M' its slope. */
-static void residual_bending(fields *f, int g, int Q, int M, double sign, double flexibility)
+static void residual_bending(exact_fields *f, int g, int Q, int M, double sign, double flexibility)
 {
-    double row[FIELDS_MAX_ALL] = {0}; /* on Q, M of the points */
-    row[f->free + FIELDS_STRESSES * g + Q] = 1;
+    double row[EXACT_FIELDS_MAX_ALL] = {0}; /* on Q, M of the points */
+    row[f->free + EXACT_FIELDS_STRESSES * g + Q] = 1;
     if (f->points == 2)
         for (int h = 0; h < 2; h++)
-            row[f->free + FIELDS_STRESSES * h + M] =
+            row[f->free + EXACT_FIELDS_STRESSES * h + M] =
                 -sign * (h == 0 ? -1 : 1) / (f->x[1] - f->x[0]);
     for (int i = f->free; i < f->all; i++)
         for (int j = f->free; j < f->all; j++)
@@ -82,9 +82,9 @@ static void residual_bending(fields *f, int g, int Q, int M, double sign, double
 }
 
 /* Stress times strain less half of stress times flexibility, at one point; shears are those of the shear centre. */
-static void energy_of_point(const constants *c, fields *f, int g)
+static void energy_of_point(const exact_constants *c, exact_fields *f, int g)
 {
-    const int e = 6 * g, Q = f->free + FIELDS_STRESSES * g;
+    const int e = 6 * g, Q = f->free + EXACT_FIELDS_STRESSES * g;
     const double w = f->w[g];
     f->energy[e * (f->all + 1)] += w * c->EA;
     add_product(f, w, Q, e + 1);
@@ -115,7 +115,7 @@ static void energy_of_point(const constants *c, fields *f, int g)
     residual_bending(f, g, 1, 3, 1, part / c->EIy);  /* Q_z = M_y' */
 }
 
-static void energy_of_fields(const constants *c, fields *f)
+static void energy_of_fields(const exact_constants *c, exact_fields *f)
 {
     for (int i = 0; i < f->field; i++) {
         add_square(f, f->weight[i] * c->GJ, f->twist[i]);
@@ -125,11 +125,11 @@ static void energy_of_fields(const constants *c, fields *f)
         energy_of_point(c, f, g);
 }
 
-int fields_eliminate(const fields *f, double X[])
+int exact_fields_eliminate(const exact_fields *f, double X[])
 {
     const int n = f->all - f->strains, m = f->strains;
-    double A[FIELDS_MAX_ALL * FIELDS_MAX_ALL];
-    int pivot[FIELDS_MAX_ALL];
+    double A[EXACT_FIELDS_MAX_ALL * EXACT_FIELDS_MAX_ALL];
+    int pivot[EXACT_FIELDS_MAX_ALL];
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++)
             A[i * n + j] = f->energy[(m + i) * f->all + m + j];
@@ -142,7 +142,7 @@ int fields_eliminate(const fields *f, double X[])
     return failed;
 }
 
-void fields_prepare(const constants *c, int nodes, fields *f)
+void exact_fields_prepare(const exact_constants *c, int nodes, exact_fields *f)
 {
     memset(f, 0, sizeof *f);
     f->nodes = nodes;
@@ -150,10 +150,10 @@ void fields_prepare(const constants *c, int nodes, fields *f)
     f->strains = 6 * f->points + nodes;
     f->warping_bubbles = c->warping ? f->points : 0;
     f->free = f->strains + f->warping_bubbles;
-    f->all = f->free + FIELDS_STRESSES * f->points;
+    f->all = f->free + EXACT_FIELDS_STRESSES * f->points;
     f->field = 4 * f->points + 1;
-    line_gauss(f->points, f->x, f->w);
-    line_gauss(f->field, f->at, f->weight);
+    exact_line_gauss(f->points, f->x, f->w);
+    exact_line_gauss(f->field, f->at, f->weight);
     twist_fields(f);
     energy_of_fields(c, f);
 }

@@ -7,28 +7,30 @@
 #include "elements/exact/stiffness.h"
 
 enum {
-    FIELDS_MAX_BUBBLES = STRAIN_MAX_POINTS, /* of the warping amplitude */
-    FIELDS_STRESSES = 5,                    /* Q_y, Q_z, M_w, M_y, M_z of a point */
-    FIELDS_MAX_FREE = STIFFNESS_MAX_STRAINS + FIELDS_MAX_BUBBLES,
-    FIELDS_MAX_ALL = FIELDS_MAX_FREE + FIELDS_STRESSES * STRAIN_MAX_POINTS
+    EXACT_FIELDS_MAX_BUBBLES = EXACT_STRAIN_MAX_POINTS, /* of the warping amplitude */
+    EXACT_FIELDS_STRESSES = 5,                          /* Q_y, Q_z, M_w, M_y, M_z of a point */
+    EXACT_FIELDS_MAX_FREE = EXACT_STIFFNESS_MAX_STRAINS + EXACT_FIELDS_MAX_BUBBLES,
+    EXACT_FIELDS_MAX_ALL = EXACT_FIELDS_MAX_FREE + EXACT_FIELDS_STRESSES * EXACT_STRAIN_MAX_POINTS
 };
 
 /* Before elimination: strains, bubbles, stresses. */
-typedef struct fields {
+typedef struct exact_fields {
     int nodes, points, strains, warping_bubbles, free, all, field;
-    double x[STRAIN_MAX_POINTS], w[STRAIN_MAX_POINTS]; /* points of the strains */
-    double at[STIFFNESS_MAX_FIELD],
-        weight[STIFFNESS_MAX_FIELD]; /* points that integrate the fourth power of the twist rate */
-    double through[STIFFNESS_MAX_FIELD][STRAIN_MAX_POINTS]; /* Lagrange polynomials on x, at `at` */
-    double twist[STIFFNESS_MAX_FIELD][FIELDS_MAX_FREE];     /* kappa_x */
-    double slope[STIFFNESS_MAX_FIELD][FIELDS_MAX_FREE];     /* a' */
-    double mean[STRAIN_MAX_POINTS][FIELDS_MAX_FREE];        /* P a at the points */
-    double energy[FIELDS_MAX_ALL * FIELDS_MAX_ALL];         /* 2 x the quadratic form */
-} fields;
+    double x[EXACT_STRAIN_MAX_POINTS], w[EXACT_STRAIN_MAX_POINTS]; /* points of the strains */
+    double at[EXACT_STIFFNESS_MAX_FIELD],
+        weight
+            [EXACT_STIFFNESS_MAX_FIELD]; /* points that integrate the fourth power of the twist rate */
+    double through[EXACT_STIFFNESS_MAX_FIELD]
+                  [EXACT_STRAIN_MAX_POINTS]; /* Lagrange polynomials on x, at `at` */
+    double twist[EXACT_STIFFNESS_MAX_FIELD][EXACT_FIELDS_MAX_FREE]; /* kappa_x */
+    double slope[EXACT_STIFFNESS_MAX_FIELD][EXACT_FIELDS_MAX_FREE]; /* a' */
+    double mean[EXACT_STRAIN_MAX_POINTS][EXACT_FIELDS_MAX_FREE];    /* P a at the points */
+    double energy[EXACT_FIELDS_MAX_ALL * EXACT_FIELDS_MAX_ALL];     /* 2 x the quadratic form */
+} exact_fields;
 
-void fields_prepare(const constants *c, int nodes, fields *f);
+void exact_fields_prepare(const exact_constants *c, int nodes, exact_fields *f);
 
 /* Bubbles and stresses as they follow from the strains: X[all - strains][strains]; 0, or the failing pivot. */
-int fields_eliminate(const fields *f, double X[]);
+int exact_fields_eliminate(const exact_fields *f, double X[]);
 
 #endif

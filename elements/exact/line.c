@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-void line_gauss(int n, double x[], double w[])
+void exact_line_gauss(int n, double x[], double w[])
 {
     const double pi = 3.14159265358979323846;
     for (int i = 0; i < n; i++) {
@@ -23,7 +23,7 @@ void line_gauss(int n, double x[], double w[])
     }
 }
 
-void line_lagrange(int n, const double p[], double x, double L[], double dL[])
+void exact_line_lagrange(int n, const double p[], double x, double L[], double dL[])
 {
     for (int k = 0; k < n; k++) {
         double value = 1, slope = 0;

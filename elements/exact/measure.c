@@ -5,9 +5,9 @@
 #include "elements/math/dense.h"
 
 /* What 4 y must be multiplied by, y = tan(angle/4), and its first and second derivative with respect to t = y^2. */
-static void ratio(measure_kind kind, double t, double m[3])
+static void ratio(exact_measure_kind kind, double t, double m[3])
 {
-    if (kind == MEASURE_EIGHTH) { /* 2 tan(angle/8)/tan(angle/4) */
+    if (kind == EXACT_MEASURE_EIGHTH) { /* 2 tan(angle/8)/tan(angle/4) */
         const double r = sqrt(1 + t);
         m[0] = 2 / (1 + r);
         m[1] = -1 / (r * (1 + r) * (1 + r));
@@ -30,10 +30,10 @@ static void ratio(measure_kind kind, double t, double m[3])
     m[2] = (-1 / ((1 + t) * (1 + t)) - 3 * m[1]) / (2 * t);
 }
 
-void measure_of(measure_kind kind, const double x[3], double out[3], double T[9])
+void exact_measure_of(exact_measure_kind kind, const double x[3], double out[3], double T[9])
 {
     double m[3] = {1, 0, 0};
-    if (kind != MEASURE_QUARTER)
+    if (kind != EXACT_MEASURE_QUARTER)
         ratio(kind, vec3_dot(x, x) / 16, m);
     for (int i = 0; i < 3; i++) {
         out[i] = m[0] * x[i];
@@ -42,7 +42,8 @@ void measure_of(measure_kind kind, const double x[3], double out[3], double T[9]
     }
 }
 
-void measure_second(measure_kind kind, const double x[3], const double n[3], double H[9])
+void exact_measure_second(exact_measure_kind kind, const double x[3], const double n[3],
+                          double H[9])
 {
     double m[3];
     ratio(kind, vec3_dot(x, x) / 16, m);

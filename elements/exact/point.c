@@ -11,7 +11,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-void point_align(int nodes, double q[][4])
+void exact_point_align(int nodes, double q[][4])
 {
     for (int k = 1; k < nodes; k++) {
         double dot = 0;
@@ -22,8 +22,8 @@ void point_align(int nodes, double q[][4])
     }
 }
 
-void point_at(int nodes, const double q[], const double N[], const double dN[], const double y[3],
-              point *p)
+void exact_point_at(int nodes, const double q[], const double N[], const double dN[],
+                    const double y[3], exact_point *p)
 {
     double Q[4] = {0}, S[4] = {0}, inverse[4], h[4];
     for (int k = 0; k < nodes; k++)
@@ -43,7 +43,8 @@ void point_at(int nodes, const double q[], const double N[], const double dN[], 
     mat3_transpose_mul_vec(p->R, y, p->v);
 }
 
-void point_gradient(const point *p, const double n[3], const double f[3], double Q[4], double S[4])
+void exact_point_gradient(const exact_point *p, const double n[3], const double f[3], double Q[4],
+                          double S[4])
 {
     double across[3], turn[3], A[4], D[4];
     vec3_cross(p->kappa, n, across);
@@ -59,7 +60,7 @@ void point_gradient(const point *p, const double n[3], const double f[3], double
 }
 
 /* out = U W U^T/m^2, U the matrix of the product with u from the left. */
-static void to_fixed(const point *p, double W[16], double out[16])
+static void to_fixed(const exact_point *p, double W[16], double out[16])
 {
     double half[16];
     for (int i = 0; i < 4; i++)
@@ -74,8 +75,8 @@ static void to_fixed(const point *p, double W[16], double out[16])
     }
 }
 
-void point_hessian(const point *p, const double n[3], const double f[3], double QQ[16],
-                   double QS[16], double QY[12])
+void exact_point_hessian(const exact_point *p, const double n[3], const double f[3], double QQ[16],
+                         double QS[16], double QY[12])
 {
     double across[3], turn[3], AA[16], AD[16], AY[12] = {0};
     const double *v = p->v, nk = vec3_dot(n, p->kappa), fv = vec3_dot(f, v);
@@ -114,7 +115,7 @@ void point_hessian(const point *p, const double n[3], const double f[3], double 
     }
 }
 
-void point_turn(const double q[4], double P[12])
+void exact_point_increment(const double q[4], double P[12])
 {
     const double w = q[0], x = q[1], y = q[2], z = q[3];
     const double matrix[12] = {-x, -y, -z, w, z, -y, -z, w, x, y, -x, w};

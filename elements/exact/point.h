@@ -9,29 +9,30 @@
 #ifndef BEAMWORK_EXACT_POINT_H
 #define BEAMWORK_EXACT_POINT_H
 
-typedef struct point {
+typedef struct exact_point {
     double m, u[4];  /* Q = m u, |u| = 1 */
     double eta;      /* m'/m */
     double R[9];     /* axes of the section, columns */
     double kappa[3]; /* twist rate and curvatures in the section's axes */
     double v[3];     /* y in the section's axes */
-} point;
+} exact_point;
 
 /* Signs of q[1..] are changed so that neighbours are on the same side. */
-void point_align(int nodes, double q[][4]);
+void exact_point_align(int nodes, double q[][4]);
 
 /* q [nodes x 4], N and dN [nodes]. */
-void point_at(int nodes, const double q[], const double N[], const double dN[], const double y[3],
-              point *p);
+void exact_point_at(int nodes, const double q[], const double N[], const double dN[],
+                    const double y[3], exact_point *p);
 
 /* Gradient of n . kappa + f . v with respect to Q and Q'.  That with respect to y is R f. */
-void point_gradient(const point *p, const double n[3], const double f[3], double Q[4], double S[4]);
+void exact_point_gradient(const exact_point *p, const double n[3], const double f[3], double Q[4],
+                          double S[4]);
 
 /* Its second derivatives: QQ symmetric, QS [Q x Q'], QY [Q x y]; those with respect to Q' and Q', Q' and y, y and y vanish. */
-void point_hessian(const point *p, const double n[3], const double f[3], double QQ[16],
-                   double QS[16], double QY[12]);
+void exact_point_hessian(const exact_point *p, const double n[3], const double f[3], double QQ[16],
+                         double QS[16], double QY[12]);
 
 /* theta q as a matrix [4 x 3] on theta. */
-void point_turn(const double q[4], double P[12]);
+void exact_point_increment(const double q[4], double P[12]);
 
 #endif

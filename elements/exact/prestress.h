@@ -5,6 +5,6 @@
 #include "elements/exact/stages.h"
 
 /* Derivative of the condensed stiffness [8 x 8] with respect to the stresses sigma [8] in the undeformed geometry; dimensionless. */
-void prestress_stiffness(const stages *s, const double sigma[], double G[]);
+void exact_prestress_stiffness(const exact_stages *s, const double sigma[], double G[]);
 
 #endif

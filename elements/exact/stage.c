@@ -4,8 +4,8 @@
 
 #include "elements/math/dense.h"
 
-void stage_at(int nodes, const double N[], const double dN[], const double x[],
-              const double force[3], const double rest_kappa[3], stage *p)
+void exact_stage_at(int nodes, const double N[], const double dN[], const double x[],
+                    const double force[3], const double rest_kappa[3], exact_stage *p)
 {
     for (int j = 0; j < 3; j++) {
         p->x[j] = p->slope[j] = 0;
@@ -14,15 +14,15 @@ void stage_at(int nodes, const double N[], const double dN[], const double x[],
             p->slope[j] += dN[k] * x[3 * k + j];
         }
     }
-    turn_forms(vec3_dot(p->x, p->x), &p->orientation, &p->curvature);
-    turn_vector(&p->curvature, p->x, p->slope, p->kappa);
-    turn_vector(&p->orientation, p->x, force, p->N);
+    exact_milenkovic_forms(vec3_dot(p->x, p->x), &p->orientation, &p->curvature);
+    exact_milenkovic_vector(&p->curvature, p->x, p->slope, p->kappa);
+    exact_milenkovic_vector(&p->orientation, p->x, force, p->N);
     for (int j = 0; j < 3; j++)
         p->kappa[j] -= rest_kappa[j];
 }
 
-double stage_material(const constants *c, const double kappa[3], const double N[3], double T,
-                      double gradient[6], double M[36])
+double exact_stage_material(const exact_constants *c, const double kappa[3], const double N[3],
+                            double T, double gradient[6], double M[36])
 {
     const double k = kappa[0];
     const double ky = kappa[1] + c->bend_y * k * k / 2, kz = kappa[2] + c->bend_z * k * k / 2,
@@ -57,43 +57,44 @@ double stage_material(const constants *c, const double kappa[3], const double N[
            c->GJ * k * k / 2 + c->torque * k * k * k * k;
 }
 
-void stage_rows(const stage *p, const double force[3], double D[6][STAGE_SPACE])
+void exact_stage_rows(const exact_stage *p, const double force[3], double D[6][EXACT_STAGE_SPACE])
 {
     memset(D, 0, 6 * sizeof *D);
     for (int i = 0; i < 3; i++) {
         double unit[3] = {0};
         unit[i] = 1;
-        turn_gradient(&p->curvature, p->x, unit, p->slope, &D[i][STAGE_TURN], &D[i][STAGE_SLOPE]);
-        turn_gradient(&p->orientation, p->x, unit, force, &D[3 + i][STAGE_TURN],
-                      &D[3 + i][STAGE_FORCE]);
+        exact_milenkovic_gradient(&p->curvature, p->x, unit, p->slope,
+                                  &D[i][EXACT_STAGE_MILENKOVIC], &D[i][EXACT_STAGE_SLOPE]);
+        exact_milenkovic_gradient(&p->orientation, p->x, unit, force,
+                                  &D[3 + i][EXACT_STAGE_MILENKOVIC], &D[3 + i][EXACT_STAGE_FORCE]);
     }
 }
 
-void stage_hessian(const stage *p, const double force[3], const double gradient[6],
-                   const double M[36], double w, double D[6][STAGE_SPACE],
-                   double H[STAGE_SPACE][STAGE_SPACE])
+void exact_stage_hessian(const exact_stage *p, const double force[3], const double gradient[6],
+                         const double M[36], double w, double D[6][EXACT_STAGE_SPACE],
+                         double H[EXACT_STAGE_SPACE][EXACT_STAGE_SPACE])
 {
-    double MD[6][STAGE_SPACE], PP[9] = {0}, PS[9] = {0}, PF[9] = {0};
-    turn_add_hessian(&p->curvature, p->x, gradient, p->slope, PP, PS);
-    turn_add_hessian(&p->orientation, p->x, gradient + 3, force, PP, PF);
+    double MD[6][EXACT_STAGE_SPACE], PP[9] = {0}, PS[9] = {0}, PF[9] = {0};
+    exact_milenkovic_add_hessian(&p->curvature, p->x, gradient, p->slope, PP, PS);
+    exact_milenkovic_add_hessian(&p->orientation, p->x, gradient + 3, force, PP, PF);
     for (int i = 0; i < 6; i++)
-        for (int j = 0; j < STAGE_SPACE; j++) {
+        for (int j = 0; j < EXACT_STAGE_SPACE; j++) {
             MD[i][j] = 0;
             for (int k = 0; k < 6; k++)
                 MD[i][j] += w * M[6 * i + k] * D[k][j];
         }
-    for (int i = 0; i < STAGE_SPACE; i++)
-        for (int j = 0; j < STAGE_SPACE; j++) {
+    for (int i = 0; i < EXACT_STAGE_SPACE; i++)
+        for (int j = 0; j < EXACT_STAGE_SPACE; j++) {
             H[i][j] = 0;
             for (int k = 0; k < 6; k++)
                 H[i][j] += D[k][i] * MD[k][j];
         }
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
-            H[STAGE_TURN + i][STAGE_TURN + j] += w * PP[3 * i + j];
-            H[STAGE_TURN + i][STAGE_SLOPE + j] += w * PS[3 * i + j];
-            H[STAGE_SLOPE + j][STAGE_TURN + i] += w * PS[3 * i + j];
-            H[STAGE_TURN + i][STAGE_FORCE + j] += w * PF[3 * i + j];
-            H[STAGE_FORCE + j][STAGE_TURN + i] += w * PF[3 * i + j];
+            H[EXACT_STAGE_MILENKOVIC + i][EXACT_STAGE_MILENKOVIC + j] += w * PP[3 * i + j];
+            H[EXACT_STAGE_MILENKOVIC + i][EXACT_STAGE_SLOPE + j] += w * PS[3 * i + j];
+            H[EXACT_STAGE_SLOPE + j][EXACT_STAGE_MILENKOVIC + i] += w * PS[3 * i + j];
+            H[EXACT_STAGE_MILENKOVIC + i][EXACT_STAGE_FORCE + j] += w * PF[3 * i + j];
+            H[EXACT_STAGE_FORCE + j][EXACT_STAGE_MILENKOVIC + i] += w * PF[3 * i + j];
         }
 }

@@ -10,9 +10,9 @@
 #include "elements/math/rotation.h"
 
 /* Without bimoments: amplitudes, if there are any, that nothing depends on. */
-static void no_warping(const stages *s, const double e[], stages_derivatives *out)
+static void no_warping(const exact_stages *s, const double e[], exact_stages_derivatives *out)
 {
-    const int n = s->unknowns + STAGES_OUTER;
+    const int n = s->unknowns + EXACT_STAGES_OUTER;
     for (int i = s->unknowns + 6; i < n && s->c.warping; i++) {
         out->hessian[i * (n + 1)] = s->c.GJ;
         out->gradient[i] = s->c.GJ * e[i - s->unknowns];
@@ -20,13 +20,13 @@ static void no_warping(const stages *s, const double e[], stages_derivatives *ou
     }
 }
 
-void stages_evaluate(const stages *s, const double e[], const double inner[],
-                     stages_derivatives *out)
+void exact_stages_evaluate(const exact_stages *s, const double e[], const double inner[],
+                           exact_stages_derivatives *out)
 {
-    const int last = s->stages, n = s->unknowns + STAGES_OUTER;
-    double x[STAGES_NODES][3], Sz[WARPING_MAX] = {0};
-    stage p[STAGES_MAX];
-    sums a;
+    const int last = s->stages, n = s->unknowns + EXACT_STAGES_OUTER;
+    double x[EXACT_STAGES_NODES][3], Sz[EXACT_WARPING_MAX] = {0};
+    exact_stage p[EXACT_STAGES_MAX];
+    exact_sums a;
     memset(&a, 0, sizeof a);
     memset(out, 0, sizeof *out);
     memcpy(x[1], inner + 3, 3 * (size_t)(last - 1) * sizeof(double));
@@ -35,15 +35,16 @@ void stages_evaluate(const stages *s, const double e[], const double inner[],
         x[0][i] = -x[last][i];
     }
     for (int i = 0; i < last; i++)
-        stage_at(last + 1, s->N[i], s->dN[i], x[0], inner, s->rest_kappa[i], &p[i]);
+        exact_stage_at(last + 1, s->N[i], s->dN[i], x[0], inner, s->rest_kappa[i], &p[i]);
     if (s->warps)
-        sums_warping(s, e, p, &a, Sz);
+        exact_sums_warping(s, e, p, &a, Sz);
     for (int i = 0; i < last; i++) {
         double gradient[6], M[36];
-        out->P += s->w[i] * stage_material(&s->c, p[i].kappa, p[i].N, Sz[i] / s->w[i], gradient, M);
-        sums_add(s, i, &p[i], inner, gradient, M, &a);
+        out->P +=
+            s->w[i] * exact_stage_material(&s->c, p[i].kappa, p[i].N, Sz[i] / s->w[i], gradient, M);
+        exact_sums_add(s, i, &p[i], inner, gradient, M, &a);
     }
-    sums_gather(s, &a, out->gradient, out->hessian);
+    exact_sums_gather(s, &a, out->gradient, out->hessian);
     for (int i = 0; i < 3; i++) {
         const double v = s->rest_v[i] + e[i];
         out->P += inner[i] * v;
@@ -79,19 +80,20 @@ static void less_initial_strain(const element_request *request, double v[3])
         v[i] -= middle[i];
 }
 
-status stages_prepare(const element_request *request, int count, stages *out, fault *f)
+status exact_stages_prepare(const element_request *request, int count, exact_stages *out, fault *f)
 {
-    double point[STAGES_MAX], at[STAGES_NODES];
+    double point[EXACT_STAGES_MAX], at[EXACT_STAGES_NODES];
     const double pi = 3.14159265358979323846;
     memset(out, 0, sizeof *out);
-    const status outcome = constants_of(request, &out->c, f);
+    const status outcome = exact_constants_of(request, &out->c, f);
     if (outcome != STATUS_OK)
         return outcome;
     out->stages = count;
     out->unknowns = 3 * count;
     const double none[3] = {0};
-    strain_prepare(2, 1, request->length, request->curvature, none, MEASURE_EIGHTH, &out->line);
-    line_gauss(count, point, out->w);
+    exact_strain_prepare(2, 1, request->length, request->curvature, none, EXACT_MEASURE_EIGHTH,
+                         &out->line);
+    exact_line_gauss(count, point, out->w);
     const double turn = vec3_norm(request->curvature) * request->length;
     for (int k = 0; k <= count; k++) {
         at[k] = (1 - cos(pi * k / count)) /
@@ -101,22 +103,22 @@ status stages_prepare(const element_request *request, int count, stages *out, fa
             out->rest_x[k][i] = request->curvature[i] * request->length * length;
     }
     for (int i = 0; i < count; i++) {
-        stage p;
+        exact_stage p;
         double axis[3];
         const double unit[3] = {1, 0, 0},
                      strained[3] = {1 + request->strain[0], request->strain[1], request->strain[2]};
-        line_lagrange(count + 1, at, point[i], out->N[i], out->dN[i]);
-        stage_at(count + 1, out->N[i], out->dN[i], out->rest_x[0], unit, none, &p);
+        exact_line_lagrange(count + 1, at, point[i], out->N[i], out->dN[i]);
+        exact_stage_at(count + 1, out->N[i], out->dN[i], out->rest_x[0], unit, none, &p);
         memcpy(out->rest_kappa[i], p.kappa, sizeof p.kappa);
         for (int j = 0; j < 3; j++)
             p.x[j] = -p.x[j];
-        turn_vector(&p.orientation, p.x, strained, axis); /* R (e_x + g) */
+        exact_milenkovic_vector(&p.orientation, p.x, strained, axis); /* R (e_x + g) */
         for (int j = 0; j < 3; j++)
             out->rest_v[j] += out->w[i] * axis[j];
     }
     less_initial_strain(request, out->rest_v);
     out->warps = out->c.warping && out->c.EIw > 0;
     if (out->warps)
-        warping_energy(&out->c, count, point, out->w, out->S);
+        exact_warping_energy(&out->c, count, point, out->w, out->S);
     return STATUS_OK;
 }

@@ -2,7 +2,7 @@
  *
  * In the axes half way between its ends the element has the strains e of strain.h (two nodes): v, the vector from p to q, and
  * 2 X, 8 tan(angle/8) about the axis of the rotation from p to q; and the end amplitudes a.  Orientation is given by a vector x
- * (turn.h), a polynomial of degree p through -X, p - 1 inner values and X.  The force F is constant.  The potential
+ * (milenkovic.h), a polynomial of degree p through -X, p - 1 inner values and X.  The force F is constant.  The potential
  *
  *   P = F . v + sum_i w_i [-N_x - N_x^2/2EA - 1/2 (N_y, N_z) F (N_y, N_z) + (ys N_z - zs N_y) k + 1/2 rho^2 N_x k^2
  *                          + 1/2 EI_y kappa_y^2 + 1/2 EI_z kappa_z^2 + 1/2 GJ k^2 + c k^4] + warping (warping.h),
@@ -18,32 +18,33 @@
 #include "elements/exact/warping.h"
 
 enum {
-    STAGES_MAX = WARPING_MAX_STAGES,
-    STAGES_NODES = STAGES_MAX + 1,
-    STAGES_OUTER = 8,                 /* strains */
-    STAGES_UNKNOWNS = 3 * STAGES_MAX, /* F, inner x */
-    STAGES_ALL = STAGES_UNKNOWNS + STAGES_OUTER
+    EXACT_STAGES_MAX = EXACT_WARPING_MAX_STAGES,
+    EXACT_STAGES_NODES = EXACT_STAGES_MAX + 1,
+    EXACT_STAGES_OUTER = 8,                       /* strains */
+    EXACT_STAGES_UNKNOWNS = 3 * EXACT_STAGES_MAX, /* F, inner x */
+    EXACT_STAGES_ALL = EXACT_STAGES_UNKNOWNS + EXACT_STAGES_OUTER
 };
 
-typedef struct stages {
+typedef struct exact_stages {
     int stages, unknowns; /* unknowns: F (3), x of the inner nodes */
-    constants c;
-    strain_line line;
-    double w[STAGES_MAX], N[STAGES_MAX][STAGES_NODES], dN[STAGES_MAX][STAGES_NODES];
-    double rest_x[STAGES_NODES][3], rest_kappa[STAGES_MAX][3], rest_v[3];
+    exact_constants c;
+    exact_strain_line line;
+    double w[EXACT_STAGES_MAX], N[EXACT_STAGES_MAX][EXACT_STAGES_NODES],
+        dN[EXACT_STAGES_MAX][EXACT_STAGES_NODES];
+    double rest_x[EXACT_STAGES_NODES][3], rest_kappa[EXACT_STAGES_MAX][3], rest_v[3];
     int warps; /* 0: no warping energy */
-    double S[WARPING_MAX * WARPING_MAX];
-} stages;
+    double S[EXACT_WARPING_MAX * EXACT_WARPING_MAX];
+} exact_stages;
 
 /* Derivatives of P: gradient and Hessian with respect to unknowns, then (v, 2 X, a_p, a_q). */
-typedef struct stages_derivatives {
-    double P, gradient[STAGES_ALL], hessian[STAGES_ALL * STAGES_ALL];
-} stages_derivatives;
+typedef struct exact_stages_derivatives {
+    double P, gradient[EXACT_STAGES_ALL], hessian[EXACT_STAGES_ALL * EXACT_STAGES_ALL];
+} exact_stages_derivatives;
 
-status stages_prepare(const element_request *request, int count, stages *out, fault *f);
+status exact_stages_prepare(const element_request *request, int count, exact_stages *out, fault *f);
 
 /* e [8], inner [unknowns]; dimensionless. */
-void stages_evaluate(const stages *s, const double e[], const double inner[],
-                     stages_derivatives *out);
+void exact_stages_evaluate(const exact_stages *s, const double e[], const double inner[],
+                           exact_stages_derivatives *out);
 
 #endif

@@ -6,7 +6,8 @@
 #include "elements/exact/fields.h"
 #include "elements/math/dense.h"
 
-static void condense(const constants *c, const fields *f, const double X[], stiffness *out)
+static void condense(const exact_constants *c, const exact_fields *f, const double X[],
+                     exact_stiffness *out)
 {
     const int m = f->strains;
     const double unit = c->energy / (out->l0 * out->l0);
@@ -34,17 +35,17 @@ static void condense(const constants *c, const fields *f, const double X[], stif
     }
 }
 
-status stiffness_prepare(const element_request *request, int nodes, stiffness *out,
-                         fault *fault_out)
+status exact_stiffness_prepare(const element_request *request, int nodes, exact_stiffness *out,
+                               fault *fault_out)
 {
-    constants c;
-    fields f;
-    double X[FIELDS_MAX_ALL * STIFFNESS_MAX_STRAINS];
+    exact_constants c;
+    exact_fields f;
+    double X[EXACT_FIELDS_MAX_ALL * EXACT_STIFFNESS_MAX_STRAINS];
     memset(out, 0, sizeof *out);
-    const status outcome = constants_of(request, &c, fault_out);
+    const status outcome = exact_constants_of(request, &c, fault_out);
     if (outcome != STATUS_OK)
         return outcome;
-    fields_prepare(&c, nodes, &f);
+    exact_fields_prepare(&c, nodes, &f);
     out->strains = f.strains;
     out->points = f.points;
     out->field = f.field;
@@ -53,7 +54,7 @@ status stiffness_prepare(const element_request *request, int nodes, stiffness *o
     out->r[0] = c.trapeze;
     out->r[1] = c.bend_y;
     out->r[2] = c.bend_z;
-    if (fields_eliminate(&f, X) != 0)
+    if (exact_fields_eliminate(&f, X) != 0)
         return fault_set(
             fault_out, STATUS_REFUSED,
             "element of length %g m: its shear flexibility cannot be separated from bending",
@@ -68,7 +69,7 @@ static int entry(int g, int i)
     return 6 * g + (i == 0 ? 0 : 3 + i);
 }
 
-static double along(const stiffness *k, const double stress[], int g)
+static double along(const exact_stiffness *k, const double stress[], int g)
 {
     double sum = 0;
     for (int i = 0; i < 3; i++)
@@ -77,11 +78,11 @@ static double along(const stiffness *k, const double stress[], int g)
 }
 
 /* C += S r_g t_g^T + t_g (S r_g)^T + t_g (r_g . S r_h) t_h^T + tau_g Q_g */
-static void add_modified_tangent(const stiffness *k, double t[][STIFFNESS_MAX_STRAINS],
+static void add_modified_tangent(const exact_stiffness *k, double t[][EXACT_STIFFNESS_MAX_STRAINS],
                                  const double tau[], double C[])
 {
     const int n = k->strains;
-    double Sr[STRAIN_MAX_POINTS][STIFFNESS_MAX_STRAINS] = {{0}};
+    double Sr[EXACT_STRAIN_MAX_POINTS][EXACT_STIFFNESS_MAX_STRAINS] = {{0}};
     for (int g = 0; g < k->points; g++)
         for (int j = 0; j < n; j++)
             for (int i = 0; i < 3; i++)
@@ -101,7 +102,7 @@ static void add_modified_tangent(const stiffness *k, double t[][STIFFNESS_MAX_ST
 }
 
 /* Wagner torque: energy sum torque_i (twist_i . e)^4. */
-static double add_torque(const stiffness *k, const double e[], double sigma[], double C[])
+static double add_torque(const exact_stiffness *k, const double e[], double sigma[], double C[])
 {
     const int n = k->strains;
     double energy = 0;
@@ -122,11 +123,12 @@ static double add_torque(const stiffness *k, const double e[], double sigma[], d
     return energy;
 }
 
-status stiffness_stress(const stiffness *k, const double e[], stress_output *out)
+status exact_stiffness_stress(const exact_stiffness *k, const double e[], stress_output *out)
 {
     const int n = k->strains;
-    double modified[STIFFNESS_MAX_STRAINS], stress[STIFFNESS_MAX_STRAINS],
-        t[STRAIN_MAX_POINTS][STIFFNESS_MAX_STRAINS], tau[STRAIN_MAX_POINTS], energy = 0;
+    double modified[EXACT_STIFFNESS_MAX_STRAINS], stress[EXACT_STIFFNESS_MAX_STRAINS],
+        t[EXACT_STRAIN_MAX_POINTS][EXACT_STIFFNESS_MAX_STRAINS], tau[EXACT_STRAIN_MAX_POINTS],
+        energy = 0;
     memcpy(modified, e, (size_t)n * sizeof *e);
     for (int g = 0; g < k->points && k->modified; g++) {
         double half = 0;
@@ -159,7 +161,7 @@ status stiffness_stress(const stiffness *k, const double e[], stress_output *out
     return STATUS_OK;
 }
 
-void stiffness_geometric(const stiffness *k, const double sigma[], double G[])
+void exact_stiffness_geometric(const exact_stiffness *k, const double sigma[], double G[])
 {
     const int n = k->strains;
     memset(G, 0, (size_t)(n * n) * sizeof *G);

@@ -17,25 +17,28 @@
 #include "elements/exact/strain.h"
 
 enum {
-    STIFFNESS_MAX_STRAINS = 6 * STRAIN_MAX_POINTS + ELEMENT_MAX_NODES,
-    STIFFNESS_MAX_FIELD = 4 * STRAIN_MAX_POINTS + 1
+    EXACT_STIFFNESS_MAX_STRAINS = 6 * EXACT_STRAIN_MAX_POINTS + ELEMENT_MAX_NODES,
+    EXACT_STIFFNESS_MAX_FIELD = 4 * EXACT_STRAIN_MAX_POINTS + 1
 };
 
-typedef struct stiffness {
+typedef struct exact_stiffness {
     int strains, points, field;
     double l0;
-    int modified;                                            /* 0: ebar = e */
-    double S[STIFFNESS_MAX_STRAINS * STIFFNESS_MAX_STRAINS]; /* [N/m] */
-    double Q[STRAIN_MAX_POINTS][STIFFNESS_MAX_STRAINS *
-                                STIFFNESS_MAX_STRAINS]; /* [1/m]: mean of kappa_x^2 about a point */
-    double r[3];                        /* on gamma_x, kappa_y, kappa_z of the point */
-    double torque[STIFFNESS_MAX_FIELD]; /* weight of kappa_x^4 [N/m^3] */
-    double twist[STIFFNESS_MAX_FIELD][STIFFNESS_MAX_STRAINS]; /* l0^2 kappa_x = twist . e */
-} stiffness;
+    int modified;                                                        /* 0: ebar = e */
+    double S[EXACT_STIFFNESS_MAX_STRAINS * EXACT_STIFFNESS_MAX_STRAINS]; /* [N/m] */
+    double Q[EXACT_STRAIN_MAX_POINTS]
+            [EXACT_STIFFNESS_MAX_STRAINS *
+             EXACT_STIFFNESS_MAX_STRAINS];    /* [1/m]: mean of kappa_x^2 about a point */
+    double r[3];                              /* on gamma_x, kappa_y, kappa_z of the point */
+    double torque[EXACT_STIFFNESS_MAX_FIELD]; /* weight of kappa_x^4 [N/m^3] */
+    double twist[EXACT_STIFFNESS_MAX_FIELD]
+                [EXACT_STIFFNESS_MAX_STRAINS]; /* l0^2 kappa_x = twist . e */
+} exact_stiffness;
 
-status stiffness_prepare(const element_request *request, int nodes, stiffness *out, fault *f);
-status stiffness_stress(const stiffness *k, const double e[], stress_output *out);
+status exact_stiffness_prepare(const element_request *request, int nodes, exact_stiffness *out,
+                               fault *f);
+status exact_stiffness_stress(const exact_stiffness *k, const double e[], stress_output *out);
 /* Derivative of C at e = 0 with respect to the strains that make the prestress sigma, its geometric part. */
-void stiffness_geometric(const stiffness *k, const double sigma[], double G[]);
+void exact_stiffness_geometric(const exact_stiffness *k, const double sigma[], double G[]);
 
 #endif

@@ -16,8 +16,8 @@ typedef struct nodes {
     double r[ELEMENT_MAX_NODES][3], u[ELEMENT_MAX_NODES][3]; /* per l0 */
 } nodes;
 
-static void observe(const strain_line *line, const nodes *s, int g, point *p, double y[3],
-                    double dy[3])
+static void observe(const exact_strain_line *line, const nodes *s, int g, exact_point *p,
+                    double y[3], double dy[3])
 {
     for (int i = 0; i < 3; i++) {
         y[i] = dy[i] = 0;
@@ -26,7 +26,7 @@ static void observe(const strain_line *line, const nodes *s, int g, point *p, do
             dy[i] += line->dN[g][k] * s->u[k][i];
         }
     }
-    point_at(line->nodes, s->q[0], line->N[g], line->dN[g], y, p);
+    exact_point_at(line->nodes, s->q[0], line->N[g], line->dN[g], y, p);
 }
 
 /* v - v0; the part along x from |v|^2 - |v0|^2 = (2 y0 + dy) . dy, so that a small elongation is no difference of lengths. */
@@ -40,12 +40,12 @@ static void stretch(const double v[3], const double v0[3], const double y[3], co
     e[0] = v[0] + v0[0] > 1 ? squares / (v[0] + v0[0]) : v[0] - v0[0];
 }
 
-static void strains_at(const strain_line *line, int g, const point *p, const double y[3],
-                       const double dy[3], double e[6])
+static void strains_at(const exact_strain_line *line, int g, const exact_point *p,
+                       const double y[3], const double dy[3], double e[6])
 {
     double psi[3], T[9];
     stretch(p->v, line->rest[g], y, dy, e);
-    measure_of(line->rotation, p->kappa, psi, T);
+    exact_measure_of(line->rotation, p->kappa, psi, T);
     for (int i = 0; i < 3; i++) {
         e[i] = line->l0 * (e[i] - line->initial[g][i]);
         e[3 + i] = line->l0 * (psi[i] - line->rest[g][3 + i]);
@@ -53,17 +53,18 @@ static void strains_at(const strain_line *line, int g, const point *p, const dou
 }
 
 /* Six rows of J, those of point g. */
-static void first(const strain_line *line, const nodes *s, int g, const point *p, double J[])
+static void first(const exact_strain_line *line, const nodes *s, int g, const exact_point *p,
+                  double J[])
 {
     const double none[3] = {0}, l0 = line->l0;
     const int n = 7 * line->nodes;
     double T[9], psi[3];
-    measure_of(line->rotation, p->kappa, psi, T);
+    exact_measure_of(line->rotation, p->kappa, psi, T);
     for (int row = 0; row < 6; row++) {
         double Q[4], S[4], unit[3] = {0}, inverse[4], weight[4], turn[4];
         if (row < 3)
             unit[row] = 1;
-        point_gradient(p, row < 3 ? none : &T[3 * (row - 3)], unit, Q, S);
+        exact_point_gradient(p, row < 3 ? none : &T[3 * (row - 3)], unit, Q, S);
         for (int k = 0; k < line->nodes; k++) {
             double *out = &J[row * n + 7 * k];
             for (int i = 0; i < 4; i++)
@@ -81,7 +82,7 @@ static void first(const strain_line *line, const nodes *s, int g, const point *p
 }
 
 /* H += second derivatives of f . v + n . kappa between nodes k and l; both weights in [N m]. */
-static void second_of_pair(const strain_line *line, const nodes *s, int g, int k, int l,
+static void second_of_pair(const exact_strain_line *line, const nodes *s, int g, int k, int l,
                            const double QQ[16], const double QS[16], const double QY[12],
                            double H[])
 {
@@ -92,8 +93,8 @@ static void second_of_pair(const strain_line *line, const nodes *s, int g, int k
         for (int j = 0; j < 4; j++)
             X[4 * i + j] =
                 (Nk * Nl * QQ[4 * i + j] + Nk * dl * QS[4 * i + j] + dk * Nl * QS[4 * j + i]) / 4;
-    point_turn(s->q[k], Pk);
-    point_turn(s->q[l], Pl);
+    exact_point_increment(s->q[k], Pk);
+    exact_point_increment(s->q[l], Pl);
     dense_mul(4, 4, 3, X, Pl, XP);
     dense_add_transpose_mul(3, 4, 3, Pk, XP, block);
     dense_add_transpose_mul(3, 4, 3, Pk, QY, mixed);
@@ -106,7 +107,7 @@ static void second_of_pair(const strain_line *line, const nodes *s, int g, int k
         }
 }
 
-static void second(const strain_line *line, const nodes *s, int g, const point *p,
+static void second(const exact_strain_line *line, const nodes *s, int g, const exact_point *p,
                    const double weight[6], const double J[], double H[])
 {
     const int n = 7 * line->nodes;
@@ -115,13 +116,13 @@ static void second(const strain_line *line, const nodes *s, int g, const point *
         stretching[i] = line->l0 * weight[i];
         turn[i] = line->l0 * weight[3 + i];
     }
-    if (line->rotation != MEASURE_QUARTER) {
+    if (line->rotation != EXACT_MEASURE_QUARTER) {
         /* n . psi(x): T^T n takes n's place, and the second derivative of psi meets dx = T^-1 J twice. */
         double psi[3], T[9], inner[9], inverse[9], bent[9], dx[3 * 7 * ELEMENT_MAX_NODES],
             weighted[3];
         int pivot[3];
-        measure_of(line->rotation, p->kappa, psi, T);
-        measure_second(line->rotation, p->kappa, turn, inner);
+        exact_measure_of(line->rotation, p->kappa, psi, T);
+        exact_measure_second(line->rotation, p->kappa, turn, inner);
         memcpy(inverse, T, sizeof inverse);
         memcpy(dx, &J[3 * n], 3 * (size_t)n * sizeof *dx);
         dense_lu(3, inverse, pivot); /* every measure grows with the angle: never singular */
@@ -133,8 +134,8 @@ static void second(const strain_line *line, const nodes *s, int g, const point *
         mat3_transpose_mul_vec(T, turn, weighted);
         memcpy(turn, weighted, sizeof turn);
     }
-    point_gradient(p, turn, stretching, Q, S);
-    point_hessian(p, turn, stretching, QQ, QS, QY);
+    exact_point_gradient(p, turn, stretching, Q, S);
+    exact_point_hessian(p, turn, stretching, QQ, QS, QY);
     for (int k = 0; k < line->nodes; k++) {
         double curved = 0;
         for (int i = 0; i < 4; i++)
@@ -146,7 +147,7 @@ static void second(const strain_line *line, const nodes *s, int g, const point *
     }
 }
 
-void strain_of(const strain_line *line, const node_state x[], strain_output *out)
+void exact_strain_of(const exact_strain_line *line, const node_state x[], strain_output *out)
 {
     const int n = 7 * line->nodes, first_a = 6 * line->points;
     nodes s;
@@ -157,11 +158,11 @@ void strain_of(const strain_line *line, const node_state x[], strain_output *out
             s.u[k][i] = (x[k].u[i] - x[0].u[i]) / line->l0;
         }
     }
-    point_align(line->nodes, s.q);
+    exact_point_align(line->nodes, s.q);
     if (out->H != NULL)
         memset(out->H, 0, (size_t)(n * n) * sizeof *out->H);
     for (int g = 0; g < line->points; g++) {
-        point p;
+        exact_point p;
         double y[3], dy[3], e[6], rows[6 * 7 * ELEMENT_MAX_NODES];
         observe(line, &s, g, &p, y, dy);
         strains_at(line, g, &p, y, dy, e);
@@ -186,40 +187,41 @@ void strain_of(const strain_line *line, const node_state x[], strain_output *out
 }
 
 /* R^T r' and measures of rotation at the points, of nodes along the arc without stress. */
-static void observe_rest(strain_line *line, const double turn[3], const double e[3],
-                         const double at[], double rest[STRAIN_MAX_POINTS][6])
+static void observe_rest(exact_strain_line *line, const double turn[3], const double e[3],
+                         const double at[], double rest[EXACT_STRAIN_MAX_POINTS][6])
 {
     nodes s;
     memset(s.u, 0, sizeof s.u);
     for (int k = 0; k < line->nodes; k++)
         arc_at(turn, e, at[k], s.r[k], s.q[k]);
     for (int g = 0; g < line->points; g++) {
-        point p;
+        exact_point p;
         double y[3], dy[3], T[9];
         observe(line, &s, g, &p, y, dy);
         memcpy(rest[g], p.v, sizeof p.v);
-        measure_of(line->rotation, p.kappa, &rest[g][3], T);
+        exact_measure_of(line->rotation, p.kappa, &rest[g][3], T);
     }
 }
 
-void strain_prepare(int nodes_count, int points, double l0, const double curvature[3],
-                    const double strain[3], measure_kind rotation, strain_line *line)
+void exact_strain_prepare(int nodes_count, int points, double l0, const double curvature[3],
+                          const double strain[3], exact_measure_kind rotation,
+                          exact_strain_line *line)
 {
     const double turn[3] = {curvature[0] * l0, curvature[1] * l0, curvature[2] * l0},
                  along[3] = {1, 0, 0};
     const double strained[3] = {1 + strain[0], strain[1], strain[2]};
-    double x[STRAIN_MAX_POINTS], w[STRAIN_MAX_POINTS], at[ELEMENT_MAX_NODES] = {0},
-                                                       without[STRAIN_MAX_POINTS][6];
+    double x[EXACT_STRAIN_MAX_POINTS], w[EXACT_STRAIN_MAX_POINTS],
+        at[ELEMENT_MAX_NODES] = {0}, without[EXACT_STRAIN_MAX_POINTS][6];
     memset(line, 0, sizeof *line);
     line->nodes = nodes_count;
     line->points = points;
     line->l0 = l0;
     line->rotation = rotation;
-    line_gauss(points, x, w);
+    exact_line_gauss(points, x, w);
     for (int k = 0; k < nodes_count; k++)
         at[k] = (double)k / (nodes_count - 1);
     for (int g = 0; g < points; g++)
-        line_lagrange(nodes_count, at, x[g], line->N[g], line->dN[g]);
+        exact_line_lagrange(nodes_count, at, x[g], line->N[g], line->dN[g]);
     observe_rest(line, turn, along, at, line->rest);
     observe_rest(line, turn, strained, at, without);
     for (int g = 0; g < points; g++)

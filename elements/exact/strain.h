@@ -8,24 +8,25 @@
 #include "elements/element.h"
 #include "elements/exact/measure.h"
 
-enum { STRAIN_MAX_POINTS = 2 };
+enum { EXACT_STRAIN_MAX_POINTS = 2 };
 
-typedef struct strain_line {
+typedef struct exact_strain_line {
     int nodes, points;
     double l0; /* [m] */
-    measure_kind rotation;
-    double N[STRAIN_MAX_POINTS][ELEMENT_MAX_NODES],
-        dN[STRAIN_MAX_POINTS][ELEMENT_MAX_NODES]; /* dN: per l0 */
-    double initial[STRAIN_MAX_POINTS]
+    exact_measure_kind rotation;
+    double N[EXACT_STRAIN_MAX_POINTS][ELEMENT_MAX_NODES],
+        dN[EXACT_STRAIN_MAX_POINTS][ELEMENT_MAX_NODES]; /* dN: per l0 */
+    double initial[EXACT_STRAIN_MAX_POINTS]
                   [3]; /* what R^T r' is more than `rest` where the element is free of stress */
-    double rest[STRAIN_MAX_POINTS][6]; /* R^T r' and l0 kappa undeformed, dimensionless */
-} strain_line;
+    double rest[EXACT_STRAIN_MAX_POINTS][6]; /* R^T r' and l0 kappa undeformed, dimensionless */
+} exact_strain_line;
 
 /* Gauss points between evenly spaced nodes; initial curvature [1/m] and strain, constant: what the nodes of the stress-free
  * element show at the points is no strain, whatever the arc. */
-void strain_prepare(int nodes, int points, double l0, const double curvature[3],
-                    const double strain[3], measure_kind rotation, strain_line *line);
+void exact_strain_prepare(int nodes, int points, double l0, const double curvature[3],
+                          const double strain[3], exact_measure_kind rotation,
+                          exact_strain_line *line);
 
-void strain_of(const strain_line *line, const node_state x[], strain_output *out);
+void exact_strain_of(const exact_strain_line *line, const node_state x[], strain_output *out);
 
 #endif

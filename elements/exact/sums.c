@@ -5,7 +5,7 @@
 #include "elements/math/dense.h"
 
 /* x at node k is `factor` times the variables from `first` on: its own, or 2 X. */
-static int variables(const stages *s, int k, double *factor)
+static int variables(const exact_stages *s, int k, double *factor)
 {
     const int end = k == 0 || k == s->stages;
     *factor = !end ? 1 : k == 0 ? -0.5 : 0.5;
@@ -13,20 +13,21 @@ static int variables(const stages *s, int k, double *factor)
 }
 
 static void add_point(int nodes, const double N[], const double dN[],
-                      const double gradient[STAGE_SPACE], double H[STAGE_SPACE][STAGE_SPACE],
-                      sums *a)
+                      const double gradient[EXACT_STAGE_SPACE],
+                      double H[EXACT_STAGE_SPACE][EXACT_STAGE_SPACE], exact_sums *a)
 {
     for (int l = 0; l < nodes; l++) {
         double turn[9], slope[9];
         for (int i = 0; i < 3; i++) {
-            a->g[l][i] += N[l] * gradient[STAGE_TURN + i] + dN[l] * gradient[STAGE_SLOPE + i];
+            a->g[l][i] += N[l] * gradient[EXACT_STAGE_MILENKOVIC + i] +
+                          dN[l] * gradient[EXACT_STAGE_SLOPE + i];
             for (int j = 0; j < 3; j++) {
-                turn[3 * i + j] = H[STAGE_TURN + i][STAGE_TURN + j] * N[l] +
-                                  H[STAGE_TURN + i][STAGE_SLOPE + j] * dN[l];
-                slope[3 * i + j] = H[STAGE_SLOPE + i][STAGE_TURN + j] * N[l] +
-                                   H[STAGE_SLOPE + i][STAGE_SLOPE + j] * dN[l];
-                a->Y[l][3 * i + j] += N[l] * H[STAGE_TURN + i][STAGE_FORCE + j] +
-                                      dN[l] * H[STAGE_SLOPE + i][STAGE_FORCE + j];
+                turn[3 * i + j] = H[EXACT_STAGE_MILENKOVIC + i][EXACT_STAGE_MILENKOVIC + j] * N[l] +
+                                  H[EXACT_STAGE_MILENKOVIC + i][EXACT_STAGE_SLOPE + j] * dN[l];
+                slope[3 * i + j] = H[EXACT_STAGE_SLOPE + i][EXACT_STAGE_MILENKOVIC + j] * N[l] +
+                                   H[EXACT_STAGE_SLOPE + i][EXACT_STAGE_SLOPE + j] * dN[l];
+                a->Y[l][3 * i + j] += N[l] * H[EXACT_STAGE_MILENKOVIC + i][EXACT_STAGE_FORCE + j] +
+                                      dN[l] * H[EXACT_STAGE_SLOPE + i][EXACT_STAGE_FORCE + j];
             }
         }
         for (int k = 0; k <= l; k++)
@@ -34,36 +35,37 @@ static void add_point(int nodes, const double N[], const double dN[],
                 a->X[k][l][i] += N[k] * turn[i] + dN[k] * slope[i];
     }
     for (int i = 0; i < 3; i++) {
-        a->gF[i] += gradient[STAGE_FORCE + i];
+        a->gF[i] += gradient[EXACT_STAGE_FORCE + i];
         for (int j = 0; j < 3; j++)
-            a->FF[3 * i + j] += H[STAGE_FORCE + i][STAGE_FORCE + j];
+            a->FF[3 * i + j] += H[EXACT_STAGE_FORCE + i][EXACT_STAGE_FORCE + j];
     }
 }
 
 /* Row of the warping energy's argument at point i: kappa_x less the warping shear that Q_y and Q_z make. */
-static void warping_row(const stages *s, int i, double D[6][STAGE_SPACE], sums *a)
+static void warping_row(const exact_stages *s, int i, double D[6][EXACT_STAGE_SPACE], exact_sums *a)
 {
-    double row[STAGE_SPACE], *dz = &a->dz[i * (s->unknowns + STAGES_OUTER)];
-    for (int j = 0; j < STAGE_SPACE; j++)
+    double row[EXACT_STAGE_SPACE], *dz = &a->dz[i * (s->unknowns + EXACT_STAGES_OUTER)];
+    for (int j = 0; j < EXACT_STAGE_SPACE; j++)
         row[j] = D[0][j] - s->c.F[6] * D[4][j] - s->c.F[7] * D[5][j];
     for (int k = 0; k <= s->stages; k++) {
         double factor;
         const int first = variables(s, k, &factor);
         for (int j = 0; j < 3; j++)
-            dz[first + j] +=
-                factor * (s->N[i][k] * row[STAGE_TURN + j] + s->dN[i][k] * row[STAGE_SLOPE + j]);
+            dz[first + j] += factor * (s->N[i][k] * row[EXACT_STAGE_MILENKOVIC + j] +
+                                       s->dN[i][k] * row[EXACT_STAGE_SLOPE + j]);
     }
     for (int j = 0; j < 3; j++)
-        dz[j] += row[STAGE_FORCE + j];
+        dz[j] += row[EXACT_STAGE_FORCE + j];
 }
 
-void sums_add(const stages *s, int i, const stage *p, const double force[3],
-              const double gradient[6], const double M[36], sums *a)
+void exact_sums_add(const exact_stages *s, int i, const exact_stage *p, const double force[3],
+                    const double gradient[6], const double M[36], exact_sums *a)
 {
-    double D[6][STAGE_SPACE], H[STAGE_SPACE][STAGE_SPACE], slope[STAGE_SPACE] = {0};
-    stage_rows(p, force, D);
-    stage_hessian(p, force, gradient, M, s->w[i], D, H);
-    for (int j = 0; j < STAGE_SPACE; j++)
+    double D[6][EXACT_STAGE_SPACE], H[EXACT_STAGE_SPACE][EXACT_STAGE_SPACE],
+        slope[EXACT_STAGE_SPACE] = {0};
+    exact_stage_rows(p, force, D);
+    exact_stage_hessian(p, force, gradient, M, s->w[i], D, H);
+    for (int j = 0; j < EXACT_STAGE_SPACE; j++)
         for (int k = 0; k < 6; k++)
             slope[j] += s->w[i] * gradient[k] * D[k][j];
     add_point(s->stages + 1, s->N[i], s->dN[i], slope, H, a);
@@ -71,9 +73,10 @@ void sums_add(const stages *s, int i, const stage *p, const double force[3],
         warping_row(s, i, D, a);
 }
 
-void sums_warping(const stages *s, const double e[], const stage p[], sums *a, double Sz[])
+void exact_sums_warping(const exact_stages *s, const double e[], const exact_stage p[],
+                        exact_sums *a, double Sz[])
 {
-    const int m = s->stages, n = s->unknowns + STAGES_OUTER;
+    const int m = s->stages, n = s->unknowns + EXACT_STAGES_OUTER;
     for (int i = 0; i < m; i++)
         a->z[i] = p[i].kappa[0] - s->c.F[6] * p[i].N[1] - s->c.F[7] * p[i].N[2];
     a->z[m] = e[6];
@@ -82,9 +85,10 @@ void sums_warping(const stages *s, const double e[], const stage p[], sums *a, d
     dense_mul_vec(m + 2, m + 2, s->S, a->z, Sz);
 }
 
-void sums_gather(const stages *s, const sums *a, double gradient[], double hessian[])
+void exact_sums_gather(const exact_stages *s, const exact_sums *a, double gradient[],
+                       double hessian[])
 {
-    const int n = s->unknowns + STAGES_OUTER;
+    const int n = s->unknowns + EXACT_STAGES_OUTER;
     double *K = hessian, row_factor, column_factor;
     for (int k = 0; k <= s->stages; k++) {
         const int row = variables(s, k, &row_factor);
@@ -112,12 +116,13 @@ void sums_gather(const stages *s, const sums *a, double gradient[], double hessi
             K[i * n + j] += a->FF[3 * i + j];
     }
     if (s->warps) {
-        double work[WARPING_MAX * STAGES_ALL];
+        double work[EXACT_WARPING_MAX * EXACT_STAGES_ALL];
         dense_add_congruence(s->stages + 2, n, a->dz, s->S, K, work);
     }
 }
 
-void sums_follow(const stages *s, int i, const double change[], double x[3], double slope[3])
+void exact_sums_change(const exact_stages *s, int i, const double change[], double x[3],
+                       double slope[3])
 {
     memset(x, 0, 3 * sizeof *x);
     memset(slope, 0, 3 * sizeof *slope);

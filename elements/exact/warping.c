@@ -7,7 +7,7 @@
 #include "elements/math/dense.h"
 
 enum {
-    STAGES = WARPING_MAX_STAGES,
+    STAGES = EXACT_WARPING_MAX_STAGES,
     POLYNOMIALS =
         20, /* resolve layers up to lambda = SHORT to rounding: their energy errs by the square of the amplitude's error */
     BUBBLES = POLYNOMIALS,
@@ -59,7 +59,7 @@ static void graded_points(double lambda, double x[], double rest[], double w[])
         at[i] = step[i] * thickness;
         at[INTERVALS - i] = at[i]; /* from the other end */
     }
-    line_gauss(ORDER, gauss, weight);
+    exact_line_gauss(ORDER, gauss, weight);
     for (int i = 0; i < INTERVALS; i++)
         for (int g = 0; g < ORDER; g++) {
             const int k = i * ORDER + g, middle = INTERVALS / 2, from_q = i > middle;
@@ -72,7 +72,7 @@ static void graded_points(double lambda, double x[], double rest[], double w[])
 }
 
 /* Mean[stages][functions]: P of every function at the stages; K: 2 x energy of their slopes and of what P does not see. */
-static void integrate(const constants *c, const basis *b, int stages, const double x[],
+static void integrate(const exact_constants *c, const basis *b, int stages, const double x[],
                       const double w[], double mean[STAGES * FUNCTIONS],
                       double K[FUNCTIONS * FUNCTIONS])
 {
@@ -85,7 +85,7 @@ static void integrate(const constants *c, const basis *b, int stages, const doub
         for (int k = 0; k < POINTS; k++) {
             double value[FUNCTIONS], slope[FUNCTIONS], L[STAGES];
             functions_at(b, at[k], rest[k], value, slope);
-            line_lagrange(stages, x, at[k], L, NULL);
+            exact_line_lagrange(stages, x, at[k], L, NULL);
             for (int i = 0; i < stages; i++)
                 for (int j = 0; j < n; j++)
                     if (pass == 0)
@@ -99,16 +99,16 @@ static void integrate(const constants *c, const basis *b, int stages, const doub
         }
 }
 
-void warping_energy(const constants *c, int stages, const double x[], const double w[],
-                    double S[WARPING_MAX * WARPING_MAX])
+void exact_warping_energy(const exact_constants *c, int stages, const double x[], const double w[],
+                          double S[EXACT_WARPING_MAX * EXACT_WARPING_MAX])
 {
     enum { SIZE = BUBBLES + STAGES };
     const double lambda = sqrt(c->GJ / c->EIw);
     const int layers = lambda > lambda_short;
     const basis b = {.layers = layers, .bubbles = layers ? stages + 3 : BUBBLES, .lambda = lambda};
     const int n = b.bubbles + 2, m = stages + 2, size = b.bubbles + stages;
-    double mean[STAGES * FUNCTIONS], K[FUNCTIONS * FUNCTIONS], A[SIZE * SIZE] = {0},
-                                                                        X[SIZE * WARPING_MAX] = {0};
+    double mean[STAGES * FUNCTIONS], K[FUNCTIONS * FUNCTIONS],
+        A[SIZE * SIZE] = {0}, X[SIZE * EXACT_WARPING_MAX] = {0};
     int pivot[SIZE];
     integrate(c, &b, stages, x, w, mean, K);
     /* Unknown: bubbles and w T, T the warping torque at the stages: 1/2 a K a + T w (kappa - P a) - 1/2 flexibility w T^2. */
@@ -132,7 +132,7 @@ void warping_energy(const constants *c, int stages, const double x[], const doub
         pivot); /* never singular: K is positive definite on the bubbles, which outnumber the stages */
     dense_lu_solve(size, m, A, pivot, X);
     /* The gradient with respect to z: w T at the stages, and K a - P^T w T at the ends. */
-    memset(S, 0, WARPING_MAX * WARPING_MAX * sizeof *S);
+    memset(S, 0, EXACT_WARPING_MAX * EXACT_WARPING_MAX * sizeof *S);
     for (int j = 0; j < m; j++) {
         for (int i = 0; i < stages; i++)
             S[i * m + j] = X[(b.bubbles + i) * m + j];

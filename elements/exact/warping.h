@@ -8,11 +8,11 @@
 
 #include "elements/exact/constants.h"
 
-enum { WARPING_MAX_STAGES = 8, WARPING_MAX = WARPING_MAX_STAGES + 2 };
+enum { EXACT_WARPING_MAX_STAGES = 8, EXACT_WARPING_MAX = EXACT_WARPING_MAX_STAGES + 2 };
 
 /* Energy 1/2 z . S z beyond GJ kappa^2/2 at the points, with z = (twist rate less the shear that Q_y and Q_z make, at the stages;
  * amplitude at p, at q).  x, w [stages]: Gauss points and weights. */
-void warping_energy(const constants *c, int stages, const double x[], const double w[],
-                    double S[WARPING_MAX * WARPING_MAX]);
+void exact_warping_energy(const exact_constants *c, int stages, const double x[], const double w[],
+                          double S[EXACT_WARPING_MAX * EXACT_WARPING_MAX]);
 
 #endif

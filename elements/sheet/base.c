@@ -6,45 +6,48 @@
 #include "elements/sheet/elastic.h"
 #include "elements/sheet/fields.h"
 
-static const base_data *data_of(const element_data *d)
+static const sheet_base_data *data_of(const element_data *d)
 {
-    return (const base_data *)(const void *)d;
+    return (const sheet_base_data *)(const void *)d;
 }
 
-status base_prepare(const element_request *request, base_shear shear, base_data *out, fault *f)
+status sheet_base_prepare(const element_request *request, sheet_base_shear shear,
+                          sheet_base_data *out, fault *f)
 {
     const double l0 = request->length;
-    const int flexible = (request->features & FEATURE_SHEAR) != 0, whole = shear == BASE_CONSISTENT;
+    const int flexible = (request->features & FEATURE_SHEAR) != 0,
+              whole = shear == SHEET_BASE_CONSISTENT;
     section c = *request->section;
     memset(out, 0, sizeof *out);
-    if (!fields_warp(request))
+    if (!sheet_fields_warp(request))
         c.Iw = 0;
-    const double Phi_y = flexible ? elastic_phi_y(&c, l0) : 0,
-                 Phi_z = flexible ? elastic_phi_z(&c, l0) : 0;
-    status made = strains_prepare(request, whole ? Phi_y : 0, whole ? Phi_z : 0, &out->table, f);
+    const double Phi_y = flexible ? sheet_elastic_phi_y(&c, l0) : 0,
+                 Phi_z = flexible ? sheet_elastic_phi_z(&c, l0) : 0;
+    status made =
+        sheet_strains_prepare(request, whole ? Phi_y : 0, whole ? Phi_z : 0, &out->table, f);
     if (made == STATUS_OK)
-        made = wagner_prepare(request, &out->wagner, f);
+        made = sheet_wagner_prepare(request, &out->wagner, f);
     if (made != STATUS_OK)
         return made;
-    elastic_stiffness(&c, l0, Phi_y, Phi_z, out->S);
+    sheet_elastic_stiffness(&c, l0, Phi_y, Phi_z, out->S);
     for (int i = 0; i < SHEET_STRAINS * SHEET_STRAINS; i++)
         if (!isfinite(out->S[i]))
             return fault_set(f, STATUS_REFUSED,
                              "element of length %g m: its stiffness overflows; use fewer elements",
                              l0);
-    strains_set_rest(request, &out->table);
+    sheet_strains_set_rest(request, &out->table);
     if (request->features & FEATURE_MASS)
         out->lumped = lumped_of(request->section, request->features, l0);
     return STATUS_OK;
 }
 
-void base_strain(const element_data *d, const node_state x[], strain_output *out)
+void sheet_base_strain(const element_data *d, const node_state x[], strain_output *out)
 {
-    strains_evaluate(&data_of(d)->table, x, out);
+    sheet_strains_evaluate(&data_of(d)->table, x, out);
 }
 
-status base_inertia(const element_data *d, const node_state x[], const element_spin *spin,
-                    inertia_output *out)
+status sheet_base_inertia(const element_data *d, const node_state x[], const element_spin *spin,
+                          inertia_output *out)
 {
     return lumped_element(&data_of(d)->lumped, 2, x, spin, out);
 }

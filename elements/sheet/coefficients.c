@@ -20,47 +20,48 @@
 /* Variables that the stress fields are affine in, as indices of v. */
 enum {
     ONE,
-    PX = 1 + LOCAL_PX,
-    ZP = 1 + LOCAL_ZP,
-    ZQ = 1 + LOCAL_ZQ,
-    WP = 1 + LOCAL_WP,
-    WQ = 1 + LOCAL_WQ,
-    V = 1 + LOCAL_COORDINATES
+    PX = 1 + SHEET_LOCAL_PX,
+    ZP = 1 + SHEET_LOCAL_ZP,
+    ZQ = 1 + SHEET_LOCAL_ZQ,
+    WP = 1 + SHEET_LOCAL_WP,
+    WQ = 1 + SHEET_LOCAL_WQ,
+    V = 1 + SHEET_LOCAL_COORDINATES
 };
 enum { FX, MX, MYP, MYQ, MZP, MZQ };
 enum { POINTS = 5 }; /* degree 8 in (phi_x (x - 1))^2: exact */
 
 typedef struct sums {
-    double A[STRESSES][STRESSES][V][V], b[STRESSES][V][V], P0[V][V];
+    double A[SHEET_STRESSES][SHEET_STRESSES][V][V], b[SHEET_STRESSES][V][V], P0[V][V];
 } sums;
 
 /* M_x as modes of torque: M~x, and M~yn z_j times -+ u_y/L + u_y' (x - 1 or x), u_y = L [x (1-x)^2 zp - x^2 (1-x) zq]. */
 static const struct {
     int stress, variable;
-} mode[TORSION_MODES] = {{MX, ONE}, {MYP, ZP}, {MYP, ZQ}, {MYQ, ZP}, {MYQ, ZQ}};
-static const double corrected_torque[TORSION_MODES][TORSION_DEGREE + 1] = {
+} mode[SHEET_TORSION_MODES] = {{MX, ONE}, {MYP, ZP}, {MYP, ZQ}, {MYQ, ZP}, {MYQ, ZQ}};
+static const double corrected_torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1] = {
     {1}, {-1, 4, -5, 2}, {0, 2, -4, 2}, {0, 0, -2, 2}, {0, 0, -1, 2}};
-static const double printed_torque[TORSION_MODES][TORSION_DEGREE + 1] = {
+static const double printed_torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1] = {
     {1}, {-1, 6, -9, 4}, {0, 2, -6, 4}, {0, 2, -6, 4}, {0, 0, -3, 4}};
 
 /* Bending: fields of one point, weighted. */
-static void add_bending(const element_request *r, double x, double ds, const fields *f, sums *out)
+static void add_bending(const element_request *r, double x, double ds, const sheet_fields *f,
+                        sums *out)
 {
     const section *c = r->section;
     const double EIz = c->young * c->Iz, EIy = c->young * c->Iy, shape[2] = {x - 1, x};
-    const double My[STRESSES] = {[MYP] = shape[0], [MYQ] = shape[1]};
+    const double My[SHEET_STRESSES] = {[MYP] = shape[0], [MYQ] = shape[1]};
     const int initial = (r->features & FEATURE_CURVATURE) != 0;
-    double Mz[STRESSES][V] = {[MZP] = {shape[0]}, [MZQ] = {shape[1]}};
-    for (int k = 0; k < LOCAL_COORDINATES; k++) {
+    double Mz[SHEET_STRESSES][V] = {[MZP] = {shape[0]}, [MZQ] = {shape[1]}};
+    for (int k = 0; k < SHEET_LOCAL_COORDINATES; k++) {
         Mz[FX][1 + k] = f->uy[k];
         Mz[MYP][1 + k] = -f->phi_x[k] * shape[0];
         Mz[MYQ][1 + k] = -f->phi_x[k] * shape[1];
-        for (int m = 0; m < LOCAL_COORDINATES; m++)
+        for (int m = 0; m < SHEET_LOCAL_COORDINATES; m++)
             out->b[FX][1 + k][1 + m] -=
                 ds * f->duy[k] * f->duy[m] / 2; /* int (u_y u_y'' + u_y'^2/2) ds */
     }
-    for (int i = 0; i < STRESSES; i++) {
-        for (int j = 0; j < STRESSES; j++) {
+    for (int i = 0; i < SHEET_STRESSES; i++) {
+        for (int j = 0; j < SHEET_STRESSES; j++) {
             out->A[i][j][ONE][ONE] += ds * My[i] * My[j] / EIy;
             for (int a = 0; a < V; a++)
                 for (int b = 0; b < V; b++)
@@ -78,24 +79,26 @@ static void add_bending(const element_request *r, double x, double ds, const fie
 }
 
 static status add_torsion(const element_request *r,
-                          const double t[TORSION_MODES][TORSION_DEGREE + 1], sums *out, fault *f)
+                          const double t[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1], sums *out,
+                          fault *f)
 {
     const section *c = r->section;
     const double L = r->length, GJ = c->shear_modulus * c->It,
-                 EIw = fields_warp(r) ? c->young * c->Iw : 0;
+                 EIw = sheet_fields_warp(r) ? c->young * c->Iw : 0;
     const double kx = r->features & FEATURE_CURVATURE ? r->curvature[0] : 0;
-    torsion_integrals integral;
-    const status made = torsion_integrate(EIw > 0 ? L * sqrt(GJ / EIw) : INFINITY, t, &integral, f);
+    sheet_torsion_integrals integral;
+    const status made =
+        sheet_torsion_integrate(EIw > 0 ? L * sqrt(GJ / EIw) : INFINITY, t, &integral, f);
     if (made != STATUS_OK)
         return made;
-    for (int k = 0; k < TORSION_MODES; k++) {
+    for (int k = 0; k < SHEET_TORSION_MODES; k++) {
         double(*b)[V] = out->b[mode[k].stress];
-        for (int l = 0; l < TORSION_MODES; l++)
+        for (int l = 0; l < SHEET_TORSION_MODES; l++)
             out->A[mode[k].stress][mode[l].stress][mode[k].variable][mode[l].variable] +=
                 L / GJ * integral.compliance[k][l];
-        b[mode[k].variable][PX] += integral.work[k][TORSION_PX];
-        b[mode[k].variable][WP] += L * integral.work[k][TORSION_WP];
-        b[mode[k].variable][WQ] += L * integral.work[k][TORSION_WQ];
+        b[mode[k].variable][PX] += integral.work[k][SHEET_TORSION_PX];
+        b[mode[k].variable][WP] += L * integral.work[k][SHEET_TORSION_WP];
+        b[mode[k].variable][WQ] += L * integral.work[k][SHEET_TORSION_WQ];
         b[mode[k].variable][ONE] -= L * integral.compliance[k][0] * kx;
     }
     out->P0[WP][WP] = out->P0[WQ][WQ] = EIw / (2 * L) * integral.same;
@@ -115,7 +118,7 @@ static void add_idle_amplitudes(const element_request *r, sums *out)
 }
 
 /* The terms of one degree in x. */
-static void append(int degree, potential_term terms[], int most, int *count, int i, int j,
+static void append(int degree, sheet_potential_term terms[], int most, int *count, int i, int j,
                    double table[V][V])
 {
     for (int a = 0; a < V; a++)
@@ -125,33 +128,34 @@ static void append(int degree, potential_term terms[], int most, int *count, int
                 continue;
             assert(*count < most);
             (void)most;
-            terms[(*count)++] = (potential_term){c, i, j, a, b};
+            terms[(*count)++] = (sheet_potential_term){c, i, j, a, b};
         }
 }
 
-static void list_terms(sums *total, potential *out)
+static void list_terms(sums *total, sheet_potential *out)
 {
     int *const linear[3] = {&out->linear_A, &out->linear_b, &out->linear_P0},
                *const quadratic[3] = {&out->quadratic_A, &out->quadratic_b, &out->quadratic_P0};
     for (int degree = 0; degree <= 2; degree++) {
-        for (int i = 0; i < STRESSES; i++) {
-            append(degree, out->b, TERMS_B, &out->terms_b, i, 0, total->b[i]);
+        for (int i = 0; i < SHEET_STRESSES; i++) {
+            append(degree, out->b, SHEET_TERMS_B, &out->terms_b, i, 0, total->b[i]);
             for (int j = 0; j <= i; j++)
-                append(degree, out->A, TERMS_A, &out->terms_A, i, j, total->A[i][j]);
+                append(degree, out->A, SHEET_TERMS_A, &out->terms_A, i, j, total->A[i][j]);
         }
-        append(degree, out->P0, TERMS_P0, &out->terms_P0, 0, 0, total->P0);
+        append(degree, out->P0, SHEET_TERMS_P0, &out->terms_P0, 0, 0, total->P0);
         const int ends[3] = {out->terms_A, out->terms_b, out->terms_P0};
         for (int k = 0; k < 3 && degree < 2; k++)
             *(degree == 0 ? linear : quadratic)[k] = ends[k];
     }
 }
 
-status potential_prepare(const element_request *r, int printed, potential *out, fault *f)
+status sheet_potential_prepare(const element_request *r, int printed, sheet_potential *out,
+                               fault *f)
 {
     const section *c = r->section;
     const double L = r->length,
                  shear = r->features & FEATURE_SHEAR ? c->F[4] / c->shear_modulus : 0;
-    const double(*torque)[TORSION_DEGREE + 1] = printed ? printed_torque : corrected_torque;
+    const double(*torque)[SHEET_TORSION_DEGREE + 1] = printed ? printed_torque : corrected_torque;
     double x[POINTS], w[POINTS];
     sums total;
     memset(&total, 0, sizeof total);
@@ -162,22 +166,22 @@ status potential_prepare(const element_request *r, int printed, potential *out, 
             "section: It = %g m^4; the third-order element needs a torsional stiffness", c->It);
     status made = quadrature_points(POINTS, x, w, f);
     for (int i = 0; i < POINTS && made == STATUS_OK; i++) {
-        const fields at = fields_at(L, x[i], 0, 0, fields_warp(r));
+        const sheet_fields at = sheet_fields_at(L, x[i], 0, 0, sheet_fields_warp(r));
         add_bending(r, x[i], w[i] * L, &at, &total);
     }
     if (made == STATUS_OK)
         made = add_torsion(r, torque, &total, f);
     if (made != STATUS_OK)
         return made;
-    if ((r->features & FEATURE_WARPING) && !fields_warp(r))
+    if ((r->features & FEATURE_WARPING) && !sheet_fields_warp(r))
         add_idle_amplitudes(r, &total);
     total.A[FX][FX][ONE][ONE] += L / (c->young * c->A);
     total.A[MYP][MYP][ONE][ONE] += shear / L;
     total.A[MYQ][MYP][ONE][ONE] += shear / L;
     total.A[MYQ][MYQ][ONE][ONE] += shear / L;
-    total.b[FX][ONE][1 + LOCAL_U] += 1;
-    total.b[MYP][ONE][1 + LOCAL_YP] += 1;
-    total.b[MYQ][ONE][1 + LOCAL_YQ] += 1;
+    total.b[FX][ONE][1 + SHEET_LOCAL_U] += 1;
+    total.b[MYP][ONE][1 + SHEET_LOCAL_YP] += 1;
+    total.b[MYQ][ONE][1 + SHEET_LOCAL_YQ] += 1;
     total.b[MZP][ONE][ZP] += 1; /* int (x - 1) u_y'' ds */
     total.b[MZQ][ONE][ZQ] += 1;
     list_terms(&total, out);

@@ -6,12 +6,12 @@
 
 enum { N = SHEET_STRAINS };
 
-double elastic_phi_y(const section *c, double l0)
+double sheet_elastic_phi_y(const section *c, double l0)
 {
     return 12 * c->young * c->Iz * c->F[0] / (c->shear_modulus * l0 * l0);
 }
 
-double elastic_phi_z(const section *c, double l0)
+double sheet_elastic_phi_z(const section *c, double l0)
 {
     return 12 * c->young * c->Iy * c->F[4] / (c->shear_modulus * l0 * l0);
 }
@@ -24,7 +24,8 @@ static void bending(double EI, double l0, double Phi, int at, double S[N * N])
     S[N * at + at + 1] = S[N * (at + 1) + at] = k * (1 - antisymmetric);
 }
 
-void elastic_stiffness(const section *c, double l0, double Phi_y, double Phi_z, double S[N * N])
+void sheet_elastic_stiffness(const section *c, double l0, double Phi_y, double Phi_z,
+                             double S[N * N])
 {
     static const int torsion[3] = {1, 6, 7};
     static const double saint_venant[3][3] = {{36, -3, -3}, {-3, 4, -1}, {-3, -1, 4}};

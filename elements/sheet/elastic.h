@@ -5,11 +5,11 @@
 #include "elements/sheet/strains.h"
 
 /* Shear parameters Phi_y, Phi_z of N Eq. 18; 0 for a section that is rigid in shear. */
-double elastic_phi_y(const section *c, double l0);
-double elastic_phi_z(const section *c, double l0);
+double sheet_elastic_phi_y(const section *c, double l0);
+double sheet_elastic_phi_z(const section *c, double l0);
 
 /* S[8 x 8] [N/m]. */
-void elastic_stiffness(const section *c, double l0, double Phi_y, double Phi_z,
-                       double S[SHEET_STRAINS * SHEET_STRAINS]);
+void sheet_elastic_stiffness(const section *c, double l0, double Phi_y, double Phi_z,
+                             double S[SHEET_STRAINS * SHEET_STRAINS]);
 
 #endif

@@ -21,27 +21,27 @@ static void bending(double l0, double x, double Phi, int at, double sign, double
     }
 }
 
-int fields_warp(const element_request *request)
+int sheet_fields_warp(const element_request *request)
 {
     return (request->features & FEATURE_WARPING) != 0 && request->section->Iw > 0;
 }
 
-fields fields_at(double l0, double x, double Phi_y, double Phi_z, int warp)
+sheet_fields sheet_fields_at(double l0, double x, double Phi_y, double Phi_z, int warp)
 {
-    fields f;
+    sheet_fields f;
     memset(&f, 0, sizeof f);
-    bending(l0, x, Phi_y, LOCAL_ZP, 1, f.uy, f.duy, f.phi_z, f.dphi_z);
-    bending(l0, x, Phi_z, LOCAL_YP, -1, NULL, f.duz, f.phi_y, f.dphi_y);
+    bending(l0, x, Phi_y, SHEET_LOCAL_ZP, 1, f.uy, f.duy, f.phi_z, f.dphi_z);
+    bending(l0, x, Phi_z, SHEET_LOCAL_YP, -1, NULL, f.duz, f.phi_y, f.dphi_y);
     if (warp) {
-        f.phi_x[LOCAL_PX] = x * x * (3 - 2 * x);
-        f.phi_x[LOCAL_WP] = l0 * x * (1 - x) * (1 - x);
-        f.phi_x[LOCAL_WQ] = -l0 * x * x * (1 - x);
-        f.dphi_x[LOCAL_PX] = 6 * x * (1 - x) / l0;
-        f.dphi_x[LOCAL_WP] = (1 - x) * (1 - 3 * x);
-        f.dphi_x[LOCAL_WQ] = x * (3 * x - 2);
+        f.phi_x[SHEET_LOCAL_PX] = x * x * (3 - 2 * x);
+        f.phi_x[SHEET_LOCAL_WP] = l0 * x * (1 - x) * (1 - x);
+        f.phi_x[SHEET_LOCAL_WQ] = -l0 * x * x * (1 - x);
+        f.dphi_x[SHEET_LOCAL_PX] = 6 * x * (1 - x) / l0;
+        f.dphi_x[SHEET_LOCAL_WP] = (1 - x) * (1 - 3 * x);
+        f.dphi_x[SHEET_LOCAL_WQ] = x * (3 * x - 2);
     } else {
-        f.phi_x[LOCAL_PX] = x;
-        f.dphi_x[LOCAL_PX] = 1 / l0;
+        f.phi_x[SHEET_LOCAL_PX] = x;
+        f.dphi_x[SHEET_LOCAL_PX] = 1 / l0;
     }
     return f;
 }

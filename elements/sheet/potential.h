@@ -5,33 +5,34 @@
 
 #include "elements/sheet/local.h"
 
-enum { STRESSES = 6 };
+enum { SHEET_STRESSES = 6 };
 
 /* c v_a v_b in A_ij (i >= j, and in A_ji), in b_i or in P0; v_0 = 1, v_(1+k) = x_k, a <= b. */
-typedef struct potential_term {
+typedef struct sheet_potential_term {
     double c;
     int i, j, a, b;
-} potential_term;
+} sheet_potential_term;
 
-enum { TERMS_A = 96, TERMS_B = 64, TERMS_P0 = 12 };
+enum { SHEET_TERMS_A = 96, SHEET_TERMS_B = 64, SHEET_TERMS_P0 = 12 };
 
-typedef struct potential {
+typedef struct sheet_potential {
     int terms_A, terms_b, terms_P0;
     /* Terms are ordered by degree in x; where the linear and the quadratic ones begin. */
     int linear_A, quadratic_A, linear_b, quadratic_b, linear_P0, quadratic_P0;
-    potential_term A[TERMS_A], b[TERMS_B], P0[TERMS_P0];
-} potential;
+    sheet_potential_term A[SHEET_TERMS_A], b[SHEET_TERMS_B], P0[SHEET_TERMS_P0];
+} sheet_potential;
 
 /* printed: u_y in M_x with the sign of N Eq. 49 as printed.  Refuses a section without torsional stiffness. */
-status potential_prepare(const element_request *request, int printed, potential *out, fault *f);
+status sheet_potential_prepare(const element_request *request, int printed, sheet_potential *out,
+                               fault *f);
 
 /* P[1], its gradient[8] and Hessian[8 x 8] at x; NULL: not wanted.  SINGULAR when A is not positive definite there. */
-status potential_evaluate(const potential *p, const double x[LOCAL_COORDINATES], double *P,
-                          double *gradient, double *hessian);
+status sheet_potential_evaluate(const sheet_potential *p, const double x[SHEET_LOCAL_COORDINATES],
+                                double *P, double *gradient, double *hessian);
 
 /* T[8 x 8] = derivative of the Hessian at x in the direction dx. */
-status potential_third(const potential *p, const double x[LOCAL_COORDINATES],
-                       const double dx[LOCAL_COORDINATES],
-                       double T[LOCAL_COORDINATES * LOCAL_COORDINATES]);
+status sheet_potential_third(const sheet_potential *p, const double x[SHEET_LOCAL_COORDINATES],
+                             const double dx[SHEET_LOCAL_COORDINATES],
+                             double T[SHEET_LOCAL_COORDINATES * SHEET_LOCAL_COORDINATES]);
 
 #endif

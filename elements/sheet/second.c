@@ -4,22 +4,23 @@
 
 #include "elements/math/dense.h"
 
-size_t second_data_size(const element_request *request)
+size_t sheet_second_data_size(const element_request *request)
 {
     (void)request;
-    return sizeof(base_data);
+    return sizeof(sheet_base_data);
 }
 
-status second_prepare(const element_request *request, base_shear shear, element_data *out, fault *f)
+status sheet_second_prepare(const element_request *request, sheet_base_shear shear,
+                            element_data *out, fault *f)
 {
-    return base_prepare(request, shear, (base_data *)(void *)out, f);
+    return sheet_base_prepare(request, shear, (sheet_base_data *)(void *)out, f);
 }
 
-status second_stress(const element_data *data, const double e[], const double inner[],
-                     stress_output *out)
+status sheet_second_stress(const element_data *data, const double e[], const double inner[],
+                           stress_output *out)
 {
     enum { N = SHEET_STRAINS };
-    const base_data *d = (const base_data *)(const void *)data;
+    const sheet_base_data *d = (const sheet_base_data *)(const void *)data;
     double sigma[N];
     (void)inner;
     dense_mul_vec(N, N, d->S, e, sigma);
@@ -34,6 +35,6 @@ status second_stress(const element_data *data, const double e[], const double in
         memcpy(out->C, d->S, sizeof d->S);
     if (out->residual != NULL)
         *out->residual = 0;
-    wagner_add(&d->wagner, e, out->energy, out->sigma, out->C);
+    sheet_wagner_add(&d->wagner, e, out->energy, out->sigma, out->C);
     return STATUS_OK;
 }

@@ -4,10 +4,10 @@
 
 #include "elements/sheet/base.h"
 
-size_t second_data_size(const element_request *request);
-status second_prepare(const element_request *request, base_shear shear, element_data *out,
-                      fault *f);
-status second_stress(const element_data *d, const double e[], const double inner[],
-                     stress_output *out);
+size_t sheet_second_data_size(const element_request *request);
+status sheet_second_prepare(const element_request *request, sheet_base_shear shear,
+                            element_data *out, fault *f);
+status sheet_second_stress(const element_data *d, const double e[], const double inner[],
+                           stress_output *out);
 
 #endif

@@ -17,7 +17,7 @@
 #include "elements/math/rotation.h"
 #include "elements/sheet/fields.h"
 
-enum { N = LOCAL_COORDINATES, POINTS = 4 }; /* products of degree 7 at most: exact */
+enum { N = SHEET_LOCAL_COORDINATES, POINTS = 4 }; /* products of degree 7 at most: exact */
 
 /* Q += c (a b^T + b a^T): the quadratic c (a . q)(b . q). */
 static void add_product(double c, const double a[N], const double b[N], double Q[N * N])
@@ -27,8 +27,8 @@ static void add_product(double c, const double a[N], const double b[N], double Q
             Q[N * i + j] += c * (a[i] * b[j] + b[i] * a[j]);
 }
 
-static void add_point(double x, double ds, double l0, double trapeze, const fields *f,
-                      double Q[STRAINS_LISTED][N * N])
+static void add_point(double x, double ds, double l0, double trapeze, const sheet_fields *f,
+                      double Q[SHEET_STRAINS_LISTED][N * N])
 {
     double lag_y[N], lag_z[N];
     for (int i = 0; i < N; i++) {
@@ -52,9 +52,9 @@ static void add_point(double x, double ds, double l0, double trapeze, const fiel
     add_product(-ds, f->phi_x, lag_y, Q[5]);
 }
 
-static void list_terms(double Q[STRAINS_LISTED][N * N], strains_table *out)
+static void list_terms(double Q[SHEET_STRAINS_LISTED][N * N], sheet_strains_table *out)
 {
-    for (int i = 0; i < STRAINS_LISTED; i++)
+    for (int i = 0; i < SHEET_STRAINS_LISTED; i++)
         for (int j = 0; j < N; j++)
             for (int k = j; k < N; k++)
                 if (Q[i][N * j + k] != 0) {
@@ -65,31 +65,31 @@ static void list_terms(double Q[STRAINS_LISTED][N * N], strains_table *out)
                 }
 }
 
-status strains_prepare(const element_request *request, double Phi_y, double Phi_z,
-                       strains_table *out, fault *f)
+status sheet_strains_prepare(const element_request *request, double Phi_y, double Phi_z,
+                             sheet_strains_table *out, fault *f)
 {
     const section *c = request->section;
     const double l0 = request->length,
                  trapeze = request->features & FEATURE_TRAPEZE ? c->Ip / c->A : 0;
     const int amplitude = (request->features & FEATURE_WARPING) != 0;
-    double x[POINTS], w[POINTS], Q[STRAINS_LISTED][N * N] = {{0}};
+    double x[POINTS], w[POINTS], Q[SHEET_STRAINS_LISTED][N * N] = {{0}};
     memset(out, 0, sizeof *out);
     if (!(l0 > 0) || !isfinite(l0))
         return fault_set(f, STATUS_REFUSED, "element length %g m: it must be positive", l0);
     const status made = quadrature_points(POINTS, x, w, f);
     if (made != STATUS_OK)
         return made;
-    out->Lambda[N * 0 + LOCAL_U] = 1;
-    out->Lambda[N * 1 + LOCAL_PX] = l0;
-    out->Lambda[N * 2 + LOCAL_YP] = -l0;
-    out->Lambda[N * 3 + LOCAL_YQ] = l0;
-    out->Lambda[N * 4 + LOCAL_ZP] = -l0;
-    out->Lambda[N * 5 + LOCAL_ZQ] = l0;
+    out->Lambda[N * 0 + SHEET_LOCAL_U] = 1;
+    out->Lambda[N * 1 + SHEET_LOCAL_PX] = l0;
+    out->Lambda[N * 2 + SHEET_LOCAL_YP] = -l0;
+    out->Lambda[N * 3 + SHEET_LOCAL_YQ] = l0;
+    out->Lambda[N * 4 + SHEET_LOCAL_ZP] = -l0;
+    out->Lambda[N * 5 + SHEET_LOCAL_ZQ] = l0;
     /* without amplitudes the twist is uniform: Wp = Wq = px/l0 */
-    out->Lambda[N * 6 + (amplitude ? LOCAL_WP : LOCAL_PX)] = amplitude ? l0 * l0 : l0;
-    out->Lambda[N * 7 + (amplitude ? LOCAL_WQ : LOCAL_PX)] = amplitude ? l0 * l0 : l0;
+    out->Lambda[N * 6 + (amplitude ? SHEET_LOCAL_WP : SHEET_LOCAL_PX)] = amplitude ? l0 * l0 : l0;
+    out->Lambda[N * 7 + (amplitude ? SHEET_LOCAL_WQ : SHEET_LOCAL_PX)] = amplitude ? l0 * l0 : l0;
     for (int i = 0; i < POINTS; i++) {
-        const fields at = fields_at(l0, x[i], Phi_y, Phi_z, fields_warp(request));
+        const sheet_fields at = sheet_fields_at(l0, x[i], Phi_y, Phi_z, sheet_fields_warp(request));
         add_point(x[i], w[i] * l0, l0, trapeze, &at, Q);
     }
     list_terms(Q, out);
@@ -97,7 +97,7 @@ status strains_prepare(const element_request *request, double Phi_y, double Phi_
 }
 
 /* E[8 x 8] = de/dq at q, e[8]. */
-static void gradient(const strains_table *m, const double q[N], double e[SHEET_STRAINS],
+static void gradient(const sheet_strains_table *m, const double q[N], double e[SHEET_STRAINS],
                      double E[SHEET_STRAINS * N])
 {
     double turn[SHEET_STRAINS][N] = {{0}};
@@ -119,9 +119,9 @@ static void gradient(const strains_table *m, const double q[N], double e[SHEET_S
 }
 
 /* Q = sum s_i Q_i. */
-static void weighted(const strains_table *m, const double s[SHEET_STRAINS], double Q[N * N])
+static void weighted(const sheet_strains_table *m, const double s[SHEET_STRAINS], double Q[N * N])
 {
-    const double weight[STRAINS_LISTED] = {s[0], s[1] + s[6] + s[7], s[2], s[3], s[4], s[5]};
+    const double weight[SHEET_STRAINS_LISTED] = {s[0], s[1] + s[6] + s[7], s[2], s[3], s[4], s[5]};
     memset(Q, 0, N * N * sizeof *Q);
     for (int t = 0; t < m->terms; t++)
         Q[N * m->term[t].j + m->term[t].k] += weight[m->term[t].i] * m->term[t].c;
@@ -131,72 +131,76 @@ static void weighted(const strains_table *m, const double s[SHEET_STRAINS], doub
 }
 
 enum {
-    ANGLES = LOCAL_WP - LOCAL_PX,
-    FIRST = LOCAL_PX * RATES
+    ANGLES = SHEET_LOCAL_WP - SHEET_LOCAL_PX,
+    FIRST = SHEET_LOCAL_PX * SHEET_RATES
 }; /* rows of R that are not single ones */
 
 /* A[m x 11] = E[m x 8] R. */
-static void chain(int m, const double E[], const double R[N * RATES], double A[])
+static void chain(int m, const double E[], const double R[N * SHEET_RATES], double A[])
 {
     for (int i = 0; i < m; i++) {
         const double *e = E + N * i;
-        double *a = A + RATES * i;
-        for (int j = 0; j < RATES; j++)
+        double *a = A + SHEET_RATES * i;
+        for (int j = 0; j < SHEET_RATES; j++)
             a[j] = 0;
-        a[RATE_V] = e[LOCAL_U];
-        a[RATE_WP] = e[LOCAL_WP];
-        a[RATE_WQ] = e[LOCAL_WQ];
+        a[SHEET_RATE_V] = e[SHEET_LOCAL_U];
+        a[SHEET_RATE_WP] = e[SHEET_LOCAL_WP];
+        a[SHEET_RATE_WQ] = e[SHEET_LOCAL_WQ];
         for (int k = 0; k < ANGLES; k++)
-            for (int j = 0; j < RATE_TURNS; j++)
-                a[j] += e[LOCAL_PX + k] * R[FIRST + RATES * k + j];
+            for (int j = 0; j < SHEET_RATE_TURNS; j++)
+                a[j] += e[SHEET_LOCAL_PX + k] * R[FIRST + SHEET_RATES * k + j];
     }
 }
 
 /* H[11 x 11] = R^T Q R, Q[8 x 8] without u. */
-static void congruence(const double Q[N * N], const double R[N * RATES], double H[RATES * RATES])
+static void congruence(const double Q[N * N], const double R[N * SHEET_RATES],
+                       double H[SHEET_RATES * SHEET_RATES])
 {
-    double QR[N * RATES];
+    double QR[N * SHEET_RATES];
     chain(N, Q, R, QR);
-    memset(H, 0, RATES * RATES * sizeof(double));
+    memset(H, 0, SHEET_RATES * SHEET_RATES * sizeof(double));
     for (int k = 0; k < ANGLES; k++)
-        for (int i = 0; i < RATE_TURNS; i++)
-            for (int j = 0; j < RATES; j++)
-                H[RATES * i + j] += R[FIRST + RATES * k + i] * QR[RATES * (LOCAL_PX + k) + j];
-    memcpy(H + RATES * RATE_WP, QR + RATES * LOCAL_WP, 2 * RATES * sizeof(double));
+        for (int i = 0; i < SHEET_RATE_TURNS; i++)
+            for (int j = 0; j < SHEET_RATES; j++)
+                H[SHEET_RATES * i + j] +=
+                    R[FIRST + SHEET_RATES * k + i] * QR[SHEET_RATES * (SHEET_LOCAL_PX + k) + j];
+    memcpy(H + SHEET_RATES * SHEET_RATE_WP, QR + SHEET_RATES * SHEET_LOCAL_WP,
+           2 * SHEET_RATES * sizeof(double));
 }
 
 /* With E = de/dq, R = dq/d(rates) and T the rates of the nodes' coordinates: J = E R T and
  * sum s_i d2e_i/dx2 = T^T [R^T (sum s_i Q_i) R + sum_k t_k q_k''] T, t = E^T s. */
-void strains_evaluate(const strains_table *table, const node_state x[2], strain_output *out)
+void sheet_strains_evaluate(const sheet_strains_table *table, const node_state x[2],
+                            strain_output *out)
 {
-    double e[SHEET_STRAINS], E[SHEET_STRAINS * N], R[N * RATES];
-    local_state s;
-    local_of(table->chord, x, &s);
-    s.q[LOCAL_WP] += table->torsion;
-    s.q[LOCAL_WQ] += table->torsion;
+    double e[SHEET_STRAINS], E[SHEET_STRAINS * N], R[N * SHEET_RATES];
+    sheet_local_state s;
+    sheet_local_of(table->chord, x, &s);
+    s.q[SHEET_LOCAL_WP] += table->torsion;
+    s.q[SHEET_LOCAL_WQ] += table->torsion;
     gradient(table, s.q, e, E);
     for (int i = 0; i < SHEET_STRAINS && out->e != NULL; i++)
         out->e[i] = e[i] - table->rest[i];
     const int second = out->s != NULL && out->H != NULL;
     if (out->J == NULL && !second)
         return;
-    local_rates(&s, R);
+    sheet_local_rates(&s, R);
     if (out->J != NULL) {
-        double along[SHEET_STRAINS * RATES];
+        double along[SHEET_STRAINS * SHEET_RATES];
         chain(SHEET_STRAINS, E, R, along);
-        local_nodal_gradient(&s, SHEET_STRAINS, along, out->J);
+        sheet_local_nodal_gradient(&s, SHEET_STRAINS, along, out->J);
     }
     if (second) {
-        double Q[N * N], t[N] = {0}, H[RATES * RATES];
+        double Q[N * N], t[N] = {0}, H[SHEET_RATES * SHEET_RATES];
         weighted(table, out->s, Q);
         dense_add_transpose_mul(N, SHEET_STRAINS, 1, E, out->s, t);
         congruence(Q, R, H);
-        local_add_second(&s, R, t, H);
-        local_nodal_form(&s, H, out->H);
+        sheet_local_add_second(&s, R, t, H);
+        sheet_local_nodal_form(&s, H, out->H);
     }
 }
 
-void strains_set_rest(const element_request *request, strains_table *out)
+void sheet_strains_set_rest(const element_request *request, sheet_strains_table *out)
 {
     const double l0 = request->length, *k = request->curvature, *g = request->strain;
     const double turn[3] = {k[0] * l0, k[1] * l0, k[2] * l0}, along[3] = {1, 0, 0},
@@ -214,6 +218,6 @@ void strains_set_rest(const element_request *request, strains_table *out)
     rotation_matrix(q, x[1].R);
     out->chord = l0 * vec3_norm(arc);
     out->torsion = k[0];
-    strains_evaluate(out, x, &(strain_output){.e = rest});
+    sheet_strains_evaluate(out, x, &(strain_output){.e = rest});
     memcpy(out->rest, rest, sizeof rest);
 }

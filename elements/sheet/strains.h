@@ -7,29 +7,34 @@
 
 #include "elements/sheet/local.h"
 
-enum { SHEET_STRAINS = 8, STRAINS_LISTED = 6, STRAINS_TERMS = STRAINS_LISTED * 36 };
+enum {
+    SHEET_STRAINS = 8,
+    SHEET_STRAINS_LISTED = 6,
+    SHEET_STRAINS_TERMS = SHEET_STRAINS_LISTED * 36
+};
 
-typedef struct strains_table {
+typedef struct sheet_strains_table {
     double chord;   /* of the undeformed arc [m] */
     double torsion; /* initial: amplitudes of the nodes are twist rates beyond it [rad/m] */
     double rest[SHEET_STRAINS]; /* of the element free of stress, which the strains are less [m] */
-    double Lambda[SHEET_STRAINS * LOCAL_COORDINATES]; /* [m per coordinate] */
+    double Lambda[SHEET_STRAINS * SHEET_LOCAL_COORDINATES]; /* [m per coordinate] */
     int terms; /* Q_i jk and Q_i kj, j <= k, that are not zero; Q_7 = Q_8 = Q_2 are not listed */
     struct {
         double c;
         int i, j, k;
-    } term[STRAINS_TERMS];
-} strains_table;
+    } term[SHEET_STRAINS_TERMS];
+} sheet_strains_table;
 
 /* Phi_y, Phi_z: shear parameters of the displacement fields (N Eq. 18); both 0: N Eq. 37, where shear is left out; the
  * section's own: consistent with shear, ours.  Features: warping, trapeze. */
-status strains_prepare(const element_request *request, double Phi_y, double Phi_z,
-                       strains_table *out, fault *f);
+status sheet_strains_prepare(const element_request *request, double Phi_y, double Phi_z,
+                             sheet_strains_table *out, fault *f);
 
 /* Counts the strains from the element free of stress. */
-void strains_set_rest(const element_request *request, strains_table *out);
+void sheet_strains_set_rest(const element_request *request, sheet_strains_table *out);
 
 /* As element_type.strain. */
-void strains_evaluate(const strains_table *table, const node_state x[2], strain_output *out);
+void sheet_strains_evaluate(const sheet_strains_table *table, const node_state x[2],
+                            strain_output *out);
 
 #endif

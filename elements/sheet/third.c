@@ -9,11 +9,11 @@
 enum { N = SHEET_STRAINS, CURVED = 3 };
 
 /* Local coordinates whose inverse is quadratic: x = scale e + 1/2 e^T X e (N Eqs. 58, 60, 61). */
-static const int curved[CURVED] = {LOCAL_U, LOCAL_YP, LOCAL_YQ};
+static const int curved[CURVED] = {SHEET_LOCAL_U, SHEET_LOCAL_YP, SHEET_LOCAL_YQ};
 
 typedef struct third_data {
-    base_data base;
-    potential potential;
+    sheet_base_data base;
+    sheet_potential potential;
     double scale[N];
     double X[CURVED][N * N];
     /* Of the potential with N Eq. 52 where the element is free of stress: it is less these. */
@@ -25,7 +25,7 @@ static const third_data *data_of(const element_data *d)
     return (const third_data *)(const void *)d;
 }
 
-size_t third_data_size(const element_request *request)
+size_t sheet_third_data_size(const element_request *request)
 {
     (void)request;
     return sizeof(third_data);
@@ -104,16 +104,16 @@ static void second_derivative(const third_data *d, double row[CURVED][N], const 
             C[k] += g[curved[r]] * d->X[r][k];
 }
 
-status third_stress(const element_data *data, const double e[], const double inner[],
-                    stress_output *out)
+status sheet_third_stress(const element_data *data, const double e[], const double inner[],
+                          stress_output *out)
 {
     const third_data *d = data_of(data);
     double x[N], row[CURVED][N], g[N], h[N * N];
     const int first = out->sigma != NULL || out->C != NULL;
     (void)inner;
     invert(d, e, x, row);
-    const status outcome = potential_evaluate(&d->potential, x, out->energy, first ? g : NULL,
-                                              out->C != NULL ? h : NULL);
+    const status outcome = sheet_potential_evaluate(&d->potential, x, out->energy, first ? g : NULL,
+                                                    out->C != NULL ? h : NULL);
     if (outcome != STATUS_OK)
         return outcome;
     for (int k = 0; k < N && out->sigma != NULL; k++)
@@ -128,7 +128,7 @@ status third_stress(const element_data *data, const double e[], const double inn
         second_derivative(d, row, g, h, out->C);
     if (out->residual != NULL)
         *out->residual = 0;
-    wagner_add(&d->base.wagner, e, out->energy, out->sigma, out->C);
+    sheet_wagner_add(&d->base.wagner, e, out->energy, out->sigma, out->C);
     return STATUS_OK;
 }
 
@@ -138,7 +138,8 @@ static status set_rest(const element_request *request, third_data *out, fault *f
     const double none[N] = {0};
     double energy, stress[N];
     stress_output there = {.energy = &energy, .sigma = stress};
-    if (third_stress((const element_data *)(const void *)out, none, NULL, &there) != STATUS_OK)
+    if (sheet_third_stress((const element_data *)(const void *)out, none, NULL, &there) !=
+        STATUS_OK)
         return fault_set(
             f, STATUS_REFUSED,
             "element of length %g m: its initial curvature is too large; use more elements",
@@ -148,11 +149,12 @@ static status set_rest(const element_request *request, third_data *out, fault *f
     return STATUS_OK;
 }
 
-status third_prepare(const element_request *request, int printed, element_data *data, fault *f)
+status sheet_third_prepare(const element_request *request, int printed, element_data *data,
+                           fault *f)
 {
     third_data *out = (third_data *)(void *)data;
     memset(out, 0, sizeof *out);
-    const status made = base_prepare(request, BASE_PRINTED, &out->base, f);
+    const status made = sheet_base_prepare(request, SHEET_BASE_PRINTED, &out->base, f);
     if (made != STATUS_OK)
         return made;
     if (request->strain[1] != 0)
@@ -160,13 +162,13 @@ status third_prepare(const element_request *request, int printed, element_data *
             f, STATUS_REFUSED,
             "initial shear strain %g along the thickness: N Eq. 50 knows none; leave it out",
             request->strain[1]);
-    partial_inverse(request->length, fields_warp(request), out);
-    const status complete = potential_prepare(request, printed, &out->potential, f);
+    partial_inverse(request->length, sheet_fields_warp(request), out);
+    const status complete = sheet_potential_prepare(request, printed, &out->potential, f);
     return complete == STATUS_OK ? set_rest(request, out, f) : complete;
 }
 
 /* At e = 0 along the strain v whose stress is sigma: x' = (dx/de) v, (dx/de)' = X v, C' by the product rule. */
-void third_geometric(const element_data *data, const double sigma[], double G[])
+void sheet_third_geometric(const element_data *data, const double sigma[], double G[])
 {
     const third_data *d = data_of(data);
     const double zero[N] = {0};
@@ -175,7 +177,7 @@ void third_geometric(const element_data *data, const double sigma[], double G[])
     int pivot[N];
     memset(G, 0, N * N * sizeof *G);
     invert(d, zero, x, row);
-    if (potential_evaluate(&d->potential, x, NULL, g, h) != STATUS_OK)
+    if (sheet_potential_evaluate(&d->potential, x, NULL, g, h) != STATUS_OK)
         return;
     second_derivative(d, row, g, h, LU);
     for (int k = 6; k < N; k++) /* no amplitudes: e7 and e8 carry no stress */
@@ -191,7 +193,7 @@ void third_geometric(const element_data *data, const double sigma[], double G[])
             dx[curved[r]] += row[r][k] * v[k];
         dense_mul_vec(N, N, d->X[r], v, turning[r]);
     }
-    if (potential_third(&d->potential, x, dx, T) != STATUS_OK)
+    if (sheet_potential_third(&d->potential, x, dx, T) != STATUS_OK)
         return;
     dense_mul_vec(N, N, h, dx, along);
     second_derivative(d, row, along, T, G);

@@ -5,11 +5,12 @@
 
 #include "elements/sheet/base.h"
 
-size_t third_data_size(const element_request *request);
+size_t sheet_third_data_size(const element_request *request);
 /* printed: 1 takes the sign of u_y as printed in N Eq. 49. */
-status third_prepare(const element_request *request, int printed, element_data *out, fault *f);
-status third_stress(const element_data *d, const double e[], const double inner[],
-                    stress_output *out);
-void third_geometric(const element_data *d, const double sigma[], double G[]);
+status sheet_third_prepare(const element_request *request, int printed, element_data *out,
+                           fault *f);
+status sheet_third_stress(const element_data *d, const double e[], const double inner[],
+                          stress_output *out);
+void sheet_third_geometric(const element_data *d, const double sigma[], double G[]);
 
 #endif

@@ -4,13 +4,13 @@
 
 #include "elements/math/quadrature.h"
 
-enum { COEFFICIENTS = TORSION_DEGREE + 1, POINTS = 16, LOADS = TORSION_MODES + 2 };
+enum { COEFFICIENTS = SHEET_TORSION_DEGREE + 1, POINTS = 16, LOADS = SHEET_TORSION_MODES + 2 };
 
 /* Below, the closed form would cancel like lambda^-4; above, the kernel has boundary layers that few points miss. */
 static const double closed_from = 6;
 
 /* phi_x' per px/L, Wp, Wq (N Eq. 19), and h_p, h_q for lambda -> 0. */
-static const double rate[TORSION_TWISTS][COEFFICIENTS] = {{0, 6, -6}, {1, -4, 3}, {0, -2, 3}};
+static const double rate[SHEET_TORSION_TWISTS][COEFFICIENTS] = {{0, 6, -6}, {1, -4, 3}, {0, -2, 3}};
 static const double chord[2][COEFFICIENTS] = {{1, -1}, {0, 1}};
 
 static double value(const double t[COEFFICIENTS], double x)
@@ -47,81 +47,81 @@ static double end_integral(double lambda, const double t[COEFFICIENTS], int end)
 }
 
 /* lambda^2 g = t + t''/lambda^2 less its end values times h_p, h_q. */
-static void closed(double lambda, const double t[TORSION_MODES][COEFFICIENTS],
-                   torsion_integrals *out)
+static void closed(double lambda, const double t[SHEET_TORSION_MODES][COEFFICIENTS],
+                   sheet_torsion_integrals *out)
 {
     const double l2 = lambda * lambda;
-    for (int k = 0; k < TORSION_MODES; k++) {
+    for (int k = 0; k < SHEET_TORSION_MODES; k++) {
         const double end[2] = {end_integral(lambda, t[k], 0), end_integral(lambda, t[k], 1)};
-        for (int l = 0; l < TORSION_MODES; l++) {
+        for (int l = 0; l < SHEET_TORSION_MODES; l++) {
             const double curved[COEFFICIENTS] = {2 * t[l][2], 6 * t[l][3]}; /* t_l'' */
             out->compliance[k][l] = integral_of_product(t[k], t[l]) +
                                     integral_of_product(t[k], curved) / l2 -
                                     (value(t[l], 0) + second(t[l], 0) / l2) * end[0] -
                                     (value(t[l], 1) + second(t[l], 1) / l2) * end[1];
         }
-        out->work[k][TORSION_WP] = integral_of_product(t[k], rate[TORSION_WP]) - end[0];
-        out->work[k][TORSION_WQ] = integral_of_product(t[k], rate[TORSION_WQ]) - end[1];
+        out->work[k][SHEET_TORSION_WP] = integral_of_product(t[k], rate[SHEET_TORSION_WP]) - end[0];
+        out->work[k][SHEET_TORSION_WQ] = integral_of_product(t[k], rate[SHEET_TORSION_WQ]) - end[1];
     }
 }
 
 /* Green's function sinh(lambda y) sinh(lambda (1 - x))/(lambda sinh(lambda)), y < x, over the triangle y = x z.  It also gives
  * the ends: chord - h solves lambda^2 g - g'' = lambda^2 chord. */
-static void by_quadrature(double lambda, const double t[TORSION_MODES][COEFFICIENTS],
+static void by_quadrature(double lambda, const double t[SHEET_TORSION_MODES][COEFFICIENTS],
                           const double point[POINTS], const double weight[POINTS],
-                          torsion_integrals *out)
+                          sheet_torsion_integrals *out)
 {
-    double sum[TORSION_MODES][LOADS] = {{0}};
+    double sum[SHEET_TORSION_MODES][LOADS] = {{0}};
     for (int i = 0; i < POINTS; i++) {
         double at_x[LOADS], at_y[LOADS];
         const double x = point[i], h_p = sinh(lambda * (1 - x)) / sinh(lambda);
         for (int k = 0; k < LOADS; k++)
-            at_x[k] = value(k < TORSION_MODES ? t[k] : chord[k - TORSION_MODES], x);
+            at_x[k] = value(k < SHEET_TORSION_MODES ? t[k] : chord[k - SHEET_TORSION_MODES], x);
         for (int j = 0; j < POINTS; j++) {
             const double y = x * point[j],
                          kernel = weight[i] * weight[j] * x * lambda * sinh(lambda * y) * h_p;
             for (int k = 0; k < LOADS; k++)
-                at_y[k] = value(k < TORSION_MODES ? t[k] : chord[k - TORSION_MODES], y);
-            for (int k = 0; k < TORSION_MODES; k++)
+                at_y[k] = value(k < SHEET_TORSION_MODES ? t[k] : chord[k - SHEET_TORSION_MODES], y);
+            for (int k = 0; k < SHEET_TORSION_MODES; k++)
                 for (int l = 0; l < LOADS; l++)
                     sum[k][l] += kernel * (at_x[k] * at_y[l] + at_x[l] * at_y[k]);
         }
     }
-    for (int k = 0; k < TORSION_MODES; k++) {
-        for (int l = 0; l < TORSION_MODES; l++)
+    for (int k = 0; k < SHEET_TORSION_MODES; k++) {
+        for (int l = 0; l < SHEET_TORSION_MODES; l++)
             out->compliance[k][l] = sum[k][l];
         for (int end = 0; end < 2; end++) {
             double gap[COEFFICIENTS];
             for (int i = 0; i < COEFFICIENTS; i++)
-                gap[i] = rate[TORSION_WP + end][i] - chord[end][i];
-            out->work[k][TORSION_WP + end] =
-                integral_of_product(t[k], gap) + sum[k][TORSION_MODES + end];
+                gap[i] = rate[SHEET_TORSION_WP + end][i] - chord[end][i];
+            out->work[k][SHEET_TORSION_WP + end] =
+                integral_of_product(t[k], gap) + sum[k][SHEET_TORSION_MODES + end];
         }
     }
 }
 
-static void uniform(const double t[TORSION_MODES][COEFFICIENTS], torsion_integrals *out)
+static void uniform(const double t[SHEET_TORSION_MODES][COEFFICIENTS], sheet_torsion_integrals *out)
 {
     const double one[COEFFICIENTS] = {1};
-    for (int k = 0; k < TORSION_MODES; k++) {
-        out->work[k][TORSION_PX] = integral_of_product(t[k], one);
-        for (int l = 0; l < TORSION_MODES; l++)
+    for (int k = 0; k < SHEET_TORSION_MODES; k++) {
+        out->work[k][SHEET_TORSION_PX] = integral_of_product(t[k], one);
+        for (int l = 0; l < SHEET_TORSION_MODES; l++)
             out->compliance[k][l] = integral_of_product(t[k], t[l]);
     }
 }
 
-status torsion_integrate(double lambda, const double t[TORSION_MODES][COEFFICIENTS],
-                         torsion_integrals *out, fault *f)
+status sheet_torsion_integrate(double lambda, const double t[SHEET_TORSION_MODES][COEFFICIENTS],
+                               sheet_torsion_integrals *out, fault *f)
 {
-    *out = (torsion_integrals){0};
+    *out = (sheet_torsion_integrals){0};
     if (isinf(lambda)) {
         uniform(t, out);
         return STATUS_OK;
     }
     out->same = lambda * (1 + exp(-2 * lambda)) / -expm1(-2 * lambda);
     out->other = -2 * lambda * exp(-lambda) / -expm1(-2 * lambda);
-    for (int k = 0; k < TORSION_MODES; k++)
-        out->work[k][TORSION_PX] = integral_of_product(t[k], rate[TORSION_PX]);
+    for (int k = 0; k < SHEET_TORSION_MODES; k++)
+        out->work[k][SHEET_TORSION_PX] = integral_of_product(t[k], rate[SHEET_TORSION_PX]);
     if (lambda >= closed_from) {
         closed(lambda, t, out);
         return STATUS_OK;

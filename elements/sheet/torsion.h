@@ -11,18 +11,20 @@
 
 #include "elements/shared/status.h"
 
-enum { TORSION_DEGREE = 3, TORSION_MODES = 5 };
-enum { TORSION_PX, TORSION_WP, TORSION_WQ, TORSION_TWISTS };
+enum { SHEET_TORSION_DEGREE = 3, SHEET_TORSION_MODES = 5 };
+enum { SHEET_TORSION_PX, SHEET_TORSION_WP, SHEET_TORSION_WQ, SHEET_TORSION_TWISTS };
 
-typedef struct torsion_integrals {
-    double compliance[TORSION_MODES][TORSION_MODES]; /* lambda^2 int t_k g_l dx, symmetric */
+typedef struct sheet_torsion_integrals {
+    double compliance[SHEET_TORSION_MODES]
+                     [SHEET_TORSION_MODES]; /* lambda^2 int t_k g_l dx, symmetric */
     /* int t_k (phi' - h) dx: twist rate per px/L, Wp, Wq in N Eq. 19 less that of the ends without torque */
-    double work[TORSION_MODES][TORSION_TWISTS];
+    double work[SHEET_TORSION_MODES][SHEET_TORSION_TWISTS];
     double same, other; /* h_p against itself and against h_q in int (lambda^2 h h + h' h') dx */
-} torsion_integrals;
+} sheet_torsion_integrals;
 
 /* Torque modes t_k(x) = sum_i t[k][i] x^i, whole numbers.  lambda INFINITY: nothing warps, the twist of phi_x is uniform. */
-status torsion_integrate(double lambda, const double t[TORSION_MODES][TORSION_DEGREE + 1],
-                         torsion_integrals *out, fault *f);
+status sheet_torsion_integrate(double lambda,
+                               const double t[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1],
+                               sheet_torsion_integrals *out, fault *f);
 
 #endif

@@ -14,18 +14,18 @@ extern const element_type element_sheet_second, element_sheet_third, element_she
 enum { N = 8, MX = 1, MYP, MYQ, MODES = 5 };
 enum {
     ONE,
-    PX = 1 + LOCAL_PX,
-    ZP = 1 + LOCAL_ZP,
-    ZQ = 1 + LOCAL_ZQ,
-    WP = 1 + LOCAL_WP,
-    WQ = 1 + LOCAL_WQ
+    PX = 1 + SHEET_LOCAL_PX,
+    ZP = 1 + SHEET_LOCAL_ZP,
+    ZQ = 1 + SHEET_LOCAL_ZQ,
+    WP = 1 + SHEET_LOCAL_WP,
+    WQ = 1 + SHEET_LOCAL_WQ
 };
 
 /* Unit torques M, PP, PQ, QP, QQ: stress and the variable it is multiplied with. */
 static const int stress_of[MODES] = {MX, MYP, MYP, MYQ, MYQ},
                  variable_of[MODES] = {ONE, ZP, ZQ, ZP, ZQ};
 
-static double find(int count, const potential_term terms[], int i, int j, int a, int b)
+static double find(int count, const sheet_potential_term terms[], int i, int j, int a, int b)
 {
     for (int k = 0; k < count; k++)
         if (terms[k].i == i && terms[k].j == j &&
@@ -75,8 +75,9 @@ static void coefficients(void)
                            .Iw = 1 / (lambda * lambda),
                            .Ip = 2};
         const element_request request = {.section = &c, .length = 1, .features = FEATURE_WARPING};
-        potential p;
-        gsl_test(potential_prepare(&request, bimoment_values[row].printed, &p, NULL) != STATUS_OK,
+        sheet_potential p;
+        gsl_test(sheet_potential_prepare(&request, bimoment_values[row].printed, &p, NULL) !=
+                     STATUS_OK,
                  "potential, lambda = %g", lambda);
         double error = 0;
         for (int k = 0; k < MODES; k++)
@@ -105,15 +106,16 @@ static void coefficients(void)
 /* Without warping stiffness the torque twists by t/GJ: the limit lambda -> inf, reached like 1/lambda. */
 static void uniform_torsion(void)
 {
-    static const double torque[TORSION_MODES][TORSION_DEGREE + 1] = {
+    static const double torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1] = {
         {1}, {-1, 4, -5, 2}, {0, 2, -4, 2}, {0, 0, -2, 2}, {0, 0, -1, 2}};
-    torsion_integrals limit, near[2];
+    sheet_torsion_integrals limit, near[2];
     double error[2] = {0};
-    gsl_test(torsion_integrate(INFINITY, torque, &limit, NULL) != STATUS_OK, "uniform torsion");
+    gsl_test(sheet_torsion_integrate(INFINITY, torque, &limit, NULL) != STATUS_OK,
+             "uniform torsion");
     for (int n = 0; n < 2; n++) {
-        torsion_integrate(n == 0 ? 1e6 : 1e8, torque, &near[n], NULL);
-        for (int k = 0; k < TORSION_MODES; k++)
-            for (int l = 0; l < TORSION_MODES; l++)
+        sheet_torsion_integrate(n == 0 ? 1e6 : 1e8, torque, &near[n], NULL);
+        for (int k = 0; k < SHEET_TORSION_MODES; k++)
+            for (int l = 0; l < SHEET_TORSION_MODES; l++)
                 error[n] = fmax(error[n], fabs(near[n].compliance[k][l] - limit.compliance[k][l]));
     }
     gsl_test(!(error[0] < 3e-6 && fabs(error[1] / error[0] - 0.01) < 1e-3),

@@ -60,8 +60,9 @@ static double scaled_difference(int n, const double a[], const double b[])
  * expected. */
 static void printed_strains(double L, double Ite, const double q[N], double e[N])
 {
-    const double u = q[LOCAL_U], px = q[LOCAL_PX], yp = q[LOCAL_YP], yq = q[LOCAL_YQ],
-                 zp = q[LOCAL_ZP], zq = q[LOCAL_ZQ], Wp = q[LOCAL_WP], Wq = q[LOCAL_WQ], L2 = L * L,
+    const double u = q[SHEET_LOCAL_U], px = q[SHEET_LOCAL_PX], yp = q[SHEET_LOCAL_YP],
+                 yq = q[SHEET_LOCAL_YQ], zp = q[SHEET_LOCAL_ZP], zq = q[SHEET_LOCAL_ZQ],
+                 Wp = q[SHEET_LOCAL_WP], Wq = q[SHEET_LOCAL_WQ], L2 = L * L,
                  turn = L * (yp + yq) * (zp - zq) / 2;
     e[0] = u + L * (2 * yp * yp + 2 * yq * yq + 2 * zp * zp + 2 * zq * zq) / 30 +
            L * (-yp * yq - zp * zq) / 30 +
@@ -83,9 +84,10 @@ static void printed_equation(void)
     const section c = sheet_of(0.0912, 0.00217);
     const element_request request = {
         .section = &c, .length = L, .features = FEATURE_WARPING | FEATURE_TRAPEZE};
-    strains_table table;
+    sheet_strains_table table;
     double e[N], printed[N];
-    gsl_test(strains_prepare(&request, 0, 0, &table, NULL) != STATUS_OK, "strains are integrated");
+    gsl_test(sheet_strains_prepare(&request, 0, 0, &table, NULL) != STATUS_OK,
+             "strains are integrated");
     dense_mul_vec(N, N, table.Lambda, q, e);
     for (int t = 0; t < table.terms; t++) {
         const int j = table.term[t].j, k = table.term[t].k;

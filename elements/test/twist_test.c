@@ -31,7 +31,7 @@ static section unsymmetric(void)
 }
 
 /* K [14 x 14] of a straight element at rest. */
-static void linear_stiffness(const section *c, double l0, twist_kind torsion, double K[N * N])
+static void linear_stiffness(const section *c, double l0, beamw_twist_kind torsion, double K[N * N])
 {
     subject s;
     const double none[N] = {0}, e[STRAINS] = {0};
@@ -49,7 +49,7 @@ static void linear_stiffness(const section *c, double l0, twist_kind torsion, do
 /* Two halves with their common node eliminated are the whole if and only if the linear solution
  * between the nodes is exact. Returns the largest difference, each coordinate scaled by the root of
  * its stiffness. */
-static double halves_against_whole(const section *c, double l0, twist_kind torsion)
+static double halves_against_whole(const section *c, double l0, beamw_twist_kind torsion)
 {
     enum { M = 7 };
     double whole[N * N], half[N * N], middle[M * M], sides[M * N], worst = 0;
@@ -100,7 +100,7 @@ static void hyperbolic_twist(void)
 /* Linear stiffness at rest K [14 x 14] and, along the nodes' displacement d [14], the energy of
  * third order 1/2 sum_i s_i (d . H_i d + e . Q_i e), e = J d, s = S e: what a prestress of the same
  * kind adds to the stiffness. */
-static double third_order(const section *c, double l0, twist_kind torsion, unsigned features,
+static double third_order(const section *c, double l0, beamw_twist_kind torsion, unsigned features,
                           const double d[N])
 {
     subject s;
@@ -126,7 +126,7 @@ static double third_order(const section *c, double l0, twist_kind torsion, unsig
 }
 
 /* The middle of two halves in linear equilibrium between displaced ends. */
-static void middle_of(const section *c, double l0, twist_kind torsion, const double p[7],
+static void middle_of(const section *c, double l0, beamw_twist_kind torsion, const double p[7],
                       const double q[7], double out[7])
 {
     enum { M = 7 };
@@ -147,8 +147,8 @@ static void middle_of(const section *c, double l0, twist_kind torsion, const dou
 /* Energy of third order of two halves beside that of the whole, of the sizes of both: zero if and
  * only if the geometric stiffness is integrated over the exact linear solution, since the middle
  * node, being in equilibrium, may follow to first order only. */
-static double third_order_apart(const section *c, double l0, twist_kind torsion, unsigned features,
-                                unsigned seed)
+static double third_order_apart(const section *c, double l0, beamw_twist_kind torsion,
+                                unsigned features, unsigned seed)
 {
     double d[N], halves[2][N], middle[7];
     nodes_increments(2, l0, 2, seed, d);

@@ -1,19 +1,19 @@
 /* With B = I + Q(e): sigma = B^T S ebar, dsigma/de = B^T S B + sum (S ebar)_i Q_i. */
-#include "elements/beamw/forms.h"
+#include "elements/beamw/variants.h"
 
 #include <string.h>
 
 #include "elements/beamw/modes.h"
 #include "elements/math/dense.h"
 
-void forms_add_product(double Q[8 * 8], double c, const double a[8], const double b[8])
+void beamw_variants_add_product(double Q[8 * 8], double c, const double a[8], const double b[8])
 {
     for (int i = 0; i < 8; i++)
         for (int j = 0; j < 8; j++)
             Q[8 * i + j] += c * (a[i] * b[j] + b[i] * a[j]);
 }
 
-void forms_merge_torsion(int n, double A[])
+void beamw_variants_merge_torsion(int n, double A[])
 {
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < n; i++)
@@ -25,33 +25,33 @@ void forms_merge_torsion(int n, double A[])
             }
 }
 
-void forms_drop_warping(element_data *d)
+void beamw_variants_drop_warping(element_data *d)
 {
-    forms_merge_torsion(FORMS_STRAINS, d->S);
-    for (int i = 0; i < FORMS_MODIFIED; i++)
-        forms_merge_torsion(FORMS_STRAINS, d->Q[i]);
+    beamw_variants_merge_torsion(BEAMW_STRAINS, d->S);
+    for (int i = 0; i < BEAMW_MODIFIED; i++)
+        beamw_variants_merge_torsion(BEAMW_STRAINS, d->Q[i]);
 }
 
-size_t forms_data_size(const element_request *request)
+size_t beamw_variants_data_size(const element_request *request)
 {
     (void)request;
     return sizeof(element_data);
 }
 
-void forms_strain(const element_data *d, const node_state x[], strain_output *out)
+void beamw_variants_strain(const element_data *d, const node_state x[], strain_output *out)
 {
-    modes_strain(d->l0, x, out);
+    beamw_modes_strain(d->l0, x, out);
 }
 
-status forms_stress(const element_data *d, const double e[], const double inner[],
-                    stress_output *out)
+status beamw_variants_stress(const element_data *d, const double e[], const double inner[],
+                             stress_output *out)
 {
     (void)inner;
     double B[8 * 8] = {0}, modified[8], conjugate[8];
     memcpy(modified, e, sizeof modified);
     for (int i = 0; i < 8; i++)
         B[9 * i] = 1;
-    for (int k = 0; k < FORMS_MODIFIED && d->modified; k++) {
+    for (int k = 0; k < BEAMW_MODIFIED && d->modified; k++) {
         double row[8];
         dense_mul_vec(8, 8, d->Q[k], e, row);
         for (int j = 0; j < 8; j++) {
@@ -72,7 +72,7 @@ status forms_stress(const element_data *d, const double e[], const double inner[
     if (out->C != NULL) {
         if (d->modified) {
             double work[8 * 8];
-            forms_geometric(d, conjugate, out->C);
+            beamw_variants_geometric(d, conjugate, out->C);
             dense_add_congruence(8, 8, B, d->S, out->C, work);
         } else {
             memcpy(out->C, d->S, sizeof d->S);
@@ -83,10 +83,10 @@ status forms_stress(const element_data *d, const double e[], const double inner[
     return STATUS_OK;
 }
 
-void forms_geometric(const element_data *d, const double sigma[], double G[])
+void beamw_variants_geometric(const element_data *d, const double sigma[], double G[])
 {
     memset(G, 0, 64 * sizeof(double));
-    for (int k = 0; k < FORMS_MODIFIED && d->modified; k++)
+    for (int k = 0; k < BEAMW_MODIFIED && d->modified; k++)
         for (int i = 0; i < 64; i++)
             G[i] += sigma[k] * d->Q[k][i];
 }

@@ -1,4 +1,4 @@
-#include "elements/beamw/follow.h"
+#include "elements/beamw/condensed.h"
 
 #include <math.h>
 #include <string.h>
@@ -6,11 +6,11 @@
 #include "elements/math/dense.h"
 
 enum {
-    E = FORMS_STRAINS,
-    N = MODIFIED_VARIABLES,
-    M = FORMS_MODIFIED,
-    EVEN = FOLLOW_EVEN,
-    ALL = FOLLOW_ALL,
+    E = BEAMW_STRAINS,
+    N = BEAMW_MODIFIED_VARIABLES,
+    M = BEAMW_MODIFIED,
+    EVEN = BEAMW_CONDENSED_EVEN,
+    ALL = BEAMW_CONDENSED_ALL,
     INNER = 6,
     MOST = 30
 };
@@ -18,12 +18,12 @@ static const double close_enough =
     1e-7; /* of the size of z: what is left is of the size of its square */
 
 /* Uniform torsion: no A, no warping part, rows and columns of z_w empty. */
-static void without_warping(follow *out)
+static void without_warping(beamw_condensed *out)
 {
     for (int r = 0; r < ALL; r++) {
         out->P[r][1] += out->P[r][6] + out->P[r][7];
         out->P[r][6] = out->P[r][7] = 0;
-        forms_merge_torsion(N, out->Q[r]);
+        beamw_variants_merge_torsion(N, out->Q[r]);
         for (int i = 0; i < N; i++)
             out->Q[r][N * i + N - 1] = out->Q[r][N * (N - 1) + i] = 0;
     }
@@ -37,8 +37,9 @@ static void without_warping(follow *out)
     memset(out->hg + 2 * E, 0, E * sizeof(double));
 }
 
-void follow_prepare(const section *c, double l, int shear, int warping, const twist *t,
-                    const stiffness_fields *fields, double Q[FORMS_MODIFIED][N * N], follow *out)
+void beamw_condensed_prepare(const section *c, double l, int shear, int warping,
+                             const beamw_twist *t, const beamw_stiffness_fields *fields,
+                             double Q[BEAMW_MODIFIED][N * N], beamw_condensed *out)
 {
     const double l3 = l * l * l;
     const double k[EVEN] = {c->young * c->A / l, c->shear_modulus * c->It / l3,
@@ -62,15 +63,15 @@ void follow_prepare(const section *c, double l, int shear, int warping, const tw
         without_warping(out);
 }
 
-typedef struct inside {
+typedef struct internal_modes {
     double y[N], q[3];
     double B[ALL][N];              /* d(u, h)/dy */
     double u[ALL], dual[ALL];      /* (u, h), and k u, q */
     double r[INNER];               /* of z, of q */
     double hessian[INNER * INNER]; /* of z, q */
-} inside;
+} internal_modes;
 
-static void evaluate(const follow *d, inside *s)
+static void evaluate(const beamw_condensed *d, internal_modes *s)
 {
     for (int r = 0; r < ALL; r++) {
         s->u[r] = 0;
@@ -87,7 +88,7 @@ static void evaluate(const follow *d, inside *s)
 }
 
 /* Entry (i, j) of sum k_r B_r B_r^T + dual_r Q_r. */
-static double curvature(const follow *d, const inside *s, int i, int j)
+static double curvature(const beamw_condensed *d, const internal_modes *s, int i, int j)
 {
     double sum = 0;
     for (int r = 0; r < EVEN; r++)
@@ -97,7 +98,7 @@ static double curvature(const follow *d, const inside *s, int i, int j)
     return sum;
 }
 
-static void inner_equations(const follow *d, inside *s)
+static void inner_equations(const beamw_condensed *d, internal_modes *s)
 {
     for (int i = 0; i < 3; i++) {
         double *z = s->hessian + INNER * i, *q = s->hessian + INNER * (3 + i);
@@ -116,7 +117,7 @@ static void inner_equations(const follow *d, inside *s)
 }
 
 /* Newton's method for z and q; 0 when it converged. */
-static int settle(const follow *d, inside *s)
+static int settle(const beamw_condensed *d, internal_modes *s)
 {
     for (int count = 0; count < MOST; count++) {
         double change = 0, size = 0, K[INNER * INNER];
@@ -145,7 +146,7 @@ static int settle(const follow *d, inside *s)
 }
 
 /* C = C_ee - C_ei K^-1 C_ie. */
-static int condense(const follow *d, inside *s, double C[E * E])
+static int condense(const beamw_condensed *d, internal_modes *s, double C[E * E])
 {
     double mixed[INNER * E], solved[INNER * E];
     int pivot[INNER];
@@ -171,7 +172,7 @@ static int condense(const follow *d, inside *s, double C[E * E])
     return 0;
 }
 
-static double energy(const follow *d, const inside *s)
+static double energy(const beamw_condensed *d, const internal_modes *s)
 {
     double sum = 0;
     for (int r = 0; r < EVEN; r++)
@@ -184,9 +185,9 @@ static double energy(const follow *d, const inside *s)
     return sum;
 }
 
-status follow_stress(const follow *d, const double e[E], stress_output *out)
+status beamw_condensed_stress(const beamw_condensed *d, const double e[E], stress_output *out)
 {
-    inside s;
+    internal_modes s;
     memcpy(s.y, e, E * sizeof *e);
     dense_mul_vec(3, E, d->hg, e, s.y + E);
     for (int i = 0; i < 3; i++)

@@ -3,7 +3,7 @@
  * Rates along a path of constant spatial velocities and spins, in the axes of the middle: v of q against p, s the mean of the
  * nodes' spins and delta their difference.  The middle turns with w = s - tau/2 a x delta, tau = tan(|a|/2)/|a|, and
  *   dpsi/dt = V^-1 delta,  dD/dt = v - w x D,  d(v, s, delta)/dt = -w x (v, s, delta). */
-#include "elements/beamw/screw.h"
+#include "elements/beamw/helicoidal.h"
 
 #include <math.h>
 #include <string.h>
@@ -62,7 +62,7 @@ static factors factors_of(double square)
     return f;
 }
 
-typedef struct screw {
+typedef struct motion {
     double R[9]; /* of the middle */
     double D[3], a[3], U[3];
     double extension; /* D_x - l0 [m] */
@@ -70,9 +70,9 @@ typedef struct screw {
     double T[9];      /* dU/dpsi; dU/dD is V^-1 */
     double V[9];      /* V^-1 */
     factors f;
-} screw;
+} motion;
 
-static void half_way(const node_state x[2], screw *w)
+static void half_way(const node_state x[2], motion *w)
 {
     double between[9], q[4], psi[3], half[9];
     mat3_transpose_mul(x[0].R, x[1].R, between);
@@ -85,9 +85,9 @@ static void half_way(const node_state x[2], screw *w)
     mat3_mul(x[0].R, half, w->R);
 }
 
-static screw screw_of(double l0, const node_state x[2])
+static motion motion_of(double l0, const node_state x[2])
 {
-    screw w;
+    motion w;
     double d[3], moved[3];
     half_way(x, &w);
     for (int i = 0; i < 3; i++) {
@@ -121,7 +121,7 @@ typedef struct work {
     double mean[3], difference[3];
 } work;
 
-static work work_of(const screw *w, const double f[3], const double turn[3])
+static work work_of(const motion *w, const double f[3], const double turn[3])
 {
     work k;
     double tf[3], side[3];
@@ -140,7 +140,7 @@ static work work_of(const screw *w, const double f[3], const double turn[3])
 }
 
 /* Row [14] on the nodes' coordinates. */
-static void nodal_row(const screw *w, const work *k, double row[COORDINATES])
+static void nodal_row(const motion *w, const work *k, double row[COORDINATES])
 {
     double force[3], mean[3], difference[3];
     mat3_mul_vec(w->R, k->g, force);
@@ -167,7 +167,7 @@ static void skew(const double v[3], double A[9])
 }
 
 /* Second derivatives of f . U with respect to (D, psi): bent [psi, psi], mixed [psi, D]. */
-static void second_of_translation(const screw *w, const double f[3], double bent[9],
+static void second_of_translation(const motion *w, const double f[3], double bent[9],
                                   double mixed[9])
 {
     const double square = vec3_dot(w->a, w->a), fD = vec3_dot(f, w->D), fa = vec3_dot(f, w->a),
@@ -188,7 +188,7 @@ static void second_of_translation(const screw *w, const double f[3], double bent
 }
 
 /* In v, w and delta; the blocks of w stand where those of s will. */
-static void form_of_middle(const screw *w, const work *k, const double f[3], form *out)
+static void form_of_middle(const motion *w, const work *k, const double f[3], form *out)
 {
     double bent[9], mixed[9], Dx[9], VM[9], VMD[9], VB[9], moment[9];
     const factors *c = &w->f;
@@ -222,7 +222,7 @@ static void form_of_middle(const screw *w, const work *k, const double f[3], for
 }
 
 /* w = s + C delta, C = -tau/2 a~. */
-static void form_of_nodes(const screw *w, form *k)
+static void form_of_nodes(const motion *w, form *k)
 {
     double C[9], vsC[9], ssC[9], CsC[9], Csd[9];
     skew(w->a, C);
@@ -251,7 +251,7 @@ static void turned(const double R[9], double A[9])
             A[3 * i + j] = vec3_dot(RA + 3 * i, R + 3 * j);
 }
 
-static void nodal_form(const screw *w, form *k, double H[COORDINATES * COORDINATES])
+static void nodal_form(const motion *w, form *k, double H[COORDINATES * COORDINATES])
 {
     double *const blocks[] = {k->vs, k->vd, k->ss, k->sd, k->dd};
     for (int b = 0; b < 5; b++)
@@ -287,10 +287,10 @@ static void arrange(int n, const double U[], const double turn[], double e[])
     }
 }
 
-void screw_strain(const element_data *d, const node_state x[], strain_output *out)
+void beamw_helicoidal_strain(const element_data *d, const node_state x[], strain_output *out)
 {
     const double l0 = d->l0;
-    const screw w = screw_of(l0, x);
+    const motion w = motion_of(l0, x);
     if (out->e != NULL) {
         const double turn[3] = {2 * l0 * w.a[0], 2 * l0 * w.a[1], 2 * l0 * w.a[2]};
         arrange(1, w.U, turn, out->e);

@@ -1,25 +1,27 @@
-#include "elements/exact/turn.h"
+#include "elements/exact/milenkovic.h"
 
 #include "elements/math/dense.h"
 
-void turn_forms(double t, turn_form *orientation, turn_form *curvature)
+void exact_milenkovic_forms(double t, exact_milenkovic_form *orientation,
+                            exact_milenkovic_form *curvature)
 {
     /* u = cos^2(angle/4); u' = -u^2/16 */
     const double u = 16 / (16 + t), u2 = u * u, first[2] = {-u2 / 16, -u2 * u / 8},
                  second[2] = {u2 * u / 128, 3 * u2 * u2 / 128};
-    *orientation = (turn_form){
+    *orientation = (exact_milenkovic_form){
         .s = {1, 0, 0},
         .p = {2 * u2 - u, 2 * first[1] - first[0], 2 * second[1] - second[0]},
         .q = {u2 / 2, first[1] / 2, second[1] / 2},
     };
-    *curvature = (turn_form){
+    *curvature = (exact_milenkovic_form){
         .s = {u, first[0], second[0]},
         .p = {u2 / 2, first[1] / 2, second[1] / 2},
         .q = {u2 / 8, first[1] / 8, second[1] / 8},
     };
 }
 
-void turn_vector(const turn_form *f, const double x[3], const double y[3], double out[3])
+void exact_milenkovic_vector(const exact_milenkovic_form *f, const double x[3], const double y[3],
+                             double out[3])
 {
     double once[3], twice[3];
     vec3_cross(x, y, once);
@@ -28,8 +30,8 @@ void turn_vector(const turn_form *f, const double x[3], const double y[3], doubl
         out[i] = f->s[0] * y[i] - f->p[0] * once[i] + f->q[0] * twice[i];
 }
 
-void turn_gradient(const turn_form *f, const double x[3], const double w[3], const double y[3],
-                   double dx[3], double dy[3])
+void exact_milenkovic_gradient(const exact_milenkovic_form *f, const double x[3], const double w[3],
+                               const double y[3], double dx[3], double dy[3])
 {
     double yw[3], wx[3];
     vec3_cross(y, w, yw);
@@ -43,8 +45,8 @@ void turn_gradient(const turn_form *f, const double x[3], const double w[3], con
     }
 }
 
-void turn_add_hessian(const turn_form *f, const double x[3], const double w[3], const double y[3],
-                      double XX[9], double XY[9])
+void exact_milenkovic_add_hessian(const exact_milenkovic_form *f, const double x[3],
+                                  const double w[3], const double y[3], double XX[9], double XY[9])
 {
     double yw[3], wx[3], slope[3];
     vec3_cross(y, w, yw);
