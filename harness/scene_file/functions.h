@@ -1,0 +1,18 @@
+/* Functions and constants of expressions. */
+#ifndef BEAMWORK_FUNCTIONS_H
+#define BEAMWORK_FUNCTIONS_H
+
+typedef struct function {
+    const char *name;
+    int arguments; /* 0: a constant; -1: two or more */
+    double value;  /* of a constant */
+    double (*of_one)(double);
+    double (*of_two)(double, double); /* of more: taken again and again */
+} function;
+
+/* The function or constant with that name of `length` bytes, or NULL. */
+const function *functions_find(const char *name, int length);
+/* The i-th name, or NULL behind the last. */
+const char *functions_name(int i);
+
+#endif

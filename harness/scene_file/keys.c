@@ -1,0 +1,222 @@
+#include "harness/scene_file/keys.h"
+
+#include <string.h>
+
+#include "harness/catalogue/parameters.h"
+#include "harness/scene_file/range.h"
+
+static const key number[] = {{"", KEY_NUMBER, .summary = "an expression"}, {.name = NULL}};
+
+#define PHYSICS "shear|trapeze|wagner_moments|wagner_torque|rotary_inertia|warping|engesser|haringx"
+
+const key keys_root[] = {
+    {"beamwork", KEY_NUMBER, .needed = 1, .summary = "version of the format: 1"},
+    {"name", KEY_TEXT, .summary = "of the scene; left out: that of the file"},
+    {"summary", KEY_TEXT, .summary = "what it is, in one line"},
+    {"source", KEY_TEXT, .summary = "where it comes from"},
+    {"parameters", KEY_ENTRIES, .below = keys_parameter, .summary = "what --set may change"},
+    {"let", KEY_NAMES, .below = number, .summary = "derived values, in order"},
+    {"sections", KEY_ENTRIES, .needed = 1, .below = keys_section, .summary = "cross-sections"},
+    {"nodes", KEY_ENTRIES, .needed = 1, .below = keys_node, .summary = "ends, supports, bodies"},
+    {"members", KEY_ENTRIES, .needed = 1, .below = keys_member, .summary = "beams"},
+    {.name = "springs", .kind = KEY_LATER},
+    {"motions", KEY_ENTRIES, .below = keys_motion, .summary = "numbers along the path"},
+    {"loads", KEY_ENTRIES, .below = keys_load, .summary = "forces and moments"},
+    {"analyses", KEY_ENTRIES, .below = keys_analysis, .summary = "what is computed"},
+    {"quantities", KEY_ENTRIES, .below = keys_quantity, .summary = "what is wanted of it"},
+    {"truths", KEY_LIST, .below = keys_truth, .summary = "what is known"},
+    {"needs", KEY_WORDS, .words = PHYSICS, .summary = "physics; left out: shear"},
+    {"meshes", KEY_NUMBERS, .summary = "elements per member; left out: [1, 2, 4, 8]"},
+    {.name = "parts", .kind = KEY_LATER},
+    {.name = "instances", .kind = KEY_LATER},
+    {.name = NULL}};
+
+/* Both tables as one list of names. */
+typedef struct known_keys {
+    const key *table, *loop; /* loop NULL: no entry that may have loops */
+} known_keys;
+
+static const char *name_at(const void *context, int i)
+{
+    const known_keys *known = context;
+    const key *table = known->table;
+    for (; table->name != NULL && i > 0; i--)
+        table++;
+    return table->name != NULL || known->loop == NULL || i > 1 ? table->name : known->loop[i].name;
+}
+
+static const key *find(const key *table, const char *name)
+{
+    for (; table != NULL && table->name != NULL; table++)
+        if (strcmp(table->name, name) == 0)
+            return table;
+    return NULL;
+}
+
+static void check_map(const document_node *map, const known_keys *known, const document_node *name,
+                      mistakes *m);
+
+static void tell_kind(const document_node *n, const document_node *name, const char *expected,
+                      mistakes *m)
+{
+    static const char *const is[] = {"a text", "a list", "a map"};
+    document_mistake(m, n, 0, "%.60s is %s; %s is expected", name->text, is[n->kind], expected);
+}
+
+static void check_entries(const document_node *n, const key *k, const document_node *name,
+                          mistakes *m)
+{
+    const known_keys known = {k->below, k->below == keys_parameter ? NULL : keys_loop};
+    if (n->kind != (k->kind == KEY_LIST ? DOCUMENT_LIST : DOCUMENT_MAP)) {
+        tell_kind(n, name, k->kind == KEY_LIST ? "a list of maps: - {...}" : "a map: NAME: {...}",
+                  m);
+        return;
+    }
+    for (int i = 0; i < n->count; i++)
+        check_map(n->item[i], &known, k->kind == KEY_LIST ? name : n->key[i], m);
+}
+
+static void check_words(const document_node *n, const document_node *name, mistakes *m)
+{
+    if (n->kind == DOCUMENT_MAP)
+        tell_kind(n, name, "a word or a list of words", m);
+    for (int i = 0; n->kind == DOCUMENT_LIST && i < n->count; i++)
+        if (n->item[i]->kind != DOCUMENT_TEXT)
+            tell_kind(n->item[i], name, "a word", m);
+}
+
+static void check_value(const document_node *n, const key *k, const document_node *name,
+                        mistakes *m)
+{
+    const known_keys below = {k->below, NULL};
+    switch (k->kind) {
+    case KEY_TEXT:
+    case KEY_NAME:
+    case KEY_WORD:
+    case KEY_NUMBER:
+        if (n->kind != DOCUMENT_TEXT)
+            tell_kind(n, name, k->kind == KEY_NUMBER ? "a number" : "a text", m);
+        break;
+    case KEY_WORDS:
+        check_words(n, name, m);
+        break;
+    case KEY_VECTOR:
+        if (n->kind != DOCUMENT_LIST || n->count != k->count)
+            document_mistake(m, n, 0, "%.60s: a list of %d numbers is expected: [a, b, ...]",
+                             name->text, k->count);
+        break;
+    case KEY_NUMBERS:
+        if (n->kind != DOCUMENT_LIST && !range_is(n))
+            tell_kind(n, name, "a list of numbers or a range a..b", m);
+        break;
+    case KEY_MAP:
+        check_map(n, &below, name, m);
+        break;
+    case KEY_ENTRIES:
+    case KEY_LIST:
+        check_entries(n, k, name, m);
+        break;
+    case KEY_NAMES:
+        if (n->kind != DOCUMENT_MAP)
+            tell_kind(n, name, "a map: NAME: value", m);
+        for (int i = 0; n->kind == DOCUMENT_MAP && k->below->name != NULL && i < n->count; i++)
+            check_value(n->item[i], k->below, n->key[i], m);
+        break;
+    case KEY_LATER:
+        document_mistake(m, name, 0, "'%s' is not carried yet; leave it out", name->text);
+        break;
+    case KEY_FORMS:
+        break;
+    }
+}
+
+/* A key that is not there: unless it is what a misspelt one means. */
+static int is_meant(const document_node *map, const known_keys *known, const char *name)
+{
+    for (int i = 0; i < map->count; i++) {
+        const char *text = map->key[i]->text;
+        const char *near =
+            find(known->table, text) == NULL ? nearest_name(text, name_at, known) : NULL;
+        if (near != NULL && strcmp(near, name) == 0)
+            return 1;
+    }
+    return 0;
+}
+
+/* The names of a group, for messages. */
+static void group_words(const key *table, int group, char text[FAULT_TEXT])
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (; table->name != NULL; table++)
+        if (table->group == group && table->kind != KEY_LATER && used + 40 < FAULT_TEXT) {
+            const size_t length = strlen(table->name);
+            memcpy(text + used, ", ", 2);
+            memcpy(text + used + (used > 0 ? 2 : 0), table->name, length + 1);
+            used += length + (used > 0 ? 2 : 0);
+        }
+}
+
+static void check_missing(const document_node *map, const known_keys *known,
+                          const document_node *name, mistakes *m)
+{
+    for (const key *k = known->table; k->name != NULL; k++) {
+        const document_node *first = NULL;
+        int there = 0, meant = 0;
+        for (const key *other = known->table; other->name != NULL; other++) {
+            if (other != k && (k->group == 0 || other->group != k->group))
+                continue;
+            for (int i = 0; i < map->count; i++)
+                if (strcmp(map->key[i]->text, other->name) == 0) {
+                    first = map->key[i];
+                    there++;
+                }
+            meant |= is_meant(map, known, other->name);
+        }
+        char group[FAULT_TEXT];
+        group_words(known->table, k->group, group);
+        if (there > 1 && k->group > 0)
+            document_mistake(m, first, 0, "%.40s: only one of %.200s can be there", name->text,
+                             group);
+        if (there > 0 || meant || !k->needed)
+            continue;
+        if (k->group > 0)
+            document_mistake(m, name, 0, "%.40s: one of %.200s is missing", name->text, group);
+        else
+            document_mistake(m, name, 0, "%.40s: '%s' is missing (%s)", name->text, k->name,
+                             k->summary);
+    }
+}
+
+static void check_map(const document_node *map, const known_keys *known, const document_node *name,
+                      mistakes *m)
+{
+    if (map->kind != DOCUMENT_MAP) {
+        tell_kind(map, name, "a map: {key: value, ...}", m);
+        return;
+    }
+    for (int i = 0; i < map->count; i++) {
+        const char *text = map->key[i]->text;
+        const key *k = find(known->table, text);
+        if (k == NULL && known->loop != NULL)
+            k = find(known->loop, text);
+        char remedy[FAULT_TEXT];
+        if (k != NULL)
+            check_value(map->item[i], k, map->key[i], m);
+        else
+            document_mistake(m, map->key[i], 0, "%.40s has no key '%.40s'%s", name->text, text,
+                             mistakes_remedy(nearest_name(text, name_at, known),
+                                             "; 'beamwork scene --schema' lists all", remedy));
+    }
+    check_missing(map, known, name, m);
+}
+
+int keys_check(const document_node *root, mistakes *m)
+{
+    static const document_node place = {
+        .kind = DOCUMENT_TEXT, .line = 1, .column = 1, .text = "the scene"};
+    const known_keys known = {keys_root, NULL};
+    const int before = m->count;
+    check_map(root, &known, &place, m);
+    return m->count == before;
+}

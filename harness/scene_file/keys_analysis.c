@@ -1,0 +1,189 @@
+/* Keys of what is asked: analyses, quantities, truths. */
+#include <stddef.h>
+
+#include "harness/scene_file/keys.h"
+
+#define COMPONENTS "ux|uy|uz|rx|ry|rz"
+
+static const key nothing[] = {{.name = NULL}};
+
+static const key spin[] = {
+    {"omega", KEY_VECTOR, .needed = 1, .count = 3, .unit = "rad/s", .summary = "angular velocity"},
+    {"centre", KEY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis"},
+    {.name = NULL}};
+
+static const key path[] = {
+    {"stations", KEY_NUMBERS, .needed = 1, .summary = "path parameter, ascending"},
+    {"steps", KEY_NUMBER, .summary = "first try between two stations; 1"},
+    {"spin", KEY_MAP, .below = spin, .summary = "the axes turn"},
+    {.name = NULL}};
+
+static const key modes[] = {
+    {"wanted", KEY_NUMBER, .summary = "how many; left out: as quantities ask for"},
+    {"about", KEY_NAME, .summary = "static analysis about whose last state; left out: undeformed"},
+    {.name = NULL}};
+
+static const key buckling[] = {
+    {"wanted", KEY_NUMBER, .summary = "how many; left out: as quantities ask for"},
+    {"about", KEY_NAME, .summary = "static analysis about whose last state; left out: undeformed"},
+    {.name = "sign", .kind = KEY_LATER},
+    {.name = NULL}};
+
+static const key compliance[] = {
+    {"node", KEY_NAME, .needed = 1, .summary = "where"},
+    {"about", KEY_NAME, .summary = "static analysis at whose stations; left out: undeformed"},
+    {"released", KEY_WORDS, .words = COMPONENTS, .summary = "prescribed components that are free"},
+    {"moments", KEY_WORD, .words = "spatial|semitangential|symmetrised",
+     .summary = "what a reaction's moment does while its node turns"},
+    {.name = NULL}};
+
+static const key control[] = {
+    {"node", KEY_NAME, .needed = 1, .summary = "whose translation"},
+    {"component", KEY_WORD, .needed = 1, .words = "ux|uy|uz", .summary = "of these"},
+    {.name = NULL}};
+
+static const key continuation[] = {
+    {"control", KEY_MAP, .needed = 1, .below = control, .summary = "coordinate that grows"},
+    {"by", KEY_WORD, .words = "coordinate|arc", .summary = "what steps are measured in"},
+    {"to", KEY_NUMBERS, .needed = 1, .unit = "m", .summary = "of the coordinate, as met"},
+    {"step", KEY_NUMBER, .needed = 1, .summary = "first step"},
+    {"step_max", KEY_NUMBER, .summary = "largest step; left out: the first"},
+    {"constant", KEY_WORD, .words = "yes|no", .summary = "steps keep their size"},
+    {"spin", KEY_MAP, .below = spin, .summary = "the axes turn"},
+    {.name = NULL}};
+
+static const key rotation[] = {
+    {"omega", KEY_VECTOR, .needed = 1, .count = 3, .unit = "rad/s", .summary = "angular velocity"},
+    {"centre", KEY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis"},
+    {"stations", KEY_NUMBERS, .needed = 1, .summary = "factors of omega, ascending"},
+    {"steps", KEY_NUMBER, .summary = "first try between two stations; 1"},
+    {"wanted", KEY_NUMBER, .summary = "modes to look for at first, of all families"},
+    {.name = NULL}};
+
+const key keys_analysis[] = {
+    {"linear", KEY_MAP, .needed = 1, .group = 1, .below = nothing, .summary = "loads at factor 1"},
+    {"static", KEY_MAP, .needed = 1, .group = 1, .below = path, .summary = "along a path"},
+    {"buckling", KEY_MAP, .needed = 1, .group = 1, .below = buckling, .summary = "critical loads"},
+    {"modal", KEY_MAP, .needed = 1, .group = 1, .below = modes, .summary = "frequencies"},
+    {"compliance", KEY_MAP, .needed = 1, .group = 1, .below = compliance, .summary = "6 x 6"},
+    {"continuation", KEY_MAP, .needed = 1, .group = 1, .below = continuation,
+     .summary = "path of a load factor"},
+    {"rotation", KEY_MAP, .needed = 1, .group = 1, .below = rotation, .summary = "stationary"},
+    {.name = "motion", .kind = KEY_LATER, .group = 1},
+    {.name = NULL}};
+
+#define TAKEN                                                                                      \
+    {"analysis", KEY_NAME, .needed = 1, .summary = "analysis"},                                    \
+        {"at", KEY_NUMBER, .group = 1, .summary = "station"},                                      \
+    {                                                                                              \
+        "take", KEY_WORD, .group = 1, .words = "last|max|min|curve",                               \
+                          .summary = "of all stations; last where it is left out"                  \
+    }
+
+static const key component[] = {
+    TAKEN,
+    {"node", KEY_NAME, .needed = 1, .summary = "node"},
+    {"component", KEY_WORD, .needed = 1, .words = COMPONENTS, .summary = "of its coordinates"},
+    {.name = NULL}};
+
+static const key reaction[] = {
+    TAKEN,
+    {"node", KEY_NAME, .needed = 1, .summary = "node"},
+    {"component", KEY_WORD, .needed = 1, .words = COMPONENTS "|turn_1",
+     .summary = "of its coordinates; turn_1: about the first axis of its sequence"},
+    {.name = NULL}};
+
+static const key entry[] = {
+    TAKEN,
+    {"row", KEY_WORD, .needed = 1, .words = COMPONENTS, .summary = "response"},
+    {"column", KEY_WORD, .needed = 1, .words = COMPONENTS, .summary = "force or moment"},
+    {.name = NULL}};
+
+static const key diagonal[] = {
+    TAKEN,
+    {"component", KEY_WORD, .needed = 1, .words = COMPONENTS, .summary = "of the coordinates"},
+    {.name = NULL}};
+
+static const key critical[] = {
+    {"analysis", KEY_NAME, .needed = 1, .summary = "analysis"},
+    {"which", KEY_NUMBER, .summary = "counted from 0"},
+    {"sign", KEY_WORD, .words = "positive|negative", .summary = "of the load factor"},
+    {.name = NULL}};
+
+static const key frequency[] = {TAKEN,
+                                {"which", KEY_NUMBER, .summary = "counted from 0, of the family"},
+                                {"family", KEY_WORD,
+                                 .words = "any|not_axial|axial|bending_y|bending_z|torsion",
+                                 .summary = "of modes"},
+                                {"half_waves", KEY_NUMBER, .summary = "of the mode; 0: any"},
+                                {.name = NULL}};
+
+static const key whole[] = {TAKEN, {.name = NULL}};
+
+static const key motion[] = {
+    TAKEN, {"motion", KEY_NAME, .needed = 1, .summary = "unknown motion"}, {.name = NULL}};
+
+static const key critical_point[] = {
+    {"analysis", KEY_NAME, .needed = 1, .summary = "continuation"},
+    {"kind", KEY_WORD, .needed = 1, .words = "limit|bifurcation", .summary = "of the point"},
+    {"which", KEY_NUMBER, .summary = "counted from 0"},
+    {"value", KEY_WORD, .words = "factor|coordinate", .summary = "what of it; the load factor"},
+    {.name = NULL}};
+
+static const key abscissa[] = {{"name", KEY_TEXT, .summary = "of the abscissa"},
+                               {"unit", KEY_TEXT, .summary = "of the abscissa"},
+                               {"of", KEY_NAME, .summary = "motion; left out: the path parameter"},
+                               {"factor", KEY_NUMBER, .summary = "times the path parameter"},
+                               {"offset", KEY_NUMBER, .summary = "added to it"},
+                               {.name = NULL}};
+
+static const key prediction[] = {
+    {"value", KEY_NUMBER, .needed = 1, .summary = "of a model with an error of its own"},
+    {"source", KEY_TEXT, .needed = 1, .summary = "of the model"},
+    {.name = NULL}};
+
+#define KIND(NAME, BELOW, SUMMARY)                                                                 \
+    {                                                                                              \
+        NAME, KEY_MAP, .needed = 1, .group = 1, .below = BELOW, .summary = SUMMARY                 \
+    }
+
+const key keys_quantity[] = {
+    KIND("displacement", component, "or rotation, of a node"),
+    KIND("reaction", reaction, "of a held or driven component"),
+    KIND("compliance", entry, "entry of the matrix"),
+    KIND("stiffness", diagonal, "1/compliance, the other components free"),
+    KIND("critical_factor", critical, "critical load factor"),
+    KIND("frequency", frequency, "natural frequency"),
+    KIND("growth", whole, "largest rate of growth of a small motion"),
+    KIND("factor_at", whole, "load factor where the control coordinate has a value"),
+    KIND("critical_point", critical_point, "where the tangent is singular"),
+    KIND("motion", motion, "value of an unknown motion"),
+    {.name = "internal", .kind = KEY_LATER, .group = 1},
+    {.name = "stress", .kind = KEY_LATER, .group = 1},
+    {.name = "energy", .kind = KEY_LATER, .group = 1},
+    {.name = "momentum", .kind = KEY_LATER, .group = 1},
+    {"unit", KEY_TEXT, .summary = "SI unit; left out: that of the kind"},
+    {"tolerance", KEY_NUMBER, .summary = "relative, of the limit; 1e-3"},
+    {"order", KEY_NUMBER, .summary = "least order of convergence"},
+    {"near_zero", KEY_NUMBER, .summary = "scale of errors of values near zero"},
+    {"factor", KEY_NUMBER, .summary = "reported value = factor value + offset"},
+    {"offset", KEY_NUMBER, .summary = "in the same unit"},
+    {"x", KEY_MAP, .below = abscissa, .summary = "abscissa of a curve"},
+    {"prediction", KEY_MAP, .below = prediction, .summary = "shown, never judged"},
+    {.name = NULL}};
+
+const key keys_truth[] = {
+    {"quantity", KEY_NAME, .needed = 1, .summary = "quantity"},
+    {"value", KEY_NUMBER, .needed = 1, .summary = "in its unit"},
+    {"kind", KEY_WORD, .needed = 1,
+     .words = "exact|predicted|independent|agreement|consensus|published|reconstructed|experiment",
+     .summary = "how it is known"},
+    {"source", KEY_TEXT, .needed = 1, .summary = "who says so"},
+    {"uncertainty", KEY_NUMBER, .summary = "of the value, same unit; 0"},
+    {"formulation", KEY_TEXT, .summary = "of whom it speaks; left out: the continuum"},
+    {"theory", KEY_WORD, .words = "engesser|haringx", .summary = "of shear in stability"},
+    {"parameters", KEY_NAMES, .below = nothing, .summary = "NAME: VALUE; left out: any values"},
+    {"at", KEY_NUMBER, .summary = "point of a curve"},
+    {"model", KEY_WORD, .words = "plate|solid", .summary = "another one: informs, never gates"},
+    {"convention", KEY_TEXT, .summary = "of moments"},
+    {.name = NULL}};

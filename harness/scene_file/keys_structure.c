@@ -1,0 +1,167 @@
+/* Keys of what a structure consists of. */
+#include <stddef.h>
+
+#include "harness/scene_file/keys.h"
+
+#define COMPONENTS "ux|uy|uz|rx|ry|rz"
+
+const key keys_parameter[] = {
+    {"value", KEY_FORMS, .needed = 1, .summary = "default: an expression of constants, or a word"},
+    {"unit", KEY_TEXT, .summary = "SI unit; 1 for a plain number"},
+    {"min", KEY_NUMBER, .summary = "least value"},
+    {"max", KEY_NUMBER, .summary = "largest value"},
+    {"choices", KEY_FORMS, .summary = "[WORD, ...]: the words that may be chosen"},
+    {"about", KEY_TEXT, .summary = "what it is, in one line"},
+    {.name = NULL}};
+
+static const key number[] = {{"", KEY_NUMBER, .summary = "an expression"}, {.name = NULL}};
+
+static const key rectangle[] = {
+    {"width", KEY_NUMBER, .needed = 1, .unit = "m", .summary = "along the member's z axis"},
+    {"thickness", KEY_NUMBER, .needed = 1, .unit = "m", .summary = "along its y axis"},
+    {.name = NULL}};
+
+static const key point[] = {{"", KEY_VECTOR, .count = 2, .unit = "m", .summary = "[y, z]"},
+                            {.name = NULL}};
+
+static const key wall[] = {
+    {"from", KEY_NAME, .needed = 1, .summary = "point where it begins"},
+    {"to", KEY_NAME, .needed = 1, .summary = "point where it ends"},
+    {"thickness", KEY_NUMBER, .needed = 1, .unit = "m", .summary = "of the wall"},
+    {.name = NULL}};
+
+static const key constants[] = {
+    {"A", KEY_NUMBER, .needed = 1, .unit = "m^2", .summary = "area"},
+    {"Iy", KEY_NUMBER, .needed = 1, .unit = "m^4", .summary = "int z^2 dA"},
+    {"Iz", KEY_NUMBER, .needed = 1, .unit = "m^4", .summary = "int y^2 dA"},
+    {"It", KEY_NUMBER, .needed = 1, .unit = "m^4", .summary = "torsion constant"},
+    {"Iw", KEY_NUMBER, .unit = "m^6", .summary = "warping constant; 0: nothing warps"},
+    {"Ip", KEY_NUMBER, .unit = "m^4", .summary = "polar moment; Iy + Iz where it is left out"},
+    {"ys", KEY_NUMBER, .unit = "m", .summary = "shear centre from the centroid, along y"},
+    {"zs", KEY_NUMBER, .unit = "m", .summary = "shear centre from the centroid, along z"},
+    {"wagner_y", KEY_NUMBER, .unit = "m^5", .summary = "int y (y^2 + z^2) dA"},
+    {"wagner_z", KEY_NUMBER, .unit = "m^5", .summary = "int z (y^2 + z^2) dA"},
+    {"wagner_torque", KEY_NUMBER, .unit = "m^6", .summary = "c of the energy E c kx^4 per length"},
+    {"D", KEY_VECTOR, .count = 9, .group = 1, .summary = "shear rigidities/G, order y, z, omega"},
+    {"F", KEY_VECTOR, .count = 9, .group = 1, .summary = "its inverse; neither: rigid in shear"},
+    {.name = NULL}};
+
+static const key given[] = {
+    {"Iw", KEY_NUMBER, .unit = "m^6", .summary = "warping constant"},
+    {"ys", KEY_NUMBER, .unit = "m", .summary = "shear centre, along y"},
+    {"zs", KEY_NUMBER, .unit = "m", .summary = "shear centre, along z"},
+    {"Dy", KEY_NUMBER, .unit = "m^2", .summary = "shear rigidity/G along y"},
+    {"Dz", KEY_NUMBER, .unit = "m^2", .summary = "shear rigidity/G along z"},
+    {"Dw", KEY_NUMBER, .unit = "m^4", .summary = "shear rigidity/G of warping"},
+    {"Dyz", KEY_NUMBER, .unit = "m^2", .summary = "coupling of y and z"},
+    {"Dyw", KEY_NUMBER, .unit = "m^3", .summary = "coupling of y and warping"},
+    {"Dzw", KEY_NUMBER, .unit = "m^3", .summary = "coupling of z and warping"},
+    {"It", KEY_NUMBER, .unit = "m^4", .summary = "torsion constant"},
+    {"Ip", KEY_NUMBER, .unit = "m^4", .summary = "polar moment"},
+    {.name = NULL}};
+
+const key keys_section[] = {
+    {"rectangle", KEY_MAP, .needed = 1, .group = 1, .below = rectangle, .summary = "solid"},
+    {"walls", KEY_LIST, .needed = 1, .group = 1, .below = wall, .summary = "thin straight walls"},
+    {"constants", KEY_MAP, .needed = 1, .group = 1, .below = constants, .summary = "as given"},
+    {.name = "cells", .kind = KEY_LATER, .group = 1},
+    {.name = "i", .kind = KEY_LATER, .group = 1},
+    {.name = "channel", .kind = KEY_LATER, .group = 1},
+    {.name = "angle", .kind = KEY_LATER, .group = 1},
+    {.name = "zed", .kind = KEY_LATER, .group = 1},
+    {.name = "tube", .kind = KEY_LATER, .group = 1},
+    {.name = "stiffness", .kind = KEY_LATER, .group = 1},
+    {.name = "mass", .kind = KEY_LATER},
+    {"points", KEY_NAMES, .below = point, .summary = "of walls, in axes of one's own"},
+    {"young", KEY_NUMBER, .needed = 1, .unit = "Pa", .summary = "modulus of elasticity"},
+    {"shear_modulus", KEY_NUMBER, .needed = 1, .unit = "Pa", .summary = "E/(2 (1 + nu))"},
+    {"density", KEY_NUMBER, .unit = "kg/m^3", .summary = "0 where it is left out: no inertia"},
+    {"shear_factor", KEY_FORMS, .summary = "rectangle: k, or [k_y, k_z]; left out: 5/6"},
+    {"given", KEY_MAP, .below = given, .summary = "replaces computed constants"},
+    {.name = NULL}};
+
+static const key drive[] = {{"ux", KEY_NAME, .summary = "motion"},
+                            {"uy", KEY_NAME, .summary = "motion"},
+                            {"uz", KEY_NAME, .summary = "motion"},
+                            {"rx", KEY_NAME, .summary = "motion"},
+                            {"ry", KEY_NAME, .summary = "motion"},
+                            {"rz", KEY_NAME, .summary = "motion"},
+                            {.name = NULL}};
+
+static const key fork_[] = {
+    {"axis", KEY_VECTOR, .needed = 1, .count = 3, .summary = "the section's own axis"},
+    {"web", KEY_VECTOR, .needed = 1, .count = 3, .summary = "direction that the guides embrace"},
+    {.name = NULL}};
+
+static const key turn[] = {
+    {"axis", KEY_FORMS, .needed = 1, .summary = "x, y, z or [3]: turns with the angles before it"},
+    {"angle", KEY_NAME, .needed = 1, .summary = "free, held or a motion"},
+    {.name = NULL}};
+
+static const key rotation[] = {
+    {"sequence", KEY_LIST, .needed = 1, .group = 1, .below = turn, .summary = "one to three turns"},
+    {"vector", KEY_FORMS, .needed = 1, .group = 1, .summary = "[MOTION, MOTION, MOTION]"},
+    {.name = NULL}};
+
+const key keys_node[] = {
+    {"at", KEY_VECTOR, .needed = 1, .count = 3, .unit = "m", .summary = "position"},
+    {"hold", KEY_WORDS, .words = "all|" COMPONENTS, .summary = "components that do not move"},
+    {"drive", KEY_MAP, .below = drive, .summary = "components that follow a motion"},
+    {"part_of", KEY_NAME, .summary = "node that it moves with, as one rigid body"},
+    {"rotation", KEY_MAP, .below = rotation, .summary = "how it turns, where not freely"},
+    {"fork", KEY_MAP, .below = fork_, .summary = "no turn about the turned section's axis"},
+    {.name = "mass", .kind = KEY_LATER},
+    {.name = "centre", .kind = KEY_LATER},
+    {.name = "inertia", .kind = KEY_LATER},
+    {.name = "velocity", .kind = KEY_LATER},
+    {.name = "spin", .kind = KEY_LATER},
+    {.name = NULL}};
+
+const key keys_member[] = {
+    {"from", KEY_NAME, .needed = 1, .summary = "node"},
+    {"to", KEY_NAME, .needed = 1, .summary = "node"},
+    {"section", KEY_NAME, .needed = 1, .summary = "section"},
+    {"y", KEY_VECTOR, .needed = 1, .count = 3, .summary = "direction of the section's y axis"},
+    {"warping", KEY_FORMS, .summary = "free, fixed, {shared: NAME}, or [at from, at to]"},
+    {"curvature", KEY_VECTOR, .count = 3, .unit = "1/m", .summary = "initial twist, curvatures"},
+    {"strain", KEY_VECTOR, .count = 3, .unit = "1", .summary = "initial elongation, shears"},
+    {"divisions", KEY_NUMBER, .summary = "elements, whatever the mesh"},
+    {.name = "offset", .kind = KEY_LATER},
+    {.name = "release", .kind = KEY_LATER},
+    {.name = "damping", .kind = KEY_LATER},
+    {.name = NULL}};
+
+static const key condition[] = {
+    {"node", KEY_NAME, .needed = 1, .summary = "node whose coordinate is prescribed instead"},
+    {"component", KEY_WORD, .needed = 1, .words = COMPONENTS, .summary = "of its coordinates"},
+    {"motion", KEY_NAME, .needed = 1, .summary = "by this motion"},
+    {.name = NULL}};
+
+const key keys_motion[] = {
+    {"unit", KEY_WORD, .words = "m|rad", .summary = "of its values"},
+    {"path", KEY_NUMBERS, .summary = "path parameter, ascending"},
+    {"value", KEY_NUMBERS, .group = 1, .needed = 1, .summary = "at these; linear between"},
+    {"such_that", KEY_MAP, .group = 1, .needed = 1, .below = condition, .summary = "unknown"},
+    {"unknown", KEY_WORD, .words = "true|yes", .summary = "for the reader of the file"},
+    {.name = "time", .kind = KEY_LATER},
+    {.name = NULL}};
+
+const key keys_load[] = {
+    {"force", KEY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N", .summary = "at a node"},
+    {"moment", KEY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N m", .summary = "at one"},
+    {"distributed", KEY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N/m",
+     .summary = "along a member"},
+    {.name = "distributed_moment", .kind = KEY_LATER, .group = 1},
+    {.name = "gravity", .kind = KEY_LATER, .group = 1},
+    {"on", KEY_NAME, .needed = 1, .summary = "node or member"},
+    {"path", KEY_NUMBERS, .summary = "path parameter, ascending"},
+    {"factor", KEY_NUMBERS, .summary = "at these; left out: the path parameter itself"},
+    {.name = "at", .kind = KEY_LATER},
+    {.name = "axes", .kind = KEY_LATER},
+    {.name = "follower", .kind = KEY_LATER},
+    {.name = NULL}};
+
+const key keys_loop[] = {
+    {"for", KEY_FORMS, .summary = "{NAME: a..b | a..b step c | a..b/n | [list], ...}: loops"},
+    {"let", KEY_NAMES, .below = number, .summary = "values derived for this entry"},
+    {.name = NULL}};
