@@ -32,8 +32,7 @@ typedef struct key {
 } key;
 
 extern const key keys_root[], keys_section[], keys_node[], keys_member[], keys_motion[],
-    keys_load[], keys_analysis[], keys_quantity[], keys_truth[], keys_parameter[], keys_part[],
-    keys_instance[];
+    keys_load[], keys_analysis[], keys_quantity[], keys_truth[], keys_parameter[];
 
 /* `for` and `let`, which every entry may have. */
 extern const key keys_loop[];

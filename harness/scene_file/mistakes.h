@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "elements/math/status.h"
+#include "elements/shared/status.h"
 
 enum { MISTAKES_MOST = 20 };
 
