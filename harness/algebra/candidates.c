@@ -278,7 +278,10 @@ status candidates_missing(candidates *p, int wanted, int *missing, eigen_result 
     static const double place[] = {0.5, 0.35, 0.65};
     double low;
     const int q = above_cluster(p, wanted, &low);
-    const double high = q > 0 ? p->matrix_mu[q - 1] : low * (1 + 2 * close + 32 * p->noise[q]);
+    /* just above the cluster: farther up, what is missing could lie below */
+    const double told_apart = 2 * close + 32 * p->noise[q], near = 1e-2;
+    const double high = q > 0 ? fmin(p->matrix_mu[q - 1], low * (1 + fmax(near, told_apart)))
+                              : low * (1 + told_apart);
     int above = 0;
     *missing = -1;
     /* A count that does not fit is not believed at once: there is no pivoting. */

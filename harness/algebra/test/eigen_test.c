@@ -222,10 +222,10 @@ static void test_missed_copies(void)
     strings_free(&s);
 }
 
-/* x^T A x, not to be had of one sign. */
+/* x^T A x, not to be had of one sign between two sizes. */
 typedef struct broken {
     const sparse *A;
-    double sign;
+    double sign, least, most;
 } broken;
 
 static double broken_energy(void *context, const double x[])
@@ -236,7 +236,8 @@ static double broken_energy(void *context, const double x[])
     for (int i = 0; i < b->A->n; i++)
         sum += x[i] * y[i];
     free(y);
-    return b->sign * sum < 0 ? NAN : sum;
+    const double size = -b->sign * sum;
+    return size > b->least && size < b->most ? NAN : sum;
 }
 
 /* Values of both signs, of which those of one sign are lost as soon as they are found: the other
@@ -250,7 +251,7 @@ static void test_sides_apart(void)
     for (int i = N / 2; i < N; i++)
         matrices_add(&s.M, i, i, -2.5);
     for (int sign = -1; sign <= 1; sign += 2) {
-        broken b = {&s.M, sign};
+        broken b = {&s.M, sign, 0, INFINITY};
         eigen_result alone = {0}, r = {0};
         fault f = {""};
         eigen_problem p = {.K = &s.K, .A = &s.M, .sign = sign, .largest = WANTED};
@@ -275,6 +276,36 @@ static void test_sides_apart(void)
         eigen_free(&r);
         eigen_free(&alone);
     }
+    strings_free(&s);
+}
+
+/* One value of a side is lost: those before it are given, and none behind it, for it is missing
+ * among them. */
+static void test_side_in_part(int lost)
+{
+    enum { N = 800, WANTED = 4 };
+    strings s;
+    strings_init(&s, 1, N, 0);
+    for (int i = N / 2; i < N; i++)
+        matrices_add(&s.M, i, i, -2.5);
+    eigen_result all = {0}, r = {0};
+    fault f = {""};
+    eigen_problem p = {.K = &s.K, .A = &s.M, .sign = 1, .largest = WANTED, .smallest = WANTED};
+    gsl_test_int((int)eigen_problems_solve(&p, &all, &f), STATUS_OK, "both sides: %s", f.text);
+    const double size = -all.negative.mu[lost];
+    broken b = {&s.M, 1, size * (1 - 1e-3), size * (1 + 1e-3)};
+    p.A_energy = broken_energy;
+    p.context = &b;
+    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_NOT_CONVERGED,
+                 "without value %d: no success", lost);
+    gsl_test_int((int)r.negative.status, STATUS_NOT_CONVERGED, "without value %d: its side", lost);
+    gsl_test_int(r.negative.count, lost, "without value %d: those before it", lost);
+    for (int i = 0; i < r.negative.count; i++)
+        gsl_test_rel(r.negative.mu[i], all.negative.mu[i], 1e-12, "without value %d: value %d",
+                     lost, i);
+    gsl_test_int(r.positive.count, WANTED, "without value %d: the other side", lost);
+    eigen_free(&r);
+    eigen_free(&all);
     strings_free(&s);
 }
 
@@ -311,6 +342,8 @@ static void test_rounding(int masses)
 int main(void)
 {
     test_sides_apart();
+    for (int lost = 0; lost < 4; lost++)
+        test_side_in_part(lost);
     test_rounding(40);
     test_rounding(120);
     static const double spreads[] = {0, 1e-12, 1e-9, 1e-7, 1e-4, 0.01};
