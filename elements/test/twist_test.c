@@ -85,15 +85,15 @@ static void hyperbolic_twist(void)
     section c = unsymmetric();
     const double lengths[] = {0.03, 0.3, 3, 30};
     for (int i = 0; i < 4; i++) {
-        const double cubic = halves_against_whole(&c, lengths[i], TWIST_CUBIC);
-        const double exact = halves_against_whole(&c, lengths[i], TWIST_HYPERBOLIC);
-        const double lambda = twist_of(&c, lengths[i], 1, TWIST_HYPERBOLIC).lambda;
+        const double cubic = halves_against_whole(&c, lengths[i], BEAMW_TWIST_CUBIC);
+        const double exact = halves_against_whole(&c, lengths[i], BEAMW_TWIST_HYPERBOLIC);
+        const double lambda = beamw_twist_of(&c, lengths[i], 1, BEAMW_TWIST_HYPERBOLIC).lambda;
         gsl_test(!(exact < 1e-10 && cubic > 1e-8),
                  "lambda %.3f: one hyperbolic element is two (%.1e), a cubic one is not (%.1e)",
                  lambda, exact, cubic);
     }
     c.It = 0;
-    gsl_test(!(halves_against_whole(&c, 0.3, TWIST_HYPERBOLIC) < 1e-10),
+    gsl_test(!(halves_against_whole(&c, 0.3, BEAMW_TWIST_HYPERBOLIC) < 1e-10),
              "without Saint-Venant torsion both are");
 }
 
@@ -175,10 +175,10 @@ static void hyperbolic_twist_under_stress(void)
             const unsigned features = all | (haringx ? FEATURE_HARINGX : FEATURE_ENGESSER);
             double exact = 0, cubic = 0;
             for (unsigned seed = 1; seed <= 10; seed++) {
-                exact = worst_of(
-                    exact, third_order_apart(&c, lengths[i], TWIST_HYPERBOLIC, features, seed));
-                cubic =
-                    worst_of(cubic, third_order_apart(&c, lengths[i], TWIST_CUBIC, features, seed));
+                exact = worst_of(exact, third_order_apart(&c, lengths[i], BEAMW_TWIST_HYPERBOLIC,
+                                                          features, seed));
+                cubic = worst_of(
+                    cubic, third_order_apart(&c, lengths[i], BEAMW_TWIST_CUBIC, features, seed));
             }
             gsl_test(
                 !(exact < 1e-10 && cubic > 1e-8),
@@ -194,16 +194,17 @@ static void twist_functions(void)
     section c = sheet();
     const double lambdas[] = {1e-8, 1e-3, 0.5, 1.9, 2.1, 30, 79, 81, 1e3, 1e4};
     for (size_t k = 0; k < sizeof lambdas / sizeof lambdas[0]; k++) {
-        double x[TWIST_MAX_POINTS], w[TWIST_MAX_POINTS], even = 0, odd = 0, square = 0, turn = 0;
+        double x[BEAMW_TWIST_MAX_POINTS], w[BEAMW_TWIST_MAX_POINTS], even = 0, odd = 0, square = 0,
+                                                                     turn = 0;
         fault f;
         c.Iw = c.shear_modulus * c.It * 1.3 * 1.3 / (c.young * lambdas[k] * lambdas[k]);
-        const twist t = twist_of(&c, 1.3, 0, TWIST_HYPERBOLIC);
+        const beamw_twist t = beamw_twist_of(&c, 1.3, 0, BEAMW_TWIST_HYPERBOLIC);
         const double h = t.lambda / 2, moment = 1 / (tanh(h) * t.lambda) -
                                                 (h < 300 ? 1 / (2 * sinh(h) * sinh(h)) : 0);
-        const int points = twist_points(&t, x, w, &f);
+        const int points = beamw_twist_points(&t, x, w, &f);
         gsl_test_rel(t.lambda, lambdas[k], 1e-14, "lambda");
         for (int i = 0; i < points; i++) {
-            const twist_shapes s = twist_at(&t, x[i]);
+            const beamw_twist_shapes s = beamw_twist_at(&t, x[i]);
             even += w[i] * s.even;
             odd += w[i] * s.odd;
             square += w[i] * s.odd * s.odd;
@@ -213,14 +214,14 @@ static void twist_functions(void)
                  "lambda %g: means %.1e %.1e %.1e", lambdas[k], even, odd, turn);
         if (lambdas[k] > 0.1)
             gsl_test_rel(square, moment, 1e-12, "lambda %g: square of the odd rate", lambdas[k]);
-        const twist_shapes end = twist_at(&t, 1), start_of = twist_at(&t, 0);
+        const beamw_twist_shapes end = beamw_twist_at(&t, 1), start_of = beamw_twist_at(&t, 0);
         gsl_test_rel(end.odd, -1, 1e-14, "lambda %g: odd rate at the end", lambdas[k]);
         gsl_test_rel(start_of.even, -1, 1e-12, "lambda %g: even rate at the end", lambdas[k]);
         gsl_test(fabs(end.odd_integral) + fabs(end.even_integral) > 1e-14,
                  "lambda %g: no turn at the end", lambdas[k]);
         if (lambdas[k] < 1e-2) {
-            const twist_shapes hyperbolic = twist_at(&t, 0.3),
-                               cubic = twist_at(&(twist){.soft = 1}, 0.3);
+            const beamw_twist_shapes hyperbolic = beamw_twist_at(&t, 0.3),
+                                     cubic = beamw_twist_at(&(beamw_twist){.soft = 1}, 0.3);
             const double close = lambdas[k] * lambdas[k] + 1e-14;
             gsl_test_rel(hyperbolic.odd, cubic.odd, close, "odd -> linear");
             gsl_test_rel(hyperbolic.even, cubic.even, close, "even -> quadratic");

@@ -14,7 +14,7 @@
 #include "elements/test/random.h"
 #include "elements/test/worst.h"
 
-enum { MOST = WARPING_MAX_STAGES };
+enum { MOST = EXACT_WARPING_MAX_STAGES };
 
 /* p by its coefficients of x^k, and the amplitudes of both layers. */
 typedef struct amplitude {
@@ -51,10 +51,10 @@ static void layer_means(const amplitude *a, const double x[], const double w[], 
         for (size_t g = 0; g < 12; g++) {
             double at, weight, L[MOST];
             gsl_integration_glfixed_point(from, to, g, &at, &weight, t);
-            line_lagrange(a->stages, x, at, L, NULL);
+            exact_line_lagrange(a->stages, x, at, L, NULL);
             for (int i = 0; i < a->stages; i++)
                 mean[i] += weight * L[i] / w[i] * layers(a, at, 1 - at);
-            line_lagrange(a->stages, x, 1 - at, L, NULL);
+            exact_line_lagrange(a->stages, x, 1 - at, L, NULL);
             for (int i = 0; i < a->stages; i++)
                 mean[i] += weight * L[i] / w[i] * layers(a, 1 - at, at);
         }
@@ -62,12 +62,12 @@ static void layer_means(const amplitude *a, const double x[], const double w[], 
 }
 
 /* Largest departure of S z from the exact gradient, in parts of its largest entry. */
-static double departure(const constants *c, const amplitude *a)
+static double departure(const exact_constants *c, const amplitude *a)
 {
     const int m = a->stages + 2;
-    double x[MOST], w[MOST], mean[MOST], z[WARPING_MAX], exact[WARPING_MAX],
-        S[WARPING_MAX * WARPING_MAX], size = 0, worst = 0;
-    line_gauss(a->stages, x, w);
+    double x[MOST], w[MOST], mean[MOST], z[EXACT_WARPING_MAX], exact[EXACT_WARPING_MAX],
+        S[EXACT_WARPING_MAX * EXACT_WARPING_MAX], size = 0, worst = 0;
+    exact_line_gauss(a->stages, x, w);
     layer_means(a, x, w, mean);
     for (int i = 0; i < a->stages; i++) {
         const double T = -c->GJ * mean[i] - c->EIw * polynomial(a, x[i], 2);
@@ -79,7 +79,7 @@ static double departure(const constants *c, const amplitude *a)
     z[m - 1] = polynomial(a, 1, 0) + a->layer[0] * far + a->layer[1];
     exact[m - 2] = -c->EIw * (polynomial(a, 0, 1) + l * (-a->layer[0] + a->layer[1] * far));
     exact[m - 1] = c->EIw * (polynomial(a, 1, 1) + l * (-a->layer[0] * far + a->layer[1]));
-    warping_energy(c, a->stages, x, w, S);
+    exact_warping_energy(c, a->stages, x, w, S);
     for (int i = 0; i < m; i++) {
         double sum = 0;
         for (int j = 0; j < m; j++)
@@ -93,7 +93,7 @@ static double departure(const constants *c, const amplitude *a)
 /* One layer or polynomial term at a time: none hides behind a larger one. */
 static void compare(int stages, double lambda, double shear)
 {
-    const constants c = {.GJ = 0.7, .EIw = 0.7 / (lambda * lambda), .F = {[8] = shear}};
+    const exact_constants c = {.GJ = 0.7, .EIw = 0.7 / (lambda * lambda), .F = {[8] = shear}};
     double layer = 0, smooth = 0, mixed = 0;
     uint64_t seed = (uint64_t)stages;
     for (int side = 0; side < 2; side++) {
