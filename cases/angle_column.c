@@ -10,7 +10,7 @@ enum { LOAD, WARPING };
 enum { CENTROID, SHEAR_CENTRE, LEG, MOMENT };
 enum { LOADS = 3 };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [LOAD] = {"load", "", 0, 0, 0, "centroid|shear_centre|leg|moment",
               "axial force at the centroid, the shear centre or the axis through the legs' tips; "
               "end moments about the strong axis"},

@@ -7,7 +7,7 @@
 
 enum { FORCE, TORSION };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [FORCE] = {"force", "N", 600.0, -1e4, 1e4, NULL, "dead tip force across the plane of the arc"},
     [TORSION] = {"torsion", "", 0, 0, 0, "exact|polar",
                  "exact: J of the square and k = 5/6; polar: J = 1/6 and k = 1, as published tip "

@@ -11,7 +11,7 @@
 
 enum { LENGTH, SIZES, LOAD_POINT, LOAD_HEIGHT, SHEAR, WAGNER, OMEGA, DEFLECTION, STEP, ROTARY };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [LENGTH] = {"length", "m", 9.0, 1e-3, 1e4, NULL, "length of the beam"},
     [SIZES] = {"sizes", "", 0, 0, 0, "overall|centreline",
                "30 x 10 cm are the section's outer sizes, or those of its centre line"},

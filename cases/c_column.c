@@ -7,7 +7,7 @@
 enum { ROTARY_INERTIA = COLUMN_PARAMETERS };
 enum { FREQUENCIES = 13 };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     COLUMN_TABLE(1),
     [ROTARY_INERTIA] = {"rotary_inertia", "1", 1, 0, 1, NULL,
                         "1: rotary and warping inertia, 0: translations only"},

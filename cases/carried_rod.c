@@ -9,7 +9,7 @@
 
 enum { TURNS, STRAIN };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [TURNS] = {"turns", "1", 1, 0, 100, NULL, "turns about (1, 2, 3) after the rod was strained"},
     [STRAIN] = {"strain", "rad", 1, -1.5, 1.5, NULL,
                 "rotation of the tip against the root, about (0.6, 0, 0.8)"},

@@ -12,7 +12,7 @@ enum { LENGTH, WIDTH, THICKNESS, PITCH, HALF, YOUNG, POISSON, ANGLE, ROTATION, M
 enum { HINGE, VECTOR, FIRST, LAST, BETWEEN }; /* of ROTATION */
 enum { LEAVES = 3, STATIONS = 4 };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [LENGTH] = {"length", "m", 0.06, 1e-4, 10, NULL, "length of a leaf"},
     [WIDTH] = {"width", "m", 0.01, 1e-5, 10, NULL, "width of a leaf, along z"},
     [THICKNESS] = {"thickness", "m", 0.3e-3, 1e-7, 0.1, NULL, "thickness of a leaf"},

@@ -8,7 +8,7 @@
 enum { TORSION, SHEAR, ROTARY_INERTIA };
 enum { FREQUENCIES = 9 };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [TORSION] = {"torsion", "", 0, 0, 0, "polar|exact",
                  "polar: J = a^4/6, as the published values; exact: Saint-Venant's of the square"},
     [SHEAR] = {"shear", "1", 1, 0, 1, NULL, "1: flexible in shear, k = 5/6; 0: shear-rigid"},

@@ -5,7 +5,7 @@
 
 enum { LOAD, AXIAL };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [LOAD] = {"load", "1", 1.0, -1e3, 1e3, NULL, "tip force P L^2/EI"},
     [AXIAL] = {"axial", "1", 1e8, 1e2, 1e14, NULL, "EA L^2/EI"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},

@@ -5,7 +5,7 @@
 
 enum { LOAD };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [LOAD] = {"load", "N", 600e3, -1e7, 1e7, NULL, "tip force"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };

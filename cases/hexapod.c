@@ -18,7 +18,7 @@ enum {
 };
 enum { LEGS = 6, MAX_STEPS = 101 };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     JOINT_TABLE,
     [BASE_RADIUS] = {"base_radius", "m", 0.40, 1e-3, 1e3, NULL, "radius of the crank pivots"},
     [CRANK_LENGTH] = {"crank_length", "m", 0.20, 1e-3, 1e3, NULL,

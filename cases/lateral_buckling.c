@@ -7,7 +7,7 @@
 enum { LOAD, K, PREBUCKLING, RATIO };
 enum { TIP, DISTRIBUTED, MID, MID_DISTRIBUTED };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [LOAD] = {"load", "", TIP, 0, 0, "tip|distributed|mid|mid_distributed",
               "cantilever with a tip or a distributed load; simply supported beam with a mid or a "
               "distributed load"},

@@ -7,7 +7,7 @@
 
 enum { PLANE, STEP };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [PLANE] = {"plane", "1", 1, 0, 1, NULL,
                "1: too stiff to leave its plane, 0: equal stiffness all round, the frame buckles "
                "out of its plane"},

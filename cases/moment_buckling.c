@@ -7,7 +7,7 @@
 
 enum { WAGNER_MOMENTS = COLUMN_PARAMETERS };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     COLUMN_TABLE(0),
     [WAGNER_MOMENTS] = {"wagner_moments", "1", 1, 0, 1, NULL,
                         "1: with int y(y^2+z^2) dA and int z(y^2+z^2) dA"},

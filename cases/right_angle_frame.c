@@ -8,7 +8,7 @@
 
 enum { LEG, DEPTH, THICKNESS, YOUNG, POISSON, ANGLE };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [LEG] = {"leg", "m", 0.24, 1e-6, 1e6, NULL, "length of a leg"},
     [DEPTH] = {"depth", "m", 0.03, 1e-9, 1e3, NULL,
                "depth of the strip, in the plane of the frame"},

@@ -5,7 +5,7 @@
 
 enum { TURNS };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [TURNS] = {"turns", "1", 1.0, -2.0, 2.0, NULL, "full turns of the tip"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };

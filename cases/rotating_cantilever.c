@@ -10,7 +10,7 @@
 enum { OMEGA, SLENDERNESS, HUB_RADIUS, AXIS, STIFFNESS_RATIO, STATIONS };
 enum { MODES = 3, LOWEST = 4, MOST_STATIONS = 200 };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [OMEGA] = {"omega_star", "1", 6.0, 0, 1e4, NULL, "angular velocity in sqrt(EI/(rho A L^4))"},
     [SLENDERNESS] = {"slenderness", "1", 1000.0, 1, 1e7, NULL, "L/sqrt(I/A)"},
     [HUB_RADIUS] = {"hub_radius", "1", 0, -100, 100, NULL,

@@ -6,7 +6,7 @@
 
 enum { LENGTH, SIDE, YOUNG, SHEAR_MODULUS, SHEAR_STABILITY };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [LENGTH] = {"length", "m", 1.0, 1e-6, 1e6, NULL, "length of the column"},
     [SIDE] = {"side", "m", 0.02, 1e-9, 1e3, NULL, "side of the square"},
     [YOUNG] = {"young", "Pa", 70e9, 1e-3, 1e15, NULL, "modulus of elasticity"},

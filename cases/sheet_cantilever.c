@@ -11,7 +11,7 @@
 enum { MODES = SHEET_PARAMETERS, DENSITY, ROTARY, STATIONS };
 enum { MOST_STATIONS = 100, MOST_MODES = 6 };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     SHEET_TABLE(0),
     [MODES] = {"modes", "1", 0, 0, MOST_MODES, NULL,
                "natural frequencies of the deflected sheet, its tip held along y and about z"},

@@ -7,7 +7,7 @@
 enum { TIP_PHI_Z = SHEET_PARAMETERS, TIP_PHI_X };
 enum { STATIONS_BENT = 5, STATIONS_TWISTED = 5 };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     SHEET_TABLE(1),
     [TIP_PHI_Z] = {"tip_phi_z", "rad", 0.15, -1.5, 1.5, NULL, "prescribed tip rotation about z"},
     [TIP_PHI_X] = {"tip_phi_x", "rad", 0.15, -1.5, 1.5, NULL,

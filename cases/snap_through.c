@@ -10,7 +10,7 @@
 
 enum { ANGLE, CONTROL, STEP };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [ANGLE] = {"angle", "rad", 0.3, 0.01, 1.5, NULL, "inclination of the bars"},
     [CONTROL] = {"control", "", 0, 0, 0, "arc|displacement",
                  "what is given along the path: the arc or the apex's deflection"},

@@ -9,7 +9,7 @@
 enum { TILT = JOINT_PARAMETERS, STEPS };
 enum { MAX_STEPS = 1000 };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     JOINT_TABLE,
     [TILT] = {"tilt", "rad", 15 * JOINT_DEGREE, 0, 1, NULL, "rotation of the end effector"},
     [STEPS] = {"steps", "1", 50, 1, MAX_STEPS, NULL, "azimuths of the tilt axis in one turn"},

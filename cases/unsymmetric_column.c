@@ -9,7 +9,7 @@
 enum { LENGTH, YOUNG, SHEAR_MODULUS, DENSITY, SHEAR, SHEAR_STABILITY, ROTARY_INERTIA, AXIAL_LOAD };
 enum { FREQUENCIES = 6 };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [LENGTH] = {"length", "m", 3.0, 1e-6, 1e6, NULL, "length of the column"},
     [YOUNG] = {"young", "Pa", 210e9, 1e-3, 1e15, NULL, "modulus of elasticity"},
     [SHEAR_MODULUS] = {"shear_modulus", "Pa", 80e9, 1e-6, 1e15, NULL, "shear modulus"},

@@ -6,7 +6,7 @@
 
 enum { ANGLE };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [ANGLE] = {"angle", "rad", 1.0, -3.0, 3.0, NULL, "twist of the tip"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };

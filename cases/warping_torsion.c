@@ -6,7 +6,7 @@
 
 enum { LENGTH, KL, ENDS };
 
-static const case_parameter parameters[] = {
+static const parameter_type parameters[] = {
     [LENGTH] = {"length", "m", 1.0, 1e-6, 1e6, NULL, "length of the beam"},
     [KL] = {"kL", "1", 1.0, 1e-4, 1e5, NULL, "length times sqrt(GJ/EIw)"},
     [ENDS] = {"ends", "", 0, 0, 0, "cantilever|fixed",

@@ -21,6 +21,7 @@ const element_type element_beamw = {
     .shear_theories = SHEAR_OWN,
     .own_theory = "J Eq. 66: modified modes that see no shear (reference/ERRATA.md, J 58/62/66)",
     .options = beamw_prepare_options,
+    .judged = beamw_prepare_judged,
     .data_size = beamw_variants_data_size,
     .prepare = prepare,
     .strain = beamw_variants_strain,

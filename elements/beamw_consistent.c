@@ -38,6 +38,7 @@ const element_type element_beamw_consistent = {
               FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .shear_theories = SHEAR_ENGESSER | SHEAR_HARINGX,
     .options = beamw_prepare_options_consistent,
+    .judged = beamw_prepare_judged,
     .data_size = data_size,
     .prepare = prepare,
     .strain = beamw_helicoidal_strain,

@@ -19,6 +19,7 @@ const element_type element_beamw_first = {
     .limits = LIMIT_QUARTER_TURN,
     .shear_theories = SHEAR_ENGESSER,
     .options = beamw_prepare_options,
+    .judged = beamw_prepare_judged,
     .data_size = beamw_variants_data_size,
     .prepare = prepare,
     .strain = beamw_variants_strain,

@@ -16,6 +16,7 @@ const element_type element_beamw_vlasov = {
               FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .limits = LIMIT_NO_STRESS_FREE_SHEAR | LIMIT_QUARTER_TURN,
     .options = beamw_prepare_options,
+    .judged = beamw_prepare_judged,
     .data_size = beamw_variants_data_size,
     .prepare = prepare,
     .strain = beamw_variants_strain,

@@ -15,10 +15,10 @@ struct element_data {
     lumped_mass mass;
 };
 
-static const element_option options[] = {
-    [OPTION_STAGES] = {"stages", "3|4|5|6|7|8", 2, 0, 5,
-                       "Gauss points inside an element: order twice their number in statics", 0},
-    {NULL, NULL, 0, 0, 0, NULL, 0},
+static const parameter_type options[] = {
+    [OPTION_STAGES] = {"stages", "", 2, 0, 0, "3|4|5|6|7|8",
+                       "Gauss points inside an element: order twice their number in statics"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
 static int stage_count(const double value[])

@@ -22,6 +22,7 @@
 
 #include "elements/feature.h"
 #include "elements/section/section.h"
+#include "elements/shared/parameter.h"
 #include "elements/shared/status.h"
 
 enum { ELEMENT_ABI = 2 };
@@ -74,17 +75,6 @@ typedef enum element_analysis {
 typedef struct element_order {
     int least, highest;
 } element_order;
-
-/* A choice of the user: -f name:key=value. */
-typedef struct element_option {
-    const char *name;    /* NULL ends the list */
-    const char *choices; /* "lumped|consistent|averaged" (value = index) or NULL for a number */
-    double value;        /* default */
-    double min, max;     /* of a number */
-    const char *summary;
-    unsigned
-        judged; /* enum element_feature: verify judges every choice where a quantity depends on one of these; 0: the default */
-} element_option;
 
 typedef struct element_request {
     const section *section;
@@ -150,7 +140,10 @@ typedef struct element_type {
     unsigned shear_theories; /* shear_theory */
     const char
         *own_theory; /* of SHEAR_OWN, one line: what it is and where it is derived; else NULL */
-    const element_option *options; /* ends with a NULL name; NULL: none */
+    const parameter_type *options; /* -f name:key=value; ends with a NULL name; NULL: none */
+    /* [options] element_feature: verify judges every choice of an option where a quantity depends
+     * on one of these; 0: its default. NULL: the defaults. */
+    const unsigned *judged;
     element_order (*order)(element_analysis, const double options[]); /* NULL: least 2, highest 4 */
     /* Sizes may depend on the options (stages, nodes). */
     int (*nodes)(const double options[]);   /* NULL: 2 */
@@ -180,6 +173,10 @@ static inline element_order element_order_in(const element_type *t, element_anal
 {
     const element_order usual = {2, 4};
     return t->order ? t->order(a, options) : usual;
+}
+static inline unsigned element_judged(const element_type *t, int option)
+{
+    return t->judged ? t->judged[option] : 0;
 }
 static inline int element_nodes(const element_type *t, const double options[])
 {

@@ -15,10 +15,10 @@ struct element_data {
     int nodes;
 };
 
-static const element_option options[] = {
-    [OPTION_NODES] = {"nodes", "2|3", 1, 0, 1, "nodes of an element; one integration point fewer",
-                      0},
-    {NULL, NULL, 0, 0, 0, NULL, 0},
+static const parameter_type options[] = {
+    [OPTION_NODES] = {"nodes", "", 1, 0, 0, "2|3",
+                      "nodes of an element; one integration point fewer"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
 static int nodes(const double value[])

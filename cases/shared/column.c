@@ -2,7 +2,7 @@
 
 #include <stddef.h>
 
-static const char *first_changed_size(const case_parameter parameters[], const double value[])
+static const char *first_changed_size(const parameter_type parameters[], const double value[])
 {
     for (int i = COLUMN_HEIGHT; i <= COLUMN_WEB; i++)
         if (value[i] != parameters[i].value)
@@ -10,7 +10,7 @@ static const char *first_changed_size(const case_parameter parameters[], const d
     return NULL;
 }
 
-status column_build(const case_parameter parameters[], const double value[], scene *s, int ends[2],
+status column_build(const parameter_type parameters[], const double value[], scene *s, int ends[2],
                     fault *f)
 {
     const channel c = {value[COLUMN_HEIGHT], value[COLUMN_WIDTH], value[COLUMN_FLANGE],

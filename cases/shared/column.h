@@ -46,7 +46,7 @@ enum {
 
 /* Adds section, nodes, member and fork supports: u at x = 0, v, w and phi_x at both ends; bending rotations and
  * warping are free. ends[0] is the node at x = 0, ends[1] the one at x = length, which can move along x. */
-status column_build(const case_parameter parameters[], const double value[], scene *s, int ends[2],
+status column_build(const parameter_type parameters[], const double value[], scene *s, int ends[2],
                     fault *f);
 
 #endif

@@ -10,28 +10,28 @@ enum { OPTION_MASS, OPTION_TORSION, OPTION_INSIDE };
 
 #define MASS_OPTION                                                                                \
     {                                                                                              \
-        "mass", "lumped|consistent|averaged", BEAMW_INERTIA_CONSISTENT, 0, 2,                      \
-            "mass matrix: J Eq. 73, from the shape functions, or the mean of the two",             \
-            FEATURE_MASS                                                                           \
+        "mass", "", BEAMW_INERTIA_CONSISTENT, 0, 0, "lumped|consistent|averaged",                  \
+            "mass matrix: J Eq. 73, from the shape functions, or the mean of the two"              \
     }
 
-const element_option beamw_prepare_options[] = {
+const parameter_type beamw_prepare_options[] = {
     [OPTION_MASS] = MASS_OPTION,
-    {NULL, NULL, 0, 0, 0, NULL, 0},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
-const element_option beamw_prepare_options_consistent[] = {
+const parameter_type beamw_prepare_options_consistent[] = {
     [OPTION_MASS] = MASS_OPTION,
     [OPTION_TORSION] =
-        {"torsion", "cubic|hyperbolic", BEAMW_TWIST_CUBIC, 0, 1,
-         "twist along the element: J Eq. 38, or the exact functions of non-uniform torsion",
-         FEATURE_WARPING},
-    [OPTION_INSIDE] = {"inside", "linear|following", 1, 0, 1,
+        {"torsion", "", BEAMW_TWIST_CUBIC, 0, 0, "cubic|hyperbolic",
+         "twist along the element: J Eq. 38, or the exact functions of non-uniform torsion"},
+    [OPTION_INSIDE] = {"inside", "", 1, 0, 0, "linear|following",
                        "bending, shear and warping inside the element: as without stress, or in "
-                       "equilibrium with it",
-                       0},
-    {NULL, NULL, 0, 0, 0, NULL, 0},
+                       "equilibrium with it"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
+
+const unsigned beamw_prepare_judged[] = {
+    [OPTION_MASS] = FEATURE_MASS, [OPTION_TORSION] = FEATURE_WARPING, [OPTION_INSIDE] = 0};
 
 static status length_of(const element_request *request, fault *f)
 {

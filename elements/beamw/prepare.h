@@ -24,6 +24,8 @@ status beamw_prepare_consistent(const element_request *request, beamw_consistent
                                 fault *f);
 
 /* Options in the order beamw_prepare_variant reads them; those of beamw_prepare_consistent are more. */
-extern const element_option beamw_prepare_options[], beamw_prepare_options_consistent[];
+extern const parameter_type beamw_prepare_options[], beamw_prepare_options_consistent[];
+/* element_type.judged of both: the second begins as the first. */
+extern const unsigned beamw_prepare_judged[];
 
 #endif

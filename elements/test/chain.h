@@ -50,7 +50,7 @@ static int chain_start(chain *c, const element_type *type, const double option[]
     c->features = features;
     c->elements = elements;
     c->length = length / elements;
-    for (int i = 0; type->options != NULL && type->options[i].name != NULL; i++)
+    for (int i = 0; i < parameter_count(type->options); i++)
         c->options[i] = option != NULL ? option[i] : type->options[i].value;
     c->per_element = element_nodes(type, c->options);
     c->strains = element_strains(type, c->options);

@@ -4,27 +4,29 @@
 
 #include "cases/case.h"
 #include "harness/analysis/solve.h"
+#include "harness/catalogue/assignment.h"
 
-enum { FORMULATION_KEY = 128 };
+enum { FORMULATION_KEY = 128, FORMULATION_OPTIONS = ELEMENT_MAX_OPTIONS + 1 };
 
 typedef struct formulation {
     const element_type *type;
-    double option[ELEMENT_MAX_OPTIONS];
-    solve_newton newton;
-    char key
-        [FORMULATION_KEY]; /* name, and the options that differ from their defaults, in table order */
+    double option[FORMULATION_OPTIONS]; /* its own, in table order, and those that all take */
+    /* name, and the options that differ from their defaults */
+    char key[FORMULATION_KEY];
 } formulation;
 
-extern const char
-    formulation_newtons[]; /* choices of the option newton, which every formulation takes */
-
+/* What every formulation takes, behind its own options. */
+extern const parameter_type formulation_common[];
+/* The options of a type and those that every formulation takes. */
+assignment_list formulation_options(const element_type *);
+solve_newton formulation_newton(const formulation *);
 status formulation_parse(const char *text, formulation *out, fault *f);
 /* The type that "name" or "name:key=value,..." means, or NULL. */
 const element_type *formulation_find(const char *key);
 void formulation_default(const element_type *type, formulation *out);
 /* The default with choice `choice` of option `index`; 0 when there is no such choice, or it is the default itself. */
 int formulation_choice(const element_type *type, int index, int choice, formulation *out);
-/* Features on which the options that differ from their defaults bear (element_option.judged). */
+/* Features on which the options that differ from their defaults bear (element_judged). */
 unsigned formulation_bears_on(const formulation *chosen);
 const case_type *case_find(const char *name, fault *f); /* NULL: unknown, f names the nearest */
 

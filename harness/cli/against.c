@@ -139,7 +139,7 @@ static void set_request(contestant *c, const cli_request *r, const case_type *ty
         .type = type, .formulation = chosen->type, .elements = elements, .keep_all = r->keep_all};
     memcpy(c->request.parameter, r->parameter, sizeof c->request.parameter);
     memcpy(c->request.option, chosen->option, sizeof c->request.option);
-    c->request.solve.newton = chosen->newton;
+    c->request.solve.newton = formulation_newton(chosen);
     snprintf(c->name, sizeof c->name, "%s, n = %d", chosen->key, elements);
 }
 

@@ -7,17 +7,16 @@
 #include "harness/model/lacks.h"
 #include "harness/model/missing.h"
 
-static void list_option(const element_option *o)
+static void list_option(const parameter_type *o)
 {
-    char text[64];
-    if (o->choices != NULL) {
-        choice_name(o->choices, (int)o->value, text, sizeof text);
-        printf("  %-24s option %s=%s (default %s): %s\n", "", o->name, o->choices, text,
-               o->summary);
-    } else {
-        printf("  %-24s option %s=%g..%g (default %g): %s\n", "", o->name, o->min, o->max, o->value,
-               o->summary);
-    }
+    char text[ASSIGNMENT_VALUE];
+    assignment_value_text(o, o->value, text, sizeof text);
+    printf("  %-24s option %s=", "", o->name);
+    if (o->choices != NULL)
+        printf("%s", o->choices);
+    else
+        printf("%g..%g", o->min, o->max);
+    printf(" (default %s): %s\n", text, o->summary);
 }
 
 static const char *other_theory(const element_type *t)
@@ -32,9 +31,7 @@ static void list_declarations(const element_type *t)
 {
     static const char *const analysis[ELEMENT_ANALYSES] = {"statics", "vibration", "buckling"};
     double options[ELEMENT_MAX_OPTIONS] = {0};
-    if (t->options != NULL)
-        for (int k = 0; t->options[k].name != NULL; k++)
-            options[k] = t->options[k].value;
+    parameter_defaults(t->options, options);
     printf("  %-24s order:", "");
     for (int a = 0; a < ELEMENT_ANALYSES; a++) {
         const element_order order = element_order_in(t, (element_analysis)a, options);
@@ -51,7 +48,7 @@ static void list_declarations(const element_type *t)
 
 static void list_formulations(void)
 {
-    printf("formulations (-f NAME[:KEY=VALUE,...]); all take newton=%s\n", formulation_newtons);
+    printf("formulations (-f NAME[:KEY=VALUE,...])\n");
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *t = registry_formulations[i];
         char words[200];
@@ -59,10 +56,12 @@ static void list_formulations(void)
         printf("  %-24s %s\n  %-24s source: %s\n  %-24s offers: %s\n", t->name, t->summary, "",
                t->source, "", words);
         list_declarations(t);
-        if (t->options != NULL)
-            for (int k = 0; t->options[k].name != NULL; k++)
-                list_option(&t->options[k]);
+        for (int k = 0; k < parameter_count(t->options); k++)
+            list_option(&t->options[k]);
     }
+    printf("  %-24s\n", "all of them");
+    for (const parameter_type *o = formulation_common; o->name != NULL; o++)
+        list_option(o);
 }
 
 static void list_features(void)
@@ -98,9 +97,9 @@ static int list_case(const case_type *type)
     printf("%s: %s\nsource: %s\nparameters (--set NAME=VALUE)\n", type->name, type->summary,
            type->source);
     for (int i = 0; type->parameters[i].name != NULL; i++) {
-        const case_parameter *p = &type->parameters[i];
-        char text[64];
-        parameters_value_text(p, p->value, text, sizeof text);
+        const parameter_type *p = &type->parameters[i];
+        char text[ASSIGNMENT_VALUE];
+        assignment_value_text(p, p->value, text, sizeof text);
         printf("  %-20s %-14s %-8s %s (", p->name, text, p->unit, p->summary);
         if (p->choices != NULL)
             printf("%s)\n", p->choices);

@@ -5,8 +5,8 @@
 #include <string.h>
 #include <sys/resource.h>
 
+#include "harness/catalogue/choice.h"
 #include "harness/catalogue/environment.h"
-#include "harness/catalogue/parameters.h"
 #include "harness/cli/cli.h"
 
 static const struct {
@@ -69,7 +69,7 @@ static int run(int count, char **arguments)
         if (strcmp(verbs[i].name, arguments[1]) == 0)
             return verbs[i].run(count - 1, arguments + 1);
     char text[200];
-    const char *near = nearest_name(arguments[1], verb_name, NULL);
+    const char *near = choice_nearest(arguments[1], verb_name, NULL);
     snprintf(text, sizeof text, "unknown verb '%.60s'%s%s%s; 'beamwork --help' shows them all",
              arguments[1], near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
              near != NULL ? "'?" : "");

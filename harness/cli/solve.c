@@ -55,7 +55,7 @@ static status solve_cell(const cli_request *r, sweep *s, fault *f)
                             .elements = r->mesh[0],
                             .keep_all = r->keep_all};
     memcpy(request.option, r->formulation[0].option, sizeof request.option);
-    request.solve.newton = r->formulation[0].newton;
+    request.solve.newton = formulation_newton(&r->formulation[0]);
     request.solve.steps_between = r->steps;
     request.solve.shapes = r->shapes;
     request.threads = r->threads;

@@ -122,7 +122,7 @@ static status check_cells(const sweep *s, int index, judgement *out, fault *f)
         return STATUS_OK;
     for (int i = 0; i < one->meshes; i++) {
         flaw c = {.series = index, .mesh = i};
-        if (!sound_cell(&one->cell[i], what, one->formulation.newton, c.why))
+        if (!sound_cell(&one->cell[i], what, formulation_newton(&one->formulation), c.why))
             TRY(add_flaw(&c, out, f));
     }
     return STATUS_OK;

@@ -27,9 +27,9 @@ static status compute_sections(model *m, fault *f)
 static void choose_options(model *m, const double options[])
 {
     const element_type *t = m->type;
-    if (t->options != NULL)
-        for (int i = 0; t->options[i].name != NULL; i++)
-            m->options[i] = options != NULL ? options[i] : t->options[i].value;
+    parameter_defaults(t->options, m->options);
+    for (int i = 0; i < parameter_count(t->options) && options != NULL; i++)
+        m->options[i] = options[i];
     m->nodes = element_nodes(t, m->options);
     m->coordinates = NODE_COORDINATES * m->nodes;
     m->strains = element_strains(t, m->options);

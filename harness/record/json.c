@@ -9,38 +9,16 @@
 #include "harness/study/noise.h"
 #include "harness/truth/truth.h"
 
-static json_t *parameters_of(const point *p)
+static json_t *values_of(const assignment_list *l, const double value[])
 {
     json_t *all = json_object();
-    for (int i = 0; p->type->parameters[i].name != NULL; i++) {
-        char text[64];
-        if (p->type->parameters[i].choices != NULL) {
-            parameters_value_text(&p->type->parameters[i], p->parameter[i], text, sizeof text);
-            json_object_set_new(all, p->type->parameters[i].name, json_string(text));
-        } else {
-            json_object_set_new(all, p->type->parameters[i].name, json_real(p->parameter[i]));
-        }
+    const parameter_type *p;
+    for (int i = 0; (p = assignment_at(l, i)) != NULL; i++) {
+        char text[ASSIGNMENT_VALUE];
+        assignment_value_text(p, value[i], text, sizeof text);
+        json_object_set_new(all, p->name,
+                            p->choices != NULL ? json_string(text) : json_real(value[i]));
     }
-    return all;
-}
-
-static json_t *options_of(const formulation *fm)
-{
-    json_t *all = json_object();
-    const element_option *o = fm->type->options;
-    if (o != NULL)
-        for (int i = 0; o[i].name != NULL; i++) {
-            char text[32];
-            if (o[i].choices != NULL) {
-                choice_name(o[i].choices, (int)fm->option[i], text, sizeof text);
-                json_object_set_new(all, o[i].name, json_string(text));
-            } else {
-                json_object_set_new(all, o[i].name, json_real(fm->option[i]));
-            }
-        }
-    char newton[32];
-    choice_name(formulation_newtons, (int)fm->newton, newton, sizeof newton);
-    json_object_set_new(all, "newton", json_string(newton));
     return all;
 }
 
@@ -129,8 +107,11 @@ status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
     json_t *root = json_pack("{s:i,s:s,s:s,s:i}", "schema_version", SCHEMA_VERSION, "case",
                              cell.point->type->name, "formulation", cell.series->formulation.key,
                              "elements", cell.series->mesh[0]);
-    json_object_set_new(root, "options", options_of(&cell.series->formulation));
-    json_object_set_new(root, "parameters", parameters_of(cell.point));
+    const formulation *chosen = &cell.series->formulation;
+    const assignment_list options = formulation_options(chosen->type),
+                          parameters = parameters_list(cell.point->type);
+    json_object_set_new(root, "options", values_of(&options, chosen->option));
+    json_object_set_new(root, "parameters", values_of(&parameters, cell.point->parameter));
     json_object_set_new(root, record_cell.name, json_record(&record_cell, &cell, 0));
     add_quantities(root, &g);
     add_curves(root, &g);

@@ -27,7 +27,7 @@ static void put_environment(record *r, const environment *e)
 static void get_choice(const subject *s, field_value *out)
 {
     const size_t i = out->of->offset;
-    parameters_value_text(&s->point->type->parameters[i], s->point->parameter[i], out->room,
+    assignment_value_text(&s->point->type->parameters[i], s->point->parameter[i], out->room,
                           sizeof out->room);
     out->text = out->room;
 }
@@ -41,7 +41,7 @@ static int parameter_fields(const case_type *type, schema_field out[CASE_MAX_PAR
 {
     int i = 0;
     for (; type->parameters[i].name != NULL; i++) {
-        const case_parameter *p = &type->parameters[i];
+        const parameter_type *p = &type->parameters[i];
         out[i] = (schema_field){
             p->name, p->unit, FIELD_DOUBLE, p->summary, .offset = (size_t)i, .get = get_parameter};
         if (p->choices != NULL)

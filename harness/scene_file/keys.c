@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "harness/catalogue/parameters.h"
+#include "harness/catalogue/choice.h"
 #include "harness/scene_file/range.h"
 
 static const key number[] = {{"", KEY_NUMBER, .summary = "an expression"}, {.name = NULL}};
@@ -136,7 +136,7 @@ static int is_meant(const document_node *map, const known_keys *known, const cha
     for (int i = 0; i < map->count; i++) {
         const char *text = map->key[i]->text;
         const char *near =
-            find(known->table, text) == NULL ? nearest_name(text, name_at, known) : NULL;
+            find(known->table, text) == NULL ? choice_nearest(text, name_at, known) : NULL;
         if (near != NULL && strcmp(near, name) == 0)
             return 1;
     }
@@ -205,7 +205,7 @@ static void check_map(const document_node *map, const known_keys *known, const d
             check_value(map->item[i], k, map->key[i], m);
         else
             document_mistake(m, map->key[i], 0, "%.40s has no key '%.40s'%s", name->text, text,
-                             mistakes_remedy(nearest_name(text, name_at, known),
+                             mistakes_remedy(choice_nearest(text, name_at, known),
                                              "; 'beamwork scene --schema' lists all", remedy));
     }
     check_missing(map, known, name, m);

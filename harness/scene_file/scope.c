@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "harness/catalogue/parameters.h"
+#include "harness/catalogue/choice.h"
 #include "harness/scene_file/functions.h"
 
 static const scope *add(const scope *names, const char *name, double number, const char *word,
@@ -46,7 +46,7 @@ static const char *name_at(const void *context, int i)
 
 const char *scope_nearest(const scope *names, const char *name)
 {
-    return nearest_name(name, name_at, names);
+    return choice_nearest(name, name_at, names);
 }
 
 size_t scope_name_length(const char *text)

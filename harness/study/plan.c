@@ -117,13 +117,11 @@ static void choose_given(const sweep_request *request, chosen *out)
 /* Those whose options are judged by themselves too. */
 static void choose_options(const element_type *type, chosen *out)
 {
-    const element_option *o = type->options;
-    if (o == NULL)
-        return;
-    for (int k = 0; o[k].name != NULL; k++) {
-        if (o[k].judged == 0)
+    for (int k = 0; k < parameter_count(type->options); k++) {
+        if (element_judged(type, k) == 0)
             continue;
-        for (int choice = 0; choice <= o[k].max && out->count < MOST_FORMULATIONS; choice++)
+        const int choices = parameter_choices(&type->options[k]);
+        for (int choice = 0; choice < choices && out->count < MOST_FORMULATIONS; choice++)
             out->count += formulation_choice(type, k, choice, &out->list[out->count]);
     }
 }

@@ -63,7 +63,7 @@ cell_request sweep_cell(const sweep *s, int series_index, int mesh)
     cell_request out = {
         .scene = &p->scene, .formulation = one->formulation.type, .elements = one->mesh[mesh]};
     memcpy(out.option, one->formulation.option, sizeof out.option);
-    out.solve.newton = one->formulation.newton;
+    out.solve.newton = formulation_newton(&one->formulation);
     out.solve.steps_between = p->steps;
     out.solve.condition = p->condition;
     out.threads = s->threads;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "elements/feature.h"
+#include "harness/catalogue/choice.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
 #include "harness/model/model.h"
@@ -69,25 +70,14 @@ static int term_parse(const char *text, term *out)
     return 0;
 }
 
-static int parameter_index(const case_type *type, const char *name)
-{
-    for (int i = 0; type->parameters[i].name != NULL; i++)
-        if (strcmp(type->parameters[i].name, name) == 0)
-            return i;
-    return -1;
-}
-
 /* A number, or the index of a choice; NAN: neither. */
-static double value_of(const case_parameter *p, const char *word)
+static double value_of(const parameter_type *p, const char *word)
 {
-    if (p->choices != NULL)
-        return choice_index(p->choices, word) >= 0 ? choice_index(p->choices, word) : (double)NAN;
-    char *end;
-    const double number = strtod(word, &end);
-    return end != word && *end == '\0' ? number : (double)NAN;
+    double value;
+    return assignment_value(p, word, &value) ? value : (double)NAN;
 }
 
-static int is_one_of(const case_parameter *p, const char *values, double value)
+static int is_one_of(const parameter_type *p, const char *values, double value)
 {
     char word[WORD];
     while ((values = next_word(values, "|", word)) != NULL)
@@ -96,7 +86,7 @@ static int is_one_of(const case_parameter *p, const char *values, double value)
     return 0;
 }
 
-static int compares(const term *t, const case_parameter *p, double value)
+static int compares(const term *t, const parameter_type *p, double value)
 {
     if (t->sign[0] == '=' || t->sign[0] == '!')
         return is_one_of(p, t->values, value) == (t->sign[0] == '=');
@@ -110,7 +100,7 @@ static int term_holds(const term *t, const rule_subject *s)
 {
     if (t->feature != 0)
         return ((s->features & t->feature) != 0) != t->negated;
-    const int i = parameter_index(s->type, t->parameter);
+    const int i = parameter_index(s->type->parameters, t->parameter);
     return i >= 0 && compares(t, &s->type->parameters[i], s->parameter[i]);
 }
 
@@ -155,7 +145,7 @@ static int term_means_something(const rule *r, const term *t)
 {
     int found = t->feature != 0;
     for (int k = 0; registry_cases[k] != NULL && !found; k++) {
-        const int i = parameter_index(registry_cases[k], t->parameter);
+        const int i = parameter_index(registry_cases[k]->parameters, t->parameter);
         char word[WORD];
         const char *values = t->values;
         found = i >= 0 && list_has(r->cases, registry_cases[k]->name);

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "harness/catalogue/choice.h"
 #include "harness/truth/truth.h"
 
 static int same_point(const case_type *type, const double value[], const double at[],

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/catalogue/choice.h"
 #include "harness/catalogue/registry.h"
 #include "harness/truth/checksum.h"
 #include "harness/truth/columns.h"

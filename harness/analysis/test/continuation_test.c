@@ -27,7 +27,7 @@ static cell_result solve(const case_type *type, const char *formulation_text, in
                  type->name, one);
     request.formulation = chosen.type;
     memcpy(request.option, chosen.option, sizeof request.option);
-    request.solve.newton = chosen.newton;
+    request.solve.newton = formulation_newton(&chosen);
     cell_run(&request, &result, &f);
     return result;
 }
@@ -102,7 +102,7 @@ static status build_column(const double value[], scene *s, fault *f)
 
 static void bifurcations(const char *assignment)
 {
-    static const case_parameter table[] = {
+    static const parameter_type table[] = {
         {"moment", "1", 0, 0, 1, NULL, "1: with a moment of no size"},
         {NULL, NULL, 0, 0, 0, NULL, NULL}};
     const case_type column = {.name = "column", .parameters = table, .build = build_column};

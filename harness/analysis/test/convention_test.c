@@ -27,7 +27,7 @@ static void solve(const char *case_name, const char *const assignment[], const c
                  "%s", assignment[i]);
     request.formulation = fm.type;
     memcpy(request.option, fm.option, sizeof request.option);
-    request.solve.newton = fm.newton;
+    request.solve.newton = formulation_newton(&fm);
     gsl_test(cell_run(&request, out, &f) != STATUS_OK, "%s solved: %s", case_name, f.text);
 }
 

@@ -235,8 +235,8 @@ int main(void)
         offered++;
         formulation_default(type, &chosen);
         arcs(&chosen, &c);
-        for (int k = 0; type->options != NULL && type->options[k].name != NULL; k++)
-            for (int choice = 0; choice <= (int)type->options[k].max; choice++)
+        for (int k = 0; k < parameter_count(type->options); k++)
+            for (int choice = 0; choice < parameter_choices(&type->options[k]); choice++)
                 if (formulation_choice(type, k, choice, &chosen))
                     arcs(&chosen, &c);
     }

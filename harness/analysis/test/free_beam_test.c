@@ -44,7 +44,7 @@ static status build(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-static const case_parameter parameter[] = {{0}};
+static const parameter_type parameter[] = {{0}};
 static const case_type free_beam = {"free_beam", "a case of the test", "none", parameter, build};
 
 /* 0: bending about the weak axis, then about the strong one, then the second of each. */

@@ -28,7 +28,7 @@ static status run(const char *case_name, const element_type *type, const char *k
         gsl_test(formulation_parse(key, &chosen, &f) != STATUS_OK, "%s exists", key);
     request.formulation = chosen.type;
     memcpy(request.option, chosen.option, sizeof request.option);
-    request.solve.newton = chosen.newton;
+    request.solve.newton = formulation_newton(&chosen);
     return cell_run(&request, out, &f);
 }
 

@@ -69,7 +69,7 @@ static status build(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-static const case_parameter table[] = {
+static const parameter_type table[] = {
     {"continued", "1", 0, 0, 1, NULL, "1: in its deflection, 0: by its load"},
     {NULL, NULL, 0, 0, 0, NULL, NULL}};
 static const case_type drawn = {.name = "drawn", .parameters = table, .build = build};

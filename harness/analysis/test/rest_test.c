@@ -143,9 +143,9 @@ static int choices_of(const element_type *type, formulation list[CHOICES])
 {
     int count = 1;
     formulation_default(type, &list[0]);
-    for (int k = 0; type->options != NULL && type->options[k].name != NULL; k++)
-        for (int choice = 0;
-             type->options[k].judged != 0 && choice <= type->options[k].max && count < CHOICES;
+    for (int k = 0; k < parameter_count(type->options); k++)
+        for (int choice = 0; element_judged(type, k) != 0 &&
+                             choice < parameter_choices(&type->options[k]) && count < CHOICES;
              choice++)
             count += formulation_choice(type, k, choice, &list[count]);
     return count;

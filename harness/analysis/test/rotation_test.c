@@ -23,7 +23,7 @@ static status run(const case_type *type, const char *chosen, int n, const char *
         gsl_test(parameters_set(type, assignment[i], request.parameter, &f) != STATUS_OK, "%s",
                  assignment[i]);
     request.formulation = fm.type;
-    request.solve.newton = fm.newton;
+    request.solve.newton = formulation_newton(&fm);
     memcpy(request.option, fm.option, sizeof request.option);
     const status outcome = cell_run(&request, r, &f);
     gsl_test(outcome != STATUS_OK, "%s solved with %s: %s", type->name, chosen, f.text);
@@ -90,7 +90,7 @@ static void algorithms(void)
 }
 
 enum { BODY };
-static const case_parameter with_body_parameters[] = {
+static const parameter_type with_body_parameters[] = {
     [BODY] = {"body", "1", 0, 0, 1, NULL,
               "1: the tip is attached to a body whose reference point is elsewhere"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},

@@ -27,7 +27,7 @@ static double value_of(const char *case_name, const char *formulation_text, int 
              "%s: %s", case_name, assignment);
     request.formulation = chosen.type;
     memcpy(request.option, chosen.option, sizeof request.option);
-    request.solve.newton = chosen.newton;
+    request.solve.newton = formulation_newton(&chosen);
     request.elements = n;
     request.keep_all = keep_all;
     gsl_test(cell_run(&request, &result, &f) != STATUS_OK, "%s solved with %s (%s)", case_name,

@@ -11,7 +11,7 @@
 enum { MESHES = 5 };
 static const int mesh[MESHES] = {2, 4, 8, 16, 32};
 
-static const case_parameter parameter[] = {{"length", "m", 2, 1, 9, NULL, "some length"}, {0}};
+static const parameter_type parameter[] = {{"length", "m", 2, 1, 9, NULL, "some length"}, {0}};
 
 static inline status no_build(const double value[], scene *s, fault *f)
 {

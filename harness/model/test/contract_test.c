@@ -43,8 +43,7 @@ static status prepare(const element_type *type, unsigned features, double unit, 
     out->type = type;
     out->unit = unit;
     out->length = 0.2385 / unit;
-    for (int i = 0; type->options != NULL && type->options[i].name != NULL; i++)
-        out->options[i] = type->options[i].value;
+    parameter_defaults(type->options, out->options);
     gsl_test(section_compute(&spec, &out->section, f) != STATUS_OK, "%s: section", type->name);
     const element_request request = {.section = &out->section,
                                      .length = out->length,
@@ -376,8 +375,7 @@ static void declarations(const element_type *type)
     gsl_test((type->lacks & LACKS_SHEAR_Y) && !flexible, "%s: what is lacking in part is offered",
              type->name);
     double options[ELEMENT_MAX_OPTIONS] = {0};
-    for (int i = 0; type->options != NULL && type->options[i].name != NULL; i++)
-        options[i] = type->options[i].value;
+    parameter_defaults(type->options, options);
     for (int a = 0; a < ELEMENT_ANALYSES; a++) {
         const element_order order = element_order_in(type, (element_analysis)a, options);
         gsl_test(order.least < 1 || order.highest < order.least, "%s: orders %d to %d", type->name,

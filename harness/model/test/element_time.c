@@ -75,17 +75,15 @@ int main(void)
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *type = registry_formulations[i];
         measure(type, NULL, type->name, &s);
-        for (int k = 0; type->options != NULL && type->options[k].name != NULL; k++) {
+        for (int k = 0; k < parameter_count(type->options); k++) {
             const int shapes = type->inner != NULL ||
                                type->nodes != NULL; /* this option changes the element's size */
-            for (double v = type->options[k].min; shapes && k == 0 && v <= type->options[k].max;
-                 v++) {
+            for (int v = 0; shapes && k == 0 && v < parameter_choices(&type->options[k]); v++) {
                 char label[64];
                 double option[ELEMENT_MAX_OPTIONS];
-                for (int j = 0; type->options[j].name != NULL; j++)
-                    option[j] = type->options[j].value;
+                parameter_defaults(type->options, option);
                 option[k] = v;
-                snprintf(label, sizeof label, "%s, choice %d of %s", type->name, (int)v + 1,
+                snprintf(label, sizeof label, "%s, choice %d of %s", type->name, v + 1,
                          type->options[k].name);
                 measure(type, option, label, &s);
             }

@@ -205,16 +205,9 @@ static void lumped_moments(const element_type *type, const double options[], con
 /* Which option is the mass, and how many choices it has. */
 static int mass_choices(const element_type *type, int *option)
 {
-    for (int i = 0; type->options != NULL && type->options[i].name != NULL; i++)
-        if (strcmp(type->options[i].name, "mass") == 0) {
-            *option = i;
-            int count = 1;
-            for (const char *c = type->options[i].choices; *c != '\0'; c++)
-                count += *c == '|';
-            return count;
-        }
-    *option = 0;
-    return 1;
+    const int mass = parameter_index(type->options, "mass");
+    *option = mass < 0 ? 0 : mass;
+    return mass < 0 ? 1 : parameter_choices(&type->options[mass]);
 }
 
 static void check(const element_type *type, const double options[], int choice, unsigned left_out)
@@ -351,8 +344,7 @@ int main(void)
         int option;
         if (type->inertia == NULL || !(type->offers & FEATURE_MASS))
             continue;
-        for (int k = 0; type->options != NULL && type->options[k].name != NULL; k++)
-            options[k] = type->options[k].value;
+        parameter_defaults(type->options, options);
         const int choices = mass_choices(type, &option);
         for (int choice = 0; choice < choices; choice++) {
             if (choices > 1)

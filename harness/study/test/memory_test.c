@@ -133,7 +133,7 @@ static status solve(const void *what, double *value, fault *f)
         return STATUS_REFUSED;
     parameters_default(request.type, request.parameter);
     request.formulation = chosen.type;
-    request.solve.newton = chosen.newton;
+    request.solve.newton = formulation_newton(&chosen);
     memcpy(request.option, chosen.option, sizeof request.option);
     const status outcome = cell_run(&request, &r, f);
     *value = 0;

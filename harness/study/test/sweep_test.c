@@ -307,7 +307,7 @@ static status build_in_plan(const double value[], scene *s, fault *f)
 
 static void cells_share_a_scene(void)
 {
-    static const case_parameter planner[] = {
+    static const parameter_type planner[] = {
         {"planner", "1", 0, 0, 1e12, NULL, "the process that may build the scene"}, {0}};
     static const case_type once = {"once", "a case of the test", "none", planner, build_in_plan};
     static const int mesh[] = {1, 2, 3};

@@ -1,0 +1,23 @@
+/* What a user may choose: parameters of a case (--set NAME=VALUE) and options of a formulation
+ * (-f name:NAME=VALUE) are entries of such tables. */
+#ifndef BEAMWORK_PARAMETER_H
+#define BEAMWORK_PARAMETER_H
+
+typedef struct parameter_type {
+    const char *name;    /* NULL ends the table */
+    const char *unit;    /* SI; "1" for a number, "" for a choice */
+    double value;        /* default; of a choice: its index */
+    double min, max;     /* inclusive; of a choice: unused */
+    const char *choices; /* "shear_flow|printed|misprinted", or NULL for a number */
+    const char *summary; /* one line */
+} parameter_type;
+
+/* Entries of a table; NULL: none. */
+int parameter_count(const parameter_type table[]);
+/* -1: there is none of that name. */
+int parameter_index(const parameter_type table[], const char *name);
+void parameter_defaults(const parameter_type table[], double value[]);
+/* How many choices there are; 0: it is a number. */
+int parameter_choices(const parameter_type *);
+
+#endif

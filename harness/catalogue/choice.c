@@ -1,0 +1,64 @@
+#include "harness/catalogue/choice.h"
+
+#include <stdio.h>
+#include <string.h>
+
+int choice_index(const char *choices, const char *word)
+{
+    const size_t length = strlen(word);
+    int index = 0;
+    for (const char *at = choices; at != NULL; index++) {
+        const size_t here = strcspn(at, "|");
+        if (here == length && strncmp(at, word, length) == 0)
+            return index;
+        at = at[here] == '|' ? at + here + 1 : NULL;
+    }
+    return -1;
+}
+
+void choice_name(const char *choices, int index, char *text, int size)
+{
+    const char *at = choices;
+    for (int i = 0; i < index && at != NULL; i++) {
+        at = strchr(at, '|');
+        at = at != NULL ? at + 1 : NULL;
+    }
+    snprintf(text, (size_t)size, "%.*s", at != NULL ? (int)strcspn(at, "|") : 0,
+             at != NULL ? at : "");
+}
+
+enum { LONGEST = 64 };
+
+static int distance(const char *a, const char *b)
+{
+    int row[LONGEST + 1];
+    const int n = (int)strnlen(b, LONGEST);
+    for (int j = 0; j <= n; j++)
+        row[j] = j;
+    for (int i = 1; a[i - 1] != '\0' && i < LONGEST; i++) {
+        int diagonal = row[0];
+        row[0] = i;
+        for (int j = 1; j <= n; j++) {
+            const int substituted = diagonal + (a[i - 1] != b[j - 1]);
+            const int shorter = row[j] < row[j - 1] ? row[j] + 1 : row[j - 1] + 1;
+            diagonal = row[j];
+            row[j] = substituted < shorter ? substituted : shorter;
+        }
+    }
+    return row[n];
+}
+
+const char *choice_nearest(const char *word, const char *(*next)(const void *, int),
+                           const void *context)
+{
+    const char *nearest = NULL, *name;
+    int least = (int)strnlen(word, LONGEST) / 2 + 2;
+    for (int i = 0; (name = next(context, i)) != NULL; i++) {
+        const int d = strncmp(name, word, strlen(word)) == 0 ? 1 : distance(word, name);
+        if (d < least) {
+            least = d;
+            nearest = name;
+        }
+    }
+    return nearest;
+}

@@ -1,0 +1,14 @@
+/* Words of a list "a|b|c", and the nearest one to a misspelt word. */
+#ifndef BEAMWORK_CHOICE_H
+#define BEAMWORK_CHOICE_H
+
+/* Index of `word` in "a|b|c", or -1. */
+int choice_index(const char *choices, const char *word);
+void choice_name(const char *choices, int index, char *text, int size);
+
+/* The candidate nearest to a misspelt word (edit distance), or NULL when none is near.
+ * next(context, i): NULL ends. */
+const char *choice_nearest(const char *word, const char *(*next)(const void *context, int i),
+                           const void *context);
+
+#endif
