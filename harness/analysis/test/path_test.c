@@ -74,10 +74,11 @@ static const parameter_type table[] = {
     {NULL, NULL, 0, 0, 0, NULL, NULL}};
 static const case_type drawn = {.name = "drawn", .parameters = table, .build = build};
 
-static status solve(const case_type *type, const element_type *formulation_type, int n,
-                    const char *parameters, cell_result *out)
+static status solve_edited(const case_type *type, const element_type *formulation_type, int n,
+                           const char *parameters, const scene_edit *edit, cell_result *out)
 {
-    cell_request request = {.type = type, .formulation = formulation_type, .elements = n};
+    cell_request request = {
+        .type = type, .formulation = formulation_type, .elements = n, .edit = *edit};
     formulation chosen;
     fault f = {""};
     formulation_default(formulation_type, &chosen);
@@ -86,6 +87,13 @@ static status solve(const case_type *type, const element_type *formulation_type,
     gsl_test(parameters_parse(type, parameters, request.parameter, NULL, &f) != STATUS_OK,
              "%s %s: %s", type->name, parameters, f.text);
     return cell_run(&request, out, &f);
+}
+
+static status solve(const case_type *type, const element_type *formulation_type, int n,
+                    const char *parameters, cell_result *out)
+{
+    return solve_edited(type, formulation_type, n, parameters, &(scene_edit){SCENE_EDIT_NONE, 0},
+                        out);
 }
 
 /* Of what is drawn over the path, or of its control coordinate, each by itself and with a factor
@@ -175,10 +183,35 @@ static void events(void)
              count[EVENT_BIFURCATION]);
 }
 
+/* Lengths in another unit: the same points, the same part of the load's work. */
+static void units(const char *name, const char *parameters)
+{
+    cell_result in_metres, r;
+    const case_type *type = case_find(name, NULL);
+    const element_type *chosen = formulation_find("beamw_consistent");
+    solve(type, chosen, 4, parameters, &in_metres);
+    solve_edited(type, chosen, 4, parameters, &(scene_edit){SCENE_EDIT_UNIT, 1000}, &r);
+    gsl_test(r.solve.events < 2 || r.solve.events != in_metres.solve.events,
+             "%s %s in millimetres: %d events, not %d", name, parameters, r.solve.events,
+             in_metres.solve.events);
+    for (int i = 0; i < r.solve.events && i < in_metres.solve.events; i++) {
+        const path_event *e = &r.solve.event[i], *expected = &in_metres.solve.event[i];
+        gsl_test(e->kind != expected->kind, "%s %s in millimetres: event %d", name, parameters, i);
+        gsl_test(!(fabs(e->measure - expected->measure) < 1e-6),
+                 "%s %s in millimetres: measure of event %d is %g, not %g", name, parameters, i,
+                 e->measure, expected->measure);
+    }
+    cell_result_free(&in_metres);
+    cell_result_free(&r);
+}
+
 int main(void)
 {
     abscissas(0);
     abscissas(1);
     events();
+    units("snap_through", "");
+    units("snap_through", "control=arc");
+    units("lee_frame", "plane=0");
     return gsl_test_summary();
 }

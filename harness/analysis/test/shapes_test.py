@@ -92,6 +92,18 @@ class Solution(ProgramTest):
         # the triads' x axes follow the line
         self.assertAlmostEqual(max(moved / 0.1, turn / 0.5), 1, delta=2e-2)
 
+    def test_values_of_modes(self):
+        """A mode is drawn with its frequency [Hz] or its critical load, as the quantities say."""
+        _, shapes, tables = self.solve("c_column", "beamw_consistent", 16, "--shapes")
+        value = {row["quantity"].decode(): row["value"] for row in tables["quantities"][()]}
+        kinds, drawn = shapes["kind"].asstr()[()], shapes["value"][()]
+        for kind, prefix in (("mode", "frequency_"), ("buckling", "buckling_load")):
+            found = [known for name, known in value.items() if name.startswith(prefix)]
+            self.assertTrue(found, prefix)
+            for known in found[:4]:
+                self.assertLess(numpy.abs(drawn[kinds == kind] / known - 1).min(), 1e-12,
+                                (kind, known, drawn[kinds == kind]))
+
     def test_not_asked(self):
         self.answered("solve", "elastica", "-f", "collocation", "-n", "2", "--shapes", code=2)
         run("verify", "-k", "elastica/default", "-o", self.path)
