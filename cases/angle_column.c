@@ -60,9 +60,8 @@ static void add_quantities(scene *s, int load)
     for (int i = 0; i < LOADS; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "critical_%s_%d", load == MOMENT ? "moment" : "load", i + 1);
-        scene_quantity *q = scene_add_quantity(s, name, load == MOMENT ? "N m" : "N",
-                                               SCENE_CRITICAL_FACTOR, buckling);
-        q->order = i;
+        scene_quantity *q = scene_add_quantity(s, name, load == MOMENT ? "N m" : "N", buckling,
+                                               scene_critical_factor(1, i));
         q->least_order = 1.8;
     }
 }

@@ -44,9 +44,7 @@ static status build(const double value[], scene *s, fault *f)
     const int path = scene_add_static(s, 1, &end, 4);
     static const char *const name[3] = {"u_tangent", "u_radial", "u_load"};
     for (int i = 0; i < 3; i++) {
-        scene_quantity *q = scene_add_quantity(s, name[i], "m", SCENE_COORDINATE, path);
-        q->node = tip;
-        q->row = i;
+        scene_quantity *q = scene_add_quantity(s, name[i], "m", path, scene_coordinate(tip, i));
         q->least_order = 1.8;
     }
     const int meshes[] = {1, 2, 4, 8, 16, 32};

@@ -72,23 +72,14 @@ static void add_path(const double value[], scene *s, int node)
                                                .step_max = step > 0 ? step : value[LENGTH] / 40,
                                                .constant_steps = step > 0});
     scene_set_spin(s, loading, (scene_spin){.omega = {0, 0, value[OMEGA]}});
-    scene_quantity *at = scene_add_quantity(s, "load_at_w", "N", SCENE_FACTOR_AT, loading);
-    at->least_order = 1.8;
-    scene_quantity *lateral = scene_add_quantity(s, "lateral", "m", SCENE_COORDINATE, loading);
-    lateral->node = node;
-    lateral->row = SCENE_UY;
-    lateral->least_order = 1.8;
-    for (int i = 0; i < 2; i++) {
-        scene_quantity *curve =
-            i == 0 ? scene_add_quantity(s, "curve", "N", SCENE_FACTOR_AT, loading)
-                   : scene_add_quantity(s, "lateral_curve", "m", SCENE_COORDINATE, loading);
-        curve->node = node;
-        curve->row = SCENE_UY;
-        curve->reduction = SCENE_CURVE;
-        curve->x_factor = -1;
-        snprintf(curve->x_name, sizeof curve->x_name, "w");
-        snprintf(curve->x_unit, sizeof curve->x_unit, "m");
-    }
+    scene_add_quantity(s, "load_at_w", "N", loading, scene_factor_at())->least_order = 1.8;
+    scene_add_quantity(s, "lateral", "m", loading, scene_coordinate(node, SCENE_UY))->least_order =
+        1.8;
+    scene_set_curve(scene_add_quantity(s, "curve", "N", loading, scene_factor_at()), "w", "m", -1,
+                    0);
+    scene_set_curve(
+        scene_add_quantity(s, "lateral_curve", "m", loading, scene_coordinate(node, SCENE_UY)), "w",
+        "m", -1, 0);
 }
 
 static status build(const double value[], scene *s, fault *f)

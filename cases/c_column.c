@@ -26,16 +26,15 @@ static status build(const double value[], scene *s, fault *f)
 
     const int buckling = scene_add_buckling(s, SCENE_NONE);
     scene_quantity *load =
-        scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
+        scene_add_quantity(s, "buckling_load", "N", buckling, scene_critical_factor(1, 0));
     load->least_order = 1.8;
 
     const int modal = scene_add_modal(s, SCENE_NONE);
     for (int i = 0; i < FREQUENCIES; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "frequency_%d", i + 1);
-        scene_quantity *frequency = scene_add_quantity(s, name, "Hz", SCENE_FREQUENCY, modal);
-        frequency->family = SCENE_NOT_AXIAL;
-        frequency->order = i;
+        scene_quantity *frequency =
+            scene_add_quantity(s, name, "Hz", modal, scene_frequency(i, SCENE_NOT_AXIAL));
         frequency->least_order = 1.8;
     }
     return STATUS_OK;

@@ -49,9 +49,8 @@ static status build(const double value[], scene *s, fault *f)
 
     const int carrying = scene_add_static(s, 2, path + 1, 2 + (int)ceil(12 * value[TURNS]));
     for (int i = 0; i < 3; i++) {
-        scene_quantity *q = scene_add_quantity(s, moment[i], "N m", SCENE_REACTION, carrying);
-        q->node = tip;
-        q->row = SCENE_RX + i;
+        scene_quantity *q =
+            scene_add_quantity(s, moment[i], "N m", carrying, scene_reaction(tip, SCENE_RX + i));
         q->near_zero = 1;
         q->least_order = 1.8;
     }

@@ -85,32 +85,24 @@ static void turn_arm(const double value[], scene *s, int arm)
 static void add_path_quantities(scene *s, int path, int arm)
 {
     static const struct {
-        const char *name, *unit;
-        scene_quantity_kind kind;
-        int row;
-    } wanted[] = {{"moment", "N m", SCENE_REACTION, SCENE_RZ},
-                  {"shift_x", "m", SCENE_COORDINATE, SCENE_UX},
-                  {"shift_y", "m", SCENE_COORDINATE, SCENE_UY}};
-    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
-        scene_quantity *q =
-            scene_add_quantity(s, wanted[i].name, wanted[i].unit, wanted[i].kind, path);
-        q->node = arm;
-        q->row = wanted[i].row;
-        q->tolerance = 1e-3;
+        const char *name;
+        int component;
+    } shift[] = {{"shift_x", SCENE_UX}, {"shift_y", SCENE_UY}};
+    scene_add_quantity(s, "moment", "N m", path, scene_reaction(arm, SCENE_RZ))->least_order = 1.8;
+    for (int i = 0; i < 2; i++) {
+        scene_quantity *q = scene_add_quantity(s, shift[i].name, "m", path,
+                                               scene_coordinate(arm, shift[i].component));
         q->least_order = 1.8;
-        q->near_zero = q->kind == SCENE_COORDINATE ? 1e-4 : 0;
+        q->near_zero = 1e-4;
     }
 }
 
-static void add_stiffnesses(scene *s, int turned, int arm, int count)
+static void add_stiffnesses(scene *s, int turned, int count)
 {
     static const char *const name[] = {"k_x", "k_y", "k_z", "k_tilt_x", "k_tilt_y"};
     for (int i = 0; i < count; i++) {
-        scene_quantity *q = scene_add_quantity(s, name[i], i < 3 ? "N/m" : "N m/rad",
-                                               SCENE_STIFFNESS_ENTRY, turned);
-        q->node = arm;
-        q->row = q->column = i;
-        q->tolerance = 1e-3;
+        scene_quantity *q = scene_add_quantity(s, name[i], i < 3 ? "N/m" : "N m/rad", turned,
+                                               scene_stiffness_entry(i));
         q->least_order = 1.5;
     }
 }
@@ -132,7 +124,7 @@ static status build(const double value[], scene *s, fault *f)
     const int turned = scene_add_compliance(
         s, path, (scene_compliance){.node = arm, .moments = (scene_moments)value[MOMENTS]});
     add_path_quantities(s, path, arm);
-    add_stiffnesses(s, turned, arm, has_free_tilts(value) ? 5 : 3);
+    add_stiffnesses(s, turned, has_free_tilts(value) ? 5 : 3);
     const int meshes[] = {1, 2, 4, 8, 16, 32, 64};
     scene_meshes(s, 7, meshes);
     return STATUS_OK;

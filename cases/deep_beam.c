@@ -51,8 +51,7 @@ static status build(const double value[], scene *s, fault *f)
     for (int i = 0; i < FREQUENCIES; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "frequency_%d", i + 1);
-        scene_quantity *q = scene_add_quantity(s, name, "Hz", SCENE_FREQUENCY, modal);
-        q->order = i;
+        scene_quantity *q = scene_add_quantity(s, name, "Hz", modal, scene_frequency(i, SCENE_ANY));
         q->least_order = 1.8;
     }
     const int meshes[] = {2, 4, 8, 16, 32, 64};

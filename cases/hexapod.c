@@ -93,22 +93,19 @@ static void add_leg(const double value[], scene *s, int profile, int leg, int an
     joint_add(value, s, profile, high, axes, rod, platform);
 }
 
-static void add_stiffnesses(scene *s, int compliance, int platform, const double station[],
-                            int steps)
+static void add_stiffnesses(scene *s, int compliance, const double station[], int steps)
 {
     for (int i = 0; i <= steps; i++) {
         char name[SCENE_NAME] = "support_stiffness_curve";
         if (i < steps)
             snprintf(name, sizeof name, "support_stiffness_%d", i + 1);
-        scene_quantity *q = scene_add_quantity(s, name, "N/m", SCENE_STIFFNESS_ENTRY, compliance);
-        q->node = platform;
-        q->row = q->column = SCENE_UZ;
+        scene_quantity *q =
+            scene_add_quantity(s, name, "N/m", compliance, scene_stiffness_entry(SCENE_UZ));
         q->least_order = 1.5;
-        q->reduction = i < steps ? SCENE_AT : SCENE_CURVE;
-        q->at = i < steps ? station[i] : 0;
-        q->x_factor = 1;
-        snprintf(q->x_name, sizeof q->x_name, "position");
-        snprintf(q->x_unit, sizeof q->x_unit, "1");
+        if (i < steps)
+            scene_set_at(q, station[i]);
+        else
+            scene_set_curve(q, "position", "1", 1, 0);
     }
 }
 
@@ -140,10 +137,8 @@ static status build(const double value[], scene *s, fault *f)
     /* The condition ends: the cranks hold their angle. */
     const int compliance = scene_add_compliance(
         s, lifting, (scene_compliance){.node = platform, .released = 1u << SCENE_UZ});
-    add_stiffnesses(s, compliance, platform, station + 1, steps);
-    scene_quantity *first =
-        scene_add_quantity(s, "crank_angle", "rad", SCENE_DRIVER_VALUE, lifting);
-    first->row = angle;
+    add_stiffnesses(s, compliance, station + 1, steps);
+    scene_add_quantity(s, "crank_angle", "rad", lifting, scene_driver_value(angle));
     const int meshes[] = {1, 2, 4, 8};
     scene_meshes(s, 4, meshes);
     return STATUS_OK;

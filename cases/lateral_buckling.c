@@ -60,7 +60,8 @@ static status build(const double value[], scene *s, fault *f)
         path = scene_add_static(s, 1, &one, 1);
     }
     const int buckling = scene_add_buckling(s, path);
-    scene_quantity *q = scene_add_quantity(s, "load_factor", "1", SCENE_CRITICAL_FACTOR, buckling);
+    scene_quantity *q =
+        scene_add_quantity(s, "load_factor", "1", buckling, scene_critical_factor(1, 0));
     q->least_order = 1.8;
     const int meshes[] = {1, 2, 4, 8, 16, 32};
     scene_meshes(s, 6, meshes);

@@ -45,31 +45,22 @@ static void add_quantities(int plane, scene *s, int path, int node)
     static const char *const name[] = {"limit_load", "limit_load_back"},
                              *const at[] = {"deflection_at_limit", "deflection_at_limit_back"};
     for (int i = 0; i < 4; i++) {
-        scene_quantity *q = scene_add_quantity(s, i < 2 ? name[i] : at[i - 2], i < 2 ? "N" : "m",
-                                               SCENE_CRITICAL_POINT, path);
-        q->row = SCENE_LIMIT_POINT;
-        q->order = i % 2;
-        q->column = i / 2;
+        scene_quantity *q =
+            scene_add_quantity(s, i < 2 ? name[i] : at[i - 2], i < 2 ? "N" : "m", path,
+                               scene_critical_point(SCENE_LIMIT_POINT, i % 2,
+                                                    i < 2 ? SCENE_LOAD_FACTOR : SCENE_CONTROL));
         q->factor = i < 2 ? 1 : -1;
         q->least_order = 1.8;
     }
-    scene_quantity *q =
-        plane ? NULL : scene_add_quantity(s, "bifurcation_load", "N", SCENE_CRITICAL_POINT, path);
-    if (q != NULL) {
-        q->row = SCENE_BIFURCATION;
-        q->least_order = 1.8;
-    }
-    for (int i = 0; i < 2; i++) {
-        scene_quantity *curve =
-            i == 0 ? scene_add_quantity(s, "curve", "N", SCENE_FACTOR_AT, path)
-                   : scene_add_quantity(s, "sway_curve", "m", SCENE_COORDINATE, path);
-        curve->node = node;
-        curve->row = SCENE_UX;
-        curve->reduction = SCENE_CURVE;
-        curve->x_factor = -1;
-        snprintf(curve->x_name, sizeof curve->x_name, "deflection");
-        snprintf(curve->x_unit, sizeof curve->x_unit, "m");
-    }
+    if (!plane)
+        scene_add_quantity(s, "bifurcation_load", "N", path,
+                           scene_critical_point(SCENE_BIFURCATION, 0, SCENE_LOAD_FACTOR))
+            ->least_order = 1.8;
+    scene_set_curve(scene_add_quantity(s, "curve", "N", path, scene_factor_at()), "deflection", "m",
+                    -1, 0);
+    scene_set_curve(
+        scene_add_quantity(s, "sway_curve", "m", path, scene_coordinate(node, SCENE_UX)),
+        "deflection", "m", -1, 0);
 }
 
 static status build(const double value[], scene *s, fault *f)

@@ -16,8 +16,8 @@ static const parameter_type parameters[] = {
 
 static void add_moment(scene *s, int buckling, const char *name, int sign)
 {
-    scene_quantity *q = scene_add_quantity(s, name, "N m", SCENE_CRITICAL_FACTOR, buckling);
-    q->sign = sign;
+    scene_quantity *q =
+        scene_add_quantity(s, name, "N m", buckling, scene_critical_factor(sign, 0));
     q->least_order = 1.8;
 }
 

@@ -28,8 +28,8 @@ static void hinge(scene *s, int node)
 
 static void add_moment(scene *s, int buckling, const char *name, int order)
 {
-    scene_quantity *q = scene_add_quantity(s, name, "N m", SCENE_CRITICAL_FACTOR, buckling);
-    q->order = order;
+    scene_quantity *q =
+        scene_add_quantity(s, name, "N m", buckling, scene_critical_factor(1, order));
     q->least_order = 1.8;
 }
 

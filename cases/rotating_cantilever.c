@@ -31,9 +31,7 @@ static scene_quantity *add_frequency(scene *s, const char *stem, int order, cons
 {
     char name[SCENE_NAME];
     snprintf(name, sizeof name, "%s_%d%s", stem, order + 1, ending);
-    scene_quantity *q = scene_add_quantity(s, name, "1", SCENE_FREQUENCY, rotation);
-    q->family = family;
-    q->order = order;
+    scene_quantity *q = scene_add_quantity(s, name, "1", rotation, scene_frequency(order, family));
     q->factor = two_pi;
     q->least_order = 1.8;
     return q;
@@ -41,10 +39,7 @@ static scene_quantity *add_frequency(scene *s, const char *stem, int order, cons
 
 static void make_curve(scene_quantity *q, double omega)
 {
-    q->reduction = SCENE_CURVE;
-    q->x_factor = omega;
-    snprintf(q->x_name, sizeof q->x_name, "angular velocity");
-    snprintf(q->x_unit, sizeof q->x_unit, "1");
+    scene_set_curve(q, "angular velocity", "1", omega, 0);
 }
 
 /* Where the axis is along the beam, modes whirl: they are neither flap nor lag, and counted together. */
@@ -91,15 +86,14 @@ static status build(const double value[], scene *s, fault *f)
         (scene_spin){.omega = {omega * sin(value[AXIS]), 0, omega * cos(value[AXIS])},
                      .centre = {-value[HUB_RADIUS], 0, 0}});
     add_frequencies(s, rotation, omega, intervals > 0, value[AXIS] > 1.5);
-    scene_quantity *growth = scene_add_quantity(s, "growth", "1", SCENE_GROWTH, rotation);
+    scene_quantity *growth = scene_add_quantity(s, "growth", "1", rotation, scene_growth());
     growth->near_zero = 1;
     growth->least_order = 1.8;
     if (intervals > 0)
-        make_curve(scene_add_quantity(s, "growth_curve", "1", SCENE_GROWTH, rotation), omega);
+        make_curve(scene_add_quantity(s, "growth_curve", "1", rotation, scene_growth()), omega);
     cantilever_quantity(s, "stretch", "1", rotation, tip, SCENE_UX, 1, 0);
-    scene_quantity *pull = scene_add_quantity(s, "root_force", "1", SCENE_REACTION, rotation);
-    pull->node = root;
-    pull->row = SCENE_UX;
+    scene_quantity *pull =
+        scene_add_quantity(s, "root_force", "1", rotation, scene_reaction(root, SCENE_UX));
     pull->factor = -1;
     pull->least_order = 1.8;
     const int meshes[] = {2, 4, 8, 16, 32, 64};

@@ -40,7 +40,7 @@ static status build(const double value[], scene *s, fault *f)
                FEATURE_SHEAR | (value[SHEAR_STABILITY] == 0 ? FEATURE_ENGESSER : FEATURE_HARINGX));
     const int buckling = scene_add_buckling(s, SCENE_NONE);
     scene_quantity *load =
-        scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
+        scene_add_quantity(s, "buckling_load", "N", buckling, scene_critical_factor(1, 0));
     load->least_order = 1.8;
     const int meshes[] = {2, 4, 8, 16, 32};
     scene_meshes(s, 5, meshes);

@@ -29,26 +29,11 @@ static const int entries[][2] = {
     {2, 2}, {2, 3}, {2, 4}, {3, 2}, {3, 3}, {3, 4}, {4, 2}, {4, 3}, {4, 4},
 };
 
-static void add_gated(scene *s, const char *name, const char *unit, scene_quantity_kind kind,
-                      int analysis, int node, int row)
+static void add_curve(scene *s, const char *name, int analysis, int component, double deflection)
 {
-    scene_quantity *q = scene_add_quantity(s, name, unit, kind, analysis);
-    q->node = node;
-    q->row = row;
-    q->column = row;
-    q->least_order = 1.8;
-}
-
-static void add_curve(scene *s, const char *name, int analysis, int node, int row,
-                      double deflection)
-{
-    scene_quantity *q = scene_add_quantity(s, name, "m/N", SCENE_COMPLIANCE_ENTRY, analysis);
-    q->node = node;
-    q->row = q->column = row;
-    q->reduction = SCENE_CURVE;
-    q->x_factor = deflection;
-    snprintf(q->x_name, sizeof q->x_name, "tip_deflection");
-    snprintf(q->x_unit, sizeof q->x_unit, "m");
+    scene_quantity *q =
+        scene_add_quantity(s, name, "m/N", analysis, scene_compliance_entry(component, component));
+    scene_set_curve(q, "tip_deflection", "m", deflection, 0);
 }
 
 /* About the last state of the path.  The rotation about z is held in the sense of the rotation vector from there. */
@@ -58,8 +43,7 @@ static void add_frequencies(scene *s, int path, int count)
     for (int i = 0; i < count; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "frequency_%d", i + 1);
-        scene_quantity *q = scene_add_quantity(s, name, "Hz", SCENE_FREQUENCY, modal);
-        q->order = i;
+        scene_quantity *q = scene_add_quantity(s, name, "Hz", modal, scene_frequency(i, SCENE_ANY));
         q->least_order = 1.8;
     }
 }
@@ -80,10 +64,9 @@ static void add_predictions(const double value[], scene *s)
                  {"u_x", p.u_x},   {"F_y", p.F_y},      {"M_z", p.M_z}};
     for (int i = 0; i < s->quantities; i++)
         for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
-            if (strcmp(s->quantity[i].name, known[k].name) == 0 && isfinite(known[k].value)) {
-                s->quantity[i].prediction = known[k].value;
-                s->quantity[i].predicted_by = sheet_prediction_source;
-            }
+            if (strcmp(s->quantity[i].name, known[k].name) == 0 && isfinite(known[k].value))
+                s->quantity[i].prediction =
+                    (scene_prediction){known[k].value, sheet_prediction_source};
 }
 
 static status build(const double value[], scene *s, fault *f)
@@ -109,14 +92,19 @@ static status build(const double value[], scene *s, fault *f)
                                                 .moments = (scene_moments)value[SHEET_MOMENTS],
                                                 .released = 1u << SCENE_UY | 1u << SCENE_RZ});
 
-    add_gated(s, "C_xx", "m/N", SCENE_COMPLIANCE_ENTRY, compliance, tip, SCENE_UX);
-    add_gated(s, "C_zz", "m/N", SCENE_COMPLIANCE_ENTRY, compliance, tip, SCENE_UZ);
-    sheet_add_compliance(s, compliance, tip, entries, sizeof entries / sizeof entries[0]);
-    add_gated(s, "u_x", "m", SCENE_COORDINATE, path_analysis, tip, SCENE_UX);
-    add_gated(s, "F_y", "N", SCENE_REACTION, path_analysis, tip, SCENE_UY);
-    add_gated(s, "M_z", "N m", SCENE_REACTION, path_analysis, tip, SCENE_RZ);
-    add_curve(s, "C_xx_curve", compliance, tip, SCENE_UX, value[SHEET_DEFLECTION]);
-    add_curve(s, "C_zz_curve", compliance, tip, SCENE_UZ, value[SHEET_DEFLECTION]);
+    scene_add_quantity(s, "C_xx", "m/N", compliance, scene_compliance_entry(SCENE_UX, SCENE_UX))
+        ->least_order = 1.8;
+    scene_add_quantity(s, "C_zz", "m/N", compliance, scene_compliance_entry(SCENE_UZ, SCENE_UZ))
+        ->least_order = 1.8;
+    sheet_add_compliance(s, compliance, entries, sizeof entries / sizeof entries[0]);
+    scene_add_quantity(s, "u_x", "m", path_analysis, scene_coordinate(tip, SCENE_UX))->least_order =
+        1.8;
+    scene_add_quantity(s, "F_y", "N", path_analysis, scene_reaction(tip, SCENE_UY))->least_order =
+        1.8;
+    scene_add_quantity(s, "M_z", "N m", path_analysis, scene_reaction(tip, SCENE_RZ))->least_order =
+        1.8;
+    add_curve(s, "C_xx_curve", compliance, SCENE_UX, value[SHEET_DEFLECTION]);
+    add_curve(s, "C_zz_curve", compliance, SCENE_UZ, value[SHEET_DEFLECTION]);
     if (s->sections > 0)
         add_predictions(value, s);
     if (value[MODES] > 0) {

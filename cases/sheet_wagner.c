@@ -61,23 +61,20 @@ static status build(const double value[], scene *s, fault *f)
         entries[i][0] = k / 6;
         entries[i][1] = k % 6;
     }
-    sheet_add_compliance(s, compliance, tip, (const int(*)[2])entries, 36);
-    static const struct {
+    sheet_add_compliance(s, compliance, (const int(*)[2])entries, 36);
+    const struct {
         const char *name, *unit;
-        scene_quantity_kind kind;
-        int row;
+        scene_extract what;
     } motions[] = {
-        {"u_x", "m", SCENE_COORDINATE, SCENE_UX}, {"u_z", "m", SCENE_COORDINATE, SCENE_UZ},
-        {"F_y", "N", SCENE_REACTION, SCENE_UY},   {"M_x", "N m", SCENE_REACTION, SCENE_RX},
-        {"M_z", "N m", SCENE_REACTION, SCENE_RZ},
+        {"u_x", "m", scene_coordinate(tip, SCENE_UX)},
+        {"u_z", "m", scene_coordinate(tip, SCENE_UZ)},
+        {"F_y", "N", scene_reaction(tip, SCENE_UY)},
+        {"M_x", "N m", scene_reaction(tip, SCENE_RX)},
+        {"M_z", "N m", scene_reaction(tip, SCENE_RZ)},
     };
-    for (size_t i = 0; i < sizeof motions / sizeof motions[0]; i++) {
-        scene_quantity *q =
-            scene_add_quantity(s, motions[i].name, motions[i].unit, motions[i].kind, path_analysis);
-        q->node = tip;
-        q->row = motions[i].row;
-        q->least_order = 1.8;
-    }
+    for (size_t i = 0; i < sizeof motions / sizeof motions[0]; i++)
+        scene_add_quantity(s, motions[i].name, motions[i].unit, path_analysis, motions[i].what)
+            ->least_order = 1.8;
     return STATUS_OK;
 }
 

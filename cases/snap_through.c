@@ -32,28 +32,19 @@ static int stiff_bar(scene *s)
     return scene_add_section(s, &spec);
 }
 
-static void add_quantities(scene *s, int path, int apex, double height)
+static void add_quantities(scene *s, int path, double height)
 {
     static const char *const name[] = {"limit_load", "limit_load_back"};
-    for (int i = 0; i < 2; i++) {
-        scene_quantity *load = scene_add_quantity(s, name[i], "N", SCENE_CRITICAL_POINT, path);
-        load->row = SCENE_LIMIT_POINT;
-        load->order = i;
-    }
-    scene_quantity *deflection =
-        scene_add_quantity(s, "deflection_at_limit", "m", SCENE_CRITICAL_POINT, path);
-    deflection->row = SCENE_LIMIT_POINT;
-    deflection->column = 1;
-    deflection->factor = -1;
-    scene_quantity *inverted = scene_add_quantity(s, "load_inverted", "N", SCENE_FACTOR_AT, path);
-    inverted->reduction = SCENE_AT;
-    inverted->at = -2.5 * height;
-    scene_quantity *curve = scene_add_quantity(s, "curve", "N", SCENE_FACTOR_AT, path);
-    curve->node = apex;
-    curve->reduction = SCENE_CURVE;
-    curve->x_factor = -1;
-    snprintf(curve->x_name, sizeof curve->x_name, "deflection");
-    snprintf(curve->x_unit, sizeof curve->x_unit, "m");
+    for (int i = 0; i < 2; i++)
+        scene_add_quantity(s, name[i], "N", path,
+                           scene_critical_point(SCENE_LIMIT_POINT, i, SCENE_LOAD_FACTOR));
+    scene_add_quantity(s, "deflection_at_limit", "m", path,
+                       scene_critical_point(SCENE_LIMIT_POINT, 0, SCENE_CONTROL))
+        ->factor = -1;
+    scene_set_at(scene_add_quantity(s, "load_inverted", "N", path, scene_factor_at()),
+                 -2.5 * height);
+    scene_set_curve(scene_add_quantity(s, "curve", "N", path, scene_factor_at()), "deflection", "m",
+                    -1, 0);
 }
 
 static status build(const double value[], scene *s, fault *f)
@@ -76,7 +67,7 @@ static status build(const double value[], scene *s, fault *f)
                                                             .by_arc = value[CONTROL] == 0,
                                                             .step = value[STEP],
                                                             .step_max = 5 * value[STEP]});
-    add_quantities(s, path, apex, height);
+    add_quantities(s, path, height);
     const int meshes[] = {1, 2, 4, 8};
     scene_meshes(s, 4, meshes);
     return STATUS_OK;

@@ -37,12 +37,11 @@ static void prescribe_rotation(const double value[], scene *s, int effector, dou
     }
 }
 
-static scene_quantity *add_stiffness(scene *s, const char *name, int analysis, int effector,
+static scene_quantity *add_stiffness(scene *s, const char *name, int analysis,
                                      scene_reduction reduction)
 {
-    scene_quantity *q = scene_add_quantity(s, name, "N/m", SCENE_STIFFNESS_ENTRY, analysis);
-    q->node = effector;
-    q->row = q->column = SCENE_UZ;
+    scene_quantity *q =
+        scene_add_quantity(s, name, "N/m", analysis, scene_stiffness_entry(SCENE_UZ));
     q->reduction = reduction;
     q->least_order = 1.5;
     return q;
@@ -65,15 +64,12 @@ static status build(const double value[], scene *s, fault *f)
     const scene_compliance of_effector = {.node = effector};
     const int tilted = scene_add_compliance(s, tilting, of_effector),
               rest = scene_add_compliance(s, SCENE_NONE, of_effector);
-    add_stiffness(s, "support_stiffness_max", tilted, effector, SCENE_MAX);
-    add_stiffness(s, "support_stiffness_min", tilted, effector, SCENE_MIN);
-    add_stiffness(s, "support_stiffness_undeformed", rest, effector, SCENE_LAST);
-    scene_quantity *curve =
-        add_stiffness(s, "support_stiffness_curve", tilted, effector, SCENE_CURVE);
-    curve->x_factor = 2 * 3.14159265358979323846 / value[STEPS];
-    curve->x_offset = -curve->x_factor; /* station 1 is azimuth 0 */
-    snprintf(curve->x_name, sizeof curve->x_name, "azimuth");
-    snprintf(curve->x_unit, sizeof curve->x_unit, "rad");
+    add_stiffness(s, "support_stiffness_max", tilted, SCENE_MAX);
+    add_stiffness(s, "support_stiffness_min", tilted, SCENE_MIN);
+    add_stiffness(s, "support_stiffness_undeformed", rest, SCENE_LAST);
+    scene_quantity *curve = add_stiffness(s, "support_stiffness_curve", tilted, SCENE_CURVE);
+    const double step = 2 * 3.14159265358979323846 / value[STEPS];
+    scene_set_curve(curve, "azimuth", "rad", step, -step); /* station 1 is azimuth 0 */
     const int meshes[] = {1, 2, 4, 8, 16};
     scene_meshes(s, 5, meshes);
     return STATUS_OK;

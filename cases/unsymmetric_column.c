@@ -50,9 +50,8 @@ static void add_frequencies(scene *s, int modal)
     for (int i = 0; i < FREQUENCIES; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "frequency_%d", i + 1);
-        scene_quantity *frequency = scene_add_quantity(s, name, "Hz", SCENE_FREQUENCY, modal);
-        frequency->family = SCENE_NOT_AXIAL;
-        frequency->order = i;
+        scene_quantity *frequency =
+            scene_add_quantity(s, name, "Hz", modal, scene_frequency(i, SCENE_NOT_AXIAL));
         frequency->least_order = 1.8;
     }
 }
@@ -80,9 +79,8 @@ static status build(const double value[], scene *s, fault *f)
         scene_need(s, FEATURE_ROTARY_INERTIA);
 
     const int buckling = scene_add_buckling(s, SCENE_NONE);
-    scene_quantity *critical =
-        scene_add_quantity(s, "buckling_load", "N", SCENE_CRITICAL_FACTOR, buckling);
-    critical->sign = load > 0 ? 1 : -1;
+    scene_quantity *critical = scene_add_quantity(s, "buckling_load", "N", buckling,
+                                                  scene_critical_factor(load > 0 ? 1 : -1, 0));
     critical->factor = load;
     critical->least_order = 1.8;
     const int loading = scene_add_linear(s),

@@ -37,13 +37,9 @@ static status build(const double value[], scene *s, fault *f)
 
     const double end = 1;
     const int twisting = scene_add_static(s, 1, &end, 2);
-    scene_quantity *moment = scene_add_quantity(s, "moment", "N m", SCENE_REACTION, twisting);
-    moment->node = tip;
-    moment->row = SCENE_RX;
+    scene_add_quantity(s, "moment", "N m", twisting, scene_reaction(tip, SCENE_RX));
     scene_quantity *shortening =
-        scene_add_quantity(s, "shortening", "m", SCENE_COORDINATE, twisting);
-    shortening->node = tip;
-    shortening->row = SCENE_UX;
+        scene_add_quantity(s, "shortening", "m", twisting, scene_coordinate(tip, SCENE_UX));
     shortening->factor = -1;
     const int meshes[] = {1, 2, 4, 8};
     scene_meshes(s, 4, meshes);

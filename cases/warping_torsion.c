@@ -38,9 +38,8 @@ static status build(const double value[], scene *s, fault *f)
     scene_hold_all(s, root);
     scene_add_load(s, SCENE_MOMENT, tip, 1, 0, 0);
     const int linear = scene_add_linear(s);
-    scene_quantity *twist = scene_add_quantity(s, "twist_ratio", "1", SCENE_COORDINATE, linear);
-    twist->node = tip;
-    twist->row = SCENE_RX;
+    scene_quantity *twist =
+        scene_add_quantity(s, "twist_ratio", "1", linear, scene_coordinate(tip, SCENE_RX));
     twist->factor = spec.shear_modulus * spec.constants.It / length;
     twist->least_order = 3.5;
     const int meshes[] = {1, 2, 4, 8, 16, 32};

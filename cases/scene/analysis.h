@@ -6,6 +6,8 @@
 
 typedef struct scene scene;
 
+enum { SCENE_NONE = -1, SCENE_NAME = 48, SCENE_UNIT = 16 }; /* sizes with the final zero */
+
 typedef enum scene_analysis_kind {
     SCENE_LINEAR,     /* one linear solution with the loads at factor 1 */
     SCENE_STATIC,     /* nonlinear equilibrium along the path */

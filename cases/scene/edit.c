@@ -80,8 +80,11 @@ static status split(scene *s, double fraction, fault *f)
     m->warp_q = name;
     for (int i = 0; i < loads; i++)
         if (s->load[i].kind == SCENE_DISTRIBUTED && s->load[i].where == 0) {
-            const double *v = s->load[i].vector;
-            scene_add_load(s, SCENE_DISTRIBUTED, second, v[0], v[1], v[2]);
+            const scene_load whole = s->load[i];
+            const double *v = whole.vector;
+            const int part = scene_add_load(s, SCENE_DISTRIBUTED, second, v[0], v[1], v[2]);
+            if (whole.stations > 0)
+                scene_set_factor(s, part, whole.stations, whole.path, whole.factor);
         }
     return STATUS_OK;
 }

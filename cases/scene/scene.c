@@ -44,12 +44,12 @@ int scene_add_section(scene *s, const section_spec *spec)
 
 scene_node *scene_node_at(scene *s, int i)
 {
-    return i >= 0 && i < s->nodes ? &s->node[i] : &s->scrap_node;
+    return i >= 0 && i < s->nodes ? &s->node[i] : &s->scrap.node;
 }
 
 scene_member *scene_member_at(scene *s, int i)
 {
-    return i >= 0 && i < s->members ? &s->member[i] : &s->scrap_member;
+    return i >= 0 && i < s->members ? &s->member[i] : &s->scrap.member;
 }
 
 int scene_add_node(scene *s, double x, double y, double z)
@@ -126,20 +126,13 @@ int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y
     return i;
 }
 
-scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit,
-                                   scene_quantity_kind kind, int analysis)
+void scene_set_factor(scene *s, int load, int stations, const double path[], const double factor[])
 {
-    const int i = scene_grow(s, &s->quantity, &s->quantities, sizeof *s->quantity);
-    scene_quantity *q = i >= 0 ? &s->quantity[i] : &s->scrap_quantity;
-    memset(q, 0, sizeof *q);
-    snprintf(q->name, sizeof q->name, "%s", name);
-    snprintf(q->unit, sizeof q->unit, "%s", unit);
-    q->kind = kind;
-    q->analysis = analysis;
-    q->node = q->x_driver = SCENE_NONE;
-    q->sign = 1;
-    q->tolerance = SCENE_TOLERANCE;
-    return q;
+    if (load < 0) /* memory ran out */
+        return;
+    s->load[load].stations = stations;
+    s->load[load].path = scene_copy(s, stations, path);
+    s->load[load].factor = scene_copy(s, stations, factor);
 }
 
 static int *component_of(scene_node *n, int component)
@@ -184,7 +177,8 @@ void scene_meshes(scene *s, int count, const int mesh[])
 
 const char *scene_convention(const scene *s, const scene_quantity *q)
 {
-    const int matrix = q->kind == SCENE_COMPLIANCE_ENTRY || q->kind == SCENE_STIFFNESS_ENTRY;
+    const scene_quantity_kind kind = q->what.kind;
+    const int matrix = kind == SCENE_COMPLIANCE_ENTRY || kind == SCENE_STIFFNESS_ENTRY;
     return matrix && q->analysis >= 0 && q->analysis < s->analyses
                ? scene_moments_name(scene_compliance_of(&s->analysis[q->analysis])->moments)
                : NULL;

@@ -8,11 +8,10 @@
 #define BEAMWORK_SCENE_H
 
 #include "cases/scene/analysis.h"
+#include "cases/scene/quantity.h"
 #include "elements/feature.h"
 #include "elements/section/section.h"
 #include "elements/shared/status.h"
-
-enum { SCENE_NONE = -1, SCENE_NAME = 48 };
 
 /* Of a limit, relative: what engineers ask of a model. A limit of its own within it is seen all the same, by its uncertainty. */
 #define SCENE_TOLERANCE 1e-3
@@ -77,62 +76,6 @@ typedef struct scene_load {
     double *path, *factor;
 } scene_load;
 
-typedef enum scene_quantity_kind {
-    SCENE_COORDINATE, /* displacement or rotation-vector component of `node` in a static or linear analysis */
-    SCENE_REACTION,         /* of a prescribed component at `node` */
-    SCENE_COMPLIANCE_ENTRY, /* row, column of the 6 x 6 matrix */
-    SCENE_STIFFNESS_ENTRY, /* 1 / compliance entry (row, row) with only the non-held coordinates free */
-    SCENE_CRITICAL_FACTOR, /* order-th positive (sign +1) or negative (sign -1) load factor, counted from 0 */
-    SCENE_GROWTH,    /* rotation: largest rate of growth of a small motion [1/s]; 0: stable */
-    SCENE_FREQUENCY, /* [Hz] by order among the modes of the wanted family and half-waves */
-    SCENE_FACTOR_AT, /* continuation: load factor at the station `at` of the control coordinate, or all along (SCENE_CURVE) */
-    SCENE_CRITICAL_POINT, /* continuation: the order-th point of kind `row` (scene_critical): load factor (column 0) or control coordinate (1) */
-    SCENE_DRIVER_VALUE    /* of an unknown driver */
-} scene_quantity_kind;
-
-/* A point of a path at which the tangent stiffness is singular. */
-typedef enum scene_critical { SCENE_LIMIT_POINT, SCENE_BIFURCATION } scene_critical;
-
-typedef enum scene_family {
-    SCENE_ANY,
-    SCENE_NOT_AXIAL,
-    SCENE_AXIAL,
-    SCENE_BENDING_Y,
-    SCENE_BENDING_Z,
-    SCENE_TORSION
-} scene_family;
-
-typedef enum scene_reduction {
-    SCENE_LAST,
-    SCENE_MAX,
-    SCENE_MIN,
-    SCENE_AT,
-    SCENE_CURVE
-} scene_reduction;
-
-typedef struct scene_quantity {
-    char name[SCENE_NAME], unit[16];
-    scene_quantity_kind kind;
-    int analysis, node, row, column; /* row also: component, driver */
-    int sign, order;
-    scene_family family;
-    int half_waves; /* 0: any */
-    scene_reduction reduction;
-    double at; /* path value for SCENE_AT, controlled value for SCENE_FACTOR_AT */
-    double factor,
-        offset;       /* reported value = factor * extracted value + offset (factor 0 means 1) */
-    double near_zero; /* absolute scale for relative errors of values near zero; 0: |value| */
-    double
-        tolerance; /* relative, of the limit against the truth: SCENE_TOLERANCE unless a case says why not */
-    double least_order; /* of convergence in the number of elements */
-    double
-        prediction; /* [unit] of an analytic model with an error of its own: shown, never judged ... */
-    const char *predicted_by;            /* ... and its source; NULL: there is none */
-    char x_name[SCENE_NAME], x_unit[16]; /* of a curve */
-    int x_driver; /* curve: abscissa is this driver's value; SCENE_NONE: the path parameter times x_factor plus x_offset */
-    double x_factor, x_offset;
-} scene_quantity;
-
 struct scene {
     char name[SCENE_NAME];
     int sections, nodes, members, drivers, loads, analyses, quantities;
@@ -147,10 +90,12 @@ struct scene {
     int meshes;     /* default -n values of verify and converge */
     int mesh[16];
     int out_of_memory;
-    /* What the accessors below point to when an index is -1, so that a case can write without asking. */
-    scene_node scrap_node;
-    scene_member scrap_member;
-    scene_quantity scrap_quantity;
+    /* What is pointed to when memory ran out, so that a case can write without asking. */
+    union {
+        scene_node node;
+        scene_member member;
+        scene_quantity quantity;
+    } scrap;
 };
 
 void scene_init(scene *s, const char *name);
@@ -167,10 +112,8 @@ int scene_add_driver(scene *s, const char *name, int stations, const double path
 int scene_add_unknown_driver(scene *s, const char *name, int node, int component,
                              int condition_driver);
 int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y, double z);
-/* The new quantity, to be filled further: name, unit, kind and analysis are set, nodes and drivers SCENE_NONE, sign 1,
- * tolerance SCENE_TOLERANCE, the rest 0. */
-scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit,
-                                   scene_quantity_kind kind, int analysis);
+/* The load is its vector times a factor, piecewise linear over the path parameter. */
+void scene_set_factor(scene *s, int load, int stations, const double path[], const double factor[]);
 /* Entry of a list, to be filled further; never NULL. */
 scene_node *scene_node_at(scene *s, int index);
 scene_member *scene_member_at(scene *s, int index);

@@ -112,23 +112,27 @@ static void scale_analysis(scene_analysis *a, double x)
     }
 }
 
+static int translates(int component)
+{
+    return component <= SCENE_UZ;
+}
+
 /* Power of length in what is extracted. */
 static int power_of(const scene *s, const scene_quantity *q)
 {
-    const int translates = q->row <= SCENE_UZ, force = q->column <= SCENE_UZ;
-    switch (q->kind) {
+    switch (q->what.kind) {
     case SCENE_COORDINATE:
-        return translates;
+        return translates(scene_component_of(q)->component);
     case SCENE_REACTION:
-        return !translates;
+        return !translates(scene_component_of(q)->component);
     case SCENE_COMPLIANCE_ENTRY:
-        return translates - !force;
+        return translates(scene_entry_of(q)->row) - !translates(scene_entry_of(q)->column);
     case SCENE_STIFFNESS_ENTRY:
-        return translates ? -1 : 1;
+        return translates(scene_entry_of(q)->row) ? -1 : 1;
     case SCENE_CRITICAL_POINT:
-        return q->column == 1;
+        return scene_point_of(q)->ordinate == SCENE_CONTROL;
     case SCENE_DRIVER_VALUE:
-        return is_length(s, q->row);
+        return is_length(s, scene_driver_of(q));
     case SCENE_CRITICAL_FACTOR:
     case SCENE_GROWTH:
     case SCENE_FREQUENCY:
@@ -140,7 +144,7 @@ static int power_of(const scene *s, const scene_quantity *q)
 
 static void scale_quantity(const scene *s, scene_quantity *q, double x)
 {
-    q->factor = (q->factor != 0 ? q->factor : 1) * pow(x, -power_of(s, q));
+    q->factor *= pow(x, -power_of(s, q));
     if (q->analysis >= 0 && q->analysis < s->analyses &&
         s->analysis[q->analysis].kind == SCENE_CONTINUATION)
         q->at *= x;

@@ -236,6 +236,44 @@ static status check_analysis(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
+static int is_component(int component)
+{
+    return component >= SCENE_UX && component <= SCENE_RZ;
+}
+
+static status check_extract(const scene *s, const scene_quantity *q, fault *f)
+{
+    switch (q->what.kind) {
+    case SCENE_COORDINATE:
+    case SCENE_REACTION: {
+        const scene_component *c = scene_component_of(q);
+        if (c->node < 0 || c->node >= s->nodes || !is_component(c->component))
+            return fault_set(f, STATUS_REFUSED,
+                             "quantity %s: no such coordinate; name a node and UX to RZ", q->name);
+        break;
+    }
+    case SCENE_COMPLIANCE_ENTRY:
+    case SCENE_STIFFNESS_ENTRY:
+        if (!is_component(scene_entry_of(q)->row) || !is_component(scene_entry_of(q)->column))
+            return fault_set(f, STATUS_REFUSED,
+                             "quantity %s: no such entry; name a row and a column from UX to RZ",
+                             q->name);
+        break;
+    case SCENE_DRIVER_VALUE:
+        if (scene_driver_of(q) < 0 || scene_driver_of(q) >= s->drivers)
+            return fault_set(f, STATUS_REFUSED, "quantity %s: no such driver; add the driver first",
+                             q->name);
+        break;
+    case SCENE_CRITICAL_FACTOR:
+    case SCENE_GROWTH:
+    case SCENE_FREQUENCY:
+    case SCENE_FACTOR_AT:
+    case SCENE_CRITICAL_POINT:
+        break;
+    }
+    return STATUS_OK;
+}
+
 static status check_quantity(const scene *s, int i, fault *f)
 {
     const scene_quantity *q = &s->quantity[i];
@@ -246,11 +284,11 @@ static status check_quantity(const scene *s, int i, fault *f)
     if (q->analysis < 0 || q->analysis >= s->analyses)
         return fault_set(f, STATUS_REFUSED, "quantity %s: no such analysis; add the analysis first",
                          q->name);
-    const int at_node = q->kind == SCENE_COORDINATE || q->kind == SCENE_REACTION;
-    if (at_node && (q->node < 0 || q->node >= s->nodes || q->row < SCENE_UX || q->row > SCENE_RZ))
+    if (!scene_gives(s->analysis[q->analysis].kind, q->what.kind))
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: no such coordinate; name a node and UX to RZ", q->name);
-    return STATUS_OK;
+                         "quantity %s: an analysis of this kind does not have it; name another one",
+                         q->name);
+    return check_extract(s, q, f);
 }
 
 status scene_validate(const scene *s, fault *f)

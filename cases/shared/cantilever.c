@@ -36,9 +36,7 @@ int cantilever_path(scene *s, int steps)
 void cantilever_quantity(scene *s, const char *name, const char *unit, int analysis, int tip,
                          int row, double factor, double offset)
 {
-    scene_quantity *q = scene_add_quantity(s, name, unit, SCENE_COORDINATE, analysis);
-    q->node = tip;
-    q->row = row;
+    scene_quantity *q = scene_add_quantity(s, name, unit, analysis, scene_coordinate(tip, row));
     q->factor = factor;
     q->offset = offset;
     q->least_order = 1.8;

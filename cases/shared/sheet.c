@@ -48,7 +48,7 @@ status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f
     return STATUS_OK;
 }
 
-void sheet_add_compliance(scene *s, int analysis, int tip, const int (*entries)[2], int count)
+void sheet_add_compliance(scene *s, int analysis, const int (*entries)[2], int count)
 {
     static const char *const response[] = {"ux", "uy", "uz", "thx", "thy", "thz"};
     static const char *const load[] = {"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
@@ -58,10 +58,8 @@ void sheet_add_compliance(scene *s, int analysis, int tip, const int (*entries)[
         snprintf(name, sizeof name, "C_%s_%s", response[row], load[column]);
         const char *unit =
             row < 3 ? (column < 3 ? "m/N" : "1/N") : (column < 3 ? "rad/N" : "rad/(N m)");
-        scene_quantity *q = scene_add_quantity(s, name, unit, SCENE_COMPLIANCE_ENTRY, analysis);
-        q->node = tip;
-        q->row = row;
-        q->column = column;
+        scene_quantity *q =
+            scene_add_quantity(s, name, unit, analysis, scene_compliance_entry(row, column));
         q->least_order = 1.8;
     }
 }

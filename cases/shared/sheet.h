@@ -63,6 +63,6 @@ status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f
 
 /* Compliance at the tip along a static path, prescribed motion replaced by its reactions: adds
  * the entries C_<response>_<load> whose row and column are listed, as values at the end of the path. */
-void sheet_add_compliance(scene *s, int analysis, int tip, const int (*entries)[2], int count);
+void sheet_add_compliance(scene *s, int analysis, const int (*entries)[2], int count);
 
 #endif

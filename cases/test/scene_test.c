@@ -26,9 +26,7 @@ static void sound(scene *s)
     scene_drive(s, TIP, SCENE_UY, scene_add_driver(s, "push", 2, station, station));
     scene_add_load(s, SCENE_FORCE, TIP, 1, 0, 0);
     const int path = scene_add_static(s, 2, station, 1);
-    scene_quantity *q = scene_add_quantity(s, "u", "m", SCENE_COORDINATE, path);
-    q->node = TIP;
-    q->row = SCENE_UX;
+    scene_add_quantity(s, "u", "m", path, scene_coordinate(TIP, SCENE_UX));
 }
 
 /* The path of an unknown load factor, which changes loads only. */
@@ -165,7 +163,7 @@ static void spin(scene *s)
 }
 static void two_names(scene *s)
 {
-    scene_add_quantity(s, "u", "m", SCENE_COORDINATE, 0);
+    scene_add_quantity(s, "u", "m", 0, scene_coordinate(TIP, SCENE_UX));
 }
 static void no_analysis(scene *s)
 {
@@ -173,7 +171,21 @@ static void no_analysis(scene *s)
 }
 static void no_coordinate(scene *s)
 {
-    s->quantity[0].row = 6;
+    s->quantity[0].what.of.component.component = 6;
+}
+
+static void not_of_a_path(scene *s)
+{
+    scene_add_quantity(s, "frequency", "Hz", 0, scene_frequency(0, SCENE_ANY));
+}
+static void no_entry(scene *s)
+{
+    const int at_tip = scene_add_compliance(s, 0, (scene_compliance){.node = TIP});
+    scene_add_quantity(s, "entry", "m/N", at_tip, scene_compliance_entry(SCENE_UX, 6));
+}
+static void no_driver(scene *s)
+{
+    scene_add_quantity(s, "angle", "rad", 0, scene_driver_value(1));
 }
 
 static void unknown_driver(scene *s)
@@ -252,6 +264,9 @@ static const struct {
     {two_names, "quantity u: ", "two of that name"},
     {no_analysis, "quantity u: ", "no such analysis"},
     {no_coordinate, "quantity u: ", "no such coordinate"},
+    {not_of_a_path, "quantity frequency: ", "does not have it"},
+    {no_entry, "quantity entry: ", "no such entry"},
+    {no_driver, "quantity angle: ", "no such driver"},
 };
 enum { REFUSALS = sizeof refusal / sizeof refusal[0] };
 

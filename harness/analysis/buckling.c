@@ -46,11 +46,12 @@ static void wanted_of(const analysis_context *c, int analysis, eigen_problem *p)
 {
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
-        if (q->kind != SCENE_CRITICAL_FACTOR || q->analysis != analysis)
+        if (!scene_asks(q, analysis, SCENE_CRITICAL_FACTOR))
             continue;
-        int *side = q->sign > 0 ? &p->largest : &p->smallest;
-        if (*side < q->order + 1)
-            *side = q->order + 1;
+        const scene_critical_load *load = scene_critical_load_of(q);
+        int *side = load->sign > 0 ? &p->largest : &p->smallest;
+        if (*side < load->order + 1)
+            *side = load->order + 1;
     }
 }
 

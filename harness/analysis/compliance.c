@@ -18,9 +18,9 @@ static unsigned wanted_columns(const analysis_context *c, int analysis)
     unsigned wanted = 0;
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
-        if (q->analysis == analysis &&
-            (q->kind == SCENE_COMPLIANCE_ENTRY || q->kind == SCENE_STIFFNESS_ENTRY))
-            wanted |= 1u << q->column;
+        if (scene_asks(q, analysis, SCENE_COMPLIANCE_ENTRY) ||
+            scene_asks(q, analysis, SCENE_STIFFNESS_ENTRY))
+            wanted |= 1u << scene_entry_of(q)->column;
     }
     return wanted;
 }

@@ -12,7 +12,7 @@ int continuation_extract_keeps_states(const scene *s, int analysis)
 {
     for (int i = 0; i < s->quantities; i++) {
         const scene_quantity *q = &s->quantity[i];
-        if (q->analysis == analysis && q->kind == SCENE_COORDINATE && q->reduction == SCENE_CURVE)
+        if (scene_asks(q, analysis, SCENE_COORDINATE) && q->reduction == SCENE_CURVE)
             return 1;
     }
     return 0;
@@ -20,7 +20,7 @@ int continuation_extract_keeps_states(const scene *s, int analysis)
 
 static double abscissa(const scene_quantity *q, double control)
 {
-    return control * (q->x_factor != 0 ? q->x_factor : 1) + q->x_offset;
+    return control * q->x.factor + q->x.offset;
 }
 
 /* Load factor or coordinate against the control coordinate, at every point. */
@@ -35,9 +35,11 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
     }
     r->curve.points = o->points;
     for (int i = 0; i < o->points; i++) {
-        const double value = q->kind == SCENE_FACTOR_AT
-                                 ? o->factor[i]
-                                 : model_component(c->model, o->point_state[i], q->node, q->row);
+        const double value =
+            q->what.kind == SCENE_FACTOR_AT
+                ? o->factor[i]
+                : model_component(c->model, o->point_state[i], scene_component_of(q)->node,
+                                  scene_component_of(q)->component);
         r->curve.x[i] = abscissa(q, o->control[i]);
         r->curve.value[i] = quantity_scaled(q, value);
     }
@@ -49,13 +51,14 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
 static void take_critical(const analysis_context *c, const scene_quantity *q,
                           const analysis_outcome *o, quantity_result *r)
 {
-    const event_kind kind = q->row == SCENE_LIMIT_POINT ? EVENT_LIMIT_POINT : EVENT_BIFURCATION;
+    const scene_point *what = scene_point_of(q);
+    const event_kind kind = what->kind == SCENE_LIMIT_POINT ? EVENT_LIMIT_POINT : EVENT_BIFURCATION;
     int order = 0;
     for (int i = 0; i < c->result->events; i++) {
         const path_event *e = &c->result->event[i];
-        if (e->analysis != q->analysis || e->kind != kind || order++ < q->order)
+        if (e->analysis != q->analysis || e->kind != kind || order++ < what->order)
             continue;
-        r->value = quantity_scaled(q, q->column == 0 ? e->factor : e->control);
+        r->value = quantity_scaled(q, what->ordinate == SCENE_LOAD_FACTOR ? e->factor : e->control);
         r->x = abscissa(q, e->control);
         return;
     }
@@ -66,10 +69,10 @@ static void take_critical(const analysis_context *c, const scene_quantity *q,
 int continuation_extract(const analysis_context *c, const scene_quantity *q,
                          const analysis_outcome *o, quantity_result *r)
 {
-    if (q->kind == SCENE_CRITICAL_POINT)
+    if (q->what.kind == SCENE_CRITICAL_POINT)
         take_critical(c, q, o, r);
     else if (q->reduction == SCENE_CURVE &&
-             (q->kind == SCENE_FACTOR_AT || q->kind == SCENE_COORDINATE))
+             (q->what.kind == SCENE_FACTOR_AT || q->what.kind == SCENE_COORDINATE))
         take_curve(c, q, o, r);
     else
         return 0;

@@ -16,56 +16,73 @@
 
 static const double TURN = 2 * 3.14159265358979323846; /* rad */
 
-/* Frequency [Hz] or growth [1/s] of a stationary rotation; NAN: no mode of this kind. */
-static double of_rotation(const scene_quantity *q, const rotation_modes *modes)
+/* [Hz]; NAN: no mode of this kind. */
+static double frequency_of(const scene_quantity *q, const rotation_modes *modes)
+{
+    int order = 0;
+    for (int i = 0; i < modes->count; i++)
+        if (modes->growth[i] == 0 && modes_in_family(scene_mode_of(q), &modes->shape[i]) &&
+            order++ == scene_mode_of(q)->order)
+            return modes->frequency[i] / TURN;
+    return NAN;
+}
+
+/* [1/s]; NAN: there are no modes. */
+static double growth_of(const rotation_modes *modes)
 {
     double largest = 0;
-    int order = 0;
-    for (int i = 0; i < modes->count; i++) {
+    for (int i = 0; i < modes->count; i++)
         largest = fmax(largest, modes->growth[i]);
-        if (q->kind == SCENE_FREQUENCY && modes->growth[i] == 0 &&
-            modes_in_family(q, &modes->shape[i]) && order++ == q->order)
-            return modes->frequency[i] / TURN;
-    }
-    return q->kind == SCENE_GROWTH && modes->count > 0 ? largest : NAN;
+    return modes->count > 0 ? largest : NAN;
+}
+
+static double reaction_of(const analysis_context *c, const scene_component *what,
+                          const model_state *s)
+{
+    double F[6], L[6];
+    model_node_force(c->model, s, what->node, F);
+    model_node_load(c->model, s, what->node, L);
+    return F[what->component] - L[what->component];
 }
 
 /* Value of a quantity of the path at one station. */
-static double at_station(const analysis_context *c, const scene_quantity *q,
-                         const analysis_outcome *o, int i)
+static double extracted(const analysis_context *c, const scene_quantity *q,
+                        const analysis_outcome *o, int i)
 {
-    double F[6], L[6];
-    switch (q->kind) {
+    switch (q->what.kind) {
     case SCENE_COORDINATE:
-        return quantity_scaled(q, model_component(c->model, o->state[i], q->node, q->row));
+        return model_component(c->model, o->state[i], scene_component_of(q)->node,
+                               scene_component_of(q)->component);
     case SCENE_REACTION:
-        model_node_force(c->model, o->state[i], q->node, F);
-        model_node_load(c->model, o->state[i], q->node, L);
-        return quantity_scaled(q, F[q->row] - L[q->row]);
+        return reaction_of(c, scene_component_of(q), o->state[i]);
     case SCENE_COMPLIANCE_ENTRY:
-        return quantity_scaled(q, o->compliance[36 * i + 6 * q->row + q->column]);
+        return o->compliance[36 * i + 6 * scene_entry_of(q)->row + scene_entry_of(q)->column];
     case SCENE_STIFFNESS_ENTRY:
-        return quantity_scaled(q, 1 / o->compliance[36 * i + 6 * q->row + q->column]);
+        return 1 / o->compliance[36 * i + 7 * scene_entry_of(q)->row];
     case SCENE_DRIVER_VALUE:
-        return quantity_scaled(q, model_driver_value(c->model, o->state[i], q->row));
+        return model_driver_value(c->model, o->state[i], scene_driver_of(q));
     case SCENE_FREQUENCY:
+        return o->modes != NULL ? frequency_of(q, &o->modes[i]) : NAN;
     case SCENE_GROWTH:
-        return o->modes != NULL ? quantity_scaled(q, of_rotation(q, &o->modes[i])) : NAN;
-    case SCENE_CRITICAL_FACTOR:
+        return o->modes != NULL ? growth_of(&o->modes[i]) : NAN;
     case SCENE_FACTOR_AT:
-        return quantity_scaled(q, model_state_path(o->state[i]));
+        return model_state_path(o->state[i]);
+    case SCENE_CRITICAL_FACTOR:
     case SCENE_CRITICAL_POINT:
         break;
     }
     return NAN;
 }
 
-static double abscissa(const analysis_context *c, const scene_quantity *q,
-                       const analysis_outcome *o, int i)
+static double at_station(const analysis_context *c, const scene_quantity *q,
+                         const analysis_outcome *o, int i)
 {
-    if (q->x_driver != SCENE_NONE && o->state != NULL)
-        return model_driver_value(c->model, o->state[i], q->x_driver);
-    return o->path[i] * (q->x_factor != 0 ? q->x_factor : 1) + q->x_offset;
+    return quantity_scaled(q, extracted(c, q, o, i));
+}
+
+static double abscissa(const scene_quantity *q, const analysis_outcome *o, int i)
+{
+    return o->path[i] * q->x.factor + q->x.offset;
 }
 
 static void take_curve(const analysis_context *c, const scene_quantity *q,
@@ -79,7 +96,7 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
     }
     r->curve.points = o->reached;
     for (int i = 0; i < o->reached; i++) {
-        r->curve.x[i] = abscissa(c, q, o, i);
+        r->curve.x[i] = abscissa(q, o, i);
         r->curve.value[i] = at_station(c, q, o, i);
     }
     r->value = o->reached > 0 ? r->curve.value[o->reached - 1] : NAN;
@@ -124,7 +141,7 @@ static void from_path(const analysis_context *c, const scene_quantity *q, const 
         return;
     }
     r->value = at_station(c, q, o, chosen);
-    r->x = abscissa(c, q, o, chosen);
+    r->x = abscissa(q, o, chosen);
 }
 
 /* Value i of a side, or why it has none. */
@@ -141,11 +158,12 @@ static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, i
 
 static void from_buckling(const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
 {
-    const outcome_side *side = q->sign > 0 ? &o->positive : &o->negative;
-    const char *sign = q->sign > 0 ? "positive" : "negative";
+    const scene_critical_load *load = scene_critical_load_of(q);
+    const outcome_side *side = load->sign > 0 ? &o->positive : &o->negative;
+    const char *sign = load->sign > 0 ? "positive" : "negative";
     char why[FAULT_TEXT];
-    if (q->order < side->count) {
-        take_eigenvalue(q, side, q->order, 1, r);
+    if (load->order < side->count) {
+        take_eigenvalue(q, side, load->order, 1, r);
         return;
     }
     if (side->status != STATUS_OK)
@@ -160,7 +178,7 @@ static void from_buckling(const scene_quantity *q, const analysis_outcome *o, qu
 
 /* *found: the mode of the kind and order that is asked for; -1: there is none. x[free + driven] is
  * work space. */
-static status find_mode(const analysis_context *c, const scene_quantity *q,
+static status find_mode(const analysis_context *c, const scene_mode *wanted,
                         const outcome_side *side, double x[], int *found, fault *f)
 {
     const size_t n = (size_t)model_sizes(c->model).free;
@@ -170,7 +188,7 @@ static status find_mode(const analysis_context *c, const scene_quantity *q,
         mode_shape shape;
         memcpy(x, side->mode + (size_t)i * n, n * sizeof *x);
         TRY(modes_identify(c->model, c->scene, x, &shape, f));
-        if (modes_in_family(q, &shape) && order++ == q->order) {
+        if (modes_in_family(wanted, &shape) && order++ == wanted->order) {
             *found = i;
             return STATUS_OK;
         }
@@ -186,7 +204,8 @@ static void from_modes(const analysis_context *c, const scene_quantity *q,
     fault f = {"out of memory for a mode"};
     int found = -1;
     double *x = calloc((size_t)(size.free + size.driven) + 1, sizeof *x);
-    const status known = x != NULL ? find_mode(c, q, side, x, &found, &f) : STATUS_FAULT;
+    const status known =
+        x != NULL ? find_mode(c, scene_mode_of(q), side, x, &found, &f) : STATUS_FAULT;
     free(x);
     if (known != STATUS_OK)
         quantity_no_value(r, known, f.text);
@@ -201,15 +220,13 @@ static void from_modes(const analysis_context *c, const scene_quantity *q,
 static void from_linear(const analysis_context *c, const scene_quantity *q,
                         const analysis_outcome *o, quantity_result *r)
 {
+    const scene_component *what = scene_component_of(q);
     int index[6];
     double T[36], sum = 0;
-    const int n = model_node_jacobian(c->model, NULL, q->node, 6, index, T);
+    const int n = model_node_jacobian(c->model, NULL, what->node, 6, index, T);
     for (int k = 0; k < n; k++)
-        sum += T[q->row * n + k] * o->x[index[k]];
-    if (q->kind == SCENE_COORDINATE)
-        r->value = quantity_scaled(q, sum);
-    else
-        quantity_no_value(r, STATUS_REFUSED, "a linear analysis gives coordinates only");
+        sum += T[what->component * n + k] * o->x[index[k]];
+    r->value = quantity_scaled(q, sum);
 }
 
 void extract_quantity(const analysis_context *c, const scene_quantity *q, quantity_result *r)

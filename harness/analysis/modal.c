@@ -22,8 +22,8 @@ int modal_wanted(const analysis_context *c, int analysis)
     int wanted = 0;
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
-        if (q->kind == SCENE_FREQUENCY && q->analysis == analysis && wanted < q->order + 1)
-            wanted = q->order + 1;
+        if (scene_asks(q, analysis, SCENE_FREQUENCY) && wanted < scene_mode_of(q)->order + 1)
+            wanted = scene_mode_of(q)->order + 1;
     }
     return wanted + others;
 }

@@ -144,7 +144,7 @@ static int asks_for_modes(const analysis_context *c, int analysis, int everywher
 {
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
-        if (q->analysis == analysis && (q->kind == SCENE_FREQUENCY || q->kind == SCENE_GROWTH) &&
+        if ((scene_asks(q, analysis, SCENE_FREQUENCY) || scene_asks(q, analysis, SCENE_GROWTH)) &&
             (!everywhere || q->reduction != SCENE_LAST))
             return 1;
     }
@@ -157,8 +157,8 @@ static int modes_wanted(const analysis_context *c, int analysis)
     int wanted = scene_walk_of(&c->scene->analysis[analysis])->modes;
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
-        if (q->analysis == analysis && q->kind == SCENE_FREQUENCY && wanted < q->order + 1)
-            wanted = q->order + 1;
+        if (scene_asks(q, analysis, SCENE_FREQUENCY) && wanted < scene_mode_of(q)->order + 1)
+            wanted = scene_mode_of(q)->order + 1;
     }
     return wanted + OTHERS;
 }
@@ -169,9 +169,11 @@ static int is_enough(const analysis_context *c, int analysis, const rotation_mod
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
         int found = 0;
+        if (!scene_asks(q, analysis, SCENE_FREQUENCY))
+            continue;
         for (int k = 0; k < modes->count; k++)
-            found += modes->growth[k] == 0 && modes_in_family(q, &modes->shape[k]);
-        if (q->analysis == analysis && q->kind == SCENE_FREQUENCY && found <= q->order)
+            found += modes->growth[k] == 0 && modes_in_family(scene_mode_of(q), &modes->shape[k]);
+        if (found <= scene_mode_of(q)->order)
             return 0;
     }
     return 1;

@@ -46,12 +46,12 @@ static void table_predictions(FILE *to, const point *p, const truths *t)
         const scene_quantity *q = &p->scene.quantity[i];
         const truth *row = t != NULL ? truth_of(t, p->type, p->parameter, q->name, "same") : NULL;
         char name[SCENE_NAME + 16];
-        if (q->predicted_by == NULL)
+        if (q->prediction.source == NULL)
             continue;
         snprintf(name, sizeof name, "prediction %s", q->name);
-        fprintf(to, "%-28s %24.15g %-10s", name, q->prediction, q->unit);
-        percent(to, row != NULL ? verdict_error(q, q->prediction, row->value) : NAN);
-        fprintf(to, " %s, analytic\n", q->predicted_by);
+        fprintf(to, "%-28s %24.15g %-10s", name, q->prediction.value, q->unit);
+        percent(to, row != NULL ? verdict_error(q, q->prediction.value, row->value) : NAN);
+        fprintf(to, " %s, analytic\n", q->prediction.source);
     }
 }
 
@@ -138,12 +138,13 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
             if (row != NULL)
                 fprintf(to, ", %s %.14g: %s", row->kind, row->value, sentence);
             fputc('\n', to);
-            if (p->scene.quantity[q].predicted_by != NULL) {
-                fprintf(to, "  prediction%21.14g", p->scene.quantity[q].prediction);
-                percent(to, row != NULL ? verdict_error(&p->scene.quantity[q],
-                                                        p->scene.quantity[q].prediction, row->value)
-                                        : NAN);
-                fprintf(to, " %s, analytic\n", p->scene.quantity[q].predicted_by);
+            if (p->scene.quantity[q].prediction.source != NULL) {
+                fprintf(to, "  prediction%21.14g", p->scene.quantity[q].prediction.value);
+                percent(to, row != NULL
+                                ? verdict_error(&p->scene.quantity[q],
+                                                p->scene.quantity[q].prediction.value, row->value)
+                                : NAN);
+                fprintf(to, " %s, analytic\n", p->scene.quantity[q].prediction.source);
             }
         }
     }

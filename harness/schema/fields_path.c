@@ -25,7 +25,8 @@ static void get_model_error(const subject *s, field_value *out)
 
 static double predicted(const subject *s)
 {
-    return subject_quantity(s)->predicted_by != NULL ? subject_quantity(s)->prediction : NAN;
+    return subject_quantity(s)->prediction.source != NULL ? subject_quantity(s)->prediction.value
+                                                          : NAN;
 }
 
 static void get_prediction(const subject *s, field_value *out)
@@ -60,7 +61,7 @@ static const schema_field fields_of_quantity[] = {
     {"prediction_error", "1", FIELD_DOUBLE, "of the prediction against the truth",
      .get = get_prediction_error},
     {"predicted_by", "", FIELD_TEXT, "source of the prediction",
-     TEXT_OF(QUANTITY, scene_quantity, predicted_by)},
+     TEXT_OF(QUANTITY, scene_quantity, prediction.source)},
     {0}};
 const record_type record_quantity = {
     "quantity",
@@ -81,8 +82,8 @@ const record_type record_truth = {
     "truth", "truths", "what is known of a quantity", {fields_of_truth}};
 
 static const schema_field fields_of_curve[] = {
-    {"x_name", "", FIELD_TEXT, "name of the abscissa", OF(QUANTITY, scene_quantity, x_name)},
-    {"x_unit", "", FIELD_TEXT, "its unit", OF(QUANTITY, scene_quantity, x_unit)},
+    {"x_name", "", FIELD_TEXT, "name of the abscissa", OF(QUANTITY, scene_quantity, x.name)},
+    {"x_unit", "", FIELD_TEXT, "its unit", OF(QUANTITY, scene_quantity, x.unit)},
     {"first", "1", FIELD_INT, "where its points begin in the arrays curve_x and curve_value",
      OF(SUBJECT, subject, group)},
     {"points", "1", FIELD_INT, "how many there are", VALUE(curve.points)},

@@ -148,12 +148,12 @@ status modes_identify(const model *m, const scene *s, const double mode[], mode_
     return outcome;
 }
 
-int modes_in_family(const scene_quantity *q, const mode_shape *shape)
+int modes_in_family(const scene_mode *wanted, const mode_shape *shape)
 {
-    const int family =
-        q->family == SCENE_ANY ||
-        (q->family == SCENE_NOT_AXIAL ? shape->family != SCENE_AXIAL : shape->family == q->family);
-    return family && (q->half_waves == 0 || shape->half_waves == q->half_waves);
+    const int family = wanted->family == SCENE_ANY ||
+                       (wanted->family == SCENE_NOT_AXIAL ? shape->family != SCENE_AXIAL
+                                                          : shape->family == wanted->family);
+    return family && (wanted->half_waves == 0 || shape->half_waves == wanted->half_waves);
 }
 
 const char *modes_family_name(scene_family family)

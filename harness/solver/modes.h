@@ -9,8 +9,7 @@ typedef struct mode_shape {
     int half_waves;
 } mode_shape;
 status modes_identify(const model *, const scene *, const double mode[], mode_shape *, fault *);
-int modes_in_family(const scene_quantity *,
-                    const mode_shape *); /* is it what the quantity asks for? */
+int modes_in_family(const scene_mode *, const mode_shape *); /* is it what the quantity asks for? */
 const char *modes_family_name(scene_family);
 /* Modes of equal value[count], one after the other (each [n = free + driven]), may be mixed in any
  * way: they become those that move along the members' z axes and those that do not. */

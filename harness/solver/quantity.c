@@ -12,5 +12,5 @@ void quantity_no_value(quantity_result *r, status s, const char *reason)
 
 double quantity_scaled(const scene_quantity *q, double value)
 {
-    return (q->factor != 0 ? q->factor : 1) * value + q->offset;
+    return q->factor * value + q->offset;
 }

@@ -95,8 +95,8 @@ static status build_column(const double value[], scene *s, fault *f)
     const int path = scene_add_continuation(
         s, 1, &end,
         (scene_control){.node = tip, .component = SCENE_UX, .step = 0.0123, .step_max = 0.0123});
-    scene_quantity *load_1 = scene_add_quantity(s, "bifurcation", "N", SCENE_CRITICAL_POINT, path);
-    load_1->row = SCENE_BIFURCATION;
+    scene_add_quantity(s, "bifurcation", "N", path,
+                       scene_critical_point(SCENE_BIFURCATION, 0, SCENE_LOAD_FACTOR));
     return STATUS_OK;
 }
 

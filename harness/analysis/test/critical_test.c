@@ -51,9 +51,8 @@ static void ask_for_loads(scene *s, int signs)
         for (int i = 0; i < WANTED; i++) {
             char name[SCENE_NAME];
             snprintf(name, sizeof name, "%s_%d", sign == 0 ? "positive" : "negative", i + 1);
-            scene_quantity *q = scene_add_quantity(s, name, "N", SCENE_CRITICAL_FACTOR, buckling);
-            q->order = i;
-            q->sign = sign == 0 ? 1 : -1;
+            scene_add_quantity(s, name, "N", buckling,
+                               scene_critical_factor(sign == 0 ? 1 : -1, i));
         }
 }
 

@@ -89,8 +89,9 @@ static status solve_column(scene_analysis_kind kind, double P, double M, double 
     const int path = scene_add_static(&s, 1, &end, 1);
     const int about =
         kind == SCENE_MODAL ? scene_add_modal(&s, path) : scene_add_buckling(&s, path);
-    scene_add_quantity(&s, "wanted", "1",
-                       kind == SCENE_MODAL ? SCENE_FREQUENCY : SCENE_CRITICAL_FACTOR, about);
+    scene_add_quantity(&s, "wanted", "1", about,
+                       kind == SCENE_MODAL ? scene_frequency(0, SCENE_ANY)
+                                           : scene_critical_factor(1, 0));
     gsl_test(formulation_parse("beamw", &fm, f) != STATUS_OK, "beamw exists");
     const model_request what = {&s, fm.type, fm.option, 16, 0};
     status outcome = model_alloc(&what, &m, f);

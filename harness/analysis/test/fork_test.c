@@ -51,10 +51,11 @@ static void bent_beam(const double Q[9], const double force[3], scene *s)
     scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
     const int path = scene_add_static(s, 1, &end, 1);
     for (int i = 0; i < VALUES; i++) {
-        scene_quantity *q = scene_add_quantity(
-            s, name[i], "1", i >= MOMENT && i < TURN ? SCENE_REACTION : SCENE_COORDINATE, path);
-        q->node = i < MOMENT ? middle : first;
-        q->row = i % 3 + (i < MOMENT ? SCENE_UX : SCENE_RX);
+        const int node = i < MOMENT ? middle : first,
+                  component = i % 3 + (i < MOMENT ? SCENE_UX : SCENE_RX);
+        scene_add_quantity(s, name[i], "1", path,
+                           i >= MOMENT && i < TURN ? scene_reaction(node, component)
+                                                   : scene_coordinate(node, component));
     }
 }
 

@@ -36,9 +36,7 @@ static status build(const double value[], scene *s, fault *f)
     for (int i = 0; i < MODES; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "frequency_%d", i);
-        scene_quantity *q = scene_add_quantity(s, name, "Hz", SCENE_FREQUENCY, modal);
-        q->family = SCENE_ANY;
-        q->order = i;
+        scene_quantity *q = scene_add_quantity(s, name, "Hz", modal, scene_frequency(i, SCENE_ANY));
         q->tolerance = 1e-3;
     }
     return STATUS_OK;

@@ -52,9 +52,7 @@ static void make(scene *s, const request *what)
     for (int i = 0; i < MODES; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "frequency_%d", i + 1);
-        scene_quantity *q = scene_add_quantity(s, name, "Hz", SCENE_FREQUENCY, modal);
-        q->family = what->family;
-        q->order = i;
+        scene_add_quantity(s, name, "Hz", modal, scene_frequency(i, what->family));
     }
 }
 

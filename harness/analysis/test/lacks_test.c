@@ -41,9 +41,7 @@ static void guided(scene *s, double across_y, double across_z, int direction, in
     force[direction] = 1;
     scene_add_load(s, SCENE_FORCE, tip, force[0], force[1], force[2]);
     scene_need(s, FEATURE_SHEAR);
-    scene_quantity *q = scene_add_quantity(s, "u", "m", SCENE_COORDINATE, scene_add_linear(s));
-    q->node = tip;
-    q->row = direction;
+    scene_add_quantity(s, "u", "m", scene_add_linear(s), scene_coordinate(tip, direction));
 }
 
 /* Deflection; NAN: refused, in words[200]. */

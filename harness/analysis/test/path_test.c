@@ -40,31 +40,17 @@ static status build(const double value[], scene *s, fault *f)
                                                                         .step = 0.05,
                                                                         .step_max = 0.05})
                                : scene_add_static(s, 4, station, 1);
-    if (!continued) {
-        scene_load *load = &s->load[pull];
-        load->path = malloc(sizeof rise);
-        load->factor = malloc(sizeof force);
-        if (load->path == NULL || load->factor == NULL)
-            return STATUS_FAULT;
-        load->stations = 4;
-        memcpy(load->path, rise, sizeof rise);
-        memcpy(load->factor, force, sizeof force);
-    }
+    if (!continued)
+        scene_set_factor(s, pull, 4, rise, force);
     static const scene_reduction reduction[] = {SCENE_CURVE, SCENE_CURVE, SCENE_MAX,
                                                 SCENE_MIN,   SCENE_LAST,  SCENE_AT};
     for (int i = 0; i < 6; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "deflection_%d", i);
-        scene_quantity *q = scene_add_quantity(s, name, "m", SCENE_COORDINATE, path);
-        q->node = tip;
-        q->row = SCENE_UY;
+        scene_quantity *q = scene_add_quantity(s, name, "m", path, scene_coordinate(tip, SCENE_UY));
+        scene_set_curve(q, "x", "", i > 0 ? times : 1, i > 0 ? shift : 0);
         q->reduction = reduction[i];
         q->at = continued ? 0.2 : 0.7;
-        snprintf(q->x_name, sizeof q->x_name, "x");
-        if (i > 0) {
-            q->x_factor = times;
-            q->x_offset = shift;
-        }
     }
     return STATUS_OK;
 }
@@ -137,7 +123,8 @@ static int turns_of(const curve *c)
 static const curve *load_curve(const cell_result *r)
 {
     for (int i = 0; i < r->solve.quantities; i++)
-        if (r->scene.quantity[i].kind == SCENE_FACTOR_AT && r->solve.quantity[i].curve.points > 0)
+        if (r->scene.quantity[i].what.kind == SCENE_FACTOR_AT &&
+            r->solve.quantity[i].curve.points > 0)
             return &r->solve.quantity[i].curve;
     return NULL;
 }

@@ -33,12 +33,12 @@ static void beside_the_element(const char *const assignment[], double in_plane, 
     for (int i = 0; i < r.scene.quantities; i++) {
         const scene_quantity *q = &r.scene.quantity[i];
         const double value = r.solve.quantity[i].value;
-        if (q->predicted_by == NULL)
+        if (q->prediction.source == NULL)
             continue;
         predicted++;
         const int out_of_plane = strcmp(q->name, "C_zz") == 0 || strcmp(q->name, "C_uz_Fz") == 0;
-        gsl_test_rel(q->prediction, value, out_of_plane ? apart : in_plane, "%s, %s", assignment[0],
-                     q->name);
+        gsl_test_rel(q->prediction.value, value, out_of_plane ? apart : in_plane, "%s, %s",
+                     assignment[0], q->name);
     }
     gsl_test_int(predicted, 7, "%s: everything that the closed form speaks of is predicted",
                  assignment[0]);
@@ -55,7 +55,7 @@ static void undeformed(void)
     solve(straight, &r);
     for (int i = 0; i < r.scene.quantities; i++)
         if (strcmp(r.scene.quantity[i].name, "C_zz") == 0)
-            gsl_test_rel(r.scene.quantity[i].prediction,
+            gsl_test_rel(r.scene.quantity[i].prediction.value,
                          4 * L * L * L / (E * t * w * w * w) + L * 2 * (1 + nu) / (k * E * w * t),
                          1e-11, "C_zz of the undeformed sheet");
     cell_result_free(&r);

@@ -49,9 +49,7 @@ static void make(scene *s, const request *what)
     for (int k = 0; k < 36; k++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "C_%d%d", k / 6, k % 6);
-        scene_quantity *q = scene_add_quantity(s, name, "", SCENE_COMPLIANCE_ENTRY, compliance);
-        q->row = k / 6;
-        q->column = k % 6;
+        scene_add_quantity(s, name, "", compliance, scene_compliance_entry(k / 6, k % 6));
     }
 }
 

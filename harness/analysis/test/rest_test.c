@@ -85,10 +85,8 @@ static void ask_for_all(scene *s)
                     continue;
                 char name[SCENE_NAME];
                 snprintf(name, sizeof name, "%c%d_%d", reaction ? 'F' : 'u', c, node);
-                scene_quantity *q = scene_add_quantity(
-                    s, name, "1", reaction ? SCENE_REACTION : SCENE_COORDINATE, path);
-                q->node = node;
-                q->row = c;
+                scene_add_quantity(s, name, "1", path,
+                                   reaction ? scene_reaction(node, c) : scene_coordinate(node, c));
             }
 }
 
@@ -99,9 +97,10 @@ static double largest(const scene *s, const solve_result *r, const char **whose)
     double worst = 0;
     for (int i = 0; i < s->quantities; i++) {
         const scene_quantity *q = &s->quantity[i];
-        const int turns = q->row >= 3;
-        const double limit = q->kind == SCENE_COORDINATE ? still * (turns ? 1 : size)
-                                                         : unstressed * EA * (turns ? size : 1);
+        const int turns = scene_component_of(q)->component >= 3;
+        const double limit = q->what.kind == SCENE_COORDINATE
+                                 ? still * (turns ? 1 : size)
+                                 : unstressed * EA * (turns ? size : 1);
         const double value =
             r->quantity[i].status == STATUS_OK ? fabs(r->quantity[i].value) / limit : INFINITY;
         if (!(value <= worst)) {

@@ -129,11 +129,9 @@ static status build_with_body(const double value[], scene *s, fault *f)
     for (int i = 0; i < 4; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "frequency_%d", i);
-        scene_add_quantity(s, name, "Hz", SCENE_FREQUENCY, rotation)->order = i;
+        scene_add_quantity(s, name, "Hz", rotation, scene_frequency(i, SCENE_ANY));
     }
-    scene_quantity *moved = scene_add_quantity(s, "moved", "m", SCENE_COORDINATE, rotation);
-    moved->node = tip;
-    moved->row = SCENE_UY;
+    scene_add_quantity(s, "moved", "m", rotation, scene_coordinate(tip, SCENE_UY));
     return STATUS_OK;
 }
 

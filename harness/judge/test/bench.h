@@ -68,7 +68,8 @@ static inline void bench_make(bench *b)
     b->p.type = &made_up;
     b->p.parameter[0] = 2;
     scene_init(&b->p.scene, "made_up");
-    scene_quantity *q = scene_add_quantity(&b->p.scene, "load", "N", SCENE_COORDINATE, 0);
+    scene_quantity *q =
+        scene_add_quantity(&b->p.scene, "load", "N", 0, scene_coordinate(0, SCENE_UX));
     q->tolerance = 1e-4;
     q->least_order = 2;
     b->one = (series){

@@ -96,7 +96,7 @@ static void bench_make(bench *b)
 {
     memset(b, 0, sizeof *b);
     scene_init(&b->p.scene, "made_up");
-    scene_add_quantity(&b->p.scene, "load", "N", SCENE_COORDINATE, 0);
+    scene_add_quantity(&b->p.scene, "load", "N", 0, scene_coordinate(0, SCENE_UX));
     b->one = (series){.meshes = MESHES, .cell = b->cell, .timing = b->timing};
     b->s = (sweep){.points = 1, .seriess = 1, .point = &b->p, .series = &b->one};
     b->row.value = truth_value;

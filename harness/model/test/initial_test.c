@@ -46,10 +46,8 @@ static void solve(const char *name, const double g[3], const int held[6], double
         if (held[i])
             scene_hold(&s, tip, i, i);
     for (int i = 0; i < 12; i++) {
-        scene_quantity *q = scene_add_quantity(&s, quantity[i], "1",
-                                               i < 6 ? SCENE_COORDINATE : SCENE_REACTION, path);
-        q->node = tip;
-        q->row = i % 6;
+        scene_add_quantity(&s, quantity[i], "1", path,
+                           i < 6 ? scene_coordinate(tip, i) : scene_reaction(tip, i - 6));
     }
     gsl_test(formulation_parse(name, &fm, &f) != STATUS_OK, "%s exists", name);
     const model_request what = {&s, fm.type, fm.option, 3, 0};

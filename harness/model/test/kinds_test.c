@@ -47,10 +47,8 @@ static void row_of(int count, const link links[], double force, scene *s)
     const int path = scene_add_static(s, 1, &end, 1);
     static const char *const name[] = {"reaction", "shift"};
     for (int i = 0; i < 2; i++) {
-        scene_quantity *q =
-            scene_add_quantity(s, name[i], "1", i == 0 ? SCENE_REACTION : SCENE_COORDINATE, path);
-        q->node = i == 0 ? last : 1;
-        q->row = SCENE_UX;
+        scene_add_quantity(s, name[i], "1", path,
+                           i == 0 ? scene_reaction(last, SCENE_UX) : scene_coordinate(1, SCENE_UX));
     }
 }
 

@@ -391,10 +391,8 @@ static void foot_of_an_arm(const element_type *type)
     for (int k = 0; k < 9; k++) {
         char name[8];
         snprintf(name, sizeof name, "q%d", k);
-        scene_quantity *q =
-            scene_add_quantity(&s, name, "1", k < 6 ? SCENE_REACTION : SCENE_COORDINATE, 0);
-        q->node = k < 6 ? foot : tip;
-        q->row = k % 6;
+        scene_add_quantity(&s, name, "1", 0,
+                           k < 6 ? scene_reaction(foot, k) : scene_coordinate(tip, k - 6));
     }
     const model_request request = {&s, type, NULL, 2, 0};
     if (model_alloc(&request, &m, &f) == STATUS_OK &&

@@ -125,7 +125,7 @@ static void bench_make(bench *b)
     b->p.type = &made_up;
     strcpy(b->p.text, "width=1;word=<\"&'>");
     scene_init(&b->p.scene, "made_up");
-    scene_add_quantity(&b->p.scene, "load", "N", SCENE_COORDINATE, 0);
+    scene_add_quantity(&b->p.scene, "load", "N", 0, scene_coordinate(0, SCENE_UX));
     strcpy(b->one.formulation.key, "element");
     b->one.meshes = 1;
     b->one.mesh[0] = 4;

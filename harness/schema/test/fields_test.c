@@ -49,8 +49,8 @@ static void make(bench *b)
     memset(b, 0, sizeof *b);
     b->p.type = &made_up;
     scene_init(&b->p.scene, "made_up");
-    scene_add_quantity(&b->p.scene, "load", "N", SCENE_COORDINATE, 0);
-    scene_add_quantity(&b->p.scene, "force", "N", SCENE_COORDINATE, 0);
+    scene_add_quantity(&b->p.scene, "load", "N", 0, scene_coordinate(0, SCENE_UX));
+    scene_add_quantity(&b->p.scene, "force", "N", 0, scene_coordinate(0, SCENE_UX));
     b->row.value = 2;
     b->other.value = 4;
     fill_path(b);

@@ -1,0 +1,145 @@
+#include "cases/scene/quantity.h"
+
+#include <assert.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cases/scene/list.h"
+
+scene_extract scene_coordinate(int node, int component)
+{
+    return (scene_extract){SCENE_COORDINATE, {.component = {node, component}}};
+}
+
+scene_extract scene_reaction(int node, int component)
+{
+    return (scene_extract){SCENE_REACTION, {.component = {node, component}}};
+}
+
+scene_extract scene_compliance_entry(int row, int column)
+{
+    return (scene_extract){SCENE_COMPLIANCE_ENTRY, {.entry = {row, column}}};
+}
+
+scene_extract scene_stiffness_entry(int component)
+{
+    return (scene_extract){SCENE_STIFFNESS_ENTRY, {.entry = {component, component}}};
+}
+
+scene_extract scene_critical_factor(int sign, int order)
+{
+    return (scene_extract){SCENE_CRITICAL_FACTOR, {.load = {sign, order}}};
+}
+
+scene_extract scene_growth(void)
+{
+    return (scene_extract){.kind = SCENE_GROWTH};
+}
+
+scene_extract scene_frequency(int order, scene_family family)
+{
+    return (scene_extract){SCENE_FREQUENCY, {.mode = {.order = order, .family = family}}};
+}
+
+scene_extract scene_factor_at(void)
+{
+    return (scene_extract){.kind = SCENE_FACTOR_AT};
+}
+
+scene_extract scene_critical_point(scene_critical kind, int order, scene_ordinate ordinate)
+{
+    return (scene_extract){SCENE_CRITICAL_POINT, {.point = {kind, order, ordinate}}};
+}
+
+scene_extract scene_driver_value(int driver)
+{
+    return (scene_extract){SCENE_DRIVER_VALUE, {.driver = driver}};
+}
+
+scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit, int analysis,
+                                   scene_extract what)
+{
+    const int i = scene_grow(s, &s->quantity, &s->quantities, sizeof *s->quantity);
+    scene_quantity *q = i >= 0 ? &s->quantity[i] : &s->scrap.quantity;
+    *q = (scene_quantity){.analysis = analysis,
+                          .what = what,
+                          .x = {.factor = 1},
+                          .factor = 1,
+                          .tolerance = SCENE_TOLERANCE};
+    snprintf(q->name, sizeof q->name, "%s", name);
+    snprintf(q->unit, sizeof q->unit, "%s", unit);
+    return q;
+}
+
+void scene_set_curve(scene_quantity *q, const char *x_name, const char *x_unit, double factor,
+                     double offset)
+{
+    q->reduction = SCENE_CURVE;
+    q->x = (scene_abscissa){.factor = factor, .offset = offset};
+    snprintf(q->x.name, sizeof q->x.name, "%s", x_name);
+    snprintf(q->x.unit, sizeof q->x.unit, "%s", x_unit);
+}
+
+void scene_set_at(scene_quantity *q, double at)
+{
+    q->reduction = SCENE_AT;
+    q->at = at;
+}
+
+const scene_component *scene_component_of(const scene_quantity *q)
+{
+    assert(q->what.kind == SCENE_COORDINATE || q->what.kind == SCENE_REACTION);
+    return &q->what.of.component;
+}
+
+const scene_entry *scene_entry_of(const scene_quantity *q)
+{
+    assert(q->what.kind == SCENE_COMPLIANCE_ENTRY || q->what.kind == SCENE_STIFFNESS_ENTRY);
+    return &q->what.of.entry;
+}
+
+const scene_critical_load *scene_critical_load_of(const scene_quantity *q)
+{
+    assert(q->what.kind == SCENE_CRITICAL_FACTOR);
+    return &q->what.of.load;
+}
+
+const scene_mode *scene_mode_of(const scene_quantity *q)
+{
+    assert(q->what.kind == SCENE_FREQUENCY);
+    return &q->what.of.mode;
+}
+
+const scene_point *scene_point_of(const scene_quantity *q)
+{
+    assert(q->what.kind == SCENE_CRITICAL_POINT);
+    return &q->what.of.point;
+}
+
+int scene_driver_of(const scene_quantity *q)
+{
+    assert(q->what.kind == SCENE_DRIVER_VALUE);
+    return q->what.of.driver;
+}
+
+int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind)
+{
+    return q->analysis == analysis && q->what.kind == kind;
+}
+
+int scene_gives(scene_analysis_kind analysis, scene_quantity_kind kind)
+{
+    enum {
+        STATE = 1 << SCENE_COORDINATE | 1 << SCENE_REACTION | 1 << SCENE_DRIVER_VALUE,
+    };
+    static const int gives[] = {
+        [SCENE_LINEAR] = 1 << SCENE_COORDINATE,
+        [SCENE_STATIC] = STATE,
+        [SCENE_BUCKLING] = 1 << SCENE_CRITICAL_FACTOR,
+        [SCENE_MODAL] = 1 << SCENE_FREQUENCY,
+        [SCENE_COMPLIANCE] = 1 << SCENE_COMPLIANCE_ENTRY | 1 << SCENE_STIFFNESS_ENTRY,
+        [SCENE_CONTINUATION] = STATE | 1 << SCENE_FACTOR_AT | 1 << SCENE_CRITICAL_POINT,
+        [SCENE_ROTATION] = STATE | 1 << SCENE_FREQUENCY | 1 << SCENE_GROWTH,
+    };
+    return gives[analysis] >> kind & 1;
+}

@@ -1,0 +1,145 @@
+/* What is wanted of an analysis: a name, how it is judged, and what is extracted, one struct for
+ * each kind.  What a kind has is read through its function below, which ends the program when the
+ * quantity is of another kind: nothing else names the union. */
+#ifndef BEAMWORK_SCENE_QUANTITY_H
+#define BEAMWORK_SCENE_QUANTITY_H
+
+#include "cases/scene/analysis.h"
+
+typedef struct scene scene;
+
+typedef enum scene_quantity_kind {
+    SCENE_COORDINATE,       /* displacement or rotation-vector component of a node */
+    SCENE_REACTION,         /* of a prescribed component at a node */
+    SCENE_COMPLIANCE_ENTRY, /* of the 6 x 6 matrix of the analysis' node */
+    SCENE_STIFFNESS_ENTRY,  /* 1 / compliance entry (i, i), only the non-held coordinates free */
+    SCENE_CRITICAL_FACTOR,  /* load factor of linear buckling */
+    SCENE_GROWTH,           /* largest rate of growth of a small motion [1/s]; 0: stable */
+    SCENE_FREQUENCY,        /* [Hz] */
+    SCENE_FACTOR_AT,        /* load factor of a continuation where the control coordinate is ... */
+    SCENE_CRITICAL_POINT,   /* of a continuation */
+    SCENE_DRIVER_VALUE      /* of an unknown driver */
+} scene_quantity_kind;
+
+/* A point of a path at which the tangent stiffness is singular. */
+typedef enum scene_critical { SCENE_LIMIT_POINT, SCENE_BIFURCATION } scene_critical;
+
+typedef enum scene_family {
+    SCENE_ANY,
+    SCENE_NOT_AXIAL,
+    SCENE_AXIAL,
+    SCENE_BENDING_Y,
+    SCENE_BENDING_Z,
+    SCENE_TORSION
+} scene_family;
+
+typedef enum scene_reduction {
+    SCENE_LAST,
+    SCENE_MAX,
+    SCENE_MIN,
+    SCENE_AT,
+    SCENE_CURVE
+} scene_reduction;
+
+typedef struct scene_component {
+    int node, component; /* SCENE_UX .. SCENE_RZ */
+} scene_component;
+
+typedef struct scene_entry {
+    int row, column; /* response, load: SCENE_UX .. SCENE_RZ */
+} scene_entry;
+
+typedef struct scene_critical_load {
+    int sign;  /* 1: of positive factors, -1: of negative ones */
+    int order; /* among those of the sign by size, from 0 */
+} scene_critical_load;
+
+typedef struct scene_mode {
+    int order; /* among the modes of the family and half-waves, from 0 */
+    scene_family family;
+    int half_waves; /* 0: any */
+} scene_mode;
+
+typedef enum scene_ordinate { SCENE_LOAD_FACTOR, SCENE_CONTROL } scene_ordinate;
+
+typedef struct scene_point {
+    scene_critical kind;
+    int order;               /* among the points of the kind along the path, from 0 */
+    scene_ordinate ordinate; /* what of it: load factor, or control coordinate [m] */
+} scene_point;
+
+/* What is extracted; made by the functions of the kinds. */
+typedef struct scene_extract {
+    scene_quantity_kind kind;
+    union {
+        scene_component component; /* coordinate, reaction */
+        scene_entry entry;         /* of compliance and stiffness */
+        scene_critical_load load;
+        scene_mode mode;
+        scene_point point;
+        int driver;
+    } of;
+} scene_extract;
+
+scene_extract scene_coordinate(int node, int component);
+scene_extract scene_reaction(int node, int component);
+scene_extract scene_compliance_entry(int row, int column);
+scene_extract scene_stiffness_entry(int component);
+scene_extract scene_critical_factor(int sign, int order);
+scene_extract scene_growth(void);
+/* Of any number of half-waves. */
+scene_extract scene_frequency(int order, scene_family family);
+scene_extract scene_factor_at(void);
+scene_extract scene_critical_point(scene_critical kind, int order, scene_ordinate ordinate);
+scene_extract scene_driver_value(int driver);
+
+/* Abscissa of a curve. */
+typedef struct scene_abscissa {
+    char name[SCENE_NAME], unit[SCENE_UNIT];
+    double factor, offset; /* the path parameter, or the control coordinate, times factor plus
+                              offset */
+} scene_abscissa;
+
+/* Of an analytic model with an error of its own: shown, never judged. */
+typedef struct scene_prediction {
+    double value;       /* [unit of the quantity] */
+    const char *source; /* NULL: there is none */
+} scene_prediction;
+
+typedef struct scene_quantity {
+    char name[SCENE_NAME], unit[SCENE_UNIT];
+    int analysis;
+    scene_extract what;
+    scene_reduction reduction; /* of the stations of a path */
+    double at;                 /* path parameter or control coordinate, of SCENE_AT */
+    scene_abscissa x;          /* of a curve */
+    double factor, offset;     /* reported value = factor * extracted value + offset */
+    double near_zero;   /* absolute scale for relative errors of values near zero; 0: |value| */
+    double tolerance;   /* relative, of the limit against the truth: SCENE_TOLERANCE unless a case
+                         says why not */
+    double least_order; /* of convergence in the number of elements */
+    scene_prediction prediction;
+} scene_quantity;
+
+/* The new quantity, to be filled further, never NULL: of the last station, factor 1, tolerance
+ * SCENE_TOLERANCE, the rest 0. */
+scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit, int analysis,
+                                   scene_extract what);
+/* All along the path, over its parameter or the control coordinate times factor plus offset. */
+void scene_set_curve(scene_quantity *q, const char *x_name, const char *x_unit, double factor,
+                     double offset);
+/* At one value of the path parameter or the control coordinate. */
+void scene_set_at(scene_quantity *q, double at);
+
+const scene_component *scene_component_of(const scene_quantity *q);
+const scene_entry *scene_entry_of(const scene_quantity *q);
+const scene_critical_load *scene_critical_load_of(const scene_quantity *q);
+const scene_mode *scene_mode_of(const scene_quantity *q);
+const scene_point *scene_point_of(const scene_quantity *q);
+int scene_driver_of(const scene_quantity *q);
+/* Is it of this kind and this analysis? */
+int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind);
+/* Can it be extracted from an analysis of this kind? */
+int scene_gives(scene_analysis_kind analysis, scene_quantity_kind kind);
+
+#endif
