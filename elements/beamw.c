@@ -1,5 +1,5 @@
 /* BEAMW as printed, misprints corrected.  Its modified modes do not see shear, so that they belong to neither theory of shear in
- * stability: it offers both and converges to neither (reference/ERRATA.md). */
+ * stability: it has one of its own and converges to neither (reference/ERRATA.md). */
 #include "elements/beamw/inertia.h"
 #include "elements/beamw/prepare.h"
 
@@ -14,9 +14,8 @@ const element_type element_beamw = {
         "BEAMW as printed, misprints corrected: shear-deformable thin-walled beam, second order",
     .source = "J Eqs. 7, 66, App. A",
     .abi = ELEMENT_ABI,
-    .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_HARINGX |
-              FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC | FEATURE_LARGE |
-              FEATURE_MASS | FEATURE_ROTARY_INERTIA,
+    .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WARPING | FEATURE_ECCENTRIC |
+              FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .limits = LIMIT_QUARTER_TURN,
     .shear_theories = SHEAR_OWN,
     .own_theory = "J Eq. 66: modified modes that see no shear (reference/ERRATA.md, J 58/62/66)",

@@ -13,9 +13,9 @@ const element_type element_beamw_first = {
     .summary = "BEAMW with linear modes: no second-order terms inside the element",
     .source = "J Eqs. 7, App. A",
     .abi = ELEMENT_ABI,
-    .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_HARINGX |
-              FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC | FEATURE_LARGE |
-              FEATURE_MASS | FEATURE_ROTARY_INERTIA,
+    .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_WARPING |
+              FEATURE_ECCENTRIC | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS |
+              FEATURE_ROTARY_INERTIA,
     .limits = LIMIT_QUARTER_TURN,
     .shear_theories = SHEAR_ENGESSER,
     .options = beamw_prepare_options,

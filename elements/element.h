@@ -133,7 +133,7 @@ typedef struct element_type {
     const char *summary;     /* one line */
     const char *source;      /* paper and equations */
     unsigned abi;            /* ELEMENT_ABI */
-    unsigned offers;         /* element_feature */
+    unsigned offers;         /* element_feature; theories of shear as in shear_theories */
     unsigned limits;         /* element_limit */
     unsigned lacks;          /* element_lack */
     const char *lacks_by;    /* the equations that leave it out; NULL: nothing is lacking */

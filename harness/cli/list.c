@@ -52,7 +52,8 @@ static void list_formulations(void)
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *t = registry_formulations[i];
         char words[200];
-        feature_words(t->offers, words, sizeof words);
+        feature_words(t->offers & ~(unsigned)(FEATURE_ENGESSER | FEATURE_HARINGX), words,
+                      sizeof words);
         printf("  %-24s %s\n  %-24s source: %s\n  %-24s offers: %s\n", t->name, t->summary, "",
                t->source, "", words);
         list_declarations(t);

@@ -367,6 +367,11 @@ static void declarations(const element_type *type)
               own = (type->shear_theories & SHEAR_OWN) != 0;
     gsl_test(flexible != (type->shear_theories != 0),
              "%s: flexible in shear, it has a theory of it", type->name);
+    gsl_test(((type->offers & FEATURE_ENGESSER) != 0) !=
+                     ((type->shear_theories & SHEAR_ENGESSER) != 0) ||
+                 ((type->offers & FEATURE_HARINGX) != 0) !=
+                     ((type->shear_theories & SHEAR_HARINGX) != 0),
+             "%s: offers the theories of shear that it has", type->name);
     gsl_test(own && type->shear_theories != SHEAR_OWN, "%s: a theory of its own is its only one",
              type->name);
     gsl_test(own != (type->own_theory != NULL), "%s: a theory of its own has a name", type->name);
