@@ -92,9 +92,8 @@ static status compare_meshes(const sweep *s, const truths *t, int index, judgeme
         return STATUS_OK;
     for (int r = 0; r < t->rows; r++) {
         const truth *row = &t->row[r];
-        if (row->elements == 0 || !truth_gates(row) ||
-            strcmp(row->formulation, one->formulation.key) != 0 ||
-            !truth_holds(row, p->type, p->parameter))
+        if (row->elements == 0 || !truth_holds(row, p->type, p->parameter) || !truth_gates(row) ||
+            strcmp(row->formulation, one->formulation.key) != 0)
             continue;
         for (int i = 0; i < one->meshes; i++)
             if (one->mesh[i] == row->elements)
@@ -134,7 +133,8 @@ static void mark_met(truths *t, const point *p, const formulation *chosen, const
 {
     for (int i = 0; i < t->rows; i++) {
         truth *row = &t->row[i];
-        if (strcmp(row->quantity, quantity) == 0 && truth_holds(row, p->type, p->parameter) &&
+        if (row->type == p->type && strcmp(row->quantity, quantity) == 0 &&
+            truth_holds(row, p->type, p->parameter) &&
             (row->formulation[0] == '\0' || strcmp(row->formulation, chosen->key) == 0)) {
             row->met = 1;
             row->judged |= judged;
@@ -142,21 +142,25 @@ static void mark_met(truths *t, const point *p, const formulation *chosen, const
     }
 }
 
+static status check_unit(const point *p, const truth *row, fault *f)
+{
+    for (int q = 0; q < p->scene.quantities; q++) {
+        const scene_quantity *here = &p->scene.quantity[q];
+        if (strcmp(here->name, row->quantity) == 0 && strcmp(here->unit, row->unit) != 0)
+            return fault_set(f, STATUS_FAULT,
+                             "case %s: %s is in '%s', its truth in '%s'; correct the table and "
+                             "build again",
+                             p->type->name, here->name, here->unit, row->unit);
+    }
+    return STATUS_OK;
+}
+
 static status check_units(const sweep *s, const truths *t, fault *f)
 {
     for (int i = 0; i < s->points; i++)
         for (int r = 0; r < t->rows; r++)
-            for (int q = 0; q < s->point[i].scene.quantities && t->row[r].type == s->point[i].type;
-                 q++) {
-                const scene_quantity *here = &s->point[i].scene.quantity[q];
-                if (strcmp(here->name, t->row[r].quantity) == 0 &&
-                    strcmp(here->unit, t->row[r].unit) != 0)
-                    return fault_set(f, STATUS_FAULT,
-                                     "case %s: %s is in '%s', its truth in '%s'; correct the table "
-                                     "and build again",
-                                     s->point[i].type->name, here->name, here->unit,
-                                     t->row[r].unit);
-            }
+            if (t->row[r].type == s->point[i].type)
+                TRY(check_unit(&s->point[i], &t->row[r], f));
     return STATUS_OK;
 }
 

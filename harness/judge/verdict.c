@@ -172,8 +172,9 @@ static const truth *contradiction(const sweep *s, const truths *t, const verdict
     const char *theories = theories_of(&p->scene, one->formulation.type);
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
-        if (strcmp(row->kind, "published") == 0 && row->formulation[0] == '\0' && !row->on_curve &&
-            row != v->truth && strcmp(row->quantity, p->scene.quantity[v->quantity].name) == 0 &&
+        if (row->type == p->type && strcmp(row->kind, "published") == 0 &&
+            row->formulation[0] == '\0' && !row->on_curve && row != v->truth &&
+            strcmp(row->quantity, p->scene.quantity[v->quantity].name) == 0 &&
             strcmp(row->model, "same") == 0 &&
             (theories == NULL || row->theory[0] == '\0' || strcmp(row->theory, theories) == 0) &&
             truth_holds(row, p->type, p->parameter) &&

@@ -6,12 +6,6 @@
 
 #include "harness/model/model_impl.h"
 
-static int compare(const void *a, const void *b)
-{
-    const long x = *(const long *)a, y = *(const long *)b;
-    return (x > y) - (x < y);
-}
-
 /* Only conservative tangents are stored as a triangle: dead moments about fixed axes and some
  * formulations are not. */
 static int is_symmetric(const model *m)
@@ -33,22 +27,6 @@ static int stored(const mesh_pattern *p, int row, int column)
            (!p->matrix.symmetric || row <= column);
 }
 
-/* Keys column * n + row of all stored pairs, with repetitions; counts when key is NULL. */
-static size_t collect(const model *m, const mesh_pattern *p, long *key)
-{
-    size_t count = 0;
-    const long n = p->matrix.n;
-    for (int i = 0; i < m->elements; i++)
-        for (int a = 0; a < m->coordinates; a++)
-            for (int b = 0; b < m->coordinates; b++)
-                if (stored(p, m->element[i].index[a], m->element[i].index[b])) {
-                    if (key != NULL)
-                        key[count] = n * m->element[i].index[b] + m->element[i].index[a];
-                    count++;
-                }
-    return count;
-}
-
 double *assemble_entry(sparse *a, int row, int column)
 {
     int low = a->column[column], high = a->column[column + 1] - 1;
@@ -64,36 +42,91 @@ double *assemble_entry(sparse *a, int row, int column)
     return NULL;
 }
 
+/* Number of pairs of coordinates that elements couple, with repetitions; their rows and columns
+ * into row[] and column[] unless these are NULL. */
+static size_t collect(const model *m, const mesh_pattern *p, int row[], int column[])
+{
+    size_t count = 0;
+    for (int i = 0; i < m->elements; i++)
+        for (int a = 0; a < m->coordinates; a++)
+            for (int b = 0; b < m->coordinates; b++) {
+                if (!stored(p, m->element[i].index[a], m->element[i].index[b]))
+                    continue;
+                if (row != NULL) {
+                    row[count] = m->element[i].index[a];
+                    column[count] = m->element[i].index[b];
+                }
+                count++;
+            }
+    return count;
+}
+
+/* begin[n + 1] of n lists that hold the pairs by their index. */
+static void begin_lists(size_t pairs, const int index[], int n, int begin[])
+{
+    memset(begin, 0, ((size_t)n + 1) * sizeof *begin);
+    for (size_t i = 0; i < pairs; i++)
+        begin[index[i] + 1]++;
+    for (int i = 0; i < n; i++)
+        begin[i + 1] += begin[i];
+}
+
+/* What compress needs: pairs as they come, and their columns by rows. */
+typedef struct pairs {
+    size_t count;
+    int *row, *column, *by_row; /* [count] */
+    int *begin, *end;           /* [n + 1] of the lists of rows, and of columns */
+} pairs;
+
+/* Columns by rows first: then the rows of each column come in ascending order. Squeezed, for a pair
+ * stands in it once. */
+static void sort_pairs(const pairs *all, sparse *out)
+{
+    const int n = out->n;
+    begin_lists(all->count, all->row, n, all->begin);
+    memcpy(all->end, all->begin, (size_t)n * sizeof *all->end);
+    for (size_t i = 0; i < all->count; i++)
+        all->by_row[all->end[all->row[i]]++] = all->column[i];
+    begin_lists(all->count, all->column, n, out->column);
+    memcpy(all->end, out->column, (size_t)n * sizeof *all->end);
+    for (int i = 0; i < n; i++)
+        for (int k = all->begin[i]; k < all->begin[i + 1]; k++) {
+            int *end = &all->end[all->by_row[k]];
+            if (*end == out->column[all->by_row[k]] || out->row[*end - 1] != i)
+                out->row[(*end)++] = i;
+        }
+    for (int j = 0, entries = 0; j < n; j++) {
+        const int begin = out->column[j];
+        out->column[j] = entries;
+        for (int k = begin; k < all->end[j]; k++)
+            out->row[entries++] = out->row[k];
+        if (j + 1 == n)
+            out->column[n] = entries;
+    }
+}
+
 static status compress(const model *m, mesh_pattern *p, fault *f)
 {
-    const size_t all = collect(m, p, NULL);
-    long *key = malloc((all > 0 ? all : 1) * sizeof *key);
-    p->matrix.column = calloc((size_t)p->matrix.n + 1, sizeof *p->matrix.column);
-    p->matrix.row = malloc((all > 0 ? all : 1) * sizeof *p->matrix.row);
-    if (key == NULL || p->matrix.column == NULL || p->matrix.row == NULL) {
-        free(key);
-        return fault_set(f, STATUS_FAULT, "out of memory for a matrix of %d coordinates",
-                         p->matrix.n);
+    const size_t n = (size_t)p->matrix.n + 1, count = collect(m, p, NULL, NULL);
+    int *work = malloc((3 * count + 2 * n) * sizeof *work);
+    p->matrix.column = malloc(n * sizeof *p->matrix.column);
+    p->matrix.row = malloc((count + 1) * sizeof *p->matrix.row);
+    const int good = work != NULL && p->matrix.column != NULL && p->matrix.row != NULL;
+    if (good) {
+        const pairs all = {
+            count, work, work + count, work + 2 * count, work + 3 * count, work + 3 * count + n};
+        collect(m, p, all.row, all.column);
+        sort_pairs(&all, &p->matrix);
     }
-    collect(m, p, key);
-    qsort(key, all, sizeof *key, compare);
-    int entries = 0;
-    for (size_t i = 0; i < all; i++) {
-        if (i > 0 && key[i] == key[i - 1])
-            continue;
-        p->matrix.row[entries++] = (int)(key[i] % p->matrix.n);
-        p->matrix.column[key[i] / p->matrix.n + 1] = entries;
-    }
-    for (int j = 0; j < p->matrix.n; j++)
-        if (p->matrix.column[j + 1] < p->matrix.column[j])
-            p->matrix.column[j + 1] = p->matrix.column[j];
-    free(key);
-    return STATUS_OK;
+    free(work);
+    return good ? STATUS_OK
+                : fault_set(f, STATUS_FAULT, "out of memory for a matrix of %d coordinates",
+                            p->matrix.n);
 }
 
 static status find_places(const model *m, mesh_pattern *p, fault *f)
 {
-    const size_t all = collect(m, p, NULL);
+    const size_t all = collect(m, p, NULL, NULL);
     p->start = malloc(((size_t)m->elements + 1) * sizeof *p->start);
     p->local = malloc((all > 0 ? all : 1) * sizeof *p->local);
     p->place = malloc((all > 0 ? all : 1) * sizeof *p->place);

@@ -46,12 +46,12 @@ const truth *truth_of_theory(const truths *t, const case_type *type, const doubl
     const truth *best = NULL;
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
-        const int fits = row->formulation[0] == '\0' && !row->on_curve &&
+        const int fits = row->type == type && row->formulation[0] == '\0' && !row->on_curve &&
                          (truth_gates(row) || strcmp(model, "same") != 0) &&
                          strcmp(row->quantity, quantity) == 0 && strcmp(row->model, model) == 0;
-        const int follows =
-            theories == NULL || row->theory[0] == '\0' || choice_index(theories, row->theory) >= 0;
-        if (fits && follows && truth_holds(row, type, value) &&
+        const int follows = fits && (theories == NULL || row->theory[0] == '\0' ||
+                                     choice_index(theories, row->theory) >= 0);
+        if (follows && truth_holds(row, type, value) &&
             (best == NULL ||
              choice_index(TRUTH_KINDS, row->kind) < choice_index(TRUTH_KINDS, best->kind)))
             best = row;
@@ -64,7 +64,7 @@ const truth *truth_predicted(const truths *t, const case_type *type, const doubl
 {
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
-        if (strcmp(row->kind, "predicted") == 0 && !row->on_curve &&
+        if (row->type == type && strcmp(row->kind, "predicted") == 0 && !row->on_curve &&
             strcmp(row->quantity, quantity) == 0 && truth_holds(row, type, value) &&
             is_of_formulation(row->formulation, key))
             return row;
