@@ -3,6 +3,7 @@
  * An isotropic rod that carries a moment only has a constant moment in space: with its tip turned by the rotation vector phi it
  * is phi EI/L, turned with the rod. */
 #include "cases/shared/cantilever.h"
+#include "elements/math/pi.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -36,7 +37,7 @@ static status build(const double value[], scene *s, fault *f)
     const cantilever_stiffness k = {.EA = 1e4, .GJ = 1, .EI = 1};
     const double path[3] = {0, 1, 2}, way[3] = {1, 2, 3}, bend[3] = {0.6, 0, 0.8};
     const double strain[3] = {0, value[STRAIN], value[STRAIN]},
-                 carry[3] = {0, 0, 2 * 3.14159265358979323846 * value[TURNS]};
+                 carry[3] = {0, 0, 2 * PI * value[TURNS]};
     int root, tip;
     cantilever_build(1, &k, s, &root, &tip);
     const int carried = scene_add_driver(s, "carried", 3, path, carry),

@@ -3,6 +3,7 @@
  * prescribed: the turn alone, with the two tilts held or free, and as a rotation vector. */
 #include "cases/case.h"
 #include "cases/shared/sheet.h"
+#include "elements/math/pi.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -42,8 +43,7 @@ static void add_leaves(const double value[], scene *s, int arm)
     sheet_section(value[WIDTH], value[THICKNESS], value[YOUNG], value[POISSON], 0, &spec);
     const int profile = scene_add_section(s, &spec);
     for (int i = 0; i < LEAVES; i++) {
-        const double angle = i == 1 ? value[HALF] : 3.14159265358979323846 - value[HALF],
-                     z = (i - 1) * value[PITCH];
+        const double angle = i == 1 ? value[HALF] : PI - value[HALF], z = (i - 1) * value[PITCH];
         const double x = value[LENGTH] / 2 * cos(angle), y = value[LENGTH] / 2 * sin(angle);
         const double across[3] = {-sin(angle), cos(angle), 0};
         const int base = scene_add_node(s, -x, -y, z), end = scene_add_attached(s, arm, x, y, z);

@@ -1,5 +1,6 @@
 /* A cantilever rolled up by an end moment into full circles. L = 1 m, EI = 1 N m^2. */
 #include "cases/shared/cantilever.h"
+#include "elements/math/pi.h"
 
 #include <stddef.h>
 
@@ -16,7 +17,7 @@ static status build(const double value[], scene *s, fault *f)
     const cantilever_stiffness k = {.EA = 1e6, .GJ = 1, .EI = 1};
     int root, tip;
     cantilever_build(1, &k, s, &root, &tip);
-    scene_add_load(s, SCENE_MOMENT, tip, 0, 0, 2 * 3.14159265358979323846 * value[TURNS]);
+    scene_add_load(s, SCENE_MOMENT, tip, 0, 0, 2 * PI * value[TURNS]);
     const int path = cantilever_path(s, 10);
     cantilever_quantity(s, "tip_gap", "1", path, tip, SCENE_UX, 1, 1);
     s->quantity[s->quantities - 1].near_zero = 1;

@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "cases/shared/cantilever.h"
+#include "elements/math/pi.h"
 
 enum { OMEGA, SLENDERNESS, HUB_RADIUS, AXIS, STIFFNESS_RATIO, STATIONS };
 enum { MODES = 3, LOWEST = 4, MOST_STATIONS = 200 };
@@ -24,7 +25,7 @@ static const parameter_type parameters[] = {
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
-static const double two_pi = 2 * 3.14159265358979323846; /* Hz -> rad/s */
+static const double two_pi = 2 * PI; /* Hz -> rad/s */
 
 static scene_quantity *add_frequency(scene *s, const char *stem, int order, const char *ending,
                                      int rotation, scene_family family)

@@ -1,6 +1,7 @@
 /* Spherical flexure joint: its end effector is tilted about an axis in the xy plane that turns once around z; support
  * stiffness along z with the rotations held.  N section 4.2, Fig. 8, Table 1. */
 #include "cases/shared/joint.h"
+#include "elements/math/pi.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -28,7 +29,7 @@ static void prescribe_rotation(const double value[], scene *s, int effector, dou
         station[k] = k;
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k <= steps; k++) {
-            const double azimuth = 2 * 3.14159265358979323846 * (k - 1) / steps;
+            const double azimuth = 2 * PI * (k - 1) / steps;
             component[k] =
                 k == 0 || i == 2 ? 0 : value[TILT] * (i == 0 ? cos(azimuth) : sin(azimuth));
         }
@@ -68,7 +69,7 @@ static status build(const double value[], scene *s, fault *f)
     add_stiffness(s, "support_stiffness_min", tilted, SCENE_MIN);
     add_stiffness(s, "support_stiffness_undeformed", rest, SCENE_LAST);
     scene_quantity *curve = add_stiffness(s, "support_stiffness_curve", tilted, SCENE_CURVE);
-    const double step = 2 * 3.14159265358979323846 / value[STEPS];
+    const double step = 2 * PI / value[STEPS];
     scene_set_curve(curve, "azimuth", "rad", step, -step); /* station 1 is azimuth 0 */
     const int meshes[] = {1, 2, 4, 8, 16};
     scene_meshes(s, 5, meshes);

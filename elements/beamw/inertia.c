@@ -90,7 +90,7 @@ static void linear_part(const configuration *c, const interpolation *y, moving_v
                 fixed[node][i] = weight[node] * c->vector[node][y->director][i];
                 v->y[i] += fixed[node][i];
             } else if (y->director == POSITION) {
-                T[N * i + 7 * node + i] = weight[node];
+                T[N * i + NODE_COORDINATES * node + i] = weight[node];
                 v->y[i] +=
                     weight[node] * (c->x[node].r[i] - (c->spin != NULL ? c->spin->centre[i] : 0));
             }
@@ -109,7 +109,7 @@ static void add_curvature(configuration *c, const double F[3], int k, double sig
         vec3_cross(c->vector[node][k], F, h);
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < N; j++) {
-                const int row = 7 * node + 3 + i;
+                const int row = NODE_COORDINATES * node + 3 + i;
                 c->out->N[N * row + j] -= h[i] / 2 * g[j];
                 c->out->N[N * j + row] -= h[i] / 2 * g[j];
             }
@@ -173,7 +173,8 @@ static void add_point(configuration *c, const element_data *d, int g)
     if (!d->lumped.turns) { /* the twist alone */
         for (int node = 0; node < 2; node++)
             for (int i = 0; i < 3; i++)
-                row[7 * node + 3 + i] = (node == 0 ? 1 - x : x) * c->vector[node][0][i];
+                row[NODE_COORDINATES * node + 3 + i] =
+                    (node == 0 ? 1 - x : x) * c->vector[node][0][i];
         dense_add_transpose_mul(N, 8, 1, c->J, chi_x, row);
         add_scalar(c, weight * d->lumped.rotary[0], row);
         return;
@@ -223,7 +224,7 @@ status beamw_inertia_of(const element_data *d, const node_state x[], const eleme
 {
     moving_clear(N, out);
     for (int node = 0; node < 2 && d->share < 1; node++)
-        lumped_add(&d->lumped, 1 - d->share, &x[node], spin, 7 * node, N, out);
+        lumped_add(&d->lumped, 1 - d->share, &x[node], spin, NODE_COORDINATES * node, N, out);
     if (d->share > 0)
         add_consistent(d, x, spin, out);
     return STATUS_OK;

@@ -2,12 +2,13 @@
 
 #include <math.h>
 
+#include "elements/math/pi.h"
+
 void exact_line_gauss(int n, double x[], double w[])
 {
-    const double pi = 3.14159265358979323846;
     for (int i = 0; i < n; i++) {
         /* Newton on Legendre's polynomial from Tricomi's estimate; its quadratic convergence ends in a few steps. */
-        double z = cos(pi * (i + 0.75) / (n + 0.5)), slope = 1;
+        double z = cos(PI * (i + 0.75) / (n + 0.5)), slope = 1;
         for (int step = 0; step < 10; step++) {
             double p = 1, before = 0;
             for (int k = 1; k <= n; k++) {

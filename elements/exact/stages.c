@@ -7,6 +7,7 @@
 #include "elements/exact/sums.h"
 #include "elements/math/arc.h"
 #include "elements/math/dense.h"
+#include "elements/math/pi.h"
 #include "elements/math/rotation.h"
 
 /* Without bimoments: amplitudes, if there are any, that nothing depends on. */
@@ -83,7 +84,6 @@ static void less_initial_strain(const element_request *request, double v[3])
 status exact_stages_prepare(const element_request *request, int count, exact_stages *out, fault *f)
 {
     double point[EXACT_STAGES_MAX], at[EXACT_STAGES_NODES];
-    const double pi = 3.14159265358979323846;
     memset(out, 0, sizeof *out);
     const status outcome = exact_constants_of(request, &out->c, f);
     if (outcome != STATUS_OK)
@@ -96,7 +96,7 @@ status exact_stages_prepare(const element_request *request, int count, exact_sta
     exact_line_gauss(count, point, out->w);
     const double turn = vec3_norm(request->curvature) * request->length;
     for (int k = 0; k <= count; k++) {
-        at[k] = (1 - cos(pi * k / count)) /
+        at[k] = (1 - cos(PI * k / count)) /
                 2; /* any distinct points would do: Chebyshev's keep the numbers of a size */
         const double length = turn > 0 ? 4 * tan(turn * (at[k] - 0.5) / 4) / turn : 0;
         for (int i = 0; i < 3; i++)

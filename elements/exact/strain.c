@@ -57,7 +57,7 @@ static void first(const exact_strain_line *line, const nodes *s, int g, const ex
                   double J[])
 {
     const double none[3] = {0}, l0 = line->l0;
-    const int n = 7 * line->nodes;
+    const int n = NODE_COORDINATES * line->nodes;
     double T[9], psi[3];
     exact_measure_of(line->rotation, p->kappa, psi, T);
     for (int row = 0; row < 6; row++) {
@@ -66,7 +66,7 @@ static void first(const exact_strain_line *line, const nodes *s, int g, const ex
             unit[row] = 1;
         exact_point_gradient(p, row < 3 ? none : &T[3 * (row - 3)], unit, Q, S);
         for (int k = 0; k < line->nodes; k++) {
-            double *out = &J[row * n + 7 * k];
+            double *out = &J[row * n + NODE_COORDINATES * k];
             for (int i = 0; i < 4; i++)
                 weight[i] = line->N[g][k] * Q[i] + line->dN[g][k] * S[i];
             rotation_conjugate(s->q[k], inverse);
@@ -86,7 +86,7 @@ static void second_of_pair(const exact_strain_line *line, const nodes *s, int g,
                            const double QQ[16], const double QS[16], const double QY[12],
                            double H[])
 {
-    const int n = 7 * line->nodes;
+    const int n = NODE_COORDINATES * line->nodes;
     const double Nk = line->N[g][k], Nl = line->N[g][l], dk = line->dN[g][k], dl = line->dN[g][l];
     double X[16], Pk[12], Pl[12], XP[12], block[9] = {0}, mixed[9] = {0};
     for (int i = 0; i < 4; i++)
@@ -101,16 +101,17 @@ static void second_of_pair(const exact_strain_line *line, const nodes *s, int g,
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             const double coupling = Nk * dl / (2 * line->l0) * mixed[3 * i + j];
-            H[(7 * k + 3 + i) * n + 7 * l + 3 + j] += block[3 * i + j];
-            H[(7 * k + 3 + i) * n + 7 * l + j] += coupling;
-            H[(7 * l + j) * n + 7 * k + 3 + i] += coupling;
+            H[(NODE_COORDINATES * k + 3 + i) * n + NODE_COORDINATES * l + 3 + j] +=
+                block[3 * i + j];
+            H[(NODE_COORDINATES * k + 3 + i) * n + NODE_COORDINATES * l + j] += coupling;
+            H[(NODE_COORDINATES * l + j) * n + NODE_COORDINATES * k + 3 + i] += coupling;
         }
 }
 
 static void second(const exact_strain_line *line, const nodes *s, int g, const exact_point *p,
                    const double weight[6], const double J[], double H[])
 {
-    const int n = 7 * line->nodes;
+    const int n = NODE_COORDINATES * line->nodes;
     double turn[3], stretching[3], Q[4], S[4], QQ[16], QS[16], QY[12];
     for (int i = 0; i < 3; i++) {
         stretching[i] = line->l0 * weight[i];
@@ -118,8 +119,8 @@ static void second(const exact_strain_line *line, const nodes *s, int g, const e
     }
     if (line->rotation != EXACT_MEASURE_QUARTER) {
         /* n . psi(x): T^T n takes n's place, and the second derivative of psi meets dx = T^-1 J twice. */
-        double psi[3], T[9], inner[9], inverse[9], bent[9], dx[3 * 7 * ELEMENT_MAX_NODES],
-            weighted[3];
+        double psi[3], T[9], inner[9], inverse[9], bent[9],
+            dx[3 * NODE_COORDINATES * ELEMENT_MAX_NODES], weighted[3];
         int pivot[3];
         exact_measure_of(line->rotation, p->kappa, psi, T);
         exact_measure_second(line->rotation, p->kappa, turn, inner);
@@ -129,7 +130,7 @@ static void second(const exact_strain_line *line, const nodes *s, int g, const e
         dense_lu_solve(3, n, inverse, pivot, dx);
         for (int i = 0; i < 9; i++)
             bent[i] = inner[i] / (line->l0 * line->l0);
-        double work[3 * 7 * ELEMENT_MAX_NODES];
+        double work[3 * NODE_COORDINATES * ELEMENT_MAX_NODES];
         dense_add_congruence(3, n, dx, bent, H, work);
         mat3_transpose_mul_vec(T, turn, weighted);
         memcpy(turn, weighted, sizeof turn);
@@ -141,7 +142,7 @@ static void second(const exact_strain_line *line, const nodes *s, int g, const e
         for (int i = 0; i < 4; i++)
             curved += (line->N[g][k] * Q[i] + line->dN[g][k] * S[i]) * s->q[k][i];
         for (int i = 0; i < 3; i++) /* q'' = -1/4 |theta|^2 q */
-            H[(7 * k + 3 + i) * (n + 1)] -= curved / 4;
+            H[(NODE_COORDINATES * k + 3 + i) * (n + 1)] -= curved / 4;
         for (int l = 0; l < line->nodes; l++)
             second_of_pair(line, s, g, k, l, QQ, QS, QY, H);
     }
@@ -149,7 +150,7 @@ static void second(const exact_strain_line *line, const nodes *s, int g, const e
 
 void exact_strain_of(const exact_strain_line *line, const node_state x[], strain_output *out)
 {
-    const int n = 7 * line->nodes, first_a = 6 * line->points;
+    const int n = NODE_COORDINATES * line->nodes, first_a = 6 * line->points;
     nodes s;
     for (int k = 0; k < line->nodes; k++) {
         rotation_from_matrix(x[k].R, s.q[k]);
@@ -163,7 +164,7 @@ void exact_strain_of(const exact_strain_line *line, const node_state x[], strain
         memset(out->H, 0, (size_t)(n * n) * sizeof *out->H);
     for (int g = 0; g < line->points; g++) {
         exact_point p;
-        double y[3], dy[3], e[6], rows[6 * 7 * ELEMENT_MAX_NODES];
+        double y[3], dy[3], e[6], rows[6 * NODE_COORDINATES * ELEMENT_MAX_NODES];
         observe(line, &s, g, &p, y, dy);
         strains_at(line, g, &p, y, dy, e);
         if (out->e != NULL)
@@ -181,7 +182,7 @@ void exact_strain_of(const exact_strain_line *line, const node_state x[], strain
             out->e[first_a + k] = line->l0 * line->l0 * x[k].a;
         if (out->J != NULL) {
             memset(&out->J[(first_a + k) * n], 0, (size_t)n * sizeof *out->J);
-            out->J[(first_a + k) * n + 7 * k + 6] = line->l0 * line->l0;
+            out->J[(first_a + k) * n + NODE_COORDINATES * k + 6] = line->l0 * line->l0;
         }
     }
 }

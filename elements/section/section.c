@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/pi.h"
 #include "elements/section/walls.h"
 
 void section_spec_init(section_spec *spec)
@@ -19,12 +20,12 @@ void section_spec_init(section_spec *spec)
 
 double section_rectangle_torsion(double a, double b)
 {
-    const double pi = 3.14159265358979323846, h = fmax(a, b), t = fmin(a, b);
+    const double h = fmax(a, b), t = fmin(a, b);
     /* J = h t^3/3 [1 - 192/pi^5 t/h sum over odd n of tanh(n pi h/2t)/n^5]; tanh differs from 1 for the first terms only */
     double sum = 0;
     for (int n = 399; n >= 1; n -= 2)
-        sum += tanh(n * pi * h / (2 * t)) / pow(n, 5);
-    return h * t * t * t / 3 * (1 - 192 / pow(pi, 5) * t / h * sum);
+        sum += tanh(n * PI * h / (2 * t)) / pow(n, 5);
+    return h * t * t * t / 3 * (1 - 192 / pow(PI, 5) * t / h * sum);
 }
 
 static status rectangle(const section_spec *s, section *out, fault *f)

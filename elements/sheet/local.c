@@ -173,13 +173,13 @@ void sheet_local_nodal_gradient(const sheet_local_state *s, int m, const double 
     for (int i = 0; i < m; i++) {
         const double *a = A + SHEET_RATES * i;
         double *row = J + SHEET_LOCAL_NODAL * i;
-        mat3_mul_vec(s->F, a + SHEET_RATE_V, row + 7);
+        mat3_mul_vec(s->F, a + SHEET_RATE_V, row + NODE_COORDINATES);
         mat3_mul_vec(s->F, a + SHEET_RATE_P, row + 3);
-        mat3_mul_vec(s->F, a + SHEET_RATE_Q, row + 10);
+        mat3_mul_vec(s->F, a + SHEET_RATE_Q, row + NODE_COORDINATES + 3);
         for (int k = 0; k < 3; k++)
-            row[k] = -row[7 + k];
+            row[k] = -row[NODE_COORDINATES + k];
         row[6] = a[SHEET_RATE_WP];
-        row[13] = a[SHEET_RATE_WQ];
+        row[NODE_COORDINATES + 6] = a[SHEET_RATE_WQ];
     }
 }
 
@@ -217,6 +217,7 @@ void sheet_local_nodal_form(const sheet_local_state *s, const double H[SHEET_RAT
     sheet_local_nodal_gradient(s, 2, H + SHEET_RATES * SHEET_RATE_WP, rows);
     for (int k = 0; k < 2; k++)
         for (int j = 0; j < SHEET_LOCAL_NODAL; j++)
-            K[SHEET_LOCAL_NODAL * (6 + 7 * k) + j] = K[SHEET_LOCAL_NODAL * j + 6 + 7 * k] =
-                rows[SHEET_LOCAL_NODAL * k + j];
+            K[SHEET_LOCAL_NODAL * (6 + NODE_COORDINATES * k) + j] =
+                K[SHEET_LOCAL_NODAL * j + 6 + NODE_COORDINATES * k] =
+                    rows[SHEET_LOCAL_NODAL * k + j];
 }

@@ -54,7 +54,7 @@ static int chain_start(chain *c, const element_type *type, const double option[]
         c->options[i] = option != NULL ? option[i] : type->options[i].value;
     c->per_element = element_nodes(type, c->options);
     c->strains = element_strains(type, c->options);
-    c->coordinates = 7 * c->per_element;
+    c->coordinates = NODE_COORDINATES * c->per_element;
     c->nodes = elements * (c->per_element - 1) + 1;
     const element_request request = {
         .section = &c->section, .length = c->length, .features = features, .options = c->options};
@@ -107,13 +107,13 @@ static void chain_linearise(const chain *c, int i, chain_linearised *w, double K
 static void chain_assemble(const chain *c, chain_linearised *w, double *K, double *force,
                            int *failures)
 {
-    const int n = 7 * (c->nodes - 1), m = c->coordinates;
+    const int n = NODE_COORDINATES * (c->nodes - 1), m = c->coordinates;
     memset(K, 0, (size_t)(n * n) * sizeof *K);
     memset(force, 0, (size_t)n * sizeof *force);
     for (int e = 0; e < c->elements; e++) {
         double local[CHAIN_MOST * CHAIN_MOST], f[CHAIN_MOST];
         chain_linearise(c, e, &w[e], local, f, failures);
-        const int first = 7 * (e * (c->per_element - 1) - 1);
+        const int first = NODE_COORDINATES * (e * (c->per_element - 1) - 1);
         for (int i = 0; i < m; i++) {
             if (first + i < 0)
                 continue;
@@ -132,7 +132,7 @@ static void chain_advance(chain *c, chain_linearised *w, const double dx[])
     const int n = c->strains, m = c->coordinates;
     for (int e = 0; e < c->elements; e++) {
         double local[CHAIN_MOST], de[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
-        const int first = 7 * (e * (c->per_element - 1) - 1);
+        const int first = NODE_COORDINATES * (e * (c->per_element - 1) - 1);
         for (int i = 0; i < m; i++)
             local[i] = first + i < 0 ? 0 : dx[first + i];
         dense_mul_vec(n, m, w[e].J, local, de);
@@ -153,11 +153,11 @@ static void chain_advance(chain *c, chain_linearised *w, const double dx[])
  * the tangent failed. */
 static double chain_solve(chain *c, const double step[7], const double load[7])
 {
-    const int n = 7 * (c->nodes - 1), tip = n - 7;
+    const int n = NODE_COORDINATES * (c->nodes - 1), tip = n - NODE_COORDINATES;
     double *K = malloc((size_t)(n * n) * sizeof *K), *force = malloc((size_t)n * sizeof *force),
            size = 1;
     chain_linearised *w = malloc((size_t)c->elements * sizeof *w);
-    int pivot[7 * CHAIN_MAX_NODES], failures = 0;
+    int pivot[NODE_COORDINATES * CHAIN_MAX_NODES], failures = 0;
     for (c->iterations = 0; c->iterations < 40 && size > 1e-11; c->iterations++) {
         chain_assemble(c, w, K, force, &failures);
         for (int i = 0; i < n; i++)
@@ -192,11 +192,11 @@ static double chain_solve(chain *c, const double step[7], const double load[7])
 /* Compliance of the tip [6 x 6], all six released, for spatial moments. */
 static inline void chain_compliance(chain *c, double C[36])
 {
-    const int n = 7 * (c->nodes - 1), tip = n - 7;
+    const int n = NODE_COORDINATES * (c->nodes - 1), tip = n - NODE_COORDINATES;
     double *K = malloc((size_t)(n * n) * sizeof *K), *force = malloc((size_t)n * sizeof *force),
            *X = calloc((size_t)n * 6, sizeof *X);
     chain_linearised *w = malloc((size_t)c->elements * sizeof *w);
-    int pivot[7 * CHAIN_MAX_NODES], failures = 0;
+    int pivot[NODE_COORDINATES * CHAIN_MAX_NODES], failures = 0;
     chain_assemble(c, w, K, force, &failures);
     /* A spatial moment m adds -1/2 m~ to the tangent in the exponential chart. */
     for (int i = 0; i < 3; i++) {

@@ -31,7 +31,7 @@ static void state(double l0, double small, int planar, node_state x[2])
     double d[N] = {0}, q[4];
     for (int node = 0; node < 2; node++)
         for (int i = 0; i < 3; i++)
-            d[7 * node + 3 + i] = planar && i == 1 ? 0 : small * turn[node][i];
+            d[NODE_COORDINATES * node + 3 + i] = planar && i == 1 ? 0 : small * turn[node][i];
     d[6] = small * 3.7;
     d[13] = small * -5.9;
     d[7] = 0.37 * l0 * small * small;

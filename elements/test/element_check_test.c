@@ -41,7 +41,7 @@ static void check_state_of(double l, node_state x[2])
 {
     for (int node = 0; node < 2; node++) {
         double q[4];
-        const double *step = check_state + 7 * node;
+        const double *step = check_state + NODE_COORDINATES * node;
         memcpy(x[node].u, step, sizeof x[node].u);
         memcpy(x[node].r, step, sizeof x[node].r);
         x[node].r[0] += node * l;
@@ -138,7 +138,8 @@ static void one_element_is_exact(void)
     int pivot[7];
     for (int i = 0; i < 7; i++)
         for (int j = 0; j < 7; j++)
-            A[7 * i + j] = K[14 * (7 + i) + 7 + j];
+            A[NODE_COORDINATES * i + j] =
+                K[2 * NODE_COORDINATES * (NODE_COORDINATES + i) + NODE_COORDINATES + j];
     const double Fy = b[1], Fz = b[2], Mx = b[3], My = b[4], Mz = b[5], B = b[6];
     gsl_test(dense_lu(7, A, pivot), "coupled stiffness of a cantilever is regular");
     dense_lu_solve(7, 1, A, pivot, b);

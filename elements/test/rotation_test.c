@@ -5,9 +5,10 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/pi.h"
 #include "elements/math/rotation.h"
 
-static const double pi = 3.14159265358979323846, eps = 4 * DBL_EPSILON;
+static const double eps = 4 * DBL_EPSILON;
 static const double axis[3] = {0.48, -0.6, 0.64}; /* of length 1 */
 
 static double largest_difference(int n, const double a[], const double b[])
@@ -58,19 +59,19 @@ static void one_angle(double angle)
              "angle %g: the matrix gives the quaternion back, or its negative", angle);
 
     /* The shorter way, for q and for -q, which are the same rotation. */
-    const double shorter = remainder(angle, 2 * pi);
+    const double shorter = remainder(angle, 2 * PI);
     for (int i = 0; i < 3; i++)
         expected[i] = shorter * axis[i];
     for (int i = 0; i < 4; i++)
         minus[i] = -q[i];
     const double allowed =
-        fabs(fabs(shorter) - pi) < 1e-15 ? 2 * pi + 1 : 8 * eps; /* at pi both ways are as short */
+        fabs(fabs(shorter) - PI) < 1e-15 ? 2 * PI + 1 : 8 * eps; /* at pi both ways are as short */
     rotation_log(q, phi);
     gsl_test(!(largest_difference(3, phi, expected) < allowed), "angle %g: its vector", angle);
     rotation_log(minus, phi);
     gsl_test(!(largest_difference(3, phi, expected) < allowed),
              "angle %g: the vector of the negative", angle);
-    gsl_test(!(vec3_norm(phi) <= pi * (1 + eps)), "angle %g: at most half a turn", angle);
+    gsl_test(!(vec3_norm(phi) <= PI * (1 + eps)), "angle %g: at most half a turn", angle);
 }
 
 static void small_angles(void)
@@ -132,10 +133,10 @@ static void triads(void)
 
 int main(void)
 {
-    for (double angle = -2 * pi; angle < 2 * pi + 0.1; angle += pi / 16)
+    for (double angle = -2 * PI; angle < 2 * PI + 0.1; angle += PI / 16)
         one_angle(angle);
-    one_angle(pi - 1e-9);
-    one_angle(pi + 1e-9);
+    one_angle(PI - 1e-9);
+    one_angle(PI + 1e-9);
     small_angles();
     products();
     triads();

@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "elements/math/pi.h"
 #include "elements/math/quadrature.h"
 #include "elements/section/section.h"
 
@@ -155,12 +156,11 @@ static void thick_walls(void)
  * beyond M are less than a third of 1/M^3. */
 static void torsion_of_a_rectangle(double a, double b)
 {
-    const double pi = 3.14159265358979323846;
     double sum = 0;
     for (int m = 999; m >= 1; m -= 2)
         for (int n = 999; n >= 1; n -= 2)
             sum += a * b / ((double)m * m * n * n * (m * m / (a * a) + n * n / (b * b)));
-    gsl_test_rel(section_rectangle_torsion(a, b), 256 / pow(pi, 6) * sum, 1e-7,
+    gsl_test_rel(section_rectangle_torsion(a, b), 256 / pow(PI, 6) * sum, 1e-7,
                  "torsion of %g x %g", a, b);
     gsl_test_rel(section_rectangle_torsion(b, a), section_rectangle_torsion(a, b), 1e-14,
                  "the sides exchanged");

@@ -152,11 +152,11 @@ static double third_order_apart(const section *c, double l0, beamw_twist_kind to
 {
     double d[N], halves[2][N], middle[7];
     nodes_increments(2, l0, 2, seed, d);
-    middle_of(c, l0, torsion, d, d + 7, middle);
-    memcpy(halves[0], d, 7 * sizeof *d);
-    memcpy(halves[0] + 7, middle, sizeof middle);
+    middle_of(c, l0, torsion, d, d + NODE_COORDINATES, middle);
+    memcpy(halves[0], d, NODE_COORDINATES * sizeof *d);
+    memcpy(halves[0] + NODE_COORDINATES, middle, sizeof middle);
     memcpy(halves[1], middle, sizeof middle);
-    memcpy(halves[1] + 7, d + 7, 7 * sizeof *d);
+    memcpy(halves[1] + NODE_COORDINATES, d + NODE_COORDINATES, NODE_COORDINATES * sizeof *d);
     const double first = third_order(c, l0 / 2, torsion, features, halves[0]),
                  second = third_order(c, l0 / 2, torsion, features, halves[1]),
                  whole = third_order(c, l0, torsion, features, d);

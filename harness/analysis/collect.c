@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/pi.h"
 #include "harness/model/centreline.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/linear.h"
@@ -80,9 +81,8 @@ static status keep_modes_in(const analysis_context *c, int analysis, const outco
     const size_t n = (size_t)model_sizes(c->model).free;
     const int buckling = c->scene->analysis[analysis].kind == SCENE_BUCKLING;
     for (int i = 0; i < least(side->count, SHAPES_MODES); i++) {
-        shape_state what = {
-            buckling ? SHAPE_BUCKLING : SHAPE_MODE, analysis,
-            buckling ? side->value[i] : side->value[i] / (2 * 3.14159265358979323846), 0};
+        shape_state what = {buckling ? SHAPE_BUCKLING : SHAPE_MODE, analysis,
+                            buckling ? side->value[i] : side->value[i] / (2 * PI), 0};
         memcpy(x, side->mode + n * (size_t)i, n * sizeof *x);
         TRY(keep_displaced(c, &what, x, NULL, s, f));
     }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/pi.h"
 #include "harness/analysis/continuation_extract.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/linearise.h"
@@ -14,7 +15,7 @@
 #include "harness/solver/modes.h"
 #include "harness/solver/quantity.h"
 
-static const double TURN = 2 * 3.14159265358979323846; /* rad */
+static const double TURN = 2 * PI; /* rad */
 
 /* [Hz]; NAN: no mode of this kind. */
 static double frequency_of(const scene_quantity *q, const rotation_modes *modes)

@@ -4,6 +4,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "elements/math/pi.h"
+
 static double sign_of(double x)
 {
     return (x > 0) - (x < 0);
@@ -17,8 +19,8 @@ static double modulo(double x, double y)
 }
 
 static const function all[] = {
-    {.name = "pi", .value = 3.14159265358979323846},
-    {.name = "deg", .value = 3.14159265358979323846 / 180},
+    {.name = "pi", .value = PI},
+    {.name = "deg", .value = PI / 180},
     {.name = "abs", .arguments = 1, .of_one = fabs},
     {.name = "sign", .arguments = 1, .of_one = sign_of},
     {.name = "sqrt", .arguments = 1, .of_one = sqrt},

@@ -2,6 +2,7 @@
  * lets them be computed. */
 #include <gsl/gsl_test.h>
 
+#include "elements/math/pi.h"
 #include "harness/algebra/test/eigen_problems.h"
 
 typedef struct beam {
@@ -61,7 +62,7 @@ static double beam_energy(void *context, const double x[])
 static double mesh_value(const beam *b, int k, int vibration)
 {
     double K[16], G[16], M[16], form[2][3];
-    const double phase = k * MATRICES_PI * b->h;
+    const double phase = k * PI * b->h;
     matrices_beam(b->h, K, G, M);
     for (int which = 0; which < 2; which++) {
         const double *e = which == 0 ? K : vibration ? M : G;
@@ -82,8 +83,7 @@ static double expected_value(const beam *b, int k, int vibration)
 {
     if (b->elements <= 20)
         return vibration ? 1 / sqrt(mesh_value(b, k, 1)) : 1 / mesh_value(b, k, 0);
-    return k * MATRICES_PI * k * MATRICES_PI *
-           (1 + pow(k * MATRICES_PI * b->h, 4) / (vibration ? 1440 : 720));
+    return k * PI * k * PI * (1 + pow(k * PI * b->h, 4) / (vibration ? 1440 : 720));
 }
 
 /* The values and the errors that the solver estimates: they must cover the actual ones, and

@@ -2,6 +2,7 @@
 #ifndef BEAMWORK_TEST_EIGEN_PROBLEMS_H
 #define BEAMWORK_TEST_EIGEN_PROBLEMS_H
 
+#include "elements/math/pi.h"
 #include "harness/algebra/eigen.h"
 #include "harness/algebra/test/matrices.h"
 
@@ -57,7 +58,7 @@ static inline double strings_exact(const strings *s, int k)
     int count = 0;
     for (int c = 0; c < s->copies; c++)
         for (int i = 1; i <= 64 && i <= s->masses; i++) {
-            const double root = 2 * sin(i * MATRICES_PI / (2 * (s->masses + 1)));
+            const double root = 2 * sin(i * PI / (2 * (s->masses + 1)));
             int at = count++;
             for (const double mu = 1 / (s->spring[c] * root * root);; at--) {
                 all[at] = mu;

@@ -3,6 +3,7 @@
 #include <gsl/gsl_test.h>
 #include <stdio.h>
 
+#include "elements/math/pi.h"
 #include "harness/algebra/candidates.h"
 #include "harness/algebra/lanczos.h"
 #include "harness/algebra/test/eigen_problems.h"
@@ -184,9 +185,9 @@ static void test_missed_copies(void)
              "strings are factorised");
     for (int c = 0; c < COPIES; c++)
         for (int i = 0; i < MASSES; i++)
-            all[c * N + i * COPIES + c] = 1e5 * sin((i + 1) * MATRICES_PI / (MASSES + 1));
+            all[c * N + i * COPIES + c] = 1e5 * sin((i + 1) * PI / (MASSES + 1));
     for (int i = 0; i < MASSES; i++) /* the second mode of one string */
-        x[i * COPIES] = sin(2 * (i + 1) * MATRICES_PI / (MASSES + 1));
+        x[i * COPIES] = sin(2 * (i + 1) * PI / (MASSES + 1));
     const double first = strings_exact(&s, 0), second = strings_exact(&s, COPIES),
                  scale = candidates_scale(&p, &work.solutions);
     gsl_test(!(scale > 0.3 * first && scale < first * (1 + 1e-9)),

@@ -6,10 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/pi.h"
 #include "elements/test/random.h"
 #include "harness/algebra/sparse.h"
-
-#define MATRICES_PI 3.14159265358979323846
 
 /* Sparse form of A[n x n]: nonzero entries, and the diagonal in any case. */
 static inline sparse matrices_from_dense(int n, int symmetric, const double A[])

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/pi.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/study/cell.h"
@@ -106,12 +107,12 @@ static void bifurcations(const char *assignment)
         {"moment", "1", 0, 0, 1, NULL, "1: with a moment of no size"},
         {NULL, NULL, 0, 0, 0, NULL, NULL}};
     const case_type column = {.name = "column", .parameters = table, .build = build_column};
-    const double pi = 3.14159265358979323846, EA = 100;
+    const double EA = 100;
     cell_result r = solve(&column, "collocation", 8, assignment);
     gsl_test_int((int)r.solve.status, STATUS_OK,
                  "the column is compressed to 0.7 of its length: %s", r.solve.reason);
     gsl_test(r.solve.events < 1, "a bifurcation is met");
-    const double Euler = pi * pi / 4, exact = EA * (1 - sqrt(1 - 4 * Euler / EA)) / 2;
+    const double Euler = PI * PI / 4, exact = EA * (1 - sqrt(1 - 4 * Euler / EA)) / 2;
     for (int i = 0; i < r.solve.events; i++) {
         gsl_test_int((int)r.solve.event[i].kind, EVENT_BIFURCATION, "event %d is a bifurcation", i);
         gsl_test(!(r.solve.event[i].measure < 1e-8), "the load does no work on its null vector");

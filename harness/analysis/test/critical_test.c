@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "elements/math/pi.h"
 #include "harness/catalogue/registry.h"
 #include "harness/test/ask.h"
 
@@ -21,7 +22,7 @@ static double flexural_rigidity(void)
 
 static double euler(void)
 {
-    return M_PI * M_PI * flexural_rigidity() / (length * length);
+    return PI * PI * flexural_rigidity() / (length * length);
 }
 
 static int square(scene *s)
@@ -154,8 +155,8 @@ static void arm_before(scene *s, const double direction[3])
 /* tan(kL) = 1/(k a) in (0, pi/2) for a > 0, (pi/2, pi) for a < 0. */
 static double load_with_arm(double arm)
 {
-    double low = (arm > 0 ? 1e-9 : 0.5 + 1e-9) * M_PI / length,
-           high = low + (0.5 - 2e-9) * M_PI / length;
+    double low = (arm > 0 ? 1e-9 : 0.5 + 1e-9) * PI / length,
+           high = low + (0.5 - 2e-9) * PI / length;
     for (int i = 0; i < 200; i++) {
         const double k = (low + high) / 2, value = cos(k * length) - k * arm * sin(k * length);
         *(value > 0 ? &low : &high) = k;

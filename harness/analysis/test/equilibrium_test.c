@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/pi.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/study/cell.h"
@@ -107,7 +108,7 @@ static status solve_column(scene_analysis_kind kind, double P, double M, double 
 
 static void columns(void)
 {
-    const double euler = M_PI * M_PI / 4;
+    const double euler = PI * PI / 4;
     double value = NAN, rest = NAN;
     fault f = {""};
     gsl_test(solve_column(SCENE_BUCKLING, 1, 0, 0.5, &value, &f) != STATUS_OK, "column: %s",
@@ -115,7 +116,7 @@ static void columns(void)
     gsl_test_rel(value, euler, 1e-4, "Euler's load on the nonlinear path");
     gsl_test(solve_column(SCENE_MODAL, euler, 0, 1e-9, &rest, &f) != STATUS_OK, "column: %s",
              f.text);
-    gsl_test_rel(2 * M_PI * rest, 1.8751040687 * 1.8751040687 / sqrt(1e6), 2e-3,
+    gsl_test_rel(2 * PI * rest, 1.8751040687 * 1.8751040687 / sqrt(1e6), 2e-3,
                  "first frequency of the unloaded column");
     gsl_test(solve_column(SCENE_MODAL, euler, 0, 0.999, &value, &f) != STATUS_OK, "column: %s",
              f.text);

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "elements/math/pi.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/study/cell.h"
@@ -49,7 +50,7 @@ static const case_type free_beam = {"free_beam", "a case of the test", "none", p
 static double exact(int i)
 {
     const double height = i % 2 == 0 ? thickness : width, k = root[i / 2] / length;
-    return k * k * sqrt(young * height * height / 12 / density) / (2 * M_PI);
+    return k * k * sqrt(young * height * height / 12 / density) / (2 * PI);
 }
 
 static void frequencies(const char *name, int elements, double allowed)

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "elements/math/pi.h"
 #include "harness/catalogue/registry.h"
 #include "harness/test/ask.h"
 
@@ -70,7 +71,7 @@ static int find(const element_type *e, const request *what, ask_tally *tally, an
 /* f = (k L)^2/(2 pi L^2) sqrt(E I/(rho A)). */
 static double bending(double root)
 {
-    return root * root / (2 * M_PI * length * length) * sqrt(young * side * side / (12 * density));
+    return root * root / (2 * PI * length * length) * sqrt(young * side * side / (12 * density));
 }
 
 static const double clamped[] = {1.8751040687, 4.6940911330, 7.8547574382, 10.995540735,
@@ -155,7 +156,7 @@ static void loaded(const element_type *e, ask_tally *tally)
     gsl_test_rel(first_root(0), clamped[0], 1e-9, "the equation gives the bar without load");
     for (int i = 0; i < 4; i++) {
         static answer a;
-        const double t = part[i] * M_PI * M_PI / (4 * length * length);
+        const double t = part[i] * PI * PI / (4 * length * length);
         const request state = {1, t * young * pow(side, 4) / 12, 0, SCENE_ANY};
         if (!find(e, &state, tally, &a))
             return;

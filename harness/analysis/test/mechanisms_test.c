@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "elements/math/pi.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
@@ -183,7 +184,7 @@ static void straight_column(scene *s, int stations, const double path[])
  * are critical loads below. */
 static void inertia_counts_critical_loads(void)
 {
-    const double pi = 3.14159265358979323846, weak = pi * pi / 4;
+    const double weak = PI * PI / 4;
     const double path[] = {0.9 * weak, 1.1 * weak, 3.9 * weak, 4.1 * weak, 8.8 * weak,
                            9.2 * weak, 24 * weak,  26 * weak,  35 * weak,  37 * weak};
     const int below[] = {0, 1, 1, 2, 2,

@@ -5,13 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/pi.h"
 #include "elements/math/rotation.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/model/model_impl.h"
 #include "harness/solver/modes.h"
 
 enum { ELEMENTS = 24, MEMBERS = 2, MOST_WAVES = 5, TURN_Y = 4, TURN_Z = 5, WARPING = 6 };
-static const double pi = 3.14159265358979323846, length = 2;
+static const double length = 2;
 
 /* Two equal members along x', the first axis of any triad: the second does not count for
  * half-waves. */
@@ -49,7 +50,7 @@ static void add(const model *m, const double R[9], int member, int k, int waves,
     int vertex[2 * ELEMENTS + 1];
     const int count = model_member_vertices(m, member, vertex);
     for (int i = 0; i < count; i++) {
-        const double value = size * sin(waves * pi * (i + 0.3) / (count - 1 + 0.6));
+        const double value = size * sin(waves * PI * (i + 0.3) / (count - 1 + 0.6));
         const mesh_vertex *v = &m->vertex[vertex[i]];
         for (int c = 0; c < 3 && k < WARPING; c++)
             x[v->coordinate[3 * (k / 3) + c]] += R[3 * c + k % 3] * value;

@@ -53,7 +53,7 @@ static status prepare(const element_type *type, unsigned features, double unit, 
     out->strains = element_strains(type, out->options);
     out->inner = element_inner(type, out->options);
     out->memory = element_memory(type, out->options);
-    out->coordinates = 7 * out->nodes;
+    out->coordinates = NODE_COORDINATES * out->nodes;
     out->data = calloc(1, type->data_size(&request));
     return type->prepare(&request, out->data, f);
 }
@@ -231,7 +231,7 @@ static void total_mass(const subject *s)
         double sum = 0;
         for (int i = 0; i < s->nodes; i++)
             for (int j = 0; j < s->nodes; j++)
-                sum += M[(7 * i + c) * s->coordinates + 7 * j + c];
+                sum += M[(NODE_COORDINATES * i + c) * s->coordinates + NODE_COORDINATES * j + c];
         gsl_test_rel(sum, mass, 1e-13, "%s: total mass, direction %d", s->type->name, c);
     }
     gsl_test(!(nodes_asymmetry(s->coordinates, M) < 1e-14), "%s: mass matrix is symmetric",

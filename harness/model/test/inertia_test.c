@@ -59,7 +59,7 @@ static int prepare(const element_type *type, const double options[], unsigned fe
     s->type = type;
     s->length = 0.2385;
     s->nodes = element_nodes(type, options);
-    s->coordinates = 7 * s->nodes;
+    s->coordinates = NODE_COORDINATES * s->nodes;
     test_section(type, &s->section);
     const element_request request = {
         .section = &s->section, .length = s->length, .features = features, .options = options};
@@ -114,8 +114,8 @@ static void own_motion(const subject *s, const node_state x[], int rotary,
     for (int k = 0; k < s->nodes; k++) {
         const double r[3] = {x[k].r[0] - turning.centre[0], x[k].r[1] - turning.centre[1],
                              x[k].r[2] - turning.centre[2]};
-        vec3_cross(turning.omega, r, v + 7 * k);
-        memcpy(v + 7 * k + 3, turning.omega, sizeof turning.omega);
+        vec3_cross(turning.omega, r, v + NODE_COORDINATES * k);
+        memcpy(v + NODE_COORDINATES * k + 3, turning.omega, sizeof turning.omega);
     }
     dense_mul_vec(n, n, out->M, v, Mv);
     dense_mul_vec(n, n, out->G, v, Gv);
@@ -181,7 +181,7 @@ static void lumped_moments(const element_type *type, const double options[], con
     s.type = type;
     s.length = 0.2385;
     s.nodes = element_nodes(type, options);
-    s.coordinates = 7 * s.nodes;
+    s.coordinates = NODE_COORDINATES * s.nodes;
     test_section(type, &s.section);
     s.section.Ip *= 1.3;
     const element_request request = {
@@ -191,8 +191,8 @@ static void lumped_moments(const element_type *type, const double options[], con
     nodes_straight(s.nodes, s.length, x);
     type->inertia(s.data, x, NULL, &(inertia_output){.M = M});
     for (int k = 0; k < s.nodes; k++) {
-        x_moment += M[(7 * k + 1) * (s.coordinates + 1)] * pow(x[k].r[0], 2);
-        polar += M[(7 * k + 3) * (s.coordinates + 1)];
+        x_moment += M[(NODE_COORDINATES * k + 1) * (s.coordinates + 1)] * pow(x[k].r[0], 2);
+        polar += M[(NODE_COORDINATES * k + 3) * (s.coordinates + 1)];
     }
     const double mass = s.section.density * s.section.A * s.length;
     gsl_test_rel(x_moment, mass * s.length * s.length / (s.nodes == 2 ? 2 : 3), 1e-13,
@@ -245,8 +245,8 @@ static double turning_inertia(const element_type *type, const double options[], 
     }
     nodes_straight(s->nodes, s->length, x);
     for (int k = 0; k < s->nodes; k++) {
-        vec3_cross(omega, x[k].r, v + 7 * k);
-        memcpy(v + 7 * k + 3, omega, sizeof omega);
+        vec3_cross(omega, x[k].r, v + NODE_COORDINATES * k);
+        memcpy(v + NODE_COORDINATES * k + 3, omega, sizeof omega);
     }
     s->type->inertia(s->data, x, NULL, &(inertia_output){.M = M});
     dense_mul_vec(s->coordinates, s->coordinates, M, v, Mv);
@@ -292,11 +292,11 @@ static double twisted_energy(const element_type *type, const double options[], u
     nodes_straight(s->nodes, s->length, x);
     for (int k = 0; k < s->nodes; k++) {
         const double turn = angle * k / (s->nodes - 1), ys = s->section.ys, zs = s->section.zs;
-        d[7 * k + 1] =
+        d[NODE_COORDINATES * k + 1] =
             ys * (1 - cos(turn)) + zs * sin(turn); /* about the shear centre: nothing shears */
-        d[7 * k + 2] = zs * (1 - cos(turn)) - ys * sin(turn);
-        d[7 * k + 3] = turn;
-        d[7 * k + 6] = sin(angle) / s->length; /* e2 of BEAMW is a sine */
+        d[NODE_COORDINATES * k + 2] = zs * (1 - cos(turn)) - ys * sin(turn);
+        d[NODE_COORDINATES * k + 3] = turn;
+        d[NODE_COORDINATES * k + 6] = sin(angle) / s->length; /* e2 of BEAMW is a sine */
     }
     nodes_move(s->nodes, 1, d, x);
     s->type->inertia(s->data, x, &turning, &(inertia_output){.potential = &V});

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "elements/math/pi.h"
 #include "harness/scene_file/expression.h"
 #include "harness/scene_file/range.h"
 
@@ -29,7 +30,7 @@ static void check_values(const scope *names)
                {"7-2-1", 4},
                {"8/4/2", 1},
                {"--3", 3},
-               {"45*deg", 45 * (3.14159265358979323846 / 180)},
+               {"45*deg", 45 * (PI / 180)},
                {"sin(pi/2)", 1},
                {"atan2(1, -1)", 2.356194490192345},
                {"hypot(3,4)", 5},
