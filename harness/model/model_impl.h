@@ -72,7 +72,7 @@ struct model {
     int *first_element;     /* [members + 1] */
     int *driver_coordinate; /* [drivers] or NONE */
     int free, driven;
-    double size; /* largest distance between nodes or member length [m] */
+    double size; /* length of the longest member [m] */
     mesh_pattern pattern[2];
     double *work; /* [elements x work_size]: J, C, P' + C (D - e), D - e, memory of the last
                      linearisation */

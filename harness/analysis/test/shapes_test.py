@@ -92,6 +92,18 @@ class Solution(ProgramTest):
         # the triads' x axes follow the line
         self.assertAlmostEqual(max(moved / 0.1, turn / 0.5), 1, delta=2e-2)
 
+    def test_supports_and_bimoments(self):
+        """What holds each node, as bits ux uy uz rx ry rz; bimoments are moments over a length:
+        zero where warping is free, and not at the clamp."""
+        _, shapes, _ = self.solve("elastica", "collocation", 2, "--shapes")
+        self.assertEqual(sorted(shapes["bodies"][:, 1]), [0, 0b111111])
+        _, shapes, _ = self.solve("warping_torsion", "collocation", 4, "--shapes")
+        state = list(shapes["kind"].asstr()[()]).index("linear")
+        bimoment, moment = shapes["bimoment"][state].ravel(), shapes["moment"][state]
+        self.assertGreater(numpy.abs(bimoment).max(), 0.05 * numpy.abs(moment[:, 0]).max())
+        self.assertGreater(numpy.ptp(bimoment), 0.5 * numpy.abs(bimoment).max())
+        self.assertLess(numpy.abs(moment[:, 1:]).max(), 1e-6 * numpy.abs(moment[:, 0]).max())
+
     def test_values_of_modes(self):
         """A mode is drawn with its frequency [Hz] or its critical load, as the quantities say."""
         _, shapes, tables = self.solve("c_column", "beamw_consistent", 16, "--shapes")

@@ -82,8 +82,79 @@ static void unobserved(void)
     }
 }
 
+/* Two outcomes of one cell (0: of two cells), in either order: a cell is as bad as its worst. */
+static void cells(void)
+{
+    for (int good = 0; good < OUTCOME_KINDS; good++)
+        for (int swapped = 0; swapped < 2; swapped++)
+            for (int one_cell = 0; one_cell < 2; one_cell++) {
+                extreme_outcome o[2] = {{.kind = (outcome_kind)good, .x = 1, .neighbours = -1},
+                                        {.kind = OUTCOME_FAULT, .x = 1, .neighbours = -1}};
+                formulation chosen = {.key = "element"};
+                extreme_count c = {0};
+                extreme_sweep s = {.formulations = 1,
+                                   .outcomes = 2,
+                                   .formulation = &chosen,
+                                   .outcome = o,
+                                   .count = &c};
+                if (swapped) {
+                    o[1].kind = o[0].kind;
+                    o[0].kind = OUTCOME_FAULT;
+                }
+                o[1].series = !one_cell;
+                extreme_expect(&s, 0);
+                const int skip = good == OUTCOME_SKIP, failed = good == OUTCOME_FAULT;
+                gsl_test_int(c.tried, one_cell || skip ? 1 : 2, "%s and a fault: cells tried",
+                             outcome_name((outcome_kind)good));
+                gsl_test_int(c.faults, one_cell || !failed ? 1 : 2, "%s and a fault: faults",
+                             outcome_name((outcome_kind)good));
+                gsl_test_int(c.survived, !one_cell && outcome_is_good((outcome_kind)good),
+                             "%s and a fault: survived", outcome_name((outcome_kind)good));
+            }
+}
+
+/* A finding speaks of its range, both ends included but for their last digits. */
+static void ranges(void)
+{
+    static const struct {
+        double x;
+        int inside;
+    } at[] = {{2, 1},
+              {3, 1},
+              {2.5, 1},
+              {2 * (1 - 1e-12), 1},
+              {3 * (1 + 1e-12), 1},
+              {1.99, 0},
+              {3.01, 0},
+              {2 * (1 - 1e-6), 0},
+              {3 * (1 + 1e-6), 0}};
+    for (size_t i = 0; i < sizeof at / sizeof at[0]; i++) {
+        extreme_outcome o = {.kind = OUTCOME_SINGULAR, .x = at[i].x, .neighbours = -1};
+        extreme_finding row = {.extreme = all,
+                               .formulation = all,
+                               .quantity = all,
+                               .outcome = word,
+                               .from = 2,
+                               .to = 3};
+        formulation chosen = {.key = "element"};
+        extreme_count count = {0};
+        extreme_sweep s = {.formulations = 1,
+                           .outcomes = 1,
+                           .findings = 1,
+                           .formulation = &chosen,
+                           .outcome = &o,
+                           .finding = &row,
+                           .count = &count};
+        snprintf(word, sizeof word, "singular");
+        extreme_expect(&s, 0);
+        gsl_test_int(s.unexpected, !at[i].inside, "a finding of 2 .. 3 at %.15g", at[i].x);
+    }
+}
+
 int main(void)
 {
+    cells();
+    ranges();
     kinds();
     unobserved();
     return gsl_test_summary();

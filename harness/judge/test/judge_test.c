@@ -239,6 +239,10 @@ static void coverages(void)
     bench_fill(&b, 3.001, 0.7, 2);
     bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "another limit");
     gsl_test_int(b.j.coverage[0].covered[0], 0, "is not covered");
+    b.row[0].uncertainty = 0.0011;
+    bench_expect(&b, VERDICT_PASS, 0, "a truth that is not known better");
+    gsl_test_int(b.j.coverage[0].covered[0], 1, "covers it");
+    b.row[0].uncertainty = 0;
     b.row[0].kind = words[PUBLISHED];
     bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "a truth that is not exact");
     gsl_test_int(b.j.coverages, 0, "says nothing of coverage");

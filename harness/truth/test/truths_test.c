@@ -130,6 +130,33 @@ static void rows_that_do_not_judge(const char *path)
     }
 }
 
+/* A parameter of any value, or all of them: such a row speaks of every point that has the rest. */
+static void any_value(const char *path)
+{
+    const case_type *type = registry_cases[0];
+    char text[128];
+    for (int all = 0; all < 2; all++) {
+        truths t;
+        fault f = {""};
+        double value[CASE_MAX_PARAMETERS] = {0};
+        recipe r = right;
+        snprintf(text, sizeof text, "%s=*", type->parameters[1].name);
+        r.parameters = all ? "*" : text;
+        truths_file_make(path, &r);
+        gsl_test(truths_read(path, &t, &f) != STATUS_OK, "%s is read %s", r.parameters, f.text);
+        parameters_default(type, value);
+        gsl_test(truth_of(&t, type, value, "load", "same") == NULL, "%s: the defaults",
+                 r.parameters);
+        value[1] = type->parameters[1].max;
+        gsl_test(truth_of(&t, type, value, "load", "same") == NULL, "%s: another value",
+                 r.parameters);
+        value[0] += 1;
+        gsl_test((truth_of(&t, type, value, "load", "same") != NULL) != all,
+                 "%s: another value of another one", r.parameters);
+        truths_free(&t);
+    }
+}
+
 static void new_columns(const char *path)
 {
     recipe r = right;
@@ -326,6 +353,7 @@ int main(void)
     good_file(path);
     wrong_files(path);
     rows_that_do_not_judge(path);
+    any_value(path);
     new_columns(path);
     damaged_files(path);
     strangers(path);

@@ -1,0 +1,89 @@
+/* What arc length is measured with: the mean over the moving bodies of (displacement/size)^2 +
+ * angle^2, whatever moves, in whichever direction; the same of small steps and between states. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "elements/math/rotation.h"
+#include "harness/catalogue/formulations.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/metric.h"
+#include "harness/model/model_impl.h"
+
+enum { ELEMENTS = 3, BODIES = 6 }; /* of seven vertices one is held */
+
+/* A corner with arms of 1 m and 2 m; a node on a rigid arm does not count by itself. */
+static int corner(scene *s, model **m)
+{
+    const double y[3] = {0, 0, 1}, end = 1;
+    section_spec spec;
+    fault f = {""};
+    section_spec_init(&spec);
+    spec.kind = SECTION_RECTANGLE;
+    spec.young = 1e4;
+    spec.shear_modulus = 4e3;
+    spec.width = 0.2;
+    spec.height = 0.05;
+    scene_init(s, "corner");
+    const int root = scene_add_node(s, 0, 0, 0), middle = scene_add_node(s, 1, 0, 0),
+              tip = scene_add_node(s, 1, 2, 0), profile = scene_add_section(s, &spec);
+    scene_add_attached(s, tip, 1, 2, 0.3);
+    scene_add_member(s, root, middle, profile, y);
+    scene_add_member(s, middle, tip, profile, y);
+    scene_hold_all(s, root);
+    scene_add_static(s, 1, &end, 1);
+    const model_request request = {s, formulation_find("beamw"), NULL, ELEMENTS, 0};
+    const status made = model_alloc(&request, m, &f);
+    gsl_test(made != STATUS_OK, "a corner: %s", f.text);
+    return made == STATUS_OK;
+}
+
+static void one_motion(const model *m, int vertex, int component, double size)
+{
+    static const double amount = 0.3;
+    const int turns = component >= SCENE_RX, n = m->free + m->driven;
+    const double share = turns ? 1.0 / BODIES : 1.0 / BODIES / (size * size);
+    double *weight = calloc((size_t)n + 1, sizeof *weight), turn[3] = {0}, step[4];
+    model_state *a, *b;
+    fault f = {""};
+    gsl_test(model_state_alloc(m, &a, &f) != STATUS_OK || model_state_alloc(m, &b, &f) != STATUS_OK,
+             "states: %s", f.text);
+    model_metric(m, weight);
+    gsl_test_rel(weight[m->vertex[vertex].coordinate[component]], share, 1e-14,
+                 "vertex %d, component %d: weight", vertex, component);
+    if (turns) {
+        turn[component - SCENE_RX] = amount;
+        rotation_exp(turn, step);
+        rotation_compose(step, &a->q[4 * vertex], &b->q[4 * vertex]);
+    } else {
+        b->u[3 * vertex + component] += amount;
+    }
+    gsl_test_rel(model_distance(m, a, b), amount * sqrt(share), 1e-13,
+                 "vertex %d, component %d: distance", vertex, component);
+    gsl_test_abs(model_turn_between(m, a, b), turns ? amount : 0, 1e-13,
+                 "vertex %d, component %d: turn", vertex, component);
+    model_state_free(a);
+    model_state_free(b);
+    free(weight);
+}
+
+int main(void)
+{
+    scene s;
+    model *m = NULL;
+    if (corner(&s, &m)) {
+        int bodies = 0;
+        for (int v = 0; v < m->vertices; v++) {
+            const mesh_vertex *here = &m->vertex[v];
+            if (here->body != v || here->coordinate[0] == NONE)
+                continue;
+            bodies++;
+            for (int c = 0; c < VERTEX_COORDINATES; c++)
+                one_motion(m, v, c, 2);
+        }
+        gsl_test_int(bodies, BODIES, "bodies that move");
+    }
+    model_free(m);
+    scene_free(&s);
+    return gsl_test_summary();
+}

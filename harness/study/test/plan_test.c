@@ -1,0 +1,105 @@
+/* Which cells a verification consists of: the points of the truths, each once, and their meshes. A
+ * row that holds at any value of a parameter (*) makes no point of its own, and speaks of all. */
+#include <gsl/gsl_test.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/catalogue/parameters.h"
+#include "harness/catalogue/registry.h"
+#include "harness/study/plan.h"
+
+enum { ROWS = 4, OWN_MESH = 37 };
+static char words[][32] = {"", "exact", "same", "m", "geometrically_exact"};
+
+/* The first two parameters of a case that are plain numbers. */
+static int numbers_of(const case_type *type, int out[2])
+{
+    int count = 0;
+    for (int i = 0; type->parameters[i].name != NULL && count < 2; i++)
+        if (type->parameters[i].choices == NULL)
+            out[count++] = i;
+    return count;
+}
+
+static truth row_of(const case_type *type)
+{
+    truth row = {.type = type,
+                 .formulation = words[0],
+                 .theory = words[0],
+                 .quantity = words[3],
+                 .unit = words[3],
+                 .kind = words[1],
+                 .model = words[2],
+                 .value = 1};
+    parameters_default(type, row.parameter);
+    return row;
+}
+
+/* Of one case; *own: those of its series of that formulation that have the mesh of a row. */
+static int count_points(const sweep *s, const case_type *type, int *own)
+{
+    int points = 0;
+    *own = 0;
+    for (int i = 0; i < s->points; i++)
+        points += s->point[i].type == type;
+    for (int i = 0; i < s->seriess; i++)
+        for (int k = 0; k < s->series[i].meshes && s->point[s->series[i].point].type == type; k++)
+            *own += s->series[i].mesh[k] == OWN_MESH &&
+                    strcmp(s->series[i].formulation.key, words[4]) == 0;
+    return points;
+}
+
+static void expect(const case_type *type, int rows, truth row[], int points, int own,
+                   const char *what)
+{
+    const truths t = {.rows = rows, .row = row};
+    const sweep_request all = {.select = NULL};
+    sweep s;
+    fault f = {""};
+    int found;
+    gsl_test(plan_sweep(&all, &t, &s, &f) != STATUS_OK, "%s: %s: %s", type->name, what, f.text);
+    gsl_test_int(count_points(&s, type, &found), points, "%s: %s: points", type->name, what);
+    gsl_test_int(found, own, "%s: %s: series with the mesh of the row", type->name, what);
+    sweep_free(&s);
+}
+
+static void points(const case_type *type, const int number[2])
+{
+    truth row[ROWS];
+    for (int i = 0; i < ROWS; i++)
+        row[i] = row_of(type);
+    expect(type, 1, row, 1, 0, "the defaults");
+    row[1].parameter[number[0]] *= 1.25;
+    row[2] = row[1];
+    expect(type, 3, row, 2, 0, "another point, twice");
+    row[2].parameter[number[1]] = row[1].parameter[number[1]] * 1.5 + 0.01;
+    expect(type, 3, row, 3, 0, "two other points");
+    row[2].any[number[0]] = 1;
+    expect(type, 3, row, 2, 0, "any value of one parameter is no point");
+    for (int i = 0; type->parameters[i].name != NULL; i++)
+        row[2].any[i] = 1;
+    row[2].formulation = words[4];
+    row[2].elements = OWN_MESH;
+    expect(type, 3, row, 2, 2, "the mesh of a row that holds everywhere");
+    row[2].any[number[0]] = 0;
+    row[2].parameter[number[0]] = row[1].parameter[number[0]];
+    expect(type, 3, row, 2, 1, "of one that holds at one of the points");
+    row[2].parameter[number[0]] *= 1.25;
+    expect(type, 3, row, 2, 0, "of one that holds at none of them");
+}
+
+int main(void)
+{
+    int cases = 0;
+    for (int i = 0; registry_cases[i] != NULL; i++) {
+        int number[2];
+        double value[CASE_MAX_PARAMETERS] = {0};
+        parameters_default(registry_cases[i], value);
+        if (numbers_of(registry_cases[i], number) < 2 || value[number[0]] == 0)
+            continue;
+        points(registry_cases[i], number);
+        cases++;
+    }
+    gsl_test(cases < 10, "%d cases have two numbers", cases);
+    return gsl_test_summary();
+}
