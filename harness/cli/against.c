@@ -132,12 +132,11 @@ static status set_repeats(contestant *a, contestant *b, fault *f)
     return STATUS_OK;
 }
 
-static void set_request(contestant *c, const cli_request *r, const case_type *type,
+static void set_request(contestant *c, const cli_request *r, const scene *s,
                         const formulation *chosen, int elements)
 {
     c->request = (cell_request){
-        .type = type, .formulation = chosen->type, .elements = elements, .keep_all = r->keep_all};
-    memcpy(c->request.parameter, r->parameter, sizeof c->request.parameter);
+        .scene = s, .formulation = chosen->type, .elements = elements, .keep_all = r->keep_all};
     memcpy(c->request.option, chosen->option, sizeof c->request.option);
     c->request.solve.newton = formulation_newton(chosen);
     snprintf(c->name, sizeof c->name, "%s, n = %d", chosen->key, elements);
@@ -196,12 +195,26 @@ static void show_json(const contestant *a, const contestant *b, const against *v
     json_decref(root);
 }
 
+/* Another formulation in this process; both share the scene. */
+static status set_formulations(const cli_request *r, const case_type *type, scene *s, contestant *a,
+                               contestant *b, fault *f)
+{
+    static const scene_edit unchanged = {.kind = SCENE_EDIT_NONE};
+    formulation other;
+    TRY(formulation_parse(r->against, &other, f));
+    TRY(cell_scene(type, r->parameter, &unchanged, s, f));
+    set_request(a, r, s, &r->formulation[0], r->mesh[0]);
+    set_request(b, r, s, &other, r->mesh[r->meshes - 1]);
+    return STATUS_OK;
+}
+
 int cli_against(cli_request *r)
 {
     contestant a = {.plant = 0}, b = {.plant = r->plant};
     const char *arguments[2][MOST_ARGUMENTS];
     char elements[2][16];
-    formulation other;
+    scene s = {0};
+    status outcome = STATUS_OK;
     against answer;
     fault f = {""};
     if (r->case_count != 1 || r->formulations != 1 || r->meshes < 1 || r->meshes > 2)
@@ -221,18 +234,17 @@ int cli_against(cli_request *r)
                 "--plant and a second mesh are for another formulation in the same program");
         set_program(&a, r, "/proc/self/exe", elements[0], arguments[0]);
         set_program(&b, r, r->against, elements[1], arguments[1]);
-    } else if (formulation_parse(r->against, &other, &f) == STATUS_OK) {
-        set_request(&a, r, type, &r->formulation[0], r->mesh[0]);
-        set_request(&b, r, type, &other, r->mesh[r->meshes - 1]);
     } else {
-        return cli_fail(STATUS_REFUSED, f.text);
+        outcome = set_formulations(r, type, &s, &a, &b, &f);
     }
     set_counted(&a);
     set_counted(&b);
     clock_pin();
-    status outcome = set_repeats(&a, &b, &f);
+    if (outcome == STATUS_OK)
+        outcome = set_repeats(&a, &b, &f);
     if (outcome == STATUS_OK)
         outcome = against_run(lap, &a, &b, budget_seconds, &answer, &f);
+    scene_free(&s);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
     (r->format[0] == 'j' ? show_json : show)(&a, &b, &answer);

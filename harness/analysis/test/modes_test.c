@@ -131,11 +131,11 @@ static void families(void)
             const mode_shape shape = {(scene_family)family, waves};
             for (int asked = SCENE_ANY; asked <= SCENE_TORSION; asked++)
                 for (int half_waves = 0; half_waves <= 3; half_waves++) {
-                    const scene_quantity q = {.family = (scene_family)asked,
-                                              .half_waves = half_waves};
+                    const scene_mode wanted = {.family = (scene_family)asked,
+                                               .half_waves = half_waves};
                     const int fits = asked == SCENE_ANY || asked == family ||
                                      (asked == SCENE_NOT_AXIAL && family != SCENE_AXIAL);
-                    gsl_test_int(modes_in_family(&q, &shape),
+                    gsl_test_int(modes_in_family(&wanted, &shape),
                                  fits && (half_waves == 0 || half_waves == waves),
                                  "family %d with %d half-waves, asked for %d with %d", family,
                                  waves, asked, half_waves);
