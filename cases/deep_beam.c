@@ -54,8 +54,10 @@ static status build(const double value[], scene *s, fault *f)
         scene_quantity *q = scene_add_quantity(s, name, "Hz", modal, scene_frequency(i, SCENE_ANY));
         q->least_order = 1.8;
     }
-    const int meshes[] = {2, 4, 8, 16, 32, 64};
-    scene_meshes(s, 6, meshes);
+    /* without shear and rotary inertia the ninth has most waves */
+    const int meshes[] = {2, 4, 8, 16, 32, 64, 128},
+              is_slender = value[SHEAR] == 0 && value[ROTARY_INERTIA] == 0;
+    scene_meshes(s, is_slender ? 7 : 6, meshes);
     return STATUS_OK;
 }
 

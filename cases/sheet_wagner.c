@@ -2,6 +2,7 @@
  * N section 4.1, Fig. 6.  Tip rotation R = Ry(phi_y) Rz(phi_z) Rx(phi_x) with phi_y free (zero moment about y). */
 #include "cases/shared/sheet.h"
 
+#include <math.h>
 #include <stddef.h>
 
 enum { TIP_PHI_Z = SHEET_PARAMETERS, TIP_PHI_X };
@@ -42,6 +43,10 @@ static status build(const double value[], scene *s, fault *f)
     if (outcome != STATUS_OK)
         return outcome;
     prescribe_tip(s, tip, value);
+    /* twisted as far as bent or farther, what shear adds settles late */
+    const int meshes[] = {1, 2, 3, 4, 8, 16, 32, 64, 128},
+              is_far = fabs(value[TIP_PHI_X]) >= fabs(value[TIP_PHI_Z]);
+    scene_meshes(s, is_far ? 9 : 8, meshes);
     double stations[STATIONS_BENT + STATIONS_TWISTED];
     for (int i = 0; i < STATIONS_BENT + STATIONS_TWISTED; i++)
         stations[i] = i < STATIONS_BENT ? (i + 1.0) / STATIONS_BENT

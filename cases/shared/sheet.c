@@ -43,8 +43,10 @@ status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f
         scene_need(s, FEATURE_TRAPEZE);
     if (value[SHEET_WAGNER] != 0)
         scene_need(s, FEATURE_WAGNER_TORQUE);
-    const int meshes[] = {1, 2, 3, 4, 8, 16, 32, 64};
-    scene_meshes(s, 8, meshes);
+    /* a far bent sheet of many widths settles late */
+    const int meshes[] = {1, 2, 3, 4, 8, 16, 32, 64, 128, 256},
+              is_narrow = length >= 10 * value[SHEET_WIDTH];
+    scene_meshes(s, is_narrow ? 10 : 8, meshes);
     return STATUS_OK;
 }
 
