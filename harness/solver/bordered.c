@@ -4,10 +4,10 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/model/metric.h"
 #include "harness/model/stiffness_parts.h"
 #include "harness/solver/border.h"
-
-enum { REFINEMENTS = 2 };
+#include "harness/solver/refinement.h"
 
 static double dot(int n, const double a[], const double b[])
 {
@@ -22,11 +22,12 @@ status bordered_alloc(tangent *t, counters *n, bordered *out, fault *f)
     const border *b = &t->border;
     const size_t all = (size_t)t->all + 1;
     out->Z = calloc((size_t)(b->count * t->free) + 1, sizeof *out->Z);
-    out->x = calloc(3 * all, sizeof *out->x);
+    out->x = calloc(4 * all, sizeof *out->x);
     if (out->Z == NULL || out->x == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
     out->load = out->x + all;
     out->rest = out->load + all;
+    out->weight = out->rest + all;
     for (int i = 0; i < b->count; i++) {
         memcpy(out->Z + i * t->free, b->U + i * t->free, (size_t)t->free * sizeof *out->Z);
         factor_solve(t->factor, out->Z + i * t->free);
@@ -65,17 +66,28 @@ void bordered_solve(tangent *t, counters *n, const bordered *s, double x[])
     }
 }
 
-void bordered_refine(const model *m, tangent *t, counters *n, const bordered *s)
+/* rest[all] = load - K x */
+static void residual_of(const model *m, const tangent *t, const bordered *s)
 {
-    for (int r = 0; r < REFINEMENTS; r++) {
-        double *rest = s->rest;
-        memset(rest, 0, (size_t)t->all * sizeof *rest);
-        sparse_mul(&t->geometric, s->x, rest);
-        model_material_product(m, t->state, s->x, rest);
+    double *rest = s->rest;
+    memset(rest, 0, (size_t)t->all * sizeof *rest);
+    sparse_mul(&t->geometric, s->x, rest);
+    model_material_product(m, t->state, s->x, rest);
+    for (int k = 0; k < t->all; k++)
+        rest[k] = k < t->free || border_place(&t->border, k) >= 0 ? s->load[k] - rest[k] : 0;
+}
+
+status bordered_refine(const model *m, tangent *t, counters *n, const bordered *s, fault *f)
+{
+    refinement r = {.corrections = 1, .last = 1}; /* x itself was the first */
+    refinement_state state = REFINEMENT_GOES_ON;
+    model_metric(m, s->weight);
+    while (state == REFINEMENT_GOES_ON) {
+        residual_of(m, t, s);
+        bordered_solve(t, n, s, s->rest);
         for (int k = 0; k < t->all; k++)
-            rest[k] = k < t->free || border_place(&t->border, k) >= 0 ? s->load[k] - rest[k] : 0;
-        bordered_solve(t, n, s, rest);
-        for (int k = 0; k < t->all; k++)
-            s->x[k] += rest[k];
+            s->x[k] += s->rest[k];
+        state = refinement_next(&r, refinement_part(t->all, s->weight, s->rest, s->x));
     }
+    return state == REFINEMENT_ENDS ? STATUS_OK : refinement_refuse(&r, "the compliance", f);
 }

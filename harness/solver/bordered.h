@@ -9,7 +9,7 @@ typedef struct bordered {
     double *Z; /* [count x free] K^-1 U */
     double S[TANGENT_BORDER * TANGENT_BORDER];
     int pivot[TANGENT_BORDER];
-    double *x, *load, *rest; /* [all] */
+    double *x, *load, *rest, *weight; /* [all] */
 } bordered;
 
 /* SINGULAR: not held when the prescribed motion is released. Freed by bordered_free in either
@@ -19,7 +19,7 @@ void bordered_free(bordered *s);
 /* In place; what is held or prescribed stays as it is. x: [all] */
 void bordered_solve(tangent *t, counters *n, const bordered *s, double x[]);
 /* Iterative refinement of s->x for s->load, with residuals whose stiff part comes from the element
- * strains. */
-void bordered_refine(const model *m, tangent *t, counters *n, const bordered *s);
+ * strains (refinement.h). SINGULAR: round-off leaves too few digits. */
+status bordered_refine(const model *m, tangent *t, counters *n, const bordered *s, fault *f);
 
 #endif

@@ -1,6 +1,6 @@
 #include "harness/solver/linear_system.h"
 
-#include <math.h>
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,6 +11,7 @@
 #include "harness/model/loads.h"
 #include "harness/model/metric.h"
 #include "harness/solver/context.h"
+#include "harness/solver/refinement.h"
 
 static status allocate(const analysis_context *c, linear_system *out, fault *f)
 {
@@ -58,78 +59,86 @@ static status residual_of(analysis_context *c, const double load[], const double
     return STATUS_OK;
 }
 
-/* Iterative refinement with residuals from the strains: twice always, and on as long as it helps
- * where digits are still missing. */
-enum { REFINEMENTS = 2, MOST_REFINEMENTS = 30 };
-/* Of a correction beside the solution: what ends the refinement, and what it may settle at where
- * round-off keeps it from going on, as in a slender bar pushed along an oblique axis. */
-static const double sure_digits = 1e-9, enough_digits = 1e-6;
+typedef struct workspace {
+    double *load, *r, *weight, *shaken; /* [free + driven] */
+    double *sigma;                      /* [elements x strains] */
+} workspace;
 
-static double weighted_size(int n, const double weight[], const double x[])
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += weight[i] * x[i] * x[i];
-    return sqrt(sum);
-}
-
-typedef struct refinement {
-    double *load, *r, *weight; /* [free + driven] */
-    double *sigma;             /* [elements x strains] */
-} refinement;
-
-static status refinement_alloc(analysis_context *c, refinement *w, fault *f)
+static status workspace_alloc(analysis_context *c, workspace *w, fault *f)
 {
     const model_size size = model_sizes(c->model);
     const size_t all = (size_t)(size.free + size.driven) + 1;
-    w->load = calloc(3 * all, sizeof *w->load);
+    w->load = calloc(4 * all, sizeof *w->load);
     w->sigma = calloc((size_t)size.elements * (size_t)size.strains + 1, sizeof *w->sigma);
     if (w->load == NULL || w->sigma == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a linear solution");
     w->r = w->load + all;
     w->weight = w->r + all;
+    w->shaken = w->weight + all;
     model_metric(c->model, w->weight);
     return model_reference_load(c->model, w->load, f);
 }
 
-static status refine(analysis_context *c, linear_system *s, refinement *w, double x[], fault *f)
+/* x += K^-1 (load - K x); the size of what was added beside x. */
+static status correct(analysis_context *c, linear_system *s, workspace *w, double x[],
+                      double *correction, fault *f)
 {
     const int n = model_sizes(c->model).free;
-    double last = INFINITY;
-    for (int i = 0; i <= MOST_REFINEMENTS; i++) {
-        TRY(residual_of(c, w->load, x, w->sigma, w->r, f));
-        factor_solve(s->factor, w->r);
+    TRY(residual_of(c, w->load, x, w->sigma, w->r, f));
+    factor_solve(s->factor, w->r);
+    for (int k = 0; k < n; k++)
+        x[k] += w->r[k];
+    *correction = refinement_part(n, w->weight, w->r, x);
+    return STATUS_OK;
+}
+
+/* A correction may vanish by chance, of one element above all: how far x, shaken in its last digits
+ * and corrected, ends from where it was. Not counted as work. */
+static status shake(analysis_context *c, linear_system *s, workspace *w, const double x[],
+                    double *change, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    double correction;
+    memcpy(w->shaken, x, (size_t)(size.free + size.driven) * sizeof *x);
+    for (int k = 0; k < size.free; k++)
+        w->shaken[k] *= 1 + (k * 7 % 3 - 1) * 2 * DBL_EPSILON;
+    TRY(correct(c, s, w, w->shaken, &correction, f));
+    for (int k = 0; k < size.free; k++)
+        w->shaken[k] -= x[k];
+    *change = refinement_part(size.free, w->weight, w->shaken, x);
+    return STATUS_OK;
+}
+
+static status refine(analysis_context *c, linear_system *s, workspace *w, double x[], fault *f)
+{
+    refinement_state state = REFINEMENT_GOES_ON;
+    refinement r = {0};
+    double correction;
+    while (state == REFINEMENT_GOES_ON) {
+        TRY(correct(c, s, w, x, &correction, f));
         model_counters(c->model)->solutions++;
-        for (int k = 0; k < n; k++)
-            x[k] += w->r[k];
-        const double correction =
-            weighted_size(n, w->weight, w->r) / weighted_size(n, w->weight, x);
-        if (i >= REFINEMENTS && !(correction > sure_digits))
-            return STATUS_OK;
-        if (i > REFINEMENTS && !(correction < last / 2)) {
-            if (correction <= enough_digits)
-                return STATUS_OK;
-            break;
-        }
-        last = correction;
+        state = refinement_next(&r, correction);
     }
-    c->singular = 1;
-    return fault_set(f, STATUS_SINGULAR, "the linear solution is lost in round-off");
+    if (state == REFINEMENT_ENDS) {
+        TRY(shake(c, s, w, x, &correction, f));
+        state = refinement_judge(&r, correction);
+    }
+    return state == REFINEMENT_ENDS ? STATUS_OK : refinement_refuse(&r, "the linear solution", f);
 }
 
 /* With what linear_system_solve frees. */
-static status solve(analysis_context *c, linear_system *s, refinement *w, double x[], fault *f)
+static status solve(analysis_context *c, linear_system *s, workspace *w, double x[], fault *f)
 {
     const model_size size = model_sizes(c->model);
     memset(x, 0, (size_t)(size.free + size.driven) * sizeof *x);
-    TRY(refinement_alloc(c, w, f));
+    TRY(workspace_alloc(c, w, f));
     model_drive(c->model, model_rest(c->model), 1, x);
     return refine(c, s, w, x, f);
 }
 
 status linear_system_solve(analysis_context *c, linear_system *s, double x[], fault *f)
 {
-    refinement w = {0};
+    workspace w = {0};
     const status outcome = solve(c, s, &w, x, f);
     free(w.load);
     free(w.sigma);

@@ -118,8 +118,8 @@ static int moves(const tangent *t, int k)
 }
 
 /* Response of the node to a unit load on one component. */
-static void respond(const model *m, tangent *t, counters *n, int component, const bordered *s,
-                    double response[TANGENT_COMPONENTS])
+static status respond(const model *m, tangent *t, counters *n, int component, const bordered *s,
+                      double response[TANGENT_COMPONENTS], fault *f)
 {
     memset(s->load, 0, (size_t)t->all * sizeof *s->load);
     for (int k = 0; k < t->coordinates; k++)
@@ -128,26 +128,28 @@ static void respond(const model *m, tangent *t, counters *n, int component, cons
     memcpy(s->x, s->load, (size_t)t->all * sizeof *s->x);
     bordered_solve(t, n, s, s->x);
     if (t->refined)
-        bordered_refine(m, t, n, s);
+        TRY(bordered_refine(m, t, n, s, f));
     for (int i = 0; i < TANGENT_COMPONENTS; i++) {
         response[i] = 0;
         for (int k = 0; k < t->coordinates; k++)
             response[i] += moves(t, k) ? t->T[i * t->coordinates + k] * s->x[t->index[k]] : 0;
     }
+    return STATUS_OK;
 }
 
 /* Columns of C for unit loads on the components that are wanted and can move. */
-static void respond_all(const model *m, tangent *t, counters *n, const bordered *s, unsigned wanted,
-                        unsigned components, double C[36])
+static status respond_all(const model *m, tangent *t, counters *n, const bordered *s,
+                          unsigned wanted, unsigned components, double C[36], fault *f)
 {
     for (int j = 0; j < TANGENT_COMPONENTS; j++) {
         double response[TANGENT_COMPONENTS];
         if (!(wanted & components & 1u << j))
             continue;
-        respond(m, t, n, j, s, response);
+        TRY(respond(m, t, n, j, s, response, f));
         for (int i = 0; i < TANGENT_COMPONENTS; i++)
             C[6 * i + j] = components >> i & 1u ? response[i] : 0;
     }
+    return STATUS_OK;
 }
 
 status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsigned components,
@@ -155,10 +157,10 @@ status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsi
 {
     counters *n = model_counters(c->model);
     bordered s = {0};
-    const status outcome = bordered_alloc(t, n, &s, f);
+    status outcome = bordered_alloc(t, n, &s, f);
     memset(C, 0, 36 * sizeof *C);
     if (outcome == STATUS_OK)
-        respond_all(c->model, t, n, &s, wanted, components, C);
+        outcome = respond_all(c->model, t, n, &s, wanted, components, C, f);
     bordered_free(&s);
     return outcome;
 }
