@@ -65,7 +65,7 @@ static status prestress(analysis_context *c, linear_system *s, linear_forms *abo
     TRY(linear_system_solve(c, s, about->load_x, f));
     TRY(linear_forms_load(about, f));
     TRY(sparse_alloc_like(&s->K, G, f));
-    return model_geometric_stiffness(c->model, about->sigma, G, f);
+    return linear_geometric_stiffness(c->model, about->sigma, G, f);
 }
 
 typedef struct buckling {

@@ -50,12 +50,12 @@ static status keep_displaced(const analysis_context *c, shape_state *what, const
     const analysis_outcome *path = follows == SCENE_NONE ? NULL : &c->outcomes[follows];
     const model_state *about = path != NULL && path->reached > 0 && path->state != NULL
                                    ? path->state[path->reached - 1]
-                                   : model_rest(c->model);
+                                   : kinematics_rest(c->model);
     model_state *moved = NULL;
     const status outcome = centreline_displaced(c->model, about, x, sigma, &what->scale, &moved, f);
     if (outcome == STATUS_OK)
         keep(c, s, what, moved);
-    model_state_free(moved);
+    kinematics_state_free(moved);
     return outcome;
 }
 
@@ -64,10 +64,9 @@ static status keep_linear(const analysis_context *c, int analysis, shapes *s, fa
     const model_size size = model_sizes(c->model);
     shape_state what = {SHAPE_LINEAR, analysis, 1, 1};
     double *sigma = calloc((size_t)size.elements * (size_t)size.strains + 1, sizeof *sigma);
-    status outcome =
-        sigma != NULL
-            ? model_linear_stresses(c->model, c->outcomes[analysis].x, sigma, f)
-            : fault_set(f, STATUS_FAULT, "out of memory for the shape of a linear solution");
+    status outcome = sigma != NULL ? linear_stresses(c->model, c->outcomes[analysis].x, sigma, f)
+                                   : fault_set(f, STATUS_FAULT,
+                                               "out of memory for the shape of a linear solution");
     if (outcome == STATUS_OK)
         outcome = keep_displaced(c, &what, c->outcomes[analysis].x, sigma, s, f);
     free(sigma);
@@ -106,7 +105,7 @@ static status keep_modes(const analysis_context *c, int analysis, const outcome_
 
 static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
 {
-    keep(c, s, &(shape_state){SHAPE_UNDEFORMED, -1, 0, 1}, model_rest(c->model));
+    keep(c, s, &(shape_state){SHAPE_UNDEFORMED, -1, 0, 1}, kinematics_rest(c->model));
     for (int i = 0; i < c->scene->analyses; i++) {
         const analysis_outcome *o = &c->outcomes[i];
         if (o->state != NULL) {

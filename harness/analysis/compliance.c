@@ -38,8 +38,8 @@ static status compliance_at(analysis_context *c, const scene_compliance *what, c
 {
     double reaction[6], load[6];
     movable motions;
-    model_node_force(c->model, s, what->node, reaction);
-    model_node_load(c->model, s, what->node, load);
+    linearise_node_force(c->model, s, what->node, reaction);
+    loads_at_node(c->model, s, what->node, load);
     for (int i = 0; i < 6; i++)
         reaction[i] -= load[i];
     TRY(tangent_at(c, what, s, reaction, t, f));
@@ -90,7 +90,7 @@ static status solve(analysis_context *c, int analysis, tangent *t, analysis_outc
     if (o->path == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
     for (int i = 0; i < reached; i++) {
-        const model_state *s = path != NULL ? path->state[i] : model_rest(c->model);
+        const model_state *s = path != NULL ? path->state[i] : kinematics_rest(c->model);
         TRY(compliance_at(c, what, s, t, wanted, m->compliance + 36 * (size_t)i,
                           m->stiffness + 36 * (size_t)i, f));
         o->path[i] = m->path[i] = path != NULL ? path->path[i] : 0;

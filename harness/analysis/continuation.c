@@ -42,8 +42,8 @@ static status add_point(continuation *p, fault *f)
         p->room = room;
     }
     if (p->keeps_states) {
-        TRY(model_state_alloc(p->c->model, &o->point_state[o->points], f));
-        model_state_copy(p->c->model, p->n.state, o->point_state[o->points]);
+        TRY(kinematics_state_alloc(p->c->model, &o->point_state[o->points], f));
+        kinematics_state_copy(p->c->model, p->n.state, o->point_state[o->points]);
     }
     o->factor[o->points] = p->here.factor;
     o->control[o->points++] = p->here.control;
@@ -79,7 +79,7 @@ static void turn_start(continuation *p)
 static status try_step(continuation *p, path_goal goal, double station, int last_resort, attempt *t,
                        fault *f)
 {
-    model_state_copy(p->c->model, p->n.state, p->n.backup);
+    kinematics_state_copy(p->c->model, p->n.state, p->n.backup);
     TRY(continuation_correct(p, goal, &t->record, f));
     TRY(continuation_look(p, p->moved, &p->next, &t->record, f));
     if (goal.by_arc && (p->here.control < station) != (p->next.control < station)) {
@@ -176,7 +176,7 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
         TRY(accept(p, &t.record, f));
         *size = next_size(p, *size, length, &t);
         const double distance =
-            r->state == NULL ? 0 : model_distance(p->c->model, p->n.state, r->state);
+            r->state == NULL ? 0 : metric_distance(p->c->model, p->n.state, r->state);
         nearest = goal.by_arc ? fmin(nearest, distance) : distance;
     }
     const double same = goal.by_arc ? goal.value / 2 : 1e-5;
@@ -186,9 +186,9 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
 /* Where a step in doubt ends: smaller ones may lead elsewhere. */
 static status rival_alloc(const continuation *p, rival *r, fault *f)
 {
-    TRY(model_state_alloc(p->c->model, &r->state, f));
-    r->factor = model_state_path(p->n.state);
-    model_state_copy(p->c->model, p->n.state, r->state);
+    TRY(kinematics_state_alloc(p->c->model, &r->state, f));
+    r->factor = kinematics_state_path(p->n.state);
+    kinematics_state_copy(p->c->model, p->n.state, r->state);
     return STATUS_OK;
 }
 
@@ -210,7 +210,7 @@ static status reach(continuation *p, path_goal goal, double station, double *siz
     *size = length / 2;
     if (outcome == STATUS_OK)
         outcome = retrace(p, goal, station, &r, size, f);
-    model_state_free(r.state);
+    kinematics_state_free(r.state);
     return outcome;
 }
 

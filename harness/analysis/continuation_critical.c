@@ -139,14 +139,14 @@ static status report_critical(continuation *p, path_goal goal, int by_rate, int 
     TRY(locate(p, goal, by_rate, jump, f));
     if (*jump)
         return STATUS_OK;
-    path_event event = {.kind = by_rate ? EVENT_LIMIT_POINT : EVENT_BIFURCATION,
-                        .analysis = p->analysis,
-                        .negative_before = p->here.negative,
-                        .negative_after = p->next.negative,
-                        .factor = model_state_path(p->n.state),
-                        .control =
-                            model_component(p->c->model, p->n.state, p->by->node, p->by->component),
-                        .other_factor = NAN};
+    path_event event = {
+        .kind = by_rate ? EVENT_LIMIT_POINT : EVENT_BIFURCATION,
+        .analysis = p->analysis,
+        .negative_before = p->here.negative,
+        .negative_after = p->next.negative,
+        .factor = kinematics_state_path(p->n.state),
+        .control = kinematics_component(p->c->model, p->n.state, p->by->node, p->by->component),
+        .other_factor = NAN};
     least_eigenvalue(p);
     event.measure = load_work(p);
     *jump = !by_rate && event.measure > least_load_work;
@@ -160,9 +160,9 @@ status continuation_critical(continuation *p, path_goal goal, int *jump, fault *
     if (!by_rate && p->here.negative == p->next.negative &&
         p->here.determinant == p->next.determinant)
         return STATUS_OK;
-    model_state_copy(p->c->model, p->n.state, p->end);
+    kinematics_state_copy(p->c->model, p->n.state, p->end);
     const status outcome = report_critical(p, goal, by_rate, jump, f);
-    model_state_copy(p->c->model, p->end, p->n.state);
+    kinematics_state_copy(p->c->model, p->end, p->n.state);
     p->looked = 0;
     return outcome;
 }

@@ -38,8 +38,8 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
         const double value =
             q->what.kind == SCENE_FACTOR_AT
                 ? o->factor[i]
-                : model_component(c->model, o->point_state[i], scene_component_of(q)->node,
-                                  scene_component_of(q)->component);
+                : kinematics_component(c->model, o->point_state[i], scene_component_of(q)->node,
+                                       scene_component_of(q)->component);
         r->curve.x[i] = abscissa(q, o->control[i]);
         r->curve.value[i] = quantity_scaled(q, value);
     }

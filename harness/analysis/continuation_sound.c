@@ -20,7 +20,7 @@ const char *continuation_doubt(const continuation *p, int last_resort, double *s
     const double length = sqrt(continuation_dot(p, p->moved, p->moved));
     const double before = angle_to_secant(p, a->tangent, length),
                  after = angle_to_secant(p, b->tangent, length);
-    const double turned = model_turn_between(p->c->model, p->n.backup, p->n.state);
+    const double turned = metric_turn_between(p->c->model, p->n.backup, p->n.state);
     *swing = fmax(fmax(before, after) / largest_swing, turned / largest_turn);
     if (!(before <= largest_swing) || !(after <= largest_swing))
         return "its direction changes too much";
@@ -44,7 +44,7 @@ status continuation_report_jump(continuation *p, const rival *r, double from, fa
                               .factor = p->here.factor,
                               .control = p->here.control,
                               .other_factor = r->factor,
-                              .measure = model_distance(p->c->model, p->n.state, r->state)};
+                              .measure = metric_distance(p->c->model, p->n.state, r->state)};
     TRY(history_add_event(p->c->result, &event, f));
     if (p->by->constant_steps)
         return fault_set(f, STATUS_NOT_CONVERGED,

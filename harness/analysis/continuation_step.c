@@ -27,20 +27,20 @@ status continuation_alloc(analysis_context *c, int analysis, analysis_outcome *o
             "continuation needs a factored tangent; give newton=mixed or newton=displacement");
     TRY(newton_alloc(c, &p->n, f));
     TRY(outcome_stations(o, p->path->stations, f));
-    TRY(model_state_alloc(c->model, &p->end, f));
+    TRY(kinematics_state_alloc(c->model, &p->end, f));
     double **const vector[] = {&p->weight, &p->load,         &p->response,     &p->moved,
                                &p->mode,   &p->here.tangent, &p->next.tangent, &p->trial.tangent};
     for (size_t i = 0; i < sizeof vector / sizeof vector[0]; i++)
         if ((*vector[i] = calloc((size_t)p->n.all + 1, sizeof(double))) == NULL)
             return fault_set(f, STATUS_FAULT, "out of memory for a path");
-    model_metric(c->model, p->weight);
+    metric_of(c->model, p->weight);
     return STATUS_OK;
 }
 
 void continuation_free(continuation *p)
 {
     newton_free(&p->n);
-    model_state_free(p->end);
+    kinematics_state_free(p->end);
     free(p->weight);
     free(p->load);
     free(p->response);
@@ -63,11 +63,11 @@ double continuation_dot(const continuation *p, const double a[], const double b[
 static status directions(continuation *p, step_record *record, fault *f)
 {
     model *m = p->c->model;
-    const double load = model_state_path(p->n.state);
+    const double load = kinematics_state_path(p->n.state);
     if (p->looked)
         return STATUS_OK;
     TRY(newton_direction(&p->n, load, record, f));
-    model_load_rate(m, p->n.state, load, p->load);
+    loads_rate(m, p->n.state, load, p->load);
     memset(p->response, 0, (size_t)p->n.all * sizeof *p->response);
     memcpy(p->response, p->load, (size_t)p->n.free * sizeof *p->response);
     factor_solve(p->n.factor, p->response);
@@ -77,7 +77,7 @@ static status directions(continuation *p, step_record *record, fault *f)
 
 static double control_value(const continuation *p)
 {
-    return model_component(p->c->model, p->n.state, p->by->node, p->by->component);
+    return kinematics_component(p->c->model, p->n.state, p->by->node, p->by->component);
 }
 
 /* What the constraint still lacks. */
@@ -94,7 +94,7 @@ static double change_of(const continuation *p, path_goal goal, const double dx[]
         return continuation_dot(p, p->here.tangent, dx);
     int index[6];
     double T[36], sum = 0;
-    const int n = model_node_jacobian(p->c->model, p->n.state, p->by->node, 6, index, T);
+    const int n = kinematics_node_jacobian(p->c->model, p->n.state, p->by->node, 6, index, T);
     for (int k = 0; k < n; k++)
         sum += T[p->by->component * n + k] * dx[index[k]];
     return sum;
@@ -113,7 +113,7 @@ status continuation_correct(continuation *p, path_goal goal, step_record *record
         if (!isfinite(more))
             return fault_set(f, STATUS_NOT_CONVERGED,
                              "the load does not move the control coordinate at factor %g",
-                             model_state_path(n->state));
+                             kinematics_state_path(n->state));
         double energy = 0;
         for (int k = 0; k < n->free; k++) {
             n->dx[k] += more * p->response[k];
@@ -122,7 +122,7 @@ status continuation_correct(continuation *p, path_goal goal, step_record *record
         }
         n->energy = fabs(energy);
         p->looked = 0;
-        const double load = model_state_path(n->state) + more;
+        const double load = kinematics_state_path(n->state) + more;
         TRY(newton_advance(n, load, &correction, record, f));
         TRY(newton_judge(n, &watch, load, correction, &done, f));
     }
@@ -141,7 +141,7 @@ status continuation_look(continuation *p, const double along[], path_point *out,
     for (int k = 0; k < p->n.all; k++)
         out->tangent[k] = sign * p->response[k] / length;
     out->rate = sign / length;
-    out->factor = model_state_path(p->n.state);
+    out->factor = kinematics_state_path(p->n.state);
     out->control = control_value(p);
     out->negative = record->negative_pivots;
     out->determinant = factor_count(p->n.factor).determinant;
@@ -151,6 +151,6 @@ status continuation_look(continuation *p, const double along[], path_point *out,
 
 void continuation_go_back(continuation *p)
 {
-    model_state_copy(p->c->model, p->n.backup, p->n.state);
+    kinematics_state_copy(p->c->model, p->n.backup, p->n.state);
     p->looked = 0;
 }

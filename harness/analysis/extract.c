@@ -41,8 +41,8 @@ static double reaction_of(const analysis_context *c, const scene_component *what
                           const model_state *s)
 {
     double F[6], L[6];
-    model_node_force(c->model, s, what->node, F);
-    model_node_load(c->model, s, what->node, L);
+    linearise_node_force(c->model, s, what->node, F);
+    loads_at_node(c->model, s, what->node, L);
     return F[what->component] - L[what->component];
 }
 
@@ -52,8 +52,8 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
 {
     switch (q->what.kind) {
     case SCENE_COORDINATE:
-        return model_component(c->model, o->state[i], scene_component_of(q)->node,
-                               scene_component_of(q)->component);
+        return kinematics_component(c->model, o->state[i], scene_component_of(q)->node,
+                                    scene_component_of(q)->component);
     case SCENE_REACTION:
         return reaction_of(c, scene_component_of(q), o->state[i]);
     case SCENE_COMPLIANCE_ENTRY:
@@ -61,13 +61,13 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
     case SCENE_STIFFNESS_ENTRY:
         return 1 / o->compliance[36 * i + 7 * scene_entry_of(q)->row];
     case SCENE_DRIVER_VALUE:
-        return model_driver_value(c->model, o->state[i], scene_driver_of(q));
+        return kinematics_driver_value(c->model, o->state[i], scene_driver_of(q));
     case SCENE_FREQUENCY:
         return o->modes != NULL ? frequency_of(q, &o->modes[i]) : NAN;
     case SCENE_GROWTH:
         return o->modes != NULL ? growth_of(&o->modes[i]) : NAN;
     case SCENE_FACTOR_AT:
-        return model_state_path(o->state[i]);
+        return kinematics_state_path(o->state[i]);
     case SCENE_CRITICAL_FACTOR:
     case SCENE_CRITICAL_POINT:
         break;
@@ -224,7 +224,7 @@ static void from_linear(const analysis_context *c, const scene_quantity *q,
     const scene_component *what = scene_component_of(q);
     int index[6];
     double T[36], sum = 0;
-    const int n = model_node_jacobian(c->model, NULL, what->node, 6, index, T);
+    const int n = kinematics_node_jacobian(c->model, NULL, what->node, 6, index, T);
     for (int k = 0; k < n; k++)
         sum += T[what->component * n + k] * o->x[index[k]];
     r->value = quantity_scaled(q, sum);

@@ -58,8 +58,8 @@ static status start(analysis_context *c, int analysis, const char *what, newton 
     TRY(newton_alloc(c, n, f));
     TRY(followed_state(c, analysis, &state, f));
     TRY(symmetric_only(n, what, f));
-    model_state_copy(c->model, state, n->state);
-    return newton_direction(n, model_state_path(n->state), &unused, f);
+    kinematics_state_copy(c->model, state, n->state);
+    return newton_direction(n, kinematics_state_path(n->state), &unused, f);
 }
 
 /* With what loaded_modal frees. */
@@ -68,7 +68,7 @@ static status frequencies(analysis_context *c, int analysis, newton *n, sparse *
 {
     TRY(start(c, analysis, "frequencies", n, f));
     TRY(sparse_alloc_like(&n->K, M, f));
-    TRY(model_inertia(c->model, n->state, 0, M, NULL, f));
+    TRY(rotating_frame_inertia(c->model, n->state, 0, M, NULL, f));
     const eigen_problem p = {
         .K = &n->K, .A = M, .K_factor = n->factor, .sign = 1, .largest = modal_wanted(c, analysis)};
     const status result = eigen_solve(&p, e, f);
@@ -110,8 +110,8 @@ static status search_alloc(analysis_context *c, int analysis, search *s, fault *
 {
     TRY(start(c, analysis, "critical loads", &s->n, f));
     TRY(sparse_alloc_like(&s->n.K, &s->scale, f));
-    TRY(model_state_alloc(c->model, &s->stable, f));
-    s->begin = model_state_path(s->n.state);
+    TRY(kinematics_state_alloc(c->model, &s->stable, f));
+    s->begin = kinematics_state_path(s->n.state);
     sparse_zero(&s->scale);
     for (int j = 0; j < s->scale.n; j++)
         for (int k = s->scale.column[j]; k < s->scale.column[j + 1]; k++)
@@ -123,7 +123,7 @@ static status search_alloc(analysis_context *c, int analysis, search *s, fault *
 static void search_free(search *s)
 {
     newton_free(&s->n);
-    model_state_free(s->stable);
+    kinematics_state_free(s->stable);
     sparse_free_values(&s->scale);
     eigen_free(&s->found);
 }
@@ -143,11 +143,11 @@ static status take_state(search *s, fault *f)
     TRY(found);
     memmove(s->p + 1, s->p, (POINTS - 1) * sizeof *s->p);
     memmove(s->sigma + 1, s->sigma, (POINTS - 1) * sizeof *s->sigma);
-    s->p[0] = model_state_path(s->n.state);
+    s->p[0] = kinematics_state_path(s->n.state);
     s->sigma[0] = 1 / s->found.positive.mu[0] - s->shift;
     s->shift = s->points == 0 ? s->sigma[0] : s->shift;
     s->points += s->points < POINTS;
-    model_state_copy(s->n.c->model, s->n.state, s->stable);
+    kinematics_state_copy(s->n.c->model, s->n.state, s->stable);
     return STATUS_OK;
 }
 
@@ -156,7 +156,7 @@ static status go_to(search *s, double path, int *stable, fault *f)
 {
     step_record unused = {0};
     double increment = path - s->p[0];
-    model_state_copy(s->n.c->model, s->stable, s->n.state);
+    kinematics_state_copy(s->n.c->model, s->stable, s->n.state);
     status outcome = static_walk(&s->n, path, &increment, f);
     if (outcome == STATUS_OK)
         outcome = newton_direction(&s->n, path, &unused, f);

@@ -116,7 +116,7 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
     memcpy(about->of.load_x, x, (size_t)(size.free + size.driven) * sizeof *x);
     TRY(linear_forms_load(&about->of, f));
     TRY(sparse_alloc_like(&s->K, &about->G, f));
-    TRY(model_geometric_stiffness(c->model, about->of.sigma, &about->G, f));
+    TRY(linear_geometric_stiffness(c->model, about->of.sigma, &about->G, f));
     for (int i = 0; i < s->K.column[s->K.n]; i++)
         s->K.value[i] += about->G.value[i];
     model_counters(c->model)->factorisations++;
@@ -141,7 +141,7 @@ static status assemble(analysis_context *c, int follows, linear_system *s, forms
     about->work = calloc((size_t)s->K.n + 1, sizeof *about->work);
     if (about->work == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for modes");
-    TRY(model_inertia(c->model, NULL, 0, &about->M, NULL, f));
+    TRY(rotating_frame_inertia(c->model, NULL, 0, &about->M, NULL, f));
     return singular ? shifted_system(c, s, &about->M, &about->shift, f) : STATUS_OK;
 }
 

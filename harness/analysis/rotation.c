@@ -36,8 +36,8 @@ static double tangent_form(void *context, const double mode[])
     const form *f = context;
     double energy, added = 0;
     memcpy(f->x, mode, (size_t)f->free_count * sizeof *f->x);
-    if (model_tangent_energy2(f->m, f->state, model_state_path(f->state), f->x, &energy) !=
-        STATUS_OK)
+    if (rotating_frame_tangent_energy2(f->m, f->state, kinematics_state_path(f->state), f->x,
+                                       &energy) != STATUS_OK)
         return NAN;
     sparse_mul(f->loads, mode, f->y);
     for (int i = 0; i < f->free_count; i++)
@@ -63,7 +63,7 @@ static status allocate(const analysis_context *c, matrices *a, fault *f)
     a->y = calloc(all, sizeof(double));
     if (a->residual == NULL || a->x == NULL || a->y == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for modes");
-    TRY(model_pattern(c->model, 0, &pattern, f));
+    TRY(assemble_pattern(c->model, 0, &pattern, f));
     for (int i = 0; i < 4; i++)
         TRY(sparse_alloc_like(pattern, each[i], f));
     return factor_alloc(pattern, &a->factor, f);
@@ -92,11 +92,11 @@ static void matrices_free(matrices *a)
 
 static status linearise(analysis_context *c, const model_state *state, matrices *a, fault *f)
 {
-    const double path = model_state_path(state);
+    const double path = kinematics_state_path(state);
     model_linearisation lin = {.path = path, .K = &a->K, .residual = a->residual};
-    TRY(model_linearise(c->model, state, &lin, f));
-    TRY(model_inertia(c->model, state, path, &a->M, &a->G, f));
-    model_load_stiffness(c->model, state, path, &a->loads);
+    TRY(linearise_state(c->model, state, &lin, f));
+    TRY(rotating_frame_inertia(c->model, state, path, &a->M, &a->G, f));
+    rotating_frame_load_stiffness(c->model, state, path, &a->loads);
     model_counters(c->model)->factorisations++;
     return context_factor(c, a->factor, &a->K, f);
 }

@@ -48,7 +48,7 @@ static void set_frame(model *m, const scene_analysis *a)
 {
     static const scene_spin rest = {{0}, {0}};
     const scene_spin *spin = scene_spin_of(a) != NULL ? scene_spin_of(a) : &rest;
-    model_set_rotating_frame(m, spin->omega, spin->centre, a->kind == SCENE_ROTATION);
+    rotating_frame_set(m, spin->omega, spin->centre, a->kind == SCENE_ROTATION);
 }
 
 /* The first failure names the whole. */

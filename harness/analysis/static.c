@@ -14,12 +14,12 @@ status static_walk(newton *n, double target, double *increment, fault *f)
     counters *count = model_counters(n->c->model);
     const double least = *increment / (1 << MAX_HALVINGS);
     int rejected = 0;
-    while (model_state_path(n->state) < target) {
-        const double from = model_state_path(n->state);
+    while (kinematics_state_path(n->state) < target) {
+        const double from = kinematics_state_path(n->state);
         const int last = from + *increment * (1 + 1e-9) >= target;
         const double to = last ? target : from + *increment;
         step_record record = {.path = to, .increment = to - from, .rejected = rejected};
-        model_state_copy(n->c->model, n->state, n->backup);
+        kinematics_state_copy(n->c->model, n->state, n->backup);
         if (n->predictor != NULL)
             predictor_guess(n->c->model, n->predictor, to, n->state);
         const status outcome = newton_to(n, to, &record, f);
@@ -42,7 +42,7 @@ status static_walk(newton *n, double target, double *increment, fault *f)
             outcome == STATUS_SINGULAR && record.iterations == 0 && rejected >= SINGULAR_STARTS;
         if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED || to - from <= least || hopeless)
             return outcome;
-        model_state_copy(n->c->model, n->backup, n->state);
+        kinematics_state_copy(n->c->model, n->backup, n->state);
         if (n->predictor != NULL)
             predictor_forget(n->predictor);
         count->rejected_steps++;

@@ -13,7 +13,7 @@
 #include "harness/schema/schema.h"
 #include "harness/study/cell.h"
 #include "harness/timing/against.h"
-#include "harness/timing/clock.h"
+#include "harness/timing/rounds.h"
 
 enum { MOST_REPEATS = 10000 };
 static const double budget_seconds = 3, lap_seconds = 0.002;
@@ -239,7 +239,7 @@ int cli_against(cli_request *r)
     }
     set_counted(&a);
     set_counted(&b);
-    clock_pin();
+    rounds_pin();
     if (outcome == STATUS_OK)
         outcome = set_repeats(&a, &b, &f);
     if (outcome == STATUS_OK)

@@ -58,7 +58,7 @@ static status measure(cli_request *r, truths *t, sweep *s, judgement *j, fault *
     TRY(run_sweep(&request, s, f));
     TRY(judgement_make(s, t, 0, j, f));
     if (s->threads <= 1)
-        clock_pin();
+        rounds_pin();
     return timing_run(s, floor_seconds, r->dense, progress, f);
 }
 
@@ -81,7 +81,7 @@ int cli_bench(int count, char **arguments)
     sweep s = {0};
     judgement j = {0};
     fault f = {""};
-    clock_single_thread(arguments - 1); /* main passes what follows the program's name */
+    rounds_single_thread(arguments - 1); /* main passes what follows the program's name */
     cli_parse("bench", "[CASE...]",
               "Times every formulation and mesh of the cases named (or, without one, of all cases "
               "at all parameter points that have a truth, selected with -k): the least of enough "

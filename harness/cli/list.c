@@ -82,9 +82,9 @@ static void list_cases(void)
 static void list_offer(const scene *s, const element_type *type)
 {
     char words[200];
-    if (model_missing(s, type, words, sizeof words))
+    if (missing_words(s, type, words, sizeof words))
         printf("  %-28s does not offer %s\n", type->name, words);
-    else if (model_lacks(s, type, words, sizeof words))
+    else if (lacks_of(s, type, words, sizeof words))
         printf("  %-28s runs without %s\n", type->name, words);
     else
         printf("  %-28s runs\n", type->name);

@@ -26,7 +26,7 @@ static void expect(const sweep *s, truths *t, verdict *v)
     const point *p = &s->point[one->point];
     const char *quantity = p->scene.quantity[v->quantity].name;
     const rule_subject subject = {
-        p->type,  p->parameter,         model_needs(&p->scene), one->formulation.key,
+        p->type,  p->parameter,         features_needed(&p->scene), one->formulation.key,
         quantity, verdict_name(v->kind)};
     v->matches = v->kind == v->expected;
     for (int i = 0; i < t->rules && !v->matches; i++) {

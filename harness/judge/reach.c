@@ -29,7 +29,7 @@ int reach_fastest(const sweep *s, const verdict *v, double level)
     if (first < 0 || one->timing == NULL)
         return first;
     for (int i = first; i < one->meshes; i++)
-        if (clock_least(&one->timing[i].as_is) < clock_least(&one->timing[best].as_is))
+        if (rounds_least(&one->timing[i].as_is) < rounds_least(&one->timing[best].as_is))
             best = i;
     return best;
 }

@@ -135,7 +135,7 @@ static verdict_kind compare(const scene_quantity *q, const verdict *v)
  * shear has no theory that anything else follows: its limits are shown against what there is. */
 static const char *theories_of(const scene *s, const element_type *type)
 {
-    switch (model_theory(s, type)) {
+    switch (features_theory(s, type)) {
     case SHEAR_ENGESSER:
         return "engesser";
     case SHEAR_HARINGX:

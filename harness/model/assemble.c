@@ -163,7 +163,7 @@ void assemble_pattern_free(mesh_pattern *p)
     memset(p, 0, sizeof *p);
 }
 
-status model_pattern(model *m, int with_driven, const sparse **out, fault *f)
+status assemble_pattern(model *m, int with_driven, const sparse **out, fault *f)
 {
     mesh_pattern *p = &m->pattern[with_driven];
     *out = &p->matrix;

@@ -183,11 +183,11 @@ static void displace(const model *m, double scale, const double increment[], mod
 status centreline_displaced(const model *m, const model_state *from, const double x[],
                             const double sigma[], double *scale, model_state **out, fault *f)
 {
-    TRY(model_state_alloc(m, out, f));
+    TRY(kinematics_state_alloc(m, out, f));
     double *increment = calloc((size_t)m->vertices * 6 + 1, sizeof *increment);
     if (increment == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a picture");
-    model_state_copy(m, from, *out);
+    kinematics_state_copy(m, from, *out);
     increments_of(m, from, x, increment);
     if (*scale == 0)
         *scale = visible_scale(m, increment);

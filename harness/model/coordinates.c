@@ -6,7 +6,7 @@
 
 #include "harness/model/model_impl.h"
 
-status model_note_left_out(model *m, fault *f, const char *format, ...)
+status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
 {
     char text[160];
     va_list arguments;
@@ -104,7 +104,7 @@ static status number_vertices(model *m, int *held, fault *f)
                 m->warp[i].coordinate = m->free++;
     }
     free(used);
-    return unused > 0 ? model_note_left_out(m, f, "%d nodes that no member reaches", unused)
+    return unused > 0 ? coordinates_note_left_out(m, f, "%d nodes that no member reaches", unused)
                       : STATUS_OK;
 }
 
@@ -144,17 +144,18 @@ static status note_left_out(model *m, int held, fault *f)
         attached += m->vertex[i].body != i;
     const int fixed = fixed_warps(m, &absent);
     if (held > 0)
-        TRY(model_note_left_out(m, f, "%d held coordinates", held));
+        TRY(coordinates_note_left_out(m, f, "%d held coordinates", held));
     if (attached > 0)
-        TRY(model_note_left_out(m, f, "%d coordinates of %d nodes that move with a rigid body",
-                                6 * attached, attached));
+        TRY(coordinates_note_left_out(m, f,
+                                      "%d coordinates of %d nodes that move with a rigid body",
+                                      6 * attached, attached));
     if (absent > 0)
-        TRY(model_note_left_out(m, f, "warping amplitudes of %d element ends: nothing warps there",
-                                absent));
+        TRY(coordinates_note_left_out(
+            m, f, "warping amplitudes of %d element ends: nothing warps there", absent));
     if (fixed > 0)
-        TRY(model_note_left_out(m, f, "%d warping amplitudes held at zero", fixed));
+        TRY(coordinates_note_left_out(m, f, "%d warping amplitudes held at zero", fixed));
     if (m->driven > 0)
-        TRY(model_note_left_out(m, f, "rows of %d prescribed coordinates", m->driven));
+        TRY(coordinates_note_left_out(m, f, "rows of %d prescribed coordinates", m->driven));
     return STATUS_OK;
 }
 

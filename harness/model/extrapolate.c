@@ -94,8 +94,8 @@ static void extrapolate_rotation(const model *m, int vertex, int count, const do
     rotation_normalise(&out->q[4 * vertex]);
 }
 
-int model_state_extrapolate(const model *m, int count, const model_state *const at[], double path,
-                            model_state *out)
+int extrapolate_state(const model *m, int count, const model_state *const at[], double path,
+                      model_state *out)
 {
     double weight[MODEL_EXTRAPOLATED];
     const double step = path - at[count - 1]->path;

@@ -8,7 +8,7 @@
  * oldest first. 0: there is none, because what is prescribed bends, or the step is too long; `out`
  * is untouched then. */
 enum { MODEL_EXTRAPOLATED = 3 };
-int model_state_extrapolate(const model *, int count, const model_state *const at[], double path,
-                            model_state *out);
+int extrapolate_state(const model *, int count, const model_state *const at[], double path,
+                      model_state *out);
 
 #endif

@@ -36,7 +36,7 @@ static unsigned needs_of_analyses(const scene *s)
     return needs;
 }
 
-unsigned model_needs(const scene *s)
+unsigned features_needed(const scene *s)
 {
     unsigned needs = s->needs | needs_of_analyses(s);
     for (int i = 0; i < s->members; i++)
@@ -57,17 +57,17 @@ static unsigned theory_features(unsigned theories)
            (theories & SHEAR_HARINGX ? FEATURE_HARINGX : 0);
 }
 
-unsigned model_needs_of(const scene *s, const element_type *type)
+unsigned features_needed_of(const scene *s, const element_type *type)
 {
-    const unsigned theories = FEATURE_ENGESSER | FEATURE_HARINGX, needs = model_needs(s),
+    const unsigned theories = FEATURE_ENGESSER | FEATURE_HARINGX, needs = features_needed(s),
                    has = theory_features(type->shear_theories);
     return (needs & theories) == 0 || (needs & theories & has) != 0 ? needs
                                                                     : (needs & ~theories) | has;
 }
 
-unsigned model_theory(const scene *s, const element_type *type)
+unsigned features_theory(const scene *s, const element_type *type)
 {
-    const unsigned needs = model_needs_of(s, type);
+    const unsigned needs = features_needed_of(s, type);
     if (!(needs & FEATURE_SHEAR))
         return 0;
     if (type->shear_theories & SHEAR_OWN)
@@ -77,14 +77,14 @@ unsigned model_theory(const scene *s, const element_type *type)
     return needs & FEATURE_HARINGX ? SHEAR_HARINGX : 0;
 }
 
-unsigned model_quantity_needs(const scene *s, int quantity)
+unsigned features_needed_by_quantity(const scene *s, int quantity)
 {
     const unsigned inertia = FEATURE_MASS | FEATURE_ROTARY_INERTIA;
     const int analysis = s->quantity[quantity].analysis;
     const int moves = analysis >= 0 && (s->analysis[analysis].kind == SCENE_MODAL ||
                                         s->analysis[analysis].kind == SCENE_ROTATION ||
                                         scene_spins(&s->analysis[analysis]));
-    return model_needs(s) & (moves ? ~0U : ~inertia);
+    return features_needed(s) & (moves ? ~0U : ~inertia);
 }
 
 /* What elements of one section are asked for. */

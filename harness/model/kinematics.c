@@ -126,17 +126,17 @@ void kinematics_local(const model *m, const model_state *s, const mesh_element *
     }
 }
 
-const model_state *model_rest(const model *m)
+const model_state *kinematics_rest(const model *m)
 {
     return m->rest;
 }
 
-double model_state_path(const model_state *s)
+double kinematics_state_path(const model_state *s)
 {
     return s->path;
 }
 
-status model_state_alloc(const model *m, model_state **out, fault *f)
+status kinematics_state_alloc(const model *m, model_state **out, fault *f)
 {
     const size_t V = (size_t)m->vertices, E = (size_t)m->elements;
     model_state *s = calloc(1, sizeof *s);
@@ -167,7 +167,7 @@ status model_state_alloc(const model *m, model_state **out, fault *f)
     return STATUS_OK;
 }
 
-void model_state_free(model_state *s)
+void kinematics_state_free(model_state *s)
 {
     if (s == NULL)
         return;
@@ -175,20 +175,20 @@ void model_state_free(model_state *s)
     free(s);
 }
 
-void model_state_copy(const model *m, const model_state *from, model_state *to)
+void kinematics_state_copy(const model *m, const model_state *from, model_state *to)
 {
     (void)m;
     memcpy(to->block, from->block, from->size * sizeof *from->block);
     to->path = from->path;
 }
 
-void model_frame(const model *m, const model_state *s, int node, double r[3], double q[4])
+void kinematics_frame(const model *m, const model_state *s, int node, double r[3], double q[4])
 {
     kinematics_position(m, s, node, r);
     memcpy(q, &s->q[4 * node], 4 * sizeof(double));
 }
 
-double model_component(const model *m, const model_state *s, int node, int component)
+double kinematics_component(const model *m, const model_state *s, int node, int component)
 {
     if (component < SCENE_RX)
         return s->u[3 * node + component];
@@ -202,7 +202,7 @@ double model_component(const model *m, const model_state *s, int node, int compo
     return phi[component - SCENE_RX];
 }
 
-double model_driver_value(const model *m, const model_state *s, int driver)
+double kinematics_driver_value(const model *m, const model_state *s, int driver)
 {
     (void)m;
     return s->driver[driver];
@@ -221,7 +221,7 @@ static double chord_cosine(const model *m, const model_state *s, const mesh_elem
     return vec3_dot(d, axis) / vec3_norm(d);
 }
 
-double model_largest_turn(const model *m, const model_state *s, int *index)
+double kinematics_largest_turn(const model *m, const model_state *s, int *index)
 {
     double least = 1; /* cosine */
     *index = 0;
@@ -241,13 +241,13 @@ double model_largest_turn(const model *m, const model_state *s, int *index)
     return acos(fmax(-1, least));
 }
 
-int model_coordinate(const model *m, int node, int component)
+int kinematics_coordinate(const model *m, int node, int component)
 {
     return m->vertex[node].body == node ? m->vertex[node].coordinate[component] : NONE;
 }
 
-int model_node_jacobian(const model *m, const model_state *s, int node, int size, int index[],
-                        double T[])
+int kinematics_node_jacobian(const model *m, const model_state *s, int node, int size, int index[],
+                             double T[])
 {
     const model_state *state = s != NULL ? s : m->rest;
     const mesh_vertex *v = &m->vertex[node], *body = &m->vertex[v->body];

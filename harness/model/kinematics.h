@@ -4,27 +4,27 @@
 
 #include "harness/model/model.h"
 
-status model_state_alloc(const model *, model_state **, fault *); /* undeformed, path = 0 */
-void model_state_free(model_state *);
-const model_state *model_rest(const model *); /* undeformed */
-void model_state_copy(const model *, const model_state *from, model_state *to);
-double model_state_path(const model_state *);
+status kinematics_state_alloc(const model *, model_state **, fault *); /* undeformed, path = 0 */
+void kinematics_state_free(model_state *);
+const model_state *kinematics_rest(const model *); /* undeformed */
+void kinematics_state_copy(const model *, const model_state *from, model_state *to);
+double kinematics_state_path(const model_state *);
 
 /* Frame of a scene node in a state. */
-void model_frame(const model *, const model_state *, int node, double r[3], double q[4]);
+void kinematics_frame(const model *, const model_state *, int node, double r[3], double q[4]);
 /* Displacement [m] or rotation-vector component [rad] of a scene node since the undeformed
  * state. */
-double model_component(const model *, const model_state *, int node, int component);
-double model_driver_value(const model *, const model_state *, int driver);
+double kinematics_component(const model *, const model_state *, int node, int component);
+double kinematics_driver_value(const model *, const model_state *, int driver);
 /* Largest angle [rad] that an element's nodes have turned against each other, or against its chord,
  * and that element. */
-double model_largest_turn(const model *, const model_state *, int *element_index);
+double kinematics_largest_turn(const model *, const model_state *, int *element_index);
 
 /* Coordinate index of a component of a node, or -1 where it is held, or dependent. */
-int model_coordinate(const model *, int node, int component);
+int kinematics_coordinate(const model *, int node, int component);
 /* Jacobian of the node's six spatial increments with respect to the coordinates it depends on:
  * returns the count m <= size, fills index[m] and T[6 x m] (row-major, leading dimension m). */
-int model_node_jacobian(const model *, const model_state *, int node, int size, int index[],
-                        double T[]);
+int kinematics_node_jacobian(const model *, const model_state *, int node, int size, int index[],
+                             double T[]);
 
 #endif

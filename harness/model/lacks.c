@@ -70,11 +70,11 @@ static double phi_along_y(const scene *s)
     return largest;
 }
 
-int model_lacks(const scene *s, const element_type *type, char *words, int size)
+int lacks_of(const scene *s, const element_type *type, char *words, int size)
 {
     if (size > 0)
         words[0] = '\0';
-    if (!(type->lacks & LACKS_SHEAR_Y) || !(model_needs(s) & FEATURE_SHEAR))
+    if (!(type->lacks & LACKS_SHEAR_Y) || !(features_needed(s) & FEATURE_SHEAR))
         return 0;
     const double phi = phi_along_y(s);
     snprintf(words, (size_t)size,

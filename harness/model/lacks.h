@@ -5,7 +5,7 @@
 #include "harness/model/model.h"
 
 /* What the type offers in one direction only (element_lack) where the scene needs it, in words: 0:
- * nothing, 1: so little of it that it is shown and not refused, 2: model_missing says so too. */
-int model_lacks(const scene *, const element_type *, char *words, int size);
+ * nothing, 1: so little of it that it is shown and not refused, 2: missing_words says so too. */
+int lacks_of(const scene *, const element_type *, char *words, int size);
 
 #endif

@@ -42,7 +42,7 @@ static status not_evaluated(const model *m, int i, status outcome, fault *f)
         i, m->element[i].member, m->type->name);
 }
 
-status model_linear_stiffness(model *m, sparse *K, fault *f)
+status linear_stiffness(model *m, sparse *K, fault *f)
 {
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     sparse_zero(K);
@@ -67,7 +67,7 @@ static void linear_strains(model *m, int i, const linear_element *l, const doubl
     dense_mul_vec(m->strains, m->coordinates, l->J, local, e);
 }
 
-status model_linear_stresses(model *m, const double x[], double sigma[], fault *f)
+status linear_stresses(model *m, const double x[], double sigma[], fault *f)
 {
     for (int i = 0; i < m->elements; i++) {
         linear_element l;
@@ -81,7 +81,7 @@ status model_linear_stresses(model *m, const double x[], double sigma[], fault *
     return STATUS_OK;
 }
 
-void model_linear_forces(model *m, const double sigma[], double f[])
+void linear_forces(model *m, const double sigma[], double f[])
 {
     memset(f, 0, (size_t)(m->free + m->driven) * sizeof *f);
     for (int i = 0; i < m->elements; i++) {
@@ -114,7 +114,7 @@ static void geometric_of(model *m, int i, const double sigma[], double H[], doub
     m->counters.strain_evaluations++;
 }
 
-status model_geometric_stiffness(model *m, const double sigma[], sparse *out, fault *f)
+status linear_geometric_stiffness(model *m, const double sigma[], sparse *out, fault *f)
 {
     (void)f;
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
@@ -156,7 +156,7 @@ static void linear_terms(model *m, int i, const double x[], double strain[], dou
 
 /* Strains are off by the rounding of their terms, S by that of its entries: errors of all elements
  * alike, so they add up. */
-double model_strain_rounding(model *m, const double x[])
+double linear_strain_rounding(model *m, const double x[])
 {
     double sum = 0;
     for (int i = 0; i < m->elements; i++) {
@@ -177,7 +177,7 @@ double model_strain_rounding(model *m, const double x[])
     return sum;
 }
 
-double model_strain_energy2(model *m, const double x[])
+double linear_strain_energy2(model *m, const double x[])
 {
     double sum = 0;
     for (int i = 0; i < m->elements; i++) {
@@ -213,7 +213,7 @@ static double geometric_energy2(model *m, int i, const double sigma[], const dou
     return inside + dense_quadratic(m->coordinates, H, own);
 }
 
-double model_geometric_energy2(model *m, const double sigma[], const double x[])
+double linear_geometric_energy2(model *m, const double sigma[], const double x[])
 {
     double sum = 0;
     for (int i = 0; i < m->elements; i++)
@@ -224,8 +224,8 @@ double model_geometric_energy2(model *m, const double sigma[], const double x[])
 /* The form is linear in the stresses: what is missing there is its own rounding. The stresses' is
  * that of the terms they are made of, in whatever direction it falls: it has the size of a stress
  * `other` of all kinds at once. */
-double model_geometric_rounding(model *m, const double load_x[], const double sigma[],
-                                const double x[])
+double linear_geometric_rounding(model *m, const double load_x[], const double sigma[],
+                                 const double x[])
 {
     double square = 0;
     for (int i = 0; i < m->elements; i++) {

@@ -5,21 +5,21 @@
 #include "harness/model/model.h"
 
 /* Linear analyses about the undeformed state. */
-status model_linear_stiffness(model *, sparse *K, fault *); /* J^T S J at e = 0 */
-status model_linear_stresses(model *, const double x[], double sigma[],
-                             fault *); /* sigma = S J x, [elements x strains] */
-void model_linear_forces(model *, const double sigma[],
-                         double f[]); /* f[free + driven] = sum J^T sigma */
-status model_geometric_stiffness(model *, const double sigma[], sparse *G,
-                                 fault *); /* sum sigma H + J^T G(sigma) J; offsets included */
+status linear_stiffness(model *, sparse *K, fault *); /* J^T S J at e = 0 */
+status linear_stresses(model *, const double x[], double sigma[],
+                       fault *); /* sigma = S J x, [elements x strains] */
+void linear_forces(model *, const double sigma[],
+                   double f[]); /* f[free + driven] = sum J^T sigma */
+status linear_geometric_stiffness(model *, const double sigma[], sparse *G,
+                                  fault *); /* sum sigma H + J^T G(sigma) J; offsets included */
 /* Quadratic forms from the element strains, free of the cancellation of x^T (K x): error eps n^2
  * instead of eps n^4. */
-double model_strain_energy2(model *, const double x[]);  /* x^T K x = sum (Jx)^T S (Jx) */
-double model_strain_rounding(model *, const double x[]); /* what rounding may change in it */
-double model_geometric_energy2(model *, const double sigma[], const double x[]);
+double linear_strain_energy2(model *, const double x[]);  /* x^T K x = sum (Jx)^T S (Jx) */
+double linear_strain_rounding(model *, const double x[]); /* what rounding may change in it */
+double linear_geometric_energy2(model *, const double sigma[], const double x[]);
 /* Size of what rounding changes in it, with sigma the stresses of the displacements load_x[free +
  * driven]. */
-double model_geometric_rounding(model *, const double load_x[], const double sigma[],
-                                const double x[]);
+double linear_geometric_rounding(model *, const double load_x[], const double sigma[],
+                                 const double x[]);
 
 #endif

@@ -38,7 +38,7 @@ static status compatible_element(model *m, model_state *s, int i)
                            &(stress_output){.sigma = sigma});
 }
 
-status model_make_compatible(model *m, model_state *s, fault *f)
+status linearise_make_compatible(model *m, model_state *s, fault *f)
 {
     for (int i = 0; i < m->elements; i++) {
         const status outcome = compatible_element(m, s, i);
@@ -183,7 +183,7 @@ static void add_part(model *m, int i, element_part *part, const mesh_pattern *p,
     lin->incompatibility = fmax(lin->incompatibility, part->incompatibility);
 }
 
-status model_linearise(model *m, const model_state *s, model_linearisation *lin, fault *f)
+status linearise_state(model *m, const model_state *s, model_linearisation *lin, fault *f)
 {
     element_part own, *part = &own;
     const shared_loop loop = {m, s, lin->K != NULL || lin->drive != NULL || lin->conditions > 0,
@@ -259,7 +259,7 @@ static double advance_vertex(const model *m, model_state *s, int index, const do
     return largest;
 }
 
-double model_advance(model *m, model_state *s, const double dx[], double path)
+double linearise_advance(model *m, model_state *s, const double dx[], double path)
 {
     double largest = 0;
     for (int i = 0; i < m->elements; i++)
@@ -282,7 +282,7 @@ double model_advance(model *m, model_state *s, const double dx[], double path)
     return largest;
 }
 
-void model_node_force(model *m, const model_state *s, int node, double F[6])
+void linearise_node_force(model *m, const model_state *s, int node, double F[6])
 {
     memset(F, 0, 6 * sizeof(double));
     for (int i = 0; i < m->elements; i++) {

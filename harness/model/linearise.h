@@ -17,21 +17,21 @@ typedef struct model_linearisation {
     int conditions;      /* columns of K wanted for the unknowns of conditions ... */
     const model_condition *condition;
     double *column; /* ... [conditions x (free + driven)] */
-    sparse *K;      /* on a pattern of model_pattern; NULL: not wanted */
+    sparse *K;      /* on a pattern of assemble_pattern; NULL: not wanted */
     double
         *residual; /* [free + driven] right-hand side; of driven coordinates: less their reaction */
     double incompatibility; /* out: max |D(x) - e|/l over elements */
 } model_linearisation;
-status model_linearise(model *, const model_state *, model_linearisation *, fault *);
+status linearise_state(model *, const model_state *, model_linearisation *, fault *);
 /* After K dx = residual: strains, stresses, inner unknowns of every element and then the frames
  * take their increments. dx[free + driven]. Returns the largest correction, dimensionless:
  * translations by the size of the scene, rotations in rad, warping by the element length, inner
  * unknowns as the element says. */
-double model_advance(model *, model_state *, const double dx[], double path);
+double linearise_advance(model *, model_state *, const double dx[], double path);
 /* Forgets the independent strains and stresses: e = D(x), sigma = P'(e). */
-status model_make_compatible(model *, model_state *, fault *);
+status linearise_make_compatible(model *, model_state *, fault *);
 /* Force and spatial moment that act from outside on a node's frame (loads and reactions) in the
  * state: F[6] [N, N m]. */
-void model_node_force(model *, const model_state *, int node, double F[6]);
+void linearise_node_force(model *, const model_state *, int node, double F[6]);
 
 #endif

@@ -26,7 +26,7 @@ double loads_factor(const scene_load *load, double path)
 }
 
 /* Derivative of the factor by the path parameter; at a station: of what follows. */
-static double loads_rate(const scene_load *load, double path)
+static double rate_along_path(const scene_load *load, double path)
 {
     if (load->stations == 0)
         return 1;
@@ -46,7 +46,7 @@ static void add_at_vertex(const model *m, const model_state *s, int vertex, cons
 {
     int index[6];
     double T[36];
-    const int n = model_node_jacobian(m, s, vertex, 6, index, T);
+    const int n = kinematics_node_jacobian(m, s, vertex, 6, index, T);
     for (int k = 0; k < n; k++)
         for (int i = 0; i < 6; i++)
             out[index[k]] += T[i * n + k] * F[i];
@@ -92,11 +92,11 @@ void loads_add(const model *m, const model_state *s, double path, double out[])
         add_load(m, s, &m->scene->load[i], loads_factor(&m->scene->load[i], path), out);
 }
 
-void model_load_rate(const model *m, const model_state *s, double path, double out[])
+void loads_rate(const model *m, const model_state *s, double path, double out[])
 {
     memset(out, 0, (size_t)(m->free + m->driven) * sizeof *out);
     for (int i = 0; i < m->scene->loads; i++)
-        add_load(m, s, &m->scene->load[i], loads_rate(&m->scene->load[i], path), out);
+        add_load(m, s, &m->scene->load[i], rate_along_path(&m->scene->load[i], path), out);
 }
 
 static void subtract(sparse *K, int row, int column, double value)
@@ -153,7 +153,7 @@ void loads_subtract_stiffness(const model *m, const model_state *s, double path,
     }
 }
 
-void model_release_moment(const model *m, const model_state *s, int node, const double M[3],
+void loads_release_moment(const model *m, const model_state *s, int node, const double M[3],
                           sparse *K)
 {
     const mesh_vertex *v = &m->vertex[node];
@@ -170,7 +170,7 @@ void model_release_moment(const model *m, const model_state *s, int node, const 
         }
 }
 
-void model_node_load(const model *m, const model_state *s, int node, double F[6])
+void loads_at_node(const model *m, const model_state *s, int node, double F[6])
 {
     memset(F, 0, 6 * sizeof(double));
     for (int i = 0; i < m->scene->loads; i++) {
@@ -186,7 +186,7 @@ void model_node_load(const model *m, const model_state *s, int node, double F[6]
     }
 }
 
-void model_drive(const model *m, const model_state *s, double path, double dx[])
+void loads_drive(const model *m, const model_state *s, double path, double dx[])
 {
     for (int d = 0; d < m->scene->drivers; d++)
         if (m->scene->driver[d].value != NULL && m->driver_coordinate[d] >= m->free)
@@ -206,7 +206,7 @@ void model_drive(const model *m, const model_state *s, double path, double dx[])
     }
 }
 
-int model_conditions(const model *m, const model_state *s, double path,
+int loads_conditions(const model *m, const model_state *s, double path,
                      model_condition out[MODEL_MAX_CONDITIONS])
 {
     int count = 0;
@@ -222,7 +222,7 @@ int model_conditions(const model *m, const model_state *s, double path,
     return count;
 }
 
-status model_reference_load(model *m, double f[], fault *fl)
+status loads_reference(model *m, double f[], fault *fl)
 {
     (void)fl;
     memset(f, 0, (size_t)(m->free + m->driven) * sizeof *f);

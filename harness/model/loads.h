@@ -5,13 +5,13 @@
 #include "harness/model/model.h"
 
 /* Derivative of the loads by the path parameter in a state, out[free + driven]. */
-void model_load_rate(const model *, const model_state *, double path, double out[]);
+void loads_rate(const model *, const model_state *, double path, double out[]);
 /* Loads at factor 1 as a vector on the free coordinates. */
-status model_reference_load(model *, double f[], fault *);
+status loads_reference(model *, double f[], fault *);
 
 /* Increments of the driven coordinates (dx[free .. free+driven)) that take the state to `path`; the
  * rest of dx untouched. */
-void model_drive(const model *, const model_state *, double path, double dx[]);
+void loads_drive(const model *, const model_state *, double path, double dx[]);
 
 /* An unknown driver: the driven coordinate `unknown` moves by what makes the free one `coordinate`
  * move by `increment`. The force on that coordinate stays free of reactions, the one on the driver
@@ -21,15 +21,15 @@ typedef struct model_condition {
     int unknown, coordinate;
     double increment;
 } model_condition;
-int model_conditions(const model *, const model_state *, double path,
+int loads_conditions(const model *, const model_state *, double path,
                      model_condition out[MODEL_MAX_CONDITIONS]);
 
 /* K of a node turned by a sequence of angles, when the moment M that the angles' prescription
  * exerts becomes a load that is conservative in the exponential chart: the angles' own second
  * derivatives no longer belong to it. */
-void model_release_moment(const model *, const model_state *, int node, const double M[3],
+void loads_release_moment(const model *, const model_state *, int node, const double M[3],
                           sparse *K);
 /* Force and spatial moment of the loads on a node's frame at the state's path: F[6] [N, N m]. */
-void model_node_load(const model *, const model_state *, int node, double F[6]);
+void loads_at_node(const model *, const model_state *, int node, double F[6]);
 
 #endif

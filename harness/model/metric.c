@@ -20,7 +20,7 @@ static int moving_bodies(const model *m)
     return count > 0 ? count : 1;
 }
 
-void model_metric(const model *m, double weight[])
+void metric_of(const model *m, double weight[])
 {
     const double share = 1.0 / moving_bodies(m);
     for (int k = 0; k < m->free + m->driven; k++)
@@ -42,7 +42,7 @@ static double turn(const model_state *a, const model_state *b, int vertex)
     return vec3_norm(angle);
 }
 
-double model_distance(const model *m, const model_state *a, const model_state *b)
+double metric_distance(const model *m, const model_state *a, const model_state *b)
 {
     double sum = 0;
     for (int i = 0; i < m->vertices; i++) {
@@ -57,7 +57,7 @@ double model_distance(const model *m, const model_state *a, const model_state *b
     return sqrt(sum / moving_bodies(m));
 }
 
-double model_turn_between(const model *m, const model_state *a, const model_state *b)
+double metric_turn_between(const model *m, const model_state *a, const model_state *b)
 {
     double largest = 0;
     for (int i = 0; i < m->vertices; i++)

@@ -6,10 +6,10 @@
 
 /* Weights [free + driven] of the square of an increment, (displacement/size)^2 + rotation^2 in the
  * mean over the bodies. */
-void model_metric(const model *, double weight[]);
+void metric_of(const model *, double weight[]);
 /* The same distance between two states. */
-double model_distance(const model *, const model_state *, const model_state *);
+double metric_distance(const model *, const model_state *, const model_state *);
 /* The largest angle [rad] between the orientations of a node in two states. */
-double model_turn_between(const model *, const model_state *, const model_state *);
+double metric_turn_between(const model *, const model_state *, const model_state *);
 
 #endif

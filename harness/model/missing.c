@@ -33,16 +33,16 @@ static int limit_hit(const scene *s, const element_type *type, char *words, int 
     return 0;
 }
 
-int model_missing(const scene *s, const element_type *type, char *words, int size)
+int missing_words(const scene *s, const element_type *type, char *words, int size)
 {
-    const unsigned missing = model_needs_of(s, type) & ~type->offers;
+    const unsigned missing = features_needed_of(s, type) & ~type->offers;
     if (size > 0)
         words[0] = '\0';
     if (missing != 0) {
         feature_words(missing, words, size);
         return 1;
     }
-    if (limit_hit(s, type, words, size) || model_lacks(s, type, words, size) > 1)
+    if (limit_hit(s, type, words, size) || lacks_of(s, type, words, size) > 1)
         return 1;
     if (size > 0)
         words[0] = '\0';

@@ -6,6 +6,6 @@
 
 /* The needs that the type does not offer, or a limit it hits, in words, which are empty if and only
  * if there are none; 0: it can run. */
-int model_missing(const scene *, const element_type *, char *words, int size);
+int missing_words(const scene *, const element_type *, char *words, int size);
 
 #endif

@@ -68,7 +68,7 @@ static status allocate(model *m, fault *f)
     if (m->work == NULL)
         return fault_set(f, STATUS_REFUSED, "%d elements: more than memory allows; give fewer",
                          m->elements);
-    return model_state_alloc(m, &m->rest, f);
+    return kinematics_state_alloc(m, &m->rest, f);
 }
 
 static status build(model *m, const model_request *request, fault *f)
@@ -81,11 +81,11 @@ static status build(model *m, const model_request *request, fault *f)
                          "formulation %s was written for another version of the element interface",
                          type->name);
     TRY(compute_sections(m, f));
-    if (model_missing(s, type, words, sizeof words))
+    if (missing_words(s, type, words, sizeof words))
         return fault_set(f, STATUS_REFUSED,
                          "formulation %s does not offer %s, which scene %s needs", type->name,
                          words, s->name);
-    m->features = model_needs_of(s, type) | (type->offers & FEATURE_CURVATURE);
+    m->features = features_needed_of(s, type) | (type->offers & FEATURE_CURVATURE);
     if (m->keep_all)
         m->features |= FEATURE_WARPING | FEATURE_ECCENTRIC;
     choose_options(m, request->options);
@@ -95,8 +95,8 @@ static status build(model *m, const model_request *request, fault *f)
     TRY(check_memory(m, request->elements, f));
     TRY(mesh_build(m, request->elements, f));
     TRY(coordinates_number(m, f));
-    if (model_lacks(s, type, words, sizeof words))
-        TRY(model_note_left_out(m, f, "%s", words));
+    if (lacks_of(s, type, words, sizeof words))
+        TRY(coordinates_note_left_out(m, f, "%s", words));
     return allocate(m, f);
 }
 
@@ -149,7 +149,7 @@ void model_free(model *m)
     free(m->work);
     free(m->part);
     team_free(m->team);
-    model_state_free(m->rest);
+    kinematics_state_free(m->rest);
     free(m);
 }
 

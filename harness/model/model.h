@@ -32,7 +32,7 @@ typedef struct model_request {
 } model_request;
 
 /* REFUSED (with the reason) when the formulation does not offer what the scene needs: see
- * model_missing. */
+ * missing_words. */
 status model_alloc(const model_request *, model **, fault *);
 void model_free(model *);
 

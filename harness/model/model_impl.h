@@ -110,7 +110,7 @@ status mesh_build(model *m, int elements, fault *f);
 
 /* coordinates.c */
 status coordinates_number(model *m, fault *f);
-status model_note_left_out(model *m, fault *f, const char *format, ...)
+status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 /* kinematics.c */

@@ -7,8 +7,7 @@
 #include "elements/math/dense.h"
 #include "harness/model/model_impl.h"
 
-void model_set_rotating_frame(model *m, const double omega[3], const double centre[3],
-                              int follows_path)
+void rotating_frame_set(model *m, const double omega[3], const double centre[3], int follows_path)
 {
     memcpy(m->rotation.omega, omega, sizeof m->rotation.omega);
     memcpy(m->rotation.centre, centre, sizeof m->rotation.centre);
@@ -55,8 +54,8 @@ status rotating_frame_add(model *m, const node_state x[], int i, double path, do
     return STATUS_OK;
 }
 
-status model_inertia(model *m, const model_state *state, double path, sparse *M, sparse *G,
-                     fault *f)
+status rotating_frame_inertia(model *m, const model_state *state, double path, sparse *M, sparse *G,
+                              fault *f)
 {
     const model_state *s = state != NULL ? state : m->rest;
     const mesh_pattern *p = &m->pattern[M->row == m->pattern[1].matrix.row];
@@ -80,14 +79,14 @@ status model_inertia(model *m, const model_state *state, double path, sparse *M,
     return STATUS_OK;
 }
 
-void model_load_stiffness(const model *m, const model_state *s, double path, sparse *out)
+void rotating_frame_load_stiffness(const model *m, const model_state *s, double path, sparse *out)
 {
     sparse_zero(out);
     loads_subtract_stiffness(m, s, path, out);
 }
 
-status model_tangent_energy2(model *m, const model_state *s, double path, const double x[],
-                             double *energy)
+status rotating_frame_tangent_energy2(model *m, const model_state *s, double path, const double x[],
+                                      double *energy)
 {
     enum { X = ELEMENT_MAX_COORDINATES, E = ELEMENT_MAX_STRAINS };
     *energy = 0;

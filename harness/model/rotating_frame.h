@@ -6,18 +6,18 @@
 
 /* Mass matrix on the pattern of M about a state (NULL: undeformed); G: gyroscopic matrix of a
  * turning frame, of which a symmetric pattern stores the upper triangle, or NULL: not wanted. */
-status model_inertia(model *, const model_state *, double path, sparse *M, sparse *G, fault *);
+status rotating_frame_inertia(model *, const model_state *, double path, sparse *M, sparse *G,
+                              fault *);
 
 /* From here on the scene's axes turn with omega [rad/s] about an axis through `centre` [m]; times
  * the path parameter if that is followed. Zero: they are at rest. What is linearised contains the
  * centrifugal forces and their stiffness. */
-void model_set_rotating_frame(model *, const double omega[3], const double centre[3],
-                              int follows_path);
+void rotating_frame_set(model *, const double omega[3], const double centre[3], int follows_path);
 /* x^T K x of the tangent of a state in equilibrium, but for what loads add to it: from the strains,
  * as above. x[free + driven]. */
-status model_tangent_energy2(model *, const model_state *, double path, const double x[],
-                             double *energy);
+status rotating_frame_tangent_energy2(model *, const model_state *, double path, const double x[],
+                                      double *energy);
 /* What loads on offsets and moments add to K. */
-void model_load_stiffness(const model *, const model_state *, double path, sparse *out);
+void rotating_frame_load_stiffness(const model *, const model_state *, double path, sparse *out);
 
 #endif

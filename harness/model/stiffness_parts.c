@@ -7,7 +7,8 @@
 #include "elements/math/dense.h"
 #include "harness/model/model_impl.h"
 
-void model_material_product(const model *m, const model_state *s, const double x[], double y[])
+void stiffness_parts_material_product(const model *m, const model_state *s, const double x[],
+                                      double y[])
 {
     for (int i = 0; i < m->elements; i++) {
         const mesh_element *el = &m->element[i];
@@ -23,7 +24,7 @@ void model_material_product(const model *m, const model_state *s, const double x
     }
 }
 
-status model_geometric_tangent(model *m, const model_state *s, sparse *G, fault *f)
+status stiffness_parts_geometric(model *m, const model_state *s, sparse *G, fault *f)
 {
     const mesh_pattern *p = &m->pattern[G->row == m->pattern[1].matrix.row];
     sparse_zero(G);

@@ -8,7 +8,8 @@
  * sum J^T P'' (J x): as a sum of matrices it would lose all digits of the soft motions. x, y: [free
  * + driven]. The other is a matrix on the pattern of G: sum sigma_i H_i with the second derivatives
  * of offsets and sequences, less the loads' and the rotation's stiffness. */
-void model_material_product(const model *, const model_state *, const double x[], double y[]);
-status model_geometric_tangent(model *, const model_state *, sparse *G, fault *);
+void stiffness_parts_material_product(const model *, const model_state *, const double x[],
+                                      double y[]);
+status stiffness_parts_geometric(model *, const model_state *, sparse *G, fault *);
 
 #endif

@@ -58,7 +58,7 @@ static void free_motions(const model *m, int node, movable *out)
 {
     int index[N], columns = 0;
     double T[N * N], of_free[N * N];
-    const int all = model_node_jacobian(m, m->rest, node, N, index, T);
+    const int all = kinematics_node_jacobian(m, m->rest, node, N, index, T);
     for (int k = 0; k < all; k++)
         columns += index[k] < m->free;
     for (int k = 0, to = 0; k < all; k++)
@@ -94,7 +94,7 @@ static int has_elements(const model *m, const int part[], int root)
     return 0;
 }
 
-int model_loose_part(const model *m, int *node, double motion[6])
+int supports_loose_part(const model *m, int *node, double motion[6])
 {
     int *part = malloc((size_t)m->vertices * sizeof *part), found = 0;
     if (part == NULL)

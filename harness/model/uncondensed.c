@@ -12,7 +12,7 @@
 #include "harness/model/loads.h"
 #include "harness/model/model_impl.h"
 
-int model_uncondensed_size(const model *m)
+int uncondensed_size(const model *m)
 {
     return m->free + 2 * m->strains * m->elements;
 }
@@ -90,12 +90,11 @@ static status add_element(model *m, const model_state *state, int i, double path
     return STATUS_OK;
 }
 
-status model_uncondensed_system(model *m, const model_state *state, double path,
-                                const double drive[], int conditions,
-                                const model_condition condition[], double A[], double b[],
-                                double load[], fault *f)
+status uncondensed_system(model *m, const model_state *state, double path, const double drive[],
+                          int conditions, const model_condition condition[], double A[], double b[],
+                          double load[], fault *f)
 {
-    full s = {model_uncondensed_size(m) + conditions, conditions, A, b, drive, condition};
+    full s = {uncondensed_size(m) + conditions, conditions, A, b, drive, condition};
     memset(A, 0, (size_t)s.size * (size_t)s.size * sizeof *A);
     memset(b, 0, (size_t)s.size * sizeof *b);
     memset(load, 0, (size_t)(m->free + m->driven) * sizeof *load);

@@ -5,12 +5,12 @@
 #include "harness/model/loads.h"
 #include "harness/model/model.h"
 
-/* The uncondensed dense system (column-major A[n x n], b[n] with n = model_uncondensed_size + conditions),
+/* The uncondensed dense system (column-major A[n x n], b[n] with n = uncondensed_size + conditions),
  * unknowns in the order free coordinates, strains, stresses, drivers of conditions; load[free +
  * driven] is work space. */
-int model_uncondensed_size(const model *);
-status model_uncondensed_system(model *, const model_state *, double path, const double drive[],
-                                int conditions, const model_condition condition[], double A[],
-                                double b[], double load[], fault *);
+int uncondensed_size(const model *);
+status uncondensed_system(model *, const model_state *, double path, const double drive[],
+                          int conditions, const model_condition condition[], double A[], double b[],
+                          double load[], fault *);
 
 #endif

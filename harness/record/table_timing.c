@@ -27,14 +27,14 @@ static double error_on(const sweep *s, const verdict *v, int mesh)
 static void row(FILE *to, const sweep *s, const series *one, const verdict *v, int mesh)
 {
     const cell_result *c = &one->cell[mesh];
-    const clock_reading *t = &one->timing[mesh].as_is;
+    const rounds_reading *t = &one->timing[mesh].as_is;
     const double error = v != NULL ? error_on(s, v, mesh) : NAN;
     fprintf(to, "  %-28s %5d %8d %10ld %12ld %9ld", one->formulation.key, one->mesh[mesh],
             c->size.free, c->counters.iterations, c->counters.strain_evaluations,
             c->counters.factorisations);
     if (t->rounds > 0)
         fprintf(to, " %9.4g ms %9.4g ms %5.0f%%", 1e3 * t->setup, 1e3 * t->solve,
-                100 * (clock_most(t) / clock_least(t) - 1));
+                100 * (rounds_most(t) / rounds_least(t) - 1));
     else
         fprintf(to, " %12s %12s %6s", "-", "-", "-");
     if (isfinite(error))
@@ -65,12 +65,12 @@ static void parts_of(FILE *to, const series *one, int mesh)
     for (int k = 0; k < PHASES; k++)
         fprintf(to, " %14.4g", 1e6 * t->phase[k] / (double)iterations);
     if (t->dense.whole.rounds > 0)
-        fprintf(to, "  dense %.4g ms", 1e3 * clock_least(&t->dense.whole));
+        fprintf(to, "  dense %.4g ms", 1e3 * rounds_least(&t->dense.whole));
     else if (t->dense.unknowns > 0)
         fprintf(to, "  dense %ld x %.4g ms", iterations, 1e3 * t->dense.iteration);
     if (t->dense.unknowns > 0)
         fprintf(to, " (%d unknowns): %.4g times ours", t->dense.unknowns,
-                dense_reference_seconds(&t->dense, iterations) / clock_least(&t->as_is));
+                dense_reference_seconds(&t->dense, iterations) / rounds_least(&t->as_is));
     fputc('\n', to);
 }
 
@@ -95,7 +95,7 @@ static void parts(FILE *to, const sweep *s, int at)
             parts_of(to, &s->series[i], k);
 }
 
-static const clock_reading *time_of(const sweep *s, const verdict *v, int mesh)
+static const rounds_reading *time_of(const sweep *s, const verdict *v, int mesh)
 {
     return &s->series[v->series].timing[mesh].as_is;
 }
@@ -115,7 +115,7 @@ static void cheapest(FILE *to, const sweep *s, const judgement *j, int at, int q
         if (mesh < 0 || time_of(s, v, mesh)->rounds == 0)
             continue;
         if (best == NULL ||
-            clock_least(time_of(s, v, mesh)) < clock_least(time_of(s, best, best_mesh))) {
+            rounds_least(time_of(s, v, mesh)) < rounds_least(time_of(s, best, best_mesh))) {
             best = v;
             best_mesh = mesh;
         }
@@ -127,13 +127,13 @@ static void cheapest(FILE *to, const sweep *s, const judgement *j, int at, int q
     }
     fprintf(to, "%s, n = %d, %.4g ms", s->series[best->series].formulation.key,
             s->series[best->series].mesh[best_mesh],
-            1e3 * clock_least(time_of(s, best, best_mesh)));
+            1e3 * rounds_least(time_of(s, best, best_mesh)));
     for (int i = 0, named = 0; i < j->verdicts; i++) {
         const verdict *v = &j->verdict[i];
         const int mesh = v != best && s->series[v->series].point == at && v->quantity == quantity
                              ? reach_fastest(s, v, level)
                              : -1;
-        if (mesh >= 0 && clock_compare(time_of(s, v, mesh), time_of(s, best, best_mesh)) == 0)
+        if (mesh >= 0 && rounds_compare(time_of(s, v, mesh), time_of(s, best, best_mesh)) == 0)
             fprintf(to, "%s%s, n = %d", named++ == 0 ? " (undecided: " : "; ",
                     s->series[v->series].formulation.key, s->series[v->series].mesh[mesh]);
         if (i + 1 == j->verdicts && named > 0)

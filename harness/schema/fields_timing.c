@@ -9,7 +9,7 @@ static const cell_timing *timing_of(const subject *s)
     return s->record;
 }
 
-static const clock_reading *reading_of(const field_value *out, const cell_timing *t)
+static const rounds_reading *reading_of(const field_value *out, const cell_timing *t)
 {
     return out->of->offset < offsetof(cell_timing, keep_all) ? &t->as_is : &t->keep_all;
 }
@@ -31,14 +31,14 @@ static void get_round(const subject *s, field_value *out)
 
 static void get_least(const subject *s, field_value *out)
 {
-    const clock_reading *c = &timing_of(s)->as_is;
-    field_number(out, c->rounds > 0 ? clock_least(c) : NAN);
+    const rounds_reading *c = &timing_of(s)->as_is;
+    field_number(out, c->rounds > 0 ? rounds_least(c) : NAN);
 }
 
 static void get_most(const subject *s, field_value *out)
 {
-    const clock_reading *c = &timing_of(s)->as_is;
-    field_number(out, c->rounds > 0 ? clock_most(c) : NAN);
+    const rounds_reading *c = &timing_of(s)->as_is;
+    field_number(out, c->rounds > 0 ? rounds_most(c) : NAN);
 }
 
 static void get_dense_iteration(const subject *s, field_value *out)

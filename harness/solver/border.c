@@ -9,7 +9,7 @@
 static int is_released(const analysis_context *c, const scene_compliance *a, int coordinate)
 {
     for (int k = 0; k < TANGENT_COMPONENTS; k++)
-        if ((a->released >> k & 1u) && model_coordinate(c->model, a->node, k) == coordinate)
+        if ((a->released >> k & 1u) && kinematics_coordinate(c->model, a->node, k) == coordinate)
             return 1;
     return 0;
 }

@@ -72,7 +72,7 @@ static void residual_of(const model *m, const tangent *t, const bordered *s)
     double *rest = s->rest;
     memset(rest, 0, (size_t)t->all * sizeof *rest);
     sparse_mul(&t->geometric, s->x, rest);
-    model_material_product(m, t->state, s->x, rest);
+    stiffness_parts_material_product(m, t->state, s->x, rest);
     for (int k = 0; k < t->all; k++)
         rest[k] = k < t->free || border_place(&t->border, k) >= 0 ? s->load[k] - rest[k] : 0;
 }
@@ -81,7 +81,7 @@ status bordered_refine(const model *m, tangent *t, counters *n, const bordered *
 {
     refinement r = {.corrections = 1, .last = 1}; /* x itself was the first */
     refinement_state state = REFINEMENT_GOES_ON;
-    model_metric(m, s->weight);
+    metric_of(m, s->weight);
     while (state == REFINEMENT_GOES_ON) {
         residual_of(m, t, s);
         bordered_solve(t, n, s, s->rest);

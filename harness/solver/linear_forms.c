@@ -38,8 +38,8 @@ void linear_forms_free(linear_forms *p)
 
 status linear_forms_load(linear_forms *p, fault *f)
 {
-    model_load_stiffness(p->m, model_rest(p->m), 1, &p->loads);
-    return model_linear_stresses(p->m, p->load_x, p->sigma, f);
+    rotating_frame_load_stiffness(p->m, kinematics_rest(p->m), 1, &p->loads);
+    return linear_stresses(p->m, p->load_x, p->sigma, f);
 }
 
 /* With the driven coordinates. */
@@ -51,30 +51,30 @@ static const double *all_of(linear_forms *p, const double x[])
 
 double linear_forms_stiffness(linear_forms *p, const double x[])
 {
-    return model_strain_energy2(p->m, all_of(p, x));
+    return linear_strain_energy2(p->m, all_of(p, x));
 }
 
 double linear_forms_stiffness_rounding(linear_forms *p, const double x[])
 {
-    return model_strain_rounding(p->m, all_of(p, x));
+    return linear_strain_rounding(p->m, all_of(p, x));
 }
 
 double linear_forms_geometric(linear_forms *p, const double x[])
 {
     sparse_mul(&p->loads, x, p->product);
-    return model_geometric_energy2(p->m, p->sigma, all_of(p, x)) +
+    return linear_geometric_energy2(p->m, p->sigma, all_of(p, x)) +
            dense_dot(p->free, x, p->product);
 }
 
 double linear_forms_geometric_rounding(linear_forms *p, const double x[])
 {
-    return model_geometric_rounding(p->m, p->load_x, p->sigma, all_of(p, x));
+    return linear_geometric_rounding(p->m, p->load_x, p->sigma, all_of(p, x));
 }
 
 /* The undeformed elements have been evaluated when K was assembled: they do not fail here. */
 void linear_forms_product(linear_forms *p, const double x[], double y[])
 {
-    model_linear_stresses(p->m, all_of(p, x), p->stress, NULL);
-    model_linear_forces(p->m, p->stress, p->force);
+    linear_stresses(p->m, all_of(p, x), p->stress, NULL);
+    linear_forces(p->m, p->stress, p->force);
     memcpy(y, p->force, (size_t)p->free * sizeof *y);
 }

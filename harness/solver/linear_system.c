@@ -16,7 +16,7 @@
 static status allocate(const analysis_context *c, linear_system *out, fault *f)
 {
     const sparse *pattern;
-    TRY(model_pattern(c->model, 0, &pattern, f));
+    TRY(assemble_pattern(c->model, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, &out->K, f));
     return factor_alloc(pattern, &out->factor, f);
 }
@@ -28,7 +28,7 @@ status linear_system_alloc(analysis_context *c, linear_system *out, fault *f)
     const status allocated = allocate(c, out, f);
     c->setup += clock_processor_seconds() - start;
     TRY(allocated);
-    TRY(model_linear_stiffness(c->model, &out->K, f));
+    TRY(linear_stiffness(c->model, &out->K, f));
     TRY(context_factor(c, out->factor, &out->K, f));
     counters *n = model_counters(c->model);
     const factor_counts counts = factor_count(out->factor);
@@ -52,8 +52,8 @@ static status residual_of(analysis_context *c, const double load[], const double
                           double sigma[], double r[], fault *f)
 {
     const model_size size = model_sizes(c->model);
-    TRY(model_linear_stresses(c->model, x, sigma, f));
-    model_linear_forces(c->model, sigma, r);
+    TRY(linear_stresses(c->model, x, sigma, f));
+    linear_forces(c->model, sigma, r);
     for (int i = 0; i < size.free + size.driven; i++)
         r[i] = load[i] - r[i];
     return STATUS_OK;
@@ -75,8 +75,8 @@ static status workspace_alloc(analysis_context *c, workspace *w, fault *f)
     w->r = w->load + all;
     w->weight = w->r + all;
     w->shaken = w->weight + all;
-    model_metric(c->model, w->weight);
-    return model_reference_load(c->model, w->load, f);
+    metric_of(c->model, w->weight);
+    return loads_reference(c->model, w->load, f);
 }
 
 /* x += K^-1 (load - K x); the size of what was added beside x. */
@@ -132,7 +132,7 @@ static status solve(analysis_context *c, linear_system *s, workspace *w, double 
     const model_size size = model_sizes(c->model);
     memset(x, 0, (size_t)(size.free + size.driven) * sizeof *x);
     TRY(workspace_alloc(c, w, f));
-    model_drive(c->model, model_rest(c->model), 1, x);
+    loads_drive(c->model, kinematics_rest(c->model), 1, x);
     return refine(c, s, w, x, f);
 }
 

@@ -35,12 +35,12 @@ static status allocate(newton *n, fault *f)
     n->weight = calloc(all, sizeof *n->weight);
     if (n->residual == NULL || n->dx == NULL || n->column == NULL || n->weight == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a static solution");
-    model_metric(m, n->weight);
-    TRY(model_pattern(n->c->model, 0, &pattern, f));
+    metric_of(m, n->weight);
+    TRY(assemble_pattern(n->c->model, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, &n->K, f));
     TRY(factor_alloc(pattern, &n->factor, f));
-    TRY(model_state_alloc(m, &n->state, f));
-    return model_state_alloc(m, &n->backup, f);
+    TRY(kinematics_state_alloc(m, &n->state, f));
+    return kinematics_state_alloc(m, &n->backup, f);
 }
 
 status newton_alloc(analysis_context *c, newton *n, fault *f)
@@ -70,8 +70,8 @@ void newton_free(newton *n)
     free(n->pivot);
     sparse_free_values(&n->K);
     factor_free(n->factor);
-    model_state_free(n->state);
-    model_state_free(n->backup);
+    kinematics_state_free(n->state);
+    kinematics_state_free(n->backup);
 }
 
 /* 1: what a driver moves of its condition's coordinates is more than the round-off of all that it
@@ -131,7 +131,7 @@ static double work_of(int n, const double force[], const double motion[])
 static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
 {
     phases *p = model_phases(n->c->model);
-    TRY(model_linearise(n->c->model, n->state, lin, f));
+    TRY(linearise_state(n->c->model, n->state, lin, f));
     const status factored = context_factor(n->c, n->factor, &n->K, f);
     phases_lap(p, PHASE_FACTORISATION);
     TRY(factored);
@@ -147,7 +147,7 @@ static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
 static status solve_dense(newton *n, model_linearisation *lin, fault *f)
 {
     model *m = n->c->model;
-    const size_t size = (size_t)model_uncondensed_size(m) + (size_t)lin->conditions;
+    const size_t size = (size_t)uncondensed_size(m) + (size_t)lin->conditions;
     TRY(memory_check((double)size * (double)size * sizeof *n->dense,
                      "dense matrices of all unknowns at once", "give newton=mixed", f));
     if (n->dense == NULL) {
@@ -163,10 +163,10 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
     parts.K = NULL;
     parts.drive = NULL;
     parts.conditions = 0;
-    TRY(model_linearise(m, n->state, &parts, f)); /* what model_advance needs */
+    TRY(linearise_state(m, n->state, &parts, f)); /* what linearise_advance needs */
     lin->incompatibility = parts.incompatibility;
-    TRY(model_uncondensed_system(m, n->state, lin->path, n->dx, lin->conditions, lin->condition,
-                                 n->dense, n->unknown, n->residual, f));
+    TRY(uncondensed_system(m, n->state, lin->path, n->dx, lin->conditions, lin->condition, n->dense,
+                           n->unknown, n->residual, f));
     phases_lap(model_phases(m), PHASE_ASSEMBLY);
     const int singular = LAPACKE_dgesv(LAPACK_COL_MAJOR, (int)size, 1, n->dense, (int)size,
                                        n->pivot, n->unknown, (int)size) != 0;
@@ -187,12 +187,12 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
     n->energy = NAN;
     phases_start(model_phases(m));
     memset(n->dx, 0, (size_t)n->all * sizeof *n->dx);
-    model_drive(m, n->state, path, n->dx);
+    loads_drive(m, n->state, path, n->dx);
     if (n->c->options->newton == SOLVE_DISPLACEMENT) {
-        TRY(model_make_compatible(m, n->state, f));
+        TRY(linearise_make_compatible(m, n->state, f));
     }
     model_condition condition[MODEL_MAX_CONDITIONS];
-    const int conditions = model_conditions(m, n->state, path, condition);
+    const int conditions = loads_conditions(m, n->state, path, condition);
     model_linearisation lin = {.path = path,
                                .drive = n->dx,
                                .K = &n->K,
@@ -216,7 +216,7 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
 
 status newton_advance(newton *n, double path, double *correction, step_record *record, fault *f)
 {
-    *correction = model_advance(n->c->model, n->state, n->dx, path);
+    *correction = linearise_advance(n->c->model, n->state, n->dx, path);
     phases_stop(model_phases(n->c->model));
     model_counters(n->c->model)->iterations++;
     const iteration_record one = {.correction = *correction,
@@ -234,7 +234,7 @@ static status judge_turns(const newton *n, double path, fault *f)
     const double quarter = 1.57079632679489661923;
     int element = 0;
     if (!(model_limits(n->c->model) & LIMIT_QUARTER_TURN) ||
-        model_largest_turn(n->c->model, n->state, &element) < quarter)
+        kinematics_largest_turn(n->c->model, n->state, &element) < quarter)
         return STATUS_OK;
     return fault_set(f, STATUS_NOT_CONVERGED,
                      "element %d is turned by more than a quarter turn at path %g: use more "

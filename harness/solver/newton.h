@@ -18,8 +18,8 @@ typedef struct newton {
     double *dense, *unknown; /* of the uncondensed system, allocated when it is asked for */
     int *pivot;
     double *column; /* [conditions x (free + driven)] */
-    double *
-        weight; /* [free + driven] of model_metric: what makes displacements and turns comparable */
+    double
+        *weight; /* [free + driven] of metric_of: what makes displacements and turns comparable */
     double criterion, energy; /* energy: |r . K^-1 r| of the last residual r [J]; NAN: not known */
     int max_iterations, free, all;
     long counted; /* factorisations that are in the model's counters */

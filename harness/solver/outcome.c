@@ -17,7 +17,7 @@ static void free_states(int count, model_state **state)
 {
     if (state != NULL)
         for (int i = 0; i < count; i++)
-            model_state_free(state[i]);
+            kinematics_state_free(state[i]);
     free(state);
 }
 
@@ -67,8 +67,8 @@ status outcome_stations(analysis_outcome *o, int stations, fault *f)
 status outcome_keep(analysis_outcome *o, const model *m, const model_state *s, double path,
                     fault *f)
 {
-    TRY(model_state_alloc(m, &o->state[o->reached], f));
-    model_state_copy(m, s, o->state[o->reached]);
+    TRY(kinematics_state_alloc(m, &o->state[o->reached], f));
+    kinematics_state_copy(m, s, o->state[o->reached]);
     o->path[o->reached++] = path;
     return STATUS_OK;
 }

@@ -9,7 +9,7 @@ status predictor_alloc(const model *m, predictor *t, fault *f)
 {
     *t = (predictor){0};
     for (int i = 0; i < MODEL_EXTRAPOLATED; i++)
-        TRY(model_state_alloc(m, &t->at[i], f));
+        TRY(kinematics_state_alloc(m, &t->at[i], f));
     t->count = 1; /* the undeformed state */
     return STATUS_OK;
 }
@@ -17,7 +17,7 @@ status predictor_alloc(const model *m, predictor *t, fault *f)
 void predictor_free(predictor *t)
 {
     for (int i = 0; i < MODEL_EXTRAPOLATED; i++)
-        model_state_free(t->at[i]);
+        kinematics_state_free(t->at[i]);
 }
 
 void predictor_forget(predictor *t)
@@ -34,7 +34,7 @@ void predictor_add(const model *m, const model_state *s, int iterations, predict
             t->at[i - 1] = t->at[i];
         t->at[--t->count] = oldest;
     }
-    model_state_copy(m, s, t->at[t->count++]);
+    kinematics_state_copy(m, s, t->at[t->count++]);
 }
 
 /* With as many states as go on smoothly; behind a bend the older ones are forgotten. */
@@ -43,11 +43,11 @@ void predictor_guess(const model *m, predictor *t, double path, model_state *s)
     if (t->iterations > SMOOTH_ITERATIONS)
         return;
     for (int first = 0; first + 1 < t->count; first++)
-        if (model_state_extrapolate(m, t->count - first, (const model_state *const *)t->at + first,
-                                    path, s))
+        if (extrapolate_state(m, t->count - first, (const model_state *const *)t->at + first, path,
+                              s))
             return;
     if (t->count > 1) {
-        model_state_copy(m, t->at[t->count - 1], t->at[0]);
+        kinematics_state_copy(m, t->at[t->count - 1], t->at[0]);
         t->count = 1;
     }
 }

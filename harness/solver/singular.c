@@ -33,7 +33,7 @@ static double spread(const model *m, const sparse *K)
            least = INFINITY;
     if (weight == NULL)
         return 1;
-    model_metric(m, weight);
+    metric_of(m, weight);
     for (int j = 0; j < K->n; j++)
         for (int k = K->column[j]; k < K->column[j + 1]; k++)
             if (K->row[k] == j && weight[j] > 0) {
@@ -102,7 +102,7 @@ void singular_explain(analysis_context *c, fault *f)
 {
     double motion[6];
     int node, lost;
-    if (model_loose_part(c->model, &node, motion)) {
+    if (supports_loose_part(c->model, &node, motion)) {
         name_motion(node, motion, model_length(c->model), f);
         return;
     }

@@ -43,8 +43,8 @@ static status allocate(const analysis_context *c, const scene_compliance *a, tan
     if (t->residual == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
     const int with_driven = t->border.count > 0;
-    TRY(model_pattern(c->model, 0, &inside, f));
-    TRY(model_pattern(c->model, with_driven, &whole, f));
+    TRY(assemble_pattern(c->model, 0, &inside, f));
+    TRY(assemble_pattern(c->model, with_driven, &whole, f));
     TRY(sparse_alloc_like(whole, &t->K, f));
     if (with_driven)
         TRY(sparse_alloc_like(inside, &t->inside, f));
@@ -78,9 +78,10 @@ void tangent_free(tangent *t)
 static status factor_at(analysis_context *c, const scene_compliance *a, const model_state *s,
                         const double reaction[6], tangent *t, fault *f)
 {
-    model_linearisation lin = {.path = model_state_path(s), .K = &t->K, .residual = t->residual};
-    TRY(model_linearise(c->model, s, &lin, f));
-    model_release_moment(c->model, s, a->node, reaction + 3, &t->K);
+    model_linearisation lin = {
+        .path = kinematics_state_path(s), .K = &t->K, .residual = t->residual};
+    TRY(linearise_state(c->model, s, &lin, f));
+    loads_release_moment(c->model, s, a->node, reaction + 3, &t->K);
     copy_inside(t);
     return context_factor(c, t->factor, &t->inside, f);
 }
@@ -103,11 +104,12 @@ status tangent_at(analysis_context *c, const scene_compliance *a, const model_st
     t->state = s;
     t->refined = factor_condition(t->factor, &t->inside) > harmless_condition;
     if (t->refined) {
-        TRY(model_geometric_tangent(c->model, s, &t->geometric, f));
-        model_release_moment(c->model, s, a->node, reaction + 3, &t->geometric);
+        TRY(stiffness_parts_geometric(c->model, s, &t->geometric, f));
+        loads_release_moment(c->model, s, a->node, reaction + 3, &t->geometric);
     }
     border_fill(&t->border, t->free, &t->K);
-    t->coordinates = model_node_jacobian(c->model, s, a->node, TANGENT_COMPONENTS, t->index, t->T);
+    t->coordinates =
+        kinematics_node_jacobian(c->model, s, a->node, TANGENT_COMPONENTS, t->index, t->T);
     return STATUS_OK;
 }
 

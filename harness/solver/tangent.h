@@ -9,7 +9,7 @@
 typedef struct tangent {
     sparse K;         /* of all coordinates when something is released, else of the free ones */
     sparse inside;    /* free x free */
-    sparse geometric; /* like K, where solutions are refined: see model_geometric_tangent */
+    sparse geometric; /* like K, where solutions are refined: see stiffness_parts_geometric */
     int refined;      /* 1: the condition asks for it */
     factor *factor;
     border border;

@@ -90,7 +90,7 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
     one->point = index;
     one->formulation = *chosen;
     if (p->status == STATUS_OK)
-        model_missing(&p->scene, chosen->type, one->missing, sizeof one->missing);
+        missing_words(&p->scene, chosen->type, one->missing, sizeof one->missing);
     for (int i = 0; i < p->scene.meshes; i++)
         add_mesh(one, p->scene.mesh[i]);
     if (t != NULL)

@@ -11,7 +11,7 @@ static int option_matters(const point *p, const formulation *chosen, const char 
     const unsigned features = formulation_bears_on(chosen);
     for (int q = 0; q < p->scene.quantities && features != 0; q++)
         if (strcmp(p->scene.quantity[q].name, quantity) == 0)
-            return (features & model_quantity_needs(&p->scene, q)) != 0;
+            return (features & features_needed_by_quantity(&p->scene, q)) != 0;
     return 1;
 }
 

@@ -14,7 +14,7 @@
 int ask_offered(const scene *s, const element_type *type)
 {
     char words[FAULT_TEXT];
-    return !model_missing(s, type, words, sizeof words);
+    return !missing_words(s, type, words, sizeof words);
 }
 
 /* What the type declares decides whether a question was offered, not whether it was refused. */

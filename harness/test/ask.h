@@ -13,7 +13,7 @@ enum { ASK_QUANTITIES = 256, ASK_POINTS = 16 };
 
 typedef enum ask_outcome {
     ASK_ANSWERED,    /* solved */
-    ASK_NOT_OFFERED, /* the scene needs what the type does not declare (model_missing) */
+    ASK_NOT_OFFERED, /* the scene needs what the type does not declare (missing_words) */
     ASK_NOT_POSED,   /* the change of the scene is not defined for it, whatever the formulation */
     ASK_REFUSED,     /* offered, and refused by name */
     ASK_FAILED,      /* offered, and no value */

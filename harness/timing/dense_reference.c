@@ -45,12 +45,12 @@ void dense_reference_round(const cell_request *own, const cell_result *cell, dou
     if (out->unknowns == 0 || out->iteration < longest)
         sample(&dense, out);
     if (out->unknowns > 0 && out->iteration * (double)iterations <= longest)
-        clock_round(&dense, floor, &out->whole);
+        rounds_run(&dense, floor, &out->whole);
 }
 
 double dense_reference_seconds(const dense_reference *b, long iterations)
 {
     if (b->whole.rounds > 0)
-        return clock_least(&b->whole);
+        return rounds_least(&b->whole);
     return b->unknowns > 0 ? b->iteration * (double)iterations : INFINITY;
 }

@@ -3,12 +3,12 @@
 #ifndef BEAMWORK_DENSE_REFERENCE_H
 #define BEAMWORK_DENSE_REFERENCE_H
 
-#include "harness/timing/clock.h"
+#include "harness/timing/rounds.h"
 
 typedef struct dense_reference {
-    int unknowns;        /* of the dense system; 0: not measured */
-    double iteration;    /* [s] least time of one iteration */
-    clock_reading whole; /* of whole runs, where these are short enough; else rounds = 0 */
+    int unknowns;         /* of the dense system; 0: not measured */
+    double iteration;     /* [s] least time of one iteration */
+    rounds_reading whole; /* of whole runs, where these are short enough; else rounds = 0 */
 } dense_reference;
 
 /* One more round beside those of the cell itself, which was solved with the result `cell`; nothing

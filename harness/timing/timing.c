@@ -44,7 +44,7 @@ static void round_kept_whole(const cell_request *as_is, double floor, cell_timin
         cell_result_free(&cell);
     }
     if (out->free_keep_all > 0)
-        clock_round(&whole, floor, &out->keep_all);
+        rounds_run(&whole, floor, &out->keep_all);
 }
 
 static double sum_of(const double part[PHASES])
@@ -63,7 +63,7 @@ static void read_phases(const cell_request *as_is, cell_timing *out)
     cell_request request = *as_is;
     cell_result cell;
     fault f = {""};
-    if (out->as_is.rounds < CLOCK_ROUNDS && clock_least(&out->as_is) > longest)
+    if (out->as_is.rounds < ROUNDS_COUNT && rounds_least(&out->as_is) > longest)
         return;
     request.solve.phases = 1;
     cell_run(&request, &cell, &f);
@@ -81,7 +81,7 @@ static void round_of_series(sweep *s, int index, double floor, int dense)
         if (!can_run(s, one, i))
             continue;
         const cell_request request = sweep_cell(s, index, i);
-        clock_round(&request, here, &one->timing[i].as_is);
+        rounds_run(&request, here, &one->timing[i].as_is);
         if (i == whole)
             round_kept_whole(&request, floor, &one->timing[i]);
         if (one->cell[i].counters.iterations > 0 && here > 0)
@@ -102,7 +102,7 @@ status timing_run(sweep *s, double floor, int dense, FILE *progress, fault *f)
         if (progress != NULL)
             fprintf(progress, "\r\033[K%d/%d %s %s", p + 1, s->points, s->point[p].type->name,
                     s->point[p].text);
-        for (int round = 0; round < CLOCK_ROUNDS; round++)
+        for (int round = 0; round < ROUNDS_COUNT; round++)
             for (int i = 0; i < s->seriess; i++)
                 if (s->series[i].point == p)
                     round_of_series(s, i, floor, dense);

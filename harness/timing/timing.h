@@ -3,13 +3,13 @@
 #define BEAMWORK_TIMING_H
 
 #include "harness/study/sweep.h"
-#include "harness/timing/clock.h"
 #include "harness/timing/dense_reference.h"
+#include "harness/timing/rounds.h"
 
 /* Repeated runs of a cell, as it is and with nothing left out (--keep-all). */
 typedef struct cell_timing {
-    clock_reading as_is, keep_all; /* rounds = 0: not measured */
-    int free_keep_all;             /* unknowns when nothing is left out */
+    rounds_reading as_is, keep_all; /* rounds = 0: not measured */
+    int free_keep_all;              /* unknowns when nothing is left out */
     /* [s] in the iterations of one run more, in which the clock is read between their parts */
     double phase[PHASES];
     dense_reference dense; /* when asked for */

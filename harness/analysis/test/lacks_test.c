@@ -75,7 +75,7 @@ static void one(const element_type *type, double thickness, int direction, int m
     char words[FAULT_TEXT];
     guided(&s, thickness, wide, direction, members);
     char missing[200];
-    const int runs = !model_missing(&s, type, missing, sizeof missing);
+    const int runs = !missing_words(&s, type, missing, sizeof missing);
     const double depth = direction == 1 ? thickness : wide,
                  breadth = direction == 1 ? wide : thickness;
     const double EI = young * breadth * depth * depth * depth / 12,

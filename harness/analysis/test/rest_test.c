@@ -156,7 +156,7 @@ static void every_formulation(const point *p, tally *t)
         formulation list[CHOICES];
         char words[200];
         const int count = choices_of(registry_formulations[i], list);
-        if (model_missing(&p->scene, registry_formulations[i], words, sizeof words)) {
+        if (missing_words(&p->scene, registry_formulations[i], words, sizeof words)) {
             t->not_offered += count;
             continue;
         }

@@ -117,7 +117,7 @@ static void supports(const char *formulation_text, int elements)
         const model_request what = {&s, fm.type, fm.option, elements, 0};
         gsl_test(scene_validate(&s, &f) != STATUS_OK || model_alloc(&what, &m, &f) != STATUS_OK,
                  "%s: %s", changes[i].what, f.text);
-        gsl_test_int(model_loose_part(m, &node, motion), loose, "%s", changes[i].what);
+        gsl_test_int(supports_loose_part(m, &node, motion), loose, "%s", changes[i].what);
         gsl_test(loose && node != 2, "%s: node %d is named", changes[i].what, node);
         for (int k = 0; k < 6; k++)
             largest = fmax(largest, fabs(motion[k]));
@@ -167,7 +167,7 @@ static void all_cases_are_held(void)
             const model_request what = {&s, registry_formulations[k], NULL, 2, 0};
             tried = model_alloc(&what, &m, &f) == STATUS_OK;
         }
-        gsl_test(!tried || model_loose_part(m, &node, motion), "%s is held (node %d)", s.name,
+        gsl_test(!tried || supports_loose_part(m, &node, motion), "%s is held (node %d)", s.name,
                  node);
         model_free(m);
         scene_free(&s);

@@ -48,11 +48,12 @@ static double size_of(model *m, int coordinate, double step)
     model_state *s;
     fault f = {""};
     model_linearisation lin = {.residual = residual};
-    if (model_state_alloc(m, &s, &f) == STATUS_OK && model_linearise(m, s, &lin, &f) == STATUS_OK) {
+    if (kinematics_state_alloc(m, &s, &f) == STATUS_OK &&
+        linearise_state(m, s, &lin, &f) == STATUS_OK) {
         dx[coordinate] = step;
-        out = model_advance(m, s, dx, 0);
+        out = linearise_advance(m, s, dx, 0);
     }
-    model_state_free(s);
+    kinematics_state_free(s);
     free(dx);
     free(residual);
     return out;
@@ -95,7 +96,8 @@ static void loose_about_the_far_end(const element_type *type)
     if (warping_member(type, SCENE_UX, SCENE_UZ, &s, &m)) {
         int node = -1;
         double motion[6], there[3];
-        gsl_test(!model_loose_part(m, &node, motion) || node != 0, "%s: it is loose", type->name);
+        gsl_test(!supports_loose_part(m, &node, motion) || node != 0, "%s: it is loose",
+                 type->name);
         vec3_cross(motion + 3, arm, there);
         for (int i = 0; i < 3; i++)
             gsl_test_abs(motion[i] + there[i], 0, 1e-12, "%s: the held end stays, direction %d",

@@ -330,8 +330,8 @@ static void features_of_cases(const element_type *type)
         scene_init(&s, registry_cases[i]->name);
         gsl_test(registry_cases[i]->build(value, &s, &f) != STATUS_OK, "%s: built (%s)", s.name,
                  f.text);
-        if (!model_missing(&s, type, words, sizeof words)) {
-            accepted(type, model_needs_of(&s, type), registry_cases[i]->name);
+        if (!missing_words(&s, type, words, sizeof words)) {
+            accepted(type, features_needed_of(&s, type), registry_cases[i]->name);
             runs++;
         }
         scene_free(&s);

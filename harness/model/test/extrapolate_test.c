@@ -86,8 +86,9 @@ static double error_of_guess(const model *m, int degree, int count, const double
     predictor t;
     model_state *s, *exact;
     fault f = {""};
-    gsl_test(predictor_alloc(m, &t, &f) != STATUS_OK || model_state_alloc(m, &s, &f) != STATUS_OK ||
-                 model_state_alloc(m, &exact, &f) != STATUS_OK,
+    gsl_test(predictor_alloc(m, &t, &f) != STATUS_OK ||
+                 kinematics_state_alloc(m, &s, &f) != STATUS_OK ||
+                 kinematics_state_alloc(m, &exact, &f) != STATUS_OK,
              "states: %s", f.text);
     for (int i = 0; i < count; i++) {
         fill(m, degree, path[i], s);
@@ -97,8 +98,8 @@ static double error_of_guess(const model *m, int degree, int count, const double
     fill(m, degree, to, exact);
     const double error = apart(m, s, exact);
     predictor_free(&t);
-    model_state_free(s);
-    model_state_free(exact);
+    kinematics_state_free(s);
+    kinematics_state_free(exact);
     return error;
 }
 

@@ -105,7 +105,7 @@ static void not_offered(void)
     gsl_test(formulation_parse("beamw", &fm, NULL) != STATUS_OK, "beamw exists");
     scene_member_at(&s, scene_add_member(&s, 0, 0, 0, (const double[3]){0, 1, 0}))->strain[0] =
         1e-3;
-    gsl_test(!model_missing(&s, fm.type, words, sizeof words) || strstr(words, "initial") == NULL,
+    gsl_test(!missing_words(&s, fm.type, words, sizeof words) || strstr(words, "initial") == NULL,
              "a formulation without it is told: %s", words);
     scene_free(&s);
 }

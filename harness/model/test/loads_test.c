@@ -61,9 +61,9 @@ static void move(const subject *s, const model_state *from, const double dx[], m
     double residual[MOST];
     fault f = {""};
     model_linearisation lin = {.path = 1, .residual = residual};
-    model_state_copy(s->m, from, to);
-    gsl_test(model_linearise(s->m, to, &lin, &f) != STATUS_OK, "linearised: %s", f.text);
-    model_advance(s->m, to, dx, 1);
+    kinematics_state_copy(s->m, from, to);
+    gsl_test(linearise_state(s->m, to, &lin, &f) != STATUS_OK, "linearised: %s", f.text);
+    linearise_advance(s->m, to, dx, 1);
 }
 
 /* A state far from rest, turned about no special axis. */
@@ -78,18 +78,18 @@ static void prepare(int body, scene_load_kind kind, subject *s)
     gsl_test(scene_validate(&s->scene, &f) != STATUS_OK ||
                  model_alloc(&what, &s->m, &f) != STATUS_OK,
              "%s: %s", body_name[body], f.text);
-    model_state_alloc(s->m, &s->turned, &f);
-    model_state_alloc(s->m, &s->moved, &f);
+    kinematics_state_alloc(s->m, &s->turned, &f);
+    kinematics_state_alloc(s->m, &s->moved, &f);
     s->n = model_sizes(s->m).free;
     for (int k = 0; k < s->n; k++)
         dx[k] = 0.5 * sin(1.7 * k + 0.4);
-    move(s, model_rest(s->m), dx, s->turned);
+    move(s, kinematics_rest(s->m), dx, s->turned);
 }
 
 static void release(subject *s)
 {
-    model_state_free(s->turned);
-    model_state_free(s->moved);
+    kinematics_state_free(s->turned);
+    kinematics_state_free(s->moved);
     model_free(s->m);
     scene_free(&s->scene);
 }
@@ -101,8 +101,8 @@ static void loads_of(const subject *s, double out[])
     fault f = {""};
     model_linearisation with = {.path = 1, .residual = out},
                         none = {.path = 0, .residual = without};
-    model_linearise(s->m, s->turned, &with, &f);
-    model_linearise(s->m, s->turned, &none, &f);
+    linearise_state(s->m, s->turned, &with, &f);
+    linearise_state(s->m, s->turned, &none, &f);
     for (int k = 0; k < s->n; k++)
         out[k] -= without[k];
 }
@@ -112,8 +112,8 @@ static void motion_of(const subject *s, const double dx[], double d[3], double t
 {
     double r[3], at[3], q[4], from[4];
     move(s, s->turned, dx, s->moved);
-    model_frame(s->m, s->turned, 2, at, from);
-    model_frame(s->m, s->moved, 2, r, q);
+    kinematics_frame(s->m, s->turned, 2, at, from);
+    kinematics_frame(s->m, s->moved, 2, r, q);
     for (int i = 0; i < 3; i++)
         d[i] = r[i] - at[i];
     rotation_between(from, q, turn);
@@ -157,12 +157,12 @@ static void conjugate(int body, scene_load_kind kind)
         gsl_test(!(fabs(load[k] - slope(&s, k)) <= 1e-9),
                  "%s, %s: load %d is %.12g, its work rises by %.12g", body_name[body],
                  kind == SCENE_FORCE ? "force" : "moment", k, load[k], slope(&s, k));
-    model_frame(s.m, s.turned, 1, at, q);
-    model_frame(s.m, s.turned, 2, edge, q);
+    kinematics_frame(s.m, s.turned, 1, at, q);
+    kinematics_frame(s.m, s.turned, 2, edge, q);
     for (int i = 0; i < 3; i++)
         arm[i] = edge[i] - at[i];
     vec3_cross(arm, s.scene.load[0].vector, moment);
-    model_node_load(s.m, s.turned, 1, F);
+    loads_at_node(s.m, s.turned, 1, F);
     for (int i = 0; i < 3; i++) {
         const double v = s.scene.load[0].vector[i], force = kind == SCENE_FORCE ? v : 0,
                      m = kind == SCENE_FORCE ? moment[i] : v;
@@ -181,10 +181,10 @@ static void stiffness(int body)
     const sparse *pattern;
     sparse K;
     prepare(body, SCENE_FORCE, &s);
-    gsl_test(model_pattern(s.m, 0, &pattern, &f) != STATUS_OK ||
+    gsl_test(assemble_pattern(s.m, 0, &pattern, &f) != STATUS_OK ||
                  sparse_alloc_like(pattern, &K, &f) != STATUS_OK,
              "pattern");
-    model_load_stiffness(s.m, s.turned, 1, &K);
+    rotating_frame_load_stiffness(s.m, s.turned, 1, &K);
     double largest = 0;
     for (int j = 0; j < s.n; j++)
         for (int k = K.column[j]; k < K.column[j + 1]; k++) {
@@ -213,7 +213,7 @@ static void rates(void)
     double unit[MOST], out[MOST];
     prepare(FREE_TURNS, SCENE_FORCE, &s);
     loads_of(&s, unit);
-    model_load_rate(s.m, s.turned, 0.3, out);
+    loads_rate(s.m, s.turned, 0.3, out);
     for (int k = 0; k < s.n; k++)
         gsl_test_abs(out[k], unit[k], 1e-11, "proportional load: its rate is itself");
     scene_load *load = &s.scene.load[0];
@@ -223,7 +223,7 @@ static void rates(void)
     memcpy(load->path, path, sizeof path);
     memcpy(load->factor, value, sizeof value);
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
-        model_load_rate(s.m, s.turned, row[i].path, out);
+        loads_rate(s.m, s.turned, row[i].path, out);
         for (int k = 0; k < s.n; k++)
             gsl_test(!(fabs(out[k] - row[i].rate * unit[k]) <= 1e-11),
                      "rate at path %g: %g of the load, not %g", row[i].path, out[k] / unit[k],
@@ -241,10 +241,10 @@ static void stiffness_of_angles(int body, scene_load_kind kind)
     const sparse *pattern;
     sparse K;
     prepare(body, kind, &s);
-    gsl_test(model_pattern(s.m, 0, &pattern, &f) != STATUS_OK ||
+    gsl_test(assemble_pattern(s.m, 0, &pattern, &f) != STATUS_OK ||
                  sparse_alloc_like(pattern, &K, &f) != STATUS_OK,
              "pattern");
-    model_load_stiffness(s.m, s.turned, 1, &K);
+    rotating_frame_load_stiffness(s.m, s.turned, 1, &K);
     for (int j = 0; j < s.n; j++) {
         double load[2][MOST];
         for (int side = 0; side < 2; side++) {
@@ -287,9 +287,9 @@ static void factors(void)
         fault f = {""};
         double residual[MOST], dx[MOST] = {0};
         model_linearisation lin = {.path = row[i][0], .residual = residual};
-        model_linearise(s.m, s.turned, &lin, &f);
-        model_advance(s.m, s.turned, dx, row[i][0]);
-        model_node_load(s.m, s.turned, 1, F);
+        linearise_state(s.m, s.turned, &lin, &f);
+        linearise_advance(s.m, s.turned, dx, row[i][0]);
+        loads_at_node(s.m, s.turned, 1, F);
         gsl_test_abs(F[0], row[i][1] * load->vector[0], 1e-14, "factor at path %g", row[i][0]);
     }
     release(&s);
@@ -322,12 +322,12 @@ static void forces_along(int what, const char *name, double path, int follows, i
     const model_request request = {&s, chosen.type, chosen.option, 1, 0};
     gsl_test(model_alloc(&request, &m, &f) != STATUS_OK, "%s: %s", name, f.text);
     if (what == SPIN)
-        model_set_rotating_frame(m, z, origin, follows);
+        rotating_frame_set(m, z, origin, follows);
     double residual[MOST];
     model_linearisation lin = {.path = path, .residual = residual};
-    gsl_test(model_linearise(m, model_rest(m), &lin, &f) != STATUS_OK, "%s: %s", name, f.text);
+    gsl_test(linearise_state(m, kinematics_rest(m), &lin, &f) != STATUS_OK, "%s: %s", name, f.text);
     for (int k = 0; k < nodes; k++)
-        out[k] = residual[model_coordinate(m, k, what == LINE ? SCENE_UY : SCENE_UX)];
+        out[k] = residual[kinematics_coordinate(m, k, what == LINE ? SCENE_UY : SCENE_UX)];
     model_free(m);
     scene_free(&s);
 }

@@ -46,9 +46,10 @@ static void one_motion(const model *m, int vertex, int component, double size)
     double *weight = calloc((size_t)n + 1, sizeof *weight), turn[3] = {0}, step[4];
     model_state *a, *b;
     fault f = {""};
-    gsl_test(model_state_alloc(m, &a, &f) != STATUS_OK || model_state_alloc(m, &b, &f) != STATUS_OK,
+    gsl_test(kinematics_state_alloc(m, &a, &f) != STATUS_OK ||
+                 kinematics_state_alloc(m, &b, &f) != STATUS_OK,
              "states: %s", f.text);
-    model_metric(m, weight);
+    metric_of(m, weight);
     gsl_test_rel(weight[m->vertex[vertex].coordinate[component]], share, 1e-14,
                  "vertex %d, component %d: weight", vertex, component);
     if (turns) {
@@ -58,12 +59,12 @@ static void one_motion(const model *m, int vertex, int component, double size)
     } else {
         b->u[3 * vertex + component] += amount;
     }
-    gsl_test_rel(model_distance(m, a, b), amount * sqrt(share), 1e-13,
+    gsl_test_rel(metric_distance(m, a, b), amount * sqrt(share), 1e-13,
                  "vertex %d, component %d: distance", vertex, component);
-    gsl_test_abs(model_turn_between(m, a, b), turns ? amount : 0, 1e-13,
+    gsl_test_abs(metric_turn_between(m, a, b), turns ? amount : 0, 1e-13,
                  "vertex %d, component %d: turn", vertex, component);
-    model_state_free(a);
-    model_state_free(b);
+    kinematics_state_free(a);
+    kinematics_state_free(b);
     free(weight);
 }
 

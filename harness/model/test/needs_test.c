@@ -34,9 +34,9 @@ static void couplings(void)
         scene s;
         char words[200];
         member(F[i][0], F[i][1], F[i][2], &s);
-        gsl_test_int(model_missing(&s, &symmetric, words, sizeof words), i > 0, "coupling %zu: %s",
+        gsl_test_int(missing_words(&s, &symmetric, words, sizeof words), i > 0, "coupling %zu: %s",
                      i, words);
-        gsl_test_int(model_missing(&s, &any, words, sizeof words), 0,
+        gsl_test_int(missing_words(&s, &any, words, sizeof words), 0,
                      "coupling %zu, of any section: %s", i, words);
         scene_free(&s);
     }
@@ -47,10 +47,10 @@ static void frequencies(void)
     scene s;
     member(0, 0, 0, &s);
     const int loading = scene_add_linear(&s), modal = scene_add_modal(&s, SCENE_NONE);
-    gsl_test((model_needs(&s) & FEATURE_GEOMETRIC) != 0,
+    gsl_test((features_needed(&s) & FEATURE_GEOMETRIC) != 0,
              "frequencies at rest need no stiffness of loads");
     s.analysis[modal].follows = loading;
-    gsl_test((model_needs(&s) & FEATURE_GEOMETRIC) == 0, "frequencies under a load do");
+    gsl_test((features_needed(&s) & FEATURE_GEOMETRIC) == 0, "frequencies under a load do");
     scene_free(&s);
 }
 

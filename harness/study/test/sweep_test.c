@@ -42,7 +42,7 @@ static formulation runner(void)
     registry_cases[0]->build(value, &s, NULL);
     int i = 0;
     while (registry_formulations[i + 1] != NULL &&
-           model_missing(&s, registry_formulations[i], words, sizeof words))
+           missing_words(&s, registry_formulations[i], words, sizeof words))
         i++;
     scene_free(&s);
     formulation_default(registry_formulations[i], &chosen);

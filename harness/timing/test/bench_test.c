@@ -9,7 +9,7 @@
 #include "harness/judge/reach.h"
 #include "harness/study/cell.h"
 #include "harness/timing/against.h"
-#include "harness/timing/clock.h"
+#include "harness/timing/rounds.h"
 
 enum { PAIRS = 101, TRIALS = 300 };
 
@@ -68,24 +68,24 @@ static void test_interval(void)
     gsl_test_abs(v.high, 2 + 67, 1e-12, "34th largest is the upper end");
 }
 
-static clock_reading reading(double first, double step)
+static rounds_reading reading(double first, double step)
 {
-    clock_reading c = {.rounds = CLOCK_ROUNDS};
-    for (int i = 0; i < CLOCK_ROUNDS; i++)
-        c.round[i] = first + step * ((3 * i) % CLOCK_ROUNDS);
+    rounds_reading c = {.rounds = ROUNDS_COUNT};
+    for (int i = 0; i < ROUNDS_COUNT; i++)
+        c.round[i] = first + step * ((3 * i) % ROUNDS_COUNT);
     return c;
 }
 
 static void test_compare(void)
 {
-    const clock_reading a = reading(1, 0.1), b = reading(1.41, 0.1), c = reading(1.39, 0.1);
-    const clock_reading never = {0};
-    gsl_test_abs(clock_least(&a), 1, 1e-15, "least of the rounds");
-    gsl_test_abs(clock_most(&a), 1.4, 1e-15, "slowest of the rounds");
-    gsl_test_int(clock_compare(&a, &b), -1, "all rounds faster");
-    gsl_test_int(clock_compare(&b, &a), 1, "all rounds slower");
-    gsl_test_int(clock_compare(&a, &c), 0, "rounds overlap: undecided");
-    gsl_test(isfinite(clock_least(&never)), "a cell that never ran has no time");
+    const rounds_reading a = reading(1, 0.1), b = reading(1.41, 0.1), c = reading(1.39, 0.1);
+    const rounds_reading never = {0};
+    gsl_test_abs(rounds_least(&a), 1, 1e-15, "least of the rounds");
+    gsl_test_abs(rounds_most(&a), 1.4, 1e-15, "slowest of the rounds");
+    gsl_test_int(rounds_compare(&a, &b), -1, "all rounds faster");
+    gsl_test_int(rounds_compare(&b, &a), 1, "all rounds slower");
+    gsl_test_int(rounds_compare(&a, &c), 0, "rounds overlap: undecided");
+    gsl_test(isfinite(rounds_least(&never)), "a cell that never ran has no time");
 }
 
 /* Errors 20 %, 0.5 %, 3 %, 0.2 %, 0.05 %: what counts is the coarsest mesh from which on all are within. */
@@ -151,18 +151,18 @@ static void test_rounds(void)
     cell_request request = {.elements = 2};
     fault f = {""};
     formulation chosen;
-    clock_reading c = {0};
+    rounds_reading c = {0};
     gsl_test(formulation_parse("beamw", &chosen, &f) != STATUS_OK, "formulation %s", f.text);
     request.type = case_find("c_column", &f);
     request.formulation = chosen.type;
     memcpy(request.option, chosen.option, sizeof request.option);
     parameters_default(request.type, request.parameter);
-    for (int i = 0; i < CLOCK_ROUNDS + 2; i++)
-        clock_round(&request, 0, &c);
-    gsl_test_int(c.rounds, CLOCK_ROUNDS, "rounds end");
-    gsl_test_int(c.repeats, CLOCK_ROUNDS, "at least one repetition in each");
+    for (int i = 0; i < ROUNDS_COUNT + 2; i++)
+        rounds_run(&request, 0, &c);
+    gsl_test_int(c.rounds, ROUNDS_COUNT, "rounds end");
+    gsl_test_int(c.repeats, ROUNDS_COUNT, "at least one repetition in each");
     gsl_test(!(c.setup > 0 && c.solve > 0), "set-up and solution both take time");
-    gsl_test_rel(c.setup + c.solve, clock_least(&c), 1e-12,
+    gsl_test_rel(c.setup + c.solve, rounds_least(&c), 1e-12,
                  "both belong to the fastest repetition");
 }
 

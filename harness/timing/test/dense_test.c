@@ -36,7 +36,7 @@ static int order_of(const cell_request *request)
                                   .elements = request->elements};
     if (request->type->build(request->parameter, &s, &f) == STATUS_OK &&
         model_alloc(&wanted, &m, &f) == STATUS_OK)
-        order = model_uncondensed_size(m);
+        order = uncondensed_size(m);
     gsl_test(order < 0, "%s: %s", request->type->name, f.text);
     model_free(m);
     scene_free(&s);
@@ -91,7 +91,7 @@ static void seconds(void)
 {
     dense_reference b = {.unknowns = 10, .iteration = 0.3};
     gsl_test_rel(dense_reference_seconds(&b, 7), 2.1, 1e-15, "one iteration for all");
-    b.whole = (clock_reading){.rounds = 2, .round = {1.7, 1.6}};
+    b.whole = (rounds_reading){.rounds = 2, .round = {1.7, 1.6}};
     gsl_test_rel(dense_reference_seconds(&b, 7), 1.6, 1e-15, "whole runs, where they were made");
     b = (dense_reference){0};
     gsl_test(!isinf(dense_reference_seconds(&b, 7)), "what was not measured has no time");

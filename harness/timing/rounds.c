@@ -1,4 +1,4 @@
-#include "harness/timing/clock.h"
+#include "harness/timing/rounds.h"
 
 #include <math.h>
 #include <sched.h>
@@ -6,15 +6,15 @@
 #include <string.h>
 #include <unistd.h>
 
-void clock_round(const cell_request *request, double floor, clock_reading *out)
+void rounds_run(const cell_request *request, double floor, rounds_reading *out)
 {
     double least = INFINITY, spent = 0;
-    for (int i = 0; out->rounds < CLOCK_ROUNDS && (i == 0 || spent < floor); i++) {
+    for (int i = 0; out->rounds < ROUNDS_COUNT && (i == 0 || spent < floor); i++) {
         cell_result cell;
         fault f = {""};
         cell_run(request, &cell, &f);
         const double total = cell.solve.seconds_setup + cell.solve.seconds_solve;
-        if (total < fmin(least, clock_least(out))) {
+        if (total < fmin(least, rounds_least(out))) {
             out->setup = cell.solve.seconds_setup;
             out->solve = cell.solve.seconds_solve;
         }
@@ -23,11 +23,11 @@ void clock_round(const cell_request *request, double floor, clock_reading *out)
         out->repeats++;
         cell_result_free(&cell);
     }
-    if (out->rounds < CLOCK_ROUNDS)
+    if (out->rounds < ROUNDS_COUNT)
         out->round[out->rounds++] = least;
 }
 
-double clock_least(const clock_reading *c)
+double rounds_least(const rounds_reading *c)
 {
     double least = INFINITY;
     for (int i = 0; i < c->rounds; i++)
@@ -35,7 +35,7 @@ double clock_least(const clock_reading *c)
     return least;
 }
 
-double clock_most(const clock_reading *c)
+double rounds_most(const rounds_reading *c)
 {
     double most = 0;
     for (int i = 0; i < c->rounds; i++)
@@ -43,12 +43,12 @@ double clock_most(const clock_reading *c)
     return c->rounds > 0 ? most : INFINITY;
 }
 
-int clock_compare(const clock_reading *a, const clock_reading *b)
+int rounds_compare(const rounds_reading *a, const rounds_reading *b)
 {
-    return (clock_most(b) < clock_least(a)) - (clock_most(a) < clock_least(b));
+    return (rounds_most(b) < rounds_least(a)) - (rounds_most(a) < rounds_least(b));
 }
 
-void clock_pin(void)
+void rounds_pin(void)
 {
     const int here = sched_getcpu();
     cpu_set_t only;
@@ -57,7 +57,7 @@ void clock_pin(void)
     sched_setaffinity(0, sizeof only, &only); /* without it the readings are only noisier */
 }
 
-void clock_single_thread(char **arguments)
+void rounds_single_thread(char **arguments)
 {
     static const char *const threads[] = {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS",
                                           "MKL_NUM_THREADS", "BLIS_NUM_THREADS"};
