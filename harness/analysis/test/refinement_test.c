@@ -62,13 +62,10 @@ static void bar(scene *s, double side, const double direction[3])
     scene_add_member(s, root, tip, scene_add_section(s, &spec), y_axis);
     scene_hold_all(s, root);
     scene_add_load(s, SCENE_FORCE, tip, direction[0], direction[1], direction[2]);
-    const int linear = scene_add_analysis(s, SCENE_LINEAR);
+    const int linear = scene_add_linear(s);
     static const char *const name[3] = {"u_x", "u_y", "u_z"};
-    for (int k = 0; k < 3; k++) {
-        scene_quantity *q = scene_add_quantity(s, name[k], "m", SCENE_COORDINATE, linear);
-        q->node = tip;
-        q->row = k;
-    }
+    for (int k = 0; k < 3; k++)
+        scene_add_quantity(s, name[k], "m", linear, scene_coordinate(tip, k));
 }
 
 static void pushed(const element_type *e, ask_tally *tally, double slenderness,
