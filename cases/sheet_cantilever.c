@@ -52,7 +52,7 @@ static void add_frequencies(scene *s, int path, int count)
 static void add_predictions(const double value[], scene *s)
 {
     section c;
-    if (section_compute(&s->section[0], &c, NULL) != STATUS_OK)
+    if (scene_constants(s, 0, &c, NULL) != STATUS_OK)
         return; /* model_alloc says why */
     const sheet_prediction p = sheet_predict(&c, value[SHEET_LENGTH], value[SHEET_DEFLECTION],
                                              value[SHEET_TIP_WARPING] != 0, value[SHEET_SHEAR] != 0,

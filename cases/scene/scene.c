@@ -25,6 +25,7 @@ void scene_free(scene *s)
         if (scene_path_of(&s->analysis[i]) != NULL)
             free(scene_path_of(&s->analysis[i])->value);
     free(s->section);
+    free(s->computed);
     free(s->node);
     free(s->member);
     free(s->driver);
@@ -39,7 +40,25 @@ int scene_add_section(scene *s, const section_spec *spec)
     const int i = scene_grow(s, &s->section, &s->sections, sizeof *s->section);
     if (i >= 0)
         s->section[i] = *spec;
+    if (i >= 0)
+        scene_grow(s, &s->computed, &s->computeds, sizeof *s->computed);
     return i;
+}
+
+status scene_constants(const scene *s, int i, section *out, fault *f)
+{
+    scene_computed *c = i < s->computeds ? &s->computed[i] : NULL;
+    if (c != NULL && c->known && memcmp(&c->of, &s->section[i], sizeof c->of) == 0) {
+        *out = c->constants;
+        return STATUS_OK;
+    }
+    TRY(section_compute(&s->section[i], out, f));
+    if (c != NULL) {
+        memcpy(&c->of, &s->section[i], sizeof c->of);
+        c->constants = *out;
+        c->known = 1;
+    }
+    return STATUS_OK;
 }
 
 scene_node *scene_node_at(scene *s, int i)

@@ -76,10 +76,19 @@ typedef struct scene_load {
     double *path, *factor;
 } scene_load;
 
+/* What a section came to, and of which description. */
+typedef struct scene_computed {
+    int known;
+    section_spec of;
+    section constants;
+} scene_computed;
+
 struct scene {
     char name[SCENE_NAME];
     int sections, nodes, members, drivers, loads, analyses, quantities;
     section_spec *section;
+    int computeds;
+    scene_computed *computed; /* [computeds] kept by scene_constants */
     scene_node *node;
     scene_member *member;
     scene_driver *driver;
@@ -132,6 +141,10 @@ const char *scene_convention(const scene *s, const scene_quantity *q);
 /* Physics (FEATURE_* bits) that the scene is to have; the data say the rest: analyses, sections. */
 void scene_need(scene *s, unsigned features);
 void scene_meshes(scene *s, int count, const int mesh[]);
+
+/* What section i comes to; computed once, and again when its description has changed.  Not for two
+ * threads at once. */
+status scene_constants(const scene *s, int i, section *out, fault *f);
 
 /* Indices in range, members of positive length, supports that do not contradict, drivers that are used,
  * curves and names unique: refused with the culprit. */

@@ -369,6 +369,28 @@ static void edited(void)
     }
 }
 
+/* What a section comes to follows its description, however often it was asked for. */
+static void constants_follow(void)
+{
+    scene s;
+    fault f;
+    section_spec spec;
+    section c;
+    scene_init(&s, "constants");
+    section_spec_init(&spec);
+    spec.kind = SECTION_RECTANGLE;
+    spec.young = spec.shear_modulus = 1;
+    spec.width = spec.height = 2;
+    const int i = scene_add_section(&s, &spec);
+    for (int times = 0; times < 2; times++)
+        gsl_test(scene_constants(&s, i, &c, &f) != STATUS_OK || c.A != 4, "area %g", c.A);
+    s.section[i].width = 3;
+    gsl_test(scene_constants(&s, i, &c, &f) != STATUS_OK || c.A != 6, "of another one: %g", c.A);
+    s.section[i].width = -1;
+    gsl_test_int((int)scene_constants(&s, i, &c, &f), STATUS_REFUSED, "of none: %s", f.text);
+    scene_free(&s);
+}
+
 int main(void)
 {
     for (int i = 0; i < REFUSALS; i++)
@@ -377,5 +399,6 @@ int main(void)
     says_that_memory_ran_out();
     edits();
     edited();
+    constants_follow();
     return gsl_test_summary();
 }

@@ -43,7 +43,7 @@ unsigned features_needed(const scene *s)
         needs |= vec3_norm(s->member[i].strain) > 0 ? FEATURE_CURVATURE : 0;
     for (int i = 0; i < s->sections; i++) {
         section c;
-        if (section_compute(&s->section[i], &c, NULL) != STATUS_OK)
+        if (scene_constants(s, i, &c, NULL) != STATUS_OK)
             continue; /* model_alloc says why */
         needs |= c.Iw > 0 ? FEATURE_WARPING : 0;
         needs |= features_eccentric(&c) ? FEATURE_ECCENTRIC : 0;

@@ -60,8 +60,7 @@ static double phi_along_y(const scene *s)
     for (int i = 0; i < s->members; i++) {
         section c;
         char *reached = calloc((size_t)s->nodes + 1, 1);
-        if (reached != NULL &&
-            section_compute(&s->section[s->member[i].section], &c, NULL) == STATUS_OK) {
+        if (reached != NULL && scene_constants(s, s->member[i].section, &c, NULL) == STATUS_OK) {
             const double l = extent_of(s, i, reached);
             largest = fmax(largest, 12 * c.young * c.Iz * c.F[0] / (c.shear_modulus * l * l));
         } /* model_alloc says why a section is none */

@@ -23,7 +23,7 @@ static int limit_hit(const scene *s, const element_type *type, char *words, int 
 {
     for (int i = 0; i < s->sections; i++) {
         section c;
-        if (section_compute(&s->section[i], &c, NULL) != STATUS_OK)
+        if (scene_constants(s, i, &c, NULL) != STATUS_OK)
             continue;
         if ((type->limits & LIMIT_RECTANGLE) && !c.rectangle)
             return snprintf(words, (size_t)size, "sections other than rectangles") > 0;

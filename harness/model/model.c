@@ -19,7 +19,7 @@ static status compute_sections(model *m, fault *f)
     if (m->section == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for sections");
     for (int i = 0; i < s->sections; i++) {
-        TRY(section_compute(&s->section[i], &m->section[i], f));
+        TRY(scene_constants(s, i, &m->section[i], f));
     }
     return STATUS_OK;
 }

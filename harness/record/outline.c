@@ -31,26 +31,21 @@ static void add_rectangle(outline *out, double height, double width)
     add_wall(out, (double[2]){-side[0], -side[1]}, side, fmin(width, height));
 }
 
-status outline_of(const section_spec *spec, outline *out, fault *f)
+void outline_of(const section_spec *spec, const section *c, outline *out)
 {
-    section s;
-    const status outcome = section_compute(spec, &s, f);
     out->walls = 0;
-    out->equivalent = spec->kind == SECTION_CONSTANTS && !s.rectangle;
-    if (outcome != STATUS_OK)
-        return outcome;
+    out->equivalent = spec->kind == SECTION_CONSTANTS && !c->rectangle;
     for (int w = 0; w < spec->walls && spec->kind == SECTION_WALLS; w++) {
         double a[2], b[2];
-        principal(&s, spec->point[spec->wall[w].from], a);
-        principal(&s, spec->point[spec->wall[w].to], b);
+        principal(c, spec->point[spec->wall[w].from], a);
+        principal(c, spec->point[spec->wall[w].to], b);
         add_wall(out, a, b, spec->wall[w].thickness);
     }
     if (spec->kind == SECTION_WALLS)
-        return outcome;
-    const double ratio = sqrt(s.Iy / s.Iz); /* of width to height: Iy/Iz = (w/h)^2 */
+        return;
+    const double ratio = sqrt(c->Iy / c->Iz); /* of width to height: Iy/Iz = (w/h)^2 */
     if (out->equivalent)
-        add_rectangle(out, sqrt(s.A / ratio), sqrt(s.A * ratio));
+        add_rectangle(out, sqrt(c->A / ratio), sqrt(c->A * ratio));
     else
-        add_rectangle(out, s.height, s.width);
-    return outcome;
+        add_rectangle(out, c->height, c->width);
 }

@@ -12,6 +12,7 @@ typedef struct outline {
     double corner[SECTION_MAX_WALLS][4][2];
 } outline;
 
-status outline_of(const section_spec *spec, outline *out, fault *f);
+/* c: what the spec comes to. */
+void outline_of(const section_spec *spec, const section *c, outline *out);
 
 #endif

@@ -86,8 +86,10 @@ static void put_sections(record *r, hid_t at, const scene *sc)
     for (int i = 0; i < sc->sections; i++) {
         outline o;
         char name[16];
-        if (outline_of(&sc->section[i], &o, NULL) != STATUS_OK)
+        section c;
+        if (scene_constants(sc, i, &c, NULL) != STATUS_OK)
             continue; /* the cell could not have been solved */
+        outline_of(&sc->section[i], &c, &o);
         const hsize_t size[3] = {(hsize_t)o.walls, 4, 2};
         snprintf(name, sizeof name, "%d", i);
         const hid_t set = record_values(r, all, name, 3, size, &o.corner[0][0][0], "m");

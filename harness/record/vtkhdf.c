@@ -238,8 +238,12 @@ void vtkhdf_write(record *r, const scene *sc, const shapes *s)
     g.outline = calloc((size_t)sc->sections + 1, sizeof *g.outline);
     g.state = calloc((size_t)s->states + 1, sizeof *g.state);
     r->bad |= g.outline == NULL || g.state == NULL;
-    for (int i = 0; i < sc->sections && !r->bad; i++)
-        r->bad |= outline_of(&sc->section[i], &g.outline[i], NULL) != STATUS_OK;
+    for (int i = 0; i < sc->sections && !r->bad; i++) {
+        section c;
+        r->bad |= scene_constants(sc, i, &c, NULL) != STATUS_OK;
+        if (!r->bad)
+            outline_of(&sc->section[i], &c, &g.outline[i]);
+    }
     if (!r->bad) {
         count(&g);
         choose_states(&g);

@@ -39,7 +39,7 @@ static double stiffest(const scene *s)
     double EA = 0;
     for (int i = 0; i < s->sections; i++) {
         section c;
-        if (section_compute(&s->section[i], &c, NULL) == STATUS_OK)
+        if (scene_constants(s, i, &c, NULL) == STATUS_OK)
             EA = fmax(EA, c.young * c.A);
     }
     return EA;
