@@ -1,8 +1,7 @@
 /* What a scene must be before anything is built from it. */
 #include <math.h>
-#include <string.h>
 
-#include "cases/scene/scene.h"
+#include "cases/scene/validate_wanted.h"
 #include "elements/math/dense.h"
 
 /* Does a straight member of the node run along the direction, or a curved one end there?  Also 1 when no member ends there. */
@@ -173,128 +172,14 @@ static status check_load(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-static status check_continuation(const scene *s, int i, fault *f)
-{
-    const scene_control *c = &scene_continuation_of(&s->analysis[i])->control;
-    if (c->node < 0 || c->node >= s->nodes || c->component < SCENE_UX || c->component > SCENE_UZ)
-        return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: continuation needs a translation of a node as control "
-                         "coordinate; name a node and UX, UY or UZ",
-                         i);
-    if (!(c->step > 0) || !(c->step_max >= c->step))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "analysis %d: steps of %g to %g; the first must be positive, the largest not smaller",
-            i, c->step, c->step_max);
-    if (s->drivers > 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: continuation changes loads only; take the drivers away", i);
-    return STATUS_OK;
-}
-
-static status check_path(const scene_analysis *a, int i, fault *f)
-{
-    const scene_path *path = scene_path_of(a);
-    if (path->stations < 1)
-        return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: a path needs a station; give one at least", i);
-    for (int k = 1; k < path->stations && a->kind != SCENE_CONTINUATION; k++)
-        if (!(path->value[k] > path->value[k - 1]))
-            return fault_set(f, STATUS_REFUSED,
-                             "analysis %d: its stations must ascend; sort them, without repetition",
-                             i);
-    return STATUS_OK;
-}
-
-static status check_spin(const scene_spin *spin, int i, fault *f)
-{
-    for (int k = 0; k < 3; k++)
-        if (!isfinite(spin->omega[k]) || !isfinite(spin->centre[k]))
-            return fault_set(f, STATUS_REFUSED,
-                             "analysis %d: its angular velocity is not a number; give finite "
-                             "components, and a finite point of its axis",
-                             i);
-    return STATUS_OK;
-}
-
-static status check_analysis(const scene *s, int i, fault *f)
-{
-    const scene_analysis *a = &s->analysis[i];
-    if (a->follows != SCENE_NONE && (a->follows < 0 || a->follows >= i))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "analysis %d: it follows one that does not come before it; name an earlier one", i);
-    if (scene_path_of(a) != NULL)
-        TRY(check_path(a, i, f));
-    if (scene_spin_of(a) != NULL)
-        TRY(check_spin(scene_spin_of(a), i, f));
-    if (a->kind == SCENE_CONTINUATION)
-        return check_continuation(s, i, f);
-    if (a->kind == SCENE_COMPLIANCE &&
-        (scene_compliance_of(a)->node < 0 || scene_compliance_of(a)->node >= s->nodes))
-        return fault_set(f, STATUS_REFUSED, "analysis %d: a compliance needs a node; name one", i);
-    return STATUS_OK;
-}
-
-static int is_component(int component)
-{
-    return component >= SCENE_UX && component <= SCENE_RZ;
-}
-
-static status check_extract(const scene *s, const scene_quantity *q, fault *f)
-{
-    switch (q->what.kind) {
-    case SCENE_COORDINATE:
-    case SCENE_REACTION: {
-        const scene_component *c = scene_component_of(q);
-        if (c->node < 0 || c->node >= s->nodes || !is_component(c->component))
-            return fault_set(f, STATUS_REFUSED,
-                             "quantity %s: no such coordinate; name a node and UX to RZ", q->name);
-        break;
-    }
-    case SCENE_COMPLIANCE_ENTRY:
-    case SCENE_STIFFNESS_ENTRY:
-        if (!is_component(scene_entry_of(q)->row) || !is_component(scene_entry_of(q)->column))
-            return fault_set(f, STATUS_REFUSED,
-                             "quantity %s: no such entry; name a row and a column from UX to RZ",
-                             q->name);
-        break;
-    case SCENE_DRIVER_VALUE:
-        if (scene_driver_of(q) < 0 || scene_driver_of(q) >= s->drivers)
-            return fault_set(f, STATUS_REFUSED, "quantity %s: no such driver; add the driver first",
-                             q->name);
-        break;
-    case SCENE_CRITICAL_FACTOR:
-    case SCENE_GROWTH:
-    case SCENE_FREQUENCY:
-    case SCENE_FACTOR_AT:
-    case SCENE_CRITICAL_POINT:
-        break;
-    }
-    return STATUS_OK;
-}
-
-static status check_quantity(const scene *s, int i, fault *f)
-{
-    const scene_quantity *q = &s->quantity[i];
-    for (int k = 0; k < i; k++)
-        if (strcmp(s->quantity[k].name, q->name) == 0)
-            return fault_set(f, STATUS_REFUSED, "quantity %s: two of that name; rename one",
-                             q->name);
-    if (q->analysis < 0 || q->analysis >= s->analyses)
-        return fault_set(f, STATUS_REFUSED, "quantity %s: no such analysis; add the analysis first",
-                         q->name);
-    if (!scene_gives(s->analysis[q->analysis].kind, q->what.kind))
-        return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: an analysis of this kind does not have it; name another one",
-                         q->name);
-    return check_extract(s, q, f);
-}
-
 status scene_validate(const scene *s, fault *f)
 {
-    static status (*const check[])(const scene *, int, fault *) = {
-        check_node, check_member, check_driver, check_load, check_analysis, check_quantity};
+    static status (*const check[])(const scene *, int, fault *) = {check_node,
+                                                                   check_member,
+                                                                   check_driver,
+                                                                   check_load,
+                                                                   scene_validate_analysis,
+                                                                   scene_validate_quantity};
     const int count[] = {s->nodes, s->members, s->drivers, s->loads, s->analyses, s->quantities};
     if (s->out_of_memory)
         return fault_set(f, STATUS_FAULT, "%s: out of memory while the scene was built", s->name);

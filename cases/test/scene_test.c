@@ -221,6 +221,12 @@ static void compliance_nowhere(scene *s)
     scene_add_compliance(s, SCENE_NONE, (scene_compliance){.node = SCENE_NONE});
 }
 
+static void compliance_of_compliance(scene *s)
+{
+    const scene_compliance at_tip = {.node = TIP};
+    scene_add_compliance(s, scene_add_compliance(s, 0, at_tip), at_tip);
+}
+
 typedef void spoil(scene *);
 
 static const struct {
@@ -261,6 +267,7 @@ static const struct {
     {smaller_step, "analysis 0: ", "steps of 0.1 to 0.05"},
     {driven, "analysis 0: ", "changes loads only"},
     {compliance_nowhere, "analysis 1: ", "a compliance needs a node"},
+    {compliance_of_compliance, "analysis 2: ", "follows a path or nothing"},
     {two_names, "quantity u: ", "two of that name"},
     {no_analysis, "quantity u: ", "no such analysis"},
     {no_coordinate, "quantity u: ", "no such coordinate"},

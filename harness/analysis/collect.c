@@ -17,10 +17,14 @@ static int least(int a, int b)
 /* States of one analysis that are kept; most: of a path. */
 static int count_of(const analysis_outcome *o, int most)
 {
-    if (o->state != NULL)
-        return least(o->reached, most);
-    return (o->x != NULL) + least(o->positive.count, SHAPES_MODES) * (o->positive.mode != NULL) +
-           least(o->negative.count, SHAPES_MODES) * (o->negative.mode != NULL);
+    if (outcome_has_path(o))
+        return outcome_path_of(o)->state != NULL ? least(outcome_path_of(o)->reached, most) : 0;
+    if (!outcome_has_spectrum(o))
+        return outcome_displacements(o) != NULL;
+    const outcome_side *positive = &outcome_spectrum_of(o)->positive,
+                       *negative = &outcome_spectrum_of(o)->negative;
+    return least(positive->count, SHAPES_MODES) * (positive->mode != NULL) +
+           least(negative->count, SHAPES_MODES) * (negative->mode != NULL);
 }
 
 static void keep(const analysis_context *c, shapes *s, const shape_state *what,
@@ -34,11 +38,11 @@ static void keep(const analysis_context *c, shapes *s, const shape_state *what,
 
 static void keep_path(const analysis_context *c, int analysis, int most, shapes *s)
 {
-    const analysis_outcome *o = &c->outcomes[analysis];
-    const int count = count_of(o, most);
+    const outcome_path *o = outcome_path_of(&c->outcomes[analysis]);
+    const int count = count_of(&c->outcomes[analysis], most);
     for (int i = 0; i < count; i++) {
         const int at = count > 1 ? (int)((long)i * (o->reached - 1) / (count - 1)) : o->reached - 1;
-        keep(c, s, &(shape_state){SHAPE_PATH, analysis, o->path[at], 1}, o->state[at]);
+        keep(c, s, &(shape_state){SHAPE_PATH, analysis, o->value[at], 1}, o->state[at]);
     }
 }
 
@@ -47,7 +51,9 @@ static status keep_displaced(const analysis_context *c, shape_state *what, const
                              const double sigma[], shapes *s, fault *f)
 {
     const int follows = c->scene->analysis[what->analysis].follows;
-    const analysis_outcome *path = follows == SCENE_NONE ? NULL : &c->outcomes[follows];
+    const outcome_path *path = follows != SCENE_NONE && outcome_has_path(&c->outcomes[follows])
+                                   ? outcome_path_of(&c->outcomes[follows])
+                                   : NULL;
     const model_state *about = path != NULL && path->reached > 0 && path->state != NULL
                                    ? path->state[path->reached - 1]
                                    : kinematics_rest(c->model);
@@ -64,11 +70,13 @@ static status keep_linear(const analysis_context *c, int analysis, shapes *s, fa
     const model_size size = model_sizes(c->model);
     shape_state what = {SHAPE_LINEAR, analysis, 1, 1};
     double *sigma = calloc((size_t)size.elements * (size_t)size.strains + 1, sizeof *sigma);
-    status outcome = sigma != NULL ? linear_stresses(c->model, c->outcomes[analysis].x, sigma, f)
-                                   : fault_set(f, STATUS_FAULT,
-                                               "out of memory for the shape of a linear solution");
+    status outcome =
+        sigma != NULL
+            ? linear_stresses(c->model, outcome_displacements(&c->outcomes[analysis]), sigma, f)
+            : fault_set(f, STATUS_FAULT, "out of memory for the shape of a linear solution");
     if (outcome == STATUS_OK)
-        outcome = keep_displaced(c, &what, c->outcomes[analysis].x, sigma, s, f);
+        outcome =
+            keep_displaced(c, &what, outcome_displacements(&c->outcomes[analysis]), sigma, s, f);
     free(sigma);
     return outcome;
 }
@@ -108,14 +116,14 @@ static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
     keep(c, s, &(shape_state){SHAPE_UNDEFORMED, -1, 0, 1}, kinematics_rest(c->model));
     for (int i = 0; i < c->scene->analyses; i++) {
         const analysis_outcome *o = &c->outcomes[i];
-        if (o->state != NULL) {
+        if (outcome_has_path(o)) {
             keep_path(c, i, most, s);
-            continue;
-        }
-        if (o->x != NULL)
+        } else if (outcome_has_spectrum(o)) {
+            TRY(keep_modes(c, i, &outcome_spectrum_of(o)->positive, s, f));
+            TRY(keep_modes(c, i, &outcome_spectrum_of(o)->negative, s, f));
+        } else if (outcome_displacements(o) != NULL) {
             TRY(keep_linear(c, i, s, f));
-        TRY(keep_modes(c, i, &o->positive, s, f));
-        TRY(keep_modes(c, i, &o->negative, s, f));
+        }
     }
     return STATUS_OK;
 }

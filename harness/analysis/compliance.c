@@ -74,11 +74,12 @@ static status matrices_alloc(solve_result *r, const scene_compliance *what, int 
 }
 
 /* With what compliance_analysis frees; at the stations that the path has reached. */
-static status solve(analysis_context *c, int analysis, tangent *t, analysis_outcome *o, fault *f)
+static status solve(analysis_context *c, int analysis, tangent *t, outcome_path *o, fault *f)
 {
     const scene_analysis *a = &c->scene->analysis[analysis];
     const scene_compliance *what = scene_compliance_of(a);
-    const analysis_outcome *path = a->follows == SCENE_NONE ? NULL : &c->outcomes[a->follows];
+    const outcome_path *path =
+        a->follows == SCENE_NONE ? NULL : outcome_path_of(&c->outcomes[a->follows]);
     const int reached = path != NULL ? path->reached : 1;
     const unsigned wanted = wanted_columns(c, analysis);
     nodal_matrices *m = NULL;
@@ -86,14 +87,14 @@ static status solve(analysis_context *c, int analysis, tangent *t, analysis_outc
     TRY(tangent_alloc(c, what, t, f));
     TRY(matrices_alloc(c->result, what, o->stations, &m, f));
     o->compliance = m->compliance;
-    o->path = calloc((size_t)o->stations + 1, sizeof *o->path);
-    if (o->path == NULL)
+    o->value = calloc((size_t)o->stations + 1, sizeof *o->value);
+    if (o->value == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
     for (int i = 0; i < reached; i++) {
         const model_state *s = path != NULL ? path->state[i] : kinematics_rest(c->model);
         TRY(compliance_at(c, what, s, t, wanted, m->compliance + 36 * (size_t)i,
                           m->stiffness + 36 * (size_t)i, f));
-        o->path[i] = m->path[i] = path != NULL ? path->path[i] : 0;
+        o->value[i] = m->path[i] = path != NULL ? path->value[i] : 0;
         m->stations = ++o->reached;
     }
     return STATUS_OK;
@@ -102,7 +103,7 @@ static status solve(analysis_context *c, int analysis, tangent *t, analysis_outc
 status compliance_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     tangent t;
-    const status result = solve(c, analysis, &t, o, f);
+    const status result = solve(c, analysis, &t, &o->of.path, f);
     tangent_free(&t);
     return result;
 }

@@ -24,7 +24,7 @@ typedef struct attempt {
 
 static status add_point(continuation *p, fault *f)
 {
-    analysis_outcome *o = p->o;
+    outcome_path *o = p->o;
     if (o->points == p->room) {
         const int room = p->room > 0 ? 2 * p->room : 64;
         double *factors = realloc(o->factor, (size_t)room * sizeof *factors);
@@ -260,7 +260,7 @@ static status walk(continuation *p, fault *f)
 status continuation_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     continuation p;
-    status result = continuation_alloc(c, analysis, o, &p, f);
+    status result = continuation_alloc(c, analysis, &o->of.path, &p, f);
     if (result == STATUS_OK)
         result = walk(&p, f);
     continuation_free(&p);

@@ -27,23 +27,24 @@ static double abscissa(const scene_quantity *q, double control)
 static void take_curve(const analysis_context *c, const scene_quantity *q,
                        const analysis_outcome *o, quantity_result *r)
 {
-    r->curve.x = calloc((size_t)o->points + 1, sizeof(double));
-    r->curve.value = calloc((size_t)o->points + 1, sizeof(double));
+    const outcome_path *p = outcome_path_of(o);
+    r->curve.x = calloc((size_t)p->points + 1, sizeof(double));
+    r->curve.value = calloc((size_t)p->points + 1, sizeof(double));
     if (r->curve.x == NULL || r->curve.value == NULL) {
         quantity_no_value(r, STATUS_FAULT, "out of memory");
         return;
     }
-    r->curve.points = o->points;
-    for (int i = 0; i < o->points; i++) {
+    r->curve.points = p->points;
+    for (int i = 0; i < p->points; i++) {
         const double value =
             q->what.kind == SCENE_FACTOR_AT
-                ? o->factor[i]
-                : kinematics_component(c->model, o->point_state[i], scene_component_of(q)->node,
+                ? p->factor[i]
+                : kinematics_component(c->model, p->point_state[i], scene_component_of(q)->node,
                                        scene_component_of(q)->component);
-        r->curve.x[i] = abscissa(q, o->control[i]);
+        r->curve.x[i] = abscissa(q, p->control[i]);
         r->curve.value[i] = quantity_scaled(q, value);
     }
-    r->value = o->points > 0 ? r->curve.value[o->points - 1] : NAN;
+    r->value = p->points > 0 ? r->curve.value[p->points - 1] : NAN;
     if (o->status != STATUS_OK)
         quantity_no_value(r, o->status, o->reason);
 }

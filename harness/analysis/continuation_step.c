@@ -11,7 +11,7 @@
 #include "harness/solver/context.h"
 #include "harness/solver/newton.h"
 
-status continuation_alloc(analysis_context *c, int analysis, analysis_outcome *o, continuation *p,
+status continuation_alloc(analysis_context *c, int analysis, outcome_path *o, continuation *p,
                           fault *f)
 {
     memset(p, 0, sizeof *p);

@@ -47,8 +47,8 @@ static double reaction_of(const analysis_context *c, const scene_component *what
 }
 
 /* Value of a quantity of the path at one station. */
-static double extracted(const analysis_context *c, const scene_quantity *q,
-                        const analysis_outcome *o, int i)
+static double extracted(const analysis_context *c, const scene_quantity *q, const outcome_path *o,
+                        int i)
 {
     switch (q->what.kind) {
     case SCENE_COORDINATE:
@@ -75,19 +75,19 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
     return NAN;
 }
 
-static double at_station(const analysis_context *c, const scene_quantity *q,
-                         const analysis_outcome *o, int i)
+static double at_station(const analysis_context *c, const scene_quantity *q, const outcome_path *o,
+                         int i)
 {
     return quantity_scaled(q, extracted(c, q, o, i));
 }
 
-static double abscissa(const scene_quantity *q, const analysis_outcome *o, int i)
+static double abscissa(const scene_quantity *q, const outcome_path *o, int i)
 {
-    return o->path[i] * q->x.factor + q->x.offset;
+    return o->value[i] * q->x.factor + q->x.offset;
 }
 
-static void take_curve(const analysis_context *c, const scene_quantity *q,
-                       const analysis_outcome *o, quantity_result *r)
+static void take_curve(const analysis_context *c, const scene_quantity *q, const outcome_path *o,
+                       quantity_result *r)
 {
     r->curve.x = calloc((size_t)o->reached + 1, sizeof(double));
     r->curve.value = calloc((size_t)o->reached + 1, sizeof(double));
@@ -115,15 +115,16 @@ static const char *reason_of_path(const analysis_context *c, const scene_quantit
 static void from_path(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
                       quantity_result *r)
 {
-    const int complete = o->reached == o->stations;
+    const outcome_path *p = outcome_path_of(o);
+    const int complete = p->reached == p->stations;
     int chosen = -1;
-    for (int i = 0; i < o->reached; i++) {
+    for (int i = 0; i < p->reached; i++) {
         const double value =
-            q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ? at_station(c, q, o, i) : 0;
+            q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ? at_station(c, q, p, i) : 0;
         const int better = q->reduction == SCENE_MAX ? value > r->value : value < r->value;
         const int here = q->reduction == SCENE_AT
-                             ? fabs(o->path[i] - q->at) <= 1e-12 * fmax(1, fabs(q->at))
-                             : i == o->stations - 1;
+                             ? fabs(p->value[i] - q->at) <= 1e-12 * fmax(1, fabs(q->at))
+                             : i == p->stations - 1;
         if ((q->reduction == SCENE_MAX || q->reduction == SCENE_MIN) ? chosen < 0 || better
                                                                      : here) {
             chosen = i;
@@ -131,7 +132,7 @@ static void from_path(const analysis_context *c, const scene_quantity *q, const 
         }
     }
     if (q->reduction == SCENE_CURVE) {
-        take_curve(c, q, o, r);
+        take_curve(c, q, p, r);
         if (!complete)
             quantity_no_value(r, o->status, o->reason);
         return;
@@ -141,8 +142,8 @@ static void from_path(const analysis_context *c, const scene_quantity *q, const 
                           o->status != STATUS_OK ? o->reason : reason_of_path(c, q));
         return;
     }
-    r->value = at_station(c, q, o, chosen);
-    r->x = abscissa(q, o, chosen);
+    r->value = at_station(c, q, p, chosen);
+    r->x = abscissa(q, p, chosen);
 }
 
 /* Value i of a side, or why it has none. */
@@ -160,7 +161,8 @@ static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, i
 static void from_buckling(const scene_quantity *q, const analysis_outcome *o, quantity_result *r)
 {
     const scene_critical_load *load = scene_critical_load_of(q);
-    const outcome_side *side = load->sign > 0 ? &o->positive : &o->negative;
+    const outcome_spectrum *found = outcome_spectrum_of(o);
+    const outcome_side *side = load->sign > 0 ? &found->positive : &found->negative;
     const char *sign = load->sign > 0 ? "positive" : "negative";
     char why[FAULT_TEXT];
     if (load->order < side->count) {
@@ -201,7 +203,7 @@ static void from_modes(const analysis_context *c, const scene_quantity *q,
                        const analysis_outcome *o, quantity_result *r)
 {
     const model_size size = model_sizes(c->model);
-    const outcome_side *side = &o->positive;
+    const outcome_side *side = &outcome_spectrum_of(o)->positive;
     fault f = {"out of memory for a mode"};
     int found = -1;
     double *x = calloc((size_t)(size.free + size.driven) + 1, sizeof *x);
@@ -222,21 +224,33 @@ static void from_linear(const analysis_context *c, const scene_quantity *q,
                         const analysis_outcome *o, quantity_result *r)
 {
     const scene_component *what = scene_component_of(q);
+    const double *x = outcome_displacements(o);
     int index[6];
     double T[36], sum = 0;
     const int n = kinematics_node_jacobian(c->model, NULL, what->node, 6, index, T);
     for (int k = 0; k < n; k++)
-        sum += T[what->component * n + k] * o->x[index[k]];
+        sum += T[what->component * n + k] * x[index[k]];
     r->value = quantity_scaled(q, sum);
+}
+
+/* Did it leave something, though it failed? */
+static int has_anything(const analysis_outcome *o)
+{
+    if (outcome_has_path(o))
+        return outcome_path_of(o)->reached > 0 || outcome_path_of(o)->points > 0;
+    if (!outcome_has_spectrum(o))
+        return 0;
+    const outcome_side *positive = &outcome_spectrum_of(o)->positive,
+                       *negative = &outcome_spectrum_of(o)->negative;
+    return positive->count + negative->count > 0 || positive->status != STATUS_OK ||
+           negative->status != STATUS_OK;
 }
 
 void extract_quantity(const analysis_context *c, const scene_quantity *q, quantity_result *r)
 {
     const analysis_outcome *o = &c->outcomes[q->analysis];
     memset(r, 0, sizeof *r);
-    const int partly = o->positive.count + o->negative.count > 0 ||
-                       o->positive.status != STATUS_OK || o->negative.status != STATUS_OK;
-    if (o->status != STATUS_OK && o->reached == 0 && o->points == 0 && !partly) {
+    if (o->status != STATUS_OK && !has_anything(o)) {
         quantity_no_value(r, o->status, o->reason);
         return;
     }
@@ -260,7 +274,7 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
         break;
     case SCENE_ROTATION:
         from_path(c, q, o, r);
-        if (o->modes != NULL && isnan(r->value) && r->status == STATUS_OK)
+        if (outcome_path_of(o)->modes != NULL && isnan(r->value) && r->status == STATUS_OK)
             quantity_no_value(r, STATUS_OK, "the mesh has no mode of this kind");
         break;
     }

@@ -31,10 +31,11 @@ static const double closest =
 static status followed_state(const analysis_context *c, int analysis, const model_state **state,
                              fault *f)
 {
-    const analysis_outcome *path = &c->outcomes[c->scene->analysis[analysis].follows];
+    const analysis_outcome *followed = &c->outcomes[c->scene->analysis[analysis].follows];
+    const outcome_path *path = outcome_path_of(followed);
     if (path->stations == 0 || path->reached < path->stations)
-        return fault_set(f, path->status != STATUS_OK ? path->status : STATUS_REFUSED,
-                         "the state to start from was not reached: %.150s", path->reason);
+        return fault_set(f, followed->status != STATUS_OK ? followed->status : STATUS_REFUSED,
+                         "the state to start from was not reached: %.150s", followed->reason);
     *state = path->state[path->reached - 1];
     return STATUS_OK;
 }
@@ -86,7 +87,7 @@ status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, faul
         e.positive.mu[i] = 1 / sqrt(e.positive.mu[i]);
         e.positive.error[i] /= 2; /* the root's */
     }
-    outcome_take(&e.positive, &o->positive);
+    outcome_take(&e.positive, &o->of.spectrum.positive);
     eigen_free(&e);
     sparse_free_values(&M);
     newton_free(&n);
@@ -224,9 +225,9 @@ status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, f
     if (result == STATUS_OK)
         result = find_critical(&s, f);
     if (result == STATUS_OK) {
-        outcome_take(&s.found.positive, &o->positive);
-        *o->positive.value = s.estimate;
-        *o->positive.error = 0; /* that of the eigenvalue is not the estimate's */
+        outcome_take(&s.found.positive, &o->of.spectrum.positive);
+        *o->of.spectrum.positive.value = s.estimate;
+        *o->of.spectrum.positive.error = 0; /* that of the eigenvalue is not the estimate's */
     }
     search_free(&s);
     return result;

@@ -83,7 +83,7 @@ static void keep(const forms *about, eigen_side *side, analysis_outcome *o)
         side->mu[i] = square <= 1e-9 * about->shift ? 0 : sqrt(square);
         side->error[i] /= 2; /* the root's */
     }
-    outcome_take(side, &o->positive);
+    outcome_take(side, &o->of.spectrum.positive);
 }
 
 /* A structure that is not held has K singular: K + shift M is not. */
@@ -107,8 +107,10 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
                             fault *f)
 {
     const model_size size = model_sizes(c->model);
-    const double *x = c->outcomes[follows].x;
-    if (c->scene->analysis[follows].kind != SCENE_LINEAR || x == NULL)
+    const double *x = c->scene->analysis[follows].kind == SCENE_LINEAR
+                          ? outcome_displacements(&c->outcomes[follows])
+                          : NULL;
+    if (x == NULL)
         return fault_set(
             f, STATUS_REFUSED,
             "frequencies of a loaded structure follow a linear analysis that has been solved");

@@ -226,8 +226,7 @@ static void note_instability(analysis_context *c, const rotation_modes *modes, d
 }
 
 /* Modes at every station, or at the last. */
-static status modes_of(analysis_context *c, int analysis, matrices *a, analysis_outcome *o,
-                       fault *f)
+static status modes_of(analysis_context *c, int analysis, matrices *a, outcome_path *o, fault *f)
 {
     o->modes = calloc((size_t)o->stations + 1, sizeof *o->modes);
     if (o->modes == NULL)
@@ -235,7 +234,7 @@ static status modes_of(analysis_context *c, int analysis, matrices *a, analysis_
     TRY(matrices_alloc(c, a, f));
     for (int i = asks_for_modes(c, analysis, 1) ? 0 : o->stations - 1; i < o->stations; i++) {
         TRY(modes_at(c, analysis, o->state[i], a, &o->modes[i], f));
-        note_instability(c, &o->modes[i], o->path[i]);
+        note_instability(c, &o->modes[i], o->value[i]);
     }
     return STATUS_OK;
 }
@@ -246,7 +245,7 @@ status rotation_analysis(analysis_context *c, int analysis, analysis_outcome *o,
     TRY(static_analysis(c, analysis, o, f));
     if (!asks_for_modes(c, analysis, 0))
         return STATUS_OK;
-    const status outcome = modes_of(c, analysis, &a, o, f);
+    const status outcome = modes_of(c, analysis, &a, &o->of.path, f);
     matrices_free(&a);
     return outcome;
 }

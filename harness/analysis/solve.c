@@ -59,6 +59,7 @@ static void run_analyses(analysis_context *c)
         fault f = {""};
         const scene_analysis *a = &c->scene->analysis[i];
         analysis_function *run = function_of(c->scene, a);
+        o->kind = a->kind;
         set_frame(c->model, a);
         if (c->options->sample > 0 && a->kind != SCENE_STATIC)
             continue;

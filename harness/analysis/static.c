@@ -63,7 +63,7 @@ static status sample(newton *n, double path, fault *f)
 }
 
 /* Steps to every station, whose states are kept. */
-static status walk(newton *n, const scene_walk *a, analysis_outcome *o, fault *f)
+static status walk(newton *n, const scene_walk *a, outcome_path *o, fault *f)
 {
     analysis_context *c = n->c;
     const int between =
@@ -82,7 +82,7 @@ static status walk(newton *n, const scene_walk *a, analysis_outcome *o, fault *f
 
 /* With what static_analysis frees. */
 static status solve(analysis_context *c, const scene_walk *a, newton *n, predictor *t,
-                    analysis_outcome *o, fault *f)
+                    outcome_path *o, fault *f)
 {
     TRY(newton_alloc(c, n, f));
     TRY(predictor_alloc(c->model, t, f));
@@ -95,7 +95,8 @@ status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
 {
     newton n;
     predictor t = {0};
-    const status result = solve(c, scene_walk_of(&c->scene->analysis[analysis]), &n, &t, o, f);
+    const status result =
+        solve(c, scene_walk_of(&c->scene->analysis[analysis]), &n, &t, &o->of.path, f);
     predictor_free(&t);
     newton_free(&n);
     return result;

@@ -23,35 +23,51 @@ typedef struct rotation_modes {
 } rotation_modes;
 void outcome_modes_free(rotation_modes *);
 
-typedef struct analysis_outcome {
-    status status;
-    char reason[FAULT_TEXT];
-    /* linear: displacements of all coordinates */
-    double *x;
-    /* static, continuation: the state at every station reached (the first `reached` of them) */
-    int stations, reached;
-    double *path;
-    model_state **state;
+/* Buckling, modal; what was found stays where the analysis failed. */
+typedef struct outcome_spectrum {
+    outcome_side positive, negative; /* frequencies are positive */
+} outcome_spectrum;
+
+/* Static, compliance, continuation, rotation. */
+typedef struct outcome_path {
+    int stations, reached; /* the first `reached` of them */
+    double *value;         /* [stations] of the path parameter or the control coordinate */
+    model_state **state;   /* [stations]; NULL: of a compliance */
+    /* compliance: of the six components at the node, at every station [stations x 36]; rows of held
+     * components are zero, columns that nothing asks for NAN; belongs to the result */
+    const double *compliance;
+    /* rotation: modes at every station [stations]; NULL where no quantity asks for them */
+    rotation_modes *modes;
     /* continuation: load factor and control value [m] at every point of the path, the first without
      * load */
     int points;
     double *factor, *control;
     model_state **point_state; /* [points]; NULL unless a curve of coordinates is wanted */
-    /* buckling, modal; what was found stays where the analysis failed */
-    outcome_side positive, negative;
-    /* compliance: of the six components at the node, at every station [stations x 36]; rows of held
-     * components are zero, columns that nothing asks for NAN; belongs to the result */
-    const double *compliance;
-    /* rotation: modes at every station; none where no quantity asks for them */
-    rotation_modes *modes; /* [stations] */
+} outcome_path;
+
+typedef struct analysis_outcome {
+    scene_analysis_kind kind;
+    status status;
+    char reason[FAULT_TEXT];
+    union {        /* written by the analysis, read through the functions below */
+        double *x; /* linear: displacements of all coordinates */
+        outcome_spectrum spectrum;
+        outcome_path path;
+    } of;
 } analysis_outcome;
 
+/* What the kind leaves; another kind ends the program. */
+const double *outcome_displacements(const analysis_outcome *);
+const outcome_spectrum *outcome_spectrum_of(const analysis_outcome *);
+const outcome_path *outcome_path_of(const analysis_outcome *);
+int outcome_has_path(const analysis_outcome *);
+int outcome_has_spectrum(const analysis_outcome *);
 void outcome_free(analysis_outcome *);
 /* The values and modes of a side; they are taken from `from`. */
 void outcome_take(eigen_side *from, outcome_side *to);
 /* Room for the states of so many stations. */
-status outcome_stations(analysis_outcome *, int stations, fault *);
+status outcome_stations(outcome_path *, int stations, fault *);
 /* A copy of the state becomes that of the next station. */
-status outcome_keep(analysis_outcome *, const model *, const model_state *, double path, fault *);
+status outcome_keep(outcome_path *, const model *, const model_state *, double path, fault *);
 
 #endif

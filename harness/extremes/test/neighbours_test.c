@@ -44,7 +44,7 @@ static void make(int own, const int mesh[OUTCOME_NEIGHBOURS], const double error
     snprintf(name, sizeof name, "%s", extremes[index].quantity[0].name);
     b->p.type = case_find(extremes[index].base, NULL);
     scene_init(&b->p.scene, "made_up");
-    scene_add_quantity(&b->p.scene, name, "m", SCENE_COORDINATE, 0);
+    scene_add_quantity(&b->p.scene, name, "m", 0, scene_coordinate(0, SCENE_UX));
     b->element = (element_type){.name = "element"};
     b->chosen = (formulation){.key = "element", .type = &b->element};
     b->value = (quantity_result){.value = exact * (1 + error[0])};

@@ -15,16 +15,17 @@ static void handed_over(status outcome, int rounding, const char *reason, const 
                        .error = error,
                        .status = outcome,
                        .rounding = rounding};
-    analysis_outcome o = {.reached = 0};
+    analysis_outcome o = {.kind = SCENE_BUCKLING};
+    outcome_side *side = &o.of.spectrum.positive;
     snprintf(from.reason, sizeof from.reason, "%s", reason);
-    outcome_take(&from, &o.positive);
-    gsl_test(o.positive.count != 1 || o.positive.value != mu || o.positive.mode != mode ||
-                 o.positive.error != error || o.positive.status != outcome,
+    outcome_take(&from, side);
+    gsl_test(side->count != 1 || side->value != mu || side->mode != mode || side->error != error ||
+                 side->status != outcome,
              "'%s': what was found", reason);
     gsl_test(from.mu != NULL || from.mode != NULL || from.error != NULL,
              "'%s': it is not freed twice", reason);
-    gsl_test(said == NULL ? o.positive.reason[0] != '\0' : strstr(o.positive.reason, said) == NULL,
-             "'%s', %d lost: says '%s'", reason, rounding, o.positive.reason);
+    gsl_test(said == NULL ? side->reason[0] != '\0' : strstr(side->reason, said) == NULL,
+             "'%s', %d lost: says '%s'", reason, rounding, side->reason);
     outcome_free(&o);
 }
 
