@@ -4,34 +4,74 @@
 #include <float.h>
 #include <string.h>
 
+enum { WIDEST = 14 };
+
+/* out += sum_l times c[l stride] row l of rows, row length n, in this order; sums of a width that is
+ * known where this is inlined stay in registers. skip: rows whose factor is zero. */
+static inline __attribute__((always_inline)) void add_block(int count, int width, double times,
+                                                            int skip, const double *restrict c,
+                                                            int stride, const double *restrict rows,
+                                                            int n, double *restrict out)
+{
+    double sum[WIDEST];
+    for (int j = 0; j < width; j++)
+        sum[j] = out[j];
+    for (int l = 0; l < count; l++) {
+        const double factor = times * c[l * stride];
+        if (skip && factor == 0)
+            continue;
+        for (int j = 0; j < width; j++)
+            sum[j] += factor * rows[l * n + j];
+    }
+    for (int j = 0; j < width; j++)
+        out[j] = sum[j];
+}
+
+/* Of what is left of a row: those that elements have first. */
+static inline __attribute__((always_inline)) int width_of(int left)
+{
+    static const int widths[] = {14, 8, 7, 3};
+    for (size_t i = 0; i < sizeof widths / sizeof widths[0]; i++)
+        if (left >= widths[i])
+            return widths[i];
+    return 1;
+}
+
+/* The same of whole rows. */
+static inline __attribute__((always_inline)) void add_rows(int count, int n, double times, int skip,
+                                                           const double *c, int stride,
+                                                           const double *rows, double *out)
+{
+    for (int j = 0, width; j < n; j += width) {
+        width = width_of(n - j);
+        if (width == 14)
+            add_block(count, 14, times, skip, c, stride, rows + j, n, out + j);
+        else if (width == 8)
+            add_block(count, 8, times, skip, c, stride, rows + j, n, out + j);
+        else if (width == 7)
+            add_block(count, 7, times, skip, c, stride, rows + j, n, out + j);
+        else if (width == 3)
+            add_block(count, 3, times, skip, c, stride, rows + j, n, out + j);
+        else
+            add_block(count, 1, times, skip, c, stride, rows + j, n, out + j);
+    }
+}
+
 void dense_mul(int m, int k, int n, const double *restrict A, const double *restrict B,
                double *restrict C)
 {
     memset(C, 0, sizeof(double) * (size_t)m * (size_t)n);
     for (int i = 0; i < m; i++)
-        for (int l = 0; l < k; l++) {
-            const double a = A[i * k + l];
-            if (a == 0) /* blocks of zeros are the rule */
-                continue;
-            for (int j = 0; j < n; j++)
-                C[i * n + j] += a * B[l * n + j];
-        }
+        add_rows(k, n, 1, 1, &A[i * k], 1, B, &C[i * n]);
 }
 
 void dense_add_transpose_mul(int m, int k, int n, const double *restrict A,
                              const double *restrict B, double *restrict C)
 {
-    for (int l = 0; l < k && n == 1; l++)
-        for (int i = 0; i < m; i++)
-            C[i] += A[l * m + i] * B[l];
-    for (int l = 0; l < k && n > 1; l++)
-        for (int i = 0; i < m; i++) {
-            const double a = A[l * m + i];
-            if (a == 0)
-                continue;
-            for (int j = 0; j < n; j++)
-                C[i * n + j] += a * B[l * n + j];
-        }
+    if (n == 1)
+        add_rows(k, m, 1, 0, B, 1, A, C);
+    for (int i = 0; i < m && n > 1; i++)
+        add_rows(k, n, 1, 1, &A[i], m, B, &C[i * n]);
 }
 
 double dense_dot(int n, const double a[], const double b[])
@@ -61,36 +101,11 @@ void dense_mul_vec(int m, int n, const double *A, const double *x, double *y)
     }
 }
 
-/* K += J^T (S J); sizes that are known where it is inlined make straight code. */
-static inline void congruence(int m, int n, const double *restrict J, const double *restrict S,
-                              double *restrict K, double *restrict work)
+void dense_add_congruence(int m, int n, const double *restrict J, const double *restrict S,
+                          double *restrict K, double *restrict work)
 {
-    for (int i = 0; i < m; i++) {
-        double *row = work + i * n;
-        for (int j = 0; j < n; j++)
-            row[j] = 0;
-        for (int l = 0; l < m; l++) {
-            const double s = S[i * m + l];
-            for (int j = 0; j < n && s != 0; j++)
-                row[j] += s * J[l * n + j];
-        }
-    }
-    for (int l = 0; l < m; l++)
-        for (int i = 0; i < n; i++) {
-            const double a = J[l * n + i];
-            for (int j = 0; j < n && a != 0; j++)
-                K[i * n + j] += a * work[l * n + j];
-        }
-}
-
-void dense_add_congruence(int m, int n, const double *J, const double *S, double *K, double *work)
-{
-    if (m == 8 && n == 14)
-        congruence(8, 14, J, S, K, work);
-    else if (m == 8 && n == 8)
-        congruence(8, 8, J, S, K, work);
-    else
-        congruence(m, n, J, S, K, work);
+    dense_mul(m, m, n, S, J, work);
+    dense_add_transpose_mul(n, m, n, J, work, K);
 }
 
 int dense_cholesky(int n, double *A)
@@ -179,14 +194,10 @@ void dense_lu_solve(int n, int m, const double *LU, const int pivot[], double *B
             B[pivot[i] * m + c] = swap;
         }
     for (int i = 0; i < n; i++)
-        for (int k = 0; k < i; k++)
-            for (int c = 0; c < m; c++)
-                B[i * m + c] -= LU[i * n + k] * B[k * m + c];
-    for (int i = n - 1; i >= 0; i--)
-        for (int c = 0; c < m; c++) {
-            double sum = B[i * m + c];
-            for (int k = i + 1; k < n; k++)
-                sum -= LU[i * n + k] * B[k * m + c];
-            B[i * m + c] = sum / LU[i * n + i];
-        }
+        add_rows(i, m, -1, 0, &LU[i * n], 1, B, &B[i * m]);
+    for (int i = n - 1; i >= 0; i--) {
+        add_rows(n - 1 - i, m, -1, 0, &LU[i * n + i + 1], 1, &B[(i + 1) * m], &B[i * m]);
+        for (int c = 0; c < m; c++)
+            B[i * m + c] /= LU[i * n + i];
+    }
 }
