@@ -15,7 +15,7 @@ typedef struct linear_element {
         S[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
 } linear_element;
 
-static status linear_of(model *m, int i, linear_element *out)
+static status evaluate(const model *m, int i, linear_element *out)
 {
     const mesh_element *el = &m->element[i];
     const element_data *data = m->kind[el->kind].data;
@@ -23,11 +23,34 @@ static status linear_of(model *m, int i, linear_element *out)
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, m->rest, el, x);
     m->type->strain(data, x, &(strain_output){.e = e, .J = out->J});
-    m->counters.strain_evaluations++;
-    m->counters.stress_evaluations++;
     return m->type->stress(data, e,
                            m->inner > 0 ? &m->rest->inner[(size_t)i * (size_t)m->inner] : inner,
                            &(stress_output){.C = out->S});
+}
+
+/* J, S of an element are evaluated once and kept in the model: the undeformed state never changes.
+ * (Not once per kind: J of equal elements differs in its last digits.) What is asked for is
+ * counted. Without memory for it nothing is kept. */
+static status linear_of(model *m, int i, linear_element *out)
+{
+    const size_t J = (size_t)(m->strains * m->coordinates), S = (size_t)(m->strains * m->strains);
+    if (m->undeformed == NULL)
+        m->undeformed = calloc((size_t)m->elements * (J + S + 1), sizeof *m->undeformed);
+    double *kept = m->undeformed != NULL ? m->undeformed + (size_t)i * (J + S + 1) : NULL;
+    m->counters.strain_evaluations++;
+    m->counters.stress_evaluations++;
+    if (kept != NULL && kept[J + S] != 0) {
+        memcpy(out->J, kept, J * sizeof *kept);
+        memcpy(out->S, kept + J, S * sizeof *kept);
+        return STATUS_OK;
+    }
+    TRY(evaluate(m, i, out));
+    if (kept != NULL) {
+        memcpy(kept, out->J, J * sizeof *kept);
+        memcpy(kept + J, out->S, S * sizeof *kept);
+        kept[J + S] = 1;
+    }
+    return STATUS_OK;
 }
 
 static mesh_pattern *pattern_of(model *m, const sparse *a)

@@ -147,6 +147,7 @@ void model_free(model *m)
     free(m->first_element);
     free(m->driver_coordinate);
     free(m->work);
+    free(m->undeformed);
     free(m->part);
     team_free(m->team);
     kinematics_state_free(m->rest);

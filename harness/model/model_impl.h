@@ -78,6 +78,7 @@ struct model {
                      linearisation */
     int work_size;
     model_state *rest;     /* undeformed */
+    double *undeformed;    /* [elements x (J, C, 1 where both are known)] at rest; NULL: none yet */
     element_spin rotation; /* of the frame, times the path if that is followed */
     int rotates, rotation_follows_path;
     counters counters;
