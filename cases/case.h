@@ -13,6 +13,14 @@ typedef struct case_type {
     const parameter_type *parameters;
     /* value[i] belongs to parameters[i] and is inside its range.  Refuses combinations that make no sense. */
     status (*build)(const double value[], scene *s, fault *f);
+    /* The same of a case that is made at run time, in the place of build; context: what it is made from. */
+    status (*build_from)(const void *context, const double value[], scene *s, fault *f);
+    const void *context;
 } case_type;
+
+static inline status case_build(const case_type *c, const double value[], scene *s, fault *f)
+{
+    return c->build_from != NULL ? c->build_from(c->context, value, s, f) : c->build(value, s, f);
+}
 
 #endif

@@ -29,8 +29,10 @@ static status plan_named(cli_request *r, sweep *s, fault *f)
 {
     formulation all[CLI_MAX_FORMULATIONS];
     const int some = r->formulations > 0, count = some ? r->formulations : all_formulations(all);
-    for (int i = 0; i < r->case_count; i++) {
-        const case_type *type = case_find(r->cases[i], f);
+    const int named = r->scene == NULL ? r->case_count : 1;
+    for (int i = 0; i < named; i++) {
+        const case_type *type =
+            r->scene == NULL ? case_find(r->cases[i], f) : scene_file_case(r->scene);
         if (type == NULL)
             return STATUS_REFUSED;
         parameters_default(type, r->parameter);
@@ -45,6 +47,11 @@ static status plan_named(cli_request *r, sweep *s, fault *f)
     return STATUS_OK;
 }
 
+static int is_named(const cli_request *r)
+{
+    return r->case_count > 0 || r->scene != NULL;
+}
+
 static status measure(cli_request *r, truths *t, sweep *s, judgement *j, fault *f)
 {
     FILE *progress = isatty(STDERR_FILENO) ? stderr : NULL;
@@ -53,7 +60,7 @@ static status measure(cli_request *r, truths *t, sweep *s, judgement *j, fault *
                                    .formulations = r->formulations,
                                    .formulation = r->formulation,
                                    .progress = progress};
-    TRY(r->case_count > 0 ? plan_named(r, s, f) : plan_sweep(&request, t, s, f));
+    TRY(is_named(r) ? plan_named(r, s, f) : plan_sweep(&request, t, s, f));
     s->threads = r->threads;
     TRY(run_sweep(&request, s, f));
     TRY(judgement_make(s, t, 0, j, f));
@@ -68,19 +75,41 @@ static status write_out(const cli_request *r, const sweep *s, const judgement *j
     if (r->format[0] == 'c')
         csv_timing(stdout, s, j);
     else
-        table_timing(stdout, s, j, r->case_count > 0);
+        table_timing(stdout, s, j, is_named(r));
     if (fflush(stdout) != 0)
         return fault_set(f, STATUS_FAULT, "standard output cannot be written");
     return r->output != NULL ? store_write(r->output, s, j, &e, f) : STATUS_OK;
 }
 
-int cli_bench(int count, char **arguments)
+static int bench_request(cli_request *r)
 {
-    cli_request r;
     truths t;
     sweep s = {0};
     judgement j = {0};
     fault f = {""};
+    if (r->against != NULL)
+        return cli_against(r);
+    if (r->scene_path != NULL && cli_case(r) == NULL)
+        return EXIT_REFUSED;
+    if (!is_named(r) && (r->assignments > 0 || r->meshes > 0))
+        return cli_fail(STATUS_REFUSED, "--set and -n are of a case: name it");
+    status outcome = cli_check_files(r, 1, cli_truths_path(r), &f);
+    if (outcome == STATUS_OK)
+        outcome = cli_truths_read(r, 0, &t, &f);
+    if (outcome != STATUS_OK)
+        return cli_fail(outcome, f.text);
+    outcome = measure(r, &t, &s, &j, &f);
+    if (outcome == STATUS_OK)
+        outcome = write_out(r, &s, &j, &f);
+    judgement_free(&j);
+    sweep_free(&s);
+    truths_free(&t);
+    return outcome == STATUS_OK ? EXIT_AS_EXPECTED : cli_fail(outcome, f.text);
+}
+
+int cli_bench(int count, char **arguments)
+{
+    cli_request r;
     rounds_single_thread(arguments - 1); /* main passes what follows the program's name */
     cli_parse("bench", "[CASE...]",
               "Times every formulation and mesh of the cases named (or, without one, of all cases "
@@ -89,21 +118,8 @@ int cli_bench(int count, char **arguments)
               "apart, with the error. Times whose rounds overlap are undecided. With --against: "
               "one cell in alternation with the same cell of another formulation or program, "
               "until the noise allows an answer.",
-              "+fnskFojTAXDt", count, arguments, &r);
-    if (r.against != NULL)
-        return cli_against(&r);
-    if (r.case_count == 0 && (r.assignments > 0 || r.meshes > 0))
-        return cli_fail(STATUS_REFUSED, "--set and -n are of a case: name it");
-    status outcome = cli_check_files(&r, 1, cli_truths_path(&r), &f);
-    if (outcome == STATUS_OK)
-        outcome = truths_read(cli_truths_path(&r), &t, &f);
-    if (outcome != STATUS_OK)
-        return cli_fail(outcome, f.text);
-    outcome = measure(&r, &t, &s, &j, &f);
-    if (outcome == STATUS_OK)
-        outcome = write_out(&r, &s, &j, &f);
-    judgement_free(&j);
-    sweep_free(&s);
-    truths_free(&t);
-    return outcome == STATUS_OK ? EXIT_AS_EXPECTED : cli_fail(outcome, f.text);
+              "+fnskFojTAXDtY", count, arguments, &r);
+    const int code = bench_request(&r);
+    cli_close(&r);
+    return code;
 }

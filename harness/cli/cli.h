@@ -5,6 +5,7 @@
 #include <argp.h>
 
 #include "harness/catalogue/formulations.h"
+#include "harness/scene_file/scene_file.h"
 #include "harness/truth/truths.h"
 
 enum {
@@ -37,12 +38,15 @@ typedef struct cli_request {
     int shapes;     /* states of a path whose shapes are stored; 0: none */
     char given[32]; /* keys of the options with one value that were given */
     int given_count;
-    double plant; /* share of its time that is added to every run of the other */
+    const char *scene_path; /* --scene: in the place of a case */
+    scene_file *scene;      /* what was read from it; cli_close frees it */
+    int schema;             /* 1: describe the keys of scene files */
+    double plant;           /* share of its time that is added to every run of the other */
 } cli_request;
 
 typedef int cli_verb(int count, char **arguments);
 cli_verb cli_list, cli_solve, cli_verify, cli_converge, cli_bench, cli_stress, cli_compare,
-    cli_truth, cli_schema;
+    cli_truth, cli_schema, cli_scene;
 
 /* Options shared by the verbs; a verb lists the keys it takes, and '+' when it takes several cases.
  * Errors are printed and end the program with EXIT_REFUSED. */
@@ -50,6 +54,12 @@ void cli_parse(const char *verb, const char *arguments_doc, const char *doc, con
                int count, char **arguments, cli_request *out);
 /* The case of the request with its parameters, or NULL after a message. */
 const case_type *cli_case(cli_request *r);
+/* Frees what cli_case has read. */
+void cli_close(cli_request *r);
+/* The case of --scene FILE, or NULL after messages: all its mistakes. */
+const case_type *cli_scene_case(cli_request *r);
+/* Truths of the run: those stored, or, of a scene file, its own: at the parameters of the request, or all. */
+status cli_truths_read(const cli_request *r, int all, truths *t, fault *f);
 /* Every output can be written and is a file of its own, and none is an input: looked at before the
  * work begins. whole_file: -o is HDF5. truths_path: NULL where no truths are read. */
 status cli_check_files(const cli_request *r, int whole_file, const char *truths_path, fault *f);

@@ -41,41 +41,49 @@ static status write_out(const cli_request *r, const sweep *s, const truths *t, f
     return outcome;
 }
 
-int cli_converge(int count, char **arguments)
+static int converge_request(cli_request *r)
 {
-    cli_request r;
     sweep s;
     truths t;
     fault f = {""};
-    cli_parse("converge", "CASE",
-              "Solves one case on several meshes and shows errors, observed order and the limit.",
-              "fnsFojT", count, arguments, &r);
-    const case_type *type = cli_case(&r);
+    const case_type *type = cli_case(r);
     if (type == NULL)
         return EXIT_REFUSED;
-    if (r.formulations == 0)
+    if (r->formulations == 0)
         return cli_fail(
             STATUS_REFUSED,
             "which formulation? Give -f, or -f all; 'beamwork list formulations' shows them");
-    status outcome = cli_check_files(&r, 0, cli_truths_path(&r), &f);
+    status outcome = cli_check_files(r, 0, cli_truths_path(r), &f);
     if (outcome == STATUS_OK)
-        outcome = truths_read(cli_truths_path(&r), &t, &f);
+        outcome = cli_truths_read(r, 0, &t, &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
-    outcome = plan_one(type, r.parameter, r.formulation, r.formulations, r.mesh, r.meshes, &s, &f);
+    outcome =
+        plan_one(type, r->parameter, r->formulation, r->formulations, r->mesh, r->meshes, &s, &f);
     if (outcome != STATUS_OK) {
         truths_free(&t);
         return cli_fail(outcome, f.text);
     }
-    const sweep_request request = {.jobs = r.jobs,
+    const sweep_request request = {.jobs = r->jobs,
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
     outcome = run_sweep(&request, &s, &f);
     if (outcome == STATUS_OK)
-        outcome = write_out(&r, &s, &t, &f);
+        outcome = write_out(r, &s, &t, &f);
     const int nothing = sweep_cells(&s) == 0;
     sweep_free(&s);
     truths_free(&t);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
     return nothing ? EXIT_NOTHING : EXIT_AS_EXPECTED;
+}
+
+int cli_converge(int count, char **arguments)
+{
+    cli_request r;
+    cli_parse("converge", "CASE",
+              "Solves one case on several meshes and shows errors, observed order and the limit.",
+              "fnsFojTY", count, arguments, &r);
+    const int code = converge_request(&r);
+    cli_close(&r);
+    return code;
 }

@@ -109,7 +109,7 @@ static int list_case(const case_type *type)
     }
     parameters_default(type, value);
     scene_init(&s, type->name);
-    status outcome = type->build(value, &s, &f);
+    status outcome = case_build(type, value, &s, &f);
     if (outcome == STATUS_OK)
         outcome = scene_validate(&s, &f);
     printf("quantities\n");

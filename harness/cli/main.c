@@ -23,6 +23,8 @@ static const struct {
      "every formulation driven to extremes: a value with its error, or a named failure"},
     {"verify", cli_verify, "every formulation on every case, judged against stored truths"},
     {"truth", cli_truth, "what is known of a case at a parameter point; derived on demand"},
+    {"scene", cli_scene,
+     "a case, or a scene of your own, as a scene file with all loops written out"},
     {"schema", cli_schema, "what the result file consists of: tables, columns, units"},
     {"compare", cli_compare,
      "two stored runs: errors and work, worse and better; exit status like diff"},

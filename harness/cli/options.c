@@ -49,6 +49,8 @@ static const struct argp_option all_options[] = {
      "make the other slower by that much, to see whether the comparison finds it", 0},
     {"truths", 'T', "FILE", 0,
      "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)", 0},
+    {"scene", 'Y', "FILE", 0, "a scene of your own in YAML, in the place of a case", 0},
+    {"schema", 'H', NULL, 0, "describe all keys of scene files as JSON Schema", 0},
     {"help", '?', NULL, 0, "this list", -1},
     {"usage", KEY_USAGE, NULL, 0, "the options in short", -1},
     {0},
@@ -226,6 +228,12 @@ static error_t take(int key, char *value, struct argp_state *state)
     case 'h':
         r->threshold = value;
         return 0;
+    case 'Y':
+        r->scene_path = value;
+        return 0;
+    case 'H':
+        r->schema = 1;
+        return 0;
     default:
         return ARGP_ERR_UNKNOWN;
     }
@@ -261,7 +269,7 @@ void cli_parse(const char *verb, const char *arguments_doc, const char *doc, con
     argp_parse(&parser, count, arguments, ARGP_NO_HELP, NULL, out);
 }
 
-const case_type *cli_case(cli_request *r)
+static const case_type *named_case(const cli_request *r)
 {
     fault f;
     if (r->case_name == NULL) {
@@ -269,10 +277,17 @@ const case_type *cli_case(cli_request *r)
         return NULL;
     }
     const case_type *type = case_find(r->case_name, &f);
-    if (type == NULL) {
+    if (type == NULL)
         cli_fail(STATUS_REFUSED, f.text);
+    return type;
+}
+
+const case_type *cli_case(cli_request *r)
+{
+    fault f;
+    const case_type *type = r->scene_path != NULL ? cli_scene_case(r) : named_case(r);
+    if (type == NULL)
         return NULL;
-    }
     parameters_default(type, r->parameter);
     for (int i = 0; i < r->assignments; i++)
         if (parameters_set(type, r->assignment[i], r->parameter, &f) != STATUS_OK) {

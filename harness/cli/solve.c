@@ -62,51 +62,59 @@ static status solve_cell(const cli_request *r, sweep *s, fault *f)
     return cell_run(&request, &s->series[0].cell[0], f);
 }
 
-int cli_solve(int count, char **arguments)
+static int solve_request(cli_request *r)
 {
-    cli_request r;
     sweep s;
     fault f = {""};
     truths t = {0};
-    cli_parse("solve", "CASE",
-              "Solves one case with one formulation and one mesh and shows every quantity with its "
-              "error.",
-              "fnsFoKSPtT", count, arguments, &r);
-    const case_type *type = cli_case(&r);
+    const case_type *type = cli_case(r);
     if (type == NULL)
         return EXIT_REFUSED;
-    if (r.formulations != 1)
+    if (r->formulations != 1)
         return cli_fail(STATUS_REFUSED,
                         "which formulation? Give one -f; 'beamwork list formulations' shows them");
-    if (r.meshes != 1)
+    if (r->meshes != 1)
         return cli_fail(STATUS_REFUSED, "how many elements per member? Give one -n");
-    if (r.shapes > 0 && r.output == NULL)
+    if (r->shapes > 0 && r->output == NULL)
         return cli_fail(STATUS_REFUSED, "--shapes: into which file? Give -o FILE");
-    status outcome = cli_check_files(&r, r.shapes > 0, cli_truths_path(&r), &f);
+    status outcome = cli_check_files(r, r->shapes > 0, cli_truths_path(r), &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
-    outcome = truths_read(cli_truths_path(&r), &t, &f);
-    if (outcome != STATUS_OK && r.truths == NULL) /* a solution needs none: say so and go on */
+    outcome = cli_truths_read(r, 0, &t, &f);
+    if (outcome != STATUS_OK && r->truths == NULL &&
+        r->scene == NULL) /* a solution needs none: say so and go on */
         fprintf(stderr, "beamwork: without truths: %s\n", f.text);
     else if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
-    outcome = plan_one(type, r.parameter, r.formulation, 1, r.mesh, 1, &s, &f);
+    outcome = plan_one(type, r->parameter, r->formulation, 1, r->mesh, 1, &s, &f);
     if (outcome != STATUS_OK) {
         truths_free(&t);
         return cli_fail(outcome, f.text);
     }
-    const status solved = solve_cell(&r, &s, &f);
+    const status solved = solve_cell(r, &s, &f);
     fault unwritten = {""};
     int code = EXIT_AS_EXPECTED;
     if (solved == STATUS_REFUSED || solved == STATUS_FAULT) {
         code = cli_fail(solved, f.text);
     } else {
-        outcome = write_out(&r, &s, &t, &unwritten);
+        outcome = write_out(r, &s, &t, &unwritten);
         code = outcome != STATUS_OK  ? cli_fail(outcome, unwritten.text)
                : solved != STATUS_OK ? cli_fail(solved, f.text)
                                      : EXIT_AS_EXPECTED;
     }
     sweep_free(&s);
     truths_free(&t);
+    return code;
+}
+
+int cli_solve(int count, char **arguments)
+{
+    cli_request r;
+    cli_parse("solve", "CASE",
+              "Solves one case with one formulation and one mesh and shows every quantity with its "
+              "error.",
+              "fnsFoKSPtTY", count, arguments, &r);
+    const int code = solve_request(&r);
+    cli_close(&r);
     return code;
 }

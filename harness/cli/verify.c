@@ -142,7 +142,9 @@ static status measure_noise(const sweep_request *request, const truths *t, sweep
 static status run(const cli_request *r, sweep *s, truths *t, judgement *j, fault *f)
 {
     const int states = r->shapes < PICTURED_STATES ? r->shapes : PICTURED_STATES;
-    const sweep_request request = {.select = r->select,
+    const case_type *const own[] = {r->scene != NULL ? scene_file_case(r->scene) : NULL, NULL};
+    const sweep_request request = {.cases = r->scene != NULL ? own : NULL,
+                                   .select = r->select,
                                    .jobs = r->jobs,
                                    .time_limit = r->time_limit,
                                    .interruptible = 1,
@@ -157,30 +159,39 @@ static status run(const cli_request *r, sweep *s, truths *t, judgement *j, fault
     return judge_and_write(r, s, t, j, f);
 }
 
-int cli_verify(int count, char **arguments)
+static int verify_request(cli_request *r)
 {
-    cli_request r;
     sweep s = {0};
     truths t;
     judgement j = {0};
     fault f = {""};
+    if (r->case_name != NULL)
+        return cli_fail(STATUS_REFUSED, "verify takes no case; select with -k");
+    if (r->scene_path != NULL && cli_scene_case(r) == NULL)
+        return EXIT_REFUSED;
+    status outcome = cli_check_files(r, 1, cli_truths_path(r), &f);
+    if (outcome == STATUS_OK)
+        outcome = cli_truths_read(r, 1, &t, &f);
+    if (outcome != STATUS_OK)
+        return cli_fail(outcome, f.text);
+    outcome = run(r, &s, &t, &j, &f);
+    const int code = outcome != STATUS_OK ? cli_fail(outcome, f.text) : tell(r, &s, &j);
+    judgement_free(&j);
+    sweep_free(&s);
+    truths_free(&t);
+    return code;
+}
+
+int cli_verify(int count, char **arguments)
+{
+    cli_request r;
     cli_parse("verify", "",
               "Judges every formulation on every case and parameter point that has a truth. Exit "
               "status: 0 every verdict as expected, 1 one differs, 2 refused, 3 nothing was "
               "checked, 4 file, disk or memory, 5 interrupted (Ctrl-C, SIGTERM): what was judged "
               "until then is in files named .partial",
-              "fokjJUMLPT", count, arguments, &r);
-    if (r.case_name != NULL)
-        return cli_fail(STATUS_REFUSED, "verify takes no case; select with -k");
-    status outcome = cli_check_files(&r, 1, cli_truths_path(&r), &f);
-    if (outcome == STATUS_OK)
-        outcome = truths_read(cli_truths_path(&r), &t, &f);
-    if (outcome != STATUS_OK)
-        return cli_fail(outcome, f.text);
-    outcome = run(&r, &s, &t, &j, &f);
-    const int code = outcome != STATUS_OK ? cli_fail(outcome, f.text) : tell(&r, &s, &j);
-    judgement_free(&j);
-    sweep_free(&s);
-    truths_free(&t);
+              "fokjJUMLPTY", count, arguments, &r);
+    const int code = verify_request(&r);
+    cli_close(&r);
     return code;
 }

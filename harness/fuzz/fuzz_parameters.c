@@ -14,7 +14,7 @@ static void build(const case_type *type, const double value[])
     scene s;
     fault f = {""};
     scene_init(&s, type->name);
-    if (type->build(value, &s, &f) == STATUS_OK)
+    if (case_build(type, value, &s, &f) == STATUS_OK)
         scene_validate(&s, &f);
     scene_free(&s);
 }

@@ -139,6 +139,8 @@ static double named(parser *p)
         FAIL(p, from, "%s is a function; write %s(...)", name, name);
     else if (here(p) == '(' || known == NULL)
         tell_unknown(p, name, from);
+    else if (isnan(known->number)) /* its own mistake is told already */
+        p->failed = 1;
     else if (known->word != NULL)
         FAIL(p, from, "'%s' is a choice of words ('%.40s'), not a number", name, known->word);
     return known != NULL ? known->number : 0;

@@ -5,11 +5,11 @@
 #include "harness/catalogue/choice.h"
 #include "harness/scene_file/range.h"
 
-static const key number[] = {{"", KEY_NUMBER, .summary = "an expression"}, {.name = NULL}};
+static const scene_key number[] = {{"", KEY_NUMBER, .summary = "an expression"}, {.name = NULL}};
 
 #define PHYSICS "shear|trapeze|wagner_moments|wagner_torque|rotary_inertia|warping|engesser|haringx"
 
-const key keys_root[] = {
+const scene_key keys_root[] = {
     {"beamwork", KEY_NUMBER, .needed = 1, .summary = "version of the format: 1"},
     {"name", KEY_TEXT, .summary = "of the scene; left out: that of the file"},
     {"summary", KEY_TEXT, .summary = "what it is, in one line"},
@@ -33,19 +33,19 @@ const key keys_root[] = {
 
 /* Both tables as one list of names. */
 typedef struct known_keys {
-    const key *table, *loop; /* loop NULL: no entry that may have loops */
+    const scene_key *table, *loop; /* loop NULL: no entry that may have loops */
 } known_keys;
 
 static const char *name_at(const void *context, int i)
 {
     const known_keys *known = context;
-    const key *table = known->table;
+    const scene_key *table = known->table;
     for (; table->name != NULL && i > 0; i--)
         table++;
     return table->name != NULL || known->loop == NULL || i > 1 ? table->name : known->loop[i].name;
 }
 
-static const key *find(const key *table, const char *name)
+static const scene_key *find(const scene_key *table, const char *name)
 {
     for (; table != NULL && table->name != NULL; table++)
         if (strcmp(table->name, name) == 0)
@@ -63,7 +63,7 @@ static void tell_kind(const document_node *n, const document_node *name, const c
     document_mistake(m, n, 0, "%.60s is %s; %s is expected", name->text, is[n->kind], expected);
 }
 
-static void check_entries(const document_node *n, const key *k, const document_node *name,
+static void check_entries(const document_node *n, const scene_key *k, const document_node *name,
                           mistakes *m)
 {
     const known_keys known = {k->below, k->below == keys_parameter ? NULL : keys_loop};
@@ -85,7 +85,7 @@ static void check_words(const document_node *n, const document_node *name, mista
             tell_kind(n->item[i], name, "a word", m);
 }
 
-static void check_value(const document_node *n, const key *k, const document_node *name,
+static void check_value(const document_node *n, const scene_key *k, const document_node *name,
                         mistakes *m)
 {
     const known_keys below = {k->below, NULL};
@@ -144,7 +144,7 @@ static int is_meant(const document_node *map, const known_keys *known, const cha
 }
 
 /* The names of a group, for messages. */
-static void group_words(const key *table, int group, char text[FAULT_TEXT])
+static void group_words(const scene_key *table, int group, char text[FAULT_TEXT])
 {
     size_t used = 0;
     text[0] = '\0';
@@ -160,10 +160,10 @@ static void group_words(const key *table, int group, char text[FAULT_TEXT])
 static void check_missing(const document_node *map, const known_keys *known,
                           const document_node *name, mistakes *m)
 {
-    for (const key *k = known->table; k->name != NULL; k++) {
+    for (const scene_key *k = known->table; k->name != NULL; k++) {
         const document_node *first = NULL;
         int there = 0, meant = 0;
-        for (const key *other = known->table; other->name != NULL; other++) {
+        for (const scene_key *other = known->table; other->name != NULL; other++) {
             if (other != k && (k->group == 0 || other->group != k->group))
                 continue;
             for (int i = 0; i < map->count; i++)
@@ -197,7 +197,7 @@ static void check_map(const document_node *map, const known_keys *known, const d
     }
     for (int i = 0; i < map->count; i++) {
         const char *text = map->key[i]->text;
-        const key *k = find(known->table, text);
+        const scene_key *k = find(known->table, text);
         if (k == NULL && known->loop != NULL)
             k = find(known->loop, text);
         char remedy[FAULT_TEXT];

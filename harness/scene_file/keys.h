@@ -20,22 +20,22 @@ typedef enum key_kind {
     KEY_LATER    /* has a meaning, but is not carried yet */
 } key_kind;
 
-typedef struct key {
+typedef struct scene_key {
     const char *name; /* NULL ends a table */
     key_kind kind;
     int needed; /* 1: must be there */
     int group; /* keys of one group > 0 exclude each other; with `needed`, one of them must be there */
     int count;
     const char *words; /* "a|b|c" */
-    const struct key *below;
+    const struct scene_key *below;
     const char *unit, *summary;
-} key;
+} scene_key;
 
-extern const key keys_root[], keys_section[], keys_node[], keys_member[], keys_motion[],
+extern const scene_key keys_root[], keys_section[], keys_node[], keys_member[], keys_motion[],
     keys_load[], keys_analysis[], keys_quantity[], keys_truth[], keys_parameter[];
 
 /* `for` and `let`, which every entry may have. */
-extern const key keys_loop[];
+extern const scene_key keys_loop[];
 
 /* Unknown, missing, misplaced keys and values of the wrong form, in the whole tree. 1: none. */
 int keys_check(const document_node *root, mistakes *m);

@@ -5,31 +5,31 @@
 
 #define COMPONENTS "ux|uy|uz|rx|ry|rz"
 
-static const key nothing[] = {{.name = NULL}};
+static const scene_key nothing[] = {{.name = NULL}};
 
-static const key spin[] = {
+static const scene_key spin[] = {
     {"omega", KEY_VECTOR, .needed = 1, .count = 3, .unit = "rad/s", .summary = "angular velocity"},
     {"centre", KEY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis"},
     {.name = NULL}};
 
-static const key path[] = {
+static const scene_key path[] = {
     {"stations", KEY_NUMBERS, .needed = 1, .summary = "path parameter, ascending"},
     {"steps", KEY_NUMBER, .summary = "first try between two stations; 1"},
     {"spin", KEY_MAP, .below = spin, .summary = "the axes turn"},
     {.name = NULL}};
 
-static const key modes[] = {
+static const scene_key modes[] = {
     {"wanted", KEY_NUMBER, .summary = "how many; left out: as quantities ask for"},
     {"about", KEY_NAME, .summary = "static analysis about whose last state; left out: undeformed"},
     {.name = NULL}};
 
-static const key buckling[] = {
+static const scene_key buckling[] = {
     {"wanted", KEY_NUMBER, .summary = "how many; left out: as quantities ask for"},
     {"about", KEY_NAME, .summary = "static analysis about whose last state; left out: undeformed"},
     {.name = "sign", .kind = KEY_LATER},
     {.name = NULL}};
 
-static const key compliance[] = {
+static const scene_key compliance[] = {
     {"node", KEY_NAME, .needed = 1, .summary = "where"},
     {"about", KEY_NAME, .summary = "static analysis at whose stations; left out: undeformed"},
     {"released", KEY_WORDS, .words = COMPONENTS, .summary = "prescribed components that are free"},
@@ -37,12 +37,12 @@ static const key compliance[] = {
      .summary = "what a reaction's moment does while its node turns"},
     {.name = NULL}};
 
-static const key control[] = {
+static const scene_key control[] = {
     {"node", KEY_NAME, .needed = 1, .summary = "whose translation"},
     {"component", KEY_WORD, .needed = 1, .words = "ux|uy|uz", .summary = "of these"},
     {.name = NULL}};
 
-static const key continuation[] = {
+static const scene_key continuation[] = {
     {"control", KEY_MAP, .needed = 1, .below = control, .summary = "coordinate that grows"},
     {"by", KEY_WORD, .words = "coordinate|arc", .summary = "what steps are measured in"},
     {"to", KEY_NUMBERS, .needed = 1, .unit = "m", .summary = "of the coordinate, as met"},
@@ -52,7 +52,7 @@ static const key continuation[] = {
     {"spin", KEY_MAP, .below = spin, .summary = "the axes turn"},
     {.name = NULL}};
 
-static const key rotation[] = {
+static const scene_key rotation[] = {
     {"omega", KEY_VECTOR, .needed = 1, .count = 3, .unit = "rad/s", .summary = "angular velocity"},
     {"centre", KEY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis"},
     {"stations", KEY_NUMBERS, .needed = 1, .summary = "factors of omega, ascending"},
@@ -60,7 +60,7 @@ static const key rotation[] = {
     {"wanted", KEY_NUMBER, .summary = "modes to look for at first, of all families"},
     {.name = NULL}};
 
-const key keys_analysis[] = {
+const scene_key keys_analysis[] = {
     {"linear", KEY_MAP, .needed = 1, .group = 1, .below = nothing, .summary = "loads at factor 1"},
     {"static", KEY_MAP, .needed = 1, .group = 1, .below = path, .summary = "along a path"},
     {"buckling", KEY_MAP, .needed = 1, .group = 1, .below = buckling, .summary = "critical loads"},
@@ -80,64 +80,63 @@ const key keys_analysis[] = {
                           .summary = "of all stations; last where it is left out"                  \
     }
 
-static const key component[] = {
+static const scene_key component[] = {
     TAKEN,
     {"node", KEY_NAME, .needed = 1, .summary = "node"},
     {"component", KEY_WORD, .needed = 1, .words = COMPONENTS, .summary = "of its coordinates"},
     {.name = NULL}};
 
-static const key reaction[] = {
+static const scene_key reaction[] = {
     TAKEN,
     {"node", KEY_NAME, .needed = 1, .summary = "node"},
     {"component", KEY_WORD, .needed = 1, .words = COMPONENTS "|turn_1",
      .summary = "of its coordinates; turn_1: about the first axis of its sequence"},
     {.name = NULL}};
 
-static const key entry[] = {
+static const scene_key entry[] = {
     TAKEN,
     {"row", KEY_WORD, .needed = 1, .words = COMPONENTS, .summary = "response"},
     {"column", KEY_WORD, .needed = 1, .words = COMPONENTS, .summary = "force or moment"},
     {.name = NULL}};
 
-static const key diagonal[] = {
+static const scene_key diagonal[] = {
     TAKEN,
     {"component", KEY_WORD, .needed = 1, .words = COMPONENTS, .summary = "of the coordinates"},
     {.name = NULL}};
 
-static const key critical[] = {
+static const scene_key critical[] = {
     {"analysis", KEY_NAME, .needed = 1, .summary = "analysis"},
     {"which", KEY_NUMBER, .summary = "counted from 0"},
     {"sign", KEY_WORD, .words = "positive|negative", .summary = "of the load factor"},
     {.name = NULL}};
 
-static const key frequency[] = {TAKEN,
-                                {"which", KEY_NUMBER, .summary = "counted from 0, of the family"},
-                                {"family", KEY_WORD,
-                                 .words = "any|not_axial|axial|bending_y|bending_z|torsion",
-                                 .summary = "of modes"},
-                                {"half_waves", KEY_NUMBER, .summary = "of the mode; 0: any"},
-                                {.name = NULL}};
+static const scene_key frequency[] = {
+    TAKEN,
+    {"which", KEY_NUMBER, .summary = "counted from 0, of the family"},
+    {"family", KEY_WORD, .words = "any|not_axial|axial|bending_y|bending_z|torsion",
+     .summary = "of modes"},
+    {"half_waves", KEY_NUMBER, .summary = "of the mode; 0: any"},
+    {.name = NULL}};
 
-static const key whole[] = {TAKEN, {.name = NULL}};
+static const scene_key whole[] = {TAKEN, {.name = NULL}};
 
-static const key motion[] = {
+static const scene_key motion[] = {
     TAKEN, {"motion", KEY_NAME, .needed = 1, .summary = "unknown motion"}, {.name = NULL}};
 
-static const key critical_point[] = {
+static const scene_key critical_point[] = {
     {"analysis", KEY_NAME, .needed = 1, .summary = "continuation"},
     {"kind", KEY_WORD, .needed = 1, .words = "limit|bifurcation", .summary = "of the point"},
     {"which", KEY_NUMBER, .summary = "counted from 0"},
     {"value", KEY_WORD, .words = "factor|coordinate", .summary = "what of it; the load factor"},
     {.name = NULL}};
 
-static const key abscissa[] = {{"name", KEY_TEXT, .summary = "of the abscissa"},
-                               {"unit", KEY_TEXT, .summary = "of the abscissa"},
-                               {"of", KEY_NAME, .summary = "motion; left out: the path parameter"},
-                               {"factor", KEY_NUMBER, .summary = "times the path parameter"},
-                               {"offset", KEY_NUMBER, .summary = "added to it"},
-                               {.name = NULL}};
+static const scene_key abscissa[] = {{"name", KEY_TEXT, .summary = "of the abscissa"},
+                                     {"unit", KEY_TEXT, .summary = "of the abscissa"},
+                                     {"factor", KEY_NUMBER, .summary = "times the path parameter"},
+                                     {"offset", KEY_NUMBER, .summary = "added to it"},
+                                     {.name = NULL}};
 
-static const key prediction[] = {
+static const scene_key prediction[] = {
     {"value", KEY_NUMBER, .needed = 1, .summary = "of a model with an error of its own"},
     {"source", KEY_TEXT, .needed = 1, .summary = "of the model"},
     {.name = NULL}};
@@ -147,7 +146,7 @@ static const key prediction[] = {
         NAME, KEY_MAP, .needed = 1, .group = 1, .below = BELOW, .summary = SUMMARY                 \
     }
 
-const key keys_quantity[] = {
+const scene_key keys_quantity[] = {
     KIND("displacement", component, "or rotation, of a node"),
     KIND("reaction", reaction, "of a held or driven component"),
     KIND("compliance", entry, "entry of the matrix"),
@@ -172,7 +171,7 @@ const key keys_quantity[] = {
     {"prediction", KEY_MAP, .below = prediction, .summary = "shown, never judged"},
     {.name = NULL}};
 
-const key keys_truth[] = {
+const scene_key keys_truth[] = {
     {"quantity", KEY_NAME, .needed = 1, .summary = "quantity"},
     {"value", KEY_NUMBER, .needed = 1, .summary = "in its unit"},
     {"kind", KEY_WORD, .needed = 1,

@@ -5,7 +5,7 @@
 
 #define COMPONENTS "ux|uy|uz|rx|ry|rz"
 
-const key keys_parameter[] = {
+const scene_key keys_parameter[] = {
     {"value", KEY_FORMS, .needed = 1, .summary = "default: an expression of constants, or a word"},
     {"unit", KEY_TEXT, .summary = "SI unit; 1 for a plain number"},
     {"min", KEY_NUMBER, .summary = "least value"},
@@ -14,23 +14,23 @@ const key keys_parameter[] = {
     {"about", KEY_TEXT, .summary = "what it is, in one line"},
     {.name = NULL}};
 
-static const key number[] = {{"", KEY_NUMBER, .summary = "an expression"}, {.name = NULL}};
+static const scene_key number[] = {{"", KEY_NUMBER, .summary = "an expression"}, {.name = NULL}};
 
-static const key rectangle[] = {
+static const scene_key rectangle[] = {
     {"width", KEY_NUMBER, .needed = 1, .unit = "m", .summary = "along the member's z axis"},
     {"thickness", KEY_NUMBER, .needed = 1, .unit = "m", .summary = "along its y axis"},
     {.name = NULL}};
 
-static const key point[] = {{"", KEY_VECTOR, .count = 2, .unit = "m", .summary = "[y, z]"},
-                            {.name = NULL}};
+static const scene_key point[] = {{"", KEY_VECTOR, .count = 2, .unit = "m", .summary = "[y, z]"},
+                                  {.name = NULL}};
 
-static const key wall[] = {
+static const scene_key wall[] = {
     {"from", KEY_NAME, .needed = 1, .summary = "point where it begins"},
     {"to", KEY_NAME, .needed = 1, .summary = "point where it ends"},
     {"thickness", KEY_NUMBER, .needed = 1, .unit = "m", .summary = "of the wall"},
     {.name = NULL}};
 
-static const key constants[] = {
+static const scene_key constants[] = {
     {"A", KEY_NUMBER, .needed = 1, .unit = "m^2", .summary = "area"},
     {"Iy", KEY_NUMBER, .needed = 1, .unit = "m^4", .summary = "int z^2 dA"},
     {"Iz", KEY_NUMBER, .needed = 1, .unit = "m^4", .summary = "int y^2 dA"},
@@ -46,7 +46,7 @@ static const key constants[] = {
     {"F", KEY_VECTOR, .count = 9, .group = 1, .summary = "its inverse; neither: rigid in shear"},
     {.name = NULL}};
 
-static const key given[] = {
+static const scene_key given[] = {
     {"Iw", KEY_NUMBER, .unit = "m^6", .summary = "warping constant"},
     {"ys", KEY_NUMBER, .unit = "m", .summary = "shear centre, along y"},
     {"zs", KEY_NUMBER, .unit = "m", .summary = "shear centre, along z"},
@@ -60,7 +60,7 @@ static const key given[] = {
     {"Ip", KEY_NUMBER, .unit = "m^4", .summary = "polar moment"},
     {.name = NULL}};
 
-const key keys_section[] = {
+const scene_key keys_section[] = {
     {"rectangle", KEY_MAP, .needed = 1, .group = 1, .below = rectangle, .summary = "solid"},
     {"walls", KEY_LIST, .needed = 1, .group = 1, .below = wall, .summary = "thin straight walls"},
     {"constants", KEY_MAP, .needed = 1, .group = 1, .below = constants, .summary = "as given"},
@@ -77,33 +77,34 @@ const key keys_section[] = {
     {"shear_modulus", KEY_NUMBER, .needed = 1, .unit = "Pa", .summary = "E/(2 (1 + nu))"},
     {"density", KEY_NUMBER, .unit = "kg/m^3", .summary = "0 where it is left out: no inertia"},
     {"shear_factor", KEY_FORMS, .summary = "rectangle: k, or [k_y, k_z]; left out: 5/6"},
+    {"thickness_terms", KEY_WORD, .words = "no|yes", .summary = "walls: t^3 terms too"},
     {"given", KEY_MAP, .below = given, .summary = "replaces computed constants"},
     {.name = NULL}};
 
-static const key drive[] = {{"ux", KEY_NAME, .summary = "motion"},
-                            {"uy", KEY_NAME, .summary = "motion"},
-                            {"uz", KEY_NAME, .summary = "motion"},
-                            {"rx", KEY_NAME, .summary = "motion"},
-                            {"ry", KEY_NAME, .summary = "motion"},
-                            {"rz", KEY_NAME, .summary = "motion"},
-                            {.name = NULL}};
+static const scene_key drive[] = {{"ux", KEY_NAME, .summary = "motion"},
+                                  {"uy", KEY_NAME, .summary = "motion"},
+                                  {"uz", KEY_NAME, .summary = "motion"},
+                                  {"rx", KEY_NAME, .summary = "motion"},
+                                  {"ry", KEY_NAME, .summary = "motion"},
+                                  {"rz", KEY_NAME, .summary = "motion"},
+                                  {.name = NULL}};
 
-static const key fork_[] = {
+static const scene_key fork_[] = {
     {"axis", KEY_VECTOR, .needed = 1, .count = 3, .summary = "the section's own axis"},
     {"web", KEY_VECTOR, .needed = 1, .count = 3, .summary = "direction that the guides embrace"},
     {.name = NULL}};
 
-static const key turn[] = {
+static const scene_key turn[] = {
     {"axis", KEY_FORMS, .needed = 1, .summary = "x, y, z or [3]: turns with the angles before it"},
     {"angle", KEY_NAME, .needed = 1, .summary = "free, held or a motion"},
     {.name = NULL}};
 
-static const key rotation[] = {
+static const scene_key rotation[] = {
     {"sequence", KEY_LIST, .needed = 1, .group = 1, .below = turn, .summary = "one to three turns"},
     {"vector", KEY_FORMS, .needed = 1, .group = 1, .summary = "[MOTION, MOTION, MOTION]"},
     {.name = NULL}};
 
-const key keys_node[] = {
+const scene_key keys_node[] = {
     {"at", KEY_VECTOR, .needed = 1, .count = 3, .unit = "m", .summary = "position"},
     {"hold", KEY_WORDS, .words = "all|" COMPONENTS, .summary = "components that do not move"},
     {"drive", KEY_MAP, .below = drive, .summary = "components that follow a motion"},
@@ -117,7 +118,7 @@ const key keys_node[] = {
     {.name = "spin", .kind = KEY_LATER},
     {.name = NULL}};
 
-const key keys_member[] = {
+const scene_key keys_member[] = {
     {"from", KEY_NAME, .needed = 1, .summary = "node"},
     {"to", KEY_NAME, .needed = 1, .summary = "node"},
     {"section", KEY_NAME, .needed = 1, .summary = "section"},
@@ -131,13 +132,13 @@ const key keys_member[] = {
     {.name = "damping", .kind = KEY_LATER},
     {.name = NULL}};
 
-static const key condition[] = {
+static const scene_key condition[] = {
     {"node", KEY_NAME, .needed = 1, .summary = "node whose coordinate is prescribed instead"},
     {"component", KEY_WORD, .needed = 1, .words = COMPONENTS, .summary = "of its coordinates"},
     {"motion", KEY_NAME, .needed = 1, .summary = "by this motion"},
     {.name = NULL}};
 
-const key keys_motion[] = {
+const scene_key keys_motion[] = {
     {"unit", KEY_WORD, .words = "m|rad", .summary = "of its values"},
     {"path", KEY_NUMBERS, .summary = "path parameter, ascending"},
     {"value", KEY_NUMBERS, .group = 1, .needed = 1, .summary = "at these; linear between"},
@@ -146,7 +147,7 @@ const key keys_motion[] = {
     {.name = "time", .kind = KEY_LATER},
     {.name = NULL}};
 
-const key keys_load[] = {
+const scene_key keys_load[] = {
     {"force", KEY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N", .summary = "at a node"},
     {"moment", KEY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N m", .summary = "at one"},
     {"distributed", KEY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N/m",
@@ -161,7 +162,7 @@ const key keys_load[] = {
     {.name = "follower", .kind = KEY_LATER},
     {.name = NULL}};
 
-const key keys_loop[] = {
+const scene_key keys_loop[] = {
     {"for", KEY_FORMS, .summary = "{NAME: a..b | a..b step c | a..b/n | [list], ...}: loops"},
     {"let", KEY_NAMES, .below = number, .summary = "values derived for this entry"},
     {.name = NULL}};

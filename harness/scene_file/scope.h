@@ -8,7 +8,7 @@
 /* The name added last; those before it stay visible. NULL: no name is known. */
 typedef struct scope {
     const char *name;
-    double number;
+    double number;    /* NAN: its expression has a mistake, which is told */
     const char *word; /* of a choice; NULL: a number */
     const struct scope *before;
 } scope;

@@ -35,7 +35,8 @@ static void add(unroller *u, const scope *names)
         u->failed = 1;
         return;
     }
-    u->list[u->count++] = (unrolled){name != NULL ? name->text : NULL, place, value, inner};
+    u->list[u->count++] =
+        (unrolled){name != NULL ? name->text : NULL, place, value, u->value, inner};
 }
 
 static void unroll_loops(unroller *u, const document_node *loops, int depth, const scope *names);
@@ -115,7 +116,8 @@ const scope *unroll_let(const document_node *let, const scope *names, arena *a, 
         double value;
         const int accepted = scope_accepts(names, let->key[i], m);
         /* after a mistake a name is known all the same: it is not told again wherever it is used */
-        expression_number(let->item[i], names, m, &value);
+        if (!expression_number(let->item[i], names, m, &value))
+            value = NAN;
         if (accepted)
             names = scope_number(names, let->key[i]->text, value, a);
     }

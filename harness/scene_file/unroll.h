@@ -9,6 +9,7 @@ typedef struct unrolled {
     const char *name;           /* of an entry of a map; of a list NULL */
     const document_node *place; /* where messages point to: its key, or itself */
     const document_node *value;
+    const document_node *written; /* the value as it stands in the file */
     const scope *names;
 } unrolled;
 

@@ -22,7 +22,7 @@ status cell_scene(const case_type *type, const double parameter[], const scene_e
                   scene *out, fault *f)
 {
     scene_init(out, type->name);
-    TRY(type->build(parameter, out, f));
+    TRY(case_build(type, parameter, out, f));
     TRY(scene_edit_apply(out, edit, f));
     return scene_validate(out, f);
 }

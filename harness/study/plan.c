@@ -51,10 +51,10 @@ static int is_complete(const truth *row)
     return 1;
 }
 
-static status plan_points(const truths *t, sweep *s, fault *f)
+static status plan_points(const case_type *const *cases, const truths *t, sweep *s, fault *f)
 {
-    for (int c = 0; registry_cases[c] != NULL; c++) {
-        const case_type *type = registry_cases[c];
+    for (int c = 0; cases[c] != NULL; c++) {
+        const case_type *type = cases[c];
         double value[CASE_MAX_PARAMETERS] = {0};
         parameters_default(type, value);
         TRY(add_point(s, type, value, &unchanged, f));
@@ -190,7 +190,7 @@ static status alloc_cells(sweep *s, fault *f)
 
 static status plan_all(const sweep_request *request, const truths *t, sweep *out, fault *f)
 {
-    TRY(plan_points(t, out, f));
+    TRY(plan_points(request->cases != NULL ? request->cases : registry_cases, t, out, f));
     for (int i = 0; i < out->points; i++)
         TRY(plan_series(request, t, out, i, f));
     return alloc_cells(out, f);

@@ -52,7 +52,8 @@ typedef struct sweep_request {
     int jobs;           /* processes, >= 1 */
     int time_limit;     /* [s] of one cell, measured by its process and from outside; 0: none */
     int interruptible;  /* 1: who asks to end (Ctrl-C) ends the run, and what is finished is kept */
-    int formulations;   /* restrict to these, or 0: all */
+    const case_type *const *cases; /* NULL-terminated; NULL: all that there are */
+    int formulations;              /* restrict to these, or 0: all */
     const formulation *formulation;
     /* most states of a path whose centre lines are kept, of the finest mesh at the defaults; 0:
      * none */

@@ -73,7 +73,7 @@ static int is_posed(const question *q, const double parameter[])
     scene s;
     fault f = {""};
     scene_init(&s, q->type->name);
-    const status built = q->type->build(parameter, &s, &f);
+    const status built = case_build(q->type, parameter, &s, &f);
     gsl_test(built != STATUS_OK, "%s %s: built (%s)", q->type->name, q->parameters, f.text);
     const int posed = built == STATUS_OK && scene_edit_apply(&s, &q->edit, &f) == STATUS_OK;
     scene_free(&s);

@@ -1,0 +1,107 @@
+/* Scene files: read in the place of a case, written from any case. */
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/cli/cli.h"
+#include "harness/record/output.h"
+#include "harness/scene_file/schema_file.h"
+#include "harness/scene_file/write.h"
+#include "harness/study/cell.h"
+
+/* All mistakes, a line each; as JSON where that is the form of the output. */
+static void tell_mistakes(const cli_request *r, const mistakes *m, status outcome, const fault *f)
+{
+    fault unwritten;
+    if (m->count == 0)
+        cli_fail(outcome, f->text);
+    else if (strcmp(r->format, "json") != 0)
+        mistakes_print(m, stderr);
+    else if (mistakes_json(m, stdout, &unwritten) != STATUS_OK)
+        cli_fail(STATUS_FAULT, unwritten.text);
+}
+
+const case_type *cli_scene_case(cli_request *r)
+{
+    mistakes m;
+    fault f = {""};
+    if (r->case_name != NULL) {
+        cli_fail(STATUS_REFUSED, "a case and --scene: give one of them");
+        return NULL;
+    }
+    const status outcome = scene_file_read(r->scene_path, &r->scene, &m, &f);
+    if (outcome == STATUS_OK)
+        return scene_file_case(r->scene);
+    tell_mistakes(r, &m, outcome, &f);
+    return NULL;
+}
+
+void cli_close(cli_request *r)
+{
+    scene_file_free(r->scene);
+    r->scene = NULL;
+}
+
+status cli_truths_read(const cli_request *r, int all, truths *t, fault *f)
+{
+    memset(t, 0, sizeof *t);
+    if (r->scene == NULL)
+        return truths_read(cli_truths_path(r), t, f);
+    const status outcome = all ? scene_file_add_all_truths(r->scene, t, f)
+                               : scene_file_add_truths(r->scene, r->parameter, t, f);
+    if (outcome != STATUS_OK)
+        truths_free(t);
+    return outcome;
+}
+
+static status write_to(FILE *to, const case_type *type, const double value[], fault *f)
+{
+    static const scene_edit unchanged = {.kind = SCENE_EDIT_NONE};
+    scene s;
+    status outcome =
+        type == NULL ? schema_file_write(to, f) : cell_scene(type, value, &unchanged, &s, f);
+    if (type == NULL)
+        return outcome;
+    if (outcome == STATUS_OK) {
+        const write_head head = {type->name, type->summary, type->source};
+        outcome = write_scene(to, &s, &head, f);
+    }
+    scene_free(&s);
+    return outcome;
+}
+
+static status write_out(const cli_request *r, const case_type *type, fault *f)
+{
+    output file;
+    if (r->output == NULL) {
+        TRY(write_to(stdout, type, r->parameter, f));
+        return fflush(stdout) == 0
+                   ? STATUS_OK
+                   : fault_set(f, STATUS_FAULT, "standard output cannot be written");
+    }
+    TRY(output_open(r->output, &file, f));
+    const status outcome = write_to(file.stream, type, r->parameter, f);
+    if (outcome == STATUS_OK)
+        return output_close(&file, f);
+    output_discard(&file);
+    return outcome;
+}
+
+int cli_scene(int count, char **arguments)
+{
+    cli_request r;
+    fault f = {""};
+    cli_parse("scene", "[CASE]",
+              "Writes a case at a parameter point as a scene file, or one of your own (--scene "
+              "FILE) again: names kept where scenes have them, loops and expressions written out, "
+              "numbers with all their digits. Reading it gives the same scene, bit for bit. "
+              "--schema: what may stand in scene files, as JSON Schema for editors.",
+              "soFYH", count, arguments, &r);
+    const case_type *type = r.schema ? NULL : cli_case(&r);
+    int code = EXIT_REFUSED;
+    if (r.schema || type != NULL) {
+        const status outcome = write_out(&r, type, &f);
+        code = outcome == STATUS_OK ? EXIT_AS_EXPECTED : cli_fail(outcome, f.text);
+    }
+    cli_close(&r);
+    return code;
+}

@@ -1,0 +1,132 @@
+#include "harness/scene_file/build.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/scene_file/builder.h"
+#include "harness/scene_file/expression.h"
+#include "harness/scene_file/range.h"
+
+static const char *const list_name[LISTS] = {"sections", "nodes",    "members",   "motions",
+                                             "loads",    "analyses", "quantities"};
+
+/* A name of an entry that others can use, once. */
+static void check_name(const builder *b, builder_list list, int i)
+{
+    const unrolled *entry = &b->list[list].entry[i];
+    const size_t length = strlen(entry->name);
+    if (length == 0 || length >= SCENE_NAME)
+        document_mistake(b->mistakes, entry->place, 0, "a name of %zu characters; give 1 to %d",
+                         length, SCENE_NAME - 1);
+    for (int k = 0; k < i; k++)
+        if (strcmp(b->list[list].entry[k].name, entry->name) == 0) {
+            document_mistake(b->mistakes, entry->place, 0,
+                             "'%s' is there already; put the names of the loops into it: NAME_$i",
+                             entry->name);
+            return;
+        }
+}
+
+static void list_entries(builder *b)
+{
+    for (int list = 0; list < LISTS; list++) {
+        b->list[list].count = unroll_entries(document_find(b->root, list_name[list]), b->names,
+                                             b->arena, b->mistakes, &b->list[list].entry);
+        for (int i = 0; i < b->list[list].count; i++)
+            check_name(b, (builder_list)list, i);
+    }
+}
+
+static void read_needs(builder *b)
+{
+    static const char choices[] =
+        "shear|trapeze|wagner_moments|wagner_torque|rotary_inertia|warping|engesser|haringx";
+    static const unsigned feature[] = {
+        FEATURE_SHEAR,          FEATURE_TRAPEZE, FEATURE_WAGNER_MOMENTS, FEATURE_WAGNER_TORQUE,
+        FEATURE_ROTARY_INERTIA, FEATURE_WARPING, FEATURE_ENGESSER,       FEATURE_HARINGX};
+    const fields f = {b, b->names, b->root, b->root};
+    if (!fields_have(&f, "needs")) {
+        scene_need(b->scene, FEATURE_SHEAR);
+        return;
+    }
+    const unsigned needs = fields_words(&f, "needs", choices);
+    for (size_t i = 0; i < sizeof feature / sizeof feature[0]; i++)
+        if (needs >> i & 1u)
+            scene_need(b->scene, feature[i]);
+}
+
+static void read_meshes(builder *b)
+{
+    static const int usual[] = {1, 2, 4, 8};
+    enum { MOST = sizeof b->scene->mesh / sizeof b->scene->mesh[0] };
+    const fields f = {b, b->names, b->root, b->root};
+    double *value;
+    int mesh[MOST];
+    const int count = fields_values(&f, "meshes", &value);
+    if (count == 0) {
+        scene_meshes(b->scene, 4, usual);
+        return;
+    }
+    const document_node *n = document_find(b->root, "meshes");
+    if (count > MOST)
+        document_mistake(b->mistakes, n, 0, "%d meshes; give at most %d", count, MOST);
+    for (int i = 0; i < count && i < MOST; i++) {
+        mesh[i] = value[i] >= 1 && value[i] <= 1e7 ? (int)value[i] : 0;
+        if (mesh[i] != value[i])
+            document_mistake(b->mistakes, n, 0, "a mesh of %g elements; give whole numbers from 1",
+                             value[i]);
+    }
+    scene_meshes(b->scene, count < MOST ? count : MOST, mesh);
+}
+
+/* Where the entry stands that a refusal speaks of ("node 3: ..."), and what it says of it. */
+static void tell_refusal(const builder *b, const char *text)
+{
+    static const struct {
+        const char *word;
+        builder_list list;
+        int named;
+    } all[] = {{"node ", LIST_NODES, 0},     {"member ", LIST_MEMBERS, 0},
+               {"load ", LIST_LOADS, 0},     {"analysis ", LIST_ANALYSES, 0},
+               {"driver ", LIST_MOTIONS, 1}, {"quantity ", LIST_QUANTITIES, 1}};
+    const char *colon = strstr(text, ": ");
+    for (size_t k = 0; colon != NULL && k < sizeof all / sizeof all[0]; k++) {
+        const size_t length = strlen(all[k].word);
+        if (strncmp(text, all[k].word, length) != 0)
+            continue;
+        for (int i = 0; i < b->list[all[k].list].count; i++) {
+            const unrolled *entry = &b->list[all[k].list].entry[i];
+            const size_t name = (size_t)(colon - text) - length;
+            const int meant = all[k].named ? strncmp(entry->name, text + length, name) == 0 &&
+                                                 entry->name[name] == '\0'
+                                           : atoi(text + length) == i;
+            if (!meant)
+                continue;
+            document_mistake(b->mistakes, entry->place, 0, "%s: %s", entry->name, colon + 2);
+            return;
+        }
+    }
+    document_mistake(b->mistakes, b->root, 0, "%s", text);
+}
+
+void build_scene(const document_node *root, const scope *names, arena *a, mistakes *m, scene *out)
+{
+    builder b = {.arena = a, .mistakes = m, .scene = out, .root = root};
+    fault f = {""};
+    b.names = unroll_let(document_find(root, "let"), names, a, m);
+    list_entries(&b);
+    builder_sections(&b);
+    builder_nodes(&b);
+    builder_members(&b);
+    builder_motions(&b);
+    builder_loads(&b);
+    builder_analyses(&b);
+    builder_quantities(&b);
+    builder_defaults(&b);
+    read_needs(&b);
+    read_meshes(&b);
+    m->out_of_memory |= a->failed || out->out_of_memory;
+    if (m->count == 0 && !m->out_of_memory && scene_validate(out, &f) != STATUS_OK)
+        tell_refusal(&b, f.text);
+}

@@ -1,0 +1,11 @@
+/* A checked tree and values of its parameters -> a scene. */
+#ifndef BEAMWORK_SCENE_BUILD_H
+#define BEAMWORK_SCENE_BUILD_H
+
+#include "cases/scene/scene.h"
+#include "harness/scene_file/scope.h"
+
+/* names: the parameters. The scene is valid where no mistake was found. The caller frees it in any case. */
+void build_scene(const document_node *root, const scope *names, arena *a, mistakes *m, scene *out);
+
+#endif

@@ -1,0 +1,106 @@
+/* Analyses of a scene. */
+#include <string.h>
+
+#include "harness/scene_file/builder.h"
+
+enum { MOST_STEPS = 1000000, MOST_MODES = 1000 };
+
+static scene_spin spin_of(const fields *f)
+{
+    scene_spin spin = {{0}, {0}};
+    fields_vector(f, "omega", 3, spin.omega);
+    fields_vector(f, "centre", 3, spin.centre);
+    return spin;
+}
+
+/* A mistake: the analysis whose state this one is about walks no path. */
+static int about(const fields *f, int index)
+{
+    const int follows = fields_entry(f, "about", LIST_ANALYSES);
+    if (follows >= index)
+        document_mistake(f->b->mistakes, document_find(f->map, "about"), 0,
+                         "'%s' does not stand before this one; move it up",
+                         fields_text(f, "about", ""));
+    return follows < index ? follows : SCENE_NONE;
+}
+
+static void add_static(const fields *f)
+{
+    double *path;
+    const fields spin = fields_below(f, "spin");
+    const int count = fields_values(f, "stations", &path);
+    const int added =
+        scene_add_static(f->b->scene, count, path, fields_whole(f, "steps", 1, 1, MOST_STEPS));
+    if (spin.map != NULL)
+        scene_set_spin(f->b->scene, added, spin_of(&spin));
+}
+
+static void add_rotation(const fields *f)
+{
+    double *path;
+    const int count = fields_values(f, "stations", &path);
+    scene_add_rotation(f->b->scene, count, path, fields_whole(f, "steps", 1, 1, MOST_STEPS),
+                       fields_whole(f, "wanted", 0, 0, MOST_MODES), spin_of(f));
+}
+
+static void add_compliance(const fields *f, int index)
+{
+    const scene_compliance what = {.node = fields_entry(f, "node", LIST_NODES),
+                                   .moments = (scene_moments)fields_word(
+                                       f, "moments", SCENE_MOMENTS_CHOICES, SCENE_MOMENTS_SPATIAL),
+                                   .released = fields_words(f, "released", fields_components)};
+    scene_add_compliance(f->b->scene, about(f, index), what);
+}
+
+static void add_continuation(const fields *f)
+{
+    double *to;
+    const fields control = fields_below(f, "control"), spin = fields_below(f, "spin");
+    const int count = fields_values(f, "to", &to);
+    const double step = fields_number(f, "step", 1);
+    const scene_control how = {.node = fields_entry(&control, "node", LIST_NODES),
+                               .component = fields_word(&control, "component", "ux|uy|uz", 0),
+                               .by_arc = fields_word(f, "by", "coordinate|arc", 0),
+                               .step = step,
+                               .step_max = fields_number(f, "step_max", step),
+                               .constant_steps = fields_word(f, "constant", "no|yes", 0)};
+    const int added = scene_add_continuation(f->b->scene, count, to, how);
+    if (spin.map != NULL)
+        scene_set_spin(f->b->scene, added, spin_of(&spin));
+}
+
+void builder_analyses(builder *b)
+{
+    static const char *const kind[] = {"linear",     "static",       "buckling", "modal",
+                                       "compliance", "continuation", "rotation"};
+    for (int i = 0; i < b->list[LIST_ANALYSES].count; i++) {
+        const fields entry = fields_of(b, &b->list[LIST_ANALYSES].entry[i]);
+        int k = 0;
+        while (k < 6 && !fields_have(&entry, kind[k]))
+            k++;
+        const fields f = fields_below(&entry, kind[k]);
+        switch ((scene_analysis_kind)k) {
+        case SCENE_LINEAR:
+            scene_add_linear(b->scene);
+            break;
+        case SCENE_STATIC:
+            add_static(&f);
+            break;
+        case SCENE_BUCKLING:
+            scene_add_buckling(b->scene, about(&f, i));
+            break;
+        case SCENE_MODAL:
+            scene_add_modal(b->scene, about(&f, i));
+            break;
+        case SCENE_COMPLIANCE:
+            add_compliance(&f, i);
+            break;
+        case SCENE_CONTINUATION:
+            add_continuation(&f);
+            break;
+        case SCENE_ROTATION:
+            add_rotation(&f);
+            break;
+        }
+    }
+}

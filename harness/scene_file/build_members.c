@@ -1,0 +1,119 @@
+/* Members of a scene, what moves it and what loads it. */
+#include <string.h>
+
+#include "harness/scene_file/builder.h"
+#include "harness/scene_file/range.h"
+
+static int share(const fields *f, const document_node *name)
+{
+    builder *b = f->b;
+    if (name->kind != DOCUMENT_TEXT) {
+        document_mistake(b->mistakes, name, 0, "shared: a name is expected");
+        return SCENE_WARP_FREE;
+    }
+    for (int i = 0; i < b->shares; i++)
+        if (strcmp(b->shared[i], name->text) == 0)
+            return i;
+    b->shared = arena_grow(b->arena, b->shared, b->shares, sizeof *b->shared);
+    if (b->shared == NULL) {
+        b->shares = 0;
+        return SCENE_WARP_FREE;
+    }
+    b->shared[b->shares] = name->text;
+    return b->shares++;
+}
+
+static int warping_of(const fields *f, const document_node *n)
+{
+    const document_node *shared = document_find(n, "shared");
+    if (shared != NULL && n->count == 1)
+        return share(f, shared);
+    return fields_word_of(f, n, "warping", "free|fixed", 0) == 0 ? SCENE_WARP_FREE
+                                                                 : SCENE_WARP_FIXED;
+}
+
+static void read_warping(const fields *f, scene_member *m)
+{
+    const document_node *n = document_find(f->map, "warping");
+    if (n == NULL)
+        return;
+    if (n->kind == DOCUMENT_LIST && n->count != 2) {
+        document_mistake(f->b->mistakes, n, 0, "warping: one value, or [at from, at to]");
+        return;
+    }
+    m->warp_p = warping_of(f, n->kind == DOCUMENT_LIST ? n->item[0] : n);
+    m->warp_q = warping_of(f, n->kind == DOCUMENT_LIST ? n->item[1] : n);
+}
+
+void builder_members(builder *b)
+{
+    for (int i = 0; i < b->list[LIST_MEMBERS].count; i++) {
+        const fields f = fields_of(b, &b->list[LIST_MEMBERS].entry[i]);
+        double y[3] = {0};
+        fields_vector(&f, "y", 3, y);
+        const int p = fields_entry(&f, "from", LIST_NODES), q = fields_entry(&f, "to", LIST_NODES);
+        const int profile = fields_entry(&f, "section", LIST_SECTIONS);
+        scene_member *m = scene_member_at(b->scene, scene_add_member(b->scene, p, q, profile, y));
+        read_warping(&f, m);
+        fields_vector(&f, "curvature", 3, m->curvature);
+        fields_vector(&f, "strain", 3, m->strain);
+        m->divisions = fields_whole(&f, "divisions", 0, 0, 10000000);
+    }
+}
+
+/* Path and values of as many stations: their number; 0 after a mistake or where there are none. */
+static int read_stations(const fields *f, const char *values, double **path, double **value)
+{
+    const int stations = fields_values(f, "path", path), count = fields_values(f, values, value);
+    if (stations == count)
+        return count;
+    document_mistake(
+        f->b->mistakes, document_find(f->map, fields_have(f, values) ? values : "path"), 0,
+        "'path' has %d values and '%s' %d; give as many of both", stations, values, count);
+    return 0;
+}
+
+void builder_motions(builder *b)
+{
+    for (int i = 0; i < b->list[LIST_MOTIONS].count; i++) {
+        const unrolled *entry = &b->list[LIST_MOTIONS].entry[i];
+        const fields f = fields_of(b, entry), condition = fields_below(&f, "such_that");
+        double *path, *value;
+        fields_word(&f, "unit", "m|rad", 0);
+        if (condition.map == NULL) {
+            const int stations = read_stations(&f, "value", &path, &value);
+            scene_add_driver(b->scene, entry->name, stations, path, value);
+            continue;
+        }
+        scene_add_unknown_driver(b->scene, entry->name,
+                                 fields_entry(&condition, "node", LIST_NODES),
+                                 fields_word(&condition, "component", fields_components, 0),
+                                 fields_entry(&condition, "motion", LIST_MOTIONS));
+    }
+}
+
+static void set_factor(const fields *f, int index)
+{
+    double *path, *factor;
+    const int stations = read_stations(f, "factor", &path, &factor);
+    if (stations > 0 && index >= 0)
+        scene_set_factor(f->b->scene, index, stations, path, factor);
+}
+
+void builder_loads(builder *b)
+{
+    static const char *const key[] = {"force", "moment", "distributed"};
+    for (int i = 0; i < b->list[LIST_LOADS].count; i++) {
+        const fields f = fields_of(b, &b->list[LIST_LOADS].entry[i]);
+        const scene_load_kind kind = fields_have(&f, "force")    ? SCENE_FORCE
+                                     : fields_have(&f, "moment") ? SCENE_MOMENT
+                                                                 : SCENE_DISTRIBUTED;
+        double v[3] = {0};
+        fields_vector(&f, key[kind], 3, v);
+        const int where =
+            fields_entry(&f, "on", kind == SCENE_DISTRIBUTED ? LIST_MEMBERS : LIST_NODES);
+        const int load = scene_add_load(b->scene, kind, where, v[0], v[1], v[2]);
+        if (fields_have(&f, "path") || fields_have(&f, "factor"))
+            set_factor(&f, load);
+    }
+}

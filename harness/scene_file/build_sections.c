@@ -1,0 +1,131 @@
+/* Sections of a scene. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/scene_file/builder.h"
+#include "harness/scene_file/expression.h"
+
+/* Index of a point that a wall names; -1 after a mistake. */
+static int point_of(const fields *wall, const char *key, const document_node *points)
+{
+    const document_node *name = document_find(wall->map, key);
+    for (int i = 0; points != NULL && i < points->count; i++)
+        if (strcmp(points->key[i]->text, name->text) == 0)
+            return i;
+    char known[FAULT_TEXT] = "";
+    for (int i = 0, used = 0; points != NULL && i < points->count && used < 100; i++)
+        used += snprintf(known + used, sizeof known - (size_t)used, "%s%.20s", i > 0 ? ", " : "",
+                         points->key[i]->text);
+    document_mistake(wall->b->mistakes, name, 0,
+                     "the section has no point '%.40s'; its points are: %s", name->text,
+                     known[0] != '\0' ? known : "none; add points: {NAME: [y, z]}");
+    return -1;
+}
+
+static void read_walls(const fields *f, section_spec *spec)
+{
+    const document_node *points = document_find(f->map, "points");
+    unrolled *walls;
+    const int count = unroll_entries(document_find(f->map, "walls"), f->names, f->b->arena,
+                                     f->b->mistakes, &walls);
+    spec->kind = SECTION_WALLS;
+    spec->thickness_terms = fields_word(f, "thickness_terms", "no|yes", 0);
+    spec->points = points != NULL ? points->count : 0;
+    spec->walls = count;
+    if (spec->points > SECTION_MAX_POINTS || count > SECTION_MAX_WALLS || count == 0) {
+        document_mistake(f->b->mistakes, f->place, 0,
+                         "%d points and %d walls; give 1 to %d of each", spec->points, count,
+                         SECTION_MAX_WALLS);
+        spec->points = spec->walls = 0;
+        return;
+    }
+    for (int i = 0; i < spec->points; i++)
+        expression_vector(points->item[i], 2, f->names, f->b->mistakes, spec->point[i]);
+    for (int i = 0; i < count; i++) {
+        const fields wall = fields_of(f->b, &walls[i]);
+        spec->wall[i].from = point_of(&wall, "from", points);
+        spec->wall[i].to = point_of(&wall, "to", points);
+        spec->wall[i].thickness = fields_number(&wall, "thickness", 1);
+    }
+}
+
+static void read_rectangle(const fields *f, section_spec *spec)
+{
+    const fields sizes = fields_below(f, "rectangle");
+    const document_node *k = document_find(f->map, "shear_factor");
+    spec->kind = SECTION_RECTANGLE;
+    spec->width = fields_number(&sizes, "width", 1);
+    spec->height = fields_number(&sizes, "thickness", 1);
+    if (k != NULL && k->kind == DOCUMENT_LIST)
+        expression_vector(k, 2, f->names, f->b->mistakes, spec->shear_factor);
+    else
+        spec->shear_factor[0] = spec->shear_factor[1] = fields_number(f, "shear_factor", 0);
+}
+
+static void read_constants(const fields *f, section_spec *spec)
+{
+    const fields those = fields_below(f, "constants");
+    section *c = &spec->constants;
+    spec->kind = SECTION_CONSTANTS;
+    c->A = fields_number(&those, "A", 1);
+    c->Iy = fields_number(&those, "Iy", 1);
+    c->Iz = fields_number(&those, "Iz", 1);
+    c->It = fields_number(&those, "It", 1);
+    c->Iw = fields_number(&those, "Iw", 0);
+    c->Ip = fields_number(&those, "Ip", c->Iy + c->Iz);
+    c->ys = fields_number(&those, "ys", 0);
+    c->zs = fields_number(&those, "zs", 0);
+    c->wagner_y = fields_number(&those, "wagner_y", 0);
+    c->wagner_z = fields_number(&those, "wagner_z", 0);
+    c->wagner_torque = fields_number(&those, "wagner_torque", 0);
+    fields_vector(&those, "D", 9, c->D);
+    fields_vector(&those, "F", 9, c->F);
+}
+
+static void read_given(const fields *f, section_spec *spec)
+{
+    const fields given = fields_below(f, "given");
+    const struct {
+        const char *key;
+        double *value;
+    } all[] = {{"Iw", &spec->given.Iw},   {"ys", &spec->given.ys},   {"zs", &spec->given.zs},
+               {"Dy", &spec->given.Dy},   {"Dz", &spec->given.Dz},   {"Dw", &spec->given.Dw},
+               {"Dyz", &spec->given.Dyz}, {"Dyw", &spec->given.Dyw}, {"Dzw", &spec->given.Dzw},
+               {"It", &spec->given.It},   {"Ip", &spec->given.Ip}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        *all[i].value = fields_number(&given, all[i].key, NAN);
+}
+
+void builder_sections(builder *b)
+{
+    for (int i = 0; i < b->list[LIST_SECTIONS].count; i++) {
+        const fields f = fields_of(b, &b->list[LIST_SECTIONS].entry[i]);
+        section_spec spec;
+        section computed;
+        fault why = {""};
+        section_spec_init(&spec);
+        spec.young = fields_number(&f, "young", 1);
+        spec.shear_modulus = fields_number(&f, "shear_modulus", 1);
+        spec.density = fields_number(&f, "density", 0);
+        if (fields_have(&f, "walls"))
+            read_walls(&f, &spec);
+        else if (fields_have(&f, "rectangle"))
+            read_rectangle(&f, &spec);
+        else
+            read_constants(&f, &spec);
+        read_given(&f, &spec);
+        if (spec.kind != SECTION_WALLS && fields_have(&f, "points"))
+            document_mistake(b->mistakes, document_find(f.map, "points"), 0,
+                             "points are of walls; add them, or leave the points out");
+        if (spec.kind != SECTION_RECTANGLE && fields_have(&f, "shear_factor"))
+            document_mistake(b->mistakes, document_find(f.map, "shear_factor"), 0,
+                             "a shear factor is of a rectangle; leave it out, or use 'given'");
+        if (b->mistakes->count == 0 && section_compute(&spec, &computed, &why) != STATUS_OK)
+            document_mistake(b->mistakes, f.place, 0, "%s", why.text);
+        if (spec.kind != SECTION_WALLS && fields_have(&f, "thickness_terms"))
+            document_mistake(b->mistakes, document_find(f.map, "thickness_terms"), 0,
+                             "thickness terms are of walls; leave them out");
+        scene_add_section(b->scene, &spec);
+    }
+}

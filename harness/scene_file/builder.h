@@ -1,0 +1,76 @@
+/* What a scene is built with from a checked tree, and values of its maps by their keys.
+ *
+ * The tree has the form that keys.h says: what is asked for here is a number, a word, a list where one must be. What has no
+ * meaning is a mistake, and some value is returned. */
+#ifndef BEAMWORK_SCENE_BUILDER_H
+#define BEAMWORK_SCENE_BUILDER_H
+
+#include "cases/scene/scene.h"
+#include "harness/scene_file/unroll.h"
+
+typedef enum builder_list {
+    LIST_SECTIONS,
+    LIST_NODES,
+    LIST_MEMBERS,
+    LIST_MOTIONS,
+    LIST_LOADS,
+    LIST_ANALYSES,
+    LIST_QUANTITIES,
+    LISTS
+} builder_list;
+
+typedef struct builder {
+    arena *arena;
+    mistakes *mistakes;
+    scene *scene;
+    const document_node *root;
+    const scope *names; /* parameters and derived values */
+    struct {
+        unrolled *entry;
+        int count;
+    } list[LISTS];       /* in the order of the scene's indices */
+    const char **shared; /* names of warping coordinates that members share */
+    int shares;
+} builder;
+
+/* One map: of an entry, or below one. */
+typedef struct fields {
+    builder *b;
+    const scope *names;
+    const document_node *map; /* NULL: it is not there, and has nothing */
+    const document_node *place;
+} fields;
+
+fields fields_of(builder *b, const unrolled *entry);
+fields fields_below(const fields *f, const char *key);
+int fields_have(const fields *f, const char *key);
+double fields_number(const fields *f, const char *key, double otherwise);
+int fields_whole(const fields *f, const char *key, int otherwise, int least, int most);
+/* out[count] is left as it is, and 0 returned, where there is none. */
+int fields_vector(const fields *f, const char *key, int count, double out[]);
+/* A list or range: how many; 0 where there is none; *out is the arena's. */
+int fields_values(const fields *f, const char *key, double **out);
+const char *fields_text(const fields *f, const char *key, const char *otherwise);
+/* Index in "a|b|c" of a word, or of the word that a parameter of that name has. */
+int fields_word(const fields *f, const char *key, const char *choices, int otherwise);
+int fields_word_of(const fields *f, const document_node *word, const char *what,
+                   const char *choices, int otherwise);
+/* Bits of one word or of a list of them. */
+unsigned fields_words(const fields *f, const char *key, const char *choices);
+/* Index of the entry that is named; SCENE_NONE where there is none. */
+int fields_entry(const fields *f, const char *key, builder_list list);
+int fields_entry_of(const fields *f, const document_node *name, builder_list list);
+/* "ux|uy|uz|rx|ry|rz" */
+extern const char fields_components[];
+
+void builder_sections(builder *b);
+void builder_nodes(builder *b);
+void builder_members(builder *b);
+void builder_motions(builder *b);
+void builder_loads(builder *b);
+void builder_analyses(builder *b);
+void builder_quantities(builder *b);
+/* Analyses and quantities where the file has none. */
+void builder_defaults(builder *b);
+
+#endif

@@ -1,0 +1,159 @@
+/* Values of a map by their keys. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/catalogue/choice.h"
+#include "harness/scene_file/builder.h"
+#include "harness/scene_file/expression.h"
+#include "harness/scene_file/range.h"
+
+const char fields_components[] = "ux|uy|uz|rx|ry|rz";
+
+fields fields_of(builder *b, const unrolled *entry)
+{
+    return (fields){b, entry->names, entry->value, entry->place};
+}
+
+fields fields_below(const fields *f, const char *key)
+{
+    const document_node *below = document_find(f->map, key);
+    return (fields){f->b, f->names, below, below != NULL ? below : f->place};
+}
+
+int fields_have(const fields *f, const char *key)
+{
+    return document_find(f->map, key) != NULL;
+}
+
+double fields_number(const fields *f, const char *key, double otherwise)
+{
+    const document_node *n = document_find(f->map, key);
+    double value;
+    return n != NULL && expression_number(n, f->names, f->b->mistakes, &value) ? value : otherwise;
+}
+
+int fields_whole(const fields *f, const char *key, int otherwise, int least, int most)
+{
+    const double value = fields_number(f, key, otherwise);
+    if (value == floor(value) && value >= least && value <= most)
+        return (int)value;
+    document_mistake(f->b->mistakes, document_find(f->map, key), 0,
+                     "%s = %g; give a whole number from %d to %d", key, value, least, most);
+    return otherwise;
+}
+
+int fields_vector(const fields *f, const char *key, int count, double out[])
+{
+    const document_node *n = document_find(f->map, key);
+    if (n == NULL)
+        return 0;
+    expression_vector(n, count, f->names, f->b->mistakes, out);
+    return 1;
+}
+
+int fields_values(const fields *f, const char *key, double **out)
+{
+    const document_node *n = document_find(f->map, key);
+    *out = NULL;
+    const int count = n != NULL ? range_values(n, f->names, f->b->arena, f->b->mistakes, out) : 0;
+    return count > 0 ? count : 0;
+}
+
+const char *fields_text(const fields *f, const char *key, const char *otherwise)
+{
+    const document_node *n = document_find(f->map, key);
+    return n != NULL && n->kind == DOCUMENT_TEXT ? n->text : otherwise;
+}
+
+/* The words of "a|b|c", one by one. */
+static const char *word_at(const void *context, int i)
+{
+    static _Thread_local char word[32];
+    choice_name(context, i, word, sizeof word);
+    return word[0] != '\0' ? word : NULL;
+}
+
+int fields_word_of(const fields *f, const document_node *n, const char *what, const char *choices,
+                   int otherwise)
+{
+    if (n->kind != DOCUMENT_TEXT) {
+        document_mistake(f->b->mistakes, n, 0, "%s: a word is expected: %s", what, choices);
+        return otherwise;
+    }
+    const scope *known = scope_find(f->names, n->text, strlen(n->text));
+    const int index =
+        choice_index(choices, known != NULL && known->word != NULL ? known->word : n->text);
+    if (index >= 0)
+        return index;
+    char remedy[FAULT_TEXT], all[FAULT_TEXT];
+    snprintf(all, sizeof all, "; give one of %s", choices);
+    if (known != NULL && known->word != NULL)
+        document_mistake(f->b->mistakes, n, 0, "%s: the parameter %s is '%.40s'%s", what, n->text,
+                         known->word, all);
+    else
+        document_mistake(f->b->mistakes, n, 0, "%s: no '%.40s' here%s", what, n->text,
+                         mistakes_remedy(choice_nearest(n->text, word_at, choices), all, remedy));
+    return otherwise;
+}
+
+int fields_word(const fields *f, const char *key, const char *choices, int otherwise)
+{
+    const document_node *n = document_find(f->map, key);
+    return n != NULL ? fields_word_of(f, n, key, choices, otherwise) : otherwise;
+}
+
+unsigned fields_words(const fields *f, const char *key, const char *choices)
+{
+    const document_node *n = document_find(f->map, key);
+    unsigned bits = 0;
+    if (n != NULL && n->kind == DOCUMENT_TEXT) {
+        const int index = fields_word_of(f, n, key, choices, -1);
+        bits = index >= 0 ? 1u << index : 0;
+    }
+    for (int i = 0; n != NULL && n->kind == DOCUMENT_LIST && i < n->count; i++) {
+        const int index = fields_word_of(f, n->item[i], key, choices, -1);
+        bits |= index >= 0 ? 1u << index : 0;
+    }
+    return bits;
+}
+
+/* One list of a builder, for the nearest name in it. */
+typedef struct named_list {
+    const builder *b;
+    builder_list list;
+} named_list;
+
+static const char *entry_at(const void *context, int i)
+{
+    const named_list *those = context;
+    return i < those->b->list[those->list].count ? those->b->list[those->list].entry[i].name : NULL;
+}
+
+int fields_entry_of(const fields *f, const document_node *n, builder_list list)
+{
+    static const char *const what[] = {"section", "node",     "member",  "motion",
+                                       "load",    "analysis", "quantity"};
+    const named_list those = {f->b, list};
+    char remedy[FAULT_TEXT];
+    if (n->kind != DOCUMENT_TEXT) {
+        document_mistake(f->b->mistakes, n, 0, "the name of a %s is expected", what[list]);
+        return SCENE_NONE;
+    }
+    const scope *known = scope_find(f->names, n->text, strlen(n->text));
+    const char *text = known != NULL && known->word != NULL ? known->word : n->text;
+    for (int i = 0; i < f->b->list[list].count; i++)
+        if (strcmp(f->b->list[list].entry[i].name, text) == 0)
+            return i;
+    if (strchr(text, '$') == NULL || f->b->mistakes->count == 0) /* else it is told already */
+        document_mistake(f->b->mistakes, n, 0, "no %s '%.40s'%s", what[list], text,
+                         mistakes_remedy(choice_nearest(text, entry_at, &those),
+                                         "; add it, or mend the name", remedy));
+    return SCENE_NONE;
+}
+
+int fields_entry(const fields *f, const char *key, builder_list list)
+{
+    const document_node *n = document_find(f->map, key);
+    return n != NULL ? fields_entry_of(f, n, list) : SCENE_NONE;
+}

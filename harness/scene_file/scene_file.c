@@ -1,0 +1,149 @@
+#include "harness/scene_file/scene_file.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/scene_file/build.h"
+#include "harness/scene_file/expression.h"
+#include "harness/scene_file/keys.h"
+#include "harness/scene_file/scene_file_impl.h"
+
+enum { VERSION = 1 };
+
+static void check_version(const scene_file *file, mistakes *m)
+{
+    const document_node *n = document_find(file->root, "beamwork");
+    if (strcmp(n->text, "1") != 0)
+        document_mistake(m, n, 0, "format version '%.20s'; this program reads version %d", n->text,
+                         VERSION);
+    else if (strcmp(file->root->key[0]->text, "beamwork") != 0)
+        document_mistake(m, file->root, 0, "'beamwork: 1' stands first; move it up");
+}
+
+/* The name that is given, or that of the file without folder and ending. */
+static void read_name(scene_file *file, mistakes *m)
+{
+    const document_node *n = document_find(file->root, "name");
+    const char *slash = strrchr(file->path, '/');
+    const char *stem = slash != NULL ? slash + 1 : file->path;
+    const char *text = n != NULL ? n->text : arena_copy(&file->arena, stem, strcspn(stem, "."));
+    if (text == NULL)
+        return;
+    file->type.name = text;
+    const size_t length = strlen(text);
+    if (length == 0 || length >= SCENE_NAME || scope_name_length(text) != length)
+        document_mistake(m, n != NULL ? n : file->root, 0,
+                         "name '%.60s': use at most %d letters, digits and _, a letter first", text,
+                         SCENE_NAME - 1);
+}
+
+static const char *line_of(const scene_file *file, const char *key)
+{
+    const document_node *n = document_find(file->root, key);
+    return n != NULL ? n->text : "";
+}
+
+/* Built with memory of its own; mistakes are told in m. */
+static void build_at(const scene_file *file, const double value[], scene *s, mistakes *m)
+{
+    arena a = {0};
+    build_scene(file->root, parameter_table_names(file, value, &a), &a, m, s);
+    arena_free(&a);
+}
+
+static status build_from(const void *context, const double value[], scene *s, fault *f)
+{
+    const scene_file *file = context;
+    mistakes m = {.file = file->path};
+    build_at(file, value, s, &m);
+    return mistakes_status(&m, f);
+}
+
+/* Tree, form, parameters, scene, truths: each where what is before it has no mistake. */
+static void read_all(scene_file *file, const char *bytes, size_t size, mistakes *m)
+{
+    file->root = document_read(bytes, size, &file->arena, m);
+    if (file->root == NULL || !keys_check(file->root, m))
+        return;
+    check_version(file, m);
+    read_name(file, m);
+    file->type.summary = line_of(file, "summary");
+    file->type.source = line_of(file, "source");
+    parameter_table_read(file, m);
+    if (m->count > 0 || file->arena.failed)
+        return;
+    double value[CASE_MAX_PARAMETERS] = {0};
+    scene s;
+    parameter_defaults(file->parameter, value);
+    scene_init(&s, file->type.name);
+    build_at(file, value, &s, m);
+    if (m->count == 0)
+        file_truths_check(file, &s, value, m);
+    scene_free(&s);
+}
+
+status scene_file_read_bytes(const char *bytes, size_t size, const char *path, scene_file **out,
+                             mistakes *m, fault *f)
+{
+    memset(m, 0, sizeof *m);
+    m->file = path;
+    *out = NULL;
+    scene_file *file = calloc(1, sizeof *file);
+    if (file == NULL)
+        return fault_set(f, STATUS_FAULT, "%.200s: out of memory", path);
+    file->path = path;
+    file->type.build_from = build_from;
+    file->type.context = file;
+    read_all(file, bytes, size, m);
+    m->out_of_memory |= file->arena.failed;
+    const status outcome = mistakes_status(m, f);
+    if (outcome == STATUS_OK)
+        *out = file;
+    else
+        scene_file_free(file);
+    return outcome;
+}
+
+/* All bytes of a file, at most one more than a scene file may have: a longer one is refused as such. */
+static status read_bytes(const char *path, char *bytes, size_t room, size_t *size, fault *f)
+{
+    FILE *from = fopen(path, "rb");
+    if (from == NULL)
+        return fault_set(f, STATUS_FAULT, "%.200s cannot be read: %s", path, strerror(errno));
+    *size = fread(bytes, 1, room, from);
+    const int failed = ferror(from);
+    fclose(from);
+    return failed ? fault_set(f, STATUS_FAULT, "%.200s cannot be read", path) : STATUS_OK;
+}
+
+status scene_file_read(const char *path, scene_file **out, mistakes *m, fault *f)
+{
+    const size_t room = DOCUMENT_BYTES + 1;
+    char *bytes = malloc(room);
+    size_t size = 0;
+    *out = NULL;
+    memset(m, 0, sizeof *m);
+    m->file = path;
+    if (bytes == NULL)
+        return fault_set(f, STATUS_FAULT, "%.200s: out of memory", path);
+    status outcome = read_bytes(path, bytes, room, &size, f);
+    if (outcome == STATUS_OK)
+        outcome = scene_file_read_bytes(bytes, size, path, out, m, f);
+    free(bytes);
+    return outcome;
+}
+
+void scene_file_free(scene_file *file)
+{
+    if (file == NULL)
+        return;
+    arena_free(&file->arena);
+    free(file);
+}
+
+const case_type *scene_file_case(const scene_file *file)
+{
+    return &file->type;
+}

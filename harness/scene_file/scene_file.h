@@ -1,0 +1,28 @@
+/* A scene file as a case like any other: parameters, a function that builds the scene, truths. */
+#ifndef BEAMWORK_SCENE_FILE_H
+#define BEAMWORK_SCENE_FILE_H
+
+#include <stddef.h>
+
+#include "cases/case.h"
+#include "harness/scene_file/mistakes.h"
+#include "harness/truth/truths.h"
+
+typedef struct scene_file scene_file;
+
+/* The file, with its defaults built once to see that they are a scene. Not OK: *out is NULL; REFUSED with all mistakes in m
+ * (and the first in f), FAULT when it cannot be read. path must outlive m and the file. */
+status scene_file_read(const char *path, scene_file **out, mistakes *m, fault *f);
+/* The same of bytes; path: as messages call it. */
+status scene_file_read_bytes(const char *bytes, size_t size, const char *path, scene_file **out,
+                             mistakes *m, fault *f);
+void scene_file_free(scene_file *);
+
+/* Lives as long as the file. */
+const case_type *scene_file_case(const scene_file *);
+/* Adds the file's truths that hold at a point of its parameters, and their values there. */
+status scene_file_add_truths(const scene_file *, const double value[], truths *t, fault *f);
+/* The same at the defaults and at every point that a truth names. */
+status scene_file_add_all_truths(const scene_file *, truths *t, fault *f);
+
+#endif

@@ -1,0 +1,176 @@
+/* Are two scenes the same, bit for bit? */
+#ifndef BEAMWORK_TEST_SAME_SCENE_H
+#define BEAMWORK_TEST_SAME_SCENE_H
+
+#include <string.h>
+
+#include "cases/scene/scene.h"
+
+static inline int same_numbers(int n, const double a[], const double b[])
+{
+    return (a == NULL) == (b == NULL) && (a == NULL || memcmp(a, b, (size_t)n * sizeof *a) == 0);
+}
+
+static inline int same_section(const section_spec *a, const section_spec *b)
+{
+    section x, y;
+    int same = a->kind == b->kind && a->points == b->points && a->walls == b->walls &&
+               a->thickness_terms == b->thickness_terms;
+    for (int i = 0; same && i < a->points; i++)
+        same = same_numbers(2, a->point[i], b->point[i]);
+    for (int i = 0; same && i < a->walls; i++)
+        same = a->wall[i].from == b->wall[i].from && a->wall[i].to == b->wall[i].to &&
+               same_numbers(1, &a->wall[i].thickness, &b->wall[i].thickness);
+    return same && section_compute(a, &x, NULL) == section_compute(b, &y, NULL) &&
+           memcmp(&x, &y, sizeof x) == 0;
+}
+
+static inline int same_node(const scene_node *a, const scene_node *b)
+{
+    return same_numbers(3, a->position, b->position) && a->attached == b->attached &&
+           memcmp(a->translation, b->translation, sizeof a->translation) == 0 &&
+           a->rotation == b->rotation && memcmp(a->angle, b->angle, sizeof a->angle) == 0 &&
+           (a->rotation == SCENE_ROTATION_SPATIAL || a->rotation == SCENE_ROTATION_VECTOR ||
+            same_numbers(9, a->axis[0], b->axis[0]));
+}
+
+/* Ends share a name in both or in neither: what they are called is free. */
+static inline int same_sharing(const scene *a, const scene *b)
+{
+    for (int i = 0; i < 2 * a->members; i++)
+        for (int k = 0; k < i; k++) {
+            const scene_member *p = &a->member[i / 2], *q = &a->member[k / 2],
+                               *r = &b->member[i / 2], *s = &b->member[k / 2];
+            const int one = (i % 2 ? p->warp_q : p->warp_p) == (k % 2 ? q->warp_q : q->warp_p);
+            const int two = (i % 2 ? r->warp_q : r->warp_p) == (k % 2 ? s->warp_q : s->warp_p);
+            if (one != two)
+                return 0;
+        }
+    return 1;
+}
+
+static inline int same_warp(int a, int b)
+{
+    return a >= 0 ? b >= 0 : a == b;
+}
+
+static inline int same_member(const scene_member *a, const scene_member *b)
+{
+    return a->p == b->p && a->q == b->q && a->section == b->section &&
+           same_numbers(3, a->y_axis, b->y_axis) && same_warp(a->warp_p, b->warp_p) &&
+           same_warp(a->warp_q, b->warp_q) && same_numbers(3, a->curvature, b->curvature) &&
+           same_numbers(3, a->strain, b->strain) && a->divisions == b->divisions;
+}
+
+static inline int same_driver(const scene_driver *a, const scene_driver *b)
+{
+    return a->stations == b->stations && same_numbers(a->stations, a->path, b->path) &&
+           same_numbers(a->stations, a->value, b->value) &&
+           a->condition_node == b->condition_node &&
+           a->condition_component == b->condition_component &&
+           a->condition_driver == b->condition_driver;
+}
+
+static inline int same_load(const scene_load *a, const scene_load *b)
+{
+    return a->kind == b->kind && a->where == b->where && same_numbers(3, a->vector, b->vector) &&
+           a->stations == b->stations && same_numbers(a->stations, a->path, b->path) &&
+           same_numbers(a->stations, a->factor, b->factor);
+}
+
+static inline int same_analysis(const scene_analysis *a, const scene_analysis *b)
+{
+    const scene_path *p = scene_path_of(a), *q = scene_path_of(b);
+    const scene_spin *s = scene_spin_of(a), *t = scene_spin_of(b);
+    int same = a->kind == b->kind && a->follows == b->follows && (p == NULL) == (q == NULL);
+    if (same && p != NULL)
+        same = p->stations == q->stations && same_numbers(p->stations, p->value, q->value) &&
+               same_numbers(3, s->omega, t->omega) && same_numbers(3, s->centre, t->centre);
+    if (same && (a->kind == SCENE_STATIC || a->kind == SCENE_ROTATION))
+        same = scene_walk_of(a)->steps_between == scene_walk_of(b)->steps_between &&
+               scene_walk_of(a)->modes == scene_walk_of(b)->modes;
+    if (same && a->kind == SCENE_COMPLIANCE)
+        same =
+            memcmp(scene_compliance_of(a), scene_compliance_of(b), sizeof(scene_compliance)) == 0;
+    if (same && a->kind == SCENE_CONTINUATION) {
+        const scene_control *c = &scene_continuation_of(a)->control,
+                            *d = &scene_continuation_of(b)->control;
+        same = c->node == d->node && c->component == d->component && c->by_arc == d->by_arc &&
+               same_numbers(1, &c->step, &d->step) && same_numbers(1, &c->step_max, &d->step_max) &&
+               c->constant_steps == d->constant_steps;
+    }
+    return same;
+}
+
+static inline int same_extract(const scene_quantity *a, const scene_quantity *b)
+{
+    if (a->what.kind != b->what.kind)
+        return 0;
+    switch (a->what.kind) {
+    case SCENE_COORDINATE:
+    case SCENE_REACTION:
+        return scene_component_of(a)->node == scene_component_of(b)->node &&
+               scene_component_of(a)->component == scene_component_of(b)->component;
+    case SCENE_COMPLIANCE_ENTRY:
+    case SCENE_STIFFNESS_ENTRY:
+        return scene_entry_of(a)->row == scene_entry_of(b)->row &&
+               scene_entry_of(a)->column == scene_entry_of(b)->column;
+    case SCENE_CRITICAL_FACTOR:
+        return scene_critical_load_of(a)->sign == scene_critical_load_of(b)->sign &&
+               scene_critical_load_of(a)->order == scene_critical_load_of(b)->order;
+    case SCENE_FREQUENCY:
+        return memcmp(scene_mode_of(a), scene_mode_of(b), sizeof(scene_mode)) == 0;
+    case SCENE_CRITICAL_POINT:
+        return memcmp(scene_point_of(a), scene_point_of(b), sizeof(scene_point)) == 0;
+    case SCENE_DRIVER_VALUE:
+        return scene_driver_of(a) == scene_driver_of(b);
+    case SCENE_GROWTH:
+    case SCENE_FACTOR_AT:
+        break;
+    }
+    return 1;
+}
+
+static inline int same_quantity(const scene_quantity *a, const scene_quantity *b)
+{
+    const double x[] = {a->factor,      a->offset,   a->near_zero, a->tolerance,
+                        a->least_order, a->x.factor, a->x.offset,  a->prediction.value},
+                 y[] = {b->factor,      b->offset,   b->near_zero, b->tolerance,
+                        b->least_order, b->x.factor, b->x.offset,  b->prediction.value};
+    const char *one = a->prediction.source, *two = b->prediction.source;
+    return strcmp(a->name, b->name) == 0 && strcmp(a->unit, b->unit) == 0 &&
+           a->analysis == b->analysis && same_extract(a, b) && a->reduction == b->reduction &&
+           a->at == b->at && strcmp(a->x.name, b->x.name) == 0 &&
+           strcmp(a->x.unit, b->x.unit) == 0 && same_numbers(8, x, y) &&
+           (one == NULL) == (two == NULL) && (one == NULL || strcmp(one, two) == 0);
+}
+
+/* What differs first, with its index; NULL: nothing. */
+static inline const char *differing(const scene *a, const scene *b, int *index)
+{
+    *index = 0;
+    if (a->sections != b->sections || a->nodes != b->nodes || a->members != b->members ||
+        a->drivers != b->drivers || a->loads != b->loads || a->analyses != b->analyses ||
+        a->quantities != b->quantities)
+        return "counts";
+#define EACH(list, count, same)                                                                    \
+    for (*index = 0; *index < a->count; (*index)++)                                                \
+        if (!same(&a->list[*index], &b->list[*index]))                                             \
+            return #list;
+    EACH(section, sections, same_section)
+    EACH(node, nodes, same_node)
+    EACH(member, members, same_member)
+    EACH(driver, drivers, same_driver)
+    EACH(load, loads, same_load)
+    EACH(analysis, analyses, same_analysis)
+    EACH(quantity, quantities, same_quantity)
+#undef EACH
+    if (!same_sharing(a, b))
+        return "sharing";
+    if (a->needs != b->needs || a->meshes != b->meshes ||
+        memcmp(a->mesh, b->mesh, (size_t)a->meshes * sizeof *a->mesh) != 0)
+        return "needs or meshes";
+    return NULL;
+}
+
+#endif

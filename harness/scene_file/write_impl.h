@@ -1,0 +1,36 @@
+/* Parts of a scene file, for the files that write it. */
+#ifndef BEAMWORK_SCENE_WRITE_IMPL_H
+#define BEAMWORK_SCENE_WRITE_IMPL_H
+
+#include <stdio.h>
+
+#include "cases/scene/scene.h"
+
+typedef struct writer {
+    FILE *to;
+    const scene *scene;
+    int unwritable; /* 1: a number that is none */
+} writer;
+
+/* As few digits as give the same number. */
+void write_number(writer *w, double value);
+/* [a, b, c] */
+void write_numbers(writer *w, int count, const double value[]);
+/* ", key: number" where it differs from what a reader takes when it is not there. */
+void write_if(writer *w, const char *key, double value, double otherwise);
+/* In double quotes. */
+void write_quoted(writer *w, const char *text);
+/* Name of a motion: its own where it can be one. */
+void write_motion_name(writer *w, int index);
+/* "ux" .. "rz" */
+extern const char *const write_component[6];
+
+void write_sections(writer *w);
+void write_nodes(writer *w);
+void write_members(writer *w);
+void write_motions(writer *w);
+void write_loads(writer *w);
+void write_analyses(writer *w);
+void write_quantities(writer *w);
+
+#endif
