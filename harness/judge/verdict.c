@@ -13,8 +13,6 @@ static const char *const names[VERDICT_KINDS] = {
     "low order", "undecided", "diverged",    "refused",
     "skip",      "no truth"};
 static const double order_slack = 0.3; /* an order seen on finite meshes is not sharper */
-/* of an error that was predicted: slow sequences settle late */
-static const double unexplained_part = 1e-3;
 /* so many uncertainties from the truth, a limit is another one */
 static const double surely = 3;
 
@@ -103,15 +101,14 @@ static int order_is_low(const scene_quantity *q, const verdict *v)
            v->fit.last_change > v->truth->uncertainty;
 }
 
-/* Is the limit the derived one: within what both are known to, or so near that the derivation
- * explains the error? */
+/* Is the limit the derived one, within what both are known to?  The same measure as that of a bias:
+ * what is surely another limit is not the predicted one. */
 static int is_predicted(const verdict *v)
 {
     if (v->predicted == NULL)
         return 0;
     const double apart = fabs(v->fit.limit - v->predicted->value);
-    const double explained = unexplained_part * fabs(v->truth->value - v->predicted->value);
-    return apart <= fmax(surely * v->fit.limit_uncertainty, explained) + v->predicted->uncertainty;
+    return apart <= surely * v->fit.limit_uncertainty + v->predicted->uncertainty;
 }
 
 /* Against the truth.  A bias is as much a statement about the truth: it is not stated of one whose

@@ -152,6 +152,10 @@ static void predictions(void)
     b.row[1].formulation = words[ELEMENT];
     b.row[1].on_curve = 1;
     bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "a point of a curve is not the limit");
+    b.row[1].on_curve = 0;
+    bench_fill(&b, 3.003, 1e-3, 2);
+    b.row[1].value = 3.003001;
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "near the derived limit, but surely another one");
     bench_free(&b);
 }
 
