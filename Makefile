@@ -97,8 +97,9 @@ truths: needs-truths ## derive every exact and predicted row again, and solids w
 	@$(PYTHON) reference/derive/rederive.py
 	@$(PYTHON) reference/derive/predicted.py
 
-causes: all ## experiments on the causes of the ledger, for the report: ten minutes at most; build/causes.json
+causes: all ## errors that the rules of the ledger allow beside those seen; experiments on the causes, for the report: ten minutes at most; build/causes.json
 	@test -f $(BUILD)/verify.json || $(MAKE) --no-print-directory verify
+	@$(PYTHON) harness/tools/bounds.py $(BUILD)/verify.json reference/findings.csv
 	@$(PYTHON) harness/tools/causes.py $(PROGRAM) $(BUILD)/verify.json -o $(BUILD)/causes.json
 
 mutants: ## plant faults one by one; each must be noticed

@@ -1,0 +1,46 @@
+"""Bounds of the ledger: the rule by which they are set, and what is said where they differ."""
+import unittest
+
+from harness.tools import bounds
+
+
+def verdict(error, limit=1.0, predicted=None, kind="biased", rule="a"):
+    return {"finding": rule, "error": error, "limit": limit, "predicted": predicted,
+            "verdict": kind}
+
+
+class Bounds(unittest.TestCase):
+    def test_rule(self):
+        """1, 2, 5 times a power of ten, never below what was seen."""
+        for seen, bound in ((0.74, "1"), (0.2, "0.2"), (0.2001, "0.5"), (2.1e-5, "5e-05"),
+                            (1e-9, "1e-09"), (2.966, "5"), (5.0001, "10"), (None, "")):
+            self.assertEqual(bounds.bound_of(seen), bound)
+
+    def said(self, allowed, verdicts):
+        rule = {"rule": "a", "largest_error": allowed}
+        one, = bounds.lines([rule], verdicts)
+        return one
+
+    def test_what_differs_is_said(self):
+        given = [verdict(-3e-4), verdict(1e-4), verdict(0.5, rule="")]
+        self.assertTrue(self.said("5e-4", given)["stands"])
+        for allowed in ("2e-4", "1e-3", ""):
+            one = self.said(allowed, given)
+            self.assertFalse(one["stands"])
+            self.assertIn("should allow 0.0005", bounds.text_of(one))
+
+    def test_without_an_error(self):
+        given = [verdict(None, limit=None, kind="diverged")]
+        self.assertTrue(self.said("", given)["stands"])
+        self.assertFalse(self.said("1e-3", given)["stands"])
+
+    def test_digits_of_the_farthest(self):
+        met = [verdict(0.1, limit, 2.0, bounds.PREDICTED) for limit in (2.0002, 1.99999, 2.0)]
+        one = self.said("0.1", met + [verdict(0.1, 3.0, 2.0, "undecided")])
+        self.assertAlmostEqual(one["digits"], 4.0, places=3)
+        self.assertEqual(one["met"], 3)
+        self.assertIsNone(self.said("0.1", [verdict(0.1)])["digits"])
+
+
+if __name__ == "__main__":
+    unittest.main()
