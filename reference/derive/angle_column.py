@@ -47,11 +47,15 @@ def stress_of(load):
     return mpf(1), mpf(y), mpf(z), (IY + IZ) / A + y * WAGNER_Y / IZ
 
 
+def least_factors(warping, stress):
+    """The LOADS least positive ones of all half-waves."""
+    return sorted(v for n in range(1, HALF_WAVES + 1) for v in factors(n * pi / L, warping, stress))[:LOADS]
+
+
 def rows():
     for load in ("centroid", "shear_centre", "leg", "moment"):
         for warping in (1, 0):
             given = {**({} if load == "centroid" else {"load": load}), **({} if warping else {"warping": 0})}
-            all_factors = sorted(v for n in range(1, HALF_WAVES + 1) for v in factors(n * pi / L, warping, stress_of(load)))
-            for i in range(LOADS):
-                name, unit = ("critical_moment", "N m") if load == "moment" else ("critical_load", "N")
-                yield "angle_column", ";".join(f"{k}={v}" for k, v in given.items()), f"{name}_{i + 1}", all_factors[i], unit
+            name, unit = ("critical_moment", "N m") if load == "moment" else ("critical_load", "N")
+            for i, value in enumerate(least_factors(warping, stress_of(load))):
+                yield "angle_column", ";".join(f"{k}={v}" for k, v in given.items()), f"{name}_{i + 1}", value, unit

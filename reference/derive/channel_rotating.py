@@ -89,14 +89,26 @@ class Turning:
         raise ArithmeticError(f"Newton's method did not converge at {deflection}")
 
 
+def advance(t, at, w):
+    """Solves at the next deflection on the way from at to w [m] and returns it; steps that do not converge are halved."""
+    step, before = 0.025 if at < 0.4 else 0.05, (t.z.copy(), t.load)
+    while step > 1e-3:
+        to = min(at + step, w)
+        try:
+            t.solve(to / LENGTH, 1e-11 if to == w else 1e-6)
+            return to
+        except (ArithmeticError, np.linalg.LinAlgError):
+            t.z, t.load, step = before[0].copy(), before[1], step / 2
+    raise ArithmeticError(f"no equilibrium found beyond a deflection of {at} m")
+
+
 def path(deflections, omega, rotary=0, form=lambda beam: beam):
     """(force [N], displacement of the loaded point along y [m]) at each deflection [m]."""
     t = Turning(omega, rotary, form)
     out, at = [], 0.0
     for w in deflections:
         while at < w - 1e-12:
-            at = min(at + (0.025 if at < 0.4 else 0.05), w)
-            t.solve(at / LENGTH, 1e-11 if at == w else 1e-6)
+            at = advance(t, at, w)
         out.append((t.load * t.force, (t.z[:3, -1] + rotation(t.z[3:7, -1]) @ t.arm - t.arm)[1] * LENGTH))
     return out
 

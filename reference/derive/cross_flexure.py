@@ -20,10 +20,10 @@ SIZES = {"length": 0.06, "width": 0.01, "thickness": 0.3e-3, "pitch": 0.012,
 TILTS_FREE = ("first", "last", "between")
 
 
-def hinge(given, intervals=4, nodes=14):
-    """Network and its arm."""
+def hinge(given, intervals=4, nodes=14, form=lambda beam: beam):
+    """Network and its arm; form: see sheets.cantilever."""
     value = {**SIZES, **given}
-    beam = sheet(**{k: value[k] for k in ("length", "width", "thickness", "young", "poisson")})
+    beam = form(sheet(**{k: value[k] for k in ("length", "width", "thickness", "young", "poisson")}))
     net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=intervals, nodes=nodes)
     turned = clamped((0.0, 0.0, 0.0), lambda level: (0.0, 0.0, level * value["angle"]))
 
@@ -58,11 +58,11 @@ def compliance(net, arm, turned, tilts_free, convention):
     return C if convention == "spatial" else np.linalg.inv(K)
 
 
-def quantities(given):
+def quantities(given, form=lambda beam: beam):
     sizes = {k: float(v) for k, v in given.items() if k in SIZES}
     convention, rotation = given.get("moment_convention", "spatial"), given.get("rotation", "hinge")
-    net, arm, turned = hinge(sizes)
-    net.solve((0.5, 1.0))
+    net, arm, turned = hinge(sizes, form=form)
+    net.solve((0.5, 1.0), tolerance=1e-10)  # what round-off leaves of the leaves' own stiffness
     C = compliance(net, arm, turned, rotation in TILTS_FREE, convention)
     yield "moment", net.force * net.length * arm.load[5], "N m", RELATIVE
     for i, name in enumerate(("shift_x", "shift_y")):
@@ -71,10 +71,12 @@ def quantities(given):
         yield name, 1 / C[i, i], "N/m" if i < 3 else "N m/rad", RELATIVE, convention
 
 
+POINTS = [{}, {"angle": 0.01}, {"angle": 0.3490658503988659}, {"half_angle": 0.5, "angle": -0.2, "pitch": 0.03}]
+POINTS += [{"rotation": rotation} for rotation in ("vector", *TILTS_FREE)]
+POINTS += [{"rotation": "first", "moment_convention": convention} for convention in ("semitangential", "symmetrised")]
+
+
 def rows():
-    points = [{}, {"angle": 0.01}, {"angle": 0.3490658503988659}, {"half_angle": 0.5, "angle": -0.2, "pitch": 0.03}]
-    points += [{"rotation": rotation} for rotation in ("vector", *TILTS_FREE)]
-    points += [{"rotation": "first", "moment_convention": convention} for convention in ("semitangential", "symmetrised")]
-    for given in points:
+    for given in POINTS:
         for row in quantities(given):
             yield "cross_flexure", parameters(given), *row

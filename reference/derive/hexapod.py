@@ -50,10 +50,10 @@ def add_leg(net, beam, given, leg, platform):
     add_joint(net, beam, given, high, joint_axes(along), rod, platform, f"{leg}.high")
 
 
-def stiffness_curve(intervals=3, nodes=9, **given):
-    """[(stiffness in N/m, crank angle in rad)] at the positions from -stroke to +stroke."""
+def stiffness_curve(intervals=3, nodes=9, form=lambda beam: beam, **given):
+    """[(stiffness in N/m, crank angle in rad)] at the positions from -stroke to +stroke; form: see sheets.cantilever."""
     value = {**SIZES, **given}
-    beam = sheet_of(given)
+    beam = form(sheet_of(given))
     net = Network(beam.length, beam.EIz / beam.length ** 2, numbers=[0.0], intervals=intervals, nodes=nodes)
     platform = net.body((0, 0, value["height"]))
     for leg in range(6):

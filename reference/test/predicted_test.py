@@ -9,7 +9,7 @@ import unittest
 from unittest import mock
 
 import numpy as np
-from mpmath import mpf
+from mpmath import diff, mpf, pi, sin
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
 from reference.derive import cantilevers, channel_cantilever, column, equilibrium  # noqa: E402
@@ -306,6 +306,19 @@ class ClosedForms(unittest.TestCase):
             closed = float(critical(s, mpf(6), 1, compression, name == "beamw")[1])
             load = cantilever_column(Printed(beam, name), closed)
             self.assertLess(abs(load / closed - 1), 1e-6, name)
+
+    def test_right_angle(self):
+        """Uniform shear z = pi/2 without rotation: stationary potential of N 7 with Phi at GA = F."""
+        EA, GA, F = mpf(10) ** 9, mpf(10), mpf(10)
+
+        def potential(stretch, z):
+            eps = stretch - 1 - z ** 2 / 2
+            return EA * eps ** 2 / 2 + GA * z ** 2 / 2 - F * stretch * sin(z)
+        rows = [row for row in predicted.right_angle() if row[3] == "v"]
+        stretch, z = rows[0][4], pi / 2
+        for order in ((1, 0), (0, 1)):
+            self.assertLess(abs(diff(potential, (stretch, z), order)), 1e-12)
+        self.assertGreater(abs(diff(potential, (stretch, z - mpf("1e-3")), (0, 1))), 1e-4)
 
     def test_pinned_square(self):
         young, shear, side = 12e9, 0.5e9, 0.09
