@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 from reference.derive import angle_column, cantilevers, channel_cantilever  # noqa: E402
 from reference.derive import channel_rotating, column, cross_flexure  # noqa: E402
-from reference.derive import equilibrium, joint, rederive, sheets  # noqa: E402
+from reference.derive import equilibrium, hexapod, joint, rederive, sheets  # noqa: E402
 from reference.derive.predicted_beam import Printed  # noqa: E402
 from reference.derive.predicted_column import (  # noqa: E402
     compression, critical, moment, pinned_square)
@@ -133,6 +133,15 @@ def joints():
                 yield name, "spherical_joint", at, quantity, value, "N/m", RELATIVE
 
 
+def hexapods():
+    """One formulation: a minute."""
+    name, given = "sheet_third", {"wagner": 0}
+    at, curve = sheets.parameters(given), hexapod.stiffness_curve(form=as_printed(name), **given)
+    for k, (stiffness, _) in enumerate(curve):
+        yield name, "hexapod", at, f"support_stiffness_{k + 1}", stiffness, "N/m", RELATIVE
+    yield name, "hexapod", at, "crank_angle", curve[-1][1], "rad", RELATIVE
+
+
 def channel_rows(name, given, deflections, points, relative):
     """Without shear beamw_vlasov is beamw."""
     names = (name, "beamw_vlasov") if name == "beamw" and not given.get("shear") else (name,)
@@ -236,7 +245,7 @@ CLOSED_FORMS = {"c_column": (channel_columns,), "moment_buckling": (channels_und
 BEAMS = {"shear_elastica": (shear_elastica, right_angle), "geradin_cardona": (geradin_cardona,),
          "bend_45": (bend_45,),
          "sheet_cantilever": (bent_sheets, vibrating_sheets), "sheet_wagner": (twisted_sheets,),
-         "spherical_joint": (joints,), "cross_flexure": (hinges,),
+         "spherical_joint": (joints,), "cross_flexure": (hinges,), "hexapod": (hexapods,),
          "c_cantilever": (channels, turning_channels)}
 CASES = {**CLOSED_FORMS, **BEAMS}
 
