@@ -24,13 +24,9 @@ POINTS = (
     ("bend_45", "sheet_third", ("force=300",), "u_tangent", "8,16,32,64,128"),
     ("bend_45", "sheet_third_printed", ("force=300",), "u_tangent", "8,16,32,64,128"),
 )
-# 64 elements of these sheets are as long as the sheet is thick and show orders of 3.2 to 4.2, which
+# 64 elements of these sheets are as long as the sheet is thick and show orders of 3.2 and 3.7, which
 # are none: the limit seems known better than it is
-AS_THICK = (
-    ("sheet_cantilever", "sheet_second", ("tip_deflection=0.05",), "C_thy_Fz", "wrong limit"),
-    ("sheet_cantilever", "sheet_second", ("tip_warping=1",), "C_thy_Fz", "wrong limit"),
-    ("sheet_wagner", "sheet_second_consistent", ("wagner=0",), "u_x", "biased"),
-)
+AS_THICK = (("tip_deflection=0.05",), ("tip_warping=1",))
 JOINT = "fold_warping=free", "wagner=0", "tilt=0.1", "steps=10"
 FOLDS = "1,2,4,8,16,32,64,128"
 
@@ -52,9 +48,10 @@ class Digits(ProgramTest):
                 self.assertLess(abs(found["limit"] / found["predicted"] - 1), DIGITS)
 
     def test_elements_as_long_as_the_sheet_is_thick(self):
-        for *what, verdict in AS_THICK:
+        for given in AS_THICK:
+            what = "sheet_cantilever", "sheet_second", given, "C_thy_Fz"
             coarse = self.limit(*what, "4,8,16,32,64")
-            self.assertEqual(coarse["verdict"], verdict)
+            self.assertEqual(coarse["verdict"], "wrong limit")
             self.assertGreater(coarse["order"], 3)
             fine = self.limit(*what, "8,16,32,64,128")
             self.assertEqual(fine["verdict"], "wrong limit, as predicted")
