@@ -14,7 +14,7 @@ const element_type element_beamw_vlasov = {
     .abi = ELEMENT_ABI,
     .offers = FEATURE_TRAPEZE | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC |
               FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
-    .limits = LIMIT_NO_STRESS_FREE_SHEAR | LIMIT_QUARTER_TURN,
+    .limits = LIMIT_QUARTER_TURN,
     .options = beamw_prepare_options,
     .judged = beamw_prepare_judged,
     .data_size = beamw_variants_data_size,

@@ -36,17 +36,11 @@ enum {
 
 /* What a type is restricted to. */
 enum element_limit {
-    LIMIT_RECTANGLE = 1 << 0,           /* solid rectangular sections only */
-    LIMIT_DOUBLY_SYMMETRIC = 1 << 1,    /* shear centre at the centroid, D diagonal */
-    LIMIT_UNSYMMETRIC_TANGENT = 1 << 2, /* the stress function's Jacobian is not symmetric */
-    LIMIT_ORDER_DEPENDENT =
-        1 << 3, /* exchanging p and q changes the answer (by a discretisation error) */
-    LIMIT_SMALL_DEFORMATION =
-        1 << 4, /* rigid motion changes strains only through truncated terms: none known */
-    LIMIT_QUARTER_TURN =
-        1
-        << 6, /* strains are sines of the turn between the nodes: beyond pi/2 another state has the same ones */
-    LIMIT_NO_STRESS_FREE_SHEAR = 1 << 5 /* shear-rigid by construction */
+    LIMIT_DOUBLY_SYMMETRIC = 1 << 0, /* shear centre at the centroid, D diagonal */
+    LIMIT_ORDER_DEPENDENT = 1 << 1,  /* exchanging p and q changes the answer (by a discretisation
+                                        error) */
+    LIMIT_QUARTER_TURN = 1 << 2      /* strains are sines of the turn between the nodes: beyond pi/2
+                                        another state has the same ones */
 };
 
 /* What a type offers in one direction only. `list` and `solve` show it; a scene in which it matters is not run. */

@@ -17,7 +17,7 @@ static int is_symmetric(const model *m)
         nonlinear |= m->scene->analysis[i].kind == SCENE_STATIC ||
                      m->scene->analysis[i].kind == SCENE_CONTINUATION ||
                      m->scene->analysis[i].kind == SCENE_ROTATION;
-    return !(nonlinear && (moments || (m->type->limits & LIMIT_UNSYMMETRIC_TANGENT)));
+    return !(nonlinear && moments);
 }
 
 /* Is the pair stored, and at which row and column? */

@@ -25,8 +25,6 @@ static int limit_hit(const scene *s, const element_type *type, char *words, int 
         section c;
         if (scene_constants(s, i, &c, NULL) != STATUS_OK)
             continue;
-        if ((type->limits & LIMIT_RECTANGLE) && !c.rectangle)
-            return snprintf(words, (size_t)size, "sections other than rectangles") > 0;
         if ((type->limits & LIMIT_DOUBLY_SYMMETRIC) && (features_eccentric(&c) || is_coupled(&c)))
             return snprintf(words, (size_t)size, "sections that are not doubly symmetric") > 0;
     }

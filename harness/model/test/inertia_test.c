@@ -36,8 +36,7 @@ static void test_section(const element_type *type, section *out)
     spec.young = 210e9;
     spec.shear_modulus = 80.7e9;
     spec.density = 7850;
-    spec.kind = type->limits & (LIMIT_RECTANGLE | LIMIT_DOUBLY_SYMMETRIC) ? SECTION_RECTANGLE
-                                                                          : SECTION_WALLS;
+    spec.kind = type->limits & LIMIT_DOUBLY_SYMMETRIC ? SECTION_RECTANGLE : SECTION_WALLS;
     spec.width = 0.0371;
     spec.height = 0.0123;
     spec.points = 4;
