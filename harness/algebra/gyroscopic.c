@@ -6,6 +6,7 @@
 
 #include "elements/math/dense.h"
 #include "harness/algebra/gyroscopic_count.h"
+#include "harness/algebra/gyroscopic_index.h"
 #include "harness/algebra/ritz.h"
 
 enum { SPARE = 3, MAX_PASSES = 30, MAX_STARTS = 4, ROOM_PER_MODE = 16 };
@@ -116,6 +117,26 @@ static status start(solver *s, int count, fault *f)
     return outcome;
 }
 
+/* Negative eigenvalues of K that the first `wanted` pairs do not account for. */
+static int unaccounted(const solver *s, int wanted)
+{
+    const int count = s->pairs.count < wanted ? s->pairs.count : wanted;
+    return s->out->negative - gyroscopic_index_of(&s->pairs, &s->basis, s->shift, count).negative;
+}
+
+/* K is indefinite: what the count below a gap behind the first `last` pairs proves of them. One that
+ * fails proves nothing. */
+static status prove(solver *s, int last, status counted, int below, int *number)
+{
+    const gyroscopic_index found = gyroscopic_index_of(&s->pairs, &s->basis, s->shift, last);
+    const int negative = s->out->negative;
+    if (counted == STATUS_OK)
+        *number = abs(below - negative - found.crossed);
+    else if (s->out->unproven == 0)
+        s->out->unproven = negative;
+    return counted == STATUS_FAULT ? counted : STATUS_OK;
+}
+
 /* Frequencies below a gap between the wanted ones and the next, less those that are found; equal
  * ones have no gap between them. */
 static status missing(solver *s, int wanted, int *number, fault *f)
@@ -123,13 +144,16 @@ static status missing(solver *s, int wanted, int *number, fault *f)
     const double gap = 1e-6; /* relative */
     int last = s->pairs.count - 1 < wanted ? s->pairs.count - 1 : wanted, below = 0;
     *number = 0;
+    s->out->unproven = s->shift > 0 ? unaccounted(s, wanted) : 0;
     while (last > 0 && !(cabs(s->pairs.lambda[last]) > (1 + gap) * cabs(s->pairs.lambda[last - 1])))
         last--;
-    if (s->shift > 0 || last <= 0)
+    if (last <= 0)
         return STATUS_OK;
     const double omega = sqrt(cabs(s->pairs.lambda[last - 1]) * cabs(s->pairs.lambda[last]));
     const status outcome = gyroscopic_count(s->p->K, s->p->M, s->p->G, omega, &below, f);
     s->out->factorisations++;
+    if (s->shift > 0)
+        return prove(s, last, outcome, below, number);
     *number = outcome == STATUS_OK && below > last ? below - last : 0;
     return outcome;
 }

@@ -6,7 +6,7 @@
  * = 1/omega, M = R^T R and K the identity.  The basis starts with the modes without G and takes in
  * K^-1 times the residuals; inertia counts the frequencies, so that none is missed. With K
  * indefinite the projected problem is solved as it is, and lambda has a real part where a motion
- * grows. */
+ * grows; what the count proves then: gyroscopic_index.h. */
 #ifndef BEAMWORK_GYROSCOPIC_H
 #define BEAMWORK_GYROSCOPIC_H
 
@@ -25,7 +25,9 @@ typedef struct gyroscopic_result {
     double *frequency; /* [count] lambda = growth + i frequency [1/s], ascending in size */
     double *growth;    /* [count] zero where K is positive definite */
     double *mode;      /* [count x n] real part, the larger one, of the motion */
-    int negative;      /* eigenvalues of K */
+    int negative;      /* eigenvalues of K, and ... */
+    int unproven;      /* ... those of them that no mode found accounts for: as many directions of
+                          growing motions, or of frequencies of negative energy, were not found */
     long solutions, factorisations;
 } gyroscopic_result;
 

@@ -132,6 +132,7 @@ static status take_modes(analysis_context *c, const gyroscopic_result *r, rotati
     } else {
         out->growth = out->frequency + count;
         out->count = r->count;
+        out->unproven = r->unproven;
         outcome = identify(c, r, mode, out, f);
     }
     free(mode);
@@ -225,6 +226,16 @@ static void note_instability(analysis_context *c, const rotation_modes *modes, d
                      modes->frequency[i] > 0 ? "flutter" : "divergence", modes->growth[i]);
 }
 
+/* So is the first where the modes found do not account for all that is unstable. */
+static void note_unproven(analysis_context *c, const rotation_modes *modes, double path)
+{
+    if (modes->unproven > 0 && c->result->reason[0] == '\0')
+        snprintf(c->result->reason, sizeof c->result->reason,
+                 "at path %g the modes found leave %d negative eigenvalues of the stiffness "
+                 "unexplained: others may grow",
+                 path, modes->unproven);
+}
+
 /* Modes at every station, or at the last. */
 static status modes_of(analysis_context *c, int analysis, matrices *a, outcome_path *o, fault *f)
 {
@@ -234,6 +245,7 @@ static status modes_of(analysis_context *c, int analysis, matrices *a, outcome_p
     TRY(matrices_alloc(c, a, f));
     for (int i = asks_for_modes(c, analysis, 1) ? 0 : o->stations - 1; i < o->stations; i++) {
         TRY(modes_at(c, analysis, o->state[i], a, &o->modes[i], f));
+        note_unproven(c, &o->modes[i], o->value[i]);
         note_instability(c, &o->modes[i], o->value[i]);
     }
     return STATUS_OK;

@@ -213,6 +213,7 @@ static void indefinite(void)
         fault f = {""};
         gsl_test(solve(&p, &r, &f) != STATUS_OK, "top with g = %g: solved (%s)", g[i], f.text);
         gsl_test_int(r.negative, 2, "top: two negative eigenvalues of the stiffness");
+        gsl_test_int(r.unproven, 0, "top with g = %g: its modes account for both", g[i]);
         double largest = 0;
         for (int k = 0; k < r.count; k++)
             largest = fmax(largest, r.growth[k]);
@@ -310,8 +311,46 @@ static void hidden_precession(int masses, int behind, int wanted_outcome)
     free(p.K);
 }
 
+/* `masses` oscillators at 1, 2, 3 ... rad/s, one that falls with 1.5/s, one that falls with `fast`,
+ * and the top of hidden_precession: its slow precession is missed without a count. */
+static void unstable_oscillators(int masses, double fast, int wanted_outcome, int unproven)
+{
+    const double slow = 2.5, k = 1e6, g = (k / slow) - slow;
+    problem p;
+    gyroscopic_result r = {0};
+    fault f = {""};
+    alloc(masses + 4, &p);
+    for (int i = 0; i < masses + 4; i++) {
+        p.K[i * (p.n + 1)] = i < masses ? (i + 1.0) * (i + 1.0) : k;
+        p.M[i * (p.n + 1)] = 1;
+    }
+    p.K[(masses + 2) * (p.n + 1)] = -1.5 * 1.5;
+    p.K[(masses + 3) * (p.n + 1)] = -fast * fast;
+    p.G[masses * p.n + masses + 1] = -g;
+    p.G[(masses + 1) * p.n + masses] = g;
+    const status outcome = solve(&p, &r, &f);
+    gsl_test_int((int)outcome, wanted_outcome, "%d oscillators that fall and a top: %s", masses,
+                 f.text);
+    gsl_test_int(r.negative, 2, "two negative eigenvalues of the stiffness");
+    if (outcome == STATUS_OK) {
+        gsl_test_int(r.unproven, unproven, "%d oscillators, falls with %g: what is not found",
+                     masses, fast);
+        int slow_found = 0;
+        for (int i = 0; i < r.count; i++)
+            slow_found += r.growth[i] == 0 && fabs(r.frequency[i] - slow) < 1e-6;
+        gsl_test_int(slow_found, 1, "%d oscillators that fall: the slow precession", masses);
+    } else {
+        gsl_test(strstr(f.text, "missing") == NULL, "what is missing is noticed: %s", f.text);
+    }
+    gyroscopic_free(&r);
+    free(p.K);
+}
+
 int main(void)
 {
+    unstable_oscillators(12, 1.7, STATUS_OK, 0);
+    unstable_oscillators(12, 1e3, STATUS_OK, 1);
+    unstable_oscillators(60, 1.7, STATUS_NOT_CONVERGED, 0);
     counts();
     for (int behind = 0; behind < WANTED; behind++)
         hidden_precession(12, behind, STATUS_OK);
