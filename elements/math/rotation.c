@@ -32,25 +32,6 @@ void rotation_log(const double q[4], double phi[3])
         phi[i] = sign * scale * q[i + 1];
 }
 
-void rotation_compose(const double a[4], const double b[4], double ab[4])
-{
-    const double w = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
-    const double x = a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2];
-    const double y = a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1];
-    const double z = a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0];
-    ab[0] = w;
-    ab[1] = x;
-    ab[2] = y;
-    ab[3] = z;
-}
-
-void rotation_conjugate(const double q[4], double inverse[4])
-{
-    inverse[0] = q[0];
-    for (int i = 1; i < 4; i++)
-        inverse[i] = -q[i];
-}
-
 void rotation_normalise(double q[4])
 {
     const double norm = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);

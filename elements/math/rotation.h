@@ -10,9 +10,24 @@
 void rotation_identity(double q[4]);
 void rotation_exp(const double phi[3], double q[4]); /* phi [rad] */
 void rotation_log(const double q[4], double phi[3]); /* |phi| <= pi, the shorter way */
-void rotation_compose(const double a[4], const double b[4],
-                      double ab[4]); /* ab = a o b; ab may alias */
-void rotation_conjugate(const double q[4], double inverse[4]);
+/* ab = a o b; ab may alias */
+static inline void rotation_compose(const double a[4], const double b[4], double ab[4])
+{
+    const double w = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
+    const double x = a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2];
+    const double y = a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1];
+    const double z = a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0];
+    ab[0] = w;
+    ab[1] = x;
+    ab[2] = y;
+    ab[3] = z;
+}
+static inline void rotation_conjugate(const double q[4], double inverse[4])
+{
+    inverse[0] = q[0];
+    for (int i = 1; i < 4; i++)
+        inverse[i] = -q[i];
+}
 void rotation_normalise(double q[4]);
 void rotation_matrix(const double q[4], double R[9]);
 void rotation_from_matrix(const double R[9], double q[4]);
