@@ -17,9 +17,7 @@ static const parameter_type parameters[] = {
 static status build(const double value[], scene *s, fault *f)
 {
     int ends[2];
-    const status outcome = column_build(parameters, value, s, ends, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(column_build(parameters, value, s, ends, f));
     if (value[ROTARY_INERTIA] != 0)
         scene_need(s, FEATURE_ROTARY_INERTIA);
     scene_add_load(s, SCENE_FORCE, ends[1], -1, 0, 0);

@@ -112,9 +112,7 @@ static void add_stiffnesses(scene *s, int compliance, const double station[], in
 static status build(const double value[], scene *s, fault *f)
 {
     int profile;
-    const status outcome = joint_prepare(value, s, &profile, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(joint_prepare(value, s, &profile, f));
     if (value[CRANK_LENGTH] >= value[BASE_RADIUS])
         return fault_set(
             f, STATUS_REFUSED,

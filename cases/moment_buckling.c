@@ -24,9 +24,7 @@ static void add_moment(scene *s, int buckling, const char *name, int sign)
 static status build(const double value[], scene *s, fault *f)
 {
     int ends[2];
-    const status outcome = column_build(parameters, value, s, ends, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(column_build(parameters, value, s, ends, f));
     if (value[WAGNER_MOMENTS] != 0)
         scene_need(s, FEATURE_WAGNER_MOMENTS);
     scene_add_load(s, SCENE_MOMENT, ends[0], 0, 0, -1);

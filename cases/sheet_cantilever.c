@@ -72,9 +72,7 @@ static void add_predictions(const double value[], scene *s)
 static status build(const double value[], scene *s, fault *f)
 {
     int root, tip;
-    const status outcome = sheet_build(value, s, &root, &tip, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(sheet_build(value, s, &root, &tip, f));
     if (s->section != NULL)
         s->section[0].density = value[DENSITY];
     const double path[2] = {0, 1}, deflection[2] = {0, value[SHEET_DEFLECTION]}, none[2] = {0, 0};

@@ -39,9 +39,7 @@ static void prescribe_tip(scene *s, int tip, const double value[])
 static status build(const double value[], scene *s, fault *f)
 {
     int root, tip;
-    const status outcome = sheet_build(value, s, &root, &tip, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(sheet_build(value, s, &root, &tip, f));
     prescribe_tip(s, tip, value);
     /* twisted as far as bent or farther, what shear adds settles late */
     const int meshes[] = {1, 2, 3, 4, 8, 16, 32, 64, 128},

@@ -51,9 +51,7 @@ static scene_quantity *add_stiffness(scene *s, const char *name, int analysis,
 static status build(const double value[], scene *s, fault *f)
 {
     int profile;
-    const status outcome = joint_prepare(value, s, &profile, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(joint_prepare(value, s, &profile, f));
     const double centre[3] = {0, 0, 0}, axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     const int base = scene_add_node(s, 0, 0, 0), effector = scene_add_node(s, 0, 0, 0);
     scene_hold_all(s, base);

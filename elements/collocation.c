@@ -103,12 +103,13 @@ static void condense(const exact_stages *s, const exact_stages_derivatives *d, c
             sigma -= d->hessian[(m + i) * n + k] * X[k * (OUTER + 1) + OUTER];
         if (out->sigma != NULL)
             out->sigma[i] = energy / l0 * sigma;
-        for (int j = 0; j < OUTER && out->C != NULL; j++) {
-            double C = d->hessian[(m + i) * n + m + j];
-            for (int k = 0; k < m; k++)
-                C -= d->hessian[(m + i) * n + k] * X[k * (OUTER + 1) + j];
-            out->C[i * OUTER + j] = energy / (l0 * l0) * C;
-        }
+        if (out->C != NULL)
+            for (int j = 0; j < OUTER; j++) {
+                double C = d->hessian[(m + i) * n + m + j];
+                for (int k = 0; k < m; k++)
+                    C -= d->hessian[(m + i) * n + k] * X[k * (OUTER + 1) + j];
+                out->C[i * OUTER + j] = energy / (l0 * l0) * C;
+            }
     }
     if (out->energy != NULL)
         *out->energy = energy * P;

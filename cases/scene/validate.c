@@ -66,9 +66,7 @@ static status check_node(const scene *s, int i, fault *f)
                              i);
     }
     if (n->rotation == SCENE_ROTATION_FORK) {
-        const status outcome = check_fork(s, i, f);
-        if (outcome != STATUS_OK)
-            return outcome;
+        TRY(check_fork(s, i, f));
     }
     if (n->attached == SCENE_NONE)
         return STATUS_OK;
@@ -185,9 +183,7 @@ status scene_validate(const scene *s, fault *f)
         return fault_set(f, STATUS_FAULT, "%s: out of memory while the scene was built", s->name);
     for (size_t k = 0; k < sizeof count / sizeof count[0]; k++)
         for (int i = 0; i < count[k]; i++) {
-            const status outcome = check[k](s, i, f);
-            if (outcome != STATUS_OK)
-                return outcome;
+            TRY(check[k](s, i, f));
         }
     return STATUS_OK;
 }

@@ -197,11 +197,12 @@ status beamw_condensed_stress(const beamw_condensed *d, const double e[E], stres
     evaluate(d, &s);
     if (out->energy != NULL)
         *out->energy = energy(d, &s);
-    for (int i = 0; i < E && out->sigma != NULL; i++) {
-        out->sigma[i] = 0;
-        for (int r = 0; r < ALL; r++)
-            out->sigma[i] += s.dual[r] * s.B[r][i];
-    }
+    if (out->sigma != NULL)
+        for (int i = 0; i < E; i++) {
+            out->sigma[i] = 0;
+            for (int r = 0; r < ALL; r++)
+                out->sigma[i] += s.dual[r] * s.B[r][i];
+        }
     if (out->residual != NULL)
         *out->residual = 0;
     return out->C != NULL && condense(d, &s, out->C) != 0 ? STATUS_SINGULAR : STATUS_OK;

@@ -51,14 +51,15 @@ status beamw_variants_stress(const element_data *d, const double e[], const doub
     memcpy(modified, e, sizeof modified);
     for (int i = 0; i < 8; i++)
         B[9 * i] = 1;
-    for (int k = 0; k < BEAMW_MODIFIED && d->modified; k++) {
-        double row[8];
-        dense_mul_vec(8, 8, d->Q[k], e, row);
-        for (int j = 0; j < 8; j++) {
-            B[8 * k + j] += row[j];
-            modified[k] += row[j] * e[j] / 2;
+    if (d->modified)
+        for (int k = 0; k < BEAMW_MODIFIED; k++) {
+            double row[8];
+            dense_mul_vec(8, 8, d->Q[k], e, row);
+            for (int j = 0; j < 8; j++) {
+                B[8 * k + j] += row[j];
+                modified[k] += row[j] * e[j] / 2;
+            }
         }
-    }
     dense_mul_vec(8, 8, d->S, modified, conjugate);
     if (out->energy != NULL) {
         *out->energy = 0;
@@ -86,7 +87,8 @@ status beamw_variants_stress(const element_data *d, const double e[], const doub
 void beamw_variants_geometric(const element_data *d, const double sigma[], double G[])
 {
     memset(G, 0, 64 * sizeof(double));
-    for (int k = 0; k < BEAMW_MODIFIED && d->modified; k++)
-        for (int i = 0; i < 64; i++)
-            G[i] += sigma[k] * d->Q[k][i];
+    if (d->modified)
+        for (int k = 0; k < BEAMW_MODIFIED; k++)
+            for (int i = 0; i < 64; i++)
+                G[i] += sigma[k] * d->Q[k][i];
 }

@@ -42,9 +42,7 @@ status exact_stiffness_prepare(const element_request *request, int nodes, exact_
     exact_fields f;
     double X[EXACT_FIELDS_MAX_ALL * EXACT_STIFFNESS_MAX_STRAINS];
     memset(out, 0, sizeof *out);
-    const status outcome = exact_constants_of(request, &c, fault_out);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(exact_constants_of(request, &c, fault_out));
     exact_fields_prepare(&c, nodes, &f);
     out->strains = f.strains;
     out->points = f.points;
@@ -116,8 +114,9 @@ static double add_torque(const exact_stiffness *k, const double e[], double sigm
         for (int i = 0; i < n; i++) {
             if (sigma != NULL)
                 sigma[i] += force * k->twist[p][i];
-            for (int j = 0; j < n && C != NULL; j++)
-                C[i * n + j] += slope * k->twist[p][i] * k->twist[p][j];
+            if (C != NULL)
+                for (int j = 0; j < n; j++)
+                    C[i * n + j] += slope * k->twist[p][i] * k->twist[p][j];
         }
     }
     return energy;
@@ -130,14 +129,15 @@ status exact_stiffness_stress(const exact_stiffness *k, const double e[], stress
         t[EXACT_STRAIN_MAX_POINTS][EXACT_STIFFNESS_MAX_STRAINS], tau[EXACT_STRAIN_MAX_POINTS],
         energy = 0;
     memcpy(modified, e, (size_t)n * sizeof *e);
-    for (int g = 0; g < k->points && k->modified; g++) {
-        double half = 0;
-        dense_mul_vec(n, n, k->Q[g], e, t[g]);
-        for (int i = 0; i < n; i++)
-            half += e[i] * t[g][i] / 2;
-        for (int i = 0; i < 3; i++)
-            modified[entry(g, i)] += k->r[i] * half;
-    }
+    if (k->modified)
+        for (int g = 0; g < k->points; g++) {
+            double half = 0;
+            dense_mul_vec(n, n, k->Q[g], e, t[g]);
+            for (int i = 0; i < n; i++)
+                half += e[i] * t[g][i] / 2;
+            for (int i = 0; i < 3; i++)
+                modified[entry(g, i)] += k->r[i] * half;
+        }
     dense_mul_vec(n, n, k->S, modified, stress);
     for (int i = 0; i < n; i++)
         energy += stress[i] * modified[i] / 2;
@@ -148,9 +148,10 @@ status exact_stiffness_stress(const exact_stiffness *k, const double e[], stress
         if (k->modified)
             add_modified_tangent(k, t, tau, out->C);
     }
-    for (int g = 0; g < k->points && k->modified; g++)
-        for (int i = 0; i < n; i++)
-            stress[i] += tau[g] * t[g][i];
+    if (k->modified)
+        for (int g = 0; g < k->points; g++)
+            for (int i = 0; i < n; i++)
+                stress[i] += tau[g] * t[g][i];
     energy += add_torque(k, e, stress, out->C);
     if (out->sigma != NULL)
         memcpy(out->sigma, stress, (size_t)n * sizeof *stress);

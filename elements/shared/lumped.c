@@ -29,8 +29,9 @@ static void add_translation(double mass, const node_state *x, const element_spin
     static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     moving_vector v = {.mass = mass, .at = at, .columns = 3, .T = identity};
     double F[3];
-    for (int i = 0; i < 3 && spin != NULL; i++)
-        v.y[i] = x->r[i] - spin->centre[i];
+    if (spin != NULL)
+        for (int i = 0; i < 3; i++)
+            v.y[i] = x->r[i] - spin->centre[i];
     moving_add(&v, spin, n, out, F);
 }
 

@@ -113,9 +113,7 @@ status sheet_potential_evaluate(const sheet_potential *p, const double x[N], dou
 {
     point at;
     double g[V] = {0}, h[V * V] = {0};
-    const status outcome = solve(p, x, &at);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(solve(p, x, &at));
     if (P != NULL)
         *P = value(p, &at);
     if (gradient == NULL && hessian == NULL)
@@ -144,9 +142,7 @@ status sheet_potential_third(const sheet_potential *p, const double x[N], const 
     point at;
     double g[V] = {0}, h[V * V] = {0}, d[V], sd[SHEET_STRESSES] = {0}, S[SHEET_STRESSES][V],
            Wd[SHEET_STRESSES][V] = {{0}}, Ad[SHEET_STRESSES][SHEET_STRESSES] = {{0}};
-    const status outcome = solve(p, x, &at);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(solve(p, x, &at));
     add_explicit(p, &at, g, h);
     set_variables(dx, d);
     d[0] = 0;

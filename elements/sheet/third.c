@@ -112,13 +112,12 @@ status sheet_third_stress(const element_data *data, const double e[], const doub
     const int first = out->sigma != NULL || out->C != NULL;
     (void)inner;
     invert(d, e, x, row);
-    const status outcome = sheet_potential_evaluate(&d->potential, x, out->energy, first ? g : NULL,
-                                                    out->C != NULL ? h : NULL);
-    if (outcome != STATUS_OK)
-        return outcome;
-    for (int k = 0; k < N && out->sigma != NULL; k++)
-        out->sigma[k] = d->scale[k] * g[k] + row[0][k] * g[curved[0]] + row[1][k] * g[curved[1]] +
-                        row[2][k] * g[curved[2]] - d->rest_stress[k];
+    TRY(sheet_potential_evaluate(&d->potential, x, out->energy, first ? g : NULL,
+                                 out->C != NULL ? h : NULL));
+    if (out->sigma != NULL)
+        for (int k = 0; k < N; k++)
+            out->sigma[k] = d->scale[k] * g[k] + row[0][k] * g[curved[0]] +
+                            row[1][k] * g[curved[1]] + row[2][k] * g[curved[2]] - d->rest_stress[k];
     if (out->energy != NULL) {
         *out->energy -= d->rest_energy;
         for (int k = 0; k < N; k++)
@@ -154,9 +153,7 @@ status sheet_third_prepare(const element_request *request, int printed, element_
 {
     third_data *out = (third_data *)(void *)data;
     memset(out, 0, sizeof *out);
-    const status made = sheet_base_prepare(request, SHEET_BASE_PRINTED, &out->base, f);
-    if (made != STATUS_OK)
-        return made;
+    TRY(sheet_base_prepare(request, SHEET_BASE_PRINTED, &out->base, f));
     if (request->strain[1] != 0)
         return fault_set(
             f, STATUS_REFUSED,
