@@ -90,7 +90,7 @@ static int bench_request(cli_request *r)
     if (r->against != NULL)
         return cli_against(r);
     if (r->scene_path != NULL && cli_case(r) == NULL)
-        return EXIT_REFUSED;
+        return r->refusal;
     if (!is_named(r) && (r->assignments > 0 || r->meshes > 0))
         return cli_fail(STATUS_REFUSED, "--set and -n are of a case: name it");
     status outcome = cli_check_files(r, 1, cli_truths_path(r), &f);

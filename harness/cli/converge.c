@@ -48,7 +48,7 @@ static int converge_request(cli_request *r)
     fault f = {""};
     const case_type *type = cli_case(r);
     if (type == NULL)
-        return EXIT_REFUSED;
+        return r->refusal;
     if (r->formulations == 0)
         return cli_fail(
             STATUS_REFUSED,

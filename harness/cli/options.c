@@ -260,6 +260,7 @@ void cli_parse(const char *verb, const char *arguments_doc, const char *doc, con
         .options = chosen, .parser = take, .args_doc = arguments_doc, .doc = doc};
     memset(out, 0, sizeof *out);
     out->time_limit = 120;
+    out->refusal = EXIT_REFUSED;
     out->format = "text";
     out->most_arguments = most_arguments(keys);
     out->jobs = (int)sysconf(_SC_NPROCESSORS_ONLN);

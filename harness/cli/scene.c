@@ -32,6 +32,7 @@ const case_type *cli_scene_case(cli_request *r)
     if (outcome == STATUS_OK)
         return scene_file_case(r->scene);
     tell_mistakes(r, &m, outcome, &f);
+    r->refusal = outcome == STATUS_FAULT ? EXIT_FAULT : EXIT_REFUSED;
     return NULL;
 }
 
@@ -97,7 +98,7 @@ int cli_scene(int count, char **arguments)
               "--schema: what may stand in scene files, as JSON Schema for editors.",
               "soFYH", count, arguments, &r);
     const case_type *type = r.schema ? NULL : cli_case(&r);
-    int code = EXIT_REFUSED;
+    int code = r.refusal;
     if (r.schema || type != NULL) {
         const status outcome = write_out(&r, type, &f);
         code = outcome == STATUS_OK ? EXIT_AS_EXPECTED : cli_fail(outcome, f.text);

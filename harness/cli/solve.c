@@ -69,7 +69,7 @@ static int solve_request(cli_request *r)
     truths t = {0};
     const case_type *type = cli_case(r);
     if (type == NULL)
-        return EXIT_REFUSED;
+        return r->refusal;
     if (r->formulations != 1)
         return cli_fail(STATUS_REFUSED,
                         "which formulation? Give one -f; 'beamwork list formulations' shows them");

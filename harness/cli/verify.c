@@ -168,7 +168,7 @@ static int verify_request(cli_request *r)
     if (r->case_name != NULL)
         return cli_fail(STATUS_REFUSED, "verify takes no case; select with -k");
     if (r->scene_path != NULL && cli_scene_case(r) == NULL)
-        return EXIT_REFUSED;
+        return r->refusal;
     status outcome = cli_check_files(r, 1, cli_truths_path(r), &f);
     if (outcome == STATUS_OK)
         outcome = cli_truths_read(r, 1, &t, &f);

@@ -31,8 +31,10 @@ static void check_name(const builder *b, builder_list list, int i)
 static void list_entries(builder *b)
 {
     for (int list = 0; list < LISTS; list++) {
+        const int before = b->mistakes->count + b->mistakes->more;
         b->list[list].count = unroll_entries(document_find(b->root, list_name[list]), b->names,
                                              b->arena, b->mistakes, &b->list[list].entry);
+        b->list[list].incomplete = b->mistakes->count + b->mistakes->more > before;
         for (int i = 0; i < b->list[list].count; i++)
             check_name(b, (builder_list)list, i);
     }
@@ -72,7 +74,7 @@ static void read_meshes(builder *b)
     if (count > MOST)
         document_mistake(b->mistakes, n, 0, "%d meshes; give at most %d", count, MOST);
     for (int i = 0; i < count && i < MOST; i++) {
-        mesh[i] = value[i] >= 1 && value[i] <= 1e7 ? (int)value[i] : 0;
+        mesh[i] = value[i] >= 1 && value[i] <= 1e7 ? (int)value[i] : 1;
         if (mesh[i] != value[i])
             document_mistake(b->mistakes, n, 0, "a mesh of %g elements; give whole numbers from 1",
                              value[i]);

@@ -185,6 +185,36 @@ static void read_prediction(const fields *f, const unrolled *entry, scene_quanti
     q->prediction.source = document_find(written, "source")->text;
 }
 
+/* How many eigenvalues the quantities ask of an analysis. */
+static int asked_of(const scene *s, int analysis)
+{
+    int most = 0;
+    for (int i = 0; i < s->quantities; i++) {
+        const scene_quantity *q = &s->quantity[i];
+        int order = -1;
+        if (scene_asks(q, analysis, SCENE_CRITICAL_FACTOR))
+            order = scene_critical_load_of(q)->order;
+        if (scene_asks(q, analysis, SCENE_FREQUENCY))
+            order = scene_mode_of(q)->order;
+        most = order >= most ? order + 1 : most;
+    }
+    return most;
+}
+
+/* The quantities say how many are computed; `wanted` may say so too, and must not contradict. */
+static void check_wanted(builder *b)
+{
+    for (int i = 0; i < b->list[LIST_ANALYSES].count; i++) {
+        const fields entry = fields_of(b, &b->list[LIST_ANALYSES].entry[i]);
+        const fields f = fields_below(&entry, fields_have(&entry, "modal") ? "modal" : "buckling");
+        const int asked = asked_of(b->scene, i);
+        if (fields_have(&f, "wanted") && fields_whole(&f, "wanted", 0, 1, MOST_ORDER) < asked)
+            document_mistake(b->mistakes, document_find(f.map, "wanted"), 0,
+                             "quantities ask for %d of this analysis; write %d, or leave it out",
+                             asked, asked);
+    }
+}
+
 void builder_quantities(builder *b)
 {
     for (int i = 0; i < b->list[LIST_QUANTITIES].count; i++) {
@@ -211,4 +241,5 @@ void builder_quantities(builder *b)
         q->least_order = fields_number(&f, "order", 0);
         read_prediction(&f, entry, q);
     }
+    check_wanted(b);
 }

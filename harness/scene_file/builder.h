@@ -28,6 +28,7 @@ typedef struct builder {
     struct {
         unrolled *entry;
         int count;
+        int incomplete;  /* 1: entries were left out after mistakes */
     } list[LISTS];       /* in the order of the scene's indices */
     const char **shared; /* names of warping coordinates that members share */
     int shares;

@@ -66,12 +66,22 @@ const char *fields_text(const fields *f, const char *key, const char *otherwise)
     return n != NULL && n->kind == DOCUMENT_TEXT ? n->text : otherwise;
 }
 
-/* The words of "a|b|c", one by one. */
+/* The words of "a|b|c". */
+typedef struct word_list {
+    char word[20][20];
+} word_list;
+
 static const char *word_at(const void *context, int i)
 {
-    static _Thread_local char word[32];
-    choice_name(context, i, word, sizeof word);
-    return word[0] != '\0' ? word : NULL;
+    const word_list *those = context;
+    return i < 20 && those->word[i][0] != '\0' ? those->word[i] : NULL;
+}
+
+static const char *nearest_word(const char *text, const char *choices, word_list *those)
+{
+    for (int i = 0; i < 20; i++)
+        choice_name(choices, i, those->word[i], sizeof those->word[i]);
+    return choice_nearest(text, word_at, those);
 }
 
 int fields_word_of(const fields *f, const document_node *n, const char *what, const char *choices,
@@ -87,13 +97,14 @@ int fields_word_of(const fields *f, const document_node *n, const char *what, co
     if (index >= 0)
         return index;
     char remedy[FAULT_TEXT], all[FAULT_TEXT];
+    word_list those;
     snprintf(all, sizeof all, "; give one of %s", choices);
     if (known != NULL && known->word != NULL)
         document_mistake(f->b->mistakes, n, 0, "%s: the parameter %s is '%.40s'%s", what, n->text,
                          known->word, all);
     else
         document_mistake(f->b->mistakes, n, 0, "%s: no '%.40s' here%s", what, n->text,
-                         mistakes_remedy(choice_nearest(n->text, word_at, choices), all, remedy));
+                         mistakes_remedy(nearest_word(n->text, choices, &those), all, remedy));
     return otherwise;
 }
 
@@ -145,7 +156,7 @@ int fields_entry_of(const fields *f, const document_node *n, builder_list list)
     for (int i = 0; i < f->b->list[list].count; i++)
         if (strcmp(f->b->list[list].entry[i].name, text) == 0)
             return i;
-    if (strchr(text, '$') == NULL || f->b->mistakes->count == 0) /* else it is told already */
+    if (strchr(text, '$') == NULL && !f->b->list[list].incomplete) /* else it is told already */
         document_mistake(f->b->mistakes, n, 0, "no %s '%.40s'%s", what[list], text,
                          mistakes_remedy(choice_nearest(text, entry_at, &those),
                                          "; add it, or mend the name", remedy));

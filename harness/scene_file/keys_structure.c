@@ -119,9 +119,9 @@ const scene_key keys_node[] = {
     {.name = NULL}};
 
 const scene_key keys_member[] = {
-    {"from", KEY_NAME, .needed = 1, .summary = "node"},
-    {"to", KEY_NAME, .needed = 1, .summary = "node"},
-    {"section", KEY_NAME, .needed = 1, .summary = "section"},
+    {"from", KEY_NAME, .needed = 1, .summary = "node where its x axis begins"},
+    {"to", KEY_NAME, .needed = 1, .summary = "node where it ends"},
+    {"section", KEY_NAME, .needed = 1, .summary = "name of its cross-section"},
     {"y", KEY_VECTOR, .needed = 1, .count = 3, .summary = "direction of the section's y axis"},
     {"warping", KEY_FORMS, .summary = "free, fixed, {shared: NAME}, or [at from, at to]"},
     {"curvature", KEY_VECTOR, .count = 3, .unit = "1/m", .summary = "initial twist, curvatures"},

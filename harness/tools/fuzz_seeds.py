@@ -53,7 +53,15 @@ def runs(program, scratch):
     yield (scratch / "r.h5").read_bytes()
 
 
+def scenes():
+    """Scenes that are read, and those with a planted mistake."""
+    for folder in ("cases/examples", "harness/scene_file/test/bad"):
+        for path in sorted((ROOT / folder).glob("*.yaml")):
+            yield path.read_bytes()
+
+
 def main(program, folder):
+    save(folder / "scene", scenes())
     save(folder / "parameters", parameters())
     save(folder / "words", WORDS)
     save(folder / "command", COMMANDS)

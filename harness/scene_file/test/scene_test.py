@@ -1,0 +1,136 @@
+"""Scene files through the program: mistakes with their places, examples, the same bits as the cases."""
+import json
+import re
+import unittest
+
+from harness.test.program import ROOT, ProgramTest, run
+
+BAD = ROOT / "harness/scene_file/test/bad"
+EXAMPLES = ROOT / "cases/examples"
+
+FIRST = """\
+beamwork: 1
+sections:
+  leaf: {rectangle: {width: 50e-3, thickness: 0.5e-3}, young: 210e9, shear_modulus: 81e9}
+nodes:
+  base: {at: [0, 0, 0], hold: all}
+  tip:  {at: [0.1, 0, 0]}
+members:
+  leaf: {from: base, to: tip, section: leaf, y: [0, 1, 0]}
+loads:
+  push: {force: [0, 1, 0], on: tip}
+"""
+
+
+def values(record):
+    """Quantity -> value as it was written, every bit of it."""
+    return {q["quantity"]: q["value"] for q in record["quantities"]}
+
+
+class SceneTest(ProgramTest):
+    def scene(self, text, name="scene.yaml"):
+        path = self.folder / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def test_bad_files(self):
+        """Each planted mistake is told at its place, with its remedy, and nothing else is."""
+        files = sorted(BAD.glob("*.yaml"))
+        self.assertGreaterEqual(len(files), 40)
+        for path in files:
+            expected = re.findall(r"^# expect (.*)$", path.read_text(encoding="utf-8"), re.M)
+            self.assertTrue(expected, path)
+            done = run("solve", "--scene", path, "-f", "beamw", "-n", 1)
+            told = [line.removeprefix(f"{path}:") for line in done.stderr.splitlines()]
+            self.assertEqual((done.returncode, told, done.stdout), (2, expected, ""), path.name)
+
+    def test_mistakes_for_editors(self):
+        """--format json gives the same mistakes as numbers and text."""
+        path = BAD / "several_mistakes.yaml"
+        done = self.answered("scene", "--scene", path, "--format", "json", code=2)
+        told = json.loads(done.stdout)
+        self.assertEqual([(m["line"], m["column"]) for m in told["mistakes"]],
+                         [(15, 55), (19, 49), (33, 53), (34, 65)])
+        self.assertEqual((told["file"], told["more"]), (str(path), 0))
+
+    def test_first_scene(self):
+        """Ten lines are a scene: P L^3/3EI + P L/(k G A) at the tip."""
+        path = self.scene(FIRST)
+        record = self.record("solve", "--scene", path, "-f", "collocation", "-n", 1)
+        area, inertia = 50e-3 * 0.5e-3, 50e-3 * 0.5e-3**3 / 12
+        exact = 0.1**3 / (3 * 210e9 * inertia) + 0.1 / (5 / 6 * 81e9 * area)
+        self.assertAlmostEqual(values(record)["tip_uy"] / exact, 1, delta=1e-9)
+
+    def test_same_bits(self):
+        """A case and the file that `scene` writes of it have the same values, every bit."""
+        listed = self.answered("list", "cases").stdout.splitlines()
+        cases = [line.split()[0] for line in listed if line.startswith("  ")]
+        self.assertGreater(len(cases), 20)
+        compared = 0
+        for case in cases:
+            path = self.folder / f"{case}.yaml"
+            self.answered("scene", case, "-o", path)
+            for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):
+                where = ("-f", formulation, "-n", 2, "--format", "json")
+                own, copied = run("solve", case, *where), run("solve", "--scene", path, *where)
+                self.assertEqual((own.returncode, own.stderr),
+                                 (copied.returncode, copied.stderr), (case, formulation))
+                if own.stdout:
+                    self.assertEqual(values(json.loads(own.stdout)),
+                                     values(json.loads(copied.stdout)), (case, formulation))
+                    compared += 1
+        self.assertGreater(compared, 40)
+
+    def test_written_again(self):
+        """What is written of a file, read and written once more, is the same text."""
+        for path in sorted(EXAMPLES.glob("*.yaml")):
+            once = self.answered("scene", "--scene", path).stdout
+            self.assertEqual(self.answered("scene", "--scene", self.scene(once)).stdout, once)
+
+    def test_leaf_spring_guide(self):
+        """Both exact stiffnesses, and the limit of the support stiffness at the end of the stroke."""
+        path = EXAMPLES / "leaf_spring_guide.yaml"
+        got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 4))
+        self.assertAlmostEqual(got["k_drive"] / 2624.536778, 1, delta=1e-9)
+        self.assertAlmostEqual(got["k_support"] / 1.05e8, 1, delta=1e-12)
+        self.assertAlmostEqual(got["k_pushed"] / 13.1869e6, 1, delta=1e-5)
+        done = self.answered("verify", "--scene", path, "-f", "collocation")
+        self.assertIn("2 pass", done.stdout)
+
+    def test_cross_flexure_hinge(self):
+        """Moment, shift and stiffness at 20 degrees."""
+        got = values(self.record("solve", "--scene", EXAMPLES / "cross_flexure_hinge.yaml", "-f",
+                                 "collocation", "-n", 2))
+        for name, value in (("moment", 0.0800992), ("shift_y", 0.838472e-3), ("k_x", 177513.77)):
+            self.assertAlmostEqual(got[name] / value, 1, delta=1e-6)
+
+    def test_parameters(self):
+        """--set changes a scene's parameters, within their ranges; truths follow."""
+        where = ("solve", "--scene", EXAMPLES / "leaf_spring_guide.yaml", "-f", "collocation", "-n",
+                 1)
+        got = values(self.record(*where, "--set", "width=0.1"))
+        self.assertAlmostEqual(got["k_support"] / 2.1e8, 1, delta=1e-12)
+        self.refused(2, "outside its range", *where, "--set", "width=100")
+        self.refused(2, "did you mean 'width'", *where, "--set", "wdth=0.1")
+
+    def test_refusals(self):
+        """One line where it is not the file's content."""
+        self.refused(4, "cannot be read", "solve", "--scene", self.folder / "none.yaml", "-f",
+                     "beamw", "-n", 1)
+        self.refused(2, "give one of them", "solve", "elastica", "--scene", self.scene(FIRST), "-f",
+                     "beamw", "-n", 1)
+        path = self.scene(FIRST)
+        self.refused(2, "which is read", "converge", "--scene", path, "-f", "beamw", "-o", path)
+        self.assertEqual(path.read_text(encoding="utf-8"), FIRST)
+
+    def test_schema(self):
+        """The schema has every list of a scene, and what its entries must have."""
+        schema = json.loads(self.answered("scene", "--schema").stdout)
+        self.assertEqual(schema["required"], ["beamwork", "sections", "nodes", "members"])
+        member = schema["properties"]["members"]["additionalProperties"]
+        self.assertEqual(member["required"], ["from", "to", "section", "y"])
+        self.assertIn("for", member["properties"])
+
+
+if __name__ == "__main__":
+    unittest.main()
