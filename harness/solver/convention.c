@@ -45,26 +45,14 @@ int convention_changes(scene_moments convention, const double m[3])
            (convention == SCENE_MOMENTS_SPATIAL && vec3_norm(m) > 0);
 }
 
-/* dual C dual^T: on the motions alone. */
-static void gather(const movable *v, const double C[36], double to[])
+/* to[m x m] = T A T^T, T [m x n]; m, n at most N. */
+static void congruence(int m, int n, const double T[], const double A[], double to[])
 {
-    const int n = v->count;
     double half[N * N];
-    dense_mul(n, N, N, v->dual, C, half);
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++)
-            to[i * n + j] = dense_dot(N, half + i * N, v->dual + j * N);
-}
-
-/* span from span^T. */
-static void scatter_compliance(const movable *v, const double from[], double C[36])
-{
-    const int n = v->count;
-    double half[N * N];
-    dense_mul(N, n, n, v->span, from, half);
-    for (int i = 0; i < N; i++)
-        for (int j = 0; j < N; j++)
-            C[i * N + j] = dense_dot(n, half + i * n, v->span + j * n);
+    dense_mul(m, n, n, T, A, half);
+    for (int i = 0; i < m; i++)
+        for (int j = 0; j < m; j++)
+            to[i * m + j] = dense_dot(n, half + i * n, T + j * n);
 }
 
 /* dual^T from dual. */
@@ -81,7 +69,7 @@ status convention_apply(scene_moments convention, const movable *motions, const 
                         double C[36], double K[36], fault *f)
 {
     double A[N * N], B[N * N], inverse[N * N];
-    gather(motions, C, A);
+    congruence(motions->count, N, motions->dual, C, A); /* on the motions alone */
     if (invert(motions->count, A, B) != 0)
         return fault_set(f, STATUS_SINGULAR, "the compliance matrix is singular");
     if (convention_changes(convention, m)) {
@@ -92,7 +80,7 @@ status convention_apply(scene_moments convention, const movable *motions, const 
         if (invert(motions->count, A, inverse) != 0)
             return fault_set(f, STATUS_SINGULAR, "the stiffness with %s moments is singular",
                              scene_moments_name(convention));
-        scatter_compliance(motions, inverse, C);
+        congruence(N, motions->count, motions->span, inverse, C);
     }
     scatter_stiffness(motions, B, K);
     return STATUS_OK;
