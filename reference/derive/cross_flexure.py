@@ -11,12 +11,12 @@ import math
 
 import numpy as np
 
+from reference.derive import defaults
 from reference.derive.network import Network, clamped
 from reference.derive.sheets import parameters, sheet
 
 RELATIVE = 1e-9  # the stiffness of a leaf along itself, beside the forces that bend it
-SIZES = {"length": 0.06, "width": 0.01, "thickness": 0.3e-3, "pitch": 0.012,
-         "half_angle": math.pi / 4, "young": 200e9, "poisson": 0.3, "angle": 0.35}
+SIZES = defaults.values("cross_flexure", "length", "width", "thickness", "pitch", "half_angle", "young", "poisson", "angle")
 TILTS_FREE = ("first", "last", "between")
 
 

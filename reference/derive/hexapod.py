@@ -8,14 +8,14 @@ import math
 
 import numpy as np
 
+from reference.derive import defaults
 from reference.derive.beam import rotation
 from reference.derive.joint import add_joint, sheet_of
 from reference.derive.network import Network
 from reference.derive.sheets import parameters
 
 RELATIVE = 1e-9
-SIZES = {"base_radius": 0.40, "crank_length": 0.20, "crank_azimuth": math.radians(12), "platform_radius": 0.16, "platform_azimuth": math.radians(48), "height": 0.30,
-         "stroke": 0.05, "steps": 11}
+DEFAULTS = defaults.values("hexapod")
 
 
 def crank_conditions(pivot, axis):
@@ -35,8 +35,7 @@ def joint_axes(direction):
     return np.column_stack([x, np.cross(direction, x), direction])
 
 
-def add_leg(net, beam, given, leg, platform):
-    value = {**SIZES, **given}
+def add_leg(net, beam, value, leg, platform):
     side, middle = (-1 if leg % 2 == 0 else 1), 2 * math.pi / 3 * (leg // 2)
     below, above = middle + side * value["crank_azimuth"], middle + side * value["platform_azimuth"]
     radial = np.array([math.cos(below), math.sin(below), 0])
@@ -46,18 +45,18 @@ def add_leg(net, beam, given, leg, platform):
     pivot = value["base_radius"] * radial
     crank = net.body(pivot, crank_conditions(pivot / net.length, (-math.sin(below), math.cos(below), 0)))
     rod = net.body(low)
-    add_joint(net, beam, given, low, joint_axes(-along), rod, crank, f"{leg}.low")
-    add_joint(net, beam, given, high, joint_axes(along), rod, platform, f"{leg}.high")
+    add_joint(net, beam, value, low, joint_axes(-along), rod, crank, f"{leg}.low")
+    add_joint(net, beam, value, high, joint_axes(along), rod, platform, f"{leg}.high")
 
 
 def stiffness_curve(intervals=3, nodes=9, form=lambda beam: beam, **given):
     """[(stiffness in N/m, crank angle in rad)] at the positions from -stroke to +stroke; form: see sheets.cantilever."""
-    value = {**SIZES, **given}
-    beam = form(sheet_of(given))
+    value = {**DEFAULTS, **given}
+    beam = form(sheet_of(value))
     net = Network(beam.length, beam.EIz / beam.length ** 2, numbers=[0.0], intervals=intervals, nodes=nodes)
     platform = net.body((0, 0, value["height"]))
     for leg in range(6):
-        add_leg(net, beam, given, leg, platform)
+        add_leg(net, beam, value, leg, platform)
     net.extra = [(platform, lambda level, x, R, force, moment, numbers: [x[2] - (value["height"] + level) / net.length])]
     cranks_held = {"extra": [(platform, lambda level, x, R, force, moment, numbers: [numbers[0]])]}
     out = []

@@ -9,21 +9,23 @@ import math
 
 import numpy as np
 
+from reference.derive import defaults
 from reference.derive.network import Network, clamped
 from reference.derive.sheets import parameters, sheet
 
 RELATIVE = 1e-10
-SIZES = {"length": 0.0681, "width": 0.0282, "thickness": 0.000838, "young": 210e9, "poisson": 0.3, "wagner": 1}
-ANGLES = {"fold_angle": math.radians(86.2), "radius": 0.0343, "polar_angle": math.radians(40.2), "azimuth": 0.0, "fold_warping": "shared"}
+DEFAULTS = defaults.values("spherical_joint")
+SIZES = ("length", "width", "thickness", "young", "poisson", "wagner")
 
 
 def sheet_of(given):
-    return sheet(**{**SIZES, **{k: v for k, v in given.items() if k in SIZES}})
+    value = {**DEFAULTS, **given}
+    return sheet(**{k: value[k] for k in SIZES})
 
 
 def fold(net, beam, given, centre, axes, azimuth, mirrored, bodies, name):
     """Two sheets and the body where they meet; axes: columns are the joint's x, y, z."""
-    value = {**SIZES, **ANGLES, **given}
+    value = {**DEFAULTS, **given}
     up = np.diag([1, 1, -1.0 if mirrored else 1.0])
     turn = np.array([[math.cos(azimuth), -math.sin(azimuth), 0], [math.sin(azimuth), math.cos(azimuth), 0], [0, 0, 1]])
     to_global = axes @ turn @ up
@@ -45,7 +47,7 @@ def fold(net, beam, given, centre, axes, azimuth, mirrored, bodies, name):
 def add_joint(net, beam, given, centre, axes, base, effector, name):
     """One joint between two bodies; returns its intermediate body."""
     middle = net.body(centre)
-    first = given.get("azimuth", ANGLES["azimuth"])
+    first = given.get("azimuth", DEFAULTS["azimuth"])
     for k in range(3):
         fold(net, beam, given, centre, axes, first + 2 * math.pi * k / 3, False, (base, middle), f"{name}.{k}")
     for k in range(3):
@@ -54,7 +56,8 @@ def add_joint(net, beam, given, centre, axes, base, effector, name):
 
 
 def turned(given):
-    tilt, steps = given.get("tilt", math.radians(15)), given.get("steps", 50)
+    value = {**DEFAULTS, **given}
+    tilt, steps = value["tilt"], value["steps"]
 
     def vector(level):
         """Levels below 1 lead to the first azimuth."""
@@ -80,7 +83,7 @@ def stiffness_curve(intervals=4, nodes=10, form=lambda beam: beam, **given):
     undeformed, curve = stiffness(0.0), []
     for level in (0.5, 1.0):
         net.solve((level,))
-    steps = given.get("steps", 50)
+    steps = {**DEFAULTS, **given}["steps"]
     for k in range(steps):
         net.solve((1.0 + k,), tolerance=1e-9)
         curve.append(stiffness(1.0 + k))

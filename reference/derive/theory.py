@@ -4,6 +4,7 @@ Engesser: the axial force works on the slope of the line of centroids; Haringx: 
 rotation, as in the geometrically exact beam (column.py gives both energies).  Without shear, or
 where nothing is stressed, both agree.  Sources: the programs that derive the truths.
 """
+from reference.derive import defaults
 
 LARGE_DISPLACEMENT = (
     "bend_45",
@@ -13,7 +14,6 @@ LARGE_DISPLACEMENT = (
     "shear_elastica",
     "spherical_joint",
 )  # always flexible in shear
-SHEAR_DEFAULT = {"c_cantilever": "0", "moment_buckling": "0"}
 
 
 def of(case, parameters, quantity):
@@ -22,22 +22,17 @@ def of(case, parameters, quantity):
     parameters: `name=value;...` that differ from the defaults.
     """
     given = dict(item.split("=", 1) for item in parameters.split(";") if "=" in item)
-    if float(given.get("shear", SHEAR_DEFAULT.get(case, "1"))) == 0:
+    at = {**defaults.texts(case), **given}
+    if float(at.get("shear", "1")) == 0:
         return ""
     if case in LARGE_DISPLACEMENT:
         return "" if quantity == "support_stiffness_undeformed" else "haringx"
     if case == "c_cantilever":
         return "haringx"
     if case in ("sheet_cantilever", "sheet_wagner"):
-        bent = {
-            float(given.get("tip_deflection", "0.015")),
-            float(given.get("tip_phi_z", "0.15" if case == "sheet_wagner" else "0")),
-        }
+        bent = {float(at["tip_deflection"]), float(at.get("tip_phi_z", "0"))}
         return "haringx" if bent != {0.0} else ""
-    loaded = (
-        quantity.startswith("buckling")
-        or float(given.get("axial_load", "5000" if case == "unsymmetric_column" else "0")) != 0
-    )
+    loaded = quantity.startswith("buckling") or float(at.get("axial_load", "0")) != 0
     if case in ("c_column", "moment_buckling", "shear_column", "unsymmetric_column") and loaded:
-        return given.get("shear_stability", "engesser")
+        return at["shear_stability"]
     return ""
