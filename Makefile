@@ -99,8 +99,8 @@ truths: needs-truths ## derive every exact and predicted row again, and solids w
 
 causes: all ## errors that the rules of the ledger allow beside those seen; experiments on the causes, for the report: ten minutes at most; build/causes.json
 	@test -f $(BUILD)/verify.json || $(MAKE) --no-print-directory verify
-	@$(PYTHON) harness/tools/bounds.py $(BUILD)/verify.json reference/findings.csv
 	@$(PYTHON) harness/tools/causes.py $(PROGRAM) $(BUILD)/verify.json -o $(BUILD)/causes.json
+	@$(PYTHON) harness/tools/bounds.py $(BUILD)/verify.json reference/findings.csv
 
 mutants: ## plant faults one by one; each must be noticed
 	@harness/tools/mutants.sh $(BUILD)/mutants

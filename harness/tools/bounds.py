@@ -13,6 +13,7 @@ import json
 import math
 
 PREDICTED = "wrong limit, as predicted"
+SURELY, KNOWN = 3, 1e-9  # uncertainties of a limit (judge/verdict.c); relative one of a prediction
 STEPS = (1, 2, 5, 10)
 
 
@@ -55,6 +56,15 @@ def lines(rules, verdicts):
     return [line(rule, of_rule[rule["rule"]]) for rule in rules]
 
 
+def covered(verdicts):
+    """(limits that lie within what they and their predictions are known to, all with a prediction),
+    whatever the verdict: what calling a limit predicted by its uncertainty alone rests on."""
+    told = [v for v in verdicts if v["predicted"] is not None and v["limit"] is not None]
+    near = [abs(v["limit"] - v["predicted"])
+            <= SURELY * (v["limit_uncertainty"] or 0) + KNOWN * abs(v["predicted"]) for v in told]
+    return sum(near), len(told)
+
+
 def text_of(one):
     seen = "" if one["seen"] is None else "%.3g" % one["seen"]
     met = "" if one["digits"] is None else "%d met, %.1f digits" % (one["met"], one["digits"])
@@ -75,6 +85,7 @@ def main():
         found = lines(list(csv.DictReader(file)), verdicts)
     for one in found:
         print(text_of(one).rstrip())
+    print("%d of %d limits lie within 3 U of their prediction" % covered(verdicts))
     return 0 if all(one["stands"] for one in found) else 1
 
 

@@ -34,6 +34,12 @@ class Bounds(unittest.TestCase):
         self.assertTrue(self.said("", given)["stands"])
         self.assertFalse(self.said("1e-3", given)["stands"])
 
+    def test_covered(self):
+        """Whatever the verdict; 3 U and what the prediction is known to."""
+        given = [{**verdict(0.1, limit, 2.0), "limit_uncertainty": 1e-6}
+                 for limit in (2.0, 2.0000029, 2.0000031, None)]
+        self.assertEqual(bounds.covered(given + [verdict(0.1)]), (2, 3))
+
     def test_digits_of_the_farthest(self):
         met = [verdict(0.1, limit, 2.0, bounds.PREDICTED) for limit in (2.0002, 1.99999, 2.0)]
         one = self.said("0.1", met + [verdict(0.1, 3.0, 2.0, "undecided")])
