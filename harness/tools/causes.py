@@ -22,8 +22,7 @@ import subprocess
 import time
 
 MESHES = (8, 16, 32, 64, 128, 256)
-OF_MECHANISMS = (1, 2, 4, 8)
-MECHANISMS = ("spherical_joint", "hexapod")
+OF_MECHANISMS = {"spherical_joint": (4, 8, 16, 32, 64), "hexapod": (1, 2, 4, 8)}
 FEATURES = ("shear", "trapeze", "wagner", "warping")
 EXACT, EXACT_MESHES = "collocation:stages=8", (2, 4, 8, 16)
 SECONDS = 60  # for one series
@@ -119,7 +118,7 @@ class Laboratory:
 
     def limit(self, case, formulation, parameters, quantity, known):
         """What a series shows: limit, its error and against what, or why nothing."""
-        meshes = OF_MECHANISMS if case in MECHANISMS else MESHES
+        meshes = OF_MECHANISMS.get(case, MESHES)
         out = {"formulation": formulation, "parameters": ";".join(parameters), "meshes": meshes}
         found, why = self.series(case, formulation, parameters, meshes)
         record = (found or {}).get(quantity)

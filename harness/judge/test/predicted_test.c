@@ -41,22 +41,25 @@ static void with_prediction(bench *b, double limit)
     b->t.rows = 2;
 }
 
-/* 1/1000 of the error that is predicted, whatever its size and sign: the limit is known better. The
- * error grows with the distance, so that the edges are not quite symmetric. */
-static void explained_part(void)
+/* A limit that is known well: the prediction's own uncertainty, whatever the error's size and sign; a
+ * part of the error, small as it is, explains nothing. */
+static void sharp_limits(void)
 {
     static const double error[] = {0.003, -0.003, 0.3, -0.03};
     for (int i = 0; i < 4; i++) {
         bench b;
         with_prediction(&b, 3 + error[i]);
-        const double doubt = bench_judge(&b)->fit.limit_uncertainty;
+        const mesh_limit fit = bench_judge(&b)->fit;
+        const double doubt = fit.limit_uncertainty, part = 1e-3 * error[i];
         gsl_test(!(doubt < 1e-5 * fabs(error[i])), "(the limit is known well: %.1e)", doubt);
-        edges(&b, 1e-3 * fabs(error[i]), VERDICT_WRONG_LIMIT, "a part of the error");
+        gsl_test(judged(&b, fit.limit, part) != VERDICT_WRONG_LIMIT ||
+                     judged(&b, fit.limit, -part) != VERDICT_WRONG_LIMIT,
+                 "a thousandth of the error is another limit");
         b.row[1].uncertainty = fabs(error[i]) / 50;
-        edges(&b, 1e-3 * fabs(error[i]) + b.row[1].uncertainty, VERDICT_WRONG_LIMIT,
-              "and the prediction's uncertainty");
+        edges(&b, 3 * doubt + b.row[1].uncertainty, VERDICT_WRONG_LIMIT,
+              "the prediction's uncertainty");
         b.row[0].uncertainty = fabs(error[i]) / 10;
-        edges(&b, 1e-3 * fabs(error[i]) + b.row[1].uncertainty, VERDICT_WRONG_LIMIT,
+        edges(&b, 3 * doubt + b.row[1].uncertainty, VERDICT_WRONG_LIMIT,
               "the truth's own uncertainty does not count");
         bench_free(&b);
     }
@@ -85,7 +88,8 @@ static void biases(void)
         bench b;
         with_prediction(&b, 3 + error[i]);
         b.row[1].uncertainty = 1e-6;
-        edges(&b, 1e-3 * fabs(error[i]) + 1e-6, VERDICT_BIASED, "within the tolerance");
+        const double doubt = bench_judge(&b)->fit.limit_uncertainty;
+        edges(&b, 3 * doubt + 1e-6, VERDICT_BIASED, "within the tolerance");
         b.row[1].value = 3 + error[i];
         bench_fill(&b, 3, 0.7, 2);
         bench_expect(&b, VERDICT_PASS, 0, "a limit that is the truth, and not the derived one");
@@ -110,7 +114,7 @@ static void undecided(void)
 
 int main(void)
 {
-    explained_part();
+    sharp_limits();
     uncertain_limits();
     biases();
     undecided();
