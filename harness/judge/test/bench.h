@@ -20,7 +20,11 @@ static inline status no_build(const double value[], scene *s, fault *f)
     return fault_set(f, STATUS_FAULT, "not to be built");
 }
 
-static const case_type made_up = {"made_up", "a case of the test", "none", parameter, no_build};
+static const case_type made_up = {.name = "made_up",
+                                  .summary = "a case of the test",
+                                  .source = "none",
+                                  .parameters = parameter,
+                                  .build = no_build};
 static const element_type element = {.name = "element", .abi = ELEMENT_ABI};
 
 /* One point, one series of five meshes, one quantity; the truth is 3, tolerance 1e-4, least order 2. */
