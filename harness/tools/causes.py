@@ -87,7 +87,7 @@ class Laboratory:
             )
         except subprocess.TimeoutExpired:
             return None, f"no answer within {min(SECONDS, left):.0f} s"
-        if done.returncode not in (0, 1) or not done.stdout:
+        if done.returncode not in (0, 1, 3) or not done.stdout:  # 3: it was refused, and says why
             return None, done.stderr.strip().splitlines()[-1] if done.stderr.strip() else "failed"
         series = json.loads(done.stdout)["series"][0]
         if series["missing"]:
