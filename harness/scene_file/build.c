@@ -28,16 +28,33 @@ static void check_name(const builder *b, builder_list list, int i)
         }
 }
 
+/* Entries of the scene's own lists, and behind them those of its instances. */
 static void list_entries(builder *b)
 {
-    for (int list = 0; list < LISTS; list++) {
+    static const builder_list placed[PLACEMENT_LISTS] = {LIST_NODES, LIST_MEMBERS, LIST_LOADS};
+    unrolled *list[PLACEMENT_LISTS];
+    int count[PLACEMENT_LISTS];
+    for (int i = 0; i < LISTS; i++) {
         const int before = b->mistakes->count + b->mistakes->more;
-        b->list[list].count = unroll_entries(document_find(b->root, list_name[list]), b->names,
-                                             b->arena, b->mistakes, &b->list[list].entry);
-        b->list[list].incomplete = b->mistakes->count + b->mistakes->more > before;
-        for (int i = 0; i < b->list[list].count; i++)
-            check_name(b, (builder_list)list, i);
+        b->list[i].count = unroll_entries(document_find(b->root, list_name[i]), b->names, b->arena,
+                                          b->mistakes, &b->list[i].entry);
+        b->list[i].incomplete = b->mistakes->count + b->mistakes->more > before;
     }
+    for (int k = 0; k < PLACEMENT_LISTS; k++) {
+        list[k] = b->list[placed[k]].entry;
+        count[k] = b->list[placed[k]].count;
+    }
+    const int before = b->mistakes->count + b->mistakes->more;
+    placement_unroll(b->root, b->names, b->arena, b->mistakes, list, count);
+    const int incomplete = b->mistakes->count + b->mistakes->more > before;
+    for (int k = 0; k < PLACEMENT_LISTS; k++) {
+        b->list[placed[k]].entry = list[k];
+        b->list[placed[k]].count = count[k];
+        b->list[placed[k]].incomplete |= incomplete;
+    }
+    for (int i = 0; i < LISTS; i++)
+        for (int k = 0; k < b->list[i].count; k++)
+            check_name(b, (builder_list)i, k);
 }
 
 static void read_needs(builder *b)
@@ -47,7 +64,7 @@ static void read_needs(builder *b)
     static const unsigned feature[] = {
         FEATURE_SHEAR,          FEATURE_TRAPEZE, FEATURE_WAGNER_MOMENTS, FEATURE_WAGNER_TORQUE,
         FEATURE_ROTARY_INERTIA, FEATURE_WARPING, FEATURE_ENGESSER,       FEATURE_HARINGX};
-    const fields f = {b, b->names, b->root, b->root};
+    const fields f = {b, b->names, b->root, b->root, NULL};
     if (!fields_have(&f, "needs")) {
         scene_need(b->scene, FEATURE_SHEAR);
         return;
@@ -62,7 +79,7 @@ static void read_meshes(builder *b)
 {
     static const int usual[] = {1, 2, 4, 8};
     enum { MOST = sizeof b->scene->mesh / sizeof b->scene->mesh[0] };
-    const fields f = {b, b->names, b->root, b->root};
+    const fields f = {b, b->names, b->root, b->root, NULL};
     double *value;
     int mesh[MOST];
     const int count = fields_values(&f, "meshes", &value);
@@ -118,6 +135,9 @@ void build_scene(const document_node *root, const scope *names, arena *a, mistak
     fault f = {""};
     b.names = unroll_let(document_find(root, "let"), names, a, m);
     list_entries(&b);
+    if (b.list[LIST_MEMBERS].count == 0 && !b.list[LIST_MEMBERS].incomplete)
+        document_mistake(m, root, 0,
+                         "the scene has no members; add members: {NAME: {from, to, section, y}}");
     builder_sections(&b);
     builder_nodes(&b);
     builder_members(&b);

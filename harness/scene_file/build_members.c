@@ -1,4 +1,5 @@
 /* Members of a scene, what moves it and what loads it. */
+#include <stdio.h>
 #include <string.h>
 
 #include "harness/scene_file/builder.h"
@@ -11,15 +12,20 @@ static int share(const fields *f, const document_node *name)
         document_mistake(b->mistakes, name, 0, "shared: a name is expected");
         return SCENE_WARP_FREE;
     }
+    /* of an instance: its own */
+    char full[200];
+    const int length = snprintf(full, sizeof full, "%.90s.%.90s",
+                                f->placed != NULL ? f->placed->name : "", name->text);
     for (int i = 0; i < b->shares; i++)
-        if (strcmp(b->shared[i], name->text) == 0)
+        if (strcmp(b->shared[i], full) == 0)
             return i;
     b->shared = arena_grow(b->arena, b->shared, b->shares, sizeof *b->shared);
-    if (b->shared == NULL) {
+    const char *kept = arena_copy(b->arena, full, (size_t)length);
+    if (b->shared == NULL || kept == NULL) {
         b->shares = 0;
         return SCENE_WARP_FREE;
     }
-    b->shared[b->shares] = name->text;
+    b->shared[b->shares] = kept;
     return b->shares++;
 }
 
@@ -50,7 +56,7 @@ void builder_members(builder *b)
     for (int i = 0; i < b->list[LIST_MEMBERS].count; i++) {
         const fields f = fields_of(b, &b->list[LIST_MEMBERS].entry[i]);
         double y[3] = {0};
-        fields_vector(&f, "y", 3, y);
+        fields_direction(&f, "y", y);
         const int p = fields_entry(&f, "from", LIST_NODES), q = fields_entry(&f, "to", LIST_NODES);
         const int profile = fields_entry(&f, "section", LIST_SECTIONS);
         scene_member *m = scene_member_at(b->scene, scene_add_member(b->scene, p, q, profile, y));
@@ -73,13 +79,31 @@ static int read_stations(const fields *f, const char *values, double **path, dou
     return 0;
 }
 
+/* What a motion moves has its unit. */
+static void check_unit(const fields *f, int motion)
+{
+    const int angle = fields_word(f, "unit", "m|rad", -1);
+    const scene *s = f->b->scene;
+    int angles = 0, lengths = 0;
+    for (int i = 0; i < s->nodes; i++)
+        for (int k = 0; k < 3; k++) {
+            lengths += s->node[i].translation[k] == motion;
+            angles += s->node[i].angle[k] == motion;
+        }
+    if ((angle == 1 && lengths > 0) || (angle == 0 && angles > 0))
+        document_mistake(f->b->mistakes, document_find(f->map, "unit"), 0,
+                         "the motion drives %s; write unit: %s, or drive something else",
+                         angle == 1 ? "a translation" : "an angle", angle == 1 ? "m" : "rad");
+}
+
 void builder_motions(builder *b)
 {
     for (int i = 0; i < b->list[LIST_MOTIONS].count; i++) {
         const unrolled *entry = &b->list[LIST_MOTIONS].entry[i];
         const fields f = fields_of(b, entry), condition = fields_below(&f, "such_that");
         double *path, *value;
-        fields_word(&f, "unit", "m|rad", 0);
+        if (fields_have(&f, "unit"))
+            check_unit(&f, i);
         if (condition.map == NULL) {
             const int stations = read_stations(&f, "value", &path, &value);
             scene_add_driver(b->scene, entry->name, stations, path, value);
@@ -109,7 +133,7 @@ void builder_loads(builder *b)
                                      : fields_have(&f, "moment") ? SCENE_MOMENT
                                                                  : SCENE_DISTRIBUTED;
         double v[3] = {0};
-        fields_vector(&f, key[kind], 3, v);
+        fields_direction(&f, key[kind], v);
         const int where =
             fields_entry(&f, "on", kind == SCENE_DISTRIBUTED ? LIST_MEMBERS : LIST_NODES);
         const int load = scene_add_load(b->scene, kind, where, v[0], v[1], v[2]);

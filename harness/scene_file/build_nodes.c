@@ -4,10 +4,21 @@
 #include "harness/scene_file/builder.h"
 #include "harness/scene_file/expression.h"
 
+/* Components are along the axes of the scene: an instance that is turned has none of its own. */
+static void check_axes(const fields *f, const char *key, int components)
+{
+    if (components && f->placed != NULL && f->placed->turned)
+        document_mistake(f->b->mistakes, document_find(f->map, key), 0,
+                         "%s: components in a part that is turned are not carried yet; name them "
+                         "at a node of the scene, and connect it",
+                         key);
+}
+
 static void read_hold(const fields *f, int node)
 {
     static const char choices[] = "all|ux|uy|uz|rx|ry|rz";
     const unsigned held = fields_words(f, "hold", choices);
+    check_axes(f, "hold", held != 0 && held != 1);
     for (int c = SCENE_UX; c <= SCENE_RZ; c++)
         if (held & 1u || held >> (c + 1) & 1u)
             scene_hold(f->b->scene, node, c, c);
@@ -17,6 +28,7 @@ static void read_drive(const fields *f, int node)
 {
     static const char *const component[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
     const fields drive = fields_below(f, "drive");
+    check_axes(f, "drive", drive.map != NULL);
     const scene_node *n = scene_node_at(f->b->scene, node);
     for (int c = SCENE_UX; c <= SCENE_RZ; c++) {
         const int motion = fields_entry(&drive, component[c], LIST_MOTIONS);
@@ -46,6 +58,7 @@ static void read_axis(const fields *f, double axis[3])
         expression_vector(n, 3, f->names, f->b->mistakes, axis);
     else
         axis[fields_word_of(f, n, "axis", "x|y|z", 0)] = 1;
+    placement_turn(f->placed, axis);
     if (axis[0] == 0 && axis[1] == 0 && axis[2] == 0)
         document_mistake(f->b->mistakes, n, 0, "an axis of no length; give x, y, z or a direction");
 }
@@ -90,6 +103,7 @@ static void check_masters(const fields *f, const scene_node *n)
     const int held =
         n->angle[0] != SCENE_FREE || n->angle[1] != SCENE_FREE || n->angle[2] != SCENE_FREE;
     const document_node *rotation = document_find(f->map, "rotation");
+    check_axes(f, "rotation", document_find(rotation, "vector") != NULL);
     if (rotation != NULL && (held || fields_have(f, "fork")))
         document_mistake(f->b->mistakes, rotation, 0,
                          "'rotation' says all about turns; leave out rx, ry, rz and forks");
@@ -100,7 +114,8 @@ void builder_nodes(builder *b)
     for (int i = 0; i < b->list[LIST_NODES].count; i++) {
         const fields f = fields_of(b, &b->list[LIST_NODES].entry[i]);
         double at[3] = {0};
-        fields_vector(&f, "at", 3, at);
+        if (fields_vector(&f, "at", 3, at))
+            placement_move(f.placed, at);
         const int node = scene_add_node(b->scene, at[0], at[1], at[2]);
         scene_node *n = scene_node_at(b->scene, node);
         n->attached = fields_entry(&f, "part_of", LIST_NODES);
@@ -111,8 +126,8 @@ void builder_nodes(builder *b)
         if (fields_have(&f, "fork")) {
             const fields fork = fields_below(&f, "fork");
             double axis[3] = {0}, web[3] = {0};
-            fields_vector(&fork, "axis", 3, axis);
-            fields_vector(&fork, "web", 3, web);
+            fields_direction(&fork, "axis", axis);
+            fields_direction(&fork, "web", web);
             scene_fork(b->scene, node, axis, web);
         }
     }

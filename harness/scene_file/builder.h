@@ -6,6 +6,7 @@
 #define BEAMWORK_SCENE_BUILDER_H
 
 #include "cases/scene/scene.h"
+#include "harness/scene_file/placement.h"
 #include "harness/scene_file/unroll.h"
 
 typedef enum builder_list {
@@ -40,6 +41,7 @@ typedef struct fields {
     const scope *names;
     const document_node *map; /* NULL: it is not there, and has nothing */
     const document_node *place;
+    const placement *placed; /* NULL: in the axes of the scene */
 } fields;
 
 fields fields_of(builder *b, const unrolled *entry);
@@ -49,6 +51,8 @@ double fields_number(const fields *f, const char *key, double otherwise);
 int fields_whole(const fields *f, const char *key, int otherwise, int least, int most);
 /* out[count] is left as it is, and 0 returned, where there is none. */
 int fields_vector(const fields *f, const char *key, int count, double out[]);
+/* The same of a direction, which turns with the instance it is in. */
+int fields_direction(const fields *f, const char *key, double out[3]);
 /* A list or range: how many; 0 where there is none; *out is the arena's. */
 int fields_values(const fields *f, const char *key, double **out);
 const char *fields_text(const fields *f, const char *key, const char *otherwise);

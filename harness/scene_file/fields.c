@@ -12,13 +12,13 @@ const char fields_components[] = "ux|uy|uz|rx|ry|rz";
 
 fields fields_of(builder *b, const unrolled *entry)
 {
-    return (fields){b, entry->names, entry->value, entry->place};
+    return (fields){b, entry->names, entry->value, entry->place, entry->placed};
 }
 
 fields fields_below(const fields *f, const char *key)
 {
     const document_node *below = document_find(f->map, key);
-    return (fields){f->b, f->names, below, below != NULL ? below : f->place};
+    return (fields){f->b, f->names, below, below != NULL ? below : f->place, f->placed};
 }
 
 int fields_have(const fields *f, const char *key)
@@ -50,6 +50,14 @@ int fields_vector(const fields *f, const char *key, int count, double out[])
         return 0;
     expression_vector(n, count, f->names, f->b->mistakes, out);
     return 1;
+}
+
+int fields_direction(const fields *f, const char *key, double out[3])
+{
+    const int there = fields_vector(f, key, 3, out);
+    if (there)
+        placement_turn(f->placed, out);
+    return there;
 }
 
 int fields_values(const fields *f, const char *key, double **out)
@@ -141,6 +149,22 @@ static const char *entry_at(const void *context, int i)
     return i < those->b->list[those->list].count ? those->b->list[those->list].entry[i].name : NULL;
 }
 
+/* Of an instance its own entries are found first. */
+static int find_entry(const fields *f, const char *text, builder_list list, int own)
+{
+    const size_t prefix = own && f->placed != NULL ? strlen(f->placed->name) : 0;
+    int found = SCENE_NONE;
+    for (int i = 0; i < f->b->list[list].count; i++) {
+        const char *name = f->b->list[list].entry[i].name;
+        if (prefix > 0 && strncmp(name, f->placed->name, prefix) == 0 && name[prefix] == '.' &&
+            strcmp(name + prefix + 1, text) == 0)
+            return i;
+        if (found < 0 && strcmp(name, text) == 0)
+            found = i;
+    }
+    return found;
+}
+
 int fields_entry_of(const fields *f, const document_node *n, builder_list list)
 {
     static const char *const what[] = {"section", "node",     "member",  "motion",
@@ -153,9 +177,12 @@ int fields_entry_of(const fields *f, const document_node *n, builder_list list)
     }
     const scope *known = scope_find(f->names, n->text, strlen(n->text));
     const char *text = known != NULL && known->word != NULL ? known->word : n->text;
-    for (int i = 0; i < f->b->list[list].count; i++)
-        if (strcmp(f->b->list[list].entry[i].name, text) == 0)
-            return i;
+    const document_node *port = list == LIST_NODES ? placement_port(f->placed, text) : NULL;
+    if (port != NULL)
+        text = port->text;
+    const int found = find_entry(f, text, list, port == NULL);
+    if (found >= 0)
+        return found;
     if (strchr(text, '$') == NULL && !f->b->list[list].incomplete) /* else it is told already */
         document_mistake(f->b->mistakes, n, 0, "no %s '%.40s'%s", what[list], text,
                          mistakes_remedy(choice_nearest(text, entry_at, &those),

@@ -17,8 +17,8 @@ const scene_key keys_root[] = {
     {"parameters", KEY_ENTRIES, .below = keys_parameter, .summary = "what --set may change"},
     {"let", KEY_NAMES, .below = number, .summary = "derived values, in order"},
     {"sections", KEY_ENTRIES, .needed = 1, .below = keys_section, .summary = "cross-sections"},
-    {"nodes", KEY_ENTRIES, .needed = 1, .below = keys_node, .summary = "ends, supports, bodies"},
-    {"members", KEY_ENTRIES, .needed = 1, .below = keys_member, .summary = "beams"},
+    {"nodes", KEY_ENTRIES, .below = keys_node, .summary = "ends, supports, bodies"},
+    {"members", KEY_ENTRIES, .below = keys_member, .summary = "beams"},
     {.name = "springs", .kind = KEY_LATER},
     {"motions", KEY_ENTRIES, .below = keys_motion, .summary = "numbers along the path"},
     {"loads", KEY_ENTRIES, .below = keys_load, .summary = "forces and moments"},
@@ -27,8 +27,8 @@ const scene_key keys_root[] = {
     {"truths", KEY_LIST, .below = keys_truth, .summary = "what is known"},
     {"needs", KEY_WORDS, .words = PHYSICS, .summary = "physics; left out: shear"},
     {"meshes", KEY_NUMBERS, .summary = "elements per member; left out: [1, 2, 4, 8]"},
-    {.name = "parts", .kind = KEY_LATER},
-    {.name = "instances", .kind = KEY_LATER},
+    {"parts", KEY_ENTRIES, .below = keys_part, .summary = "sub-assemblies in their own axes"},
+    {"instances", KEY_ENTRIES, .below = keys_instance, .summary = "parts placed in the scene"},
     {.name = NULL}};
 
 /* Both tables as one list of names. */
@@ -63,10 +63,15 @@ static void tell_kind(const document_node *n, const document_node *name, const c
     document_mistake(m, n, 0, "%.60s is %s; %s is expected", name->text, is[n->kind], expected);
 }
 
+int keys_loops(const scene_key *table)
+{
+    return table != keys_parameter && table != keys_part;
+}
+
 static void check_entries(const document_node *n, const scene_key *k, const document_node *name,
                           mistakes *m)
 {
-    const known_keys known = {k->below, k->below == keys_parameter ? NULL : keys_loop};
+    const known_keys known = {k->below, keys_loops(k->below) ? keys_loop : NULL};
     if (n->kind != (k->kind == KEY_LIST ? DOCUMENT_LIST : DOCUMENT_MAP)) {
         tell_kind(n, name, k->kind == KEY_LIST ? "a list of maps: - {...}" : "a map: NAME: {...}",
                   m);

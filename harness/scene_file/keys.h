@@ -32,10 +32,13 @@ typedef struct scene_key {
 } scene_key;
 
 extern const scene_key keys_root[], keys_section[], keys_node[], keys_member[], keys_motion[],
-    keys_load[], keys_analysis[], keys_quantity[], keys_truth[], keys_parameter[];
+    keys_load[], keys_analysis[], keys_quantity[], keys_truth[], keys_parameter[], keys_part[],
+    keys_instance[];
 
 /* `for` and `let`, which every entry may have. */
 extern const scene_key keys_loop[];
+/* May its entries have them? */
+int keys_loops(const scene_key *table);
 
 /* Unknown, missing, misplaced keys and values of the wrong form, in the whole tree. 1: none. */
 int keys_check(const document_node *root, mistakes *m);

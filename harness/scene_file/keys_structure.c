@@ -162,6 +162,36 @@ const scene_key keys_load[] = {
     {.name = "follower", .kind = KEY_LATER},
     {.name = NULL}};
 
+const scene_key keys_part[] = {
+    {"let", KEY_NAMES, .below = number, .summary = "values derived for the part"},
+    {"nodes", KEY_ENTRIES, .below = keys_node, .summary = "NAME is INSTANCE.NAME in the scene"},
+    {"members", KEY_ENTRIES, .needed = 1, .below = keys_member,
+     .summary = "between nodes or places"},
+    {"loads", KEY_ENTRIES, .below = keys_load, .summary = "in the part's axes"},
+    {"places", KEY_FORMS, .summary = "[NAME, ...]: nodes of the scene that instances connect"},
+    {.name = NULL}};
+
+static const scene_key axes[] = {
+    {"x", KEY_VECTOR, .needed = 1, .count = 3, .summary = "the part's x axis in the scene"},
+    {"z", KEY_VECTOR, .needed = 1, .count = 3, .summary = "its z axis"},
+    {.name = NULL}};
+
+static const scene_key angles[] = {
+    {"x", KEY_NUMBER, .group = 1, .unit = "rad", .summary = "about x"},
+    {"y", KEY_NUMBER, .group = 1, .unit = "rad", .summary = "about y"},
+    {"z", KEY_NUMBER, .group = 1, .unit = "rad", .summary = "about z"},
+    {.name = NULL}};
+
+static const scene_key outer[] = {{"", KEY_NAME, .summary = "node of the scene"}, {.name = NULL}};
+
+const scene_key keys_instance[] = {
+    {"part", KEY_NAME, .needed = 1, .summary = "name of the part"},
+    {"at", KEY_VECTOR, .needed = 1, .count = 3, .unit = "m", .summary = "its origin"},
+    {"axes", KEY_MAP, .group = 1, .below = axes, .summary = "its axes; left out: the scene's"},
+    {"turn", KEY_MAP, .group = 1, .below = angles, .summary = "one angle about an axis"},
+    {"connect", KEY_NAMES, .below = outer, .summary = "PLACE: NODE"},
+    {.name = NULL}};
+
 const scene_key keys_loop[] = {
     {"for", KEY_FORMS, .summary = "{NAME: a..b | a..b step c | a..b/n | [list], ...}: loops"},
     {"let", KEY_NAMES, .below = number, .summary = "values derived for this entry"},

@@ -53,7 +53,7 @@ static json_t *value_of(const scene_key *k)
         return map_of(k->below, NULL);
     case KEY_ENTRIES:
         return json_pack("{s:s, s:o}", "type", "object", "additionalProperties",
-                         map_of(k->below, k->below == keys_parameter ? NULL : keys_loop));
+                         map_of(k->below, keys_loops(k->below) ? keys_loop : NULL));
     case KEY_LIST:
         return json_pack("{s:s, s:o}", "type", "array", "items", map_of(k->below, keys_loop));
     case KEY_NAMES:

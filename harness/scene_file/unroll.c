@@ -36,7 +36,7 @@ static void add(unroller *u, const scope *names)
         return;
     }
     u->list[u->count++] =
-        (unrolled){name != NULL ? name->text : NULL, place, value, u->value, inner};
+        (unrolled){name != NULL ? name->text : NULL, place, value, u->value, inner, NULL};
 }
 
 static void unroll_loops(unroller *u, const document_node *loops, int depth, const scope *names);

@@ -11,6 +11,7 @@ typedef struct unrolled {
     const document_node *value;
     const document_node *written; /* the value as it stands in the file */
     const scope *names;
+    const struct placement *placed; /* of an instance of a part; NULL: of the scene itself */
 } unrolled;
 
 enum { UNROLL_MOST = 10000 };
