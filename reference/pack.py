@@ -23,7 +23,7 @@ THEORIES = ("", "engesser", "haringx")
 MOMENTS, ROTATIONS = ("", "spatial", "semitangential", "symmetrised"), ("", "vector", "RyRzRx")
 CONVENTIONS = tuple(f"{moment} {rotation}".strip() for moment in MOMENTS for rotation in ROTATIONS)
 TRUTH_FOLDERS = ("tables", "predicted")
-VERDICTS = ("biased", "wrong limit", "wrong limit, as predicted", "undecided", "low order", "diverged", "refused")
+VERDICTS = ("biased", "biased, as predicted", "wrong limit", "wrong limit, as predicted", "undecided", "low order", "diverged", "refused")
 
 
 class Refused(Exception):

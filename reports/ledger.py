@@ -6,7 +6,7 @@ import re
 from reports import data, tally
 from reports.checks import stored
 from reports.site import ROOT
-from reports.verdicts import OWN_LIMITS, SEVERITY, UNJUDGED, met
+from reports.verdicts import AS_PREDICTED, OWN_LIMITS, SEVERITY, UNJUDGED, met
 
 NAVIGATION = [("ledger.html", "ledger")]
 
@@ -36,7 +36,7 @@ def predictions(rows):
     told = [r for r in rows if math.isfinite(met(r.verdict))]
     if not told:
         return None
-    hit = [r for r in told if r.verdict.verdict == "wrong limit, as predicted"]
+    hit = [r for r in told if r.verdict.verdict in AS_PREDICTED]
     missed = [r for r in told if r.verdict.verdict in OWN_LIMITS and r not in hit]
     farthest = max(hit or missed, key=lambda r: met(r.verdict), default=None)
     size = met(farthest.verdict) if farthest else math.nan

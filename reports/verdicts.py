@@ -18,10 +18,16 @@ KINDS = (
     Kind("undecided", "~", "other", "the limit is not known well enough to say more"),
     Kind("biased", "≈", "other", "within the tolerance, but surely a limit of its own"),
     Kind(
+        "biased, as predicted",
+        "≅",
+        "known",
+        "within the tolerance, a limit of its own, derived for the form as printed",
+    ),
+    Kind(
         "wrong limit, as predicted",
         "≡",
         "known",
-        "a limit of its own, derived for the form as printed: the program does what is printed",
+        "a limit of its own beyond the tolerance, derived for the form as printed: the program does what is printed",
     ),
     Kind("wrong limit", "≠", "wrong", "a limit that is surely beyond the tolerance"),
     Kind("refused", "R", "other", "the finest mesh was refused, with its reason"),
@@ -31,7 +37,8 @@ KINDS = (
 )
 BY_NAME = {kind.name: kind for kind in KINDS}
 SEVERITY = {kind.name: i for i, kind in enumerate(KINDS)}
-OWN_LIMITS = ("biased", "wrong limit, as predicted", "wrong limit")
+AS_PREDICTED = ("biased, as predicted", "wrong limit, as predicted")
+OWN_LIMITS = ("biased", "wrong limit", *AS_PREDICTED)
 UNJUDGED = ("skip", "no truth")
 
 

@@ -41,7 +41,7 @@ static void expect(const sweep *s, truths *t, verdict *v)
         }
         v->rule = r;
         r->observed++;
-        if (v->kind == VERDICT_AS_PREDICTED)
+        if (v->kind == VERDICT_BIASED_AS_PREDICTED || v->kind == VERDICT_WRONG_AS_PREDICTED)
             rule_foretell(r, &subject);
         if (is_beyond(r, v))
             snprintf(v->reason, sizeof v->reason,

@@ -50,7 +50,8 @@ void sentence_of_verdict(const verdict *v, double least_order, char *text, size_
     case VERDICT_WRONG_LIMIT:
         snprintf(text, size, "converges to a wrong limit: %+.3g %%", 100 * v->error);
         return;
-    case VERDICT_AS_PREDICTED:
+    case VERDICT_BIASED_AS_PREDICTED:
+    case VERDICT_WRONG_AS_PREDICTED:
         snprintf(text, size,
                  "converges to the limit that was derived for it, %.10g: %+.3g %% from the truth",
                  v->predicted->value, 100 * v->error);

@@ -8,10 +8,17 @@
 #include "harness/model/features.h"
 #include "harness/truth/truth.h"
 
-static const char *const names[VERDICT_KINDS] = {
-    "pass",      "biased",    "wrong limit", "wrong limit, as predicted",
-    "low order", "undecided", "diverged",    "refused",
-    "skip",      "no truth"};
+static const char *const names[VERDICT_KINDS] = {"pass",
+                                                 "biased",
+                                                 "wrong limit",
+                                                 "biased, as predicted",
+                                                 "wrong limit, as predicted",
+                                                 "low order",
+                                                 "undecided",
+                                                 "diverged",
+                                                 "refused",
+                                                 "skip",
+                                                 "no truth"};
 static const double order_slack = 0.3; /* an order seen on finite meshes is not sharper */
 /* so many uncertainties from the truth, a limit is another one */
 static const double surely = 3;
@@ -121,10 +128,10 @@ static verdict_kind compare(const scene_quantity *q, const verdict *v)
         const int wrong = error - doubt > v->tolerance && v->fit.meshes > 3;
         if (!wrong)
             return VERDICT_UNDECIDED;
-        return is_predicted(v) ? VERDICT_AS_PREDICTED : VERDICT_WRONG_LIMIT;
+        return is_predicted(v) ? VERDICT_WRONG_AS_PREDICTED : VERDICT_WRONG_LIMIT;
     }
     if (known && error > surely * doubt + v->truth->uncertainty)
-        return is_predicted(v) ? VERDICT_AS_PREDICTED : VERDICT_BIASED;
+        return is_predicted(v) ? VERDICT_BIASED_AS_PREDICTED : VERDICT_BIASED;
     return order_is_low(q, v) ? VERDICT_LOW_ORDER : VERDICT_PASS;
 }
 

@@ -11,8 +11,9 @@ typedef enum verdict_kind {
     VERDICT_PASS,
     VERDICT_BIASED,      /* within the tolerance, but surely a limit of its own */
     VERDICT_WRONG_LIMIT, /* a limit surely beyond the tolerance */
-    /* either of the two, and the limit is the one derived for the formulation */
-    VERDICT_AS_PREDICTED,
+    /* the same two where the limit is the one derived for the formulation */
+    VERDICT_BIASED_AS_PREDICTED,
+    VERDICT_WRONG_AS_PREDICTED,
     VERDICT_LOW_ORDER,
     VERDICT_UNDECIDED, /* the limit is not known well enough for any of the others */
     VERDICT_DIVERGED,  /* the finest mesh has no value: not converged, singular, crashed */

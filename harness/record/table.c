@@ -346,7 +346,7 @@ void table_verdicts(FILE *to, const sweep *s, const judgement *j, const truths *
         fprintf(to, "interrupted, %d more were not done; ", s->unfinished);
     fprintf(to, "%d verdicts against truths:", j->judged);
     for (int k = 0; k < VERDICT_KINDS; k++)
-        fprintf(to, "%s %d %s", k > 0 ? "," : "", j->by_kind[k], verdict_name((verdict_kind)k));
+        fprintf(to, "%s %d %s", k > 0 ? ";" : "", j->by_kind[k], verdict_name((verdict_kind)k));
     fprintf(to,
             "\n%d of %d stored discrete values agree; %d verdicts differ from the expected one; %d "
             "findings not observed\n",

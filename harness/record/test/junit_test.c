@@ -145,7 +145,8 @@ static void add_verdict(bench *b, verdict_kind kind, int matches)
                    .matches = matches,
                    .finest = NAN};
     v->truth = kind == VERDICT_NO_TRUTH || kind == VERDICT_SKIP ? NULL : &b->row;
-    v->predicted = kind == VERDICT_AS_PREDICTED ? &b->row : NULL;
+    v->predicted =
+        kind == VERDICT_BIASED_AS_PREDICTED || kind == VERDICT_WRONG_AS_PREDICTED ? &b->row : NULL;
     strcpy(v->reason, "a < b & \"c\" > d");
     b->j.by_kind[kind]++;
     b->j.unexpected += !matches;
