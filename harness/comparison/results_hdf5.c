@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "harness/comparison/results_case.h"
-#include "harness/comparison/results_version1.h"
 #include "harness/comparison/table_reader.h"
 #include "harness/truth/checksum.h"
 
@@ -28,7 +27,7 @@ static status read_cases(const char *path, hid_t cases, results *out, fault *f)
     return outcome;
 }
 
-static status read_version2(const char *path, hid_t file, results *out, fault *f)
+static status read_tables(const char *path, hid_t file, results *out, fault *f)
 {
     const hid_t cases = H5Gopen2(file, "cases", H5P_DEFAULT);
     const status outcome =
@@ -48,14 +47,12 @@ static status read_file(const char *path, hid_t file, results *out, fault *f)
         return fault_set(f, STATUS_FAULT,
                          "%.120s: not a file of results; write one with 'beamwork verify -o'",
                          path);
-    if (version == 1)
-        return results_read_version1(path, file, out, f);
-    if (version == SCHEMA_VERSION)
-        return read_version2(path, file, out, f);
-    return fault_set(
-        f, STATUS_FAULT,
-        "%.120s: results of version %ld, this program reads %d; run 'beamwork verify -o' again",
-        path, version, SCHEMA_VERSION);
+    if (version != SCHEMA_VERSION)
+        return fault_set(
+            f, STATUS_FAULT,
+            "%.120s: results of version %ld, this program reads %d; run 'beamwork verify -o' again",
+            path, version, SCHEMA_VERSION);
+    return read_tables(path, file, out, f);
 }
 
 status results_read_hdf5(const char *path, results *out, fault *f)

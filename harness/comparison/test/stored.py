@@ -4,7 +4,6 @@ import shutil
 import subprocess
 
 import h5py
-import numpy as np
 from reference.pack import seal
 
 PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
@@ -13,7 +12,6 @@ WORK = {
     "evaluations": ("strain_evaluations", "stress_evaluations", "inertia_evaluations"),
     "factorisations": ("factorisations",),
 }
-NUMBERS = ("value", "error", "near_zero")
 
 
 def run(*arguments):
@@ -44,38 +42,3 @@ def altered(old, new, change):
 def replace(group, name, rows):
     del group[name]
     group[name] = rows
-
-
-def former_layout(stored, path):
-    """The same run in the layout of version 1: a group for each cell."""
-    with h5py.File(stored, "r") as old, h5py.File(path, "w") as new:
-        new.attrs["schema"] = np.bytes_("beamwork-results")
-        new.attrs["schema_version"] = 1
-        for case, tables in old["cases"].items():
-            for point in tables["points"][()]:
-                group = new.create_group(f"cases/{case}/{point['point'].decode()}")
-                group.attrs["parameters"] = np.bytes_(point["parameters"])
-            for cell in tables["cells"][()]:
-                former_cell(new[f"cases/{case}"], cell, tables["quantities"][()])
-    seal(path)
-    return path
-
-
-def former_cell(of_case, cell, quantities):
-    name = f"{cell['point'].decode()}/{cell['formulation'].decode()}/n{cell['elements']}"
-    group = of_case.create_group(name)
-    group.attrs["elements_per_member"] = cell["elements"]
-    group.attrs["status"] = np.bytes_(cell["status"])
-    for column in sum(WORK.values(), ()):
-        group.attrs[column] = cell[column]
-    own = quantities[
-        np.all(
-            [quantities[key] == cell[key] for key in ("point", "formulation", "elements")], axis=0
-        )
-    ]
-    text = h5py.string_dtype("utf-8", own.dtype["quantity"].itemsize)
-    rows = np.zeros(len(own), [("name", text)] + [(c, "f8") for c in NUMBERS])
-    rows["name"] = own["quantity"]
-    for column in NUMBERS:
-        rows[column] = own[column]
-    group["quantities"] = rows
