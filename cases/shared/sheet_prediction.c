@@ -111,8 +111,7 @@ static status local_stiffness(const section *s, const plane *p, double zp, doubl
                         W[LOCAL * LOCAL] = {0};
     double at[POINTS], weight[POINTS];
     int pivot[STRESSES];
-    if (quadrature_points(POINTS, at, weight, NULL) != STATUS_OK)
-        return STATUS_FAULT;
+    quadrature_points(POINTS, at, weight);
     for (int point = 0; point < POINTS; point++) {
         const double x = at[point], ds = weight[point] * L;
         const double My[STRESSES] = {0, x - 1, x},

@@ -14,16 +14,11 @@
 
 #include "elements/beamw/modes.h"
 #include "elements/math/dense.h"
+#include "elements/math/quadrature.h"
 #include "elements/shared/moving.h"
 
 enum { N = 14, TP = 3, TQ = 10 };
 enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z, PSI }; /* the last: warping amplitude */
-
-/* Gauss's rule: exact for the square of a cubic. */
-static const double gauss_at[BEAMW_GAUSS] = {0.06943184420297371239, 0.33000947820757186760,
-                                             0.66999052179242813240, 0.93056815579702628761};
-static const double gauss_weight[BEAMW_GAUSS] = {0.17392742256872692869, 0.32607257743127307131,
-                                                 0.32607257743127307131, 0.17392742256872692869};
 
 static void functionals_at(const section *c, double l, const beamw_stiffness_fields *s, double x,
                            double field[BEAMW_FIELDS][8])
@@ -50,8 +45,9 @@ void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_ki
 {
     d->lumped = lumped_of(c, features, d->l0 / 2);
     d->share = kind == BEAMW_INERTIA_LUMPED ? 0 : kind == BEAMW_INERTIA_CONSISTENT ? 1 : 0.5;
+    quadrature_points(BEAMW_GAUSS, d->at, d->weight); /* exact for the square of a cubic */
     for (int g = 0; g < BEAMW_GAUSS && d->share > 0; g++) {
-        functionals_at(c, d->l0, fields, gauss_at[g], d->field[g]);
+        functionals_at(c, d->l0, fields, d->at[g], d->field[g]);
         for (int k = 0; k < BEAMW_FIELDS && !(features & FEATURE_WARPING);
              k++) { /* uniform torsion: e7 and e8 follow e2 */
             d->field[g][k][1] += d->field[g][k][6] + d->field[g][k][7];
@@ -161,7 +157,7 @@ static void add_scalar(const configuration *c, double mass, const double row[N])
 
 static void add_point(configuration *c, const element_data *d, int g)
 {
-    const double weight = d->share * 2 * gauss_weight[g], x = gauss_at[g];
+    const double weight = d->share * 2 * d->weight[g], x = d->at[g];
     const double *const chi_x = d->field[g][CHI_X], *const chi_y = d->field[g][CHI_Y],
                         *const chi_z = d->field[g][CHI_Z];
     double row[N] = {0}, j[3];

@@ -148,12 +148,12 @@ static void fibres_at(const section *c, unsigned features, const point_fields *f
     }
 }
 
-status beamw_modified_consistent(const section *c, unsigned features, double l,
-                                 const beamw_twist *t, const beamw_stiffness_fields *fields,
-                                 double Q[BEAMW_MODIFIED][N * N], fault *f)
+void beamw_modified_consistent(const section *c, unsigned features, double l, const beamw_twist *t,
+                               const beamw_stiffness_fields *fields,
+                               double Q[BEAMW_MODIFIED][N * N])
 {
     double x[BEAMW_TWIST_MAX_POINTS], w[BEAMW_TWIST_MAX_POINTS];
-    const int points = beamw_twist_points(t, x, w, f);
+    const int points = beamw_twist_points(t, x, w);
     memset(Q, 0, BEAMW_MODIFIED * sizeof Q[0]);
     for (int p = 0; p < points; p++) {
         point_fields at;
@@ -179,7 +179,6 @@ status beamw_modified_consistent(const section *c, unsigned features, double l,
         add_product(Q[sign < 0 ? 2 : 3], sign * l / 24, psi[0], psi[2]);
         add_product(Q[sign < 0 ? 5 : 4], sign * l / 24, psi[0], psi[1]);
     }
-    return points > 0 ? STATUS_OK : STATUS_FAULT;
 }
 
 /* Q of e alone: T^T Q T, T = (1, hg). */

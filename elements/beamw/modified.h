@@ -13,10 +13,10 @@ enum {
 
 /* From the full shear interpolation: consistent with shear and eccentricity (reference/ERRATA.md), either theory of
  * shear in stability, with the monosymmetric Wagner moments where asked for.  ebar = e + 1/2 y^T Q y, y = (e, z). */
-status beamw_modified_consistent(
+void beamw_modified_consistent(
     const section *c, unsigned features, double l0, const beamw_twist *t,
     const beamw_stiffness_fields *fields,
-    double Q[BEAMW_MODIFIED][BEAMW_MODIFIED_VARIABLES * BEAMW_MODIFIED_VARIABLES], fault *f);
+    double Q[BEAMW_MODIFIED][BEAMW_MODIFIED_VARIABLES * BEAMW_MODIFIED_VARIABLES]);
 
 /* The same with z = hg, as in the unstressed element: Q of e alone. */
 void beamw_modified_reduce(

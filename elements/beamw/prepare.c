@@ -96,10 +96,7 @@ status beamw_prepare_consistent(const element_request *request, beamw_consistent
     beamw_stiffness_of(c, request->length,
                        flexible ? BEAMW_STIFFNESS_COUPLED : BEAMW_STIFFNESS_RIGID, &t, &fields,
                        out->variant.S);
-    const status made =
-        beamw_modified_consistent(c, request->features, request->length, &t, &fields, Q, f);
-    if (made != STATUS_OK)
-        return made;
+    beamw_modified_consistent(c, request->features, request->length, &t, &fields, Q);
     beamw_modified_reduce(&fields, Q, &out->variant);
     beamw_condensed_prepare(c, request->length, flexible, warping, &t, &fields, Q, &out->internal);
     return finish(request, &fields, &out->variant, f);

@@ -84,13 +84,12 @@ beamw_twist_shapes beamw_twist_at(const beamw_twist *t, double x)
 }
 
 int beamw_twist_points(const beamw_twist *t, double x[BEAMW_TWIST_MAX_POINTS],
-                       double w[BEAMW_TWIST_MAX_POINTS], fault *f)
+                       double w[BEAMW_TWIST_MAX_POINTS])
 {
     double point[PANEL_POINTS], weight[PANEL_POINTS], edge[2 * LAYER_PANELS + 2] = {0};
     const int each = t->lambda == 0 ? CUBIC_POINTS : PANEL_POINTS;
     int panels = 1, count = 0;
-    if (quadrature_points(each, point, weight, f) != STATUS_OK)
-        return 0;
+    quadrature_points(each, point, weight);
     if (t->lambda <= 2 * LAYER_PANELS * panel_decay) {
         panels = t->lambda > panel_decay ? (int)ceil(t->lambda / panel_decay) : 1;
         for (int i = 0; i <= panels; i++)

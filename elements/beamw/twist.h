@@ -34,6 +34,6 @@ enum { BEAMW_TWIST_MAX_POINTS = 144 };
 
 /* Points and weights on [0, 1] that integrate products of two of the shapes with polynomials; returns how many. */
 int beamw_twist_points(const beamw_twist *t, double x[BEAMW_TWIST_MAX_POINTS],
-                       double w[BEAMW_TWIST_MAX_POINTS], fault *f);
+                       double w[BEAMW_TWIST_MAX_POINTS]);
 
 #endif

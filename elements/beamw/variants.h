@@ -19,6 +19,7 @@ struct element_data {
     double Q[BEAMW_MODIFIED][8 * 8];                        /* [1/m], symmetric */
     int modified;                                           /* 0: every Q is zero */
     lumped_mass lumped;                                     /* inertia of half the element */
+    double at[BEAMW_GAUSS], weight[BEAMW_GAUSS];            /* of the consistent mass, on [0, 1] */
     double field[BEAMW_GAUSS][BEAMW_FIELDS][BEAMW_STRAINS]; /* functionals of e: see inertia.c */
     double share; /* of the consistent mass: 0 lumped, 1 consistent, 1/2 averaged */
 };

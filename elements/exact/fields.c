@@ -5,6 +5,7 @@
 
 #include "elements/exact/line.h"
 #include "elements/math/dense.h"
+#include "elements/math/quadrature.h"
 
 static void add_square(exact_fields *f, double k, const double row[])
 {
@@ -152,8 +153,8 @@ void exact_fields_prepare(const exact_constants *c, int nodes, exact_fields *f)
     f->free = f->strains + f->warping_bubbles;
     f->all = f->free + EXACT_FIELDS_STRESSES * f->points;
     f->field = 4 * f->points + 1;
-    exact_line_gauss(f->points, f->x, f->w);
-    exact_line_gauss(f->field, f->at, f->weight);
+    quadrature_points(f->points, f->x, f->w);
+    quadrature_points(f->field, f->at, f->weight);
     twist_fields(f);
     energy_of_fields(c, f);
 }

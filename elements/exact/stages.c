@@ -8,6 +8,7 @@
 #include "elements/math/arc.h"
 #include "elements/math/dense.h"
 #include "elements/math/pi.h"
+#include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
 
 /* Without bimoments: amplitudes, if there are any, that nothing depends on. */
@@ -93,7 +94,7 @@ status exact_stages_prepare(const element_request *request, int count, exact_sta
     const double none[3] = {0};
     exact_strain_prepare(2, 1, request->length, request->curvature, none, EXACT_MEASURE_EIGHTH,
                          &out->line);
-    exact_line_gauss(count, point, out->w);
+    quadrature_points(count, point, out->w);
     const double turn = vec3_norm(request->curvature) * request->length;
     for (int k = 0; k <= count; k++) {
         at[k] = (1 - cos(PI * k / count)) /

@@ -8,6 +8,7 @@
 #include "elements/exact/point.h"
 #include "elements/math/arc.h"
 #include "elements/math/dense.h"
+#include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
 
 /* What the nodes' states say, once per evaluation. */
@@ -218,7 +219,7 @@ void exact_strain_prepare(int nodes_count, int points, double l0, const double c
     line->points = points;
     line->l0 = l0;
     line->rotation = rotation;
-    exact_line_gauss(points, x, w);
+    quadrature_points(points, x, w);
     for (int k = 0; k < nodes_count; k++)
         at[k] = (double)k / (nodes_count - 1);
     for (int g = 0; g < points; g++)

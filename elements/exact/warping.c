@@ -5,6 +5,7 @@
 
 #include "elements/exact/line.h"
 #include "elements/math/dense.h"
+#include "elements/math/quadrature.h"
 
 enum {
     STAGES = EXACT_WARPING_MAX_STAGES,
@@ -59,7 +60,7 @@ static void graded_points(double lambda, double x[], double rest[], double w[])
         at[i] = step[i] * thickness;
         at[INTERVALS - i] = at[i]; /* from the other end */
     }
-    exact_line_gauss(ORDER, gauss, weight);
+    quadrature_points(ORDER, gauss, weight);
     for (int i = 0; i < INTERVALS; i++)
         for (int g = 0; g < ORDER; g++) {
             const int k = i * ORDER + g, middle = INTERVALS / 2, from_q = i > middle;

@@ -5,10 +5,20 @@
 
 #include <math.h>
 
+#include "elements/math/quadrature.h"
+
 enum { GAUSS = 3, ROOT = 0 };
 
-static const double gauss_point[GAUSS] = {-0.77459666924148337704, 0, 0.77459666924148337704};
-static const double gauss_weight[GAUSS] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
+typedef struct gauss_rule {
+    double x[GAUSS], w[GAUSS]; /* on [0, 1] */
+} gauss_rule;
+
+static gauss_rule rule_of_three(void)
+{
+    gauss_rule rule;
+    quadrature_points(GAUSS, rule.x, rule.w);
+    return rule;
+}
 
 static double wall_length(const section_spec *s, int w)
 {
@@ -16,21 +26,21 @@ static double wall_length(const section_spec *s, int w)
     return hypot(q[0] - p[0], q[1] - p[1]);
 }
 
-/* Value at a Gauss point of a function that is linear along the wall, from its values at the points. */
-static double along(const section_spec *s, int w, const double value[], int g)
+/* Value at x in [0, 1] of a function that is linear along the wall, from its values at the points. */
+static double along(const section_spec *s, int w, const double value[], double x)
 {
-    const double x = (1 + gauss_point[g]) / 2;
     return (1 - x) * value[s->wall[w].from] + x * value[s->wall[w].to];
 }
 
 /* int f g dA over the mid-lines; f, g given at the points. */
 static double product(const section_spec *s, const double f[], const double g[])
 {
+    const gauss_rule rule = rule_of_three();
     double sum = 0;
     for (int w = 0; w < s->walls; w++)
         for (int k = 0; k < GAUSS; k++)
-            sum += gauss_weight[k] / 2 * wall_length(s, w) * s->wall[w].thickness *
-                   along(s, w, f, k) * along(s, w, g, k);
+            sum += rule.w[k] * wall_length(s, w) * s->wall[w].thickness *
+                   along(s, w, f, rule.x[k]) * along(s, w, g, rule.x[k]);
     return sum;
 }
 
@@ -147,12 +157,13 @@ static void second_moments(const section_spec *s, const double y[], const double
 static void wagner_constants(const section_spec *s, const double y[], const double z[],
                              section *out)
 {
+    const gauss_rule rule = rule_of_three();
     for (int w = 0; w < s->walls; w++) {
         const wall_frame n = frame_of(s, w, y, z);
         const double t = s->wall[w].thickness, bend = s->thickness_terms ? t * t * t / 12 : 0;
         for (int k = 0; k < GAUSS; k++) {
-            const double ds = gauss_weight[k] / 2 * n.length, yk = along(s, w, y, k),
-                         zk = along(s, w, z, k), square = yk * yk + zk * zk;
+            const double ds = rule.w[k] * n.length, yk = along(s, w, y, rule.x[k]),
+                         zk = along(s, w, z, rule.x[k]), square = yk * yk + zk * zk;
             out->wagner_y +=
                 ds * (t * yk * square + bend * (yk * (1 + 2 * n.ny * n.ny) + 2 * zk * n.ny * n.nz));
             out->wagner_z +=
@@ -166,12 +177,13 @@ static void wagner_constants(const section_spec *s, const double y[], const doub
 static void shear_flow(const section_spec *s, const tree *t, const double *value[3],
                        const double pole[2], double sum[9])
 {
+    const gauss_rule rule = rule_of_three();
     double beyond[SECTION_MAX_POINTS][3] = {{0}};
     for (int k = s->walls - 1; k >= 0; k--) {
         const int w = t->wall[k], near = t->near[k], far = t->far[k];
         const double h = s->wall[w].thickness, length = wall_length(s, w);
         for (int g = 0; g < GAUSS; g++) {
-            const double x = (1 + gauss_point[g]) / 2, ds = gauss_weight[g] / 2 * length;
+            const double x = rule.x[g], ds = rule.w[g] * length;
             double S[3];
             for (int i = 0; i < 3; i++)
                 S[i] =
@@ -187,13 +199,13 @@ static void shear_flow(const section_spec *s, const tree *t, const double *value
             continue;
         const wall_frame n = frame_of(s, w, value[0], value[1]);
         for (int g = 0; g < GAUSS; g++) {
-            const double yk = along(s, w, value[0], g), zk = along(s, w, value[1], g);
+            const double yk = along(s, w, value[0], rule.x[g]),
+                         zk = along(s, w, value[1], rule.x[g]);
             const double r = (yk - pole[0]) * n.ty + (zk - pole[1]) * n.tz,
                          slope[3] = {n.ny, n.nz, -r};
             for (int i = 0; i < 3; i++)
                 for (int j = 0; j < 3; j++)
-                    sum[3 * i + j] +=
-                        gauss_weight[g] / 2 * n.length * pow(h, 5) / 120 * slope[i] * slope[j];
+                    sum[3 * i + j] += rule.w[g] * n.length * pow(h, 5) / 120 * slope[i] * slope[j];
         }
     }
 }
@@ -214,13 +226,14 @@ static double principal_angle(double Iyy, double Izz, double Iyz)
 static double warping_constant(const section_spec *s, const double y[], const double z[],
                                const double omega[], const double pole[2])
 {
+    const gauss_rule rule = rule_of_three();
     double Iw = product(s, omega, omega);
     for (int w = 0; w < s->walls && s->thickness_terms; w++) {
         const wall_frame n = frame_of(s, w, y, z);
         for (int k = 0; k < GAUSS; k++) {
-            const double r =
-                (along(s, w, y, k) - pole[0]) * n.ty + (along(s, w, z, k) - pole[1]) * n.tz;
-            Iw += gauss_weight[k] / 2 * n.length * pow(s->wall[w].thickness, 3) / 12 * r * r;
+            const double r = (along(s, w, y, rule.x[k]) - pole[0]) * n.ty +
+                             (along(s, w, z, rule.x[k]) - pole[1]) * n.tz;
+            Iw += rule.w[k] * n.length * pow(s->wall[w].thickness, 3) / 12 * r * r;
         }
     }
     return Iw;

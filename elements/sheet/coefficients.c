@@ -78,19 +78,15 @@ static void add_bending(const element_request *r, double x, double ds, const she
     }
 }
 
-static status add_torsion(const element_request *r,
-                          const double t[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1], sums *out,
-                          fault *f)
+static void add_torsion(const element_request *r,
+                        const double t[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1], sums *out)
 {
     const section *c = r->section;
     const double L = r->length, GJ = c->shear_modulus * c->It,
                  EIw = sheet_fields_warp(r) ? c->young * c->Iw : 0;
     const double kx = r->features & FEATURE_CURVATURE ? r->curvature[0] : 0;
     sheet_torsion_integrals integral;
-    const status made =
-        sheet_torsion_integrate(EIw > 0 ? L * sqrt(GJ / EIw) : INFINITY, t, &integral, f);
-    if (made != STATUS_OK)
-        return made;
+    sheet_torsion_integrate(EIw > 0 ? L * sqrt(GJ / EIw) : INFINITY, t, &integral);
     for (int k = 0; k < SHEET_TORSION_MODES; k++) {
         double(*b)[V] = out->b[mode[k].stress];
         for (int l = 0; l < SHEET_TORSION_MODES; l++)
@@ -104,7 +100,6 @@ static status add_torsion(const element_request *r,
     out->P0[WP][WP] = out->P0[WQ][WQ] = EIw / (2 * L) * integral.same;
     out->P0[WP][WQ] = EIw / L * integral.other;
     out->P0[ONE][WP] = out->P0[ONE][WQ] = -kx * EIw / L * (integral.same + integral.other);
-    return STATUS_OK;
 }
 
 /* Amplitudes that are kept although nothing warps settle at Wp = Wq = px/L: the energy of N Eq. 34 in W - px/L alone. */
@@ -164,15 +159,12 @@ status sheet_potential_prepare(const element_request *r, int printed, sheet_pote
         return fault_set(
             f, STATUS_REFUSED,
             "section: It = %g m^4; the third-order element needs a torsional stiffness", c->It);
-    status made = quadrature_points(POINTS, x, w, f);
-    for (int i = 0; i < POINTS && made == STATUS_OK; i++) {
+    quadrature_points(POINTS, x, w);
+    for (int i = 0; i < POINTS; i++) {
         const sheet_fields at = sheet_fields_at(L, x[i], 0, 0, sheet_fields_warp(r));
         add_bending(r, x[i], w[i] * L, &at, &total);
     }
-    if (made == STATUS_OK)
-        made = add_torsion(r, torque, &total, f);
-    if (made != STATUS_OK)
-        return made;
+    add_torsion(r, torque, &total);
     if ((r->features & FEATURE_WARPING) && !sheet_fields_warp(r))
         add_idle_amplitudes(r, &total);
     total.A[FX][FX][ONE][ONE] += L / (c->young * c->A);

@@ -23,8 +23,8 @@ typedef struct sheet_torsion_integrals {
 } sheet_torsion_integrals;
 
 /* Torque modes t_k(x) = sum_i t[k][i] x^i, whole numbers.  lambda INFINITY: nothing warps, the twist of phi_x is uniform. */
-status sheet_torsion_integrate(double lambda,
-                               const double t[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1],
-                               sheet_torsion_integrals *out, fault *f);
+void sheet_torsion_integrate(double lambda,
+                             const double t[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1],
+                             sheet_torsion_integrals *out);
 
 #endif

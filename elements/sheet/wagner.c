@@ -20,14 +20,14 @@ status sheet_wagner_prepare(const element_request *request, sheet_wagner_term *o
                          "initial torsion %g 1/m: the Wagner torque is known without it only; "
                          "leave one of them out",
                          request->curvature[0]);
-    const status made = quadrature_points(SHEET_WAGNER_POINTS, x, w, f);
-    for (int i = 0; made == STATUS_OK && i < SHEET_WAGNER_POINTS; i++) {
+    quadrature_points(SHEET_WAGNER_POINTS, x, w);
+    for (int i = 0; i < SHEET_WAGNER_POINTS; i++) {
         out->weight[i] = stiffness * w[i] * l0;
         out->rate[i][0] = 6 * x[i] * (1 - x[i]) / (l0 * l0);
         out->rate[i][1] = (1 - x[i]) * (1 - 3 * x[i]) / (l0 * l0);
         out->rate[i][2] = x[i] * (3 * x[i] - 2) / (l0 * l0);
     }
-    return made;
+    return STATUS_OK;
 }
 
 void sheet_wagner_add(const sheet_wagner_term *w, const double e[SHEET_STRAINS], double *energy,

@@ -101,7 +101,7 @@ static void area_moments(const section_spec *s, double sum[3][3])
 {
     enum { N = 4 };
     double x[N], w[N];
-    quadrature_points(N, x, w, NULL);
+    quadrature_points(N, x, w);
     for (int i = 0; i < 9; i++)
         sum[i / 3][i % 3] = 0;
     for (int k = 0; k < s->walls; k++) {
@@ -172,7 +172,7 @@ static void wagner_torque(void)
     enum { N = 4 };
     const double h = 0.1, t = 0.0007;
     double x[N], w[N], mean = 0, variance = 0;
-    quadrature_points(N, x, w, NULL);
+    quadrature_points(N, x, w);
     for (int i = 0; i < N; i++)
         mean += w[i] * pow((x[i] - 0.5) * h, 2);
     for (int i = 0; i < N; i++)

@@ -110,10 +110,9 @@ static void uniform_torsion(void)
         {1}, {-1, 4, -5, 2}, {0, 2, -4, 2}, {0, 0, -2, 2}, {0, 0, -1, 2}};
     sheet_torsion_integrals limit, near[2];
     double error[2] = {0};
-    gsl_test(sheet_torsion_integrate(INFINITY, torque, &limit, NULL) != STATUS_OK,
-             "uniform torsion");
+    sheet_torsion_integrate(INFINITY, torque, &limit);
     for (int n = 0; n < 2; n++) {
-        sheet_torsion_integrate(n == 0 ? 1e6 : 1e8, torque, &near[n], NULL);
+        sheet_torsion_integrate(n == 0 ? 1e6 : 1e8, torque, &near[n]);
         for (int k = 0; k < SHEET_TORSION_MODES; k++)
             for (int l = 0; l < SHEET_TORSION_MODES; l++)
                 error[n] = fmax(error[n], fabs(near[n].compliance[k][l] - limit.compliance[k][l]));

@@ -11,6 +11,7 @@
 
 #include "elements/exact/line.h"
 #include "elements/exact/warping.h"
+#include "elements/math/quadrature.h"
 #include "elements/test/random.h"
 #include "elements/test/worst.h"
 
@@ -67,7 +68,7 @@ static double departure(const exact_constants *c, const amplitude *a)
     const int m = a->stages + 2;
     double x[MOST], w[MOST], mean[MOST], z[EXACT_WARPING_MAX], exact[EXACT_WARPING_MAX],
         S[EXACT_WARPING_MAX * EXACT_WARPING_MAX], size = 0, worst = 0;
-    exact_line_gauss(a->stages, x, w);
+    quadrature_points(a->stages, x, w);
     layer_means(a, x, w, mean);
     for (int i = 0; i < a->stages; i++) {
         const double T = -c->GJ * mean[i] - c->EIw * polynomial(a, x[i], 2);

@@ -82,7 +82,7 @@ static void along_arc(const subject *s, double x, const double strain[3], double
     double t[POINTS], w[POINTS], q[4];
     const double direction[3] = {1 + strain[0], strain[1], strain[2]};
     memset(r, 0, 3 * sizeof *r);
-    quadrature_points(POINTS, t, w, NULL);
+    quadrature_points(POINTS, t, w);
     for (int g = 0; g <= POINTS; g++) {
         const double at = g < POINTS ? x * t[g] : x,
                      part[3] = {s->turn[0] * at, s->turn[1] * at, s->turn[2] * at};
