@@ -37,7 +37,7 @@ ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
-.PHONY: help all verify test newton stress bench bench-check bench-mechanisms bench-elements causes mutants layers asan tidy format format-check check clean report truths FORCE
+.PHONY: help all verify test tests newton stress bench bench-check bench-mechanisms bench-elements causes mutants layers asan tidy format format-check check clean report truths FORCE
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -49,7 +49,9 @@ help: ## this list
 verify: all ## judge every formulation on every case against the stored truths
 	@$(PROGRAM) verify --shapes -o $(BUILD)/results.h5 --json $(BUILD)/verify.json --junit $(BUILD)/junit.xml --markdown $(BUILD)/verify.md $(VERIFY)
 
-test: all needs-test $(TESTS) layers ## run all tests; ends in "N passed, M failed" (and ", K skipped")
+tests: all $(TESTS) ## build what make test runs
+
+test: tests needs-test layers ## run all tests; ends in "N passed, M failed" (and ", K skipped")
 	@BEAMWORK="$(PROGRAM)" BEAMWORK_TRUTHS="$(TRUTHS)" BEAMWORK_REFERENCE="$(CURDIR)/reference" harness/tools/run_tests.sh $(BUILD)/logs $(TESTS) -- $(sort $(PYTHON_TESTS))
 
 all: $(PROGRAM) $(TRUTHS) ## build the program, the library and the packed truths

@@ -44,7 +44,11 @@ static status build(const double value[], scene *s, fault *f)
 }
 
 static const parameter_type parameter[] = {{0}};
-static const case_type free_beam = {"free_beam", "a case of the test", "none", parameter, build};
+static const case_type free_beam = {.name = "free_beam",
+                                    .summary = "a case of the test",
+                                    .source = "none",
+                                    .parameters = parameter,
+                                    .build = build};
 
 /* 0: bending about the weak axis, then about the strong one, then the second of each. */
 static double exact(int i)

@@ -139,7 +139,11 @@ static status build_with_body(const double value[], scene *s, fault *f)
  * coordinates. */
 static void reference_point(void)
 {
-    static const case_type type = {"with_body", "", "", with_body_parameters, build_with_body};
+    static const case_type type = {.name = "with_body",
+                                   .summary = "",
+                                   .source = "",
+                                   .parameters = with_body_parameters,
+                                   .build = build_with_body};
     static const char *const each[] = {"beamw_consistent", "beamw_consistent:mass=lumped",
                                        "geometrically_exact"};
     const char *const attached[] = {"body=1", NULL};

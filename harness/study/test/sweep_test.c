@@ -309,7 +309,11 @@ static void cells_share_a_scene(void)
 {
     static const parameter_type planner[] = {
         {"planner", "1", 0, 0, 1e12, NULL, "the process that may build the scene"}, {0}};
-    static const case_type once = {"once", "a case of the test", "none", planner, build_in_plan};
+    static const case_type once = {.name = "once",
+                                   .summary = "a case of the test",
+                                   .source = "none",
+                                   .parameters = planner,
+                                   .build = build_in_plan};
     static const int mesh[] = {1, 2, 3};
     const double value[CASE_MAX_PARAMETERS] = {(double)getpid()};
     const formulation chosen = runner();
