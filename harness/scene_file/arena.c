@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BLOCK = 1 << 16, ALIGNMENT = 16 };
+enum { BLOCK = 1 << 10, ALIGNMENT = 16 };
 /* A file of the largest size needs less. */
 static const size_t most = (size_t)1 << 28;
 

@@ -135,6 +135,10 @@ void build_scene(const document_node *root, const scope *names, arena *a, mistak
     fault f = {""};
     b.names = unroll_let(document_find(root, "let"), names, a, m);
     list_entries(&b);
+    if (a->failed) {
+        m->out_of_memory = 1;
+        return;
+    }
     if (b.list[LIST_MEMBERS].count == 0 && !b.list[LIST_MEMBERS].incomplete)
         document_mistake(m, root, 0,
                          "the scene has no members; add members: {NAME: {from, to, section, y}}");

@@ -112,9 +112,9 @@ static document_node *read_text(reader *r, const yaml_event_t *event)
 
 static int add_entry(reader *r, document_node *n, document_node *key, document_node *item)
 {
-    n->item = arena_grow(r->arena, n->item, n->count, sizeof *n->item);
+    n->item = arena_grow(r->arena, n->item, n->count, sizeof(document_node *));
     if (key != NULL)
-        n->key = arena_grow(r->arena, n->key, n->count, sizeof *n->key);
+        n->key = arena_grow(r->arena, n->key, n->count, sizeof(document_node *));
     if (n->item == NULL || (key != NULL && n->key == NULL)) {
         r->mistakes->out_of_memory = 1;
         return 0;

@@ -125,13 +125,21 @@ void file_truths_check(const scene_file *file, const scene *s, const double valu
     arena_free(&a);
 }
 
-static int is_known_row(const truths *t, const case_type *type, const double value[],
+static int same_point(const scene_file *file, const double a[], const double b[])
+{
+    for (int i = 0; i < file->parameters; i++)
+        if (a[i] != b[i])
+            return 0;
+    return 1;
+}
+
+static int is_known_row(const scene_file *file, const truths *t, const double value[],
                         const file_truth *one)
 {
     for (int i = 0; i < t->rows; i++)
-        if (t->row[i].type == type && strcmp(t->row[i].quantity, one->quantity) == 0 &&
+        if (t->row[i].type == &file->type && strcmp(t->row[i].quantity, one->quantity) == 0 &&
             strcmp(t->row[i].kind, one->kind) == 0 &&
-            memcmp(t->row[i].parameter, value, sizeof t->row[i].parameter) == 0 &&
+            same_point(file, t->row[i].parameter, value) &&
             (isnan(one->at) ? !t->row[i].on_curve : t->row[i].at == one->at))
             return 1;
     return 0;
@@ -179,12 +187,13 @@ status scene_file_add_truths(const scene_file *file, const double value[], truth
         const file_truth one = read_one(file, &those, &s, point);
         m.out_of_memory |= a.failed;
         outcome = mistakes_status(&m, f);
-        if (outcome == STATUS_OK && one.holds && !is_known_row(t, &file->type, point, &one))
+        if (outcome == STATUS_OK && one.holds && !is_known_row(file, t, point, &one))
             outcome = add_row(file, point, &one, t, f);
     }
+    m.out_of_memory |= a.failed;
     scene_free(&s);
     arena_free(&a);
-    return outcome;
+    return outcome == STATUS_OK ? mistakes_status(&m, f) : outcome;
 }
 
 status scene_file_add_all_truths(const scene_file *file, truths *t, fault *f)
@@ -203,6 +212,7 @@ status scene_file_add_all_truths(const scene_file *file, truths *t, fault *f)
         if (!visit_point(file, &those, point))
             outcome = scene_file_add_truths(file, point, t, f);
     }
+    m.out_of_memory |= a.failed;
     arena_free(&a);
-    return outcome;
+    return outcome == STATUS_OK ? mistakes_status(&m, f) : outcome;
 }

@@ -35,7 +35,6 @@ static json_t *value_of(const scene_key *k)
     switch (k->kind) {
     case KEY_TEXT:
     case KEY_NAME:
-        return scalar();
     case KEY_NUMBER:
         return scalar();
     case KEY_WORD:

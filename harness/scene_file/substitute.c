@@ -54,9 +54,7 @@ static const char *substitute_text(const document_node *n, const scope *names, a
         char value[64];
         if (length > 0 && (!braces || at[2 + length] == '}') &&
             value_text(n, (int)(at - n->text), at + 1 + braces, length, names, m, value)) {
-            const size_t size = strlen(value);
-            memcpy(text + used, value, size);
-            used += size;
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s", value);
             at += 1 + length + 2 * (size_t)braces;
         } else {
             text[used++] = *at++;
@@ -79,9 +77,9 @@ const document_node *substitute_node(const document_node *n, const scope *names,
         copy->inset = strcmp(n->text, copy->text != NULL ? copy->text : "") == 0 ? n->inset : -1;
         return copy->text != NULL ? copy : NULL;
     }
-    copy->item = arena_take(a, (size_t)n->count * sizeof *copy->item);
+    copy->item = arena_take(a, (size_t)n->count * sizeof(document_node *));
     if (n->key != NULL)
-        copy->key = arena_take(a, (size_t)n->count * sizeof *copy->key);
+        copy->key = arena_take(a, (size_t)n->count * sizeof(document_node *));
     if (copy->item == NULL || (n->key != NULL && copy->key == NULL))
         return NULL;
     for (int i = 0; i < n->count; i++) {

@@ -33,6 +33,7 @@ static void add(unroller *u, const scope *names)
     if (u->list == NULL || value == NULL || (u->key != NULL && name == NULL)) {
         u->mistakes->out_of_memory |= u->arena->failed;
         u->failed = 1;
+        u->count = 0;
         return;
     }
     u->list[u->count++] =

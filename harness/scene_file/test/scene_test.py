@@ -150,6 +150,21 @@ class SceneTest(ProgramTest):
         self.refused(2, "outside its range", *where, "--set", "width=100")
         self.refused(2, "did you mean 'width'", *where, "--set", "wdth=0.1")
 
+    def test_truths_of_a_point(self):
+        """A truth that names parameters holds there only, and `verify` goes there."""
+        path = self.scene(FIRST.replace("width: 50e-3", "width: width").replace(
+            "sections:", "parameters:\n  width: {value: 50e-3, unit: m}\nsections:") +
+            "truths:\n  - {quantity: tip_uy, value: 1.5238e-3, kind: published, uncertainty: 1e-6,"
+            " source: book, parameters: {width: 0.1}}\n")
+        where = ("solve", "--scene", path, "-f", "collocation", "-n", 1)
+        here = self.record(*where)["quantities"][1]
+        there = self.record(*where, "--set", "width=0.1")["quantities"][1]
+        self.assertEqual((here["quantity"], here["error"]), ("tip_uy", None))
+        self.assertAlmostEqual(there["error"], 0, delta=1e-3)
+        done = self.answered("verify", "--scene", path, "-f", "collocation")
+        self.assertIn("width=0.1", done.stdout)
+        self.assertIn("1 verdicts against truths: 1 pass", done.stdout)
+
     def test_refusals(self):
         """One line where it is not the file's content."""
         self.refused(4, "cannot be read", "solve", "--scene", self.folder / "none.yaml", "-f",

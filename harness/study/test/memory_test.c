@@ -9,6 +9,7 @@
 
 #include "harness/catalogue/registry.h"
 #include "harness/record/store.h"
+#include "harness/scene_file/scene_file.h"
 #include "harness/study/plan.h"
 
 void *__real_malloc(size_t size);
@@ -153,6 +154,31 @@ static status read_truths(const void *what, double *value, fault *f)
     return outcome;
 }
 
+/* A scene file, its scene and its truths: how many of them, and where its nodes are. */
+static status read_scene(const void *what, double *value, fault *f)
+{
+    scene_file *file = NULL;
+    mistakes m;
+    scene s;
+    truths t = {0};
+    double parameter[CASE_MAX_PARAMETERS] = {0};
+    status outcome = scene_file_read(what, &file, &m, f);
+    if (outcome != STATUS_OK)
+        return outcome;
+    parameter_defaults(scene_file_case(file)->parameters, parameter);
+    scene_init(&s, "scene");
+    outcome = case_build(scene_file_case(file), parameter, &s, f);
+    if (outcome == STATUS_OK)
+        outcome = scene_file_add_all_truths(file, &t, f);
+    *value = t.rows;
+    for (int i = 0; outcome == STATUS_OK && i < s.nodes; i++)
+        *value += fabs(s.node[i].position[0]) + 3 * fabs(s.node[i].position[1]);
+    truths_free(&t);
+    scene_free(&s);
+    scene_file_free(file);
+    return outcome;
+}
+
 static status write_results(const void *what, double *value, fault *f)
 {
     static const int mesh[] = {1, 2};
@@ -196,6 +222,8 @@ int main(void)
         snprintf(name, sizeof name, "%s with %s", choice[i].case_name, choice[i].formulation);
         exhaust(name, solve, &choice[i], 120);
     }
+    exhaust("guide", read_scene, "cases/examples/leaf_spring_guide.yaml", 400);
+    exhaust("parts", read_scene, "cases/examples/folded_leaf_stage.yaml", 400);
     exhaust("truths", read_truths, truths_path, 40);
     snprintf(path, sizeof path, "/tmp/beamwork_memory_%ld.h5", (long)getpid());
     exhaust("results", write_results, path, 200);
