@@ -6,6 +6,8 @@ w' = w_s' + (y - ys) phi' of the fibres (Vlasov, Thin-walled Elastic Beams, 1961
 """
 from mpmath import eigsy, matrix, mp, mpf, pi, sqrt
 
+from reference.derive import defaults
+
 mp.dps = 40
 E, L = mpf("2.1e11"), mpf("1.2")
 G = E / mpf("2.6")
@@ -55,7 +57,7 @@ def least_factors(warping, stress):
 def rows():
     for load in ("centroid", "shear_centre", "leg", "moment"):
         for warping in (1, 0):
-            given = {**({} if load == "centroid" else {"load": load}), **({} if warping else {"warping": 0})}
+            at = defaults.differing("angle_column", load=load, warping=warping)
             name, unit = ("critical_moment", "N m") if load == "moment" else ("critical_load", "N")
             for i, value in enumerate(least_factors(warping, stress_of(load))):
-                yield "angle_column", ";".join(f"{k}={v}" for k, v in given.items()), f"{name}_{i + 1}", value, unit
+                yield "angle_column", at, f"{name}_{i + 1}", value, unit

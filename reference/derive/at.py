@@ -8,98 +8,88 @@ import pathlib
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+from reference.derive import defaults  # noqa: E402
+
+SIZES = ("height", "width", "web_thickness")  # of the C-shaped section
 
 
 class NotDerivable(Exception):
     """The line for the user."""
 
 
-def number(given, name, default):
-    return float(given.get(name, default))
+def numbers(given):
+    return {k: defaults.value(v) for k, v in given.items()}
 
 
-def columns(given):
-    from mpmath import mpf
+def channel_section(case, given):
+    """(section, all parameters) of a case with the C-shaped section."""
     from reference.derive import column
-    sizes = {k: given[k] for k in ("height", "width", "web_thickness") if k in given}
-    printed = given.get("section_data") == "printed"
-    if printed and sizes:
+    if given.get("section_data") == "printed" and any(name in given for name in SIZES):
         raise NotDerivable("printed section data belong to the default sizes")
-    s = column.channel_data(printed, **sizes)
-    s.E, s.G, s.RHO = mpf(given.get("young", s.E)), mpf(given.get("shear_modulus", s.G)), mpf(given.get("density", s.RHO))
-    return column, s, mpf(given.get("length", "6")), given.get("shear_stability") == "haringx"
+    return column.channel_data(**given), defaults.decimals(case, given)
 
 
 def c_column(given):
-    column, s, length, haringx = columns(given)
-    shear = given.get("shear", "1") == "1"
-    yield "buckling_load", column.buckling_load(s, length, shear, haringx), "N"
-    for i, value in enumerate(column.frequencies(s, length, shear, given.get("rotary_inertia", "1") == "1", 13)):
+    from reference.derive import column
+    s, at = channel_section("c_column", given)
+    yield "buckling_load", column.buckling_load(s, at["length"], at["shear"], at["shear_stability"] == "haringx"), "N"
+    for i, value in enumerate(column.frequencies(s, at["length"], at["shear"], at["rotary_inertia"], 13)):
         yield f"frequency_{i + 1}", value, "Hz"
 
 
 def moment_buckling(given):
-    column, s, length, haringx = columns(given)
-    low, high = column.buckling_moments(s, length, given.get("shear", "0") == "1", haringx, given.get("wagner_moments", "1") == "1")
+    from reference.derive import column
+    s, at = channel_section("moment_buckling", given)
+    low, high = column.buckling_moments(s, at["length"], at["shear"], at["shear_stability"] == "haringx", at["wagner_moments"])
     yield "buckling_moment_negative", low, "N m"
     yield "buckling_moment_positive", high, "N m"
 
 
 def unsymmetric_column(given):
-    from mpmath import mpf
     from reference.derive import column
-    s, length, shear, haringx = column.branched(), mpf(given.get("length", "3")), given.get("shear", "1") == "1", given.get("shear_stability") == "haringx"
-    yield "buckling_load", column.buckling_load(s, length, shear, haringx), "N"
-    for i, value in enumerate(column.frequencies(s, length, shear, given.get("rotary_inertia", "1") == "1", 6, mpf(given.get("axial_load", "5000")), haringx)):
-        yield f"frequency_{i + 1}", value, "Hz"
+    yield from column.loaded(column.branched(), defaults.decimals("unsymmetric_column", given))
 
 
 def shear_column(given):
-    from mpmath import mpf
     from reference.derive import linear_buckling
-    load = linear_buckling.haringx if given.get("shear_stability") == "haringx" else linear_buckling.engesser
-    yield "buckling_load", load(mpf(given.get("length", "1")), mpf(given.get("shear_modulus", "27e9")), mpf(given.get("young", "70e9")), mpf(given.get("side", "0.02"))), "N"
+    yield "buckling_load", linear_buckling.column_load(given), "N"
 
 
 def warping_torsion(given):
-    from mpmath import mpf, tanh
-    x = mpf(given.get("kL", "1"))
-    if given.get("ends") == "fixed":
-        x = x / 2
-    yield "twist_ratio", 1 - tanh(x) / x, "1"
+    from reference.derive import torsion
+    at = defaults.decimals("warping_torsion", given)
+    yield "twist_ratio", torsion.twist_ratio(at["kL"], at["ends"]), "1"
 
 
 def sheet_case(case, function):
     def solve(given):
         from reference.derive import sheets
-        values = {k: v if k == "moment_convention" else float(v) for k, v in given.items()}
-        for row in getattr(sheets, function)(**values):
+        for row in getattr(sheets, function)(**numbers(given)):
             if row[0] == case:
                 yield row[2:]
     return solve
 
 
-def cantilever(family, *arguments):
-    """Families of cantilevers.py: one tuple of values for each argument, (parameter, default)."""
+def cantilever(family, *names):
+    """Families of cantilevers.py, each of a case of that name: one tuple of values for each parameter."""
     def solve(given):
         from reference.derive import cantilevers
-        values = [(given.get(name, default) if isinstance(default, str) else number(given, name, default),) for name, default in arguments]
-        for row in getattr(cantilevers, family)(*values):
+        at = {**defaults.values(family), **numbers(given)}
+        for row in getattr(cantilevers, family)(*((at[name],) for name in names)):
             yield row[2:]
     return solve
 
 
 def spherical_joint(given):
     from reference.derive import joint
-    values = {k: v if k == "fold_warping" else int(v) if k == "steps" else float(v) for k, v in given.items()}
-    undeformed, curve = joint.stiffness_curve(**values)
+    undeformed, curve = joint.stiffness_curve(**numbers(given))
     for name, value in (("max", max(curve)), ("min", min(curve)), ("undeformed", undeformed)):
         yield f"support_stiffness_{name}", value, "N/m", joint.RELATIVE
 
 
 def hexapod(given):
     from reference.derive import hexapod as legs
-    curve = legs.stiffness_curve(**{k: v if k == "fold_warping" else int(v) if k == "steps" else float(v) for k, v in given.items()})
+    curve = legs.stiffness_curve(**numbers(given))
     for i, (stiffness, _) in enumerate(curve):
         yield f"support_stiffness_{i + 1}", stiffness, "N/m", legs.RELATIVE
     yield "crank_angle", curve[-1][1], "rad", legs.RELATIVE
@@ -107,12 +97,12 @@ def hexapod(given):
 
 def cross_flexure(given):
     from reference.derive import cross_flexure as hinge
-    yield from hinge.quantities(given)
+    yield from hinge.quantities(numbers(given))
 
 
 def rotating_cantilever(given):
     from reference.derive import rotating
-    for row in rotating.across(number(given, "omega_star", 6), number(given, "slenderness", 1000), "", number(given, "hub_radius", 0)):
+    for row in rotating.across(**numbers(given)):
         yield row[2:]
 
 
@@ -132,12 +122,12 @@ SOLVERS = {
     "spherical_joint": (("length", "width", "thickness", "young", "poisson", "fold_angle", "radius", "azimuth", "tilt", "steps", "fold_warping", "wagner"), spherical_joint, "joint"),
     "hexapod": (HEXAPOD, hexapod, "hexapod"),
     "cross_flexure": (("length", "width", "thickness", "pitch", "half_angle", "young", "poisson", "angle", "rotation", "moment_convention"), cross_flexure, "cross_flexure"),
-    "elastica": (("load",), cantilever("elastica", ("load", 1)), "cantilevers"),
-    "shear_elastica": (("GA",), cantilever("shear_elastica", ("GA", 500)), "cantilevers"),
-    "geradin_cardona": (("load",), cantilever("geradin_cardona", ("load", 600e3)), "cantilevers"),
-    "bend_45": (("force", "torsion"), cantilever("bend_45", ("torsion", "exact"), ("force", 600)), "cantilevers"),
-    "roll_up": (("turns",), cantilever("roll_up", ("turns", 1)), "cantilevers"),
-    "wagner_torsion": (("angle",), cantilever("wagner_torsion", ("angle", 1)), "cantilevers"),
+    "elastica": (("load",), cantilever("elastica", "load"), "cantilevers"),
+    "shear_elastica": (("GA",), cantilever("shear_elastica", "GA"), "cantilevers"),
+    "geradin_cardona": (("load",), cantilever("geradin_cardona", "load"), "cantilevers"),
+    "bend_45": (("force", "torsion"), cantilever("bend_45", "torsion", "force"), "cantilevers"),
+    "roll_up": (("turns",), cantilever("roll_up", "turns"), "cantilevers"),
+    "wagner_torsion": (("angle",), cantilever("wagner_torsion", "angle"), "cantilevers"),
     "rotating_cantilever": (("omega_star", "slenderness", "hub_radius"), rotating_cantilever, "rotating"),
 }
 

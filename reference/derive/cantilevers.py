@@ -3,6 +3,7 @@ import math
 
 import numpy as np
 
+from reference.derive import defaults
 from reference.derive.beam import Beam
 from reference.derive.network import Network, clamped
 
@@ -26,20 +27,22 @@ def planar_angle(R):
 
 
 def elastica(loads=(1, 2, 5, 10), form=lambda beam: beam):
+    axial = float(defaults.values("elastica")["axial"])
     for load in loads:
-        beam = form(Beam(1.0, EA=1e8, EIy=1.0, EIz=1.0, GJ=1.0))
+        beam = form(Beam(1.0, EA=axial, EIy=1.0, EIz=1.0, GJ=1.0))
         r, R = dead_load(beam, (0, load, 0), 10)
-        at = "" if load == 1 else f"load={load}"
+        at = defaults.differing("elastica", load=load)
         yield "elastica", at, "w_over_L", r[1], "1", RELATIVE
         yield "elastica", at, "u_over_L", 1 - r[0], "1", RELATIVE
         yield "elastica", at, "theta", planar_angle(R), "rad", RELATIVE
 
 
 def shear_elastica(stiffnesses=(500, 50, 10), form=lambda beam: beam):
+    axial = float(defaults.values("shear_elastica")["axial"])
     for GA in stiffnesses:
-        beam = form(Beam(1.0, EA=1e9, EIy=10.0, EIz=10.0, GJ=10.0, fy=1 / GA, fz=1 / GA))
+        beam = form(Beam(1.0, EA=axial, EIy=10.0, EIz=10.0, GJ=10.0, fy=1 / GA, fz=1 / GA))
         r, _ = dead_load(beam, (0, 10, 0), 10)
-        at = "" if GA == 500 else f"GA={GA}"
+        at = defaults.differing("shear_elastica", GA=GA)
         yield "shear_elastica", at, "u", r[0] - 1, "m", RELATIVE
         yield "shear_elastica", at, "v", r[1], "m", RELATIVE
 
@@ -48,7 +51,7 @@ def geradin_cardona(loads=(600e3, 300e3), form=lambda beam: beam):
     for load in loads:
         beam = form(Beam(5.0, EA=4.8e8, EIy=9.346e6, EIz=9.346e6, GJ=1e6, fy=1 / 3.231e8, fz=1 / 3.231e8))
         r, R = dead_load(beam, (0, -load, 0), 10)
-        at = "" if load == 600e3 else f"load={load:g}"
+        at = defaults.differing("geradin_cardona", load=f"{load:g}")
         yield "geradin_cardona", at, "tip_x", 5 * r[0], "m", RELATIVE
         yield "geradin_cardona", at, "tip_y", 5 * r[1], "m", RELATIVE
         yield "geradin_cardona", at, "theta", -planar_angle(R), "rad", RELATIVE
@@ -66,11 +69,10 @@ def bend_45(torsions=("exact", "polar"), forces=(600, 300), form=lambda beam: be
         beam = form(Beam(radius * angle, EA=E, EIy=E / 12, EIz=E / 12, GJ=G * J, fy=1 / (k * G), fz=1 / (k * G), curvature=1 / radius))
         for force in forces:
             r, _ = dead_load(beam, (0, 0, force), 20)
-            at = [f"force={force}"] if force != 600 else []
-            at += ["torsion=polar"] if torsion == "polar" else []
+            at = defaults.differing("bend_45", force=force, torsion=torsion)
             start = (radius * math.sin(angle), radius * (1 - math.cos(angle)), 0.0)
             for i, name in enumerate(("u_tangent", "u_radial", "u_load")):
-                yield "bend_45", ";".join(at), name, beam.length * r[i] - start[i], "m", RELATIVE
+                yield "bend_45", at, name, beam.length * r[i] - start[i], "m", RELATIVE
 
 
 def roll_up(all_turns=(1, 0.25, 2)):
@@ -78,14 +80,14 @@ def roll_up(all_turns=(1, 0.25, 2)):
     for turns in all_turns:
         angle = 2 * math.pi * turns
         value = 0.0 if turns >= 1 and turns == int(turns) else math.sin(angle) / angle
-        yield "roll_up", "" if turns == 1 else f"turns={turns}", "tip_gap", value, "1", 1e-13
+        yield "roll_up", defaults.differing("roll_up", turns=turns), "tip_gap", value, "1", 1e-13
 
 
 def wagner_strip(angle):
     E, G, b, t, L = 2e11, 8e10, 0.2, 0.01, 1.0
     k = angle / L
     J, In = b * t ** 3 / 3, t * b ** 5 / 180
-    at = "" if angle == 1.0 else f"angle={angle:g}"
+    at = defaults.differing("wagner_torsion", angle=f"{angle:g}")
     yield "wagner_torsion", at, "moment", G * J * k + E * In * k ** 3 / 2, "N m"
     yield "wagner_torsion", at, "shortening", L * (b ** 2 + t ** 2) / 24 * k ** 2, "m"
 

@@ -5,6 +5,8 @@ Carried by R: R M and R r.
 """
 from mpmath import matrix, mp, mpf, cos, pi, sin, sqrt
 
+from reference.derive import defaults
+
 mp.dps = 40
 QUANTITIES = (("M_x", "N m"), ("M_y", "N m"), ("M_z", "N m"), ("u_x", "m"), ("u_y", "m"), ("u_z", "m"))
 
@@ -25,7 +27,7 @@ def rod(turns, strain):
     once = cross(bend, ex)
     tip = ex + (1 - cos(strain)) / strain * once + (1 - sin(strain) / strain) * cross(bend, once)
     moment, place = turned(angle, way, bend * strain), turned(angle, way, tip) - ex
-    at = ";".join([f"turns={turns}"] * (turns != "1") + [f"strain={float(strain)}"] * (strain != 1))
+    at = defaults.differing("carried_rod", turns=turns, strain=float(strain))
     for (name, unit), value in zip(QUANTITIES, list(moment) + list(place)):
         yield "carried_rod", at, name, value if abs(value) > mpf(10) ** -30 else mpf(0), unit
 

@@ -7,18 +7,18 @@ stability after Haringx.
 """
 import numpy as np
 
+from reference.derive import defaults
 from reference.derive.beam import Beam
 from reference.derive.network import Network, clamped
 from reference.derive.section import channel
-from reference.derive.sheets import parameters
 
-E, G, LENGTH = 210e9, 80.77e9, 9.0
+E, G, LENGTH = 210e9, 80.77e9, float(defaults.values("c_cantilever")["length"])
 FLANGE = 0.016
 SIZES = {"overall": ("0.284", "0.095"), "centreline": ("0.3", "0.1")}
 RELATIVE = 1e-9
 
 
-def channel_beam(sizes, shear, wagner_moments=0):
+def channel_beam(sizes, shear, wagner_moments):
     """(beam, half the height, y of the web) of flanges 16 mm and web 10 mm thick."""
     s = channel(*SIZES[sizes], "0.016", "0.010")
     ys, zs = float(s.ys), float(s.zs)
@@ -27,13 +27,14 @@ def channel_beam(sizes, shear, wagner_moments=0):
     return beam, float(SIZES[sizes][0]) / 2, float(s.points[1][0])
 
 
-def path(deflections, sizes="overall", load_point="D", load_height="corner", shear=0, wagner_moments=0, intervals=6, nodes=11, form=lambda beam: beam):
+def path(deflections, intervals=6, nodes=11, form=lambda beam: beam, **given):
     """(force [N], displacement of the loaded point along y [m]) at each deflection [m], in small steps so that no branch is jumped."""
-    beam, half, web = channel_beam(sizes, shear, wagner_moments)
+    value = {**defaults.values("c_cantilever"), **given}
+    beam, half, web = channel_beam(value["sizes"], value["shear"], value["wagner_moments"])
     beam = form(beam)
-    half += FLANGE / 2 if load_height == "edge" else 0
+    half += FLANGE / 2 if value["load_height"] == "edge" else 0
     net = Network(LENGTH, beam.EIz / LENGTH ** 2, numbers=[0.0], intervals=intervals, nodes=nodes)
-    arm = np.array([0, web, half if load_point == "D" else -half]) / LENGTH
+    arm = np.array([0, web, half if value["load_point"] == "D" else -half]) / LENGTH
 
     def loaded(level, x, R, force, moment, numbers):
         pull = np.array([0 * numbers[0], 0 * numbers[0], -numbers[0]])
@@ -59,6 +60,6 @@ POINTS = (({}, (0.125, 0.25, 0.5, 1.0, 1.5, 2.0, 2.5, 2.6)), ({"load_point": "E"
 def rows():
     for given, deflections in POINTS:
         for w, (force, lateral) in zip(deflections, path(deflections, **given)):
-            at = parameters({**given, **({"w": w} if w != 0.5 else {})})
+            at = defaults.differing("c_cantilever", **given, w=w)
             yield "c_cantilever", at, "load_at_w", force, "N", RELATIVE
             yield "c_cantilever", at, "lateral", lateral, "m", RELATIVE

@@ -9,9 +9,9 @@ rho Iw a Omega^2 d_x . P d_x on da.  F' = -f, m0' = -r x f - c and B' = -Mw - th
 """
 import numpy as np
 
+from reference.derive import defaults
 from reference.derive.beam import STEP, chebyshev, rotation
 from reference.derive.channel_cantilever import LENGTH, channel_beam
-from reference.derive.sheets import parameters
 
 DENSITY, INTERVALS, NODES = 7800.0, 6, 12
 STATES = 15  # of the beam (9), F, m0
@@ -22,7 +22,8 @@ class Turning:
     """Unknowns: states at all points, one after the other, and the force on the tip."""
 
     def __init__(self, omega, rotary, form):
-        beam, self.half, self.web = channel_beam("overall", 0)
+        value = defaults.values("c_cantilever")
+        beam, self.half, self.web = channel_beam(*(value[k] for k in ("sizes", "shear", "wagner_moments")))
         self.force = beam.EIz / LENGTH ** 2
         self.beam = form(beam).scaled(LENGTH, self.force)
         area = beam.EA / 210e9
@@ -117,6 +118,6 @@ def rows():
     deflections = (0.25, 0.5, 1.0)
     for omega, rotary in ((10, 0), (20, 0), (40, 0), (20, 1), (40, 1)):
         for w, (force, lateral) in zip(deflections, path(deflections, omega, rotary)):
-            at = parameters({"omega": omega, **({"w": w} if w != 0.5 else {}), **({"rotary_inertia": rotary} if rotary else {})})
+            at = defaults.differing("c_cantilever", omega=omega, w=w, rotary_inertia=rotary)
             yield "c_cantilever", at, "load_at_w", force, "N", RELATIVE
             yield "c_cantilever", at, "lateral", lateral, "m", RELATIVE

@@ -10,22 +10,19 @@ Uniform end moment: closed form of the monosymmetric beam with shear (reference/
 """
 from mpmath import mp, mpf, matrix, pi, sqrt, cholesky, inverse, eigsy
 
+from reference.derive import defaults
 from reference.derive.section import channel, section
 
 mp.dps = 40
-E, G, RHO = mpf(144) * 10 ** 9, mpf("4.14e9"), mpf(1389)
 PRINTED = {"Iw": "1.3886e-4", "ys": "0.4571", "Dy": "0.0279", "Dz": "0.0158", "Dzw": "-3.70e-3", "Dw": "3.65e-3"}
 
 
-def sized(height="0.6", width="0.6", flange_thickness="0.03", web_thickness="0.03", shear_modulus=G):
-    s = channel(height, width, mpf(flange_thickness), mpf(web_thickness))
-    s.E, s.G, s.RHO = E, mpf(shear_modulus), RHO
-    return s
-
-
-def channel_data(printed=False, height="0.6", width="0.6", web_thickness="0.03", **_):
-    s = sized(height, width, web_thickness=web_thickness)
-    if printed:
+def channel_data(**given):
+    """Section of c_column and moment_buckling; given: parameters that differ from the defaults."""
+    at = defaults.decimals("c_column", given)
+    s = channel(at["height"], at["width"], at["flange_thickness"], at["web_thickness"])
+    s.E, s.G, s.RHO = at["young"], at["shear_modulus"], at["density"]
+    if at["section_data"] == "printed":
         s.Iw, s.ys = mpf(PRINTED["Iw"]), mpf(PRINTED["ys"])
         d = matrix(3, 3)
         d[0, 0], d[1, 1], d[2, 2] = mpf(PRINTED["Dy"]), mpf(PRINTED["Dz"]), mpf(PRINTED["Dw"])
@@ -144,10 +141,14 @@ def _text(**given):
     return ";".join(f"{name}={value}" for name, value in given.items())
 
 
+def length_of(case, given):
+    return defaults.decimals(case, given)["length"]
+
+
 def other_sizes():
     """A deep channel, and one with a thin web."""
     for given in ({"length": 4, "height": "0.9", "width": "0.3"}, {"web_thickness": "0.01"}):
-        s, l = channel_data(**given), mpf(given.get("length", 6))
+        s, l = channel_data(**given), length_of("c_column", given)
         yield "c_column", _text(**given), "buckling_load", buckling_load(s, l, True, False), "N"
         yield "c_column", _text(**given, shear=0), "buckling_load", buckling_load(s, l, False, False), "N"
         for i, value in enumerate(frequencies(s, l, True, True, 4)):
@@ -164,8 +165,17 @@ def branched():
     mm = mpf(10) ** -3
     points = [(0, 0), (50, 0), (50, 80), (20, 80), (50, 100)]
     s = section([(y * mm, z * mm) for y, z in points], [(0, 1, 2 * mm), (1, 2, 3 * mm), (2, 3, 4 * mm), (2, 4, mm)])
-    s.E, s.G, s.RHO = mpf(210) * 10 ** 9, mpf(80) * 10 ** 9, mpf(7850)
+    at = defaults.decimals("unsymmetric_column", {})
+    s.E, s.G, s.RHO = at["young"], at["shear_modulus"], at["density"]
     return s
+
+
+def loaded(s, at):
+    """(quantity, value, unit) of a column under an axial load; at: all parameters."""
+    l, shear, haringx = at["length"], at["shear"], at["shear_stability"] == "haringx"
+    yield "buckling_load", buckling_load(s, l, shear, haringx), "N"
+    for i, value in enumerate(frequencies(s, l, shear, at["rotary_inertia"], 6, at["axial_load"], haringx)):
+        yield f"frequency_{i + 1}", value, "Hz"
 
 
 def unsymmetric():
@@ -173,10 +183,8 @@ def unsymmetric():
     for given in ({}, {"axial_load": 0}, {"length": mpf("0.6"), "axial_load": 100000}, {"length": mpf("0.6"), "shear_stability": "haringx", "axial_load": 100000},
                   {"shear": 0, "rotary_inertia": 0, "axial_load": 0}, {"length": 1, "axial_load": -50000}):
         at = ";".join(f"{k}={v if isinstance(v, (int, str)) else float(v)}" for k, v in given.items())
-        l, shear, haringx, load = mpf(given.get("length", 3)), given.get("shear", 1), given.get("shear_stability") == "haringx", given.get("axial_load", 5000)
-        yield "unsymmetric_column", at, "buckling_load", buckling_load(s, l, shear, haringx), "N"
-        for i, value in enumerate(frequencies(s, l, shear, given.get("rotary_inertia", 1), 6, load, haringx)):
-            yield "unsymmetric_column", at, f"frequency_{i + 1}", value, "Hz"
+        for row in loaded(s, defaults.decimals("unsymmetric_column", given)):
+            yield "unsymmetric_column", at, *row
 
 
 def rows():
@@ -184,8 +192,8 @@ def rows():
     yield from unsymmetric()
     for length in (None, 3, 12):
         at = {} if length is None else {"length": length}
-        l = mpf(6 if length is None else length)
-        plain, printed = channel_data(False), channel_data(True)
+        l = length_of("c_column", at)
+        plain, printed = channel_data(), channel_data(section_data="printed")
         yield "c_column", _text(**at), "buckling_load", buckling_load(plain, l, True, False), "N"
         yield "c_column", _text(**at, shear_stability="haringx"), "buckling_load", buckling_load(plain, l, True, True), "N"
         yield "c_column", _text(**at, shear=0), "buckling_load", buckling_load(plain, l, False, False), "N"

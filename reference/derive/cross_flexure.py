@@ -16,14 +16,15 @@ from reference.derive.network import Network, clamped
 from reference.derive.sheets import parameters, sheet
 
 RELATIVE = 1e-9  # the stiffness of a leaf along itself, beside the forces that bend it
-SIZES = defaults.values("cross_flexure", "length", "width", "thickness", "pitch", "half_angle", "young", "poisson", "angle")
+DEFAULTS = defaults.values("cross_flexure")
+SIZES = ("length", "width", "thickness", "young", "poisson")
 TILTS_FREE = ("first", "last", "between")
 
 
 def hinge(given, intervals=4, nodes=14, form=lambda beam: beam):
     """Network and its arm; form: see sheets.cantilever."""
-    value = {**SIZES, **given}
-    beam = form(sheet(**{k: value[k] for k in ("length", "width", "thickness", "young", "poisson")}))
+    value = {**DEFAULTS, **given}
+    beam = form(sheet(**{k: value[k] for k in SIZES}))
     net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=intervals, nodes=nodes)
     turned = clamped((0.0, 0.0, 0.0), lambda level: (0.0, 0.0, level * value["angle"]))
 
@@ -59,9 +60,9 @@ def compliance(net, arm, turned, tilts_free, convention):
 
 
 def quantities(given, form=lambda beam: beam):
-    sizes = {k: float(v) for k, v in given.items() if k in SIZES}
-    convention, rotation = given.get("moment_convention", "spatial"), given.get("rotation", "hinge")
-    net, arm, turned = hinge(sizes, form=form)
+    value = {**DEFAULTS, **given}
+    convention, rotation = value["moment_convention"], value["rotation"]
+    net, arm, turned = hinge(given, form=form)
     net.solve((0.5, 1.0), tolerance=1e-10)  # what round-off leaves of the leaves' own stiffness
     C = compliance(net, arm, turned, rotation in TILTS_FREE, convention)
     yield "moment", net.force * net.length * arm.load[5], "N m", RELATIVE

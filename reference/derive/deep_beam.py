@@ -7,6 +7,8 @@ J of the square by Saint-Venant's series: a^4 (1/3 - 64/pi^5 sum_odd tanh(n pi/2
 """
 from mpmath import inf, mp, mpf, nsum, pi, sqrt, tanh
 
+from reference.derive import defaults
+
 mp.dps = 40
 E, RHO, LENGTH, SIDE, SHEAR_FACTOR = mpf("200e9"), mpf(8000), mpf(10), mpf(2), mpf(5) / 6
 G, A, I = E / mpf("2.6"), SIDE ** 2, SIDE ** 4 / 12
@@ -46,6 +48,7 @@ def frequencies(exact_torsion, shear, rotary):
 
 def rows():
     for given in ({}, {"torsion": "exact"}, {"shear": 0}, {"shear": 0, "rotary_inertia": 0}):
-        at = ";".join(f"{k}={v}" for k, v in given.items())
-        for i, value in enumerate(frequencies("torsion" in given, given.get("shear", 1), given.get("rotary_inertia", 1))):
-            yield "deep_beam", at, f"frequency_{i + 1}", value, "Hz"
+        at = {**defaults.values("deep_beam"), **given}
+        found = frequencies(at["torsion"] == "exact", at["shear"], at["rotary_inertia"])
+        for i, value in enumerate(found):
+            yield "deep_beam", defaults.differing("deep_beam", **given), f"frequency_{i + 1}", value, "Hz"

@@ -21,7 +21,8 @@ def texts(case):
     return dict(_table().get(case, {}))
 
 
-def _value(text):
+def value(text):
+    """Number, a whole one as int, or word."""
     try:
         return float(text) if not text.lstrip("-").isdigit() else int(text)
     except ValueError:
@@ -30,4 +31,17 @@ def _value(text):
 
 def values(case, *names):
     """{parameter: number, whole ones as int, or word}, of the named ones or of all."""
-    return {k: _value(v) for k, v in _table()[case].items() if not names or k in names}
+    return {k: value(v) for k, v in _table()[case].items() if not names or k in names}
+
+
+def decimals(case, given):
+    """The same as mpmath's numbers, of the decimal text; given: values that differ, as text or numbers."""
+    from mpmath import mpf
+    at = {**texts(case), **given}
+    return {k: v if isinstance(value(str(v)), str) else mpf(v) for k, v in at.items()}
+
+
+def differing(case, **given):
+    """`name=value;...` of those that are not the defaults."""
+    default = values(case)
+    return ";".join(f"{k}={v}" for k, v in given.items() if value(str(v)) != default[k])

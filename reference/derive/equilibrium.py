@@ -13,6 +13,7 @@ import numpy as np
 from scipy.linalg import eig
 from scipy.optimize import brentq
 
+from reference.derive import defaults
 from reference.derive.beam import Beam, cross_matrix, product, rotation
 from reference.derive.network import Network, clamped
 from reference.derive.sheets import clamped_sheet, sheet
@@ -138,22 +139,23 @@ def held_tip(vibration, y, p, free_warping):
 
 def sheet_frequencies(count, given, form=lambda beam: beam):
     """Hz, of the sheet held at its deflected tip; form: see sheets.cantilever."""
-    deflection = given.get("tip_deflection", 0.015) / given.get("length", 0.1)
+    value = {**defaults.values("sheet_cantilever"), **given}
+    deflection = value["tip_deflection"] / value["length"]
 
     def conditions(level, x, R, force, moment, numbers):
         return np.array([x[1] - level * deflection, R[1, 0], force[0], force[2], moment[0], moment[1]])
-    net, _ = clamped_sheet(given, conditions, form)
+    net, _ = clamped_sheet(value, conditions, form)
     net.solve(np.linspace(0.1, 1, 10) if deflection > 0.2 else (0.5, 1.0))
-    width, thickness, length, density = given.get("width", 0.1), given.get("thickness", 0.00225), given.get("length", 0.1), given.get("density", 7850.0)
-    beam = sheet(**given)
+    width, thickness, length = value["width"], value["thickness"], value["length"]
+    beam = sheet(**value)
     A, Iy, Iz = width * thickness, thickness * width ** 3 / 12, width * thickness ** 3 / 12
-    mass = density / net.force  # times area and length^2: dimensionless, per 1/s^2
-    inertia = (mass * A * length ** 2, mass * np.array([Iy + Iz, Iy, Iz]), mass * beam.EIw / 200e9 / length ** 2)
+    mass = value["density"] / net.force  # times area and length^2: dimensionless, per 1/s^2
+    inertia = (mass * A * length ** 2, mass * np.array([Iy + Iz, Iy, Iz]), mass * beam.EIw / value["young"] / length ** 2)
     member = net.members[0]
     vibration = Vibration(member, inertia)
     n = vibration.n
     start = np.eye(vibration.fields)[:8 if n == 9 else 7]
-    end = held_tip(vibration, member.y[-1, -1], member.p, given.get("tip_warping"))
+    end = held_tip(vibration, member.y[-1, -1], member.p, value["tip_warping"])
     return np.sqrt(vibration.frequencies(start, end, count)) / (2 * math.pi)
 
 

@@ -6,7 +6,7 @@ import math
 
 from mpmath import mp, mpf, sqrt, tanh
 
-from reference.derive import cantilevers, column, linear_buckling, sheets
+from reference.derive import cantilevers, column, defaults, linear_buckling, sheets
 from reference.derive.beam import Beam
 
 TABLES = "extremes"
@@ -36,45 +36,42 @@ def inextensible():
             yield "elastica", at, name, value, unit, cantilevers.RELATIVE
 
 
-def channel(at, length="6", shear=True, rotary=True, **sizes):
-    """Buckling load (Engesser) and lowest frequency of the C-shaped column; sizes as of column.sized."""
-    s, l = column.sized(**sizes), mpf(length)
-    yield "c_column", at, "buckling_load", column.buckling_load(s, l, shear, False), "N"
-    yield "c_column", at, "frequency_1", column.frequencies(s, l, shear, rotary, 1)[0], "Hz"
+def channel(**given):
+    """Buckling load (Engesser) and lowest frequency of the C-shaped column."""
+    s, value, at = column.channel_data(**given), defaults.decimals("c_column", given), sheets.parameters(given)
+    load = column.buckling_load(s, value["length"], value["shear"], False)
+    frequency = column.frequencies(s, value["length"], value["shear"], value["rotary_inertia"], 1)[0]
+    yield "c_column", at, "buckling_load", load, "N"
+    yield "c_column", at, "frequency_1", frequency, "Hz"
 
 
 def channels():
+    default = defaults.decimals("c_column", {})
     for ratio in ("0.1", "1", "1e2", "1e3", "1e4", "1e5"):
-        length = decimal(mpf("0.6") * mpf(ratio))
-        yield from channel(f"length={length}", length=length)
-        yield from channel(f"length={length};shear=0;rotary_inertia=0", length=length, shear=False, rotary=False)
+        length = decimal(default["height"] * mpf(ratio))
+        yield from channel(length=length)
+        yield from channel(length=length, shear=0, rotary_inertia=0)
     for ratio in ("2.6", "10", "1e2", "1e3", "1e4"):
-        G = decimal(column.E / mpf(ratio))
-        yield from channel(f"shear_modulus={G}", shear_modulus=G)
+        yield from channel(shear_modulus=decimal(default["young"] / mpf(ratio)))
     for ratio in ("1e-2", "1e-4", "1e-6"):
-        flange = decimal(mpf("0.03") * mpf(ratio))
-        yield from channel(f"flange_thickness={flange}", flange_thickness=flange)
+        yield from channel(flange_thickness=decimal(default["flange_thickness"] * mpf(ratio)))
     for ratio in ("0.3", "0.03", "0.01"):
-        length = decimal(mpf("0.6") * mpf(ratio))
-        yield from channel(f"length={length}", length=length)
+        yield from channel(length=decimal(default["height"] * mpf(ratio)))
     for distance in ("1e-1", "1e-3", "1e-6", "1e-9", "1e-12"):
         width = decimal(EQUAL_WIDTH * (1 + mpf(distance)))
-        s = column.sized(width=width)
-        for i, value in enumerate(column.frequencies(s, mpf(6), True, True, 2)):
+        s = column.channel_data(width=width)
+        for i, value in enumerate(column.frequencies(s, default["length"], True, True, 2)):
             yield "c_column", f"width={width}", f"frequency_{i + 1}", value, "Hz"
     for ratio in ("1e-1", "1e-2", "1e-3", "1e-4"):
-        width = decimal(mpf("0.6") * mpf(ratio))
-        yield from channel(f"width={width}", width=width)
+        yield from channel(width=decimal(default["width"] * mpf(ratio)))
 
 
 def squares():
-    def row(length, G):
-        at = ";".join([f"length={length}"] * (length != "1") + [f"shear_modulus={G}"] * (G != "27e9") + ["shear_stability=haringx"])
-        return "shear_column", at, "buckling_load", linear_buckling.haringx(mpf(length), mpf(G)), "N"
-    for ratio in ("1", "10", "1e2", "1e3", "1e4", "1e5"):
-        yield row(decimal(mpf("0.02") * mpf(ratio)), "27e9")
-    for ratio in ("2.6", "10", "1e2", "1e4"):
-        yield row("1", decimal(mpf(70) * 10 ** 9 / mpf(ratio)))
+    default = defaults.decimals("shear_column", {})
+    lengths = [decimal(default["side"] * mpf(ratio)) for ratio in ("1", "10", "1e2", "1e3", "1e4", "1e5")]
+    moduli = [decimal(default["young"] / mpf(ratio)) for ratio in ("2.6", "10", "1e2", "1e4")]
+    for given in [{"length": one} for one in lengths] + [{"shear_modulus": one} for one in moduli]:
+        yield linear_buckling.column_row({**given, "shear_stability": "haringx"})
 
 
 def torsion():
@@ -105,7 +102,7 @@ def lateral():
 
 def twisted():
     """Held ends, no axial force: GJ phi/L over 1 - tanh(kL/2)/(kL/2), k^2 = GJ/EIw; and the strip with the Wagner torque."""
-    beam = sheets.sheet()
+    beam = sheets.sheet(**{**defaults.values("sheet_wagner"), "wagner": 0})
     half = math.sqrt(beam.GJ / beam.EIw) * beam.length / 2
     for angle in (0.1, 0.5, 1, 1.3, 1.4, 1.5):
         at = f"wagner=0;tip_deflection=0;tip_phi_z=0;tip_phi_x={decimal(angle)}"

@@ -47,7 +47,7 @@ def fold(net, beam, given, centre, axes, azimuth, mirrored, bodies, name):
 def add_joint(net, beam, given, centre, axes, base, effector, name):
     """One joint between two bodies; returns its intermediate body."""
     middle = net.body(centre)
-    first = given.get("azimuth", DEFAULTS["azimuth"])
+    first = {**DEFAULTS, **given}["azimuth"]
     for k in range(3):
         fold(net, beam, given, centre, axes, first + 2 * math.pi * k / 3, False, (base, middle), f"{name}.{k}")
     for k in range(3):

@@ -6,6 +6,8 @@ Frame: a leg carries a constant spatial moment (m_x, m_y + f x, M): GJ t_x' = m_
 """
 from mpmath import cos, det, findroot, matrix, mp, mpf, pi, sin, sqrt, zeros
 
+from reference.derive import defaults
+
 mp.dps = 40
 TERMS = 160
 LEG_TERMS = 64  # 7^64/64! = 1e-35
@@ -70,44 +72,35 @@ def lateral_load(load, K, guess, terms=TERMS):
 
 def lateral_rows():
     for load in LOADS:
-        at = [] if load == "tip" else [f"load={load}"]
-        yield "lateral_buckling", ";".join(at), "load_factor", lateral_load(load, 0, GUESS[load]), "1"
+        yield "lateral_buckling", defaults.differing("lateral_buckling", load=load), "load_factor", lateral_load(load, 0, GUESS[load]), "1"
     for K, guess in ((1, "15.7"), (4, "9.75"), (16, "6.81")):
         yield "lateral_buckling", f"K={K}", "load_factor", lateral_load("tip", K, guess), "1"
     for load, K, guess in (("distributed", 4, "39.7"), ("distributed", 40, "20.7"), ("mid", 4, "31.7"), ("mid", 40, "19.2"), ("mid_distributed", 4, "52.7"), ("mid_distributed", 40, "31.7")):
         yield "lateral_buckling", f"load={load};K={K}", "load_factor", lateral_load(load, K, guess), "1"
 
 
-COLUMN_E, COLUMN_SIDE = mpf(70) * 10 ** 9, mpf("0.02")
-
-
-def _column(length, G, E=COLUMN_E, side=COLUMN_SIDE):
-    """P_E = pi^2 EI/l^2 and GA_s = 5/6 G A."""
-    return pi ** 2 * E * side ** 4 / 12 / length ** 2, G * side ** 2 * 5 / 6
-
-
-def engesser(*column):
-    euler, shear = _column(*column)
-    return euler / (1 + euler / shear)
-
-
-def haringx(*column):
-    """GA_s (sqrt(1 + 4 P_E/GA_s) - 1)/2."""
-    euler, shear = _column(*column)
+def column_load(given):
+    """Of shear_column. Engesser: 1/P = 1/P_E + 1/GA_s; Haringx: GA_s (sqrt(1 + 4 P_E/GA_s) - 1)/2; P_E = pi^2 EI/l^2, GA_s = 5/6 G A."""
+    at = defaults.decimals("shear_column", given)
+    euler = pi ** 2 * at["young"] * at["side"] ** 4 / 12 / at["length"] ** 2
+    shear = at["shear_modulus"] * at["side"] ** 2 * 5 / 6
+    if at["shear_stability"] == "engesser":
+        return euler / (1 + euler / shear)
     return shear * (sqrt(1 + 4 * euler / shear) - 1) / 2
 
 
+def column_row(given):
+    return "shear_column", defaults.differing("shear_column", **given), "buckling_load", column_load(given), "N"
+
+
+COLUMNS = [{"length": length, "shear_modulus": G} for length in ("1", "0.1") for G in (27 * 10 ** 9, 27 * 10 ** 8, 7 * 10 ** 7)]
+COLUMNS += [{"length": "0.7", "side": "0.09", "young": 12 * 10 ** 9, "shear_modulus": 5 * 10 ** 8}]
+
+
 def column_rows():
-    for length in (1, mpf("0.1")):
-        for G in (mpf(27) * 10 ** 9, mpf("2.7e9"), COLUMN_E / 1000):
-            at = [] if length == 1 else ["length=0.1"]
-            at += [] if G == mpf(27) * 10 ** 9 else [f"shear_modulus={int(G)}"]
-            yield "shear_column", ";".join(at), "buckling_load", engesser(length, G), "N"
-            yield "shear_column", ";".join(at + ["shear_stability=haringx"]), "buckling_load", haringx(length, G), "N"
-    other = (mpf("0.7"), mpf(5) * 10 ** 8, mpf("1.2e10"), mpf("0.09"))
-    at = "length=0.7;side=0.09;young=12000000000;shear_modulus=500000000"
-    yield "shear_column", at, "buckling_load", engesser(*other), "N"
-    yield "shear_column", at + ";shear_stability=haringx", "buckling_load", haringx(*other), "N"
+    for given in COLUMNS:
+        yield column_row(given)
+        yield column_row({**given, "shear_stability": "haringx"})
 
 
 def _leg(x, M, EI, GJ):
@@ -148,10 +141,8 @@ FRAMES = ({}, {"angle": "1"}, {"angle": "2.5"}, {"leg": "0.6", "poisson": "0"}, 
 def frame_rows():
     """Thin strips, GJ = G b t^3/3; the second factor lies between 1.4 pi and 2 pi for every angle."""
     for given in FRAMES:
-        def value(name, default):
-            return mpf(given.get(name, default))
-        E, nu, b, t, length = value("young", 71240 * 10 ** 6), value("poisson", "0.31"), value("depth", "0.03"), value("thickness", "0.0006"), value("leg", "0.24")
-        angle = value("angle", pi / 2)
+        value = defaults.decimals("right_angle_frame", given)
+        E, nu, b, t, length, angle = (value[k] for k in ("young", "poisson", "depth", "thickness", "leg", "angle"))
         EI, GJ = E * b * t ** 3 / 12, E / (2 * (1 + nu)) * b * t ** 3 / 3
         # with lengths in legs and forces in sqrt(EI GJ)/leg^2 one number is left, EI/GJ
         root = sqrt(EI / GJ)

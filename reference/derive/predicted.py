@@ -16,7 +16,7 @@ from mpmath import mpf, pi
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 from reference.derive import angle_column, cantilevers, channel_cantilever  # noqa: E402
-from reference.derive import channel_rotating, column, cross_flexure  # noqa: E402
+from reference.derive import channel_rotating, column, cross_flexure, defaults  # noqa: E402
 from reference.derive import equilibrium, hexapod, joint, rederive, sheets  # noqa: E402
 from reference.derive.predicted_beam import Printed  # noqa: E402
 from reference.derive.predicted_column import (  # noqa: E402
@@ -144,9 +144,10 @@ def hexapods():
 
 def channel_rows(name, given, deflections, points, relative):
     """Without shear beamw_vlasov is beamw."""
-    names = (name, "beamw_vlasov") if name == "beamw" and not given.get("shear") else (name,)
+    rigid = {**defaults.values("c_cantilever"), **given}["shear"] == 0
+    names = (name, "beamw_vlasov") if name == "beamw" and rigid else (name,)
     for w, values in zip(deflections, points):
-        at = sheets.parameters({**given, "w": w} if w != 0.5 else given)
+        at = defaults.differing("c_cantilever", **given, w=w)
         for one in names:
             for quantity, value, unit in zip(("load_at_w", "lateral"), values, ("N", "m")):
                 yield one, "c_cantilever", at, quantity, value, unit, relative
@@ -156,7 +157,7 @@ def channels():
     """Without the Wagner moments that none of them offers."""
     for name in JONKER:
         for given, w in channel_cantilever.POINTS:
-            if not given.get("wagner_moments"):
+            if {**defaults.values("c_cantilever"), **given}["wagner_moments"] == 0:
                 points = channel_cantilever.path(w, form=as_printed(name), **given)
                 yield from channel_rows(name, given, w, points, channel_cantilever.RELATIVE)
 
@@ -165,7 +166,7 @@ def turning_channels():
     w = (0.25, 0.5, 1.0)
     for name in JONKER:
         for omega, rotary in ((10, 0), (20, 0), (40, 0), (20, 1), (40, 1)):
-            given = {"omega": omega, **({"rotary_inertia": rotary} if rotary else {})}
+            given = {"omega": omega, "rotary_inertia": rotary}
             points = channel_rotating.path(w, omega, rotary, form=as_printed(name))
             yield from channel_rows(name, given, w, points, channel_rotating.RELATIVE)
 
@@ -175,7 +176,7 @@ CHANNEL_COLUMNS = ({}, {"length": 3}, {"length": 12}, {"section_data": "printed"
 WITHOUT_SHEAR = {"shear": 0, "rotary_inertia": 0}
 UNSYMMETRIC_COLUMNS = ({}, {"axial_load": 0}, {"length": "0.6", "axial_load": 100000},
                        {"length": 1, "axial_load": -50000}, {**WITHOUT_SHEAR, "axial_load": 0})
-SQUARE = {"length": 1, "side": "0.02", "young": 70 * 10 ** 9, "shear_modulus": 27 * 10 ** 9}
+SQUARE = ("length", "side", "young", "shear_modulus")
 SQUARE_COLUMNS = ({}, {"shear_modulus": 27 * 10 ** 8}, {"shear_modulus": 7 * 10 ** 7},
                   {"length": "0.1"}, {"length": "0.1", "shear_modulus": 27 * 10 ** 8},
                   {"length": "0.1", "shear_modulus": 7 * 10 ** 7},
@@ -183,25 +184,25 @@ SQUARE_COLUMNS = ({}, {"shear_modulus": 27 * 10 ** 8}, {"shear_modulus": 7 * 10 
                    "shear_modulus": 5 * 10 ** 8})
 
 
-def at_any_theory(given):
-    return sheets.parameters({**given, "shear_stability": "*"} if given.get("shear", 1) else given)
+def at_any_theory(given, shear=True):
+    return sheets.parameters({**given, "shear_stability": "*"} if shear else given)
 
 
 def channel_columns():
     rigid = [{**at, "shear": 0} for at in CHANNEL_COLUMNS]
     for given in [*CHANNEL_COLUMNS, *rigid, WITHOUT_SHEAR]:
-        sizes = {k: v for k, v in given.items() if k in ("height", "width", "web_thickness")}
-        s = column.channel_data(given.get("section_data") == "printed", **sizes)
-        length, shear = mpf(given.get("length", 6)), given.get("shear", 1)
+        s, value = column.channel_data(**given), defaults.decimals("c_column", given)
+        length, shear = value["length"], value["shear"]
         for name in JONKER:
             load = critical(s, length, shear, compression, name == "beamw")[1]
-            yield name, "c_column", at_any_theory(given), "buckling_load", load, "N", CLOSED
+            yield name, "c_column", at_any_theory(given, shear), "buckling_load", load, "N", CLOSED
 
 
 def channels_under_moments():
     at = at_any_theory({"shear": 1, "wagner_moments": 0})
+    length = defaults.decimals("moment_buckling", {})["length"]
     for name in JONKER:
-        found = critical(column.channel_data(), mpf(6), 1, moment, name == "beamw")
+        found = critical(column.channel_data(), length, 1, moment, name == "beamw")
         for side, value in zip(("negative", "positive"), found):
             yield name, "moment_buckling", at, f"buckling_moment_{side}", value, "N m", CLOSED
 
@@ -210,9 +211,10 @@ def unsymmetric_columns():
     s = column.branched()
     for name in JONKER:
         for given in UNSYMMETRIC_COLUMNS:
-            at, eq66 = at_any_theory(given), name == "beamw"
-            length, load = mpf(given.get("length", 3)), given.get("axial_load", 5000)
-            shear, rotary = given.get("shear", 1), given.get("rotary_inertia", 1)
+            value, eq66 = defaults.decimals("unsymmetric_column", given), name == "beamw"
+            length, load = value["length"], value["axial_load"]
+            shear, rotary = value["shear"], value["rotary_inertia"]
+            at = at_any_theory(given, shear)
             value = critical(s, length, shear, compression, eq66)[1]
             yield name, "unsymmetric_column", at, "buckling_load", value, "N", CLOSED
             found = column.frequencies(s, length, shear, rotary, 6, load, eq66, compression)
@@ -225,7 +227,7 @@ def angle_columns():
     for load in ("centroid", "leg"):
         force, y, z, _ = angle_column.stress_of(load)
         for given in ({}, {"warping": 0}):
-            at = sheets.parameters({**({"load": load} if load != "centroid" else {}), **given})
+            at = defaults.differing("angle_column", load=load, **given)
             stress = force, y, z, mpf(0)
             for i, value in enumerate(angle_column.least_factors(not given, stress)):
                 quantity = f"critical_load_{i + 1}"
@@ -235,7 +237,8 @@ def angle_columns():
 def square_columns():
     for given in SQUARE_COLUMNS:
         for name in ("beamw", "sheet_second", "sheet_third", "beamw_first"):
-            value = pinned_square(**{**SQUARE, **given}, eq66=name != "beamw_first")
+            value = defaults.decimals("shear_column", given)
+            value = pinned_square(*(value[k] for k in SQUARE), eq66=name != "beamw_first")
             yield name, "shear_column", at_any_theory(given), "buckling_load", value, "N", CLOSED
 
 

@@ -14,6 +14,8 @@ from mpmath import cos, cosh, findroot, mp, mpf, pi, sin, sqrt, tan
 from numpy.polynomial import legendre
 from scipy.linalg import eigh, eig
 
+from reference.derive import defaults
+
 mp.dps = 30
 SIZE = 18
 RELATIVE = 5e-12
@@ -94,8 +96,10 @@ def whirl(omega, ratio, count):
     return sorted(frequencies), growth
 
 
-def across(omega, slenderness, at, R=0):
+def across(**given):
     """Rows of flap, lag and stretch about an axis normal to the beam, which is stable there."""
+    value, at = {**defaults.values("rotating_cantilever"), **given}, defaults.differing("rotating_cantilever", **given)
+    omega, slenderness, R = value["omega_star"], value["slenderness"], value["hub_radius"]
     for name, values in (("flap", flap(omega, slenderness, R=R)), ("lag", lag(omega, slenderness, R=R))):
         for i, value in enumerate(values):
             yield "rotating_cantilever", at, f"{name}_{i + 1}", value, "1", RELATIVE
@@ -108,12 +112,9 @@ def across(omega, slenderness, at, R=0):
 def rows():
     for slenderness in (1000, 100):
         for omega in (0, 2, 6, 12):
-            at = [f"omega_star={omega}"] if omega != 6 else []
-            at += [f"slenderness={slenderness}"] if slenderness != 1000 else []
-            yield from across(omega, slenderness, ";".join(at))
-    yield from across(12, 1000, "omega_star=12;stations=13")
-    yield from across(6, 1000, "hub_radius=1", 1)
-    yield from across(1, 1000, "hub_radius=-2;omega_star=1", -2)
+            yield from across(omega_star=omega, slenderness=slenderness)
+    for given in ({"omega_star": 12, "stations": 13}, {"hub_radius": 1}, {"hub_radius": -2, "omega_star": 1}):
+        yield from across(**given)
     for name, value in (("stretch", stretch(5, 10)), ("root_force", root_force(5, 10))):
         yield "rotating_cantilever", "omega_star=5;slenderness=10", name, value, "1"
     for omega, ratio, more in ((2, 1, ""), (5, 4, ";stiffness_ratio=4"), (10, 4, ";stations=41;stiffness_ratio=4")):

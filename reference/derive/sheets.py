@@ -8,6 +8,7 @@ import math
 
 import numpy as np
 
+from reference.derive import defaults
 from reference.derive.beam import Beam, cross_matrix
 from reference.derive.network import Network, clamped, free
 
@@ -23,7 +24,7 @@ def rectangle_torsion(w, t):
     return w * t ** 3 / 3 * (1 - 192 * t / (math.pi ** 5 * w) * total)
 
 
-def sheet(length=0.1, width=0.1, thickness=0.00225, young=200e9, poisson=0.3, warping=1, shear=1, trapeze=1, wagner=0, shear_factor=0.0, **_):
+def sheet(length, width, thickness, young, poisson, warping=1, shear=1, trapeze=1, wagner=0, shear_factor=0.0, **_):
     G, w, t = young / (2 * (1 + poisson)), width, thickness
     k = shear_factor or 10 * (1 + poisson) / (12 + 11 * poisson)
     f = 1 / (k * G * w * t) if shear else 0.0
@@ -39,12 +40,12 @@ def parameters(given):
     return ";".join(f"{k}={v}" for k, v in given.items())
 
 
-def clamped_sheet(given, conditions, form=lambda beam: beam):
-    """Network of one sheet; its tip obeys conditions; form: see cantilever."""
-    beam = form(sheet(**given))
-    net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=max(4, round(2 * beam.length / given.get("width", 0.1))), nodes=14)
+def clamped_sheet(value, conditions, form=lambda beam: beam):
+    """Network of one sheet; its tip obeys conditions; value: all parameters; form: see cantilever."""
+    beam = form(sheet(**value))
+    net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=max(4, round(2 * beam.length / value["width"])), nodes=14)
     root, tip = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body((beam.length, 0, 0), conditions)
-    net.member(beam, root, tip, (0, 0, 0), np.eye(3), ("fixed", "free" if given.get("tip_warping") else "fixed"))
+    net.member(beam, root, tip, (0, 0, 0), np.eye(3), ("fixed", "free" if value["tip_warping"] else "fixed"))
     return net, tip
 
 
@@ -60,7 +61,7 @@ def under_convention(C, moment, convention):
 
 def quantities(case, given, net, tip, entries):
     """Compliance with dead forces and moments of the case's convention; displacements and reactions."""
-    convention = given.get("moment_convention", "spatial")
+    convention = {**defaults.values(case), **given}["moment_convention"]
     turned = "RyRzRx" if case == "sheet_wagner" else ""
     note = f"{convention} {turned}".strip()
     C = under_convention(net.response(1.0, tip, {tip: free}), net.force * net.length * tip.load[3:], convention)
@@ -82,23 +83,25 @@ def quantities(case, given, net, tip, entries):
 
 def cantilever(form=lambda beam: beam, **given):
     """u_y prescribed, no rotation about z; all else free; form turns the beam into another one, as predicted.py does."""
-    deflection = given.get("tip_deflection", 0.015) / given.get("length", 0.1)
+    value = {**defaults.values("sheet_cantilever"), **given}
+    deflection = value["tip_deflection"] / value["length"]
 
     def conditions(level, x, R, force, moment, numbers):
         return np.array([x[1] - level * deflection, R[1, 0], force[0], force[2], moment[0], moment[1]])
-    net, tip = clamped_sheet(given, conditions, form)
+    net, tip = clamped_sheet(value, conditions, form)
     net.solve(np.linspace(0.1, 1, 10) if deflection > 0.2 else (0.5, 1.0))
     yield from quantities("sheet_cantilever", given, net, tip, PLANAR)
 
 
 def twisted(form=lambda beam: beam, **given):
     """sheet_wagner: R = Ry Rz Rx, phi_y free with zero moment about the fixed y axis."""
-    phi_x, phi_z, deflection = given.get("tip_phi_x", 0.15), given.get("tip_phi_z", 0.15), given.get("tip_deflection", 0.015) / given.get("length", 0.1)
+    value = {**defaults.values("sheet_wagner"), **given}
+    phi_x, phi_z, deflection = value["tip_phi_x"], value["tip_phi_z"], value["tip_deflection"] / value["length"]
 
     def conditions(level, x, R, force, moment, numbers):
         bend, twist = min(level, 1.0), max(level - 1.0, 0.0)
         return np.array([x[1] - bend * deflection, R[1, 0] - math.sin(bend * phi_z), R[1, 2] + math.tan(twist * phi_x) * R[1, 1], force[0], force[2], moment[1]])
-    net, tip = clamped_sheet({"wagner": 1, **given}, conditions, form)
+    net, tip = clamped_sheet(value, conditions, form)
     net.solve([0.5, 1.0] + [1 + i / 5 for i in range(1, 6)] if phi_x else (0.5, 1.0))
     yield from quantities("sheet_wagner", given, net, tip, [(i, j) for i in range(6) for j in range(6)])
 

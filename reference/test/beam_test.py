@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from scipy.special import ellipj, ellipk, ellipkinc
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
-from reference.derive import cantilevers, sheets  # noqa: E402
+from reference.derive import cantilevers, defaults, sheets  # noqa: E402
 from reference.derive.beam import Beam, chebyshev, exponential, product, quaternion, rotation  # noqa: E402
 from reference.derive.network import Network, clamped, free  # noqa: E402
 
@@ -37,7 +37,7 @@ class Sheet(unittest.TestCase):
     def twisted(self, intervals, nodes):
         def conditions(level, x, R, force, moment, numbers):
             return np.array([x[1] - 0.15 * level, R[1, 0] - math.sin(0.15 * level), R[1, 2] + math.tan(0.1 * level) * R[1, 1], force[0], force[2], moment[1]])
-        beam = sheets.sheet(**self.given)
+        beam = sheets.sheet(**{**defaults.values("sheet_wagner"), **self.given})
         net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=intervals, nodes=nodes)
         root, tip = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body((beam.length, 0, 0), conditions)
         member = net.member(beam, root, tip, (0, 0, 0), np.eye(3))
@@ -80,7 +80,7 @@ class Sheet(unittest.TestCase):
 
     def test_linear_compliance_of_the_straight_sheet(self):
         """C_zz of a clamped sheet in its plane: L^3/3EI + L/kGA."""
-        beam = sheets.sheet()
+        beam = sheets.sheet(**defaults.values("sheet_cantilever"))
         net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=4, nodes=10)
         root, tip = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body((beam.length, 0, 0))
         net.member(beam, root, tip, (0, 0, 0), np.eye(3))

@@ -21,7 +21,7 @@ class Buckling(unittest.TestCase):
         Stiff in extension and in the strong plane, so that the state before buckling is straight.
         """
         s = column.channel_data()
-        E, G = float(column.E), float(column.G)
+        E, G = float(s.E), float(s.G)
         ys, zs = float(s.ys), float(s.zs)
         bz = float(s.wagner_y / s.Iz) if wagner else 0.0
         beam = Beam(LENGTH, EA=E * float(s.A) * RIGID, EIy=E * float(s.Iy), EIz=E * float(s.Iz) * (RIGID if moment else 1), GJ=G * float(s.It), EIw=E * float(s.Iw),

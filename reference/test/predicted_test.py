@@ -296,7 +296,7 @@ class ClosedForms(unittest.TestCase):
     """predicted_column.py against the nonlinear beam of the same measures, nearly inextensible."""
 
     def test_c_column(self):
-        s = column.channel_data(True)
+        s = column.channel_data(section_data="printed")
         names = "A Iy Iz It Iw ys Ip E G".split()
         A, Iy, Iz, It, Iw, ys, Ip, E, G = (float(getattr(s, name)) for name in names)
         shear = np.array((s.F / s.G).tolist(), dtype=float)

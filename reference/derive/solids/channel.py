@@ -8,10 +8,12 @@ import tempfile
 
 import numpy as np
 
+from reference.derive import defaults
 from reference.derive.solids import deck
 from reference.derive.solids.grid import Grid
 
-LENGTH, HEIGHT, WIDTH, FLANGE, WEB, YOUNG, SHEAR = 9.0, 0.3, 0.1, 0.016, 0.01, 210e9, 80.77e9
+LENGTH = float(defaults.values("c_cantilever")["length"])
+HEIGHT, WIDTH, FLANGE, WEB, YOUNG, SHEAR = 0.3, 0.1, 0.016, 0.01, 210e9, 80.77e9
 MESHES = (14, 2, 3), (
     20,
     2,

@@ -9,11 +9,15 @@ import tempfile
 
 import numpy as np
 
+from reference.derive import defaults
 from reference.derive.solids import deck
 from reference.derive.solids.grid import Grid, graded
 from reference.derive.solids.tip import Tip, spin, turned
 
-LENGTH, WIDTH, THICKNESS, YOUNG, POISSON = 0.1, 0.1, 0.00225, 200e9, 0.3
+SIZES = ("length", "width", "thickness", "young", "poisson")  # of both cases
+LENGTH, WIDTH, THICKNESS, YOUNG, POISSON = (
+    float(defaults.values("sheet_cantilever")[name]) for name in SIZES
+)
 MESHES = (8, 2), (8, 1), (12, 2)  # elements along each edge, layers: coarse, thin, fine
 DEFLECTIONS, TWISTS = (0.001, 0.005, 0.01, 0.015), (0.05, 0.1, 0.15)
 # A plate has none of the beam's choices.
