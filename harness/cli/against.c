@@ -135,10 +135,8 @@ static status set_repeats(contestant *a, contestant *b, fault *f)
 static void set_request(contestant *c, const cli_request *r, const scene *s,
                         const formulation *chosen, int elements)
 {
-    c->request = (cell_request){
-        .scene = s, .formulation = chosen->type, .elements = elements, .keep_all = r->keep_all};
-    memcpy(c->request.option, chosen->option, sizeof c->request.option);
-    c->request.solve.newton = formulation_newton(chosen);
+    c->request = (cell_request){.scene = s, .elements = elements, .keep_all = r->keep_all};
+    cell_formulation(&c->request, chosen);
     snprintf(c->name, sizeof c->name, "%s, n = %d", chosen->key, elements);
 }
 

@@ -50,12 +50,8 @@ static status write_out(const cli_request *r, const sweep *s, const truths *t, f
 static status solve_cell(const cli_request *r, sweep *s, fault *f)
 {
     const point *p = &s->point[0];
-    cell_request request = {.scene = &p->scene,
-                            .formulation = r->formulation[0].type,
-                            .elements = r->mesh[0],
-                            .keep_all = r->keep_all};
-    memcpy(request.option, r->formulation[0].option, sizeof request.option);
-    request.solve.newton = formulation_newton(&r->formulation[0]);
+    cell_request request = {.scene = &p->scene, .elements = r->mesh[0], .keep_all = r->keep_all};
+    cell_formulation(&request, &r->formulation[0]);
     request.solve.steps_between = r->steps;
     request.solve.shapes = r->shapes;
     request.threads = r->threads;

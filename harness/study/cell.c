@@ -52,6 +52,13 @@ static status run(const cell_request *request, const scene *s, model **m, cell_r
     return outcome;
 }
 
+void cell_formulation(cell_request *request, const formulation *chosen)
+{
+    request->formulation = chosen->type;
+    memcpy(request->option, chosen->option, sizeof request->option);
+    request->solve.newton = formulation_newton(chosen);
+}
+
 status cell_run(const cell_request *request, cell_result *out, fault *f)
 {
     model *m = NULL;

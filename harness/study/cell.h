@@ -5,6 +5,7 @@
 #include "cases/case.h"
 #include "cases/scene/edit.h"
 #include "harness/analysis/solve.h"
+#include "harness/catalogue/formulations.h"
 
 typedef struct cell_request {
     const scene *scene; /* valid, and shared by all cells of a point; NULL: to be built from ... */
@@ -28,6 +29,8 @@ typedef struct cell_result {
     solve_result solve;
 } cell_result;
 
+/* Formulation, its options and its form of Newton's method. */
+void cell_formulation(cell_request *, const formulation *chosen);
 /* The scene of a case at its parameters, changed by the edit, and valid. The caller frees it, also
  * after a failure. */
 status cell_scene(const case_type *type, const double parameter[], const scene_edit *edit,

@@ -60,10 +60,8 @@ cell_request sweep_cell(const sweep *s, int series_index, int mesh)
 {
     const series *one = &s->series[series_index];
     const point *p = &s->point[one->point];
-    cell_request out = {
-        .scene = &p->scene, .formulation = one->formulation.type, .elements = one->mesh[mesh]};
-    memcpy(out.option, one->formulation.option, sizeof out.option);
-    out.solve.newton = formulation_newton(&one->formulation);
+    cell_request out = {.scene = &p->scene, .elements = one->mesh[mesh]};
+    cell_formulation(&out, &one->formulation);
     out.solve.steps_between = p->steps;
     out.solve.condition = p->condition;
     out.threads = s->threads;

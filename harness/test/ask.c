@@ -82,17 +82,14 @@ static int is_posed(const question *q, const double parameter[])
 
 void ask(const question *q, answer *out)
 {
-    cell_request request = {.type = q->type,
-                            .formulation = q->formulation,
-                            .elements = q->elements,
-                            .keep_all = q->keep_all,
-                            .edit = q->edit};
+    cell_request request = {
+        .type = q->type, .elements = q->elements, .keep_all = q->keep_all, .edit = q->edit};
     cell_result result;
     formulation chosen;
     fault f = {""};
     memset(out, 0, sizeof *out);
     formulation_default(q->formulation, &chosen);
-    memcpy(request.option, chosen.option, sizeof request.option);
+    cell_formulation(&request, &chosen);
     parameters_default(q->type, request.parameter);
     if (q->parameters != NULL &&
         parameters_parse(q->type, q->parameters, request.parameter, NULL, &f) != STATUS_OK)

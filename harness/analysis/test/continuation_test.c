@@ -9,42 +9,24 @@
 #include "elements/math/pi.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/parameters.h"
-#include "harness/study/cell.h"
+#include "harness/test/cells.h"
 
 static cell_result solve(const case_type *type, const char *formulation_text, int n,
                          const char *assignments)
 {
-    cell_request request = {.type = type, .elements = n};
+    cell_request request = cells_of(type, formulation_text, n);
     cell_result result;
-    formulation chosen;
     fault f = {""};
-    char copy[128], *rest = NULL;
-    gsl_test(formulation_parse(formulation_text, &chosen, &f) != STATUS_OK, "%s exists",
-             formulation_text);
-    parameters_default(type, request.parameter);
-    snprintf(copy, sizeof copy, "%s", assignments);
-    for (char *one = strtok_r(copy, ";", &rest); one != NULL; one = strtok_r(NULL, ";", &rest))
-        gsl_test(parameters_set(type, one, request.parameter, &f) != STATUS_OK, "%s: %s",
-                 type->name, one);
-    request.formulation = chosen.type;
-    memcpy(request.option, chosen.option, sizeof request.option);
-    request.solve.newton = formulation_newton(&chosen);
+    gsl_test(parameters_parse(type, assignments, request.parameter, NULL, &f) != STATUS_OK,
+             "%s: %s", type->name, f.text);
     cell_run(&request, &result, &f);
     return result;
-}
-
-static double value_of(const cell_result *r, const char *quantity)
-{
-    for (int i = 0; i < r->solve.quantities; i++)
-        if (strcmp(r->scene.quantity[i].name, quantity) == 0)
-            return r->solve.quantity[i].value;
-    return NAN;
 }
 
 static double load(const char *assignments, const char *formulation_text)
 {
     cell_result r = solve(case_find("c_cantilever", NULL), formulation_text, 10, assignments);
-    const double value = value_of(&r, "load_at_w");
+    const double value = cells_value(&r, "load_at_w");
     gsl_test_int((int)r.solve.status, STATUS_OK, "c_cantilever (%s) is solved: %s", assignments,
                  r.solve.reason);
     cell_result_free(&r);
@@ -117,7 +99,7 @@ static void bifurcations(const char *assignment)
         gsl_test_int((int)r.solve.event[i].kind, EVENT_BIFURCATION, "event %d is a bifurcation", i);
         gsl_test(!(r.solve.event[i].measure < 1e-8), "the load does no work on its null vector");
     }
-    gsl_test_rel(value_of(&r, "bifurcation"), exact, 1e-7,
+    gsl_test_rel(cells_value(&r, "bifurcation"), exact, 1e-7,
                  "the first lies at the buckling load of the compressed column");
     cell_result_free(&r);
 }
@@ -187,7 +169,7 @@ static void jump_is_walked_around(void)
     gsl_test_int((int)r.solve.status, STATUS_OK, "adaptive steps go on: %s", r.solve.reason);
     gsl_test(r.solve.events != 1 || r.solve.event[0].kind != EVENT_BRANCH_JUMP,
              "and name the jump");
-    gsl_test_rel(value_of(&r, "load_at_w"), load("w=0.5;load_point=E", "beamw_first"), 1e-11,
+    gsl_test_rel(cells_value(&r, "load_at_w"), load("w=0.5;load_point=E", "beamw_first"), 1e-11,
                  "on the branch they started on");
     cell_result_free(&r);
 }
@@ -209,7 +191,7 @@ static void long_arcs(void)
     static const char *const step[] = {"step=0.02", "step=0.05", "step=0.15", "step=0.2"};
     case_type type = *case_find("lee_frame", NULL);
     cell_result adaptive = solve(&type, "beamw_consistent", 4, "");
-    const double load_back = value_of(&adaptive, "limit_load_back");
+    const double load_back = cells_value(&adaptive, "limit_load_back");
     cell_result_free(&adaptive);
     type.build = build_long_arcs;
     for (int i = 0; i < 4; i++) {
@@ -217,7 +199,7 @@ static void long_arcs(void)
         gsl_test_int((int)r.solve.status, STATUS_OK, "constant arcs, five times %s: %s", step[i],
                      r.solve.reason);
         gsl_test_int(r.solve.events, 2, "constant arcs, five times %s: two limit points", step[i]);
-        gsl_test_rel(value_of(&r, "limit_load_back"), load_back, 1e-10,
+        gsl_test_rel(cells_value(&r, "limit_load_back"), load_back, 1e-10,
                      "constant arcs, five times %s: the same load", step[i]);
         cell_result_free(&r);
     }

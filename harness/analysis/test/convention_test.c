@@ -6,8 +6,7 @@
 
 #include "elements/math/rotation.h"
 #include "harness/catalogue/formulations.h"
-#include "harness/catalogue/parameters.h"
-#include "harness/study/cell.h"
+#include "harness/test/cells.h"
 
 /* Last station's matrices of a sheet case with collocation elements. */
 typedef struct matrices {
@@ -17,17 +16,9 @@ typedef struct matrices {
 static void solve(const char *case_name, const char *const assignment[], const char *chosen,
                   cell_result *out)
 {
-    cell_request request = {.type = case_find(case_name, NULL), .elements = 4};
-    formulation fm;
+    cell_request request = cells_of(case_find(case_name, NULL), chosen, 4);
     fault f = {""};
-    gsl_test(formulation_parse(chosen, &fm, &f) != STATUS_OK, "%s exists", chosen);
-    parameters_default(request.type, request.parameter);
-    for (int i = 0; assignment[i] != NULL; i++)
-        gsl_test(parameters_set(request.type, assignment[i], request.parameter, &f) != STATUS_OK,
-                 "%s", assignment[i]);
-    request.formulation = fm.type;
-    memcpy(request.option, fm.option, sizeof request.option);
-    request.solve.newton = formulation_newton(&fm);
+    cells_set(&request, assignment);
     gsl_test(cell_run(&request, out, &f) != STATUS_OK, "%s solved: %s", case_name, f.text);
 }
 
@@ -186,21 +177,14 @@ static matrices of_hinge(const char *rotation, const char *convention, double fo
                          int in_other_axes)
 {
     case_type type = *case_find("cross_flexure", NULL);
-    cell_request request = {.type = &type, .elements = 2};
-    formulation fm;
+    cell_request request = cells_of(&type, "collocation", 2);
     fault f = {""};
     cell_result r;
     matrices out = {{NAN}, {NAN}};
-    formulation_parse("collocation", &fm, &f);
-    parameters_default(&type, request.parameter);
-    gsl_test(parameters_set(&type, rotation, request.parameter, &f) != STATUS_OK ||
-                 parameters_set(&type, convention, request.parameter, &f) != STATUS_OK,
-             "%s, %s", rotation, convention);
+    cells_set(&request, (const char *const[]){rotation, convention, NULL});
     request.parameter[TILTED] = force;
     request.parameter[TURNED] = in_other_axes;
     type.build = tilted_hinge;
-    request.formulation = fm.type;
-    memcpy(request.option, fm.option, sizeof request.option);
     gsl_test(cell_run(&request, &r, &f) != STATUS_OK, "%s, %s solved: %s", rotation, convention,
              f.text);
     const nodal_matrices *m = &r.solve.matrices[0];

@@ -7,29 +7,18 @@
 
 #include "elements/math/pi.h"
 #include "harness/catalogue/formulations.h"
-#include "harness/catalogue/parameters.h"
-#include "harness/study/cell.h"
+#include "harness/test/cells.h"
 
 static double value_of(const char *case_name, const char *chosen, int n,
                        const char *const assignment[], const char *quantity)
 {
-    cell_request request = {.type = case_find(case_name, NULL), .elements = n};
+    cell_request request = cells_of(case_find(case_name, NULL), chosen, n);
     cell_result r;
-    formulation fm;
     fault f = {""};
-    double value = NAN;
-    gsl_test(formulation_parse(chosen, &fm, &f) != STATUS_OK, "%s exists", chosen);
-    parameters_default(request.type, request.parameter);
-    for (int i = 0; assignment[i] != NULL; i++)
-        gsl_test(parameters_set(request.type, assignment[i], request.parameter, &f) != STATUS_OK,
-                 "%s", assignment[i]);
-    request.formulation = fm.type;
-    memcpy(request.option, fm.option, sizeof request.option);
+    cells_set(&request, assignment);
     gsl_test(cell_run(&request, &r, &f) != STATUS_OK, "%s solved with %s: %s", case_name, chosen,
              f.text);
-    for (int i = 0; i < r.solve.quantities; i++)
-        if (strcmp(r.scene.quantity[i].name, quantity) == 0)
-            value = r.solve.quantity[i].value;
+    const double value = cells_value(&r, quantity);
     cell_result_free(&r);
     return value;
 }

@@ -5,12 +5,9 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "elements/math/pi.h"
-#include "harness/catalogue/formulations.h"
-#include "harness/catalogue/parameters.h"
-#include "harness/study/cell.h"
+#include "harness/test/cells.h"
 
 enum { MODES = 10, RIGID = 6 };
 static const double length = 2.385, thickness = 0.011, width = 0.017, young = 2.1e11,
@@ -59,13 +56,9 @@ static double exact(int i)
 
 static void frequencies(const char *name, int elements, double allowed)
 {
-    cell_request request = {.type = &free_beam, .elements = elements};
+    const cell_request request = cells_of(&free_beam, name, elements);
     cell_result r;
-    formulation chosen;
     fault f = {""};
-    gsl_test(formulation_parse(name, &chosen, &f) != STATUS_OK, "%s exists %s", name, f.text);
-    request.formulation = chosen.type;
-    memcpy(request.option, chosen.option, sizeof request.option);
     gsl_test(cell_run(&request, &r, &f) != STATUS_OK, "%s solved: %s", name, f.text);
     for (int i = 0; i < MODES && i < r.solve.quantities; i++) {
         const double value = r.solve.quantity[i].value;

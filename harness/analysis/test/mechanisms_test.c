@@ -6,39 +6,18 @@
 
 #include "elements/math/pi.h"
 #include "harness/catalogue/formulations.h"
-#include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
-#include "harness/study/cell.h"
 #include "harness/test/ask.h"
+#include "harness/test/cells.h"
 
 /* Solves a case with n elements; assignments end with NULL. The caller frees the result. */
-static status run(const char *case_name, const element_type *type, const char *key, int n,
-                  const char *const assignment[], cell_result *out)
+static status run(const char *case_name, const char *key, int n, const char *const assignment[],
+                  cell_result *out)
 {
-    cell_request request = {.elements = n};
-    formulation chosen;
+    cell_request request = cells_of(case_find(case_name, NULL), key, n);
     fault f = {""};
-    request.type = case_find(case_name, &f);
-    parameters_default(request.type, request.parameter);
-    for (int i = 0; assignment[i] != NULL; i++)
-        gsl_test(parameters_set(request.type, assignment[i], request.parameter, &f) != STATUS_OK,
-                 "%s: %s", case_name, assignment[i]);
-    if (type != NULL)
-        formulation_default(type, &chosen);
-    else
-        gsl_test(formulation_parse(key, &chosen, &f) != STATUS_OK, "%s exists", key);
-    request.formulation = chosen.type;
-    memcpy(request.option, chosen.option, sizeof request.option);
-    request.solve.newton = formulation_newton(&chosen);
+    cells_set(&request, assignment);
     return cell_run(&request, out, &f);
-}
-
-static double value_of(const cell_result *r, const char *quantity)
-{
-    for (int i = 0; i < r->solve.quantities; i++)
-        if (strcmp(r->scene.quantity[i].name, quantity) == 0)
-            return r->solve.quantity[i].value;
-    return NAN;
 }
 
 /* N section 4: coordinates, strains and stresses at once reach 15 degrees from rest without steps
@@ -52,7 +31,7 @@ static void from_rest_in_one_step(void)
             cell_result r;
             const char *name = registry_formulations[i]->name;
             const status outcome =
-                run("spherical_joint", registry_formulations[i], NULL, n, once, &r);
+                run("spherical_joint", registry_formulations[i]->name, n, once, &r);
             if (ask_offered(&r.scene, registry_formulations[i])) {
                 runs++;
                 gsl_test(outcome != STATUS_OK || r.solve.steps != 1 ||
@@ -78,8 +57,8 @@ static void few_iterations(void)
                 {"sheet_cantilever", "sheet_third", 2.5}};
     for (size_t i = 0; i < sizeof path / sizeof path[0]; i++) {
         cell_result r;
-        gsl_test(run(path[i].case_name, NULL, path[i].formulation, 1, (const char *const[]){NULL},
-                     &r) != STATUS_OK,
+        gsl_test(run(path[i].case_name, path[i].formulation, 1, (const char *const[]){NULL}, &r) !=
+                     STATUS_OK,
                  "%s solved", path[i].case_name);
         const double average = (double)r.counters.iterations / (double)r.counters.steps;
         gsl_test(!(average <= path[i].most), "%s, %s: %.2f iterations a step", path[i].case_name,
@@ -93,17 +72,10 @@ static void few_iterations(void)
 static void guesses_change_nothing(void)
 {
     const char *const defaults[] = {NULL};
-    cell_request request = {.elements = 1};
+    cell_request request = cells_of(case_find("spherical_joint", NULL), "sheet_third", 1);
     cell_result plain, halved;
     fault f = {""};
-    formulation chosen;
-    gsl_test(run("spherical_joint", NULL, "sheet_third", 1, defaults, &plain) != STATUS_OK,
-             "the curve");
-    request.type = case_find("spherical_joint", &f);
-    parameters_default(request.type, request.parameter);
-    formulation_parse("sheet_third", &chosen, &f);
-    request.formulation = chosen.type;
-    memcpy(request.option, chosen.option, sizeof request.option);
+    gsl_test(run("spherical_joint", "sheet_third", 1, defaults, &plain) != STATUS_OK, "the curve");
     request.solve.steps_between = 3;
     gsl_test(cell_run(&request, &halved, &f) != STATUS_OK,
              "the curve in three steps from azimuth to azimuth");
@@ -129,12 +101,12 @@ static void directions(void)
                {"geometrically_exact", 0, 1e-10}};
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         cell_result bodies, chained;
-        run("spherical_joint", NULL, row[i].formulation, 1, (const char *const[]){"wagner=0", NULL},
+        run("spherical_joint", row[i].formulation, 1, (const char *const[]){"wagner=0", NULL},
             &bodies);
-        run("spherical_joint", NULL, row[i].formulation, 1,
+        run("spherical_joint", row[i].formulation, 1,
             (const char *const[]){"wagner=0", "element_direction=chained", NULL}, &chained);
-        const double change = fabs(value_of(&chained, "support_stiffness_max") /
-                                       value_of(&bodies, "support_stiffness_max") -
+        const double change = fabs(cells_value(&chained, "support_stiffness_max") /
+                                       cells_value(&bodies, "support_stiffness_max") -
                                    1);
         gsl_test(!(change >= row[i].least && change <= row[i].most),
                  "%s, one element: the direction changes %.1e", row[i].formulation, change);
@@ -152,8 +124,8 @@ static void fold_warping(void)
     double value[3];
     for (int i = 0; i < 3; i++) {
         cell_result r;
-        run("spherical_joint", NULL, "sheet_third", 1, (const char *const[]){choice[i], NULL}, &r);
-        value[i] = value_of(&r, "support_stiffness_max");
+        run("spherical_joint", "sheet_third", 1, (const char *const[]){choice[i], NULL}, &r);
+        value[i] = cells_value(&r, "support_stiffness_max");
         cell_result_free(&r);
     }
     gsl_test_rel(value[0], 9.37e5, 1e-3, "folds that do not warp");
@@ -224,15 +196,9 @@ static void threads_change_no_bit(void)
 {
     const char *const names[] = {"sheet_third", "collocation", "geometrically_exact"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        cell_request request = {.elements = 1};
+        cell_request request = cells_of(case_find("hexapod", NULL), names[i], 1);
         cell_result one, two;
-        formulation chosen;
         fault f = {""};
-        request.type = case_find("hexapod", &f);
-        parameters_default(request.type, request.parameter);
-        formulation_parse(names[i], &chosen, &f);
-        request.formulation = chosen.type;
-        memcpy(request.option, chosen.option, sizeof request.option);
         gsl_test(cell_run(&request, &one, &f) != STATUS_OK, "hexapod, %s, one thread", names[i]);
         request.threads = 2;
         gsl_test(cell_run(&request, &two, &f) != STATUS_OK, "hexapod, %s, two threads", names[i]);

@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/parameters.h"
@@ -63,12 +62,11 @@ static const case_type drawn = {.name = "drawn", .parameters = table, .build = b
 static status solve_edited(const case_type *type, const element_type *formulation_type, int n,
                            const char *parameters, const scene_edit *edit, cell_result *out)
 {
-    cell_request request = {
-        .type = type, .formulation = formulation_type, .elements = n, .edit = *edit};
+    cell_request request = {.type = type, .elements = n, .edit = *edit};
     formulation chosen;
     fault f = {""};
     formulation_default(formulation_type, &chosen);
-    memcpy(request.option, chosen.option, sizeof request.option);
+    cell_formulation(&request, &chosen);
     parameters_default(type, request.parameter);
     gsl_test(parameters_parse(type, parameters, request.parameter, NULL, &f) != STATUS_OK,
              "%s %s: %s", type->name, parameters, f.text);

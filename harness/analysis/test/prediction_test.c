@@ -5,21 +5,13 @@
 #include <string.h>
 
 #include "harness/catalogue/formulations.h"
-#include "harness/catalogue/parameters.h"
-#include "harness/study/cell.h"
+#include "harness/test/cells.h"
 
 static void solve(const char *const assignment[], cell_result *out)
 {
-    cell_request request = {.type = case_find("sheet_cantilever", NULL), .elements = 1};
-    formulation fm;
+    cell_request request = cells_of(case_find("sheet_cantilever", NULL), "sheet_third", 1);
     fault f = {""};
-    gsl_test(formulation_parse("sheet_third", &fm, &f) != STATUS_OK, "sheet_third exists");
-    parameters_default(request.type, request.parameter);
-    for (int i = 0; assignment[i] != NULL; i++)
-        gsl_test(parameters_set(request.type, assignment[i], request.parameter, &f) != STATUS_OK,
-                 "%s", assignment[i]);
-    request.formulation = fm.type;
-    memcpy(request.option, fm.option, sizeof request.option);
+    cells_set(&request, assignment);
     gsl_test(cell_run(&request, out, &f) != STATUS_OK, "solved: %s", f.text);
 }
 

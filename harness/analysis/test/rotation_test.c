@@ -8,34 +8,17 @@
 
 #include "cases/case.h"
 #include "harness/catalogue/formulations.h"
-#include "harness/catalogue/parameters.h"
-#include "harness/study/cell.h"
+#include "harness/test/cells.h"
 
 static status run(const case_type *type, const char *chosen, int n, const char *const assignment[],
                   cell_result *r)
 {
-    cell_request request = {.type = type, .elements = n};
-    formulation fm;
+    cell_request request = cells_of(type, chosen, n);
     fault f = {""};
-    gsl_test(formulation_parse(chosen, &fm, &f) != STATUS_OK, "%s exists", chosen);
-    parameters_default(type, request.parameter);
-    for (int i = 0; assignment != NULL && assignment[i] != NULL; i++)
-        gsl_test(parameters_set(type, assignment[i], request.parameter, &f) != STATUS_OK, "%s",
-                 assignment[i]);
-    request.formulation = fm.type;
-    request.solve.newton = formulation_newton(&fm);
-    memcpy(request.option, fm.option, sizeof request.option);
+    cells_set(&request, assignment);
     const status outcome = cell_run(&request, r, &f);
     gsl_test(outcome != STATUS_OK, "%s solved with %s: %s", type->name, chosen, f.text);
     return outcome;
-}
-
-static double value_in(const cell_result *r, const char *quantity)
-{
-    for (int i = 0; i < r->solve.quantities; i++)
-        if (strcmp(r->scene.quantity[i].name, quantity) == 0)
-            return r->solve.quantity[i].value;
-    return NAN;
 }
 
 static double value_of(const char *case_name, const char *chosen, int n,
@@ -43,7 +26,7 @@ static double value_of(const char *case_name, const char *chosen, int n,
 {
     cell_result r;
     run(case_find(case_name, NULL), chosen, n, assignment, &r);
-    const double value = value_in(&r, quantity);
+    const double value = cells_value(&r, quantity);
     cell_result_free(&r);
     return value;
 }
@@ -151,13 +134,13 @@ static void reference_point(void)
         cell_result plain, body;
         run(&type, each[i], 4, NULL, &plain);
         run(&type, each[i], 4, attached, &body);
-        gsl_test_rel(value_in(&body, "moved"), value_in(&plain, "moved"), 1e-9,
+        gsl_test_rel(cells_value(&body, "moved"), cells_value(&plain, "moved"), 1e-9,
                      "%s: deflection with a body", each[i]);
         for (int k = 0; k < 4; k++) {
             char name[SCENE_NAME];
             snprintf(name, sizeof name, "frequency_%d", k);
-            gsl_test_rel(value_in(&body, name), value_in(&plain, name), 1e-9, "%s: %s with a body",
-                         each[i], name);
+            gsl_test_rel(cells_value(&body, name), cells_value(&plain, name), 1e-9,
+                         "%s: %s with a body", each[i], name);
         }
         const step_record *last = &body.solve.step[body.solve.steps - 1];
         const iteration_record *end = &body.solve.iteration[last->first + last->iterations - 1];
@@ -184,7 +167,7 @@ static void at_rest(void)
              turning.counters.inertia_evaluations, turning.counters.strain_evaluations);
     gsl_test(rest.counters.strain_evaluations != turning.counters.strain_evaluations,
              "both: %ld evaluations of strains", rest.counters.strain_evaluations);
-    gsl_test_rel(value_in(&turning, "load_at_w"), value_in(&rest, "load_at_w"), 1e-9,
+    gsl_test_rel(cells_value(&turning, "load_at_w"), cells_value(&rest, "load_at_w"), 1e-9,
                  "hardly turning is at rest");
     cell_result_free(&rest);
     cell_result_free(&turning);
@@ -198,7 +181,7 @@ static void instability_is_named(void)
     run(case_find("rotating_cantilever", NULL), "beamw", 8, inward, &r);
     gsl_test(strstr(r.solve.reason, "divergence") == NULL, "the instability is named: %s",
              r.solve.reason);
-    gsl_test(!(value_in(&r, "growth") > 1), "and grows");
+    gsl_test(!(cells_value(&r, "growth") > 1), "and grows");
     cell_result_free(&r);
 }
 

@@ -9,7 +9,7 @@
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
 #include "harness/model/supports.h"
-#include "harness/study/cell.h"
+#include "harness/test/cells.h"
 
 /* Two beams along x, the second beside the first and held by itself; loads along z. */
 static void two_beams(scene *s)
@@ -139,15 +139,9 @@ static void supports(const char *formulation_text, int elements)
 static status run(const char *case_name, const char *formulation_text, int elements,
                   const char *assignment, cell_result *out, fault *f)
 {
-    cell_request request = {.type = case_find(case_name, f), .elements = elements};
-    formulation fm;
-    parameters_default(request.type, request.parameter);
+    cell_request request = cells_of(case_find(case_name, NULL), formulation_text, elements);
     if (assignment[0] != '\0')
-        gsl_test(parameters_set(request.type, assignment, request.parameter, f) != STATUS_OK, "%s",
-                 assignment);
-    formulation_parse(formulation_text, &fm, f);
-    request.formulation = fm.type;
-    memcpy(request.option, fm.option, sizeof request.option);
+        cells_set(&request, (const char *const[]){assignment, NULL});
     return cell_run(&request, out, f);
 }
 

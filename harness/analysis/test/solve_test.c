@@ -4,37 +4,22 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "harness/catalogue/formulations.h"
-#include "harness/catalogue/parameters.h"
-#include "harness/study/cell.h"
+#include "harness/test/cells.h"
 
 static double value_of(const char *case_name, const char *formulation_text, int n, int keep_all,
                        const char *assignment, const char *quantity, long *iterations)
 {
-    cell_request request = {0};
+    cell_request request = cells_of(case_find(case_name, NULL), formulation_text, n);
     cell_result result;
-    formulation chosen;
     fault f = {""};
-    double value = NAN;
-    request.type = case_find(case_name, &f);
-    gsl_test(request.type == NULL || formulation_parse(formulation_text, &chosen, &f) != STATUS_OK,
-             "%s, %s exist", case_name, formulation_text);
-    parameters_default(request.type, request.parameter);
-    gsl_test(assignment[0] != '\0' &&
-                 parameters_set(request.type, assignment, request.parameter, &f) != STATUS_OK,
-             "%s: %s", case_name, assignment);
-    request.formulation = chosen.type;
-    memcpy(request.option, chosen.option, sizeof request.option);
-    request.solve.newton = formulation_newton(&chosen);
-    request.elements = n;
+    if (assignment[0] != '\0')
+        cells_set(&request, (const char *const[]){assignment, NULL});
     request.keep_all = keep_all;
     gsl_test(cell_run(&request, &result, &f) != STATUS_OK, "%s solved with %s (%s)", case_name,
              formulation_text, f.text);
-    for (int i = 0; i < result.solve.quantities; i++)
-        if (strcmp(result.scene.quantity[i].name, quantity) == 0)
-            value = result.solve.quantity[i].value;
+    const double value = cells_value(&result, quantity);
     if (iterations != NULL)
         *iterations = result.counters.iterations;
     cell_result_free(&result);

@@ -37,11 +37,11 @@ static status turned(const double value[], scene *s, fault *f)
 static status solve(int original, double angle, const element_type *element, cell_result *out)
 {
     case_type type = *registry_cases[original];
-    cell_request request = {.type = &type, .formulation = element, .elements = 4};
+    cell_request request = {.type = &type, .elements = 4};
     formulation chosen;
     fault f = {""};
     formulation_default(element, &chosen);
-    memcpy(request.option, chosen.option, sizeof request.option);
+    cell_formulation(&request, &chosen);
     parameters_default(&type, request.parameter);
     request.parameter[ORIGINAL] = original;
     request.parameter[ANGLE] = angle;

@@ -133,9 +133,7 @@ static status solve(const void *what, double *value, fault *f)
     if (request.type == NULL || formulation_parse(choice->formulation, &chosen, f) != STATUS_OK)
         return STATUS_REFUSED;
     parameters_default(request.type, request.parameter);
-    request.formulation = chosen.type;
-    request.solve.newton = formulation_newton(&chosen);
-    memcpy(request.option, chosen.option, sizeof request.option);
+    cell_formulation(&request, &chosen);
     const status outcome = cell_run(&request, &r, f);
     *value = 0;
     for (int i = 0; i < r.solve.quantities; i++)

@@ -7,7 +7,7 @@
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 #include "harness/judge/reach.h"
-#include "harness/study/cell.h"
+#include "harness/test/cells.h"
 #include "harness/timing/against.h"
 #include "harness/timing/rounds.h"
 
@@ -119,14 +119,8 @@ static void test_reach(void)
 
 static void test_counts(void)
 {
-    cell_request request = {.elements = 3};
+    cell_request request = cells_of(case_find("sheet_cantilever", NULL), "sheet_third", 3);
     fault f = {""};
-    formulation chosen;
-    gsl_test(formulation_parse("sheet_third", &chosen, &f) != STATUS_OK, "formulation %s", f.text);
-    request.type = case_find("sheet_cantilever", &f);
-    request.formulation = chosen.type;
-    memcpy(request.option, chosen.option, sizeof request.option);
-    parameters_default(request.type, request.parameter);
     counters first = {0};
     for (int i = 0; i < 2; i++) {
         cell_result cell;
@@ -148,15 +142,8 @@ static void test_counts(void)
 
 static void test_rounds(void)
 {
-    cell_request request = {.elements = 2};
-    fault f = {""};
-    formulation chosen;
+    const cell_request request = cells_of(case_find("c_column", NULL), "beamw", 2);
     rounds_reading c = {0};
-    gsl_test(formulation_parse("beamw", &chosen, &f) != STATUS_OK, "formulation %s", f.text);
-    request.type = case_find("c_column", &f);
-    request.formulation = chosen.type;
-    memcpy(request.option, chosen.option, sizeof request.option);
-    parameters_default(request.type, request.parameter);
     for (int i = 0; i < ROUNDS_COUNT + 2; i++)
         rounds_run(&request, 0, &c);
     gsl_test_int(c.rounds, ROUNDS_COUNT, "rounds end");

@@ -2,25 +2,11 @@
  * time is taken for. */
 #include <gsl/gsl_test.h>
 #include <math.h>
-#include <string.h>
 
 #include "harness/catalogue/formulations.h"
-#include "harness/catalogue/parameters.h"
 #include "harness/model/uncondensed.h"
+#include "harness/test/cells.h"
 #include "harness/timing/dense_reference.h"
-
-static cell_request cell_of(const char *name, const char *key, int elements)
-{
-    cell_request request = {.elements = elements};
-    formulation chosen;
-    fault f = {""};
-    gsl_test(formulation_parse(key, &chosen, &f) != STATUS_OK, "%s exists %s", key, f.text);
-    request.type = case_find(name, &f);
-    request.formulation = chosen.type;
-    memcpy(request.option, chosen.option, sizeof request.option);
-    parameters_default(request.type, request.parameter);
-    return request;
-}
 
 /* The order of the matrix that is eliminated. */
 static int order_of(const cell_request *request)
@@ -63,7 +49,7 @@ static void unknowns(void)
     for (int c = 0; c < 3; c++)
         for (int k = 0; k < 4; k++)
             for (int n = 1; n <= 4; n++) {
-                const cell_request request = cell_of(name[c], key[k], n);
+                const cell_request request = cells_of(case_find(name[c], NULL), key[k], n);
                 const dense_reference dense = measure(&request);
                 if (dense.unknowns == 0)
                     continue;
@@ -79,9 +65,9 @@ static void unknowns(void)
 /* Nothing iterates, or the matrix is too large. */
 static void not_measured(void)
 {
-    const cell_request linear = cell_of("warping_torsion", "beamw_consistent", 4),
-                       continued = cell_of("snap_through", "collocation", 2),
-                       large = cell_of("elastica", "geometrically_exact", 600);
+    const cell_request linear = cells_of(case_find("warping_torsion", NULL), "beamw_consistent", 4),
+                       continued = cells_of(case_find("snap_through", NULL), "collocation", 2),
+                       large = cells_of(case_find("elastica", NULL), "geometrically_exact", 600);
     gsl_test_int(measure(&linear).unknowns, 0, "a linear problem");
     gsl_test_int(measure(&continued).unknowns, 0, "a path that the algorithm cannot follow");
     gsl_test_int(measure(&large).unknowns, 0, "a matrix beyond 3000 unknowns");
