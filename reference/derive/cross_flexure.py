@@ -15,6 +15,7 @@ from reference.derive import defaults
 from reference.derive.network import Network, clamped
 from reference.derive.sheets import parameters, sheet
 
+ROUND_OFF = 2.2e-16  # of a place, in lengths of a leaf
 RELATIVE = 1e-9  # the stiffness of a leaf along itself, beside the forces that bend it
 DEFAULTS = defaults.values("cross_flexure")
 SIZES = ("length", "width", "thickness", "young", "poisson")
@@ -67,7 +68,7 @@ def quantities(given, form=lambda beam: beam):
     C = compliance(net, arm, turned, rotation in TILTS_FREE, convention)
     yield "moment", net.force * net.length * arm.load[5], "N m", RELATIVE
     for i, name in enumerate(("shift_x", "shift_y")):
-        yield name, net.length * arm.x[i], "m", RELATIVE
+        yield name, net.length * arm.x[i], "m", max(RELATIVE, ROUND_OFF / abs(arm.x[i]))
     for i, name in enumerate(("k_x", "k_y", "k_z", "k_tilt_x", "k_tilt_y")[:len(C)]):
         yield name, 1 / C[i, i], "N/m" if i < 3 else "N m/rad", RELATIVE, convention
 
