@@ -1,3 +1,4 @@
+#include <float.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -104,6 +105,8 @@ static int list_case(const case_type *type)
         printf("  %-20s %-14s %-8s %s (", p->name, text, p->unit, p->summary);
         if (p->choices != NULL)
             printf("%s)\n", p->choices);
+        else if (p->min == -DBL_MAX && p->max == DBL_MAX)
+            printf("any)\n");
         else
             printf("%g .. %g)\n", p->min, p->max);
     }
@@ -130,7 +133,13 @@ int cli_list(int count, char **arguments)
     cli_parse("list", "[cases|formulations|CASE]",
               "Shows what there is: cases with their parameters and quantities, formulations with "
               "their options.",
-              "", count, arguments, &r);
+              "Y", count, arguments, &r);
+    if (r.scene_path != NULL) {
+        const case_type *own = cli_scene_case(&r);
+        const int code = own != NULL ? list_case(own) : r.refusal;
+        cli_close(&r);
+        return code;
+    }
     if (r.case_name == NULL || strcmp(r.case_name, "cases") == 0)
         list_cases();
     if (r.case_name == NULL || strcmp(r.case_name, "formulations") == 0)

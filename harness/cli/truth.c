@@ -74,32 +74,23 @@ static status print_derived(const case_type *type, const double parameter[], fau
     return outcome;
 }
 
-int cli_truth(int count, char **arguments)
+static int truth_request(cli_request *r)
 {
-    static cli_request r;
     truths t;
     fault f = {""};
     char text[PARAMETERS_TEXT];
-    cli_parse("truth", "CASE",
-              "Shows the truths of a parameter point: value, uncertainty, unit, kind, model, "
-              "source. Where the tables have none of "
-              "the case's own model, the "
-              "deriving program is run to solve for them. Exit status: 0 shown, 1 none is stored "
-              "and no program derives this case "
-              "or these parameters, "
-              "2 refused, 4 file, disk or memory.",
-              "sT", count, arguments, &r);
-    const case_type *type = cli_case(&r);
+    const case_type *type = cli_case(r);
     if (type == NULL)
-        return EXIT_REFUSED;
-    status outcome = truths_read(cli_truths_path(&r), &t, &f);
+        return r->refusal;
+    status outcome = cli_truths_read(r, 0, &t, &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
-    parameters_text(type, r.parameter, text, sizeof text);
+    parameters_text(type, r->parameter, text, sizeof text);
     printf("%s%s%s\n", type->name, text[0] != '\0' ? ": " : "", text);
-    if (print_stored(&t, type, r.parameter) == 0) {
+    if (print_stored(&t, type, r->parameter) == 0) {
         fflush(stdout);
-        outcome = print_derived(type, r.parameter, &f);
+        outcome = r->scene == NULL ? print_derived(type, r->parameter, &f)
+                                   : fault_set(&f, STATUS_REFUSED, "the file has no truth there");
     }
     truths_free(&t);
     if (fflush(stdout) != 0)
@@ -108,4 +99,21 @@ int cli_truth(int count, char **arguments)
         return EXIT_AS_EXPECTED;
     cli_fail(outcome, f.text);
     return outcome == STATUS_REFUSED ? EXIT_DIFFERS : EXIT_FAULT;
+}
+
+int cli_truth(int count, char **arguments)
+{
+    static cli_request r;
+    cli_parse("truth", "CASE",
+              "Shows the truths of a parameter point: value, uncertainty, unit, kind, model, "
+              "source. Where the tables have none of "
+              "the case's own model, the "
+              "deriving program is run to solve for them. Exit status: 0 shown, 1 none is stored "
+              "and no program derives this case "
+              "or these parameters, "
+              "2 refused, 4 file, disk or memory.",
+              "sTY", count, arguments, &r);
+    const int code = truth_request(&r);
+    cli_close(&r);
+    return code;
 }

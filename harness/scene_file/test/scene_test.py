@@ -105,6 +105,17 @@ class SceneTest(ProgramTest):
             once = self.answered("scene", "--scene", path).stdout
             self.assertEqual(self.answered("scene", "--scene", self.scene(once)).stdout, once)
 
+    def test_examples_pass(self):
+        """Every example is understood by `list`; where it has truths, they hold."""
+        judged = 0
+        for path in sorted(EXAMPLES.glob("*.yaml")):
+            self.answered("list", "--scene", path)
+            known = run("truth", "--scene", path).returncode == 0
+            done = run("verify", "--scene", path, "-f", "collocation")
+            self.assertEqual(done.returncode, 0 if known else 3, (path.name, done.stdout))
+            judged += known
+        self.assertGreaterEqual(judged, 4)
+
     def test_leaf_spring_guide(self):
         """Both exact stiffnesses, and the limit of the support stiffness at the end of the stroke."""
         path = EXAMPLES / "leaf_spring_guide.yaml"
