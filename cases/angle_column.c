@@ -23,11 +23,7 @@ static const double shear_centre = 41.012e-3,
 
 static int angle(const double value[], scene *s)
 {
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
-    spec.young = 2.1e11;
-    spec.shear_modulus = 2.1e11 / 2.6;
+    section_spec spec = section_spec_constants(2.1e11, 2.1e11 / 2.6);
     section *c = &spec.constants;
     c->A = 1856e-6;
     c->Iy = 4167339e-12;

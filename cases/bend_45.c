@@ -20,12 +20,7 @@ static status build(const double value[], scene *s, fault *f)
     (void)f;
     const double radius = 100, angle = 0.78539816339744830962, side = 1;
     const int polar = value[TORSION] != 0;
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 1e7;
-    spec.shear_modulus = 5e6;
-    spec.width = spec.height = side;
+    section_spec spec = section_spec_rectangle(1e7, 5e6, side, side);
     spec.shear_factor[0] = spec.shear_factor[1] = polar ? 1 : 5.0 / 6;
     spec.given.Iw = 0; /* uniform torsion */
     if (polar)

@@ -20,13 +20,8 @@ static const parameter_type parameters[] = {
 static int square(const double value[], scene *s)
 {
     const double side = 2;
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 200e9;
-    spec.shear_modulus = spec.young / 2.6;
+    section_spec spec = section_spec_rectangle(200e9, 200e9 / 2.6, side, side);
     spec.density = 8000;
-    spec.width = spec.height = side;
     spec.shear_factor[0] = spec.shear_factor[1] = 5.0 / 6;
     spec.given.Iw = 0; /* uniform torsion */
     if (value[TORSION] == 0)

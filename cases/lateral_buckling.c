@@ -22,10 +22,8 @@ static status build(const double value[], scene *s, fault *f)
 {
     (void)f;
     const int load = (int)value[LOAD], supported = load == MID || load == MID_DISTRIBUTED;
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
-    spec.young = spec.shear_modulus = 1; /* only the products matter */
+    /* only the products matter */
+    section_spec spec = section_spec_constants(1, 1);
     spec.constants.A = 1e6;
     spec.constants.Iy = value[RATIO];
     spec.constants.Iz = spec.constants.It = 1;

@@ -19,11 +19,7 @@ static const double length = 120, load_at = 24; /* [m] */
 
 static int profile_of(int plane, scene *s)
 {
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
-    spec.young = 720;
-    spec.shear_modulus = 720 / 2.6;
+    section_spec spec = section_spec_constants(720, 720 / 2.6);
     section *c = &spec.constants;
     c->A = 6;
     c->Iy = 2; /* in the plane */

@@ -36,13 +36,9 @@ static void add_moment(scene *s, int buckling, const char *name, int order)
 static status build(const double value[], scene *s, fault *f)
 {
     (void)f;
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = value[YOUNG];
-    spec.shear_modulus = value[YOUNG] / (2 * (1 + value[POISSON]));
-    spec.width = value[DEPTH]; /* along the local z, which lies in the plane */
-    spec.height = value[THICKNESS];
+    /* its depth lies along the local z, in the plane */
+    section_spec spec = section_spec_rectangle(
+        value[YOUNG], value[YOUNG] / (2 * (1 + value[POISSON])), value[DEPTH], value[THICKNESS]);
     spec.given.Iw = 0;
     spec.given.It = value[DEPTH] * pow(value[THICKNESS], 3) / 3;
     const int profile = scene_add_section(s, &spec);

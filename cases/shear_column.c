@@ -19,12 +19,8 @@ static const parameter_type parameters[] = {
 static status build(const double value[], scene *s, fault *f)
 {
     (void)f;
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = value[YOUNG];
-    spec.shear_modulus = value[SHEAR_MODULUS];
-    spec.width = spec.height = value[SIDE];
+    section_spec spec =
+        section_spec_rectangle(value[YOUNG], value[SHEAR_MODULUS], value[SIDE], value[SIDE]);
     spec.shear_factor[0] = spec.shear_factor[1] = 5.0 / 6;
     spec.given.Iw = 0;
     const int profile = scene_add_section(s, &spec);

@@ -21,10 +21,7 @@ static const parameter_type parameters[] = {
 
 static int stiff_bar(scene *s)
 {
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
-    spec.young = spec.shear_modulus = 1;
+    section_spec spec = section_spec_constants(1, 1);
     /* EA = 1 N; bending so stiff that the bar does not buckle. */
     section *c = &spec.constants;
     c->A = c->Iy = c->Iz = c->It = 1;

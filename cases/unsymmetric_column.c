@@ -30,19 +30,8 @@ static void branched_section(const double value[], section_spec *spec)
     static const double point[5][2] = {{0, 0}, {0.05, 0}, {0.05, 0.08}, {0.02, 0.08}, {0.05, 0.1}};
     static const int ends[4][2] = {{0, 1}, {1, 2}, {2, 3}, {2, 4}};
     static const double thickness[4] = {0.002, 0.003, 0.004, 0.001};
-    section_spec_init(spec);
-    spec->kind = SECTION_WALLS;
-    spec->young = value[YOUNG];
-    spec->shear_modulus = value[SHEAR_MODULUS];
+    *spec = section_spec_walls(value[YOUNG], value[SHEAR_MODULUS], 4, point, ends, thickness);
     spec->density = value[DENSITY];
-    spec->points = 5;
-    spec->walls = 4;
-    memcpy(spec->point, point, sizeof point);
-    for (int i = 0; i < 4; i++) {
-        spec->wall[i].from = ends[i][0];
-        spec->wall[i].to = ends[i][1];
-        spec->wall[i].thickness = thickness[i];
-    }
 }
 
 static void add_frequencies(scene *s, int modal)

@@ -15,13 +15,7 @@ static status build(const double value[], scene *s, fault *f)
 {
     (void)f;
     const double length = 1.0, b = 0.2, t = 0.01;
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 2e11;
-    spec.shear_modulus = 8e10;
-    spec.width = b;
-    spec.height = t;
+    section_spec spec = section_spec_rectangle(2e11, 8e10, b, t);
     spec.given.Iw = 0;
     spec.given.It = b * t * t * t / 3;
     const int profile = scene_add_section(s, &spec);

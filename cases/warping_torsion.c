@@ -18,11 +18,7 @@ static status build(const double value[], scene *s, fault *f)
 {
     (void)f;
     const double length = value[LENGTH], k = value[KL] / length;
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
-    spec.young = 200e9;
-    spec.shear_modulus = 80e9;
+    section_spec spec = section_spec_constants(200e9, 80e9);
     spec.constants.A = 1e-3;
     spec.constants.Iy = 2e-6;
     spec.constants.Iz = 3e-6;

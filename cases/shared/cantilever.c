@@ -2,11 +2,8 @@
 
 void cantilever_build(double length, const cantilever_stiffness *k, scene *s, int *root, int *tip)
 {
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
     /* Only the products matter: E = G = 1 Pa. */
-    spec.young = spec.shear_modulus = 1;
+    section_spec spec = section_spec_constants(1, 1);
     spec.density = k->density;
     section *c = &spec.constants;
     c->A = k->EA;

@@ -1,24 +1,14 @@
 #include "cases/shared/channel.h"
 
+#include <stddef.h>
+
 void channel_section(const channel *c, section_spec *out)
 {
-    section_spec_init(out);
-    out->kind = SECTION_WALLS;
-    out->young = c->young;
-    out->shear_modulus = c->shear_modulus;
-    out->density = c->density;
-    const double half = c->height / 2;
+    const double half = c->height / 2, flange = c->flange_thickness;
     const double point[4][2] = {{-c->width, half}, {0, half}, {0, -half}, {-c->width, -half}};
-    for (int i = 0; i < 4; i++)
-        for (int k = 0; k < 2; k++)
-            out->point[i][k] = point[i][k];
-    for (int i = 0; i < 3; i++) {
-        out->wall[i].from = i;
-        out->wall[i].to = i + 1;
-        out->wall[i].thickness = i == 1 ? c->web_thickness : c->flange_thickness;
-    }
-    out->points = 4;
-    out->walls = 3;
+    const double thickness[3] = {flange, c->web_thickness, flange};
+    *out = section_spec_walls(c->young, c->shear_modulus, 3, point, NULL, thickness);
+    out->density = c->density;
 }
 
 void channel_print_constants(int data, section_spec *out)

@@ -6,12 +6,7 @@
 void sheet_section(double width, double thickness, double young, double poisson,
                    double shear_factor, section_spec *out)
 {
-    section_spec_init(out);
-    out->kind = SECTION_RECTANGLE;
-    out->young = young;
-    out->shear_modulus = young / (2 * (1 + poisson));
-    out->width = width;
-    out->height = thickness;
+    *out = section_spec_rectangle(young, young / (2 * (1 + poisson)), width, thickness);
     const double k = shear_factor > 0 ? shear_factor : 10 * (1 + poisson) / (12 + 11 * poisson);
     out->shear_factor[0] = out->shear_factor[1] = k;
 }

@@ -381,13 +381,9 @@ static void constants_follow(void)
 {
     scene s;
     fault f;
-    section_spec spec;
     section c;
     scene_init(&s, "constants");
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = spec.shear_modulus = 1;
-    spec.width = spec.height = 2;
+    section_spec spec = section_spec_rectangle(1, 1, 2, 2);
     const int i = scene_add_section(&s, &spec);
     for (int times = 0; times < 2; times++)
         gsl_test(scene_constants(&s, i, &c, &f) != STATUS_OK || c.A != 4, "area %g", c.A);

@@ -18,6 +18,45 @@ void section_spec_init(section_spec *spec)
         *given[i] = NAN;
 }
 
+static section_spec spec_of(section_kind kind, double young, double shear_modulus)
+{
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = kind;
+    spec.young = young;
+    spec.shear_modulus = shear_modulus;
+    return spec;
+}
+
+section_spec section_spec_rectangle(double young, double shear_modulus, double width, double height)
+{
+    section_spec spec = spec_of(SECTION_RECTANGLE, young, shear_modulus);
+    spec.width = width;
+    spec.height = height;
+    return spec;
+}
+
+section_spec section_spec_constants(double young, double shear_modulus)
+{
+    return spec_of(SECTION_CONSTANTS, young, shear_modulus);
+}
+
+section_spec section_spec_walls(double young, double shear_modulus, int walls,
+                                const double point[][2], const int ends[][2],
+                                const double thickness[])
+{
+    section_spec spec = spec_of(SECTION_WALLS, young, shear_modulus);
+    spec.points = walls + 1;
+    spec.walls = walls;
+    memcpy(spec.point, point, (size_t)spec.points * sizeof spec.point[0]);
+    for (int i = 0; i < walls; i++) {
+        spec.wall[i].from = ends != NULL ? ends[i][0] : i;
+        spec.wall[i].to = ends != NULL ? ends[i][1] : i + 1;
+        spec.wall[i].thickness = thickness[i];
+    }
+    return spec;
+}
+
 double section_rectangle_torsion(double a, double b)
 {
     const double h = fmax(a, b), t = fmin(a, b);

@@ -61,6 +61,17 @@ typedef struct section_spec {
 /* Fills every override with NAN and everything else with zero. */
 void section_spec_init(section_spec *spec);
 
+/* width along z, height along y [m]. */
+section_spec section_spec_rectangle(double young, double shear_modulus, double width,
+                                    double height);
+/* The constants themselves are zero: the caller fills them. */
+section_spec section_spec_constants(double young, double shear_modulus);
+/* walls + 1 points (y, z) [m] of an open section; ends[i]: the points of wall i, NULL: one wall
+ * after the other. */
+section_spec section_spec_walls(double young, double shear_modulus, int walls,
+                                const double point[][2], const int ends[][2],
+                                const double thickness[]);
+
 /* STATUS_REFUSED with the culprit (wall 2, the sum of ..., D's eigenvalue) for zero or negative
  * sizes, a closed cell, disconnected walls, a point used by no wall, D not positive definite, G or E not positive, nan. */
 status section_compute(const section_spec *spec, section *out, fault *f);

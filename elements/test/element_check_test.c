@@ -17,20 +17,8 @@ static section check_section(void)
     static const double point[5][2] = {{0, 0}, {50, 0}, {50, 80}, {20, 80}, {50, 100}};
     static const int wall[4][2] = {{0, 1}, {1, 2}, {2, 3}, {2, 4}};
     static const double thickness[4] = {2, 3, 4, 1};
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_WALLS;
-    spec.young = 210;
-    spec.shear_modulus = 80;
+    section_spec spec = section_spec_walls(210, 80, 4, point, wall, thickness);
     spec.density = 7.85e-9;
-    spec.points = 5;
-    spec.walls = 4;
-    memcpy(spec.point, point, sizeof point);
-    for (int i = 0; i < 4; i++) {
-        spec.wall[i].from = wall[i][0];
-        spec.wall[i].to = wall[i][1];
-        spec.wall[i].thickness = thickness[i];
-    }
     section c;
     fault f;
     gsl_test(section_compute(&spec, &c, &f) != STATUS_OK, "the check section is accepted");

@@ -12,15 +12,9 @@ enum { MOST = ELEMENT_MAX_COORDINATES, STRAINS = ELEMENT_MAX_STRAINS };
 
 static section steel(double width, double height)
 {
-    section_spec spec;
     section c;
     fault f;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 200e9;
-    spec.shear_modulus = 200e9 / 2.6;
-    spec.width = width;
-    spec.height = height;
+    section_spec spec = section_spec_rectangle(200e9, 200e9 / 2.6, width, height);
     spec.shear_factor[0] = spec.shear_factor[1] = 13.0 / 15.3; /* 10 (1 + nu)/(12 + 11 nu) */
     gsl_test(section_compute(&spec, &c, &f) != STATUS_OK, "section accepted");
     return c;

@@ -53,15 +53,9 @@ static inline void start(subject *s, const element_type *type, const section *c,
  * direction to hide Phi. */
 static inline section sheet(void)
 {
-    section_spec spec;
     section c;
     fault f;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 2e11;
-    spec.shear_modulus = 7.7e10;
-    spec.width = 0.06;
-    spec.height = 0.02;
+    section_spec spec = section_spec_rectangle(2e11, 7.7e10, 0.06, 0.02);
     spec.shear_factor[0] = spec.shear_factor[1] = 0.85;
     spec.sheet_warping = 1;
     gsl_test(section_compute(&spec, &c, &f) != STATUS_OK, "section of the sheet");

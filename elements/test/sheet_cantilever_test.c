@@ -165,17 +165,11 @@ static void compliance(const cantilever *c, double *K, double *right, double *C_
 static void solve(const element_type *type, int n, int reversed, double *C_xx, double *C_zz)
 {
     const double L = 0.1, nu = 0.3;
-    section_spec spec;
     section s;
     cantilever *c = calloc(1, sizeof *c);
     double *K = malloc(sizeof(double) * SIZE * SIZE), *right = malloc(sizeof(double) * SIZE);
     int most = 0;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 200e9;
-    spec.shear_modulus = spec.young / (2 * (1 + nu));
-    spec.width = 0.1;
-    spec.height = 0.00225;
+    section_spec spec = section_spec_rectangle(200e9, 200e9 / (2 * (1 + nu)), 0.1, 0.00225);
     spec.shear_factor[0] = spec.shear_factor[1] = 10 * (1 + nu) / (12 + 11 * nu);
     gsl_test(section_compute(&spec, &s, NULL) != STATUS_OK, "section");
     const element_request request = {.section = &s,

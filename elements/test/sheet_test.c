@@ -18,16 +18,10 @@ enum { TYPES = sizeof types / sizeof types[0], N = 8, NODAL = 14 };
 
 static section sheet_of(double width, double thickness)
 {
-    section_spec spec;
     section c;
     fault f;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 198.7e9;
-    spec.shear_modulus = 76.3e9;
+    section_spec spec = section_spec_rectangle(198.7e9, 76.3e9, width, thickness);
     spec.density = 7823;
-    spec.width = width;
-    spec.height = thickness;
     spec.shear_factor[0] = spec.shear_factor[1] = 0.853;
     gsl_test(section_compute(&spec, &c, &f) != STATUS_OK, "section of a sheet %g x %g", width,
              thickness);

@@ -11,21 +11,9 @@ static section unsymmetric(void)
     static const double point[5][2] = {{0, 0}, {0.05, 0}, {0.05, 0.08}, {0.02, 0.08}, {0.05, 0.1}};
     static const int wall[4][2] = {{0, 1}, {1, 2}, {2, 3}, {2, 4}};
     static const double thickness[4] = {0.002, 0.003, 0.004, 0.001};
-    section_spec spec;
+    const section_spec spec = section_spec_walls(2.1e11, 8e10, 4, point, wall, thickness);
     section c;
     fault f;
-    section_spec_init(&spec);
-    spec.kind = SECTION_WALLS;
-    spec.young = 2.1e11;
-    spec.shear_modulus = 8e10;
-    spec.points = 5;
-    spec.walls = 4;
-    memcpy(spec.point, point, sizeof point);
-    for (int i = 0; i < 4; i++) {
-        spec.wall[i].from = wall[i][0];
-        spec.wall[i].to = wall[i][1];
-        spec.wall[i].thickness = thickness[i];
-    }
     gsl_test(section_compute(&spec, &c, &f) != STATUS_OK, "unsymmetric section");
     return c;
 }

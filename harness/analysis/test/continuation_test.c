@@ -57,10 +57,7 @@ static void limit_points(void)
 static status build_column(const double value[], scene *s, fault *f)
 {
     (void)f;
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
-    spec.young = spec.shear_modulus = 1;
+    section_spec spec = section_spec_constants(1, 1);
     section *c = &spec.constants;
     c->A = 100;
     c->Iz = 1;

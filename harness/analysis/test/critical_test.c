@@ -27,13 +27,8 @@ static double euler(void)
 
 static int square(scene *s)
 {
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = young;
-    spec.shear_modulus = young / 2.6;
+    section_spec spec = section_spec_rectangle(young, young / 2.6, side, side);
     spec.density = 7800;
-    spec.width = spec.height = side;
     return scene_add_section(s, &spec);
 }
 
@@ -252,11 +247,7 @@ static void bent_in_a_frame(scene *s, const double direction[3])
 /* An equal angle whose warping is left out, shear centre at its heel, between forks. */
 static void angle(scene *s, int *foot, int *head)
 {
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
-    spec.young = young;
-    spec.shear_modulus = young / 2.6;
+    section_spec spec = section_spec_constants(young, young / 2.6);
     section *c = &spec.constants;
     c->A = 1.9e-3;
     c->Iy = 4.2e-6;

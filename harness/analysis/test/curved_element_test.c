@@ -34,14 +34,8 @@ typedef struct subject {
 
 static section rectangle(void)
 {
-    section_spec spec;
     section c;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 210e9;
-    spec.shear_modulus = 80.7e9;
-    spec.width = 0.0371;
-    spec.height = 0.0123;
+    section_spec spec = section_spec_rectangle(210e9, 80.7e9, 0.0371, 0.0123);
     spec.shear_factor[0] = spec.shear_factor[1] = 0.847;
     gsl_test(section_compute(&spec, &c, NULL) != STATUS_OK, "section");
     return c;

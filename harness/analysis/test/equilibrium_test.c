@@ -55,15 +55,13 @@ static status solve_column(scene_analysis_kind kind, double P, double M, double 
                            fault *f)
 {
     scene s;
-    section_spec spec;
     model *m = NULL;
     formulation fm;
     solve_result r;
     const double y_axis[3] = {0, 1, 0};
     scene_init(&s, "column");
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
-    spec.young = spec.shear_modulus = spec.density = 1;
+    section_spec spec = section_spec_constants(1, 1);
+    spec.density = 1;
     spec.constants.A = 1e6;
     spec.constants.Iy = 2;
     spec.constants.Iz = spec.constants.It = 1;

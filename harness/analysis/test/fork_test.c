@@ -24,13 +24,7 @@ static void bent_beam(const double Q[9], const double force[3], scene *s)
     static const char *const name[VALUES] = {"u0", "u1", "u2", "M0", "M1", "M2", "t0", "t1", "t2"};
     const double x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1}, end = 1;
     double axis[3], across[3], web[3], load[3];
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 1e5;
-    spec.shear_modulus = 4e4;
-    spec.width = 0.1;
-    spec.height = 0.15;
+    section_spec spec = section_spec_rectangle(1e5, 4e4, 0.1, 0.15);
     spec.shear_factor[0] = spec.shear_factor[1] = 5.0 / 6;
     spec.given.Iw = 0;
     mat3_mul_vec(Q, x, axis);

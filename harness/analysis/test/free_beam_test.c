@@ -17,16 +17,10 @@ static const double root[2] = {4.7300407448627040, 7.8532046240958376};
 static status build(const double value[], scene *s, fault *f)
 {
     const double y_axis[3] = {0, 1, 0};
-    section_spec spec;
     (void)value;
     (void)f;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = young;
-    spec.shear_modulus = young / 2.6;
+    section_spec spec = section_spec_rectangle(young, young / 2.6, width, thickness);
     spec.density = density;
-    spec.height = thickness;
-    spec.width = width;
     const int profile = scene_add_section(s, &spec);
     scene_add_member(s, scene_add_node(s, 0, 0, 0), scene_add_node(s, length, 0, 0), profile,
                      y_axis);

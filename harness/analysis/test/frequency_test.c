@@ -26,13 +26,8 @@ typedef struct request {
 
 static void make(scene *s, const request *what)
 {
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = young;
-    spec.shear_modulus = young / 2.6;
+    section_spec spec = section_spec_rectangle(young, young / 2.6, side, side);
     spec.density = density;
-    spec.width = spec.height = side;
     const int root = scene_add_node(s, 0, 0, 0);
     const int tip =
         scene_add_node(s, length * direction[0], length * direction[1], length * direction[2]);

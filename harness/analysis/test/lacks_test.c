@@ -15,16 +15,10 @@ static const double length = 1, wide = 0.08, young = 2e11, shear_modulus = 8e10,
 /* A tip that slides along `direction` only; a beam described by so many members. */
 static void guided(scene *s, double across_y, double across_z, int direction, int members)
 {
-    section_spec spec;
     const double y_axis[3] = {0, 1, 0};
     double force[3] = {0};
     scene_init(s, "guided");
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = young;
-    spec.shear_modulus = shear_modulus;
-    spec.width = across_z;
-    spec.height = across_y;
+    section_spec spec = section_spec_rectangle(young, shear_modulus, across_z, across_y);
     spec.shear_factor[0] = spec.shear_factor[1] = share;
     spec.given.Iw = 0;
     const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, length, 0, 0),

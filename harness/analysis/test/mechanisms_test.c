@@ -137,11 +137,8 @@ static void fold_warping(void)
  * are (2k - 1)^2 pi^2 EI/4. */
 static void straight_column(scene *s, int stations, const double path[])
 {
-    section_spec spec;
     const double y[3] = {0, 1, 0};
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
-    spec.young = spec.shear_modulus = 1;
+    section_spec spec = section_spec_constants(1, 1);
     spec.constants =
         (section){.young = 1, .shear_modulus = 1, .A = 1e8, .Iy = 4, .Iz = 1, .It = 10, .Ip = 5};
     scene_init(s, "straight_column");

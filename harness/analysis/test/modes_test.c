@@ -18,14 +18,8 @@ static const double length = 2;
  * half-waves. */
 static int make(const double R[9], scene *s, model **m)
 {
-    section_spec spec;
     fault f = {""};
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 2e11;
-    spec.shear_modulus = 8e10;
-    spec.width = 0.2;
-    spec.height = 0.1;
+    section_spec spec = section_spec_rectangle(2e11, 8e10, 0.2, 0.1);
     scene_init(s, "made_up");
     const double y[3] = {R[1], R[4], R[7]};
     const int profile = scene_add_section(s, &spec);

@@ -22,12 +22,7 @@ static status build(const double value[], scene *s, fault *f)
     static const double station[] = {0.1, 0.4, 0.7, 1}, deflection[] = {0.1, 0.2, 0.3},
                         rise[] = {0, 0.4, 0.7, 1}, force[] = {0, 0.5, -0.4, 0.3}, y[] = {0, 1, 0};
     (void)f;
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 12e4;
-    spec.shear_modulus = 5e4;
-    spec.width = spec.height = 0.1;
+    section_spec spec = section_spec_rectangle(12e4, 5e4, 0.1, 0.1);
     const int continued = value[0] != 0, root = scene_add_node(s, 0, 0, 0),
               tip = scene_add_node(s, 1, 0, 0);
     scene_add_member(s, root, tip, scene_add_section(s, &spec), y);

@@ -49,12 +49,7 @@ static void sequences(void)
 static void bar(scene *s, double side, const double direction[3])
 {
     static const double y_axis[3] = {0.1, 1, 0.05};
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 2e11;
-    spec.shear_modulus = spec.young / 2.6;
-    spec.width = spec.height = side;
+    section_spec spec = section_spec_rectangle(2e11, 2e11 / 2.6, side, side);
     scene_init(s, "bar");
     const int root = scene_add_node(s, 0, 0, 0),
               tip = scene_add_node(s, length * direction[0], length * direction[1],

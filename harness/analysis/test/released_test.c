@@ -22,13 +22,7 @@ static void make(scene *s, const request *what)
     static const double to[6] = {-0.002, 0.06, -0.03, 0.04, 0.05, 0.1}, y[3] = {0, 1, 0.3},
                         path[2] = {0, 1};
     const double EI = young * pow(side, 4) / 12;
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = young;
-    spec.shear_modulus = young / 2.6;
-    spec.width = 1.5 * side;
-    spec.height = side;
+    section_spec spec = section_spec_rectangle(young, young / 2.6, 1.5 * side, side);
     const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, length, 0, 0);
     scene_add_member(s, root, tip, scene_add_section(s, &spec), y);
     scene_hold_all(s, root);

@@ -84,21 +84,9 @@ static status build_with_body(const double value[], scene *s, fault *f)
 {
     (void)f;
     static const double point[4][2] = {{0.1, 0.14}, {0, 0.14}, {0, -0.14}, {0.1, -0.14}},
-                        y_axis[3] = {0.1, 1, 0.2};
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_WALLS;
-    spec.young = 210e9;
-    spec.shear_modulus = 80e9;
+                        thickness[3] = {0.012, 0.012, 0.012}, y_axis[3] = {0.1, 1, 0.2};
+    section_spec spec = section_spec_walls(210e9, 80e9, 3, point, NULL, thickness);
     spec.density = 7800;
-    spec.points = 4;
-    spec.walls = 3;
-    memcpy(spec.point, point, sizeof point);
-    for (int i = 0; i < 3; i++) {
-        spec.wall[i].from = i;
-        spec.wall[i].to = i + 1;
-        spec.wall[i].thickness = 0.012;
-    }
     const int profile = scene_add_section(s, &spec), root = scene_add_node(s, 0, 0, 0);
     const int tip = value[BODY] != 0
                         ? scene_add_attached(s, scene_add_node(s, 7.3, 0.9, -0.4), 6, 1, 0.5)

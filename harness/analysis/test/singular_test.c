@@ -15,10 +15,7 @@
 static void two_beams(scene *s)
 {
     const double y[3] = {0, 1, 0}, end = 1;
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
-    spec.young = spec.shear_modulus = 1;
+    section_spec spec = section_spec_constants(1, 1);
     spec.constants =
         (section){.young = 1, .shear_modulus = 1, .A = 1e4, .Iy = 4, .Iz = 1, .It = 1, .Ip = 5};
     scene_init(s, "two_beams");
@@ -214,10 +211,7 @@ static void driver_that_moves_nothing(double half_angle, int condition_component
     solve_result r = {0};
     formulation fm;
     fault f = {""};
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
-    spec.young = spec.shear_modulus = 1;
+    section_spec spec = section_spec_constants(1, 1);
     spec.constants =
         (section){.young = 1, .shear_modulus = 1, .A = 1e4, .Iy = 4, .Iz = 1, .It = 1, .Ip = 5};
     scene_init(&s, "v");

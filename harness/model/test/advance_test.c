@@ -19,14 +19,8 @@ static const double length = 2;
 static int warping_member(const element_type *type, int first, int last, scene *s, model **m)
 {
     const double y[3] = {0, 1, 0}, end = 1;
-    section_spec spec;
     fault f = {""};
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 1e4;
-    spec.shear_modulus = 4e3;
-    spec.width = 0.2;
-    spec.height = 0.05;
+    section_spec spec = section_spec_rectangle(1e4, 4e3, 0.2, 0.05);
     scene_init(s, "member");
     const int p = scene_add_node(s, 0, 0, 0), q = scene_add_node(s, length, 0, 0);
     scene_add_member(s, p, q, scene_add_section(s, &spec), y);

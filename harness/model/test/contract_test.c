@@ -30,15 +30,10 @@ typedef struct subject {
 static status prepare(const element_type *type, unsigned features, double unit, subject *out,
                       fault *f)
 {
-    section_spec spec;
     memset(out, 0, sizeof *out);
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 210e9 * unit * unit;
-    spec.shear_modulus = 80.7e9 * unit * unit;
+    section_spec spec = section_spec_rectangle(210e9 * unit * unit, 80.7e9 * unit * unit,
+                                               0.0371 / unit, 0.0123 / unit);
     spec.density = 7850 * unit * unit * unit;
-    spec.width = 0.0371 / unit;
-    spec.height = 0.0123 / unit;
     spec.shear_factor[0] = spec.shear_factor[1] = 0.847;
     out->type = type;
     out->unit = unit;

@@ -58,15 +58,9 @@ static void measure(const element_type *type, const double option[], const char 
 
 int main(void)
 {
-    section_spec spec;
     section s;
     fault f;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 200e9;
-    spec.shear_modulus = 200e9 / 2.6;
-    spec.width = 0.1;
-    spec.height = 0.00225;
+    section_spec spec = section_spec_rectangle(200e9, 200e9 / 2.6, 0.1, 0.00225);
     spec.shear_factor[0] = spec.shear_factor[1] = 0.85;
     if (section_compute(&spec, &s, &f) != STATUS_OK)
         return 1;

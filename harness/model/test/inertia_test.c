@@ -31,22 +31,11 @@ static const element_spin turning = {.omega = {31.3, -17.9, 23.7},
 static void test_section(const element_type *type, section *out)
 {
     static const double point[4][2] = {{0, 0}, {0.031, 0}, {0.031, 0.057}, {0.012, 0.057}};
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.young = 210e9;
-    spec.shear_modulus = 80.7e9;
+    static const double thickness[3] = {0.0013, 0.002, 0.0027};
+    section_spec spec = type->limits & LIMIT_DOUBLY_SYMMETRIC
+                            ? section_spec_rectangle(210e9, 80.7e9, 0.0371, 0.0123)
+                            : section_spec_walls(210e9, 80.7e9, 3, point, NULL, thickness);
     spec.density = 7850;
-    spec.kind = type->limits & LIMIT_DOUBLY_SYMMETRIC ? SECTION_RECTANGLE : SECTION_WALLS;
-    spec.width = 0.0371;
-    spec.height = 0.0123;
-    spec.points = 4;
-    spec.walls = 3;
-    memcpy(spec.point, point, sizeof point);
-    for (int i = 0; i < 3; i++) {
-        spec.wall[i].from = i;
-        spec.wall[i].to = i + 1;
-        spec.wall[i].thickness = 0.0013 + 0.0007 * i;
-    }
     gsl_test(section_compute(&spec, out, NULL) != STATUS_OK, "%s: section", type->name);
     out->Iw = out->A * pow(0.2, 4); /* so that warping is as large as what is compared with it */
 }

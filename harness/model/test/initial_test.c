@@ -21,19 +21,13 @@ static void solve(const char *name, const double g[3], const int held[6], double
     static const char *const quantity[12] = {"u0", "u1", "u2", "u3", "u4", "u5",
                                              "F0", "F1", "F2", "F3", "F4", "F5"};
     scene s;
-    section_spec spec;
     formulation fm;
     model *m = NULL;
     solve_result r;
     fault f = {""};
     const double y_axis[3] = {0, 1, 0}, end = 1;
     scene_init(&s, "strained");
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 2e9;
-    spec.shear_modulus = 8e8;
-    spec.width = 0.2;
-    spec.height = 0.1;
+    section_spec spec = section_spec_rectangle(2e9, 8e8, 0.2, 0.1);
     spec.shear_factor[0] = spec.shear_factor[1] = 5.0 / 6;
     spec.given.Iw = 0;
     const int root = scene_add_node(&s, 0, 0, 0), tip = scene_add_node(&s, 2, 0, 0);
@@ -115,16 +109,10 @@ static void no_energy_at_rest(const char *name)
 {
     static const double none[ELEMENT_MAX_STRAINS] = {0};
     double inner[1024] = {0}, energy = NAN;
-    section_spec spec;
     section c;
     formulation chosen;
     fault f = {""};
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 2e11;
-    spec.shear_modulus = 8e10;
-    spec.width = 0.05;
-    spec.height = 0.001;
+    section_spec spec = section_spec_rectangle(2e11, 8e10, 0.05, 0.001);
     gsl_test(formulation_parse(name, &chosen, &f) != STATUS_OK ||
                  section_compute(&spec, &c, &f) != STATUS_OK,
              "%s", f.text);

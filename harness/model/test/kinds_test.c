@@ -23,12 +23,7 @@ static void row_of(int count, const link links[], double force, scene *s)
     double at = 0;
     scene_init(s, "row");
     for (int i = 0; i < SECTIONS; i++) {
-        section_spec spec;
-        section_spec_init(&spec);
-        spec.kind = SECTION_RECTANGLE;
-        spec.young = young;
-        spec.shear_modulus = young / 2.6;
-        spec.width = spec.height = side[i];
+        section_spec spec = section_spec_rectangle(young, young / 2.6, side[i], side[i]);
         spec.given.Iw = 0;
         profile[i] = scene_add_section(s, &spec);
     }

@@ -27,10 +27,7 @@ static void beam_and_body(int body, scene_load_kind kind, scene *s)
 {
     const double y[3] = {0, 1, 0}, x[3] = {1, 0, 0}, z[3] = {0, 0, 1}, end = 1;
     static const double sequence[3][3] = {{0, 0, 1}, {0.6, 0.8, 0}, {1, 0, 0}};
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
-    spec.young = spec.shear_modulus = 1;
+    section_spec spec = section_spec_constants(1, 1);
     spec.constants =
         (section){.young = 1, .shear_modulus = 1, .A = 1e3, .Iy = 2, .Iz = 1, .It = 1, .Ip = 3};
     scene_init(s, "beam_and_body");
@@ -303,14 +300,12 @@ static void forces_along(int what, const char *name, double path, int follows, i
                          double out[])
 {
     const double y[3] = {0, 1, 0}, z[3] = {0, 0, 0.3}, origin[3] = {0, 0, 0}, end = 1;
-    section_spec spec;
     formulation chosen;
     scene s;
     model *m = NULL;
     fault f = {""};
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
-    spec.young = spec.shear_modulus = spec.density = 1;
+    section_spec spec = section_spec_constants(1, 1);
+    spec.density = 1;
     spec.constants = (section){.A = 1, .Iy = 1, .Iz = 1, .It = 1, .Ip = 2};
     scene_init(&s, "member");
     const int p = scene_add_node(&s, 0, 0, 0), q = scene_add_node(&s, 2, 0, 0);
@@ -368,17 +363,11 @@ static void turning_faster(void)
 static void foot_of_an_arm(const element_type *type)
 {
     const double y[3] = {0, 1, 0}, end = 1, P[3] = {0.01, -0.02, 0.03};
-    section_spec spec;
     scene s;
     model *m = NULL;
     solve_result r = {0};
     fault f = {""};
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 1e4;
-    spec.shear_modulus = 4e3;
-    spec.width = 0.1;
-    spec.height = 0.08;
+    section_spec spec = section_spec_rectangle(1e4, 4e3, 0.1, 0.08);
     scene_init(&s, "arm");
     const int foot = scene_add_node(&s, 0, 0, 0),
               arm = scene_add_attached(&s, foot, 0.3, -0.4, 0.2);

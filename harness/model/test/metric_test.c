@@ -16,14 +16,8 @@ enum { ELEMENTS = 3, BODIES = 6 }; /* of seven vertices one is held */
 static int corner(scene *s, model **m)
 {
     const double y[3] = {0, 0, 1}, end = 1;
-    section_spec spec;
     fault f = {""};
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 1e4;
-    spec.shear_modulus = 4e3;
-    spec.width = 0.2;
-    spec.height = 0.05;
+    section_spec spec = section_spec_rectangle(1e4, 4e3, 0.2, 0.05);
     scene_init(s, "corner");
     const int root = scene_add_node(s, 0, 0, 0), middle = scene_add_node(s, 1, 0, 0),
               tip = scene_add_node(s, 1, 2, 0), profile = scene_add_section(s, &spec);

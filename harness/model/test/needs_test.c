@@ -11,10 +11,8 @@
 static void member(double Fyz, double Fyw, double Fzw, scene *s)
 {
     const double y[3] = {0, 1, 0};
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
-    spec.young = spec.shear_modulus = spec.density = 1;
+    section_spec spec = section_spec_constants(1, 1);
+    spec.density = 1;
     spec.constants = (section){.A = 1, .Iy = 1, .Iz = 1, .It = 1, .Iw = 1, .Ip = 2};
     const double F[9] = {1, Fyz, Fyw, Fyz, 1, Fzw, Fyw, Fzw, 1};
     memcpy(spec.constants.F, F, sizeof F);
