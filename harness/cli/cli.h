@@ -41,7 +41,7 @@ typedef struct cli_request {
     const char *scene_path; /* --scene: in the place of a case */
     scene_file *scene;      /* what was read from it; cli_close frees it */
     int refusal;            /* exit code where there is no case */
-    int schema;             /* 1: describe the keys of scene files */
+    int schema, keys;       /* 1: describe the keys of scene files as JSON Schema, as a list */
     double plant;           /* share of its time that is added to every run of the other */
 } cli_request;
 

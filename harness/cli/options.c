@@ -51,6 +51,7 @@ static const struct argp_option all_options[] = {
      "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)", 0},
     {"scene", 'Y', "FILE", 0, "a scene of your own in YAML, in the place of a case", 0},
     {"schema", 'H', NULL, 0, "describe all keys of scene files as JSON Schema", 0},
+    {"keys", 'E', NULL, 0, "list all keys of scene files", 0},
     {"help", '?', NULL, 0, "this list", -1},
     {"usage", KEY_USAGE, NULL, 0, "the options in short", -1},
     {0},
@@ -233,6 +234,9 @@ static error_t take(int key, char *value, struct argp_state *state)
         return 0;
     case 'H':
         r->schema = 1;
+        return 0;
+    case 'E':
+        r->keys = 1;
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;

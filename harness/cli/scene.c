@@ -4,6 +4,7 @@
 
 #include "harness/cli/cli.h"
 #include "harness/record/output.h"
+#include "harness/scene_file/key_list.h"
 #include "harness/scene_file/schema_file.h"
 #include "harness/scene_file/write.h"
 #include "harness/study/cell.h"
@@ -54,14 +55,22 @@ status cli_truths_read(const cli_request *r, int all, truths *t, fault *f)
     return outcome;
 }
 
-static status write_to(FILE *to, const case_type *type, const double value[], fault *f)
+static status describe(FILE *to, const cli_request *r, fault *f)
+{
+    if (r->schema)
+        return schema_file_write(to, f);
+    key_list_write(to);
+    return STATUS_OK;
+}
+
+/* type NULL: a description of the keys. */
+static status write_to(FILE *to, const cli_request *r, const case_type *type, fault *f)
 {
     static const scene_edit unchanged = {.kind = SCENE_EDIT_NONE};
     scene s;
-    status outcome =
-        type == NULL ? schema_file_write(to, f) : cell_scene(type, value, &unchanged, &s, f);
     if (type == NULL)
-        return outcome;
+        return describe(to, r, f);
+    status outcome = cell_scene(type, r->parameter, &unchanged, &s, f);
     if (outcome == STATUS_OK) {
         const write_head head = {type->name, type->summary, type->source};
         outcome = write_scene(to, &s, &head, f);
@@ -74,13 +83,13 @@ static status write_out(const cli_request *r, const case_type *type, fault *f)
 {
     output file;
     if (r->output == NULL) {
-        TRY(write_to(stdout, type, r->parameter, f));
+        TRY(write_to(stdout, r, type, f));
         return fflush(stdout) == 0
                    ? STATUS_OK
                    : fault_set(f, STATUS_FAULT, "standard output cannot be written");
     }
     TRY(output_open(r->output, &file, f));
-    const status outcome = write_to(file.stream, type, r->parameter, f);
+    const status outcome = write_to(file.stream, r, type, f);
     if (outcome == STATUS_OK)
         return output_close(&file, f);
     output_discard(&file);
@@ -91,15 +100,16 @@ int cli_scene(int count, char **arguments)
 {
     cli_request r;
     fault f = {""};
-    cli_parse("scene", "[CASE]",
-              "Writes a case at a parameter point as a scene file, or one of your own (--scene "
-              "FILE) again: names kept where scenes have them, loops and expressions written out, "
-              "numbers with all their digits. Reading it gives the same scene, bit for bit. "
-              "--schema: what may stand in scene files, as JSON Schema for editors.",
-              "soFYH", count, arguments, &r);
-    const case_type *type = r.schema ? NULL : cli_case(&r);
+    cli_parse(
+        "scene", "[CASE]",
+        "Writes a case at a parameter point as a scene file, or one of your own (--scene "
+        "FILE) again: names kept where scenes have them, loops and expressions written out, "
+        "numbers with all their digits. Reading it gives the same scene, bit for bit. "
+        "--keys: what may stand in scene files; --schema: the same as JSON Schema, for editors.",
+        "soFYHE", count, arguments, &r);
+    const case_type *type = r.schema || r.keys ? NULL : cli_case(&r);
     int code = r.refusal;
-    if (r.schema || type != NULL) {
+    if (r.schema || r.keys || type != NULL) {
         const status outcome = write_out(&r, type, &f);
         code = outcome == STATUS_OK ? EXIT_AS_EXPECTED : cli_fail(outcome, f.text);
     }

@@ -194,6 +194,16 @@ class SceneTest(ProgramTest):
         self.assertEqual(member["required"], ["from", "to", "section", "y"])
         self.assertIn("for", member["properties"])
 
+    def test_list_of_keys(self):
+        """--keys names what the schema names, and what the examples use is in both."""
+        listed = {line.split()[0] for line in self.answered("scene", "--keys").stdout.splitlines()
+                  if line.strip()}
+        schema = json.loads(self.answered("scene", "--schema").stdout)
+        self.assertLessEqual(set(schema["properties"]), listed)
+        for path in EXAMPLES.glob("*.yaml"):
+            used = set(re.findall(r"^([a-z]+):", path.read_text(encoding="utf-8"), re.M))
+            self.assertLessEqual(used, set(schema["properties"]))
+
 
 if __name__ == "__main__":
     unittest.main()
