@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "harness/scene_file/build_shapes.h"
 #include "harness/scene_file/builder.h"
 #include "harness/scene_file/expression.h"
 
@@ -110,12 +111,14 @@ void builder_sections(builder *b)
         spec.density = fields_number(&f, "density", 0);
         if (fields_have(&f, "walls"))
             read_walls(&f, &spec);
+        else if (build_shapes_read(&f, &spec))
+            spec.thickness_terms = fields_word(&f, "thickness_terms", "no|yes", 0);
         else if (fields_have(&f, "rectangle"))
             read_rectangle(&f, &spec);
         else
             read_constants(&f, &spec);
         read_given(&f, &spec);
-        if (spec.kind != SECTION_WALLS && fields_have(&f, "points"))
+        if (!fields_have(&f, "walls") && fields_have(&f, "points"))
             document_mistake(b->mistakes, document_find(f.map, "points"), 0,
                              "points are of walls; add them, or leave the points out");
         if (spec.kind != SECTION_RECTANGLE && fields_have(&f, "shear_factor"))

@@ -60,15 +60,33 @@ static const scene_key given[] = {
     {"Ip", KEY_NUMBER, .unit = "m^4", .summary = "polar moment"},
     {.name = NULL}};
 
+/* Sizes are those of the walls' centre lines. */
+static const scene_key flanged[] = {
+    {"depth", KEY_NUMBER, .needed = 1, .unit = "m", .summary = "between the flanges"},
+    {"flange", KEY_NUMBER, .needed = 1, .unit = "m",
+     .summary = "its width; channel, zed: from the web"},
+    {"flange_thickness", KEY_NUMBER, .needed = 1, .unit = "m", .summary = "of both flanges"},
+    {"web_thickness", KEY_NUMBER, .needed = 1, .unit = "m", .summary = "of the web"},
+    {.name = NULL}};
+
+static const scene_key legs[] = {
+    {"along_y", KEY_NUMBER, .needed = 1, .unit = "m", .summary = "length of this leg"},
+    {"along_z", KEY_NUMBER, .needed = 1, .unit = "m", .summary = "length of that one"},
+    {"thickness", KEY_NUMBER, .needed = 1, .unit = "m", .summary = "of both"},
+    {.name = NULL}};
+
 const scene_key keys_section[] = {
     {"rectangle", KEY_MAP, .needed = 1, .group = 1, .below = rectangle, .summary = "solid"},
     {"walls", KEY_LIST, .needed = 1, .group = 1, .below = wall, .summary = "thin straight walls"},
     {"constants", KEY_MAP, .needed = 1, .group = 1, .below = constants, .summary = "as given"},
     {.name = "cells", .kind = KEY_LATER, .group = 1},
-    {.name = "i", .kind = KEY_LATER, .group = 1},
-    {.name = "channel", .kind = KEY_LATER, .group = 1},
-    {.name = "angle", .kind = KEY_LATER, .group = 1},
-    {.name = "zed", .kind = KEY_LATER, .group = 1},
+    {"i", KEY_MAP, .needed = 1, .group = 1, .below = flanged,
+     .summary = "web along z, in the middle"},
+    {"channel", KEY_MAP, .needed = 1, .group = 1, .below = flanged,
+     .summary = "flanges towards -y"},
+    {"zed", KEY_MAP, .needed = 1, .group = 1, .below = flanged,
+     .summary = "upper flange towards -y"},
+    {"angle", KEY_MAP, .needed = 1, .group = 1, .below = legs, .summary = "from its corner"},
     {.name = "tube", .kind = KEY_LATER, .group = 1},
     {.name = "stiffness", .kind = KEY_LATER, .group = 1},
     {.name = "mass", .kind = KEY_LATER},

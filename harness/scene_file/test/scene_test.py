@@ -1,4 +1,4 @@
-"""Scene files through the program: mistakes with their places, examples, the same bits as the cases."""
+"""Scene files through the program: mistakes with their places, examples, bits of the cases."""
 import json
 import re
 import unittest
@@ -117,7 +117,7 @@ class SceneTest(ProgramTest):
         self.assertGreaterEqual(judged, 4)
 
     def test_leaf_spring_guide(self):
-        """Both exact stiffnesses, and the limit of the support stiffness at the end of the stroke."""
+        """Both exact stiffnesses, and the limit of the pushed stage's support stiffness."""
         path = EXAMPLES / "leaf_spring_guide.yaml"
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 4))
         self.assertAlmostEqual(got["k_drive"] / 2624.536778, 1, delta=1e-9)
@@ -151,6 +151,36 @@ class SceneTest(ProgramTest):
         own = values(self.record("solve", "--scene", self.scene(FIRST), "-f", "collocation", "-n",
                                  1))
         self.assertAlmostEqual(abs(got["tip_ux"]) / own["tip_uy"], 1, delta=1e-12)
+
+    def test_sections_by_sizes(self):
+        """Channel, Z, I and angle by their sizes are the walls that one would write."""
+        sizes = {"channel_portal": "channel: {depth: depth, flange: flange, flange_thickness: t_f, "
+                                   "web_thickness: t_w}",
+                 "zed_purlin": "zed: {depth: depth, flange: flange, flange_thickness: thickness, "
+                               "web_thickness: thickness}"}
+        for name, words in sizes.items():
+            text = (EXAMPLES / f"{name}.yaml").read_text(encoding="utf-8")
+            short = re.sub(r"    points:.*\n    walls:\n(      - .*\n)+", f"    {words}\n", text)
+            self.assertNotEqual(short, text)
+            written = [re.sub("p[0-9]+", "p", self.answered("scene", "--scene", path).stdout)
+                       for path in (EXAMPLES / f"{name}.yaml", self.scene(short))]
+            self.assertEqual(*written)
+        # an I under a tip force along its web, rigid in shear: P L^3/3 E I
+        text = FIRST.replace("rectangle: {width: 50e-3, thickness: 0.5e-3}",
+                             "i: {depth: 0.2, flange: 0.1, flange_thickness: 8e-3, "
+                             "web_thickness: 5e-3}")
+        text = text.replace("[0, 1, 0], on", "[0, 0, 1], on") + "needs: []\n"
+        got = values(self.record("solve", "--scene", self.scene(text), "-f", "beamw_vlasov", "-n",
+                                 1))
+        inertia = 2 * 0.1 * 8e-3 * 0.1**2 + 5e-3 * 0.2**3 / 12
+        self.assertAlmostEqual(got["tip_uz"] / (1e-3 / (3 * 210e9 * inertia)), 1, delta=1e-9)
+        written = []
+        for shape in ("angle: {along_y: 0.1, along_z: 0.08, thickness: 5e-3}",
+                      "points: {a: [0.1, 0], b: [0, 0], c: [0, 0.08]}, walls: [{from: a, to: b, "
+                      "thickness: 5e-3}, {from: b, to: c, thickness: 5e-3}]"):
+            text = FIRST.replace("rectangle: {width: 50e-3, thickness: 0.5e-3}", shape)
+            written.append(self.answered("scene", "--scene", self.scene(text)).stdout)
+        self.assertEqual(*written)
 
     def test_parameters(self):
         """--set changes a scene's parameters, within their ranges; truths follow."""
