@@ -2,73 +2,47 @@
 #include <gsl/gsl_test.h>
 #include <signal.h>
 #include <stddef.h>
-#include <stdio.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "cases/scene/scene.h"
+#include "elements/test/ended.h"
 
-typedef void reader(const scene_analysis *a, const scene_quantity *q);
+typedef void reader(const void *analysis_or_quantity);
 
-static void read_walk(const scene_analysis *a, const scene_quantity *q)
+static void read_walk(const void *a)
 {
-    (void)q;
     scene_walk_of(a);
 }
-static void read_compliance(const scene_analysis *a, const scene_quantity *q)
+static void read_compliance(const void *a)
 {
-    (void)q;
     scene_compliance_of(a);
 }
-static void read_continuation(const scene_analysis *a, const scene_quantity *q)
+static void read_continuation(const void *a)
 {
-    (void)q;
     scene_continuation_of(a);
 }
-static void read_component(const scene_analysis *a, const scene_quantity *q)
+static void read_component(const void *q)
 {
-    (void)a;
     scene_component_of(q);
 }
-static void read_entry(const scene_analysis *a, const scene_quantity *q)
+static void read_entry(const void *q)
 {
-    (void)a;
     scene_entry_of(q);
 }
-static void read_load(const scene_analysis *a, const scene_quantity *q)
+static void read_load(const void *q)
 {
-    (void)a;
     scene_critical_load_of(q);
 }
-static void read_mode(const scene_analysis *a, const scene_quantity *q)
+static void read_mode(const void *q)
 {
-    (void)a;
     scene_mode_of(q);
 }
-static void read_point(const scene_analysis *a, const scene_quantity *q)
+static void read_point(const void *q)
 {
-    (void)a;
     scene_point_of(q);
 }
-static void read_driver(const scene_analysis *a, const scene_quantity *q)
+static void read_driver(const void *q)
 {
-    (void)a;
     scene_driver_of(q);
-}
-
-/* Signal that ends a process which reads; 0: it reads. */
-static int ended_by(reader *read, const scene_analysis *a, const scene_quantity *q)
-{
-    int how = -1;
-    fflush(NULL);
-    const pid_t child = fork();
-    if (child == 0) {
-        if (freopen("/dev/null", "w", stderr) != NULL)
-            read(a, q);
-        _exit(0);
-    }
-    waitpid(child, &how, 0);
-    return WIFSIGNALED(how) ? WTERMSIG(how) : WEXITSTATUS(how);
 }
 
 /* One scene with every kind. */
@@ -122,11 +96,11 @@ int main(void)
              "every kind is there");
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         for (int k = 0; k < s.analyses && row[i].analyses != 0; k++)
-            gsl_test_int(ended_by(row[i].read, &s.analysis[k], NULL),
+            gsl_test_int(ended_by(row[i].read, &s.analysis[k]),
                          row[i].analyses >> s.analysis[k].kind & 1 ? 0 : SIGABRT,
                          "%s of analysis %d", row[i].name, k);
         for (int k = 0; k < s.quantities && row[i].quantities != 0; k++)
-            gsl_test_int(ended_by(row[i].read, NULL, &s.quantity[k]),
+            gsl_test_int(ended_by(row[i].read, &s.quantity[k]),
                          row[i].quantities >> s.quantity[k].what.kind & 1 ? 0 : SIGABRT,
                          "%s of quantity %d", row[i].name, k);
     }

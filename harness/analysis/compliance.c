@@ -74,7 +74,8 @@ static status matrices_alloc(solve_result *r, const scene_compliance *what, int 
 }
 
 /* With what compliance_analysis frees; at the stations that the path has reached. */
-static status solve(analysis_context *c, int analysis, tangent *t, outcome_path *o, fault *f)
+static status solve(analysis_context *c, int analysis, tangent *t, outcome_compliance *out,
+                    fault *f)
 {
     const scene_analysis *a = &c->scene->analysis[analysis];
     const scene_compliance *what = scene_compliance_of(a);
@@ -82,11 +83,12 @@ static status solve(analysis_context *c, int analysis, tangent *t, outcome_path 
         a->follows == SCENE_NONE ? NULL : outcome_path_of(&c->outcomes[a->follows]);
     const int reached = path != NULL ? path->reached : 1;
     const unsigned wanted = wanted_columns(c, analysis);
+    outcome_path *o = &out->path;
     nodal_matrices *m = NULL;
     o->stations = path != NULL ? path->stations : 1;
     TRY(tangent_alloc(c, what, t, f));
     TRY(matrices_alloc(c->result, what, o->stations, &m, f));
-    o->compliance = m->compliance;
+    out->matrix = m->compliance;
     o->value = calloc((size_t)o->stations + 1, sizeof *o->value);
     if (o->value == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
@@ -103,7 +105,7 @@ static status solve(analysis_context *c, int analysis, tangent *t, outcome_path 
 status compliance_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     tangent t;
-    const status result = solve(c, analysis, &t, &o->of.path, f);
+    const status result = solve(c, analysis, &t, &o->of.compliance, f);
     tangent_free(&t);
     return result;
 }

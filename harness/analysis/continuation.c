@@ -24,7 +24,7 @@ typedef struct attempt {
 
 static status add_point(continuation *p, fault *f)
 {
-    outcome_path *o = p->o;
+    outcome_continuation *o = p->o;
     if (o->points == p->room) {
         const int room = p->room > 0 ? 2 * p->room : 64;
         double *factors = realloc(o->factor, (size_t)room * sizeof *factors);
@@ -34,16 +34,16 @@ static status add_point(continuation *p, fault *f)
         if (controls != NULL)
             o->control = controls;
         model_state **states =
-            p->keeps_states ? realloc(o->point_state, (size_t)room * sizeof(model_state *)) : NULL;
+            p->keeps_states ? realloc(o->state, (size_t)room * sizeof(model_state *)) : NULL;
         if (states != NULL)
-            o->point_state = states;
+            o->state = states;
         if (factors == NULL || controls == NULL || (p->keeps_states && states == NULL))
             return fault_set(f, STATUS_FAULT, "out of memory for a path");
         p->room = room;
     }
     if (p->keeps_states) {
-        TRY(kinematics_state_alloc(p->c->model, &o->point_state[o->points], f));
-        kinematics_state_copy(p->c->model, p->n.state, o->point_state[o->points]);
+        TRY(kinematics_state_alloc(p->c->model, &o->state[o->points], f));
+        kinematics_state_copy(p->c->model, p->n.state, o->state[o->points]);
     }
     o->factor[o->points] = p->here.factor;
     o->control[o->points++] = p->here.control;
@@ -252,7 +252,7 @@ static status walk(continuation *p, fault *f)
     TRY(start(p, f));
     for (int i = 0; i < p->path->stations; i++) {
         TRY(walk_to(p, p->path->value[i], &size, f));
-        TRY(outcome_keep(p->o, p->c->model, p->n.state, p->path->value[i], f));
+        TRY(outcome_keep(&p->o->path, p->c->model, p->n.state, p->path->value[i], f));
     }
     return STATUS_OK;
 }
@@ -260,7 +260,7 @@ static status walk(continuation *p, fault *f)
 status continuation_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     continuation p;
-    status result = continuation_alloc(c, analysis, &o->of.path, &p, f);
+    status result = continuation_alloc(c, analysis, &o->of.continuation, &p, f);
     if (result == STATUS_OK)
         result = walk(&p, f);
     continuation_free(&p);

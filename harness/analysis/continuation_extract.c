@@ -27,7 +27,7 @@ static double abscissa(const scene_quantity *q, double control)
 static void take_curve(const analysis_context *c, const scene_quantity *q,
                        const analysis_outcome *o, quantity_result *r)
 {
-    const outcome_path *p = outcome_path_of(o);
+    const outcome_continuation *p = outcome_continuation_of(o);
     r->curve.x = calloc((size_t)p->points + 1, sizeof(double));
     r->curve.value = calloc((size_t)p->points + 1, sizeof(double));
     if (r->curve.x == NULL || r->curve.value == NULL) {
@@ -39,7 +39,7 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
         const double value =
             q->what.kind == SCENE_FACTOR_AT
                 ? p->factor[i]
-                : kinematics_component(c->model, p->point_state[i], scene_component_of(q)->node,
+                : kinematics_component(c->model, p->state[i], scene_component_of(q)->node,
                                        scene_component_of(q)->component);
         r->curve.x[i] = abscissa(q, p->control[i]);
         r->curve.value[i] = quantity_scaled(q, value);

@@ -29,7 +29,7 @@ typedef struct continuation {
     analysis_context *c;
     const scene_control *by;
     const scene_path *path;
-    outcome_path *o;
+    outcome_continuation *o;
     int analysis, room; /* room: for points in the outcome */
     int keeps_states;   /* 1: the outcome keeps the state of every point */
     newton n;           /* n.backup: state at the start of the step */
@@ -43,7 +43,7 @@ typedef struct continuation {
     int looked; /* 1: n.dx, response and the factors belong to the present state */
 } continuation;
 
-status continuation_alloc(analysis_context *, int analysis, outcome_path *, continuation *,
+status continuation_alloc(analysis_context *, int analysis, outcome_continuation *, continuation *,
                           fault *);
 void continuation_free(continuation *);
 

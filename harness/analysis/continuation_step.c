@@ -11,8 +11,8 @@
 #include "harness/solver/context.h"
 #include "harness/solver/newton.h"
 
-status continuation_alloc(analysis_context *c, int analysis, outcome_path *o, continuation *p,
-                          fault *f)
+status continuation_alloc(analysis_context *c, int analysis, outcome_continuation *o,
+                          continuation *p, fault *f)
 {
     memset(p, 0, sizeof *p);
     p->c = c;
@@ -26,7 +26,7 @@ status continuation_alloc(analysis_context *c, int analysis, outcome_path *o, co
             f, STATUS_REFUSED,
             "continuation needs a factored tangent; give newton=mixed or newton=displacement");
     TRY(newton_alloc(c, &p->n, f));
-    TRY(outcome_stations(o, p->path->stations, f));
+    TRY(outcome_stations(&o->path, p->path->stations, f));
     TRY(kinematics_state_alloc(c->model, &p->end, f));
     double **const vector[] = {&p->weight, &p->load,         &p->response,     &p->moved,
                                &p->mode,   &p->here.tangent, &p->next.tangent, &p->trial.tangent};

@@ -46,28 +46,37 @@ static double reaction_of(const analysis_context *c, const scene_component *what
     return F[what->component] - L[what->component];
 }
 
-/* Value of a quantity of the path at one station. */
-static double extracted(const analysis_context *c, const scene_quantity *q, const outcome_path *o,
-                        int i)
+/* NULL: no quantity asked for them. */
+static const rotation_modes *modes_at(const analysis_outcome *o, int i)
 {
+    rotation_modes *const modes = outcome_rotation_of(o)->modes;
+    return modes != NULL ? &modes[i] : NULL;
+}
+
+/* Value of a quantity of the path at one station. */
+static double extracted(const analysis_context *c, const scene_quantity *q,
+                        const analysis_outcome *o, int i)
+{
+    const outcome_path *path = outcome_path_of(o);
     switch (q->what.kind) {
     case SCENE_COORDINATE:
-        return kinematics_component(c->model, o->state[i], scene_component_of(q)->node,
+        return kinematics_component(c->model, path->state[i], scene_component_of(q)->node,
                                     scene_component_of(q)->component);
     case SCENE_REACTION:
-        return reaction_of(c, scene_component_of(q), o->state[i]);
+        return reaction_of(c, scene_component_of(q), path->state[i]);
     case SCENE_COMPLIANCE_ENTRY:
-        return o->compliance[36 * i + 6 * scene_entry_of(q)->row + scene_entry_of(q)->column];
+        return outcome_compliance_of(o)
+            ->matrix[36 * i + 6 * scene_entry_of(q)->row + scene_entry_of(q)->column];
     case SCENE_STIFFNESS_ENTRY:
-        return 1 / o->compliance[36 * i + 7 * scene_entry_of(q)->row];
+        return 1 / outcome_compliance_of(o)->matrix[36 * i + 7 * scene_entry_of(q)->row];
     case SCENE_DRIVER_VALUE:
-        return kinematics_driver_value(c->model, o->state[i], scene_driver_of(q));
+        return kinematics_driver_value(c->model, path->state[i], scene_driver_of(q));
     case SCENE_FREQUENCY:
-        return o->modes != NULL ? frequency_of(q, &o->modes[i]) : NAN;
+        return modes_at(o, i) != NULL ? frequency_of(q, modes_at(o, i)) : NAN;
     case SCENE_GROWTH:
-        return o->modes != NULL ? growth_of(&o->modes[i]) : NAN;
+        return modes_at(o, i) != NULL ? growth_of(modes_at(o, i)) : NAN;
     case SCENE_FACTOR_AT:
-        return kinematics_state_path(o->state[i]);
+        return kinematics_state_path(path->state[i]);
     case SCENE_CRITICAL_FACTOR:
     case SCENE_CRITICAL_POINT:
         break;
@@ -75,32 +84,33 @@ static double extracted(const analysis_context *c, const scene_quantity *q, cons
     return NAN;
 }
 
-static double at_station(const analysis_context *c, const scene_quantity *q, const outcome_path *o,
-                         int i)
+static double at_station(const analysis_context *c, const scene_quantity *q,
+                         const analysis_outcome *o, int i)
 {
     return quantity_scaled(q, extracted(c, q, o, i));
 }
 
-static double abscissa(const scene_quantity *q, const outcome_path *o, int i)
+static double abscissa(const scene_quantity *q, const outcome_path *p, int i)
 {
-    return o->value[i] * q->x.factor + q->x.offset;
+    return p->value[i] * q->x.factor + q->x.offset;
 }
 
-static void take_curve(const analysis_context *c, const scene_quantity *q, const outcome_path *o,
-                       quantity_result *r)
+static void take_curve(const analysis_context *c, const scene_quantity *q,
+                       const analysis_outcome *o, quantity_result *r)
 {
-    r->curve.x = calloc((size_t)o->reached + 1, sizeof(double));
-    r->curve.value = calloc((size_t)o->reached + 1, sizeof(double));
+    const outcome_path *p = outcome_path_of(o);
+    r->curve.x = calloc((size_t)p->reached + 1, sizeof(double));
+    r->curve.value = calloc((size_t)p->reached + 1, sizeof(double));
     if (r->curve.x == NULL || r->curve.value == NULL) {
         quantity_no_value(r, STATUS_FAULT, "out of memory");
         return;
     }
-    r->curve.points = o->reached;
-    for (int i = 0; i < o->reached; i++) {
-        r->curve.x[i] = abscissa(q, o, i);
+    r->curve.points = p->reached;
+    for (int i = 0; i < p->reached; i++) {
+        r->curve.x[i] = abscissa(q, p, i);
         r->curve.value[i] = at_station(c, q, o, i);
     }
-    r->value = o->reached > 0 ? r->curve.value[o->reached - 1] : NAN;
+    r->value = p->reached > 0 ? r->curve.value[p->reached - 1] : NAN;
 }
 
 /* Why a path ends before a station: the reason of the analysis that is followed. */
@@ -120,7 +130,7 @@ static void from_path(const analysis_context *c, const scene_quantity *q, const 
     int chosen = -1;
     for (int i = 0; i < p->reached; i++) {
         const double value =
-            q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ? at_station(c, q, p, i) : 0;
+            q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ? at_station(c, q, o, i) : 0;
         const int better = q->reduction == SCENE_MAX ? value > r->value : value < r->value;
         const int here = q->reduction == SCENE_AT
                              ? fabs(p->value[i] - q->at) <= 1e-12 * fmax(1, fabs(q->at))
@@ -132,7 +142,7 @@ static void from_path(const analysis_context *c, const scene_quantity *q, const 
         }
     }
     if (q->reduction == SCENE_CURVE) {
-        take_curve(c, q, p, r);
+        take_curve(c, q, o, r);
         if (!complete)
             quantity_no_value(r, o->status, o->reason);
         return;
@@ -142,7 +152,7 @@ static void from_path(const analysis_context *c, const scene_quantity *q, const 
                           o->status != STATUS_OK ? o->reason : reason_of_path(c, q));
         return;
     }
-    r->value = at_station(c, q, p, chosen);
+    r->value = at_station(c, q, o, chosen);
     r->x = abscissa(q, p, chosen);
 }
 
@@ -236,8 +246,10 @@ static void from_linear(const analysis_context *c, const scene_quantity *q,
 /* Did it leave something, though it failed? */
 static int has_anything(const analysis_outcome *o)
 {
+    if (o->kind == SCENE_CONTINUATION && outcome_continuation_of(o)->points > 0)
+        return 1;
     if (outcome_has_path(o))
-        return outcome_path_of(o)->reached > 0 || outcome_path_of(o)->points > 0;
+        return outcome_path_of(o)->reached > 0;
     if (!outcome_has_spectrum(o))
         return 0;
     const outcome_side *positive = &outcome_spectrum_of(o)->positive,
@@ -274,7 +286,7 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
         break;
     case SCENE_ROTATION:
         from_path(c, q, o, r);
-        if (outcome_path_of(o)->modes != NULL && isnan(r->value) && r->status == STATUS_OK)
+        if (outcome_rotation_of(o)->modes != NULL && isnan(r->value) && r->status == STATUS_OK)
             quantity_no_value(r, STATUS_OK, "the mesh has no mode of this kind");
         break;
     }

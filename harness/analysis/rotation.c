@@ -237,16 +237,18 @@ static void note_unproven(analysis_context *c, const rotation_modes *modes, doub
 }
 
 /* Modes at every station, or at the last. */
-static status modes_of(analysis_context *c, int analysis, matrices *a, outcome_path *o, fault *f)
+static status modes_of(analysis_context *c, int analysis, matrices *a, outcome_rotation *out,
+                       fault *f)
 {
-    o->modes = calloc((size_t)o->stations + 1, sizeof *o->modes);
-    if (o->modes == NULL)
+    const outcome_path *o = &out->path;
+    out->modes = calloc((size_t)o->stations + 1, sizeof *out->modes);
+    if (out->modes == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for modes");
     TRY(matrices_alloc(c, a, f));
     for (int i = asks_for_modes(c, analysis, 1) ? 0 : o->stations - 1; i < o->stations; i++) {
-        TRY(modes_at(c, analysis, o->state[i], a, &o->modes[i], f));
-        note_unproven(c, &o->modes[i], o->value[i]);
-        note_instability(c, &o->modes[i], o->value[i]);
+        TRY(modes_at(c, analysis, o->state[i], a, &out->modes[i], f));
+        note_unproven(c, &out->modes[i], o->value[i]);
+        note_instability(c, &out->modes[i], o->value[i]);
     }
     return STATUS_OK;
 }
@@ -257,7 +259,7 @@ status rotation_analysis(analysis_context *c, int analysis, analysis_outcome *o,
     TRY(static_analysis(c, analysis, o, f));
     if (!asks_for_modes(c, analysis, 0))
         return STATUS_OK;
-    const status outcome = modes_of(c, analysis, &a, &o->of.path, f);
+    const status outcome = modes_of(c, analysis, &a, &o->of.rotation, f);
     matrices_free(&a);
     return outcome;
 }

@@ -96,7 +96,7 @@ status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
     newton n;
     predictor t = {0};
     const status result =
-        solve(c, scene_walk_of(&c->scene->analysis[analysis]), &n, &t, &o->of.path, f);
+        solve(c, scene_walk_of(&c->scene->analysis[analysis]), &n, &t, outcome_walk(o), f);
     predictor_free(&t);
     newton_free(&n);
     return result;

@@ -25,14 +25,24 @@ static void free_states(int count, model_state **state)
 static void free_path(outcome_path *p)
 {
     free_states(p->reached, p->state);
-    free_states(p->points, p->point_state);
     free(p->value);
-    free(p->factor);
-    free(p->control);
-    if (p->modes != NULL)
-        for (int i = 0; i < p->stations; i++)
-            outcome_modes_free(&p->modes[i]);
-    free(p->modes);
+}
+
+static void free_rotation(outcome_rotation *r)
+{
+    if (r->modes != NULL)
+        for (int i = 0; i < r->path.stations; i++)
+            outcome_modes_free(&r->modes[i]);
+    free(r->modes);
+    free_path(&r->path);
+}
+
+static void free_continuation(outcome_continuation *c)
+{
+    free_states(c->points, c->state);
+    free(c->factor);
+    free(c->control);
+    free_path(&c->path);
 }
 
 static void free_side(outcome_side *side)
@@ -67,19 +77,66 @@ const outcome_spectrum *outcome_spectrum_of(const analysis_outcome *o)
 
 const outcome_path *outcome_path_of(const analysis_outcome *o)
 {
-    assert(outcome_has_path(o));
-    return &o->of.path;
+    switch (o->kind) {
+    case SCENE_COMPLIANCE:
+        return &o->of.compliance.path;
+    case SCENE_CONTINUATION:
+        return &o->of.continuation.path;
+    case SCENE_ROTATION:
+        return &o->of.rotation.path;
+    default:
+        assert(o->kind == SCENE_STATIC);
+        return &o->of.path;
+    }
+}
+
+const outcome_compliance *outcome_compliance_of(const analysis_outcome *o)
+{
+    assert(o->kind == SCENE_COMPLIANCE);
+    return &o->of.compliance;
+}
+
+const outcome_rotation *outcome_rotation_of(const analysis_outcome *o)
+{
+    assert(o->kind == SCENE_ROTATION);
+    return &o->of.rotation;
+}
+
+const outcome_continuation *outcome_continuation_of(const analysis_outcome *o)
+{
+    assert(o->kind == SCENE_CONTINUATION);
+    return &o->of.continuation;
+}
+
+outcome_path *outcome_walk(analysis_outcome *o)
+{
+    assert(o->kind == SCENE_STATIC || o->kind == SCENE_ROTATION);
+    return o->kind == SCENE_STATIC ? &o->of.path : &o->of.rotation.path;
 }
 
 void outcome_free(analysis_outcome *o)
 {
-    if (outcome_has_path(o)) {
+    switch (o->kind) {
+    case SCENE_LINEAR:
+        free(o->of.x);
+        break;
+    case SCENE_STATIC:
         free_path(&o->of.path);
-    } else if (outcome_has_spectrum(o)) {
+        break;
+    case SCENE_BUCKLING:
+    case SCENE_MODAL:
         free_side(&o->of.spectrum.positive);
         free_side(&o->of.spectrum.negative);
-    } else {
-        free(o->of.x);
+        break;
+    case SCENE_COMPLIANCE:
+        free_path(&o->of.compliance.path);
+        break;
+    case SCENE_CONTINUATION:
+        free_continuation(&o->of.continuation);
+        break;
+    case SCENE_ROTATION:
+        free_rotation(&o->of.rotation);
+        break;
     }
 }
 

@@ -29,22 +29,31 @@ typedef struct outcome_spectrum {
     outcome_side positive, negative; /* frequencies are positive */
 } outcome_spectrum;
 
-/* Static, compliance, continuation, rotation. */
+/* Stations of a path: static, and the first member of the three below. */
 typedef struct outcome_path {
     int stations, reached; /* the first `reached` of them */
     double *value;         /* [stations] of the path parameter or the control coordinate */
     model_state **state;   /* [stations]; NULL: of a compliance */
-    /* compliance: of the six components at the node, at every station [stations x 36]; rows of held
-     * components are zero, columns that nothing asks for NAN; belongs to the result */
-    const double *compliance;
-    /* rotation: modes at every station [stations]; NULL where no quantity asks for them */
-    rotation_modes *modes;
-    /* continuation: load factor and control value [m] at every point of the path, the first without
-     * load */
-    int points;
-    double *factor, *control;
-    model_state **point_state; /* [points]; NULL unless a curve of coordinates is wanted */
 } outcome_path;
+
+typedef struct outcome_compliance {
+    outcome_path path;
+    /* of the six components at the node, at every station [stations x 36]; rows of held components
+     * are zero, columns that nothing asks for NAN; belongs to the result */
+    const double *matrix;
+} outcome_compliance;
+
+typedef struct outcome_rotation {
+    outcome_path path;
+    rotation_modes *modes; /* [stations]; NULL where no quantity asks for them */
+} outcome_rotation;
+
+typedef struct outcome_continuation {
+    outcome_path path;
+    int points;               /* of the path, the first without load */
+    double *factor, *control; /* [points] load factor and control value [m] */
+    model_state **state;      /* [points]; NULL unless a curve of coordinates is wanted */
+} outcome_continuation;
 
 typedef struct analysis_outcome {
     scene_analysis_kind kind;
@@ -53,14 +62,23 @@ typedef struct analysis_outcome {
     union {        /* written by the analysis, read through the functions below */
         double *x; /* linear: displacements of all coordinates */
         outcome_spectrum spectrum;
-        outcome_path path;
+        outcome_path path; /* static */
+        outcome_compliance compliance;
+        outcome_rotation rotation;
+        outcome_continuation continuation;
     } of;
 } analysis_outcome;
 
 /* What the kind leaves; another kind ends the program. */
 const double *outcome_displacements(const analysis_outcome *);
 const outcome_spectrum *outcome_spectrum_of(const analysis_outcome *);
+/* Of any analysis along a path. */
 const outcome_path *outcome_path_of(const analysis_outcome *);
+const outcome_compliance *outcome_compliance_of(const analysis_outcome *);
+const outcome_rotation *outcome_rotation_of(const analysis_outcome *);
+const outcome_continuation *outcome_continuation_of(const analysis_outcome *);
+/* A static path, or that of a stationary rotation, to be filled. */
+outcome_path *outcome_walk(analysis_outcome *);
 int outcome_has_path(const analysis_outcome *);
 int outcome_has_spectrum(const analysis_outcome *);
 void outcome_free(analysis_outcome *);
