@@ -7,17 +7,16 @@
 enum { ROTARY_INERTIA = COLUMN_PARAMETERS };
 enum { FREQUENCIES = 13 };
 
+/* In the order of the enumeration. */
 static const parameter_type parameters[] = {
-    COLUMN_TABLE(1),
-    [ROTARY_INERTIA] = {"rotary_inertia", "1", 1, 0, 1, NULL,
-                        "1: rotary and warping inertia, 0: translations only"},
+    {"rotary_inertia", "1", 1, 0, 1, NULL, "1: rotary and warping inertia, 0: translations only"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
 static status build(const double value[], scene *s, fault *f)
 {
     int ends[2];
-    TRY(column_build(parameters, value, s, ends, f));
+    TRY(column_build(value, s, ends, f));
     if (value[ROTARY_INERTIA] != 0)
         scene_need(s, FEATURE_ROTARY_INERTIA);
     scene_add_load(s, SCENE_FORCE, ends[1], -1, 0, 0);
@@ -42,6 +41,6 @@ const case_type case_c_column = {
     .name = "c_column",
     .summary = "simply supported C-shaped column: buckling load and natural frequencies",
     .source = "J section 5.1, Tables 1-3",
-    .parameters = parameters,
+    .parameters = {column_parameters, column_flexible, column_stability, parameters},
     .build = build,
 };

@@ -66,6 +66,6 @@ const case_type case_carried_rod = {
     .name = "carried_rod",
     .summary = "bent and twisted rod carried around by whole turns",
     .source = "exact: a helix of constant moment, and rigid motion",
-    .parameters = parameters,
+    .parameters = {parameters},
     .build = build,
 };

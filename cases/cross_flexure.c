@@ -135,6 +135,6 @@ const case_type case_cross_flexure = {
     .summary = "cross-flexure hinge: moment, shift and support stiffness of the turned arm",
     .source =
         "truths: geometrically exact beams between rigid bodies (reference/derive/network.py)",
-    .parameters = parameters,
+    .parameters = {parameters},
     .build = build,
 };

@@ -18,21 +18,18 @@ enum {
 };
 enum { LEGS = 6, MAX_STEPS = 101 };
 
+/* In the order of the enumeration. */
 static const parameter_type parameters[] = {
-    JOINT_TABLE,
-    [BASE_RADIUS] = {"base_radius", "m", 0.40, 1e-3, 1e3, NULL, "radius of the crank pivots"},
-    [CRANK_LENGTH] = {"crank_length", "m", 0.20, 1e-3, 1e3, NULL,
-                      "length of a crank, pointing inwards"},
-    [CRANK_AZIMUTH] = {"crank_azimuth", "rad", 12 * JOINT_DEGREE, 0, 1.04, NULL,
-                       "azimuth of a crank from the middle of its pair"},
-    [PLATFORM_RADIUS] = {"platform_radius", "m", 0.16, 1e-3, 1e3, NULL,
-                         "radius of the platform's joint centres"},
-    [PLATFORM_AZIMUTH] = {"platform_azimuth", "rad", 48 * JOINT_DEGREE, 0, 1.04, NULL,
-                          "azimuth of a platform joint from the middle of its pair"},
-    [HEIGHT] = {"height", "m", 0.30, 1e-3, 1e3, NULL,
-                "height of the platform above the cranks' plane"},
-    [STROKE] = {"stroke", "m", 0.05, 0, 1e2, NULL, "the platform moves from -stroke to +stroke"},
-    [STEPS] = {"steps", "1", 11, 2, MAX_STEPS, NULL, "positions of the platform"},
+    {"base_radius", "m", 0.40, 1e-3, 1e3, NULL, "radius of the crank pivots"},
+    {"crank_length", "m", 0.20, 1e-3, 1e3, NULL, "length of a crank, pointing inwards"},
+    {"crank_azimuth", "rad", 12 * JOINT_DEGREE, 0, 1.04, NULL,
+     "azimuth of a crank from the middle of its pair"},
+    {"platform_radius", "m", 0.16, 1e-3, 1e3, NULL, "radius of the platform's joint centres"},
+    {"platform_azimuth", "rad", 48 * JOINT_DEGREE, 0, 1.04, NULL,
+     "azimuth of a platform joint from the middle of its pair"},
+    {"height", "m", 0.30, 1e-3, 1e3, NULL, "height of the platform above the cranks' plane"},
+    {"stroke", "m", 0.05, 0, 1e2, NULL, "the platform moves from -stroke to +stroke"},
+    {"steps", "1", 11, 2, MAX_STEPS, NULL, "positions of the platform"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -147,6 +144,6 @@ const case_type case_hexapod = {
     .summary =
         "flexure-based hexapod of twelve spherical joints: support stiffness along its stroke",
     .source = "N section 4.3, Fig. 10; synthetic sizes",
-    .parameters = parameters,
+    .parameters = {joint_parameters, parameters},
     .build = build,
 };

@@ -7,10 +7,9 @@
 
 enum { WAGNER_MOMENTS = COLUMN_PARAMETERS };
 
+/* In the order of the enumeration. */
 static const parameter_type parameters[] = {
-    COLUMN_TABLE(0),
-    [WAGNER_MOMENTS] = {"wagner_moments", "1", 1, 0, 1, NULL,
-                        "1: with int y(y^2+z^2) dA and int z(y^2+z^2) dA"},
+    {"wagner_moments", "1", 1, 0, 1, NULL, "1: with int y(y^2+z^2) dA and int z(y^2+z^2) dA"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -24,7 +23,7 @@ static void add_moment(scene *s, int buckling, const char *name, int sign)
 static status build(const double value[], scene *s, fault *f)
 {
     int ends[2];
-    TRY(column_build(parameters, value, s, ends, f));
+    TRY(column_build(value, s, ends, f));
     if (value[WAGNER_MOMENTS] != 0)
         scene_need(s, FEATURE_WAGNER_MOMENTS);
     scene_add_load(s, SCENE_MOMENT, ends[0], 0, 0, -1);
@@ -40,6 +39,6 @@ const case_type case_moment_buckling = {
     .summary =
         "C-shaped beam with fork ends under uniform end moment: buckling moments of both signs",
     .source = "J section 5.1 (section and length); closed form of the monosymmetric beam",
-    .parameters = parameters,
+    .parameters = {column_parameters, column_rigid, column_stability, parameters},
     .build = build,
 };

@@ -107,6 +107,6 @@ const case_type case_rotating_cantilever = {
     .summary = "cantilever that turns steadily: flap and lag frequencies, stretch",
     .source = "exact flap and lag of the stretched beam (reference/derive/rotating.py); stretch "
               "tan k/k - 1",
-    .parameters = parameters,
+    .parameters = {parameters},
     .build = build,
 };

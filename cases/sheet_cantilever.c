@@ -11,15 +11,15 @@
 enum { MODES = SHEET_PARAMETERS, DENSITY, ROTARY, STATIONS };
 enum { MOST_STATIONS = 100, MOST_MODES = 6 };
 
+/* In the order of the enumeration. */
 static const parameter_type parameters[] = {
-    SHEET_TABLE(0),
-    [MODES] = {"modes", "1", 0, 0, MOST_MODES, NULL,
-               "natural frequencies of the deflected sheet, its tip held along y and about z"},
-    [DENSITY] = {"density", "kg/m^3", 7850, 1e-3, 1e6, NULL, "of the sheet"},
-    [ROTARY] = {"rotary_inertia", "1", 1, 0, 1, NULL,
-                "1: rotary and warping inertia, 0: translations and twist only"},
-    [STATIONS] = {"stations", "1", 15, 1, MOST_STATIONS, NULL,
-                  "states from rest to the deflection, at equal distances"},
+    {"modes", "1", 0, 0, MOST_MODES, NULL,
+     "natural frequencies of the deflected sheet, its tip held along y and about z"},
+    {"density", "kg/m^3", 7850, 1e-3, 1e6, NULL, "of the sheet"},
+    {"rotary_inertia", "1", 1, 0, 1, NULL,
+     "1: rotary and warping inertia, 0: translations and twist only"},
+    {"stations", "1", 15, 1, MOST_STATIONS, NULL,
+     "states from rest to the deflection, at equal distances"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -117,6 +117,6 @@ const case_type case_sheet_cantilever = {
     .name = "sheet_cantilever",
     .summary = "clamped sheet flexure, tip deflected without rotation: compliance matrix",
     .source = "N section 4.1, Fig. 5",
-    .parameters = parameters,
+    .parameters = {sheet_parameters, sheet_no_wagner, sheet_moments, parameters},
     .build = build,
 };

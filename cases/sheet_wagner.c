@@ -8,11 +8,10 @@
 enum { TIP_PHI_Z = SHEET_PARAMETERS, TIP_PHI_X };
 enum { STATIONS_BENT = 5, STATIONS_TWISTED = 5 };
 
+/* In the order of the enumeration. */
 static const parameter_type parameters[] = {
-    SHEET_TABLE(1),
-    [TIP_PHI_Z] = {"tip_phi_z", "rad", 0.15, -1.5, 1.5, NULL, "prescribed tip rotation about z"},
-    [TIP_PHI_X] = {"tip_phi_x", "rad", 0.15, -1.5, 1.5, NULL,
-                   "prescribed tip twist, after the bending"},
+    {"tip_phi_z", "rad", 0.15, -1.5, 1.5, NULL, "prescribed tip rotation about z"},
+    {"tip_phi_x", "rad", 0.15, -1.5, 1.5, NULL, "prescribed tip twist, after the bending"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -85,6 +84,6 @@ const case_type case_sheet_wagner = {
     .name = "sheet_wagner",
     .summary = "sheet flexure bent, then twisted: effect of the Wagner torque",
     .source = "N section 4.1, Fig. 6",
-    .parameters = parameters,
+    .parameters = {sheet_parameters, sheet_wagner, sheet_moments, parameters},
     .build = build,
 };

@@ -10,10 +10,10 @@
 enum { TILT = JOINT_PARAMETERS, STEPS };
 enum { MAX_STEPS = 1000 };
 
+/* In the order of the enumeration. */
 static const parameter_type parameters[] = {
-    JOINT_TABLE,
-    [TILT] = {"tilt", "rad", 15 * JOINT_DEGREE, 0, 1, NULL, "rotation of the end effector"},
-    [STEPS] = {"steps", "1", 50, 1, MAX_STEPS, NULL, "azimuths of the tilt axis in one turn"},
+    {"tilt", "rad", 15 * JOINT_DEGREE, 0, 1, NULL, "rotation of the end effector"},
+    {"steps", "1", 50, 1, MAX_STEPS, NULL, "azimuths of the tilt axis in one turn"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -79,6 +79,6 @@ const case_type case_spherical_joint = {
     .summary = "spherical flexure joint of six folded sheets: support stiffness around one turn of "
                "the tilt axis",
     .source = "N section 4.2, Fig. 8, Table 1; geometry reconstructed",
-    .parameters = parameters,
+    .parameters = {joint_parameters, parameters},
     .build = build,
 };

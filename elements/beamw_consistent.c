@@ -37,7 +37,7 @@ const element_type element_beamw_consistent = {
               FEATURE_WAGNER_MOMENTS | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC |
               FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .shear_theories = SHEAR_ENGESSER | SHEAR_HARINGX,
-    .options = beamw_prepare_options_consistent,
+    .options = {beamw_prepare_mass, beamw_prepare_inside},
     .judged = beamw_prepare_judged,
     .data_size = data_size,
     .prepare = prepare,

@@ -18,7 +18,7 @@ const element_type element_beamw_first = {
               FEATURE_ROTARY_INERTIA,
     .limits = LIMIT_QUARTER_TURN,
     .shear_theories = SHEAR_ENGESSER,
-    .options = beamw_prepare_options,
+    .options = {beamw_prepare_mass},
     .judged = beamw_prepare_judged,
     .data_size = beamw_variants_data_size,
     .prepare = prepare,

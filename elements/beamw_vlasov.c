@@ -15,7 +15,7 @@ const element_type element_beamw_vlasov = {
     .offers = FEATURE_TRAPEZE | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC |
               FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .limits = LIMIT_QUARTER_TURN,
-    .options = beamw_prepare_options,
+    .options = {beamw_prepare_mass},
     .judged = beamw_prepare_judged,
     .data_size = beamw_variants_data_size,
     .prepare = prepare,

@@ -194,7 +194,7 @@ const element_type element_collocation = {
               FEATURE_LARGE | FEATURE_CURVATURE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .limits = 0,
     .shear_theories = SHEAR_HARINGX,
-    .options = options,
+    .options = {options},
     .order = order,
     .strains = strains,
     .inner = inner_count,

@@ -134,7 +134,7 @@ typedef struct element_type {
     unsigned shear_theories; /* shear_theory */
     const char
         *own_theory; /* of SHEAR_OWN, one line: what it is and where it is derived; else NULL */
-    const parameter_type *options; /* -f name:key=value; ends with a NULL name; NULL: none */
+    const parameter_type *options[PARAMETER_PARTS]; /* -f name:key=value */
     /* [options] element_feature: verify judges every choice of an option where a quantity depends
      * on one of these; 0: its default. NULL: the defaults. */
     const unsigned *judged;

@@ -84,7 +84,7 @@ const element_type element_geometrically_exact = {
               FEATURE_LARGE | FEATURE_CURVATURE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .limits = 0,
     .shear_theories = SHEAR_HARINGX,
-    .options = options,
+    .options = {options},
     .nodes = nodes,
     .strains = strains,
     .data_size = data_size,

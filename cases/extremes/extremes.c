@@ -7,11 +7,6 @@
 #include "cases/extremes/extreme.h"
 
 /* clang-format off */
-/* In another unit of length, x of them to the metre, and a second shorter by the same factor: moduli and density go with x^-2. */
-#define CHANNEL_SIZES \
-    {"length", 0, 6, 1}, {"height", 0, 0.6, 1}, {"width", 0, 0.6, 1}, {"flange_thickness", 0, 0.03, 1}, \
-    {"web_thickness", 0, 0.03, 1}
-
 const extreme extremes[] = {
     /* Thin and slender. */
     {"thin_sheet", "thin", "thickness to length of a sheet flexure deflected by 0.15 of its length",
@@ -108,6 +103,7 @@ const extreme extremes[] = {
      {{"buckling_load", 0}}, "short/whole", "1", EXTREME_SPLIT,
      8, 6, {0.5, 1e-1, 1e-2, 1e-4, 1e-6, 1e-8}, EXTREME_EXACT, 0, 1e-4},
     /* The same in other words. */
+    /* In another unit of length, x of them to the metre, and a second shorter by the same factor: moduli and density go with x^-2. */
     {"units_sheet", "units", "sheet flexure in m, mm and um",
      "sheet_cantilever", "",
      {{"length", 0, 0.1, 1}, {"width", 0, 0.1, 1}, {"thickness", 0, 0.00225, 1}, {"tip_deflection", 0, 0.015, 1},
@@ -116,7 +112,8 @@ const extreme extremes[] = {
      4, 3, {1, 1e3, 1e6}, EXTREME_SAME, 1, 1e-9},
     {"units_channel", "units", "C-shaped column in m, mm and km",
      "c_column", "",
-     {CHANNEL_SIZES, {"young", 0, 1.44e8, -2}, {"shear_modulus", 0, 4.14e6, -2}, {"density", 0, 138.9, -2}},
+     {{"length", 0, 6, 1}, {"height", 0, 0.6, 1}, {"width", 0, 0.6, 1}, {"flange_thickness", 0, 0.03, 1},
+      {"web_thickness", 0, 0.03, 1}, {"young", 0, 1.44e8, -2}, {"shear_modulus", 0, 4.14e6, -2}, {"density", 0, 138.9, -2}},
      {{"buckling_load", 0}, {"frequency_1", -1}, {"frequency_13", -1}}, "units of length in 1 m", "1", EXTREME_PARAMETERS,
      4, 3, {1, 1e3, 1e-3}, EXTREME_SAME, 1, 1e-9},
     {"steps_elastica", "load steps", "load steps from many to one: cantilever in large bending",

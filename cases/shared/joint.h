@@ -22,27 +22,8 @@ enum {
     JOINT_PARAMETERS
 };
 
-/* clang-format off */
-#define JOINT_TABLE \
-    [JOINT_LENGTH] = {"length", "m", 0.0681, 1e-6, 1e3, NULL, "length of a sheet"}, \
-    [JOINT_WIDTH] = {"width", "m", 0.0282, 1e-6, 1e3, NULL, \
-        "width of a sheet, along the fold line"}, \
-    [JOINT_THICKNESS] = {"thickness", "m", 0.000838, 1e-9, 1e3, NULL, "thickness of a sheet"}, \
-    [JOINT_YOUNG] = {"young", "Pa", 210e9, 1e-3, 1e15, NULL, "modulus of elasticity"}, \
-    [JOINT_POISSON] = {"poisson", "1", 0.3, -0.99, 0.49, NULL, "Poisson's ratio"}, \
-    [JOINT_FOLD_ANGLE] = {"fold_angle", "rad", 86.2 * JOINT_DEGREE, 0.01, 3.13, NULL, \
-        "angle between the two sheets of a fold"}, \
-    [JOINT_RADIUS] = {"radius", "m", 0.0343, 1e-6, 1e3, NULL, \
-        "distance of a fold line's outer end from the centre"}, \
-    [JOINT_POLAR] = {"polar_angle", "rad", 40.2 * JOINT_DEGREE, 0.01, 1.56, NULL, \
-        "angle between a fold line and the z axis"}, \
-    [JOINT_AZIMUTH] = {"azimuth", "rad", 0.0, -6.3, 6.3, NULL, "azimuth of the first fold"}, \
-    [JOINT_FOLD_WARPING] = {"fold_warping", "", 0, 0, 0, "shared|free|fixed", \
-        "warping of the two sheets at their fold"}, \
-    [JOINT_WAGNER] = {"wagner", "1", 1, 0, 1, NULL, "1: Wagner torque (N Eq. 46)"}, \
-    [JOINT_DIRECTION] = {"element_direction", "", 0, 0, 0, "bodies|chained", \
-        "elements begin at the bodies, or run base - fold - body"}
-/* clang-format on */
+/* Their entries. */
+extern const parameter_type joint_parameters[];
 
 #define JOINT_DEGREE 0.017453292519943295
 

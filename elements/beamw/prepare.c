@@ -8,25 +8,19 @@
 
 enum { OPTION_MASS, OPTION_TORSION, OPTION_INSIDE };
 
-#define MASS_OPTION                                                                                \
-    {                                                                                              \
-        "mass", "", BEAMW_INERTIA_CONSISTENT, 0, 0, "lumped|consistent|averaged",                  \
-            "mass matrix: J Eq. 73, from the shape functions, or the mean of the two"              \
-    }
-
-const parameter_type beamw_prepare_options[] = {
-    [OPTION_MASS] = MASS_OPTION,
+const parameter_type beamw_prepare_mass[] = {
+    [OPTION_MASS] = {"mass", "", BEAMW_INERTIA_CONSISTENT, 0, 0, "lumped|consistent|averaged",
+                     "mass matrix: J Eq. 73, from the shape functions, or the mean of the two"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
-const parameter_type beamw_prepare_options_consistent[] = {
-    [OPTION_MASS] = MASS_OPTION,
-    [OPTION_TORSION] =
-        {"torsion", "", BEAMW_TWIST_CUBIC, 0, 0, "cubic|hyperbolic",
-         "twist along the element: J Eq. 38, or the exact functions of non-uniform torsion"},
-    [OPTION_INSIDE] = {"inside", "", 1, 0, 0, "linear|following",
-                       "bending, shear and warping inside the element: as without stress, or in "
-                       "equilibrium with it"},
+/* OPTION_TORSION, OPTION_INSIDE. */
+const parameter_type beamw_prepare_inside[] = {
+    {"torsion", "", BEAMW_TWIST_CUBIC, 0, 0, "cubic|hyperbolic",
+     "twist along the element: J Eq. 38, or the exact functions of non-uniform torsion"},
+    {"inside", "", 1, 0, 0, "linear|following",
+     "bending, shear and warping inside the element: as without stress, or in "
+     "equilibrium with it"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 

@@ -23,9 +23,9 @@ typedef struct beamw_consistent_data {
 status beamw_prepare_consistent(const element_request *request, beamw_consistent_data *out,
                                 fault *f);
 
-/* Options in the order beamw_prepare_variant reads them; those of beamw_prepare_consistent are more. */
-extern const parameter_type beamw_prepare_options[], beamw_prepare_options_consistent[];
-/* element_type.judged of both: the second begins as the first. */
+/* The option of beamw_prepare_variant, and those that beamw_prepare_consistent has beside it. */
+extern const parameter_type beamw_prepare_mass[], beamw_prepare_inside[];
+/* element_type.judged of both. */
 extern const unsigned beamw_prepare_judged[];
 
 #endif

@@ -2,26 +2,37 @@
 
 #include <string.h>
 
-int parameter_count(const parameter_type table[])
+const parameter_type *parameter_at(const parameter_type *const part[PARAMETER_PARTS], int i)
+{
+    for (int p = 0; p < PARAMETER_PARTS && part[p] != NULL; p++)
+        for (const parameter_type *one = part[p]; one->name != NULL; one++)
+            if (i-- == 0)
+                return one;
+    return NULL;
+}
+
+int parameter_count(const parameter_type *const part[PARAMETER_PARTS])
 {
     int n = 0;
-    while (table != NULL && table[n].name != NULL)
+    while (parameter_at(part, n) != NULL)
         n++;
     return n;
 }
 
-int parameter_index(const parameter_type table[], const char *name)
+int parameter_index(const parameter_type *const part[PARAMETER_PARTS], const char *name)
 {
-    for (int i = 0; i < parameter_count(table); i++)
-        if (strcmp(table[i].name, name) == 0)
+    const parameter_type *one;
+    for (int i = 0; (one = parameter_at(part, i)) != NULL; i++)
+        if (strcmp(one->name, name) == 0)
             return i;
     return -1;
 }
 
-void parameter_defaults(const parameter_type table[], double value[])
+void parameter_defaults(const parameter_type *const part[PARAMETER_PARTS], double value[])
 {
-    for (int i = 0; i < parameter_count(table); i++)
-        value[i] = table[i].value;
+    const parameter_type *one;
+    for (int i = 0; (one = parameter_at(part, i)) != NULL; i++)
+        value[i] = one->value;
 }
 
 int parameter_choices(const parameter_type *p)

@@ -1,5 +1,5 @@
 /* What a user may choose: parameters of a case (--set NAME=VALUE) and options of a formulation
- * (-f name:NAME=VALUE) are entries of such tables. */
+ * (-f name:NAME=VALUE) are entries of such tables, in the order of their values. */
 #ifndef BEAMWORK_PARAMETER_H
 #define BEAMWORK_PARAMETER_H
 
@@ -12,11 +12,17 @@ typedef struct parameter_type {
     const char *summary; /* one line */
 } parameter_type;
 
-/* Entries of a table; NULL: none. */
-int parameter_count(const parameter_type table[]);
+/* Tables one behind the other, so that entries which several have in common stand once; NULL behind
+ * the last one where they are fewer. */
+enum { PARAMETER_PARTS = 5 };
+
+/* Entries of all parts. */
+int parameter_count(const parameter_type *const part[PARAMETER_PARTS]);
+/* NULL: behind the last one. */
+const parameter_type *parameter_at(const parameter_type *const part[PARAMETER_PARTS], int i);
 /* -1: there is none of that name. */
-int parameter_index(const parameter_type table[], const char *name);
-void parameter_defaults(const parameter_type table[], double value[]);
+int parameter_index(const parameter_type *const part[PARAMETER_PARTS], const char *name);
+void parameter_defaults(const parameter_type *const part[PARAMETER_PARTS], double value[]);
 /* How many choices there are; 0: it is a number. */
 int parameter_choices(const parameter_type *);
 

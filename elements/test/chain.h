@@ -51,7 +51,7 @@ static int chain_start(chain *c, const element_type *type, const double option[]
     c->elements = elements;
     c->length = length / elements;
     for (int i = 0; i < parameter_count(type->options); i++)
-        c->options[i] = option != NULL ? option[i] : type->options[i].value;
+        c->options[i] = option != NULL ? option[i] : parameter_at(type->options, i)->value;
     c->per_element = element_nodes(type, c->options);
     c->strains = element_strains(type, c->options);
     c->coordinates = NODE_COORDINATES * c->per_element;

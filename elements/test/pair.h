@@ -33,7 +33,9 @@ static inline void start_with(subject *s, const element_type *type, const sectio
 {
     double options[ELEMENT_MAX_OPTIONS] = {0};
     for (int i = 0; i < parameter_count(type->options); i++)
-        options[i] = strcmp(type->options[i].name, option) == 0 ? value : type->options[i].value;
+        options[i] = strcmp(parameter_at(type->options, i)->name, option) == 0
+                         ? value
+                         : parameter_at(type->options, i)->value;
     const element_request request = {
         .section = c, .length = l0, .features = features, .options = options};
     fault f;

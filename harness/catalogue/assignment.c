@@ -9,20 +9,6 @@
 
 enum { LONGEST = 128, MOST = 64 };
 
-const parameter_type *assignment_at(const assignment_list *l, int i)
-{
-    const int first = parameter_count(l->table[0]);
-    if (i < first)
-        return &l->table[0][i];
-    return i - first < parameter_count(l->table[1]) ? &l->table[1][i - first] : NULL;
-}
-
-void assignment_defaults(const assignment_list *l, double value[])
-{
-    parameter_defaults(l->table[0], value);
-    parameter_defaults(l->table[1], value + parameter_count(l->table[0]));
-}
-
 int assignment_value(const parameter_type *p, const char *text, double *value)
 {
     if (p->choices != NULL) {
@@ -62,7 +48,7 @@ static status set_value(const assignment_list *l, const parameter_type *p, const
 
 static const char *name_at(const void *context, int i)
 {
-    const parameter_type *p = assignment_at(context, i);
+    const parameter_type *p = parameter_at(((const assignment_list *)context)->part, i);
     return p != NULL ? p->name : NULL;
 }
 
@@ -86,7 +72,7 @@ status assignment_set(const assignment_list *l, const char *text, double value[]
     snprintf(name, sizeof name, "%.*s", (int)length, text);
     const parameter_type *p;
     int i = 0;
-    while ((p = assignment_at(l, i)) != NULL && strcmp(p->name, name) != 0)
+    while ((p = parameter_at(l->part, i)) != NULL && strcmp(p->name, name) != 0)
         i++;
     if (p == NULL)
         return unknown(l, name, f);
@@ -118,7 +104,7 @@ status assignment_parse(const assignment_list *l, const char *text, double value
         TRY(assignment_set(l, one, value, any, &index, f));
         if (given[index]++)
             return fault_set(f, STATUS_REFUSED, "%s %s of %s is given twice; give it one value",
-                             l->what, assignment_at(l, index)->name, l->owner);
+                             l->what, parameter_at(l->part, index)->name, l->owner);
         at = at[length] != '\0' ? at + length + 1 : NULL;
     }
     return STATUS_OK;
@@ -142,7 +128,7 @@ void assignment_text(const assignment_list *l, const double value[], char *text,
     const parameter_type *p;
     int used = 0;
     text[0] = '\0';
-    for (int i = 0; (p = assignment_at(l, i)) != NULL && used < size; i++) {
+    for (int i = 0; (p = parameter_at(l->part, i)) != NULL && used < size; i++) {
         char word[ASSIGNMENT_VALUE];
         if (value[i] == p->value)
             continue;

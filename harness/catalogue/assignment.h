@@ -6,20 +6,16 @@
 #include "elements/shared/parameter.h"
 #include "elements/shared/status.h"
 
-/* Two tables, one behind the other, and the words of refusals. */
+/* Tables, one behind the other, and the words of refusals. */
 typedef struct assignment_list {
-    const parameter_type *table[2]; /* NULL: none; values of the second follow those of the first */
-    const char *what;               /* "parameter" */
-    const char *owner;              /* the case or the formulation */
-    const char *shown_by;           /* argument of `beamwork list` that shows them */
-    char separator;                 /* between assignments */
+    const parameter_type *part[PARAMETER_PARTS];
+    const char *what;     /* "parameter" */
+    const char *owner;    /* the case or the formulation */
+    const char *shown_by; /* argument of `beamwork list` that shows them */
+    char separator;       /* between assignments */
 } assignment_list;
 
 enum { ASSIGNMENT_VALUE = 64 };
-
-/* The i-th entry of both tables together; NULL behind the last one. */
-const parameter_type *assignment_at(const assignment_list *, int i);
-void assignment_defaults(const assignment_list *, double value[]);
 
 /* "NAME=VALUE" (value: a number in its range, or the name of a choice), returning the index in
  * *index (may be NULL). any (may be NULL): a value "*" is skipped and marked there.  REFUSED names

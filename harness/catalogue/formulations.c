@@ -15,8 +15,12 @@ const parameter_type formulation_common[] = {
 
 assignment_list formulation_options(const element_type *type)
 {
-    return (assignment_list){
-        {type->options, formulation_common}, "option", type->name, "formulations", ','};
+    assignment_list list = {{NULL}, "option", type->name, "formulations", ','};
+    int parts = 0;
+    for (; parts < PARAMETER_PARTS - 1 && type->options[parts] != NULL; parts++)
+        list.part[parts] = type->options[parts];
+    list.part[parts] = formulation_common;
+    return list;
 }
 
 solve_newton formulation_newton(const formulation *chosen)
@@ -76,13 +80,13 @@ void formulation_default(const element_type *type, formulation *out)
     const assignment_list list = formulation_options(type);
     memset(out, 0, sizeof *out);
     out->type = type;
-    assignment_defaults(&list, out->option);
+    parameter_defaults(list.part, out->option);
     write_key(out);
 }
 
 int formulation_choice(const element_type *type, int index, int choice, formulation *out)
 {
-    const parameter_type *o = &type->options[index];
+    const parameter_type *o = parameter_at(type->options, index);
     if (choice >= parameter_choices(o) || choice == (int)o->value)
         return 0;
     formulation_default(type, out);
@@ -96,7 +100,7 @@ unsigned formulation_bears_on(const formulation *chosen)
     const element_type *type = chosen->type;
     unsigned features = 0;
     for (int i = 0; i < parameter_count(type->options); i++)
-        if (chosen->option[i] != type->options[i].value)
+        if (chosen->option[i] != parameter_at(type->options, i)->value)
             features |= element_judged(type, i);
     return features;
 }

@@ -5,7 +5,9 @@
 
 assignment_list parameters_list(const case_type *c)
 {
-    return (assignment_list){{c->parameters, NULL}, "parameter", c->name, c->name, ';'};
+    assignment_list list = {{NULL}, "parameter", c->name, c->name, ';'};
+    memcpy(list.part, c->parameters, sizeof list.part);
+    return list;
 }
 
 int parameters_count(const case_type *c)
@@ -43,12 +45,13 @@ void parameters_text(const case_type *c, const double value[], char *text, int s
 uint64_t parameters_hash(const case_type *c, const double value[], const int any[])
 {
     uint64_t hash = 14695981039346656037ull;
-    for (int i = 0; c->parameters[i].name != NULL; i++) {
+    const parameter_type *p;
+    for (int i = 0; (p = parameter_at(c->parameters, i)) != NULL; i++) {
         char text[128];
         if (any != NULL && any[i])
-            snprintf(text, sizeof text, "%s=*;", c->parameters[i].name);
+            snprintf(text, sizeof text, "%s=*;", p->name);
         else
-            snprintf(text, sizeof text, "%s=%.17g;", c->parameters[i].name, value[i]);
+            snprintf(text, sizeof text, "%s=%.17g;", p->name, value[i]);
         for (const char *at = text; *at != '\0'; at++)
             hash = (hash ^ (unsigned char)*at) * 1099511628211ull;
     }

@@ -54,7 +54,7 @@ static int compare(const cli_request *r, const results *before, const results *a
 int cli_compare(int count, char **arguments)
 {
     cli_request r;
-    comparison_limits limits = COMPARISON_LIMITS;
+    comparison_limits limits = comparison_limits_default;
     results before = {0}, after = {0};
     fault f = {""};
     cli_parse(

@@ -59,7 +59,7 @@ static void list_formulations(void)
                t->source, "", words);
         list_declarations(t);
         for (int k = 0; k < parameter_count(t->options); k++)
-            list_option(&t->options[k]);
+            list_option(parameter_at(t->options, k));
     }
     printf("  %-24s\n", "all of them");
     for (const parameter_type *o = formulation_common; o->name != NULL; o++)
@@ -98,8 +98,8 @@ static int list_case(const case_type *type)
     fault f;
     printf("%s: %s\nsource: %s\nparameters (--set NAME=VALUE)\n", type->name, type->summary,
            type->source);
-    for (int i = 0; type->parameters[i].name != NULL; i++) {
-        const parameter_type *p = &type->parameters[i];
+    const parameter_type *p;
+    for (int i = 0; (p = parameter_at(type->parameters, i)) != NULL; i++) {
         char text[ASSIGNMENT_VALUE];
         assignment_value_text(p, p->value, text, sizeof text);
         printf("  %-20s %-14s %-8s %s (", p->name, text, p->unit, p->summary);

@@ -6,6 +6,8 @@
 #include "harness/comparison/comparison_lines.h"
 #include "harness/study/sweep.h"
 
+const comparison_limits comparison_limits_default = {0.01, RESULTS_FLOOR, 0.02};
+
 status comparison_limits_parse(const char *text, comparison_limits *out, fault *f)
 {
     const struct {

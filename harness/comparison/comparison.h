@@ -12,11 +12,8 @@ typedef struct comparison_limits {
     double
         work; /* relative change of a count of one mesh; of a series: of the mean of its meshes */
 } comparison_limits;
-
-#define COMPARISON_LIMITS                                                                          \
-    {                                                                                              \
-        0.01, RESULTS_FLOOR, 0.02                                                                  \
-    }
+/* Where nothing else is said. */
+extern const comparison_limits comparison_limits_default;
 
 typedef enum comparison_kind {
     CHANGE_WORSE,

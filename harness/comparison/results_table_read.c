@@ -172,7 +172,7 @@ status results_read_table(const char *path, FILE *from, results *out, fault *f)
     char line[LONGEST_LINE];
     status outcome = STATUS_OK;
     if (fgets(line, sizeof line, from) == NULL || !take_line(line) ||
-        strcmp(line, RESULTS_TABLE_HEAD) != 0)
+        strcmp(line, results_table_head) != 0)
         return fault_set(f, STATUS_FAULT,
                          "%.120s: neither results of 'beamwork verify -o' (HDF5) nor a table of "
                          "'beamwork compare -o'",

@@ -24,7 +24,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (size < 1)
         return 0;
     char *text = fuzz_text(data + 1, size - 1);
-    comparison_limits limits = COMPARISON_LIMITS;
+    comparison_limits limits = comparison_limits_default;
     fault f = {""};
     switch (data[0] % 3) {
     case 0:

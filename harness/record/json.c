@@ -13,7 +13,7 @@ static json_t *values_of(const assignment_list *l, const double value[])
 {
     json_t *all = json_object();
     const parameter_type *p;
-    for (int i = 0; (p = assignment_at(l, i)) != NULL; i++) {
+    for (int i = 0; (p = parameter_at(l->part, i)) != NULL; i++) {
         char text[ASSIGNMENT_VALUE];
         assignment_value_text(p, value[i], text, sizeof text);
         json_object_set_new(all, p->name,

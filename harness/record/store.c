@@ -27,8 +27,8 @@ static void put_environment(record *r, const environment *e)
 static void get_choice(const subject *s, field_value *out)
 {
     const size_t i = out->of->offset;
-    assignment_value_text(&s->point->type->parameters[i], s->point->parameter[i], out->room,
-                          sizeof out->room);
+    assignment_value_text(parameter_at(s->point->type->parameters, i), s->point->parameter[i],
+                          out->room, sizeof out->room);
     out->text = out->room;
 }
 
@@ -39,9 +39,9 @@ static void get_parameter(const subject *s, field_value *out)
 
 static int parameter_fields(const case_type *type, schema_field out[CASE_MAX_PARAMETERS])
 {
+    const parameter_type *p;
     int i = 0;
-    for (; type->parameters[i].name != NULL; i++) {
-        const parameter_type *p = &type->parameters[i];
+    for (; (p = parameter_at(type->parameters, i)) != NULL; i++) {
         out[i] = (schema_field){
             p->name, p->unit, FIELD_DOUBLE, p->summary, .offset = (size_t)i, .get = get_parameter};
         if (p->choices != NULL)

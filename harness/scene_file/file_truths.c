@@ -27,7 +27,7 @@ static const scene_quantity *quantity_of(const scene *s, const char *name)
 static int named_value(const scene_file *file, const fields *f, const document_node *those, int i,
                        double *value)
 {
-    const int index = parameter_index(file->parameter, those->key[i]->text);
+    const int index = parameter_index(file->type.parameters, those->key[i]->text);
     mistakes *m = f->b->mistakes;
     if (index < 0) {
         document_mistake(m, those->key[i], 0, "the scene has no parameter '%.40s'",
@@ -201,7 +201,7 @@ status scene_file_add_all_truths(const scene_file *file, truths *t, fault *f)
     arena a = {0};
     mistakes m = {.file = file->path};
     double defaults[CASE_MAX_PARAMETERS] = {0};
-    parameter_defaults(file->parameter, defaults);
+    parameter_defaults(file->type.parameters, defaults);
     status outcome = scene_file_add_truths(file, defaults, t, f);
     const truth_reader r = open_truths(file, defaults, &a, &m);
     for (int i = 0; i < r.count && outcome == STATUS_OK; i++) {

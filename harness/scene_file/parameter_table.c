@@ -94,7 +94,7 @@ void parameter_table_read(scene_file *file, mistakes *m)
         else if (choices == NULL)
             read_number(p, entry, m);
     }
-    file->type.parameters = file->parameter;
+    file->type.parameters[0] = file->parameter;
 }
 
 const scope *parameter_table_names(const scene_file *file, const double value[], arena *a)

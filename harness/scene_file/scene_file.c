@@ -76,7 +76,7 @@ static void read_all(scene_file *file, const char *bytes, size_t size, mistakes 
         return;
     double value[CASE_MAX_PARAMETERS] = {0};
     scene s;
-    parameter_defaults(file->parameter, value);
+    parameter_defaults(file->type.parameters, value);
     scene_init(&s, file->type.name);
     build_at(file, value, &s, m);
     if (m->count == 0)

@@ -45,7 +45,8 @@ static int known_point(const sweep *s, const case_type *type, const double value
 
 static int is_complete(const truth *row)
 {
-    for (int i = 0; row->type->parameters[i].name != NULL; i++)
+    const int count = parameter_count(row->type->parameters);
+    for (int i = 0; i < count; i++)
         if (row->any[i])
             return 0;
     return 1;
@@ -120,7 +121,7 @@ static void choose_options(const element_type *type, chosen *out)
     for (int k = 0; k < parameter_count(type->options); k++) {
         if (element_judged(type, k) == 0)
             continue;
-        const int choices = parameter_choices(&type->options[k]);
+        const int choices = parameter_choices(parameter_at(type->options, k));
         for (int choice = 0; choice < choices && out->count < MOST_FORMULATIONS; choice++)
             out->count += formulation_choice(type, k, choice, &out->list[out->count]);
     }

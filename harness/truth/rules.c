@@ -101,7 +101,7 @@ static int term_holds(const term *t, const rule_subject *s)
     if (t->feature != 0)
         return ((s->features & t->feature) != 0) != t->negated;
     const int i = parameter_index(s->type->parameters, t->parameter);
-    return i >= 0 && compares(t, &s->type->parameters[i], s->parameter[i]);
+    return i >= 0 && compares(t, parameter_at(s->type->parameters, i), s->parameter[i]);
 }
 
 static int condition_holds(const char *condition, const rule_subject *s)
@@ -150,7 +150,7 @@ static int term_means_something(const rule *r, const term *t)
         const char *values = t->values;
         found = i >= 0 && list_has(r->cases, registry_cases[k]->name);
         while (found && (values = next_word(values, "|", word)) != NULL)
-            found = isfinite(value_of(&registry_cases[k]->parameters[i], word));
+            found = isfinite(value_of(parameter_at(registry_cases[k]->parameters, i), word));
     }
     return found;
 }

@@ -7,10 +7,15 @@
 #include "harness/catalogue/choice.h"
 #include "harness/truth/truth.h"
 
+const char truth_kinds[] =
+    "exact|predicted|independent|consensus|agreement|published|reconstructed|experiment|"
+    "unrepeatable";
+
 static int same_point(const case_type *type, const double value[], const double at[],
                       const int any[])
 {
-    for (int i = 0; type->parameters[i].name != NULL; i++)
+    const int count = parameter_count(type->parameters);
+    for (int i = 0; i < count; i++)
         if (!any[i] && fabs(value[i] - at[i]) > 1e-14 * fabs(at[i]))
             return 0;
     return 1;
@@ -53,7 +58,7 @@ const truth *truth_of_theory(const truths *t, const case_type *type, const doubl
                                      choice_index(theories, row->theory) >= 0);
         if (follows && truth_holds(row, type, value) &&
             (best == NULL ||
-             choice_index(TRUTH_KINDS, row->kind) < choice_index(TRUTH_KINDS, best->kind)))
+             choice_index(truth_kinds, row->kind) < choice_index(truth_kinds, best->kind)))
             best = row;
     }
     return best;

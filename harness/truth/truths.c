@@ -10,6 +10,7 @@
 #include "harness/catalogue/registry.h"
 #include "harness/truth/checksum.h"
 #include "harness/truth/columns.h"
+#include "harness/truth/truth.h"
 
 /* Parameters of a row, and whether they still mean what they meant when the table was packed. */
 static status check_row(const columns *r, const case_type *type, int i, const char *text,
@@ -26,6 +27,11 @@ static status check_row(const columns *r, const case_type *type, int i, const ch
                          r->path, i + 1, r->name);
     return STATUS_OK;
 }
+
+/* What a moment does while its node turns, and how prescribed rotations combine. */
+static const char conventions[] =
+    "vector|RyRzRx|spatial|spatial vector|spatial RyRzRx|semitangential|semitangential vector|"
+    "semitangential RyRzRx|symmetrised|symmetrised vector|symmetrised RyRzRx";
 
 static int is_known(const char *word, const char *choices)
 {
@@ -55,7 +61,7 @@ static const char *wrong_column(const truth *row)
         return "uncertainty";
     if (isinf(row->at))
         return "at";
-    if (!is_known(row->kind, TRUTH_KINDS))
+    if (!is_known(row->kind, truth_kinds))
         return "kind";
     if (!elements_fit(row))
         return "elements";
@@ -63,7 +69,7 @@ static const char *wrong_column(const truth *row)
         return "model";
     if (!is_known_or_empty(row->theory, TRUTH_THEORIES))
         return "theory";
-    return is_known_or_empty(row->convention, TRUTH_CONVENTIONS) ? NULL : "convention";
+    return is_known_or_empty(row->convention, conventions) ? NULL : "convention";
 }
 
 /* Columns of a table that are not members of a row. */

@@ -9,18 +9,7 @@
 #include "harness/truth/rules.h"
 
 enum { TRUTHS_VERSION = 2 };
-/* The first known one judges; truth_gates says which ones may.  "predicted": the limit that a
- * formulation must have. */
-#define TRUTH_KINDS                                                                                \
-    "exact|predicted|independent|consensus|agreement|published|reconstructed|experiment|"          \
-    "unrepeatable"
-/* Of shear in stability; "": the truth depends on none. */
-#define TRUTH_THEORIES "engesser|haringx"
-/* What a moment does while its node turns, and how prescribed rotations combine. */
-#define TRUTH_CONVENTIONS                                                                          \
-    "vector|RyRzRx|spatial|spatial vector|spatial RyRzRx|semitangential|semitangential "           \
-    "vector|semitangential RyRzRx|"                                                                \
-    "symmetrised|symmetrised vector|symmetrised RyRzRx"
+#define TRUTH_THEORIES "engesser|haringx" /* of shear in stability; "": the truth depends on none */
 
 typedef struct truth {
     const case_type *type;

@@ -85,7 +85,7 @@ static void bifurcations(const char *assignment)
     static const parameter_type table[] = {
         {"moment", "1", 0, 0, 1, NULL, "1: with a moment of no size"},
         {NULL, NULL, 0, 0, 0, NULL, NULL}};
-    const case_type column = {.name = "column", .parameters = table, .build = build_column};
+    const case_type column = {.name = "column", .parameters = {table}, .build = build_column};
     const double EA = 100;
     cell_result r = solve(&column, "collocation", 8, assignment);
     gsl_test_int((int)r.solve.status, STATUS_OK,

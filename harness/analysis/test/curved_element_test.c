@@ -230,7 +230,8 @@ int main(void)
         formulation_default(type, &chosen);
         arcs(&chosen, &c);
         for (int k = 0; k < parameter_count(type->options); k++)
-            for (int choice = 0; choice < parameter_choices(&type->options[k]); choice++)
+            for (int choice = 0; choice < parameter_choices(parameter_at(type->options, k));
+                 choice++)
                 if (formulation_choice(type, k, choice, &chosen))
                     arcs(&chosen, &c);
     }

@@ -38,7 +38,7 @@ static const parameter_type parameter[] = {{0}};
 static const case_type free_beam = {.name = "free_beam",
                                     .summary = "a case of the test",
                                     .source = "none",
-                                    .parameters = parameter,
+                                    .parameters = {parameter},
                                     .build = build};
 
 /* 0: bending about the weak axis, then about the strong one, then the second of each. */

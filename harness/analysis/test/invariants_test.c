@@ -52,9 +52,9 @@ static double difference(const answer *a, const answer *b, const char **whose)
 /* Few stations, where a case lets one choose. */
 static const char *short_path(const case_type *type)
 {
-    for (int i = 0; type->parameters[i].name != NULL; i++)
-        if (strcmp(type->parameters[i].name, "steps") == 0)
-            return type->parameters[i].max >= 3 ? "steps=3" : "";
+    for (int i = 0; i < parameter_count(type->parameters); i++)
+        if (strcmp(parameter_at(type->parameters, i)->name, "steps") == 0)
+            return parameter_at(type->parameters, i)->max >= 3 ? "steps=3" : "";
     return "";
 }
 

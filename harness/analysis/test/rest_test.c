@@ -143,8 +143,9 @@ static int choices_of(const element_type *type, formulation list[CHOICES])
     int count = 1;
     formulation_default(type, &list[0]);
     for (int k = 0; k < parameter_count(type->options); k++)
-        for (int choice = 0; element_judged(type, k) != 0 &&
-                             choice < parameter_choices(&type->options[k]) && count < CHOICES;
+        for (int choice = 0;
+             element_judged(type, k) != 0 &&
+             choice < parameter_choices(parameter_at(type->options, k)) && count < CHOICES;
              choice++)
             count += formulation_choice(type, k, choice, &list[count]);
     return count;

@@ -113,7 +113,7 @@ static void reference_point(void)
     static const case_type type = {.name = "with_body",
                                    .summary = "",
                                    .source = "",
-                                   .parameters = with_body_parameters,
+                                   .parameters = {with_body_parameters},
                                    .build = build_with_body};
     static const char *const each[] = {"beamw_consistent", "beamw_consistent:mass=lumped",
                                        "geometrically_exact"};

@@ -23,7 +23,7 @@ static inline status no_build(const double value[], scene *s, fault *f)
 static const case_type made_up = {.name = "made_up",
                                   .summary = "a case of the test",
                                   .source = "none",
-                                  .parameters = parameter,
+                                  .parameters = {parameter},
                                   .build = no_build};
 static const element_type element = {.name = "element", .abi = ELEMENT_ABI};
 

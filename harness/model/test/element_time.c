@@ -72,13 +72,14 @@ int main(void)
         for (int k = 0; k < parameter_count(type->options); k++) {
             const int shapes = type->inner != NULL ||
                                type->nodes != NULL; /* this option changes the element's size */
-            for (int v = 0; shapes && k == 0 && v < parameter_choices(&type->options[k]); v++) {
+            for (int v = 0;
+                 shapes && k == 0 && v < parameter_choices(parameter_at(type->options, k)); v++) {
                 char label[64];
                 double option[ELEMENT_MAX_OPTIONS];
                 parameter_defaults(type->options, option);
                 option[k] = v;
                 snprintf(label, sizeof label, "%s, choice %d of %s", type->name, v + 1,
-                         type->options[k].name);
+                         parameter_at(type->options, k)->name);
                 measure(type, option, label, &s);
             }
         }

@@ -195,7 +195,7 @@ static int mass_choices(const element_type *type, int *option)
 {
     const int mass = parameter_index(type->options, "mass");
     *option = mass < 0 ? 0 : mass;
-    return mass < 0 ? 1 : parameter_choices(&type->options[mass]);
+    return mass < 0 ? 1 : parameter_choices(parameter_at(type->options, mass));
 }
 
 static void check(const element_type *type, const double options[], int choice, unsigned left_out)

@@ -48,9 +48,9 @@ static void parameters_differ(const case_type *type)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
     const int count = schema_fields(&record_point, KEY_AROUND, list);
-    for (int i = 0; type->parameters[i].name != NULL; i++)
+    for (int i = 0; i < parameter_count(type->parameters); i++)
         for (int k = 0; k < count; k++)
-            gsl_test(strcmp(type->parameters[i].name, list[k]->name) == 0,
+            gsl_test(strcmp(parameter_at(type->parameters, i)->name, list[k]->name) == 0,
                      "%s: parameter %s beside a field", type->name, list[k]->name);
 }
 

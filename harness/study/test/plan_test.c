@@ -15,8 +15,8 @@ static char words[][32] = {"", "exact", "same", "m", "geometrically_exact"};
 static int numbers_of(const case_type *type, int out[2])
 {
     int count = 0;
-    for (int i = 0; type->parameters[i].name != NULL && count < 2; i++)
-        if (type->parameters[i].choices == NULL)
+    for (int i = 0; i < parameter_count(type->parameters) && count < 2; i++)
+        if (parameter_at(type->parameters, i)->choices == NULL)
             out[count++] = i;
     return count;
 }
@@ -76,7 +76,7 @@ static void points(const case_type *type, const int number[2])
     expect(type, 3, row, 3, 0, "two other points");
     row[2].any[number[0]] = 1;
     expect(type, 3, row, 2, 0, "any value of one parameter is no point");
-    for (int i = 0; type->parameters[i].name != NULL; i++)
+    for (int i = 0; i < parameter_count(type->parameters); i++)
         row[2].any[i] = 1;
     row[2].formulation = words[4];
     row[2].elements = OWN_MESH;

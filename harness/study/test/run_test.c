@@ -156,7 +156,9 @@ static void random_input(void)
         const int matches = select_matches(text, "c_column/default/beamw/buckling_load");
         wrong += matches < -1 || matches > 1;
         for (int k = 0; k < parameters_count(c); k++)
-            wrong += !(value[k] >= (c->parameters[k].choices != NULL ? 0 : c->parameters[k].min));
+            wrong += !(value[k] >= (parameter_at(c->parameters, k)->choices != NULL
+                                        ? 0
+                                        : parameter_at(c->parameters, k)->min));
     }
     gsl_test_int(wrong, 0,
                  "answers to 20000 random inputs that are neither a value nor a clear refusal");

@@ -312,7 +312,7 @@ static void cells_share_a_scene(void)
     static const case_type once = {.name = "once",
                                    .summary = "a case of the test",
                                    .source = "none",
-                                   .parameters = planner,
+                                   .parameters = {planner},
                                    .build = build_in_plan};
     static const int mesh[] = {1, 2, 3};
     const double value[CASE_MAX_PARAMETERS] = {(double)getpid()};

@@ -35,7 +35,7 @@ static void check_row(const char *line, const case_type *type, int at, const cha
         gsl_test(1, "defaults.csv: %s: no such case or parameter", line);
         return;
     }
-    const parameter_type *p = &type->parameters[at];
+    const parameter_type *p = parameter_at(type->parameters, at);
     double value[CASE_MAX_PARAMETERS] = {0};
     parameters_default(type, value);
     gsl_test(strcmp(p->name, name) != 0, "defaults.csv: %s: it is %s", line, p->name);

@@ -140,14 +140,14 @@ static void any_value(const char *path)
         fault f = {""};
         double value[CASE_MAX_PARAMETERS] = {0};
         recipe r = right;
-        snprintf(text, sizeof text, "%s=*", type->parameters[1].name);
+        snprintf(text, sizeof text, "%s=*", parameter_at(type->parameters, 1)->name);
         r.parameters = all ? "*" : text;
         truths_file_make(path, &r);
         gsl_test(truths_read(path, &t, &f) != STATUS_OK, "%s is read %s", r.parameters, f.text);
         parameters_default(type, value);
         gsl_test(truth_of(&t, type, value, "load", "same") == NULL, "%s: the defaults",
                  r.parameters);
-        value[1] = type->parameters[1].max;
+        value[1] = parameter_at(type->parameters, 1)->max;
         gsl_test(truth_of(&t, type, value, "load", "same") == NULL, "%s: another value",
                  r.parameters);
         value[0] += 1;
@@ -282,7 +282,7 @@ static void conditions(const char *path)
     double value[CASE_MAX_PARAMETERS] = {0};
     parameters_default(type, value);
     int first = 0;
-    while (type->parameters[first].choices != NULL)
+    while (parameter_at(type->parameters, first)->choices != NULL)
         first++;
     value[first] = 0.25;
     const rule_subject s = {type,   value,  FEATURE_SHEAR | FEATURE_WAGNER_TORQUE,
@@ -295,7 +295,8 @@ static void conditions(const char *path)
                  {">0.25", 0},      {">0.24", 1}, {">=0.25", 1},    {">=0.26", 0}};
     char text[64];
     for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++) {
-        snprintf(text, sizeof text, "%s%s", type->parameters[first].name, terms[i].sign);
+        snprintf(text, sizeof text, "%s%s", parameter_at(type->parameters, first)->name,
+                 terms[i].sign);
         gsl_test_int(holds(path, text, &s), terms[i].holds, "condition %s where it is 0.25", text);
     }
     gsl_test_int(holds(path, "shear", &s), 1, "a feature that is needed");
@@ -310,7 +311,7 @@ static void conditions(const char *path)
         r.condition = wrong[i];
         refused(path, "condition", r, wrong[i]);
     }
-    snprintf(text, sizeof text, "%s=many", type->parameters[first].name);
+    snprintf(text, sizeof text, "%s=many", parameter_at(type->parameters, first)->name);
     recipe r = right;
     r.condition = text;
     refused(path, "condition", r, "a word for a number");
