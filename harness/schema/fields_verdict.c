@@ -103,7 +103,7 @@ static const schema_field fields_of_verdict[] = {
      OF(MODEL_TRUTH, truth, value)},
     {"model_truth_kind", "", FIELD_TEXT, "exact, independent, ...",
      TEXT_OF(MODEL_TRUTH, truth, kind)},
-    {"features_theory", "", FIELD_TEXT, "of shear in stability that it follows",
+    {"model_theory", "", FIELD_TEXT, "of shear in stability that it follows",
      TEXT_OF(MODEL_TRUTH, truth, theory)},
     {"model_error", "1", FIELD_DOUBLE, "of the limit against it", AT(verdict, model_error)},
     {"reach_10", "1", FIELD_INT, "elements from which on every mesh is within 10 %; 0: none",
