@@ -29,21 +29,21 @@ static status evaluate(const model *m, int i, linear_element *out)
 }
 
 /* J, S of an element are evaluated once and kept in the model: the undeformed state never changes.
- * (Not once per kind: J of equal elements differs in its last digits.) What is asked for is
- * counted. Without memory for it nothing is kept. */
+ * (Not once per kind: J of equal elements differs in its last digits.) Without memory for it
+ * nothing is kept. */
 static status linear_of(model *m, int i, linear_element *out)
 {
     const size_t J = (size_t)(m->strains * m->coordinates), S = (size_t)(m->strains * m->strains);
     if (m->undeformed == NULL)
         m->undeformed = calloc((size_t)m->elements * (J + S + 1), sizeof *m->undeformed);
     double *kept = m->undeformed != NULL ? m->undeformed + (size_t)i * (J + S + 1) : NULL;
-    m->counters.strain_evaluations++;
-    m->counters.stress_evaluations++;
     if (kept != NULL && kept[J + S] != 0) {
         memcpy(out->J, kept, J * sizeof *kept);
         memcpy(out->S, kept + J, S * sizeof *kept);
         return STATUS_OK;
     }
+    m->counters.strain_evaluations++;
+    m->counters.stress_evaluations++;
     TRY(evaluate(m, i, out));
     if (kept != NULL) {
         memcpy(kept, out->J, J * sizeof *kept);
