@@ -41,6 +41,12 @@ scene_extract scene_frequency(int order, scene_family family)
     return (scene_extract){SCENE_FREQUENCY, {.mode = {.order = order, .family = family}}};
 }
 
+scene_extract scene_frequency_of(int order, scene_family family, int half_waves)
+{
+    return (scene_extract){SCENE_FREQUENCY,
+                           {.mode = {.order = order, .family = family, .half_waves = half_waves}}};
+}
+
 scene_extract scene_factor_at(void)
 {
     return (scene_extract){.kind = SCENE_FACTOR_AT};

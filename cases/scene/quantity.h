@@ -89,6 +89,7 @@ scene_extract scene_critical_factor(int sign, int order);
 scene_extract scene_growth(void);
 /* Of any number of half-waves. */
 scene_extract scene_frequency(int order, scene_family family);
+scene_extract scene_frequency_of(int order, scene_family family, int half_waves);
 scene_extract scene_factor_at(void);
 scene_extract scene_critical_point(scene_critical kind, int order, scene_ordinate ordinate);
 scene_extract scene_driver_value(int driver);

@@ -62,10 +62,9 @@ static scene_extract critical_factor(const fields *f)
 static scene_extract frequency(const fields *f)
 {
     static const char families[] = "any|not_axial|axial|bending_y|bending_z|torsion";
-    scene_extract what =
-        scene_frequency(order_of(f), (scene_family)fields_word(f, "family", families, 0));
-    what.of.mode.half_waves = fields_whole(f, "half_waves", 0, 0, MOST_ORDER);
-    return what;
+    const int order = order_of(f);
+    const scene_family family = (scene_family)fields_word(f, "family", families, 0);
+    return scene_frequency_of(order, family, fields_whole(f, "half_waves", 0, 0, MOST_ORDER));
 }
 
 static scene_extract growth(const fields *f)

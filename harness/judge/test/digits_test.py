@@ -44,7 +44,7 @@ class Digits(ProgramTest):
         for case, formulation, given, quantity, meshes in POINTS:
             with self.subTest(case=case, formulation=formulation):
                 found = self.limit(case, formulation, given, quantity, meshes)
-                self.assertEqual(found["verdict"], "wrong limit, as predicted")
+                self.assertIn(", as predicted", found["verdict"])
                 self.assertLess(abs(found["limit"] / found["predicted"] - 1), DIGITS)
 
     def test_elements_as_long_as_the_sheet_is_thick(self):

@@ -18,11 +18,13 @@ static verdict_kind judged(bench *b, double limit, double apart)
 static void edges(bench *b, double edge, verdict_kind beyond, const char *what)
 {
     const double limit = bench_judge(b)->fit.limit;
+    const verdict_kind within =
+        beyond == VERDICT_BIASED ? VERDICT_BIASED_AS_PREDICTED : VERDICT_WRONG_AS_PREDICTED;
     for (int side = -1; side <= 1; side += 2) {
         const verdict_kind in = judged(b, limit, side * edge * (1 - just)),
                            out = judged(b, limit, side * edge * (1 + just));
-        gsl_test(in != VERDICT_WRONG_AS_PREDICTED, "%s: inside its edge %+.1e: %s", what,
-                 side * edge, verdict_name(in));
+        gsl_test(in != within, "%s: inside its edge %+.1e: %s", what, side * edge,
+                 verdict_name(in));
         gsl_test(out != beyond, "%s: beyond its edge %+.1e: %s", what, side * edge,
                  verdict_name(out));
     }
