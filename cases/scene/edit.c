@@ -2,6 +2,7 @@
 #include "cases/scene/unit.h"
 
 #include <stddef.h>
+#include <string.h>
 
 /* The same section seen from the other end, turned by pi about z: y' = -y, z' = z, and sectorial coordinates change their sign
  * with x. Face and axis turn together, so that Qy and Mw keep their signs and Qz does not. */
@@ -38,6 +39,11 @@ static status reverse(scene *s, fault *f)
         for (int k = 0; k < 3; k++)
             m->y_axis[k] = -m->y_axis[k];
     }
+    for (int i = 0; i < s->loads; i++)
+        for (int k = 0; k < 2 && s->load[i].axes == SCENE_AXES_MEMBER; k++) { /* x and y */
+            s->load[i].vector[k] = -s->load[i].vector[k];
+            s->load[i].at[k] = -s->load[i].at[k];
+        }
     return STATUS_OK;
 }
 
@@ -79,10 +85,14 @@ static status split(scene *s, double fraction, fault *f)
     m->q = middle;
     m->warp_q = name;
     for (int i = 0; i < loads; i++)
-        if (s->load[i].kind == SCENE_DISTRIBUTED && s->load[i].where == 0) {
+        if (scene_load_along(&s->load[i]) && s->load[i].where == 0) {
             const scene_load whole = s->load[i];
             const double *v = whole.vector;
-            const int part = scene_add_load(s, SCENE_DISTRIBUTED, second, v[0], v[1], v[2]);
+            const int part = scene_add_load(s, whole.kind, second, v[0], v[1], v[2]);
+            scene_load *l = scene_load_at(s, part);
+            memcpy(l->at, whole.at, sizeof l->at);
+            l->axes = whole.axes;
+            l->follower = whole.follower;
             if (whole.stations > 0)
                 scene_set_factor(s, part, whole.stations, whole.path, whole.factor);
         }

@@ -145,6 +145,21 @@ int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y
     return i;
 }
 
+scene_load *scene_load_at(scene *s, int i)
+{
+    return i >= 0 && i < s->loads ? &s->load[i] : &s->scrap.load;
+}
+
+int scene_load_along(const scene_load *load)
+{
+    return load->kind != SCENE_FORCE && load->kind != SCENE_MOMENT;
+}
+
+int scene_load_unsymmetric(const scene_load *load)
+{
+    return load->follower || load->kind == SCENE_MOMENT || load->kind == SCENE_DISTRIBUTED_MOMENT;
+}
+
 void scene_set_factor(scene *s, int load, int stations, const double path[], const double factor[])
 {
     if (load < 0) /* memory ran out */

@@ -66,13 +66,26 @@ typedef struct scene_driver {
     int condition_driver;    /* ... the value of this driver; SCENE_NONE for a known driver */
 } scene_driver;
 
-typedef enum scene_load_kind { SCENE_FORCE, SCENE_MOMENT, SCENE_DISTRIBUTED } scene_load_kind;
+typedef enum scene_load_kind {
+    SCENE_FORCE,              /* [N] at a node */
+    SCENE_MOMENT,             /* [N m] at a node */
+    SCENE_DISTRIBUTED,        /* [N/m] along a member, per initial length */
+    SCENE_DISTRIBUTED_MOMENT, /* [N m/m] along a member */
+    SCENE_GRAVITY             /* [m/s^2] on the mass of a member */
+} scene_load_kind;
+
+/* Axes of a load: fixed, or those of its member before it is deformed, y as in scene_member. */
+typedef enum scene_load_axes { SCENE_AXES_FIXED, SCENE_AXES_MEMBER } scene_load_axes;
 
 typedef struct scene_load {
     scene_load_kind kind;
-    int where;        /* node; member for SCENE_DISTRIBUTED */
-    double vector[3]; /* fixed axes: [N], [N m] (spatial moment), [N/m] */
-    int stations;     /* 0: proportional to the path parameter (factor = path) */
+    int where;        /* node, or member: scene_load_along */
+    double vector[3]; /* in `axes`, of the undeformed structure */
+    double at[3];     /* of forces, in `axes`: where they act, from the node or the centroids, with
+                             which it turns [m] */
+    scene_load_axes axes; /* of both */
+    int follower; /* 0: its direction stays (dead); 1: it turns with the node or the sections */
+    int stations; /* 0: proportional to the path parameter (factor = path) */
     double *path, *factor;
 } scene_load;
 
@@ -103,6 +116,7 @@ struct scene {
     union {
         scene_node node;
         scene_member member;
+        scene_load load;
         scene_quantity quantity;
     } scrap;
 };
@@ -121,6 +135,12 @@ int scene_add_driver(scene *s, const char *name, int stations, const double path
 int scene_add_unknown_driver(scene *s, const char *name, int node, int component,
                              int condition_driver);
 int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y, double z);
+/* Entry of the list, to say more of it; never NULL. */
+scene_load *scene_load_at(scene *s, int index);
+/* Does it act along a member? */
+int scene_load_along(const scene_load *load);
+/* Has it no potential: does its stiffness make the tangent unsymmetric? */
+int scene_load_unsymmetric(const scene_load *load);
 /* The load is its vector times a factor, piecewise linear over the path parameter. */
 void scene_set_factor(scene *s, int load, int stations, const double path[], const double factor[]);
 /* Entry of a list, to be filled further; never NULL. */

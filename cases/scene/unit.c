@@ -90,7 +90,8 @@ static status scale_drivers(scene *s, double x, fault *f)
 
 static void scale_load(scene_load *load, double x)
 {
-    if (load->kind == SCENE_MOMENT)
+    scale_vector(load->at, x);
+    if (load->kind == SCENE_MOMENT || load->kind == SCENE_GRAVITY)
         scale_vector(load->vector, x);
     if (load->kind == SCENE_DISTRIBUTED)
         scale_vector(load->vector, 1 / x);

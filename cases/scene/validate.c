@@ -155,19 +155,48 @@ static status check_driver(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
+/* What a kind of load cannot have. */
+static status check_load_kind(const scene *s, int i, fault *f)
+{
+    const scene_load *load = &s->load[i];
+    section c;
+    if (vec3_norm(load->at) > 0 && load->kind != SCENE_FORCE && load->kind != SCENE_DISTRIBUTED)
+        return fault_set(f, STATUS_REFUSED,
+                         "load %d: only forces act at an offset, moments are the same everywhere "
+                         "and gravity acts at the centroids; take 'at' away",
+                         i);
+    if (load->axes == SCENE_AXES_MEMBER && !scene_load_along(load))
+        return fault_set(
+            f, STATUS_REFUSED,
+            "load %d: it is in a member's axes and acts on a node; give fixed axes, or "
+            "put it on a member",
+            i);
+    if (load->kind != SCENE_GRAVITY)
+        return STATUS_OK;
+    if (load->axes != SCENE_AXES_FIXED || load->follower)
+        return fault_set(f, STATUS_REFUSED,
+                         "load %d: gravity has fixed axes; leave 'axes' and 'follower' out", i);
+    const int profile = s->member[load->where].section;
+    if (scene_constants(s, profile, &c, NULL) == STATUS_OK && !(c.density > 0))
+        return fault_set(f, STATUS_REFUSED,
+                         "load %d: gravity on member %d, whose section has no density; give one", i,
+                         load->where);
+    return STATUS_OK;
+}
+
 static status check_load(const scene *s, int i, fault *f)
 {
     const scene_load *load = &s->load[i];
-    const int limit = load->kind == SCENE_DISTRIBUTED ? s->members : s->nodes;
+    const int limit = scene_load_along(load) ? s->members : s->nodes;
     if (load->where < 0 || load->where >= limit)
         return fault_set(
             f, STATUS_REFUSED,
             "load %d: it acts on something that does not exist; add its node or member first", i);
     for (int k = 0; k < 3; k++)
-        if (!isfinite(load->vector[k]))
+        if (!isfinite(load->vector[k]) || !isfinite(load->at[k]))
             return fault_set(f, STATUS_REFUSED,
                              "load %d: it is not a number; give three finite components", i);
-    return STATUS_OK;
+    return check_load_kind(s, i, f);
 }
 
 status scene_validate(const scene *s, fault *f)

@@ -60,6 +60,24 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
     return STATUS_OK;
 }
 
+/* Eigenvalues about a loaded state are those of a symmetric tangent. */
+static status check_potential(const scene *s, int i, fault *f)
+{
+    static const char *const what[] = {[SCENE_BUCKLING] = "critical loads",
+                                       [SCENE_MODAL] = "frequencies about a loaded state",
+                                       [SCENE_ROTATION] = "frequencies in a turning frame"};
+    for (int k = 0; k < s->loads; k++)
+        if (s->load[k].follower || s->load[k].kind == SCENE_DISTRIBUTED_MOMENT)
+            return fault_set(
+                f, STATUS_REFUSED,
+                "analysis %d: %s, and load %d %s has no potential: its tangent is not "
+                "symmetric and stability may be lost by flutter; ask for a static path "
+                "or a continuation",
+                i, what[s->analysis[i].kind], k,
+                s->load[k].follower ? "that follows" : "of distributed moments");
+    return STATUS_OK;
+}
+
 status scene_validate_analysis(const scene *s, int i, fault *f)
 {
     const scene_analysis *a = &s->analysis[i];
@@ -71,6 +89,9 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
         TRY(check_path(a, i, f));
     if (scene_spin_of(a) != NULL)
         TRY(check_spin(scene_spin_of(a), i, f));
+    if (a->kind == SCENE_BUCKLING || a->kind == SCENE_ROTATION ||
+        (a->kind == SCENE_MODAL && a->follows != SCENE_NONE))
+        TRY(check_potential(s, i, f));
     if (a->kind == SCENE_CONTINUATION)
         return check_continuation(s, i, f);
     return a->kind == SCENE_COMPLIANCE ? check_compliance(s, a, i, f) : STATUS_OK;

@@ -145,6 +145,41 @@ static void load(scene *s)
 {
     s->load[0].vector[2] = NAN;
 }
+static void load_nowhere(scene *s)
+{
+    s->load[0].at[1] = INFINITY;
+}
+static void moment_beside(scene *s)
+{
+    s->load[0].kind = SCENE_MOMENT;
+    s->load[0].at[0] = 1;
+}
+static void node_along(scene *s)
+{
+    s->load[0].axes = SCENE_AXES_MEMBER;
+}
+static void weight_turns(scene *s)
+{
+    s->load[0] = (scene_load){SCENE_GRAVITY, .follower = 1};
+}
+static void weightless(scene *s)
+{
+    section_spec *spec = &s->section[0];
+    spec->kind = SECTION_RECTANGLE;
+    spec->young = spec->shear_modulus = spec->width = spec->height = 1;
+    spec->density = 0;
+    s->load[0] = (scene_load){SCENE_GRAVITY, .vector = {0, 0, -9.81}};
+}
+static void buckles_by_follower(scene *s)
+{
+    s->load[0].follower = 1;
+    scene_add_buckling(s, SCENE_NONE);
+}
+static void turns_with_moments(scene *s)
+{
+    s->load[0] = (scene_load){SCENE_DISTRIBUTED_MOMENT, .vector = {1, 0, 0}};
+    scene_add_modal(s, scene_add_linear(s));
+}
 static void follows_itself(scene *s)
 {
     s->analysis[0].follows = 0;
@@ -258,6 +293,13 @@ static const struct {
     {no_load_there, "load 0: ", "does not exist"},
     {no_member_loaded, "load 0: ", "does not exist"},
     {load, "load 0: ", "not a number"},
+    {load_nowhere, "load 0: ", "not a number"},
+    {moment_beside, "load 0: ", "only forces act at an offset"},
+    {node_along, "load 0: ", "a member's axes and acts on a node"},
+    {weight_turns, "load 0: ", "gravity has fixed axes"},
+    {weightless, "load 0: ", "no density"},
+    {buckles_by_follower, "analysis 1: ", "load 0 that follows has no potential"},
+    {turns_with_moments, "analysis 2: ", "distributed moments has no potential"},
     {follows_itself, "analysis 0: ", "does not come before it"},
     {stations, "analysis 0: ", "must ascend"},
     {no_station, "analysis 0: ", "needs a station"},

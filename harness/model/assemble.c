@@ -6,13 +6,13 @@
 
 #include "harness/model/model_impl.h"
 
-/* Only conservative tangents are stored as a triangle: dead moments about fixed axes and some
- * formulations are not. */
+/* Only conservative tangents are stored as a triangle: those of dead moments about fixed axes, of
+ * loads that follow and of some formulations are not. */
 static int is_symmetric(const model *m)
 {
     int moments = 0, nonlinear = 0;
     for (int i = 0; i < m->scene->loads; i++)
-        moments |= m->scene->load[i].kind == SCENE_MOMENT;
+        moments |= scene_load_unsymmetric(&m->scene->load[i]);
     for (int i = 0; i < m->scene->analyses; i++)
         nonlinear |= m->scene->analysis[i].kind == SCENE_STATIC ||
                      m->scene->analysis[i].kind == SCENE_CONTINUATION ||
@@ -40,6 +40,15 @@ double *assemble_entry(sparse *a, int row, int column)
             high = middle - 1;
     }
     return NULL;
+}
+
+void assemble_subtract(sparse *K, int row, int column, double value)
+{
+    if (row < 0 || column < 0 || row >= K->n || column >= K->n || (K->symmetric && row > column))
+        return;
+    double *entry = assemble_entry(K, row, column);
+    if (entry != NULL)
+        *entry -= value;
 }
 
 /* Number of pairs of coordinates that elements couple, with repetitions; their rows and columns

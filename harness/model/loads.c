@@ -5,6 +5,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "harness/model/applied.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
 
@@ -41,49 +42,35 @@ double loads_driver_value(const scene_driver *d, double path)
     return interpolate(d->stations, d->path, d->value, path);
 }
 
-static void add_at_vertex(const model *m, const model_state *s, int vertex, const double F[6],
-                          double out[])
+/* What one load puts on vertices is added up. */
+typedef struct sum_of_loads {
+    const model *m;
+    const model_state *s;
+    double *out; /* [free + driven] */
+} sum_of_loads;
+
+static void add_applied(void *context, const applied *what)
 {
+    const sum_of_loads *sum = context;
     int index[6];
-    double T[36];
-    const int n = kinematics_node_jacobian(m, s, vertex, 6, index, T);
+    double T[36], F[6], moment[3];
+    const int n = kinematics_node_jacobian(sum->m, sum->s, what->vertex, 6, index, T);
+    memcpy(F, what->F, sizeof F);
+    if (what->offset) {
+        vec3_cross(what->arm, F, moment);
+        for (int i = 0; i < 3; i++)
+            F[3 + i] += moment[i];
+    }
     for (int k = 0; k < n; k++)
         for (int i = 0; i < 6; i++)
-            out[index[k]] += T[i * n + k] * F[i];
-}
-
-/* Dead load per initial length, lumped: 1/2, 1/2, or Simpson's weights with a middle node. */
-static void add_distributed(const model *m, const model_state *s, const scene_load *load,
-                            double scale, double out[])
-{
-    static const double two[] = {0.5, 0.5}, three[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
-    for (int i = m->first_element[load->where]; i < m->first_element[load->where + 1]; i++)
-        for (int k = 0; k < m->nodes; k++) {
-            const double weight =
-                scale * (m->nodes == 2 ? two : three)[k] * m->kind[m->element[i].kind].length;
-            const double F[6] = {weight * load->vector[0], weight * load->vector[1],
-                                 weight * load->vector[2]};
-            add_at_vertex(m, s, m->element[i].vertex[k], F, out);
-        }
-}
-
-static void node_vector(const scene_load *load, double scale, double F[6])
-{
-    memset(F, 0, 6 * sizeof(double));
-    for (int i = 0; i < 3; i++)
-        F[(load->kind == SCENE_MOMENT ? 3 : 0) + i] = scale * load->vector[i];
+            sum->out[index[k]] += T[i * n + k] * F[i];
 }
 
 static void add_load(const model *m, const model_state *s, const scene_load *load, double scale,
                      double out[])
 {
-    double F[6];
-    if (load->kind == SCENE_DISTRIBUTED) {
-        add_distributed(m, s, load, scale, out);
-    } else {
-        node_vector(load, scale, F);
-        add_at_vertex(m, s, load->where, F, out);
-    }
+    sum_of_loads sum = {m, s, out};
+    applied_each(m, s, load, scale, add_applied, &sum);
 }
 
 void loads_add(const model *m, const model_state *s, double path, double out[])
@@ -99,58 +86,22 @@ void loads_rate(const model *m, const model_state *s, double path, double out[])
         add_load(m, s, &m->scene->load[i], rate_along_path(&m->scene->load[i], path), out);
 }
 
-static void subtract(sparse *K, int row, int column, double value)
+void loads_stiffness(const model *m, const model_state *s, double path, loads_entry take,
+                     void *context)
 {
-    if (row < 0 || column < 0 || row >= K->n || column >= K->n || (K->symmetric && row > column))
-        return;
-    double *entry = assemble_entry(K, row, column);
-    if (entry != NULL)
-        *entry -= value;
+    for (int i = 0; i < m->scene->loads; i++)
+        applied_stiffness(m, s, &m->scene->load[i], loads_factor(&m->scene->load[i], path), take,
+                          context);
 }
 
-/* Derivative of the generalized load of a force F at offset rho and a spatial moment m on one
- * body's rotations. */
-static void subtract_at(const model *m, const model_state *s, int node, const double F[6],
-                        sparse *K)
+static void into_sparse(void *K, int row, int column, double value)
 {
-    const mesh_vertex *v = &m->vertex[node], *body = &m->vertex[v->body];
-    double rho[3], D[9], moment[3] = {0, 0, 0}, b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    kinematics_offset(m, s, node, rho);
-    const double dot = vec3_dot(F, rho);
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            D[3 * i + j] = (F[i] * rho[j] + rho[i] * F[j]) / 2 - (i == j ? dot : 0);
-    if (body->angles > 0) {
-        kinematics_axes(m, s, v->body, b);
-        vec3_cross(rho, F, moment);
-    }
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            double Db[3], cross[3];
-            mat3_mul_vec(D, b[j], Db);
-            vec3_cross(b[j], b[i], cross);
-            double value = vec3_dot(b[i], Db);
-            if (body->angles >
-                0) /* conservative part symmetric, dead moment only through earlier axes */
-                value += (i > j ? 1 : -1) * vec3_dot(moment, cross) / 2 +
-                         (j < i ? vec3_dot(F + 3, cross) : 0);
-            else
-                value += vec3_dot(F + 3, cross) / 2;
-            subtract(K, body->coordinate[3 + i], body->coordinate[3 + j], value);
-        }
+    assemble_subtract(K, row, column, value);
 }
 
 void loads_subtract_stiffness(const model *m, const model_state *s, double path, sparse *K)
 {
-    for (int i = 0; i < m->scene->loads; i++) {
-        const scene_load *load = &m->scene->load[i];
-        double F[6];
-        if (load->kind == SCENE_DISTRIBUTED ||
-            (load->kind == SCENE_FORCE && m->vertex[load->where].body == load->where))
-            continue;
-        node_vector(load, loads_factor(load, path), F);
-        subtract_at(m, s, load->where, F, K);
-    }
+    loads_stiffness(m, s, path, into_sparse, K);
 }
 
 void loads_release_moment(const model *m, const model_state *s, int node, const double M[3],
@@ -165,25 +116,43 @@ void loads_release_moment(const model *m, const model_state *s, int node, const 
         for (int j = i + 1; j < v->angles; j++) {
             double cross[3];
             vec3_cross(b[i], b[j], cross);
-            subtract(K, v->coordinate[3 + i], v->coordinate[3 + j], vec3_dot(M, cross) / 2);
-            subtract(K, v->coordinate[3 + j], v->coordinate[3 + i], vec3_dot(M, cross) / 2);
+            assemble_subtract(K, v->coordinate[3 + i], v->coordinate[3 + j],
+                              vec3_dot(M, cross) / 2);
+            assemble_subtract(K, v->coordinate[3 + j], v->coordinate[3 + i],
+                              vec3_dot(M, cross) / 2);
         }
+}
+
+/* What acts on the frame of one node is added up. */
+typedef struct sum_at_node {
+    const model *m;
+    const model_state *s;
+    int node;
+    double *F; /* [6] */
+} sum_at_node;
+
+static void add_at_node(void *context, const applied *what)
+{
+    const sum_at_node *sum = context;
+    double rho[3], moment[3];
+    if (sum->m->vertex[what->vertex].body != sum->node)
+        return;
+    kinematics_offset(sum->m, sum->s, what->vertex, rho);
+    for (int k = 0; k < 3 && what->offset; k++)
+        rho[k] += what->arm[k];
+    vec3_cross(rho, what->F, moment);
+    const int away = what->vertex != sum->node || what->offset;
+    for (int k = 0; k < 6; k++)
+        sum->F[k] += what->F[k] + (k >= 3 && away ? moment[k - 3] : 0);
 }
 
 void loads_at_node(const model *m, const model_state *s, int node, double F[6])
 {
+    sum_at_node sum = {m, s, node, F};
     memset(F, 0, 6 * sizeof(double));
-    for (int i = 0; i < m->scene->loads; i++) {
-        const scene_load *load = &m->scene->load[i];
-        if (load->kind == SCENE_DISTRIBUTED || m->vertex[load->where].body != node)
-            continue;
-        double at[6], rho[3], moment[3];
-        node_vector(load, loads_factor(load, s->path), at);
-        kinematics_offset(m, s, load->where, rho);
-        vec3_cross(rho, at, moment);
-        for (int k = 0; k < 6; k++)
-            F[k] += at[k] + (k >= 3 && load->where != node ? moment[k - 3] : 0);
-    }
+    for (int i = 0; i < m->scene->loads; i++)
+        applied_each(m, s, &m->scene->load[i], loads_factor(&m->scene->load[i], s->path),
+                     add_at_node, &sum);
 }
 
 void loads_drive(const model *m, const model_state *s, double path, double dx[])

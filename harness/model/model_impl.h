@@ -3,6 +3,7 @@
 #define BEAMWORK_MODEL_IMPL_H
 
 #include "harness/algebra/team.h"
+#include "harness/model/applied.h"
 #include "harness/model/model.h"
 
 enum { NONE = -1, VERTEX_COORDINATES = 6 };
@@ -144,6 +145,8 @@ void assemble_pattern_free(mesh_pattern *p);
 void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out);
 void assemble_vector(const mesh_element *el, int coordinates, const double local[], double out[]);
 double *assemble_entry(sparse *a, int row, int column); /* NULL when not stored */
+/* Nothing where it is not stored. */
+void assemble_subtract(sparse *a, int row, int column, double value);
 
 /* linearise.c: one element's part of model.work between linearise and advance. */
 typedef struct model_slot {
@@ -156,6 +159,8 @@ model_slot linearise_slot(const model *m, int element);
 double loads_factor(const scene_load *load, double path);
 void loads_add(const model *m, const model_state *s, double path,
                double out[]); /* [free + driven] */
+/* What the loads add to K. */
+void loads_stiffness(const model *m, const model_state *s, double path, loads_entry, void *context);
 void loads_subtract_stiffness(const model *m, const model_state *s, double path, sparse *K);
 double loads_driver_value(const scene_driver *d, double path);
 

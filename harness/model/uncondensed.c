@@ -90,6 +90,18 @@ static status add_element(model *m, const model_state *state, int i, double path
     return STATUS_OK;
 }
 
+/* What loads add to the stiffness. */
+typedef struct load_part {
+    const model *m;
+    full *s;
+} load_part;
+
+static void put_load(void *context, int row, int column, double value)
+{
+    const load_part *part = context;
+    put(part->m, part->s, row < part->m->free ? row : NONE, column, -value);
+}
+
 status uncondensed_system(model *m, const model_state *state, double path, const double drive[],
                           int conditions, const model_condition condition[], double A[], double b[],
                           double load[], fault *f)
@@ -103,6 +115,7 @@ status uncondensed_system(model *m, const model_state *state, double path, const
     for (int i = 0; i < m->elements; i++) {
         TRY(add_element(m, state, i, path, &s, f));
     }
+    loads_stiffness(m, state, path, put_load, &(load_part){m, &s});
     for (int c = 0; c < conditions; c++) {
         const int row = s.size - conditions + c;
         A[(size_t)condition[c].coordinate * (size_t)s.size + (size_t)row] = 1;

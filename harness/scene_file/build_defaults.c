@@ -20,7 +20,7 @@ static int add_analysis(builder *b)
 static int is_asked(const scene *s, int node)
 {
     for (int i = 0; i < s->loads; i++)
-        if (s->load[i].kind != SCENE_DISTRIBUTED && s->load[i].where == node)
+        if (!scene_load_along(&s->load[i]) && s->load[i].where == node)
             return 1;
     for (int k = 0; k < 3; k++)
         if (s->node[node].translation[k] >= 0)

@@ -124,19 +124,35 @@ static void set_factor(const fields *f, int index)
         scene_set_factor(f->b->scene, index, stations, path, factor);
 }
 
+/* In the axes of a member, which turn with an instance by themselves. */
+static int along_member(const fields *f, const char *key, double out[3])
+{
+    return fields_vector(f, key, 3, out);
+}
+
 void builder_loads(builder *b)
 {
-    static const char *const key[] = {"force", "moment", "distributed"};
+    static const char *const key[] = {"force", "moment", "distributed", "distributed_moment",
+                                      "gravity"};
     for (int i = 0; i < b->list[LIST_LOADS].count; i++) {
         const fields f = fields_of(b, &b->list[LIST_LOADS].entry[i]);
-        const scene_load_kind kind = fields_have(&f, "force")    ? SCENE_FORCE
-                                     : fields_have(&f, "moment") ? SCENE_MOMENT
-                                                                 : SCENE_DISTRIBUTED;
-        double v[3] = {0};
-        fields_direction(&f, key[kind], v);
+        scene_load what = {.kind = SCENE_FORCE};
+        while (what.kind < SCENE_GRAVITY && !fields_have(&f, key[what.kind]))
+            what.kind++;
+        what.axes =
+            fields_word(&f, "axes", "fixed|member", 0) == 1 ? SCENE_AXES_MEMBER : SCENE_AXES_FIXED;
+        int (*const vector_of)(const fields *, const char *, double[3]) =
+            what.axes == SCENE_AXES_MEMBER ? along_member : fields_direction;
+        double *v = what.vector;
+        vector_of(&f, key[what.kind], v);
+        vector_of(&f, "at", what.at);
         const int where =
-            fields_entry(&f, "on", kind == SCENE_DISTRIBUTED ? LIST_MEMBERS : LIST_NODES);
-        const int load = scene_add_load(b->scene, kind, where, v[0], v[1], v[2]);
+            fields_entry(&f, "on", scene_load_along(&what) ? LIST_MEMBERS : LIST_NODES);
+        const int load = scene_add_load(b->scene, what.kind, where, v[0], v[1], v[2]);
+        scene_load *l = scene_load_at(b->scene, load);
+        memcpy(l->at, what.at, sizeof l->at);
+        l->axes = what.axes;
+        l->follower = fields_word(&f, "follower", "false|true|no|yes", 0) % 2;
         if (fields_have(&f, "path") || fields_have(&f, "factor"))
             set_factor(&f, load);
     }

@@ -231,14 +231,20 @@ void write_motions(writer *w)
 
 void write_loads(writer *w)
 {
-    static const char *const kind[] = {"force", "moment", "distributed"};
+    static const char *const kind[] = {"force", "moment", "distributed", "distributed_moment",
+                                       "gravity"};
     fputs(w->scene->loads > 0 ? "loads:\n" : "", w->to);
     for (int i = 0; i < w->scene->loads; i++) {
         const scene_load *load = &w->scene->load[i];
         fprintf(w->to, "  load_%d: {%s: ", i, kind[load->kind]);
         write_numbers(w, 3, load->vector);
-        fprintf(w->to, ", on: %s_%d", load->kind == SCENE_DISTRIBUTED ? "member" : "node",
-                load->where);
+        fprintf(w->to, ", on: %s_%d", scene_load_along(load) ? "member" : "node", load->where);
+        if (any_of(3, load->at)) {
+            fputs(", at: ", w->to);
+            write_numbers(w, 3, load->at);
+        }
+        fputs(load->axes == SCENE_AXES_MEMBER ? ", axes: member" : "", w->to);
+        fputs(load->follower ? ", follower: true" : "", w->to);
         if (load->stations > 0) {
             fputs(", path: ", w->to);
             write_numbers(w, load->stations, load->path);

@@ -230,17 +230,21 @@ static void rates(void)
 }
 
 /* Where the coordinates are angles, the stiffness is what the generalised loads change by, also of
- * a moment that has no potential. */
-static void stiffness_of_angles(int body, scene_load_kind kind)
+ * a moment or of a load that follows, which have no potential. at [m]: beside the node. */
+static void stiffness_of_angles(int body, scene_load_kind kind, int follower, const double at[3])
 {
     subject s;
     fault f = {""};
     const sparse *pattern;
     sparse K;
     prepare(body, kind, &s);
+    s.scene.load[0].follower = follower;
+    memcpy(s.scene.load[0].at, at, sizeof s.scene.load[0].at);
     gsl_test(assemble_pattern(s.m, 0, &pattern, &f) != STATUS_OK ||
                  sparse_alloc_like(pattern, &K, &f) != STATUS_OK,
              "pattern");
+    gsl_test((follower || kind == SCENE_MOMENT) && K.symmetric, "%s: an unsymmetric pattern",
+             body_name[body]);
     rotating_frame_load_stiffness(s.m, s.turned, 1, &K);
     for (int j = 0; j < s.n; j++) {
         double load[2][MOST];
@@ -412,8 +416,12 @@ int main(void)
         stiffness(body);
     }
     for (int body = THREE_ANGLES; body <= TWO_ANGLES; body++) {
-        stiffness_of_angles(body, SCENE_FORCE);
-        stiffness_of_angles(body, SCENE_MOMENT);
+        static const double here[3] = {0, 0, 0}, there[3] = {-0.2, 0.5, 0.9};
+        for (int follower = 0; follower < 2; follower++) {
+            stiffness_of_angles(body, SCENE_FORCE, follower, here);
+            stiffness_of_angles(body, SCENE_FORCE, follower, there);
+            stiffness_of_angles(body, SCENE_MOMENT, follower, here);
+        }
     }
     rates();
     factors();
