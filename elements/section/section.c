@@ -60,10 +60,13 @@ section_spec section_spec_walls(double young, double shear_modulus, int walls,
 double section_rectangle_torsion(double a, double b)
 {
     const double h = fmax(a, b), t = fmin(a, b);
-    /* J = h t^3/3 [1 - 192/pi^5 t/h sum over odd n of tanh(n pi h/2t)/n^5]; tanh differs from 1 for the first terms only */
+    /* J = h t^3/3 [1 - 192/pi^5 t/h sum over odd n of tanh(n pi h/2t)/n^5]. Of n^-5 alone the sum is
+     * 31/32 zeta(5); tanh - 1 = -2/(exp(n pi h/t) + 1) is nothing from n = 13 on: h >= t */
+    const double zeta5 = 1.03692775514336993;
     double sum = 0;
-    for (int n = 399; n >= 1; n -= 2)
-        sum += tanh(n * PI * h / (2 * t)) / pow(n, 5);
+    for (int n = 11; n >= 1; n -= 2)
+        sum -= 2 / (exp(n * PI * h / t) + 1) / pow(n, 5);
+    sum += 31 * zeta5 / 32;
     return h * t * t * t / 3 * (1 - 192 / pow(PI, 5) * t / h * sum);
 }
 

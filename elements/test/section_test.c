@@ -212,6 +212,8 @@ static void refusals(void)
 int main(void)
 {
     torsion_of_a_rectangle(1, 1);
+    /* 1/3 - 64/pi^5 sum over odd n of tanh(n pi/2)/n^5, to 16 digits (mpmath) */
+    gsl_test_rel(section_rectangle_torsion(1, 1), 0.14057701495515371559, 1e-15, "of a square");
     torsion_of_a_rectangle(2, 1);
     torsion_of_a_rectangle(0.3, 0.06);
     wagner_torque();
