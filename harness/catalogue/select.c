@@ -1,17 +1,21 @@
-/* expression := term { or term };  term := factor { [and] factor };  factor := not factor | word */
+/* expression := term { or term };  term := factor { [and] factor };
+ * factor := not factor | ( expression ) | word */
 #include "harness/catalogue/select.h"
 
 #include <string.h>
 
+#include "harness/catalogue/choice.h"
+#include "harness/catalogue/registry.h"
+
 typedef struct scanner {
     const char *at;
     const char *text;
-    int bad;
+    int words, depth, bad;
 } scanner;
 
 static size_t word_length(const char *at)
 {
-    return strcspn(at, " \t");
+    return strcspn(at, " \t()");
 }
 
 static int next_is(scanner *s, const char *word)
@@ -20,15 +24,14 @@ static int next_is(scanner *s, const char *word)
     return word_length(s->at) == strlen(word) && strncmp(s->at, word, strlen(word)) == 0;
 }
 
-static int factor_holds(scanner *s)
+static int expression_holds(scanner *s);
+
+static int word_holds(scanner *s)
 {
-    if (next_is(s, "not")) {
-        s->at += 3;
-        return !factor_holds(s);
-    }
-    char word[128];
+    char word[SELECT_WORD];
     const size_t length = word_length(s->at);
-    if (length == 0 || length >= sizeof word || next_is(s, "and") || next_is(s, "or")) {
+    if (length == 0 || length >= sizeof word || s->words++ >= SELECT_WORDS || next_is(s, "and") ||
+        next_is(s, "or")) {
         s->bad = 1;
         return 0;
     }
@@ -38,13 +41,38 @@ static int factor_holds(scanner *s)
     return strstr(s->text, word) != NULL;
 }
 
+static int brackets_hold(scanner *s)
+{
+    s->at++;
+    const int holds = expression_holds(s);
+    s->bad |= *s->at != ')';
+    s->at += !s->bad;
+    return holds;
+}
+
+static int factor_holds(scanner *s)
+{
+    const int negated = next_is(s, "not");
+    if (!negated && *s->at != '(')
+        return word_holds(s);
+    if (s->depth == SELECT_DEPTH) {
+        s->bad = 1;
+        return 0;
+    }
+    s->depth++;
+    s->at += negated ? 3 : 0;
+    const int holds = negated ? !factor_holds(s) : brackets_hold(s);
+    s->depth--;
+    return holds;
+}
+
 static int term_holds(scanner *s)
 {
     int holds = factor_holds(s);
     while (!s->bad) {
         if (next_is(s, "and"))
             s->at += 3;
-        else if (*s->at == '\0' || next_is(s, "or"))
+        else if (*s->at == '\0' || *s->at == ')' || next_is(s, "or"))
             break;
         const int next = factor_holds(s);
         holds = holds && next;
@@ -52,14 +80,109 @@ static int term_holds(scanner *s)
     return holds;
 }
 
-int select_matches(const char *expression, const char *text)
+static int expression_holds(scanner *s)
 {
-    scanner s = {expression, text, 0};
-    int holds = term_holds(&s);
-    while (!s.bad && next_is(&s, "or")) {
-        s.at += 2;
-        const int next = term_holds(&s);
+    int holds = term_holds(s);
+    while (!s->bad && next_is(s, "or")) {
+        s->at += 2;
+        const int next = term_holds(s);
         holds = holds || next;
     }
+    return holds;
+}
+
+int select_matches(const char *expression, const char *text)
+{
+    scanner s = {.at = expression, .text = text};
+    const int holds = expression_holds(&s);
     return s.bad || *s.at != '\0' ? -1 : holds;
+}
+
+static int joins(const char *word)
+{
+    return strcmp(word, "and") == 0 || strcmp(word, "or") == 0 || strcmp(word, "not") == 0;
+}
+
+/* The next word that names something, of an expression that is well formed; NULL: none. */
+static const char *next_word(const char *at, char word[SELECT_WORD])
+{
+    do {
+        at += strspn(at, " \t()");
+        const size_t length = word_length(at);
+        if (length == 0 || length >= SELECT_WORD)
+            return NULL;
+        memcpy(word, at, length);
+        word[length] = '\0';
+        at += length;
+    } while (joins(word));
+    return at;
+}
+
+void select_meet(const char *expression, const char *text, select_words *words)
+{
+    char word[SELECT_WORD];
+    if (expression == NULL)
+        return;
+    for (int i = 0; i < SELECT_WORDS && (expression = next_word(expression, word)) != NULL; i++)
+        if (!words->met[i])
+            words->met[i] = strstr(text, word) != NULL;
+}
+
+/* Cases, then formulations. */
+static const char *registered(const void *context, int i)
+{
+    int cases = 0;
+    (void)context;
+    while (registry_cases[cases] != NULL)
+        cases++;
+    if (i < cases)
+        return registry_cases[i]->name;
+    return registry_formulations[i - cases] != NULL ? registry_formulations[i - cases]->name : NULL;
+}
+
+status select_begin(const char *expression, select_words *words, fault *f)
+{
+    memset(words, 0, sizeof *words);
+    if (expression != NULL && select_matches(expression, "") < 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "selection '%.100s' is malformed; write words joined by and, or, not, "
+                         "with brackets where they belong together",
+                         expression);
+    for (int i = 0; registered(NULL, i) != NULL; i++)
+        select_meet(expression, registered(NULL, i), words);
+    return STATUS_OK;
+}
+
+/* The name nearest to the first part of case/parameters/formulation that is none; NULL: none. */
+static const char *nearest(const char *word)
+{
+    for (const char *at = word; *at != '\0'; at += *at == '/') {
+        char part[SELECT_WORD];
+        const size_t length = strcspn(at, "/:");
+        memcpy(part, at, length);
+        part[length] = '\0';
+        const char *near = length > 0 ? choice_nearest(part, registered, NULL) : NULL;
+        if (near != NULL && strcmp(near, part) != 0)
+            return near;
+        at += length + strcspn(at + length, "/");
+    }
+    return NULL;
+}
+
+status select_all_met(const char *expression, const select_words *words, fault *f)
+{
+    char word[SELECT_WORD];
+    const char *at = expression;
+    if (expression == NULL)
+        return STATUS_OK;
+    for (int i = 0; i < SELECT_WORDS && (at = next_word(at, word)) != NULL; i++) {
+        const char *near = words->met[i] ? NULL : nearest(word);
+        if (!words->met[i])
+            return fault_set(f, STATUS_REFUSED,
+                             "selection '%.60s': nothing is called '%.60s'%s%s%s; 'beamwork list' "
+                             "shows names",
+                             expression, word, near != NULL ? ", did you mean '" : "",
+                             near != NULL ? near : "", near != NULL ? "'?" : "");
+    }
+    return STATUS_OK;
 }

@@ -35,6 +35,14 @@ static void print_sums(const comparison *c)
     putchar('\n');
 }
 
+static void meet(const char *selection, const results *r, select_words *words)
+{
+    for (int i = 0; i < r->cells; i++)
+        select_meet(selection, r->cell[i].name, words);
+    for (int i = 0; i < r->seriess; i++)
+        select_meet(selection, r->series[i].name, words);
+}
+
 static int compare(const cli_request *r, const results *before, const results *after,
                    const comparison_limits *limits, fault *f)
 {
@@ -71,16 +79,20 @@ int cli_compare(int count, char **arguments)
             "give two stored runs to compare, or one and -o FILE.csv for its short table");
     status outcome =
         r.threshold != NULL ? comparison_limits_parse(r.threshold, &limits, &f) : STATUS_OK;
-    if (outcome == STATUS_OK && r.select != NULL && select_matches(r.select, "") < 0)
-        outcome = fault_set(&f, STATUS_REFUSED,
-                            "selection '%.100s' is malformed; write words joined by and, or, not",
-                            r.select);
+    select_words words;
+    if (outcome == STATUS_OK)
+        outcome = select_begin(r.select, &words, &f);
     if (outcome == STATUS_OK)
         outcome = cli_check_files(&r, 0, NULL, &f);
     if (outcome == STATUS_OK)
         outcome = results_read(r.case_name, &before, &f);
     if (outcome == STATUS_OK && r.second != NULL)
         outcome = results_read(r.second, &after, &f);
+    if (outcome == STATUS_OK) {
+        meet(r.select, &before, &words);
+        meet(r.select, &after, &words);
+        outcome = select_all_met(r.select, &words, &f);
+    }
     if (outcome == STATUS_OK && r.second == NULL)
         outcome = write_table(r.output, &before, &f);
     const int code = outcome != STATUS_OK ? trouble(&f)

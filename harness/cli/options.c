@@ -22,7 +22,9 @@ static const struct argp_option all_options[] = {
     {"keep-all", 'K', NULL, 0, "leave nothing out: same answer, more work", 0},
     {"steps", 'S', "N", 0, "load steps between two stations of a path, to begin with", 0},
     {"select", 'k', "EXPRESSION", 0,
-     "words joined by and, or, not; looked for in case/parameters/formulation/quantity", 0},
+     "words joined by and, or, not, in brackets where they belong together; looked for in "
+     "case/parameters/formulation/quantity",
+     0},
     {"jobs", 'j', "N", 0, "processes (default: one for each processor)", 0},
     {"time-limit", 'L', "SECONDS", 0,
      "of one cell (default 120, 0: none); a cell that exceeds it is a failure of that name", 0},

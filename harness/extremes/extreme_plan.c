@@ -42,10 +42,13 @@ static scene_edit edit_of(const extreme *e, double x)
     return (scene_edit){SCENE_EDIT_NONE, 0};
 }
 
-static int is_selected(const extreme_request *request, const extreme *e, const formulation *chosen)
+/* Words of the selection are met whether it holds or not. */
+static int is_selected(const extreme_request *request, const extreme *e, const formulation *chosen,
+                       select_words *words)
 {
     char text[3 * SCENE_NAME + FORMULATION_KEY];
     snprintf(text, sizeof text, "%s/%s/%s/%s", e->name, e->group, e->base, chosen->key);
+    select_meet(request->select, text, words);
     return request->select == NULL || select_matches(request->select, text) > 0;
 }
 
@@ -106,7 +109,7 @@ static status add_outcomes(extreme_sweep *out, int extreme_index, int value, int
 }
 
 static status plan_value(const extreme_request *request, extreme_sweep *out, int extreme_index,
-                         int value, fault *f)
+                         int value, select_words *words, fault *f)
 {
     const extreme *e = &extremes[extreme_index];
     const double x = e->value[value];
@@ -122,7 +125,7 @@ static status plan_value(const extreme_request *request, extreme_sweep *out, int
     p->condition = 1;
     p->steps = e->knob == EXTREME_STEPS ? (int)x : 0;
     for (int i = 0; i < out->formulations; i++) {
-        if (!is_selected(request, e, &out->formulation[i]))
+        if (!is_selected(request, e, &out->formulation[i], words))
             continue;
         TRY(plan_extend(&out->first, &out->formulation[i], 1, f));
         TRY(add_outcomes(out, extreme_index, value, i, f));
@@ -132,13 +135,11 @@ static status plan_value(const extreme_request *request, extreme_sweep *out, int
 
 status extreme_plan(const extreme_request *request, extreme_sweep *out, fault *f)
 {
-    if (request->select != NULL && select_matches(request->select, "") < 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "selection '%.100s' is malformed; write words joined by and, or, not",
-                         request->select);
+    select_words words;
+    TRY(select_begin(request->select, &words, f));
     TRY(list_formulations(request, out, f));
     for (int i = 0; extremes[i].name != NULL; i++)
         for (int k = 0; k < extremes[i].values; k++)
-            TRY(plan_value(request, out, i, k, f));
-    return STATUS_OK;
+            TRY(plan_value(request, out, i, k, &words, f));
+    return select_all_met(request->select, &words, f);
 }

@@ -150,20 +150,24 @@ static void choose_all(const truths *t, const point *p, chosen *out)
     choose_stored(t, p, out);
 }
 
-static int is_selected(const sweep *s, const point *p, const formulation *one)
+/* One that any quantity is selected of; words of the selection are met in all of them. */
+static int is_selected(const sweep *s, const point *p, const formulation *one, select_words *words)
 {
-    if (p->scene.quantities == 0)
-        return sweep_selects(s, p, one, "");
-    for (int q = 0; q < p->scene.quantities; q++)
-        if (sweep_selects(s, p, one, p->scene.quantity[q].name))
-            return 1;
-    return 0;
+    int selected = 0;
+    for (int q = 0; q < p->scene.quantities || q == 0; q++) {
+        const char *quantity = q < p->scene.quantities ? p->scene.quantity[q].name : "";
+        char text[SWEEP_TEXT];
+        sweep_text(p, one, quantity, text);
+        select_meet(s->select, text, words);
+        selected = selected || sweep_selects(s, p, one, quantity);
+    }
+    return selected;
 }
 
 /* Formulations of one point: those given, or all, and the options that a discrete truth speaks of.
  */
 static status plan_series(const sweep_request *request, const truths *t, sweep *s, int index,
-                          fault *f)
+                          select_words *words, fault *f)
 {
     const point *p = &s->point[index];
     chosen those = {.count = 0};
@@ -172,7 +176,7 @@ static status plan_series(const sweep_request *request, const truths *t, sweep *
     else
         choose_all(t, p, &those);
     for (int i = 0; i < those.count; i++)
-        if (is_selected(s, p, &those.list[i]))
+        if (is_selected(s, p, &those.list[i], words))
             TRY(add_series(s, index, &those.list[i], t, f));
     return STATUS_OK;
 }
@@ -191,19 +195,18 @@ static status alloc_cells(sweep *s, fault *f)
 
 static status plan_all(const sweep_request *request, const truths *t, sweep *out, fault *f)
 {
+    select_words words;
+    TRY(select_begin(request->select, &words, f));
     TRY(plan_points(request->cases != NULL ? request->cases : registry_cases, t, out, f));
     for (int i = 0; i < out->points; i++)
-        TRY(plan_series(request, t, out, i, f));
+        TRY(plan_series(request, t, out, i, &words, f));
+    TRY(select_all_met(request->select, &words, f));
     return alloc_cells(out, f);
 }
 
 status plan_sweep(const sweep_request *request, const truths *t, sweep *out, fault *f)
 {
     memset(out, 0, sizeof *out);
-    if (request->select != NULL && select_matches(request->select, "") < 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "selection '%.100s' is malformed; write words joined by and, or, not",
-                         request->select);
     out->select = request->select;
     const status outcome = plan_all(request, t, out, f);
     if (outcome != STATUS_OK)

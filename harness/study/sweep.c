@@ -15,13 +15,19 @@ static int option_matters(const point *p, const formulation *chosen, const char 
     return 1;
 }
 
+void sweep_text(const point *p, const formulation *chosen, const char *quantity,
+                char text[SWEEP_TEXT])
+{
+    snprintf(text, SWEEP_TEXT, "%s/%s/%s/%s", p->type->name,
+             p->text[0] != '\0' ? p->text : "default", chosen->key, quantity);
+}
+
 int sweep_selects(const sweep *s, const point *p, const formulation *chosen, const char *quantity)
 {
     if (!option_matters(p, chosen, quantity))
         return 0;
-    char text[PARAMETERS_TEXT + FORMULATION_KEY + 2 * FAULT_TEXT];
-    snprintf(text, sizeof text, "%s/%s/%s/%s", p->type->name,
-             p->text[0] != '\0' ? p->text : "default", chosen->key, quantity);
+    char text[SWEEP_TEXT];
+    sweep_text(p, chosen, quantity, text);
     return s->select == NULL || select_matches(s->select, text) > 0;
 }
 

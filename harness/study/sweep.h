@@ -61,6 +61,9 @@ typedef struct sweep_request {
     FILE *progress; /* NULL: quiet */
 } sweep_request;
 
+/* What a selection is asked about: case/parameters/formulation/quantity. */
+enum { SWEEP_TEXT = PARAMETERS_TEXT + FORMULATION_KEY + 2 * FAULT_TEXT };
+void sweep_text(const point *, const formulation *, const char *quantity, char text[SWEEP_TEXT]);
 /* Does the sweep's selection hold for a quantity? */
 int sweep_selects(const sweep *s, const point *p, const formulation *chosen, const char *quantity);
 

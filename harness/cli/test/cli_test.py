@@ -54,7 +54,19 @@ class Refusals(ProgramTest):
                 self.answered(*solve("warping_torsion"), code=4, stdout=full)
 
     def test_nothing_checked(self):
-        self.refused(3, "nothing was checked", "verify", "-k", "no_such_case", silent=False)
+        self.refused(3, "nothing was checked", "verify", "-k", "elastica and hexapod",
+                     silent=False)
+
+    def test_misspelt_selection(self):
+        """A word that names nothing would leave cells out in silence; in brackets or not."""
+        for verb in ("verify", "stress"):
+            self.refused(2, "did you mean 'elastica'?", verb, "-k", "elastca")
+            self.refused(2, "'sheet_thrid'", verb, "-k", "(elastica or sheet_thrid)")
+        found = [self.answered("verify", "-k", selection).stdout for selection in
+                 ("warping_torsion/default or elastica/default",
+                  "(warping_torsion/default or elastica/default)",
+                  "((elastica or warping_torsion) and (default))")]
+        self.assertEqual(len(set(found)), 1, found)
 
 
 class Answers(ProgramTest):

@@ -130,6 +130,7 @@ class Compare(unittest.TestCase):
         self.trouble("missing.h5", "missing.h5", self.old)
         self.trouble("nothing was compared", "-k", "elastica", self.old, self.old)
         self.trouble("threshold", "--threshold", "work=-1", self.old, self.old)
+        self.trouble("did you mean 'elastica'", "-k", "elastca", self.old, self.old)
         self.trouble("malformed", "-k", "and", self.old, self.old)
         self.trouble("two stored runs", self.old)
         self.trouble("too many", self.old, self.old, self.old)

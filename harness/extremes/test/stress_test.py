@@ -109,7 +109,7 @@ class Stress(ProgramTest):
         self.assertIn("expected singular", done.stdout)
 
     def test_refusals(self):
-        for code, *arguments in ((3, "-k", "nothing_of_this_name"), (2, "-k", "and and"),
+        for code, *arguments in ((2, "-k", "nothing_of_this_name"), (3, "-k", "turns and decay_free"), (2, "-k", "and and"),
                                  (2, "elastica"), (2, "-f", "bemw"), (4, "--truths", "/none.h5"),
                                  (4, "-k", "turns and collocation", "-o", "/none/table.txt")):
             self.refused(code, "", "stress", *arguments, silent=False)

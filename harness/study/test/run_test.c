@@ -164,18 +164,6 @@ static void random_input(void)
                  "answers to 20000 random inputs that are neither a value nor a clear refusal");
 }
 
-static void selection(void)
-{
-    const char *text = "c_column/default/beamw";
-    gsl_test_int(select_matches("c_column", text), 1, "word");
-    gsl_test_int(select_matches("c_column and not beamw", text), 0, "and, not");
-    gsl_test_int(select_matches("hexapod or beamw", text), 1, "or");
-    gsl_test_int(select_matches("c_column beamw", text), 1, "side by side is and");
-    gsl_test_int(select_matches("and", text), -1, "malformed");
-    gsl_test_int(select_matches("c_column or", text), -1, "malformed");
-    gsl_test_int(select_matches("", text), -1, "empty");
-}
-
 static void truth_files(void)
 {
     truths t;
@@ -208,7 +196,6 @@ int main(void)
     texts();
     meshes();
     random_input();
-    selection();
     truth_files();
     return gsl_test_summary();
 }
