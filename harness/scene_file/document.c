@@ -268,7 +268,9 @@ document_node *document_read(const char *bytes, size_t size, arena *a, mistakes 
         return NULL;
     }
     yaml_parser_set_encoding(&r.parser, YAML_UTF8_ENCODING);
-    yaml_parser_set_input_string(&r.parser, (const unsigned char *)bytes, size);
+    /* a byte order mark, as some editors put it, is no text */
+    const size_t mark = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    yaml_parser_set_input_string(&r.parser, (const unsigned char *)bytes + mark, size - mark);
     document_node *root = read_stream(&r);
     yaml_parser_delete(&r.parser);
     return m->count == 0 && !m->out_of_memory ? root : NULL;

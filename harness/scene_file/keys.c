@@ -60,7 +60,9 @@ static void tell_kind(const document_node *n, const document_node *name, const c
                       mistakes *m)
 {
     static const char *const is[] = {"a text", "a list", "a map"};
-    document_mistake(m, n, 0, "%.60s is %s; %s is expected", name->text, is[n->kind], expected);
+    const int empty = n->kind == DOCUMENT_TEXT && n->text[0] == '\0';
+    document_mistake(m, n, 0, "%.60s is %s; %s is expected", name->text,
+                     empty ? "empty" : is[n->kind], expected);
 }
 
 int keys_loops(const scene_key *table)

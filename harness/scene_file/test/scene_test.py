@@ -79,6 +79,15 @@ class SceneTest(ProgramTest):
         exact = 0.1**3 / (3 * 210e9 * inertia) + 0.1 / (5 / 6 * 81e9 * area)
         self.assertAlmostEqual(values(record)["tip_uy"] / exact, 1, delta=1e-9)
 
+    def test_bytes(self):
+        """Line ends and marks of other editors, and letters of other languages, change nothing."""
+        own = self.answered("scene", "--scene", self.scene(FIRST)).stdout
+        for name, text in (("ends", FIRST.replace("\n", "\r\n")), ("mark", "\ufeff" + FIRST),
+                           ("letters", FIRST + "# Größe – 大きさ\n")):
+            path = self.folder / "scene.yaml"
+            path.write_bytes(text.encode())
+            self.assertEqual(self.answered("scene", "--scene", path).stdout, own, name)
+
     def test_same_bits(self):
         """A case and the file that `scene` writes of it have the same values, every bit."""
         listed = self.answered("list", "cases").stdout.splitlines()
