@@ -35,7 +35,7 @@ status fault_set(fault *f, status s, const char *format, ...)
 
 const char *status_name(status s)
 {
-    static const char *const names[] = {"ok",      "not_converged", "singular",
-                                        "refused", "fault",         "time_limit"};
+    static const char *const names[] = {"ok",    "not_converged", "singular", "refused",
+                                        "fault", "time_limit",    "no_value"};
     return names[s];
 }

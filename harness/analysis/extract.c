@@ -122,6 +122,15 @@ static const char *reason_of_path(const analysis_context *c, const scene_quantit
                : "the path does not reach this station";
 }
 
+static void path_ends(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
+                      quantity_result *r)
+{
+    if (o->status != STATUS_OK)
+        quantity_no_value(r, o->status, o->reason);
+    else
+        quantity_no_value(r, STATUS_NOT_CONVERGED, reason_of_path(c, q));
+}
+
 static void from_path(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
                       quantity_result *r)
 {
@@ -144,12 +153,11 @@ static void from_path(const analysis_context *c, const scene_quantity *q, const 
     if (q->reduction == SCENE_CURVE) {
         take_curve(c, q, o, r);
         if (!complete)
-            quantity_no_value(r, o->status, o->reason);
+            path_ends(c, q, o, r);
         return;
     }
     if (chosen < 0 || (q->reduction != SCENE_AT && !complete)) {
-        quantity_no_value(r, o->status != STATUS_OK ? o->status : STATUS_NOT_CONVERGED,
-                          o->status != STATUS_OK ? o->reason : reason_of_path(c, q));
+        path_ends(c, q, o, r);
         return;
     }
     r->value = at_station(c, q, o, chosen);
@@ -227,7 +235,7 @@ static void from_modes(const analysis_context *c, const scene_quantity *q,
     else if (side->status != STATUS_OK)
         quantity_no_value(r, side->status, side->reason);
     else
-        quantity_no_value(r, STATUS_OK, "the mesh has no mode of this kind");
+        quantity_no_value(r, STATUS_NO_VALUE, "the mesh has no mode of this kind");
 }
 
 static void from_linear(const analysis_context *c, const scene_quantity *q,
@@ -287,9 +295,9 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
     case SCENE_ROTATION:
         from_path(c, q, o, r);
         if (outcome_rotation_of(o)->modes != NULL && isnan(r->value) && r->status == STATUS_OK)
-            quantity_no_value(r, STATUS_OK, "the mesh has no mode of this kind");
+            quantity_no_value(r, STATUS_NO_VALUE, "the mesh has no mode of this kind");
         break;
     }
-    if (r->status == STATUS_OK && !isfinite(r->value) && r->reason[0] == '\0')
+    if (r->status == STATUS_OK && !isfinite(r->value))
         quantity_no_value(r, STATUS_SINGULAR, "the value is not finite");
 }

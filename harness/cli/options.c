@@ -337,6 +337,7 @@ int cli_fail(status s, const char *text)
     case STATUS_NOT_CONVERGED:
     case STATUS_SINGULAR:
     case STATUS_TIME_LIMIT:
+    case STATUS_NO_VALUE:
         return EXIT_DIFFERS;
     case STATUS_REFUSED:
         return EXIT_REFUSED;

@@ -59,6 +59,8 @@ static outcome_kind failure_of(status s)
         return OUTCOME_SINGULAR;
     case STATUS_REFUSED:
         return OUTCOME_REFUSED;
+    case STATUS_NO_VALUE:
+        return OUTCOME_NO_VALUE;
     case STATUS_OK:
     case STATUS_FAULT:
     case STATUS_TIME_LIMIT:
@@ -75,7 +77,7 @@ static void set_kind(extreme_outcome *o, outcome_kind kind, const char *reason)
 
 static void set_failure(extreme_outcome *o, status why, const char *reason)
 {
-    set_kind(o, why == STATUS_OK ? OUTCOME_NO_VALUE : failure_of(why), reason);
+    set_kind(o, failure_of(why), reason);
 }
 
 /* The number of the first mesh against its reference. */
@@ -117,7 +119,7 @@ status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outc
         set_failure(o, p->status, p->reason);
     else if (r == NULL)
         set_failure(o, solved->status, solved->reason);
-    else if (r->status != STATUS_OK || !isfinite(r->value))
+    else if (r->status != STATUS_OK)
         set_failure(o, r->status, r->reason);
     else
         judge_value(extreme_sweep_quantity(s, o), r->value, uncertainty, o);

@@ -49,9 +49,7 @@ typedef struct history {
 
 static status failure_of(const solve_result *r, const quantity_result *q)
 {
-    if (q != NULL && q->status == STATUS_OK && isfinite(q->value))
-        return STATUS_OK;
-    if (q != NULL && q->status != STATUS_OK)
+    if (q != NULL)
         return q->status;
     return r->status != STATUS_OK ? r->status : STATUS_NOT_CONVERGED;
 }

@@ -81,7 +81,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
         const truth *row = t != NULL ? verdict_truth(t, p, &one->formulation, i) : NULL;
         if (q->reduction == SCENE_CURVE)
             continue;
-        if (v->status != STATUS_OK || !isfinite(v->value)) {
+        if (v->status != STATUS_OK) {
             fprintf(to, "%-28s %24s %s\n", q->name, "-", v->reason);
             continue;
         }

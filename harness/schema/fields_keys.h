@@ -11,7 +11,7 @@ extern const schema_field keys_of_series[];    /* its parameters, formulation */
 extern const schema_field key_of_mesh[];       /* elements of each member */
 extern const schema_field names_of_quantity[]; /* its name and unit */
 
-enum { STATUSES = STATUS_TIME_LIMIT + 1 };
+enum { STATUSES = STATUS_NO_VALUE + 1 };
 /* ENUM fields: their words. */
 const char *word_of_status(int status);
 const char *word_of_moments(int convention);

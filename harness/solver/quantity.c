@@ -5,7 +5,7 @@
 
 void quantity_no_value(quantity_result *r, status s, const char *reason)
 {
-    r->status = s;
+    r->status = s != STATUS_OK ? s : STATUS_NO_VALUE;
     r->value = NAN;
     snprintf(r->reason, sizeof r->reason, "%s", reason);
 }

@@ -4,6 +4,7 @@
 
 #include "harness/solver/result.h"
 
+/* STATUS_OK of an outcome that lacks the value becomes STATUS_NO_VALUE. */
 void quantity_no_value(quantity_result *, status, const char *reason);
 /* In the units of the quantity: times its factor, plus its offset. */
 double quantity_scaled(const scene_quantity *, double value);

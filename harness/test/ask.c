@@ -49,7 +49,7 @@ static int copy_values(const scene *s, const solve_result *r, answer *out)
         snprintf(out->why[i], FAULT_TEXT, "%s", r->quantity[i].reason);
         copy_curve(s, &r->quantity[i].curve, out, i);
         out->values += isfinite(out->value[i]) || r->quantity[i].curve.points > 0;
-        all &= r->quantity[i].status == STATUS_OK;
+        all &= r->quantity[i].status == STATUS_OK || r->quantity[i].status == STATUS_NO_VALUE;
         out->count = i + 1;
     }
     return all;

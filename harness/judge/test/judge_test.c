@@ -114,6 +114,7 @@ static void failures(void)
     bench_make(&b);
     bench_fill(&b, 3, 0.7, 2);
     b.quantity[4].value = NAN;
+    b.quantity[4].status = STATUS_NO_VALUE;
     bench_expect(&b, VERDICT_DIVERGED, 1, "no number on the finest mesh");
     b.quantity[4].status = STATUS_SINGULAR;
     snprintf(b.quantity[4].reason, sizeof b.quantity[4].reason, "singular at path 0.3");
@@ -125,6 +126,7 @@ static void failures(void)
     bench_fill(&b, 3, 0.7, 2);
     b.quantity[4].status = STATUS_OK;
     b.quantity[0].value = NAN;
+    b.quantity[0].status = STATUS_NO_VALUE;
     bench_expect(&b, VERDICT_PASS, 0, "a coarse mesh without a value does not count");
     bench_free(&b);
 }

@@ -86,7 +86,7 @@ static void fill_quantities(dice *d, solve_result *s)
     s->quantity = calloc((size_t)s->quantities, sizeof *s->quantity);
     for (int i = 0; i < s->quantities; i++) {
         quantity_result *q = &s->quantity[i];
-        q->status = (status)whole(d, STATUS_TIME_LIMIT);
+        q->status = (status)whole(d, STATUS_NO_VALUE);
         q->value = number(d);
         q->x = number(d);
         q->curve.points = i % 2 == 0 ? 1 + whole(d, 8) : 0;
@@ -190,7 +190,7 @@ static cell_result random_cell(dice *d)
     solve_result *s = &c.solve;
     fill_counts(d, &c);
     fill_left_out(d, &c);
-    s->status = (status)whole(d, STATUS_TIME_LIMIT);
+    s->status = (status)whole(d, STATUS_NO_VALUE);
     fill_text(d, sizeof s->reason, s->reason);
     fill_quantities(d, s);
     fill_steps(d, s);
