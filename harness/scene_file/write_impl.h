@@ -12,7 +12,7 @@ typedef struct writer {
     int unwritable; /* 1: a number that is none */
 } writer;
 
-/* As few digits as give the same number. */
+/* Six digits, or as many more as give the same number. */
 void write_number(writer *w, double value);
 /* [a, b, c] */
 void write_numbers(writer *w, int count, const double value[]);

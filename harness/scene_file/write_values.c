@@ -14,7 +14,7 @@ void write_number(writer *w, double value)
         w->unwritable = 1;
         return;
     }
-    for (int digits = 1; digits <= 17; digits++) {
+    for (int digits = 6; digits <= 17; digits++) {
         snprintf(text, sizeof text, "%.*g", digits, value);
         if (strtod(text, NULL) == value)
             break;

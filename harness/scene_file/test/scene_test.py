@@ -6,6 +6,7 @@ import unittest
 from harness.test.program import ROOT, ProgramTest, run
 
 BAD = ROOT / "harness/scene_file/test/bad"
+GOOD = ROOT / "harness/scene_file/test/good"
 EXAMPLES = ROOT / "cases/examples"
 
 FIRST = """\
@@ -124,6 +125,14 @@ class SceneTest(ProgramTest):
             self.assertEqual(done.returncode, 0 if known else 3, (path.name, done.stdout))
             judged += known
         self.assertGreaterEqual(judged, 4)
+
+    def test_everything(self):
+        """All that a scene can say is understood as it was meant, and written so that it is again."""
+        for path in sorted(GOOD.glob("*.yaml")):
+            written = path.with_suffix(".written").read_text(encoding="utf-8")
+            self.assertEqual(self.answered("scene", "--scene", path).stdout, written)
+            again = self.answered("scene", "--scene", self.scene(written)).stdout
+            self.assertEqual(again, written)
 
     def test_leaf_spring_guide(self):
         """Both exact stiffnesses, and the limit of the pushed stage's support stiffness."""
