@@ -60,7 +60,8 @@ static void turn_in_sequence(const double value[], scene *s, int arm, int driver
                                         [FIRST] = {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}},
                                         [LAST] = {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
                                         [BETWEEN] = {{1, 0, 0}, {0, 0, 1}, {0, 1, 0}}};
-    const int kind = (int)value[ROTATION], place = kind == LAST ? 2 : kind == BETWEEN ? 1 : 0;
+    static const int place_of[] = {[FIRST] = 0, [BETWEEN] = 1, [LAST] = 2};
+    const int kind = (int)value[ROTATION], place = place_of[kind];
     scene_node *n = scene_node_at(s, arm);
     n->rotation = SCENE_ROTATION_SEQUENCE;
     memcpy(n->axis, axes[kind], sizeof n->axis);

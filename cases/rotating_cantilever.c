@@ -50,18 +50,15 @@ static void add_frequencies(scene *s, int rotation, double omega, int curves, in
         const char *name;
         scene_family family;
     } kind[] = {{"flap", SCENE_BENDING_Z}, {"lag", SCENE_BENDING_Y}};
-    for (int k = 0; k < 2; k++)
-        for (int i = 0; i < MODES && !whirl; i++) {
-            add_frequency(s, kind[k].name, i, "", rotation, kind[k].family);
+    const int names = whirl ? 1 : 2, lowest = whirl ? LOWEST : MODES;
+    for (int k = 0; k < names; k++)
+        for (int i = 0; i < lowest; i++) {
+            const char *name = whirl ? "whirl" : kind[k].name;
+            const scene_family family = whirl ? SCENE_ANY : kind[k].family;
+            add_frequency(s, name, i, "", rotation, family);
             if (curves)
-                make_curve(add_frequency(s, kind[k].name, i, "_curve", rotation, kind[k].family),
-                           omega);
+                make_curve(add_frequency(s, name, i, "_curve", rotation, family), omega);
         }
-    for (int i = 0; i < LOWEST && whirl; i++) {
-        add_frequency(s, "whirl", i, "", rotation, SCENE_ANY);
-        if (curves)
-            make_curve(add_frequency(s, "whirl", i, "_curve", rotation, SCENE_ANY), omega);
-    }
 }
 
 static status build(const double value[], scene *s, fault *f)

@@ -58,8 +58,10 @@ static status build(const double value[], scene *s, fault *f)
 
     int entries[36][2];
     for (int i = 0; i < 36; i++) {
-        /* du_x/dM_y first: it is the figure's. */
-        const int k = i == 0 ? 4 : i <= 4 ? i - 1 : i;
+        /* du_x/dM_y, the fifth, first: it is the figure's. */
+        int k = i;
+        if (i <= 4)
+            k = i == 0 ? 4 : i - 1;
         entries[i][0] = k / 6;
         entries[i][1] = k % 6;
     }

@@ -30,8 +30,8 @@ static void prescribe_rotation(const double value[], scene *s, int effector, dou
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k <= steps; k++) {
             const double azimuth = 2 * PI * (k - 1) / steps;
-            component[k] =
-                k == 0 || i == 2 ? 0 : value[TILT] * (i == 0 ? cos(azimuth) : sin(azimuth));
+            const double axis[3] = {cos(azimuth), sin(azimuth), 0};
+            component[k] = k == 0 ? 0 : value[TILT] * axis[i];
         }
         const int driver = scene_add_driver(s, name[i], steps + 1, station, component);
         scene_node_at(s, effector)->angle[i] = driver;

@@ -133,6 +133,12 @@ int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind)
     return q->analysis == analysis && q->what.kind == kind;
 }
 
+const char *scene_compliance_unit(int row, int column)
+{
+    static const char *const unit[2][2] = {{"m/N", "1/N"}, {"rad/N", "rad/(N m)"}};
+    return unit[row > SCENE_UZ][column > SCENE_UZ];
+}
+
 int scene_gives(scene_analysis_kind analysis, scene_quantity_kind kind)
 {
     enum {

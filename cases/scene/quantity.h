@@ -141,6 +141,8 @@ int scene_driver_of(const scene_quantity *q);
 /* Is it of this kind and this analysis? */
 int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind);
 /* Can it be extracted from an analysis of this kind? */
+/* Of a response to a force or a moment, SCENE_UX to SCENE_RZ both. */
+const char *scene_compliance_unit(int row, int column);
 int scene_gives(scene_analysis_kind analysis, scene_quantity_kind kind);
 
 #endif

@@ -82,8 +82,9 @@ static status scale_drivers(scene *s, double x, fault *f)
             return fault_set(f, STATUS_REFUSED,
                              "driver '%s' moves lengths and angles: it has no unit of length",
                              s->driver[i].name);
-        for (int k = 0; k < s->driver[i].stations && s->driver[i].value != NULL && length; k++)
-            s->driver[i].value[k] *= x;
+        if (s->driver[i].value != NULL && length)
+            for (int k = 0; k < s->driver[i].stations; k++)
+                s->driver[i].value[k] *= x;
     }
     return STATUS_OK;
 }

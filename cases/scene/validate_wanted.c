@@ -28,11 +28,12 @@ static status check_path(const scene_analysis *a, int i, fault *f)
     if (path->stations < 1)
         return fault_set(f, STATUS_REFUSED,
                          "analysis %d: a path needs a station; give one at least", i);
-    for (int k = 1; k < path->stations && a->kind != SCENE_CONTINUATION; k++)
-        if (!(path->value[k] > path->value[k - 1]))
-            return fault_set(f, STATUS_REFUSED,
-                             "analysis %d: its stations must ascend; sort them, without repetition",
-                             i);
+    if (a->kind != SCENE_CONTINUATION)
+        for (int k = 1; k < path->stations; k++)
+            if (!(path->value[k] > path->value[k - 1]))
+                return fault_set(
+                    f, STATUS_REFUSED,
+                    "analysis %d: its stations must ascend; sort them, without repetition", i);
     return STATUS_OK;
 }
 

@@ -89,10 +89,8 @@ void sheet_add_compliance(scene *s, int analysis, const int (*entries)[2], int c
         const int row = entries[i][0], column = entries[i][1];
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "C_%s_%s", response[row], load[column]);
-        const char *unit =
-            row < 3 ? (column < 3 ? "m/N" : "1/N") : (column < 3 ? "rad/N" : "rad/(N m)");
-        scene_quantity *q =
-            scene_add_quantity(s, name, unit, analysis, scene_compliance_entry(row, column));
+        scene_quantity *q = scene_add_quantity(s, name, scene_compliance_unit(row, column),
+                                               analysis, scene_compliance_entry(row, column));
         q->least_order = 1.8;
     }
 }

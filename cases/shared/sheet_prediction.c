@@ -156,9 +156,10 @@ static double compliance_zz(const section *s, const plane *p, double X, double Y
     if (local_stiffness(s, p, -alpha, shear, K) != STATUS_OK)
         return NAN;
     const double WW = K[LOCAL * LOCAL - 1];
-    for (int i = 0; i < 3 && tip_warps && WW > 0; i++)
-        for (int j = 0; j < 3; j++)
-            K[LOCAL * i + j] -= K[LOCAL * i + 3] * K[LOCAL * 3 + j] / WW;
+    if (tip_warps && WW > 0)
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                K[LOCAL * i + j] -= K[LOCAL * i + 3] * K[LOCAL * 3 + j] / WW;
     /* phi_x = theta'_x/cos, yp = u_z/l, yq = yp + theta'_y + phi_x sin, with theta' in the chord's axes */
     const double T[3][3] = {
         {0, 1, sine / cosine}, {1 / l, 0, 0}, {1 / l, 0, cosine + sine * sine / cosine}};

@@ -57,8 +57,9 @@ void beamw_condensed_prepare(const section *c, double l, int shear, int warping,
     memset(out->Q, 0, sizeof out->Q);
     for (int r = 0; r < ALL; r++)
         for (int j = 0; j < M; j++)
-            for (int i = 0; i < N * N && out->P[r][j] != 0; i++)
-                out->Q[r][i] += out->P[r][j] * Q[j][i];
+            if (out->P[r][j] != 0)
+                for (int i = 0; i < N * N; i++)
+                    out->Q[r][i] += out->P[r][j] * Q[j][i];
     if (!warping)
         without_warping(out);
 }

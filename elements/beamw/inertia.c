@@ -44,16 +44,19 @@ void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_ki
                            const beamw_stiffness_fields *fields, element_data *d)
 {
     d->lumped = lumped_of(c, features, d->l0 / 2);
-    d->share = kind == BEAMW_INERTIA_LUMPED ? 0 : kind == BEAMW_INERTIA_CONSISTENT ? 1 : 0.5;
+    static const double share[] = {
+        [BEAMW_INERTIA_LUMPED] = 0, [BEAMW_INERTIA_CONSISTENT] = 1, [BEAMW_INERTIA_AVERAGED] = 0.5};
+    d->share = share[kind];
     quadrature_points(BEAMW_GAUSS, d->at, d->weight); /* exact for the square of a cubic */
-    for (int g = 0; g < BEAMW_GAUSS && d->share > 0; g++) {
-        functionals_at(c, d->l0, fields, d->at[g], d->field[g]);
-        for (int k = 0; k < BEAMW_FIELDS && !(features & FEATURE_WARPING);
-             k++) { /* uniform torsion: e7 and e8 follow e2 */
-            d->field[g][k][1] += d->field[g][k][6] + d->field[g][k][7];
-            d->field[g][k][6] = d->field[g][k][7] = 0;
+    if (d->share > 0)
+        for (int g = 0; g < BEAMW_GAUSS; g++) {
+            functionals_at(c, d->l0, fields, d->at[g], d->field[g]);
+            if (!(features & FEATURE_WARPING))
+                for (int k = 0; k < BEAMW_FIELDS; k++) { /* uniform torsion: e7 and e8 follow e2 */
+                    d->field[g][k][1] += d->field[g][k][6] + d->field[g][k][7];
+                    d->field[g][k][6] = d->field[g][k][7] = 0;
+                }
         }
-    }
 }
 
 /* The element's state, and what the points gather for the second derivatives of the strains. */
@@ -150,9 +153,10 @@ static void add_interpolated(configuration *c, const interpolation *y)
 /* A twist whose rate has a mass and which no turning frame acts on. */
 static void add_scalar(const configuration *c, double mass, const double row[N])
 {
-    for (int i = 0; i < N && c->out->M != NULL; i++)
-        for (int j = 0; j < N; j++)
-            c->out->M[N * i + j] += mass * row[i] * row[j];
+    if (c->out->M != NULL)
+        for (int i = 0; i < N; i++)
+            for (int j = 0; j < N; j++)
+                c->out->M[N * i + j] += mass * row[i] * row[j];
 }
 
 static void add_point(configuration *c, const element_data *d, int g)
@@ -219,8 +223,9 @@ status beamw_inertia_of(const element_data *d, const node_state x[], const eleme
                         inertia_output *out)
 {
     moving_clear(N, out);
-    for (int node = 0; node < 2 && d->share < 1; node++)
-        lumped_add(&d->lumped, 1 - d->share, &x[node], spin, NODE_COORDINATES * node, N, out);
+    if (d->share < 1)
+        for (int node = 0; node < 2; node++)
+            lumped_add(&d->lumped, 1 - d->share, &x[node], spin, NODE_COORDINATES * node, N, out);
     if (d->share > 0)
         add_consistent(d, x, spin, out);
     return STATUS_OK;

@@ -21,8 +21,9 @@ status exact_constants_of(const element_request *request, exact_constants *out, 
     memcpy(out->initial, request->strain, sizeof out->initial);
     out->EIw = E * c->Iw / (l0 * l0);
     const double scale[3] = {1 / l0, 1 / l0, 1};
-    for (int i = 0; i < 9 && (has & FEATURE_SHEAR); i++)
-        out->F[i] = c->F[i] / G * scale[i / 3] * scale[i % 3];
+    if (has & FEATURE_SHEAR)
+        for (int i = 0; i < 9; i++)
+            out->F[i] = c->F[i] / G * scale[i / 3] * scale[i % 3];
     /* A fibre at (y, z) turns about the shear centre when nothing shears, so that r' has the parts zs kappa_x and -ys kappa_x
      * across the section: its elongation is gamma_x + z kappa_y - y kappa_z + [(y - ys)^2 + (z - zs)^2] kappa_x^2/2. */
     if (has & FEATURE_TRAPEZE)

@@ -10,8 +10,9 @@
 static void add_square(exact_fields *f, double k, const double row[])
 {
     for (int i = 0; i < f->free; i++)
-        for (int j = 0; j < f->free && row[i] != 0; j++)
-            f->energy[i * f->all + j] += k * row[i] * row[j];
+        if (row[i] != 0)
+            for (int j = 0; j < f->free; j++)
+                f->energy[i * f->all + j] += k * row[i] * row[j];
 }
 
 static void add_product(exact_fields *f, double k, int i, int j)
@@ -60,12 +61,13 @@ static void twist_fields(exact_fields *f)
             for (int k = 0; k < f->free; k++)
                 f->mean[g][k] += f->weight[i] * f->through[i][g] / f->w[g] * a[i][k];
     }
-    for (int i = 0; i < f->field && f->warping_bubbles > 0; i++)
-        for (int k = 0; k < f->free; k++) {
-            f->twist[i][k] += a[i][k];
-            for (int g = 0; g < f->points; g++)
-                f->twist[i][k] -= f->through[i][g] * f->mean[g][k];
-        }
+    if (f->warping_bubbles > 0)
+        for (int i = 0; i < f->field; i++)
+            for (int k = 0; k < f->free; k++) {
+                f->twist[i][k] += a[i][k];
+                for (int g = 0; g < f->points; g++)
+                    f->twist[i][k] -= f->through[i][g] * f->mean[g][k];
+            }
 }
 
 /* -1/2 w/(k EI) (Q -+ M')^2: what the part of the moment above the points' polynomial makes flexible, M' its slope. */
@@ -100,9 +102,10 @@ static void energy_of_point(const exact_constants *c, exact_fields *f, int g)
         f->energy[(Q + 2) * (f->all + 1)] = -1; /* no bimoment, hence no warping torque */
     else
         add_product(f, w, Q + 2, e + 3);
-    for (int k = 0; k < f->free && f->warping_bubbles > 0; k++)
-        if (f->mean[g][k] != 0)
-            add_product(f, -w * f->mean[g][k], Q + 2, k);
+    if (f->warping_bubbles > 0)
+        for (int k = 0; k < f->free; k++)
+            if (f->mean[g][k] != 0)
+                add_product(f, -w * f->mean[g][k], Q + 2, k);
     add_product(f, w, Q + 3, e + 4);
     add_product(f, w, Q + 4, e + 5);
     f->energy[(Q + 3) * (f->all + 1)] -= w / c->EIy;

@@ -55,18 +55,17 @@ void exact_milenkovic_add_hessian(const exact_milenkovic_form *f, const double x
     const double once = vec3_dot(x, yw), twice = xw * xy - t * wy;
     const double level = 2 * (f->s[1] * wy - f->p[1] * once + f->q[1] * twice - f->q[0] * wy);
     const double bent = 4 * (f->s[2] * wy - f->p[2] * once + f->q[2] * twice);
+    const double cross[9] = {0, w[2], -w[1], -w[2], 0, w[0], w[1], -w[0], 0}; /* w~ transposed */
     for (int i = 0; i < 3; i++) /* what meets 2 x, the gradient of t */
         slope[i] = 2 * (f->q[1] * (w[i] * xy + y[i] * xw - 2 * x[i] * wy) - f->p[1] * yw[i]);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
-            const double cross = i == j                 ? 0
-                                 : (j - i + 3) % 3 == 1 ? w[3 - i - j]
-                                                        : -w[3 - i - j]; /* w~ transposed */
             XX[3 * i + j] += bent * x[i] * x[j] + slope[i] * x[j] + x[i] * slope[j] +
                              f->q[0] * (w[i] * y[j] + y[i] * w[j]) + (i == j ? level : 0);
             XY[3 * i + j] += 2 * x[i] *
                                  ((f->s[1] - f->q[1] * t - f->q[0]) * w[j] - f->p[1] * wx[j] +
                                   f->q[1] * xw * x[j]) -
-                             f->p[0] * cross + f->q[0] * (w[i] * x[j] + (i == j ? xw : 0));
+                             f->p[0] * cross[3 * i + j] +
+                             f->q[0] * (w[i] * x[j] + (i == j ? xw : 0));
         }
 }

@@ -17,8 +17,9 @@ void exact_point_align(int nodes, double q[][4])
         double dot = 0;
         for (int i = 0; i < 4; i++)
             dot += q[k - 1][i] * q[k][i];
-        for (int i = 0; i < 4 && dot < 0; i++)
-            q[k][i] = -q[k][i];
+        if (dot < 0)
+            for (int i = 0; i < 4; i++)
+                q[k][i] = -q[k][i];
     }
 }
 

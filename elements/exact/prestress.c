@@ -29,8 +29,9 @@ static void linear_state(const exact_stages *s, const double sigma[], double cha
     dense_lu_solve(m, EXACT_STAGES_OUTER, K, pivot, Z);
     memset(change, 0, (size_t)n * sizeof *change);
     memcpy(change + m, sigma, EXACT_STAGES_OUTER * sizeof *change);
-    for (int i = n - 2; i < n && !s->c.warping; i++)
-        d.hessian[i * (n + 1)] = 1; /* no amplitudes */
+    if (!s->c.warping)
+        for (int i = n - 2; i < n; i++)
+            d.hessian[i * (n + 1)] = 1; /* no amplitudes */
     dense_lu(n, d.hessian, pivot);
     dense_lu_solve(n, 1, d.hessian, pivot, change);
 }

@@ -15,11 +15,12 @@
 static void no_warping(const exact_stages *s, const double e[], exact_stages_derivatives *out)
 {
     const int n = s->unknowns + EXACT_STAGES_OUTER;
-    for (int i = s->unknowns + 6; i < n && s->c.warping; i++) {
-        out->hessian[i * (n + 1)] = s->c.GJ;
-        out->gradient[i] = s->c.GJ * e[i - s->unknowns];
-        out->P += s->c.GJ * e[i - s->unknowns] * e[i - s->unknowns] / 2;
-    }
+    if (s->c.warping)
+        for (int i = s->unknowns + 6; i < n; i++) {
+            out->hessian[i * (n + 1)] = s->c.GJ;
+            out->gradient[i] = s->c.GJ * e[i - s->unknowns];
+            out->P += s->c.GJ * e[i - s->unknowns] * e[i - s->unknowns] / 2;
+        }
 }
 
 void exact_stages_evaluate(const exact_stages *s, const double e[], const double inner[],

@@ -93,9 +93,10 @@ static void add_modified_tangent(const exact_stiffness *k, double t[][EXACT_STIF
     for (int g = 0; g < k->points; g++)
         for (int h = 0; h < k->points; h++) {
             const double coupling = along(k, Sr[g], h);
-            for (int i = 0; i < n && coupling != 0; i++)
-                for (int j = 0; j < n; j++)
-                    C[i * n + j] += coupling * t[g][i] * t[h][j];
+            if (coupling != 0)
+                for (int i = 0; i < n; i++)
+                    for (int j = 0; j < n; j++)
+                        C[i * n + j] += coupling * t[g][i] * t[h][j];
         }
 }
 

@@ -8,7 +8,9 @@
 static int variables(const exact_stages *s, int k, double *factor)
 {
     const int end = k == 0 || k == s->stages;
-    *factor = !end ? 1 : k == 0 ? -0.5 : 0.5;
+    *factor = 1;
+    if (end)
+        *factor = k == 0 ? -0.5 : 0.5;
     return end ? s->unknowns + 3 : 3 * k;
 }
 

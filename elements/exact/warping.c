@@ -93,10 +93,11 @@ static void integrate(const exact_constants *c, const basis *b, int stages, cons
                         mean[i * n + j] += weight[k] * L[i] / w[i] * value[j];
                     else
                         value[j] -= L[i] * mean[i * n + j];
-            for (int i = 0; i < n && pass == 1; i++)
-                for (int j = 0; j < n; j++)
-                    K[i * n + j] +=
-                        weight[k] * (c->EIw * slope[i] * slope[j] + c->GJ * value[i] * value[j]);
+            if (pass == 1)
+                for (int i = 0; i < n; i++)
+                    for (int j = 0; j < n; j++)
+                        K[i * n + j] += weight[k] * (c->EIw * slope[i] * slope[j] +
+                                                     c->GJ * value[i] * value[j]);
         }
 }
 

@@ -70,8 +70,9 @@ void dense_add_transpose_mul(int m, int k, int n, const double *restrict A,
 {
     if (n == 1)
         add_rows(k, m, 1, 0, B, 1, A, C);
-    for (int i = 0; i < m && n > 1; i++)
-        add_rows(k, n, 1, 1, &A[i], m, B, &C[i * n]);
+    if (n > 1)
+        for (int i = 0; i < m; i++)
+            add_rows(k, n, 1, 1, &A[i], m, B, &C[i * n]);
 }
 
 double dense_dot(int n, const double a[], const double b[])
@@ -156,11 +157,12 @@ int dense_lu(int n, double *A, int pivot[])
         pivot[j] = p;
         if (!(fabs(A[p * n + j]) > 0) || !isfinite(A[p * n + j]))
             return j + 1;
-        for (int k = 0; p != j && k < n; k++) {
-            const double swap = A[j * n + k];
-            A[j * n + k] = A[p * n + k];
-            A[p * n + k] = swap;
-        }
+        if (p != j)
+            for (int k = 0; k < n; k++) {
+                const double swap = A[j * n + k];
+                A[j * n + k] = A[p * n + k];
+                A[p * n + k] = swap;
+            }
         for (int i = j + 1; i < n; i++) {
             const double factor = A[i * n + j] / A[j * n + j];
             A[i * n + j] = factor;
@@ -188,11 +190,12 @@ int dense_lu_regular(int n, double *A, int pivot[])
 void dense_lu_solve(int n, int m, const double *LU, const int pivot[], double *B)
 {
     for (int i = 0; i < n; i++)
-        for (int c = 0; pivot[i] != i && c < m; c++) {
-            const double swap = B[i * m + c];
-            B[i * m + c] = B[pivot[i] * m + c];
-            B[pivot[i] * m + c] = swap;
-        }
+        if (pivot[i] != i)
+            for (int c = 0; c < m; c++) {
+                const double swap = B[i * m + c];
+                B[i * m + c] = B[pivot[i] * m + c];
+                B[pivot[i] * m + c] = swap;
+            }
     for (int i = 0; i < n; i++)
         add_rows(i, m, -1, 0, &LU[i * n], 1, B, &B[i * m]);
     for (int i = n - 1; i >= 0; i--) {

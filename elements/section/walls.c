@@ -145,13 +145,14 @@ static void second_moments(const section_spec *s, const double y[], const double
     *Iyy = product(s, z, z);
     *Izz = product(s, y, y);
     *Iyz = product(s, y, z);
-    for (int w = 0; w < s->walls && s->thickness_terms; w++) {
-        const wall_frame n = frame_of(s, w, y, z);
-        const double bend = n.length * pow(s->wall[w].thickness, 3) / 12;
-        *Iyy += bend * n.nz * n.nz;
-        *Izz += bend * n.ny * n.ny;
-        *Iyz += bend * n.ny * n.nz;
-    }
+    if (s->thickness_terms)
+        for (int w = 0; w < s->walls; w++) {
+            const wall_frame n = frame_of(s, w, y, z);
+            const double bend = n.length * pow(s->wall[w].thickness, 3) / 12;
+            *Iyy += bend * n.nz * n.nz;
+            *Izz += bend * n.ny * n.ny;
+            *Iyz += bend * n.ny * n.nz;
+        }
 }
 
 static void wagner_constants(const section_spec *s, const double y[], const double z[],
@@ -228,14 +229,15 @@ static double warping_constant(const section_spec *s, const double y[], const do
 {
     const gauss_rule rule = rule_of_three();
     double Iw = product(s, omega, omega);
-    for (int w = 0; w < s->walls && s->thickness_terms; w++) {
-        const wall_frame n = frame_of(s, w, y, z);
-        for (int k = 0; k < GAUSS; k++) {
-            const double r = (along(s, w, y, rule.x[k]) - pole[0]) * n.ty +
-                             (along(s, w, z, rule.x[k]) - pole[1]) * n.tz;
-            Iw += rule.w[k] * n.length * pow(s->wall[w].thickness, 3) / 12 * r * r;
+    if (s->thickness_terms)
+        for (int w = 0; w < s->walls; w++) {
+            const wall_frame n = frame_of(s, w, y, z);
+            for (int k = 0; k < GAUSS; k++) {
+                const double r = (along(s, w, y, rule.x[k]) - pole[0]) * n.ty +
+                                 (along(s, w, z, rule.x[k]) - pole[1]) * n.tz;
+                Iw += rule.w[k] * n.length * pow(s->wall[w].thickness, 3) / 12 * r * r;
+            }
         }
-    }
     return Iw;
 }
 
@@ -266,11 +268,12 @@ status section_walls(const section_spec *s, section *out, fault *f)
     second_moments(s, y, z, &Iyy, &Izz, &Iyz);
     out->axes_angle = principal_angle(Iyy, Izz, Iyz);
     const double c = cos(out->axes_angle), d = sin(out->axes_angle);
-    for (int p = 0; p < s->points && d != 0; p++) {
-        const double turned = c * y[p] + d * z[p];
-        z[p] = -d * y[p] + c * z[p];
-        y[p] = turned;
-    }
+    if (d != 0)
+        for (int p = 0; p < s->points; p++) {
+            const double turned = c * y[p] + d * z[p];
+            z[p] = -d * y[p] + c * z[p];
+            y[p] = turned;
+        }
     second_moments(s, y, z, &out->Iy, &out->Iz, &Iyz);
     out->Ip = out->Iy + out->Iz;
     if (!(out->Iy > 1e-14 * out->Ip) || !(out->Iz > 1e-14 * out->Ip))

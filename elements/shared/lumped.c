@@ -86,10 +86,11 @@ void lumped_add(const lumped_mass *l, double share, const node_state *x, const e
         add_rotation(l, share, x, spin, at, n, out);
     if (l->warping > 0)
         add_warping(share * l->warping, x, spin, at, n, out);
-    for (int i = 0; i < 3 && !l->turns && out->M != NULL; i++)
-        for (int k = 0; k < 3; k++)
-            out->M[(at + 3 + i) * n + at + 3 + k] +=
-                share * l->rotary[0] * x->R[3 * i] * x->R[3 * k];
+    if (!l->turns && out->M != NULL)
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k < 3; k++)
+                out->M[(at + 3 + i) * n + at + 3 + k] +=
+                    share * l->rotary[0] * x->R[3 * i] * x->R[3 * k];
 }
 
 status lumped_element(const lumped_mass *whole, int nodes, const node_state x[],

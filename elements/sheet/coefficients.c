@@ -67,9 +67,10 @@ static void add_bending(const element_request *r, double x, double ds, const she
                 for (int b = 0; b < V; b++)
                     out->A[i][j][a][b] += ds * Mz[i][a] * Mz[j][b] / EIz;
         }
-        for (int a = 0; a < V && initial; a++)
-            out->b[i][ONE][a] -=
-                ds * (Mz[i][a] * r->curvature[2] + (a == ONE ? My[i] * r->curvature[1] : 0));
+        if (initial)
+            for (int a = 0; a < V; a++)
+                out->b[i][ONE][a] -=
+                    ds * (Mz[i][a] * r->curvature[2] + (a == ONE ? My[i] * r->curvature[1] : 0));
     }
     if (initial) { /* F_x = F~x, F_z = (M~yp + M~yq)/L; no F_y */
         out->b[FX][ONE][ONE] -= ds * r->strain[0];
@@ -139,8 +140,9 @@ static void list_terms(sums *total, sheet_potential *out)
         }
         append(degree, out->P0, SHEET_TERMS_P0, &out->terms_P0, 0, 0, total->P0);
         const int ends[3] = {out->terms_A, out->terms_b, out->terms_P0};
-        for (int k = 0; k < 3 && degree < 2; k++)
-            *(degree == 0 ? linear : quadratic)[k] = ends[k];
+        if (degree < 2)
+            for (int k = 0; k < 3; k++)
+                *(degree == 0 ? linear : quadratic)[k] = ends[k];
     }
 }
 

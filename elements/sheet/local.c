@@ -98,8 +98,9 @@ static void add_product(double c, const double a[SHEET_RATE_TURNS],
                         double A[SHEET_RATE_TURNS * SHEET_RATE_TURNS])
 {
     for (int i = 0; i < SHEET_RATE_TURNS; i++)
-        for (int j = 0; j < SHEET_RATE_TURNS && a[i] != 0; j++)
-            A[SHEET_RATE_TURNS * i + j] += c * a[i] * b[j];
+        if (a[i] != 0)
+            for (int j = 0; j < SHEET_RATE_TURNS; j++)
+                A[SHEET_RATE_TURNS * i + j] += c * a[i] * b[j];
 }
 
 /* Weights of the accelerations dv/dt, dP/dt, dQ/dt in sum t_k d2q_k/dt2, from those of dw/dt and d(bend)/dt. */

@@ -177,8 +177,9 @@ void sheet_strains_evaluate(const sheet_strains_table *table, const node_state x
     s.q[SHEET_LOCAL_WP] += table->torsion;
     s.q[SHEET_LOCAL_WQ] += table->torsion;
     gradient(table, s.q, e, E);
-    for (int i = 0; i < SHEET_STRAINS && out->e != NULL; i++)
-        out->e[i] = e[i] - table->rest[i];
+    if (out->e != NULL)
+        for (int i = 0; i < SHEET_STRAINS; i++)
+            out->e[i] = e[i] - table->rest[i];
     const int second = out->s != NULL && out->H != NULL;
     if (out->J == NULL && !second)
         return;

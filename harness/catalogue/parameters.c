@@ -31,8 +31,9 @@ status parameters_parse(const case_type *c, const char *text, double value[], in
     const assignment_list list = parameters_list(c);
     const int n = parameters_count(c), all = strcmp(text, "*") == 0;
     parameters_default(c, value);
-    for (int i = 0; i < n && any != NULL; i++)
-        any[i] = all;
+    if (any != NULL)
+        for (int i = 0; i < n; i++)
+            any[i] = all;
     return all ? STATUS_OK : assignment_parse(&list, text, value, any, f);
 }
 

@@ -95,9 +95,11 @@ int cli_compare(int count, char **arguments)
     }
     if (outcome == STATUS_OK && r.second == NULL)
         outcome = write_table(r.output, &before, &f);
-    const int code = outcome != STATUS_OK ? trouble(&f)
-                     : r.second == NULL   ? SAME
-                                          : compare(&r, &before, &after, &limits, &f);
+    int code = SAME;
+    if (outcome != STATUS_OK)
+        code = trouble(&f);
+    else if (r.second != NULL)
+        code = compare(&r, &before, &after, &limits, &f);
     results_free(&before);
     results_free(&after);
     return code;

@@ -94,9 +94,11 @@ static int solve_request(cli_request *r)
         code = cli_fail(solved, f.text);
     } else {
         outcome = write_out(r, &s, &t, &unwritten);
-        code = outcome != STATUS_OK  ? cli_fail(outcome, unwritten.text)
-               : solved != STATUS_OK ? cli_fail(solved, f.text)
-                                     : EXIT_AS_EXPECTED;
+        code = EXIT_AS_EXPECTED;
+        if (outcome != STATUS_OK)
+            code = cli_fail(outcome, unwritten.text);
+        else if (solved != STATUS_OK)
+            code = cli_fail(solved, f.text);
     }
     sweep_free(&s);
     truths_free(&t);

@@ -45,9 +45,9 @@ static int selected(const char *select, const char *name)
 static void run_cells(listing l, const results *before, const results *after, const char *select)
 {
     for (int i = 0, k = 0; i < before->cells || k < after->cells;) {
-        const int order = i == before->cells  ? 1
-                          : k == after->cells ? -1
-                                              : results_order(&before->cell[i], &after->cell[k]);
+        int order = i == before->cells ? 1 : -1; /* all of one are done */
+        if (i < before->cells && k < after->cells)
+            order = results_order(&before->cell[i], &after->cell[k]);
         const result_cell *a = order <= 0 ? &before->cell[i++] : NULL;
         const result_cell *b = order >= 0 ? &after->cell[k++] : NULL;
         l.name = a != NULL ? a->name : b->name;
@@ -65,10 +65,9 @@ static void run_cells(listing l, const results *before, const results *after, co
 static void run_series(listing l, const results *before, const results *after, const char *select)
 {
     for (int i = 0, k = 0; i < before->seriess || k < after->seriess;) {
-        const int order = i == before->seriess ? 1
-                          : k == after->seriess
-                              ? -1
-                              : strcmp(before->series[i].name, after->series[k].name);
+        int order = i == before->seriess ? 1 : -1;
+        if (i < before->seriess && k < after->seriess)
+            order = strcmp(before->series[i].name, after->series[k].name);
         const result_series *a = order <= 0 ? &before->series[i++] : NULL;
         const result_series *b = order >= 0 ? &after->series[k++] : NULL;
         l.name = a != NULL ? a->name : b->name;

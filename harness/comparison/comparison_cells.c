@@ -26,9 +26,10 @@ static void compare_value(const listing *l, const result_value *a, const result_
         const double change = fabs(b->error) - fabs(a->error);
         if (fabs(b->error - a->error) <= m->floor + m->error * fabs(a->error))
             return;
-        comparison_heading(l, change > 0   ? CHANGE_WORSE
-                              : change < 0 ? CHANGE_BETTER
-                                           : CHANGE_OTHER);
+        comparison_kind kind = CHANGE_OTHER;
+        if (change != 0)
+            kind = change > 0 ? CHANGE_WORSE : CHANGE_BETTER;
+        comparison_heading(l, kind);
         fprintf(l->to, ": error of %s %+.3e -> %+.3e\n", a->quantity, a->error, b->error);
     } else if (isfinite(a->value) &&
                fabs(b->value - a->value) > m->floor * fmax(fabs(a->value), a->near_zero)) {

@@ -24,9 +24,12 @@ void comparison_status(const listing *l, const char *before, const char *after)
 {
     if (strcmp(before, after) == 0)
         return;
-    comparison_heading(l, strcmp(after, "ok") == 0    ? CHANGE_BETTER
-                          : strcmp(before, "ok") == 0 ? CHANGE_WORSE
-                                                      : CHANGE_OTHER);
+    comparison_kind kind = CHANGE_OTHER;
+    if (strcmp(after, "ok") == 0)
+        kind = CHANGE_BETTER;
+    else if (strcmp(before, "ok") == 0)
+        kind = CHANGE_WORSE;
+    comparison_heading(l, kind);
     fprintf(l->to, ": %s -> %s\n", before, after);
 }
 

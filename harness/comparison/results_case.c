@@ -132,15 +132,16 @@ static int take_values(const tables *t, const cell_row *row, int *next, result_c
     while (*next + count < t->values && is_of(row, &t->value[*next + count]))
         count++;
     cell->value = calloc((size_t)count + 1, sizeof *cell->value);
-    for (int i = 0; i < count && cell->value != NULL; i++) {
-        const value_row *from = &t->value[*next + i];
-        result_value *v = &cell->value[cell->values++];
-        memcpy(v->quantity, from->quantity, sizeof v->quantity);
-        v->value = from->value;
-        v->error = from->error;
-        v->near_zero = from->near_zero;
-        v->limit = NAN;
-    }
+    if (cell->value != NULL)
+        for (int i = 0; i < count; i++) {
+            const value_row *from = &t->value[*next + i];
+            result_value *v = &cell->value[cell->values++];
+            memcpy(v->quantity, from->quantity, sizeof v->quantity);
+            v->value = from->value;
+            v->error = from->error;
+            v->near_zero = from->near_zero;
+            v->limit = NAN;
+        }
     *next += count;
     return cell->value != NULL;
 }

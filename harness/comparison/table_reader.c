@@ -10,10 +10,10 @@ static const size_t most_bytes = (size_t)1 << 31;
 static hid_t memory_type(hid_t member, const table_column *c)
 {
     const H5T_class_t class = H5Tget_class(member);
-    if (c->kind == FIELD_INT || c->kind == FIELD_LONG)
-        return class == H5T_INTEGER
-                   ? H5Tcopy(c->kind == FIELD_INT ? H5T_NATIVE_INT : H5T_NATIVE_LONG)
-                   : -1;
+    if (c->kind == FIELD_INT)
+        return class == H5T_INTEGER ? H5Tcopy(H5T_NATIVE_INT) : -1;
+    if (c->kind == FIELD_LONG)
+        return class == H5T_INTEGER ? H5Tcopy(H5T_NATIVE_LONG) : -1;
     if (c->kind == FIELD_DOUBLE)
         return class == H5T_FLOAT ? H5Tcopy(H5T_NATIVE_DOUBLE) : -1;
     if (class != H5T_STRING || H5Tis_variable_str(member) != 0 || H5Tget_size(member) >= c->room)

@@ -118,11 +118,12 @@ static void print_unexpected(FILE *to, const extreme_sweep *s)
                     e->quantity[o->quantity].name, outcome_name(o->kind), o->error,
                     o->finding != NULL ? o->finding->outcome : "a value", o->reason);
     }
-    for (int i = 0; i < s->findings && s->unobserved > 0; i++)
-        if (s->finding[i].observed == 0)
-            fprintf(to, "not observed: %s from %g to %g %s %s: %s\n", s->finding[i].extreme,
-                    s->finding[i].from, s->finding[i].to, s->finding[i].formulation,
-                    s->finding[i].quantity, s->finding[i].outcome);
+    if (s->unobserved > 0)
+        for (int i = 0; i < s->findings; i++)
+            if (s->finding[i].observed == 0)
+                fprintf(to, "not observed: %s from %g to %g %s %s: %s\n", s->finding[i].extreme,
+                        s->finding[i].from, s->finding[i].to, s->finding[i].formulation,
+                        s->finding[i].quantity, s->finding[i].outcome);
 }
 
 void extreme_table(FILE *to, const extreme_sweep *s)

@@ -53,9 +53,9 @@ static hid_t alter_type(unsigned what, unsigned size)
 static hid_t alter_space(unsigned what)
 {
     const hsize_t size[2] = {what % 5, what % 3};
-    return what % 4 == 0   ? H5Screate(H5S_SCALAR)
-           : what % 4 == 1 ? H5Screate(H5S_NULL)
-                           : H5Screate_simple(1 + what % 2, size, NULL);
+    if (what % 4 < 2)
+        return H5Screate(what % 4 == 0 ? H5S_SCALAR : H5S_NULL);
+    return H5Screate_simple(1 + what % 2, size, NULL);
 }
 
 static void alter_attribute(hid_t file, const char *name, unsigned index, unsigned what)

@@ -61,9 +61,9 @@ static history history_of(const series *s, int quantity)
         const solve_result *r = &s->cell[i].solve;
         const quantity_result *q = quantity < r->quantities ? &r->quantity[quantity] : NULL;
         h.failure = failure_of(r, q);
-        h.reason = h.failure == STATUS_OK              ? ""
-                   : q != NULL && q->reason[0] != '\0' ? q->reason
-                                                       : r->reason;
+        h.reason = "";
+        if (h.failure != STATUS_OK)
+            h.reason = q != NULL && q->reason[0] != '\0' ? q->reason : r->reason;
         h.n[i] = s->mesh[i];
         h.value[i] = h.failure == STATUS_OK ? q->value : NAN;
     }

@@ -28,8 +28,9 @@ static void choose_options(model *m, const double options[])
 {
     const element_type *t = m->type;
     parameter_defaults(t->options, m->options);
-    for (int i = 0; i < parameter_count(t->options) && options != NULL; i++)
-        m->options[i] = options[i];
+    if (options != NULL)
+        for (int i = 0; i < parameter_count(t->options); i++)
+            m->options[i] = options[i];
     m->nodes = element_nodes(t, m->options);
     m->coordinates = NODE_COORDINATES * m->nodes;
     m->strains = element_strains(t, m->options);

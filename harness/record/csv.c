@@ -24,16 +24,17 @@ void csv_convergence(FILE *to, const sweep *s, const truths *t)
     csv_part row[PARTS] = {{.type = &record_quantity}, {.type = &record_cell}};
     csv_head(to, PARTS, row);
     for (int i = 0; i < s->seriess; i++)
-        for (int k = 0; k < s->series[i].meshes && s->series[i].missing[0] == '\0'; k++) {
-            subjects list = {0};
-            gather_mesh(&g, &record_quantity, i, k, &list);
-            row[CELL].s = gather_cell(&g, i, k);
-            for (int q = 0; q < list.count; q++) {
-                row[QUANTITY].s = list.row[q];
-                csv_line(to, PARTS, row);
+        if (s->series[i].missing[0] == '\0')
+            for (int k = 0; k < s->series[i].meshes; k++) {
+                subjects list = {0};
+                gather_mesh(&g, &record_quantity, i, k, &list);
+                row[CELL].s = gather_cell(&g, i, k);
+                for (int q = 0; q < list.count; q++) {
+                    row[QUANTITY].s = list.row[q];
+                    csv_line(to, PARTS, row);
+                }
+                subjects_free(&list);
             }
-            subjects_free(&list);
-        }
 }
 
 void csv_timing(FILE *to, const sweep *s, const judgement *j)
@@ -44,16 +45,17 @@ void csv_timing(FILE *to, const sweep *s, const judgement *j)
         {.type = &record_timing}, {.type = &record_quantity}, {.type = &record_cell}};
     csv_head(to, PARTS, row);
     for (int i = 0; i < s->seriess; i++)
-        for (int k = 0; k < s->series[i].meshes && s->series[i].missing[0] == '\0'; k++) {
-            subjects list = {0};
-            gather_mesh(&g, &record_quantity, i, k, &list);
-            row[TIMING].s = row[CELL].s = gather_cell(&g, i, k);
-            row[TIMING].s.record = &s->series[i].timing[k];
-            for (int q = 0; q < list.count; q++) {
-                row[QUANTITY].s = list.row[q];
-                if (list.row[q].truth != NULL)
-                    csv_line(to, PARTS, row);
+        if (s->series[i].missing[0] == '\0')
+            for (int k = 0; k < s->series[i].meshes; k++) {
+                subjects list = {0};
+                gather_mesh(&g, &record_quantity, i, k, &list);
+                row[TIMING].s = row[CELL].s = gather_cell(&g, i, k);
+                row[TIMING].s.record = &s->series[i].timing[k];
+                for (int q = 0; q < list.count; q++) {
+                    row[QUANTITY].s = list.row[q];
+                    if (list.row[q].truth != NULL)
+                        csv_line(to, PARTS, row);
+                }
+                subjects_free(&list);
             }
-            subjects_free(&list);
-        }
 }

@@ -44,9 +44,10 @@ status json_convergence_write(FILE *to, const sweep *s, const truths *t, fault *
         const series *one = &s->series[i];
         const point *p = &s->point[one->point];
         json_t *quantities = json_array();
-        for (int q = 0; q < p->scene.quantities && one->missing[0] == '\0'; q++)
-            if (p->scene.quantity[q].reduction != SCENE_CURVE)
-                json_array_append_new(quantities, quantity_of(&g, i, q));
+        if (one->missing[0] == '\0')
+            for (int q = 0; q < p->scene.quantities; q++)
+                if (p->scene.quantity[q].reduction != SCENE_CURVE)
+                    json_array_append_new(quantities, quantity_of(&g, i, q));
         const subject here = {.sweep = s, .point = p, .series = one, .record = one};
         json_t *out = json_record(&record_series, &here, KEY_AROUND);
         json_object_set_new(out, record_quantity.table, quantities);

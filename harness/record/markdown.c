@@ -90,10 +90,11 @@ void markdown_write(FILE *to, const sweep *s, const judgement *j, const environm
 {
     const int bad = j->unexpected > 0 || j->disagreements > 0 || j->unobserved > 0 ||
                     j->unmet > 0 || j->flaws > 0;
+    const char *outcome = bad ? "not as expected" : "as expected";
+    if (j->judged == 0)
+        outcome = "nothing was checked";
     fprintf(to, "## beamwork: %s%s\n\n", s->unfinished > 0 ? "interrupted; until then " : "",
-            j->judged == 0 ? "nothing was checked"
-            : bad          ? "not as expected"
-                           : "as expected");
+            outcome);
     fprintf(to,
             "%d verdicts against truths in %d cells: %d differ from the expected one; %d of %d "
             "stored discrete values agree",

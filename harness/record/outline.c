@@ -35,14 +35,15 @@ void outline_of(const section_spec *spec, const section *c, outline *out)
 {
     out->walls = 0;
     out->equivalent = spec->kind == SECTION_CONSTANTS && !c->rectangle;
-    for (int w = 0; w < spec->walls && spec->kind == SECTION_WALLS; w++) {
-        double a[2], b[2];
-        principal(c, spec->point[spec->wall[w].from], a);
-        principal(c, spec->point[spec->wall[w].to], b);
-        add_wall(out, a, b, spec->wall[w].thickness);
-    }
-    if (spec->kind == SECTION_WALLS)
+    if (spec->kind == SECTION_WALLS) {
+        for (int w = 0; w < spec->walls; w++) {
+            double a[2], b[2];
+            principal(c, spec->point[spec->wall[w].from], a);
+            principal(c, spec->point[spec->wall[w].to], b);
+            add_wall(out, a, b, spec->wall[w].thickness);
+        }
         return;
+    }
     const double ratio = sqrt(c->Iy / c->Iz); /* of width to height: Iy/Iz = (w/h)^2 */
     if (out->equivalent)
         add_rectangle(out, sqrt(c->A / ratio), sqrt(c->A * ratio));

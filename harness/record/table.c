@@ -120,11 +120,10 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
                 value_or_dash(to, 23, 14, 'g', x);
                 percent(to,
                         row != NULL ? verdict_error(&p->scene.quantity[q], x, row->value) : NAN);
-                fprintf(to, " %10.3g s%s%s\n", r->seconds_setup + r->seconds_solve,
-                        isfinite(x) ? "" : "  ",
-                        isfinite(x)         ? ""
-                        : q < r->quantities ? r->quantity[q].reason
-                                            : r->reason);
+                fprintf(to, " %10.3g s", r->seconds_setup + r->seconds_solve);
+                if (!isfinite(x))
+                    fprintf(to, "  %s", q < r->quantities ? r->quantity[q].reason : r->reason);
+                fputc('\n', to);
             }
             char sentence[2 * FAULT_TEXT];
             verdict_reach(s, t, &v);
@@ -233,22 +232,25 @@ static void cells_that_contradict_themselves(FILE *to, const sweep *s, const jud
 /* What a whole run should have met and did not. */
 static void not_met(FILE *to, const judgement *j, const truths *t)
 {
-    for (int i = 0; i < t->rules && j->unobserved > 0; i++)
-        if (!rule_is_observed(&t->rule[i]))
-            fprintf(to, "\nfinding %s %s (%s; %s; %s)\n", t->rule[i].name,
-                    t->rule[i].observed == 0 ? "was not observed"
-                                             : "names a prediction that no verdict met",
-                    t->rule[i].formulations, t->rule[i].cases, t->rule[i].quantities);
-    for (int i = 0; i < t->rows && j->unmet > 0; i++) {
-        const truth *row = &t->row[i];
-        char text[PARAMETERS_TEXT];
-        if (row->met || (row->formulation[0] != '\0' && formulation_find(row->formulation) == NULL))
-            continue;
-        parameters_text(row->type, row->parameter, text, sizeof text);
-        fprintf(to, "\ntruth of nothing that exists: %s %s, %s%s%s (%s)\n", row->type->name, text,
-                row->quantity, row->formulation[0] != '\0' ? ", " : "", row->formulation,
-                row->source);
-    }
+    if (j->unobserved > 0)
+        for (int i = 0; i < t->rules; i++)
+            if (!rule_is_observed(&t->rule[i]))
+                fprintf(to, "\nfinding %s %s (%s; %s; %s)\n", t->rule[i].name,
+                        t->rule[i].observed == 0 ? "was not observed"
+                                                 : "names a prediction that no verdict met",
+                        t->rule[i].formulations, t->rule[i].cases, t->rule[i].quantities);
+    if (j->unmet > 0)
+        for (int i = 0; i < t->rows; i++) {
+            const truth *row = &t->row[i];
+            char text[PARAMETERS_TEXT];
+            if (row->met ||
+                (row->formulation[0] != '\0' && formulation_find(row->formulation) == NULL))
+                continue;
+            parameters_text(row->type, row->parameter, text, sizeof text);
+            fprintf(to, "\ntruth of nothing that exists: %s %s, %s%s%s (%s)\n", row->type->name,
+                    text, row->quantity, row->formulation[0] != '\0' ? ", " : "", row->formulation,
+                    row->source);
+        }
     if (j->unmet > 0 && t->strangers > 0)
         fprintf(to, "\ntruths of %d unknown cases, the first: %s\n", t->strangers, t->stranger);
 }
@@ -258,16 +260,17 @@ static void failed_cells(FILE *to, const sweep *s)
 {
     int count = 0;
     for (int i = 0; i < s->seriess; i++)
-        for (int k = 0; k < s->series[i].meshes && s->series[i].missing[0] == '\0'; k++) {
-            const series *one = &s->series[i];
-            const solve_result *r = &one->cell[k].solve;
-            if (r->status == STATUS_OK)
-                continue;
-            if (count++ == 0)
-                fprintf(to, "\ncells without a solution\n");
-            fprintf(to, "  %s, %s, n = %d: %s: %.110s\n", s->point[one->point].type->name,
-                    one->formulation.key, one->mesh[k], status_name(r->status), r->reason);
-        }
+        if (s->series[i].missing[0] == '\0')
+            for (int k = 0; k < s->series[i].meshes; k++) {
+                const series *one = &s->series[i];
+                const solve_result *r = &one->cell[k].solve;
+                if (r->status == STATUS_OK)
+                    continue;
+                if (count++ == 0)
+                    fprintf(to, "\ncells without a solution\n");
+                fprintf(to, "  %s, %s, n = %d: %s: %.110s\n", s->point[one->point].type->name,
+                        one->formulation.key, one->mesh[k], status_name(r->status), r->reason);
+            }
 }
 
 /* How often the limits of each formulation hold what they promise, over all cases. */
@@ -281,10 +284,11 @@ static void coverage_lines(FILE *to, const judgement *j)
         int before = 0;
         for (int k = 0; k < j->coverages; k++) {
             before |= k < i && j->coverage[k].type == sum.type;
-            for (int m = 0; m < COVERAGE_MESHES && j->coverage[k].type == sum.type; m++) {
-                sum.series[m] += j->coverage[k].series[m];
-                sum.covered[m] += j->coverage[k].covered[m];
-            }
+            if (j->coverage[k].type == sum.type)
+                for (int m = 0; m < COVERAGE_MESHES; m++) {
+                    sum.series[m] += j->coverage[k].series[m];
+                    sum.covered[m] += j->coverage[k].covered[m];
+                }
         }
         if (before)
             continue;

@@ -164,8 +164,9 @@ void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh)
         if (every_mesh)
             parts(to, s, p);
         for (int q = 0; q < here->scene.quantities && (every_mesh || shown == 0); q++)
-            for (int level = 0; level < REACH_LEVELS && has_truth(s, j, p, q); level++, shown = 1)
-                cheapest(to, s, j, p, q, reach_level[level]);
+            if (has_truth(s, j, p, q))
+                for (int level = 0; level < REACH_LEVELS; level++, shown = 1)
+                    cheapest(to, s, j, p, q, reach_level[level]);
         if (!shown)
             fprintf(to, "  no truth\n");
     }

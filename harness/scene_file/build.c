@@ -110,22 +110,23 @@ static void tell_refusal(const builder *b, const char *text)
                {"load ", LIST_LOADS, 0},     {"analysis ", LIST_ANALYSES, 0},
                {"driver ", LIST_MOTIONS, 1}, {"quantity ", LIST_QUANTITIES, 1}};
     const char *colon = strstr(text, ": ");
-    for (size_t k = 0; colon != NULL && k < sizeof all / sizeof all[0]; k++) {
-        const size_t length = strlen(all[k].word);
-        if (strncmp(text, all[k].word, length) != 0)
-            continue;
-        for (int i = 0; i < b->list[all[k].list].count; i++) {
-            const unrolled *entry = &b->list[all[k].list].entry[i];
-            const size_t name = (size_t)(colon - text) - length;
-            const int meant = all[k].named ? strncmp(entry->name, text + length, name) == 0 &&
-                                                 entry->name[name] == '\0'
-                                           : atoi(text + length) == i;
-            if (!meant)
+    if (colon != NULL)
+        for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
+            const size_t length = strlen(all[k].word);
+            if (strncmp(text, all[k].word, length) != 0)
                 continue;
-            document_mistake(b->mistakes, entry->place, 0, "%s: %s", entry->name, colon + 2);
-            return;
+            for (int i = 0; i < b->list[all[k].list].count; i++) {
+                const unrolled *entry = &b->list[all[k].list].entry[i];
+                const size_t name = (size_t)(colon - text) - length;
+                const int meant = all[k].named ? strncmp(entry->name, text + length, name) == 0 &&
+                                                     entry->name[name] == '\0'
+                                               : atoi(text + length) == i;
+                if (!meant)
+                    continue;
+                document_mistake(b->mistakes, entry->place, 0, "%s: %s", entry->name, colon + 2);
+                return;
+            }
         }
-    }
     document_mistake(b->mistakes, b->root, 0, "%s", text);
 }
 

@@ -26,10 +26,11 @@ static int reaction_component(const fields *f, int node)
     if (component != TURN_1 || node < 0 || node >= f->b->scene->nodes)
         return component < TURN_1 ? component : SCENE_RX;
     const scene_node *n = &f->b->scene->node[node];
-    for (int i = 0; i < 3 && n->rotation == SCENE_ROTATION_SEQUENCE; i++)
-        if (n->axis[0][i] != 0 && n->axis[0][(i + 1) % 3] == 0 && n->axis[0][(i + 2) % 3] == 0 &&
-            n->axis[0][i] > 0)
-            return SCENE_RX + i;
+    if (n->rotation == SCENE_ROTATION_SEQUENCE)
+        for (int i = 0; i < 3; i++)
+            if (n->axis[0][i] != 0 && n->axis[0][(i + 1) % 3] == 0 &&
+                n->axis[0][(i + 2) % 3] == 0 && n->axis[0][i] > 0)
+                return SCENE_RX + i;
     document_mistake(f->b->mistakes, document_find(f->map, "component"), 0,
                      "turn_1 is of a node with a sequence whose first axis is x, y or z; take rx, "
                      "ry or rz");
@@ -114,11 +115,8 @@ static const char *usual_unit(const scene *s, const scene_quantity *q)
         return scene_component_of(q)->component <= SCENE_UZ ? "m" : "rad";
     case SCENE_REACTION:
         return scene_component_of(q)->component <= SCENE_UZ ? "N" : "N m";
-    case SCENE_COMPLIANCE_ENTRY: {
-        const int length = scene_entry_of(q)->row <= SCENE_UZ,
-                  force = scene_entry_of(q)->column <= SCENE_UZ;
-        return length ? (force ? "m/N" : "1/N") : (force ? "rad/N" : "rad/(N m)");
-    }
+    case SCENE_COMPLIANCE_ENTRY:
+        return scene_compliance_unit(scene_entry_of(q)->row, scene_entry_of(q)->column);
     case SCENE_STIFFNESS_ENTRY:
         return scene_entry_of(q)->row <= SCENE_UZ ? "N/m" : "N m/rad";
     case SCENE_FREQUENCY:

@@ -11,13 +11,15 @@
 static int point_of(const fields *wall, const char *key, const document_node *points)
 {
     const document_node *name = document_find(wall->map, key);
-    for (int i = 0; points != NULL && i < points->count; i++)
-        if (strcmp(points->key[i]->text, name->text) == 0)
-            return i;
+    if (points != NULL)
+        for (int i = 0; i < points->count; i++)
+            if (strcmp(points->key[i]->text, name->text) == 0)
+                return i;
     char known[FAULT_TEXT] = "";
-    for (int i = 0, used = 0; points != NULL && i < points->count && used < 100; i++)
-        used += snprintf(known + used, sizeof known - (size_t)used, "%s%.20s", i > 0 ? ", " : "",
-                         points->key[i]->text);
+    if (points != NULL)
+        for (int i = 0, used = 0; i < points->count && used < 100; i++)
+            used += snprintf(known + used, sizeof known - (size_t)used, "%s%.20s",
+                             i > 0 ? ", " : "", points->key[i]->text);
     document_mistake(wall->b->mistakes, name, 0,
                      "the section has no point '%.40s'; its points are: %s", name->text,
                      known[0] != '\0' ? known : "none; add points: {NAME: [y, z]}");

@@ -100,12 +100,10 @@ static double call(parser *p, const function *f, int from)
     if (!p->failed && here(p) != ')')
         FAIL(p, p->at, "the arguments of %s are not closed; put ')'", f->name);
     p->at++;
+    static const char *const several[] = {"no argument", "one argument", "two arguments"};
     if (f->arguments < 0 ? count < 2 : count != f->arguments)
         FAIL(p, from, "%s takes %s, not %d", f->name,
-             f->arguments == 1   ? "one argument"
-             : f->arguments == 2 ? "two arguments"
-                                 : "two arguments or more",
-             count);
+             f->arguments < 0 ? "two arguments or more" : several[f->arguments], count);
     else if (!isfinite(value))
         FAIL(p, from, "%s has no value there; look at its arguments", f->name);
     return value;

@@ -130,10 +130,11 @@ unsigned fields_words(const fields *f, const char *key, const char *choices)
         const int index = fields_word_of(f, n, key, choices, -1);
         bits = index >= 0 ? 1u << index : 0;
     }
-    for (int i = 0; n != NULL && n->kind == DOCUMENT_LIST && i < n->count; i++) {
-        const int index = fields_word_of(f, n->item[i], key, choices, -1);
-        bits |= index >= 0 ? 1u << index : 0;
-    }
+    if (n != NULL && n->kind == DOCUMENT_LIST)
+        for (int i = 0; i < n->count; i++) {
+            const int index = fields_word_of(f, n->item[i], key, choices, -1);
+            bits |= index >= 0 ? 1u << index : 0;
+        }
     return bits;
 }
 

@@ -49,13 +49,14 @@ static int visit_point(const scene_file *file, const fields *f, double point[])
 {
     const document_node *those = document_find(f->map, "parameters");
     int same = 1;
-    for (int i = 0; those != NULL && i < those->count; i++) {
-        double value = 0;
-        const int index = named_value(file, f, those, i, &value);
-        same &= index >= 0 && point[index] == value;
-        if (index >= 0)
-            point[index] = value;
-    }
+    if (those != NULL)
+        for (int i = 0; i < those->count; i++) {
+            double value = 0;
+            const int index = named_value(file, f, those, i, &value);
+            same &= index >= 0 && point[index] == value;
+            if (index >= 0)
+                point[index] = value;
+        }
     return same;
 }
 

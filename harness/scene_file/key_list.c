@@ -49,7 +49,9 @@ static void write_table(FILE *to, const scene_key *table, int depth)
                 table->unit != NULL ? table->unit : "", table->unit != NULL ? "]" : "");
         if (table->words != NULL)
             fprintf(to, " (%s)", table->words);
-        fputs(!table->needed ? "\n" : table->group > 0 ? "; one of these *\n" : " *\n", to);
+        if (table->needed)
+            fputs(table->group > 0 ? "; one of these *" : " *", to);
+        fputc('\n', to);
         if (table->kind == KEY_MAP || table->kind == KEY_ENTRIES || table->kind == KEY_LIST)
             write_table(to, table->below, depth + 1);
     }

@@ -87,9 +87,10 @@ static void check_words(const document_node *n, const document_node *name, mista
 {
     if (n->kind == DOCUMENT_MAP)
         tell_kind(n, name, "a word or a list of words", m);
-    for (int i = 0; n->kind == DOCUMENT_LIST && i < n->count; i++)
-        if (n->item[i]->kind != DOCUMENT_TEXT)
-            tell_kind(n->item[i], name, "a word", m);
+    if (n->kind == DOCUMENT_LIST)
+        for (int i = 0; i < n->count; i++)
+            if (n->item[i]->kind != DOCUMENT_TEXT)
+                tell_kind(n->item[i], name, "a word", m);
 }
 
 static void check_value(const document_node *n, const scene_key *k, const document_node *name,
@@ -126,8 +127,9 @@ static void check_value(const document_node *n, const scene_key *k, const docume
     case KEY_NAMES:
         if (n->kind != DOCUMENT_MAP)
             tell_kind(n, name, "a map: NAME: value", m);
-        for (int i = 0; n->kind == DOCUMENT_MAP && k->below->name != NULL && i < n->count; i++)
-            check_value(n->item[i], k->below, n->key[i], m);
+        if (n->kind == DOCUMENT_MAP && k->below->name != NULL)
+            for (int i = 0; i < n->count; i++)
+                check_value(n->item[i], k->below, n->key[i], m);
         break;
     case KEY_LATER:
         document_mistake(m, name, 0, "'%s' is not carried yet; leave it out", name->text);

@@ -76,24 +76,27 @@ void parameter_table_read(scene_file *file, mistakes *m)
 {
     const document_node *all = document_find(file->root, "parameters");
     const scope *names = NULL;
-    for (int i = 0; all != NULL && i < all->count; i++) {
-        const document_node *entry = all->item[i], *choices = document_find(entry, "choices");
-        if (file->parameters == CASE_MAX_PARAMETERS) {
-            document_mistake(m, all->key[i], 0, "more than %d parameters; put others under 'let'",
-                             CASE_MAX_PARAMETERS);
-            break;
+    if (all != NULL)
+        for (int i = 0; i < all->count; i++) {
+            const document_node *entry = all->item[i], *choices = document_find(entry, "choices");
+            if (file->parameters == CASE_MAX_PARAMETERS) {
+                document_mistake(m, all->key[i], 0,
+                                 "more than %d parameters; put others under 'let'",
+                                 CASE_MAX_PARAMETERS);
+                break;
+            }
+            parameter_type *p = &file->parameter[file->parameters++];
+            *p =
+                (parameter_type){.name = all->key[i]->text, .summary = text_of(entry, "about", "")};
+            if (scope_accepts(names, all->key[i], m))
+                names = scope_number(names, p->name, 0, &file->arena);
+            if (choices != NULL)
+                p->choices = join_choices(file, choices, m);
+            if (p->choices != NULL)
+                read_choice(p, document_find(entry, "value"), m);
+            else if (choices == NULL)
+                read_number(p, entry, m);
         }
-        parameter_type *p = &file->parameter[file->parameters++];
-        *p = (parameter_type){.name = all->key[i]->text, .summary = text_of(entry, "about", "")};
-        if (scope_accepts(names, all->key[i], m))
-            names = scope_number(names, p->name, 0, &file->arena);
-        if (choices != NULL)
-            p->choices = join_choices(file, choices, m);
-        if (p->choices != NULL)
-            read_choice(p, document_find(entry, "value"), m);
-        else if (choices == NULL)
-            read_number(p, entry, m);
-    }
     file->type.parameters[0] = file->parameter;
 }
 

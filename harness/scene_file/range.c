@@ -59,7 +59,9 @@ static int read_range(const document_node *n, int dots, const scope *names, aren
     const int length = (int)strlen(text), begin = dots + 2;
     const int word = find_outside(text, begin, " step ");
     const int slash = word < 0 ? find_outside(text, begin, "/") : -1;
-    const int end = word >= 0 ? word : slash >= 0 ? slash : length;
+    int end = slash >= 0 ? slash : length;
+    if (word >= 0)
+        end = word;
     double from, to, step = 1;
     int good = expression_part(n, 0, dots, names, m, &from);
     good &= expression_part(n, begin, end - begin, names, m, &to);

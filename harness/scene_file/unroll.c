@@ -113,7 +113,9 @@ const scope *unroll_let(const document_node *let, const scope *names, arena *a, 
 {
     if (let != NULL && let->kind != DOCUMENT_MAP)
         document_mistake(m, let, 0, "'let' is a map: let: {name: expression}");
-    for (int i = 0; let != NULL && let->kind == DOCUMENT_MAP && i < let->count; i++) {
+    if (let == NULL || let->kind != DOCUMENT_MAP)
+        return names;
+    for (int i = 0; i < let->count; i++) {
         double value;
         const int accepted = scope_accepts(names, let->key[i], m);
         /* after a mistake a name is known all the same: it is not told again wherever it is used */

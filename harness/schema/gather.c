@@ -164,8 +164,9 @@ static void gather_series(const gathering *g, const record_type *type, int index
     const subject s = series_subject(g, index);
     if (type == &record_series)
         add(out, &s);
-    for (int i = 0; i < s.series->meshes && s.series->missing[0] == '\0'; i++)
-        gather_mesh(g, type, index, i, out);
+    if (s.series->missing[0] == '\0')
+        for (int i = 0; i < s.series->meshes; i++)
+            gather_mesh(g, type, index, i, out);
     if (type != &record_verdict || g->judged == NULL)
         return;
     for (int i = first_verdict(g->judged, index);
@@ -204,10 +205,11 @@ static void gather_coverages(const gathering *g, const case_type *of, subjects *
 {
     if (g->judged != NULL)
         for (int i = 0; i < g->judged->coverages; i++)
-            for (int k = 0; k < COVERAGE_MESHES && g->judged->coverage[i].of == of; k++) {
-                const subject s = gather_coverage(g, &g->judged->coverage[i], k);
-                add(out, &s);
-            }
+            if (g->judged->coverage[i].of == of)
+                for (int k = 0; k < COVERAGE_MESHES; k++) {
+                    const subject s = gather_coverage(g, &g->judged->coverage[i], k);
+                    add(out, &s);
+                }
 }
 
 void gather_case(const gathering *g, const record_type *type, const case_type *of, subjects *out)

@@ -6,8 +6,9 @@
 /* Room for one more: lists double when their count is a power of two. */
 static void *grown(void *list, int count, size_t size)
 {
-    return (count & (count - 1)) != 0 ? list
-                                      : realloc(list, (count == 0 ? 1 : 2 * (size_t)count) * size);
+    if ((count & (count - 1)) != 0)
+        return list;
+    return realloc(list, (count == 0 ? 1 : 2 * (size_t)count) * size);
 }
 
 status history_add_iteration(solve_result *r, step_record *step, const iteration_record *one,

@@ -160,8 +160,9 @@ static void list_tasks(const sweep *s, task tasks[])
     for (int i = 0; i < s->seriess; i++) {
         const series *one = &s->series[i];
         const int runs = one->missing[0] == '\0' && s->point[one->point].status == STATUS_OK;
-        for (int k = 0; k < one->meshes && runs; k++)
-            tasks[n++] = (task){i, k};
+        if (runs)
+            for (int k = 0; k < one->meshes; k++)
+                tasks[n++] = (task){i, k};
     }
 }
 

@@ -9,9 +9,10 @@
 static int option_matters(const point *p, const formulation *chosen, const char *quantity)
 {
     const unsigned features = formulation_bears_on(chosen);
-    for (int q = 0; q < p->scene.quantities && features != 0; q++)
-        if (strcmp(p->scene.quantity[q].name, quantity) == 0)
-            return (features & features_needed_by_quantity(&p->scene, q)) != 0;
+    if (features != 0)
+        for (int q = 0; q < p->scene.quantities; q++)
+            if (strcmp(p->scene.quantity[q].name, quantity) == 0)
+                return (features & features_needed_by_quantity(&p->scene, q)) != 0;
     return 1;
 }
 
