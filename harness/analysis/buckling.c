@@ -1,36 +1,59 @@
-/* Linear buckling about the undeformed state: (K + lambda G) x = 0 with G from the stresses of the
- * reference load. */
+/* Linear buckling about the undeformed state: (K + G_0 + lambda G) x = 0 with G from the stresses of
+ * what the loads gain from path 0 to 1, and G_0 of what is there at path 0 and stays. */
 #include "harness/analysis/buckling.h"
+
+#include <stdlib.h>
 
 #include "harness/algebra/eigen.h"
 #include "harness/model/linear.h"
+#include "harness/model/loads.h"
 #include "harness/solver/context.h"
 #include "harness/solver/linear_forms.h"
 #include "harness/solver/linear_system.h"
 
+/* What grows with the factor, and what stays. */
+typedef struct prestresses {
+    linear_forms growing, staying;
+    int stays;         /* 0: nothing does */
+    sparse G, of_stay; /* geometric stiffness of both */
+    double *product;   /* [free] */
+} prestresses;
+
 static double stiffness_form(void *context, const double mode[])
 {
-    return linear_forms_stiffness(context, mode);
+    prestresses *p = context;
+    const double K = linear_forms_stiffness(&p->growing, mode);
+    return p->stays ? K + linear_forms_geometric(&p->staying, mode) : K;
 }
 
 static double stiffness_rounding(void *context, const double mode[])
 {
-    return linear_forms_stiffness_rounding(context, mode);
+    prestresses *p = context;
+    const double K = linear_forms_stiffness_rounding(&p->growing, mode);
+    return p->stays ? K + linear_forms_geometric_rounding(&p->staying, mode) : K;
 }
 
 static void stiffness_product(void *context, const double mode[], double y[])
 {
-    linear_forms_product(context, mode, y);
+    prestresses *p = context;
+    linear_forms_product(&p->growing, mode, y);
+    if (!p->stays)
+        return;
+    sparse_mul(&p->of_stay, mode, p->product);
+    for (int i = 0; i < p->growing.free; i++)
+        y[i] += p->product[i];
 }
 
 static double geometric_form(void *context, const double mode[])
 {
-    return linear_forms_geometric(context, mode);
+    prestresses *p = context;
+    return linear_forms_geometric(&p->growing, mode);
 }
 
 static double geometric_rounding(void *context, const double mode[])
 {
-    return linear_forms_geometric_rounding(context, mode);
+    prestresses *p = context;
+    return linear_forms_geometric_rounding(&p->growing, mode);
 }
 
 /* Moves the modes into the outcome, with lambda = 1/mu. */
@@ -55,23 +78,62 @@ static void wanted_of(const analysis_context *c, int analysis, eigen_problem *p)
     }
 }
 
+static void subtract(const sparse *from, sparse *a)
+{
+    for (int i = 0; i < a->column[a->n]; i++)
+        a->value[i] -= from->value[i];
+}
+
+/* K += G of what stays, which alone must leave the structure stable; the rest grows. */
+static status split_stays(analysis_context *c, linear_system *s, prestresses *p, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    p->stays = 1;
+    p->product = calloc((size_t)size.free + 1, sizeof *p->product);
+    if (p->product == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for loads that stay");
+    TRY(linear_forms_alloc(c->model, &s->K, &p->staying, f));
+    TRY(linear_system_solve(c, s, 0, p->staying.load_x, f));
+    TRY(linear_forms_load(&p->staying, 0, f));
+    TRY(sparse_alloc_like(&s->K, &p->of_stay, f));
+    TRY(linear_geometric_stiffness(c->model, p->staying.sigma, 0, &p->of_stay, f));
+    for (int i = 0; i < size.free + size.driven; i++)
+        p->growing.load_x[i] -= p->staying.load_x[i];
+    for (int i = 0; i < s->K.column[s->K.n]; i++)
+        s->K.value[i] += p->of_stay.value[i];
+    model_counters(c->model)->factorisations++;
+    const status factored = context_factor(c, s->factor, &s->K, f);
+    if (factored == STATUS_SINGULAR ||
+        (factored == STATUS_OK && factor_count(s->factor).negative_pivots > 0))
+        return fault_set(f, STATUS_REFUSED,
+                         "the loads at path 0, which stay, are critical by themselves: nothing is "
+                         "left to grow; make them smaller");
+    return factored;
+}
+
 /* The linear solution, its stresses and their geometric stiffness. */
-static status prestress(analysis_context *c, linear_system *s, linear_forms *about, sparse *G,
-                        fault *f)
+static status prestress(analysis_context *c, linear_system *s, prestresses *p, fault *f)
 {
     if (!s->K.symmetric)
         return fault_set(f, STATUS_REFUSED, "linear buckling needs a symmetric stiffness matrix");
-    TRY(linear_forms_alloc(c->model, &s->K, about, f));
-    TRY(linear_system_solve(c, s, about->load_x, f));
-    TRY(linear_forms_load(about, f));
-    TRY(sparse_alloc_like(&s->K, G, f));
-    return linear_geometric_stiffness(c->model, about->sigma, G, f);
+    TRY(loads_proportional(c->model, f));
+    TRY(linear_forms_alloc(c->model, &s->K, &p->growing, f));
+    TRY(linear_system_solve(c, s, 1, p->growing.load_x, f));
+    if (loads_begin(c->model))
+        TRY(split_stays(c, s, p, f));
+    TRY(linear_forms_load(&p->growing, 1, f));
+    TRY(sparse_alloc_like(&s->K, &p->G, f));
+    TRY(linear_geometric_stiffness(c->model, p->growing.sigma, 1, &p->G, f));
+    if (p->stays) {
+        subtract(&p->staying.loads, &p->G);
+        subtract(&p->staying.loads, &p->growing.loads);
+    }
+    return STATUS_OK;
 }
 
 typedef struct buckling {
     linear_system system;
-    linear_forms about;
-    sparse G;
+    prestresses of;
     eigen_result found;
 } buckling;
 
@@ -79,9 +141,9 @@ typedef struct buckling {
 static status solve(analysis_context *c, int analysis, buckling *b, fault *f)
 {
     TRY(linear_system_alloc(c, &b->system, f));
-    TRY(prestress(c, &b->system, &b->about, &b->G, f));
+    TRY(prestress(c, &b->system, &b->of, f));
     eigen_problem p = {.K = &b->system.K,
-                       .A = &b->G,
+                       .A = &b->of.G,
                        .K_factor = b->system.factor,
                        .sign = -1,
                        .K_energy = stiffness_form,
@@ -89,7 +151,7 @@ static status solve(analysis_context *c, int analysis, buckling *b, fault *f)
                        .K_rounding = stiffness_rounding,
                        .A_rounding = geometric_rounding,
                        .K_product = stiffness_product,
-                       .context = &b->about};
+                       .context = &b->of};
     wanted_of(c, analysis, &p);
     const status result = eigen_solve(&p, &b->found, f);
     model_counters(c->model)->solutions += b->found.solutions;
@@ -105,7 +167,10 @@ status buckling_analysis(analysis_context *c, int analysis, analysis_outcome *o,
     keep(&b.found.negative, &o->of.spectrum.negative);
     eigen_free(&b.found);
     linear_system_free(&b.system);
-    sparse_free_values(&b.G);
-    linear_forms_free(&b.about);
+    sparse_free_values(&b.of.G);
+    sparse_free_values(&b.of.of_stay);
+    linear_forms_free(&b.of.growing);
+    linear_forms_free(&b.of.staying);
+    free(b.of.product);
     return result;
 }

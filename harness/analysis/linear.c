@@ -18,7 +18,7 @@ static status displace(analysis_context *c, linear_system *s, analysis_outcome *
     if (o->of.x == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a linear solution");
     TRY(linear_system_alloc(c, s, f));
-    return linear_system_solve(c, s, o->of.x, f);
+    return linear_system_solve(c, s, 1, o->of.x, f);
 }
 
 status linear_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)

@@ -116,9 +116,9 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
             "frequencies of a loaded structure follow a linear analysis that has been solved");
     about->prestressed = 1;
     memcpy(about->of.load_x, x, (size_t)(size.free + size.driven) * sizeof *x);
-    TRY(linear_forms_load(&about->of, f));
+    TRY(linear_forms_load(&about->of, 1, f));
     TRY(sparse_alloc_like(&s->K, &about->G, f));
-    TRY(linear_geometric_stiffness(c->model, about->of.sigma, &about->G, f));
+    TRY(linear_geometric_stiffness(c->model, about->of.sigma, 1, &about->G, f));
     for (int i = 0; i < s->K.column[s->K.n]; i++)
         s->K.value[i] += about->G.value[i];
     model_counters(c->model)->factorisations++;

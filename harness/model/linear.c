@@ -137,7 +137,8 @@ static void geometric_of(model *m, int i, const double sigma[], double H[], doub
     m->counters.strain_evaluations++;
 }
 
-status linear_geometric_stiffness(model *m, const double sigma[], sparse *out, fault *f)
+status linear_geometric_stiffness(model *m, const double sigma[], double path, sparse *out,
+                                  fault *f)
 {
     (void)f;
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
@@ -154,7 +155,7 @@ status linear_geometric_stiffness(model *m, const double sigma[], sparse *out, f
         eliminate_matrix(m, m->rest, &m->element[i], force, H);
         assemble_matrix(pattern_of(m, out), i, H, out);
     }
-    loads_subtract_stiffness(m, m->rest, 1, out);
+    loads_subtract_stiffness(m, m->rest, path, out);
     return STATUS_OK;
 }
 

@@ -10,7 +10,7 @@ status linear_stresses(model *, const double x[], double sigma[],
                        fault *); /* sigma = S J x, [elements x strains] */
 void linear_forces(model *, const double sigma[],
                    double f[]); /* f[free + driven] = sum J^T sigma */
-status linear_geometric_stiffness(model *, const double sigma[], sparse *G,
+status linear_geometric_stiffness(model *, const double sigma[], double path, sparse *G,
                                   fault *); /* sum sigma H + J^T G(sigma) J; offsets included */
 /* Quadratic forms from the element strains, free of the cancellation of x^T (K x): error eps n^2
  * instead of eps n^4. */

@@ -1,6 +1,7 @@
 /* Loads and drivers along the path. */
 #include "harness/model/loads.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
@@ -191,10 +192,51 @@ int loads_conditions(const model *m, const model_state *s, double path,
     return count;
 }
 
-status loads_reference(model *m, double f[], fault *fl)
+void loads_reference(const model *m, double path, double f[])
 {
-    (void)fl;
     memset(f, 0, (size_t)(m->free + m->driven) * sizeof *f);
-    loads_add(m, m->rest, 1, f);
+    loads_add(m, m->rest, path, f);
+}
+
+int loads_begin(const model *m)
+{
+    int begin = 0;
+    for (int i = 0; i < m->scene->loads; i++)
+        begin |= loads_factor(&m->scene->load[i], 0) != 0;
+    for (int d = 0; d < m->scene->drivers; d++)
+        begin |=
+            m->scene->driver[d].value != NULL && loads_driver_value(&m->scene->driver[d], 0) != 0;
+    return begin;
+}
+
+/* Of stations between 0 and 1 all lie on the line from the value at 0 to that at 1. */
+static int is_straight(int stations, const double path[], const double value[])
+{
+    for (int i = 0; i < stations; i++) {
+        const double first = interpolate(stations, path, value, 0),
+                     last = interpolate(stations, path, value, 1),
+                     line = first + path[i] * (last - first);
+        if (path[i] > 0 && path[i] < 1 &&
+            !(fabs(value[i] - line) <= 1e-12 * (fabs(first) + fabs(last))))
+            return 0;
+    }
+    return 1;
+}
+
+status loads_proportional(const model *m, fault *f)
+{
+    static const char words[] =
+        "from path 0 to 1 its values are not on a line: the critical load of "
+        "a linear prestress has no sense; follow a static path";
+    for (int i = 0; i < m->scene->loads; i++) {
+        const scene_load *load = &m->scene->load[i];
+        if (load->stations > 0 && !is_straight(load->stations, load->path, load->factor))
+            return fault_set(f, STATUS_REFUSED, "load %d: %s", i, words);
+    }
+    for (int d = 0; d < m->scene->drivers; d++) {
+        const scene_driver *driver = &m->scene->driver[d];
+        if (driver->value != NULL && !is_straight(driver->stations, driver->path, driver->value))
+            return fault_set(f, STATUS_REFUSED, "driver %s: %s", driver->name, words);
+    }
     return STATUS_OK;
 }

@@ -6,8 +6,12 @@
 
 /* Derivative of the loads by the path parameter in a state, out[free + driven]. */
 void loads_rate(const model *, const model_state *, double path, double out[]);
-/* Loads at factor 1 as a vector on the free coordinates. */
-status loads_reference(model *, double f[], fault *);
+/* Loads of the undeformed state at `path`, f[free + driven]. */
+void loads_reference(const model *, double path, double f[]);
+/* Is there a load, or a coordinate moved, at path 0? */
+int loads_begin(const model *);
+/* REFUSED: something does not change in proportion from path 0 to 1. */
+status loads_proportional(const model *, fault *);
 
 /* Increments of the driven coordinates (dx[free .. free+driven)) that take the state to `path`; the
  * rest of dx untouched. */

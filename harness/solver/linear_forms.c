@@ -36,9 +36,9 @@ void linear_forms_free(linear_forms *p)
     memset(p, 0, sizeof *p);
 }
 
-status linear_forms_load(linear_forms *p, fault *f)
+status linear_forms_load(linear_forms *p, double path, fault *f)
 {
-    rotating_frame_load_stiffness(p->m, kinematics_rest(p->m), 1, &p->loads);
+    rotating_frame_load_stiffness(p->m, kinematics_rest(p->m), path, &p->loads);
     return linear_stresses(p->m, p->load_x, p->sigma, f);
 }
 

@@ -64,7 +64,7 @@ typedef struct workspace {
     double *sigma;                      /* [elements x strains] */
 } workspace;
 
-static status workspace_alloc(analysis_context *c, workspace *w, fault *f)
+static status workspace_alloc(analysis_context *c, double path, workspace *w, fault *f)
 {
     const model_size size = model_sizes(c->model);
     const size_t all = (size_t)(size.free + size.driven) + 1;
@@ -76,7 +76,8 @@ static status workspace_alloc(analysis_context *c, workspace *w, fault *f)
     w->weight = w->r + all;
     w->shaken = w->weight + all;
     metric_of(c->model, w->weight);
-    return loads_reference(c->model, w->load, f);
+    loads_reference(c->model, path, w->load);
+    return STATUS_OK;
 }
 
 /* x += K^-1 (load - K x); the size of what was added beside x. */
@@ -127,19 +128,20 @@ static status refine(analysis_context *c, linear_system *s, workspace *w, double
 }
 
 /* With what linear_system_solve frees. */
-static status solve(analysis_context *c, linear_system *s, workspace *w, double x[], fault *f)
+static status solve(analysis_context *c, linear_system *s, double path, workspace *w, double x[],
+                    fault *f)
 {
     const model_size size = model_sizes(c->model);
     memset(x, 0, (size_t)(size.free + size.driven) * sizeof *x);
-    TRY(workspace_alloc(c, w, f));
-    loads_drive(c->model, kinematics_rest(c->model), 1, x);
+    TRY(workspace_alloc(c, path, w, f));
+    loads_drive(c->model, kinematics_rest(c->model), path, x);
     return refine(c, s, w, x, f);
 }
 
-status linear_system_solve(analysis_context *c, linear_system *s, double x[], fault *f)
+status linear_system_solve(analysis_context *c, linear_system *s, double path, double x[], fault *f)
 {
     workspace w = {0};
-    const status outcome = solve(c, s, &w, x, f);
+    const status outcome = solve(c, s, path, &w, x, f);
     free(w.load);
     free(w.sigma);
     return outcome;

@@ -12,7 +12,7 @@ typedef struct linear_system {
 } linear_system;
 status linear_system_alloc(analysis_context *, linear_system *, fault *);
 void linear_system_free(linear_system *);
-/* Loads at factor 1 and drivers at the end of their path (path 1). */
-status linear_system_solve(analysis_context *, linear_system *, double x[], fault *);
+/* Loads and drivers at `path`. */
+status linear_system_solve(analysis_context *, linear_system *, double path, double x[], fault *);
 
 #endif
