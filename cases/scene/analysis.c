@@ -122,19 +122,9 @@ const scene_path *scene_path_of(const scene_analysis *a)
 
 const scene_spin *scene_spin_of(const scene_analysis *a)
 {
-    switch (a->kind) {
-    case SCENE_STATIC:
-    case SCENE_ROTATION:
-        return &a->of.walk.spin;
-    case SCENE_CONTINUATION:
+    if (a->kind == SCENE_CONTINUATION)
         return &a->of.continuation.spin;
-    case SCENE_LINEAR:
-    case SCENE_BUCKLING:
-    case SCENE_MODAL:
-    case SCENE_COMPLIANCE:
-        break;
-    }
-    return NULL;
+    return scene_path_of(a) != NULL ? &a->of.walk.spin : NULL;
 }
 
 int scene_spins(const scene_analysis *a)

@@ -55,30 +55,44 @@ static void kinds(void)
     }
 }
 
+/* One outcome, and one finding of whatever `word` says for x from 2 to 3. */
+typedef struct subject {
+    extreme_outcome o;
+    extreme_finding row;
+    formulation chosen;
+    extreme_count count;
+    extreme_sweep s;
+} subject;
+
+static void one_outcome(outcome_kind kind, double x, subject *out)
+{
+    *out = (subject){.o = {.kind = kind, .x = x, .neighbours = -1},
+                     .row = {.extreme = all,
+                             .formulation = all,
+                             .quantity = all,
+                             .outcome = word,
+                             .from = 2,
+                             .to = 3},
+                     .chosen = {.key = "element"}};
+    out->s = (extreme_sweep){.formulations = 1,
+                             .outcomes = 1,
+                             .findings = 1,
+                             .formulation = &out->chosen,
+                             .outcome = &out->o,
+                             .finding = &out->row,
+                             .count = &out->count};
+}
+
 /* A finding that no outcome shows fails a whole run, and only that. */
 static void unobserved(void)
 {
     for (int whole = 0; whole < 2; whole++) {
-        extreme_outcome o = {.kind = OUTCOME_VALUE, .x = 1, .neighbours = -1};
-        extreme_finding row = {.extreme = all,
-                               .formulation = all,
-                               .quantity = all,
-                               .outcome = word,
-                               .from = 2,
-                               .to = 3};
-        formulation chosen = {.key = "element"};
-        extreme_count count = {0};
-        extreme_sweep s = {.formulations = 1,
-                           .outcomes = 1,
-                           .findings = 1,
-                           .formulation = &chosen,
-                           .outcome = &o,
-                           .finding = &row,
-                           .count = &count};
-        extreme_expect(&s, whole);
-        gsl_test_int(s.unexpected, 0, "the outcome is as expected");
-        gsl_test_int(s.unobserved, whole, "the finding is elsewhere");
-        gsl_test_int(extreme_sweep_exit(&s), whole, "and is missed in a whole run");
+        subject one;
+        one_outcome(OUTCOME_VALUE, 1, &one);
+        extreme_expect(&one.s, whole);
+        gsl_test_int(one.s.unexpected, 0, "the outcome is as expected");
+        gsl_test_int(one.s.unobserved, whole, "the finding is elsewhere");
+        gsl_test_int(extreme_sweep_exit(&one.s), whole, "and is missed in a whole run");
     }
 }
 
@@ -129,25 +143,11 @@ static void ranges(void)
               {2 * (1 - 1e-6), 0},
               {3 * (1 + 1e-6), 0}};
     for (size_t i = 0; i < sizeof at / sizeof at[0]; i++) {
-        extreme_outcome o = {.kind = OUTCOME_SINGULAR, .x = at[i].x, .neighbours = -1};
-        extreme_finding row = {.extreme = all,
-                               .formulation = all,
-                               .quantity = all,
-                               .outcome = word,
-                               .from = 2,
-                               .to = 3};
-        formulation chosen = {.key = "element"};
-        extreme_count count = {0};
-        extreme_sweep s = {.formulations = 1,
-                           .outcomes = 1,
-                           .findings = 1,
-                           .formulation = &chosen,
-                           .outcome = &o,
-                           .finding = &row,
-                           .count = &count};
+        subject one;
+        one_outcome(OUTCOME_SINGULAR, at[i].x, &one);
         snprintf(word, sizeof word, "singular");
-        extreme_expect(&s, 0);
-        gsl_test_int(s.unexpected, !at[i].inside, "a finding of 2 .. 3 at %.15g", at[i].x);
+        extreme_expect(&one.s, 0);
+        gsl_test_int(one.s.unexpected, !at[i].inside, "a finding of 2 .. 3 at %.15g", at[i].x);
     }
 }
 

@@ -7,32 +7,13 @@
 #include "elements/math/rotation.h"
 #include "elements/test/random.h"
 #include "elements/test/worst.h"
-#include "harness/catalogue/formulations.h"
 #include "harness/model/extrapolate.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
+#include "harness/model/test/corner.h"
 #include "harness/solver/predictor.h"
 
 enum { MOST_DEGREE = MODEL_EXTRAPOLATED };
-
-/* Two members in a corner, nothing driven: what moves moves freely. */
-static int corner(scene *s, model **m)
-{
-    const double y[3] = {0, 0, 1}, end = 1;
-    fault f = {""};
-    section_spec spec = section_spec_rectangle(1e4, 4e3, 0.2, 0.05);
-    scene_init(s, "corner");
-    const int root = scene_add_node(s, 0, 0, 0), middle = scene_add_node(s, 1, 0, 0),
-              tip = scene_add_node(s, 1, 2, 0), profile = scene_add_section(s, &spec);
-    scene_add_member(s, root, middle, profile, y);
-    scene_add_member(s, middle, tip, profile, y);
-    scene_hold_all(s, root);
-    scene_add_static(s, 1, &end, 1);
-    const model_request request = {s, formulation_find("geometrically_exact"), NULL, 2, 0};
-    const status made = model_alloc(&request, m, &f);
-    gsl_test(made != STATUS_OK, "a corner: %s", f.text);
-    return made == STATUS_OK;
-}
 
 /* A path of that degree in its parameter; every vertex turns about an axis of its own. */
 static void fill(const model *m, int degree, double path, model_state *s)
@@ -127,7 +108,7 @@ int main(void)
 {
     scene s;
     model *m = NULL;
-    if (corner(&s, &m)) {
+    if (corner("geometrically_exact", 2, 0, &s, &m)) {
         smooth_paths(m);
         long_steps(m);
     }

@@ -198,6 +198,15 @@ static void stiffness(int body)
     release(&s);
 }
 
+static void follow_stations(scene_load *load, const double path[3], const double value[3])
+{
+    load->stations = 3;
+    load->path = malloc(3 * sizeof *path);
+    load->factor = malloc(3 * sizeof *value);
+    memcpy(load->path, path, 3 * sizeof *path);
+    memcpy(load->factor, value, 3 * sizeof *value);
+}
+
 /* Factor 0, 2, 1 at path 0, 1, 3: the rate at a station is that of what follows, and nothing
  * changes outside. */
 static void rates(void)
@@ -213,12 +222,7 @@ static void rates(void)
     loads_rate(s.m, s.turned, 0.3, out);
     for (int k = 0; k < s.n; k++)
         gsl_test_abs(out[k], unit[k], 1e-11, "proportional load: its rate is itself");
-    scene_load *load = &s.scene.load[0];
-    load->stations = 3;
-    load->path = malloc(sizeof path);
-    load->factor = malloc(sizeof value);
-    memcpy(load->path, path, sizeof path);
-    memcpy(load->factor, value, sizeof value);
+    follow_stations(&s.scene.load[0], path, value);
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         loads_rate(s.m, s.turned, row[i].path, out);
         for (int k = 0; k < s.n; k++)
@@ -277,12 +281,7 @@ static void factors(void)
                                     {2, 1.5},  {3, 1},      {4, 1}};
     subject s;
     prepare(FREE_TURNS, SCENE_FORCE, &s);
-    scene_load *load = &s.scene.load[0];
-    load->stations = 3;
-    load->path = malloc(sizeof path);
-    load->factor = malloc(sizeof value);
-    memcpy(load->path, path, sizeof path);
-    memcpy(load->factor, value, sizeof value);
+    follow_stations(&s.scene.load[0], path, value);
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         double F[6];
         fault f = {""};
@@ -291,7 +290,8 @@ static void factors(void)
         linearise_state(s.m, s.turned, &lin, &f);
         linearise_advance(s.m, s.turned, dx, row[i][0]);
         loads_at_node(s.m, s.turned, 1, F);
-        gsl_test_abs(F[0], row[i][1] * load->vector[0], 1e-14, "factor at path %g", row[i][0]);
+        gsl_test_abs(F[0], row[i][1] * s.scene.load[0].vector[0], 1e-14, "factor at path %g",
+                     row[i][0]);
     }
     release(&s);
 }

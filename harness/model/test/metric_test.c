@@ -5,32 +5,12 @@
 #include <stdlib.h>
 
 #include "elements/math/rotation.h"
-#include "harness/catalogue/formulations.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
 #include "harness/model/model_impl.h"
+#include "harness/model/test/corner.h"
 
 enum { ELEMENTS = 3, BODIES = 6 }; /* of seven vertices one is held */
-
-/* A corner with arms of 1 m and 2 m; a node on a rigid arm does not count by itself. */
-static int corner(scene *s, model **m)
-{
-    const double y[3] = {0, 0, 1}, end = 1;
-    fault f = {""};
-    section_spec spec = section_spec_rectangle(1e4, 4e3, 0.2, 0.05);
-    scene_init(s, "corner");
-    const int root = scene_add_node(s, 0, 0, 0), middle = scene_add_node(s, 1, 0, 0),
-              tip = scene_add_node(s, 1, 2, 0), profile = scene_add_section(s, &spec);
-    scene_add_attached(s, tip, 1, 2, 0.3);
-    scene_add_member(s, root, middle, profile, y);
-    scene_add_member(s, middle, tip, profile, y);
-    scene_hold_all(s, root);
-    scene_add_static(s, 1, &end, 1);
-    const model_request request = {s, formulation_find("beamw"), NULL, ELEMENTS, 0};
-    const status made = model_alloc(&request, m, &f);
-    gsl_test(made != STATUS_OK, "a corner: %s", f.text);
-    return made == STATUS_OK;
-}
 
 static void one_motion(const model *m, int vertex, int component, double size)
 {
@@ -66,7 +46,7 @@ int main(void)
 {
     scene s;
     model *m = NULL;
-    if (corner(&s, &m)) {
+    if (corner("beamw", ELEMENTS, 1, &s, &m)) {
         int bodies = 0;
         for (int v = 0; v < m->vertices; v++) {
             const mesh_vertex *here = &m->vertex[v];
