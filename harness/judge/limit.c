@@ -209,6 +209,7 @@ static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
                              m->noise * (1 + 2 * amplification(m->n + k, m->f + k, p));
     out->order = p;
     out->order_uncertainty = apart;
+    out->earlier_order = k > 1 ? m->order[k - 2] : NAN;
     out->from = (int)m->n[k - 1];
     return 1;
 }
@@ -267,6 +268,7 @@ mesh_limit limit_of(const limit_sequence *s)
                       .limit_uncertainty = INFINITY,
                       .order = NAN,
                       .order_uncertainty = NAN,
+                      .earlier_order = NAN,
                       .last_change = NAN};
     meshes m;
     prepare(s, &m);

@@ -98,11 +98,14 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
     return limit_of(&sequence);
 }
 
-/* Is the order known and too low?  Changes that the truth's uncertainty hides say nothing. */
+/* Is the order known and too low?  Two low orders agree by accident where terms of two signs cross
+ * or elements are as long as a layer is thick: with five meshes or more it takes three.  Changes
+ * that the truth's uncertainty hides say nothing. */
 static int order_is_low(const scene_quantity *q, const verdict *v)
 {
-    return v->fit.kind == LIMIT_ASYMPTOTIC &&
-           v->fit.order + v->fit.order_uncertainty < q->least_order - order_slack &&
+    const double least = q->least_order - order_slack;
+    return v->fit.kind == LIMIT_ASYMPTOTIC && v->fit.order + v->fit.order_uncertainty < least &&
+           (v->fit.meshes == 4 || v->fit.earlier_order < least) &&
            v->fit.last_change > v->truth->uncertainty;
 }
 

@@ -61,6 +61,17 @@ static void orders(void)
     bench_expect(&b, VERDICT_PASS, 0,
                  "changes that the truth's own uncertainty hides show no order");
     b.row[0].uncertainty = 0;
+    /* changes, from the finest mesh on: orders 1.2, 1.2 and then `earlier` */
+    const double earlier[] = {1.2, 2.2};
+    for (int k = 0; k < 2; k++) {
+        double change = 1e-5, value = 3 + change / (pow(2, 1.2) - 1);
+        for (int i = MESHES; i-- > 0; change *= pow(2, i > MESHES - 3 ? 1.2 : earlier[k])) {
+            b.quantity[i].value = value;
+            value += change;
+        }
+        bench_expect(&b, k == 0 ? VERDICT_LOW_ORDER : VERDICT_PASS, k == 0,
+                     k == 0 ? "three low orders" : "two low orders, an accident");
+    }
     bench_fill(&b, 3, 0.7, 1.8);
     bench_expect(&b, VERDICT_PASS, 0, "an order within what finite meshes show");
     bench_fill(&b, 3, 1e-14, 1);
