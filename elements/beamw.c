@@ -13,6 +13,7 @@ const element_type element_beamw = {
     .summary =
         "BEAMW as printed, misprints corrected: shear-deformable thin-walled beam, second order",
     .source = "J Eqs. 7, 66, App. A",
+    .family = "beamw",
     .abi = ELEMENT_ABI,
     .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WARPING | FEATURE_ECCENTRIC |
               FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,

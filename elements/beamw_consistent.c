@@ -32,6 +32,7 @@ const element_type element_beamw_consistent = {
     .name = "beamw_consistent",
     .summary = "BEAMW with coupled shear stiffness and modified modes consistent with it",
     .source = "J; stiffness and modes: reference/ERRATA.md, J 58/62/66, App. A",
+    .family = "beamw",
     .abi = ELEMENT_ABI,
     .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_HARINGX |
               FEATURE_WAGNER_MOMENTS | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC |

@@ -12,6 +12,7 @@ const element_type element_beamw_first = {
     .name = "beamw_first",
     .summary = "BEAMW with linear modes: no second-order terms inside the element",
     .source = "J Eqs. 7, App. A",
+    .family = "beamw",
     .abi = ELEMENT_ABI,
     .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_WARPING |
               FEATURE_ECCENTRIC | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS |

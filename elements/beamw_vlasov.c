@@ -11,6 +11,7 @@ const element_type element_beamw_vlasov = {
     .name = "beamw_vlasov",
     .summary = "BEAMW in the shear-rigid limit (Vlasov)",
     .source = "J Eqs. 7, 66, App. A with Phi = 0",
+    .family = "beamw",
     .abi = ELEMENT_ABI,
     .offers = FEATURE_TRAPEZE | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC |
               FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,

@@ -124,8 +124,10 @@ typedef struct inertia_output {
 typedef struct element_type {
     const char
         *name; /* file name = exported symbol without element_ = command line = results key */
-    const char *summary;     /* one line */
-    const char *source;      /* paper and equations */
+    const char *summary; /* one line */
+    const char *source;  /* paper and equations */
+    const char *
+        family; /* one word; types of one family share code or theory: that they agree proves little */
     unsigned abi;            /* ELEMENT_ABI */
     unsigned offers;         /* element_feature; theories of shear as in shear_theories */
     unsigned limits;         /* element_limit */

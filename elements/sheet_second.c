@@ -11,6 +11,7 @@ const element_type element_sheet_second = {
     .name = "sheet_second",
     .summary = "second-order sheet-flexure element (Hu-Washizu)",
     .source = "N Eqs. 33-37, 40-42",
+    .family = "sheet",
     .abi = ELEMENT_ABI,
     .offers = SHEET_BASE_OFFERS,
     .limits = SHEET_BASE_LIMITS,

@@ -11,6 +11,7 @@ const element_type element_sheet_second_consistent = {
     .name = "sheet_second_consistent",
     .summary = "second-order sheet-flexure element with shear kept in its deformation function",
     .source = "N Eqs. 7, 13-17, 33-36; reference/ERRATA.md, N 37",
+    .family = "sheet",
     .abi = ELEMENT_ABI,
     .offers = SHEET_BASE_OFFERS | FEATURE_HARINGX, /* Simo-Reissner: the section's rotation */
     .limits = SHEET_BASE_LIMITS,

@@ -10,6 +10,7 @@ const element_type element_sheet_third = {
     .name = "sheet_third",
     .summary = "third-order sheet-flexure element (Hellinger-Reissner), sign of u_y corrected",
     .source = "N Eqs. 37, 44-52, 55-65; reference/ERRATA.md, N 49",
+    .family = "sheet",
     .abi = ELEMENT_ABI,
     .offers = SHEET_BASE_OFFERS,
     .limits = SHEET_BASE_LIMITS,

@@ -10,6 +10,7 @@ const element_type element_sheet_third_printed = {
     .name = "sheet_third_printed",
     .summary = "third-order sheet-flexure element with the printed sign of u_y",
     .source = "N Eqs. 37, 44-52, 55-65 as printed",
+    .family = "sheet",
     .abi = ELEMENT_ABI,
     .offers = SHEET_BASE_OFFERS,
     .limits = SHEET_BASE_LIMITS,

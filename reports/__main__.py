@@ -1,4 +1,4 @@
-"""python -m reports RESULTS.h5 TRUTHS.h5 [--bench BENCH.h5] -o FOLDER: the report as one self-contained folder of HTML and SVG."""
+"""python -m reports RESULTS.h5 TRUTHS.h5 [--bench BENCH.h5] [--beside THEIRS.h5] -o FOLDER: the report as one self-contained folder of HTML and SVG."""
 import argparse
 import sys
 
@@ -11,10 +11,11 @@ def main():
     parser.add_argument("truths")
     parser.add_argument("-o", dest="folder", required=True)
     parser.add_argument("--bench", help="times of 'beamwork bench -o'; without it those of single runs")
+    parser.add_argument("--beside", action="append", default=[], help="what other programs found, stored by 'beamwork import'")
     given = parser.parse_args()
     try:
         from reports import pages
-        count = pages.build(given.results, given.truths, given.folder, given.bench)
+        count = pages.build(given.results, given.truths, given.folder, given.bench, given.beside)
     except (data.Unreadable, OSError) as why:
         print(f"report: {why}", file=sys.stderr)
         return 4

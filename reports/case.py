@@ -2,7 +2,7 @@
 import functools
 import math
 
-from reports import answers, plots
+from reports import answers, beside, plots
 from reports.site import LEVELS
 
 NAVIGATION = []
@@ -55,7 +55,7 @@ def parts_of(site, case, index):
     point = case.points[index]
     names = answers.judged(point)
     return {"point": point, "figures": figures_of(site, case, index), "table": table_of(point, names[0]) if names else [], "quantity": names[0] if names else None,
-            "cheapest": cheapest_of(point), "front": answers.front(point, names[0]) if names else [], "failures": answers.failures(point), "savings": answers.savings(point),
+            "others": beside.rows(point), "cheapest": cheapest_of(point), "front": answers.front(point, names[0]) if names else [], "failures": answers.failures(point), "savings": answers.savings(point),
             "noise": sorted(100 * (m.clock.most / m.clock.least - 1) for s in point.series for m in s.meshes if m.clock.repeats > 1 and m.clock.least > 0),
             "has_model": any(math.isfinite(v.model_error) for s in point.series for v in s.verdicts)}
 

@@ -109,6 +109,8 @@ class Series:
     missing: str
     meshes: list
     verdicts: list
+    imported: str = ""   # file of another program that it was read from
+    model: str = "beam"
 
 
 @dataclass
@@ -118,6 +120,7 @@ class Point:
     parameters: str
     series: list
     units: dict
+    others: list = field(default_factory=list)   # series of other programs (reports/beside.py)
 
 
 @dataclass
@@ -210,14 +213,15 @@ def read_verdict(row):
 def read_points(group, meshes, units):
     series, points = {}, []
     for row in rows(group, "series"):
-        series[of_series(row)] = Series(row["formulation"], row["summary"], row["source"], row["missing"], [], [])
+        series[of_series(row)] = Series(row["formulation"], row["summary"], row["source"], row["missing"], [], [], row.get("imported", ""), row.get("model", "beam"))
     for (point, key, _), mesh in sorted(meshes.items()):
         series[point, key].meshes.append(mesh)
     for row in rows(group, "verdicts"):
         series[of_series(row)].verdicts.append(read_verdict(row))
     for row in rows(group, "points"):
         own = sorted((s for (point, _), s in series.items() if point == row["point"]), key=lambda s: s.key)
-        points.append(Point(row["point"], row["parameters"], own, units.get(row["point"], {})))
+        ours, others = [s for s in own if not s.imported], [s for s in own if s.imported]
+        points.append(Point(row["point"], row["parameters"], ours, units.get(row["point"], {}), others))
     return sorted(points, key=lambda p: (p.name != "default", p.parameters))
 
 

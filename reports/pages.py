@@ -39,9 +39,9 @@ def _run(index):
     _tasks[index]()
 
 
-def build(results, truths, folder, bench=None):
+def build(results, truths, folder, bench=None, others=()):
     """Writes the whole site; returns the number of tasks."""
-    site = Site(results, truths, folder, bench)
+    site = Site(results, truths, folder, bench, others)
     modules = [importlib.import_module(f"reports.{name}") for name in PAGES]
     for module in modules:
         site.navigation += module.NAVIGATION

@@ -4,7 +4,7 @@ import math
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
-from reports import answers
+from reports import answers, beside
 from reports.style import plt
 from reports.verdicts import OWN_LIMITS
 
@@ -128,13 +128,17 @@ def work_precision(site, point, quantity, name):
     drawn = [s for s in point.series if finite(s, quantity)]
     if not drawn:
         return None
-    figure, axes = plt.subplots(1, len(panels), figsize=(13.5, 3.75 + legend_height(len(drawn), 6)), sharey=True)
+    figure, axes = plt.subplots(1, len(panels), figsize=(13.5, 3.75 + legend_height(len(drawn) + len(point.others), 6)), sharey=True)
     for series in drawn:
         pairs = finite(series, quantity)
         for (_, where, _), one in zip(panels, axes):
             one.plot([max(where(m), 1e-3) for m, _ in pairs], [e for _, e in pairs], label=series.key, **site.styles.of(series.key))
         noisy = [(m, e) for m, e in pairs if m.clock.most > 1.02 * m.clock.least]
         axes[1].hlines([e for _, e in noisy], [1e3 * m.clock.least for m, _ in noisy], [1e3 * m.clock.most for m, _ in noisy], color=site.styles.of(series.key)["color"], linewidth=2.5, alpha=0.35)
+    for i, series in enumerate(s for s in point.others if finite(s, quantity)):
+        for (_, where, _), one in zip(panels, axes):
+            pairs = [(where(m), e) for m, e in finite(series, quantity) if where(m) > 0]   # not everything is said of other programs
+            one.plot([x for x, _ in pairs], [e for _, e in pairs], label=beside.label(series.key), **beside.style(i))
     best = answers.front(point, quantity)
     axes[1].step([1e3 * m.seconds for _, m in best], [clipped(m.errors[quantity]) for _, m in best], where="post", color="0.6", linewidth=4, alpha=0.35, zorder=0)
     slope_triangle(axes[0], point, quantity)
@@ -228,7 +232,7 @@ def column_figure(site, case):
 
 
 def peers_figure(site, ours, others, name):
-    """ours: [(key, meshes)], others: {program: [row]} with unknowns, errors and milliseconds: errors against unknowns and time."""
+    """ours: [(key, meshes)], others: {program: [data.Mesh]}: errors against unknowns and time."""
     figure, axes = plt.subplots(2, 2, figsize=(11, 7), sharey="row", constrained_layout=True)
     for row, quantity in zip(axes, ("C_xx", "C_zz")):
         for key, meshes in ours:
@@ -236,9 +240,8 @@ def peers_figure(site, ours, others, name):
             row[0].plot([m.free for m in meshes], error, label=key, **site.styles.of(key))
             row[1].plot([1e3 * m.clock.solve for m in meshes], error, **site.styles.of(key))
         for i, (program, rows) in enumerate(others.items()):
-            style = {"color": str(0.15 + 0.08 * i), "marker": "sDv^<>ph"[i % 8], "markerfacecolor": "white", "linestyle": (0, (1, 1)), "linewidth": 1, "markersize": 6}
-            row[0].plot([r["unknowns"] for r in rows], [r[quantity] for r in rows], label=f"{program} (elsewhere)", **style)
-            row[1].plot([r["milliseconds"] for r in rows], [r[quantity] for r in rows], **style)
+            row[0].plot([m.free for m in rows], [clipped(m.errors[quantity]) for m in rows], label=f"{beside.label(program)} (elsewhere)", **beside.style(i))
+            row[1].plot([1e3 * m.clock.solve for m in rows], [clipped(m.errors[quantity]) for m in rows], **beside.style(i))
         for one, label in zip(row, ("unknowns", "time of the solution [ms]; open marks: taken elsewhere")):
             log_axes(one, label, "", label == "unknowns")
             one.axhline(0.01, color="0.45", linewidth=0.8, linestyle=(0, (2, 2)), zorder=0)

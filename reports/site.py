@@ -6,7 +6,7 @@ import pathlib
 import jinja2
 from markupsafe import Markup, escape
 
-from reports import data, verdicts
+from reports import beside, data, verdicts
 from reports.style import Styles, plt
 
 LEVELS = (0.1, 0.01, 0.001, 0.0001)
@@ -50,8 +50,11 @@ def file_of(key):
 class Site:
     """One report. cases: data.Case records; about, bench: environment of the results and of the times (None: no benchmark); kinds: truths by kind."""
 
-    def __init__(self, results, truths, folder, bench=None):
+    def __init__(self, results, truths, folder, bench=None, others=()):
         self.about, self.cases = data.read_results(results, bench)
+        for path in others:
+            data.read_about(path)
+            beside.add(self.cases, path)
         self.bench = data.read_about(bench) if bench else None
         self.kinds = data.read_truth_counts(truths)
         self.results, self.truths, self.folder = results, truths, folder
@@ -61,7 +64,7 @@ class Site:
         loader = jinja2.FileSystemLoader(pathlib.Path(__file__).parent / "templates")
         self.templates = jinja2.Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
         self.templates.filters.update(number=number, percent=percent, seconds=seconds, limit=limit, breakable=breakable, file_of=file_of)
-        self.templates.globals.update(levels=LEVELS, kinds_of_verdicts=verdicts.BY_NAME, remarks=verdicts.remarks, navigation=self.navigation, colour=lambda key: self.styles.of(key)["color"], shape=self.styles.shape)
+        self.templates.globals.update(levels=LEVELS, nan=math.nan, kinds_of_verdicts=verdicts.BY_NAME, remarks=verdicts.remarks, navigation=self.navigation, colour=lambda key: self.styles.of(key)["color"], shape=self.styles.shape)
 
     def case(self, name):
         """The case of this name, or None."""

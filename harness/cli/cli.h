@@ -41,13 +41,16 @@ typedef struct cli_request {
     const char *scene_path; /* --scene: in the place of a case */
     scene_file *scene;      /* what was read from it; cli_close frees it */
     int refusal;            /* exit code where there is no case */
+    int reads_files;        /* 1: the arguments are files that are read */
+    const char *beside;     /* stored import: contestants of a run */
+    int gate;               /* 1: their verdicts count */
     int schema, keys;       /* 1: describe the keys of scene files as JSON Schema, as a list */
     double plant;           /* share of its time that is added to every run of the other */
 } cli_request;
 
 typedef int cli_verb(int count, char **arguments);
 cli_verb cli_list, cli_solve, cli_verify, cli_converge, cli_bench, cli_stress, cli_compare,
-    cli_truth, cli_schema, cli_scene;
+    cli_truth, cli_schema, cli_scene, cli_import;
 
 /* Options shared by the verbs; a verb lists the keys it takes, and '+' when it takes several cases.
  * Errors are printed and end the program with EXIT_REFUSED. */

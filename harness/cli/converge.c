@@ -3,13 +3,22 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
+#include "harness/judge/families.h"
 #include "harness/record/csv.h"
 #include "harness/record/json.h"
 #include "harness/record/json_convergence.h"
 #include "harness/record/output.h"
+#include "harness/record/reach_line.h"
 #include "harness/record/table.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
+
+static void write_text(FILE *to, const sweep *s, const truths *t)
+{
+    table_convergence(to, s, t);
+    fputc('\n', to);
+    reach_line_write(to, s, t);
+}
 
 static status write_form(FILE *to, const char *format, const sweep *s, const truths *t, fault *f)
 {
@@ -18,7 +27,7 @@ static status write_form(FILE *to, const char *format, const sweep *s, const tru
     if (strcmp(format, "csv") == 0)
         csv_convergence(to, s, t);
     else
-        table_convergence(to, s, t);
+        write_text(to, s, t);
     return STATUS_OK;
 }
 
@@ -67,6 +76,8 @@ static int converge_request(cli_request *r)
     const sweep_request request = {.jobs = r->jobs,
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
     outcome = run_sweep(&request, &s, &f);
+    if (outcome == STATUS_OK)
+        outcome = families_add_truths(&s, &t, &f);
     if (outcome == STATUS_OK)
         outcome = write_out(r, &s, &t, &f);
     const int nothing = sweep_cells(&s) == 0;

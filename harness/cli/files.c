@@ -7,7 +7,7 @@
 #include "harness/cli/cli.h"
 #include "harness/record/output.h"
 
-enum { OUTPUTS = 4, INPUTS = 5 };
+enum { OUTPUTS = 4, INPUTS = 6 };
 
 typedef struct named_place {
     const char *option, *path;
@@ -46,13 +46,15 @@ status cli_check_files(const cli_request *r, int whole_file, const char *truths_
         {.option = "--markdown", .path = r->markdown}};
     const int is_path = r->against != NULL && strchr(r->against, '/') != NULL;
     const char *const input[INPUTS] = {truths_path, r->most_arguments == 2 ? r->case_name : NULL,
-                                       r->second, r->scene_path,
-                                       is_path ? r->against : "/proc/self/exe"};
+                                       r->second,   r->scene_path,
+                                       r->beside,   is_path ? r->against : "/proc/self/exe"};
     for (int i = 0; i < OUTPUTS; i++) {
         if (out[i].path == NULL)
             continue;
         TRY(output_try(out[i].path, out[i].form, &out[i].where, f));
         TRY(check_inputs(&out[i], input, f));
+        for (int k = 0; k < r->case_count && r->reads_files; k++)
+            TRY(check_inputs(&out[i], (const char *const[INPUTS]){r->cases[k]}, f));
         for (int k = 0; k < i; k++)
             if (out[k].path != NULL)
                 TRY(check_pair(&out[k], &out[i], f));

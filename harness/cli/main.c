@@ -25,6 +25,7 @@ static const struct {
     {"truth", cli_truth, "what is known of a case at a parameter point; derived on demand"},
     {"scene", cli_scene,
      "a case, or a scene of your own, as a scene file with all loops written out"},
+    {"import", cli_import, "what other programs found, for 'verify --beside'"},
     {"schema", cli_schema, "what the result file consists of: tables, columns, units"},
     {"compare", cli_compare,
      "two stored runs: errors and work, worse and better; exit status like diff"},

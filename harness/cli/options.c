@@ -52,6 +52,9 @@ static const struct argp_option all_options[] = {
     {"truths", 'T', "FILE", 0,
      "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)", 0},
     {"scene", 'Y', "FILE", 0, "a scene of your own in YAML, in the place of a case", 0},
+    {"beside", 'B', "FILE", 0,
+     "what other programs found, stored by 'beamwork import': contestants that gate nothing", 0},
+    {"gate", 'G', NULL, 0, "verdicts of --beside count as ours do", 0},
     {"schema", 'H', NULL, 0, "describe all keys of scene files as JSON Schema", 0},
     {"keys", 'E', NULL, 0, "list all keys of scene files", 0},
     {"help", '?', NULL, 0, "this list", -1},
@@ -233,6 +236,12 @@ static error_t take(int key, char *value, struct argp_state *state)
         return 0;
     case 'Y':
         r->scene_path = value;
+        return 0;
+    case 'B':
+        r->beside = value;
+        return 0;
+    case 'G':
+        r->gate = 1;
         return 0;
     case 'H':
         r->schema = 1;

@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
+#include "harness/imports/import_store.h"
+#include "harness/judge/families.h"
 #include "harness/record/json.h"
 #include "harness/record/junit.h"
 #include "harness/record/markdown.h"
@@ -89,6 +91,8 @@ static status judge_and_write(const cli_request *r, const sweep *s, truths *t, j
                               fault *f)
 {
     const int whole = r->select == NULL && r->formulations == 0 && s->unfinished == 0;
+    if (r->scene != NULL)
+        TRY(families_add_truths(s, t, f));
     TRY(judgement_make(s, t, whole, j, f));
     table_verdicts(stdout, s, j, t);
     if (fflush(stdout) != 0)
@@ -139,6 +143,19 @@ static status measure_noise(const sweep_request *request, const truths *t, sweep
     return outcome;
 }
 
+/* Other programs as contestants; those of no point of this run are told. */
+static status add_beside(const cli_request *r, sweep *s, fault *f)
+{
+    import_left left;
+    TRY(import_store_read(r->beside, r->gate, s, &left, f));
+    if (left.series > 0)
+        fprintf(stderr,
+                "beamwork: %s: %d series of cases or parameters that were not run, the "
+                "first %s\n",
+                r->beside, left.series, left.first);
+    return STATUS_OK;
+}
+
 static status run(const cli_request *r, sweep *s, truths *t, judgement *j, fault *f)
 {
     const int states = r->shapes < PICTURED_STATES ? r->shapes : PICTURED_STATES;
@@ -156,6 +173,8 @@ static status run(const cli_request *r, sweep *s, truths *t, judgement *j, fault
     TRY(run_sweep(&request, s, f));
     if (s->unfinished == 0)
         TRY(measure_noise(&request, t, s, f));
+    if (r->beside != NULL)
+        TRY(add_beside(r, s, f));
     return judge_and_write(r, s, t, j, f);
 }
 
@@ -190,7 +209,7 @@ int cli_verify(int count, char **arguments)
               "status: 0 every verdict as expected, 1 one differs, 2 refused, 3 nothing was "
               "checked, 4 file, disk or memory, 5 interrupted (Ctrl-C, SIGTERM): what was judged "
               "until then is in files named .partial",
-              "fokjJUMLPTY", count, arguments, &r);
+              "fokjJUMLPTYBG", count, arguments, &r);
     const int code = verify_request(&r);
     cli_close(&r);
     return code;

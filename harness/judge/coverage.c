@@ -40,6 +40,8 @@ status coverage_count(const sweep *s, judgement *out, fault *f)
         const verdict *v = &out->verdict[i];
         if (v->truth == NULL || strcmp(v->truth->kind, "exact") != 0 || isnan(v->fit.limit))
             continue;
+        if (s->series[v->series].imported != NULL)
+            continue;
         coverage *row = row_of(s, out, &s->series[v->series], f);
         if (row == NULL)
             return STATUS_FAULT;

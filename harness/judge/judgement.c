@@ -29,6 +29,8 @@ static void expect(const sweep *s, truths *t, verdict *v)
         p->type,  p->parameter,         features_needed(&p->scene), one->formulation.key,
         quantity, verdict_name(v->kind)};
     v->matches = v->kind == v->expected;
+    if (one->imported != NULL) /* the ledger speaks of formulations */
+        return;
     for (int i = 0; i < t->rules && !v->matches; i++) {
         rule *r = &t->rule[i];
         if (!rule_holds(r, &subject))
@@ -164,6 +166,21 @@ static status check_units(const sweep *s, const truths *t, fault *f)
     return STATUS_OK;
 }
 
+/* Another program's, that is shown and does not count? */
+static int imports_inform(const series *one)
+{
+    return one->imported != NULL && !one->imported->gates;
+}
+
+/* Has a series that was imported a value of the quantity at all? */
+static int is_imported(const series *one, int quantity)
+{
+    for (int i = 0; i < one->meshes; i++)
+        if (one->cell[i].solve.quantity[quantity].status == STATUS_OK)
+            return 1;
+    return 0;
+}
+
 static void judge_quantity(const sweep *s, truths *t, int index, int quantity, judgement *out)
 {
     const point *p = &s->point[s->series[index].point];
@@ -172,6 +189,11 @@ static void judge_quantity(const sweep *s, truths *t, int index, int quantity, j
     v->quantity = quantity;
     verdict_reach(s, t, v);
     expect(s, t, v);
+    if (imports_inform(&s->series[index])) {
+        v->expected = v->kind;
+        v->matches = 1;
+        return;
+    }
     out->by_kind[v->kind]++;
     out->judged += v->truth != NULL && v->kind != VERDICT_SKIP;
     out->unexpected += !v->matches;
@@ -196,7 +218,7 @@ void judgement_doubts(const sweep *s, const truths *t, char wanted[])
     for (int i = 0; i < s->seriess; i++) {
         const point *p = &s->point[s->series[i].point];
         wanted[i] = 0;
-        for (int q = 0; q < p->scene.quantities && !wanted[i]; q++)
+        for (int q = 0; q < p->scene.quantities && !wanted[i] && s->series[i].imported == NULL; q++)
             wanted[i] = p->scene.quantity[q].reduction != SCENE_CURVE &&
                         sweep_selects(s, p, &s->series[i].formulation, p->scene.quantity[q].name) &&
                         noise_may_decide(s, t, i, q);
@@ -218,6 +240,8 @@ static void judge_series(const sweep *s, truths *t, int index, judgement *out)
     for (int q = 0; q < p->scene.quantities; q++) {
         const scene_quantity *quantity = &p->scene.quantity[q];
         /* a curve is drawn beside its truths; a point of it is judged by a quantity of its own */
+        if (one->imported != NULL && (quantity->reduction == SCENE_CURVE || !is_imported(one, q)))
+            continue;
         if (quantity->reduction == SCENE_CURVE)
             mark_met(t, p, &one->formulation, quantity->name, one->missing[0] == '\0');
         else if (sweep_selects(s, p, &one->formulation, quantity->name))
@@ -254,7 +278,8 @@ status judgement_make(const sweep *s, truths *t, int whole, judgement *out, faul
     for (int i = 0; i < s->seriess; i++) {
         judge_series(s, t, i, out);
         TRY(compare_meshes(s, t, i, out, f));
-        TRY(check_cells(s, i, out, f));
+        if (s->series[i].imported == NULL)
+            TRY(check_cells(s, i, out, f));
     }
     TRY(coverage_count(s, out, f));
     if (whole)

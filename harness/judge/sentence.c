@@ -1,6 +1,7 @@
 /* A verdict in words: what the meshes show, with the numbers that decided. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "harness/judge/sentence.h"
 
@@ -33,6 +34,9 @@ static void unjudged(const verdict *v, char *text, size_t size)
         snprintf(text, size,
                  "no truth of its theory of shear; its limit is %+.3g %% from that of %s",
                  100 * v->model_error, v->model_truth->theory);
+    else if (v->model_truth != NULL && strcmp(v->model_truth->kind, "agreement") == 0)
+        snprintf(text, size, "no truth to judge by; its limit is %+.2g %% from that on which %s",
+                 100 * v->model_error, v->model_truth->source);
     else
         snprintf(text, size, "no truth to judge by");
 }

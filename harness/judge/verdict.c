@@ -156,6 +156,14 @@ const truth *verdict_truth(const truths *t, const point *p, const formulation *c
                            theories_of(&p->scene, chosen->type));
 }
 
+const truth *verdict_reference(const truths *t, const point *p, const formulation *chosen,
+                               int quantity)
+{
+    const truth *row = verdict_truth(t, p, chosen, quantity);
+    const char *name = p->scene.quantity[quantity].name;
+    return row != NULL ? row : truth_agreed(t, p->type, p->parameter, name);
+}
+
 static void find_truths(const sweep *s, const truths *t, verdict *v)
 {
     const series *one = &s->series[v->series];
@@ -166,6 +174,12 @@ static void find_truths(const sweep *s, const truths *t, verdict *v)
     if (v->truth == NULL && v->model_truth == NULL)
         /* of another theory of shear */
         v->model_truth = truth_of(t, p->type, p->parameter, name, "same");
+    if (v->truth == NULL && v->model_truth == NULL)
+        v->model_truth = truth_agreed(t, p->type, p->parameter, name);
+    if (one->imported != NULL && !imported_same_model(one->imported) && v->truth != NULL) {
+        v->model_truth = v->truth; /* a difference of models, whoever solved it */
+        v->truth = NULL;
+    }
     v->predicted = truth_predicted(t, p->type, p->parameter, name, one->formulation.key);
 }
 

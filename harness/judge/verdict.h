@@ -28,7 +28,8 @@ typedef struct verdict {
     verdict_kind kind, expected;
     /* to judge by: of the same model and the formulation's theory of shear; NULL: none */
     const truth *truth;
-    /* of another model, or of another theory where there is none to judge by; NULL: none */
+    /* of another model, or of another theory or an agreement of formulations where there is none to
+     * judge by; NULL: none */
     const truth *model_truth;
     const truth *predicted; /* the limit that was derived for the formulation; NULL: none */
     /* a published value that the limit differs from by more than both are uncertain; NULL: none */
@@ -53,6 +54,9 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
  * NULL. */
 const truth *verdict_truth(const truths *t, const point *p, const formulation *chosen,
                            int quantity);
+/* The same, or where there is none what formulations agree on: it informs and never gates. */
+const truth *verdict_reference(const truths *t, const point *p, const formulation *chosen,
+                               int quantity);
 /* What the series shows of the quantity, both given in v: kind, fit, errors, and as expected what
  * holds without the ledger. */
 void verdict_reach(const sweep *s, const truths *t, verdict *v);

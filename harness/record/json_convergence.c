@@ -1,6 +1,10 @@
 #include "harness/record/json_convergence.h"
+
+#include <stdlib.h>
+
 #include "harness/record/json.h"
 #include "harness/record/json_record.h"
+#include "harness/record/reach_line.h"
 #include "harness/schema/gather.h"
 
 /* Of one quantity on every mesh: what was found, and the cell it was found by. */
@@ -36,6 +40,20 @@ static json_t *quantity_of(const gathering *g, int series_index, int quantity)
     return out;
 }
 
+/* The last line of the text. */
+static json_t *sentence_of(const sweep *s, const truths *t)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *to = open_memstream(&text, &size);
+    if (to == NULL)
+        return NULL;
+    reach_line_write(to, s, t);
+    json_t *out = fclose(to) == 0 && size > 0 ? json_stringn(text, size - 1) : NULL;
+    free(text);
+    return out;
+}
+
 status json_convergence_write(FILE *to, const sweep *s, const truths *t, fault *f)
 {
     const gathering g = {s, NULL, t};
@@ -53,6 +71,7 @@ status json_convergence_write(FILE *to, const sweep *s, const truths *t, fault *
         json_object_set_new(out, record_quantity.table, quantities);
         json_array_append_new(all, out);
     }
-    return json_finish(
-        json_pack("{s:i,s:o}", "schema_version", SCHEMA_VERSION, record_series.table, all), to, f);
+    return json_finish(json_pack("{s:i,s:o,s:o}", "schema_version", SCHEMA_VERSION,
+                                 record_series.table, all, "sentence", sentence_of(s, t)),
+                       to, f);
 }

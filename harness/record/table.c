@@ -108,7 +108,7 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
             continue;
         }
         for (int q = 0; q < p->scene.quantities; q++) {
-            const truth *row = verdict_truth(t, p, &one->formulation, q);
+            const truth *row = verdict_reference(t, p, &one->formulation, q);
             verdict v = {.series = i, .quantity = q};
             if (p->scene.quantity[q].reduction == SCENE_CURVE)
                 continue;
@@ -196,7 +196,9 @@ static void verdict_line(FILE *to, const sweep *s, const verdict *v, widths w)
     else if (v->rule != NULL)
         fprintf(to, ", %s", v->rule->name);
     if (isfinite(v->model_error))
-        fprintf(to, "; %+.3g %% from another model (%s)", 100 * v->model_error,
+        fprintf(to, "; %+.3g %% from %s (%s)", 100 * v->model_error,
+                strcmp(v->model_truth->kind, "agreement") == 0 ? "where families agree"
+                                                               : "another model",
                 v->model_truth->kind);
     fputc('\n', to);
     if (v->reason[0] != '\0')

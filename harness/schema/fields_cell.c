@@ -33,12 +33,25 @@ const record_type record_point = {"point",
                                   "a case with the values of its parameters",
                                   {keys_of_point, fields_of_point}};
 
+static void get_imported(const subject *s, field_value *out)
+{
+    field_text(out, s->series->imported != NULL ? s->series->imported->file : "");
+}
+
+static void get_model(const subject *s, field_value *out)
+{
+    field_text(out, s->series->imported != NULL ? s->series->imported->model : "beam");
+}
+
 static const schema_field fields_of_series[] = {
     {"type", "", FIELD_TEXT, "name of the formulation", TEXT_OF(FORMULATION, element_type, name)},
     {"summary", "", FIELD_TEXT, "what it is", TEXT_OF(FORMULATION, element_type, summary)},
     {"source", "", FIELD_TEXT, "where it is published", TEXT_OF(FORMULATION, element_type, source)},
     {"missing", "", FIELD_TEXT, "what the case needs and it does not offer: it was not run",
      AT(series, missing)},
+    {"imported", "", FIELD_TEXT, "file of another program that it was read from; empty: run here",
+     .get = get_imported},
+    {"model", "", FIELD_TEXT, "beam, or another one that the other program has", .get = get_model},
     {0}};
 const record_type record_series = {"series",
                                    "series",

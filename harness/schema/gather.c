@@ -79,7 +79,7 @@ static void compare_with(const gathering *g, int series_index, subject *s)
     s->truth = s->model_truth = NULL;
     if (j == NULL) {
         if (g->truths != NULL)
-            s->truth = verdict_truth(g->truths, s->point, &s->series->formulation, s->index);
+            s->truth = verdict_reference(g->truths, s->point, &s->series->formulation, s->index);
         return;
     }
     for (int i = first_verdict(j, series_index);
@@ -159,6 +159,19 @@ void gather_mesh(const gathering *g, const record_type *type, int series_index, 
         add_array(cell, 1, &cell.series->timing[mesh], 0, out);
 }
 
+/* What another program found, each value with its quantity. */
+static void add_imports(subject s, const imported *found, subjects *out)
+{
+    for (int i = 0; i < found->rows; i++) {
+        s.record = &found->row[i];
+        s.index = 0;
+        while (s.index + 1 < s.point->scene.quantities &&
+               strcmp(s.point->scene.quantity[s.index].name, found->row[i].quantity) != 0)
+            s.index++;
+        add(out, &s);
+    }
+}
+
 static void gather_series(const gathering *g, const record_type *type, int index, subjects *out)
 {
     const subject s = series_subject(g, index);
@@ -167,6 +180,8 @@ static void gather_series(const gathering *g, const record_type *type, int index
     if (s.series->missing[0] == '\0')
         for (int i = 0; i < s.series->meshes; i++)
             gather_mesh(g, type, index, i, out);
+    if (type == &record_import && s.series->imported != NULL)
+        add_imports(s, s.series->imported, out);
     if (type != &record_verdict || g->judged == NULL)
         return;
     for (int i = first_verdict(g->judged, index);

@@ -36,7 +36,8 @@ int sweep_cells(const sweep *s)
 {
     int cells = 0;
     for (int i = 0; i < s->seriess; i++)
-        cells += s->series[i].missing[0] == '\0' && s->point[s->series[i].point].status == STATUS_OK
+        cells += s->series[i].missing[0] == '\0' && s->series[i].imported == NULL &&
+                         s->point[s->series[i].point].status == STATUS_OK
                      ? s->series[i].meshes
                      : 0;
     return cells;
@@ -50,6 +51,7 @@ void sweep_series_free(series *one)
     free(one->cell);
     free(one->noise);
     free(one->timing);
+    imported_free(one->imported);
 }
 
 void sweep_free(sweep *s)

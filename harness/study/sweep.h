@@ -8,6 +8,7 @@
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/select.h"
 #include "harness/study/cell.h"
+#include "harness/study/imported.h"
 #include "harness/truth/truths.h"
 
 enum { SERIES_MAX_MESHES = 24 };
@@ -34,6 +35,7 @@ typedef struct series {
     /* [quantities] relative, of the finest mesh (harness/study/noise.h); NULL: not measured */
     double *noise;
     struct cell_timing *timing; /* [meshes] of a benchmark (harness/timing); else NULL */
+    imported *imported;         /* another program's: its cells were not run here; else NULL */
 } series;
 
 typedef struct sweep {
@@ -69,7 +71,7 @@ int sweep_selects(const sweep *s, const point *p, const formulation *chosen, con
 
 /* What running one mesh of a series means. */
 cell_request sweep_cell(const sweep *s, int series_index, int mesh);
-int sweep_cells(const sweep *s);
+int sweep_cells(const sweep *s); /* that are run here */
 void sweep_series_free(series *);
 void sweep_free(sweep *s);
 

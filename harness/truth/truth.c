@@ -64,6 +64,19 @@ const truth *truth_of_theory(const truths *t, const case_type *type, const doubl
     return best;
 }
 
+const truth *truth_agreed(const truths *t, const case_type *type, const double value[],
+                          const char *quantity)
+{
+    for (int i = 0; i < t->rows; i++) {
+        const truth *row = &t->row[i];
+        if (row->type == type && strcmp(row->kind, "agreement") == 0 && !row->on_curve &&
+            strcmp(row->quantity, quantity) == 0 && strcmp(row->model, "same") == 0 &&
+            truth_holds(row, type, value))
+            return row;
+    }
+    return NULL;
+}
+
 const truth *truth_predicted(const truths *t, const case_type *type, const double value[],
                              const char *quantity, const char *key)
 {

@@ -19,6 +19,9 @@ const truth *truth_of(const truths *t, const case_type *type, const double value
  * on none; NULL: any. */
 const truth *truth_of_theory(const truths *t, const case_type *type, const double value[],
                              const char *quantity, const char *model, const char *theories);
+/* What formulations agree on there (kind agreement), or NULL: it informs and never gates. */
+const truth *truth_agreed(const truths *t, const case_type *type, const double value[],
+                          const char *quantity);
 /* The limit that a formulation (its key, or its name whatever the options) must have there, or
  * NULL. */
 const truth *truth_predicted(const truths *t, const case_type *type, const double value[],

@@ -2,9 +2,13 @@
 import csv
 import io
 import json
+import pathlib
+import re
 import unittest
 
 from harness.test.program import run
+
+LEAF = pathlib.Path(__file__).parents[3] / "cases" / "examples" / "leaf_spring_guide.yaml"
 
 
 def converge(form):
@@ -38,6 +42,34 @@ class Forms(unittest.TestCase):
         self.assertAlmostEqual(one["order"], 2, delta=0.05)
         self.assertLess(abs(one["error"]), 1e-4)
         self.assertIn("exact", converge("text"))
+
+    def test_the_last_line_answers(self):
+        """The least mesh from which on each quantity of each formulation is within 1 %."""
+        series = json.loads(converge("json"))["series"]
+        text = converge("text").splitlines()[-1]
+        self.assertTrue(text.startswith("for 1 % in every quantity: "), text)
+        told = {name: int(n) for name, n in re.findall(r"([\w:=]+) n = (\d+) \([\d.e-]+ ms\)", text)}
+        self.assertEqual(set(told), {s["formulation"] for s in series})
+        for one in series:
+            counts = [m["elements"] for m in one["quantities"][0]["meshes"]]
+            bad = [k for q in one["quantities"] for k, m in enumerate(q["meshes"]) if abs(m["error"]) > 0.01]
+            self.assertEqual(told[one["formulation"]], counts[max(bad, default=-1) + 1])
+
+    def test_without_a_truth_families_agree(self):
+        done = run("converge", "--scene", str(LEAF), "-f", "all", "--format", "json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        whole = json.loads(done.stdout)
+        quantities = [q for s in whole["series"] for q in s["quantities"]]
+        agreed = [q for q in quantities if q["model_truth_kind"] == "agreement"]
+        self.assertTrue(agreed)
+        for one in agreed:
+            self.assertEqual(one["verdict"], "no truth")
+            self.assertIn("agree", one["message"])
+            self.assertTrue(all("error" in m for m in one["meshes"]))
+        self.assertTrue(whole["sentence"].startswith("for 1 % in every quantity: "))
+        self.assertNotIn("no reference", whole["sentence"])
+        alone = run("converge", "--scene", str(LEAF), "-f", "collocation", "-f", "geometrically_exact")
+        self.assertIn("no reference, neither a truth nor an agreement of two families, for ", alone.stdout.splitlines()[-1])
 
 
 if __name__ == "__main__":

@@ -366,6 +366,8 @@ static void declarations(const element_type *type)
     gsl_test(own && type->shear_theories != SHEAR_OWN, "%s: a theory of its own is its only one",
              type->name);
     gsl_test(own != (type->own_theory != NULL), "%s: a theory of its own has a name", type->name);
+    gsl_test(type->family == NULL || type->family[0] == '\0' || strchr(type->family, ' ') != NULL,
+             "%s: its family is a word", type->name);
     gsl_test((type->lacks != 0) != (type->lacks_by != NULL),
              "%s: what is lacking has its equations", type->name);
     gsl_test((type->lacks & LACKS_SHEAR_Y) && !flexible, "%s: what is lacking in part is offered",

@@ -1,0 +1,97 @@
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/cli/cli.h"
+#include "harness/imports/import_file.h"
+#include "harness/record/place.h"
+#include "harness/record/store.h"
+
+/* All mistakes of a file, a line each. */
+static void print_mistakes(const mistakes *m)
+{
+    for (int i = 0; i < m->count; i++)
+        fprintf(stderr, "%s:%d: %s\n", m->file, m->list[i].line, m->list[i].text);
+    if (m->more > 0)
+        fprintf(stderr, "%s: %d more mistakes\n", m->file, m->more);
+}
+
+/* Reads every file, whatever is wrong with those before. */
+static status read_files(const cli_request *r, import_set *set, fault *f)
+{
+    status outcome = STATUS_OK;
+    for (int i = 0; i < r->case_count; i++) {
+        mistakes m = {.file = r->cases[i]};
+        fault here = {""};
+        const status one = import_file_read(r->cases[i], set, &m, &here);
+        print_mistakes(&m);
+        if (one == STATUS_OK || outcome == STATUS_FAULT)
+            continue;
+        outcome = one;
+        if (m.count > 0)
+            fault_set(f, one, "nothing was imported: mistakes in %.200s", r->cases[i]);
+        else
+            *f = here;
+    }
+    return outcome;
+}
+
+static void tell(const sweep *s)
+{
+    for (int i = 0; i < s->seriess; i++) {
+        const series *one = &s->series[i];
+        const point *p = &s->point[one->point];
+        printf("%s%s%s: %s, %d values, %d %s%s%s\n", p->type->name, p->text[0] != '\0' ? "; " : "",
+               p->text, one->formulation.key, one->imported->rows, one->meshes,
+               one->meshes == 1 ? "mesh" : "meshes",
+               imported_same_model(one->imported) ? "" : "; another model: ",
+               imported_same_model(one->imported) ? "" : one->imported->model);
+    }
+}
+
+static status check_again(const sweep *s, fault *f)
+{
+    for (int i = 0; i < s->seriess; i++)
+        for (int k = 0; k < i; k++)
+            if (s->series[i].point == s->series[k].point &&
+                strcmp(s->series[i].formulation.key, s->series[k].formulation.key) == 0)
+                return fault_set(f, STATUS_REFUSED,
+                                 "%.100s: the same program, case and parameters are in %.80s:%d "
+                                 "and %.80s:%d; give them once",
+                                 s->series[i].formulation.key, s->series[k].imported->file,
+                                 s->series[k].imported->row[0].line, s->series[i].imported->file,
+                                 s->series[i].imported->row[0].line);
+    return STATUS_OK;
+}
+
+static status import(cli_request *r, import_set *set, fault *f)
+{
+    TRY(cli_check_files(r, 1, NULL, f));
+    TRY(read_files(r, set, f));
+    TRY(check_again(&set->sweep, f));
+    const environment e = environment_now(1);
+    TRY(store_write(r->output, &set->sweep, NULL, &e, f));
+    tell(&set->sweep);
+    return STATUS_OK;
+}
+
+int cli_import(int count, char **arguments)
+{
+    cli_request r;
+    import_set set = {0};
+    fault f = {""};
+    cli_parse("import", "FILE...",
+              "Reads what other programs found of a case or scene: CSV with a declared header "
+              "(harness/imports/README.md). Names, units and parameters are checked, values "
+              "converted; -o FILE is of the same schema as results of verify, whose --beside takes "
+              "it as one more contestant.",
+              "o+", count, arguments, &r);
+    r.reads_files = 1;
+    status outcome = STATUS_OK;
+    if (r.case_count == 0 || r.output == NULL)
+        outcome = fault_set(&f, STATUS_REFUSED, "give files to import, and -o FILE.h5");
+    if (outcome == STATUS_OK)
+        outcome = import(&r, &set, &f);
+    import_set_free(&set);
+    cli_close(&r);
+    return outcome == STATUS_OK ? EXIT_AS_EXPECTED : cli_fail(outcome, f.text);
+}

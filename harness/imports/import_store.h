@@ -1,0 +1,17 @@
+/* Imported values that `beamwork import` stored, read back as contestants of a run. */
+#ifndef BEAMWORK_IMPORT_STORE_H
+#define BEAMWORK_IMPORT_STORE_H
+
+#include "harness/study/sweep.h"
+
+/* What of a file the run has no point for. */
+typedef struct import_left {
+    int series;
+    char first[256]; /* case/parameters/program of the first; empty: none */
+} import_left;
+
+/* Adds a series for every program at points that have series; gates: their verdicts count.
+ * FAULT: missing, damaged, foreign; REFUSED: nothing imported is in it. */
+status import_store_read(const char *path, int gates, sweep *s, import_left *left, fault *f);
+
+#endif

@@ -1,0 +1,17 @@
+/* Lines of other programs' files as text, fields, numbers. Nothing is believed of them. */
+#ifndef BEAMWORK_LINE_TEXT_H
+#define BEAMWORK_LINE_TEXT_H
+
+/* Without blanks at both ends, within the line, which is cut. */
+char *line_trim(char *line);
+/* UTF-8 without control characters? */
+int line_is_text(const char *line);
+/* Fields between commas, trimmed, which may stand in quotes; their number, more than `most` where
+ * there are too many. The line is cut. */
+int line_split(char *line, char *field[], int most);
+/* Words between blanks; the same. */
+int line_words(char *line, char *word[], int most);
+/* A finite number and nothing else; an exponent may be marked D. */
+int line_number(const char *text, double *value);
+
+#endif

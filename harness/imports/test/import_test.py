@@ -1,0 +1,134 @@
+"""import: names, units, parameters, axes; what is wrong is told at once; verify takes it beside."""
+import pathlib
+import tempfile
+import unittest
+
+import h5py
+
+from harness.test.program import run
+
+HEAD = """# beamwork-import: 1
+# program: MBDyn 1.7.3, 3-node   # as legends show it
+# case: sheet_cantilever; warping=0; trapeze=0; shear_factor=0.8333333333333334
+"""
+COLUMNS = "quantity, unit, elements, unknowns, seconds, x, value, uncertainty\n"
+ROWS = "C_xx, mm/N, 2, 24, 2.1e-3, , 3.9408e-4,\nC_xx, mm/N, 4, 48, 3.3e-3, , 3.97064e-4, 1e-9\n"
+SELECT = "sheet_cantilever and C_xx and shear_factor"
+
+
+class Import(unittest.TestCase):
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.place = pathlib.Path(place.name)
+
+    def read(self, text, status=0, name="theirs.csv"):
+        path = self.place / name
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        done = run("import", str(path), "-o", str(self.place / "theirs.h5"))
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done
+
+    def stored(self, case="sheet_cantilever", table="imports"):
+        with h5py.File(self.place / "theirs.h5") as file:
+            rows = file["cases"][case][table][()]
+            return [dict(zip(rows.dtype.names, row)) for row in rows]
+
+    def test_units_are_converted_and_the_factor_is_stored(self):
+        for unit, factor in (("mm/N", 1e-3), ("m/N", 1), ("m/kN", 1e-3), ("um/mN", 1e-3), ("mm/(kN)", 1e-6)):
+            self.read(f"{HEAD}{COLUMNS}C_xx, {unit}, 2, , , , 2.5,\n")
+            row, = self.stored()
+            self.assertAlmostEqual(row["value"] / (2.5 * factor), 1, delta=1e-14)
+            self.assertAlmostEqual(row["factor"] / factor, 1, delta=1e-14)
+            self.assertEqual(row["file_unit"].decode(), unit)
+            self.assertEqual(row["line"], 5)
+
+    def test_the_schema_of_results(self):
+        self.read(HEAD + COLUMNS + ROWS)
+        series, = self.stored(table="series")
+        self.assertEqual(series["formulation"], b"MBDyn 1.7.3, 3-node")
+        self.assertTrue(series["imported"].endswith(b"theirs.csv"))
+        self.assertEqual([(c["elements"], c["free"]) for c in self.stored(table="cells")], [(2, 24), (4, 48)])
+        values = [q["value"] for q in self.stored(table="quantities") if q["quantity"] == b"C_xx"]
+        self.assertEqual(values, [3.9408e-4 * 1e-3, 3.97064e-4 * 1e-3])
+
+    def test_all_mistakes_at_once(self):
+        text = """# beamwork-import: 1
+# program: MBDyn
+# case: sheet_cantilever; warpin=0
+# modle: solid
+"""
+        said = self.read(text + COLUMNS, 2).stderr
+        self.assertIn("theirs.csv:4: unknown header 'modle'; did you mean 'model'?", said)
+        bad = {"C_xy, m/N, 2,,,, 1,": "did you mean 'C_xx'", "C_xx, m/Nm, 2,,,, 1,": "unit 'm/Nm' is unknown",
+               "C_xx, N, 2,,,, 1,": "unit 'N' cannot be converted to 'm/N'", "C_xx_curve, m/N, 2,,,, 1,": "is a curve: give x",
+               "C_zz, m/N, 2,,, 3, 1,": "is no curve: leave x empty", "C_zz, m/N, 0,,,, 1,": "give a whole number",
+               "C_zz, m/N, 2,,,, nan,": "is no number", "C_zz, m/N, 3,,,,,": "value is missing",
+               "C_thz_Mz, rad/(N m), 2,,,, 1,": "what a moment does", "C_zz, m/N, 4,,,, 1, -1": "uncertainty is below zero"}
+        said = self.read(HEAD + COLUMNS + "\n".join(bad) + "\n", 2).stderr.splitlines()
+        self.assertEqual(len(said), len(bad) + 1)
+        for i, (line, (row, words)) in enumerate(zip(said, bad.items())):
+            self.assertIn(f"theirs.csv:{5 + i}: ", line, row)
+            self.assertIn(words, line, row)
+        self.assertFalse((self.place / "theirs.h5").exists())
+
+    def test_headers(self):
+        for change, words in ((("sheet_cantilever", "sheet_cantilevr"), "did you mean 'sheet_cantilever'"), (("warping", "warpin"), "did you mean 'warping'"),
+                              (("import: 1", "import: 2"), "version '2'"), (("MBDyn 1.7.3, 3-node ", "beamw "), "is a formulation of this program"),
+                              (("# program", "# progrm"), "did you mean 'program'"), (("# case", "# axes: x=y y=y z=z\n# case"), "no signed permutation"),
+                              (("# case", "# convention: symmetrised\n# case"), "the moments of the case are spatial")):
+            self.assertIn(words, self.read(HEAD.replace(*change) + COLUMNS + ROWS, 2).stderr)
+        self.assertIn("UTF-8", self.read(HEAD.replace("MBDyn", "MB\x1bDyn") + COLUMNS + ROWS, 2).stderr)
+        self.assertIn("given again", self.read(HEAD + COLUMNS + ROWS + ROWS, 2).stderr)
+
+    def test_axes(self):
+        """Their x is our -y: what they call C_ux_Fx is C_uy_Fy of ours; a single row changes the sign."""
+        self.read(HEAD + "# axes: x=-y y=x z=z\n" + COLUMNS + "C_ux_Fx, m/N, 2,,,, 3,\nC_ux_Fy, m/N, 2,,,, 4,\n")
+        found = {row["quantity"]: (row["value"], row["factor"]) for row in self.stored()}
+        self.assertEqual(found, {b"C_uy_Fy": (3, 1), b"C_uy_Fx": (-4, -1)})
+
+    def test_two_programs_in_one_file(self):
+        self.read(HEAD + COLUMNS + ROWS + "# program: other\n" + ROWS)
+        self.assertEqual({s["formulation"] for s in self.stored(table="series")}, {b"MBDyn 1.7.3, 3-node", b"other"})
+
+    def test_a_scene_of_ones_own_and_a_solid(self):
+        leaf = pathlib.Path(__file__).parents[3] / "cases" / "examples" / "leaf_spring_guide.yaml"
+        self.read(f"# beamwork-import: 1\n# program: CalculiX\n# model: solid\n# case: {leaf}\nquantity,unit,elements,value\nk_drive,N/mm,320,2.85\n")
+        row, = self.stored("leaf_spring_guide")
+        self.assertAlmostEqual(row["value"], 2850, delta=1e-9)
+        done = run("verify", "--scene", str(leaf), "-f", "beamw", "--beside", str(self.place / "theirs.h5"), "--gate")
+        line, = [x for x in done.stdout.splitlines() if "CalculiX" in x]
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("no truth; +8.59 % from another model", line)
+
+    def test_beside_informs_and_gates_where_asked(self):
+        self.read(HEAD + COLUMNS + ROWS.replace("3.9", "4.9"))
+        beside = ("verify", "-k", SELECT, "-f", "collocation", "--beside", str(self.place / "theirs.h5"))
+        informs, gates = run(*beside), run(*beside, "--gate")
+        for done in (informs, gates):
+            self.assertIn("MBDyn 1.7.3, 3-node", done.stdout)
+        self.assertEqual(informs.returncode, 0, informs.stderr)
+        self.assertEqual(gates.returncode, 1, gates.stdout)
+        elsewhere = run("verify", "-k", "elastica/default", "-f", "collocation", "--beside", str(self.place / "theirs.h5"))
+        self.assertEqual(elsewhere.returncode, 0)
+        self.assertIn("were not run, the first sheet_cantilever/", elsewhere.stderr)
+
+    def test_nothing_is_believed_of_a_stored_import(self):
+        self.read(HEAD + COLUMNS + ROWS)
+        whole = (self.place / "theirs.h5").read_bytes()
+        for name, data in (("cut.h5", whole[:-100]), ("none.h5", b"")):
+            (self.place / name).write_bytes(data)
+            done = run("verify", "-k", SELECT, "-f", "beamw", "--beside", str(self.place / name))
+            self.assertEqual(done.returncode, 4, done.stderr)
+            self.assertIn(name, done.stderr)
+
+    def test_no_input_is_replaced(self):
+        path = self.place / "a.csv"
+        path.write_text(HEAD + COLUMNS + ROWS, encoding="utf-8")
+        done = run("import", str(path), "-o", str(path))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("would replace", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

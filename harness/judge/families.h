@@ -1,0 +1,31 @@
+/* A reference for structures without a truth: the limit on which formulations of different families
+ * agree.  Types of one family share code or theory: that they agree proves little; families that
+ * agree can all be wrong together, so that an agreement informs and never gates.
+ *
+ * Each formulation has a limit L and its uncertainty U (limit.h).  Two agree when |L1 - L2| + U1 +
+ * U2 is within FAMILIES_APART of their size.  The reference is the limit that most families agree
+ * with, at least two; of several that with the least uncertainty: the largest over the families of
+ * the distance to their nearest limit, its uncertainty included. Where as many families
+ * agree on another limit, there is no reference. */
+#ifndef BEAMWORK_FAMILIES_H
+#define BEAMWORK_FAMILIES_H
+
+#include "harness/judge/verdict.h"
+
+/* Relative: half of the one per cent that `converge` answers for. */
+#define FAMILIES_APART 5e-3
+enum { FAMILIES_MOST = 8 };
+
+typedef struct families_limit {
+    int families;              /* that agree; below two: no reference */
+    int disputed;              /* 1: as many agree on another limit */
+    double value, uncertainty; /* [unit of the quantity] */
+    int series[FAMILIES_MOST]; /* the nearest of each family, `families` of them */
+} families_limit;
+
+/* Of one point and quantity. */
+families_limit families_limit_of(const sweep *s, int point_index, int quantity);
+/* Adds a truth of kind agreement for every quantity of a point that has none of its model. */
+status families_add_truths(const sweep *s, truths *t, fault *f);
+
+#endif
