@@ -106,8 +106,8 @@ static motion motion_of(double l0, const node_state x[2])
         const double across = w.a[i] * w.along - square * w.D[i]; /* a x (a x D) */
         w.U[i] = (i == 0 ? w.extension : w.D[i]) + w.f.nu[0] * across;
         for (int j = 0; j < 3; j++) {
-            const double turn = (i == j ? w.along : 0) + w.a[i] * w.D[j] - 2 * w.D[i] * w.a[j];
-            w.T[3 * i + j] = w.f.nu[0] * turn / 2 + w.f.nu[1] * across * w.a[j];
+            const double coupling = (i == j ? w.along : 0) + w.a[i] * w.D[j] - 2 * w.D[i] * w.a[j];
+            w.T[3 * i + j] = w.f.nu[0] * coupling / 2 + w.f.nu[1] * across * w.a[j];
             w.V[3 * i + j] = (i == j ? w.f.mu[0] : 0) + w.f.nu[0] * w.a[i] * w.a[j];
         }
     }
@@ -121,14 +121,14 @@ typedef struct work {
     double mean[3], difference[3];
 } work;
 
-static work work_of(const motion *w, const double f[3], const double turn[3])
+static work work_of(const motion *w, const double f[3], const double moment[3])
 {
     work k;
     double tf[3], side[3];
     mat3_mul_vec(w->V, f, k.g); /* symmetric */
     mat3_transpose_mul_vec(w->T, f, tf);
     for (int i = 0; i < 3; i++)
-        k.t[i] = turn[i] + tf[i];
+        k.t[i] = moment[i] + tf[i];
     vec3_cross(w->D, k.g, k.m);
     mat3_mul_vec(w->V, k.t, k.p);
     vec3_cross(k.m, w->a, side);
@@ -172,15 +172,15 @@ static void second_of_translation(const motion *w, const double f[3], double ben
 {
     const double square = vec3_dot(w->a, w->a), fD = vec3_dot(f, w->D), fa = vec3_dot(f, w->a),
                  across = fa * w->along - square * fD;
-    double turn[3];
+    double coupled[3];
     for (int i = 0; i < 3; i++)
-        turn[i] = f[i] * w->along + w->D[i] * fa - 2 * w->a[i] * fD;
+        coupled[i] = f[i] * w->along + w->D[i] * fa - 2 * w->a[i] * fD;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             const double p = w->a[i], q = w->a[j];
             bent[3 * i + j] =
                 w->f.nu[0] / 4 * (f[i] * w->D[j] + w->D[i] * f[j] - (i == j ? 2 * fD : 0)) +
-                w->f.nu[1] / 2 * (p * turn[j] + turn[i] * q + (i == j ? across : 0)) +
+                w->f.nu[1] / 2 * (p * coupled[j] + coupled[i] * q + (i == j ? across : 0)) +
                 w->f.nu[2] * across * p * q;
             mixed[3 * i + j] = w->f.nu[0] / 2 * (f[i] * q + (i == j ? fa : 0) - 2 * p * f[j]) +
                                w->f.nu[1] * p * (q * fa - square * f[j]);
@@ -274,12 +274,12 @@ static void nodal_form(const motion *w, form *k, double H[COORDINATES * COORDINA
 }
 
 /* e from U less l0, from l0 psi and l0^2 a: rows of n. */
-static void arrange(int n, const double U[], const double turn[], double e[])
+static void arrange(int n, const double U[], const double kappa[], double e[])
 {
     for (int k = 0; k < n; k++) {
-        const double half[2] = {turn[n + k] / 2, turn[2 * n + k] / 2};
+        const double half[2] = {kappa[n + k] / 2, kappa[2 * n + k] / 2};
         e[k] = U[k];
-        e[1 * n + k] = turn[k];
+        e[1 * n + k] = kappa[k];
         e[2 * n + k] = half[0] - U[2 * n + k];
         e[3 * n + k] = half[0] + U[2 * n + k];
         e[4 * n + k] = half[1] + U[1 * n + k];
@@ -292,22 +292,22 @@ void beamw_helicoidal_strain(const element_data *d, const node_state x[], strain
     const double l0 = d->l0;
     const motion w = motion_of(l0, x);
     if (out->e != NULL) {
-        const double turn[3] = {2 * l0 * w.a[0], 2 * l0 * w.a[1], 2 * l0 * w.a[2]};
-        arrange(1, w.U, turn, out->e);
+        const double kappa[3] = {2 * l0 * w.a[0], 2 * l0 * w.a[1], 2 * l0 * w.a[2]};
+        arrange(1, w.U, kappa, out->e);
         out->e[6] = l0 * l0 * x[0].a;
         out->e[7] = l0 * l0 * x[1].a;
     }
     if (out->J != NULL) {
-        double U[3 * COORDINATES], turn[3 * COORDINATES];
+        double U[3 * COORDINATES], kappa[3 * COORDINATES];
         for (int i = 0; i < 3; i++) {
             const double none[3] = {0}, f[3] = {i == 0, i == 1, i == 2},
                          t[3] = {l0 * f[0], l0 * f[1], l0 * f[2]};
             const work translating = work_of(&w, f, none), turning = work_of(&w, none, t);
             nodal_row(&w, &translating, U + COORDINATES * i);
-            nodal_row(&w, &turning, turn + COORDINATES * i);
+            nodal_row(&w, &turning, kappa + COORDINATES * i);
         }
         memset(out->J, 0, STRAINS * COORDINATES * sizeof *out->J);
-        arrange(COORDINATES, U, turn, out->J);
+        arrange(COORDINATES, U, kappa, out->J);
         out->J[6 * COORDINATES + AP] = out->J[7 * COORDINATES + AQ] = l0 * l0;
     }
     if (out->s != NULL && out->H != NULL) {

@@ -138,13 +138,13 @@ static void add_interpolated(configuration *c, const interpolation *y)
                 T[N * i + j] += c->mean[k][i] * gradient[k][j];
         }
     }
-    moving_turning(fixed[0], TP, N, T);
-    moving_turning(fixed[1], TQ, N, T);
+    moving_rotation_gradient(fixed[0], TP, N, T);
+    moving_rotation_gradient(fixed[1], TQ, N, T);
     moving_add(&v, c->spin, N, c->out, F);
     if (c->out->N == NULL)
         return;
-    moving_turn(F, fixed[0], TP, N, c->out->N);
-    moving_turn(F, fixed[1], TQ, N, c->out->N);
+    moving_rotation_stiffness(F, fixed[0], TP, N, c->out->N);
+    moving_rotation_stiffness(F, fixed[1], TQ, N, c->out->N);
     for (int k = 0; k < 3; k++)
         if (y->along[k] != NULL)
             add_curvature(c, F, k, y->sign[k], y->along[k], gradient[k]);

@@ -40,8 +40,8 @@ static void put(double row[N], int at, double factor, const double v[3])
         row[at + i] = factor * v[i];
 }
 
-/* Gradient of c n . v, v fixed to the node whose rotation columns begin at `turn`. */
-static void bending_row(const chord *b, double c, const double v[3], int turn, double row[N])
+/* Gradient of c n . v, v fixed to the node whose rotation columns begin at `rotation`. */
+static void bending_row(const chord *b, double c, const double v[3], int rotation, double row[N])
 {
     double across[3], moment[3];
     const double along = vec3_dot(b->n, v);
@@ -50,7 +50,7 @@ static void bending_row(const chord *b, double c, const double v[3], int turn, d
     vec3_cross(v, b->n, moment);
     put(row, RP, -c / b->l, across);
     put(row, RQ, c / b->l, across);
-    put(row, turn, c, moment);
+    put(row, rotation, c, moment);
 }
 
 static void add_block(double H[N * N], int row, int col, double factor, const double B[9])
@@ -79,8 +79,8 @@ static void turning(const double u[3], const double v[3], double B[9])
             B[3 * i + j] = (u[i] * v[j] + v[i] * u[j]) / 2 - (i == j ? dot : 0);
 }
 
-/* H += second derivatives of n . v, v fixed to the node at `turn` (its scale contains the stress). */
-static void add_bending(const chord *b, const double v[3], int turn, double H[N * N])
+/* H += second derivatives of n . v, v fixed to the node at `rotation` (its scale contains the stress). */
+static void add_bending(const chord *b, const double v[3], int rotation, double H[N * N])
 {
     const double dot = vec3_dot(b->n, v), l = b->l;
     double rr[9], rt[9], tt[9];
@@ -99,9 +99,9 @@ static void add_bending(const chord *b, const double v[3], int turn, double H[N 
     add_block(H, RP, RP, 1, rr);
     add_block(H, RQ, RQ, 1, rr);
     add_pair(H, RP, RQ, -1, rr);
-    add_pair(H, RQ, turn, -1, rt);
-    add_pair(H, RP, turn, 1, rt);
-    add_block(H, turn, turn, 1, tt);
+    add_pair(H, RQ, rotation, -1, rt);
+    add_pair(H, RP, rotation, 1, rt);
+    add_block(H, rotation, rotation, 1, tt);
 }
 
 /* H += c times the second derivatives of u . v, u fixed to p and v to q. */

@@ -47,13 +47,13 @@ void exact_point_at(int nodes, const double q[], const double N[], const double 
 void exact_point_gradient(const exact_point *p, const double n[3], const double f[3], double Q[4],
                           double S[4])
 {
-    double across[3], turn[3], A[4], D[4];
+    double across[3], v_cross_f[3], A[4], D[4];
     vec3_cross(p->kappa, n, across);
-    vec3_cross(p->v, f, turn);
+    vec3_cross(p->v, f, v_cross_f);
     A[0] = -vec3_dot(n, p->kappa) / p->m;
     D[0] = 0;
     for (int i = 0; i < 3; i++) {
-        A[i + 1] = -(2 * p->eta * n[i] + across[i] + 2 * turn[i]) / p->m;
+        A[i + 1] = -(2 * p->eta * n[i] + across[i] + 2 * v_cross_f[i]) / p->m;
         D[i + 1] = 2 * n[i] / p->m;
     }
     rotation_compose(p->u, A, Q);
@@ -79,14 +79,14 @@ static void to_fixed(const exact_point *p, double W[16], double out[16])
 void exact_point_hessian(const exact_point *p, const double n[3], const double f[3], double QQ[16],
                          double QS[16], double QY[12])
 {
-    double across[3], turn[3], AA[16], AD[16], AY[12] = {0};
+    double across[3], v_cross_f[3], AA[16], AD[16], AY[12] = {0};
     const double *v = p->v, nk = vec3_dot(n, p->kappa), fv = vec3_dot(f, v);
     vec3_cross(p->kappa, n, across);
-    vec3_cross(v, f, turn);
+    vec3_cross(v, f, v_cross_f);
     memset(AD, 0, sizeof AD);
     AA[0] = 2 * nk;
     for (int i = 0; i < 3; i++) {
-        AA[i + 1] = AA[4 * (i + 1)] = 4 * p->eta * n[i] + 2 * across[i] + 2 * turn[i];
+        AA[i + 1] = AA[4 * (i + 1)] = 4 * p->eta * n[i] + 2 * across[i] + 2 * v_cross_f[i];
         for (int j = 0; j < 3; j++)
             AA[4 * (i + 1) + j + 1] =
                 2 * (f[i] * v[j] + v[i] * f[j]) - (i == j ? 2 * nk + 4 * fv : 0);

@@ -70,12 +70,12 @@ void exact_stages_evaluate(const exact_stages *s, const double e[], const double
 /* v -= what initial strains add to it, int R g in the axes half way: strains are counted from the arc without them. */
 static void less_initial_strain(const element_request *request, double v[3])
 {
-    double turn[3], back[3], added[3], q[4], R[9], middle[3];
+    double rotation[3], back[3], added[3], q[4], R[9], middle[3];
     for (int i = 0; i < 3; i++) {
-        turn[i] = request->curvature[i] * request->length;
-        back[i] = -turn[i] / 2;
+        rotation[i] = request->curvature[i] * request->length;
+        back[i] = -rotation[i] / 2;
     }
-    arc_at(turn, request->strain, 1, added, q);
+    arc_at(rotation, request->strain, 1, added, q);
     rotation_exp(back, q);
     rotation_matrix(q, R);
     mat3_mul_vec(R, added, middle);
@@ -96,11 +96,11 @@ status exact_stages_prepare(const element_request *request, int count, exact_sta
     exact_strain_prepare(2, 1, request->length, request->curvature, none, EXACT_MEASURE_EIGHTH,
                          &out->line);
     quadrature_points(count, point, out->w);
-    const double turn = vec3_norm(request->curvature) * request->length;
+    const double angle = vec3_norm(request->curvature) * request->length;
     for (int k = 0; k <= count; k++) {
         at[k] = (1 - cos(PI * k / count)) /
                 2; /* any distinct points would do: Chebyshev's keep the numbers of a size */
-        const double length = turn > 0 ? 4 * tan(turn * (at[k] - 0.5) / 4) / turn : 0;
+        const double length = angle > 0 ? 4 * tan(angle * (at[k] - 0.5) / 4) / angle : 0;
         for (int i = 0; i < 3; i++)
             out->rest_x[k][i] = request->curvature[i] * request->length * length;
     }

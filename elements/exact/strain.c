@@ -62,7 +62,7 @@ static void first(const exact_strain_line *line, const nodes *s, int g, const ex
     double T[9], psi[3];
     exact_measure_of(line->rotation, p->kappa, psi, T);
     for (int row = 0; row < 6; row++) {
-        double Q[4], S[4], unit[3] = {0}, inverse[4], weight[4], turn[4];
+        double Q[4], S[4], unit[3] = {0}, inverse[4], weight[4], gradient[4];
         if (row < 3)
             unit[row] = 1;
         exact_point_gradient(p, row < 3 ? none : &T[3 * (row - 3)], unit, Q, S);
@@ -71,11 +71,11 @@ static void first(const exact_strain_line *line, const nodes *s, int g, const ex
             for (int i = 0; i < 4; i++)
                 weight[i] = line->N[g][k] * Q[i] + line->dN[g][k] * S[i];
             rotation_conjugate(s->q[k], inverse);
-            rotation_compose(weight, inverse, turn); /* w . (theta q) = theta . Im(w q^-1) */
+            rotation_compose(weight, inverse, gradient); /* w . (theta q) = theta . Im(w q^-1) */
             for (int i = 0; i < 3; i++) {
                 out[i] =
                     row < 3 ? line->dN[g][k] * p->R[3 * i + row] : 0; /* r per l0, e times l0 */
-                out[3 + i] = l0 / 2 * turn[i + 1];
+                out[3 + i] = l0 / 2 * gradient[i + 1];
             }
             out[6] = 0;
         }
@@ -113,10 +113,10 @@ static void second(const exact_strain_line *line, const nodes *s, int g, const e
                    const double weight[6], const double J[], double H[])
 {
     const int n = NODE_COORDINATES * line->nodes;
-    double turn[3], stretching[3], Q[4], S[4], QQ[16], QS[16], QY[12];
+    double moment[3], stretching[3], Q[4], S[4], QQ[16], QS[16], QY[12];
     for (int i = 0; i < 3; i++) {
         stretching[i] = line->l0 * weight[i];
-        turn[i] = line->l0 * weight[3 + i];
+        moment[i] = line->l0 * weight[3 + i];
     }
     if (line->rotation != EXACT_MEASURE_QUARTER) {
         /* n . psi(x): T^T n takes n's place, and the second derivative of psi meets dx = T^-1 J twice. */
@@ -124,7 +124,7 @@ static void second(const exact_strain_line *line, const nodes *s, int g, const e
             dx[3 * NODE_COORDINATES * ELEMENT_MAX_NODES], weighted[3];
         int pivot[3];
         exact_measure_of(line->rotation, p->kappa, psi, T);
-        exact_measure_second(line->rotation, p->kappa, turn, inner);
+        exact_measure_second(line->rotation, p->kappa, moment, inner);
         memcpy(inverse, T, sizeof inverse);
         memcpy(dx, &J[3 * n], 3 * (size_t)n * sizeof *dx);
         dense_lu(3, inverse, pivot); /* every measure grows with the angle: never singular */
@@ -133,11 +133,11 @@ static void second(const exact_strain_line *line, const nodes *s, int g, const e
             bent[i] = inner[i] / (line->l0 * line->l0);
         double work[3 * NODE_COORDINATES * ELEMENT_MAX_NODES];
         dense_add_congruence(3, n, dx, bent, H, work);
-        mat3_transpose_mul_vec(T, turn, weighted);
-        memcpy(turn, weighted, sizeof turn);
+        mat3_transpose_mul_vec(T, moment, weighted);
+        memcpy(moment, weighted, sizeof moment);
     }
-    exact_point_gradient(p, turn, stretching, Q, S);
-    exact_point_hessian(p, turn, stretching, QQ, QS, QY);
+    exact_point_gradient(p, moment, stretching, Q, S);
+    exact_point_hessian(p, moment, stretching, QQ, QS, QY);
     for (int k = 0; k < line->nodes; k++) {
         double curved = 0;
         for (int i = 0; i < 4; i++)
@@ -189,13 +189,13 @@ void exact_strain_of(const exact_strain_line *line, const node_state x[], strain
 }
 
 /* R^T r' and measures of rotation at the points, of nodes along the arc without stress. */
-static void observe_rest(exact_strain_line *line, const double turn[3], const double e[3],
+static void observe_rest(exact_strain_line *line, const double rotation[3], const double e[3],
                          const double at[], double rest[EXACT_STRAIN_MAX_POINTS][6])
 {
     nodes s;
     memset(s.u, 0, sizeof s.u);
     for (int k = 0; k < line->nodes; k++)
-        arc_at(turn, e, at[k], s.r[k], s.q[k]);
+        arc_at(rotation, e, at[k], s.r[k], s.q[k]);
     for (int g = 0; g < line->points; g++) {
         exact_point p;
         double y[3], dy[3], T[9];
@@ -209,7 +209,7 @@ void exact_strain_prepare(int nodes_count, int points, double l0, const double c
                           const double strain[3], exact_measure_kind rotation,
                           exact_strain_line *line)
 {
-    const double turn[3] = {curvature[0] * l0, curvature[1] * l0, curvature[2] * l0},
+    const double rotation[3] = {curvature[0] * l0, curvature[1] * l0, curvature[2] * l0},
                  along[3] = {1, 0, 0};
     const double strained[3] = {1 + strain[0], strain[1], strain[2]};
     double x[EXACT_STRAIN_MAX_POINTS], w[EXACT_STRAIN_MAX_POINTS],
@@ -224,8 +224,8 @@ void exact_strain_prepare(int nodes_count, int points, double l0, const double c
         at[k] = (double)k / (nodes_count - 1);
     for (int g = 0; g < points; g++)
         exact_line_lagrange(nodes_count, at, x[g], line->N[g], line->dN[g]);
-    observe_rest(line, turn, along, at, line->rest);
-    observe_rest(line, turn, strained, at, without);
+    observe_rest(line, rotation, along, at, line->rest);
+    observe_rest(line, rotation, strained, at, without);
     for (int g = 0; g < points; g++)
         for (int i = 0; i < 3; i++)
             line->initial[g][i] = without[g][i] - line->rest[g][i];

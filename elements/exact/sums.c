@@ -19,13 +19,14 @@ static void add_point(int nodes, const double N[], const double dN[],
                       double H[EXACT_STAGE_SPACE][EXACT_STAGE_SPACE], exact_sums *a)
 {
     for (int l = 0; l < nodes; l++) {
-        double turn[9], slope[9];
+        double value[9], slope[9];
         for (int i = 0; i < 3; i++) {
             a->g[l][i] += N[l] * gradient[EXACT_STAGE_MILENKOVIC + i] +
                           dN[l] * gradient[EXACT_STAGE_SLOPE + i];
             for (int j = 0; j < 3; j++) {
-                turn[3 * i + j] = H[EXACT_STAGE_MILENKOVIC + i][EXACT_STAGE_MILENKOVIC + j] * N[l] +
-                                  H[EXACT_STAGE_MILENKOVIC + i][EXACT_STAGE_SLOPE + j] * dN[l];
+                value[3 * i + j] =
+                    H[EXACT_STAGE_MILENKOVIC + i][EXACT_STAGE_MILENKOVIC + j] * N[l] +
+                    H[EXACT_STAGE_MILENKOVIC + i][EXACT_STAGE_SLOPE + j] * dN[l];
                 slope[3 * i + j] = H[EXACT_STAGE_SLOPE + i][EXACT_STAGE_MILENKOVIC + j] * N[l] +
                                    H[EXACT_STAGE_SLOPE + i][EXACT_STAGE_SLOPE + j] * dN[l];
                 a->Y[l][3 * i + j] += N[l] * H[EXACT_STAGE_MILENKOVIC + i][EXACT_STAGE_FORCE + j] +
@@ -34,7 +35,7 @@ static void add_point(int nodes, const double N[], const double dN[],
         }
         for (int k = 0; k <= l; k++)
             for (int i = 0; i < 9; i++)
-                a->X[k][l][i] += N[k] * turn[i] + dN[k] * slope[i];
+                a->X[k][l][i] += N[k] * value[i] + dN[k] * slope[i];
     }
     for (int i = 0; i < 3; i++) {
         a->gF[i] += gradient[EXACT_STAGE_FORCE + i];

@@ -5,9 +5,9 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-void arc_at(const double turn[3], const double e[3], double x, double r[3], double q[4])
+void arc_at(const double rotation[3], const double e[3], double x, double r[3], double q[4])
 {
-    const double part[3] = {turn[0] * x, turn[1] * x, turn[2] * x};
+    const double part[3] = {rotation[0] * x, rotation[1] * x, rotation[2] * x};
     const double w = vec3_norm(part), half = sin(w / 2);
     /* (1 - cos w)/w^2 and (w - sin w)/w^3 */
     const double a = w < 1e-4 ? 0.5 - w * w / 24 : 2 * half * half / (w * w);

@@ -47,10 +47,10 @@ static void add_rotation(const lumped_mass *l, double share, const node_state *x
                                  .at = at + 3,
                                  .columns = 3,
                                  .T = T};
-        moving_turning(v.y, 0, 3, T);
+        moving_rotation_gradient(v.y, 0, 3, T);
         moving_add(&v, spin, n, out, F);
         if (out->N != NULL)
-            moving_turn(F, v.y, at + 3, n, out->N);
+            moving_rotation_stiffness(F, v.y, at + 3, n, out->N);
     }
 }
 
@@ -66,11 +66,11 @@ static void add_warping(double mass, const node_state *x, const element_spin *sp
         v.y[i] = x->a * normal[i];
         T[COLUMNS * i + A] = normal[i];
     }
-    moving_turning(v.y, 0, COLUMNS, T);
+    moving_rotation_gradient(v.y, 0, COLUMNS, T);
     moving_add(&v, spin, n, out, F);
     if (out->N == NULL)
         return;
-    moving_turn(F, v.y, at + 3, n, out->N);
+    moving_rotation_stiffness(F, v.y, at + 3, n, out->N);
     vec3_cross(normal, F, mixed);
     for (int i = 0; i < 3; i++) {
         out->N[(at + 3 + i) * n + at + 6] -= mixed[i];

@@ -64,7 +64,7 @@ void moving_add(const moving_vector *v, const element_spin *spin, int n, inertia
     }
 }
 
-void moving_turn(const double F[3], const double v[3], int at, int n, double N[])
+void moving_rotation_stiffness(const double F[3], const double v[3], int at, int n, double N[])
 {
     const double dot = vec3_dot(F, v);
     for (int i = 0; i < 3; i++)
@@ -72,7 +72,7 @@ void moving_turn(const double F[3], const double v[3], int at, int n, double N[]
             N[(at + i) * n + at + j] -= (F[i] * v[j] + v[i] * F[j]) / 2 - (i == j ? dot : 0);
 }
 
-void moving_turning(const double v[3], int at, int columns, double T[])
+void moving_rotation_gradient(const double v[3], int at, int columns, double T[])
 {
     const double turned[9] = {0, v[2], -v[1], -v[2], 0, v[0], v[1], -v[0], 0}; /* -v~ */
     for (int i = 0; i < 3; i++)

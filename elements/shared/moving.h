@@ -20,8 +20,8 @@ void moving_clear(int n, inertia_output *out);
 void moving_add(const moving_vector *v, const element_spin *spin, int n, inertia_output *out,
                 double F[3]);
 /* N -= F . d2v/dtheta2 of a vector v fixed to the node whose rotations begin at coordinate `at` (exponential chart). */
-void moving_turn(const double F[3], const double v[3], int at, int n, double N[]);
+void moving_rotation_stiffness(const double F[3], const double v[3], int at, int n, double N[]);
 /* T[3 x columns] += -v~ in columns at .. at + 2: a vector v fixed to a node turns with it. */
-void moving_turning(const double v[3], int at, int columns, double T[]);
+void moving_rotation_gradient(const double v[3], int at, int columns, double T[]);
 
 #endif

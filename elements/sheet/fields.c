@@ -5,7 +5,7 @@
 /* With the antisymmetric cubic c = x - 3x^2 + 2x^3 and the shear share r = Phi/(2 + 2 Phi):
  * a deflection v with end slopes a, b is l0 [a (x-2x^2+x^3) + b (-x^2+x^3) - r (a+b) c], the rotation v' + r (a+b). */
 static void bending(double l0, double x, double Phi, int at, double sign, double v[], double dv[],
-                    double turn[], double dturn[])
+                    double phi[], double dphi[])
 {
     const double r = Phi / (2 + 2 * Phi), c = x * (1 - x) * (1 - 2 * x), dc = 1 - 6 * x * (1 - x),
                  ddc = 12 * x - 6;
@@ -16,8 +16,8 @@ static void bending(double l0, double x, double Phi, int at, double sign, double
         if (v != NULL)
             v[at + i] = sign * l0 * (shape[i] - r * c);
         dv[at + i] = sign * (slope[i] - r * dc);
-        turn[at + i] = slope[i] - r * dc + r;
-        dturn[at + i] = (second[i] - r * ddc) / l0;
+        phi[at + i] = slope[i] - r * dc + r;
+        dphi[at + i] = (second[i] - r * ddc) / l0;
     }
 }
 

@@ -108,13 +108,13 @@ static void acceleration_weights(const sheet_local_state *s,
                                  const double t[SHEET_LOCAL_COORDINATES], const double relative[3],
                                  double bend, double g[SHEET_RATE_TURNS])
 {
-    const double turn = bend + s->tan_yp * relative[0];
+    const double about_z = bend + s->tan_yp * relative[0];
     g[SHEET_RATE_V] = t[SHEET_LOCAL_U];
-    g[SHEET_RATE_V + 1] = -(turn + relative[2]) / s->l;
+    g[SHEET_RATE_V + 1] = -(about_z + relative[2]) / s->l;
     g[SHEET_RATE_V + 2] = (t[SHEET_LOCAL_YP] + relative[1]) / s->l;
     g[SHEET_RATE_P] = -relative[0];
     g[SHEET_RATE_P + 1] = t[SHEET_LOCAL_YP];
-    g[SHEET_RATE_P + 2] = turn;
+    g[SHEET_RATE_P + 2] = about_z;
     for (int i = 0; i < 3; i++)
         g[SHEET_RATE_Q + i] = relative[i];
 }

@@ -98,20 +98,20 @@ status sheet_strains_prepare(const element_request *request, double Phi_y, doubl
 static void gradient(const sheet_strains_table *m, const double q[N], double e[SHEET_STRAINS],
                      double E[SHEET_STRAINS * N])
 {
-    double turn[SHEET_STRAINS][N] = {{0}};
+    double quadratic[SHEET_STRAINS][N] = {{0}};
     for (int t = 0; t < m->terms; t++) {
         const int i = m->term[t].i, j = m->term[t].j, k = m->term[t].k;
-        turn[i][j] += m->term[t].c * q[k];
+        quadratic[i][j] += m->term[t].c * q[k];
         if (j != k)
-            turn[i][k] += m->term[t].c * q[j];
+            quadratic[i][k] += m->term[t].c * q[j];
     }
-    memcpy(turn[6], turn[1], sizeof turn[1]);
-    memcpy(turn[7], turn[1], sizeof turn[1]);
+    memcpy(quadratic[6], quadratic[1], sizeof quadratic[1]);
+    memcpy(quadratic[7], quadratic[1], sizeof quadratic[1]);
     for (int i = 0; i < SHEET_STRAINS; i++) {
         e[i] = 0;
         for (int j = 0; j < N; j++) {
-            E[N * i + j] = m->Lambda[N * i + j] + turn[i][j];
-            e[i] += (m->Lambda[N * i + j] + turn[i][j] / 2) * q[j];
+            E[N * i + j] = m->Lambda[N * i + j] + quadratic[i][j];
+            e[i] += (m->Lambda[N * i + j] + quadratic[i][j] / 2) * q[j];
         }
     }
 }
@@ -202,13 +202,13 @@ void sheet_strains_evaluate(const sheet_strains_table *table, const node_state x
 void sheet_strains_set_rest(const element_request *request, sheet_strains_table *out)
 {
     const double l0 = request->length, *k = request->curvature, *g = request->strain;
-    const double turn[3] = {k[0] * l0, k[1] * l0, k[2] * l0}, along[3] = {1, 0, 0},
+    const double rotation[3] = {k[0] * l0, k[1] * l0, k[2] * l0}, along[3] = {1, 0, 0},
                  strained[3] = {1 + g[0], g[1], g[2]};
     double arc[3], unstressed[3], q[4], rest[SHEET_STRAINS];
     node_state x[2];
     memset(x, 0, sizeof x);
-    arc_at(turn, along, 1, arc, q);
-    arc_at(turn, strained, 1, unstressed, q);
+    arc_at(rotation, along, 1, arc, q);
+    arc_at(rotation, strained, 1, unstressed, q);
     for (int i = 0; i < 3; i++) {
         x[1].r[i] = l0 * unstressed[i];
         x[1].u[i] = l0 * (unstressed[i] - arc[i]);

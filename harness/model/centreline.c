@@ -10,9 +10,9 @@
 #include "harness/model/model_impl.h"
 
 enum { LEAST_PIECES = 12 }; /* of a member, so that one element is a curve */
-static const double drawn_part = 0.1, drawn_turn = 0.5; /* of the size; [rad] */
+static const double drawn_part = 0.1, drawn_rotation = 0.5; /* of the size; [rad] */
 
-/* Gaps between the vertices of a member, and pieces of each incompatibility. */
+/* Gaps between the vertices of a member, and pieces of each gap. */
 static int gaps_of(const model *m, int member)
 {
     return (m->first_element[member + 1] - m->first_element[member]) * (m->nodes - 1);
@@ -40,7 +40,7 @@ int centreline_points(const model *m, int first[])
 /* One element: its nodes' frames and the forces that the outside exerts on them. */
 typedef struct span {
     int nodes;
-    double incompatibility; /* undeformed distance between two nodes [m] */
+    double gap; /* undeformed distance between two nodes [m] */
     node_state x[ELEMENT_MAX_NODES];
     double q[ELEMENT_MAX_NODES][4];
     double force[ELEMENT_MAX_COORDINATES];
@@ -54,7 +54,7 @@ static void span_of(const model *m, const model_state *s, int element, span *out
     double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     memset(out, 0, sizeof *out);
     out->nodes = m->nodes;
-    out->incompatibility = m->kind[el->kind].length / (m->nodes - 1);
+    out->gap = m->kind[el->kind].length / (m->nodes - 1);
     kinematics_gather(m, s, el, out->x);
     for (int k = 0; k < m->nodes; k++)
         rotation_from_matrix(out->x[k].R, out->q[k]);
@@ -67,28 +67,27 @@ static void cubic(const span *e, int k, double t, double r[3], double direction[
 {
     const double *p = e->x[k].r, *q = e->x[k + 1].r, u = 1 - t;
     for (int i = 0; i < 3; i++) {
-        const double a = e->incompatibility * e->x[k].R[3 * i],
-                     b = e->incompatibility * e->x[k + 1].R[3 * i];
+        const double a = e->gap * e->x[k].R[3 * i], b = e->gap * e->x[k + 1].R[3 * i];
         r[i] = p[i] + t * t * (3 - 2 * t) * (q[i] - p[i]) + t * u * (u * a - t * b);
         direction[i] = 6 * t * u * (q[i] - p[i]) + u * (1 - 3 * t) * a + t * (3 * t - 2) * b;
     }
 }
 
-/* The shorter way between the two triads, then the shortest turn of its x axis into the line. */
+/* The shorter way between the two triads, then the shortest rotation of its x axis into the line. */
 static void orientation(const span *e, int k, double t, const double direction[3], double q[4])
 {
-    double turn[3], step[4], x[3] = {1, 0, 0}, axis[3];
-    rotation_between(e->q[k], e->q[k + 1], turn);
+    double rotation_vector[3], step[4], x[3] = {1, 0, 0}, axis[3];
+    rotation_between(e->q[k], e->q[k + 1], rotation_vector);
     for (int i = 0; i < 3; i++)
-        turn[i] *= t;
-    rotation_exp(turn, step);
+        rotation_vector[i] *= t;
+    rotation_exp(rotation_vector, step);
     rotation_compose(step, e->q[k], q);
     rotation_apply(q, x, x);
     vec3_cross(x, direction, axis);
     const double sine = vec3_norm(axis), angle = atan2(sine, vec3_dot(x, direction));
     for (int i = 0; i < 3; i++)
-        turn[i] = sine > 0 ? axis[i] / sine * angle : 0;
-    rotation_exp(turn, step);
+        rotation_vector[i] = sine > 0 ? axis[i] / sine * angle : 0;
+    rotation_exp(rotation_vector, step);
     rotation_compose(step, q, q);
 }
 
@@ -156,13 +155,13 @@ static void increments_of(const model *m, const model_state *s, const double x[]
     }
 }
 
-/* Makes a mode visible: its translations, or its turns when these are larger. */
+/* Makes a mode visible: its translations, or its rotations when these are larger. */
 static double visible_scale(const model *m, const double increment[])
 {
     double scale = INFINITY;
     for (int v = 0; v < m->vertices; v++)
         scale = fmin(scale, fmin(drawn_part * m->size / vec3_norm(&increment[6 * v]),
-                                 drawn_turn / vec3_norm(&increment[6 * v + 3])));
+                                 drawn_rotation / vec3_norm(&increment[6 * v + 3])));
     return isfinite(scale) ? scale : 1;
 }
 
@@ -170,12 +169,12 @@ static double visible_scale(const model *m, const double increment[])
 static void displace(const model *m, double scale, const double increment[], model_state *s)
 {
     for (int v = 0; v < m->vertices; v++) {
-        double turn[3], q[4];
+        double rotation_vector[3], q[4];
         for (int i = 0; i < 3; i++) {
             s->u[3 * v + i] += scale * increment[6 * v + i];
-            turn[i] = scale * increment[6 * v + 3 + i];
+            rotation_vector[i] = scale * increment[6 * v + 3 + i];
         }
-        rotation_exp(turn, q);
+        rotation_exp(rotation_vector, q);
         rotation_compose(q, &s->q[4 * v], &s->q[4 * v]);
     }
 }

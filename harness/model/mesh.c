@@ -96,14 +96,14 @@ static status arc_of(const scene *s, int member, double axes_angle, arc *out, fa
 
 static void arc_at(const arc *a, double s, double position[3], double R[9])
 {
-    double c[3], turn[3], q[4], along[9];
+    double c[3], rotation_vector[3], q[4], along[9];
     arc_chord(a->k, s, c);
     mat3_mul_vec(a->R, c, position);
     for (int i = 0; i < 3; i++) {
         position[i] += a->start[i];
-        turn[i] = a->k[i] * s;
+        rotation_vector[i] = a->k[i] * s;
     }
-    rotation_exp(turn, q);
+    rotation_exp(rotation_vector, q);
     rotation_matrix(q, along);
     mat3_mul(a->R, along, R);
 }
