@@ -189,13 +189,14 @@ void exact_strain_of(const exact_strain_line *line, const node_state x[], strain
 }
 
 /* R^T r' and measures of rotation at the points, of nodes along the arc without stress. */
-static void observe_rest(exact_strain_line *line, const double rotation[3], const double e[3],
-                         const double at[], double rest[EXACT_STRAIN_MAX_POINTS][6])
+static void observe_rest(exact_strain_line *line, const double rotation_vector[3],
+                         const double e[3], const double at[],
+                         double rest[EXACT_STRAIN_MAX_POINTS][6])
 {
     nodes s;
     memset(s.u, 0, sizeof s.u);
     for (int k = 0; k < line->nodes; k++)
-        arc_at(rotation, e, at[k], s.r[k], s.q[k]);
+        arc_at(rotation_vector, e, at[k], s.r[k], s.q[k]);
     for (int g = 0; g < line->points; g++) {
         exact_point p;
         double y[3], dy[3], T[9];
@@ -209,7 +210,7 @@ void exact_strain_prepare(int nodes_count, int points, double l0, const double c
                           const double strain[3], exact_measure_kind rotation,
                           exact_strain_line *line)
 {
-    const double rotation[3] = {curvature[0] * l0, curvature[1] * l0, curvature[2] * l0},
+    const double rotation_vector[3] = {curvature[0] * l0, curvature[1] * l0, curvature[2] * l0},
                  along[3] = {1, 0, 0};
     const double strained[3] = {1 + strain[0], strain[1], strain[2]};
     double x[EXACT_STRAIN_MAX_POINTS], w[EXACT_STRAIN_MAX_POINTS],
@@ -224,8 +225,8 @@ void exact_strain_prepare(int nodes_count, int points, double l0, const double c
         at[k] = (double)k / (nodes_count - 1);
     for (int g = 0; g < points; g++)
         exact_line_lagrange(nodes_count, at, x[g], line->N[g], line->dN[g]);
-    observe_rest(line, rotation, along, at, line->rest);
-    observe_rest(line, rotation, strained, at, without);
+    observe_rest(line, rotation_vector, along, at, line->rest);
+    observe_rest(line, rotation_vector, strained, at, without);
     for (int g = 0; g < points; g++)
         for (int i = 0; i < 3; i++)
             line->initial[g][i] = without[g][i] - line->rest[g][i];

@@ -209,15 +209,14 @@ status section_compute(const section_spec *spec, section *out, fault *f)
         outcome = rectangle(spec, out, f);
     else
         *out = spec->constants;
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(outcome);
     out->young = spec->young;
     out->shear_modulus = spec->shear_modulus;
     out->density = spec->density;
     /* Whichever of D and F is there gives the other; both zero: rigid in shear. */
     outcome = out->F[0] == 0 && out->D[0] != 0 ? invert_on_support(out->D, out->F, "D", f)
                                                : invert_on_support(out->F, out->D, "F", f);
-    if (outcome == STATUS_OK)
-        outcome = apply_given(spec, out, f);
-    return outcome == STATUS_OK ? check_constants(out, f) : outcome;
+    TRY(outcome);
+    TRY(apply_given(spec, out, f));
+    return check_constants(out, f);
 }

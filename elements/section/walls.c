@@ -244,11 +244,8 @@ static double warping_constant(const section_spec *s, const double y[], const do
 status section_walls(const section_spec *s, section *out, fault *f)
 {
     tree t;
-    status outcome = check_walls(s, f);
-    if (outcome == STATUS_OK)
-        outcome = grow_tree(s, &t, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(check_walls(s, f));
+    TRY(grow_tree(s, &t, f));
     double y[SECTION_MAX_POINTS] = {0}, z[SECTION_MAX_POINTS] = {0},
            omega[SECTION_MAX_POINTS] = {0}, first[2] = {0, 0};
     for (int w = 0; w < s->walls; w++) {

@@ -59,6 +59,24 @@ static int compare(const cli_request *r, const results *before, const results *a
     return trouble(f);
 }
 
+/* What is compared, or written; cli_compare frees it. */
+static status read_runs(const cli_request *r, comparison_limits *limits, results *before,
+                        results *after, fault *f)
+{
+    select_words words;
+    if (r->threshold != NULL)
+        TRY(comparison_limits_parse(r->threshold, limits, f));
+    TRY(select_begin(r->select, &words, f));
+    TRY(cli_check_files(r, 0, NULL, f));
+    TRY(results_read(r->case_name, before, f));
+    if (r->second != NULL)
+        TRY(results_read(r->second, after, f));
+    meet(r->select, before, &words);
+    meet(r->select, after, &words);
+    TRY(select_all_met(r->select, &words, f));
+    return r->second == NULL ? write_table(r->output, before, f) : STATUS_OK;
+}
+
 int cli_compare(int count, char **arguments)
 {
     cli_request r;
@@ -77,24 +95,7 @@ int cli_compare(int count, char **arguments)
         return cli_fail(
             STATUS_REFUSED,
             "give two stored runs to compare, or one and -o FILE.csv for its short table");
-    status outcome =
-        r.threshold != NULL ? comparison_limits_parse(r.threshold, &limits, &f) : STATUS_OK;
-    select_words words;
-    if (outcome == STATUS_OK)
-        outcome = select_begin(r.select, &words, &f);
-    if (outcome == STATUS_OK)
-        outcome = cli_check_files(&r, 0, NULL, &f);
-    if (outcome == STATUS_OK)
-        outcome = results_read(r.case_name, &before, &f);
-    if (outcome == STATUS_OK && r.second != NULL)
-        outcome = results_read(r.second, &after, &f);
-    if (outcome == STATUS_OK) {
-        meet(r.select, &before, &words);
-        meet(r.select, &after, &words);
-        outcome = select_all_met(r.select, &words, &f);
-    }
-    if (outcome == STATUS_OK && r.second == NULL)
-        outcome = write_table(r.output, &before, &f);
+    const status outcome = read_runs(&r, &limits, &before, &after, &f);
     int code = SAME;
     if (outcome != STATUS_OK)
         code = trouble(&f);

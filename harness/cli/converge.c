@@ -40,10 +40,8 @@ static status write_out(const cli_request *r, const sweep *s, const truths *t, f
                    ? written
                    : fault_set(f, STATUS_FAULT, "standard output cannot be written");
     }
-    status outcome = output_open(r->output, &file, f);
-    if (outcome != STATUS_OK)
-        return outcome;
-    outcome = write_form(file.stream, r->format, s, t, f);
+    TRY(output_open(r->output, &file, f));
+    const status outcome = write_form(file.stream, r->format, s, t, f);
     if (outcome == STATUS_OK)
         return output_close(&file, f);
     output_discard(&file);

@@ -19,10 +19,8 @@ static status write_format(const char *format, FILE *to, const extreme_sweep *s,
 static status write_file(const char *path, const char *format, const extreme_sweep *s, fault *f)
 {
     output file;
-    status outcome = output_open(path, &file, f);
-    if (outcome != STATUS_OK)
-        return outcome;
-    outcome = write_format(format, file.stream, s, f);
+    TRY(output_open(path, &file, f));
+    const status outcome = write_format(format, file.stream, s, f);
     if (outcome == STATUS_OK)
         return output_close(&file, f);
     output_discard(&file);
@@ -31,11 +29,11 @@ static status write_file(const char *path, const char *format, const extreme_swe
 
 static status write_out(const cli_request *r, const extreme_sweep *s, fault *f)
 {
-    status outcome = r->output != NULL ? write_file(r->output, r->format, s, f)
-                                       : write_format(r->format, stdout, s, f);
-    if (outcome == STATUS_OK && fflush(stdout) != 0)
-        outcome = fault_set(f, STATUS_FAULT, "standard output cannot be written");
-    return outcome == STATUS_OK && r->json != NULL ? write_file(r->json, "json", s, f) : outcome;
+    TRY(r->output != NULL ? write_file(r->output, r->format, s, f)
+                          : write_format(r->format, stdout, s, f));
+    if (fflush(stdout) != 0)
+        return fault_set(f, STATUS_FAULT, "standard output cannot be written");
+    return r->json != NULL ? write_file(r->json, "json", s, f) : STATUS_OK;
 }
 
 int cli_stress(int count, char **arguments)

@@ -205,21 +205,28 @@ static status take_limits(const char *path, const char *of, const tables *t, res
     return STATUS_OK;
 }
 
-status results_read_case(const char *path, hid_t at, const char *name, results *out, fault *f)
+/* With what results_read_case frees. */
+static status take_case(const char *path, hid_t at, const char *name, tables *t, results *out,
+                        fault *f)
 {
-    tables t;
     int next = 0;
     const int first = out->cells;
     char where[NAME + 8];
     snprintf(where, sizeof where, "%s/", name);
-    const char *bad = read_tables(at, &t);
-    status outcome = bad == NULL ? STATUS_OK : results_damaged(path, where, bad, f);
-    for (int i = 0; i < t.cells && outcome == STATUS_OK; i++)
-        outcome = take_cell(path, name, &t, &t.cell[i], &next, out, f);
-    if (outcome == STATUS_OK && next < t.values)
-        outcome = results_damaged(path, where, "quantities: the cell of a value", f);
-    if (outcome == STATUS_OK)
-        outcome = take_limits(path, name, &t, out->cells > first ? &out->cell[first] : NULL, f);
+    const char *bad = read_tables(at, t);
+    if (bad != NULL)
+        return results_damaged(path, where, bad, f);
+    for (int i = 0; i < t->cells; i++)
+        TRY(take_cell(path, name, t, &t->cell[i], &next, out, f));
+    if (next < t->values)
+        return results_damaged(path, where, "quantities: the cell of a value", f);
+    return take_limits(path, name, t, out->cells > first ? &out->cell[first] : NULL, f);
+}
+
+status results_read_case(const char *path, hid_t at, const char *name, results *out, fault *f)
+{
+    tables t;
+    const status outcome = take_case(path, at, name, &t, out, f);
     out->limits = out->limits || t.limits >= 0;
     free_tables(&t);
     return outcome;

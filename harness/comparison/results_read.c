@@ -46,21 +46,23 @@ static int is_hdf5(FILE *from)
     return length == sizeof head && memcmp(head, signature, sizeof head) == 0;
 }
 
+static status read_sorted(const char *path, FILE *from, results *out, fault *f)
+{
+    TRY(is_hdf5(from) ? results_read_hdf5(path, out, f) : results_read_table(path, from, out, f));
+    TRY(sort_cells(path, out, f));
+    if (out->whole)
+        TRY(results_summarise(out, f));
+    return sort_series(path, out, f);
+}
+
 status results_read(const char *path, results *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     FILE *from = fopen(path, "rb");
     if (from == NULL)
         return fault_set(f, STATUS_FAULT, "%.120s: cannot be read (%s)", path, strerror(errno));
-    status outcome =
-        is_hdf5(from) ? results_read_hdf5(path, out, f) : results_read_table(path, from, out, f);
+    const status outcome = read_sorted(path, from, out, f);
     fclose(from);
-    if (outcome == STATUS_OK)
-        outcome = sort_cells(path, out, f);
-    if (outcome == STATUS_OK && out->whole)
-        outcome = results_summarise(out, f);
-    if (outcome == STATUS_OK)
-        outcome = sort_series(path, out, f);
     if (outcome != STATUS_OK)
         results_free(out);
     return outcome;

@@ -170,16 +170,13 @@ static status take_row(char *line, const char *path, int row, results *out, faul
 status results_read_table(const char *path, FILE *from, results *out, fault *f)
 {
     char line[LONGEST_LINE];
-    status outcome = STATUS_OK;
     if (fgets(line, sizeof line, from) == NULL || !take_line(line) ||
         strcmp(line, results_table_head) != 0)
         return fault_set(f, STATUS_FAULT,
                          "%.120s: neither results of 'beamwork verify -o' (HDF5) nor a table of "
                          "'beamwork compare -o'",
                          path);
-    for (int row = 2; outcome == STATUS_OK && fgets(line, sizeof line, from) != NULL; row++)
-        outcome = take_row(line, path, row, out, f);
-    if (outcome == STATUS_OK && ferror(from))
-        return fault_set(f, STATUS_FAULT, "%.120s: cannot be read", path);
-    return outcome;
+    for (int row = 2; fgets(line, sizeof line, from) != NULL; row++)
+        TRY(take_row(line, path, row, out, f));
+    return ferror(from) ? fault_set(f, STATUS_FAULT, "%.120s: cannot be read", path) : STATUS_OK;
 }

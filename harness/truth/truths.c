@@ -115,19 +115,21 @@ static status fill_rows(const columns *r, const case_type *type, const loose_col
     return STATUS_OK;
 }
 
+static status read_loose(const columns *r, const case_type *type, loose_columns *loose, truth *row)
+{
+    if (loose->parameters == NULL || loose->hash == NULL || loose->elements == NULL)
+        return fault_set(r->f, STATUS_FAULT, "out of memory for truths");
+    TRY(read_columns(r, loose, row));
+    return fill_rows(r, type, loose, row);
+}
+
 static status read_rows(const columns *r, const case_type *type, truth *row)
 {
     assert(r->rows >= 0);
     loose_columns loose = {.parameters = calloc((size_t)r->rows + 1, sizeof *loose.parameters),
                            .hash = calloc((size_t)r->rows + 1, sizeof *loose.hash),
                            .elements = calloc((size_t)r->rows + 1, sizeof *loose.elements)};
-    status outcome = STATUS_OK;
-    if (loose.parameters == NULL || loose.hash == NULL || loose.elements == NULL)
-        outcome = fault_set(r->f, STATUS_FAULT, "out of memory for truths");
-    if (outcome == STATUS_OK)
-        outcome = read_columns(r, &loose, row);
-    if (outcome == STATUS_OK)
-        outcome = fill_rows(r, type, &loose, row);
+    const status outcome = read_loose(r, type, &loose, row);
     if (loose.parameters != NULL)
         for (int i = 0; i < r->rows; i++)
             free(loose.parameters[i]);
@@ -231,31 +233,41 @@ static status read_tables(const char *path, hid_t file, const char *name, truths
     return outcome;
 }
 
-/* FAULT, and below 0, when it is damaged or not ours. */
-static hid_t open_truths(const char *path, status *outcome, fault *f)
+/* FAULT when it is damaged or not ours; below 0: nothing is open. */
+static status open_truths(const char *path, hid_t *file, fault *f)
 {
-    *outcome = checksum_check(path, f);
-    if (*outcome != STATUS_OK)
-        return -1;
+    *file = -1;
+    TRY(checksum_check(path, f));
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-    *outcome = file >= 0 ? check_schema(file, path, f)
-                         : fault_set(f, STATUS_FAULT,
-                                     "%s: cannot be read as HDF5; build it with 'make all'", path);
-    return file;
+    *file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (*file < 0)
+        return fault_set(f, STATUS_FAULT, "%s: cannot be read as HDF5; build it with 'make all'",
+                         path);
+    return check_schema(*file, path, f);
+}
+
+/* With what read_file closes. */
+static status read_open(const char *path, const char *group, int with_rules, hid_t *file,
+                        truths *out, fault *f)
+{
+    TRY(open_truths(path, file, f));
+    TRY(read_tables(path, *file, group, out, f));
+    return with_rules ? rules_read(path, *file, &out->rule, &out->rules, f) : STATUS_OK;
+}
+
+static status read_file(const char *path, const char *group, int with_rules, truths *out, fault *f)
+{
+    hid_t file;
+    const status outcome = read_open(path, group, with_rules, &file, out, f);
+    if (file >= 0)
+        H5Fclose(file);
+    return outcome;
 }
 
 status truths_read(const char *path, truths *out, fault *f)
 {
-    status outcome;
     memset(out, 0, sizeof *out);
-    const hid_t file = open_truths(path, &outcome, f);
-    if (outcome == STATUS_OK)
-        outcome = read_tables(path, file, "truths", out, f);
-    if (outcome == STATUS_OK)
-        outcome = rules_read(path, file, &out->rule, &out->rules, f);
-    if (file >= 0)
-        H5Fclose(file);
+    const status outcome = read_file(path, "truths", 1, out, f);
     if (outcome != STATUS_OK)
         truths_free(out);
     return outcome;
@@ -263,13 +275,7 @@ status truths_read(const char *path, truths *out, fault *f)
 
 status truths_read_extremes(const char *path, truths *out, fault *f)
 {
-    status outcome;
-    const hid_t file = open_truths(path, &outcome, f);
-    if (outcome == STATUS_OK)
-        outcome = read_tables(path, file, "extremes", out, f);
-    if (file >= 0)
-        H5Fclose(file);
-    return outcome;
+    return read_file(path, "extremes", 0, out, f);
 }
 
 void truths_free(truths *t)
