@@ -56,11 +56,14 @@ test: tests needs-test layers ## run all tests; ends in "N passed, M failed" (an
 
 all: $(PROGRAM) $(TRUTHS) ## build the program, the library and the packed truths
 
-report: all needs-report ## draw the report of the last verify into build/report/index.html
+$(BUILD)/peers.h5: reference/peers.csv $(PROGRAM)
+	@$(PROGRAM) import $< -o $@ >/dev/null
+
+report: all needs-report $(BUILD)/peers.h5 ## draw the report of the last verify into build/report/index.html
 	@test -f $(BUILD)/results.h5 || $(MAKE) --no-print-directory verify
 	@test $(BUILD)/newton.json -nt $(PROGRAM) || $(MAKE) --no-print-directory newton
 	@test $(BUILD)/stress.json -nt $(PROGRAM) || $(PROGRAM) stress -o $(BUILD)/stress.txt --json $(BUILD)/stress.json
-	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports $(BUILD)/results.h5 $(TRUTHS) $(if $(wildcard $(BUILD)/bench.h5),--bench $(BUILD)/bench.h5) -o $(BUILD)/report
+	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports $(BUILD)/results.h5 $(TRUTHS) $(if $(wildcard $(BUILD)/bench.h5),--bench $(BUILD)/bench.h5) --beside $(BUILD)/peers.h5 -o $(BUILD)/report
 
 newton: all ## the two forms of Newton's method side by side, for the report; build/newton.json
 	@$(PYTHON) harness/tools/newton.py $(PROGRAM) -o $(BUILD)/newton.json

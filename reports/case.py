@@ -16,7 +16,7 @@ def figures_of(site, case, index):
     name = f"{case.name}_{point.name}"
     quantities = answers.judged(point)
     out = {"main": [], "others": [], "model": [], "curves": []}
-    if index >= MOST_POINTS:
+    if index >= MOST_POINTS and not point.others:
         return out
     if quantities:
         drawn = plots.work_precision(site, point, quantities[0], f"{name}_{quantities[0]}")
