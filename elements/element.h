@@ -39,8 +39,10 @@ enum element_limit {
     LIMIT_DOUBLY_SYMMETRIC = 1 << 0, /* shear centre at the centroid, D diagonal */
     LIMIT_ORDER_DEPENDENT = 1 << 1,  /* exchanging p and q changes the answer (by a discretisation
                                         error) */
-    LIMIT_QUARTER_TURN = 1 << 2      /* strains are sines of the turn between the nodes: beyond pi/2
+    LIMIT_QUARTER_TURN = 1 << 2,     /* strains are sines of the turn between the nodes: beyond pi/2
                                         another state has the same ones */
+    LIMIT_WARPING_RIGID = 1 << 3     /* warping does not shear: closed cells, which warp by it, are
+                                        another model */
 };
 
 /* What a type offers in one direction only. `list` and `solve` show it; a scene in which it matters is not run. */

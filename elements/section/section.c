@@ -97,6 +97,30 @@ static status rectangle(const section_spec *s, section *out, fault *f)
     return STATUS_OK;
 }
 
+/* A circular ring, exact: its section stays plane in torsion (Iw = 0). Shear stresses of bending are those of Saint-Venant
+ * without Poisson's effect: 1/k = 7/6 + 10/3 m^2/(1 + m^2)^2, m = inner/outer radius (Renton, Int. J. Solids Struct. 28, 1991;
+ * Cowper 1966 at nu = 0), 6/7 for a bar and 1/2 for a thin tube. */
+static status tube(const section_spec *s, section *out, fault *f)
+{
+    const double R = s->diameter / 2, t = s->wall_thickness;
+    if (!(R > 0) || !isfinite(R))
+        return fault_set(f, STATUS_REFUSED,
+                         "section: diameter of the tube is %g m; it must be positive", s->diameter);
+    if (!(t > 0) || !(t <= R))
+        return fault_set(f, STATUS_REFUSED,
+                         "section: thickness of the tube is %g m; it must be positive and at most "
+                         "half the diameter, %g m",
+                         t, R);
+    const double r = R - t, ring = t * (2 * R - t), /* R^2 - r^2 */ square = R * R + r * r,
+                 m = R * r / square;
+    out->A = PI * ring;
+    out->Iy = out->Iz = PI / 4 * ring * square;
+    out->Ip = out->It = 2 * out->Iy;
+    out->wagner_torque = PI * ring * ring * ring / 96; /* 1/8 int (r^2 - Ip/A)^2 dA */
+    out->F[0] = out->F[4] = (7.0 / 6 + 10.0 / 3 * m * m) / out->A;
+    return STATUS_OK;
+}
+
 /* D = F^-1 where F has stiffness to invert; rows and columns of zeros (rigid in shear) stay zero in both. */
 static status invert_on_support(const double from[9], double to[9], const char *name, fault *f)
 {
@@ -207,6 +231,8 @@ status section_compute(const section_spec *spec, section *out, fault *f)
         outcome = section_walls(spec, out, f);
     else if (spec->kind == SECTION_RECTANGLE)
         outcome = rectangle(spec, out, f);
+    else if (spec->kind == SECTION_TUBE)
+        outcome = tube(spec, out, f);
     else
         *out = spec->constants;
     TRY(outcome);

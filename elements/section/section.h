@@ -1,7 +1,7 @@
 /* Cross-section constants: what a beam element needs to know of a section.
  *
  * Axes: x along the line of centroids, y and z principal.  A section is given
- * by straight thin walls, as a solid rectangle, or by its numbers. */
+ * by straight thin walls (open, or with closed cells), as a solid rectangle, as a round tube, or by its numbers. */
 #ifndef BEAMWORK_SECTION_H
 #define BEAMWORK_SECTION_H
 
@@ -34,13 +34,19 @@ typedef struct section {
         height; /* of the rectangle: `width` along z (the sheet's w), `height` along y (its t) [m] */
 } section;
 
-typedef enum section_kind { SECTION_WALLS, SECTION_RECTANGLE, SECTION_CONSTANTS } section_kind;
+typedef enum section_kind {
+    SECTION_WALLS,
+    SECTION_RECTANGLE,
+    SECTION_TUBE,
+    SECTION_CONSTANTS
+} section_kind;
 
 /* What a scene says of a section; section_compute turns it into constants. */
 typedef struct section_spec {
     section_kind kind;
     double young, shear_modulus, density; /* [Pa, Pa, kg/m^3] */
     int points, walls;
+    int cells; /* that the walls close; a wall that closes another one is refused */
     double point[SECTION_MAX_POINTS][2]; /* (y, z) [m] */
     struct {
         int from, to;
@@ -51,7 +57,8 @@ typedef struct section_spec {
     double shear_factor
         [2]; /* rectangle: k for Qy and Qz; 0: 5/6 from the thickness terms; both 0: their warping shear too */
     int sheet_warping; /* rectangle: Iw = w^3 t^3/144 (same) and It = exact Saint-Venant series in either case */
-    section constants; /* SECTION_CONSTANTS: taken as given; D or F must be given */
+    double diameter, wall_thickness; /* tube: outer diameter; half of it: a solid bar [m] */
+    section constants;               /* SECTION_CONSTANTS: taken as given; D or F must be given */
     /* Overrides applied after computing (a printed table's rounded values); NAN: keep what was computed. */
     struct {
         double Iw, ys, zs, Dy, Dz, Dw, Dyz, Dyw, Dzw, It, Ip;
@@ -73,7 +80,7 @@ section_spec section_spec_walls(double young, double shear_modulus, int walls,
                                 const double thickness[]);
 
 /* STATUS_REFUSED with the culprit (wall 2, the sum of ..., D's eigenvalue) for zero or negative
- * sizes, a closed cell, disconnected walls, a point used by no wall, D not positive definite, G or E not positive, nan. */
+ * sizes, a cell too many, disconnected walls, a point used by no wall, D not positive definite, G or E not positive, nan. */
 status section_compute(const section_spec *spec, section *out, fault *f);
 
 /* Exact Saint-Venant constant of a rectangle a x b (series; relative error below 1e-15 for every ratio) [m^4]. */

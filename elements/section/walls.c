@@ -1,88 +1,24 @@
-/* Constants of an open section of straight thin walls: sectorial coordinate, shear centre, shear flow.
- * J Eq. 27 for the shear rigidities; every integrand along a wall is a polynomial of degree five at most, for which
+/* Constants of a section of straight thin walls, open or with closed cells: sectorial coordinate, shear centre.
+ * Every integrand along a wall is a polynomial of degree five at most, for which
  * three Gauss points are exact. */
 #include "elements/section/walls.h"
 
 #include <math.h>
 
-#include "elements/math/quadrature.h"
+#include "elements/section/flow.h"
 
-enum { GAUSS = 3, ROOT = 0 };
-
-typedef struct gauss_rule {
-    double x[GAUSS], w[GAUSS]; /* on [0, 1] */
-} gauss_rule;
-
-static gauss_rule rule_of_three(void)
-{
-    gauss_rule rule;
-    quadrature_points(GAUSS, rule.x, rule.w);
-    return rule;
-}
-
-static double wall_length(const section_spec *s, int w)
-{
-    const double *p = s->point[s->wall[w].from], *q = s->point[s->wall[w].to];
-    return hypot(q[0] - p[0], q[1] - p[1]);
-}
-
-/* Value at x in [0, 1] of a function that is linear along the wall, from its values at the points. */
-static double along(const section_spec *s, int w, const double value[], double x)
-{
-    return (1 - x) * value[s->wall[w].from] + x * value[s->wall[w].to];
-}
+enum { ROOT = 0 };
 
 /* int f g dA over the mid-lines; f, g given at the points. */
 static double product(const section_spec *s, const double f[], const double g[])
 {
-    const gauss_rule rule = rule_of_three();
+    const flow_rule rule = flow_rule_of_three();
     double sum = 0;
     for (int w = 0; w < s->walls; w++)
-        for (int k = 0; k < GAUSS; k++)
-            sum += rule.w[k] * wall_length(s, w) * s->wall[w].thickness *
-                   along(s, w, f, rule.x[k]) * along(s, w, g, rule.x[k]);
+        for (int k = 0; k < FLOW_GAUSS; k++)
+            sum += rule.w[k] * tree_wall_length(s, w) * s->wall[w].thickness *
+                   flow_along(s, w, f, rule.x[k]) * flow_along(s, w, g, rule.x[k]);
     return sum;
-}
-
-/* Order in which the walls leave the root: wall[k], its point nearer the root and the one farther. */
-typedef struct tree {
-    int wall[SECTION_MAX_WALLS], near[SECTION_MAX_WALLS], far[SECTION_MAX_WALLS];
-} tree;
-
-static status grow_tree(const section_spec *s, tree *t, fault *f)
-{
-    int reached[SECTION_MAX_POINTS] = {0}, used[SECTION_MAX_WALLS] = {0}, count = 0;
-    reached[ROOT] = 1;
-    for (int grown = 1; grown;) {
-        grown = 0;
-        for (int w = 0; w < s->walls; w++) {
-            const int a = s->wall[w].from, b = s->wall[w].to;
-            if (used[w] || (!reached[a] && !reached[b]))
-                continue;
-            if (reached[a] && reached[b])
-                return fault_set(f, STATUS_REFUSED,
-                                 "section: wall %d (points %d-%d) closes a cell; only open "
-                                 "sections are offered: open it",
-                                 w, a, b);
-            used[w] = grown = 1;
-            t->wall[count] = w;
-            t->near[count] = reached[a] ? a : b;
-            t->far[count] = reached[a] ? b : a;
-            reached[t->far[count]] = 1;
-            count++;
-        }
-    }
-    for (int w = 0; w < s->walls; w++)
-        if (!used[w])
-            return fault_set(f, STATUS_REFUSED,
-                             "section: wall %d (points %d-%d) is not connected to wall 0; join the "
-                             "walls at shared points",
-                             w, s->wall[w].from, s->wall[w].to);
-    for (int p = 0; p < s->points; p++)
-        if (!reached[p])
-            return fault_set(f, STATUS_REFUSED, "section: point %d belongs to no wall; remove it",
-                             p);
-    return STATUS_OK;
 }
 
 static status check_walls(const section_spec *s, fault *f)
@@ -101,42 +37,55 @@ static status check_walls(const section_spec *s, fault *f)
             return fault_set(f, STATUS_REFUSED,
                              "section: thickness of wall %d is %g m; it must be positive", w,
                              s->wall[w].thickness);
-        if (!(wall_length(s, w) > 0) || !isfinite(wall_length(s, w)))
+        if (!(tree_wall_length(s, w) > 0) || !isfinite(tree_wall_length(s, w)))
             return fault_set(f, STATUS_REFUSED,
                              "section: length of wall %d is %g m; it must be positive", w,
-                             wall_length(s, w));
+                             tree_wall_length(s, w));
     }
     return STATUS_OK;
 }
 
-/* Sectorial coordinate about a pole, zero mean: omega = int (y dz - z dy). */
-static void sectorial(const section_spec *s, const tree *t, const double y[], const double z[],
-                      double yp, double zp, double area, double omega[])
+/* Twice the area that a wall sweeps about a pole, from `from` to `to` [m^2]. */
+static double swept(const section_spec *s, int w, const double y[], const double z[], double yp,
+                    double zp)
+{
+    const int a = s->wall[w].from, b = s->wall[w].to;
+    return (y[a] - yp) * (z[b] - z[a]) - (z[a] - zp) * (y[b] - y[a]);
+}
+
+/* Sectorial coordinate about a pole, zero mean: omega = int (y dz - z dy) - int psi/t ds, with the flow psi of
+ * Saint-Venant's torsion per G and unit twist, which is constant around each cell and zero without cells. */
+static void sectorial(const section_spec *s, const section_tree *t, const double y[],
+                      const double z[], double yp, double zp, double area, const double psi[],
+                      double omega[])
 {
     double one[SECTION_MAX_POINTS];
     for (int p = 0; p < SECTION_MAX_POINTS; p++)
         one[p] = 1;
     omega[ROOT] = 0;
-    for (int k = 0; k < s->walls; k++) {
-        const int a = t->near[k], b = t->far[k];
+    for (int k = 0; k < s->walls - t->cells; k++) {
+        const int a = t->near[k], b = t->far[k], w = t->wall[k];
         omega[b] = omega[a] + (y[a] - yp) * (z[b] - z[a]) - (z[a] - zp) * (y[b] - y[a]);
+        if (t->cells > 0)
+            omega[b] -= (s->wall[w].from == a ? 1 : -1) * psi[w] * tree_wall_length(s, w) /
+                        s->wall[w].thickness;
     }
     const double mean = product(s, omega, one) / area;
     for (int p = 0; p < s->points; p++)
         omega[p] -= mean;
 }
 
-/* Terms of the wall's own thickness; n = (tz, -ty) is its normal, r the distance from the foot of the shear centre. */
-typedef struct wall_frame {
-    double length, ty, tz, ny, nz;
-} wall_frame;
-
-static wall_frame frame_of(const section_spec *s, int w, const double y[], const double z[])
+/* Torsion of the cells: its flow per G and unit twist [m^2], and what it adds to It [m^4] (Bredt). */
+static double cell_torsion(const section_spec *s, const section_tree *t, const double y[],
+                           const double z[], double psi[])
 {
-    const int a = s->wall[w].from, b = s->wall[w].to;
-    const double length = wall_length(s, w), ty = (y[b] - y[a]) / length,
-                 tz = (z[b] - z[a]) / length;
-    return (wall_frame){length, ty, tz, tz, -ty};
+    double jump[SECTION_MAX_WALLS], It = 0;
+    for (int w = 0; w < s->walls; w++)
+        jump[w] = swept(s, w, y, z, 0, 0);
+    tree_flow(s, t, jump, psi);
+    for (int w = 0; w < s->walls; w++)
+        It += psi[w] * jump[w];
+    return It;
 }
 
 static void second_moments(const section_spec *s, const double y[], const double z[], double *Iyy,
@@ -147,7 +96,7 @@ static void second_moments(const section_spec *s, const double y[], const double
     *Iyz = product(s, y, z);
     if (s->thickness_terms)
         for (int w = 0; w < s->walls; w++) {
-            const wall_frame n = frame_of(s, w, y, z);
+            const flow_frame n = flow_frame_of(s, w, y, z);
             const double bend = n.length * pow(s->wall[w].thickness, 3) / 12;
             *Iyy += bend * n.nz * n.nz;
             *Izz += bend * n.ny * n.ny;
@@ -158,55 +107,17 @@ static void second_moments(const section_spec *s, const double y[], const double
 static void wagner_constants(const section_spec *s, const double y[], const double z[],
                              section *out)
 {
-    const gauss_rule rule = rule_of_three();
+    const flow_rule rule = flow_rule_of_three();
     for (int w = 0; w < s->walls; w++) {
-        const wall_frame n = frame_of(s, w, y, z);
+        const flow_frame n = flow_frame_of(s, w, y, z);
         const double t = s->wall[w].thickness, bend = s->thickness_terms ? t * t * t / 12 : 0;
-        for (int k = 0; k < GAUSS; k++) {
-            const double ds = rule.w[k] * n.length, yk = along(s, w, y, rule.x[k]),
-                         zk = along(s, w, z, rule.x[k]), square = yk * yk + zk * zk;
+        for (int k = 0; k < FLOW_GAUSS; k++) {
+            const double ds = rule.w[k] * n.length, yk = flow_along(s, w, y, rule.x[k]),
+                         zk = flow_along(s, w, z, rule.x[k]), square = yk * yk + zk * zk;
             out->wagner_y +=
                 ds * (t * yk * square + bend * (yk * (1 + 2 * n.ny * n.ny) + 2 * zk * n.ny * n.nz));
             out->wagner_z +=
                 ds * (t * zk * square + bend * (zk * (1 + 2 * n.nz * n.nz) + 2 * yk * n.ny * n.nz));
-        }
-    }
-}
-
-/* int S_i S_j / t ds of the shear flows, plus the share across the thickness. The walls are taken from the free ends
- * towards the root, so that the moments of everything beyond are known. */
-static void shear_flow(const section_spec *s, const tree *t, const double *value[3],
-                       const double pole[2], double sum[9])
-{
-    const gauss_rule rule = rule_of_three();
-    double beyond[SECTION_MAX_POINTS][3] = {{0}};
-    for (int k = s->walls - 1; k >= 0; k--) {
-        const int w = t->wall[k], near = t->near[k], far = t->far[k];
-        const double h = s->wall[w].thickness, length = wall_length(s, w);
-        for (int g = 0; g < GAUSS; g++) {
-            const double x = rule.x[g], ds = rule.w[g] * length;
-            double S[3];
-            for (int i = 0; i < 3; i++)
-                S[i] =
-                    beyond[far][i] +
-                    h * length * (x * value[i][far] + x * x / 2 * (value[i][near] - value[i][far]));
-            for (int i = 0; i < 3; i++)
-                for (int j = 0; j < 3; j++)
-                    sum[3 * i + j] += ds * S[i] * S[j] / h;
-        }
-        for (int i = 0; i < 3; i++)
-            beyond[near][i] += beyond[far][i] + h * length * (value[i][far] + value[i][near]) / 2;
-        if (!s->thickness_terms)
-            continue;
-        const wall_frame n = frame_of(s, w, value[0], value[1]);
-        for (int g = 0; g < GAUSS; g++) {
-            const double yk = along(s, w, value[0], rule.x[g]),
-                         zk = along(s, w, value[1], rule.x[g]);
-            const double r = (yk - pole[0]) * n.ty + (zk - pole[1]) * n.tz,
-                         slope[3] = {n.ny, n.nz, -r};
-            for (int i = 0; i < 3; i++)
-                for (int j = 0; j < 3; j++)
-                    sum[3 * i + j] += rule.w[g] * n.length * pow(h, 5) / 120 * slope[i] * slope[j];
         }
     }
 }
@@ -227,14 +138,14 @@ static double principal_angle(double Iyy, double Izz, double Iyz)
 static double warping_constant(const section_spec *s, const double y[], const double z[],
                                const double omega[], const double pole[2])
 {
-    const gauss_rule rule = rule_of_three();
+    const flow_rule rule = flow_rule_of_three();
     double Iw = product(s, omega, omega);
     if (s->thickness_terms)
         for (int w = 0; w < s->walls; w++) {
-            const wall_frame n = frame_of(s, w, y, z);
-            for (int k = 0; k < GAUSS; k++) {
-                const double r = (along(s, w, y, rule.x[k]) - pole[0]) * n.ty +
-                                 (along(s, w, z, rule.x[k]) - pole[1]) * n.tz;
+            const flow_frame n = flow_frame_of(s, w, y, z);
+            for (int k = 0; k < FLOW_GAUSS; k++) {
+                const double r = (flow_along(s, w, y, rule.x[k]) - pole[0]) * n.ty +
+                                 (flow_along(s, w, z, rule.x[k]) - pole[1]) * n.tz;
                 Iw += rule.w[k] * n.length * pow(s->wall[w].thickness, 3) / 12 * r * r;
             }
         }
@@ -243,13 +154,13 @@ static double warping_constant(const section_spec *s, const double y[], const do
 
 status section_walls(const section_spec *s, section *out, fault *f)
 {
-    tree t;
+    section_tree t;
     TRY(check_walls(s, f));
-    TRY(grow_tree(s, &t, f));
+    TRY(tree_grow(s, &t, f));
     double y[SECTION_MAX_POINTS] = {0}, z[SECTION_MAX_POINTS] = {0},
            omega[SECTION_MAX_POINTS] = {0}, first[2] = {0, 0};
     for (int w = 0; w < s->walls; w++) {
-        const double area = wall_length(s, w) * s->wall[w].thickness;
+        const double area = tree_wall_length(s, w) * s->wall[w].thickness;
         out->A += area;
         out->It += area * s->wall[w].thickness * s->wall[w].thickness / 3;
         for (int k = 0; k < 2; k++)
@@ -279,11 +190,12 @@ status section_walls(const section_spec *s, section *out, fault *f)
                          "stiffness across it; switch "
                          "thickness_terms on or give a rectangle");
 
-    double pole[2] = {0, 0};
-    sectorial(s, &t, y, z, 0, 0, out->A, omega);
+    double pole[2] = {0, 0}, psi[SECTION_MAX_WALLS];
+    out->It += cell_torsion(s, &t, y, z, psi);
+    sectorial(s, &t, y, z, 0, 0, out->A, psi, omega);
     pole[0] = product(s, omega, z) / out->Iy;
     pole[1] = -product(s, omega, y) / out->Iz;
-    sectorial(s, &t, y, z, pole[0], pole[1], out->A, omega);
+    sectorial(s, &t, y, z, pole[0], pole[1], out->A, psi, omega);
     out->ys = pole[0];
     out->zs = pole[1];
     out->Iw = warping_constant(s, y, z, omega, pole);
@@ -295,7 +207,7 @@ status section_walls(const section_spec *s, section *out, fault *f)
 
     const double *value[3] = {y, z, omega};
     const double inertia[3] = {out->Iz, out->Iy, out->Iw};
-    shear_flow(s, &t, value, pole, out->F);
+    flow_compliance(s, &t, value, pole, out->F);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             out->F[3 * i + j] =

@@ -21,12 +21,16 @@ static int is_coupled(const section *c)
 
 static int limit_hit(const scene *s, const element_type *type, char *words, int size)
 {
+    const int warps = (features_needed(s) & FEATURE_WARPING) != 0;
     for (int i = 0; i < s->sections; i++) {
         section c;
         if (scene_constants(s, i, &c, NULL) != STATUS_OK)
             continue;
         if ((type->limits & LIMIT_DOUBLY_SYMMETRIC) && (features_eccentric(&c) || is_coupled(&c)))
             return snprintf(words, (size_t)size, "sections that are not doubly symmetric") > 0;
+        if ((type->limits & LIMIT_WARPING_RIGID) && warps && s->section[i].cells > 0 && c.Iw > 0)
+            return snprintf(words, (size_t)size, "shear of warping, by which closed cells warp") >
+                   0;
     }
     return 0;
 }

@@ -2,6 +2,10 @@
 
 #include <math.h>
 
+#include "elements/math/pi.h"
+
+enum { RING = 24 }; /* sides of a tube */
+
 /* Corners of a wall of thickness t whose mid-line runs from a to b. */
 static void add_wall(outline *out, const double a[2], const double b[2], double t)
 {
@@ -13,6 +17,18 @@ static void add_wall(outline *out, const double a[2], const double b[2], double 
         corner[1][i] = a[i] - across[i];
         corner[2][i] = b[i] - across[i];
         corner[3][i] = b[i] + across[i];
+    }
+}
+
+/* Side k of a tube drawn as a polygon: corners lie on its circles, from inside to outside at either end. */
+static void add_side(outline *out, const section_spec *spec, int k)
+{
+    double(*corner)[2] = out->corner[out->walls++];
+    for (int i = 0; i < 4; i++) {
+        const double angle = 2 * PI * (k + i / 2) / RING,
+                     r = spec->diameter / 2 - (i == 0 || i == 3 ? spec->wall_thickness : 0);
+        corner[i][0] = r * cos(angle);
+        corner[i][1] = r * sin(angle);
     }
 }
 
@@ -35,6 +51,11 @@ void outline_of(const section_spec *spec, const section *c, outline *out)
 {
     out->walls = 0;
     out->equivalent = spec->kind == SECTION_CONSTANTS && !c->rectangle;
+    if (spec->kind == SECTION_TUBE) {
+        for (int k = 0; k < RING; k++)
+            add_side(out, spec, k);
+        return;
+    }
     if (spec->kind == SECTION_WALLS) {
         for (int w = 0; w < spec->walls; w++) {
             double a[2], b[2];

@@ -28,18 +28,28 @@ static void check_name(const builder *b, builder_list list, int i)
         }
 }
 
-/* Entries of the scene's own lists, and behind them those of its instances. */
+static void list_own(builder *b, builder_list i)
+{
+    const int before = b->mistakes->count + b->mistakes->more;
+    b->list[i].count = unroll_entries(document_find(b->root, list_name[i]), b->names, b->arena,
+                                      b->mistakes, &b->list[i].entry);
+    b->list[i].incomplete = b->mistakes->count + b->mistakes->more > before;
+}
+
+void build_sections(builder *b)
+{
+    list_own(b, LIST_SECTIONS);
+    builder_sections(b);
+}
+
+/* Entries of the scene's own lists but sections, and behind them those of its instances. */
 static void list_entries(builder *b)
 {
     static const builder_list placed[PLACEMENT_LISTS] = {LIST_NODES, LIST_MEMBERS, LIST_LOADS};
     unrolled *list[PLACEMENT_LISTS];
     int count[PLACEMENT_LISTS];
-    for (int i = 0; i < LISTS; i++) {
-        const int before = b->mistakes->count + b->mistakes->more;
-        b->list[i].count = unroll_entries(document_find(b->root, list_name[i]), b->names, b->arena,
-                                          b->mistakes, &b->list[i].entry);
-        b->list[i].incomplete = b->mistakes->count + b->mistakes->more > before;
-    }
+    for (int i = LIST_SECTIONS + 1; i < LISTS; i++)
+        list_own(b, (builder_list)i);
     for (int k = 0; k < PLACEMENT_LISTS; k++) {
         list[k] = b->list[placed[k]].entry;
         count[k] = b->list[placed[k]].count;
@@ -135,6 +145,7 @@ void build_scene(const document_node *root, const scope *names, arena *a, mistak
     builder b = {.arena = a, .mistakes = m, .scene = out, .root = root};
     fault f = {""};
     b.names = unroll_let(document_find(root, "let"), names, a, m);
+    build_sections(&b);
     list_entries(&b);
     if (a->failed) {
         m->out_of_memory = 1;
@@ -143,7 +154,6 @@ void build_scene(const document_node *root, const scope *names, arena *a, mistak
     if (b.list[LIST_MEMBERS].count == 0 && !b.list[LIST_MEMBERS].incomplete)
         document_mistake(m, root, 0,
                          "the scene has no members; add members: {NAME: {from, to, section, y}}");
-    builder_sections(&b);
     builder_nodes(&b);
     builder_members(&b);
     builder_motions(&b);

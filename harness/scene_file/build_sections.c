@@ -6,6 +6,7 @@
 #include "harness/scene_file/build_shapes.h"
 #include "harness/scene_file/builder.h"
 #include "harness/scene_file/expression.h"
+#include "harness/scene_file/section_names.h"
 
 /* Index of a point that a wall names; -1 after a mistake. */
 static int point_of(const fields *wall, const char *key, const document_node *points)
@@ -34,6 +35,7 @@ static void read_walls(const fields *f, section_spec *spec)
                                      f->b->mistakes, &walls);
     spec->kind = SECTION_WALLS;
     spec->thickness_terms = fields_word(f, "thickness_terms", "no|yes", 0);
+    spec->cells = fields_whole(f, "cells", 0, 0, SECTION_MAX_WALLS);
     spec->points = points != NULL ? points->count : 0;
     spec->walls = count;
     if (spec->points > SECTION_MAX_POINTS || count > SECTION_MAX_WALLS || count == 0) {
@@ -64,6 +66,14 @@ static void read_rectangle(const fields *f, section_spec *spec)
         expression_vector(k, 2, f->names, f->b->mistakes, spec->shear_factor);
     else
         spec->shear_factor[0] = spec->shear_factor[1] = fields_number(f, "shear_factor", 0);
+}
+
+static void read_tube(const fields *f, section_spec *spec)
+{
+    const fields sizes = fields_below(f, "tube");
+    spec->kind = SECTION_TUBE;
+    spec->diameter = fields_number(&sizes, "diameter", 1);
+    spec->wall_thickness = fields_number(&sizes, "thickness", 1);
 }
 
 static void read_constants(const fields *f, section_spec *spec)
@@ -103,9 +113,11 @@ static void read_given(const fields *f, section_spec *spec)
 void builder_sections(builder *b)
 {
     for (int i = 0; i < b->list[LIST_SECTIONS].count; i++) {
-        const fields f = fields_of(b, &b->list[LIST_SECTIONS].entry[i]);
+        const unrolled *entry = &b->list[LIST_SECTIONS].entry[i];
+        const fields f = fields_of(b, entry);
         section_spec spec;
         section computed;
+        int known = 0;
         fault why = {""};
         section_spec_init(&spec);
         spec.young = fields_number(&f, "young", 1);
@@ -117,20 +129,30 @@ void builder_sections(builder *b)
             spec.thickness_terms = fields_word(&f, "thickness_terms", "no|yes", 0);
         else if (fields_have(&f, "rectangle"))
             read_rectangle(&f, &spec);
+        else if (fields_have(&f, "tube"))
+            read_tube(&f, &spec);
         else
             read_constants(&f, &spec);
         read_given(&f, &spec);
-        if (!fields_have(&f, "walls") && fields_have(&f, "points"))
-            document_mistake(b->mistakes, document_find(f.map, "points"), 0,
-                             "points are of walls; add them, or leave the points out");
+        for (int k = 0; k < 2; k++) {
+            static const char *const of_walls[] = {"points", "cells"};
+            if (!fields_have(&f, "walls") && fields_have(&f, of_walls[k]))
+                document_mistake(b->mistakes, document_find(f.map, of_walls[k]), 0,
+                                 "%s are of walls; add them, or leave the %s out", of_walls[k],
+                                 of_walls[k]);
+        }
         if (spec.kind != SECTION_RECTANGLE && fields_have(&f, "shear_factor"))
             document_mistake(b->mistakes, document_find(f.map, "shear_factor"), 0,
                              "a shear factor is of a rectangle; leave it out, or use 'given'");
-        if (b->mistakes->count == 0 && section_compute(&spec, &computed, &why) != STATUS_OK)
-            document_mistake(b->mistakes, f.place, 0, "%s", why.text);
+        if (b->mistakes->count == 0) {
+            known = section_compute(&spec, &computed, &why) == STATUS_OK;
+            if (!known)
+                document_mistake(b->mistakes, f.place, 0, "%s", why.text);
+        }
         if (spec.kind != SECTION_WALLS && fields_have(&f, "thickness_terms"))
             document_mistake(b->mistakes, document_find(f.map, "thickness_terms"), 0,
                              "thickness terms are of walls; leave them out");
         scene_add_section(b->scene, &spec);
+        b->names = section_names_add(b->names, entry->name, known ? &computed : NULL, b->arena);
     }
 }

@@ -66,6 +66,16 @@ static void i_section(const fields *f, section_spec *spec)
     add_wall(spec, 4, 5, s.flange_thickness);
 }
 
+static void box(const fields *f, section_spec *spec)
+{
+    const flanged s = flanged_of(f);
+    add_line(spec, &s, s.flange / 2, s.flange / 2);
+    for (int k = 0; k < spec->points; k++) /* the web is one of two */
+        spec->point[k][0] += k == 1 || k == 2 ? -s.flange / 2 : 0;
+    add_wall(spec, 3, 0, s.web_thickness);
+    spec->cells = 1;
+}
+
 static void angle(const fields *f, section_spec *spec)
 {
     const double thickness = fields_number(f, "thickness", 1);
@@ -81,7 +91,8 @@ int build_shapes_read(const fields *f, section_spec *spec)
     static const struct {
         const char *key;
         void (*read)(const fields *, section_spec *);
-    } all[] = {{"i", i_section}, {"channel", channel}, {"zed", zed}, {"angle", angle}};
+    } all[] = {
+        {"i", i_section}, {"channel", channel}, {"zed", zed}, {"angle", angle}, {"box", box}};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
         if (fields_have(f, all[k].key)) {
             const fields sizes = fields_below(f, all[k].key);

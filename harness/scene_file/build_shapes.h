@@ -1,4 +1,4 @@
-/* Sections by their sizes: I, channel, Z, angle. */
+/* Sections by their sizes: I, channel, Z, angle, box. */
 #ifndef BEAMWORK_BUILD_SHAPES_H
 #define BEAMWORK_BUILD_SHAPES_H
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "harness/scene_file/functions.h"
+#include "harness/scene_file/section_names.h"
 
 enum { DEEPEST = 60, NUMBER_TEXT = 64 };
 
@@ -117,10 +118,33 @@ static void tell_unknown(parser *p, const char *name, int from)
                          "; define it under 'parameters' or 'let', above", remedy));
 }
 
+/* SECTION.CONSTANT; `length` of the section's name with its point. */
+static double constant(parser *p, int length)
+{
+    const int from = p->at, behind = from + length;
+    const int rest = (int)scope_name_length(p->text + behind);
+    const scope *known = scope_find(p->names, p->text + from, (size_t)length);
+    const int index = section_names_index(p->text + behind, (size_t)rest);
+    p->at = behind + rest;
+    if (known == NULL)
+        FAIL(p, from,
+             "no section '%.*s' is known here; sections are named behind the list of "
+             "sections only",
+             length - 1 < 40 ? length - 1 : 40, p->text + from);
+    else if (index < 0)
+        FAIL(p, behind, "a section has no constant '%.*s'; it has %s", rest < 40 ? rest : 40,
+             p->text + behind, section_names_all);
+    else if (isnan(known->constants[index])) /* its own mistake is told already */
+        p->failed = 1;
+    return known != NULL && index >= 0 ? known->constants[index] : 0;
+}
+
 static double named(parser *p)
 {
     const int from = p->at;
     int length = (int)scope_name_length(p->text + from);
+    if (p->text[from + length] == '.' && scope_name_length(p->text + from + length + 1) > 0)
+        return constant(p, length + 1);
     length = length < p->end - from ? length : p->end - from;
     char name[NUMBER_TEXT];
     const size_t kept = length < NUMBER_TEXT ? (size_t)length : NUMBER_TEXT - 1;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/scene_file/build.h"
 #include "harness/scene_file/builder.h"
 #include "harness/scene_file/expression.h"
 #include "harness/scene_file/keys.h"
@@ -108,6 +109,13 @@ static truth_reader open_truths(const scene_file *file, const double value[], ar
     truth_reader r = {.b = {.arena = a, .mistakes = m, .root = file->root}};
     r.b.names =
         unroll_let(document_find(file->root, "let"), parameter_table_names(file, value, a), a, m);
+    /* constants of sections are names, too */
+    scene of_sections;
+    scene_init(&of_sections, "");
+    r.b.scene = &of_sections;
+    build_sections(&r.b);
+    r.b.scene = NULL;
+    scene_free(&of_sections);
     r.b.list[LIST_QUANTITIES].count = unroll_entries(
         document_find(file->root, "quantities"), r.b.names, a, m, &r.b.list[LIST_QUANTITIES].entry);
     r.count = unroll_entries(document_find(file->root, "truths"), r.b.names, a, m, &r.list);

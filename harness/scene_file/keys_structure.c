@@ -21,6 +21,11 @@ static const scene_key rectangle[] = {
     {"thickness", KEY_NUMBER, .needed = 1, .unit = "m", .summary = "along its y axis"},
     {.name = NULL}};
 
+static const scene_key tube[] = {
+    {"diameter", KEY_NUMBER, .needed = 1, .unit = "m", .summary = "outer one"},
+    {"thickness", KEY_NUMBER, .needed = 1, .unit = "m", .summary = "half the diameter: a bar"},
+    {.name = NULL}};
+
 static const scene_key point[] = {{"", KEY_VECTOR, .count = 2, .unit = "m", .summary = "[y, z]"},
                                   {.name = NULL}};
 
@@ -79,7 +84,6 @@ const scene_key keys_section[] = {
     {"rectangle", KEY_MAP, .needed = 1, .group = 1, .below = rectangle, .summary = "solid"},
     {"walls", KEY_LIST, .needed = 1, .group = 1, .below = wall, .summary = "thin straight walls"},
     {"constants", KEY_MAP, .needed = 1, .group = 1, .below = constants, .summary = "as given"},
-    {.name = "cells", .kind = KEY_LATER, .group = 1},
     {"i", KEY_MAP, .needed = 1, .group = 1, .below = flanged,
      .summary = "web along z, in the middle"},
     {"channel", KEY_MAP, .needed = 1, .group = 1, .below = flanged,
@@ -87,9 +91,11 @@ const scene_key keys_section[] = {
     {"zed", KEY_MAP, .needed = 1, .group = 1, .below = flanged,
      .summary = "upper flange towards -y"},
     {"angle", KEY_MAP, .needed = 1, .group = 1, .below = legs, .summary = "from its corner"},
-    {.name = "tube", .kind = KEY_LATER, .group = 1},
+    {"box", KEY_MAP, .needed = 1, .group = 1, .below = flanged, .summary = "closed, two webs"},
+    {"tube", KEY_MAP, .needed = 1, .group = 1, .below = tube, .summary = "circular, or a bar"},
     {.name = "stiffness", .kind = KEY_LATER, .group = 1},
     {.name = "mass", .kind = KEY_LATER},
+    {"cells", KEY_NUMBER, .summary = "how many the walls close; 0 where it is left out"},
     {"points", KEY_NAMES, .below = point, .summary = "of walls, in axes of one's own"},
     {"young", KEY_NUMBER, .needed = 1, .unit = "Pa", .summary = "modulus of elasticity"},
     {"shear_modulus", KEY_NUMBER, .needed = 1, .unit = "Pa", .summary = "E/(2 (1 + nu))"},

@@ -8,14 +8,17 @@
 /* The name added last; those before it stay visible. NULL: no name is known. */
 typedef struct scope {
     const char *name;
-    double number;    /* NAN: its expression has a mistake, which is told */
-    const char *word; /* of a choice; NULL: a number */
+    double number;           /* NAN: its expression has a mistake, which is told */
+    const char *word;        /* of a choice; NULL: a number */
+    const double *constants; /* of a section, whose name ends in a point; NULL: it is none */
     const struct scope *before;
 } scope;
 
 /* The scope with one name more, a number or a word; the scope itself where memory ran out. */
 const scope *scope_number(const scope *names, const char *name, double number, arena *a);
 const scope *scope_word(const scope *names, const char *name, const char *word, arena *a);
+/* With the constants of a section: see section_names.h. */
+const scope *scope_constants(const scope *names, const char *name, const double value[], arena *a);
 /* The entry of a name of that length, or NULL. */
 const scope *scope_find(const scope *names, const char *name, size_t length);
 /* The known name, constant or function nearest to a misspelt one, or NULL. */

@@ -52,6 +52,7 @@ static void write_walls(writer *w, const section_spec *spec)
         fputc('}', w->to);
     }
     fputs(spec->thickness_terms ? "], thickness_terms: yes" : "]", w->to);
+    write_if(w, "cells", spec->cells, 0);
 }
 
 static void write_rectangle(writer *w, const section_spec *spec)
@@ -65,6 +66,14 @@ static void write_rectangle(writer *w, const section_spec *spec)
         fputs(", shear_factor: ", w->to);
         write_numbers(w, 2, spec->shear_factor);
     }
+}
+
+static void write_tube(writer *w, const section_spec *spec)
+{
+    fputs("tube: {diameter: ", w->to);
+    write_number(w, spec->diameter);
+    write_if(w, "thickness", spec->wall_thickness, NAN);
+    fputc('}', w->to);
 }
 
 static void write_given(writer *w, const section_spec *spec)
@@ -95,6 +104,8 @@ void write_sections(writer *w)
             write_walls(w, spec);
         else if (spec->kind == SECTION_RECTANGLE)
             write_rectangle(w, spec);
+        else if (spec->kind == SECTION_TUBE)
+            write_tube(w, spec);
         else
             write_constants(w, &spec->constants);
         write_given(w, spec);
