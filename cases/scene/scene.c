@@ -198,6 +198,19 @@ void scene_fork(scene *s, int node, const double axis[3], const double web[3])
     memcpy(n->axis[1], web, sizeof n->axis[1]);
 }
 
+void scene_set_body(scene *s, int node, scene_body body)
+{
+    scene_node_at(s, node)->body = body;
+}
+
+int scene_has_body(const scene_node *n)
+{
+    int has = n->body.mass != 0;
+    for (int i = 0; i < 6; i++)
+        has |= n->body.inertia[i] != 0;
+    return has;
+}
+
 void scene_need(scene *s, unsigned features)
 {
     s->needs |= features;

@@ -32,6 +32,15 @@ typedef enum scene_rotation {
     SCENE_ROTATION_FORK /* no turn about the section's own axis, the other two free: see scene_fork */
 } scene_rotation;
 
+/* A rigid body that moves with a node. */
+typedef struct scene_body {
+    double mass;       /* [kg] */
+    double centre[3];  /* of mass, from the node, undeformed [m] */
+    double inertia[6]; /* of the undeformed body about its centre, about axes through it along x, y,
+                          z: Ixx, Iyy, Izz = int (y^2 + z^2) dm ..., and the tensor's Ixy, Iyz, Izx
+                          = -int x y dm ... [kg m^2] */
+} scene_body;
+
 typedef struct scene_node {
     double position[3]; /* [m] */
     int attached; /* node this one is rigidly attached to (a rigid body is a node others are attached to), or SCENE_NONE */
@@ -42,6 +51,7 @@ typedef struct scene_node {
     double axis
         [3]
         [3]; /* of the sequence; a zero axis ends it. Of a fork: the section's own axis, and the web's direction */
+    scene_body body;
 } scene_node;
 
 typedef struct scene_member {
@@ -156,6 +166,10 @@ void scene_drive(scene *s, int node, int component,
  * turn about its own present axis, R axis, and the fork's moment is along it.  (A held SCENE_RX is a moment along the fixed x axis.)
  * axis, web: of the undeformed section, at right angles, of any length.  Translations are held by themselves. */
 void scene_fork(scene *s, int node, const double axis[3], const double web[3]);
+/* A body of its own, at the node itself or beside it, rigidly joined to it. */
+void scene_set_body(scene *s, int node, scene_body body);
+/* Has the node a mass or an inertia? */
+int scene_has_body(const scene_node *n);
 /* Convention of moments that a quantity depends on, or NULL. */
 const char *scene_convention(const scene *s, const scene_quantity *q);
 /* Physics (FEATURE_* bits) that the scene is to have; the data say the rest: analyses, sections. */

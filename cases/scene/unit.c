@@ -90,6 +90,15 @@ static status scale_drivers(scene *s, double x, fault *f)
     return STATUS_OK;
 }
 
+/* Mass keeps its unit, and force: time has that of the root of a length. */
+static void scale_body(scene_body *b, double x)
+{
+    b->mass /= x;
+    scale_vector(b->centre, x);
+    scale_vector(b->inertia, x);
+    scale_vector(b->inertia + 3, x);
+}
+
 static void scale_load(scene_load *load, double x)
 {
     scale_vector(load->at, x);
@@ -160,8 +169,10 @@ status scene_change_unit(scene *s, double x, fault *f)
                          "no unit of length has %g of it to the metre; give a positive number", x);
     for (int i = 0; i < s->sections; i++)
         scale_section(&s->section[i], x);
-    for (int i = 0; i < s->nodes; i++)
+    for (int i = 0; i < s->nodes; i++) {
         scale_vector(s->node[i].position, x);
+        scale_body(&s->node[i].body, x);
+    }
     for (int i = 0; i < s->members; i++)
         scale_vector(s->member[i].curvature, 1 / x);
     for (int i = 0; i < s->loads; i++)

@@ -46,6 +46,63 @@ static status check_fork(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
+/* A body that exists: its inertia has no negative principal moment, and none above the sum of the
+ * other two. */
+static int is_inertia(const double I[6])
+{
+    const double half = (I[0] + I[1] + I[2]) / 2;
+    /* of int x x^T dm = (trace/2) 1 - I all leading and other principal minors */
+    const double A[3] = {half - I[0], half - I[1], half - I[2]}, xy = -I[3], yz = -I[4], zx = -I[5],
+                 small = 1e-9 * half;
+    const double determinant =
+        A[0] * (A[1] * A[2] - yz * yz) - xy * (xy * A[2] - yz * zx) + zx * (xy * yz - A[1] * zx);
+    return A[0] >= -small && A[1] >= -small && A[2] >= -small &&
+           A[0] * A[1] - xy * xy >= -small * half && A[1] * A[2] - yz * yz >= -small * half &&
+           A[2] * A[0] - zx * zx >= -small * half && determinant >= -small * half * half;
+}
+
+/* Does a member hold the node's body? */
+static int is_reached(const scene *s, int node)
+{
+    const int body = s->node[node].attached == SCENE_NONE ? node : s->node[node].attached;
+    for (int i = 0; i < s->members; i++) {
+        const int ends[] = {s->member[i].p, s->member[i].q};
+        for (int k = 0; k < 2; k++)
+            if (ends[k] >= 0 && ends[k] < s->nodes &&
+                (ends[k] == body || s->node[ends[k]].attached == body))
+                return 1;
+    }
+    return 0;
+}
+
+static status check_body(const scene *s, int i, fault *f)
+{
+    const scene_node *n = &s->node[i];
+    const double *I = n->body.inertia, *c = n->body.centre;
+    int good = n->body.mass >= 0 && isfinite(n->body.mass);
+    for (int k = 0; k < 3; k++)
+        good &= isfinite(c[k]) && isfinite(I[k]) && isfinite(I[k + 3]);
+    if (!good)
+        return fault_set(f, STATUS_REFUSED,
+                         "node %d: its mass, centre or inertia is no such number; give a mass that "
+                         "is not negative, and finite numbers",
+                         i);
+    if (n->body.mass == 0 && vec3_norm(c) > 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "node %d: a centre without a mass; give the mass, or leave the centre out",
+                         i);
+    if (!is_inertia(I))
+        return fault_set(f, STATUS_REFUSED,
+                         "node %d: no body has this inertia, a principal moment is above the sum "
+                         "of the other two; mend it",
+                         i);
+    if (!is_reached(s, i))
+        return fault_set(f, STATUS_REFUSED,
+                         "node %d: nothing holds its mass; join a member to it, or take it away",
+                         i);
+    return STATUS_OK;
+}
+
 static status check_node(const scene *s, int i, fault *f)
 {
     const scene_node *n = &s->node[i];
@@ -67,6 +124,9 @@ static status check_node(const scene *s, int i, fault *f)
     }
     if (n->rotation == SCENE_ROTATION_FORK) {
         TRY(check_fork(s, i, f));
+    }
+    if (scene_has_body(n) || vec3_norm(n->body.centre) > 0) {
+        TRY(check_body(s, i, f));
     }
     if (n->attached == SCENE_NONE)
         return STATUS_OK;

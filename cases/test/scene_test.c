@@ -262,6 +262,41 @@ static void compliance_of_compliance(scene *s)
     scene_add_compliance(s, scene_add_compliance(s, 0, at_tip), at_tip);
 }
 
+static void spoil_body(scene *s, scene_body b)
+{
+    scene_set_body(s, 1, b);
+}
+
+static void negative_mass(scene *s)
+{
+    spoil_body(s, (scene_body){.mass = -1});
+}
+
+static void endless_inertia(scene *s)
+{
+    spoil_body(s, (scene_body){.mass = 1, .inertia = {INFINITY, 1, 1}});
+}
+
+static void centre_of_nothing(scene *s)
+{
+    spoil_body(s, (scene_body){.centre = {0, 1, 0}});
+}
+
+static void no_triangle(scene *s)
+{
+    spoil_body(s, (scene_body){.mass = 1, .inertia = {1, 1, 2.1}});
+}
+
+static void products_too_large(scene *s)
+{
+    spoil_body(s, (scene_body){.mass = 1, .inertia = {1, 1, 1, 0.6, 0, 0}});
+}
+
+static void loose_mass(scene *s)
+{
+    scene_set_body(s, scene_add_node(s, 0, 0, 7), (scene_body){.mass = 1});
+}
+
 typedef void spoil(scene *);
 
 static const struct {
@@ -279,6 +314,12 @@ static const struct {
     {body_of_itself, "node 2: ", "attached to node 2, which is no body"},
     {body_of_nothing, "node 2: ", "attached to node 9, which is no body"},
     {body_held, "node 2: ", "it moves with node 1"},
+    {negative_mass, "node 1: ", "is no such number"},
+    {endless_inertia, "node 1: ", "is no such number"},
+    {centre_of_nothing, "node 1: ", "a centre without a mass"},
+    {no_triangle, "node 1: ", "no body has this inertia"},
+    {products_too_large, "node 1: ", "no body has this inertia"},
+    {loose_mass, "node 3: ", "nothing holds its mass"},
     {end_of_member, "member 0: ", "a node that does not exist"},
     {no_section, "member 0: ", "its section does not exist"},
     {no_length, "member 0: ", "its ends coincide"},

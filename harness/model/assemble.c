@@ -51,22 +51,32 @@ void assemble_subtract(sparse *K, int row, int column, double value)
         *entry -= value;
 }
 
+static size_t collect_of(const mesh_element *el, const mesh_pattern *p, size_t count, int row[],
+                         int column[])
+{
+    const int coordinates = NODE_COORDINATES * el->nodes;
+    for (int a = 0; a < coordinates; a++)
+        for (int b = 0; b < coordinates; b++) {
+            if (!stored(p, el->index[a], el->index[b]))
+                continue;
+            if (row != NULL) {
+                row[count] = el->index[a];
+                column[count] = el->index[b];
+            }
+            count++;
+        }
+    return count;
+}
+
 /* Number of pairs of coordinates that elements couple, with repetitions; their rows and columns
  * into row[] and column[] unless these are NULL. */
 static size_t collect(const model *m, const mesh_pattern *p, int row[], int column[])
 {
     size_t count = 0;
     for (int i = 0; i < m->elements; i++)
-        for (int a = 0; a < m->coordinates; a++)
-            for (int b = 0; b < m->coordinates; b++) {
-                if (!stored(p, m->element[i].index[a], m->element[i].index[b]))
-                    continue;
-                if (row != NULL) {
-                    row[count] = m->element[i].index[a];
-                    column[count] = m->element[i].index[b];
-                }
-                count++;
-            }
+        count = collect_of(&m->element[i], p, count, row, column);
+    for (int i = 0; i < m->discretes; i++)
+        count = collect_of(&m->discrete[i].el, p, count, row, column);
     return count;
 }
 
@@ -195,9 +205,21 @@ void assemble_matrix(const mesh_pattern *p, int element, const double K[], spars
         out->value[p->place[i]] += K[p->local[i]];
 }
 
-void assemble_vector(const mesh_element *el, int coordinates, const double local[], double out[])
+void assemble_discrete(const mesh_element *el, const double K[], sparse *out)
 {
-    for (int i = 0; i < coordinates; i++)
+    const int n = NODE_COORDINATES * el->nodes;
+    for (int a = 0; a < n; a++)
+        for (int b = 0; b < n; b++) {
+            const int row = el->index[a], column = el->index[b];
+            if (row != NONE && column != NONE && row < out->n && column < out->n &&
+                (!out->symmetric || row <= column))
+                *assemble_entry(out, row, column) += K[n * a + b];
+        }
+}
+
+void assemble_vector(const mesh_element *el, const double local[], double out[])
+{
+    for (int i = 0; i < NODE_COORDINATES * el->nodes; i++)
         if (el->index[i] != NONE)
             out[el->index[i]] += local[i];
 }

@@ -113,7 +113,7 @@ static status number_vertices(model *m, int *held, fault *f)
 static void index_element(model *m, mesh_element *el)
 {
     el->plain = 1;
-    for (int k = 0; k < m->nodes; k++) {
+    for (int k = 0; k < el->nodes; k++) {
         const mesh_vertex *v = &m->vertex[el->vertex[k]], *body = &m->vertex[v->body];
         for (int c = 0; c < VERTEX_COORDINATES; c++)
             el->index[NODE_COORDINATES * k + c] = body->coordinate[c];
@@ -167,5 +167,7 @@ status coordinates_number(model *m, fault *f)
     TRY(number_vertices(m, &held, f));
     for (int i = 0; i < m->elements; i++)
         index_element(m, &m->element[i]);
+    for (int i = 0; i < m->discretes; i++)
+        index_element(m, &m->discrete[i].el);
     return note_left_out(m, held, f);
 }

@@ -1,19 +1,11 @@
 /* Element coordinates (dr, dphi, da per vertex) -> coordinates of the bodies that move them, in
- * place. Offset: dr = dr_b + theta x rho.  Second derivatives in the exponential chart: d2(F .
- * rho)/dtheta2 = sym(F rho^T) - (F . rho) I. Sequence: theta = sum b_i dt_i + 1/2 sum_(i<j) b_i x
+ * place. Offset: offset.h. Sequence: theta = sum b_i dt_i + 1/2 sum_(i<j) b_i x
  * b_j dt_i dt_j (Baker-Campbell-Hausdorff). */
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "harness/model/model_impl.h"
-
-static void offset_force(const double rho[3], double force[7])
-{
-    double moment[3];
-    vec3_cross(rho, force, moment);
-    for (int i = 0; i < 3; i++)
-        force[3 + i] += moment[i];
-}
+#include "harness/model/offset.h"
 
 static void sequence_force(int angles, double b[3][3], double force[7])
 {
@@ -27,7 +19,7 @@ void eliminate_forces(const model *m, const model_state *s, const mesh_element *
 {
     if (el->plain)
         return;
-    for (int k = 0; k < m->nodes; k++) {
+    for (int k = 0; k < el->nodes; k++) {
         const int v = el->vertex[k], body = m->vertex[v].body;
         double rho[3], b[3][3];
         if (body != v) {
@@ -39,31 +31,6 @@ void eliminate_forces(const model *m, const model_state *s, const mesh_element *
             sequence_force(m->vertex[body].angles, b, force + NODE_COORDINATES * k);
         }
     }
-}
-
-/* Rotation columns += translation columns times -rho~, then the same for rows: K <- A^T K A. */
-static void offset_matrix(int n, int at, const double rho[3], const double force[3], double K[])
-{
-    for (int i = 0; i < n; i++) {
-        double moment[3];
-        vec3_cross(rho, &K[i * n + at], moment);
-        for (int c = 0; c < 3; c++)
-            K[i * n + at + 3 + c] += moment[c];
-    }
-    for (int j = 0; j < n; j++) {
-        const double column[3] = {K[at * n + j], K[(at + 1) * n + j], K[(at + 2) * n + j]};
-        double moment[3];
-        vec3_cross(rho, column, moment);
-        for (int c = 0; c < 3; c++)
-            K[(at + 3 + c) * n + j] += moment[c];
-    }
-    if (force == NULL)
-        return;
-    const double dot = vec3_dot(force, rho);
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            K[(at + 3 + i) * n + at + 3 + j] +=
-                (force[i] * rho[j] + rho[i] * force[j]) / 2 - (i == j ? dot : 0);
 }
 
 static void sequence_matrix(int n, int at, int angles, double b[3][3], const double moment[3],
@@ -97,8 +64,8 @@ void eliminate_matrix(const model *m, const model_state *s, const mesh_element *
 {
     if (el->plain)
         return;
-    const int n = m->coordinates;
-    for (int k = 0; k < m->nodes; k++) {
+    const int n = NODE_COORDINATES * el->nodes;
+    for (int k = 0; k < el->nodes; k++) {
         const int v = el->vertex[k], body = m->vertex[v].body;
         double rho[3], b[3][3], moment[7];
         if (force != NULL)

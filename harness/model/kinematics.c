@@ -72,7 +72,7 @@ void kinematics_follow(const model *m, model_state *s)
 
 void kinematics_gather(const model *m, const model_state *s, const mesh_element *el, node_state x[])
 {
-    for (int k = 0; k < m->nodes; k++) {
+    for (int k = 0; k < el->nodes; k++) {
         const int v = el->vertex[k];
         double R[9];
         kinematics_position(m, s, v, x[k].r);
@@ -106,7 +106,7 @@ static void body_increment(const model *m, const model_state *s, int body, const
 void kinematics_local(const model *m, const model_state *s, const mesh_element *el,
                       const double dx[], double local[])
 {
-    for (int k = 0; k < m->nodes; k++) {
+    for (int k = 0; k < el->nodes; k++) {
         double *d = &local[NODE_COORDINATES * k];
         for (int c = 0; c < 7; c++)
             d[c] = el->index[NODE_COORDINATES * k + c] == NONE

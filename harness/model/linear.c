@@ -118,7 +118,7 @@ void linear_forces(model *m, const double sigma[], double f[])
         dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
                                 &sigma[(size_t)i * (size_t)m->strains], force);
         eliminate_forces(m, m->rest, &m->element[i], force);
-        assemble_vector(&m->element[i], m->coordinates, force, f);
+        assemble_vector(&m->element[i], force, f);
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "harness/model/discrete.h"
 #include "harness/model/model_impl.h"
 
 model_slot linearise_slot(const model *m, int element)
@@ -119,12 +120,13 @@ static status element_equations(model *m, const model_state *s, int i, int tange
 static void add_driven(const model *m, const mesh_element *el, const double drive[],
                        const double K[], double force[])
 {
-    for (int j = 0; j < m->coordinates; j++) {
+    const int n = NODE_COORDINATES * el->nodes;
+    for (int j = 0; j < n; j++) {
         const double step = el->index[j] >= m->free ? drive[el->index[j]] : 0;
         if (step == 0)
             continue;
-        for (int i = 0; i < m->coordinates; i++)
-            force[i] += K[i * m->coordinates + j] * step;
+        for (int i = 0; i < n; i++)
+            force[i] += K[i * n + j] * step;
     }
 }
 
@@ -132,14 +134,15 @@ static void add_driven(const model *m, const mesh_element *el, const double driv
 static void add_columns(const model *m, const mesh_element *el, const double K[],
                         model_linearisation *lin)
 {
+    const int n = NODE_COORDINATES * el->nodes;
     for (int c = 0; c < lin->conditions; c++) {
         double *column = lin->column + c * (m->free + m->driven);
-        for (int j = 0; j < m->coordinates; j++) {
+        for (int j = 0; j < n; j++) {
             if (el->index[j] != lin->condition[c].unknown)
                 continue;
-            for (int i = 0; i < m->coordinates; i++)
+            for (int i = 0; i < n; i++)
                 if (el->index[i] != NONE)
-                    column[el->index[i]] += K[i * m->coordinates + j];
+                    column[el->index[i]] += K[i * n + j];
         }
     }
 }
@@ -165,22 +168,28 @@ static void fill_parts(void *context, int first, int end)
         element_part_of(loop, i, &loop->m->part[i]);
 }
 
-/* The element's equations into those of the model. */
-static void add_part(model *m, int i, element_part *part, const mesh_pattern *p,
-                     model_linearisation *lin)
+/* The element's equations into those of the model, but for K. */
+static void add_part(model *m, const mesh_element *el, element_part *part, model_linearisation *lin)
 {
-    const mesh_element *el = &m->element[i];
     if (lin->drive != NULL)
         add_driven(m, el, lin->drive, part->K, part->force);
     add_columns(m, el, part->K, lin);
     phases_lap(&m->phases, PHASE_ELEMENTS);
-    for (int k = 0; k < m->coordinates; k++)
+    for (int k = 0; k < NODE_COORDINATES * el->nodes; k++)
         part->force[k] = -part->force[k];
-    assemble_vector(el, m->coordinates, part->force, lin->residual);
-    if (p != NULL)
-        assemble_matrix(p, i, part->K, lin->K);
-    phases_lap(&m->phases, PHASE_ASSEMBLY);
+    assemble_vector(el, part->force, lin->residual);
     lin->incompatibility = fmax(lin->incompatibility, part->incompatibility);
+}
+
+static void add_discrete(model *m, const model_state *s, model_linearisation *lin)
+{
+    for (int i = 0; i < m->discretes; i++) {
+        element_part part = {.incompatibility = 0};
+        discrete_equations(m, s, &m->discrete[i], lin->path, part.force, part.K);
+        add_part(m, &m->discrete[i].el, &part, lin);
+        if (lin->K != NULL)
+            assemble_discrete(&m->discrete[i].el, part.K, lin->K);
+    }
 }
 
 status linearise_state(model *m, const model_state *s, model_linearisation *lin, fault *f)
@@ -209,8 +218,12 @@ status linearise_state(model *m, const model_state *s, model_linearisation *lin,
         m->counters.stress_evaluations++;
         if (part->outcome != STATUS_OK)
             return fault_set(f, part->outcome, "%s", part->why.text);
-        add_part(m, i, part, p, lin);
+        add_part(m, &m->element[i], part, lin);
+        if (p != NULL)
+            assemble_matrix(p, i, part->K, lin->K);
+        phases_lap(&m->phases, PHASE_ASSEMBLY);
     }
+    add_discrete(m, s, lin);
     loads_add(m, s, lin->path, lin->residual);
     if (lin->K != NULL)
         loads_subtract_stiffness(m, s, lin->path, lin->K);
@@ -308,4 +321,5 @@ void linearise_node_force(model *m, const model_state *s, int node, double F[6])
             }
         }
     }
+    discrete_node_force(m, s, node, F);
 }

@@ -189,6 +189,7 @@ static status add_element(model *m, const arc *a, int member, int number, int n,
               last = m->nodes - 1;
     const double straight[3] = {0, 0, 0};
     el->member = member;
+    el->nodes = m->nodes;
     for (int k = 0; k <= last; k++) {
         const int at_start = number == 0 && k == 0, at_end = number == n - 1 && k == last;
         el->vertex[k] = inner_vertex + number * last + k - 1;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "harness/algebra/memory.h"
+#include "harness/model/discrete.h"
 #include "harness/model/features.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/lacks.h"
@@ -95,6 +96,7 @@ static status build(model *m, const model_request *request, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory for drivers");
     TRY(check_memory(m, request->elements, f));
     TRY(mesh_build(m, request->elements, f));
+    TRY(discrete_build(m, f));
     TRY(coordinates_number(m, f));
     if (lacks_of(s, type, words, sizeof words))
         TRY(coordinates_note_left_out(m, f, "%s", words));
@@ -145,6 +147,7 @@ void model_free(model *m)
     free(m->element);
     free(m->kind);
     free(m->warp);
+    free(m->discrete);
     free(m->first_element);
     free(m->driver_coordinate);
     free(m->work);

@@ -26,6 +26,7 @@ typedef struct mesh_warp {
 
 typedef struct mesh_element {
     int kind, member;
+    int nodes;
     int vertex[ELEMENT_MAX_NODES];
     int warp[ELEMENT_MAX_NODES];        /* index, or NONE: held at zero or absent */
     double triad[ELEMENT_MAX_NODES][9]; /* initial, columns nX nY nZ */
@@ -33,6 +34,12 @@ typedef struct mesh_element {
                                            elimination, or NONE */
     int plain;                          /* 1: no offset and no sequence: elimination is selection */
 } mesh_element;
+
+/* A rigid body's mass at a vertex: an element of one node, beside those of the members. */
+typedef struct mesh_discrete {
+    mesh_element el; /* no kind, no member, no warping */
+    const scene_body *body;
+} mesh_discrete;
 
 /* What identical elements share. */
 typedef struct mesh_kind {
@@ -70,6 +77,8 @@ struct model {
     mesh_element *element;
     mesh_kind *kind;
     mesh_warp *warp;
+    int discretes;
+    mesh_discrete *discrete;
     int *first_element;     /* [members + 1] */
     int *driver_coordinate; /* [drivers] or NONE */
     int free, driven;
@@ -102,6 +111,16 @@ struct model_state {
     double *driver; /* [drivers] present value */
     double *e, *sigma, *inner; /* [elements x strains], [.. inner] */
 };
+
+/* How the frame turns at that path parameter. */
+static inline element_spin model_spin(const model *m, double path)
+{
+    element_spin spin = m->rotation;
+    if (m->rotation_follows_path)
+        for (int i = 0; i < 3; i++)
+            spin.omega[i] *= path;
+    return spin;
+}
 
 /* features.c */
 int features_eccentric(const section *c); /* its shear centre is not its centroid */
@@ -143,7 +162,9 @@ status rotating_frame_add(model *m, const node_state x[], int element, double pa
 /* assemble.c */
 void assemble_pattern_free(mesh_pattern *p);
 void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out);
-void assemble_vector(const mesh_element *el, int coordinates, const double local[], double out[]);
+/* The same of a discrete element, whose places are looked for. */
+void assemble_discrete(const mesh_element *el, const double K[], sparse *out);
+void assemble_vector(const mesh_element *el, const double local[], double out[]);
 double *assemble_entry(sparse *a, int row, int column); /* NULL when not stored */
 /* Nothing where it is not stored. */
 void assemble_subtract(sparse *a, int row, int column, double value);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/model/discrete.h"
 #include "harness/model/model_impl.h"
 
 void rotating_frame_set(model *m, const double omega[3], const double centre[3], int follows_path)
@@ -15,19 +16,10 @@ void rotating_frame_set(model *m, const double omega[3], const double centre[3],
     m->rotates = omega[0] != 0 || omega[1] != 0 || omega[2] != 0;
 }
 
-static element_spin spin_at(const model *m, double path)
-{
-    element_spin spin = m->rotation;
-    if (m->rotation_follows_path)
-        for (int i = 0; i < 3; i++)
-            spin.omega[i] *= path;
-    return spin;
-}
-
 static status inertia_at(model *m, const node_state x[], int i, double path, inertia_output *out,
                          fault *f)
 {
-    const element_spin spin = spin_at(m, path);
+    const element_spin spin = model_spin(m, path);
     const status outcome =
         m->type->inertia(m->kind[m->element[i].kind].data, x, m->rotates ? &spin : NULL, out);
     m->counters.inertia_evaluations++;
@@ -76,6 +68,7 @@ status rotating_frame_inertia(model *m, const model_state *state, double path, s
         eliminate_matrix(m, s, &m->element[i], NULL, gyroscopic);
         assemble_matrix(p, i, gyroscopic, G);
     }
+    discrete_inertia(m, s, path, M, G);
     return STATUS_OK;
 }
 
@@ -114,5 +107,6 @@ status rotating_frame_tangent_energy2(model *m, const model_state *s, double pat
         *energy += dense_quadratic(m->strains, C, e) +
                    dense_quadratic(m->coordinates, H, el->plain ? local : own);
     }
+    *energy += discrete_energy2(m, s, path, x);
     return STATUS_OK;
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/model/discrete.h"
 #include "harness/model/model_impl.h"
 
 void stiffness_parts_material_product(const model *m, const model_state *s, const double x[],
@@ -20,7 +21,7 @@ void stiffness_parts_material_product(const model *m, const model_state *s, cons
         dense_mul_vec(m->strains, m->strains, w.C, e, sigma);
         dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, sigma, force);
         eliminate_forces(m, s, el, force);
-        assemble_vector(el, m->coordinates, force, y);
+        assemble_vector(el, force, y);
     }
 }
 
@@ -45,6 +46,7 @@ status stiffness_parts_geometric(model *m, const model_state *s, sparse *G, faul
         eliminate_matrix(m, s, el, present, H);
         assemble_matrix(p, i, H, G);
     }
+    discrete_stiffness(m, s, s->path, G);
     loads_subtract_stiffness(m, s, s->path, G);
     return STATUS_OK;
 }

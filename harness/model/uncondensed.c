@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/model/discrete.h"
 #include "harness/model/loads.h"
 #include "harness/model/model_impl.h"
 
@@ -102,6 +103,21 @@ static void put_load(void *context, int row, int column, double value)
     put(part->m, part->s, row < part->m->free ? row : NONE, column, -value);
 }
 
+static void add_discrete(model *m, const model_state *state, const mesh_discrete *d, double path,
+                         full *s)
+{
+    const int n = NODE_COORDINATES * d->el.nodes;
+    double force[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
+    discrete_equations(m, state, d, path, force, K);
+    for (int a = 0; a < n; a++) {
+        const int row = d->el.index[a] < m->free ? d->el.index[a] : NONE;
+        if (row != NONE)
+            s->b[row] -= force[a];
+        for (int c = 0; c < n; c++)
+            put(m, s, row, d->el.index[c], K[n * a + c]);
+    }
+}
+
 status uncondensed_system(model *m, const model_state *state, double path, const double drive[],
                           int conditions, const model_condition condition[], double A[], double b[],
                           double load[], fault *f)
@@ -116,6 +132,8 @@ status uncondensed_system(model *m, const model_state *state, double path, const
         TRY(add_element(m, state, i, path, &s, f));
     }
     loads_stiffness(m, state, path, put_load, &(load_part){m, &s});
+    for (int i = 0; i < m->discretes; i++)
+        add_discrete(m, state, &m->discrete[i], path, &s);
     for (int c = 0; c < conditions; c++) {
         const int row = s.size - conditions + c;
         A[(size_t)condition[c].coordinate * (size_t)s.size + (size_t)row] = 1;

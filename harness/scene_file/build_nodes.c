@@ -109,6 +109,28 @@ static void check_masters(const fields *f, const scene_node *n)
                          "'rotation' says all about turns; leave out rx, ry, rz and forks");
 }
 
+/* Of the body at rest; it turns with the instance it is in: I <- A I A^T, row by row. */
+static void read_body(const fields *f, scene_body *body)
+{
+    double *I = body->inertia;
+    body->mass = fields_number(f, "mass", 0);
+    fields_direction(f, "centre", body->centre);
+    if (!fields_vector(f, "inertia", 6, I) || f->placed == NULL)
+        return;
+    double row[3][3] = {{I[0], I[3], I[5]}, {I[3], I[1], I[4]}, {I[5], I[4], I[2]}};
+    for (int pass = 0; pass < 2; pass++) {
+        double column[3][3];
+        for (int i = 0; i < 3; i++)
+            placement_turn(f->placed, row[i]);
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                column[i][j] = row[j][i];
+        memcpy(row, column, sizeof row);
+    }
+    const double turned[6] = {row[0][0], row[1][1], row[2][2], row[0][1], row[1][2], row[2][0]};
+    memcpy(I, turned, sizeof turned);
+}
+
 void builder_nodes(builder *b)
 {
     for (int i = 0; i < b->list[LIST_NODES].count; i++) {
@@ -119,6 +141,7 @@ void builder_nodes(builder *b)
         const int node = scene_add_node(b->scene, at[0], at[1], at[2]);
         scene_node *n = scene_node_at(b->scene, node);
         n->attached = fields_entry(&f, "part_of", LIST_NODES);
+        read_body(&f, &n->body);
         read_hold(&f, node);
         read_drive(&f, node);
         check_masters(&f, n);

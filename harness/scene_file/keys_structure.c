@@ -135,9 +135,10 @@ const scene_key keys_node[] = {
     {"part_of", KEY_NAME, .summary = "node that it moves with, as one rigid body"},
     {"rotation", KEY_MAP, .below = rotation, .summary = "how it turns, where not freely"},
     {"fork", KEY_MAP, .below = fork_, .summary = "no turn about the turned section's axis"},
-    {.name = "mass", .kind = KEY_LATER},
-    {.name = "centre", .kind = KEY_LATER},
-    {.name = "inertia", .kind = KEY_LATER},
+    {"mass", KEY_NUMBER, .unit = "kg", .summary = "of a rigid body that moves with it"},
+    {"centre", KEY_VECTOR, .count = 3, .unit = "m", .summary = "of that mass, from the node"},
+    {"inertia", KEY_VECTOR, .count = 6, .unit = "kg m^2",
+     .summary = "tensor about that centre: [xx, yy, zz, xy, yz, zx]"},
     {.name = "velocity", .kind = KEY_LATER},
     {.name = "spin", .kind = KEY_LATER},
     {.name = NULL}};

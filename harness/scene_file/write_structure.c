@@ -167,6 +167,19 @@ static void write_rotation(writer *w, const scene_node *n)
     fputs("]}", w->to);
 }
 
+static void write_body(writer *w, const scene_body *b)
+{
+    write_if(w, "mass", b->mass, 0);
+    if (any_of(3, b->centre)) {
+        fputs(", centre: ", w->to);
+        write_numbers(w, 3, b->centre);
+    }
+    if (any_of(6, b->inertia)) {
+        fputs(", inertia: ", w->to);
+        write_numbers(w, 6, b->inertia);
+    }
+}
+
 void write_nodes(writer *w)
 {
     fputs("nodes:\n", w->to);
@@ -179,6 +192,7 @@ void write_nodes(writer *w)
         write_supports(w, n, n->rotation == SCENE_ROTATION_SPATIAL ? 6 : 3);
         if (n->rotation != SCENE_ROTATION_SPATIAL)
             write_rotation(w, n);
+        write_body(w, &n->body);
         fputs("}\n", w->to);
     }
 }

@@ -28,6 +28,9 @@ static inline int same_section(const section_spec *a, const section_spec *b)
 static inline int same_node(const scene_node *a, const scene_node *b)
 {
     return same_numbers(3, a->position, b->position) && a->attached == b->attached &&
+           same_numbers(1, &a->body.mass, &b->body.mass) &&
+           same_numbers(3, a->body.centre, b->body.centre) &&
+           same_numbers(6, a->body.inertia, b->body.inertia) &&
            memcmp(a->translation, b->translation, sizeof a->translation) == 0 &&
            a->rotation == b->rotation && memcmp(a->angle, b->angle, sizeof a->angle) == 0 &&
            (a->rotation == SCENE_ROTATION_SPATIAL || a->rotation == SCENE_ROTATION_VECTOR ||
