@@ -61,6 +61,12 @@ def warping_torsion(given):
     yield "twist_ratio", torsion.twist_ratio(at["kL"], at["ends"]), "1"
 
 
+def tip_body(given):
+    from reference.derive import tip_body as program
+    for quantity, value, relative in program.values(*(number(given, n, d) for n, d in (("omega_star", 4), ("mass", 1), ("overhang", 0.2), ("gyration", 0.3)))):
+        yield quantity, value, "1", relative or 5e-13
+
+
 def sheet_case(case, function):
     def solve(given):
         from reference.derive import sheets
@@ -117,6 +123,7 @@ SOLVERS = {
     "unsymmetric_column": (("length", "shear", "shear_stability", "rotary_inertia", "axial_load"), unsymmetric_column, "column"),
     "shear_column": (("length", "side", "young", "shear_modulus", "shear_stability"), shear_column, "linear_buckling"),
     "warping_torsion": (("kL", "ends"), warping_torsion, "torsion"),
+    "tip_body": (("omega_star", "mass", "overhang", "gyration"), tip_body, "tip_body"),
     "sheet_cantilever": (SHEET, sheet_case("sheet_cantilever", "cantilever"), "sheets"),
     "sheet_wagner": (SHEET + ("tip_phi_z", "tip_phi_x"), sheet_case("sheet_wagner", "twisted"), "sheets"),
     "spherical_joint": (("length", "width", "thickness", "young", "poisson", "fold_angle", "radius", "azimuth", "tilt", "steps", "fold_warping", "wagner"), spherical_joint, "joint"),

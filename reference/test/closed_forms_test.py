@@ -7,7 +7,7 @@ import numpy as np
 from mpmath import besselj, findroot, mp, mpf, pi, sqrt
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
-from reference.derive import channel_cantilever, channel_rotating, column, linear_buckling, rotating  # noqa: E402
+from reference.derive import channel_cantilever, channel_rotating, column, linear_buckling, rotating, tip_body  # noqa: E402
 from reference.derive.section import section  # noqa: E402
 
 
@@ -95,6 +95,17 @@ class Rotating(unittest.TestCase):
     def test_lag_follows_from_flap(self):
         for Omega in (2, 6, 12):
             self.assertLess(np.max(np.abs(rotating.lag(Omega, 1e6) ** 2 / (rotating.flap(Omega, 1e6) ** 2 - Omega ** 2) - 1)), 1e-7)
+
+    def test_body_at_the_end(self):
+        """At rest: the equation of the frequencies. A body that is a point: without one, the beam alone; lag follows from flap."""
+        for m, c, g in ((1.0, 0.2, 0.3), (0.1, -0.5, 0.3), (10.0, 0.0, 0.0)):
+            rest = np.array([float(w) for w in tip_body.at_rest(m, c, g)])
+            self.assertLess(np.max(np.abs(tip_body.flap(0, m, c, g) / rest - 1)), 1e-11)
+            self.assertLess(np.max(np.abs(tip_body.lag(0, m, c, g) / rest - 1)), 1e-11)
+        self.assertLess(np.max(np.abs(tip_body.flap(6, 0.0, 0.0, 0.0) / rotating.flap(6, 1000) - 1)), 1e-11)
+        self.assertLess(np.max(np.abs(tip_body.lag(6, 0.0, 0.0, 0.0) / rotating.lag(6, 1000) - 1)), 1e-11)
+        flap, lag = (f(6, 2.0, 0.0, 0.0, 1e6) for f in (tip_body.flap, tip_body.lag))
+        self.assertLess(np.max(np.abs(lag ** 2 / (flap ** 2 - 36) - 1)), 1e-7)
 
 
 if __name__ == "__main__":

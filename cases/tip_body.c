@@ -1,0 +1,70 @@
+/* A cantilever with a rigid body at its end, at rest and turning steadily.  L = 1 m, EI = 1 N m^2, rho A = 1 kg/m, so that
+ * frequencies are in sqrt(EI/(rho A L^4)).  The body is symmetric about the beam's axis, about which it has no inertia (a thin rod);
+ * its centre of mass is beyond the end.  The axis of rotation passes through the root, normal to the beam: flap is motion in the plane
+ * of beam and axis, lag across it.  No shear, no rotary inertia of the beam. */
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "cases/shared/cantilever.h"
+#include "elements/math/pi.h"
+
+enum { MASS, OVERHANG, GYRATION, OMEGA };
+enum { MODES = 3, SLENDERNESS = 1000 };
+
+static const parameter_type parameters[] = {
+    [MASS] = {"mass", "1", 1, 0, 1e4, NULL, "of the body, over the mass of the beam"},
+    [OVERHANG] = {"overhang", "1", 0.2, -1, 10, NULL,
+                  "of the body's centre of mass beyond the end of the beam, in L"},
+    [GYRATION] = {"gyration", "1", 0.3, 0, 10, NULL,
+                  "the body's radius of gyration about axes across the beam, in L"},
+    [OMEGA] = {"omega_star", "1", 4, 0, 1e3, NULL, "angular velocity in sqrt(EI/(rho A L^4))"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+static void add_frequencies(scene *s, int analysis, const char *stem, scene_family family)
+{
+    for (int i = 0; i < MODES; i++) {
+        char name[SCENE_NAME];
+        snprintf(name, sizeof name, "%s_%d", stem, i + 1);
+        scene_quantity *q = scene_add_quantity(s, name, "1", analysis, scene_frequency(i, family));
+        q->factor = 2 * PI; /* Hz -> rad/s */
+        q->least_order = 1.8;
+    }
+}
+
+static status build(const double value[], scene *s, fault *f)
+{
+    (void)f;
+    const double area = (double)SLENDERNESS * SLENDERNESS, path = 1, mass = value[MASS],
+                 inertia = mass * value[GYRATION] * value[GYRATION];
+    const cantilever_stiffness k = {.EA = area, .GJ = 1, .EI = 1, .density = 1 / area};
+    int root, tip;
+    cantilever_build(1, &k, s, &root, &tip);
+    scene_set_body(s, tip,
+                   (scene_body){.mass = mass,
+                                .centre = {mass > 0 ? value[OVERHANG] : 0, 0, 0},
+                                .inertia = {0, inertia, inertia}});
+    const int modal = scene_add_modal(s, SCENE_NONE);
+    add_frequencies(s, modal, "rest", SCENE_BENDING_Z);
+    const int rotation =
+        scene_add_rotation(s, 1, &path, 1, 2 * MODES, (scene_spin){.omega = {0, 0, value[OMEGA]}});
+    add_frequencies(s, rotation, "flap", SCENE_BENDING_Z);
+    add_frequencies(s, rotation, "lag", SCENE_BENDING_Y);
+    cantilever_quantity(s, "stretch", "1", rotation, tip, SCENE_UX, 1, 0);
+    scene_quantity *pull =
+        scene_add_quantity(s, "root_force", "1", rotation, scene_reaction(root, SCENE_UX));
+    pull->factor = -1;
+    pull->least_order = 1.8;
+    const int meshes[] = {2, 4, 8, 16, 32, 64};
+    scene_meshes(s, 6, meshes);
+    return STATUS_OK;
+}
+
+const case_type case_tip_body = {
+    .name = "tip_body",
+    .summary = "cantilever with a rigid body at its end, at rest and turning steadily: frequencies",
+    .source = "exact frequencies of the beam with such an end (reference/derive/tip_body.py)",
+    .parameters = {parameters},
+    .build = build,
+};
