@@ -45,10 +45,16 @@ int scene_add_section(scene *s, const section_spec *spec)
     return i;
 }
 
+/* Bit by bit: NANs are equal to themselves, and what padding tells apart is only computed again. */
+static int same_bits(const void *a, const void *b, size_t size)
+{
+    return memcmp(a, b, size) == 0;
+}
+
 status scene_constants(const scene *s, int i, section *out, fault *f)
 {
     scene_computed *c = i < s->computeds ? &s->computed[i] : NULL;
-    if (c != NULL && c->known && memcmp(&c->of, &s->section[i], sizeof c->of) == 0) {
+    if (c != NULL && c->known && same_bits(&c->of, &s->section[i], sizeof c->of)) {
         *out = c->constants;
         return STATUS_OK;
     }
