@@ -43,6 +43,7 @@ typedef struct cli_request {
     int refusal;            /* exit code where there is no case */
     int reads_files;        /* 1: the arguments are files that are read */
     const char *beside;     /* stored import: contestants of a run */
+    const char *map;        /* of columns without a header */
     int gate;               /* 1: their verdicts count */
     int schema, keys;       /* 1: describe the keys of scene files as JSON Schema, as a list */
     double plant;           /* share of its time that is added to every run of the other */

@@ -7,7 +7,7 @@
 #include "harness/cli/cli.h"
 #include "harness/record/output.h"
 
-enum { OUTPUTS = 4, INPUTS = 6 };
+enum { OUTPUTS = 4, INPUTS = 7 };
 
 typedef struct named_place {
     const char *option, *path;
@@ -45,9 +45,13 @@ status cli_check_files(const cli_request *r, int whole_file, const char *truths_
         {.option = "--junit", .path = r->junit},
         {.option = "--markdown", .path = r->markdown}};
     const int is_path = r->against != NULL && strchr(r->against, '/') != NULL;
-    const char *const input[INPUTS] = {truths_path, r->most_arguments == 2 ? r->case_name : NULL,
-                                       r->second,   r->scene_path,
-                                       r->beside,   is_path ? r->against : "/proc/self/exe"};
+    const char *const input[INPUTS] = {truths_path,
+                                       r->most_arguments == 2 ? r->case_name : NULL,
+                                       r->second,
+                                       r->scene_path,
+                                       r->beside,
+                                       r->map,
+                                       is_path ? r->against : "/proc/self/exe"};
     for (int i = 0; i < OUTPUTS; i++) {
         if (out[i].path == NULL)
             continue;

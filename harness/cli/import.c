@@ -3,6 +3,7 @@
 
 #include "harness/cli/cli.h"
 #include "harness/imports/import_file.h"
+#include "harness/imports/import_map.h"
 #include "harness/record/place.h"
 #include "harness/record/store.h"
 
@@ -13,6 +14,17 @@ static void print_mistakes(const mistakes *m)
         fprintf(stderr, "%s:%d: %s\n", m->file, m->list[i].line, m->list[i].text);
     if (m->more > 0)
         fprintf(stderr, "%s: %d more mistakes\n", m->file, m->more);
+}
+
+/* All files by one map: one series. */
+static status read_mapped(const cli_request *r, import_set *set, fault *f)
+{
+    mistakes m = {.file = r->map};
+    const status outcome = import_map_read(r->map, r->cases, r->case_count, set, &m, f);
+    print_mistakes(&m);
+    if (m.count > 0)
+        fault_set(f, outcome, "nothing was imported: mistakes in %.200s", r->map);
+    return outcome;
 }
 
 /* Reads every file, whatever is wrong with those before. */
@@ -66,7 +78,7 @@ static status check_again(const sweep *s, fault *f)
 static status import(cli_request *r, import_set *set, fault *f)
 {
     TRY(cli_check_files(r, 1, NULL, f));
-    TRY(read_files(r, set, f));
+    TRY(r->map != NULL ? read_mapped(r, set, f) : read_files(r, set, f));
     TRY(check_again(&set->sweep, f));
     const environment e = environment_now(1);
     TRY(store_write(r->output, &set->sweep, NULL, &e, f));
@@ -84,7 +96,7 @@ int cli_import(int count, char **arguments)
               "(harness/imports/README.md). Names, units and parameters are checked, values "
               "converted; -o FILE is of the same schema as results of verify, whose --beside takes "
               "it as one more contestant.",
-              "o+", count, arguments, &r);
+              "o+m", count, arguments, &r);
     r.reads_files = 1;
     status outcome = STATUS_OK;
     if (r.case_count == 0 || r.output == NULL)

@@ -54,6 +54,7 @@ static const struct argp_option all_options[] = {
     {"scene", 'Y', "FILE", 0, "a scene of your own in YAML, in the place of a case", 0},
     {"beside", 'B', "FILE", 0,
      "what other programs found, stored by 'beamwork import': contestants that gate nothing", 0},
+    {"map", 'm', "FILE.yaml", 0, "which columns of files without a header are which quantities", 0},
     {"gate", 'G', NULL, 0, "verdicts of --beside count as ours do", 0},
     {"schema", 'H', NULL, 0, "describe all keys of scene files as JSON Schema", 0},
     {"keys", 'E', NULL, 0, "list all keys of scene files", 0},
@@ -239,6 +240,9 @@ static error_t take(int key, char *value, struct argp_state *state)
         return 0;
     case 'B':
         r->beside = value;
+        return 0;
+    case 'm':
+        r->map = value;
         return 0;
     case 'G':
         r->gate = 1;

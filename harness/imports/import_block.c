@@ -15,6 +15,12 @@ static const scene *scene_of(const import_block *b)
     return b->point >= 0 ? &b->set->sweep.point[b->point].scene : NULL;
 }
 
+/* Where mistakes about a value are. */
+static int line_of(const import_block *b, const imported_row *row)
+{
+    return b->at > 0 ? b->at : row->line;
+}
+
 void import_set_free(import_set *set)
 {
     sweep_free(&set->sweep);
@@ -181,7 +187,7 @@ static const scene_quantity *find_quantity(const import_block *b, const imported
         if (strcmp(s->quantity[i].name, row->quantity) == 0)
             return &s->quantity[i];
     const char *near = choice_nearest(row->quantity, quantity_name, s);
-    mistakes_add(b->m, row->line, 1, "%.40s has no quantity '%.60s'%s%s%s",
+    mistakes_add(b->m, line_of(b, row), 1, "%.40s has no quantity '%.60s'%s%s%s",
                  b->set->sweep.point[b->point].type->name, row->quantity,
                  near != NULL ? "; did you mean '" : "; 'beamwork list CASE' shows them",
                  near != NULL ? near : "", near != NULL ? "'?" : "");
@@ -199,12 +205,12 @@ static void check_row(const import_block *b, const imported_row *row, const scen
 {
     const int is_curve = q->reduction == SCENE_CURVE;
     if (is_curve && !isfinite(row->x))
-        mistakes_add(b->m, row->line, 2, "'%s' is a curve: give x, its %s [%s]", q->name, q->x.name,
-                     q->x.unit);
+        mistakes_add(b->m, line_of(b, row), 2, "'%s' is a curve: give x, its %s [%s]", q->name,
+                     q->x.name, q->x.unit);
     if (!is_curve && !isnan(row->x))
-        mistakes_add(b->m, row->line, 2, "'%s' is no curve: leave x empty", q->name);
+        mistakes_add(b->m, line_of(b, row), 2, "'%s' is no curve: leave x empty", q->name);
     if (has_moments(q) && b->found->convention[0] == '\0')
-        mistakes_add(b->m, row->line, 3,
+        mistakes_add(b->m, line_of(b, row), 3,
                      "'%s' depends on what a moment does while the node turns; write '# "
                      "convention: spatial|semitangential|symmetrised'",
                      q->name);
@@ -217,11 +223,12 @@ static int convert(const import_block *b, const scene_quantity *q, imported_row 
     fault f = {""};
     const scene_quantity *ours = axes_quantity(&b->axes, scene_of(b), q, &sign);
     if (ours == NULL) {
-        mistakes_add(b->m, row->line, 1, "'%s' in these axes is no quantity of the case", q->name);
+        mistakes_add(b->m, line_of(b, row), 1, "'%s' in these axes is no quantity of the case",
+                     q->name);
         return 0;
     }
     if (conversion_factor(row->unit, ours->unit, &row->factor, &f) != STATUS_OK) {
-        mistakes_add(b->m, row->line, 4, "%s: %.300s", q->name, f.text);
+        mistakes_add(b->m, line_of(b, row), 4, "%s: %.300s", q->name, f.text);
         return 0;
     }
     row->factor *= sign;
@@ -240,8 +247,9 @@ static void check_again(const import_block *b)
         const imported_row *one = &all->row[i - 1], *next = &all->row[i];
         if (one->elements == next->elements && strcmp(one->quantity, next->quantity) == 0 &&
             (one->x == next->x || (isnan(one->x) && isnan(next->x))))
-            mistakes_add(b->m, next->line, 5, "'%s' with %d elements is given again (line %d)",
-                         next->quantity, next->elements, one->line);
+            mistakes_add(b->m, line_of(b, next), 5,
+                         "'%s' with %d elements is given again (line %d)", next->quantity,
+                         next->elements, one->line);
     }
 }
 

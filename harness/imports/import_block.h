@@ -32,6 +32,7 @@ typedef struct import_block {
     const char *path; /* of the file */
     mistakes *m;
     axes axes;
+    int at;    /* line of m's file that asks for the value; 0: it is the value's own file */
     int point; /* index in the sweep; -1: its case is not known */
     imported *found;
 } import_block;
@@ -39,7 +40,7 @@ typedef struct import_block {
 /* Opens a series: case, parameters and words of the header are checked. found NULL: out of memory. */
 import_block import_block_open(import_set *set, const import_header *h, const char *path,
                                mistakes *m);
-/* One value as the file says it. line, column: where mistakes about it are. */
+/* One value as the file says it. */
 void import_block_add(import_block *b, const imported_row *row);
 /* Sorts the values into cells and adds the series to the sweep, unless there are mistakes. */
 status import_block_close(import_block *b, fault *f);

@@ -13,6 +13,8 @@ HEAD = """# beamwork-import: 1
 """
 COLUMNS = "quantity, unit, elements, unknowns, seconds, x, value, uncertainty\n"
 ROWS = "C_xx, mm/N, 2, 24, 2.1e-3, , 3.9408e-4,\nC_xx, mm/N, 4, 48, 3.3e-3, , 3.97064e-4, 1e-9\n"
+DATA = pathlib.Path(__file__).parent / "data"
+MAPS = pathlib.Path(__file__).parents[1] / "maps"
 SELECT = "sheet_cantilever and C_xx and shear_factor"
 
 
@@ -121,6 +123,54 @@ class Import(unittest.TestCase):
             done = run("verify", "-k", SELECT, "-f", "beamw", "--beside", str(self.place / name))
             self.assertEqual(done.returncode, 4, done.stderr)
             self.assertIn(name, done.stderr)
+
+    def mapped(self, name, *files, status=0):
+        done = run("import", *map(str, files), "--map", str(name), "-o", str(self.place / "theirs.h5"))
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done
+
+    def test_files_of_mbdyn(self):
+        """Written by MBDyn 1.7.3 from data/mbdyn_sheet.mbd: four 3-node beams, 0.06 % from the exact beam."""
+        self.mapped(MAPS / "mbdyn.yaml", DATA / "mbdyn_sheet.mov", DATA / "mbdyn_sheet.jnt")
+        found = {row["quantity"].decode(): row["value"] for row in self.stored()}
+        for name, value in (("u_x", 9.864219e-2 - 0.1), ("F_y", 3492.813), ("M_z", -172.2694)):
+            self.assertAlmostEqual(found[name] / value, 1, delta=1e-12)
+        done = run("verify", "-k", "sheet_cantilever and shear_factor and F_y", "-f", "collocation", "--beside", str(self.place / "theirs.h5"))
+        line, = [x for x in done.stdout.splitlines() if "MBDyn" in x]
+        self.assertIn("3492.813", line)
+        self.assertIn("3492.69255", line)
+
+    def test_blocks_of_calculix(self):
+        text = """
+ displacements (vx,vy,vz) for set NTIP and time  0.5000000E+00
+
+         4  1.000000E-01  0.000000E+00  0.000000E+00
+
+ displacements (vx,vy,vz) for set NTIP and time  0.1000000E+01
+
+         3  9.000000E+00  0.000000E+00  0.000000E+00
+         4 -1.358000E+00  1.500000E+01  0.000000E+00
+
+ total force (fx,fy,fz) for set NTIP and time  0.1000000E+01
+
+       -1.000000D-10  3.600000E+03  0.000000E+00
+"""
+        path = self.place / "job.dat"
+        path.write_text(text, encoding="utf-8")
+        self.mapped(MAPS / "calculix_dat.yaml", path)
+        found = {row["quantity"].decode(): row["value"] for row in self.stored()}
+        self.assertAlmostEqual(found["u_x"], -1.358e-3, delta=1e-15)
+        self.assertEqual(found["F_y"], 3600)
+
+    def test_mistakes_of_a_map(self):
+        path = self.place / "map.yaml"
+        good = (MAPS / "mbdyn.yaml").read_text(encoding="utf-8")
+        for change, words in ((("column: x", "colum: x"), "did you mean 'column'"), (("column: x", "column: ex"), "is no column"), (("label: 9", "label: 7"), "no such row"),
+                              (("  u_x", "  u_xq"), "map.yaml:12: sheet_cantilever has no quantity 'u_xq'; did you mean 'u_x'"), (("unit: m,", "unit: kg,"), "cannot be converted"), (("elements: 4", "elements: four"), "is no number")):
+            path.write_text(good.replace(*change), encoding="utf-8")
+            said = self.mapped(path, DATA / "mbdyn_sheet.mov", DATA / "mbdyn_sheet.jnt", status=2).stderr
+            self.assertRegex(said, r"map\.yaml:\d+: ")
+            self.assertIn(words, said)
 
     def test_no_input_is_replaced(self):
         path = self.place / "a.csv"
