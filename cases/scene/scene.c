@@ -28,6 +28,7 @@ void scene_free(scene *s)
     free(s->computed);
     free(s->node);
     free(s->member);
+    free(s->spring);
     free(s->driver);
     free(s->load);
     free(s->analysis);
@@ -106,6 +107,17 @@ int scene_add_member(scene *s, int p, int q, int profile, const double y_axis[3]
     m->section = profile;
     memcpy(m->y_axis, y_axis, sizeof m->y_axis);
     m->warp_p = m->warp_q = SCENE_WARP_FREE;
+    return i;
+}
+
+int scene_add_spring(scene *s, int p, int q, const double stiffness[36])
+{
+    const int i = scene_grow(s, &s->spring, &s->springs, sizeof *s->spring);
+    if (i >= 0) {
+        s->spring[i].p = p;
+        s->spring[i].q = q;
+        memcpy(s->spring[i].stiffness, stiffness, sizeof s->spring[i].stiffness);
+    }
     return i;
 }
 

@@ -66,6 +66,14 @@ typedef struct scene_member {
     int divisions; /* 0: the mesh's -n; else this many elements always */
 } scene_member;
 
+/* Between two nodes, or a node and the ground: energy 1/2 d^T K d with d of the six components of q's frame against p's since
+ * the undeformed state, in axes that turn with p and were the fixed ones: how far apart, from the initial distance [m], and the
+ * rotation vector [rad], of less than 3 rad. */
+typedef struct scene_spring {
+    int p, q;             /* p: SCENE_NONE: the ground */
+    double stiffness[36]; /* K, symmetric, row-major [N/m, N, N m] */
+} scene_spring;
+
 /* One scalar that moves coordinates; piecewise linear in the path parameter between its stations. */
 typedef struct scene_driver {
     char name[SCENE_NAME];
@@ -108,12 +116,13 @@ typedef struct scene_computed {
 
 struct scene {
     char name[SCENE_NAME];
-    int sections, nodes, members, drivers, loads, analyses, quantities;
+    int sections, nodes, members, springs, drivers, loads, analyses, quantities;
     section_spec *section;
     int computeds;
     scene_computed *computed; /* [computeds] kept by scene_constants */
     scene_node *node;
     scene_member *member;
+    scene_spring *spring;
     scene_driver *driver;
     scene_load *load;
     scene_analysis *analysis;
@@ -140,6 +149,7 @@ int scene_add_attached(scene *s, int body, double x, double y,
                        double z); /* absolute undeformed position */
 int scene_add_member(scene *s, int p, int q, int profile,
                      const double y_axis[3]); /* profile: a section of the scene */
+int scene_add_spring(scene *s, int p, int q, const double stiffness[36]);
 int scene_add_driver(scene *s, const char *name, int stations, const double path[],
                      const double value[]);
 int scene_add_unknown_driver(scene *s, const char *name, int node, int component,

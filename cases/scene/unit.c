@@ -99,6 +99,12 @@ static void scale_body(scene_body *b, double x)
     scale_vector(b->inertia + 3, x);
 }
 
+static void scale_spring(scene_spring *p, double x)
+{
+    for (int i = 0; i < 36; i++)
+        p->stiffness[i] *= pow(x, (i / 6 >= 3) + (i % 6 >= 3) - 1);
+}
+
 static void scale_load(scene_load *load, double x)
 {
     scale_vector(load->at, x);
@@ -175,6 +181,8 @@ status scene_change_unit(scene *s, double x, fault *f)
     }
     for (int i = 0; i < s->members; i++)
         scale_vector(s->member[i].curvature, 1 / x);
+    for (int i = 0; i < s->springs; i++)
+        scale_spring(&s->spring[i], x);
     for (int i = 0; i < s->loads; i++)
         scale_load(&s->load[i], x);
     for (int i = 0; i < s->analyses; i++)

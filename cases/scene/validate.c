@@ -1,5 +1,6 @@
 /* What a scene must be before anything is built from it. */
 #include <math.h>
+#include <string.h>
 
 #include "cases/scene/validate_wanted.h"
 #include "elements/math/dense.h"
@@ -61,12 +62,19 @@ static int is_inertia(const double I[6])
            A[2] * A[0] - zx * zx >= -small * half && determinant >= -small * half * half;
 }
 
-/* Does a member hold the node's body? */
+/* Does a member or a spring hold the node's body? */
 static int is_reached(const scene *s, int node)
 {
     const int body = s->node[node].attached == SCENE_NONE ? node : s->node[node].attached;
     for (int i = 0; i < s->members; i++) {
         const int ends[] = {s->member[i].p, s->member[i].q};
+        for (int k = 0; k < 2; k++)
+            if (ends[k] >= 0 && ends[k] < s->nodes &&
+                (ends[k] == body || s->node[ends[k]].attached == body))
+                return 1;
+    }
+    for (int i = 0; i < s->springs; i++) {
+        const int ends[] = {s->spring[i].p, s->spring[i].q};
         for (int k = 0; k < 2; k++)
             if (ends[k] >= 0 && ends[k] < s->nodes &&
                 (ends[k] == body || s->node[ends[k]].attached == body))
@@ -97,9 +105,9 @@ static status check_body(const scene *s, int i, fault *f)
                          "of the other two; mend it",
                          i);
     if (!is_reached(s, i))
-        return fault_set(f, STATUS_REFUSED,
-                         "node %d: nothing holds its mass; join a member to it, or take it away",
-                         i);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "node %d: nothing holds its mass; join a member or a spring to it, or take it away", i);
     return STATUS_OK;
 }
 
@@ -170,6 +178,54 @@ static status check_member(const scene *s, int i, fault *f)
     if (m->divisions < 0)
         return fault_set(f, STATUS_REFUSED, "member %d: %d elements; give at least 1", i,
                          m->divisions);
+    return STATUS_OK;
+}
+
+/* Symmetric, and no deformation gives energy away: elimination meets no negative pivot. */
+static int is_stiffness(const double K[36])
+{
+    double A[36], largest[6];
+    memcpy(A, K, sizeof A);
+    for (int i = 0; i < 6; i++) {
+        largest[i] = A[7 * i];
+        for (int j = 0; j < 6; j++)
+            if (!isfinite(A[6 * i + j]) || A[6 * i + j] != A[6 * j + i])
+                return 0;
+    }
+    for (int k = 0; k < 6; k++) {
+        const double pivot = A[7 * k];
+        if (!(pivot >= -1e-9 * largest[k]) || largest[k] < 0)
+            return 0;
+        for (int i = k + 1; i < 6; i++) {
+            if (pivot <= 1e-9 * largest[k]) {
+                if (fabs(A[6 * k + i]) > 1e-8 * sqrt(largest[k] * largest[i]))
+                    return 0;
+                continue;
+            }
+            const double part = A[6 * i + k] / pivot;
+            for (int j = k + 1; j < 6; j++)
+                A[6 * i + j] -= part * A[6 * k + j];
+        }
+    }
+    return 1;
+}
+
+static status check_spring(const scene *s, int i, fault *f)
+{
+    const scene_spring *p = &s->spring[i];
+    if (p->q < 0 || p->q >= s->nodes || p->p < SCENE_NONE || p->p >= s->nodes)
+        return fault_set(f, STATUS_REFUSED,
+                         "spring %d: it ends at a node that does not exist; add the node first", i);
+    if (p->p == p->q)
+        return fault_set(f, STATUS_REFUSED,
+                         "spring %d: both its ends are node %d; join two, or one and the ground", i,
+                         p->q);
+    if (!is_stiffness(p->stiffness))
+        return fault_set(
+            f, STATUS_REFUSED,
+            "spring %d: its stiffness is not symmetric, or gives energy away; give six "
+            "numbers that are not negative, or such a matrix",
+            i);
     return STATUS_OK;
 }
 
@@ -263,11 +319,13 @@ status scene_validate(const scene *s, fault *f)
 {
     static status (*const check[])(const scene *, int, fault *) = {check_node,
                                                                    check_member,
+                                                                   check_spring,
                                                                    check_driver,
                                                                    check_load,
                                                                    scene_validate_analysis,
                                                                    scene_validate_quantity};
-    const int count[] = {s->nodes, s->members, s->drivers, s->loads, s->analyses, s->quantities};
+    const int count[] = {s->nodes, s->members,  s->springs,   s->drivers,
+                         s->loads, s->analyses, s->quantities};
     if (s->out_of_memory)
         return fault_set(f, STATUS_FAULT, "%s: out of memory while the scene was built", s->name);
     for (size_t k = 0; k < sizeof count / sizeof count[0]; k++)

@@ -297,6 +297,45 @@ static void loose_mass(scene *s)
     scene_set_body(s, scene_add_node(s, 0, 0, 7), (scene_body){.mass = 1});
 }
 
+static scene_spring *spring_of(scene *s)
+{
+    const double stiffness[36] = {[0] = 4, [1] = 1, [6] = 1, [7] = 2, [35] = 3};
+    const int i = scene_add_spring(s, 0, 1, stiffness);
+    return &s->spring[i];
+}
+
+static void spring_nowhere(scene *s)
+{
+    spring_of(s)->q = 9;
+}
+
+static void spring_of_one(scene *s)
+{
+    spring_of(s)->p = 1;
+}
+
+static void unsymmetric_spring(scene *s)
+{
+    spring_of(s)->stiffness[1] = 1.1;
+}
+
+static void negative_spring(scene *s)
+{
+    spring_of(s)->stiffness[14] = -1;
+}
+
+static void indefinite_spring(scene *s)
+{
+    double *K = spring_of(s)->stiffness;
+    K[1] = K[6] = 2.9;
+}
+
+static void coupled_to_nothing(scene *s)
+{
+    double *K = spring_of(s)->stiffness;
+    K[2] = K[12] = 0.1;
+}
+
 typedef void spoil(scene *);
 
 static const struct {
@@ -320,6 +359,12 @@ static const struct {
     {no_triangle, "node 1: ", "no body has this inertia"},
     {products_too_large, "node 1: ", "no body has this inertia"},
     {loose_mass, "node 3: ", "nothing holds its mass"},
+    {spring_nowhere, "spring 0: ", "a node that does not exist"},
+    {spring_of_one, "spring 0: ", "both its ends are node 1"},
+    {unsymmetric_spring, "spring 0: ", "is not symmetric"},
+    {negative_spring, "spring 0: ", "gives energy away"},
+    {indefinite_spring, "spring 0: ", "gives energy away"},
+    {coupled_to_nothing, "spring 0: ", "gives energy away"},
     {end_of_member, "member 0: ", "a node that does not exist"},
     {no_section, "member 0: ", "its section does not exist"},
     {no_length, "member 0: ", "its ends coincide"},

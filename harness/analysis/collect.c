@@ -67,9 +67,8 @@ static status keep_displaced(const analysis_context *c, shape_state *what, const
 
 static status keep_linear(const analysis_context *c, int analysis, shapes *s, fault *f)
 {
-    const model_size size = model_sizes(c->model);
     shape_state what = {SHAPE_LINEAR, analysis, 1, 1};
-    double *sigma = calloc((size_t)size.elements * (size_t)size.strains + 1, sizeof *sigma);
+    double *sigma = calloc((size_t)model_stresses(c->model) + 1, sizeof *sigma);
     status outcome =
         sigma != NULL
             ? linear_stresses(c->model, outcome_displacements(&c->outcomes[analysis]), sigma, f)

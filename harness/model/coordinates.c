@@ -57,6 +57,9 @@ static void mark_used(const model *m, char *used)
     for (int i = 0; i < m->elements; i++)
         for (int k = 0; k < m->nodes; k++)
             used[m->vertex[m->element[i].vertex[k]].body] = 1;
+    for (int i = m->discretes - m->springs; i < m->discretes; i++)
+        for (int k = 0; k < m->discrete[i].el.nodes; k++)
+            used[m->vertex[m->discrete[i].el.vertex[k]].body] = 1;
 }
 
 static void number_vertex(model *m, int index, int pass, int used, int *held, int *unused)

@@ -7,6 +7,7 @@
 #include "harness/model/body.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/offset.h"
+#include "harness/model/spring.h"
 
 enum { X = ELEMENT_MAX_COORDINATES };
 
@@ -23,49 +24,109 @@ static void begin(const int nodes, const int vertex[], mesh_discrete *d)
     }
 }
 
+static void add_spring(model *m, const scene_spring *spring)
+{
+    const int both[2] = {spring->p, spring->q}, one = spring->p == SCENE_NONE;
+    mesh_discrete *d = &m->discrete[m->discretes++];
+    begin(one ? 1 : 2, one ? &both[1] : both, d);
+    d->spring = spring;
+    m->springs++;
+}
+
 status discrete_build(model *m, fault *f)
 {
-    int count = 0;
+    int count = m->scene->springs;
     for (int i = 0; i < m->scene->nodes; i++)
         count += scene_has_body(&m->scene->node[i]);
     if (count == 0)
         return STATUS_OK;
     m->discrete = calloc((size_t)count, sizeof *m->discrete);
     if (m->discrete == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for rigid bodies");
+        return fault_set(f, STATUS_FAULT, "out of memory for rigid bodies and springs");
     for (int i = 0; i < m->scene->nodes; i++)
         if (scene_has_body(&m->scene->node[i])) {
             begin(1, &i, &m->discrete[m->discretes]);
             m->discrete[m->discretes++].body = &m->scene->node[i].body;
         }
+    for (int i = 0; i < m->scene->springs; i++)
+        add_spring(m, &m->scene->spring[i]);
     return STATUS_OK;
 }
 
-/* Force and tangent at the nodes themselves. */
+/* Of a spring in a state. */
+typedef struct spring_state {
+    double e[SPRING_STRAINS], sigma[SPRING_STRAINS], J[SPRING_STRAINS * X], H[X * X];
+} spring_state;
+
+static void spring_at(const model *m, const model_state *s, const mesh_discrete *d,
+                      spring_state *out)
+{
+    node_state x[ELEMENT_MAX_NODES];
+    kinematics_gather(m, s, &d->el, x);
+    spring_strain(d->el.nodes, x, &(strain_output){.e = out->e, .J = out->J});
+    dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, d->spring->stiffness, out->e, out->sigma);
+    spring_strain(d->el.nodes, x, &(strain_output){.s = out->sigma, .H = out->H});
+}
+
+/* Force and tangent at the nodes themselves; material: with J^T S J of springs. */
 static void evaluate(const model *m, const model_state *s, const mesh_discrete *d, double path,
-                     double force[], double K[])
+                     int material, double force[], double K[])
 {
     const int n = NODE_COORDINATES * d->el.nodes;
     const element_spin spin = model_spin(m, path);
     node_state x[ELEMENT_MAX_NODES];
+    if (d->spring != NULL) {
+        spring_state p;
+        double work[SPRING_STRAINS * X];
+        spring_at(m, s, d, &p);
+        memset(force, 0, (size_t)n * sizeof *force);
+        dense_add_transpose_mul(n, SPRING_STRAINS, 1, p.J, p.sigma, force);
+        memcpy(K, p.H, (size_t)(n * n) * sizeof *K);
+        if (material)
+            dense_add_congruence(SPRING_STRAINS, n, p.J, d->spring->stiffness, K, work);
+        return;
+    }
     kinematics_gather(m, s, &d->el, x);
     body_inertia(d->body, x, &spin, &(inertia_output){.force = force, .N = K});
     for (int k = 0; k < n; k++)
         force[k] = -force[k];
 }
 
-void discrete_equations(const model *m, const model_state *s, const mesh_discrete *d, double path,
-                        double force[], double K[])
+/* Force and tangent in model coordinates. */
+static void eliminated(const model *m, const model_state *s, const mesh_discrete *d, double path,
+                       int material, double force[], double K[])
 {
-    evaluate(m, s, d, path, force, K);
+    evaluate(m, s, d, path, material, force, K);
     eliminate_matrix(m, s, &d->el, force, K);
     eliminate_forces(m, s, &d->el, force);
+}
+
+static status check_turn(const model *m, const model_state *s, const mesh_discrete *d, fault *f)
+{
+    spring_state p;
+    if (d->spring == NULL)
+        return STATUS_OK;
+    spring_at(m, s, d, &p);
+    const double turn = vec3_norm(p.e + 3);
+    return turn < SPRING_LARGEST_TURN
+               ? STATUS_OK
+               : fault_set(f, STATUS_NOT_CONVERGED,
+                           "spring %d: turned by %.3g rad, %g are the most; put two in series",
+                           (int)(d->spring - m->scene->spring), turn, SPRING_LARGEST_TURN);
+}
+
+status discrete_equations(const model *m, const model_state *s, const mesh_discrete *d, double path,
+                          double force[], double K[], fault *f)
+{
+    TRY(check_turn(m, s, d, f));
+    eliminated(m, s, d, path, 1, force, K);
+    return STATUS_OK;
 }
 
 void discrete_inertia(const model *m, const model_state *s, double path, sparse *M, sparse *G)
 {
     const element_spin spin = model_spin(m, path);
-    for (int i = 0; i < m->discretes; i++) {
+    for (int i = 0; i < m->discretes - m->springs; i++) {
         const mesh_discrete *d = &m->discrete[i];
         node_state x[ELEMENT_MAX_NODES];
         double mass[X * X], gyroscopic[X * X];
@@ -80,13 +141,41 @@ void discrete_inertia(const model *m, const model_state *s, double path, sparse 
     }
 }
 
-void discrete_stiffness(const model *m, const model_state *s, double path, sparse *out)
+void discrete_material_product(const model *m, const model_state *s, const double x[], double y[])
+{
+    for (int i = m->discretes - m->springs; i < m->discretes; i++) {
+        const mesh_discrete *d = &m->discrete[i];
+        const int n = NODE_COORDINATES * d->el.nodes;
+        double local[X], e[SPRING_STRAINS], sigma[SPRING_STRAINS], force[X] = {0};
+        spring_state p;
+        spring_at(m, s, d, &p);
+        kinematics_local(m, s, &d->el, x, local);
+        dense_mul_vec(SPRING_STRAINS, n, p.J, local, e);
+        dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, d->spring->stiffness, e, sigma);
+        dense_add_transpose_mul(n, SPRING_STRAINS, 1, p.J, sigma, force);
+        eliminate_forces(m, s, &d->el, force);
+        assemble_vector(&d->el, force, y);
+    }
+}
+
+void discrete_geometric(const model *m, const model_state *s, double path, sparse *out)
 {
     for (int i = 0; i < m->discretes; i++) {
         double force[X], K[X * X];
-        discrete_equations(m, s, &m->discrete[i], path, force, K);
+        eliminated(m, s, &m->discrete[i], path, 0, force, K);
         assemble_discrete(&m->discrete[i].el, K, out);
     }
+}
+
+static double material_energy2(const model *m, const model_state *s, const mesh_discrete *d,
+                               const double x[])
+{
+    double local[X], e[SPRING_STRAINS];
+    spring_state p;
+    spring_at(m, s, d, &p);
+    kinematics_local(m, s, &d->el, x, local);
+    dense_mul_vec(SPRING_STRAINS, NODE_COORDINATES * d->el.nodes, p.J, local, e);
+    return dense_quadratic(SPRING_STRAINS, d->spring->stiffness, e);
 }
 
 double discrete_energy2(const model *m, const model_state *s, double path, const double x[])
@@ -95,10 +184,12 @@ double discrete_energy2(const model *m, const model_state *s, double path, const
     for (int i = 0; i < m->discretes; i++) {
         const mesh_element *el = &m->discrete[i].el;
         double force[X], K[X * X], own[X];
-        discrete_equations(m, s, &m->discrete[i], path, force, K);
+        eliminated(m, s, &m->discrete[i], path, 0, force, K);
         for (int k = 0; k < NODE_COORDINATES * el->nodes; k++)
             own[k] = el->index[k] == NONE ? 0 : x[el->index[k]];
         sum += dense_quadratic(NODE_COORDINATES * el->nodes, K, own);
+        if (m->discrete[i].spring != NULL)
+            sum += material_energy2(m, s, &m->discrete[i], x);
     }
     return sum;
 }
@@ -108,7 +199,7 @@ void discrete_node_force(const model *m, const model_state *s, int node, double 
     for (int i = 0; i < m->discretes; i++) {
         const mesh_discrete *d = &m->discrete[i];
         double force[X], K[X * X];
-        evaluate(m, s, d, s->path, force, K);
+        evaluate(m, s, d, s->path, 1, force, K);
         for (int k = 0; k < d->el.nodes; k++) {
             double *at = force + NODE_COORDINATES * k, rho[3];
             if (m->vertex[d->el.vertex[k]].body != node)

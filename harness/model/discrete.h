@@ -1,4 +1,4 @@
-/* Discrete elements, beside those of the members: rigid bodies at nodes.  None: no work. */
+/* Discrete elements, beside those of the members: rigid bodies at nodes, and springs.  None: no work. */
 #ifndef BEAMWORK_MODEL_DISCRETE_H
 #define BEAMWORK_MODEL_DISCRETE_H
 
@@ -7,12 +7,14 @@
 status discrete_build(model *, fault *);
 /* Internal less centrifugal force [7 nodes] and its tangent [7 nodes x 7 nodes] in a state, in
  * model coordinates. */
-void discrete_equations(const model *, const model_state *, const mesh_discrete *, double path,
-                        double force[], double K[]);
+status discrete_equations(const model *, const model_state *, const mesh_discrete *, double path,
+                          double force[], double K[], fault *);
 /* M, G += theirs (rotating_frame_inertia); G NULL: not wanted. */
 void discrete_inertia(const model *, const model_state *, double path, sparse *M, sparse *G);
-/* out += the tangent of all; x^T of it x, x[free + driven]. */
-void discrete_stiffness(const model *, const model_state *, double path, sparse *out);
+/* The tangent in two parts, as in stiffness_parts.h: y += its product with x[free + driven], out += the other. */
+void discrete_material_product(const model *, const model_state *, const double x[], double y[]);
+void discrete_geometric(const model *, const model_state *, double path, sparse *out);
+/* x^T K x of all. */
 double discrete_energy2(const model *, const model_state *, double path, const double x[]);
 /* F += what the structure needs on a node's frame to hold them in the state [6: N, N m]. */
 void discrete_node_force(const model *, const model_state *, int node, double F[6]);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/model/linear_springs.h"
 #include "harness/model/model_impl.h"
 
 typedef struct linear_element {
@@ -79,6 +80,7 @@ status linear_stiffness(model *m, sparse *K, fault *f)
         eliminate_matrix(m, m->rest, &m->element[i], NULL, k);
         assemble_matrix(pattern_of(m, K), i, k, K);
     }
+    linear_springs_stiffness(m, K);
     return STATUS_OK;
 }
 
@@ -101,6 +103,7 @@ status linear_stresses(model *m, const double x[], double sigma[], fault *f)
         linear_strains(m, i, &l, x, e);
         dense_mul_vec(m->strains, m->strains, l.S, e, &sigma[(size_t)i * (size_t)m->strains]);
     }
+    linear_springs_stresses(m, x, sigma + m->elements * m->strains);
     return STATUS_OK;
 }
 
@@ -120,6 +123,7 @@ void linear_forces(model *m, const double sigma[], double f[])
         eliminate_forces(m, m->rest, &m->element[i], force);
         assemble_vector(&m->element[i], force, f);
     }
+    linear_springs_forces(m, sigma + m->elements * m->strains, f);
 }
 
 /* sum sigma_i H_i and G(sigma) of one element, in element coordinates; force = J^T sigma. */
@@ -156,6 +160,7 @@ status linear_geometric_stiffness(model *m, const double sigma[], double path, s
         assemble_matrix(pattern_of(m, out), i, H, out);
     }
     loads_subtract_stiffness(m, m->rest, path, out);
+    linear_springs_geometric_stiffness(m, sigma + m->elements * m->strains, out);
     return STATUS_OK;
 }
 
@@ -198,7 +203,7 @@ double linear_strain_rounding(model *m, const double x[])
             sum += DBL_EPSILON * (2 * fabs(sigma) * terms[k] + fabs(e[k]) * sigma_terms);
         }
     }
-    return sum;
+    return sum + linear_springs_rounding(m, x);
 }
 
 double linear_strain_energy2(model *m, const double x[])
@@ -211,7 +216,7 @@ double linear_strain_energy2(model *m, const double x[])
         linear_strains(m, i, &l, x, e);
         sum += dense_quadratic(m->strains, l.S, e);
     }
-    return sum;
+    return sum + linear_springs_energy2(m, x);
 }
 
 /* x^T (sum sigma_i H_i + J^T G(sigma) J) x of one element. */
@@ -242,7 +247,7 @@ double linear_geometric_energy2(model *m, const double sigma[], const double x[]
     double sum = 0;
     for (int i = 0; i < m->elements; i++)
         sum += geometric_energy2(m, i, &sigma[(size_t)i * (size_t)m->strains], x);
-    return sum;
+    return sum + linear_springs_geometric_energy2(m, sigma + m->elements * m->strains, x);
 }
 
 /* The form is linear in the stresses: what is missing there is its own rounding. The stresses' is

@@ -181,15 +181,16 @@ static void add_part(model *m, const mesh_element *el, element_part *part, model
     lin->incompatibility = fmax(lin->incompatibility, part->incompatibility);
 }
 
-static void add_discrete(model *m, const model_state *s, model_linearisation *lin)
+static status add_discrete(model *m, const model_state *s, model_linearisation *lin, fault *f)
 {
     for (int i = 0; i < m->discretes; i++) {
         element_part part = {.incompatibility = 0};
-        discrete_equations(m, s, &m->discrete[i], lin->path, part.force, part.K);
+        TRY(discrete_equations(m, s, &m->discrete[i], lin->path, part.force, part.K, f));
         add_part(m, &m->discrete[i].el, &part, lin);
         if (lin->K != NULL)
             assemble_discrete(&m->discrete[i].el, part.K, lin->K);
     }
+    return STATUS_OK;
 }
 
 status linearise_state(model *m, const model_state *s, model_linearisation *lin, fault *f)
@@ -223,7 +224,7 @@ status linearise_state(model *m, const model_state *s, model_linearisation *lin,
             assemble_matrix(p, i, part->K, lin->K);
         phases_lap(&m->phases, PHASE_ASSEMBLY);
     }
-    add_discrete(m, s, lin);
+    TRY(add_discrete(m, s, lin, f));
     loads_add(m, s, lin->path, lin->residual);
     if (lin->K != NULL)
         loads_subtract_stiffness(m, s, lin->path, lin->K);

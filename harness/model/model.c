@@ -12,6 +12,7 @@
 #include "harness/model/lacks.h"
 #include "harness/model/missing.h"
 #include "harness/model/model_impl.h"
+#include "harness/model/spring.h"
 
 static status compute_sections(model *m, fault *f)
 {
@@ -162,6 +163,11 @@ model_size model_sizes(const model *m)
 {
     return (model_size){m->elements, m->vertices, m->free,    m->driven,
                         m->strains,  m->inner,    m->features};
+}
+
+int model_stresses(const model *m)
+{
+    return m->elements * m->strains + SPRING_STRAINS * m->springs;
 }
 
 double model_length(const model *m)

@@ -35,10 +35,12 @@ typedef struct mesh_element {
     int plain;                          /* 1: no offset and no sequence: elimination is selection */
 } mesh_element;
 
-/* A rigid body's mass at a vertex: an element of one node, beside those of the members. */
+/* A rigid body's mass at a vertex, or a spring between vertices: an element beside those of the
+ * members. */
 typedef struct mesh_discrete {
     mesh_element el; /* no kind, no member, no warping */
     const scene_body *body;
+    const scene_spring *spring; /* of both one, the other NULL */
 } mesh_discrete;
 
 /* What identical elements share. */
@@ -77,7 +79,7 @@ struct model {
     mesh_element *element;
     mesh_kind *kind;
     mesh_warp *warp;
-    int discretes;
+    int discretes, springs; /* springs: the last of them */
     mesh_discrete *discrete;
     int *first_element;     /* [members + 1] */
     int *driver_coordinate; /* [drivers] or NONE */

@@ -23,6 +23,7 @@ void stiffness_parts_material_product(const model *m, const model_state *s, cons
         eliminate_forces(m, s, el, force);
         assemble_vector(el, force, y);
     }
+    discrete_material_product(m, s, x, y);
 }
 
 status stiffness_parts_geometric(model *m, const model_state *s, sparse *G, fault *f)
@@ -46,7 +47,7 @@ status stiffness_parts_geometric(model *m, const model_state *s, sparse *G, faul
         eliminate_matrix(m, s, el, present, H);
         assemble_matrix(p, i, H, G);
     }
-    discrete_stiffness(m, s, s->path, G);
+    discrete_geometric(m, s, s->path, G);
     loads_subtract_stiffness(m, s, s->path, G);
     return STATUS_OK;
 }

@@ -3,6 +3,7 @@
 #include "harness/model/supports.h"
 
 #include <lapacke.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,18 +25,24 @@ static int root_of(const int part[], int vertex)
     return vertex;
 }
 
-/* part[vertices]: the same root for all that elements and bodies join. */
+static void join_element(const model *m, const mesh_element *el, int part[])
+{
+    for (int k = 1; k < el->nodes; k++) {
+        const int a = root_of(part, m->vertex[el->vertex[0]].body),
+                  b = root_of(part, m->vertex[el->vertex[k]].body);
+        part[a > b ? a : b] = a > b ? b : a;
+    }
+}
+
+/* part[vertices]: the same root for all that elements, springs and bodies join. */
 static void join(const model *m, int part[])
 {
     for (int i = 0; i < m->vertices; i++)
         part[i] = i;
     for (int i = 0; i < m->elements; i++)
-        for (int k = 1; k < m->nodes; k++) {
-            const int *v = m->element[i].vertex;
-            const int a = root_of(part, m->vertex[v[0]].body),
-                      b = root_of(part, m->vertex[v[k]].body);
-            part[a > b ? a : b] = a > b ? b : a;
-        }
+        join_element(m, &m->element[i], part);
+    for (int i = 0; i < m->discretes; i++)
+        join_element(m, &m->discrete[i].el, part);
 }
 
 /* G[6 x 6]: motion of a node for a rigid motion (displacement of the origin, turn times length). */
@@ -86,6 +93,32 @@ static void add_supports(const model *m, int node, const double origin[3], doubl
     dense_add_transpose_mul(N, N, N, prevented, prevented, sum);
 }
 
+/* sum += what springs between the part and the ground prevent, whatever their stiffness. */
+static void add_springs(const model *m, const int part[], int root, double sum[N * N])
+{
+    for (int i = m->discretes - m->springs; i < m->discretes; i++) {
+        const mesh_discrete *d = &m->discrete[i];
+        const double *K = d->spring->stiffness;
+        const int node = d->el.vertex[0];
+        double at[3], G[N * N], prevented[N * N];
+        if (d->el.nodes == 2 || root_of(part, m->vertex[node].body) != root)
+            continue;
+        for (int k = 0; k < 3; k++)
+            at[k] = m->vertex[node].position[k] - m->vertex[root].position[k];
+        rigid(at, m->size, G);
+        double unit[N * N] = {0}, work[N * N];
+        for (int k = 0; k < N; k++)
+            for (int j = 0; j < N; j++)
+                if (K[(N + 1) * k] > 0 && K[(N + 1) * j] > 0)
+                    unit[N * k + j] = K[N * k + j] / sqrt(K[(N + 1) * k] * K[(N + 1) * j]) *
+                                      (k < 3 ? 1 : m->size) * (j < 3 ? 1 : m->size);
+        memset(prevented, 0, sizeof prevented);
+        dense_add_congruence(N, N, G, unit, prevented, work);
+        for (int k = 0; k < N * N; k++)
+            sum[k] += prevented[k];
+    }
+}
+
 static int has_elements(const model *m, const int part[], int root)
 {
     for (int i = 0; i < m->elements; i++)
@@ -107,6 +140,7 @@ int supports_loose_part(const model *m, int *node, double motion[6])
         for (int k = 0; k < m->scene->nodes; k++)
             if (m->vertex[k].body == k && root_of(part, k) == i)
                 add_supports(m, k, m->vertex[i].position, sum);
+        add_springs(m, part, i, sum);
         found = has_elements(m, part, i) &&
                 LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', N, sum, N, size) == 0 &&
                 !(size[0] > loose * size[N - 1]);

@@ -103,12 +103,12 @@ static void put_load(void *context, int row, int column, double value)
     put(part->m, part->s, row < part->m->free ? row : NONE, column, -value);
 }
 
-static void add_discrete(model *m, const model_state *state, const mesh_discrete *d, double path,
-                         full *s)
+static status add_discrete(model *m, const model_state *state, const mesh_discrete *d, double path,
+                           full *s, fault *f)
 {
     const int n = NODE_COORDINATES * d->el.nodes;
     double force[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
-    discrete_equations(m, state, d, path, force, K);
+    TRY(discrete_equations(m, state, d, path, force, K, f));
     for (int a = 0; a < n; a++) {
         const int row = d->el.index[a] < m->free ? d->el.index[a] : NONE;
         if (row != NONE)
@@ -116,6 +116,7 @@ static void add_discrete(model *m, const model_state *state, const mesh_discrete
         for (int c = 0; c < n; c++)
             put(m, s, row, d->el.index[c], K[n * a + c]);
     }
+    return STATUS_OK;
 }
 
 status uncondensed_system(model *m, const model_state *state, double path, const double drive[],
@@ -132,8 +133,9 @@ status uncondensed_system(model *m, const model_state *state, double path, const
         TRY(add_element(m, state, i, path, &s, f));
     }
     loads_stiffness(m, state, path, put_load, &(load_part){m, &s});
-    for (int i = 0; i < m->discretes; i++)
-        add_discrete(m, state, &m->discrete[i], path, &s);
+    for (int i = 0; i < m->discretes; i++) {
+        TRY(add_discrete(m, state, &m->discrete[i], path, &s, f));
+    }
     for (int c = 0; c < conditions; c++) {
         const int row = s.size - conditions + c;
         A[(size_t)condition[c].coordinate * (size_t)s.size + (size_t)row] = 1;

@@ -8,8 +8,8 @@
 #include "harness/scene_file/expression.h"
 #include "harness/scene_file/range.h"
 
-static const char *const list_name[LISTS] = {"sections", "nodes",    "members",   "motions",
-                                             "loads",    "analyses", "quantities"};
+static const char *const list_name[LISTS] = {"sections", "nodes", "members",  "springs",
+                                             "motions",  "loads", "analyses", "quantities"};
 
 /* A name of an entry that others can use, once. */
 static void check_name(const builder *b, builder_list list, int i)
@@ -116,9 +116,10 @@ static void tell_refusal(const builder *b, const char *text)
         const char *word;
         builder_list list;
         int named;
-    } all[] = {{"node ", LIST_NODES, 0},     {"member ", LIST_MEMBERS, 0},
-               {"load ", LIST_LOADS, 0},     {"analysis ", LIST_ANALYSES, 0},
-               {"driver ", LIST_MOTIONS, 1}, {"quantity ", LIST_QUANTITIES, 1}};
+    } all[] = {{"node ", LIST_NODES, 0},         {"member ", LIST_MEMBERS, 0},
+               {"spring ", LIST_SPRINGS, 0},     {"load ", LIST_LOADS, 0},
+               {"analysis ", LIST_ANALYSES, 0},  {"driver ", LIST_MOTIONS, 1},
+               {"quantity ", LIST_QUANTITIES, 1}};
     const char *colon = strstr(text, ": ");
     if (colon != NULL)
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
@@ -156,6 +157,7 @@ void build_scene(const document_node *root, const scope *names, arena *a, mistak
                          "the scene has no members; add members: {NAME: {from, to, section, y}}");
     builder_nodes(&b);
     builder_members(&b);
+    builder_springs(&b);
     builder_motions(&b);
     builder_loads(&b);
     builder_analyses(&b);

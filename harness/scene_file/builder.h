@@ -13,6 +13,7 @@ typedef enum builder_list {
     LIST_SECTIONS,
     LIST_NODES,
     LIST_MEMBERS,
+    LIST_SPRINGS,
     LIST_MOTIONS,
     LIST_LOADS,
     LIST_ANALYSES,
@@ -71,6 +72,7 @@ extern const char fields_components[];
 void builder_sections(builder *b);
 void builder_nodes(builder *b);
 void builder_members(builder *b);
+void builder_springs(builder *b);
 void builder_motions(builder *b);
 void builder_loads(builder *b);
 void builder_analyses(builder *b);

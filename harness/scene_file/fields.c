@@ -168,8 +168,8 @@ static int find_entry(const fields *f, const char *text, builder_list list, int 
 
 int fields_entry_of(const fields *f, const document_node *n, builder_list list)
 {
-    static const char *const what[] = {"section", "node",     "member",  "motion",
-                                       "load",    "analysis", "quantity"};
+    static const char *const what[] = {"section", "node", "member",   "spring",
+                                       "motion",  "load", "analysis", "quantity"};
     const named_list those = {f->b, list};
     char remedy[FAULT_TEXT];
     if (n->kind != DOCUMENT_TEXT) {

@@ -19,7 +19,7 @@ const scene_key keys_root[] = {
     {"sections", KEY_ENTRIES, .needed = 1, .below = keys_section, .summary = "cross-sections"},
     {"nodes", KEY_ENTRIES, .below = keys_node, .summary = "ends, supports, bodies"},
     {"members", KEY_ENTRIES, .below = keys_member, .summary = "beams"},
-    {.name = "springs", .kind = KEY_LATER},
+    {"springs", KEY_ENTRIES, .below = keys_spring, .summary = "between nodes, or to the ground"},
     {"motions", KEY_ENTRIES, .below = keys_motion, .summary = "numbers along the path"},
     {"loads", KEY_ENTRIES, .below = keys_load, .summary = "forces and moments"},
     {"analyses", KEY_ENTRIES, .below = keys_analysis, .summary = "what is computed"},

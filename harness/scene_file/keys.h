@@ -31,9 +31,9 @@ typedef struct scene_key {
     const char *unit, *summary;
 } scene_key;
 
-extern const scene_key keys_root[], keys_section[], keys_node[], keys_member[], keys_motion[],
-    keys_load[], keys_analysis[], keys_quantity[], keys_truth[], keys_parameter[], keys_part[],
-    keys_instance[];
+extern const scene_key keys_root[], keys_section[], keys_node[], keys_member[], keys_spring[],
+    keys_motion[], keys_load[], keys_analysis[], keys_quantity[], keys_truth[], keys_parameter[],
+    keys_part[], keys_instance[];
 
 /* `for` and `let`, which every entry may have. */
 extern const scene_key keys_loop[];

@@ -157,6 +157,13 @@ const scene_key keys_member[] = {
     {.name = "damping", .kind = KEY_LATER},
     {.name = NULL}};
 
+const scene_key keys_spring[] = {
+    {"from", KEY_NAME, .summary = "node in whose axes it deforms; left out: the ground"},
+    {"to", KEY_NAME, .needed = 1, .summary = "node at its other end"},
+    {"stiffness", KEY_NUMBERS, .needed = 1,
+     .summary = "of ux, uy, uz [N/m], rx, ry, rz [N m]: six, or the 36 of a symmetric matrix"},
+    {.name = NULL}};
+
 static const scene_key condition[] = {
     {"node", KEY_NAME, .needed = 1, .summary = "node whose coordinate is prescribed instead"},
     {"component", KEY_WORD, .needed = 1, .words = COMPONENTS, .summary = "of its coordinates"},

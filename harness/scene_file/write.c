@@ -54,6 +54,7 @@ status write_scene(FILE *to, const scene *s, const write_head *head, fault *f)
     write_sections(&w);
     write_nodes(&w);
     write_members(&w);
+    write_springs(&w);
     write_motions(&w);
     write_loads(&w);
     write_analyses(&w);

@@ -28,6 +28,7 @@ extern const char *const write_component[6];
 void write_sections(writer *w);
 void write_nodes(writer *w);
 void write_members(writer *w);
+void write_springs(writer *w);
 void write_motions(writer *w);
 void write_loads(writer *w);
 void write_analyses(writer *w);

@@ -12,7 +12,7 @@ status linear_forms_alloc(model *m, const sparse *pattern, linear_forms *p, faul
 {
     const model_size size = model_sizes(m);
     const size_t all = (size_t)(size.free + size.driven) + 1,
-                 stresses = (size_t)size.elements * (size_t)size.strains + 1;
+                 stresses = (size_t)model_stresses(m) + 1;
     double **const of_coordinates[] = {&p->load_x, &p->x, &p->force, &p->product},
                    **const of_stresses[] = {&p->sigma, &p->stress};
     int good = 1;

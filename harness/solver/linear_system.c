@@ -69,7 +69,7 @@ static status workspace_alloc(analysis_context *c, double path, workspace *w, fa
     const model_size size = model_sizes(c->model);
     const size_t all = (size_t)(size.free + size.driven) + 1;
     w->load = calloc(4 * all, sizeof *w->load);
-    w->sigma = calloc((size_t)size.elements * (size_t)size.strains + 1, sizeof *w->sigma);
+    w->sigma = calloc((size_t)model_stresses(c->model) + 1, sizeof *w->sigma);
     if (w->load == NULL || w->sigma == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a linear solution");
     w->r = w->load + all;

@@ -65,6 +65,11 @@ static inline int same_member(const scene_member *a, const scene_member *b)
            same_numbers(3, a->strain, b->strain) && a->divisions == b->divisions;
 }
 
+static inline int same_spring(const scene_spring *a, const scene_spring *b)
+{
+    return a->p == b->p && a->q == b->q && same_numbers(36, a->stiffness, b->stiffness);
+}
+
 static inline int same_driver(const scene_driver *a, const scene_driver *b)
 {
     return a->stations == b->stations && same_numbers(a->stations, a->path, b->path) &&
@@ -154,8 +159,8 @@ static inline const char *differing(const scene *a, const scene *b, int *index)
 {
     *index = 0;
     if (a->sections != b->sections || a->nodes != b->nodes || a->members != b->members ||
-        a->drivers != b->drivers || a->loads != b->loads || a->analyses != b->analyses ||
-        a->quantities != b->quantities)
+        a->springs != b->springs || a->drivers != b->drivers || a->loads != b->loads ||
+        a->analyses != b->analyses || a->quantities != b->quantities)
         return "counts";
 #define EACH(list, count, same)                                                                    \
     for (*index = 0; *index < a->count; (*index)++)                                                \
@@ -164,6 +169,7 @@ static inline const char *differing(const scene *a, const scene *b, int *index)
     EACH(section, sections, same_section)
     EACH(node, nodes, same_node)
     EACH(member, members, same_member)
+    EACH(spring, springs, same_spring)
     EACH(driver, drivers, same_driver)
     EACH(load, loads, same_load)
     EACH(analysis, analyses, same_analysis)

@@ -1,0 +1,171 @@
+/* Increments in the axes of p: delta = R_p^T (dr_q - dr_p), alpha = R_p^T dphi_p, beta = R_p^T dphi_q, w = R_p^T (r_q - r_p).
+ * Translations: exp(-alpha~) (w + delta).  Rotation vector theta of exp(-alpha~) exp(beta~) Theta, to second order exp(gamma~)
+ * Theta with gamma = beta - alpha - alpha x beta/2, and log(exp(gamma~) Theta) has the derivative
+ *   B = 1 - theta~/2 + c theta~^2, c(x) = (1 - theta/2 cot(theta/2))/x, x = theta^2,
+ * and along B gamma the second one (dB[B gamma]) gamma. */
+#include "harness/model/spring.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+
+enum { N = NODE_COORDINATES, SIX = SPRING_STRAINS };
+
+static void cross_matrix(const double v[3], double A[9])
+{
+    const double all[9] = {0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0};
+    memcpy(A, all, sizeof all);
+}
+
+/* c and dc/dx: sums of |B_2k| x^(k-1)/(2k)! where the closed form would cancel. */
+static void coefficient(double x, double *c, double *slope)
+{
+    static const double series[] = {1.0 / 12,          1.0 / 720,
+                                    1.0 / 30240,       1.0 / 1209600,
+                                    1.0 / 47900160,    691.0 / 1307674368000,
+                                    1.0 / 74724249600, 3617.0 / 10670622842880000};
+    enum { TERMS = sizeof series / sizeof series[0] };
+    *c = *slope = 0;
+    if (x < 0.5) {
+        for (int k = TERMS - 1; k >= 0; k--) {
+            *slope = *slope * x + *c;
+            *c = *c * x + series[k];
+        }
+        return;
+    }
+    const double half = sqrt(x) / 2, cot = cos(half) / sin(half);
+    const double g = half * cot, g_x = (cot - half * (1 + cot * cot)) / (8 * half);
+    *c = (1 - g) / x;
+    *slope = (-g_x - *c) / x;
+}
+
+/* The rotation vector, B, and the symmetric part of what s makes of the second derivatives. */
+static void rotation_part(const double R[9], const double s[3], double theta[3], double B[9],
+                          double second[9])
+{
+    double q[4], T[9], TT[9], c, slope;
+    rotation_from_matrix(R, q);
+    rotation_log(q, theta);
+    cross_matrix(theta, T);
+    mat3_mul(T, T, TT);
+    coefficient(vec3_dot(theta, theta), &c, &slope);
+    for (int i = 0; i < 9; i++)
+        B[i] = (i % 4 == 0) - T[i] / 2 + c * TT[i];
+    if (s == NULL)
+        return;
+    double S[9], ST[9], st[3], X[9], TTs[3], W[9], BW[9];
+    cross_matrix(s, S);
+    mat3_mul(S, T, ST);
+    vec3_cross(s, theta, st);
+    cross_matrix(st, X);
+    mat3_mul_vec(TT, s, TTs);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            W[3 * i + j] = S[3 * i + j] / 2 - c * (ST[3 * i + j] + X[3 * i + j]) +
+                           2 * slope * theta[i] * TTs[j];
+    mat3_transpose_mul(B, W, BW);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            second[3 * i + j] = (BW[3 * i + j] + BW[3 * j + i]) / 2;
+}
+
+/* A[n x n] at (row, column) += sign P X P^T, X[3 x 3] in the axes P. */
+static void add_block(int n, int row, int column, double sign, const double P[9], const double X[9],
+                      double A[])
+{
+    double half[9];
+    mat3_mul(P, X, half);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            A[n * (row + i) + column + j] += sign * vec3_dot(&half[3 * i], &P[3 * j]);
+}
+
+/* J[6 x n] at (row, column) += sign X P^T */
+static void add_columns(int n, int row, int column, double sign, const double P[9],
+                        const double X[9], double J[])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            J[n * (row + i) + column + j] += sign * vec3_dot(&X[3 * i], &P[3 * j]);
+}
+
+static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+static void first_derivatives(int nodes, const double P[9], const double w[3], const double B[9],
+                              double J[])
+{
+    const int n = N * nodes, q = n - N;
+    double W[9];
+    memset(J, 0, (size_t)(SIX * n) * sizeof *J);
+    add_columns(n, 0, q, 1, P, one, J);
+    add_columns(n, 3, q + 3, 1, P, B, J);
+    if (nodes == 1)
+        return;
+    cross_matrix(w, W);
+    add_columns(n, 0, 0, -1, P, one, J);
+    add_columns(n, 0, 3, 1, P, W, J); /* -alpha x w */
+    add_columns(n, 3, 3, -1, P, B, J);
+}
+
+static void second_derivatives(int nodes, const double P[9], const double w[3], const double B[9],
+                               const double s[6], const double second[9], double H[])
+{
+    const int n = N * nodes, q = n - N;
+    double S[9], back[9], D[9], t[3], half[9], back_half[9];
+    memset(H, 0, (size_t)(n * n) * sizeof *H);
+    add_block(n, q + 3, q + 3, 1, P, second, H);
+    if (nodes == 1)
+        return;
+    cross_matrix(s, S);
+    mat3_transpose_mul_vec(B, s + 3, t);
+    cross_matrix(t, half);
+    const double dot = vec3_dot(s, w);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            D[3 * i + j] = (s[i] * w[j] + w[i] * s[j]) / 2 - (i == j ? dot : 0);
+            half[3 * i + j] /= 2;
+        }
+    for (int i = 0; i < 9; i++) {
+        back[i] = -S[i];
+        back_half[i] = -half[i];
+    }
+    add_block(n, 3, 3, 1, P, D, H);
+    add_block(n, 3, q, 1, P, S, H);
+    add_block(n, q, 3, 1, P, back, H);
+    add_block(n, 3, 0, -1, P, S, H);
+    add_block(n, 0, 3, -1, P, back, H);
+    add_block(n, 3, 3, 1, P, second, H);
+    add_block(n, 3, q + 3, -1, P, second, H);
+    add_block(n, q + 3, 3, -1, P, second, H);
+    add_block(n, 3, q + 3, 1, P, half, H);
+    add_block(n, q + 3, 3, 1, P, back_half, H);
+}
+
+void spring_strain(int nodes, const node_state x[], strain_output *out)
+{
+    const node_state *q = &x[nodes - 1];
+    double P[9], relative[9], apart[3], moved[3], w[3], theta[3], B[9], second[9];
+    memcpy(P, nodes == 1 ? one : x[0].R, sizeof P);
+    mat3_transpose_mul(P, q->R, relative);
+    for (int i = 0; i < 3; i++) {
+        moved[i] = q->u[i] - (nodes == 1 ? 0 : x[0].u[i]);
+        apart[i] = nodes == 1 ? 0 : (q->r[i] - q->u[i]) - (x[0].r[i] - x[0].u[i]);
+    }
+    rotation_part(relative, out->s != NULL ? out->s + 3 : NULL, theta, B, second);
+    double turned[3], carried[3];
+    mat3_transpose_mul_vec(P, apart, turned);
+    mat3_transpose_mul_vec(P, moved, carried);
+    for (int i = 0; i < 3; i++)
+        w[i] = turned[i] + carried[i];
+    if (out->e != NULL)
+        for (int i = 0; i < 3; i++) {
+            out->e[i] = carried[i] + (turned[i] - apart[i]);
+            out->e[3 + i] = theta[i];
+        }
+    if (out->J != NULL)
+        first_derivatives(nodes, P, w, B, out->J);
+    if (out->H != NULL && out->s != NULL)
+        second_derivatives(nodes, P, w, B, out->s, second, out->H);
+}
