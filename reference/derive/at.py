@@ -63,8 +63,14 @@ def warping_torsion(given):
 
 def tip_body(given):
     from reference.derive import tip_body as program
-    for quantity, value, relative in program.values(*(number(given, n, d) for n, d in (("omega_star", 4), ("mass", 1), ("overhang", 0.2), ("gyration", 0.3)))):
+    at = {n: float(v) for n, v in defaults.decimals("tip_body", given).items()}
+    for quantity, value, relative in program.values(at["omega_star"], at["mass"], at["overhang"], at["gyration"]):
         yield quantity, value, "1", relative or 5e-13
+
+
+def sprung_beam(given):
+    from reference.derive import sprung_beam as program
+    yield from program.values(given)
 
 
 def sheet_case(case, function):
@@ -124,6 +130,7 @@ SOLVERS = {
     "shear_column": (("length", "side", "young", "shear_modulus", "shear_stability"), shear_column, "linear_buckling"),
     "warping_torsion": (("kL", "ends"), warping_torsion, "torsion"),
     "tip_body": (("omega_star", "mass", "overhang", "gyration"), tip_body, "tip_body"),
+    "sprung_beam": (("load", "spring", "moment"), sprung_beam, "sprung_beam"),
     "sheet_cantilever": (SHEET, sheet_case("sheet_cantilever", "cantilever"), "sheets"),
     "sheet_wagner": (SHEET + ("tip_phi_z", "tip_phi_x"), sheet_case("sheet_wagner", "twisted"), "sheets"),
     "spherical_joint": (("length", "width", "thickness", "young", "poisson", "fold_angle", "radius", "azimuth", "tilt", "steps", "fold_warping", "wagner"), spherical_joint, "joint"),
