@@ -92,6 +92,17 @@ void scene_set_at(scene_quantity *q, double at)
     q->at = at;
 }
 
+scene_extract scene_internal_at(int member, int end, scene_resultant resultant)
+{
+    return (scene_extract){SCENE_INTERNAL, {.internal = {member, end, resultant}}};
+}
+
+const scene_internal *scene_internal_of(const scene_quantity *q)
+{
+    assert(q->what.kind == SCENE_INTERNAL);
+    return &q->what.of.internal;
+}
+
 const scene_component *scene_component_of(const scene_quantity *q)
 {
     assert(q->what.kind == SCENE_COORDINATE || q->what.kind == SCENE_REACTION);
@@ -142,10 +153,11 @@ const char *scene_compliance_unit(int row, int column)
 int scene_gives(scene_analysis_kind analysis, scene_quantity_kind kind)
 {
     enum {
-        STATE = 1 << SCENE_COORDINATE | 1 << SCENE_REACTION | 1 << SCENE_DRIVER_VALUE,
+        STATE = 1 << SCENE_COORDINATE | 1 << SCENE_REACTION | 1 << SCENE_DRIVER_VALUE |
+                1 << SCENE_INTERNAL,
     };
     static const int gives[] = {
-        [SCENE_LINEAR] = 1 << SCENE_COORDINATE,
+        [SCENE_LINEAR] = 1 << SCENE_COORDINATE | 1 << SCENE_INTERNAL,
         [SCENE_STATIC] = STATE,
         [SCENE_BUCKLING] = 1 << SCENE_CRITICAL_FACTOR,
         [SCENE_MODAL] = 1 << SCENE_FREQUENCY,

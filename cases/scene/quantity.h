@@ -18,7 +18,8 @@ typedef enum scene_quantity_kind {
     SCENE_FREQUENCY,        /* [Hz] */
     SCENE_FACTOR_AT,        /* load factor of a continuation where the control coordinate is ... */
     SCENE_CRITICAL_POINT,   /* of a continuation */
-    SCENE_DRIVER_VALUE      /* of an unknown driver */
+    SCENE_DRIVER_VALUE,     /* of an unknown driver */
+    SCENE_INTERNAL          /* resultant of the stresses at an end of a member */
 } scene_quantity_kind;
 
 /* A point of a path at which the tangent stiffness is singular. */
@@ -44,6 +45,23 @@ typedef enum scene_reduction {
 typedef struct scene_component {
     int node, component; /* SCENE_UX .. SCENE_RZ */
 } scene_component;
+
+/* Resultants of the stresses of what lies towards the end q of a member on what lies towards p, in the principal axes of
+ * the turned section, moments about its centroid. */
+typedef enum scene_resultant {
+    SCENE_N,
+    SCENE_QY,
+    SCENE_QZ,
+    SCENE_MX,
+    SCENE_MY,
+    SCENE_MZ,
+    SCENE_BIMOMENT
+} scene_resultant;
+
+typedef struct scene_internal {
+    int member, end; /* end: 0 at p, 1 at q */
+    scene_resultant resultant;
+} scene_internal;
 
 typedef struct scene_entry {
     int row, column; /* response, load: SCENE_UX .. SCENE_RZ */
@@ -78,6 +96,7 @@ typedef struct scene_extract {
         scene_mode mode;
         scene_point point;
         int driver;
+        scene_internal internal;
     } of;
 } scene_extract;
 
@@ -93,6 +112,7 @@ scene_extract scene_frequency_of(int order, scene_family family, int half_waves)
 scene_extract scene_factor_at(void);
 scene_extract scene_critical_point(scene_critical kind, int order, scene_ordinate ordinate);
 scene_extract scene_driver_value(int driver);
+scene_extract scene_internal_at(int member, int end, scene_resultant resultant);
 
 /* Abscissa of a curve. */
 typedef struct scene_abscissa {
@@ -138,6 +158,7 @@ const scene_critical_load *scene_critical_load_of(const scene_quantity *q);
 const scene_mode *scene_mode_of(const scene_quantity *q);
 const scene_point *scene_point_of(const scene_quantity *q);
 int scene_driver_of(const scene_quantity *q);
+const scene_internal *scene_internal_of(const scene_quantity *q);
 /* Is it of this kind and this analysis? */
 int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind);
 /* Can it be extracted from an analysis of this kind? */

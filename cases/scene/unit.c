@@ -151,6 +151,9 @@ static int power_of(const scene *s, const scene_quantity *q)
         return scene_point_of(q)->ordinate == SCENE_CONTROL;
     case SCENE_DRIVER_VALUE:
         return is_length(s, scene_driver_of(q));
+    case SCENE_INTERNAL:
+        return (scene_internal_of(q)->resultant >= SCENE_MX) +
+               (scene_internal_of(q)->resultant == SCENE_BIMOMENT);
     case SCENE_CRITICAL_FACTOR:
     case SCENE_GROWTH:
     case SCENE_FREQUENCY:

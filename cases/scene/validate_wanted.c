@@ -126,6 +126,16 @@ static status check_extract(const scene *s, const scene_quantity *q, fault *f)
             return fault_set(f, STATUS_REFUSED, "quantity %s: no such driver; add the driver first",
                              q->name);
         break;
+    case SCENE_INTERNAL: {
+        const scene_internal *c = scene_internal_of(q);
+        if (c->member < 0 || c->member >= s->members || (c->end != 0 && c->end != 1) ||
+            c->resultant < SCENE_N || c->resultant > SCENE_BIMOMENT)
+            return fault_set(f, STATUS_REFUSED,
+                             "quantity %s: no such resultant; name a member, one of its ends, and "
+                             "N to BIMOMENT",
+                             q->name);
+        break;
+    }
     case SCENE_CRITICAL_FACTOR:
     case SCENE_GROWTH:
     case SCENE_FREQUENCY:

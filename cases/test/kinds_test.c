@@ -40,6 +40,11 @@ static void read_point(const void *q)
 {
     scene_point_of(q);
 }
+static void read_internal(const void *q)
+{
+    scene_internal_of(q);
+}
+
 static void read_driver(const void *q)
 {
     scene_driver_of(q);
@@ -68,6 +73,7 @@ static void everything(scene *s)
         [SCENE_FACTOR_AT] = scene_factor_at(),
         [SCENE_CRITICAL_POINT] = scene_critical_point(SCENE_LIMIT_POINT, 0, SCENE_CONTROL),
         [SCENE_DRIVER_VALUE] = scene_driver_value(0),
+        [SCENE_INTERNAL] = scene_internal_at(0, 0, SCENE_N),
     };
     for (size_t i = 0; i < sizeof what / sizeof what[0]; i++)
         scene_add_quantity(s, "q", "1", 0, what[i]);
@@ -89,10 +95,11 @@ int main(void)
         {"mode", read_mode, 0, 1 << SCENE_FREQUENCY},
         {"point", read_point, 0, 1 << SCENE_CRITICAL_POINT},
         {"driver", read_driver, 0, 1 << SCENE_DRIVER_VALUE},
+        {"resultant", read_internal, 0, 1 << SCENE_INTERNAL},
     };
     scene s;
     everything(&s);
-    gsl_test(s.analyses != SCENE_ROTATION + 1 || s.quantities != SCENE_DRIVER_VALUE + 1,
+    gsl_test(s.analyses != SCENE_ROTATION + 1 || s.quantities != SCENE_INTERNAL + 1,
              "every kind is there");
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         for (int k = 0; k < s.analyses && row[i].analyses != 0; k++)

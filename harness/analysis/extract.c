@@ -8,7 +8,9 @@
 
 #include "elements/math/pi.h"
 #include "harness/analysis/continuation_extract.h"
+#include "harness/model/internal.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/linear.h"
 #include "harness/model/linearise.h"
 #include "harness/model/loads.h"
 #include "harness/solver/context.h"
@@ -53,6 +55,14 @@ static const rotation_modes *modes_at(const analysis_outcome *o, int i)
     return modes != NULL ? &modes[i] : NULL;
 }
 
+static double internal_of(const analysis_context *c, const scene_internal *what,
+                          const model_state *s, const double sigma[], double path)
+{
+    double all[SCENE_BIMOMENT + 1];
+    internal_at_end(c->model, s, sigma, path, what->member, what->end, all);
+    return all[what->resultant];
+}
+
 /* Value of a quantity of the path at one station. */
 static double extracted(const analysis_context *c, const scene_quantity *q,
                         const analysis_outcome *o, int i)
@@ -77,6 +87,9 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
         return modes_at(o, i) != NULL ? growth_of(modes_at(o, i)) : NAN;
     case SCENE_FACTOR_AT:
         return kinematics_state_path(path->state[i]);
+    case SCENE_INTERNAL:
+        return internal_of(c, scene_internal_of(q), path->state[i], NULL,
+                           kinematics_state_path(path->state[i]));
     case SCENE_CRITICAL_FACTOR:
     case SCENE_CRITICAL_POINT:
         break;
@@ -238,6 +251,24 @@ static void from_modes(const analysis_context *c, const scene_quantity *q,
         quantity_no_value(r, STATUS_NO_VALUE, "the mesh has no mode of this kind");
 }
 
+/* At full load, about the undeformed state. */
+static void internal_of_linear(const analysis_context *c, const scene_quantity *q,
+                               const analysis_outcome *o, quantity_result *r)
+{
+    const model_size size = model_sizes(c->model);
+    double *sigma = calloc((size_t)size.elements * (size_t)size.strains + 1, sizeof *sigma);
+    fault f = {"out of memory for stresses"};
+    const status known = sigma != NULL
+                             ? linear_stresses(c->model, outcome_displacements(o), sigma, &f)
+                             : STATUS_FAULT;
+    if (known != STATUS_OK)
+        quantity_no_value(r, known, f.text);
+    else
+        r->value = quantity_scaled(
+            q, internal_of(c, scene_internal_of(q), kinematics_rest(c->model), sigma, 1));
+    free(sigma);
+}
+
 static void from_linear(const analysis_context *c, const scene_quantity *q,
                         const analysis_outcome *o, quantity_result *r)
 {
@@ -276,7 +307,10 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
     }
     switch (c->scene->analysis[q->analysis].kind) {
     case SCENE_LINEAR:
-        from_linear(c, q, o, r);
+        if (q->what.kind == SCENE_INTERNAL)
+            internal_of_linear(c, q, o, r);
+        else
+            from_linear(c, q, o, r);
         break;
     case SCENE_BUCKLING:
         from_buckling(q, o, r);

@@ -70,6 +70,7 @@ static scene_extract extract_of(const axes *a, const scene_quantity *q, int *sig
     case SCENE_FACTOR_AT:
     case SCENE_CRITICAL_POINT:
     case SCENE_DRIVER_VALUE:
+    case SCENE_INTERNAL: /* in the section's own axes */
         break;
     }
     return q->what;

@@ -92,6 +92,14 @@ static scene_extract motion(const fields *f)
     return scene_driver_value(fields_entry(f, "motion", LIST_MOTIONS));
 }
 
+static scene_extract internal(const fields *f)
+{
+    const int member = fields_entry(f, "member", LIST_MEMBERS);
+    const int end = fields_word(f, "end", "from|to", 0);
+    return scene_internal_at(
+        member, end, (scene_resultant)fields_word(f, "resultant", "N|Qy|Qz|Mx|My|Mz|bimoment", 0));
+}
+
 static const struct {
     const char *key;
     scene_extract (*read)(const fields *);
@@ -104,7 +112,8 @@ static const struct {
              {"growth", growth},
              {"factor_at", factor_at},
              {"critical_point", critical_point},
-             {"motion", motion}};
+             {"motion", motion},
+             {"internal", internal}};
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 
 /* Unit of a value where the file gives none. */
@@ -131,6 +140,10 @@ static const char *usual_unit(const scene *s, const scene_quantity *q)
                 if (s->node[i].angle[k] == scene_driver_of(q))
                     return "rad";
         return "m";
+    case SCENE_INTERNAL:
+        if (scene_internal_of(q)->resultant == SCENE_BIMOMENT)
+            return "N m^2";
+        return scene_internal_of(q)->resultant < SCENE_MX ? "N" : "N m";
     case SCENE_CRITICAL_FACTOR:
     case SCENE_FACTOR_AT:
         break;

@@ -93,6 +93,14 @@ static const scene_key reaction[] = {
      .summary = "of its coordinates; turn_1: about the first axis of its sequence"},
     {.name = NULL}};
 
+static const scene_key internal[] = {
+    TAKEN,
+    {"member", KEY_NAME, .needed = 1, .summary = "member"},
+    {"end", KEY_WORD, .needed = 1, .words = "from|to", .summary = "of the member"},
+    {"resultant", KEY_WORD, .needed = 1, .words = "N|Qy|Qz|Mx|My|Mz|bimoment",
+     .summary = "of what lies towards 'to', in the turned section's principal axes"},
+    {.name = NULL}};
+
 static const scene_key entry[] = {
     TAKEN,
     {"row", KEY_WORD, .needed = 1, .words = COMPONENTS, .summary = "response"},
@@ -157,7 +165,7 @@ const scene_key keys_quantity[] = {
     KIND("factor_at", whole, "load factor where the control coordinate has a value"),
     KIND("critical_point", critical_point, "where the tangent is singular"),
     KIND("motion", motion, "value of an unknown motion"),
-    {.name = "internal", .kind = KEY_LATER, .group = 1},
+    KIND("internal", internal, "resultant of stresses at an end of a member"),
     {.name = "stress", .kind = KEY_LATER, .group = 1},
     {.name = "energy", .kind = KEY_LATER, .group = 1},
     {.name = "momentum", .kind = KEY_LATER, .group = 1},

@@ -117,7 +117,8 @@ static void write_extract(writer *w, const scene_quantity *q)
                                       [SCENE_FREQUENCY] = "frequency",
                                       [SCENE_FACTOR_AT] = "factor_at",
                                       [SCENE_CRITICAL_POINT] = "critical_point",
-                                      [SCENE_DRIVER_VALUE] = "motion"};
+                                      [SCENE_DRIVER_VALUE] = "motion",
+                                      [SCENE_INTERNAL] = "internal"};
     static const char *const family[] = {"any",       "not_axial", "axial",
                                          "bending_y", "bending_z", "torsion"};
     fprintf(w->to, "%s: {analysis: analysis_%d", key[q->what.kind], q->analysis);
@@ -131,6 +132,13 @@ static void write_extract(writer *w, const scene_quantity *q)
         fprintf(w->to, ", row: %s, column: %s", write_component[scene_entry_of(q)->row],
                 write_component[scene_entry_of(q)->column]);
         break;
+    case SCENE_INTERNAL: {
+        static const char *const resultant[] = {"N", "Qy", "Qz", "Mx", "My", "Mz", "bimoment"};
+        const scene_internal *c = scene_internal_of(q);
+        fprintf(w->to, ", member: member_%d, end: %s, resultant: %s", c->member,
+                c->end ? "to" : "from", resultant[c->resultant]);
+        break;
+    }
     case SCENE_STIFFNESS_ENTRY:
         fprintf(w->to, ", component: %s", write_component[scene_entry_of(q)->row]);
         break;

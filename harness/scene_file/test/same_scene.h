@@ -133,6 +133,8 @@ static inline int same_extract(const scene_quantity *a, const scene_quantity *b)
         return memcmp(scene_point_of(a), scene_point_of(b), sizeof(scene_point)) == 0;
     case SCENE_DRIVER_VALUE:
         return scene_driver_of(a) == scene_driver_of(b);
+    case SCENE_INTERNAL:
+        return memcmp(scene_internal_of(a), scene_internal_of(b), sizeof(scene_internal)) == 0;
     case SCENE_GROWTH:
     case SCENE_FACTOR_AT:
         break;

@@ -251,6 +251,39 @@ quantities:
         for got, exact in zip(at, (centre, ring*1e6, tri*1e6)):
             self.assertAlmostEqual(got/exact, 1, delta=1e-12)
 
+    INTERNAL = """\
+beamwork: 1
+sections:
+  rail: {channel: {depth: 0.1, flange: 0.05, flange_thickness: 3e-3, web_thickness: 2e-3}, young: 210e9, shear_modulus: 81e9}
+nodes:
+  base: {at: [0, 0, 0], hold: all}
+  tip: {at: [2, 0, 0]}
+members:
+  bar: {from: base, to: tip, section: rail, y: [0, 1, 0], warping: [fixed, free]}
+loads:
+  push: {force: [5, 0.7, 0.3], on: tip}
+  torque: {moment: [1, 0, 0], on: tip}
+  wind: {distributed: [0, 0, 0.2], on: bar}
+analyses:
+  linear: {linear: {}}
+quantities:
+  ${r}_$e: {for: {r: [N, Qy, Qz, Mx, My, Mz, bimoment], e: [from, to]}, internal: {analysis: linear, member: bar, end: $e, resultant: $r}}
+"""
+
+    def test_internal(self):
+        """Resultants at both ends by statics, of every formulation that takes a channel; the same bits when written."""
+        path = self.scene(self.INTERNAL, "internal.yaml")
+        exact = {"N": (5, 5), "Qy": (0.7, 0.7), "Qz": (0.7, 0.3), "Mx": (1, 1), "My": (-1, 0), "Mz": (1.4, 0)}
+        for formulation in ("collocation", "geometrically_exact", "beamw", "beamw_consistent"):
+            for elements in (1, 3):
+                got = values(self.record("solve", "--scene", path, "-f", formulation, "-n", elements))
+                for name, ends in exact.items():
+                    for end, value in zip(("from", "to"), ends):
+                        self.assertAlmostEqual(got[f"{name}_{end}"], value, delta=1e-10)
+                self.assertAlmostEqual(got["bimoment_to"], 0, delta=1e-10)
+        again = self.scene(self.answered("scene", "--scene", path).stdout, "again.yaml")
+        self.assertEqual(values(self.record("solve", "--scene", again, "-f", formulation, "-n", 3)), got)
+
     def test_box_girder(self):
         """Benscoter's beam: torsion with warping restrained of a closed section."""
         path = EXAMPLES / "box_girder.yaml"
