@@ -118,6 +118,16 @@ def rotating_cantilever(given):
         yield row[2:]
 
 
+def loaded_cantilever(given):
+    from reference.derive import loaded_cantilever as beam
+    yield from beam.rows_at(given)
+
+
+def weighted_column(given):
+    from reference.derive import weighted_column as column
+    yield "load_factor", column.load_factor(given), "1"
+
+
 SHEET = ("length", "width", "thickness", "young", "poisson", "tip_deflection", "tip_warping", "warping", "shear", "trapeze", "wagner", "shear_factor", "moment_convention")
 CHANNEL = ("length", "height", "width", "web_thickness", "young", "shear_modulus", "density", "section_data", "shear", "shear_stability")
 HEXAPOD = ("length", "width", "thickness", "young", "poisson", "fold_angle", "radius", "fold_warping", "wagner", "base_radius", "crank_length", "crank_azimuth", "platform_radius",
@@ -137,6 +147,8 @@ SOLVERS = {
     "hexapod": (HEXAPOD, hexapod, "hexapod"),
     "cross_flexure": (("length", "width", "thickness", "pitch", "half_angle", "young", "poisson", "angle", "rotation", "moment_convention"), cross_flexure, "cross_flexure"),
     "elastica": (("load",), cantilever("elastica", "load"), "cantilevers"),
+    "loaded_cantilever": (("load", "size", "arm", "axial"), loaded_cantilever, "loaded_cantilever"),
+    "weighted_column": (("grows", "staying"), weighted_column, "weighted_column"),
     "shear_elastica": (("GA",), cantilever("shear_elastica", "GA"), "cantilevers"),
     "geradin_cardona": (("load",), cantilever("geradin_cardona", "load"), "cantilevers"),
     "bend_45": (("force", "torsion"), cantilever("bend_45", "torsion", "force"), "cantilevers"),

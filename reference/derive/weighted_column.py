@@ -1,0 +1,37 @@
+"""Buckling of a column under its weight q per length and a load P on its head, clamped at its foot; L = EI = 1.
+
+t'' + (P + q (1 - x)) t = 0, t(0) = 0, t'(1) = 0 of the slope t: a power series in the distance from the head.
+"""
+from mpmath import findroot, mp, mpf
+
+from reference.derive import defaults
+
+mp.dps = 30
+TERMS = 120
+POINTS = ({}, {"staying": 4}, {"staying": -20}, {"grows": "weight", "staying": 1}, {"grows": "weight", "staying": -5})
+
+
+def slope_at_foot(P, q):
+    """Of the solution that has slope 1 and no moment at the head."""
+    c = [mpf(1), mpf(0)]
+    while len(c) < TERMS:
+        n = len(c) - 2
+        c.append(-(P * c[n] + (q * c[n - 1] if n > 0 else 0)) / ((n + 2) * (n + 1)))
+    return sum(c)
+
+
+def load_factor(given):
+    """The least one: the slope at the foot falls from 1 as the loads grow; bracketed from below."""
+    at = defaults.decimals("weighted_column", given)
+
+    def value(factor):
+        return slope_at_foot(factor, at["staying"]) if at["grows"] == "head" else slope_at_foot(at["staying"], factor)
+    low = mpf(0)
+    while value(low + mpf("0.05")) > 0:
+        low += mpf("0.05")
+    return findroot(value, (low, low + mpf("0.05")), solver="anderson", tol=mpf(10) ** -40)
+
+
+def rows():
+    for given in POINTS:
+        yield "weighted_column", defaults.differing("weighted_column", **given), "load_factor", load_factor(given), "1"
