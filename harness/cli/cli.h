@@ -45,13 +45,14 @@ typedef struct cli_request {
     const char *beside;     /* stored import: contestants of a run */
     const char *map;        /* of columns without a header */
     int gate;               /* 1: their verdicts count */
+    const char *to;         /* program that a deck is for */
     int schema, keys;       /* 1: describe the keys of scene files as JSON Schema, as a list */
     double plant;           /* share of its time that is added to every run of the other */
 } cli_request;
 
 typedef int cli_verb(int count, char **arguments);
 cli_verb cli_list, cli_solve, cli_verify, cli_converge, cli_bench, cli_stress, cli_compare,
-    cli_truth, cli_schema, cli_scene, cli_import;
+    cli_truth, cli_schema, cli_scene, cli_import, cli_export;
 
 /* Options shared by the verbs; a verb lists the keys it takes, and '+' when it takes several cases.
  * Errors are printed and end the program with EXIT_REFUSED. */

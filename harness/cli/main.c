@@ -25,6 +25,7 @@ static const struct {
     {"truth", cli_truth, "what is known of a case at a parameter point; derived on demand"},
     {"scene", cli_scene,
      "a case, or a scene of your own, as a scene file with all loops written out"},
+    {"export", cli_export, "a structure as solids, as an input deck of another program"},
     {"import", cli_import, "what other programs found, for 'verify --beside'"},
     {"schema", cli_schema, "what the result file consists of: tables, columns, units"},
     {"compare", cli_compare,

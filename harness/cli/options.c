@@ -56,6 +56,7 @@ static const struct argp_option all_options[] = {
      "what other programs found, stored by 'beamwork import': contestants that gate nothing", 0},
     {"map", 'm', "FILE.yaml", 0, "which columns of files without a header are which quantities", 0},
     {"gate", 'G', NULL, 0, "verdicts of --beside count as ours do", 0},
+    {"to", 'O', "calculix", 0, "the program that the deck is for", 0},
     {"schema", 'H', NULL, 0, "describe all keys of scene files as JSON Schema", 0},
     {"keys", 'E', NULL, 0, "list all keys of scene files", 0},
     {"help", '?', NULL, 0, "this list", -1},
@@ -234,6 +235,9 @@ static error_t take(int key, char *value, struct argp_state *state)
         return 0;
     case 'h':
         r->threshold = value;
+        return 0;
+    case 'O':
+        r->to = value;
         return 0;
     case 'Y':
         r->scene_path = value;

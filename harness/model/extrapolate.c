@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "elements/math/rotation.h"
+#include "harness/model/loads.h"
 #include "harness/model/model_impl.h"
 
 /* Longest step to extrapolate over, relative to the last one; largest error of what is prescribed,

@@ -9,6 +9,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "harness/model/discrete.h"
+#include "harness/model/loads.h"
 #include "harness/model/model_impl.h"
 
 model_slot linearise_slot(const model *m, int element)

@@ -4,6 +4,10 @@
 
 #include "harness/model/model.h"
 
+/* What the load is times at `path`. */
+double loads_factor(const scene_load *load, double path);
+/* Of a known driver [m or rad]. */
+double loads_driver_value(const scene_driver *d, double path);
 /* Derivative of the loads by the path parameter in a state, out[free + driven]. */
 void loads_rate(const model *, const model_state *, double path, double out[]);
 /* Loads of the undeformed state at `path`, f[free + driven]. */

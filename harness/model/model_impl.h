@@ -179,12 +179,10 @@ typedef struct model_slot {
 model_slot linearise_slot(const model *m, int element);
 
 /* loads.c */
-double loads_factor(const scene_load *load, double path);
 void loads_add(const model *m, const model_state *s, double path,
                double out[]); /* [free + driven] */
 /* What the loads add to K. */
 void loads_stiffness(const model *m, const model_state *s, double path, loads_entry, void *context);
 void loads_subtract_stiffness(const model *m, const model_state *s, double path, sparse *K);
-double loads_driver_value(const scene_driver *d, double path);
 
 #endif

@@ -1,0 +1,75 @@
+#include "harness/export/deck.h"
+
+#include <stdlib.h>
+
+#include "harness/export/answers.h"
+#include "harness/export/carried.h"
+
+status deck_check(const deck_request *r, fault *f)
+{
+    if (r->elements < 1 || r->elements > DECK_MOST_ELEMENTS)
+        return fault_set(f, STATUS_REFUSED, "%d elements along a member: give 1 to %d with -n",
+                         r->elements, DECK_MOST_ELEMENTS);
+    TRY(carried_check(r->scene, f));
+    return carried_check_asked(r->scene, f);
+}
+
+/* Bricks of all members, with the numbers behind the last one. */
+static body_numbers make_bricks(const deck_request *r, brick out[])
+{
+    int node = 1, element = 1;
+    for (int i = 0; i < r->scene->members; i++) {
+        const int own = r->scene->member[i].divisions;
+        brick_init(&out[i], r->scene, i, own > 0 ? own : r->elements, node, element);
+        node = brick_next_node(&out[i]);
+        element = brick_next_element(&out[i]);
+    }
+    return (body_numbers){.first = node};
+}
+
+static void write_head(const deck_request *r, int elements, FILE *to)
+{
+    fprintf(to,
+            "** beamwork: %s as solids with rigid faces, for CalculiX 2.20\n"
+            "**CASE %s\n**ELEMENTS %d\n",
+            r->scene->name, r->of, elements);
+}
+
+static void write_material(const scene *s, int member, FILE *to)
+{
+    const section_spec *profile = &s->section[s->member[member].section];
+    fprintf(to,
+            "*MATERIAL,NAME=MATERIAL%d\n*ELASTIC\n%.12e,%.12e\n"
+            "*SOLID SECTION,ELSET=MEMBER%d,MATERIAL=MATERIAL%d\n",
+            member, profile->young, profile->young / (2 * profile->shear_modulus) - 1, member,
+            member);
+}
+
+static void write_mesh(const scene *s, const brick bricks[], const body_numbers *bodies, FILE *to)
+{
+    fputs("*NODE,NSET=NODES\n", to);
+    for (int i = 0; i < s->members; i++)
+        brick_write_nodes(&bricks[i], to);
+    body_write_nodes(bodies, s, to);
+    for (int i = 0; i < s->members; i++) {
+        fprintf(to, "*ELEMENT,TYPE=C3D20R,ELSET=MEMBER%d\n", i);
+        brick_write_elements(&bricks[i], to);
+        write_material(s, i, to);
+    }
+    body_write(bodies, s, bricks, to);
+}
+
+status deck_write(const deck_request *r, FILE *to, fault *f)
+{
+    const scene *s = r->scene;
+    TRY(deck_check(r, f));
+    brick *bricks = calloc((size_t)s->members, sizeof *bricks);
+    if (bricks == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a mesh of solids");
+    const body_numbers bodies = make_bricks(r, bricks);
+    write_head(r, brick_next_element(&bricks[s->members - 1]) - 1, to);
+    write_mesh(s, bricks, &bodies, to);
+    const status outcome = answers_write(s, &bodies, to, f);
+    free(bricks);
+    return outcome;
+}

@@ -1,0 +1,235 @@
+"""export: decks are meshes that fill their members, what they do not carry is refused, and the
+answers of CalculiX, where it is there, are those of beams and plates."""
+import csv
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+
+from harness.export import read_back
+from harness.test.program import ROOT, ProgramTest, run
+
+EXAMPLES = ROOT / "cases/examples"
+CCX = shutil.which("ccx")
+needs_ccx = unittest.skipUnless(CCX, "ccx (Debian: calculix-ccx) is not installed")
+
+# A cantilever without Poisson's effect: a beam is exact but for its theory of shear.
+LENGTH, WIDTH, HEIGHT, YOUNG = 0.1, 10e-3, 2e-3, 200e9
+INERTIA = WIDTH * HEIGHT**3 / 12
+CANTILEVER = """\
+beamwork: 1
+sections:
+  bar: {rectangle: {width: 10e-3, thickness: 2e-3}, young: 200e9, shear_modulus: 100e9}
+nodes:
+  base: {at: [0.02, 0, 0], hold: all}
+  tip:  {at: [0.02, 0.1, 0]}
+members:
+  bar: {from: base, to: tip, section: bar, y: [1, 0, 0], warping: fixed}
+loads:
+  push: {force: [{force}, 0, 0], on: tip}
+analyses:
+  run: {kind}
+quantities:
+  deflection: {displacement: {analysis: run, node: tip, component: ux}, unit: m}
+  shortening: {displacement: {analysis: run, node: tip, component: uy}, unit: m}
+  turn:       {displacement: {analysis: run, node: tip, component: rz}, unit: rad}
+"""
+# A linear analysis has none.
+HELD = "  held:       {reaction: {analysis: run, node: base, component: ux}, unit: N}\n"
+PATH = "{static: {stations: [0.5, 1]}}"
+
+
+def cantilever(force, kind="{linear: {}}"):
+    text = CANTILEVER.replace("{force}", f"{force!r}")
+    return text.replace("{kind}", kind) + (HELD if kind == PATH else "")
+
+
+def numbers(line):
+    return [int(n) for n in line.strip().strip(",").split(",")]
+
+
+def mesh_of(deck):
+    """({node: place [3]}, elements [count, 20]) of a deck."""
+    nodes, elements, card, pending = {}, [], "", []
+    for line in deck.read_text(encoding="utf-8").splitlines():
+        if line.startswith("*"):
+            card = line
+        elif card.startswith("*NODE,"):
+            words = line.split(",")
+            assert int(words[0]) not in nodes, line
+            nodes[int(words[0])] = np.array([float(w) for w in words[1:]])
+        elif card.startswith("*ELEMENT"):
+            pending += numbers(line)
+            if not line.endswith(","):
+                elements.append(pending[1:])
+                pending = []
+    return nodes, np.array(elements)
+
+
+class ExportTest(ProgramTest):
+    def scene(self, text, name="scene.yaml"):
+        path = self.folder / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def deck(self, scene, *options):
+        path = self.folder / "deck.inp"
+        self.answered("export", "--scene", scene, "--to", "calculix", "-o", path, *options)
+        return path
+
+    def solved(self, scene, *options):
+        """{quantity: value} of the solid."""
+        deck = self.deck(scene, *options)
+        done = subprocess.run([CCX, "deck"], cwd=self.folder, capture_output=True, text=True,
+                              check=False, env={**os.environ, "OMP_NUM_THREADS": "1"})
+        self.assertIn("Job finished", done.stdout)
+        self.assertNotIn("*ERROR", done.stdout)
+        return {row[0]: float(row[6]) for row in read_back.rows(deck)[1]}
+
+
+class Decks(ExportTest):
+    def test_bricks_fill_the_member(self):
+        """Right-handed, of its volume, between its ends; every node is used but those of bodies."""
+        nodes, elements = mesh_of(self.deck(self.scene(cantilever(1.0)), "-n", "6"))
+        self.assertEqual(elements.shape, (6 * 8 * 1, 20))
+        corners = np.array([[nodes[n] for n in e[:8]] for e in elements])
+        x, y, z = (corners[:, k] - corners[:, 0] for k in (1, 3, 4))
+        volume = np.einsum("ij,ij->i", np.cross(x, y), z)
+        self.assertGreater(volume.min(), 0)
+        self.assertAlmostEqual(volume.sum() / (LENGTH * WIDTH * HEIGHT), 1, places=9)
+        used = {n for e in elements for n in e}
+        self.assertEqual(len(set(nodes) - used), 2 * 2)
+        low, high = (f(np.array([nodes[n] for n in used]), axis=0) for f in (np.min, np.max))
+        np.testing.assert_allclose(low, [0.02 - HEIGHT / 2, 0, -WIDTH / 2], atol=1e-12)
+        np.testing.assert_allclose(high, [0.02 + HEIGHT / 2, LENGTH, WIDTH / 2], atol=1e-12)
+
+    def test_middles_of_edges(self):
+        nodes, elements = mesh_of(self.deck(self.scene(cantilever(1.0)), "-n", "3"))
+        edges = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5),
+                 (2, 6), (3, 7)]
+        for e in elements:
+            for middle, (a, b) in zip(e[8:], edges):
+                np.testing.assert_allclose(nodes[middle], (nodes[e[a]] + nodes[e[b]]) / 2,
+                                           atol=1e-12)
+
+    def test_each_quantity_has_its_answer(self):
+        deck = self.deck(EXAMPLES / "leaf_spring_guide.yaml", "-n", "2").read_text(encoding="utf-8")
+        answers = [line.split("|")[0][4:] for line in deck.splitlines() if line.startswith("**Q ")]
+        self.assertEqual(sorted(answers),
+                         ["force", "k_drive", "k_pushed", "k_support", "shortening"])
+
+    def test_parameters_are_said(self):
+        deck = self.deck(EXAMPLES / "leaf_spring_guide.yaml", "-n", "2", "--set",
+                         "thickness=0.4e-3").read_text(encoding="utf-8")
+        self.assertIn("leaf_spring_guide.yaml; thickness=0.0004\n", deck)
+
+    def test_what_is_not_carried(self):
+        """One line, which names what it is; no file is left."""
+        plain = cantilever(1.0)
+        wrong = {
+            "warp": plain.replace(", warping: fixed", ""),
+            "rectangle": plain.replace("rectangle: {width: 10e-3, thickness: 2e-3}",
+                                       "points: {a: [0, 0], b: [0.1, 0]}, "
+                                       "walls: [{from: a, to: b, thickness: 1e-3}]"),
+            "Poisson": plain.replace("shear_modulus: 100e9", "shear_modulus: 1e9"),
+            "along members": plain.replace("force: [1.0, 0, 0], on: tip",
+                                           "distributed: [1, 0, 0], on: bar"),
+            "dead loads": plain.replace("on: tip", "on: tip, follower: true"),
+            "none, two or all": cantilever(1.0, PATH).replace(
+                "at: [0.02, 0.1, 0]", "at: [0.02, 0.1, 0], hold: [rx]"),
+            "corners": plain.replace("members:", "  far: {at: [0.1, 0.1, 0]}\nmembers:").replace(
+                "loads:", "  more: {from: tip, to: far, section: bar, y: [0, 1, 0], "
+                "warping: fixed}\nloads:"),
+        }
+        for word, text in wrong.items():
+            out = self.folder / "none.inp"
+            self.refused(2, word, "export", "--scene", self.scene(text), "--to", "calculix", "-o",
+                         out)
+            self.assertFalse(out.exists())
+
+    def test_words(self):
+        scene = self.scene(cantilever(1.0))
+        self.refused(2, "--to calculix", "export", "--scene", scene)
+        self.refused(2, "--to calculix", "export", "--scene", scene, "--to", "abaqus")
+        self.refused(2, "one number", "export", "--scene", scene, "--to", "calculix", "-n", "2,4")
+        self.refused(2, "give 1 to", "export", "--scene", scene, "--to", "calculix", "-n", "401")
+        self.refused(2, "curved", "export", "bend_45", "--to", "calculix")
+        self.refused(2, "springs", "export", "sprung_beam", "--to", "calculix")
+
+
+class Answers(ExportTest):
+    """Without CalculiX: what it would have printed is read."""
+
+    def printed(self, *vectors):
+        """A deck with its .dat, in which every step prints the next pair (displacement, force)."""
+        deck = self.deck(self.scene(cantilever(1.0, PATH)), "-n", "1")
+        answers = [line[4:].split("|") for line in deck.read_text(encoding="utf-8").splitlines()
+                   if line.startswith("**Q ")]
+        text = ""
+        for u, f in vectors:
+            for name, vector in (("displacements (vx,vy,vz)", u), ("forces (fx,fy,fz)", f)):
+                text += f"\n {name} for set BODIES and time  0.1E+01\n\n"
+                for node in sorted({a[4] for a in answers}, key=int):
+                    text += f"{node:>10} " + " ".join(f"{v:.6E}" for v in vector) + "\n"
+        deck.with_suffix(".dat").write_text(text, encoding="utf-8")
+        return deck
+
+    def test_read(self):
+        deck = self.printed(*2 * [([0.25, 0.5, 0.125], [4, 5, 6])])
+        rows = {row[0]: row for row in read_back.rows(deck)[1]}
+        self.assertEqual({name: float(row[6]) for name, row in rows.items()},
+                         {"deflection": 0.25, "shortening": 0.5, "turn": 0.125, "held": 4})
+        self.assertEqual(float(rows["deflection"][7]), 0.25 * read_back.DIGITS)
+
+    def test_stopped(self):
+        deck = self.printed()
+        with self.assertRaisesRegex(read_back.Incomplete, "step 2 was not solved"):
+            read_back.rows(deck)
+
+    def test_imported(self):
+        deck, out = self.printed(*2 * [([0.25, 0.5, 0.125], [4, 5, 6])]), self.folder / "values.csv"
+        done = run(ROOT / "harness/export/read_back.py", deck, "-o", out, program=sys.executable)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        with open(out, encoding="utf-8") as file:
+            self.assertEqual(len(list(csv.reader(file))), 4 + 1 + 4)
+        told = self.answered("import", out, "-o", self.folder / "values.h5").stdout
+        self.assertIn("4 values, 1 mesh; another model: solid", told)
+
+
+@needs_ccx
+class Solved(ExportTest):
+    def test_cantilever(self):
+        """F L^3/(3 E I) + 6 F L/(5 G A), F L^2/(2 E I)."""
+        found = self.solved(self.scene(cantilever(2.0)), "-n", "10")
+        bent = 2 * LENGTH**3 / (3 * YOUNG * INERTIA)
+        sheared = 1.2 * 2 * LENGTH / (YOUNG / 2 * WIDTH * HEIGHT)
+        self.assertAlmostEqual(found["deflection"] / (bent + sheared), 1, delta=1e-3)
+        self.assertAlmostEqual(found["turn"] / (-2 * LENGTH**2 / (2 * YOUNG * INERTIA)), 1,
+                               delta=1e-3)
+
+    def test_elastica(self):
+        """F L^2/(E I) = 2: deflection 0.49346 L, shortening 0.16064 L (Mattiasson 1981)."""
+        force = 2 * YOUNG * INERTIA / LENGTH**2
+        found = self.solved(self.scene(cantilever(force, PATH)), "-n",
+                            "16")
+        self.assertAlmostEqual(found["deflection"] / (0.49346 * LENGTH), 1, delta=2e-3)
+        self.assertAlmostEqual(found["shortening"] / (-0.16064 * LENGTH), 1, delta=2e-3)
+        self.assertAlmostEqual(found["held"] / -force, 1, delta=1e-5)
+
+    def test_leaf_spring_guide(self):
+        """Plates hold their anticlastic bending: stiffer than beams by what finer meshes keep."""
+        scene = EXAMPLES / "leaf_spring_guide.yaml"
+        solid = self.solved(scene, "-n", "20")
+        told = self.record("solve", "--scene", scene, "-f", "collocation", "-n", "4")
+        more = {q["quantity"]: 100 * (solid[q["quantity"]] / q["value"] - 1)
+                for q in told["quantities"]}
+        for name, percent in (("k_drive", 6.9), ("force", 8.0), ("k_pushed", 6.3),
+                              ("k_support", 1.3), ("shortening", 0.2)):
+            self.assertAlmostEqual(more[name], percent, delta=0.2, msg=name)
+
+
+if __name__ == "__main__":
+    unittest.main()
