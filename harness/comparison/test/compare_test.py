@@ -63,6 +63,18 @@ class Compare(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stdout)
             self.assertIn("0 worse, 0 better, 0 changed, 0 gone, 0 new", done.stdout)
 
+    def test_lost_value(self):
+        """What has no value any more is worse, what has one now is better; the same of a quantity
+        that is there or not."""
+        def lose(file):
+            def nothing(rows):
+                rows["value"][0] = rows["error"][0] = float("nan")
+            change_rows(file, "quantities", nothing)
+        done = self.compared(lose)
+        self.assertRegex(done.stdout, r"(?m)^worse .* has no value any more$")
+        done = run("compare", self.new, self.old)
+        self.assertRegex(done.stdout, r"(?m)^better .* has a value now$")
+
     def test_extra_work(self):
         for count in ("factorisations", "iterations", "strain_evaluations"):
             def change(file, count=count):

@@ -1,0 +1,84 @@
+/* Edits of a scene, field by field: what changes its sign, its side or its place, and what stays. */
+#include <gsl/gsl_test.h>
+#include <string.h>
+
+#include "cases/scene/edit.h"
+
+static const double y_axis[3] = {0, 1, 0};
+
+/* A member with names of warping, divisions, and a load along it in its own axes that follows. */
+static void make(scene *s)
+{
+    const double path[] = {0, 1, 2}, factor[] = {0, 3, 4};
+    section_spec spec = section_spec_rectangle(1, 1, 2, 1);
+    scene_init(s, "edited");
+    const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, 2, 0, 0);
+    const int one = scene_add_member(s, root, tip, scene_add_section(s, &spec), y_axis);
+    scene_member *m = scene_member_at(s, one);
+    m->warp_p = 3;
+    m->warp_q = 7;
+    m->divisions = 2;
+    const int load = scene_add_load(s, SCENE_DISTRIBUTED, one, 5, 6, 7);
+    scene_load *l = scene_load_at(s, load);
+    l->axes = SCENE_AXES_MEMBER;
+    l->follower = 1;
+    l->at[0] = 0.1;
+    l->at[1] = 0.2;
+    l->at[2] = 0.3;
+    scene_set_factor(s, load, 3, path, factor);
+}
+
+static void is_vector(const double v[3], double x, double y, double z, const char *what)
+{
+    gsl_test(v[0] != x || v[1] != y || v[2] != z, "%s: %g %g %g", what, v[0], v[1], v[2]);
+}
+
+static void reversed(void)
+{
+    scene s;
+    fault f = {""};
+    make(&s);
+    scene_member_at(&s, 0)->curvature[1] = 0.25;
+    scene_member_at(&s, 0)->curvature[2] = 0.5;
+    gsl_test(scene_edit_apply(&s, &(scene_edit){SCENE_EDIT_REVERSE, 0}, &f) != STATUS_OK, "%s",
+             f.text);
+    const scene_member *m = scene_member_at(&s, 0);
+    const scene_load *l = scene_load_at(&s, 0);
+    gsl_test(m->p != 1 || m->q != 0, "ends %d %d", m->p, m->q);
+    gsl_test(m->warp_p != 7 || m->warp_q != 3, "warping %d %d", m->warp_p, m->warp_q);
+    is_vector(m->curvature, 0, 0.25, -0.5, "about z the other way");
+    is_vector(m->y_axis, 0, -1, 0, "turned by half a turn about z");
+    is_vector(l->vector, -5, -6, 7, "load in the member's axes");
+    is_vector(l->at, -0.1, -0.2, 0.3, "its place");
+    scene_free(&s);
+}
+
+static void is_split(void)
+{
+    scene s;
+    fault f = {""};
+    make(&s);
+    gsl_test(scene_edit_apply(&s, &(scene_edit){SCENE_EDIT_SPLIT, 0.25}, &f) != STATUS_OK, "%s",
+             f.text);
+    gsl_test(s.members != 2 || s.loads != 2, "%d members, %d loads", s.members, s.loads);
+    const scene_member *first = scene_member_at(&s, 0), *second = scene_member_at(&s, 1);
+    is_vector(s.node[first->q].position, 0.5, 0, 0, "the node between");
+    gsl_test(first->q != second->p || second->q != 1, "in a row");
+    gsl_test(first->warp_p != 3 || second->warp_q != 7 || first->warp_q != second->warp_p ||
+                 first->warp_q <= 7,
+             "warping %d %d, %d %d", first->warp_p, first->warp_q, second->warp_p, second->warp_q);
+    gsl_test_int(second->divisions, 2, "divisions");
+    const scene_load *l = scene_load_at(&s, 1);
+    gsl_test(l->where != 1 || l->axes != SCENE_AXES_MEMBER || !l->follower, "its load");
+    is_vector(l->vector, 5, 6, 7, "of that size");
+    is_vector(l->at, 0.1, 0.2, 0.3, "at that place");
+    gsl_test(l->stations != 3 || l->factor[1] != 3 || l->path[2] != 2, "along that path");
+    scene_free(&s);
+}
+
+int main(void)
+{
+    reversed();
+    is_split();
+    return gsl_test_summary();
+}
