@@ -213,11 +213,42 @@ class Solved(ExportTest):
     def test_elastica(self):
         """F L^2/(E I) = 2: deflection 0.49346 L, shortening 0.16064 L (Mattiasson 1981)."""
         force = 2 * YOUNG * INERTIA / LENGTH**2
-        found = self.solved(self.scene(cantilever(force, PATH)), "-n",
-                            "16")
+        found = self.solved(self.scene(cantilever(force, PATH)), "-n", "16")
         self.assertAlmostEqual(found["deflection"] / (0.49346 * LENGTH), 1, delta=2e-3)
         self.assertAlmostEqual(found["shortening"] / (-0.16064 * LENGTH), 1, delta=2e-3)
         self.assertAlmostEqual(found["held"] / -force, 1, delta=1e-5)
+
+    def test_arc(self):
+        """The end turned by a: deflection (1 - cos a) L/a, shortening (1 - sin a/a) L; also
+        when the turn is about an axis of no coordinate, as the bar lies askew."""
+        angle, c, s = 1.2, 0.8, 0.6
+        text = cantilever(0.0, PATH).replace(
+            "tip:  {at: [0.02, 0.1, 0]", "tip:  {at: [0.02, 0.08, 0.06], rotation: {vector: [none, "
+            "about_y, about_z]}").replace(
+            "loads:\n  push: {force: [0.0, 0, 0], on: tip}", "motions:\n"
+            "  none:    {unit: rad, path: [0, 1], value: [0, 0]}\n"
+            f"  about_y: {{unit: rad, path: [0, 1], value: [0, {s * angle!r}]}}\n"
+            f"  about_z: {{unit: rad, path: [0, 1], value: [0, {-c * angle!r}]}}")
+        found = self.solved(self.scene(text), "-n", "16")
+        self.assertAlmostEqual(found["deflection"] / ((1 - np.cos(angle)) / angle * LENGTH), 1,
+                               delta=2e-3)
+        self.assertAlmostEqual(found["shortening"] / (-c * (1 - np.sin(angle) / angle) * LENGTH), 1,
+                               delta=2e-3)
+        self.assertAlmostEqual(found["turn"], -c * angle, delta=1e-6)
+
+    def test_compliance(self):
+        """Of a beam's end, with moments: L/(E I), L^2/(2 E I), L/(E A)."""
+        text = cantilever(1.0).replace("run: {linear: {}}", "run: {compliance: {node: tip}}")
+        entries = {"turn_turn": ("rz", "rz", "rad/(N m)", LENGTH / (YOUNG * INERTIA)),
+                   "turn_move": ("rz", "ux", "rad/N", -LENGTH**2 / (2 * YOUNG * INERTIA)),
+                   "move_turn": ("ux", "rz", "1/N", -LENGTH**2 / (2 * YOUNG * INERTIA)),
+                   "along": ("uy", "uy", "m/N", LENGTH / (YOUNG * WIDTH * HEIGHT))}
+        text = text[:text.index("  deflection:")] + "".join(
+            f"  {name}: {{compliance: {{analysis: run, row: {row}, column: {column}}}, "
+            f"unit: {unit}}}\n" for name, (row, column, unit, _) in entries.items())
+        found = self.solved(self.scene(text), "-n", "10")
+        for name, (*_, value) in entries.items():
+            self.assertAlmostEqual(found[name] / value, 1, delta=2e-3, msg=name)
 
     def test_leaf_spring_guide(self):
         """Plates hold their anticlastic bending: stiffer than beams by what finer meshes keep."""
