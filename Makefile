@@ -47,7 +47,7 @@ help: ## this list
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 verify: all ## judge every formulation on every case against the stored truths
-	@$(PROGRAM) verify --shapes -o $(BUILD)/results.h5 --json $(BUILD)/verify.json --junit $(BUILD)/junit.xml --markdown $(BUILD)/verify.md $(VERIFY)
+	@$(PROGRAM) verify --built-in --scene cases/examples --shapes -o $(BUILD)/results.h5 --json $(BUILD)/verify.json --junit $(BUILD)/junit.xml --markdown $(BUILD)/verify.md $(VERIFY)
 
 tests: all $(TESTS) ## build what make test runs
 
@@ -59,11 +59,14 @@ all: $(PROGRAM) $(TRUTHS) ## build the program, the library and the packed truth
 $(BUILD)/peers.h5: reference/peers.csv $(PROGRAM)
 	@$(PROGRAM) import $< -o $@ >/dev/null
 
-report: all needs-report $(BUILD)/peers.h5 ## draw the report of the last verify into build/report/index.html
+# RESULTS=FILE: results of one's own, as 'verify --shapes --scene my.yaml -o FILE' writes them.
+report: all needs-report $(BUILD)/peers.h5 ## draw the report of the last verify, into build/report/index.html; of RESULTS=NAME.h5, into build/report_NAME/index.html
+ifndef RESULTS
 	@test -f $(BUILD)/results.h5 || $(MAKE) --no-print-directory verify
 	@test $(BUILD)/newton.json -nt $(PROGRAM) || $(MAKE) --no-print-directory newton
 	@test $(BUILD)/stress.json -nt $(PROGRAM) || $(PROGRAM) stress -o $(BUILD)/stress.txt --json $(BUILD)/stress.json
-	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports $(BUILD)/results.h5 $(TRUTHS) $(if $(wildcard $(BUILD)/bench.h5),--bench $(BUILD)/bench.h5) --beside $(BUILD)/peers.h5 -o $(BUILD)/report
+endif
+	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) $(if $(wildcard $(BUILD)/bench.h5),--bench $(BUILD)/bench.h5) --beside $(BUILD)/peers.h5 -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
 
 newton: all ## the two forms of Newton's method side by side, for the report; build/newton.json
 	@$(PYTHON) harness/tools/newton.py $(PROGRAM) -o $(BUILD)/newton.json

@@ -165,6 +165,11 @@ def read_truths(folders, defaults):
     return cases
 
 
+def scene_names():
+    """Scenes of cases/examples, which are judged beside the cases."""
+    return [path.stem for path in (pathlib.Path(__file__).resolve().parents[1] / "cases/examples").glob("*.yaml")]
+
+
 def read_findings(path, defaults):
     """Rules of the ledger: one for each cause, each readable in a line."""
     rows, seen = [], {}
@@ -179,7 +184,7 @@ def read_findings(path, defaults):
             if not row[name]:
                 raise Refused(f"{where}: a finding needs {name}")
         for case in row["cases"].split():
-            if not fnmatch.filter(defaults, case):
+            if not fnmatch.filter([*defaults, *scene_names()], case):
                 raise Refused(f"{where}: unknown case '{case}'")
         for verdict in row["verdicts"].split("|"):
             if verdict not in VERDICTS:

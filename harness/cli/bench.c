@@ -89,13 +89,13 @@ static int bench_request(cli_request *r)
     fault f = {""};
     if (r->against != NULL)
         return cli_against(r);
-    if (r->scene_path != NULL && cli_case(r) == NULL)
+    if (r->scene_count > 0 && cli_case(r) == NULL)
         return r->refusal;
     if (!is_named(r) && (r->assignments > 0 || r->meshes > 0))
         return cli_fail(STATUS_REFUSED, "--set and -n are of a case: name it");
     status outcome = cli_check_files(r, 1, cli_truths_path(r), &f);
     if (outcome == STATUS_OK)
-        outcome = cli_truths_read(r, 0, &t, &f);
+        outcome = cli_truths_read(r, &t, &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
     outcome = measure(r, &t, &s, &j, &f);

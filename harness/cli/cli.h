@@ -38,16 +38,18 @@ typedef struct cli_request {
     int shapes;     /* states of a path whose shapes are stored; 0: none */
     char given[32]; /* keys of the options with one value that were given */
     int given_count;
-    const char *scene_path; /* --scene: in the place of a case */
-    scene_file *scene;      /* what was read from it; cli_close frees it */
-    int refusal;            /* exit code where there is no case */
-    int reads_files;        /* 1: the arguments are files that are read */
-    const char *beside;     /* stored import: contestants of a run */
-    const char *map;        /* of columns without a header */
-    int gate;               /* 1: their verdicts count */
-    const char *to;         /* program that a deck is for */
-    int schema, keys;       /* 1: describe the keys of scene files as JSON Schema, as a list */
-    double plant;           /* share of its time that is added to every run of the other */
+    const char *scene_path[CLI_MAX_CASES]; /* --scene: in the place of a case */
+    int scene_count, most_scenes;
+    int built_in;       /* 1: the built-in cases beside --scene */
+    scene_file *scene;  /* what was read from the one; cli_close frees it */
+    int refusal;        /* exit code where there is no case */
+    int reads_files;    /* 1: the arguments are files that are read */
+    const char *beside; /* stored import: contestants of a run */
+    const char *map;    /* of columns without a header */
+    int gate;           /* 1: their verdicts count */
+    const char *to;     /* program that a deck is for */
+    int schema, keys;   /* 1: describe the keys of scene files as JSON Schema, as a list */
+    double plant;       /* share of its time that is added to every run of the other */
 } cli_request;
 
 typedef int cli_verb(int count, char **arguments);
@@ -64,11 +66,15 @@ const case_type *cli_case(cli_request *r);
 void cli_close(cli_request *r);
 /* The case of --scene FILE, or NULL after messages: all its mistakes. */
 const case_type *cli_scene_case(cli_request *r);
-/* Truths of the run: those stored, or, of a scene file, its own: at the parameters of the request, or all. */
-status cli_truths_read(const cli_request *r, int all, truths *t, fault *f);
+/* Reads one scene file; EXIT_AS_EXPECTED, or an exit code after messages. */
+int cli_scene_read(const cli_request *r, const char *path, scene_file **out);
+/* Truths of the run: those stored, or, of a scene file, its own at the parameters of the request. */
+status cli_truths_read(const cli_request *r, truths *t, fault *f);
 /* Every output can be written and is a file of its own, and none is an input: looked at before the
  * work begins. whole_file: -o is HDF5. truths_path: NULL where no truths are read. */
 status cli_check_files(const cli_request *r, int whole_file, const char *truths_path, fault *f);
+/* The same of a further input, alone. */
+status cli_check_input(const cli_request *r, const char *path, fault *f);
 /* Two contestants in alternation (bench --against). */
 int cli_against(cli_request *r);
 /* Default place of the packed truths: BEAMWORK_TRUTHS, or truths.h5 beside the program. */

@@ -62,7 +62,7 @@ static int converge_request(cli_request *r)
             "which formulation? Give -f, or -f all; 'beamwork list formulations' shows them");
     status outcome = cli_check_files(r, 0, cli_truths_path(r), &f);
     if (outcome == STATUS_OK)
-        outcome = cli_truths_read(r, 0, &t, &f);
+        outcome = cli_truths_read(r, &t, &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
     outcome =
@@ -75,7 +75,7 @@ static int converge_request(cli_request *r)
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
     outcome = run_sweep(&request, &s, &f);
     if (outcome == STATUS_OK)
-        outcome = families_add_truths(&s, &t, &f);
+        outcome = families_add_truths(&s, 0, &t, &f);
     if (outcome == STATUS_OK)
         outcome = write_out(r, &s, &t, &f);
     const int nothing = sweep_cells(&s) == 0;

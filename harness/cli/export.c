@@ -17,7 +17,7 @@ static void name_of(const cli_request *r, const case_type *type, char *text, siz
 {
     char parameters[PARAMETERS_TEXT], path[PATH_MAX];
     parameters_text(type, r->parameter, parameters, sizeof parameters);
-    const char *file = r->scene_path != NULL ? realpath(r->scene_path, path) : NULL;
+    const char *file = r->scene_count > 0 ? realpath(r->scene_path[0], path) : NULL;
     snprintf(text, size, "%s%s%s", file != NULL ? file : type->name,
              parameters[0] != '\0' ? "; " : "", parameters);
 }

@@ -48,7 +48,7 @@ status cli_check_files(const cli_request *r, int whole_file, const char *truths_
     const char *const input[INPUTS] = {truths_path,
                                        r->most_arguments == 2 ? r->case_name : NULL,
                                        r->second,
-                                       r->scene_path,
+                                       r->scene_path[0],
                                        r->beside,
                                        r->map,
                                        is_path ? r->against : "/proc/self/exe"};
@@ -62,6 +62,19 @@ status cli_check_files(const cli_request *r, int whole_file, const char *truths_
         for (int k = 0; k < i; k++)
             if (out[k].path != NULL)
                 TRY(check_pair(&out[k], &out[i], f));
+    }
+    return STATUS_OK;
+}
+
+status cli_check_input(const cli_request *r, const char *path, fault *f)
+{
+    const char *const option[OUTPUTS] = {"-o", "--json", "--junit", "--markdown"};
+    const char *const out[OUTPUTS] = {r->output, r->json, r->junit, r->markdown};
+    const char *const input[INPUTS] = {path};
+    for (int i = 0; i < OUTPUTS; i++) {
+        named_place one = {.option = option[i], .path = out[i]};
+        if (out[i] != NULL && place_find(out[i], &one.where, NULL) == STATUS_OK)
+            TRY(check_inputs(&one, input, f));
     }
     return STATUS_OK;
 }

@@ -134,7 +134,7 @@ int cli_list(int count, char **arguments)
               "Shows what there is: cases with their parameters and quantities, formulations with "
               "their options.",
               "Y", count, arguments, &r);
-    if (r.scene_path != NULL) {
+    if (r.scene_count > 0) {
         const case_type *own = cli_scene_case(&r);
         const int code = own != NULL ? list_case(own) : r.refusal;
         cli_close(&r);

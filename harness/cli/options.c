@@ -51,7 +51,11 @@ static const struct argp_option all_options[] = {
      "make the other slower by that much, to see whether the comparison finds it", 0},
     {"truths", 'T', "FILE", 0,
      "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)", 0},
-    {"scene", 'Y', "FILE", 0, "a scene of your own in YAML, in the place of a case", 0},
+    {"scene", 'Y', "FILE", 0,
+     "a scene of your own in YAML, in the place of a case (verify: or a folder of them; again for "
+     "another)",
+     0},
+    {"built-in", 'I', NULL, 0, "the built-in cases beside those of --scene", 0},
     {"beside", 'B', "FILE", 0,
      "what other programs found, stored by 'beamwork import': contestants that gate nothing", 0},
     {"map", 'm', "FILE.yaml", 0, "which columns of files without a header are which quantities", 0},
@@ -133,7 +137,7 @@ static void refuse_again(cli_request *r, int key, const struct argp_state *state
     char message[160];
     while (o->name != NULL && o->key != key)
         o++;
-    if (o->name == NULL || o->arg == NULL || strchr("fns", key) != NULL)
+    if (o->name == NULL || o->arg == NULL || strchr("fnsY", key) != NULL)
         return;
     for (int i = 0; i < r->given_count; i++)
         if (r->given[i] == key) {
@@ -157,6 +161,14 @@ static void add_case(cli_request *r, const char *name)
     r->cases[r->case_count++] = name;
     r->case_name = r->cases[0];
     r->second = r->cases[1];
+}
+
+static void add_scene(cli_request *r, const char *path)
+{
+    if (r->scene_count == r->most_scenes)
+        refuse(r->most_scenes == 1 ? "--scene is given twice; give it one value"
+                                   : "too many --scene; give a folder");
+    r->scene_path[r->scene_count++] = path;
 }
 
 static error_t take(int key, char *value, struct argp_state *state)
@@ -240,7 +252,10 @@ static error_t take(int key, char *value, struct argp_state *state)
         r->to = value;
         return 0;
     case 'Y':
-        r->scene_path = value;
+        add_scene(r, value);
+        return 0;
+    case 'I':
+        r->built_in = 1;
         return 0;
     case 'B':
         r->beside = value;
@@ -286,6 +301,7 @@ void cli_parse(const char *verb, const char *arguments_doc, const char *doc, con
     out->refusal = EXIT_REFUSED;
     out->format = "text";
     out->most_arguments = most_arguments(keys);
+    out->most_scenes = strchr(keys, 'I') != NULL ? CLI_MAX_CASES : 1;
     out->jobs = (int)sysconf(_SC_NPROCESSORS_ONLN);
     snprintf(name, sizeof name, "beamwork %s", verb);
     arguments[0] = name;
@@ -309,7 +325,7 @@ static const case_type *named_case(const cli_request *r)
 const case_type *cli_case(cli_request *r)
 {
     fault f;
-    const case_type *type = r->scene_path != NULL ? cli_scene_case(r) : named_case(r);
+    const case_type *type = r->scene_count > 0 ? cli_scene_case(r) : named_case(r);
     if (type == NULL)
         return NULL;
     parameters_default(type, r->parameter);

@@ -21,19 +21,27 @@ static void tell_mistakes(const cli_request *r, const mistakes *m, status outcom
         cli_fail(STATUS_FAULT, unwritten.text);
 }
 
-const case_type *cli_scene_case(cli_request *r)
+int cli_scene_read(const cli_request *r, const char *path, scene_file **out)
 {
     mistakes m;
     fault f = {""};
+    const status outcome = scene_file_read(path, out, &m, &f);
+    if (outcome == STATUS_OK)
+        return EXIT_AS_EXPECTED;
+    tell_mistakes(r, &m, outcome, &f);
+    return outcome == STATUS_FAULT ? EXIT_FAULT : EXIT_REFUSED;
+}
+
+const case_type *cli_scene_case(cli_request *r)
+{
     if (r->case_name != NULL) {
         cli_fail(STATUS_REFUSED, "a case and --scene: give one of them");
         return NULL;
     }
-    const status outcome = scene_file_read(r->scene_path, &r->scene, &m, &f);
-    if (outcome == STATUS_OK)
+    const int code = cli_scene_read(r, r->scene_path[0], &r->scene);
+    if (code == EXIT_AS_EXPECTED)
         return scene_file_case(r->scene);
-    tell_mistakes(r, &m, outcome, &f);
-    r->refusal = outcome == STATUS_FAULT ? EXIT_FAULT : EXIT_REFUSED;
+    r->refusal = code;
     return NULL;
 }
 
@@ -43,13 +51,12 @@ void cli_close(cli_request *r)
     r->scene = NULL;
 }
 
-status cli_truths_read(const cli_request *r, int all, truths *t, fault *f)
+status cli_truths_read(const cli_request *r, truths *t, fault *f)
 {
     memset(t, 0, sizeof *t);
     if (r->scene == NULL)
         return truths_read(cli_truths_path(r), t, f);
-    const status outcome = all ? scene_file_add_all_truths(r->scene, t, f)
-                               : scene_file_add_truths(r->scene, r->parameter, t, f);
+    const status outcome = scene_file_add_truths(r->scene, r->parameter, t, f);
     if (outcome != STATUS_OK)
         truths_free(t);
     return outcome;

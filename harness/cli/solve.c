@@ -76,7 +76,7 @@ static int solve_request(cli_request *r)
     status outcome = cli_check_files(r, r->shapes > 0, cli_truths_path(r), &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
-    outcome = cli_truths_read(r, 0, &t, &f);
+    outcome = cli_truths_read(r, &t, &f);
     if (outcome != STATUS_OK && r->truths == NULL &&
         r->scene == NULL) /* a solution needs none: say so and go on */
         fprintf(stderr, "beamwork: without truths: %s\n", f.text);

@@ -82,7 +82,7 @@ static int truth_request(cli_request *r)
     const case_type *type = cli_case(r);
     if (type == NULL)
         return r->refusal;
-    status outcome = cli_truths_read(r, 0, &t, &f);
+    status outcome = cli_truths_read(r, &t, &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
     parameters_text(type, r->parameter, text, sizeof text);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "harness/cli/cli.h"
+#include "harness/cli/scenes.h"
 #include "harness/imports/import_store.h"
 #include "harness/judge/families.h"
 #include "harness/record/json.h"
@@ -90,9 +90,10 @@ static status write_all(const cli_request *r, const sweep *s, const judgement *j
 static status judge_and_write(const cli_request *r, const sweep *s, truths *t, judgement *j,
                               fault *f)
 {
-    const int whole = r->select == NULL && r->formulations == 0 && s->unfinished == 0;
-    if (r->scene != NULL)
-        TRY(families_add_truths(s, t, f));
+    const int whole = r->select == NULL && r->formulations == 0 && s->unfinished == 0 &&
+                      (r->built_in || r->scene_count == 0);
+    if (r->scene_count > 0)
+        TRY(families_add_truths(s, 1, t, f));
     TRY(judgement_make(s, t, whole, j, f));
     table_verdicts(stdout, s, j, t);
     if (fflush(stdout) != 0)
@@ -156,11 +157,11 @@ static status add_beside(const cli_request *r, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-static status run(const cli_request *r, sweep *s, truths *t, judgement *j, fault *f)
+static status run(const cli_request *r, const case_type *const *cases, sweep *s, truths *t,
+                  judgement *j, fault *f)
 {
     const int states = r->shapes < PICTURED_STATES ? r->shapes : PICTURED_STATES;
-    const case_type *const own[] = {r->scene != NULL ? scene_file_case(r->scene) : NULL, NULL};
-    const sweep_request request = {.cases = r->scene != NULL ? own : NULL,
+    const sweep_request request = {.cases = cases,
                                    .select = r->select,
                                    .jobs = r->jobs,
                                    .time_limit = r->time_limit,
@@ -178,26 +179,36 @@ static status run(const cli_request *r, sweep *s, truths *t, judgement *j, fault
     return judge_and_write(r, s, t, j, f);
 }
 
-static int verify_request(cli_request *r)
+static int verify_scenes(const cli_request *r, const scenes *own)
 {
     sweep s = {0};
     truths t;
     judgement j = {0};
     fault f = {""};
-    if (r->case_name != NULL)
-        return cli_fail(STATUS_REFUSED, "verify takes no case; select with -k");
-    if (r->scene_path != NULL && cli_scene_case(r) == NULL)
-        return r->refusal;
     status outcome = cli_check_files(r, 1, cli_truths_path(r), &f);
+    for (int i = 0; i < own->count && outcome == STATUS_OK; i++)
+        outcome = cli_check_input(r, own->path[i], &f);
     if (outcome == STATUS_OK)
-        outcome = cli_truths_read(r, 1, &t, &f);
+        outcome = scenes_truths(own, r, &t, &f);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);
-    outcome = run(r, &s, &t, &j, &f);
+    outcome = run(r, own->type, &s, &t, &j, &f);
     const int code = outcome != STATUS_OK ? cli_fail(outcome, f.text) : tell(r, &s, &j);
     judgement_free(&j);
     sweep_free(&s);
     truths_free(&t);
+    return code;
+}
+
+static int verify_request(const cli_request *r)
+{
+    scenes own;
+    if (r->case_name != NULL)
+        return cli_fail(STATUS_REFUSED, "verify takes no case; select with -k");
+    int code = scenes_read(r, &own);
+    if (code == EXIT_AS_EXPECTED)
+        code = verify_scenes(r, &own);
+    scenes_free(&own);
     return code;
 }
 
@@ -209,8 +220,6 @@ int cli_verify(int count, char **arguments)
               "status: 0 every verdict as expected, 1 one differs, 2 refused, 3 nothing was "
               "checked, 4 file, disk or memory, 5 interrupted (Ctrl-C, SIGTERM): what was judged "
               "until then is in files named .partial",
-              "fokjJUMLPTYBG", count, arguments, &r);
-    const int code = verify_request(&r);
-    cli_close(&r);
-    return code;
+              "fokjJUMLPTYBGI", count, arguments, &r);
+    return verify_request(&r);
 }

@@ -146,10 +146,12 @@ static status add_truth(const sweep *s, int point_index, int quantity, const fam
     return STATUS_OK;
 }
 
-status families_add_truths(const sweep *s, truths *t, fault *f)
+status families_add_truths(const sweep *s, int files_only, truths *t, fault *f)
 {
     for (int i = 0; i < s->points; i++) {
         const point *p = &s->point[i];
+        if (files_only && p->type->build_from == NULL)
+            continue;
         for (int q = 0; q < p->scene.quantities && p->status == STATUS_OK; q++) {
             const char *name = p->scene.quantity[q].name;
             if (p->scene.quantity[q].reduction == SCENE_CURVE ||

@@ -25,7 +25,8 @@ typedef struct families_limit {
 
 /* Of one point and quantity. */
 families_limit families_limit_of(const sweep *s, int point_index, int quantity);
-/* Adds a truth of kind agreement for every quantity of a point that has none of its model. */
-status families_add_truths(const sweep *s, truths *t, fault *f);
+/* Adds a truth of kind agreement for every quantity of a point that has none of its model.
+ * files_only: 1: of scene files, not of built-in cases. */
+status families_add_truths(const sweep *s, int files_only, truths *t, fault *f);
 
 #endif

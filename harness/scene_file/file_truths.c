@@ -148,6 +148,9 @@ static int is_known_row(const scene_file *file, const truths *t, const double va
     for (int i = 0; i < t->rows; i++)
         if (t->row[i].type == &file->type && strcmp(t->row[i].quantity, one->quantity) == 0 &&
             strcmp(t->row[i].kind, one->kind) == 0 &&
+            strcmp(t->row[i].formulation, one->formulation) == 0 &&
+            strcmp(t->row[i].theory, one->theory) == 0 &&
+            strcmp(t->row[i].model, one->model) == 0 &&
             same_point(file, t->row[i].parameter, value) &&
             (isnan(one->at) ? !t->row[i].on_curve : t->row[i].at == one->at))
             return 1;

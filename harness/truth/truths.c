@@ -246,12 +246,13 @@ static status open_truths(const char *path, hid_t *file, fault *f)
     return check_schema(*file, path, f);
 }
 
-/* With what read_file closes. */
+/* With what read_file closes. group NULL: no tables. */
 static status read_open(const char *path, const char *group, int with_rules, hid_t *file,
                         truths *out, fault *f)
 {
     TRY(open_truths(path, file, f));
-    TRY(read_tables(path, *file, group, out, f));
+    if (group != NULL)
+        TRY(read_tables(path, *file, group, out, f));
     return with_rules ? rules_read(path, *file, &out->rule, &out->rules, f) : STATUS_OK;
 }
 
@@ -268,6 +269,15 @@ status truths_read(const char *path, truths *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     const status outcome = read_file(path, "truths", 1, out, f);
+    if (outcome != STATUS_OK)
+        truths_free(out);
+    return outcome;
+}
+
+status truths_read_rules(const char *path, truths *out, fault *f)
+{
+    memset(out, 0, sizeof *out);
+    const status outcome = read_file(path, NULL, 1, out, f);
     if (outcome != STATUS_OK)
         truths_free(out);
     return outcome;

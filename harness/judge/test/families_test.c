@@ -70,7 +70,7 @@ static void one_family_is_none(void)
     add(&b, RED_TWO, 3, 0.2);
     gsl_test(families_limit_of(&b.s, 0, 0).families != 1, "two of one family are one family");
     fault f;
-    gsl_test(families_add_truths(&b.s, &b.t, &f) != STATUS_OK || b.t.rows != 0,
+    gsl_test(families_add_truths(&b.s, 0, &b.t, &f) != STATUS_OK || b.t.rows != 0,
              "one family gives no reference");
     finish(&b);
 }
@@ -87,7 +87,7 @@ static void two_families(void)
     gsl_test(l.families != 2 || l.disputed, "two families agree: %d", l.families);
     gsl_test(!(fabs(l.value - 3) < 2e-3) || !(l.uncertainty >= 1e-3 && l.uncertainty < 2e-3),
              "their limit %.6g, its uncertainty is their spread: %.2g", l.value, l.uncertainty);
-    gsl_test(families_add_truths(&b.s, &b.t, &f) != STATUS_OK || b.t.rows != 1,
+    gsl_test(families_add_truths(&b.s, 0, &b.t, &f) != STATUS_OK || b.t.rows != 1,
              "it is a truth for the run");
     const truth *row = truth_agreed(&b.t, &made_up, b.p.parameter, "load");
     gsl_test(row == NULL || truth_gates(row), "of kind agreement, which never gates");
@@ -114,7 +114,7 @@ static void disputes(void)
     add(&b, BLUE_TWO, 3.2, 0.1);
     gsl_test(!families_limit_of(&b.s, 0, 0).disputed, "two limits with two families each");
     fault f;
-    gsl_test(families_add_truths(&b.s, &b.t, &f) != STATUS_OK || b.t.rows != 0,
+    gsl_test(families_add_truths(&b.s, 0, &b.t, &f) != STATUS_OK || b.t.rows != 0,
              "a dispute gives no reference");
     add(&b, GREEN_ONE, 3.2, 0.1);
     const families_limit l = families_limit_of(&b.s, 0, 0);
@@ -148,7 +148,7 @@ static void reach(void)
     add(&b, BLUE_ONE, 3, 0.5);
     add(&b, GREEN_ONE, 3.2, 0.1);
     gsl_test(reach_every(&b.s, &b.t, 0, 0.01) != -1, "nothing to measure by");
-    gsl_test(families_add_truths(&b.s, &b.t, &f) != STATUS_OK || b.t.rows != 1, "a reference");
+    gsl_test(families_add_truths(&b.s, 0, &b.t, &f) != STATUS_OK || b.t.rows != 1, "a reference");
     gsl_test_int(reach_every(&b.s, &b.t, 0, 0.01), 1, "0.1/n^2 within 1 % from n = 4 on");
     gsl_test_int(reach_every(&b.s, &b.t, 1, 0.01), 2, "0.5/n^2 from n = 8 on");
     gsl_test_int(reach_every(&b.s, &b.t, 2, 0.01), -1, "another limit never");

@@ -155,6 +155,27 @@ class SceneTest(ProgramTest):
             judged += known
         self.assertGreaterEqual(judged, 4)
 
+    def test_folder(self):
+        """All examples at once, every formulation as expected; a case beside them; names once."""
+        done = self.answered("verify", "--scene", EXAMPLES)
+        self.assertIn("0 verdicts differ", done.stdout)
+        found = re.findall(r"^  (\S+) +k_drive .* biased, as predicted, N50-mechanisms$",
+                           done.stdout, re.M)
+        self.assertEqual(found, ["sheet_third", "sheet_third_printed"])
+        verdicts = self.folder / "verdicts.json"
+        self.answered("verify", "--built-in", "--scene", EXAMPLES, "-J", verdicts, "-k",
+                      "(euler_column or warping_torsion/default) and collocation")
+        both = json.loads(verdicts.read_text(encoding="utf-8"))
+        self.assertEqual({v["case"] for v in both["verdicts"]}, {"euler_column", "warping_torsion"})
+        euler = EXAMPLES / "euler_column.yaml"
+        self.refused(2, "is judged already", "verify", "--scene", EXAMPLES, "--scene", euler)
+        self.refused(2, "no *.yaml", "verify", "--scene", EXAMPLES.parent)
+        taken = euler.read_text(encoding="utf-8").replace("name: euler_column", "name: c_column")
+        taken = self.scene(taken)
+        self.refused(2, "is judged already", "verify", "--built-in", "--scene", taken)
+        self.refused(2, "given twice", "solve", "--scene", euler, "--scene", euler, "-f", "beamw", "-n", 1)
+        self.refused(2, "would replace", "verify", "--scene", self.folder, "-o", taken)
+
     def test_everything(self):
         """All that a scene can say is understood as it was meant, and written so that it is again."""
         for path in sorted(GOOD.glob("*.yaml")):
