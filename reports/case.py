@@ -50,12 +50,21 @@ def cheapest_of(point):
     return [(q, {level: answers.ways(point, q, level) for level in LEVELS}) for q in wanted]
 
 
+def limits_of(point):
+    """[(quantity, [(formulation, verdict)])] of what no truth speaks of."""
+    rows = {}
+    for s in point.series:
+        for v in s.verdicts:
+            rows.setdefault(v.quantity, []).append((s.key, v))
+    return [(q, [(key, v) for key, v in found if v.verdict != "skip"]) for q, found in rows.items() if q in point.units and all(v.verdict in ("no truth", "skip") for _, v in found)]
+
+
 def parts_of(site, case, index):
     """What a page shows of one parameter point."""
     point = case.points[index]
     names = answers.judged(point)
     return {"point": point, "figures": figures_of(site, case, index), "table": table_of(point, names[0]) if names else [], "quantity": names[0] if names else None,
-            "others": beside.rows(point), "cheapest": cheapest_of(point), "front": answers.front(point, names[0]) if names else [], "failures": answers.failures(point), "savings": answers.savings(point),
+            "limits": limits_of(point), "others": beside.rows(point), "cheapest": cheapest_of(point), "front": answers.front(point, names[0]) if names else [], "failures": answers.failures(point), "savings": answers.savings(point),
             "noise": sorted(100 * (m.clock.most / m.clock.least - 1) for s in point.series for m in s.meshes if m.clock.repeats > 1 and m.clock.least > 0),
             "has_model": any(math.isfinite(v.model_error) for s in point.series for v in s.verdicts)}
 
