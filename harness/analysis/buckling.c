@@ -163,8 +163,8 @@ status buckling_analysis(analysis_context *c, int analysis, analysis_outcome *o,
 {
     buckling b = {0};
     const status result = solve(c, analysis, &b, f);
-    keep(&b.found.positive, &o->of.spectrum.positive);
-    keep(&b.found.negative, &o->of.spectrum.negative);
+    keep(&b.found.positive, &o->left.spectrum.positive);
+    keep(&b.found.negative, &o->left.spectrum.negative);
     eigen_free(&b.found);
     linear_system_free(&b.system);
     sparse_free_values(&b.of.G);

@@ -105,7 +105,7 @@ static status solve(analysis_context *c, int analysis, tangent *t, outcome_compl
 status compliance_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     tangent t;
-    const status result = solve(c, analysis, &t, &o->of.compliance, f);
+    const status result = solve(c, analysis, &t, &o->left.compliance, f);
     tangent_free(&t);
     return result;
 }

@@ -260,7 +260,7 @@ static status walk(continuation *p, fault *f)
 status continuation_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     continuation p;
-    status result = continuation_alloc(c, analysis, &o->of.continuation, &p, f);
+    status result = continuation_alloc(c, analysis, &o->left.continuation, &p, f);
     if (result == STATUS_OK)
         result = walk(&p, f);
     continuation_free(&p);

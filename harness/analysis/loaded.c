@@ -87,7 +87,7 @@ status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, faul
         e.positive.mu[i] = 1 / sqrt(e.positive.mu[i]);
         e.positive.error[i] /= 2; /* the root's */
     }
-    outcome_take(&e.positive, &o->of.spectrum.positive);
+    outcome_take(&e.positive, &o->left.spectrum.positive);
     eigen_free(&e);
     sparse_free_values(&M);
     newton_free(&n);
@@ -225,9 +225,9 @@ status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, f
     if (result == STATUS_OK)
         result = find_critical(&s, f);
     if (result == STATUS_OK) {
-        outcome_take(&s.found.positive, &o->of.spectrum.positive);
-        *o->of.spectrum.positive.value = s.estimate;
-        *o->of.spectrum.positive.error = 0; /* that of the eigenvalue is not the estimate's */
+        outcome_take(&s.found.positive, &o->left.spectrum.positive);
+        *o->left.spectrum.positive.value = s.estimate;
+        *o->left.spectrum.positive.error = 0; /* that of the eigenvalue is not the estimate's */
     }
     search_free(&s);
     return result;

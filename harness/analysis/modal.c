@@ -83,7 +83,7 @@ static void keep(const forms *about, eigen_side *side, analysis_outcome *o)
         side->mu[i] = square <= 1e-9 * about->shift ? 0 : sqrt(square);
         side->error[i] /= 2; /* the root's */
     }
-    outcome_take(side, &o->of.spectrum.positive);
+    outcome_take(side, &o->left.spectrum.positive);
 }
 
 /* A structure that is not held has K singular: K + shift M is not. */

@@ -259,7 +259,7 @@ status rotation_analysis(analysis_context *c, int analysis, analysis_outcome *o,
     TRY(static_analysis(c, analysis, o, f));
     if (!asks_for_modes(c, analysis, 0))
         return STATUS_OK;
-    const status outcome = modes_of(c, analysis, &a, &o->of.rotation, f);
+    const status outcome = modes_of(c, analysis, &a, &o->left.rotation, f);
     matrices_free(&a);
     return outcome;
 }

@@ -66,76 +66,76 @@ int outcome_has_spectrum(const analysis_outcome *o)
 const double *outcome_displacements(const analysis_outcome *o)
 {
     assert(o->kind == SCENE_LINEAR);
-    return o->of.x;
+    return o->left.x;
 }
 
 const outcome_spectrum *outcome_spectrum_of(const analysis_outcome *o)
 {
     assert(outcome_has_spectrum(o));
-    return &o->of.spectrum;
+    return &o->left.spectrum;
 }
 
 const outcome_path *outcome_path_of(const analysis_outcome *o)
 {
     switch (o->kind) {
     case SCENE_COMPLIANCE:
-        return &o->of.compliance.path;
+        return &o->left.compliance.path;
     case SCENE_CONTINUATION:
-        return &o->of.continuation.path;
+        return &o->left.continuation.path;
     case SCENE_ROTATION:
-        return &o->of.rotation.path;
+        return &o->left.rotation.path;
     default:
         assert(o->kind == SCENE_STATIC);
-        return &o->of.path;
+        return &o->left.path;
     }
 }
 
 const outcome_compliance *outcome_compliance_of(const analysis_outcome *o)
 {
     assert(o->kind == SCENE_COMPLIANCE);
-    return &o->of.compliance;
+    return &o->left.compliance;
 }
 
 const outcome_rotation *outcome_rotation_of(const analysis_outcome *o)
 {
     assert(o->kind == SCENE_ROTATION);
-    return &o->of.rotation;
+    return &o->left.rotation;
 }
 
 const outcome_continuation *outcome_continuation_of(const analysis_outcome *o)
 {
     assert(o->kind == SCENE_CONTINUATION);
-    return &o->of.continuation;
+    return &o->left.continuation;
 }
 
 outcome_path *outcome_walk(analysis_outcome *o)
 {
     assert(o->kind == SCENE_STATIC || o->kind == SCENE_ROTATION);
-    return o->kind == SCENE_STATIC ? &o->of.path : &o->of.rotation.path;
+    return o->kind == SCENE_STATIC ? &o->left.path : &o->left.rotation.path;
 }
 
 void outcome_free(analysis_outcome *o)
 {
     switch (o->kind) {
     case SCENE_LINEAR:
-        free(o->of.x);
+        free(o->left.x);
         break;
     case SCENE_STATIC:
-        free_path(&o->of.path);
+        free_path(&o->left.path);
         break;
     case SCENE_BUCKLING:
     case SCENE_MODAL:
-        free_side(&o->of.spectrum.positive);
-        free_side(&o->of.spectrum.negative);
+        free_side(&o->left.spectrum.positive);
+        free_side(&o->left.spectrum.negative);
         break;
     case SCENE_COMPLIANCE:
-        free_path(&o->of.compliance.path);
+        free_path(&o->left.compliance.path);
         break;
     case SCENE_CONTINUATION:
-        free_continuation(&o->of.continuation);
+        free_continuation(&o->left.continuation);
         break;
     case SCENE_ROTATION:
-        free_rotation(&o->of.rotation);
+        free_rotation(&o->left.rotation);
         break;
     }
 }

@@ -66,7 +66,7 @@ typedef struct analysis_outcome {
         outcome_compliance compliance;
         outcome_rotation rotation;
         outcome_continuation continuation;
-    } of;
+    } left;
 } analysis_outcome;
 
 /* What the kind leaves; another kind ends the program. */

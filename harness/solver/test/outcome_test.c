@@ -19,7 +19,7 @@ static void handed_over(status outcome, int rounding, const char *reason, const 
                        .status = outcome,
                        .rounding = rounding};
     analysis_outcome o = {.kind = SCENE_BUCKLING};
-    outcome_side *side = &o.of.spectrum.positive;
+    outcome_side *side = &o.left.spectrum.positive;
     snprintf(from.reason, sizeof from.reason, "%s", reason);
     outcome_take(&from, side);
     gsl_test(side->count != 1 || side->value != mu || side->mode != mode || side->error != error ||
