@@ -168,6 +168,9 @@ static void add_scene(cli_request *r, const char *path)
     if (r->scene_count == r->most_scenes)
         refuse(r->most_scenes == 1 ? "--scene is given twice; give it one value"
                                    : "too many --scene; give a folder");
+    for (int i = 0; i < r->scene_count; i++)
+        if (strcmp(r->scene_path[i], path) == 0)
+            refuse("--scene is given twice with one path; give it once");
     r->scene_path[r->scene_count++] = path;
 }
 
