@@ -124,20 +124,15 @@ static void write_undeformed(writer *w)
 static void write_point(writer *w, int analysis, double point)
 {
     const int increments = scene_walk_of(&w->s->analysis[analysis])->steps_between;
-    int behind_linear = 0;
     write_state(w, point, increments);
     for (int k = 0; k < w->s->quantities; k++)
         if (w->s->quantity[k].analysis == analysis &&
             path_points_asked(w->s, analysis, &w->s->quantity[k], point))
             answer_component(w, &w->s->quantity[k], point);
-    for (int k = 0; k < w->s->quantities; k++) {
-        if (w->s->quantity[k].analysis == analysis ||
-            !path_points_asked(w->s, analysis, &w->s->quantity[k], point))
-            continue;
-        if (behind_linear++)
-            write_state(w, point, 1);
-        answer_entry(w, &w->s->quantity[k], point);
-    }
+    for (int k = 0; k < w->s->quantities; k++)
+        if (w->s->quantity[k].analysis != analysis &&
+            path_points_asked(w->s, analysis, &w->s->quantity[k], point))
+            answer_entry(w, &w->s->quantity[k], point);
 }
 
 status answers_write(const scene *s, const body_numbers *bodies, FILE *to, fault *f)

@@ -52,8 +52,12 @@ void body_write(const body_numbers *b, const scene *s, const brick bricks[], FIL
 /* SCENE_FREE, SCENE_HELD or a driver. */
 static int mover(const scene_node *n, int component)
 {
-    return component < TRANSLATIONS ? n->translation[component]
-                                    : n->angle[component - TRANSLATIONS];
+    const int axis = rigid_single_axis(n), turn = component - TRANSLATIONS;
+    if (component < TRANSLATIONS)
+        return n->translation[component];
+    if (axis == SCENE_NONE)
+        return n->angle[turn];
+    return turn == axis ? n->angle[0] : SCENE_HELD;
 }
 
 /* path NULL: a small motion, in which they stay. */

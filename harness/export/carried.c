@@ -78,11 +78,13 @@ static status check_node(const scene *s, int node, fault *f)
     int driven = 0;
     for (int i = 0; i < 3; i++)
         driven += n->angle[i] >= 0;
-    if (n->rotation == SCENE_ROTATION_VECTOR || n->attached != SCENE_NONE)
+    if (n->rotation == SCENE_ROTATION_VECTOR || n->attached != SCENE_NONE ||
+        rigid_single_axis(n) != SCENE_NONE)
         return STATUS_OK;
     if (n->rotation != SCENE_ROTATION_SPATIAL)
         return fault_set(f, STATUS_REFUSED,
-                         "node %d: angles in sequence and forks are not written as solids", node);
+                         "node %d: several turns in sequence and forks are not written as solids",
+                         node);
     if (!large || held >= 2 || (held == 0 && driven == 0))
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
@@ -108,6 +110,7 @@ static status check_load(const scene *s, int load, fault *f)
                          "load %d: no solid ends at its node %d; put it on the body that moves",
                          load, l->where);
     if (l->kind == SCENE_MOMENT && carried_static(s) != SCENE_NONE &&
+        rigid_single_axis(&s->node[l->where]) == SCENE_NONE &&
         held_rotations(&s->node[l->where]) < 2)
         return fault_set(f, STATUS_REFUSED,
                          "load %d: a moment on a node that turns about any axis is another one for "

@@ -8,5 +8,7 @@
 int rigid_body(const scene *s, int node);
 /* Is it a body, or a node of its own, at which a member ends? */
 int rigid_moves(const scene *s, int node);
+/* One turn about x, y or z and no other: its axis 0, 1 or 2; SCENE_NONE: it turns otherwise. */
+int rigid_single_axis(const scene_node *n);
 
 #endif

@@ -2,6 +2,7 @@
 answers of CalculiX, where it is there, are those of beams and plates."""
 import csv
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -45,6 +46,12 @@ PATH = "{static: {stations: [0.5, 1]}}"
 def cantilever(force, kind="{linear: {}}"):
     text = CANTILEVER.replace("{force}", f"{force!r}")
     return text.replace("{kind}", kind) + (HELD if kind == PATH else "")
+
+
+def hinge():
+    """The crossed leaves with one stiffness of the loaded state."""
+    text = (EXAMPLES / "cross_flexure_hinge.yaml").read_text(encoding="utf-8")
+    return re.sub(r"^  k_y: .*\n", "", text, flags=re.M)
 
 
 def numbers(line):
@@ -126,6 +133,17 @@ class Decks(ExportTest):
                          "thickness=0.4e-3").read_text(encoding="utf-8")
         self.assertIn("leaf_spring_guide.yaml; thickness=0.0004\n", deck)
 
+    def test_one_turn(self):
+        """A sequence of one turn about z: driven there, held about x and y."""
+        deck = self.deck(self.scene(hinge()), "-n", "2").read_text(encoding="utf-8")
+        moment = re.search(r"^\*\*Q moment\|N m\|forces\|4\|(\d+)\|3\|", deck, re.M)
+        states = deck.split("*STEP,NLGEOM")[1:]
+        self.assertEqual(len(states), 4)
+        for state, angle in zip(states, (0.25, 0.5, 0.75, 1)):
+            cards = dict(re.findall(rf"^{moment[1]},(\d),\d,(\S+)$", state, re.M))
+            self.assertEqual((float(cards["1"]), float(cards["2"])), (0, 0))
+            self.assertAlmostEqual(float(cards["3"]) / np.deg2rad(20), angle, places=9)
+
     def test_what_is_not_carried(self):
         """One line, which names what it is; no file is left."""
         plain = cantilever(1.0)
@@ -137,6 +155,13 @@ class Decks(ExportTest):
             "Poisson": plain.replace("shear_modulus: 100e9", "shear_modulus: 1e9"),
             "along members": plain.replace("force: [1.0, 0, 0], on: tip",
                                            "distributed: [1, 0, 0], on: bar"),
+            "one stiffness of a loaded": cantilever(1.0, PATH).replace(
+                "quantities:", "  stiff: {compliance: {node: tip, about: run}}\nquantities:\n"
+                "  k_x: {stiffness: {analysis: stiff, component: ux}, unit: N/m}\n"
+                "  k_y: {stiffness: {analysis: stiff, component: uy}, unit: N/m}"),
+            "last station": cantilever(1.0, PATH).replace(
+                "quantities:", "  stiff: {compliance: {node: tip, about: run}}\nquantities:\n"
+                "  k_x: {stiffness: {analysis: stiff, component: ux, at: 0.5}, unit: N/m}"),
             "dead loads": plain.replace("on: tip", "on: tip, follower: true"),
             "none, two or all": cantilever(1.0, PATH).replace(
                 "at: [0.02, 0.1, 0]", "at: [0.02, 0.1, 0], hold: [rx]"),
