@@ -137,7 +137,7 @@ class Decks(ExportTest):
         """A sequence of one turn about z: driven there, held about x and y."""
         deck = self.deck(self.scene(hinge()), "-n", "2").read_text(encoding="utf-8")
         moment = re.search(r"^\*\*Q moment\|N m\|forces\|4\|(\d+)\|3\|", deck, re.M)
-        states = deck.split("*STEP,NLGEOM")[1:]
+        states = [step for step in deck.split("*STEP") if step.startswith(",NLGEOM")]
         self.assertEqual(len(states), 4)
         for state, angle in zip(states, (0.25, 0.5, 0.75, 1)):
             cards = dict(re.findall(rf"^{moment[1]},(\d),\d,(\S+)$", state, re.M))
