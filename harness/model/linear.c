@@ -144,8 +144,9 @@ static void geometric_of(model *m, int i, const double sigma[], double H[], doub
 status linear_geometric_stiffness(model *m, const double sigma[], double path, sparse *out,
                                   fault *f)
 {
-    (void)f;
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
+    if (out->symmetric)
+        TRY(loads_have_potential(m, m->rest, path, f));
     sparse_zero(out);
     for (int i = 0; i < m->elements; i++) {
         double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],

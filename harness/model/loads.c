@@ -10,6 +10,9 @@
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
 
+/* Asymmetry of a moment's stiffness that is round-off, in parts of the moment. */
+static const double potential = 1e-12;
+
 static double interpolate(int stations, const double at[], const double value[], double path)
 {
     if (path <= at[0])
@@ -103,6 +106,57 @@ static void into_sparse(void *K, int row, int column, double value)
 void loads_subtract_stiffness(const model *m, const model_state *s, double path, sparse *K)
 {
     loads_stiffness(m, s, path, into_sparse, K);
+}
+
+/* Entries of one load's stiffness at free coordinates: of one body, so few. */
+enum { MOST_ENTRIES = 64 };
+typedef struct entries_of_load {
+    int free, count, row[MOST_ENTRIES], column[MOST_ENTRIES];
+    double value[MOST_ENTRIES];
+} entries_of_load;
+
+static void into_list(void *context, int row, int column, double value)
+{
+    entries_of_load *e = context;
+    if (row < 0 || column < 0 || row >= e->free || column >= e->free || e->count == MOST_ENTRIES)
+        return;
+    e->row[e->count] = row;
+    e->column[e->count] = column;
+    e->value[e->count++] = value;
+}
+
+/* Largest |K_ij - K_ji|. */
+static double skew_of(const entries_of_load *e)
+{
+    double largest = 0;
+    for (int i = 0; i < e->count; i++) {
+        double sum = 0;
+        for (int k = 0; k < e->count; k++) {
+            const int same = e->row[k] == e->row[i] && e->column[k] == e->column[i],
+                      turned = e->row[k] == e->column[i] && e->column[k] == e->row[i];
+            sum += (same - turned) * e->value[k];
+        }
+        largest = fmax(largest, fabs(sum));
+    }
+    return largest;
+}
+
+status loads_have_potential(const model *m, const model_state *s, double path, fault *f)
+{
+    for (int i = 0; i < m->scene->loads; i++) {
+        const scene_load *load = &m->scene->load[i];
+        entries_of_load e = {.free = m->free};
+        if (load->kind != SCENE_MOMENT)
+            continue;
+        applied_stiffness(m, s, load, loads_factor(load, path), into_list, &e);
+        if (skew_of(&e) > potential * vec3_norm(load->vector))
+            return fault_set(f, STATUS_REFUSED,
+                             "load %d, a moment about fixed axes, has no potential at node %d, "
+                             "which turns freely about two axes across it: hold one of them, or "
+                             "follow a static path",
+                             i, load->where);
+    }
+    return STATUS_OK;
 }
 
 void loads_release_moment(const model *m, const model_state *s, int node, const double M[3],

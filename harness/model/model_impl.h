@@ -184,5 +184,7 @@ void loads_add(const model *m, const model_state *s, double path,
 /* What the loads add to K. */
 void loads_stiffness(const model *m, const model_state *s, double path, loads_entry, void *context);
 void loads_subtract_stiffness(const model *m, const model_state *s, double path, sparse *K);
+/* REFUSED: a moment whose stiffness is not symmetric, which a symmetric matrix cannot hold. */
+status loads_have_potential(const model *m, const model_state *s, double path, fault *f);
 
 #endif
