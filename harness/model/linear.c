@@ -34,7 +34,8 @@ static status evaluate(const model *m, int i, linear_element *out)
  * nothing is kept. */
 static status linear_of(model *m, int i, linear_element *out)
 {
-    const size_t J = (size_t)(m->strains * m->coordinates), S = (size_t)(m->strains * m->strains);
+    const size_t strains = (size_t)m->strains, J = strains * (size_t)m->coordinates,
+                 S = strains * strains;
     if (m->undeformed == NULL)
         m->undeformed = calloc((size_t)m->elements * (J + S + 1), sizeof *m->undeformed);
     double *kept = m->undeformed != NULL ? m->undeformed + (size_t)i * (J + S + 1) : NULL;

@@ -25,7 +25,8 @@ static void add_side(outline *out, const section_spec *spec, int k)
 {
     double(*corner)[2] = out->corner[out->walls++];
     for (int i = 0; i < 4; i++) {
-        const double angle = 2 * PI * (k + i / 2) / RING,
+        const int at = i < 2 ? k : k + 1;
+        const double angle = 2 * PI * at / RING,
                      r = spec->diameter / 2 - (i == 0 || i == 3 ? spec->wall_thickness : 0);
         corner[i][0] = r * cos(angle);
         corner[i][1] = r * sin(angle);
