@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "harness/algebra/eigen.h"
-#include "harness/model/linear.h"
-#include "harness/model/loads.h"
+#include "harness/equations/linear.h"
+#include "harness/equations/loads.h"
 #include "harness/solver/context.h"
 #include "harness/solver/linear_forms.h"
 #include "harness/solver/linear_system.h"

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "elements/math/pi.h"
+#include "harness/equations/linear.h"
 #include "harness/model/centreline.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/linear.h"
 #include "harness/solver/context.h"
 
 static int least(int a, int b)

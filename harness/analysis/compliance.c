@@ -5,9 +5,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "harness/equations/linearise.h"
+#include "harness/equations/loads.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/linearise.h"
-#include "harness/model/loads.h"
 #include "harness/solver/context.h"
 #include "harness/solver/convention.h"
 #include "harness/solver/tangent.h"

@@ -5,8 +5,8 @@
 
 #include "harness/analysis/continuation_extract.h"
 #include "harness/analysis/continuation_impl.h"
+#include "harness/equations/loads.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/loads.h"
 #include "harness/model/metric.h"
 #include "harness/solver/context.h"
 #include "harness/solver/newton.h"

@@ -9,8 +9,8 @@
 
 #include "elements/math/dense.h"
 #include "harness/algebra/eigen.h"
-#include "harness/model/linear.h"
-#include "harness/model/rotating_frame.h"
+#include "harness/equations/linear.h"
+#include "harness/equations/rotating_frame.h"
 #include "harness/solver/context.h"
 #include "harness/solver/linear_forms.h"
 #include "harness/solver/linear_system.h"

@@ -15,7 +15,7 @@
 #include "harness/analysis/modal.h"
 #include "harness/analysis/rotation.h"
 #include "harness/analysis/static.h"
-#include "harness/model/rotating_frame.h"
+#include "harness/equations/rotating_frame.h"
 #include "harness/solver/context.h"
 #include "harness/solver/singular.h"
 

@@ -5,8 +5,8 @@
 #include "harness/cli/cli.h"
 #include "harness/record/output.h"
 #include "harness/scene_file/key_list.h"
-#include "harness/scene_file/schema_file.h"
-#include "harness/scene_file/write.h"
+#include "harness/scene_writer/schema_file.h"
+#include "harness/scene_writer/write.h"
 #include "harness/study/cell.h"
 
 /* All mistakes, a line each; as JSON where that is the form of the output. */

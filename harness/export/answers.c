@@ -1,8 +1,8 @@
 #include "harness/export/answers.h"
 
+#include "harness/equations/loads.h"
 #include "harness/export/carried.h"
 #include "harness/export/path_points.h"
-#include "harness/model/loads.h"
 
 enum { COMPONENTS = 6, TRANSLATIONS = 3 };
 

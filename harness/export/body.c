@@ -1,7 +1,7 @@
 #include "harness/export/body.h"
 
+#include "harness/equations/loads.h"
 #include "harness/export/rigid.h"
-#include "harness/model/loads.h"
 
 enum { TRANSLATIONS = 3, COMPONENTS = 6 };
 

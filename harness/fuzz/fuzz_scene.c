@@ -6,7 +6,7 @@
 
 #include "harness/fuzz/fuzz.h"
 #include "harness/scene_file/scene_file.h"
-#include "harness/scene_file/write.h"
+#include "harness/scene_writer/write.h"
 
 /* The scene at its defaults as text, malloced; NULL: it cannot be written. */
 static char *written(const scene_file *file, size_t *size)

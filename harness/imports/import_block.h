@@ -3,7 +3,7 @@
 #define BEAMWORK_IMPORT_BLOCK_H
 
 #include "harness/imports/axes.h"
-#include "harness/scene_file/mistakes.h"
+#include "harness/language/mistakes.h"
 #include "harness/scene_file/scene_file.h"
 #include "harness/study/sweep.h"
 

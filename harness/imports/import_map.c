@@ -8,7 +8,7 @@
 
 #include "harness/imports/line_text.h"
 #include "harness/imports/map_keys.h"
-#include "harness/scene_file/document.h"
+#include "harness/language/document.h"
 
 enum { WORDS = 128, LAST = -1, ALL = 0 };
 

@@ -1,9 +1,8 @@
-/* Inside of a model, shared by the files of harness/model only. */
+/* Inside of a model, shared by the files of harness/model and harness/equations only. */
 #ifndef BEAMWORK_MODEL_IMPL_H
 #define BEAMWORK_MODEL_IMPL_H
 
 #include "harness/algebra/team.h"
-#include "harness/model/applied.h"
 #include "harness/model/model.h"
 
 enum { NONE = -1, VERTEX_COORDINATES = 6 };
@@ -156,11 +155,6 @@ void eliminate_forces(const model *m, const model_state *s, const mesh_element *
 void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el,
                       const double force[], double K[]);
 
-/* rotating_frame.c: force -= centrifugal force, K += its stiffness (NULL: not wanted), in element
- * coordinates; nothing where no frame turns. */
-status rotating_frame_add(model *m, const node_state x[], int element, double path, double force[],
-                          double K[], fault *f);
-
 /* assemble.c */
 void assemble_pattern_free(mesh_pattern *p);
 void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out);
@@ -170,21 +164,5 @@ void assemble_vector(const mesh_element *el, const double local[], double out[])
 double *assemble_entry(sparse *a, int row, int column); /* NULL when not stored */
 /* Nothing where it is not stored. */
 void assemble_subtract(sparse *a, int row, int column, double value);
-
-/* linearise.c: one element's part of model.work between linearise and advance. */
-typedef struct model_slot {
-    double *J, *C, *sigma, *incompatibility,
-        *memory; /* sigma = P'(e) + C incompatibility, incompatibility = D(x) - e */
-} model_slot;
-model_slot linearise_slot(const model *m, int element);
-
-/* loads.c */
-void loads_add(const model *m, const model_state *s, double path,
-               double out[]); /* [free + driven] */
-/* What the loads add to K. */
-void loads_stiffness(const model *m, const model_state *s, double path, loads_entry, void *context);
-void loads_subtract_stiffness(const model *m, const model_state *s, double path, sparse *K);
-/* REFUSED: a moment whose stiffness is not symmetric, which a symmetric matrix cannot hold. */
-status loads_have_potential(const model *m, const model_state *s, double path, fault *f);
 
 #endif

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/language/expression.h"
+#include "harness/language/range.h"
 #include "harness/scene_file/builder.h"
-#include "harness/scene_file/expression.h"
-#include "harness/scene_file/range.h"
 
 static const char *const list_name[LISTS] = {"sections", "nodes", "members",  "springs",
                                              "motions",  "loads", "analyses", "quantities"};

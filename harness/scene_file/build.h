@@ -3,7 +3,7 @@
 #define BEAMWORK_SCENE_BUILD_H
 
 #include "cases/scene/scene.h"
-#include "harness/scene_file/scope.h"
+#include "harness/language/scope.h"
 
 /* names: the parameters. The scene is valid where no mistake was found. The caller frees it in any case. */
 void build_scene(const document_node *root, const scope *names, arena *a, mistakes *m, scene *out);

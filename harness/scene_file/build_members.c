@@ -2,8 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "harness/language/range.h"
 #include "harness/scene_file/builder.h"
-#include "harness/scene_file/range.h"
 
 static int share(const fields *f, const document_node *name)
 {

@@ -1,8 +1,8 @@
 /* Nodes of a scene: supports, rigid bodies, rotations. */
 #include <string.h>
 
+#include "harness/language/expression.h"
 #include "harness/scene_file/builder.h"
-#include "harness/scene_file/expression.h"
 
 /* Components are along the axes of the scene: an instance that is turned has none of its own. */
 static void check_axes(const fields *f, const char *key, int components)

@@ -2,8 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "harness/language/units.h"
 #include "harness/scene_file/builder.h"
-#include "harness/scene_file/units.h"
 
 enum { MOST_ORDER = 100000 };
 

@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "harness/language/expression.h"
+#include "harness/language/section_names.h"
 #include "harness/scene_file/build_shapes.h"
 #include "harness/scene_file/builder.h"
-#include "harness/scene_file/expression.h"
-#include "harness/scene_file/section_names.h"
 
 /* Index of a point that a wall names; -1 after a mistake. */
 static int point_of(const fields *wall, const char *key, const document_node *points)

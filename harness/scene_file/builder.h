@@ -6,8 +6,8 @@
 #define BEAMWORK_SCENE_BUILDER_H
 
 #include "cases/scene/scene.h"
-#include "harness/scene_file/placement.h"
-#include "harness/scene_file/unroll.h"
+#include "harness/language/placement.h"
+#include "harness/language/unroll.h"
 
 typedef enum builder_list {
     LIST_SECTIONS,

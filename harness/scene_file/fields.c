@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "harness/catalogue/choice.h"
+#include "harness/language/expression.h"
+#include "harness/language/range.h"
 #include "harness/scene_file/builder.h"
-#include "harness/scene_file/expression.h"
-#include "harness/scene_file/range.h"
 
 const char fields_components[] = "ux|uy|uz|rx|ry|rz";
 

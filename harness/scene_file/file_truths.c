@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/language/expression.h"
 #include "harness/scene_file/build.h"
 #include "harness/scene_file/builder.h"
-#include "harness/scene_file/expression.h"
 #include "harness/scene_file/keys.h"
 #include "harness/scene_file/scene_file_impl.h"
 

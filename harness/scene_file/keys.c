@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "harness/catalogue/choice.h"
-#include "harness/scene_file/range.h"
+#include "harness/language/range.h"
 
 static const scene_key number[] = {{"", KEY_NUMBER, .summary = "an expression"}, {.name = NULL}};
 

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_SCENE_KEYS_H
 #define BEAMWORK_SCENE_KEYS_H
 
-#include "harness/scene_file/document.h"
+#include "harness/language/document.h"
 
 typedef enum key_kind {
     KEY_TEXT,    /* any text */

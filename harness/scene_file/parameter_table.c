@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "harness/catalogue/choice.h"
-#include "harness/scene_file/expression.h"
+#include "harness/language/expression.h"
+#include "harness/language/units.h"
 #include "harness/scene_file/scene_file_impl.h"
-#include "harness/scene_file/units.h"
 
 static const char *text_of(const document_node *entry, const char *key, const char *otherwise)
 {

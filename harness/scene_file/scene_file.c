@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/language/expression.h"
 #include "harness/scene_file/build.h"
-#include "harness/scene_file/expression.h"
 #include "harness/scene_file/keys.h"
 #include "harness/scene_file/scene_file_impl.h"
 

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 #include "cases/case.h"
-#include "harness/scene_file/mistakes.h"
+#include "harness/language/mistakes.h"
 #include "harness/truth/truths.h"
 
 typedef struct scene_file scene_file;

@@ -2,8 +2,8 @@
 #ifndef BEAMWORK_SCENE_FILE_IMPL_H
 #define BEAMWORK_SCENE_FILE_IMPL_H
 
+#include "harness/language/scope.h"
 #include "harness/scene_file/scene_file.h"
-#include "harness/scene_file/scope.h"
 
 struct scene_file {
     arena arena; /* of the document and of all texts */

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/equations/stiffness_parts.h"
 #include "harness/model/metric.h"
-#include "harness/model/stiffness_parts.h"
 #include "harness/solver/border.h"
 #include "harness/solver/refinement.h"
 

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/equations/linear.h"
+#include "harness/equations/rotating_frame.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/linear.h"
-#include "harness/model/rotating_frame.h"
 
 status linear_forms_alloc(model *m, const sparse *pattern, linear_forms *p, fault *f)
 {

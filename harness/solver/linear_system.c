@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "harness/algebra/clock.h"
+#include "harness/equations/linear.h"
+#include "harness/equations/loads.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/linear.h"
-#include "harness/model/loads.h"
 #include "harness/model/metric.h"
 #include "harness/solver/context.h"
 #include "harness/solver/refinement.h"

@@ -1,6 +1,6 @@
 #include "harness/solver/predictor.h"
 
-#include "harness/model/extrapolate.h"
+#include "harness/equations/extrapolate.h"
 #include "harness/model/kinematics.h"
 
 enum { SMOOTH_ITERATIONS = 4 };

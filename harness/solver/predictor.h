@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_PREDICTOR_H
 #define BEAMWORK_PREDICTOR_H
 
-#include "harness/model/extrapolate.h"
+#include "harness/equations/extrapolate.h"
 #include "harness/model/model.h"
 
 typedef struct predictor {

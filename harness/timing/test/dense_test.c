@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "harness/catalogue/formulations.h"
-#include "harness/model/uncondensed.h"
+#include "harness/equations/uncondensed.h"
 #include "harness/test/cells.h"
 #include "harness/timing/dense_reference.h"
 

@@ -1,0 +1,150 @@
+/* Loads on vertices: their directions and arms, and what they add to the stiffness. */
+#include "harness/equations/applied.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "harness/equations/equations_impl.h"
+#include "harness/model/kinematics.h"
+
+/* The undeformed member's axes, y as the scene gives it: the triad of an element's node, whose y and
+ * z are the principal ones of the section, turned back. */
+static void member_axes(const model *m, const mesh_element *el, int node, double R[9])
+{
+    const double angle = m->section[m->kind[el->kind].section].axes_angle, c = cos(angle),
+                 d = sin(angle);
+    memcpy(R, el->triad[node], 9 * sizeof(double));
+    for (int i = 0; i < 9; i += 3) {
+        const double y = R[i + 1];
+        R[i + 1] = c * y - d * R[i + 2];
+        R[i + 2] = c * R[i + 2] + d * y;
+    }
+}
+
+/* A load on one vertex. axes: those it is given in; NULL: fixed ones. */
+static applied of_vertex(const model_state *s, int vertex, const scene_load *load, double scale,
+                         const double axes[9])
+{
+    applied out = {.vertex = vertex, .follower = load->follower};
+    const int moment = load->kind == SCENE_MOMENT || load->kind == SCENE_DISTRIBUTED_MOMENT ? 3 : 0;
+    double v[3], at[3];
+    memcpy(v, load->vector, sizeof v);
+    memcpy(at, load->at, sizeof at);
+    if (axes != NULL) {
+        mat3_mul_vec(axes, load->vector, v);
+        mat3_mul_vec(axes, load->at, at);
+    }
+    out.offset = vec3_norm(at) > 0;
+    if (out.offset)
+        rotation_apply(&s->q[4 * vertex], at, out.arm);
+    if (load->follower) {
+        memcpy(at, v, sizeof at);
+        rotation_apply(&s->q[4 * vertex], at, v);
+    }
+    for (int i = 0; i < 3; i++)
+        out.F[moment + i] = scale * v[i];
+    return out;
+}
+
+/* Per length, of an element: 1, or its mass for gravity. */
+static double density_of(const model *m, const scene_load *load, const mesh_element *el)
+{
+    const section *c = &m->section[m->kind[el->kind].section];
+    return load->kind == SCENE_GRAVITY ? c->density * c->A : 1;
+}
+
+void applied_each(const model *m, const model_state *s, const scene_load *load, double scale,
+                  void (*take)(void *context, const applied *), void *context)
+{
+    static const double two[] = {0.5, 0.5}, three[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
+    if (!scene_load_along(load)) {
+        const applied one = of_vertex(s, load->where, load, scale, NULL);
+        take(context, &one);
+        return;
+    }
+    for (int i = m->first_element[load->where]; i < m->first_element[load->where + 1]; i++)
+        for (int k = 0; k < m->nodes; k++) {
+            const mesh_element *el = &m->element[i];
+            const double weight = scale * (m->nodes == 2 ? two : three)[k] *
+                                  m->kind[el->kind].length * density_of(m, load, el);
+            double axes[9];
+            if (load->axes == SCENE_AXES_MEMBER)
+                member_axes(m, el, k, axes);
+            const applied one = of_vertex(s, el->vertex[k], load, weight,
+                                          load->axes == SCENE_AXES_MEMBER ? axes : NULL);
+            take(context, &one);
+        }
+}
+
+/* Where entries of the stiffness go. */
+typedef struct entries {
+    const model *m;
+    const model_state *s;
+    loads_entry take;
+    void *to;
+} entries;
+
+/* How the generalised load of a force F at rho and a moment F + 3 that turn with the body changes
+ * with its turn about b: that of b x F and b x F[3..5]. */
+static void add_following(const entries *all, const mesh_vertex *body, const double F[6],
+                          const double rho[3], double b[3][3], int column)
+{
+    double force[3], moment[3], arm[3];
+    vec3_cross(b[column], F, force);
+    vec3_cross(b[column], F + 3, moment);
+    vec3_cross(rho, force, arm);
+    for (int i = 0; i < 3; i++) {
+        all->take(all->to, body->coordinate[i], body->coordinate[3 + column], force[i]);
+        all->take(all->to, body->coordinate[3 + i], body->coordinate[3 + column],
+                  vec3_dot(b[i], moment) + vec3_dot(b[i], arm));
+    }
+}
+
+/* Derivative of the generalised load of a force F at offset rho and a spatial moment on one
+ * body's rotations. */
+static void add_stiffness(void *context, const applied *what)
+{
+    const entries *all = context;
+    const double *F = what->F;
+    const mesh_vertex *v = &all->m->vertex[what->vertex], *body = &all->m->vertex[v->body];
+    double rho[3], D[9], moment[3] = {0, 0, 0}, b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    if (v->body == what->vertex && !what->offset && !what->follower && F[3] == 0 && F[4] == 0 &&
+        F[5] == 0)
+        return;
+    kinematics_offset(all->m, all->s, what->vertex, rho);
+    for (int i = 0; i < 3 && what->offset; i++)
+        rho[i] += what->arm[i];
+    const double dot = vec3_dot(F, rho);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            D[3 * i + j] = (F[i] * rho[j] + rho[i] * F[j]) / 2 - (i == j ? dot : 0);
+    if (body->angles > 0) {
+        kinematics_axes(all->m, all->s, v->body, b);
+        vec3_cross(rho, F, moment);
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            double Db[3], cross[3];
+            mat3_mul_vec(D, b[j], Db);
+            vec3_cross(b[j], b[i], cross);
+            double value = vec3_dot(b[i], Db);
+            if (body->angles >
+                0) /* conservative part symmetric, dead moment only through earlier axes */
+                value += (i > j ? 1 : -1) * vec3_dot(moment, cross) / 2 +
+                         (j < i ? vec3_dot(F + 3, cross) : 0);
+            else
+                value += vec3_dot(F + 3, cross) / 2;
+            all->take(all->to, body->coordinate[3 + i], body->coordinate[3 + j], value);
+        }
+    for (int j = 0; j < 3 && what->follower; j++)
+        add_following(all, body, F, rho, b, j);
+}
+
+void applied_stiffness(const model *m, const model_state *s, const scene_load *load, double scale,
+                       loads_entry take, void *to)
+{
+    entries all = {m, s, take, to};
+    applied_each(m, s, load, scale, add_stiffness, &all);
+}

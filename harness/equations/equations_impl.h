@@ -1,0 +1,29 @@
+/* What the files of harness/equations share. */
+#ifndef BEAMWORK_EQUATIONS_IMPL_H
+#define BEAMWORK_EQUATIONS_IMPL_H
+
+#include "harness/equations/applied.h"
+#include "harness/model/model_impl.h"
+
+/* rotating_frame.c: force -= centrifugal force, K += its stiffness (NULL: not wanted), in element
+ * coordinates; nothing where no frame turns. */
+status rotating_frame_add(model *m, const node_state x[], int element, double path, double force[],
+                          double K[], fault *f);
+
+/* linearise.c: one element's part of model.work between linearise and advance. */
+typedef struct model_slot {
+    double *J, *C, *sigma, *incompatibility,
+        *memory; /* sigma = P'(e) + C incompatibility, incompatibility = D(x) - e */
+} model_slot;
+model_slot linearise_slot(const model *m, int element);
+
+/* loads.c */
+void loads_add(const model *m, const model_state *s, double path,
+               double out[]); /* [free + driven] */
+/* What the loads add to K. */
+void loads_stiffness(const model *m, const model_state *s, double path, loads_entry, void *context);
+void loads_subtract_stiffness(const model *m, const model_state *s, double path, sparse *K);
+/* REFUSED: a moment whose stiffness is not symmetric, which a symmetric matrix cannot hold. */
+status loads_have_potential(const model *m, const model_state *s, double path, fault *f);
+
+#endif

@@ -1,0 +1,119 @@
+/* A first guess of the next state of a path: the parabola (or the line) through the last ones. */
+#include "harness/equations/extrapolate.h"
+
+#include <math.h>
+
+#include "elements/math/rotation.h"
+#include "harness/equations/equations_impl.h"
+#include "harness/equations/loads.h"
+
+/* Longest step to extrapolate over, relative to the last one; largest error of what is prescribed,
+ * relative to its own step. */
+static const double far = 1.5, bent = 0.25;
+
+/* Weights of the states in the polynomial through them, at `path`. */
+static void lagrange(int count, const model_state *const at[], double path, double weight[])
+{
+    for (int i = 0; i < count; i++) {
+        weight[i] = 1;
+        for (int k = 0; k < count; k++)
+            if (k != i)
+                weight[i] *= (path - at[k]->path) / (at[i]->path - at[k]->path);
+    }
+}
+
+static double combined(int count, const double weight[], const double value[])
+{
+    double sum = 0;
+    for (int i = 0; i < count; i++)
+        sum += weight[i] * value[i];
+    return sum;
+}
+
+/* Is the next value of something prescribed, value[count], near what the extrapolation takes it
+ * to? */
+static int continues(int count, const double weight[], const double value[])
+{
+    const double rounding = 1e-12 * (fabs(value[count]) + fabs(value[count - 1]) + fabs(value[0]));
+    return fabs(combined(count, weight, value) - value[count]) <=
+           bent * fabs(value[count] - value[count - 1]) + rounding;
+}
+
+/* Drivers and loads at the states' paths and at the next one. */
+static int smooth(const model *m, int count, const model_state *const at[], double path,
+                  const double weight[])
+{
+    double value[MODEL_EXTRAPOLATED + 1];
+    int good = 1;
+    for (int d = 0; d < m->scene->drivers; d++) {
+        const scene_driver *driver = &m->scene->driver[d];
+        if (driver->value == NULL)
+            continue;
+        for (int i = 0; i <= count; i++)
+            value[i] = loads_driver_value(driver, i < count ? at[i]->path : path);
+        good &= continues(count, weight, value);
+    }
+    for (int l = 0; l < m->scene->loads; l++) {
+        for (int i = 0; i <= count; i++)
+            value[i] = loads_factor(&m->scene->load[l], i < count ? at[i]->path : path);
+        good &= continues(count, weight, value);
+    }
+    return good;
+}
+
+/* Prescribed components of a spatial increment are those of their drivers: only so do they and the
+ * frame stay together. */
+static void prescribe(const model *m, const mesh_vertex *v, const model_state *last,
+                      const model_state *out, double turn[3])
+{
+    for (int c = 0; c < 3; c++) {
+        const int coordinate = v->coordinate[3 + c];
+        if (coordinate < m->free || v->vector_driver[0] != NONE)
+            continue;
+        turn[c] = 0;
+        for (int d = 0; d < m->scene->drivers; d++)
+            if (m->driver_coordinate[d] == coordinate)
+                turn[c] = out->driver[d] - last->driver[d];
+    }
+}
+
+/* From the last orientation along the rotation vector that the others lie on. */
+static void extrapolate_rotation(const model *m, int vertex, int count, const double weight[],
+                                 const model_state *const at[], model_state *out)
+{
+    const model_state *last = at[count - 1];
+    double turn[3] = {0}, step[4];
+    for (int i = 0; i + 1 < count; i++) {
+        double back[3];
+        rotation_between(&last->q[4 * vertex], &at[i]->q[4 * vertex], back);
+        for (int c = 0; c < 3; c++)
+            turn[c] += weight[i] * back[c];
+    }
+    prescribe(m, &m->vertex[vertex], last, out, turn);
+    rotation_exp(turn, step);
+    rotation_compose(step, &last->q[4 * vertex], &out->q[4 * vertex]);
+    rotation_normalise(&out->q[4 * vertex]);
+}
+
+int extrapolate_state(const model *m, int count, const model_state *const at[], double path,
+                      model_state *out)
+{
+    double weight[MODEL_EXTRAPOLATED];
+    const double step = path - at[count - 1]->path;
+    if (count < 2 || !(step <= far * (at[count - 1]->path - at[count - 2]->path)))
+        return 0;
+    lagrange(count, at, path, weight);
+    if (!smooth(m, count, at, path, weight))
+        return 0;
+    for (size_t k = 0; k < out->size; k++) {
+        double sum = 0;
+        for (int i = 0; i < count; i++)
+            sum += weight[i] * at[i]->block[k];
+        out->block[k] = sum;
+    }
+    for (int v = 0; v < m->vertices; v++)
+        if (m->vertex[v].body == v && m->vertex[v].angles == 0)
+            extrapolate_rotation(m, v, count, weight, at, out);
+    kinematics_follow(m, out);
+    return 1;
+}

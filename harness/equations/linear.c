@@ -1,0 +1,280 @@
+/* Linear analyses about the undeformed state, and quadratic forms taken from the strains: they cost
+ * no digits on fine meshes. */
+#include "harness/equations/linear.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/equations/equations_impl.h"
+#include "harness/equations/linear_springs.h"
+
+typedef struct linear_element {
+    double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
+        S[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
+} linear_element;
+
+static status evaluate(const model *m, int i, linear_element *out)
+{
+    const mesh_element *el = &m->element[i];
+    const element_data *data = m->kind[el->kind].data;
+    double e[ELEMENT_MAX_STRAINS] = {0}, inner[1] = {0};
+    node_state x[ELEMENT_MAX_NODES];
+    kinematics_gather(m, m->rest, el, x);
+    m->type->strain(data, x, &(strain_output){.e = e, .J = out->J});
+    return m->type->stress(data, e,
+                           m->inner > 0 ? &m->rest->inner[(size_t)i * (size_t)m->inner] : inner,
+                           &(stress_output){.C = out->S});
+}
+
+/* J, S of an element are evaluated once and kept in the model: the undeformed state never changes.
+ * (Not once per kind: J of equal elements differs in its last digits.) Without memory for it
+ * nothing is kept. */
+static status linear_of(model *m, int i, linear_element *out)
+{
+    const size_t strains = (size_t)m->strains, J = strains * (size_t)m->coordinates,
+                 S = strains * strains;
+    if (m->undeformed == NULL)
+        m->undeformed = calloc((size_t)m->elements * (J + S + 1), sizeof *m->undeformed);
+    double *kept = m->undeformed != NULL ? m->undeformed + (size_t)i * (J + S + 1) : NULL;
+    if (kept != NULL && kept[J + S] != 0) {
+        memcpy(out->J, kept, J * sizeof *kept);
+        memcpy(out->S, kept + J, S * sizeof *kept);
+        return STATUS_OK;
+    }
+    m->counters.strain_evaluations++;
+    m->counters.stress_evaluations++;
+    TRY(evaluate(m, i, out));
+    if (kept != NULL) {
+        memcpy(kept, out->J, J * sizeof *kept);
+        memcpy(kept + J, out->S, S * sizeof *kept);
+        kept[J + S] = 1;
+    }
+    return STATUS_OK;
+}
+
+static mesh_pattern *pattern_of(model *m, const sparse *a)
+{
+    return &m->pattern[a->row == m->pattern[1].matrix.row];
+}
+
+static status not_evaluated(const model *m, int i, status outcome, fault *f)
+{
+    return fault_set(
+        f, outcome, "element %d of member %d: its undeformed state is outside what %s can evaluate",
+        i, m->element[i].member, m->type->name);
+}
+
+status linear_stiffness(model *m, sparse *K, fault *f)
+{
+    double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
+    sparse_zero(K);
+    for (int i = 0; i < m->elements; i++) {
+        linear_element l;
+        double k[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES] = {0};
+        const status outcome = linear_of(m, i, &l);
+        if (outcome != STATUS_OK)
+            return not_evaluated(m, i, outcome, f);
+        dense_add_congruence(m->strains, m->coordinates, l.J, l.S, k, work);
+        eliminate_matrix(m, m->rest, &m->element[i], NULL, k);
+        assemble_matrix(pattern_of(m, K), i, k, K);
+    }
+    linear_springs_stiffness(m, K);
+    return STATUS_OK;
+}
+
+/* J x of one element. */
+static void linear_strains(model *m, int i, const linear_element *l, const double x[], double e[])
+{
+    double local[ELEMENT_MAX_COORDINATES];
+    kinematics_local(m, m->rest, &m->element[i], x, local);
+    dense_mul_vec(m->strains, m->coordinates, l->J, local, e);
+}
+
+status linear_stresses(model *m, const double x[], double sigma[], fault *f)
+{
+    for (int i = 0; i < m->elements; i++) {
+        linear_element l;
+        double e[ELEMENT_MAX_STRAINS];
+        const status outcome = linear_of(m, i, &l);
+        if (outcome != STATUS_OK)
+            return not_evaluated(m, i, outcome, f);
+        linear_strains(m, i, &l, x, e);
+        dense_mul_vec(m->strains, m->strains, l.S, e, &sigma[(size_t)i * (size_t)m->strains]);
+    }
+    linear_springs_stresses(m, x, sigma + m->elements * m->strains);
+    return STATUS_OK;
+}
+
+void linear_forces(model *m, const double sigma[], double f[])
+{
+    memset(f, 0, (size_t)(m->free + m->driven) * sizeof *f);
+    for (int i = 0; i < m->elements; i++) {
+        const element_data *data = m->kind[m->element[i].kind].data;
+        double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
+            force[ELEMENT_MAX_COORDINATES] = {0};
+        node_state x[ELEMENT_MAX_NODES];
+        kinematics_gather(m, m->rest, &m->element[i], x);
+        m->type->strain(data, x, &(strain_output){.J = J});
+        m->counters.strain_evaluations++;
+        dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
+                                &sigma[(size_t)i * (size_t)m->strains], force);
+        eliminate_forces(m, m->rest, &m->element[i], force);
+        assemble_vector(&m->element[i], force, f);
+    }
+    linear_springs_forces(m, sigma + m->elements * m->strains, f);
+}
+
+/* sum sigma_i H_i and G(sigma) of one element, in element coordinates; force = J^T sigma. */
+static void geometric_of(model *m, int i, const double sigma[], double H[], double G[], double J[])
+{
+    const mesh_element *el = &m->element[i];
+    const element_data *data = m->kind[el->kind].data;
+    node_state x[ELEMENT_MAX_NODES];
+    kinematics_gather(m, m->rest, el, x);
+    m->type->strain(data, x, &(strain_output){.J = J, .s = sigma, .H = H});
+    if (m->type->geometric != NULL)
+        m->type->geometric(data, sigma, G);
+    else
+        memset(G, 0, (size_t)(m->strains * m->strains) * sizeof *G);
+    m->counters.strain_evaluations++;
+}
+
+status linear_geometric_stiffness(model *m, const double sigma[], double path, sparse *out,
+                                  fault *f)
+{
+    double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
+    if (out->symmetric)
+        TRY(loads_have_potential(m, m->rest, path, f));
+    sparse_zero(out);
+    for (int i = 0; i < m->elements; i++) {
+        double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
+            G[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
+        double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
+            force[ELEMENT_MAX_COORDINATES] = {0};
+        const double *s = &sigma[(size_t)i * (size_t)m->strains];
+        geometric_of(m, i, s, H, G, J);
+        dense_add_congruence(m->strains, m->coordinates, J, G, H, work);
+        dense_add_transpose_mul(m->coordinates, m->strains, 1, J, s, force);
+        eliminate_matrix(m, m->rest, &m->element[i], force, H);
+        assemble_matrix(pattern_of(m, out), i, H, out);
+    }
+    loads_subtract_stiffness(m, m->rest, path, out);
+    linear_springs_geometric_stiffness(m, sigma + m->elements * m->strains, out);
+    return STATUS_OK;
+}
+
+/* Sums of the absolute terms of J x and, of S times them, of the stresses of one element. */
+static void linear_terms(model *m, int i, const double x[], double strain[], double stress[])
+{
+    linear_element l;
+    double local[ELEMENT_MAX_COORDINATES];
+    linear_of(m, i, &l);
+    kinematics_local(m, m->rest, &m->element[i], x, local);
+    for (int k = 0; k < m->strains; k++) {
+        strain[k] = 0;
+        for (int j = 0; j < m->coordinates; j++)
+            strain[k] += fabs(l.J[k * m->coordinates + j] * local[j]);
+    }
+    for (int k = 0; k < m->strains; k++) {
+        stress[k] = 0;
+        for (int j = 0; j < m->strains; j++)
+            stress[k] += fabs(l.S[k * m->strains + j]) * strain[j];
+    }
+}
+
+/* Strains are off by the rounding of their terms, S by that of its entries: errors of all elements
+ * alike, so they add up. */
+double linear_strain_rounding(model *m, const double x[])
+{
+    double sum = 0;
+    for (int i = 0; i < m->elements; i++) {
+        linear_element l;
+        double e[ELEMENT_MAX_STRAINS], terms[ELEMENT_MAX_STRAINS], ignored[ELEMENT_MAX_STRAINS];
+        linear_of(m, i, &l);
+        linear_strains(m, i, &l, x, e);
+        linear_terms(m, i, x, terms, ignored);
+        for (int k = 0; k < m->strains; k++) {
+            double sigma = 0, sigma_terms = 0;
+            for (int j = 0; j < m->strains; j++) {
+                sigma += l.S[k * m->strains + j] * e[j];
+                sigma_terms += fabs(l.S[k * m->strains + j] * e[j]);
+            }
+            sum += DBL_EPSILON * (2 * fabs(sigma) * terms[k] + fabs(e[k]) * sigma_terms);
+        }
+    }
+    return sum + linear_springs_rounding(m, x);
+}
+
+double linear_strain_energy2(model *m, const double x[])
+{
+    double sum = 0;
+    for (int i = 0; i < m->elements; i++) {
+        linear_element l;
+        double e[ELEMENT_MAX_STRAINS];
+        linear_of(m, i, &l);
+        linear_strains(m, i, &l, x, e);
+        sum += dense_quadratic(m->strains, l.S, e);
+    }
+    return sum + linear_springs_energy2(m, x);
+}
+
+/* x^T (sum sigma_i H_i + J^T G(sigma) J) x of one element. */
+static double geometric_energy2(model *m, int i, const double sigma[], const double x[])
+{
+    double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
+        G[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
+    double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0},
+                                                             local[ELEMENT_MAX_COORDINATES],
+                                                             e[ELEMENT_MAX_STRAINS];
+    geometric_of(m, i, sigma, H, G, J);
+    kinematics_local(m, m->rest, &m->element[i], x, local);
+    dense_mul_vec(m->strains, m->coordinates, J, local, e);
+    const double inside = dense_quadratic(m->strains, G, e);
+    if (m->element[i].plain)
+        return inside + dense_quadratic(m->coordinates, H, local);
+    /* Second derivatives of offsets and sequences act in the model's coordinates. */
+    double own[ELEMENT_MAX_COORDINATES];
+    for (int k = 0; k < m->coordinates; k++)
+        own[k] = m->element[i].index[k] == NONE ? 0 : x[m->element[i].index[k]];
+    dense_add_transpose_mul(m->coordinates, m->strains, 1, J, sigma, force);
+    eliminate_matrix(m, m->rest, &m->element[i], force, H);
+    return inside + dense_quadratic(m->coordinates, H, own);
+}
+
+double linear_geometric_energy2(model *m, const double sigma[], const double x[])
+{
+    double sum = 0;
+    for (int i = 0; i < m->elements; i++)
+        sum += geometric_energy2(m, i, &sigma[(size_t)i * (size_t)m->strains], x);
+    return sum + linear_springs_geometric_energy2(m, sigma + m->elements * m->strains, x);
+}
+
+/* The form is linear in the stresses: what is missing there is its own rounding. The stresses' is
+ * that of the terms they are made of, in whatever direction it falls: it has the size of a stress
+ * `other` of all kinds at once. */
+double linear_geometric_rounding(model *m, const double load_x[], const double sigma[],
+                                 const double x[])
+{
+    double square = 0;
+    for (int i = 0; i < m->elements; i++) {
+        const double *s = &sigma[(size_t)i * (size_t)m->strains];
+        double terms[ELEMENT_MAX_STRAINS], other[ELEMENT_MAX_STRAINS], both[ELEMENT_MAX_STRAINS],
+            largest = 0;
+        linear_terms(m, i, load_x, both, terms);
+        for (int k = 0; k < m->strains; k++)
+            largest = fmax(largest, terms[k]);
+        for (int k = 0; k < m->strains; k++) {
+            other[k] = largest * sin(1 + 2.3 * k);
+            both[k] = s[k] + other[k];
+        }
+        const double of_other = geometric_energy2(m, i, other, x),
+                     of_both = geometric_energy2(m, i, both, x);
+        const double missing =
+            fabs(of_both - of_other - geometric_energy2(m, i, s, x)) + DBL_EPSILON * fabs(of_other);
+        square += missing * missing;
+    }
+    return sqrt(square);
+}

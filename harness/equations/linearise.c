@@ -1,0 +1,327 @@
+/* Mixed linearisation and its update (N section 4): with J = de/dx and the independent e and sigma,
+ *   de = D(x) - e + J dx,   sigma + dsigma = P'(e) + P''(e) de,
+ * condensed element by element, so that stiff modes make no huge false stresses on the way. */
+#include "harness/equations/linearise.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "harness/equations/equations_impl.h"
+#include "harness/equations/loads.h"
+#include "harness/model/discrete.h"
+
+model_slot linearise_slot(const model *m, int element)
+{
+    model_slot w;
+    const int n = m->strains;
+    w.J = m->work + (size_t)element * (size_t)m->work_size;
+    w.C = w.J + n * m->coordinates;
+    w.sigma = w.C + n * n;
+    w.incompatibility = w.sigma + n;
+    w.memory = w.incompatibility + n;
+    return w;
+}
+
+/* e, sigma of an element from D(x): displacement-only Newton. */
+static status compatible_element(model *m, model_state *s, int i)
+{
+    const mesh_element *el = &m->element[i];
+    const element_data *data = m->kind[el->kind].data;
+    node_state x[ELEMENT_MAX_NODES];
+    kinematics_gather(m, s, el, x);
+    double *e = &s->e[(size_t)i * (size_t)m->strains],
+           *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
+    m->type->strain(data, x, &(strain_output){.e = e});
+    m->counters.strain_evaluations++;
+    m->counters.stress_evaluations++;
+    return m->type->stress(data, e, &s->inner[(size_t)i * (size_t)m->inner],
+                           &(stress_output){.sigma = sigma});
+}
+
+status linearise_make_compatible(model *m, model_state *s, fault *f)
+{
+    for (int i = 0; i < m->elements; i++) {
+        const status outcome = compatible_element(m, s, i);
+        if (outcome != STATUS_OK)
+            return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i,
+                             m->element[i].member, m->type->name);
+    }
+    return STATUS_OK;
+}
+
+/* Fills the slot; H: sum sigma_i H_i of the element in the state of its nodes x. */
+static status evaluate(model *m, const model_state *s, int i, const node_state x[], model_slot *w,
+                       double H[])
+{
+    const mesh_element *el = &m->element[i];
+    const element_data *data = m->kind[el->kind].data;
+    const double *e = &s->e[(size_t)i * (size_t)m->strains];
+    double deformed[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
+    m->type->strain(
+        data, x,
+        &(strain_output){.e = deformed,
+                         .J = w->J,
+                         .s = H != NULL ? &s->sigma[(size_t)i * (size_t)m->strains] : NULL,
+                         .H = H});
+    const status outcome = m->type->stress(
+        data, e, &s->inner[(size_t)i * (size_t)m->inner],
+        &(stress_output){.sigma = w->sigma, .C = w->C, .memory = m->memory > 0 ? w->memory : NULL});
+    for (int k = 0; k < m->strains; k++)
+        w->incompatibility[k] = deformed[k] - e[k];
+    dense_mul_vec(m->strains, m->strains, w->C, w->incompatibility, more);
+    for (int k = 0; k < m->strains; k++)
+        w->sigma[k] += more[k];
+    return outcome;
+}
+
+static double incompatibility_of(const model *m, const model_slot *w, double length)
+{
+    double largest = 0;
+    for (int k = 0; k < m->strains; k++)
+        largest = fmax(largest, fabs(w->incompatibility[k]) / length);
+    return largest;
+}
+
+/* Internal less centrifugal forces of the element and, where wanted, their tangent; both in model
+ * coordinates. */
+static status element_equations(model *m, const model_state *s, int i, int tangent, double path,
+                                double force[], double K[], double *incompatibility, fault *f)
+{
+    const mesh_element *el = &m->element[i];
+    model_slot w = linearise_slot(m, i);
+    double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
+    double present[ELEMENT_MAX_COORDINATES] = {0}; /* conjugate to sigma, which H belongs to */
+    node_state x[ELEMENT_MAX_NODES];
+    kinematics_gather(m, s, el, x);
+    const status outcome = evaluate(m, s, i, x, &w, tangent ? K : NULL);
+    if (outcome != STATUS_OK)
+        return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i,
+                         el->member, m->type->name);
+    memset(force, 0, (size_t)m->coordinates * sizeof *force);
+    if (m->rotates) {
+        TRY(rotating_frame_add(m, x, i, path, force, tangent ? K : NULL, f));
+        memcpy(present, force, (size_t)m->coordinates * sizeof *force);
+    }
+    dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, w.sigma, force);
+    if (tangent) {
+        dense_add_congruence(m->strains, m->coordinates, w.J, w.C, K, work);
+        if (!el->plain)
+            dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J,
+                                    &s->sigma[(size_t)i * (size_t)m->strains], present);
+        eliminate_matrix(m, s, el, present, K);
+    }
+    eliminate_forces(m, s, el, force);
+    *incompatibility = incompatibility_of(m, &w, m->kind[el->kind].length);
+    return STATUS_OK;
+}
+
+/* force += K drive for the element's prescribed coordinates. */
+static void add_driven(const model *m, const mesh_element *el, const double drive[],
+                       const double K[], double force[])
+{
+    const int n = NODE_COORDINATES * el->nodes;
+    for (int j = 0; j < n; j++) {
+        const double step = el->index[j] >= m->free ? drive[el->index[j]] : 0;
+        if (step == 0)
+            continue;
+        for (int i = 0; i < n; i++)
+            force[i] += K[i * n + j] * step;
+    }
+}
+
+/* Columns of the unknowns of conditions. */
+static void add_columns(const model *m, const mesh_element *el, const double K[],
+                        model_linearisation *lin)
+{
+    const int n = NODE_COORDINATES * el->nodes;
+    for (int c = 0; c < lin->conditions; c++) {
+        double *column = lin->column + c * (m->free + m->driven);
+        for (int j = 0; j < n; j++) {
+            if (el->index[j] != lin->condition[c].unknown)
+                continue;
+            for (int i = 0; i < n; i++)
+                if (el->index[i] != NONE)
+                    column[el->index[i]] += K[i * n + j];
+        }
+    }
+}
+
+/* What the threads of a team share. */
+typedef struct shared_loop {
+    model *m;
+    const model_state *s;
+    int tangent;
+    double path;
+} shared_loop;
+
+static void element_part_of(const shared_loop *loop, int i, element_part *out)
+{
+    out->outcome = element_equations(loop->m, loop->s, i, loop->tangent, loop->path, out->force,
+                                     out->K, &out->incompatibility, &out->why);
+}
+
+static void fill_parts(void *context, int first, int end)
+{
+    const shared_loop *loop = context;
+    for (int i = first; i < end; i++)
+        element_part_of(loop, i, &loop->m->part[i]);
+}
+
+/* The element's equations into those of the model, but for K. */
+static void add_part(model *m, const mesh_element *el, element_part *part, model_linearisation *lin)
+{
+    if (lin->drive != NULL)
+        add_driven(m, el, lin->drive, part->K, part->force);
+    add_columns(m, el, part->K, lin);
+    phases_lap(&m->phases, PHASE_ELEMENTS);
+    for (int k = 0; k < NODE_COORDINATES * el->nodes; k++)
+        part->force[k] = -part->force[k];
+    assemble_vector(el, part->force, lin->residual);
+    lin->incompatibility = fmax(lin->incompatibility, part->incompatibility);
+}
+
+static status add_discrete(model *m, const model_state *s, model_linearisation *lin, fault *f)
+{
+    for (int i = 0; i < m->discretes; i++) {
+        element_part part = {.incompatibility = 0};
+        TRY(discrete_equations(m, s, &m->discrete[i], lin->path, part.force, part.K, f));
+        add_part(m, &m->discrete[i].el, &part, lin);
+        if (lin->K != NULL)
+            assemble_discrete(&m->discrete[i].el, part.K, lin->K);
+    }
+    return STATUS_OK;
+}
+
+status linearise_state(model *m, const model_state *s, model_linearisation *lin, fault *f)
+{
+    element_part own, *part = &own;
+    const shared_loop loop = {m, s, lin->K != NULL || lin->drive != NULL || lin->conditions > 0,
+                              lin->path};
+    const mesh_pattern *p =
+        lin->K == NULL ? NULL : &m->pattern[lin->K->row == m->pattern[1].matrix.row];
+    const int together = m->team != NULL && !m->rotates; /* inertia counts its evaluations */
+    memset(lin->residual, 0, (size_t)(m->free + m->driven) * sizeof *lin->residual);
+    lin->incompatibility = 0;
+    if (lin->conditions > 0)
+        memset(lin->column, 0,
+               (size_t)(lin->conditions * (m->free + m->driven)) * sizeof *lin->column);
+    if (lin->K != NULL)
+        sparse_zero(lin->K);
+    if (together)
+        team_run(m->team, m->elements, fill_parts, (void *)&loop);
+    for (int i = 0; i < m->elements; i++) {
+        if (together)
+            part = &m->part[i];
+        else
+            element_part_of(&loop, i, part);
+        m->counters.strain_evaluations++;
+        m->counters.stress_evaluations++;
+        if (part->outcome != STATUS_OK)
+            return fault_set(f, part->outcome, "%s", part->why.text);
+        add_part(m, &m->element[i], part, lin);
+        if (p != NULL)
+            assemble_matrix(p, i, part->K, lin->K);
+        phases_lap(&m->phases, PHASE_ASSEMBLY);
+    }
+    TRY(add_discrete(m, s, lin, f));
+    loads_add(m, s, lin->path, lin->residual);
+    if (lin->K != NULL)
+        loads_subtract_stiffness(m, s, lin->path, lin->K);
+    phases_lap(&m->phases, PHASE_ASSEMBLY);
+    return STATUS_OK;
+}
+
+/* Strains, stresses and inner unknowns of one element. */
+static double advance_element(model *m, model_state *s, int i, const double dx[])
+{
+    const mesh_element *el = &m->element[i];
+    model_slot w = linearise_slot(m, i);
+    double local[ELEMENT_MAX_COORDINATES], de[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
+    double *e = &s->e[(size_t)i * (size_t)m->strains],
+           *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
+    kinematics_local(m, s, el, dx, local);
+    dense_mul_vec(m->strains, m->coordinates, w.J, local, de);
+    dense_mul_vec(m->strains, m->strains, w.C, de, more);
+    for (int k = 0; k < m->strains; k++) {
+        sigma[k] = w.sigma[k] + more[k];
+        de[k] += w.incompatibility[k];
+        e[k] += de[k];
+    }
+    if (m->type->update == NULL)
+        return 0;
+    return m->type->update(m->kind[el->kind].data, de, w.memory,
+                           &s->inner[(size_t)i * (size_t)m->inner]);
+}
+
+static double advance_vertex(const model *m, model_state *s, int index, const double dx[])
+{
+    const mesh_vertex *v = &m->vertex[index];
+    double d[6], q[4], largest = 0;
+    for (int c = 0; c < 6; c++)
+        d[c] = v->coordinate[c] == NONE ? 0 : dx[v->coordinate[c]];
+    for (int c = 0; c < 3; c++) {
+        s->u[3 * index + c] += d[c];
+        s->angle[3 * index + c] += d[3 + c];
+        largest = fmax(largest, fmax(fabs(d[c]) / m->size, fabs(d[3 + c])));
+    }
+    if (v->angles == 0) {
+        rotation_exp(d + 3, q);
+        rotation_compose(q, &s->q[4 * index], &s->q[4 * index]);
+        rotation_normalise(&s->q[4 * index]);
+    }
+    return largest;
+}
+
+double linearise_advance(model *m, model_state *s, const double dx[], double path)
+{
+    double largest = 0;
+    for (int i = 0; i < m->elements; i++)
+        largest = fmax(largest, advance_element(m, s, i, dx));
+    phases_lap(&m->phases, PHASE_ELEMENTS);
+    for (int i = 0; i < m->vertices; i++)
+        if (m->vertex[i].body == i)
+            largest = fmax(largest, advance_vertex(m, s, i, dx));
+    for (int i = 0; i < m->warps; i++) {
+        s->warp[i] += dx[m->warp[i].coordinate];
+        largest = fmax(largest, fabs(dx[m->warp[i].coordinate]) * m->size);
+    }
+    for (int d = 0; d < m->scene->drivers; d++)
+        if (m->driver_coordinate[d] != NONE)
+            s->driver[d] += dx[m->driver_coordinate[d]];
+        else if (m->scene->driver[d].value != NULL)
+            s->driver[d] = loads_driver_value(&m->scene->driver[d], path);
+    kinematics_follow(m, s);
+    s->path = path;
+    return largest;
+}
+
+void linearise_node_force(model *m, const model_state *s, int node, double F[6])
+{
+    memset(F, 0, 6 * sizeof(double));
+    for (int i = 0; i < m->elements; i++) {
+        const mesh_element *el = &m->element[i];
+        for (int k = 0; k < m->nodes; k++) {
+            if (m->vertex[el->vertex[k]].body != node)
+                continue;
+            node_state x[ELEMENT_MAX_NODES];
+            double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
+                force[ELEMENT_MAX_COORDINATES] = {0}, rho[3], moment[3];
+            kinematics_gather(m, s, el, x);
+            m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
+            dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
+                                    &s->sigma[(size_t)i * (size_t)m->strains], force);
+            rotating_frame_add(m, x, i, s->path, force, NULL,
+                               NULL); /* never fails in a state that has been reached */
+            kinematics_offset(m, s, el->vertex[k], rho);
+            vec3_cross(rho, force + NODE_COORDINATES * k, moment);
+            for (int c = 0; c < 3; c++) {
+                F[c] += force[NODE_COORDINATES * k + c];
+                F[3 + c] +=
+                    force[NODE_COORDINATES * k + 3 + c] + (el->vertex[k] == node ? 0 : moment[c]);
+            }
+        }
+    }
+    discrete_node_force(m, s, node, F);
+}

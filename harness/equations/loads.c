@@ -1,0 +1,296 @@
+/* Loads and drivers along the path. */
+#include "harness/equations/loads.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "harness/equations/applied.h"
+#include "harness/equations/equations_impl.h"
+#include "harness/model/kinematics.h"
+
+/* Asymmetry of a moment's stiffness that is round-off, in parts of the moment. */
+static const double potential = 1e-12;
+
+static double interpolate(int stations, const double at[], const double value[], double path)
+{
+    if (path <= at[0])
+        return value[0];
+    for (int i = 1; i < stations; i++)
+        if (path <= at[i]) {
+            const double t = (path - at[i - 1]) / (at[i] - at[i - 1]);
+            return t == 1 ? value[i] : value[i - 1] + t * (value[i] - value[i - 1]);
+        }
+    return value[stations - 1];
+}
+
+double loads_factor(const scene_load *load, double path)
+{
+    return load->stations > 0 ? interpolate(load->stations, load->path, load->factor, path) : path;
+}
+
+/* Derivative of the factor by the path parameter; at a station: of what follows. */
+static double rate_along_path(const scene_load *load, double path)
+{
+    if (load->stations == 0)
+        return 1;
+    for (int i = 1; i < load->stations; i++)
+        if (path >= load->path[i - 1] && path < load->path[i])
+            return (load->factor[i] - load->factor[i - 1]) / (load->path[i] - load->path[i - 1]);
+    return 0;
+}
+
+double loads_driver_value(const scene_driver *d, double path)
+{
+    return interpolate(d->stations, d->path, d->value, path);
+}
+
+/* What one load puts on vertices is added up. */
+typedef struct sum_of_loads {
+    const model *m;
+    const model_state *s;
+    double *out; /* [free + driven] */
+} sum_of_loads;
+
+static void add_applied(void *context, const applied *what)
+{
+    const sum_of_loads *sum = context;
+    int index[6];
+    double T[36], F[6], moment[3];
+    const int n = kinematics_node_jacobian(sum->m, sum->s, what->vertex, 6, index, T);
+    memcpy(F, what->F, sizeof F);
+    if (what->offset) {
+        vec3_cross(what->arm, F, moment);
+        for (int i = 0; i < 3; i++)
+            F[3 + i] += moment[i];
+    }
+    for (int k = 0; k < n; k++)
+        for (int i = 0; i < 6; i++)
+            sum->out[index[k]] += T[i * n + k] * F[i];
+}
+
+static void add_load(const model *m, const model_state *s, const scene_load *load, double scale,
+                     double out[])
+{
+    sum_of_loads sum = {m, s, out};
+    applied_each(m, s, load, scale, add_applied, &sum);
+}
+
+void loads_add(const model *m, const model_state *s, double path, double out[])
+{
+    for (int i = 0; i < m->scene->loads; i++)
+        add_load(m, s, &m->scene->load[i], loads_factor(&m->scene->load[i], path), out);
+}
+
+void loads_rate(const model *m, const model_state *s, double path, double out[])
+{
+    memset(out, 0, (size_t)(m->free + m->driven) * sizeof *out);
+    for (int i = 0; i < m->scene->loads; i++)
+        add_load(m, s, &m->scene->load[i], rate_along_path(&m->scene->load[i], path), out);
+}
+
+void loads_stiffness(const model *m, const model_state *s, double path, loads_entry take,
+                     void *context)
+{
+    for (int i = 0; i < m->scene->loads; i++)
+        applied_stiffness(m, s, &m->scene->load[i], loads_factor(&m->scene->load[i], path), take,
+                          context);
+}
+
+static void into_sparse(void *K, int row, int column, double value)
+{
+    assemble_subtract(K, row, column, value);
+}
+
+void loads_subtract_stiffness(const model *m, const model_state *s, double path, sparse *K)
+{
+    loads_stiffness(m, s, path, into_sparse, K);
+}
+
+/* Entries of one load's stiffness at free coordinates: of one body, so few. */
+enum { MOST_ENTRIES = 64 };
+typedef struct entries_of_load {
+    int free, count, row[MOST_ENTRIES], column[MOST_ENTRIES];
+    double value[MOST_ENTRIES];
+} entries_of_load;
+
+static void into_list(void *context, int row, int column, double value)
+{
+    entries_of_load *e = context;
+    if (row < 0 || column < 0 || row >= e->free || column >= e->free || e->count == MOST_ENTRIES)
+        return;
+    e->row[e->count] = row;
+    e->column[e->count] = column;
+    e->value[e->count++] = value;
+}
+
+/* Largest |K_ij - K_ji|. */
+static double skew_of(const entries_of_load *e)
+{
+    double largest = 0;
+    for (int i = 0; i < e->count; i++) {
+        double sum = 0;
+        for (int k = 0; k < e->count; k++) {
+            const int same = e->row[k] == e->row[i] && e->column[k] == e->column[i],
+                      turned = e->row[k] == e->column[i] && e->column[k] == e->row[i];
+            sum += (same - turned) * e->value[k];
+        }
+        largest = fmax(largest, fabs(sum));
+    }
+    return largest;
+}
+
+status loads_have_potential(const model *m, const model_state *s, double path, fault *f)
+{
+    for (int i = 0; i < m->scene->loads; i++) {
+        const scene_load *load = &m->scene->load[i];
+        entries_of_load e = {.free = m->free};
+        if (load->kind != SCENE_MOMENT)
+            continue;
+        applied_stiffness(m, s, load, loads_factor(load, path), into_list, &e);
+        if (skew_of(&e) > potential * vec3_norm(load->vector))
+            return fault_set(f, STATUS_REFUSED,
+                             "load %d, a moment about fixed axes, has no potential at node %d, "
+                             "which turns freely about two axes across it: hold one of them, or "
+                             "follow a static path",
+                             i, load->where);
+    }
+    return STATUS_OK;
+}
+
+void loads_release_moment(const model *m, const model_state *s, int node, const double M[3],
+                          sparse *K)
+{
+    const mesh_vertex *v = &m->vertex[node];
+    double b[3][3];
+    if (v->angles == 0)
+        return;
+    kinematics_axes(m, s, node, b);
+    for (int i = 0; i < v->angles; i++)
+        for (int j = i + 1; j < v->angles; j++) {
+            double cross[3];
+            vec3_cross(b[i], b[j], cross);
+            assemble_subtract(K, v->coordinate[3 + i], v->coordinate[3 + j],
+                              vec3_dot(M, cross) / 2);
+            assemble_subtract(K, v->coordinate[3 + j], v->coordinate[3 + i],
+                              vec3_dot(M, cross) / 2);
+        }
+}
+
+/* What acts on the frame of one node is added up. */
+typedef struct sum_at_node {
+    const model *m;
+    const model_state *s;
+    int node;
+    double *F; /* [6] */
+} sum_at_node;
+
+static void add_at_node(void *context, const applied *what)
+{
+    const sum_at_node *sum = context;
+    double rho[3], moment[3];
+    if (sum->m->vertex[what->vertex].body != sum->node)
+        return;
+    kinematics_offset(sum->m, sum->s, what->vertex, rho);
+    for (int k = 0; k < 3 && what->offset; k++)
+        rho[k] += what->arm[k];
+    vec3_cross(rho, what->F, moment);
+    const int away = what->vertex != sum->node || what->offset;
+    for (int k = 0; k < 6; k++)
+        sum->F[k] += what->F[k] + (k >= 3 && away ? moment[k - 3] : 0);
+}
+
+void loads_at_node(const model *m, const model_state *s, int node, double F[6])
+{
+    sum_at_node sum = {m, s, node, F};
+    memset(F, 0, 6 * sizeof(double));
+    for (int i = 0; i < m->scene->loads; i++)
+        applied_each(m, s, &m->scene->load[i], loads_factor(&m->scene->load[i], s->path),
+                     add_at_node, &sum);
+}
+
+void loads_drive(const model *m, const model_state *s, double path, double dx[])
+{
+    for (int d = 0; d < m->scene->drivers; d++)
+        if (m->scene->driver[d].value != NULL && m->driver_coordinate[d] >= m->free)
+            dx[m->driver_coordinate[d]] =
+                loads_driver_value(&m->scene->driver[d], path) - s->driver[d];
+    for (int i = 0; i < m->scene->nodes; i++) {
+        const mesh_vertex *v = &m->vertex[i];
+        if (v->vector_driver[0] == NONE || v->body != i)
+            continue;
+        double target[3], q[4], turn[3];
+        for (int k = 0; k < 3; k++)
+            target[k] = loads_driver_value(&m->scene->driver[v->vector_driver[k]], path);
+        rotation_exp(target, q);
+        rotation_between(&s->q[4 * i], q, turn);
+        for (int k = 0; k < 3; k++)
+            dx[v->coordinate[3 + k]] = turn[k];
+    }
+}
+
+int loads_conditions(const model *m, const model_state *s, double path,
+                     model_condition out[MODEL_MAX_CONDITIONS])
+{
+    int count = 0;
+    for (int d = 0; d < m->scene->drivers && count < MODEL_MAX_CONDITIONS; d++) {
+        const scene_driver *u = &m->scene->driver[d];
+        if (u->value != NULL || m->driver_coordinate[d] == NONE)
+            continue;
+        out[count].unknown = m->driver_coordinate[d];
+        out[count].coordinate = m->driver_coordinate[u->condition_driver];
+        out[count++].increment = loads_driver_value(&m->scene->driver[u->condition_driver], path) -
+                                 s->driver[u->condition_driver];
+    }
+    return count;
+}
+
+void loads_reference(const model *m, double path, double f[])
+{
+    memset(f, 0, (size_t)(m->free + m->driven) * sizeof *f);
+    loads_add(m, m->rest, path, f);
+}
+
+int loads_begin(const model *m)
+{
+    int begin = 0;
+    for (int i = 0; i < m->scene->loads; i++)
+        begin |= loads_factor(&m->scene->load[i], 0) != 0;
+    for (int d = 0; d < m->scene->drivers; d++)
+        begin |=
+            m->scene->driver[d].value != NULL && loads_driver_value(&m->scene->driver[d], 0) != 0;
+    return begin;
+}
+
+/* Of stations between 0 and 1 all lie on the line from the value at 0 to that at 1. */
+static int is_straight(int stations, const double path[], const double value[])
+{
+    for (int i = 0; i < stations; i++) {
+        const double first = interpolate(stations, path, value, 0),
+                     last = interpolate(stations, path, value, 1),
+                     line = first + path[i] * (last - first);
+        if (path[i] > 0 && path[i] < 1 &&
+            !(fabs(value[i] - line) <= 1e-12 * (fabs(first) + fabs(last))))
+            return 0;
+    }
+    return 1;
+}
+
+status loads_proportional(const model *m, fault *f)
+{
+    static const char words[] =
+        "from path 0 to 1 its values are not on a line: the critical load of "
+        "a linear prestress has no sense; follow a static path";
+    for (int i = 0; i < m->scene->loads; i++) {
+        const scene_load *load = &m->scene->load[i];
+        if (load->stations > 0 && !is_straight(load->stations, load->path, load->factor))
+            return fault_set(f, STATUS_REFUSED, "load %d: %s", i, words);
+    }
+    for (int d = 0; d < m->scene->drivers; d++) {
+        const scene_driver *driver = &m->scene->driver[d];
+        if (driver->value != NULL && !is_straight(driver->stations, driver->path, driver->value))
+            return fault_set(f, STATUS_REFUSED, "driver %s: %s", driver->name, words);
+    }
+    return STATUS_OK;
+}

@@ -1,0 +1,112 @@
+/* A frame that turns steadily: what it does to elements, and the matrices of small motions in it (J
+ * Eq. 76). */
+#include "harness/equations/rotating_frame.h"
+
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/equations/equations_impl.h"
+#include "harness/model/discrete.h"
+
+void rotating_frame_set(model *m, const double omega[3], const double centre[3], int follows_path)
+{
+    memcpy(m->rotation.omega, omega, sizeof m->rotation.omega);
+    memcpy(m->rotation.centre, centre, sizeof m->rotation.centre);
+    m->rotation_follows_path = follows_path;
+    m->rotates = omega[0] != 0 || omega[1] != 0 || omega[2] != 0;
+}
+
+static status inertia_at(model *m, const node_state x[], int i, double path, inertia_output *out,
+                         fault *f)
+{
+    const element_spin spin = model_spin(m, path);
+    const status outcome =
+        m->type->inertia(m->kind[m->element[i].kind].data, x, m->rotates ? &spin : NULL, out);
+    m->counters.inertia_evaluations++;
+    return outcome == STATUS_OK
+               ? outcome
+               : fault_set(f, outcome, "element %d of member %d: its inertia cannot be evaluated",
+                           i, m->element[i].member);
+}
+
+status rotating_frame_add(model *m, const node_state x[], int i, double path, double force[],
+                          double K[], fault *f)
+{
+    double centrifugal[ELEMENT_MAX_COORDINATES],
+        N[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
+    if (!m->rotates)
+        return STATUS_OK;
+    TRY(inertia_at(m, x, i, path,
+                   &(inertia_output){.force = centrifugal, .N = K != NULL ? N : NULL}, f));
+    for (int k = 0; k < m->coordinates; k++)
+        force[k] -= centrifugal[k];
+    if (K != NULL)
+        for (int k = 0; k < m->coordinates * m->coordinates; k++)
+            K[k] += N[k];
+    return STATUS_OK;
+}
+
+status rotating_frame_inertia(model *m, const model_state *state, double path, sparse *M, sparse *G,
+                              fault *f)
+{
+    const model_state *s = state != NULL ? state : m->rest;
+    const mesh_pattern *p = &m->pattern[M->row == m->pattern[1].matrix.row];
+    double mass[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
+        gyroscopic[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
+    sparse_zero(M);
+    if (G != NULL)
+        sparse_zero(G);
+    for (int i = 0; i < m->elements; i++) {
+        node_state x[ELEMENT_MAX_NODES];
+        kinematics_gather(m, s, &m->element[i], x);
+        TRY(inertia_at(m, x, i, path,
+                       &(inertia_output){.M = mass, .G = G != NULL ? gyroscopic : NULL}, f));
+        eliminate_matrix(m, s, &m->element[i], NULL, mass);
+        assemble_matrix(p, i, mass, M);
+        if (G == NULL)
+            continue;
+        eliminate_matrix(m, s, &m->element[i], NULL, gyroscopic);
+        assemble_matrix(p, i, gyroscopic, G);
+    }
+    discrete_inertia(m, s, path, M, G);
+    return STATUS_OK;
+}
+
+void rotating_frame_load_stiffness(const model *m, const model_state *s, double path, sparse *out)
+{
+    sparse_zero(out);
+    loads_subtract_stiffness(m, s, path, out);
+}
+
+status rotating_frame_tangent_energy2(model *m, const model_state *s, double path, const double x[],
+                                      double *energy)
+{
+    enum { X = ELEMENT_MAX_COORDINATES, E = ELEMENT_MAX_STRAINS };
+    *energy = 0;
+    for (int i = 0; i < m->elements; i++) {
+        const mesh_element *el = &m->element[i];
+        const element_data *data = m->kind[el->kind].data;
+        const double *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
+        node_state at[ELEMENT_MAX_NODES];
+        double J[E * X], C[E * E], H[X * X], force[X] = {0}, local[X], e[E], own[X];
+        kinematics_gather(m, s, el, at);
+        m->type->strain(data, at, &(strain_output){.J = J, .s = sigma, .H = H});
+        const status outcome =
+            m->type->stress(data, &s->e[(size_t)i * (size_t)m->strains],
+                            &s->inner[(size_t)i * (size_t)m->inner], &(stress_output){.C = C});
+        m->counters.strain_evaluations++;
+        m->counters.stress_evaluations++;
+        dense_add_transpose_mul(m->coordinates, m->strains, 1, J, sigma, force);
+        TRY(outcome);
+        TRY(rotating_frame_add(m, at, i, path, force, H, NULL));
+        kinematics_local(m, s, el, x, local);
+        dense_mul_vec(m->strains, m->coordinates, J, local, e);
+        eliminate_matrix(m, s, el, force, H);
+        for (int k = 0; k < m->coordinates; k++)
+            own[k] = el->index[k] == NONE ? 0 : x[el->index[k]];
+        *energy += dense_quadratic(m->strains, C, e) +
+                   dense_quadratic(m->coordinates, H, el->plain ? local : own);
+    }
+    *energy += discrete_energy2(m, s, path, x);
+    return STATUS_OK;
+}

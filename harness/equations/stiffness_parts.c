@@ -1,0 +1,53 @@
+/* The tangent of the last linearisation as a stiff and a soft part, for residuals that keep their
+ * digits. */
+#include "harness/equations/stiffness_parts.h"
+
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/equations/equations_impl.h"
+#include "harness/model/discrete.h"
+
+void stiffness_parts_material_product(const model *m, const model_state *s, const double x[],
+                                      double y[])
+{
+    for (int i = 0; i < m->elements; i++) {
+        const mesh_element *el = &m->element[i];
+        const model_slot w = linearise_slot(m, i);
+        double local[ELEMENT_MAX_COORDINATES], e[ELEMENT_MAX_STRAINS], sigma[ELEMENT_MAX_STRAINS],
+            force[ELEMENT_MAX_COORDINATES] = {0};
+        kinematics_local(m, s, el, x, local);
+        dense_mul_vec(m->strains, m->coordinates, w.J, local, e);
+        dense_mul_vec(m->strains, m->strains, w.C, e, sigma);
+        dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, sigma, force);
+        eliminate_forces(m, s, el, force);
+        assemble_vector(el, force, y);
+    }
+    discrete_material_product(m, s, x, y);
+}
+
+status stiffness_parts_geometric(model *m, const model_state *s, sparse *G, fault *f)
+{
+    const mesh_pattern *p = &m->pattern[G->row == m->pattern[1].matrix.row];
+    sparse_zero(G);
+    for (int i = 0; i < m->elements; i++) {
+        const mesh_element *el = &m->element[i];
+        const model_slot w = linearise_slot(m, i);
+        const double *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
+        node_state x[ELEMENT_MAX_NODES];
+        double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
+            present[ELEMENT_MAX_COORDINATES] = {0};
+        kinematics_gather(m, s, el, x);
+        m->type->strain(m->kind[el->kind].data, x, &(strain_output){.s = sigma, .H = H});
+        m->counters.strain_evaluations++;
+        if (m->rotates) {
+            TRY(rotating_frame_add(m, x, i, s->path, present, H, f));
+        }
+        dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, sigma, present);
+        eliminate_matrix(m, s, el, present, H);
+        assemble_matrix(p, i, H, G);
+    }
+    discrete_geometric(m, s, s->path, G);
+    loads_subtract_stiffness(m, s, s->path, G);
+    return STATUS_OK;
+}

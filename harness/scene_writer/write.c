@@ -1,0 +1,69 @@
+#include "harness/scene_writer/write.h"
+
+#include "harness/scene_writer/write_impl.h"
+
+static void write_needs(writer *w)
+{
+    static const struct {
+        unsigned feature;
+        const char *word;
+    } all[] = {{FEATURE_SHEAR, "shear"},
+               {FEATURE_TRAPEZE, "trapeze"},
+               {FEATURE_WAGNER_MOMENTS, "wagner_moments"},
+               {FEATURE_WAGNER_TORQUE, "wagner_torque"},
+               {FEATURE_ROTARY_INERTIA, "rotary_inertia"},
+               {FEATURE_WARPING, "warping"},
+               {FEATURE_ENGESSER, "engesser"},
+               {FEATURE_HARINGX, "haringx"}};
+    unsigned rest = w->scene->needs;
+    const char *comma = "";
+    fputs("needs: [", w->to);
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (rest & all[i].feature) {
+            fprintf(w->to, "%s%s", comma, all[i].word);
+            comma = ", ";
+            rest &= ~all[i].feature;
+        }
+    fputs("]\n", w->to);
+    w->unwritable |= rest != 0;
+}
+
+static void write_meshes(writer *w)
+{
+    fputs("meshes: [", w->to);
+    for (int i = 0; i < w->scene->meshes; i++)
+        fprintf(w->to, "%s%d", i > 0 ? ", " : "", w->scene->mesh[i]);
+    fputs("]\n", w->to);
+}
+
+static void write_line(writer *w, const char *key, const char *text)
+{
+    if (text == NULL || text[0] == '\0')
+        return;
+    fprintf(w->to, "%s: ", key);
+    write_quoted(w, text);
+    fputc('\n', w->to);
+}
+
+status write_scene(FILE *to, const scene *s, const write_head *head, fault *f)
+{
+    writer w = {.to = to, .scene = s};
+    fprintf(to, "beamwork: 1\nname: %s\n", head->name);
+    write_line(&w, "summary", head->summary);
+    write_line(&w, "source", head->source);
+    write_sections(&w);
+    write_nodes(&w);
+    write_members(&w);
+    write_springs(&w);
+    write_motions(&w);
+    write_loads(&w);
+    write_analyses(&w);
+    write_quantities(&w);
+    write_needs(&w);
+    write_meshes(&w);
+    return w.unwritable ? fault_set(f, STATUS_REFUSED,
+                                    "%s: a number is infinite, or a physics has no word; no scene "
+                                    "file can say it",
+                                    head->name)
+                        : STATUS_OK;
+}

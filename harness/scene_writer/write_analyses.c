@@ -1,0 +1,234 @@
+/* Analyses and quantities of a scene file. */
+#include <string.h>
+
+#include "harness/scene_writer/write_impl.h"
+
+static int spins(const scene_spin *spin)
+{
+    for (int i = 0; i < 3; i++)
+        if (spin->omega[i] != 0 || spin->centre[i] != 0)
+            return 1;
+    return 0;
+}
+
+static void write_spin(writer *w, const scene_spin *spin)
+{
+    if (!spins(spin))
+        return;
+    fputs(", spin: {omega: ", w->to);
+    write_numbers(w, 3, spin->omega);
+    fputs(", centre: ", w->to);
+    write_numbers(w, 3, spin->centre);
+    fputc('}', w->to);
+}
+
+static void write_walk(writer *w, const scene_analysis *a)
+{
+    const scene_walk *walk = scene_walk_of(a);
+    const int rotation = a->kind == SCENE_ROTATION;
+    if (rotation) {
+        fputs("rotation: {omega: ", w->to);
+        write_numbers(w, 3, walk->spin.omega);
+        fputs(", centre: ", w->to);
+        write_numbers(w, 3, walk->spin.centre);
+    }
+    fputs(rotation ? ", stations: " : "static: {stations: ", w->to);
+    write_numbers(w, walk->path.stations, walk->path.value);
+    write_if(w, "steps", walk->steps_between, 1);
+    if (rotation)
+        write_if(w, "wanted", walk->modes, 0);
+    else
+        write_spin(w, &walk->spin);
+}
+
+static void write_compliance(writer *w, const scene_analysis *a)
+{
+    const scene_compliance *c = scene_compliance_of(a);
+    int count = 0;
+    fprintf(w->to, "compliance: {node: node_%d, moments: %s", c->node,
+            scene_moments_name(c->moments));
+    for (int i = 0; i < 6; i++)
+        if (c->released >> i & 1u)
+            fprintf(w->to, "%s%s", count++ == 0 ? ", released: [" : ", ", write_component[i]);
+    fputs(count > 0 ? "]" : "", w->to);
+    if (a->follows != SCENE_NONE)
+        fprintf(w->to, ", about: analysis_%d", a->follows);
+}
+
+static void write_continuation(writer *w, const scene_analysis *a)
+{
+    const scene_continuation *c = scene_continuation_of(a);
+    fprintf(w->to,
+            "continuation: {control: {node: node_%d, component: %s}, by: %s, to: ", c->control.node,
+            write_component[c->control.component], c->control.by_arc ? "arc" : "coordinate");
+    write_numbers(w, c->path.stations, c->path.value);
+    fputs(", step: ", w->to);
+    write_number(w, c->control.step);
+    write_if(w, "step_max", c->control.step_max, c->control.step);
+    fputs(c->control.constant_steps ? ", constant: yes" : "", w->to);
+    write_spin(w, &c->spin);
+}
+
+void write_analyses(writer *w)
+{
+    fputs("analyses:\n", w->to);
+    for (int i = 0; i < w->scene->analyses; i++) {
+        const scene_analysis *a = &w->scene->analysis[i];
+        fprintf(w->to, "  analysis_%d: {", i);
+        switch (a->kind) {
+        case SCENE_LINEAR:
+            fputs("linear: {", w->to);
+            break;
+        case SCENE_BUCKLING:
+        case SCENE_MODAL:
+            fputs(a->kind == SCENE_MODAL ? "modal: {" : "buckling: {", w->to);
+            if (a->follows != SCENE_NONE)
+                fprintf(w->to, "about: analysis_%d", a->follows);
+            break;
+        case SCENE_STATIC:
+        case SCENE_ROTATION:
+            write_walk(w, a);
+            break;
+        case SCENE_COMPLIANCE:
+            write_compliance(w, a);
+            break;
+        case SCENE_CONTINUATION:
+            write_continuation(w, a);
+            break;
+        }
+        fputs("}}\n", w->to);
+    }
+}
+
+static void write_which(writer *w, int order)
+{
+    write_if(w, "which", order, 0);
+}
+
+/* "kind: {analysis: ...", what is extracted. */
+static void write_extract(writer *w, const scene_quantity *q)
+{
+    static const char *const key[] = {[SCENE_COORDINATE] = "displacement",
+                                      [SCENE_REACTION] = "reaction",
+                                      [SCENE_COMPLIANCE_ENTRY] = "compliance",
+                                      [SCENE_STIFFNESS_ENTRY] = "stiffness",
+                                      [SCENE_CRITICAL_FACTOR] = "critical_factor",
+                                      [SCENE_GROWTH] = "growth",
+                                      [SCENE_FREQUENCY] = "frequency",
+                                      [SCENE_FACTOR_AT] = "factor_at",
+                                      [SCENE_CRITICAL_POINT] = "critical_point",
+                                      [SCENE_DRIVER_VALUE] = "motion",
+                                      [SCENE_INTERNAL] = "internal"};
+    static const char *const family[] = {"any",       "not_axial", "axial",
+                                         "bending_y", "bending_z", "torsion"};
+    fprintf(w->to, "%s: {analysis: analysis_%d", key[q->what.kind], q->analysis);
+    switch (q->what.kind) {
+    case SCENE_COORDINATE:
+    case SCENE_REACTION:
+        fprintf(w->to, ", node: node_%d, component: %s", scene_component_of(q)->node,
+                write_component[scene_component_of(q)->component]);
+        break;
+    case SCENE_COMPLIANCE_ENTRY:
+        fprintf(w->to, ", row: %s, column: %s", write_component[scene_entry_of(q)->row],
+                write_component[scene_entry_of(q)->column]);
+        break;
+    case SCENE_INTERNAL: {
+        static const char *const resultant[] = {"N", "Qy", "Qz", "Mx", "My", "Mz", "bimoment"};
+        const scene_internal *c = scene_internal_of(q);
+        fprintf(w->to, ", member: member_%d, end: %s, resultant: %s", c->member,
+                c->end ? "to" : "from", resultant[c->resultant]);
+        break;
+    }
+    case SCENE_STIFFNESS_ENTRY:
+        fprintf(w->to, ", component: %s", write_component[scene_entry_of(q)->row]);
+        break;
+    case SCENE_CRITICAL_FACTOR:
+        fputs(scene_critical_load_of(q)->sign < 0 ? ", sign: negative" : "", w->to);
+        write_which(w, scene_critical_load_of(q)->order);
+        break;
+    case SCENE_FREQUENCY:
+        write_which(w, scene_mode_of(q)->order);
+        fprintf(w->to, ", family: %s", family[scene_mode_of(q)->family]);
+        write_if(w, "half_waves", scene_mode_of(q)->half_waves, 0);
+        break;
+    case SCENE_CRITICAL_POINT:
+        fprintf(w->to, ", kind: %s, value: %s",
+                scene_point_of(q)->kind == SCENE_LIMIT_POINT ? "limit" : "bifurcation",
+                scene_point_of(q)->ordinate == SCENE_CONTROL ? "coordinate" : "factor");
+        write_which(w, scene_point_of(q)->order);
+        break;
+    case SCENE_DRIVER_VALUE:
+        fputs(", motion: ", w->to);
+        write_motion_name(w, scene_driver_of(q));
+        break;
+    case SCENE_GROWTH:
+    case SCENE_FACTOR_AT:
+        break;
+    }
+}
+
+static void write_reduction(writer *w, const scene_quantity *q)
+{
+    switch (q->reduction) {
+    case SCENE_LAST:
+        break;
+    case SCENE_MAX:
+        fputs(", take: max", w->to);
+        break;
+    case SCENE_MIN:
+        fputs(", take: min", w->to);
+        break;
+    case SCENE_CURVE:
+        fputs(", take: curve", w->to);
+        break;
+    case SCENE_AT:
+        fputs(", at: ", w->to);
+        write_number(w, q->at);
+        break;
+    }
+    fputc('}', w->to);
+}
+
+static void write_rest(writer *w, const scene_quantity *q)
+{
+    fputs(", unit: ", w->to);
+    write_quoted(w, q->unit);
+    /* also where it is one: units are then what the scene says they are */
+    fputs(", factor: ", w->to);
+    write_number(w, q->factor);
+    write_if(w, "offset", q->offset, 0);
+    write_if(w, "near_zero", q->near_zero, 0);
+    write_if(w, "tolerance", q->tolerance, SCENE_TOLERANCE);
+    write_if(w, "order", q->least_order, 0);
+    if (q->reduction == SCENE_CURVE) {
+        fputs(", x: {name: ", w->to);
+        write_quoted(w, q->x.name);
+        fputs(", unit: ", w->to);
+        write_quoted(w, q->x.unit);
+        write_if(w, "factor", q->x.factor, 1);
+        write_if(w, "offset", q->x.offset, 0);
+        fputc('}', w->to);
+    }
+    if (q->prediction.source != NULL) {
+        fputs(", prediction: {value: ", w->to);
+        write_number(w, q->prediction.value);
+        fputs(", source: ", w->to);
+        write_quoted(w, q->prediction.source);
+        fputc('}', w->to);
+    }
+}
+
+void write_quantities(writer *w)
+{
+    fputs(w->scene->quantities > 0 ? "quantities:\n" : "", w->to);
+    for (int i = 0; i < w->scene->quantities; i++) {
+        const scene_quantity *q = &w->scene->quantity[i];
+        fputs("  ", w->to);
+        write_quoted(w, q->name);
+        fputs(": {", w->to);
+        write_extract(w, q);
+        write_reduction(w, q);
+        write_rest(w, q);
+        fputs("}\n", w->to);
+    }
+}

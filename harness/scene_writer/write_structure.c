@@ -1,0 +1,301 @@
+/* Sections, nodes, members, motions and loads of a scene file. */
+#include <math.h>
+#include <string.h>
+
+#include "harness/scene_writer/write_impl.h"
+
+static int any_of(int count, const double value[])
+{
+    for (int i = 0; i < count; i++)
+        if (value[i] != 0)
+            return 1;
+    return 0;
+}
+
+static void write_constants(writer *w, const section *c)
+{
+    fputs("constants: {A: ", w->to);
+    write_number(w, c->A);
+    const struct {
+        const char *key;
+        double value;
+    } needed[] = {{"Iy", c->Iy}, {"Iz", c->Iz}, {"It", c->It}, {"Ip", c->Ip}};
+    for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
+        write_if(w, needed[i].key, needed[i].value, NAN);
+    write_if(w, "Iw", c->Iw, 0);
+    write_if(w, "ys", c->ys, 0);
+    write_if(w, "zs", c->zs, 0);
+    write_if(w, "wagner_y", c->wagner_y, 0);
+    write_if(w, "wagner_z", c->wagner_z, 0);
+    write_if(w, "wagner_torque", c->wagner_torque, 0);
+    /* which of the two is taken: see section_compute */
+    const int by_D = c->F[0] == 0 && c->D[0] != 0;
+    if (any_of(9, by_D ? c->D : c->F)) {
+        fputs(by_D ? ", D: " : ", F: ", w->to);
+        write_numbers(w, 9, by_D ? c->D : c->F);
+    }
+    fputc('}', w->to);
+}
+
+static void write_walls(writer *w, const section_spec *spec)
+{
+    fputs("points: {", w->to);
+    for (int i = 0; i < spec->points; i++) {
+        fprintf(w->to, "%sp%d: ", i > 0 ? ", " : "", i);
+        write_numbers(w, 2, spec->point[i]);
+    }
+    fputs("}, walls: [", w->to);
+    for (int i = 0; i < spec->walls; i++) {
+        fprintf(w->to, "%s{from: p%d, to: p%d, thickness: ", i > 0 ? ", " : "", spec->wall[i].from,
+                spec->wall[i].to);
+        write_number(w, spec->wall[i].thickness);
+        fputc('}', w->to);
+    }
+    fputs(spec->thickness_terms ? "], thickness_terms: yes" : "]", w->to);
+    write_if(w, "cells", spec->cells, 0);
+}
+
+static void write_rectangle(writer *w, const section_spec *spec)
+{
+    fputs("rectangle: {width: ", w->to);
+    write_number(w, spec->width);
+    fputs(", thickness: ", w->to);
+    write_number(w, spec->height);
+    fputc('}', w->to);
+    if (any_of(2, spec->shear_factor)) {
+        fputs(", shear_factor: ", w->to);
+        write_numbers(w, 2, spec->shear_factor);
+    }
+}
+
+static void write_tube(writer *w, const section_spec *spec)
+{
+    fputs("tube: {diameter: ", w->to);
+    write_number(w, spec->diameter);
+    write_if(w, "thickness", spec->wall_thickness, NAN);
+    fputc('}', w->to);
+}
+
+static void write_given(writer *w, const section_spec *spec)
+{
+    const struct {
+        const char *key;
+        double value;
+    } all[] = {{"Iw", spec->given.Iw},   {"ys", spec->given.ys},   {"zs", spec->given.zs},
+               {"Dy", spec->given.Dy},   {"Dz", spec->given.Dz},   {"Dw", spec->given.Dw},
+               {"Dyz", spec->given.Dyz}, {"Dyw", spec->given.Dyw}, {"Dzw", spec->given.Dzw},
+               {"It", spec->given.It},   {"Ip", spec->given.Ip}};
+    int count = 0;
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (!isnan(all[i].value)) {
+            fprintf(w->to, "%s%s: ", count++ == 0 ? ", given: {" : ", ", all[i].key);
+            write_number(w, all[i].value);
+        }
+    fputs(count > 0 ? "}" : "", w->to);
+}
+
+void write_sections(writer *w)
+{
+    fputs("sections:\n", w->to);
+    for (int i = 0; i < w->scene->sections; i++) {
+        const section_spec *spec = &w->scene->section[i];
+        fprintf(w->to, "  section_%d: {", i);
+        if (spec->kind == SECTION_WALLS)
+            write_walls(w, spec);
+        else if (spec->kind == SECTION_RECTANGLE)
+            write_rectangle(w, spec);
+        else if (spec->kind == SECTION_TUBE)
+            write_tube(w, spec);
+        else
+            write_constants(w, &spec->constants);
+        write_given(w, spec);
+        write_if(w, "young", spec->young, NAN);
+        write_if(w, "shear_modulus", spec->shear_modulus, NAN);
+        write_if(w, "density", spec->density, 0);
+        fputs("}\n", w->to);
+    }
+}
+
+/* hold: [...] and drive: {...} of the first `count` components. */
+static void write_supports(writer *w, const scene_node *n, int count)
+{
+    int held = 0, driven = 0, how[6];
+    for (int c = 0; c < count; c++)
+        how[c] = c < SCENE_RX ? n->translation[c] : n->angle[c - SCENE_RX];
+    for (int c = 0; c < count; c++)
+        if (how[c] == SCENE_HELD)
+            fprintf(w->to, "%s%s", held++ == 0 ? ", hold: [" : ", ", write_component[c]);
+    fputs(held > 0 ? "]" : "", w->to);
+    for (int c = 0; c < count; c++)
+        if (how[c] >= 0) {
+            fprintf(w->to, "%s%s: ", driven++ == 0 ? ", drive: {" : ", ", write_component[c]);
+            write_motion_name(w, how[c]);
+        }
+    fputs(driven > 0 ? "}" : "", w->to);
+}
+
+static void write_angle(writer *w, int how)
+{
+    if (how >= 0)
+        write_motion_name(w, how);
+    else
+        fputs(how == SCENE_HELD ? "held" : "free", w->to);
+}
+
+static void write_rotation(writer *w, const scene_node *n)
+{
+    if (n->rotation == SCENE_ROTATION_FORK) {
+        fputs(", fork: {axis: ", w->to);
+        write_numbers(w, 3, n->axis[0]);
+        fputs(", web: ", w->to);
+        write_numbers(w, 3, n->axis[1]);
+        fputc('}', w->to);
+        return;
+    }
+    const int vector = n->rotation == SCENE_ROTATION_VECTOR;
+    fputs(vector ? ", rotation: {vector: [" : ", rotation: {sequence: [", w->to);
+    for (int i = 0; i < 3 && (vector || any_of(3, n->axis[i])); i++) {
+        fputs(i > 0 ? ", " : "", w->to);
+        if (!vector) {
+            fputs("{axis: ", w->to);
+            write_numbers(w, 3, n->axis[i]);
+            fputs(", angle: ", w->to);
+        }
+        write_angle(w, n->angle[i]);
+        fputs(vector ? "" : "}", w->to);
+    }
+    fputs("]}", w->to);
+}
+
+static void write_body(writer *w, const scene_body *b)
+{
+    write_if(w, "mass", b->mass, 0);
+    if (any_of(3, b->centre)) {
+        fputs(", centre: ", w->to);
+        write_numbers(w, 3, b->centre);
+    }
+    if (any_of(6, b->inertia)) {
+        fputs(", inertia: ", w->to);
+        write_numbers(w, 6, b->inertia);
+    }
+}
+
+void write_nodes(writer *w)
+{
+    fputs("nodes:\n", w->to);
+    for (int i = 0; i < w->scene->nodes; i++) {
+        const scene_node *n = &w->scene->node[i];
+        fprintf(w->to, "  node_%d: {at: ", i);
+        write_numbers(w, 3, n->position);
+        if (n->attached != SCENE_NONE)
+            fprintf(w->to, ", part_of: node_%d", n->attached);
+        write_supports(w, n, n->rotation == SCENE_ROTATION_SPATIAL ? 6 : 3);
+        if (n->rotation != SCENE_ROTATION_SPATIAL)
+            write_rotation(w, n);
+        write_body(w, &n->body);
+        fputs("}\n", w->to);
+    }
+}
+
+static void write_warping(writer *w, int warp)
+{
+    if (warp >= 0)
+        fprintf(w->to, "{shared: w%d}", warp);
+    else
+        fputs(warp == SCENE_WARP_FREE ? "free" : "fixed", w->to);
+}
+
+void write_members(writer *w)
+{
+    fputs("members:\n", w->to);
+    for (int i = 0; i < w->scene->members; i++) {
+        const scene_member *m = &w->scene->member[i];
+        fprintf(w->to, "  member_%d: {from: node_%d, to: node_%d, section: section_%d, y: ", i,
+                m->p, m->q, m->section);
+        write_numbers(w, 3, m->y_axis);
+        fputs(", warping: [", w->to);
+        write_warping(w, m->warp_p);
+        fputs(", ", w->to);
+        write_warping(w, m->warp_q);
+        fputc(']', w->to);
+        if (any_of(3, m->curvature)) {
+            fputs(", curvature: ", w->to);
+            write_numbers(w, 3, m->curvature);
+        }
+        if (any_of(3, m->strain)) {
+            fputs(", strain: ", w->to);
+            write_numbers(w, 3, m->strain);
+        }
+        write_if(w, "divisions", m->divisions, 0);
+        fputs("}\n", w->to);
+    }
+}
+
+void write_springs(writer *w)
+{
+    fputs(w->scene->springs > 0 ? "springs:\n" : "", w->to);
+    for (int i = 0; i < w->scene->springs; i++) {
+        const scene_spring *p = &w->scene->spring[i];
+        double diagonal[6];
+        int whole = 0;
+        for (int k = 0; k < 36; k++)
+            whole |= k % 7 != 0 && p->stiffness[k] != 0;
+        for (int k = 0; k < 6; k++)
+            diagonal[k] = p->stiffness[7 * k];
+        fprintf(w->to, "  spring_%d: {", i);
+        if (p->p != SCENE_NONE)
+            fprintf(w->to, "from: node_%d, ", p->p);
+        fprintf(w->to, "to: node_%d, stiffness: ", p->q);
+        write_numbers(w, whole ? 36 : 6, whole ? p->stiffness : diagonal);
+        fputs("}\n", w->to);
+    }
+}
+
+void write_motions(writer *w)
+{
+    fputs(w->scene->drivers > 0 ? "motions:\n" : "", w->to);
+    for (int i = 0; i < w->scene->drivers; i++) {
+        const scene_driver *d = &w->scene->driver[i];
+        fputs("  ", w->to);
+        write_motion_name(w, i);
+        if (d->value != NULL) {
+            fputs(": {path: ", w->to);
+            write_numbers(w, d->stations, d->path);
+            fputs(", value: ", w->to);
+            write_numbers(w, d->stations, d->value);
+        } else {
+            fprintf(w->to,
+                    ": {such_that: {node: node_%d, component: %s, motion: ", d->condition_node,
+                    write_component[d->condition_component]);
+            write_motion_name(w, d->condition_driver);
+            fputc('}', w->to);
+        }
+        fputs("}\n", w->to);
+    }
+}
+
+void write_loads(writer *w)
+{
+    static const char *const kind[] = {"force", "moment", "distributed", "distributed_moment",
+                                       "gravity"};
+    fputs(w->scene->loads > 0 ? "loads:\n" : "", w->to);
+    for (int i = 0; i < w->scene->loads; i++) {
+        const scene_load *load = &w->scene->load[i];
+        fprintf(w->to, "  load_%d: {%s: ", i, kind[load->kind]);
+        write_numbers(w, 3, load->vector);
+        fprintf(w->to, ", on: %s_%d", scene_load_along(load) ? "member" : "node", load->where);
+        if (any_of(3, load->at)) {
+            fputs(", at: ", w->to);
+            write_numbers(w, 3, load->at);
+        }
+        fputs(load->axes == SCENE_AXES_MEMBER ? ", axes: member" : "", w->to);
+        fputs(load->follower ? ", follower: true" : "", w->to);
+        if (load->stations > 0) {
+            fputs(", path: ", w->to);
+            write_numbers(w, load->stations, load->path);
+            fputs(", factor: ", w->to);
+            write_numbers(w, load->stations, load->factor);
+        }
+        fputs("}\n", w->to);
+    }
+}
