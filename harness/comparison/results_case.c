@@ -146,6 +146,18 @@ static int take_values(const tables *t, const cell_row *row, int *next, result_c
     return cell->value != NULL;
 }
 
+/* Counts of work that a run can have, so small that their sums stay in range. */
+static int are_counts(const cell_row *row)
+{
+    static const long most = 1L << 50;
+    const long count[] = {row->iterations, row->strain, row->stress, row->inertia,
+                          row->factorisations};
+    for (size_t i = 0; i < sizeof count / sizeof count[0]; i++)
+        if (count[i] < 0 || count[i] > most)
+            return 0;
+    return 1;
+}
+
 static status take_cell(const char *path, const char *of, const tables *t, const cell_row *row,
                         int *next, results *out, fault *f)
 {
@@ -154,7 +166,7 @@ static status take_cell(const char *path, const char *of, const tables *t, const
     if (parameters == NULL)
         return results_damaged(path, of, ": the point of a cell", f);
     snprintf(name, sizeof name, "%s/%s/%s", of, parameters, row->formulation);
-    if (row->elements < 1 || row->elements > RESULTS_MOST_ELEMENTS)
+    if (row->elements < 1 || row->elements > RESULTS_MOST_ELEMENTS || !are_counts(row))
         return results_damaged(path, name, "", f);
     result_cell *cell = results_add(out);
     if (cell == NULL || (cell->name = strdup(name)) == NULL || !take_values(t, row, next, cell))

@@ -147,6 +147,15 @@ class Compare(unittest.TestCase):
         self.trouble("two stored runs", self.old)
         self.trouble("too many", self.old, self.old, self.old)
 
+    def test_impossible_counts(self):
+        for column in ("iterations", "strain_evaluations", "factorisations"):
+            for count in (-1, 2**63 - 1):
+                def impossible(rows):
+                    rows[column][0] = count
+                done = self.compared(lambda file: change_rows(file, "cells", impossible))
+                self.assertEqual(done.returncode, 2, done)
+                self.assertIn("missing or damaged", done.stderr)
+
     def test_damaged_cell(self):
         def change(file):
             del file[TABLES]["quantities"]
