@@ -121,8 +121,8 @@ fuzz: all ## any bytes as every input the program reads (clang's libFuzzer)
 valgrind: all ## a small selection of verify under valgrind
 	@harness/tools/valgrind.sh $(BUILD)
 
-layers: $(OBJECTS) ## check that includes point down only and no files call each other in circles
-	@harness/tools/layers.sh $(OBJECTS)
+layers: $(OBJECTS) $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) ## check that includes point down only and no files call each other in circles
+	@harness/tools/layers.sh $^
 
 asan: ## tests under the address and undefined-behaviour sanitizers
 	@$(MAKE) --no-print-directory BUILD="$(BUILD)/asan" CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer" test

@@ -1,4 +1,4 @@
-/* Scene files: read in the place of a case, written from any case. */
+/* Scene files written from any case; their keys described. */
 #include <stdio.h>
 #include <string.h>
 
@@ -8,59 +8,6 @@
 #include "harness/scene_writer/schema_file.h"
 #include "harness/scene_writer/write.h"
 #include "harness/study/cell.h"
-
-/* All mistakes, a line each; as JSON where that is the form of the output. */
-static void tell_mistakes(const cli_request *r, const mistakes *m, status outcome, const fault *f)
-{
-    fault unwritten;
-    if (m->count == 0)
-        cli_fail(outcome, f->text);
-    else if (strcmp(r->format, "json") != 0)
-        mistakes_print(m, stderr);
-    else if (mistakes_json(m, stdout, &unwritten) != STATUS_OK)
-        cli_fail(STATUS_FAULT, unwritten.text);
-}
-
-int cli_scene_read(const cli_request *r, const char *path, scene_file **out)
-{
-    mistakes m;
-    fault f = {""};
-    const status outcome = scene_file_read(path, out, &m, &f);
-    if (outcome == STATUS_OK)
-        return EXIT_AS_EXPECTED;
-    tell_mistakes(r, &m, outcome, &f);
-    return outcome == STATUS_FAULT ? EXIT_FAULT : EXIT_REFUSED;
-}
-
-const case_type *cli_scene_case(cli_request *r)
-{
-    if (r->case_name != NULL) {
-        cli_fail(STATUS_REFUSED, "a case and --scene: give one of them");
-        return NULL;
-    }
-    const int code = cli_scene_read(r, r->scene_path[0], &r->scene);
-    if (code == EXIT_AS_EXPECTED)
-        return scene_file_case(r->scene);
-    r->refusal = code;
-    return NULL;
-}
-
-void cli_close(cli_request *r)
-{
-    scene_file_free(r->scene);
-    r->scene = NULL;
-}
-
-status cli_truths_read(const cli_request *r, truths *t, fault *f)
-{
-    memset(t, 0, sizeof *t);
-    if (r->scene == NULL)
-        return truths_read(cli_truths_path(r), t, f);
-    const status outcome = scene_file_add_truths(r->scene, r->parameter, t, f);
-    if (outcome != STATUS_OK)
-        truths_free(t);
-    return outcome;
-}
 
 static status describe(FILE *to, const cli_request *r, fault *f)
 {

@@ -1,0 +1,31 @@
+/* How the program says that something went wrong, and with which exit status it ends. */
+#include <stdio.h>
+
+#include "harness/cli/cli.h"
+
+int cli_finish(int code)
+{
+    const int told = code == EXIT_REFUSED || code == EXIT_FAULT; /* that line is enough */
+    if ((fflush(stdout) == 0 && !ferror(stdout)) || told)
+        return code;
+    return cli_fail(STATUS_FAULT, "standard output cannot be written");
+}
+
+int cli_fail(status s, const char *text)
+{
+    fprintf(stderr, "beamwork: %s\n", text);
+    switch (s) {
+    case STATUS_OK:
+        return EXIT_AS_EXPECTED;
+    case STATUS_NOT_CONVERGED:
+    case STATUS_SINGULAR:
+    case STATUS_TIME_LIMIT:
+    case STATUS_NO_VALUE:
+        return EXIT_DIFFERS;
+    case STATUS_REFUSED:
+        return EXIT_REFUSED;
+    case STATUS_FAULT:
+        break;
+    }
+    return EXIT_FAULT;
+}

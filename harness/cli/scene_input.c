@@ -1,0 +1,77 @@
+/* Scene files in the place of a case, and the truths that belong to a run. */
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "harness/cli/cli.h"
+
+/* All mistakes, a line each; as JSON where that is the form of the output. */
+static void tell_mistakes(const cli_request *r, const mistakes *m, status outcome, const fault *f)
+{
+    fault unwritten;
+    if (m->count == 0)
+        cli_fail(outcome, f->text);
+    else if (strcmp(r->format, "json") != 0)
+        mistakes_print(m, stderr);
+    else if (mistakes_json(m, stdout, &unwritten) != STATUS_OK)
+        cli_fail(STATUS_FAULT, unwritten.text);
+}
+
+int cli_scene_read(const cli_request *r, const char *path, scene_file **out)
+{
+    mistakes m;
+    fault f = {""};
+    const status outcome = scene_file_read(path, out, &m, &f);
+    if (outcome == STATUS_OK)
+        return EXIT_AS_EXPECTED;
+    tell_mistakes(r, &m, outcome, &f);
+    return outcome == STATUS_FAULT ? EXIT_FAULT : EXIT_REFUSED;
+}
+
+const case_type *cli_scene_case(cli_request *r)
+{
+    if (r->case_name != NULL) {
+        cli_fail(STATUS_REFUSED, "a case and --scene: give one of them");
+        return NULL;
+    }
+    const int code = cli_scene_read(r, r->scene_path[0], &r->scene);
+    if (code == EXIT_AS_EXPECTED)
+        return scene_file_case(r->scene);
+    r->refusal = code;
+    return NULL;
+}
+
+void cli_close(cli_request *r)
+{
+    scene_file_free(r->scene);
+    r->scene = NULL;
+}
+
+const char *cli_truths_path(const cli_request *r)
+{
+    static char beside[PATH_MAX + 16];
+    if (r->truths != NULL)
+        return r->truths;
+    if (getenv("BEAMWORK_TRUTHS") != NULL)
+        return getenv("BEAMWORK_TRUTHS");
+    const ssize_t length = readlink("/proc/self/exe", beside, PATH_MAX);
+    if (length <= 0)
+        return "truths.h5";
+    beside[length] = '\0';
+    char *slash = strrchr(beside, '/');
+    snprintf(slash + 1, 16, "truths.h5");
+    return beside;
+}
+
+status cli_truths_read(const cli_request *r, truths *t, fault *f)
+{
+    memset(t, 0, sizeof *t);
+    if (r->scene == NULL)
+        return truths_read(cli_truths_path(r), t, f);
+    const status outcome = scene_file_add_truths(r->scene, r->parameter, t, f);
+    if (outcome != STATUS_OK)
+        truths_free(t);
+    return outcome;
+}
