@@ -1,118 +1,15 @@
-/* With R half way between the triads of the nodes, D the chord in its axes and a = psi/2,
- *   U = V^-1 D,  V = int from -1/2 to 1/2 of exp(x psi~) dx,  V^-1 = mu + nu a a^T,  mu = |a|/sin |a|, nu = (1 - mu)/|a|^2.
- * Rates along a path of constant spatial velocities and spins, in the axes of the middle: v of q against p, s the mean of the
- * nodes' spins and delta their difference.  The middle turns with w = s - tau/2 a x delta, tau = tan(|a|/2)/|a|, and
+/* Rates along a path of constant spatial velocities and spins, in the axes of the middle: v of q against p, s the mean of the
+ * nodes' spins and delta their difference.  The middle turns with w = s - tau/2 a x delta and
  *   dpsi/dt = V^-1 delta,  dD/dt = v - w x D,  d(v, s, delta)/dt = -w x (v, s, delta). */
 #include "elements/beamw/helicoidal.h"
 
-#include <math.h>
 #include <string.h>
 
+#include "elements/beamw/screw.h"
 #include "elements/math/dense.h"
-#include "elements/math/rotation.h"
 
-enum { STRAINS = 8, COORDINATES = 14, POWERS = 12 };
+enum { STRAINS = 8, COORDINATES = 14 };
 enum { RP = 0, TP = 3, AP = 6, RQ = 7, TQ = 10, AQ = 13 };
-
-/* a/sin a = 1 + sum power[k] t^(k + 1) */
-static const double power[POWERS] = {
-    0.041666666666666664,   0.0012152777777777778, 3.2035383597883595e-05, 8.202608300264551e-07,
-    2.0835982071876168e-08, 5.281609967721337e-10, 1.3380902920268335e-11, 3.389576851489321e-13,
-    8.585996549822947e-15,  2.174864550325223e-16, 5.509000201462976e-18,  1.3954463022310702e-19,
-};
-
-/* mu, nu, tau and their derivatives with respect to |a|^2. */
-typedef struct factors {
-    double mu[2], nu[3], tau[2];
-} factors;
-
-static factors factors_of(double square)
-{
-    factors f;
-    if (square < 0.25) { /* closed forms cancel */
-        const double t = 4 * square;
-        double n[3] = {0};
-        for (int k = POWERS - 1; k >= 0; k--) {
-            n[2] = n[2] * t + 2 * n[1];
-            n[1] = n[1] * t + n[0];
-            n[0] = n[0] * t - power[k];
-        }
-        f.nu[0] = 4 * n[0];
-        f.nu[1] = 16 * n[1];
-        f.nu[2] = 64 * n[2];
-        f.mu[0] = 1 - square * f.nu[0];
-        f.mu[1] = -f.nu[0] - square * f.nu[1];
-        /* square tau^2 - 2 mu tau + 1 = 0 */
-        const double cotangent = sqrt(f.mu[0] * f.mu[0] - square);
-        f.tau[0] = 1 / (f.mu[0] + cotangent);
-        f.tau[1] = f.tau[0] * (f.tau[0] - 2 * f.mu[1]) / (2 * cotangent);
-        return f;
-    }
-    const double a = sqrt(square), s = sin(a), c = cos(a), tangent = tan(a / 2),
-                 p = (s - a * c) / (s * s);
-    const double slope =
-        (a * s * s - 2 * c * (s - a * c)) / (s * s * s); /* of p, itself the slope of a/sin a */
-    f.mu[0] = a / s;
-    f.mu[1] = p / (2 * a);
-    f.nu[0] = (1 - f.mu[0]) / square;
-    f.nu[1] = -(f.mu[1] + f.nu[0]) / square;
-    f.nu[2] = -((slope - p / a) / (4 * square) + 2 * f.nu[1]) / square;
-    f.tau[0] = tangent / a;
-    f.tau[1] = ((1 + tangent * tangent) / 2 - f.tau[0]) / (2 * square);
-    return f;
-}
-
-typedef struct motion {
-    double R[9]; /* of the middle */
-    double D[3], a[3], U[3];
-    double extension; /* D_x - l0 [m] */
-    double along;     /* a . D */
-    double T[9];      /* dU/dpsi; dU/dD is V^-1 */
-    double V[9];      /* V^-1 */
-    factors f;
-} motion;
-
-static void half_way(const node_state x[2], motion *w)
-{
-    double between[9], q[4], psi[3], half[9];
-    mat3_transpose_mul(x[0].R, x[1].R, between);
-    rotation_from_matrix(between, q);
-    rotation_log(q, psi);
-    for (int i = 0; i < 3; i++)
-        w->a[i] = psi[i] / 2;
-    rotation_exp(w->a, q);
-    rotation_matrix(q, half);
-    mat3_mul(x[0].R, half, w->R);
-}
-
-static motion motion_of(double l0, const node_state x[2])
-{
-    motion w;
-    double d[3], moved[3];
-    half_way(x, &w);
-    for (int i = 0; i < 3; i++) {
-        moved[i] = x[1].u[i] - x[0].u[i];
-        d[i] = x[1].r[i] - x[0].r[i];
-    }
-    mat3_transpose_mul_vec(w.R, d, w.D);
-    /* D_x^2 - l0^2 without a difference of lengths: |d|^2 - l0^2 = (2 d - moved) . moved */
-    const double squares =
-        2 * vec3_dot(d, moved) - vec3_dot(moved, moved) - w.D[1] * w.D[1] - w.D[2] * w.D[2];
-    w.extension = w.D[0] > 0 ? squares / (w.D[0] + l0) : w.D[0] - l0;
-    const double square = vec3_dot(w.a, w.a);
-    w.f = factors_of(square);
-    w.along = vec3_dot(w.a, w.D);
-    for (int i = 0; i < 3; i++) {
-        const double across = w.a[i] * w.along - square * w.D[i]; /* a x (a x D) */
-        w.U[i] = (i == 0 ? w.extension : w.D[i]) + w.f.nu[0] * across;
-        for (int j = 0; j < 3; j++) {
-            const double coupling = (i == j ? w.along : 0) + w.a[i] * w.D[j] - 2 * w.D[i] * w.a[j];
-            w.T[3 * i + j] = w.f.nu[0] * coupling / 2 + w.f.nu[1] * across * w.a[j];
-            w.V[3 * i + j] = (i == j ? w.f.mu[0] : 0) + w.f.nu[0] * w.a[i] * w.a[j];
-        }
-    }
-    return w;
-}
 
 /* What works on the rates: sum of f . dU/dt + t . dpsi/dt = g . v + mean . s + difference . delta. */
 typedef struct work {
@@ -121,7 +18,7 @@ typedef struct work {
     double mean[3], difference[3];
 } work;
 
-static work work_of(const motion *w, const double f[3], const double moment[3])
+static work work_of(const screw *w, const double f[3], const double moment[3])
 {
     work k;
     double tf[3], side[3];
@@ -140,7 +37,7 @@ static work work_of(const motion *w, const double f[3], const double moment[3])
 }
 
 /* Row [14] on the nodes' coordinates. */
-static void nodal_row(const motion *w, const work *k, double row[COORDINATES])
+static void nodal_row(const screw *w, const work *k, double row[COORDINATES])
 {
     double force[3], mean[3], difference[3];
     mat3_mul_vec(w->R, k->g, force);
@@ -167,7 +64,7 @@ static void skew(const double v[3], double A[9])
 }
 
 /* Second derivatives of f . U with respect to (D, psi): bent [psi, psi], mixed [psi, D]. */
-static void second_of_translation(const motion *w, const double f[3], double bent[9],
+static void second_of_translation(const screw *w, const double f[3], double bent[9],
                                   double mixed[9])
 {
     const double square = vec3_dot(w->a, w->a), fD = vec3_dot(f, w->D), fa = vec3_dot(f, w->a),
@@ -188,10 +85,10 @@ static void second_of_translation(const motion *w, const double f[3], double ben
 }
 
 /* In v, w and delta; the blocks of w stand where those of s will. */
-static void form_of_middle(const motion *w, const work *k, const double f[3], form *out)
+static void form_of_middle(const screw *w, const work *k, const double f[3], form *out)
 {
     double bent[9], mixed[9], Dx[9], VM[9], VMD[9], VB[9], moment[9];
-    const factors *c = &w->f;
+    const screw_factors *c = &w->f;
     second_of_translation(w, f, bent, mixed);
     skew(w->D, Dx);
     skew(k->p, moment);
@@ -222,7 +119,7 @@ static void form_of_middle(const motion *w, const work *k, const double f[3], fo
 }
 
 /* w = s + C delta, C = -tau/2 a~. */
-static void form_of_nodes(const motion *w, form *k)
+static void form_of_nodes(const screw *w, form *k)
 {
     double C[9], vsC[9], ssC[9], CsC[9], Csd[9];
     skew(w->a, C);
@@ -251,7 +148,7 @@ static void turned(const double R[9], double A[9])
             A[3 * i + j] = vec3_dot(RA + 3 * i, R + 3 * j);
 }
 
-static void nodal_form(const motion *w, form *k, double H[COORDINATES * COORDINATES])
+static void nodal_form(const screw *w, form *k, double H[COORDINATES * COORDINATES])
 {
     double *const blocks[] = {k->vs, k->vd, k->ss, k->sd, k->dd};
     for (int b = 0; b < 5; b++)
@@ -290,7 +187,7 @@ static void arrange(int n, const double U[], const double kappa[], double e[])
 void beamw_helicoidal_strain(const element_data *d, const node_state x[], strain_output *out)
 {
     const double l0 = d->l0;
-    const motion w = motion_of(l0, x);
+    const screw w = beamw_screw(l0, x);
     if (out->e != NULL) {
         const double kappa[3] = {2 * l0 * w.a[0], 2 * l0 * w.a[1], 2 * l0 * w.a[2]};
         arrange(1, w.U, kappa, out->e);
