@@ -10,7 +10,7 @@
 status rotating_frame_add(model *m, const node_state x[], int element, double path, double force[],
                           double K[], fault *f);
 
-/* linearise.c: one element's part of model.work between linearise and advance. */
+/* linearise.c: one element's part of model.work between linearise_state and advance_state. */
 typedef struct model_slot {
     double *J, *C, *sigma, *incompatibility,
         *memory; /* sigma = P'(e) + C incompatibility, incompatibility = D(x) - e */

@@ -1,4 +1,4 @@
-/* Newton's equations of a state, and what their solution does to it. */
+/* Newton's equations of a state. */
 #ifndef BEAMWORK_MODEL_LINEARISE_H
 #define BEAMWORK_MODEL_LINEARISE_H
 
@@ -23,11 +23,6 @@ typedef struct model_linearisation {
     double incompatibility; /* out: max |D(x) - e|/l over elements */
 } model_linearisation;
 status linearise_state(model *, const model_state *, model_linearisation *, fault *);
-/* After K dx = residual: strains, stresses, inner unknowns of every element and then the frames
- * take their increments. dx[free + driven]. Returns the largest correction, dimensionless:
- * translations by the size of the scene, rotations in rad, warping by the element length, inner
- * unknowns as the element says. */
-double linearise_advance(model *, model_state *, const double dx[], double path);
 /* Forgets the independent strains and stresses: e = D(x), sigma = P'(e). */
 status linearise_make_compatible(model *, model_state *, fault *);
 /* Force and spatial moment that act from outside on a node's frame (loads and reactions) in the

@@ -7,106 +7,8 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "harness/algebra/memory.h"
+#include "harness/model/member_arc.h"
 #include "harness/model/model_impl.h"
-
-/* An arc of constant torsion and curvature between two points (straight when these are zero). */
-typedef struct arc {
-    double length;         /* along the arc [m] */
-    double start[3], R[9]; /* position and triad at p */
-    double k[3];           /* [1/m] */
-} arc;
-
-/* int_0^s exp(t k~) e_x dt in the triad at p. */
-static void arc_chord(const double k[3], double s, double c[3])
-{
-    const double w = vec3_norm(k), angle = w * s;
-    double first[3], second[3];
-    const double e[3] = {1, 0, 0};
-    vec3_cross(k, e, first);
-    vec3_cross(k, first, second);
-    const double half = sin(angle / 2);
-    const double a =
-        angle < 1e-4 ? s * s / 2 * (1 - angle * angle / 12) : 2 * half * half / (w * w);
-    const double b = angle < 1e-2
-                         ? s * s * s / 6 * (1 - angle * angle / 20 * (1 - angle * angle / 42))
-                         : (angle - sin(angle)) / (w * w * w);
-    for (int i = 0; i < 3; i++)
-        c[i] = s * e[i] + a * first[i] + b * second[i];
-}
-
-/* From the axes in which a section is described, about which the scene speaks, to its principal
- * ones. */
-static void turn_to_principal(double angle, arc *a)
-{
-    const double c = cos(angle), d = sin(angle), ky = a->k[1];
-    if (d == 0)
-        return;
-    for (int i = 0; i < 9; i += 3) {
-        const double y = a->R[i + 1];
-        a->R[i + 1] = c * y + d * a->R[i + 2];
-        a->R[i + 2] = c * a->R[i + 2] - d * y;
-    }
-    a->k[1] = c * ky + d * a->k[2];
-    a->k[2] = c * a->k[2] - d * ky;
-}
-
-/* The length of a curved arc whose ends are so far apart. */
-static status find_length(int member, double distance, arc *a, fault *f)
-{
-    double c[3];
-    for (int i = 0; i < 60; i++) {
-        arc_chord(a->k, a->length, c);
-        const double error = distance - vec3_norm(c);
-        a->length += error;
-        if (!(a->length > 0) || vec3_norm(a->k) * a->length > 6.28)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "member %d: no arc of that curvature joins its ends; give a smaller one", member);
-        if (fabs(error) <= 1e-16 * distance)
-            break;
-    }
-    return STATUS_OK;
-}
-
-/* axes_angle [rad]: of its section. */
-static status arc_of(const scene *s, int member, double axes_angle, arc *out, fault *f)
-{
-    const scene_member *m = &s->member[member];
-    double chord[3], c[3], B[9], local[9];
-    for (int i = 0; i < 3; i++)
-        chord[i] = s->node[m->q].position[i] - s->node[m->p].position[i];
-    const double distance = vec3_norm(chord);
-    memcpy(out->start, s->node[m->p].position, sizeof out->start);
-    memcpy(out->k, m->curvature, sizeof out->k);
-    out->length = distance;
-    if (vec3_norm(out->k) > 0)
-        TRY(find_length(member, distance, out, f));
-    if (rotation_triad(chord, m->y_axis, B) != 0)
-        return fault_set(f, STATUS_REFUSED, "member %d: its y axis is parallel to it", member);
-    const double ey[3] = {0, 1, 0};
-    arc_chord(out->k, out->length, c);
-    if (rotation_triad(c, ey, local) != 0)
-        return fault_set(f, STATUS_REFUSED, "member %d: its arc turns into its own y axis", member);
-    for (int i = 0; i < 3; i++) /* R = B local^T */
-        for (int j = 0; j < 3; j++)
-            out->R[3 * i + j] = vec3_dot(&B[3 * i], &local[3 * j]);
-    turn_to_principal(axes_angle, out);
-    return STATUS_OK;
-}
-
-static void arc_at(const arc *a, double s, double position[3], double R[9])
-{
-    double c[3], rotation_vector[3], q[4], along[9];
-    arc_chord(a->k, s, c);
-    mat3_mul_vec(a->R, c, position);
-    for (int i = 0; i < 3; i++) {
-        position[i] += a->start[i];
-        rotation_vector[i] = a->k[i] * s;
-    }
-    rotation_exp(rotation_vector, q);
-    rotation_matrix(q, along);
-    mat3_mul(a->R, along, R);
-}
 
 static int divisions(const scene *s, int member, int elements)
 {
@@ -181,8 +83,8 @@ static status kind_of(model *m, const scene_member *member, double length,
 }
 
 /* The vertices of one element of n along an arc: positions, triads, warping comes later. */
-static status add_element(model *m, const arc *a, int member, int number, int n, int inner_vertex,
-                          fault *f)
+static status add_element(model *m, const member_arc *a, int member, int number, int n,
+                          int inner_vertex, fault *f)
 {
     mesh_element *el = &m->element[m->elements];
     const int curved = (m->type->offers & FEATURE_CURVATURE) && vec3_norm(a->k) > 0,
@@ -199,7 +101,7 @@ static status add_element(model *m, const arc *a, int member, int number, int n,
             el->vertex[k] = m->scene->member[member].q;
         mesh_vertex *v = &m->vertex[el->vertex[k]];
         double position[3], between[3];
-        arc_at(a, a->length * (number * last + k) / (n * last), position, el->triad[k]);
+        member_arc_at(a, a->length * (number * last + k) / (n * last), position, el->triad[k]);
         if (!at_start && !at_end) {
             v->body = el->vertex[k];
             memcpy(v->position, position, sizeof position);
@@ -316,8 +218,8 @@ status mesh_build(model *m, int elements, fault *f)
     int inner_vertex = s->nodes;
     for (int member = 0; member < s->members; member++) {
         const int n = divisions(s, member, elements);
-        arc a;
-        TRY(arc_of(s, member, m->section[s->member[member].section].axes_angle, &a, f));
+        member_arc a;
+        TRY(member_arc_of(s, member, m->section[s->member[member].section].axes_angle, &a, f));
         m->first_element[member] = m->elements;
         for (int i = 0; i < n; i++)
             TRY(add_element(m, &a, member, i, n, inner_vertex, f));

@@ -10,6 +10,7 @@
 #include "elements/math/dense.h"
 #include "harness/algebra/clock.h"
 #include "harness/algebra/memory.h"
+#include "harness/equations/advance.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/loads.h"
 #include "harness/equations/uncondensed.h"
@@ -163,7 +164,7 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
     parts.K = NULL;
     parts.drive = NULL;
     parts.conditions = 0;
-    TRY(linearise_state(m, n->state, &parts, f)); /* what linearise_advance needs */
+    TRY(linearise_state(m, n->state, &parts, f)); /* what advance_state needs */
     lin->incompatibility = parts.incompatibility;
     TRY(uncondensed_system(m, n->state, lin->path, n->dx, lin->conditions, lin->condition, n->dense,
                            n->unknown, n->residual, f));
@@ -216,7 +217,7 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
 
 status newton_advance(newton *n, double path, double *correction, step_record *record, fault *f)
 {
-    *correction = linearise_advance(n->c->model, n->state, n->dx, path);
+    *correction = advance_state(n->c->model, n->state, n->dx, path);
     phases_stop(model_phases(n->c->model));
     model_counters(n->c->model)->iterations++;
     const iteration_record one = {.correction = *correction,

@@ -48,7 +48,7 @@ typedef struct quantity_result {
 typedef struct iteration_record {
     double residual; /* sqrt(r . K^-1 r) of the unbalanced forces r before it, by that of the step's
                         first; NAN: newton=dense */
-    double correction;      /* what the iteration changed: linearise_advance */
+    double correction;      /* what the iteration changed: advance_state */
     double incompatibility; /* max |D(x) - e|/l before it */
 } iteration_record;
 

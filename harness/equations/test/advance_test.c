@@ -8,6 +8,7 @@
 
 #include "elements/math/dense.h"
 #include "harness/catalogue/registry.h"
+#include "harness/equations/advance.h"
 #include "harness/equations/linearise.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model.h"
@@ -45,7 +46,7 @@ static double size_of(model *m, int coordinate, double step)
     if (kinematics_state_alloc(m, &s, &f) == STATUS_OK &&
         linearise_state(m, s, &lin, &f) == STATUS_OK) {
         dx[coordinate] = step;
-        out = linearise_advance(m, s, dx, 0);
+        out = advance_state(m, s, dx, 0);
     }
     kinematics_state_free(s);
     free(dx);

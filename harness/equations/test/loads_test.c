@@ -11,6 +11,7 @@
 #include "harness/analysis/solve.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
+#include "harness/equations/advance.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/loads.h"
 #include "harness/equations/rotating_frame.h"
@@ -60,7 +61,7 @@ static void move(const subject *s, const model_state *from, const double dx[], m
     model_linearisation lin = {.path = 1, .residual = residual};
     kinematics_state_copy(s->m, from, to);
     gsl_test(linearise_state(s->m, to, &lin, &f) != STATUS_OK, "linearised: %s", f.text);
-    linearise_advance(s->m, to, dx, 1);
+    advance_state(s->m, to, dx, 1);
 }
 
 /* A state far from rest, turned about no special axis. */
@@ -288,7 +289,7 @@ static void factors(void)
         double residual[MOST], dx[MOST] = {0};
         model_linearisation lin = {.path = row[i][0], .residual = residual};
         linearise_state(s.m, s.turned, &lin, &f);
-        linearise_advance(s.m, s.turned, dx, row[i][0]);
+        advance_state(s.m, s.turned, dx, row[i][0]);
         loads_at_node(s.m, s.turned, 1, F);
         gsl_test_abs(F[0], row[i][1] * s.scene.load[0].vector[0], 1e-14, "factor at path %g",
                      row[i][0]);

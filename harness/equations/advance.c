@@ -1,0 +1,72 @@
+#include "harness/equations/advance.h"
+
+#include <math.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "harness/equations/equations_impl.h"
+#include "harness/equations/loads.h"
+
+/* Strains, stresses and inner unknowns of one element. */
+static double advance_element(model *m, model_state *s, int i, const double dx[])
+{
+    const mesh_element *el = &m->element[i];
+    model_slot w = linearise_slot(m, i);
+    double local[ELEMENT_MAX_COORDINATES], de[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
+    double *e = &s->e[(size_t)i * (size_t)m->strains],
+           *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
+    kinematics_local(m, s, el, dx, local);
+    dense_mul_vec(m->strains, m->coordinates, w.J, local, de);
+    dense_mul_vec(m->strains, m->strains, w.C, de, more);
+    for (int k = 0; k < m->strains; k++) {
+        sigma[k] = w.sigma[k] + more[k];
+        de[k] += w.incompatibility[k];
+        e[k] += de[k];
+    }
+    if (m->type->update == NULL)
+        return 0;
+    return m->type->update(m->kind[el->kind].data, de, w.memory,
+                           &s->inner[(size_t)i * (size_t)m->inner]);
+}
+
+static double advance_vertex(const model *m, model_state *s, int index, const double dx[])
+{
+    const mesh_vertex *v = &m->vertex[index];
+    double d[6], q[4], largest = 0;
+    for (int c = 0; c < 6; c++)
+        d[c] = v->coordinate[c] == NONE ? 0 : dx[v->coordinate[c]];
+    for (int c = 0; c < 3; c++) {
+        s->u[3 * index + c] += d[c];
+        s->angle[3 * index + c] += d[3 + c];
+        largest = fmax(largest, fmax(fabs(d[c]) / m->size, fabs(d[3 + c])));
+    }
+    if (v->angles == 0) {
+        rotation_exp(d + 3, q);
+        rotation_compose(q, &s->q[4 * index], &s->q[4 * index]);
+        rotation_normalise(&s->q[4 * index]);
+    }
+    return largest;
+}
+
+double advance_state(model *m, model_state *s, const double dx[], double path)
+{
+    double largest = 0;
+    for (int i = 0; i < m->elements; i++)
+        largest = fmax(largest, advance_element(m, s, i, dx));
+    phases_lap(&m->phases, PHASE_ELEMENTS);
+    for (int i = 0; i < m->vertices; i++)
+        if (m->vertex[i].body == i)
+            largest = fmax(largest, advance_vertex(m, s, i, dx));
+    for (int i = 0; i < m->warps; i++) {
+        s->warp[i] += dx[m->warp[i].coordinate];
+        largest = fmax(largest, fabs(dx[m->warp[i].coordinate]) * m->size);
+    }
+    for (int d = 0; d < m->scene->drivers; d++)
+        if (m->driver_coordinate[d] != NONE)
+            s->driver[d] += dx[m->driver_coordinate[d]];
+        else if (m->scene->driver[d].value != NULL)
+            s->driver[d] = loads_driver_value(&m->scene->driver[d], path);
+    kinematics_follow(m, s);
+    s->path = path;
+    return largest;
+}
