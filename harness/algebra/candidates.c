@@ -1,6 +1,3 @@
-/* By Sylvester's law the number of mu > s > 0 is that of the negative pivots of K - A/s. The pivots
- * tell sides apart as long as s keeps its distance from every eigenvalue: by more than rounding the
- * matrices moves them. */
 #include "harness/algebra/candidates.h"
 
 #include <float.h>
@@ -9,8 +6,6 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-
-static const double close = 1e-9; /* relative distance of eigenvalues that are not told apart */
 
 status candidates_alloc(candidates *p, const eigen_problem *problem, double sign, fault *f)
 {
@@ -104,6 +99,11 @@ static void sort_last(candidates *p)
             memcpy(vectors[k] + (size_t)(i - 1) * n, p->work, n * sizeof *p->work);
         }
     }
+}
+
+double candidates_least(int n, double scale)
+{
+    return 16 * n * sqrt(n) * DBL_EPSILON * scale;
 }
 
 int candidates_is_rounding(const candidates *p, double energy, const double x[])
@@ -239,64 +239,4 @@ void candidates_judge(candidates *p, int i, double *residual, double *error)
     }
     *residual = sqrt(square);
     *error += fmax(rest, 0);
-}
-
-status candidates_above(candidates *p, double s, int *above, eigen_result *work, fault *f)
-{
-    const sparse *K = p->problem->K;
-    status outcome = STATUS_OK;
-    if (p->shifted.value == NULL)
-        outcome = sparse_alloc_like(K, &p->shifted, f);
-    if (outcome == STATUS_OK && p->shifted_factor == NULL)
-        outcome = factor_alloc(K, &p->shifted_factor, f);
-    if (outcome != STATUS_OK)
-        return outcome;
-    for (int i = 0; i < K->column[p->n]; i++)
-        p->shifted.value[i] = K->value[i] - p->sign * p->problem->A->value[i] / s;
-    outcome = factor_numeric(p->shifted_factor, &p->shifted, f);
-    *above = factor_count(p->shifted_factor).negative_pivots;
-    work->factorisations++;
-    return outcome;
-}
-
-/* Number of candidates above the cluster that the one of rank `wanted` belongs to, and the largest
- * value of the cluster. */
-static int above_cluster(const candidates *p, int wanted, double *top)
-{
-    const double *mu = p->matrix_mu;
-    int q = wanted - 1;
-    *top = mu[q];
-    while (q > 0 &&
-           mu[q - 1] - *top <= (close + 16 * fmax(p->noise[q - 1], p->noise[q])) * mu[q - 1])
-        *top = fmax(*top, mu[--q]);
-    return q;
-}
-
-/* The inertia is that of the matrices: so are the values between which it is counted. */
-status candidates_missing(candidates *p, int wanted, int *missing, eigen_result *work, fault *f)
-{
-    static const double place[] = {0.5, 0.35, 0.65};
-    double low;
-    const int q = above_cluster(p, wanted, &low);
-    /* just above the cluster: farther up, what is missing could lie below */
-    const double told_apart = 2 * close + 32 * p->noise[q], near = 1e-2;
-    const double high = q > 0 ? fmin(p->matrix_mu[q - 1], low * (1 + fmax(near, told_apart)))
-                              : low * (1 + told_apart);
-    int above = 0;
-    *missing = -1;
-    /* A count that does not fit is not believed at once: there is no pivoting. */
-    for (int i = 0; i < 3; i++) {
-        const status outcome = candidates_above(p, low + place[i] * (high - low), &above, work, f);
-        if (outcome == STATUS_SINGULAR)
-            continue;
-        TRY(outcome);
-        *missing = above - q;
-        if (*missing == 0)
-            break;
-    }
-    if (*missing < 0)
-        return fault_set(
-            f, STATUS_NOT_CONVERGED,
-            "%d eigenvalues found where the inertia counts fewer, or cannot be counted", q);
-    return STATUS_OK;
 }

@@ -1,5 +1,5 @@
-/* Candidates for the largest eigenvalues of s A x = mu K x: refined by Rayleigh's quotient, judged,
- * sorted and counted. */
+/* Candidates for the largest eigenvalues of s A x = mu K x: refined by Rayleigh's quotient, judged
+ * and sorted. */
 #ifndef BEAMWORK_CANDIDATES_H
 #define BEAMWORK_CANDIDATES_H
 
@@ -36,14 +36,12 @@ double candidates_departure(const candidates *p, int count);
 status candidates_refine(candidates *p, int count, fault *f);
 /* y = K^-1 s A x. */
 void candidates_apply(candidates *p, const double x[], double y[]);
+/* Values below are rounding errors of the largest one, `scale`: n^(3/2) of them add up in a slender structure of n
+ * unknowns. */
+double candidates_least(int n, double scale);
 /* Takes in vectors x[count x n], whatever their length; those with mu <= least are dropped. */
 status candidates_add(candidates *p, int count, const double x[], double least, fault *f);
 /* Residual of candidate i and estimated error of its mu, both in parts of mu. One solution. */
 void candidates_judge(candidates *p, int i, double *residual, double *error);
-/* How many of the eigenvalues that lie clearly above the one of rank `wanted` (counted from 1) are
- * not among the candidates. NOT_CONVERGED when there are fewer than candidates. */
-status candidates_missing(candidates *p, int wanted, int *missing, eigen_result *work, fault *f);
-/* How many eigenvalues are larger than s > 0. */
-status candidates_above(candidates *p, double s, int *above, eigen_result *work, fault *f);
 
 #endif

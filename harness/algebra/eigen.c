@@ -1,13 +1,13 @@
 #include "harness/algebra/eigen.h"
 
-#include <float.h>
-#include <lapacke.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "harness/algebra/candidates.h"
+#include "harness/algebra/candidates_count.h"
+#include "harness/algebra/eigen_dense.h"
 #include "harness/algebra/lanczos.h"
 #include "harness/algebra/polish.h"
 
@@ -33,67 +33,6 @@ void eigen_free(eigen_result *r)
     free_side(&r->positive);
     free_side(&r->negative);
     memset(r, 0, sizeof *r);
-}
-
-/* Values below are rounding errors of the largest one: n^(3/2) of them add up in a slender
- * structure of n unknowns. */
-static double least_of(int n, double scale)
-{
-    return 16 * n * sqrt(n) * DBL_EPSILON * scale;
-}
-
-static void fill_dense(const sparse *a, double factor_, double D[])
-{
-    const size_t n = (size_t)a->n;
-    for (size_t j = 0; j < n; j++)
-        for (int k = a->column[j]; k < a->column[j + 1]; k++)
-            D[(size_t)a->row[k] * n + j] = D[j * n + (size_t)a->row[k]] = factor_ * a->value[k];
-}
-
-/* All eigenvalues mu[n], ascending, with their vectors x[n x n], one after the other. */
-static status solve_dense(const eigen_problem *e, double mu[], double x[], fault *f)
-{
-    const int n = e->K->n;
-    double *K = calloc((size_t)n * (size_t)n, sizeof *K);
-    if (K == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a dense matrix of %d unknowns", n);
-    fill_dense(e->A, e->sign, x);
-    fill_dense(e->K, 1, K);
-    const int info = LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', n, x, n, K, n, mu);
-    free(K);
-    return info == 0
-               ? STATUS_OK
-               : fault_set(f, STATUS_NOT_CONVERGED,
-                           "a dense eigenvalue problem of %d unknowns: LAPACK says %d", n, info);
-}
-
-/* Candidates of one or both sides (NULL: not asked for) from all eigenvectors; mu[n], x[n x n]. */
-static status take_dense(candidates *const side[2], const int wanted[2], double mu[], double x[],
-                         fault *f)
-{
-    const candidates *any = side[0] != NULL ? side[0] : side[1];
-    const size_t n = (size_t)any->n;
-    TRY(solve_dense(any->problem, mu, x, f));
-    const double least = least_of(any->n, fmax(fabs(mu[0]), fabs(mu[n - 1])));
-    for (int i = 0; i < 2; i++) {
-        const size_t count = (size_t)(wanted[i] < any->n ? wanted[i] : any->n);
-        if (side[i] != NULL) /* the most positive ones come last */
-            TRY(candidates_add(side[i], (int)count, i == 0 ? x + (n - count) * n : x, least, f));
-    }
-    return STATUS_OK;
-}
-
-static status add_dense(candidates *const side[2], const int wanted[2], fault *f)
-{
-    const size_t n = (size_t)(side[0] != NULL ? side[0] : side[1])->n;
-    double *mu = calloc(n, sizeof *mu), *x = calloc(n * n, sizeof *x);
-    const status outcome =
-        mu != NULL && x != NULL
-            ? take_dense(side, wanted, mu, x, f)
-            : fault_set(f, STATUS_FAULT, "out of memory for an eigenvalue problem");
-    free(mu);
-    free(x);
-    return outcome;
 }
 
 /* Candidates from one run of Lanczos, in what the present ones leave; mu[count], x[count x n]. */
@@ -132,7 +71,7 @@ static status count_existing(candidates *p, int enough, double scale, double lea
     for (double s = scale; *exist < enough && s > least;) {
         int above = 0;
         s = fmax(s / step, least);
-        const status outcome = candidates_above(p, s, &above, r, f);
+        const status outcome = candidates_count_above(p, s, &above, r, f);
         if (outcome == STATUS_FAULT)
             return outcome;
         if (outcome == STATUS_OK && above > *exist)
@@ -156,7 +95,7 @@ static status fill(candidates *p, int wanted, double scale, double least, eigen_
         TRY(run_lanczos(p, missing, least, &r->solutions, f));
         missing = asked - p->count;
         if (missing <= 0)
-            TRY(candidates_missing(p, asked, &missing, r, f));
+            TRY(candidates_count_missing(p, asked, &missing, r, f));
     }
     return STATUS_OK;
 }
@@ -166,7 +105,7 @@ static status keep_first(candidates *p, eigen_result *r, fault *f)
 {
     int missing = 1;
     while (p->count > 0) {
-        const status outcome = candidates_missing(p, p->count, &missing, r, f);
+        const status outcome = candidates_count_missing(p, p->count, &missing, r, f);
         if (outcome == STATUS_FAULT || (outcome == STATUS_OK && missing == 0))
             return outcome;
         p->count--;
@@ -184,11 +123,12 @@ static status one_sparse(candidates *p, int side, int wanted, eigen_side *out, e
     out->rounding += wanted > 0 && scale == 0;
     if (scale == 0)
         return STATUS_OK;
-    out->status = fill(p, wanted, scale, fmax(negligible * scale, least_of(p->n, scale)), r, &why);
+    out->status =
+        fill(p, wanted, scale, fmax(negligible * scale, candidates_least(p->n, scale)), r, &why);
     if (out->status == STATUS_NOT_CONVERGED && p->n <= DENSE_AT_LAST_UP_TO) {
         p->count = 0;
-        out->status = add_dense((candidates *[]){side == 0 ? p : NULL, side == 0 ? NULL : p},
-                                (int[]){wanted, wanted}, &why);
+        out->status = eigen_dense_add((candidates *[]){side == 0 ? p : NULL, side == 0 ? NULL : p},
+                                      (int[]){wanted, wanted}, &why);
     }
     if (out->status == STATUS_OK)
         return STATUS_OK;
@@ -293,7 +233,7 @@ static status find(const eigen_problem *e, candidates *up, candidates *down, eig
 {
     const int most = (e->largest > e->smallest ? e->largest : e->smallest) + SPARE + 1;
     if ((r->n <= DENSE_UP_TO && !e->iterate) || most >= r->n)
-        return add_dense((candidates *[]){up, down}, (int[]){e->largest, e->smallest}, f);
+        return eigen_dense_add((candidates *[]){up, down}, (int[]){e->largest, e->smallest}, f);
     TRY(one_sparse(up, 0, e->largest, &r->positive, r, f));
     return one_sparse(down, 1, e->smallest, &r->negative, r, f);
 }

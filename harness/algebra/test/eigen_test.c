@@ -5,6 +5,7 @@
 
 #include "elements/math/pi.h"
 #include "harness/algebra/candidates.h"
+#include "harness/algebra/candidates_count.h"
 #include "harness/algebra/lanczos.h"
 #include "harness/algebra/test/eigen_problems.h"
 
@@ -192,16 +193,16 @@ static void test_missed_copies(void)
                  scale = candidates_scale(&p, &work.solutions);
     gsl_test(!(scale > 0.3 * first && scale < first * (1 + 1e-9)),
              "the largest eigenvalue is estimated from below (%g of it)", scale / first);
-    candidates_above(&p, sqrt(first * second), &above, &work, NULL);
+    candidates_count_above(&p, sqrt(first * second), &above, &work, NULL);
     gsl_test_int(above, COPIES, "the inertia counts all copies");
     gsl_test(candidates_add(&p, 1, x, 0, NULL) != STATUS_OK ||
                  candidates_add(&p, 1, all, 0, NULL) != STATUS_OK,
              "candidates are taken in");
     gsl_test_rel(p.mu[0], first, 1e-14, "and sorted");
     gsl_test_rel(p.mu[1], second, 1e-14, "by size");
-    gsl_test(candidates_missing(&p, 1, &missing, &work, NULL) != STATUS_OK || missing != 0,
+    gsl_test(candidates_count_missing(&p, 1, &missing, &work, NULL) != STATUS_OK || missing != 0,
              "the largest value is right with one copy");
-    gsl_test_int((int)candidates_missing(&p, 2, &missing, &work, NULL), STATUS_OK,
+    gsl_test_int((int)candidates_count_missing(&p, 2, &missing, &work, NULL), STATUS_OK,
                  "values that lie above the second one are counted");
     gsl_test_int(missing, COPIES - 1, "and two are missing");
     const lanczos_problem rest = {e.K, e.A, e.K_factor, 1, p.count, p.x, p.Kx};
@@ -211,12 +212,13 @@ static void test_missed_copies(void)
     gsl_test_rel(mu[0], first, 1e-12, "second copy");
     gsl_test_rel(mu[1], first, 1e-12, "third copy");
     gsl_test(candidates_add(&p, 2, x, 0, NULL) != STATUS_OK, "both are taken in");
-    gsl_test(candidates_missing(&p, COPIES + 1, &missing, &work, NULL) != STATUS_OK || missing != 0,
+    gsl_test(candidates_count_missing(&p, COPIES + 1, &missing, &work, NULL) != STATUS_OK ||
+                 missing != 0,
              "now nothing is missing");
     const double apart = departure(&s.K, p.count, p.x);
     gsl_test(!(apart < 1e-12), "candidates are orthonormal within %.1e", apart);
     gsl_test(candidates_add(&p, 1, all, 0, NULL) != STATUS_OK, "the same vector again");
-    gsl_test_int((int)candidates_missing(&p, COPIES + 2, &missing, &work, NULL),
+    gsl_test_int((int)candidates_count_missing(&p, COPIES + 2, &missing, &work, NULL),
                  STATUS_NOT_CONVERGED, "counts too many");
     candidates_free(&p);
     factor_free(e.K_factor);

@@ -1,0 +1,169 @@
+#include "harness/analysis/extract_path.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "elements/math/pi.h"
+#include "harness/equations/internal.h"
+#include "harness/equations/linearise.h"
+#include "harness/equations/loads.h"
+#include "harness/model/kinematics.h"
+#include "harness/solver/modes.h"
+#include "harness/solver/quantity.h"
+
+/* [Hz]; NAN: no mode of this kind. */
+static double frequency_of(const scene_quantity *q, const rotation_modes *modes)
+{
+    int order = 0;
+    for (int i = 0; i < modes->count; i++)
+        if (modes->growth[i] == 0 && modes_in_family(scene_mode_of(q), &modes->shape[i]) &&
+            order++ == scene_mode_of(q)->order)
+            return modes->frequency[i] / (2 * PI);
+    return NAN;
+}
+
+/* [1/s]; NAN: there are no modes. */
+static double growth_of(const rotation_modes *modes)
+{
+    double largest = 0;
+    for (int i = 0; i < modes->count; i++)
+        largest = fmax(largest, modes->growth[i]);
+    return modes->count > 0 ? largest : NAN;
+}
+
+static double reaction_of(const analysis_context *c, const scene_component *what,
+                          const model_state *s)
+{
+    double F[6], L[6];
+    linearise_node_force(c->model, s, what->node, F);
+    loads_at_node(c->model, s, what->node, L);
+    return F[what->component] - L[what->component];
+}
+
+/* NULL: no quantity asked for them. */
+static const rotation_modes *modes_at(const analysis_outcome *o, int i)
+{
+    rotation_modes *const modes = outcome_rotation_of(o)->modes;
+    return modes != NULL ? &modes[i] : NULL;
+}
+
+static double internal_of(const analysis_context *c, const scene_internal *what,
+                          const model_state *s)
+{
+    double all[SCENE_BIMOMENT + 1];
+    internal_at_end(c->model, s, NULL, kinematics_state_path(s), what->member, what->end, all);
+    return all[what->resultant];
+}
+
+/* Value of a quantity of the path at one station. */
+static double extracted(const analysis_context *c, const scene_quantity *q,
+                        const analysis_outcome *o, int i)
+{
+    const outcome_path *path = outcome_path_of(o);
+    switch (q->what.kind) {
+    case SCENE_COORDINATE:
+        return kinematics_component(c->model, path->state[i], scene_component_of(q)->node,
+                                    scene_component_of(q)->component);
+    case SCENE_REACTION:
+        return reaction_of(c, scene_component_of(q), path->state[i]);
+    case SCENE_COMPLIANCE_ENTRY:
+        return outcome_compliance_of(o)
+            ->matrix[36 * i + 6 * scene_entry_of(q)->row + scene_entry_of(q)->column];
+    case SCENE_STIFFNESS_ENTRY:
+        return 1 / outcome_compliance_of(o)->matrix[36 * i + 7 * scene_entry_of(q)->row];
+    case SCENE_DRIVER_VALUE:
+        return kinematics_driver_value(c->model, path->state[i], scene_driver_of(q));
+    case SCENE_FREQUENCY:
+        return modes_at(o, i) != NULL ? frequency_of(q, modes_at(o, i)) : NAN;
+    case SCENE_GROWTH:
+        return modes_at(o, i) != NULL ? growth_of(modes_at(o, i)) : NAN;
+    case SCENE_FACTOR_AT:
+        return kinematics_state_path(path->state[i]);
+    case SCENE_INTERNAL:
+        return internal_of(c, scene_internal_of(q), path->state[i]);
+    case SCENE_CRITICAL_FACTOR:
+    case SCENE_CRITICAL_POINT:
+        break;
+    }
+    return NAN;
+}
+
+static double at_station(const analysis_context *c, const scene_quantity *q,
+                         const analysis_outcome *o, int i)
+{
+    return quantity_scaled(q, extracted(c, q, o, i));
+}
+
+static double abscissa(const scene_quantity *q, const outcome_path *p, int i)
+{
+    return p->value[i] * q->x.factor + q->x.offset;
+}
+
+static void take_curve(const analysis_context *c, const scene_quantity *q,
+                       const analysis_outcome *o, quantity_result *r)
+{
+    const outcome_path *p = outcome_path_of(o);
+    r->curve.x = calloc((size_t)p->reached + 1, sizeof(double));
+    r->curve.value = calloc((size_t)p->reached + 1, sizeof(double));
+    if (r->curve.x == NULL || r->curve.value == NULL) {
+        quantity_no_value(r, STATUS_FAULT, "out of memory");
+        return;
+    }
+    r->curve.points = p->reached;
+    for (int i = 0; i < p->reached; i++) {
+        r->curve.x[i] = abscissa(q, p, i);
+        r->curve.value[i] = at_station(c, q, o, i);
+    }
+    r->value = p->reached > 0 ? r->curve.value[p->reached - 1] : NAN;
+}
+
+/* Why a path ends before a station: the reason of the analysis that is followed. */
+static const char *reason_of_path(const analysis_context *c, const scene_quantity *q)
+{
+    const int follows = c->scene->analysis[q->analysis].follows;
+    return follows != SCENE_NONE && c->outcomes[follows].status != STATUS_OK
+               ? c->outcomes[follows].reason
+               : "the path does not reach this station";
+}
+
+static void path_ends(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
+                      quantity_result *r)
+{
+    if (o->status != STATUS_OK)
+        quantity_no_value(r, o->status, o->reason);
+    else
+        quantity_no_value(r, STATUS_NOT_CONVERGED, reason_of_path(c, q));
+}
+
+void extract_path(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
+                  quantity_result *r)
+{
+    const outcome_path *p = outcome_path_of(o);
+    const int complete = p->reached == p->stations;
+    int chosen = -1;
+    for (int i = 0; i < p->reached; i++) {
+        const double value =
+            q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ? at_station(c, q, o, i) : 0;
+        const int better = q->reduction == SCENE_MAX ? value > r->value : value < r->value;
+        const int here = q->reduction == SCENE_AT
+                             ? fabs(p->value[i] - q->at) <= 1e-12 * fmax(1, fabs(q->at))
+                             : i == p->stations - 1;
+        if ((q->reduction == SCENE_MAX || q->reduction == SCENE_MIN) ? chosen < 0 || better
+                                                                     : here) {
+            chosen = i;
+            r->value = value;
+        }
+    }
+    if (q->reduction == SCENE_CURVE) {
+        take_curve(c, q, o, r);
+        if (!complete)
+            path_ends(c, q, o, r);
+        return;
+    }
+    if (chosen < 0 || (q->reduction != SCENE_AT && !complete)) {
+        path_ends(c, q, o, r);
+        return;
+    }
+    r->value = at_station(c, q, o, chosen);
+    r->x = abscissa(q, p, chosen);
+}

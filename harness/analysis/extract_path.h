@@ -1,0 +1,11 @@
+/* Quantities of a path: at a station, the largest or least of all, or as a curve. */
+#ifndef BEAMWORK_EXTRACT_PATH_H
+#define BEAMWORK_EXTRACT_PATH_H
+
+#include "harness/solver/context.h"
+
+/* Without a value where the path ends before the stations that the quantity needs. */
+void extract_path(const analysis_context *, const scene_quantity *, const analysis_outcome *,
+                  quantity_result *);
+
+#endif
