@@ -1,7 +1,8 @@
 /* The screw displacement that takes node p and its triad to node q.
- * With R half way between the triads of the nodes, D the chord in its axes, psi the rotation vector and a = psi/2, the translation
- * along the way in axes that turn on it is
- *   U = V^-1 D,  V = int from -1/2 to 1/2 of exp(x psi~) dx,  V^-1 = mu + nu a a^T,  mu = |a|/sin |a|, nu = (1 - mu)/|a|^2. */
+ * With R half way between the triads of the nodes, D the chord in its axes, psi the rotation vector
+ * and a = psi/2, the translation along the way in axes that turn on it is
+ *   U = V^-1 D,  V = int from -1/2 to 1/2 of exp(x psi~) dx,  V^-1 = mu + nu a a^T,
+ *   mu = |a|/sin |a|,  nu = (1 - mu)/|a|^2. */
 #ifndef BEAMWORK_BEAMW_SCREW_H
 #define BEAMWORK_BEAMW_SCREW_H
 

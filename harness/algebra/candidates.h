@@ -36,8 +36,8 @@ double candidates_departure(const candidates *p, int count);
 status candidates_refine(candidates *p, int count, fault *f);
 /* y = K^-1 s A x. */
 void candidates_apply(candidates *p, const double x[], double y[]);
-/* Values below are rounding errors of the largest one, `scale`: n^(3/2) of them add up in a slender structure of n
- * unknowns. */
+/* Values below are rounding errors of the largest one, `scale`: n^(3/2) of them add up in a slender
+ * structure of n unknowns. */
 double candidates_least(int n, double scale);
 /* Takes in vectors x[count x n], whatever their length; those with mu <= least are dropped. */
 status candidates_add(candidates *p, int count, const double x[], double least, fault *f);
