@@ -197,13 +197,25 @@ static void show_json(const contestant *a, const contestant *b, const against *v
 static status set_formulations(const cli_request *r, const case_type *type, scene *s, contestant *a,
                                contestant *b, fault *f)
 {
-    static const scene_edit unchanged = {.kind = SCENE_EDIT_NONE};
     formulation other;
     TRY(formulation_parse(r->against, &other, f));
-    TRY(cell_scene(type, r->parameter, &unchanged, s, f));
+    TRY(cell_scene(type, r->parameter, NULL, s, f));
     set_request(a, r, s, &r->formulation[0], r->mesh[0]);
     set_request(b, r, s, &other, r->mesh[r->meshes - 1]);
     return STATUS_OK;
+}
+
+/* With a scene that cli_against frees. */
+static status compete(const cli_request *r, const case_type *type, scene *s, contestant *a,
+                      contestant *b, against *answer, fault *f)
+{
+    if (a->program == NULL)
+        TRY(set_formulations(r, type, s, a, b, f));
+    set_counted(a);
+    set_counted(b);
+    rounds_pin();
+    TRY(set_repeats(a, b, f));
+    return against_run(lap, a, b, budget_seconds, answer, f);
 }
 
 int cli_against(cli_request *r)
@@ -212,7 +224,6 @@ int cli_against(cli_request *r)
     const char *arguments[2][MOST_ARGUMENTS];
     char elements[2][16];
     scene s = {0};
-    status outcome = STATUS_OK;
     against answer;
     fault f = {""};
     if (r->case_count != 1 || r->formulations != 1 || r->meshes < 1 || r->meshes > 2)
@@ -232,16 +243,8 @@ int cli_against(cli_request *r)
                 "--plant and a second mesh are for another formulation in the same program");
         set_program(&a, r, "/proc/self/exe", elements[0], arguments[0]);
         set_program(&b, r, r->against, elements[1], arguments[1]);
-    } else {
-        outcome = set_formulations(r, type, &s, &a, &b, &f);
     }
-    set_counted(&a);
-    set_counted(&b);
-    rounds_pin();
-    if (outcome == STATUS_OK)
-        outcome = set_repeats(&a, &b, &f);
-    if (outcome == STATUS_OK)
-        outcome = against_run(lap, &a, &b, budget_seconds, &answer, &f);
+    const status outcome = compete(r, type, &s, &a, &b, &answer, &f);
     scene_free(&s);
     if (outcome != STATUS_OK)
         return cli_fail(outcome, f.text);

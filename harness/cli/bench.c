@@ -5,6 +5,7 @@
 #include "harness/catalogue/registry.h"
 #include "harness/cli/cli.h"
 #include "harness/record/csv.h"
+#include "harness/record/output.h"
 #include "harness/record/store.h"
 #include "harness/record/table_timing.h"
 #include "harness/study/plan.h"
@@ -52,6 +53,18 @@ static int is_named(const cli_request *r)
     return r->case_count > 0 || r->scene != NULL;
 }
 
+static status write_out(const cli_request *r, const sweep *s, const judgement *j, fault *f)
+{
+    const environment e = environment_now(1);
+    if (r->format[0] == 'c')
+        csv_timing(stdout, s, j);
+    else
+        table_timing(stdout, s, j, is_named(r));
+    TRY(output_flush(f));
+    return r->output != NULL ? store_write(r->output, s, j, &e, f) : STATUS_OK;
+}
+
+/* With what bench_request frees. */
 static status measure(cli_request *r, truths *t, sweep *s, judgement *j, fault *f)
 {
     FILE *progress = isatty(STDERR_FILENO) ? stderr : NULL;
@@ -60,30 +73,21 @@ static status measure(cli_request *r, truths *t, sweep *s, judgement *j, fault *
                                    .formulations = r->formulations,
                                    .formulation = r->formulation,
                                    .progress = progress};
+    TRY(cli_check_files(r, 1, cli_truths_path(r), f));
+    TRY(cli_truths_read(r, t, f));
     TRY(is_named(r) ? plan_named(r, s, f) : plan_sweep(&request, t, s, f));
     s->threads = r->threads;
     TRY(run_sweep(&request, s, f));
     TRY(judgement_make(s, t, 0, j, f));
     if (s->threads <= 1)
         rounds_pin();
-    return timing_run(s, floor_seconds, r->dense, progress, f);
-}
-
-static status write_out(const cli_request *r, const sweep *s, const judgement *j, fault *f)
-{
-    const environment e = environment_now(1);
-    if (r->format[0] == 'c')
-        csv_timing(stdout, s, j);
-    else
-        table_timing(stdout, s, j, is_named(r));
-    if (fflush(stdout) != 0)
-        return fault_set(f, STATUS_FAULT, "standard output cannot be written");
-    return r->output != NULL ? store_write(r->output, s, j, &e, f) : STATUS_OK;
+    TRY(timing_run(s, floor_seconds, r->dense, progress, f));
+    return write_out(r, s, j, f);
 }
 
 static int bench_request(cli_request *r)
 {
-    truths t;
+    truths t = {0};
     sweep s = {0};
     judgement j = {0};
     fault f = {""};
@@ -93,18 +97,11 @@ static int bench_request(cli_request *r)
         return r->refusal;
     if (!is_named(r) && (r->assignments > 0 || r->meshes > 0))
         return cli_fail(STATUS_REFUSED, "--set and -n are of a case: name it");
-    status outcome = cli_check_files(r, 1, cli_truths_path(r), &f);
-    if (outcome == STATUS_OK)
-        outcome = cli_truths_read(r, &t, &f);
-    if (outcome != STATUS_OK)
-        return cli_fail(outcome, f.text);
-    outcome = measure(r, &t, &s, &j, &f);
-    if (outcome == STATUS_OK)
-        outcome = write_out(r, &s, &j, &f);
+    const status outcome = measure(r, &t, &s, &j, &f);
     judgement_free(&j);
     sweep_free(&s);
     truths_free(&t);
-    return outcome == STATUS_OK ? EXIT_AS_EXPECTED : cli_fail(outcome, f.text);
+    return cli_exit(outcome, &f);
 }
 
 int cli_bench(int count, char **arguments)

@@ -84,5 +84,7 @@ const char *cli_truths_path(const cli_request *r);
 int cli_finish(int code);
 /* One line on stderr; the exit code that belongs to a status. */
 int cli_fail(status s, const char *text);
+/* EXIT_AS_EXPECTED, or cli_fail with what is wrong. */
+int cli_exit(status s, const fault *f);
 
 #endif

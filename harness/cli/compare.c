@@ -17,9 +17,7 @@ static int trouble(const fault *f)
 static status write_table(const char *path, const results *r, fault *f)
 {
     output file;
-    const status opened = output_open(path, &file, f);
-    if (opened != STATUS_OK)
-        return opened;
+    TRY(output_open(path, &file, f));
     results_write_table(file.stream, r);
     return output_close(&file, f);
 }
@@ -49,13 +47,12 @@ static int compare(const cli_request *r, const results *before, const results *a
     comparison c;
     comparison_run(stdout, before, after, limits, r->select, &c);
     print_sums(&c);
-    if (fflush(stdout) != 0)
-        fault_set(f, STATUS_FAULT, "standard output cannot be written");
-    else if (c.pairs == 0)
-        fault_set(f, STATUS_FAULT, "nothing was compared: %.80s and %.80s have no %s in common",
-                  r->case_name, r->second, c.whole ? "cell" : "series");
-    else
+    if (output_flush(f) != STATUS_OK)
+        return trouble(f);
+    if (c.pairs > 0)
         return comparison_differs(&c) ? DIFFERS : SAME;
+    fault_set(f, STATUS_FAULT, "nothing was compared: %.80s and %.80s have no %s in common",
+              r->case_name, r->second, c.whole ? "cell" : "series");
     return trouble(f);
 }
 

@@ -34,24 +34,27 @@ static status write_form(FILE *to, const char *format, const sweep *s, const tru
 static status write_out(const cli_request *r, const sweep *s, const truths *t, fault *f)
 {
     output file;
-    if (r->output == NULL) {
-        const status written = write_form(stdout, r->format, s, t, f);
-        return written != STATUS_OK || fflush(stdout) == 0
-                   ? written
-                   : fault_set(f, STATUS_FAULT, "standard output cannot be written");
-    }
     TRY(output_open(r->output, &file, f));
-    const status outcome = write_form(file.stream, r->format, s, t, f);
-    if (outcome == STATUS_OK)
-        return output_close(&file, f);
-    output_discard(&file);
-    return outcome;
+    return output_finish(&file, write_form(file.stream, r->format, s, t, f), f);
+}
+
+/* With what converge_request frees. */
+static status converge(const cli_request *r, const case_type *type, sweep *s, truths *t, fault *f)
+{
+    const sweep_request request = {.jobs = r->jobs,
+                                   .progress = isatty(STDERR_FILENO) ? stderr : NULL};
+    TRY(cli_check_files(r, 0, cli_truths_path(r), f));
+    TRY(cli_truths_read(r, t, f));
+    TRY(plan_one(type, r->parameter, r->formulation, r->formulations, r->mesh, r->meshes, s, f));
+    TRY(run_sweep(&request, s, f));
+    TRY(families_add_truths(s, 0, t, f));
+    return write_out(r, s, t, f);
 }
 
 static int converge_request(cli_request *r)
 {
-    sweep s;
-    truths t;
+    sweep s = {0};
+    truths t = {0};
     fault f = {""};
     const case_type *type = cli_case(r);
     if (type == NULL)
@@ -60,30 +63,12 @@ static int converge_request(cli_request *r)
         return cli_fail(
             STATUS_REFUSED,
             "which formulation? Give -f, or -f all; 'beamwork list formulations' shows them");
-    status outcome = cli_check_files(r, 0, cli_truths_path(r), &f);
-    if (outcome == STATUS_OK)
-        outcome = cli_truths_read(r, &t, &f);
-    if (outcome != STATUS_OK)
-        return cli_fail(outcome, f.text);
-    outcome =
-        plan_one(type, r->parameter, r->formulation, r->formulations, r->mesh, r->meshes, &s, &f);
-    if (outcome != STATUS_OK) {
-        truths_free(&t);
-        return cli_fail(outcome, f.text);
-    }
-    const sweep_request request = {.jobs = r->jobs,
-                                   .progress = isatty(STDERR_FILENO) ? stderr : NULL};
-    outcome = run_sweep(&request, &s, &f);
-    if (outcome == STATUS_OK)
-        outcome = families_add_truths(&s, 0, &t, &f);
-    if (outcome == STATUS_OK)
-        outcome = write_out(r, &s, &t, &f);
+    const status outcome = converge(r, type, &s, &t, &f);
     const int nothing = sweep_cells(&s) == 0;
     sweep_free(&s);
     truths_free(&t);
-    if (outcome != STATUS_OK)
-        return cli_fail(outcome, f.text);
-    return nothing ? EXIT_NOTHING : EXIT_AS_EXPECTED;
+    const int code = cli_exit(outcome, &f);
+    return code == EXIT_AS_EXPECTED && nothing ? EXIT_NOTHING : code;
 }
 
 int cli_converge(int count, char **arguments)

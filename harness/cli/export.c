@@ -26,41 +26,41 @@ static status write_deck(const cli_request *r, const deck_request *deck, fault *
 {
     output file;
     TRY(deck_check(deck, f));
-    if (r->output == NULL)
-        return deck_write(deck, stdout, f);
     TRY(output_open(r->output, &file, f));
-    const status outcome = deck_write(deck, file.stream, f);
-    if (outcome == STATUS_OK)
-        return output_close(&file, f);
-    output_discard(&file);
-    return outcome;
+    return output_finish(&file, deck_write(deck, file.stream, f), f);
 }
 
-static status export(const cli_request *r, const case_type *type, fault *f)
+/* With a scene that export_request frees. */
+static status export(const cli_request *r, const case_type *type, scene *s, fault *f)
 {
-    static const scene_edit unchanged = {.kind = SCENE_EDIT_NONE};
     char of[PARAMETERS_TEXT + PATH_MAX];
-    scene s;
     if (r->to == NULL || strcmp(r->to, "calculix") != 0)
         return fault_set(f, STATUS_REFUSED, "which program is the deck for? Say --to calculix");
     if (r->meshes > 1)
         return fault_set(f, STATUS_REFUSED, "a deck has one mesh; give one number with -n");
     TRY(cli_check_files(r, 0, NULL, f));
-    status outcome = cell_scene(type, r->parameter, &unchanged, &s, f);
-    if (outcome == STATUS_OK) {
-        name_of(r, type, of, sizeof of);
-        const deck_request deck = {
-            .scene = &s, .of = of, .elements = r->meshes > 0 ? r->mesh[0] : DEFAULT_ELEMENTS};
-        outcome = write_deck(r, &deck, f);
-    }
+    TRY(cell_scene(type, r->parameter, NULL, s, f));
+    name_of(r, type, of, sizeof of);
+    const deck_request deck = {
+        .scene = s, .of = of, .elements = r->meshes > 0 ? r->mesh[0] : DEFAULT_ELEMENTS};
+    return write_deck(r, &deck, f);
+}
+
+static int export_request(cli_request *r)
+{
+    scene s = {0};
+    fault f = {""};
+    const case_type *type = cli_case(r);
+    if (type == NULL)
+        return r->refusal;
+    const status outcome = export(r, type, &s, &f);
     scene_free(&s);
-    return outcome;
+    return cli_exit(outcome, &f);
 }
 
 int cli_export(int count, char **arguments)
 {
     cli_request r;
-    fault f = {""};
     cli_parse("export", "[CASE]",
               "Writes a case, or a scene of your own (--scene FILE), as solids in the words of "
               "another program: rectangles as bricks with 20 nodes and reduced integration, ends "
@@ -68,12 +68,7 @@ int cli_export(int count, char **arguments)
               "What a deck cannot say is refused. harness/export/read_back.py makes an import of "
               "what the program prints.",
               "nsoYO", count, arguments, &r);
-    const case_type *type = cli_case(&r);
-    int code = r.refusal;
-    if (type != NULL) {
-        const status outcome = export(&r, type, &f);
-        code = outcome == STATUS_OK ? EXIT_AS_EXPECTED : cli_fail(outcome, f.text);
-    }
+    const int code = export_request(&r);
     cli_close(&r);
     return code;
 }

@@ -77,6 +77,8 @@ static status check_again(const sweep *s, fault *f)
 
 static status import(cli_request *r, import_set *set, fault *f)
 {
+    if (r->case_count == 0 || r->output == NULL)
+        return fault_set(f, STATUS_REFUSED, "give files to import, and -o FILE.h5");
     TRY(cli_check_files(r, 1, NULL, f));
     TRY(r->map != NULL ? read_mapped(r, set, f) : read_files(r, set, f));
     TRY(check_again(&set->sweep, f));
@@ -98,12 +100,8 @@ int cli_import(int count, char **arguments)
               "it as one more contestant.",
               "o+m", count, arguments, &r);
     r.reads_files = 1;
-    status outcome = STATUS_OK;
-    if (r.case_count == 0 || r.output == NULL)
-        outcome = fault_set(&f, STATUS_REFUSED, "give files to import, and -o FILE.h5");
-    if (outcome == STATUS_OK)
-        outcome = import(&r, &set, &f);
+    const status outcome = import(&r, &set, &f);
     import_set_free(&set);
     cli_close(&r);
-    return outcome == STATUS_OK ? EXIT_AS_EXPECTED : cli_fail(outcome, f.text);
+    return cli_exit(outcome, &f);
 }

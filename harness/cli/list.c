@@ -7,6 +7,7 @@
 #include "harness/cli/cli.h"
 #include "harness/model/lacks.h"
 #include "harness/model/missing.h"
+#include "harness/study/cell.h"
 
 static void list_option(const parameter_type *o)
 {
@@ -91,11 +92,8 @@ static void list_offer(const scene *s, const element_type *type)
         printf("  %-28s runs\n", type->name);
 }
 
-static int list_case(const case_type *type)
+static void list_parameters(const case_type *type)
 {
-    double value[CASE_MAX_PARAMETERS] = {0};
-    scene s;
-    fault f;
     printf("%s: %s\nsource: %s\nparameters (--set NAME=VALUE)\n", type->name, type->summary,
            type->source);
     const parameter_type *p;
@@ -110,21 +108,32 @@ static int list_case(const case_type *type)
         else
             printf("%g .. %g)\n", p->min, p->max);
     }
-    parameters_default(type, value);
-    scene_init(&s, type->name);
-    status outcome = case_build(type, value, &s, &f);
-    if (outcome == STATUS_OK)
-        outcome = scene_validate(&s, &f);
+}
+
+/* What a case asks for at its default parameters, and who answers. */
+static void list_scene(const scene *s)
+{
     printf("quantities\n");
-    for (int i = 0; i < s.quantities; i++)
-        printf("  %-28s %s%s\n", s.quantity[i].name, s.quantity[i].unit,
-               s.quantity[i].reduction == SCENE_CURVE ? " (curve)" : "");
+    for (int i = 0; i < s->quantities; i++)
+        printf("  %-28s %s%s\n", s->quantity[i].name, s->quantity[i].unit,
+               s->quantity[i].reduction == SCENE_CURVE ? " (curve)" : "");
     printf("formulations\n");
+    for (int i = 0; registry_formulations[i] != NULL; i++)
+        list_offer(s, registry_formulations[i]);
+}
+
+static int list_case(const case_type *type)
+{
+    double value[CASE_MAX_PARAMETERS] = {0};
+    scene s;
+    fault f;
+    list_parameters(type);
+    parameters_default(type, value);
+    const status outcome = cell_scene(type, value, NULL, &s, &f);
     if (outcome == STATUS_OK)
-        for (int i = 0; registry_formulations[i] != NULL; i++)
-            list_offer(&s, registry_formulations[i]);
+        list_scene(&s);
     scene_free(&s);
-    return outcome == STATUS_OK ? EXIT_AS_EXPECTED : cli_fail(outcome, f.text);
+    return cli_exit(outcome, &f);
 }
 
 int cli_list(int count, char **arguments)

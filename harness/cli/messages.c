@@ -11,6 +11,11 @@ int cli_finish(int code)
     return cli_fail(STATUS_FAULT, "standard output cannot be written");
 }
 
+int cli_exit(status s, const fault *f)
+{
+    return s == STATUS_OK ? EXIT_AS_EXPECTED : cli_fail(s, f->text);
+}
+
 int cli_fail(status s, const char *text)
 {
     fprintf(stderr, "beamwork: %s\n", text);

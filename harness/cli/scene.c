@@ -17,37 +17,24 @@ static status describe(FILE *to, const cli_request *r, fault *f)
     return STATUS_OK;
 }
 
-/* type NULL: a description of the keys. */
-static status write_to(FILE *to, const cli_request *r, const case_type *type, fault *f)
+/* With a scene that write_out frees. type NULL: a description of the keys. */
+static status write_to(FILE *to, const cli_request *r, const case_type *type, scene *s, fault *f)
 {
-    static const scene_edit unchanged = {.kind = SCENE_EDIT_NONE};
-    scene s;
     if (type == NULL)
         return describe(to, r, f);
-    status outcome = cell_scene(type, r->parameter, &unchanged, &s, f);
-    if (outcome == STATUS_OK) {
-        const write_head head = {type->name, type->summary, type->source};
-        outcome = write_scene(to, &s, &head, f);
-    }
-    scene_free(&s);
-    return outcome;
+    const write_head head = {type->name, type->summary, type->source};
+    TRY(cell_scene(type, r->parameter, NULL, s, f));
+    return write_scene(to, s, &head, f);
 }
 
 static status write_out(const cli_request *r, const case_type *type, fault *f)
 {
     output file;
-    if (r->output == NULL) {
-        TRY(write_to(stdout, r, type, f));
-        return fflush(stdout) == 0
-                   ? STATUS_OK
-                   : fault_set(f, STATUS_FAULT, "standard output cannot be written");
-    }
+    scene s = {0};
     TRY(output_open(r->output, &file, f));
-    const status outcome = write_to(file.stream, r, type, f);
-    if (outcome == STATUS_OK)
-        return output_close(&file, f);
-    output_discard(&file);
-    return outcome;
+    const status written = write_to(file.stream, r, type, &s, f);
+    scene_free(&s);
+    return output_finish(&file, written, f);
 }
 
 int cli_scene(int count, char **arguments)
@@ -63,10 +50,8 @@ int cli_scene(int count, char **arguments)
         "soFYHE", count, arguments, &r);
     const case_type *type = r.schema || r.keys ? NULL : cli_case(&r);
     int code = r.refusal;
-    if (r.schema || r.keys || type != NULL) {
-        const status outcome = write_out(&r, type, &f);
-        code = outcome == STATUS_OK ? EXIT_AS_EXPECTED : cli_fail(outcome, f.text);
-    }
+    if (r.schema || r.keys || type != NULL)
+        code = cli_exit(write_out(&r, type, &f), &f);
     cli_close(&r);
     return code;
 }

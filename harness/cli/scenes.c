@@ -19,6 +19,13 @@ static status add_path(const char *path, scenes *out, fault *f)
     return STATUS_OK;
 }
 
+static status add_paths(const glob_t *found, scenes *out, fault *f)
+{
+    for (size_t i = 0; i < found->gl_pathc; i++)
+        TRY(add_path(found->gl_pathv[i], out, f));
+    return STATUS_OK;
+}
+
 /* Every *.yaml of a folder, in the order of their names. */
 static status add_folder(const char *folder, scenes *out, fault *f)
 {
@@ -40,9 +47,7 @@ static status add_folder(const char *folder, scenes *out, fault *f)
                          "--scene %.200s: no *.yaml in that folder; give a scene file", folder);
     if (failed != 0)
         return fault_set(f, STATUS_FAULT, "--scene %.200s: the folder cannot be read", folder);
-    status outcome = STATUS_OK;
-    for (size_t i = 0; i < found.gl_pathc && outcome == STATUS_OK; i++)
-        outcome = add_path(found.gl_pathv[i], out, f);
+    const status outcome = add_paths(&found, out, f);
     globfree(&found);
     return outcome;
 }

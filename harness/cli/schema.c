@@ -77,8 +77,7 @@ int cli_schema(int count, char **arguments)
     if (r.case_name != NULL)
         return cli_fail(STATUS_REFUSED, "schema takes no case; it describes the files of all");
     if (r.format[0] == 'j')
-        return write_json(&f) == STATUS_OK && fflush(stdout) == 0 ? EXIT_AS_EXPECTED
-                                                                  : cli_fail(STATUS_FAULT, f.text);
+        return cli_exit(write_json(&f), &f);
     if (r.format[0] == 'c')
         return cli_fail(STATUS_REFUSED, "schema is written as text or json");
     printf("%s, version %d\n%s", SCHEMA_NAME, SCHEMA_VERSION, about);
@@ -87,6 +86,5 @@ int cli_schema(int count, char **arguments)
     show("solve --format json, ", &record_truth);
     for (int i = 0; of_extremes[i] != NULL; i++)
         show("stress --json, ", of_extremes[i]);
-    return fflush(stdout) == 0 ? EXIT_AS_EXPECTED
-                               : cli_fail(STATUS_FAULT, "standard output cannot be written");
+    return EXIT_AS_EXPECTED; /* main flushes */
 }

@@ -26,24 +26,11 @@ static status write_out(const cli_request *r, const sweep *s, const truths *t, f
     if (r->shapes > 0) {
         const environment e = environment_now(1);
         table_solution(stdout, s, t);
-        if (fflush(stdout) != 0)
-            return fault_set(f, STATUS_FAULT, "standard output cannot be written");
+        TRY(output_flush(f));
         return store_write_solution(r->output, s, &e, f);
     }
-    if (r->output == NULL) {
-        const status written = write_to(stdout, r, s, t, f);
-        return written == STATUS_OK && fflush(stdout) != 0
-                   ? fault_set(f, STATUS_FAULT, "standard output cannot be written")
-                   : written;
-    }
-    status outcome = output_open(r->output, &file, f);
-    if (outcome != STATUS_OK)
-        return outcome;
-    outcome = write_to(file.stream, r, s, t, f);
-    if (outcome == STATUS_OK)
-        return output_close(&file, f);
-    output_discard(&file);
-    return outcome;
+    TRY(output_open(r->output, &file, f));
+    return output_finish(&file, write_to(file.stream, r, s, t, f), f);
 }
 
 /* The one cell, solved in this process so that its options reach it. */

@@ -93,12 +93,8 @@ static int truth_request(cli_request *r)
                                    : fault_set(&f, STATUS_REFUSED, "the file has no truth there");
     }
     truths_free(&t);
-    if (fflush(stdout) != 0)
-        return cli_fail(STATUS_FAULT, "standard output cannot be written");
-    if (outcome == STATUS_OK)
-        return EXIT_AS_EXPECTED;
-    cli_fail(outcome, f.text);
-    return outcome == STATUS_REFUSED ? EXIT_DIFFERS : EXIT_FAULT;
+    const int code = cli_exit(outcome, &f);
+    return code == EXIT_REFUSED ? EXIT_DIFFERS : code;
 }
 
 int cli_truth(int count, char **arguments)

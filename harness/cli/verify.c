@@ -23,11 +23,7 @@ static status write_json(const char *path, const sweep *s, const judgement *j, c
 {
     output file;
     TRY(output_open(path, &file, f));
-    const status outcome = json_write_verdicts(file.stream, s, j, e, f);
-    if (outcome == STATUS_OK)
-        return output_close(&file, f);
-    output_discard(&file);
-    return outcome;
+    return output_finish(&file, json_write_verdicts(file.stream, s, j, e, f), f);
 }
 
 static status write_junit(const char *path, const sweep *s, const judgement *j, fault *f)
@@ -96,8 +92,7 @@ static status judge_and_write(const cli_request *r, const sweep *s, truths *t, j
         TRY(families_add_truths(s, 1, t, f));
     TRY(judgement_make(s, t, whole, j, f));
     table_verdicts(stdout, s, j, t);
-    if (fflush(stdout) != 0)
-        return fault_set(f, STATUS_FAULT, "standard output cannot be written");
+    TRY(output_flush(f));
     return write_all(r, s, j, f);
 }
 
@@ -157,11 +152,12 @@ static status add_beside(const cli_request *r, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-static status run(const cli_request *r, const case_type *const *cases, sweep *s, truths *t,
-                  judgement *j, fault *f)
+/* With what verify_scenes frees. */
+static status run(const cli_request *r, const scenes *own, sweep *s, truths *t, judgement *j,
+                  fault *f)
 {
     const int states = r->shapes < PICTURED_STATES ? r->shapes : PICTURED_STATES;
-    const sweep_request request = {.cases = cases,
+    const sweep_request request = {.cases = own->type,
                                    .select = r->select,
                                    .jobs = r->jobs,
                                    .time_limit = r->time_limit,
@@ -170,6 +166,10 @@ static status run(const cli_request *r, const case_type *const *cases, sweep *s,
                                    .formulation = r->formulation,
                                    .shapes = states,
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
+    TRY(cli_check_files(r, 1, cli_truths_path(r), f));
+    for (int i = 0; i < own->count; i++)
+        TRY(cli_check_input(r, own->path[i], f));
+    TRY(scenes_truths(own, r, t, f));
     TRY(plan_sweep(&request, t, s, f));
     TRY(run_sweep(&request, s, f));
     if (s->unfinished == 0)
@@ -182,17 +182,10 @@ static status run(const cli_request *r, const case_type *const *cases, sweep *s,
 static int verify_scenes(const cli_request *r, const scenes *own)
 {
     sweep s = {0};
-    truths t;
+    truths t = {0};
     judgement j = {0};
     fault f = {""};
-    status outcome = cli_check_files(r, 1, cli_truths_path(r), &f);
-    for (int i = 0; i < own->count && outcome == STATUS_OK; i++)
-        outcome = cli_check_input(r, own->path[i], &f);
-    if (outcome == STATUS_OK)
-        outcome = scenes_truths(own, r, &t, &f);
-    if (outcome != STATUS_OK)
-        return cli_fail(outcome, f.text);
-    outcome = run(r, own->type, &s, &t, &j, &f);
+    const status outcome = run(r, own, &s, &t, &j, &f);
     const int code = outcome != STATUS_OK ? cli_fail(outcome, f.text) : tell(r, &s, &j);
     judgement_free(&j);
     sweep_free(&s);

@@ -72,11 +72,8 @@ static status check_form(const char *path, const place *to, output_form form, fa
 static status open_as(const char *path, output_form form, output *out, fault *f)
 {
     memset(out, 0, sizeof *out);
-    status outcome = place_find(path, &out->to, f);
-    if (outcome == STATUS_OK)
-        outcome = check_form(path, &out->to, form, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(place_find(path, &out->to, f));
+    TRY(check_form(path, &out->to, form, f));
     const int direct = out->to.kind == PLACE_STREAM;
     const int file = direct ? open_stream(&out->to) : create_beside(out->to.path, out->temporary);
     out->stream = file >= 0 ? fdopen(file, "w") : NULL;
@@ -89,7 +86,10 @@ static status open_as(const char *path, output_form form, output *out, fault *f)
 
 status output_open(const char *path, output *out, fault *f)
 {
-    return open_as(path, OUTPUT_TEXT, out, f);
+    if (path != NULL)
+        return open_as(path, OUTPUT_TEXT, out, f);
+    *out = (output){.stream = stdout};
+    return STATUS_OK;
 }
 
 status output_open_whole(const char *path, output *out, fault *f)
@@ -99,7 +99,7 @@ status output_open_whole(const char *path, output *out, fault *f)
 
 void output_discard(output *out)
 {
-    if (out->stream != NULL)
+    if (out->stream != NULL && out->stream != stdout)
         fclose(out->stream);
     out->stream = NULL;
     if (out->temporary[0] != '\0')
@@ -115,8 +115,16 @@ static int is_stored(FILE *stream)
     return fsync(fileno(stream)) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
 }
 
+status output_flush(fault *f)
+{
+    return fflush(stdout) == 0 ? STATUS_OK
+                               : fault_set(f, STATUS_FAULT, "standard output cannot be written");
+}
+
 status output_close(output *out, fault *f)
 {
+    if (out->stream == stdout)
+        return output_flush(f);
     errno = 0;
     int good = is_stored(out->stream);
     int why = good ? 0 : errno;
@@ -136,15 +144,21 @@ status output_close(output *out, fault *f)
                      out->temporary[0] != '\0' ? "; nothing was left" : "");
 }
 
+status output_finish(output *out, status written, fault *f)
+{
+    if (written == STATUS_OK)
+        return output_close(out, f);
+    output_discard(out);
+    return written;
+}
+
 status output_try(const char *path, output_form form, place *where, fault *f)
 {
     char temporary[PATH_MAX];
-    status outcome = place_find(path, where, f);
-    if (outcome == STATUS_OK)
-        outcome = check_form(path, where, form, f);
-    if (outcome != STATUS_OK ||
-        where->kind == PLACE_STREAM) /* opening a pipe would wake its reader */
-        return outcome;
+    TRY(place_find(path, where, f));
+    TRY(check_form(path, where, form, f));
+    if (where->kind == PLACE_STREAM) /* opening a pipe would wake its reader */
+        return STATUS_OK;
     const int file = create_beside(where->path, temporary);
     if (file < 0)
         return fail(path, errno, f);

@@ -16,11 +16,16 @@ typedef struct output {
     char temporary[PATH_MAX]; /* empty: written directly */
 } output;
 
-status output_open(const char *path, output *out, fault *f); /* text */
+/* Text; path NULL: onto standard output. */
+status output_open(const char *path, output *out, fault *f);
 status output_open_whole(const char *path, output *out, fault *f);
 /* Flushes and renames; every error is found here. On failure nothing is left. */
 status output_close(output *out, fault *f);
 void output_discard(output *out);
+/* Closes what was written and discards what was not. */
+status output_finish(output *out, status written, fault *f);
+/* Standard output has gone where it goes, or FAULT. */
+status output_flush(fault *f);
 /* An output that cannot be written is noticed before anything is computed: REFUSED what is no name
  * or takes no such form, FAULT what cannot be written. *where: the place, for comparison with
  * others. */

@@ -23,7 +23,8 @@ status cell_scene(const case_type *type, const double parameter[], const scene_e
 {
     scene_init(out, type->name);
     TRY(case_build(type, parameter, out, f));
-    TRY(scene_edit_apply(out, edit, f));
+    if (edit != NULL)
+        TRY(scene_edit_apply(out, edit, f));
     return scene_validate(out, f);
 }
 
@@ -38,9 +39,20 @@ static status set_up(const cell_request *request, const scene *s, model **m, cel
     return copy_left_out(*m, out, f);
 }
 
-static status run(const cell_request *request, const scene *s, model **m, cell_result *out,
-                  fault *f)
+/* The scene of the request, or one of its own, which stays in the result. */
+static status scene_of(const cell_request *request, const scene **s, cell_result *out, fault *f)
 {
+    *s = request->scene;
+    if (*s != NULL)
+        return STATUS_OK;
+    *s = &out->scene;
+    return cell_scene(request->type, request->parameter, &request->edit, &out->scene, f);
+}
+
+static status run(const cell_request *request, model **m, cell_result *out, fault *f)
+{
+    const scene *s;
+    TRY(scene_of(request, &s, out, f));
     const double start = clock_processor_seconds();
     const status ready = set_up(request, s, m, out, f);
     const double prepared = clock_processor_seconds() - start;
@@ -62,15 +74,8 @@ void cell_formulation(cell_request *request, const formulation *chosen)
 status cell_run(const cell_request *request, cell_result *out, fault *f)
 {
     model *m = NULL;
-    const scene *s = request->scene;
-    status outcome = STATUS_OK;
     memset(out, 0, sizeof *out);
-    if (s == NULL) {
-        outcome = cell_scene(request->type, request->parameter, &request->edit, &out->scene, f);
-        s = &out->scene;
-    }
-    if (outcome == STATUS_OK)
-        outcome = run(request, s, &m, out, f);
+    const status outcome = run(request, &m, out, f);
     if (outcome != STATUS_OK && out->solve.status == STATUS_OK) {
         out->solve.status = outcome;
         snprintf(out->solve.reason, sizeof out->solve.reason, "%s", f != NULL ? f->text : "");

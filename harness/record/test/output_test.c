@@ -125,9 +125,7 @@ static path in(const folder *of, const char *name)
 static status write_text(const char *to, const char *text, fault *f)
 {
     output o;
-    const status opened = output_open(to, &o, f);
-    if (opened != STATUS_OK)
-        return opened;
+    TRY(output_open(to, &o, f));
     fputs(text, o.stream);
     return output_close(&o, f);
 }
@@ -176,6 +174,31 @@ static void links(void)
     gsl_test(write_text(circle.text, "never", &f) != STATUS_FAULT, "links in a circle: %s", f.text);
     gsl_test_int(entries(of.path), 7, "nothing else is left");
     folder_remove(&of);
+}
+
+/* What could not be written leaves the file of before, and its own status. */
+static void finished(void)
+{
+    const folder of = folder_make();
+    const path file = in(&of, "file");
+    output o;
+    fault f = {""};
+    gsl_test(write_text(file.text, "before", &f) != STATUS_OK, "a file %s", f.text);
+    gsl_test(output_open(file.text, &o, &f) != STATUS_OK, "opened %s", f.text);
+    fputs("half", o.stream);
+    gsl_test(output_finish(&o, STATUS_REFUSED, &f) != STATUS_REFUSED || !holds(file.text, "before"),
+             "what was not written");
+    gsl_test(output_open(file.text, &o, &f) != STATUS_OK, "opened %s", f.text);
+    fputs("whole", o.stream);
+    gsl_test(output_finish(&o, STATUS_OK, &f) != STATUS_OK || !holds(file.text, "whole"),
+             "what was written");
+    gsl_test_int(entries(of.path), 1, "nothing else is left");
+    folder_remove(&of);
+    gsl_test(output_open(NULL, &o, &f) != STATUS_OK || o.stream != stdout, "no name: %s", f.text);
+    gsl_test(output_finish(&o, STATUS_REFUSED, &f) != STATUS_REFUSED || puts("still open") < 0,
+             "standard output stays open");
+    gsl_test(output_open(NULL, &o, &f) != STATUS_OK || output_close(&o, &f) != STATUS_OK,
+             "standard output is flushed %s", f.text);
 }
 
 /* As the umask says, or as the file that is replaced. */
@@ -340,6 +363,7 @@ int main(void)
 {
     write_failures();
     links();
+    finished();
     permissions();
     temporary_names();
     streams();
