@@ -1,6 +1,6 @@
-"""Derives every exact row, and the rows from solids, again and compares them with reference/tables and reference/extremes.
+"""Derives every exact row, and the rows from solids, again and compares them with reference/tables, reference/extremes and cases/examples.
 
-usage: rederive.py [--write] [--all] [PROGRAM...]     --write replaces the rows of the programs; review the diff.
+usage: rederive.py [--write] [--all] [PROGRAM...]     --write replaces the rows of the programs; review the diff.  Those of scene files are printed.
 --all: every point of the solids (half an hour), not only the first ones.  Without CalculiX they are skipped, by name.
 """
 import csv
@@ -10,7 +10,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
-from reference.derive import theory  # noqa: E402
+from reference.derive import scenes, theory  # noqa: E402
 from reference.derive.solids import deck  # noqa: E402
 from reference.pack import COLUMNS, read_defaults  # noqa: E402
 
@@ -78,6 +78,9 @@ def write(names):
     derived, cases = {}, read_defaults(ROOT / "reference" / "defaults.csv")
     for name in names:
         for row, _ in derived_rows(name, everything=True):
+            if folder_of(name) == scenes.FOLDER:
+                print(scenes.line_of(row))
+                continue
             if row["case"] not in cases:
                 raise SystemExit(f"rederive.py: {name} knows case {row['case']}, reference/defaults.csv does not; add its parameters there first")
             derived.setdefault((folder_of(name), row["case"]), []).append(row)
@@ -96,16 +99,17 @@ def differences(name, stored, seen, cases, everything):
     """(rows that agree, lines that say what differs, rows of cases that do not exist yet) of one program."""
     agree, lines, waiting = 0, [], 0
     for row, value in derived_rows(name, everything):
-        if row["case"] not in cases:
+        folder = folder_of(name)
+        if row["case"] not in (scenes.names() if folder == scenes.FOLDER else cases):
             waiting += 1
             continue
-        key = key_of(folder_of(name), row)
+        key = key_of(folder, row)
         seen.add(key)
         known = stored.get(key)
         if known is None:
             lines.append(f"{key}: derived {value:.15g} {row['unit']}, not in the table")
-        elif known["unit"] != row["unit"] or abs(value - float(known["value"])) > float(known["uncertainty"]):
-            lines.append(f"{key}: derived {value:.15g} {row['unit']}, stored {known['value']} +- {known['uncertainty']} {known['unit']}")
+        elif known.get("unit", row["unit"]) != row["unit"] or abs(value - float(known["value"])) > float(known["uncertainty"]):
+            lines.append(f"{key}: derived {value:.15g} {row['unit']}, stored {known['value']} +- {known['uncertainty']} {known.get('unit', '')}")
         elif any(known[name] != row[name] for name in ("theory", "convention")):
             lines.append(f"{key}: stored as {known['theory']}, {known['convention']}; derived as {row['theory']}, {row['convention']}")
         else:
@@ -118,7 +122,7 @@ def read_stored():
     stored = {}
     for path in sorted(p for folder in FOLDERS for p in (ROOT / "reference" / folder).glob("*.csv")):
         stored.update({key_of(path.parent.name, row): row for row in read_table(path) if row["source"].startswith("reference/derive/")})
-    return stored
+    return {**stored, **{key_of(scenes.FOLDER, row): row for row in scenes.stored()}}
 
 
 def compare(names, whole, everything):

@@ -1,0 +1,29 @@
+"""Truths that scenes of cases/examples have from a program here; one a line, as the program writes them."""
+import pathlib
+import re
+
+FOLDER = "examples"
+PATH = pathlib.Path(__file__).resolve().parents[2] / "cases" / FOLDER
+FIELDS = ("quantity", "value", "uncertainty", "kind", "source", "parameters")
+ROW = re.compile(r'^ *- \{quantity: (\w+), value: (\S+), uncertainty: (\S+), kind: (\w+), source: "([^"]*)"(?:, parameters: \{(.*)\})?\}$')
+
+
+def names():
+    return [path.stem for path in PATH.glob("*.yaml")]
+
+
+def line_of(row):
+    """A derived row, as a scene has it."""
+    given = row["parameters"].replace("=", ": ").replace(";", ", ")
+    text = ", ".join(f"{name}: {row[name]}" for name in FIELDS[:4])
+    return "  - {" + text + f', source: "{row["source"]}"' + (f", parameters: {{{given}}}" if given else "") + "}"
+
+
+def stored():
+    """Rows of all scenes whose source is a program."""
+    for path in sorted(PATH.glob("*.yaml")):
+        for line in path.read_text(encoding="utf-8").splitlines():
+            found = ROW.match(line)
+            if found and found[5].startswith("reference/derive/"):
+                row = dict(zip(FIELDS, found.groups("")))
+                yield {**row, "case": path.stem, "parameters": row["parameters"].replace(": ", "=").replace(", ", ";"), **dict.fromkeys(("at", "theory", "convention"), "")}

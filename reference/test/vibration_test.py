@@ -1,0 +1,91 @@
+"""Frequencies of transfer matrices against the Ritz method, which misses none, and against closed forms."""
+import pathlib
+import sys
+import unittest
+
+import numpy as np
+from mpmath import mpf, pi, sqrt
+from numpy.polynomial import Polynomial, legendre
+from scipy.linalg import eigh
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+from reference.derive import off_centre_masses, rederive, scenes, tip_body  # noqa: E402
+from reference.derive.vibrating_beam import bending, zeros  # noqa: E402
+
+
+def fields(held, length, count=14):
+    """(values, first, second derivatives) [count, points], the same at the end [count, 3], weights; x^held divides all."""
+    points, weights = legendre.leggauss(3 * count)
+    x, found = np.append((points + 1) / 2, 1.0), []
+    for k in range(count):
+        one = Polynomial([0.0] * held + [1.0]) * legendre.Legendre.basis(k, domain=[0, 1]).convert(kind=Polynomial)
+        found.append([one.deriv(d)(x) / length ** d for d in range(3)])
+    found = np.array(found)
+    return found[:, :, :-1].transpose(1, 0, 2), found[:, :, -1], weights * length / 2
+
+
+class OffCentreMasses(unittest.TestCase):
+    def ritz(self, arm):
+        p = off_centre_masses
+        E, G, rho, A, I, m = (float(v) for v in (p.E, p.G, p.RHO, p.A, p.I, p.HEAVY + p.LIGHT))
+        bent, bent_end, weight = fields(2, 10.0)
+        rod, rod_end, _ = fields(1, 10.0)
+
+        def square(f):
+            return (f * weight) @ f.T
+        n, none = len(bent_end), np.zeros((len(bent_end), len(bent_end)))
+        K = [E * I * square(bent[2]), E * A * square(rod[1])], [E * I * square(bent[2]), 2 * G * I * square(rod[1])]
+        mass = rho * A * square(bent[0]) + rho * I * square(bent[1])
+        M = [mass, rho * A * square(rod[0])], [mass, 2 * rho * I * square(rod[0])]
+        squares = []
+        for plane in (0, 1):
+            k, total = (np.block([[a, none], [none, b]]) for a, b in (K[plane], M[plane]))
+            for at, point in ((arm, 10000.0), (-arm, 1000.0)):
+                if plane == 0:  # along y: v; along x: u - y t
+                    moved = [(bent_end[:, 0], 0 * rod_end[:, 0]), (-at * bent_end[:, 1], rod_end[:, 0])]
+                else:  # along z: w + y p
+                    moved = [(bent_end[:, 0], at * rod_end[:, 0])]
+                for row in (np.concatenate(one) for one in moved):
+                    total = total + point * np.outer(row, row)
+            squares += list(1 / eigh(total, k, eigvals_only=True)[::-1][:n])
+        return np.sqrt(sorted(squares))[:off_centre_masses.COUNT] / (2 * np.pi)
+
+    def test_ritz(self):
+        for arm in (2, 1, 0):
+            for got, value in zip(off_centre_masses.frequencies(arm), self.ritz(arm), strict=True):
+                self.assertLess(abs(float(got) / value - 1), 1e-9, arm)
+
+    def test_scene_has_them(self):
+        stored = {(row["case"], row["quantity"]): row for row in scenes.stored()}
+        count = 0
+        for row, _ in rederive.derived_rows("off_centre_masses", True):
+            self.assertEqual(scenes.line_of(row), scenes.line_of(stored[row["case"], row["quantity"]]))
+            count += 1
+        self.assertEqual(count, off_centre_masses.COUNT)
+
+
+class TransferMatrices(unittest.TestCase):
+    def test_cantilever_with_a_mass(self):
+        """Bernoulli and Euler: the determinant of tip_body.py."""
+        def end(f):
+            t, o = bending(mpf(1), f, mpf(1), mpf(1)), f
+            return t[2, 2] * (t[3, 3] - 2 * o ** 2 * t[0, 3]) - t[2, 3] * (t[3, 2] - 2 * o ** 2 * t[0, 2])
+        for got, value in zip(zeros(end, 60, mpf("0.5")), tip_body.at_rest(2, 0, 0), strict=True):
+            self.assertLess(abs(got / value - 1), 1e-25)
+
+    def test_pinned_timoshenko_beam(self):
+        """k = pi/L: (rho I o^2 - S - EI k^2)(rho A o^2 - S k^2) = S^2 k^2, here with rho A = rho I = EI = S = L = 1."""
+        k2 = pi ** 2
+        b = 1 + 2 * k2
+        values = [sqrt((b - s * sqrt(b ** 2 - 4 * k2 ** 2)) / 2) for s in (1, -1)]
+
+        def end(o):  # w = M = 0 at both ends: columns t, Q
+            t = bending(mpf(1), o, mpf(1), mpf(1), mpf(1), mpf(1))
+            return t[0, 1] * t[2, 3] - t[0, 3] * t[2, 1]
+        found = zeros(end, values[1] + mpf("0.1"), mpf("0.05"))
+        for value in values:
+            self.assertLess(min(abs(one / value - 1) for one in found), 1e-25)
+
+
+if __name__ == "__main__":
+    unittest.main()
