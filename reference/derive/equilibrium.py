@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 from reference.derive import defaults
 from reference.derive.beam import Beam, cross_matrix, product, rotation
 from reference.derive.network import Network, clamped
-from reference.derive.sheets import clamped_sheet, sheet
+from reference.derive.sheets import deflected, sheet
 
 RELATIVE = 2e-10
 
@@ -138,14 +138,9 @@ def held_tip(vibration, y, p, free_warping):
 
 
 def sheet_frequencies(count, given, form=lambda beam: beam):
-    """Hz, of the sheet held at its deflected tip; form: see sheets.cantilever."""
+    """Hz, of the sheet held at its deflected tip; form: see sheets.deflected."""
     value = {**defaults.values("sheet_cantilever"), **given}
-    deflection = value["tip_deflection"] / value["length"]
-
-    def conditions(level, x, R, force, moment, numbers):
-        return np.array([x[1] - level * deflection, R[1, 0], force[0], force[2], moment[0], moment[1]])
-    net, _ = clamped_sheet(value, conditions, form)
-    net.solve(np.linspace(0.1, 1, 10) if deflection > 0.2 else (0.5, 1.0))
+    net, _ = deflected(given, form)
     width, thickness, length = value["width"], value["thickness"], value["length"]
     beam = sheet(**value)
     A, Iy, Iz = width * thickness, thickness * width ** 3 / 12, width * thickness ** 3 / 12

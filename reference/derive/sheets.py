@@ -10,10 +10,10 @@ import numpy as np
 
 from reference.derive import defaults
 from reference.derive.beam import Beam, cross_matrix
+from reference.derive.compliance import name_of, unit_of
 from reference.derive.network import Network, clamped, free
 
 RELATIVE = 5e-12
-RESPONSE, LOAD = ("ux", "uy", "uz", "thx", "thy", "thz"), ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 PLANAR = [(0, 0), (0, 1), (0, 5), (1, 0), (1, 1), (1, 5), (5, 0), (5, 1), (5, 5),
           (2, 2), (2, 3), (2, 4), (3, 2), (3, 3), (3, 4), (4, 2), (4, 3), (4, 4)]
 
@@ -32,16 +32,12 @@ def sheet(length, width, thickness, young, poisson, warping=1, shear=1, trapeze=
                 EIw=young * (w * t) ** 3 / 144 if warping else 0.0, t=(w * w + t * t) / 12 if trapeze else 0.0, c=young * w ** 5 * t / 1440 if wagner else 0.0)
 
 
-def unit_of(i, j):
-    return ("m/N" if j < 3 else "1/N") if i < 3 else ("rad/N" if j < 3 else "rad/(N m)")
-
-
 def parameters(given):
     return ";".join(f"{k}={v}" for k, v in given.items())
 
 
 def clamped_sheet(value, conditions, form=lambda beam: beam):
-    """Network of one sheet; its tip obeys conditions; value: all parameters; form: see cantilever."""
+    """Network of one sheet; its tip obeys conditions; value: all parameters; form: see deflected."""
     beam = form(sheet(**value))
     net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=max(4, round(2 * beam.length / value["width"])), nodes=14)
     root, tip = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body((beam.length, 0, 0), conditions)
@@ -68,7 +64,7 @@ def quantities(case, given, net, tip, entries):
     at = parameters(given)
     for i, j in entries:
         if abs(C[i, j]) > 1e-9 * math.sqrt(abs(C[i, i] * C[j, j])):
-            yield case, at, f"C_{RESPONSE[i]}_{LOAD[j]}", C[i, j], unit_of(i, j), RELATIVE, note
+            yield case, at, name_of(i, j), C[i, j], unit_of(i, j), RELATIVE, note
     if case == "sheet_cantilever":
         yield case, at, "C_xx", C[0, 0], "m/N", RELATIVE, note
         yield case, at, "C_zz", C[2, 2], "m/N", RELATIVE, note
@@ -81,8 +77,8 @@ def quantities(case, given, net, tip, entries):
     yield case, at, "M_z", net.force * net.length * tip.load[5], "N m", RELATIVE, turned
 
 
-def cantilever(form=lambda beam: beam, **given):
-    """u_y prescribed, no rotation about z; all else free; form turns the beam into another one, as predicted.py does."""
+def deflected(given, form=lambda beam: beam):
+    """(network, tip) of sheet_cantilever: u_y prescribed, no rotation about z, all else free; form turns the beam into another one, as predicted.py does."""
     value = {**defaults.values("sheet_cantilever"), **given}
     deflection = value["tip_deflection"] / value["length"]
 
@@ -90,7 +86,11 @@ def cantilever(form=lambda beam: beam, **given):
         return np.array([x[1] - level * deflection, R[1, 0], force[0], force[2], moment[0], moment[1]])
     net, tip = clamped_sheet(value, conditions, form)
     net.solve(np.linspace(0.1, 1, 10) if deflection > 0.2 else (0.5, 1.0))
-    yield from quantities("sheet_cantilever", given, net, tip, PLANAR)
+    return net, tip
+
+
+def cantilever(form=lambda beam: beam, **given):
+    yield from quantities("sheet_cantilever", given, *deflected(given, form), PLANAR)
 
 
 def twisted(form=lambda beam: beam, **given):

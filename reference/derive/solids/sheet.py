@@ -10,6 +10,7 @@ import tempfile
 import numpy as np
 
 from reference.derive import defaults
+from reference.derive.compliance import entry_of, unit_of
 from reference.derive.solids import deck
 from reference.derive.solids.grid import Grid, graded
 from reference.derive.solids.tip import Tip, spin, turned
@@ -23,41 +24,10 @@ DEFLECTIONS, TWISTS = (0.001, 0.005, 0.01, 0.015), (0.05, 0.1, 0.15)
 # A plate has none of the beam's choices.
 ANY = "tip_warping=*;warping=*;shear=*;trapeze=*;wagner=*;shear_factor=*"
 BENT = (
-    ("C_ux_Fx", 0, 0),
-    ("C_xx", 0, 0),
-    ("C_uy_Fy", 1, 1),
-    ("C_uy_Mz", 1, 5),
-    ("C_thz_Fy", 5, 1),
-    ("C_uz_Fz", 2, 2),
-    ("C_zz", 2, 2),
-    ("C_thx_Mx", 3, 3),
-    ("C_thy_My", 4, 4),
-    ("C_thz_Mz", 5, 5),
+    ("C_ux_Fx", "C_xx", "C_uy_Fy", "C_uy_Mz", "C_thz_Fy")
+    + ("C_uz_Fz", "C_zz", "C_thx_Mx", "C_thy_My", "C_thz_Mz")
 )
-TWISTED = (
-    ("C_ux_My", 0, 4),
-    ("C_thy_Fx", 4, 0),
-    ("C_ux_Fx", 0, 0),
-    ("C_uz_Fz", 2, 2),
-    ("C_thx_Mx", 3, 3),
-    ("C_thy_My", 4, 4),
-)
-UNITS = {
-    "u_x": "m",
-    "F_y": "N",
-    "C_ux_Fx": "m/N",
-    "C_xx": "m/N",
-    "C_uy_Fy": "m/N",
-    "C_uz_Fz": "m/N",
-    "C_zz": "m/N",
-    "C_uy_Mz": "1/N",
-    "C_ux_My": "1/N",
-    "C_thz_Fy": "rad/N",
-    "C_thy_Fx": "rad/N",
-    "C_thx_Mx": "rad/(N m)",
-    "C_thy_My": "rad/(N m)",
-    "C_thz_Mz": "rad/(N m)",
-}
+TWISTED = "C_ux_My", "C_thy_Fx", "C_ux_Fx", "C_uz_Fz", "C_thx_Mx", "C_thy_My"
 
 
 class Sheet:
@@ -144,7 +114,7 @@ def bent(deflection, mesh):
         motion, force, _, C = solve(
             Sheet(*mesh, folder), [-0.6 * deflection**2 / LENGTH, deflection, 0, 0, 0, 0], [0]
         )
-    values = {name: C[i, j] for name, i, j in BENT}
+    values = {name: C[entry_of(name)] for name in BENT}
     return {**values, "u_x": motion[0], "F_y": force[1]}
 
 
@@ -160,7 +130,12 @@ def twisted(angle, mesh):
     ]
     with tempfile.TemporaryDirectory() as folder:
         C = solve(Sheet(*mesh, folder), start, [0, 2, 4])[3]
-    return {name: C[i, j] for name, i, j in TWISTED}
+    return {name: C[entry_of(name)] for name in TWISTED}
+
+
+def unit(name):
+    """Of a quantity of either case."""
+    return {"u_x": "m", "F_y": "N"}.get(name) or unit_of(*entry_of(name))
 
 
 def rows(everything=True):
@@ -171,15 +146,14 @@ def rows(everything=True):
     for deflection in DEFLECTIONS if everything else DEFLECTIONS[-1:]:
         at = ";".join([f"tip_deflection={deflection:g}"] * (deflection != 0.015) + [ANY])
         for name, (value, relative) in compared(lambda *mesh, w=deflection: bent(w, mesh)).items():
-            yield "sheet_cantilever", at, name, value, UNITS[
-                name
-            ], relative, "spatial" if name.startswith("C_") else ""
+            convention = "spatial" if name.startswith("C_") else ""
+            yield "sheet_cantilever", at, name, value, unit(name), relative, convention
     for angle in TWISTS if everything else TWISTS[-1:]:
         at = ";".join([f"tip_phi_x={angle:g}"] * (angle != 0.15) + [ANY])
         for name, (value, relative) in compared(
             lambda *mesh, phi=angle: twisted(phi, mesh)
         ).items():
-            yield "sheet_wagner", at, name, value, UNITS[name], relative, "spatial vector"
+            yield "sheet_wagner", at, name, value, unit(name), relative, "spatial vector"
 
 
 def anticlastic(mesh=MESHES[0]):

@@ -1,0 +1,18 @@
+"""Entries of the compliance matrix of a tip by their names: motions (ux .. thz) over loads (Fx .. Mz)."""
+MOTIONS, LOADS = ("ux", "uy", "uz", "thx", "thy", "thz"), ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
+
+
+def name_of(i, j):
+    return f"C_{MOTIONS[i]}_{LOADS[j]}"
+
+
+def entry_of(name):
+    """(row, column) of C_MOTION_LOAD; C_xx and C_zz are those of the forces along x and z."""
+    if name in ("C_xx", "C_zz"):
+        return (i := "xyz".index(name[-1])), i
+    motion, load = name.split("_")[1:]
+    return MOTIONS.index(motion), LOADS.index(load)
+
+
+def unit_of(i, j):
+    return ("m/N" if j < 3 else "1/N") if i < 3 else ("rad/N" if j < 3 else "rad/(N m)")
