@@ -37,6 +37,15 @@ def report(results, folder, *options):
                program=sys.executable, cwd=ROOT)
 
 
+def drawn(folder, *selection, options=()):
+    """The report of a run of verify, drawn with those options; the run is folder/results.h5."""
+    results, site = folder / "results.h5", folder / "site"
+    run("verify", *selection, "-o", results)
+    done = report(results, site, *options)
+    assert done.returncode == 0, done.stderr
+    return site
+
+
 def read_json(path):
     """What a file of ours says."""
     return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))

@@ -1,10 +1,8 @@
 """Other programs beside ours: kept apart, drawn hollow, their names harmless."""
 import math
-import pathlib
-import tempfile
 import unittest
 
-from harness.test.program import run
+from harness.test.program import TRUTHS, ProgramTest, run
 from reports import beside, data, pages
 
 HEAD = """# beamwork-import: 1
@@ -17,16 +15,14 @@ w_over_L, 1, 8, 48, 2e-3, 0.4615
 EVIL = '_<script>alert(1)</script>&$x$"q"\\a'
 
 
-class Beside(unittest.TestCase):
+class Beside(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        place = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(place.cleanup)
-        cls.place = pathlib.Path(place.name)
+        cls.place = cls.class_folder()
         (cls.place / "theirs.csv").write_text(HEAD.format(EVIL.replace("/", "|")), encoding="utf-8")
-        for done in (run("import", str(cls.place / "theirs.csv"), "-o", str(cls.place / "theirs.h5")),
-                     run("verify", "-k", "elastica/default", "-f", "beamw", "-f", "collocation", "-o", str(cls.place / "ours.h5")),
-                     run("verify", "-k", "elastica/default", "-f", "beamw", "--beside", str(cls.place / "theirs.h5"), "-o", str(cls.place / "both.h5"))):
+        for done in (run("import", cls.place / "theirs.csv", "-o", cls.place / "theirs.h5"),
+                     run("verify", "-k", "elastica/default", "-f", "beamw", "-f", "collocation", "-o", cls.place / "ours.h5"),
+                     run("verify", "-k", "elastica/default", "-f", "beamw", "--beside", cls.place / "theirs.h5", "-o", cls.place / "both.h5")):
             assert done.returncode == 0, done.stderr
 
     def point(self, name):
@@ -50,9 +46,8 @@ class Beside(unittest.TestCase):
         self.assertEqual(len(case.points[0].others), 1, "once is enough")
 
     def test_names_are_escaped_everywhere(self):
-        import os
         folder = self.place / "report"
-        pages.build(str(self.place / "both.h5"), os.environ["BEAMWORK_TRUTHS"], str(folder))
+        pages.build(str(self.place / "both.h5"), TRUTHS, str(folder))
         seen = 0
         for page in list(folder.glob("*.html")) + list(folder.glob("*.svg")):
             text = page.read_text(encoding="utf-8")

@@ -1,16 +1,12 @@
 """The report in a browser without a window: no console message, every image decoded, the printable report prints. Skipped where there is no Chromium."""
 import html
-import os
-import pathlib
 import re
 import shutil
 import subprocess
-import tempfile
 import unittest
 
-from harness.test.program import report, run
+from harness.test.program import ProgramTest, drawn, run
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
 # All pages at once, each in a frame; what is wrong is written into the document.
@@ -37,21 +33,13 @@ def console(done):
 
 
 @unittest.skipUnless(CHROMIUM, "needs chromium")
-class Browser(unittest.TestCase):
+class Browser(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.mkdtemp()
-        results, bench = os.path.join(cls.folder, "results.h5"), os.path.join(cls.folder, "bench.h5")
-        cls.site = pathlib.Path(cls.folder) / "site"
-        run("verify", "-k", "warping_torsion/default or elastica/default", "--shapes", "-o", results)
+        folder = cls.class_folder()
+        bench = folder / "bench.h5"
         run("bench", "elastica", "-f", "collocation", "-f", "beamw", "-o", bench)
-        done = report(results, str(cls.site), "--bench", bench)
-        if done.returncode != 0:
-            raise AssertionError(done.stderr)
-
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(cls.folder)
+        cls.site = drawn(folder, "-k", "warping_torsion/default or elastica/default", "--shapes", options=("--bench", bench))
 
     def open_all(self, pages):
         driver = self.site / "driver.html"
@@ -83,7 +71,7 @@ class Browser(unittest.TestCase):
         self.assertIn("wider than the window", out.group(1))
 
     def test_prints(self):
-        pdf = pathlib.Path(self.folder) / "convergence.pdf"
+        pdf = self.folder / "convergence.pdf"
         chromium(self.folder, "--no-pdf-header-footer", f"--print-to-pdf={pdf}", (self.site / "convergence.html").as_uri())
         content = pdf.read_bytes()
         self.assertTrue(content.startswith(b"%PDF"))

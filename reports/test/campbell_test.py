@@ -1,31 +1,20 @@
 """The page of stationary rotation from a small run: its figures are there, and the curves end at the exact values."""
-import os
-import pathlib
-import shutil
-import tempfile
 import unittest
 
-from harness.test.program import report, run
+from harness.test.program import ProgramTest, drawn
 from reports import campbell, data
 from reports.claims import Lookup
 
 
-class Campbell(unittest.TestCase):
+class Campbell(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.mkdtemp()
-        results = os.path.join(cls.folder, "results.h5")
-        run("verify", "-k", "rotating_cantilever and beamw_consistent", "-o", results)
-        cls.done = report(results, os.path.join(cls.folder, "site"))
-        cls.look = Lookup(data.read_results(results)[1])
-
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(cls.folder)
+        folder = cls.class_folder()
+        cls.site = drawn(folder, "-k", "rotating_cantilever and beamw_consistent")
+        cls.look = Lookup(data.read_results(folder / "results.h5")[1])
 
     def test_page(self):
-        self.assertEqual(self.done.returncode, 0, self.done.stderr)
-        page = (pathlib.Path(self.folder) / "site" / "rotation.html").read_text(encoding="utf-8")
+        page = (self.site / "rotation.html").read_text(encoding="utf-8")
         for image in ("campbell_across.svg", "campbell_along.svg"):
             self.assertIn(image, page)
 

@@ -1,11 +1,8 @@
 """The page of experiments: without any, and what is concluded from some."""
 import json
-import os
-import pathlib
-import tempfile
 import unittest
 
-from harness.test.program import TRUTHS
+from harness.test.program import TRUTHS, ProgramTest
 from reports import causes
 from reports.test.results import Site
 
@@ -14,7 +11,7 @@ def experiment(kind, gone, what="shear", formulation="beam"):
     return {"kind": kind, "gone": gone, "what": what, "formulation": formulation}
 
 
-class Causes(unittest.TestCase):
+class Causes(ProgramTest):
     def test_what_is_concluded(self):
         finer = experiment("finer", False, "more elements")
         instead = experiment("instead", True, "modes", "other")
@@ -28,18 +25,15 @@ class Causes(unittest.TestCase):
         self.assertIn("too coarse", causes.verdict_of(coarse))
 
     def test_page(self):
-        with tempfile.TemporaryDirectory() as folder:
-            site = Site(os.path.join(folder, "results.h5"), TRUTHS)
-            causes.write(site)
-            self.assertIsNone(site.pages["causes.html"]["record"])
-            studies = [{"finding": name, "experiments": []} for name in ("b", "a", "b")]
-            record = {"minutes": 1, "not_run": 0, "studies": studies}
-            (pathlib.Path(folder) / "causes.json").write_text(json.dumps(record), encoding="utf-8")
-            causes.write(site)
-            rules = site.pages["causes.html"]["rules"]
-            self.assertEqual(
-                [(name, len(found)) for name, found in rules.items()], [("a", 1), ("b", 2)]
-            )
+        site = Site(str(self.folder / "results.h5"), TRUTHS)
+        causes.write(site)
+        self.assertIsNone(site.pages["causes.html"]["record"])
+        studies = [{"finding": name, "experiments": []} for name in ("b", "a", "b")]
+        record = {"minutes": 1, "not_run": 0, "studies": studies}
+        (self.folder / "causes.json").write_text(json.dumps(record), encoding="utf-8")
+        causes.write(site)
+        rules = site.pages["causes.html"]["rules"]
+        self.assertEqual([(name, len(found)) for name, found in rules.items()], [("a", 1), ("b", 2)])
 
 
 if __name__ == "__main__":

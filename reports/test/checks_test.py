@@ -1,11 +1,9 @@
 """The page of checks: counts from the results, tables that other targets leave beside them, and
 what is missing."""
 import json
-import os
-import pathlib
-import tempfile
 import unittest
 
+from harness.test.program import ProgramTest
 from reports import checks, data
 from reports.test.results import Site, case, series, verdict
 
@@ -19,14 +17,9 @@ def row(formulation, left_out, number, covered):
     }
 
 
-class Checks(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Checks(ProgramTest):
     def context(self, *cases):
-        site = Site(os.path.join(self.folder, "results.h5"), cases=cases)
+        site = Site(str(self.folder / "results.h5"), cases=cases)
         checks.write(site)
         return site.pages["checks.html"]
 

@@ -1,13 +1,11 @@
 """The page about Newton's method: what is called the largest step, and a page without data."""
 import json
-import os
-import tempfile
 import unittest
 
 from harness.tools import newton as tool
-from harness.test.program import PROGRAM
+from harness.test.program import PROGRAM, ProgramTest
 from reports import newton
-
+from reports.test import results
 
 STEP = {"path": 1.0, "increment": 1.0, "iterations": 3, "rejected": 0, "corrections": [0.1, 0.01, 1e-4], "residuals": [1.0, None, 1e-6]}
 SUMMARY = {"status": "ok", "reason": "", "steps": 2, "rejected": 1, "iterations": 9, "most_iterations": 5}
@@ -18,14 +16,12 @@ DATA = {"singles": [{"case": "sheet", "parameter": "tilt", "unit": "rad", "value
         "histories": [{"case": "roll", "formulation": "beam", "elements": 2, "form": form, "status": "ok", "reason": "", "steps": [STEP]} for form in newton.FORMS]}
 
 
-class Site:
-    """What the page asks of a site."""
+class Site(results.Site):
+    """Remembers what was drawn, too."""
 
     def __init__(self, folder):
-        self.results, self.pages, self.images = os.path.join(folder, "results.h5"), {}, []
-
-    def write(self, template, name, **context):
-        self.pages[name] = context
+        super().__init__(str(folder / "results.h5"))
+        self.images = []
 
     def image(self, figure, name):
         self.images.append(name)
@@ -33,16 +29,16 @@ class Site:
         return name
 
 
-class Newton(unittest.TestCase):
+class Newton(ProgramTest):
     def test_what_is_written_is_what_is_drawn(self):
         """The steps of a real solution have all that the page asks of one."""
-        result = tool.solve(PROGRAM, "elastica", "", "beamw", "2", 0)
-        steps = tool.steps_of(result)
+        solved = tool.solve(PROGRAM, "elastica", "", "beamw", "2", 0)
+        steps = tool.steps_of(solved)
         self.assertGreater(len(steps), 0)
         for step in steps:
             self.assertLessEqual(set(STEP), set(step))
             self.assertEqual(len(step["residuals"]), len(step["corrections"]))
-        self.assertLessEqual(set(SUMMARY), set(tool.summary(result)))
+        self.assertLessEqual(set(SUMMARY), set(tool.summary(solved)))
 
     def test_largest(self):
         self.assertEqual(newton.largest([1, 2, 3], [4, 5, 6]), (3, 6))
@@ -50,17 +46,15 @@ class Newton(unittest.TestCase):
         self.assertEqual(newton.largest([1], [None]), (None, None))
 
     def test_page(self):
-        with tempfile.TemporaryDirectory() as folder:
-            site = Site(folder)
-            newton.write(site)
-            self.assertEqual(site.pages["newton.html"]["singles"], [])
-            with open(os.path.join(folder, "newton.json"), "w", encoding="utf-8") as out:
-                json.dump(DATA, out)
-            newton.write(site)
-            page = site.pages["newton.html"]
-            self.assertEqual(page["singles"][0][1][0][2], {"mixed": (0.3, 5), "displacement": (0.1, 5)})
-            self.assertEqual(site.images, ["newton_roll"])
-            self.assertEqual(len(page["histories"][0][2]), 2)
+        site = Site(self.folder)
+        newton.write(site)
+        self.assertEqual(site.pages["newton.html"]["singles"], [])
+        (self.folder / "newton.json").write_text(json.dumps(DATA), encoding="utf-8")
+        newton.write(site)
+        page = site.pages["newton.html"]
+        self.assertEqual(page["singles"][0][1][0][2], {"mixed": (0.3, 5), "displacement": (0.1, 5)})
+        self.assertEqual(site.images, ["newton_roll"])
+        self.assertEqual(len(page["histories"][0][2]), 2)
 
 
 if __name__ == "__main__":

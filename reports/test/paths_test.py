@@ -1,39 +1,24 @@
 """The page of equilibrium paths: curves beside the solids' points, conclusions with numbers, critical points of the snapping frames."""
-import os
-import pathlib
 import re
-import shutil
-import sys
-import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT))
-from harness.test.program import TRUTHS, report, run
-from reports import paths  # noqa: E402
+from harness.test.program import TRUTHS, ProgramTest, drawn
+from reports import paths
 
 
-class Paths(unittest.TestCase):
+class Paths(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.mkdtemp()
-        results = os.path.join(cls.folder, "results.h5")
-        run("verify", "-k", "snap_through and beamw_consistent or c_cantilever and collocation", "-o", results)
-        cls.done = report(results, os.path.join(cls.folder, "site"))
-        cls.page = (pathlib.Path(cls.folder) / "site" / "paths.html").read_text(encoding="utf-8") if cls.done.returncode == 0 else ""
-
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(cls.folder)
+        cls.site = drawn(cls.class_folder(), "-k", "snap_through and beamw_consistent or c_cantilever and collocation")
+        cls.page = (cls.site / "paths.html").read_text(encoding="utf-8")
 
     def test_figures(self):
-        self.assertEqual(self.done.returncode, 0, self.done.stderr)
         for name in ("paths_cantilever", "paths_snap_through"):
             self.assertIn(f"{name}.svg", self.page)
-            self.assertTrue((pathlib.Path(self.folder) / "site" / f"{name}.svg").is_file())
-        drawn = (pathlib.Path(self.folder) / "site" / "paths_cantilever.svg").read_text(encoding="utf-8")
+            self.assertTrue((self.site / f"{name}.svg").is_file())
+        figure = (self.site / "paths_cantilever.svg").read_text(encoding="utf-8")
         for name in ("exact beam (collocation, n = 10)", "exact beam, with int y", "3-D solids"):
-            self.assertIn(name, drawn)
+            self.assertIn(name, figure)
 
     def test_limit_points_are_listed(self):
         rows = re.findall(r"<td>limit point</td><td class=\"n\">(-?[\d.]+)</td><td class=\"n\">(-?[\d.]+)</td>", self.page)

@@ -1,13 +1,10 @@
 """Pictures: geometry of what is drawn, and that a report with shapes has them."""
-import os
-import pathlib
-import tempfile
 import unittest
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from harness.test.program import report, run
+from harness.test.program import ProgramTest, drawn
 from reports import pictures
 
 
@@ -31,15 +28,9 @@ class Geometry(unittest.TestCase):
         self.assertEqual([list(g) for g in pictures.clusters(points)], [[0, 1], [2, 3]])
 
 
-class Report(unittest.TestCase):
+class Report(ProgramTest):
     def site(self, *options):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        results, out = os.path.join(folder.name, "r.h5"), os.path.join(folder.name, "site")
-        run("verify", "-k", "spherical_joint/default", "-f", "sheet_third", *options, "-o", results)
-        done = report(results, out)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return pathlib.Path(out)
+        return drawn(self.folder, "-k", "spherical_joint/default", "-f", "sheet_third", *options)
 
     def test_drawn(self):
         site = self.site("--shapes")

@@ -1,17 +1,9 @@
 """The report of a small run: every page is there, every link and image resolves, foreign files are refused."""
 import html.parser
 import json
-import os
-import pathlib
-import shutil
-import subprocess
-import sys
-import tempfile
 import unittest
 
-from harness.test.program import PROGRAM, TRUTHS
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from harness.test.program import TRUTHS, ProgramTest, drawn, report
 
 # What other commands leave beside the results: a little of everything that the pages draw.
 MESHES = {"parameters": "shear=0", "meshes": [8, 256]}
@@ -95,38 +87,15 @@ class Links(html.parser.HTMLParser):
                 self.found.append(value)
 
 
-def report(results, folder):
-    return subprocess.run(
-        [sys.executable, "-m", "reports", results, TRUTHS, "-o", folder],
-        capture_output=True,
-        text=True,
-        check=False,
-        cwd=ROOT,
-        env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"},
-    )
-
-
-class Report(unittest.TestCase):
+class Report(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.mkdtemp()
-        cls.results = os.path.join(cls.folder, "results.h5")
-        subprocess.run(
-            [PROGRAM, "verify", "-k", "warping_torsion or roll_up", "-o", cls.results],
-            capture_output=True,
-            check=False,
-        )
+        folder = cls.class_folder()
         for name, content in BESIDE.items():
-            (pathlib.Path(cls.folder) / name).write_text(json.dumps(content), encoding="utf-8")
-        cls.done = report(cls.results, os.path.join(cls.folder, "site"))
-
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(cls.folder)
+            (folder / name).write_text(json.dumps(content), encoding="utf-8")
+        cls.site = drawn(folder, "-k", "warping_torsion or roll_up")
 
     def test_pages(self):
-        self.assertEqual(self.done.returncode, 0, self.done.stderr)
-        names = os.listdir(os.path.join(self.folder, "site"))
         for name in (
             "index.html",
             "errata.html",
@@ -139,16 +108,15 @@ class Report(unittest.TestCase):
             "warping_torsion.html",
             "formulation_beamw.html",
         ):
-            self.assertIn(name, names)
+            self.assertTrue((self.site / name).is_file(), name)
 
     def test_links_resolve(self):
-        site = pathlib.Path(self.folder) / "site"
-        for page in site.glob("*.html"):
+        for page in self.site.glob("*.html"):
             links = Links()
             links.feed(page.read_text(encoding="utf-8"))
             for link in links.found:
                 name, _, anchor = link.partition("#")
-                target = site / name if name else page
+                target = self.site / name if name else page
                 self.assertTrue(target.is_file(), f"{page.name}: {link}")
                 if anchor:
                     self.assertIn(
@@ -156,13 +124,13 @@ class Report(unittest.TestCase):
                     )
 
     def test_figures_are_drawn(self):
-        figures = list((pathlib.Path(self.folder) / "site").glob("*.svg"))
+        figures = list(self.site.glob("*.svg"))
         self.assertGreater(len(figures), 3)
         for figure in figures:
             self.assertIn("<path", figure.read_text(encoding="utf-8"))
 
     def test_foreign_file(self):
-        done = report(TRUTHS, os.path.join(self.folder, "none"))
+        done = report(TRUTHS, self.folder / "none")
         self.assertEqual(done.returncode, 4)
         self.assertEqual(len(done.stderr.strip().splitlines()), 1)
 

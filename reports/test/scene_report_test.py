@@ -1,33 +1,19 @@
 """The report of a scene of one's own that has no truth: its picture, and limits in the place of verdicts."""
 import re
-import subprocess
-import sys
 import unittest
 
-from harness.test.program import TRUTHS, ProgramTest, run
+from harness.test.program import ProgramTest, report, run
+from harness.test.scenes import LEAF
 from reports import case, data
-
-SCENE = """\
-beamwork: 1
-sections:
-  leaf: {rectangle: {width: 50e-3, thickness: 0.5e-3}, young: 210e9, shear_modulus: 81e9}
-nodes:
-  base: {at: [0, 0, 0], hold: all}
-  tip:  {at: [0.1, 0, 0]}
-members:
-  leaf: {from: base, to: tip, section: leaf, y: [0, 1, 0]}
-loads:
-  push: {force: [0, 1, 0], on: tip}
-"""
 
 
 class SceneReport(ProgramTest):
     def test_without_truths(self):
         scene, results, site = (self.folder / name for name in ("mine.yaml", "mine.h5", "site"))
-        scene.write_text(SCENE, encoding="utf-8")
+        scene.write_text(LEAF, encoding="utf-8")
         done = run("verify", "--shapes", "--scene", scene, "-f", "collocation", "-f", "beamw", "-o", results)
         self.assertEqual(done.returncode, 3, done)
-        drawn = subprocess.run([sys.executable, "-m", "reports", results, TRUTHS, "-o", site], capture_output=True, text=True)
+        drawn = report(results, site)
         self.assertEqual(drawn.returncode, 0, drawn.stderr)
         page = (site / "mine.html").read_text(encoding="utf-8")
         self.assertNotIn("Source:", page)

@@ -1,19 +1,15 @@
 """The page of stability: what a sweep of extremes found is on it; without one it says so."""
 import json
-import pathlib
-import tempfile
 import unittest
 
-from harness.test.program import TRUTHS, run
+from harness.test.program import TRUTHS, ProgramTest, read_json, run
 from reports import stability
 from reports.site import Site
 
 
-class Stability(unittest.TestCase):
+class Stability(ProgramTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         run("verify", "-k", "warping_torsion and beamw", "-o", self.folder / "results.h5")
 
     def page(self):
@@ -25,9 +21,8 @@ class Stability(unittest.TestCase):
         self.assertIn("make stress", self.page())
 
     def test_sweep(self):
-        done = run("stress", "-k", "decay_free or twist_wagner", "--json", self.folder / "stress.json")
-        self.assertEqual(done.returncode, 0)
-        record = json.loads((self.folder / "stress.json").read_text(encoding="utf-8"))
+        self.answered("stress", "-k", "decay_free or twist_wagner", "--json", self.folder / "stress.json")
+        record = read_json(self.folder / "stress.json")
         page = self.page()
         tried, survived = (sum(f[name] for f in record["formulations"]) for name in ("tried", "survived"))
         self.assertIn(f"{tried} in all: {survived} survived", page)

@@ -1,19 +1,20 @@
 """The words for verdicts: every kind that the judge knows, and what is said beside each."""
 import re
-import subprocess
 import unittest
 
-from harness.test.program import PROGRAM
+from harness.test.program import run
 from reports import answers, data, verdicts
 from reports.test.results import verdict
 
 
+def told():
+    """What the schema says of verdicts, and of the tables behind them."""
+    return run("schema").stdout.split("/cases/CASE/verdicts:")[1]
+
+
 class Kinds(unittest.TestCase):
     def test_every_kind_of_the_judge_has_words(self):
-        text = subprocess.run(
-            [PROGRAM, "schema"], capture_output=True, text=True, check=True
-        ).stdout
-        table = text.split("/cases/CASE/verdicts:")[1]
+        table = told()
         names = re.search(r"  verdict +enum +of the judge \((.*)\)\n", table).group(1)
         left = names
         for name in sorted(verdicts.BY_NAME, key=len, reverse=True):
@@ -22,11 +23,7 @@ class Kinds(unittest.TestCase):
         self.assertEqual(left.strip(", "), "")
 
     def test_every_column_of_the_judge_is_read(self):
-        text = subprocess.run(
-            [PROGRAM, "schema"], capture_output=True, text=True, check=True
-        ).stdout
-        table = text.split("/cases/CASE/verdicts:")[1].split("\n\n")[0]
-        columns = set(re.findall(r"^  (\S+) ", table, re.M))
+        columns = set(re.findall(r"^  (\S+) ", told().split("\n\n")[0], re.M))
         left_out = {"case", "point", "parameters", "formulation", "unit", "asymptotic_from"}
         read = set(data.Verdict.__dataclass_fields__) - {"reach"} | set(data.REACH.values())
         self.assertEqual(columns - read, left_out)

@@ -4,25 +4,13 @@ import re
 import unittest
 
 from harness.test.program import ROOT, ProgramTest, run
+from harness.test.scenes import LEAF
 
 BAD = ROOT / "harness/scene_file/test/bad"
 GOOD = ROOT / "harness/scene_file/test/good"
 EXAMPLES = ROOT / "cases/examples"
 
-FIRST = """\
-beamwork: 1
-sections:
-  leaf: {rectangle: {width: 50e-3, thickness: 0.5e-3}, young: 210e9, shear_modulus: 81e9}
-nodes:
-  base: {at: [0, 0, 0], hold: all}
-  tip:  {at: [0.1, 0, 0]}
-members:
-  leaf: {from: base, to: tip, section: leaf, y: [0, 1, 0]}
-loads:
-  push: {force: [0, 1, 0], on: tip}
-"""
-
-# The same leaf along z, as an instance of a part.
+# LEAF along z, as an instance of a part.
 PLACED = """\
 beamwork: 1
 sections:
@@ -103,7 +91,7 @@ class SceneTest(ProgramTest):
 
     def test_first_scene(self):
         """Ten lines are a scene: P L^3/3EI + P L/(k G A) at the tip."""
-        path = self.scene(FIRST)
+        path = self.scene(LEAF)
         record = self.record("solve", "--scene", path, "-f", "collocation", "-n", 1)
         area, inertia = 50e-3 * 0.5e-3, 50e-3 * 0.5e-3**3 / 12
         exact = 0.1**3 / (3 * 210e9 * inertia) + 0.1 / (5 / 6 * 81e9 * area)
@@ -111,9 +99,9 @@ class SceneTest(ProgramTest):
 
     def test_bytes(self):
         """Line ends and marks of other editors, and letters of other languages, change nothing."""
-        own = self.answered("scene", "--scene", self.scene(FIRST)).stdout
-        for name, text in (("ends", FIRST.replace("\n", "\r\n")), ("mark", "\ufeff" + FIRST),
-                           ("letters", FIRST + "# Größe – 大きさ\n")):
+        own = self.answered("scene", "--scene", self.scene(LEAF)).stdout
+        for name, text in (("ends", LEAF.replace("\n", "\r\n")), ("mark", "\ufeff" + LEAF),
+                           ("letters", LEAF + "# Größe – 大きさ\n")):
             path = self.folder / "scene.yaml"
             path.write_bytes(text.encode())
             self.assertEqual(self.answered("scene", "--scene", path).stdout, own, name)
@@ -316,7 +304,7 @@ quantities:
         """An instance placed by its axes is what its members are when they are written out."""
         got = values(self.record("solve", "--scene", self.scene(PLACED), "-f", "collocation",
                                  "-n", 1))
-        own = values(self.record("solve", "--scene", self.scene(FIRST), "-f", "collocation", "-n",
+        own = values(self.record("solve", "--scene", self.scene(LEAF), "-f", "collocation", "-n",
                                  1))
         self.assertAlmostEqual(abs(got["tip_ux"]) / own["tip_uy"], 1, delta=1e-12)
 
@@ -334,7 +322,7 @@ quantities:
                        for path in (EXAMPLES / f"{name}.yaml", self.scene(short))]
             self.assertEqual(*written)
         # an I under a tip force along its web, rigid in shear: P L^3/3 E I
-        text = FIRST.replace("rectangle: {width: 50e-3, thickness: 0.5e-3}",
+        text = LEAF.replace("rectangle: {width: 50e-3, thickness: 0.5e-3}",
                              "i: {depth: 0.2, flange: 0.1, flange_thickness: 8e-3, "
                              "web_thickness: 5e-3}")
         text = text.replace("[0, 1, 0], on", "[0, 0, 1], on") + "needs: []\n"
@@ -346,7 +334,7 @@ quantities:
         for shape in ("angle: {along_y: 0.1, along_z: 0.08, thickness: 5e-3}",
                       "points: {a: [0.1, 0], b: [0, 0], c: [0, 0.08]}, walls: [{from: a, to: b, "
                       "thickness: 5e-3}, {from: b, to: c, thickness: 5e-3}]"):
-            text = FIRST.replace("rectangle: {width: 50e-3, thickness: 0.5e-3}", shape)
+            text = LEAF.replace("rectangle: {width: 50e-3, thickness: 0.5e-3}", shape)
             written.append(self.answered("scene", "--scene", self.scene(text)).stdout)
         self.assertEqual(*written)
 
@@ -361,7 +349,7 @@ quantities:
 
     def test_truths_of_a_point(self):
         """A truth that names parameters holds there only, and `verify` goes there."""
-        path = self.scene(FIRST.replace("width: 50e-3", "width: width").replace(
+        path = self.scene(LEAF.replace("width: 50e-3", "width: width").replace(
             "sections:", "parameters:\n  width: {value: 50e-3, unit: m}\nsections:") +
             "truths:\n  - {quantity: tip_uy, value: 1.5238e-3, kind: published, uncertainty: 1e-6,"
             " source: book, parameters: {width: 0.1}}\n")
@@ -378,11 +366,11 @@ quantities:
         """One line where it is not the file's content."""
         self.refused(4, "cannot be read", "solve", "--scene", self.folder / "none.yaml", "-f",
                      "beamw", "-n", 1)
-        self.refused(2, "give one of them", "solve", "elastica", "--scene", self.scene(FIRST), "-f",
+        self.refused(2, "give one of them", "solve", "elastica", "--scene", self.scene(LEAF), "-f",
                      "beamw", "-n", 1)
-        path = self.scene(FIRST)
+        path = self.scene(LEAF)
         self.refused(2, "which is read", "converge", "--scene", path, "-f", "beamw", "-o", path)
-        self.assertEqual(path.read_text(encoding="utf-8"), FIRST)
+        self.assertEqual(path.read_text(encoding="utf-8"), LEAF)
 
     def test_schema(self):
         """The schema has every list of a scene, and what its entries must have."""
