@@ -6,10 +6,10 @@ import unittest
 import numpy as np
 from mpmath import mpf, pi, sqrt
 from numpy.polynomial import Polynomial, legendre
-from scipy.linalg import eigh
+from scipy.linalg import eigh, null_space
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
-from reference.derive import off_centre_masses, rederive, scenes, tip_body  # noqa: E402
+from reference.derive import double_cross, off_centre_masses, rederive, scenes, tip_body  # noqa: E402
 from reference.derive.vibrating_beam import bending, zeros  # noqa: E402
 
 
@@ -24,19 +24,59 @@ def fields(held, length, count=14):
     return found[:, :, :-1].transpose(1, 0, 2), found[:, :, -1], weights * length / 2
 
 
+def square(field, weight):
+    return (field * weight) @ field.T
+
+
+class Scenes(unittest.TestCase):
+    def test_scenes_have_what_is_derived(self):
+        stored = {(row["case"], row["quantity"]): row for row in scenes.stored()}
+        for name, count in (("off_centre_masses", 6), ("double_cross", 16)):
+            rows = [row for row, _ in rederive.derived_rows(name, True)]
+            self.assertEqual(len(rows), count)
+            for row in rows:
+                self.assertEqual(scenes.line_of(row), scenes.line_of(stored.pop((row["case"], row["quantity"]))))
+        self.assertEqual(stored, {})
+
+
+class DoubleCross(unittest.TestCase):
+    def ritz(self, conditions):
+        """Frequencies of an arm below 60 Hz: rows of conditions on (w, t, u) at the hub."""
+        E, rho, A, I = (float(v) for v in (double_cross.E, double_cross.RHO, double_cross.A, double_cross.I))
+        value, end, weight = fields(1, 5.0)
+        n, none = len(end), np.zeros((len(end), len(end)))
+        K = np.block([[E * I * square(value[2], weight), none], [none, E * A * square(value[1], weight)]])
+        M = rho * A * np.block([[square(value[0], weight), none], [none, square(value[0], weight)]])
+        hub = np.zeros((3, 2 * n))
+        hub[0, :n], hub[1, :n], hub[2, n:] = end[:, 0], end[:, 1], end[:, 0]
+        free = null_space(np.array(conditions) @ hub / [[np.abs(row).max()] for row in np.array(conditions) @ hub])
+        found = np.sqrt(eigh(free.T @ K @ free, free.T @ M @ free, eigvals_only=True)) / (2 * np.pi)
+        return found[found < 60]
+
+    def test_ritz(self):
+        for family, conditions in ((double_cross.turning, [[1, 0, 0], [0, 0, 1]]), (double_cross.moving, [[0, 1, 0], [1, 0, -1]]),
+                                   (double_cross.at_rest, [[1, 0, 0], [0, 1, 0], [0, 0, 1]])):
+            got = zeros(family, double_cross.HIGHEST, double_cross.STEP)
+            for one, value in zip(got, self.ritz(conditions), strict=True):
+                self.assertLess(abs(float(one) / value - 1), 1e-8)
+
+    def test_closed_form(self):
+        """Pinned at both ends, n^2 pi^2 sqrt(EI/(rho A))/L^2."""
+        first = pi / 2 * sqrt(double_cross.E * double_cross.I / (double_cross.RHO * double_cross.A)) / double_cross.LENGTH ** 2
+        found = double_cross.frequencies()
+        self.assertLess(abs(found[0] / first - 1) + abs(found[8] / first / 4 - 1), 1e-25)
+
+
 class OffCentreMasses(unittest.TestCase):
     def ritz(self, arm):
         p = off_centre_masses
         E, G, rho, A, I, m = (float(v) for v in (p.E, p.G, p.RHO, p.A, p.I, p.HEAVY + p.LIGHT))
         bent, bent_end, weight = fields(2, 10.0)
         rod, rod_end, _ = fields(1, 10.0)
-
-        def square(f):
-            return (f * weight) @ f.T
         n, none = len(bent_end), np.zeros((len(bent_end), len(bent_end)))
-        K = [E * I * square(bent[2]), E * A * square(rod[1])], [E * I * square(bent[2]), 2 * G * I * square(rod[1])]
-        mass = rho * A * square(bent[0]) + rho * I * square(bent[1])
-        M = [mass, rho * A * square(rod[0])], [mass, 2 * rho * I * square(rod[0])]
+        K = [E * I * square(bent[2], weight), E * A * square(rod[1], weight)], [E * I * square(bent[2], weight), 2 * G * I * square(rod[1], weight)]
+        mass = rho * A * square(bent[0], weight) + rho * I * square(bent[1], weight)
+        M = [mass, rho * A * square(rod[0], weight)], [mass, 2 * rho * I * square(rod[0], weight)]
         squares = []
         for plane in (0, 1):
             k, total = (np.block([[a, none], [none, b]]) for a, b in (K[plane], M[plane]))
@@ -54,14 +94,6 @@ class OffCentreMasses(unittest.TestCase):
         for arm in (2, 1, 0):
             for got, value in zip(off_centre_masses.frequencies(arm), self.ritz(arm), strict=True):
                 self.assertLess(abs(float(got) / value - 1), 1e-9, arm)
-
-    def test_scene_has_them(self):
-        stored = {(row["case"], row["quantity"]): row for row in scenes.stored()}
-        count = 0
-        for row, _ in rederive.derived_rows("off_centre_masses", True):
-            self.assertEqual(scenes.line_of(row), scenes.line_of(stored[row["case"], row["quantity"]]))
-            count += 1
-        self.assertEqual(count, off_centre_masses.COUNT)
 
 
 class TransferMatrices(unittest.TestCase):

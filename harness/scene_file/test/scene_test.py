@@ -182,6 +182,18 @@ class SceneTest(ProgramTest):
         done = self.answered("verify", "--scene", path, "-f", "collocation")
         self.assertIn("2 pass", done.stdout)
 
+    def test_double_cross(self):
+        """Stiffness out of the plane leaves the sixteen frequencies in it alone."""
+        path, count = EXAMPLES / "double_cross.yaml", 0
+        for formulation in ("collocation", "beamw_vlasov"):
+            where = ("solve", "--scene", path, "-f", formulation, "-n", 8)
+            usual, stiffer = (values(self.record(*where, "--set", f"across={across}"))
+                              for across in (100, 1e4))
+            for name, value in usual.items():
+                self.assertAlmostEqual(stiffer[name] / value, 1, delta=1e-11)
+                count += 1
+        self.assertEqual(count, 32)
+
     def test_cross_flexure_hinge(self):
         """Moment, shift and stiffness at 20 degrees."""
         got = values(self.record("solve", "--scene", EXAMPLES / "cross_flexure_hinge.yaml", "-f",

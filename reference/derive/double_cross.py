@@ -1,0 +1,52 @@
+"""Frequencies of eight equal pinned arms that meet at a hub, in their plane (NAFEMS FV2).
+
+Rigid in shear, no rotary inertia.  The arms' shares of a mode are those of e^{i m a}, a an arm's angle, since a turn by one arm changes
+nothing.  Bending of all arms alike (m = 0) turns the hub, which no moment holds: pinned at both ends.  m = 1 and 7 move the hub, without a
+turn, and stretch the arms: of the eight forces per displacement, half are along the arms and half across, so that both in sum vanish,
+twice.  The others leave the hub at rest: clamped there, five of each.  Stretching alone begins at c/(2 L) = 500 Hz.
+"""
+from mpmath import cos, mp, mpf, pi, sin, sqrt
+
+from reference.derive.vibrating_beam import bending, zeros
+
+mp.dps = 40
+TABLES = "examples"
+E, RHO, LENGTH, SIDE = mpf("200e9"), mpf(8000), mpf(5), mpf("0.125")
+A, I = SIDE ** 2, SIDE ** 4 / 12
+HIGHEST, STEP = 60, mpf("0.5")  # [Hz]
+
+
+def from_pin(f):
+    """[4, 2]: (w, t, M, Q) at the hub of unit (t, Q) at the pinned end."""
+    t = bending(LENGTH, 2 * pi * f, E * I, RHO * A)
+    return [[t[i, 1], t[i, 3]] for i in range(4)]
+
+
+def minor(rows, i, k):
+    return rows[i][0] * rows[k][1] - rows[i][1] * rows[k][0]
+
+
+def turning(f):
+    return minor(from_pin(f), 0, 2)
+
+
+def at_rest(f):
+    return minor(from_pin(f), 0, 1)
+
+
+def moving(f):
+    """Forces per displacement of an arm: Q/w across, with t = 0, and EA k cot(k L) along it; their sum times w and sin(k L)."""
+    rows, k = from_pin(f), 2 * pi * f / sqrt(E / RHO)
+    return E * A * k * cos(k * LENGTH) * minor(rows, 0, 1) + sin(k * LENGTH) * minor(rows, 3, 1)
+
+
+FAMILIES = ((turning, 1), (moving, 2), (at_rest, 5))  # and how many modes alike
+
+
+def frequencies():
+    return sorted(f for family, alike in FAMILIES for f in zeros(family, HIGHEST, STEP) for _ in range(alike))
+
+
+def rows():
+    for i, value in enumerate(frequencies()):
+        yield "double_cross", "", f"frequency_{i + 1}", value, "Hz"
