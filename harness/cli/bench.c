@@ -7,9 +7,9 @@
 #include "harness/record/csv.h"
 #include "harness/record/output.h"
 #include "harness/record/store.h"
-#include "harness/record/table_timing.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
+#include "harness/tables/table_timing.h"
 #include "harness/timing/timing.h"
 
 static const double floor_seconds = 0.002; /* of each round for each cell */

@@ -9,9 +9,9 @@
 #include "harness/record/json_convergence.h"
 #include "harness/record/output.h"
 #include "harness/record/reach_line.h"
-#include "harness/record/table.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
+#include "harness/tables/table_convergence.h"
 
 static void write_text(FILE *to, const sweep *s, const truths *t)
 {

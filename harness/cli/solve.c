@@ -6,8 +6,8 @@
 #include "harness/record/json.h"
 #include "harness/record/output.h"
 #include "harness/record/store.h"
-#include "harness/record/table.h"
 #include "harness/study/plan.h"
+#include "harness/tables/table_solution.h"
 
 static status write_to(FILE *to, const cli_request *r, const sweep *s, const truths *t, fault *f)
 {

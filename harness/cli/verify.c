@@ -11,10 +11,11 @@
 #include "harness/record/markdown.h"
 #include "harness/record/output.h"
 #include "harness/record/store.h"
-#include "harness/record/table.h"
 #include "harness/study/noise.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
+#include "harness/tables/table_run.h"
+#include "harness/tables/table_verdicts.h"
 
 enum { PICTURED_STATES = 5 };
 
@@ -91,7 +92,8 @@ static status judge_and_write(const cli_request *r, const sweep *s, truths *t, j
     if (r->scene_count > 0)
         TRY(families_add_truths(s, 1, t, f));
     TRY(judgement_make(s, t, whole, j, f));
-    table_verdicts(stdout, s, j, t);
+    table_verdicts(stdout, s, j);
+    table_run(stdout, s, j, t);
     TRY(output_flush(f));
     return write_all(r, s, j, f);
 }

@@ -1,4 +1,4 @@
-#include "harness/record/table_path.h"
+#include "harness/tables/table_path.h"
 
 #include <math.h>
 

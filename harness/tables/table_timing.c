@@ -1,4 +1,4 @@
-#include "harness/record/table_timing.h"
+#include "harness/tables/table_timing.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,0 +1,38 @@
+#include "harness/tables/table.h"
+
+#include <math.h>
+
+void table_percent(FILE *to, double error)
+{
+    if (!isfinite(error))
+        fprintf(to, "%11s", "-");
+    else if (fabs(error) >= 1e-4)
+        fprintf(to, " %+9.4f%%", 100 * error);
+    else
+        fprintf(to, " %+10.1e", error);
+}
+
+void table_value(FILE *to, int width, int digits, char conversion, double value)
+{
+    if (!isfinite(value))
+        fprintf(to, "%*s", width, "-");
+    else if (conversion == 'g')
+        fprintf(to, "%*.*g", width, digits, value);
+    else if (conversion == 'e')
+        fprintf(to, "%*.*e", width, digits, value);
+    else
+        fprintf(to, "%*.*f", width, digits, value);
+}
+
+void table_point(FILE *to, const point *p)
+{
+    fprintf(to, "%s%s%s", p->type->name, p->text[0] != '\0' ? ": " : "", p->text);
+}
+
+void table_series(FILE *to, const sweep *s, int index)
+{
+    const series *one = &s->series[index];
+    const point *p = &s->point[one->point];
+    fprintf(to, "%s%s%s%s, %s\n", p->type->name, p->text[0] != '\0' ? " (" : "", p->text,
+            p->text[0] != '\0' ? ")" : "", one->formulation.key);
+}

@@ -1,0 +1,11 @@
+/* Series over their meshes for people, with their limits. */
+#ifndef BEAMWORK_TABLE_CONVERGENCE_H
+#define BEAMWORK_TABLE_CONVERGENCE_H
+
+#include <stdio.h>
+
+#include "harness/judge/judgement.h"
+
+void table_convergence(FILE *to, const sweep *s, const truths *t);
+
+#endif
