@@ -1,18 +1,16 @@
 /* All verdicts of a sweep, what was expected of them, and what the gate says. */
+#include "harness/judge/judgement.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/judge/judgement.h"
-#include "harness/judge/sound.h"
-
+#include "harness/judge/agreements.h"
 #include "harness/judge/coverage.h"
+#include "harness/judge/sound.h"
 #include "harness/model/features.h"
 #include "harness/truth/truth.h"
-
-/* relative, of a value against its own stored discrete value */
-static const double agreement_least = 1e-6;
 
 static int is_beyond(const rule *r, const verdict *v)
 {
@@ -53,55 +51,6 @@ static void expect(const sweep *s, truths *t, verdict *v)
             v->expected = v->kind;
     }
     v->matches = v->kind == v->expected;
-}
-
-static status add_agreement(const agreement *one, judgement *out, fault *f)
-{
-    agreement *more = realloc(out->agreement, (size_t)(out->agreements + 1) * sizeof *more);
-    if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for agreements");
-    out->agreement = more;
-    more[out->agreements++] = *one;
-    out->disagreements += !one->good;
-    return STATUS_OK;
-}
-
-/* The values of one mesh against a row of the truths. */
-static status compare_mesh(const sweep *s, const truth *row, int index, int mesh, judgement *out,
-                           fault *f)
-{
-    const series *one = &s->series[index];
-    const point *p = &s->point[one->point];
-    const solve_result *result = &one->cell[mesh].solve;
-    for (int q = 0; q < p->scene.quantities; q++) {
-        if (strcmp(p->scene.quantity[q].name, row->quantity) != 0 ||
-            !sweep_selects(s, p, &one->formulation, row->quantity))
-            continue;
-        const double value = q < result->quantities ? result->quantity[q].value : NAN;
-        const int good =
-            fabs(value - row->value) <= fmax(row->uncertainty, agreement_least * fabs(row->value));
-        TRY(add_agreement(&(agreement){index, mesh, q, row, value, good}, out, f));
-    }
-    return STATUS_OK;
-}
-
-/* One series against the stored values of its own meshes. */
-static status compare_meshes(const sweep *s, const truths *t, int index, judgement *out, fault *f)
-{
-    const series *one = &s->series[index];
-    const point *p = &s->point[one->point];
-    if (one->missing[0] != '\0')
-        return STATUS_OK;
-    for (int r = 0; r < t->rows; r++) {
-        const truth *row = &t->row[r];
-        if (row->elements == 0 || !truth_holds(row, p->type, p->parameter) || !truth_gates(row) ||
-            strcmp(row->formulation, one->formulation.key) != 0)
-            continue;
-        for (int i = 0; i < one->meshes; i++)
-            if (one->mesh[i] == row->elements)
-                TRY(compare_mesh(s, row, index, i, out, f));
-    }
-    return STATUS_OK;
 }
 
 static status add_flaw(const flaw *one, judgement *out, fault *f)
@@ -277,7 +226,7 @@ status judgement_make(const sweep *s, truths *t, int whole, judgement *out, faul
     TRY(check_units(s, t, f));
     for (int i = 0; i < s->seriess; i++) {
         judge_series(s, t, i, out);
-        TRY(compare_meshes(s, t, i, out, f));
+        TRY(agreements_add(s, t, i, out, f));
         if (s->series[i].imported == NULL)
             TRY(check_cells(s, i, out, f));
     }

@@ -16,6 +16,8 @@ typedef struct writer {
 void write_number(writer *w, double value);
 /* [a, b, c] */
 void write_numbers(writer *w, int count, const double value[]);
+/* Is one of them not zero? */
+int write_any(int count, const double value[]);
 /* ", key: number" where it differs from what a reader takes when it is not there. */
 void write_if(writer *w, const char *key, double value, double otherwise);
 /* In double quotes. */

@@ -32,6 +32,14 @@ void write_numbers(writer *w, int count, const double value[])
     fputc(']', w->to);
 }
 
+int write_any(int count, const double value[])
+{
+    for (int i = 0; i < count; i++)
+        if (value[i] != 0)
+            return 1;
+    return 0;
+}
+
 void write_if(writer *w, const char *key, double value, double otherwise)
 {
     if (value == otherwise && !signbit(value) == !signbit(otherwise))

@@ -1,0 +1,12 @@
+/* Rows of a table of truths, each checked. */
+#ifndef BEAMWORK_TRUTH_ROWS_H
+#define BEAMWORK_TRUTH_ROWS_H
+
+#include "harness/truth/columns.h"
+#include "harness/truth/truths.h"
+
+/* row[table->rows], zero before. FAULT: a column that makes no sense, or a row whose case has other
+ * defaults by now; what was read stays for truths_free. */
+status truth_rows_read(const columns *table, const case_type *type, truth row[]);
+
+#endif
