@@ -1,5 +1,5 @@
 #include <errno.h>
-#include <limits.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -174,16 +174,58 @@ static void add_scene(cli_request *r, const char *path)
     r->scene_path[r->scene_count++] = path;
 }
 
+/* An option that a member of the request takes as it is. */
+typedef struct plain {
+    int key;
+    size_t member;
+} plain;
+
+static const plain texts[] = {
+    {'o', offsetof(cli_request, output)},   {'k', offsetof(cli_request, select)},
+    {'J', offsetof(cli_request, json)},     {'U', offsetof(cli_request, junit)},
+    {'M', offsetof(cli_request, markdown)}, {'T', offsetof(cli_request, truths)},
+    {'A', offsetof(cli_request, against)},  {'h', offsetof(cli_request, threshold)},
+    {'O', offsetof(cli_request, to)},       {'B', offsetof(cli_request, beside)},
+    {'m', offsetof(cli_request, map)},
+};
+
+static const plain switches[] = {
+    {'K', offsetof(cli_request, keep_all)}, {'D', offsetof(cli_request, dense)},
+    {'I', offsetof(cli_request, built_in)}, {'G', offsetof(cli_request, gate)},
+    {'H', offsetof(cli_request, schema)},   {'E', offsetof(cli_request, keys)},
+};
+
+/* The member that an option of the list belongs to, or NULL. */
+static void *member_of(size_t count, const plain list[], int key, cli_request *r)
+{
+    for (size_t i = 0; i < count; i++)
+        if (list[i].key == key)
+            return (char *)r + list[i].member;
+    return NULL;
+}
+
+static error_t take_plain(int key, const char *value, cli_request *r)
+{
+    const char **text = member_of(sizeof texts / sizeof texts[0], texts, key, r);
+    int *given = member_of(sizeof switches / sizeof switches[0], switches, key, r);
+    if (text != NULL)
+        *text = value;
+    if (given != NULL)
+        *given = 1;
+    return text != NULL || given != NULL ? 0 : ARGP_ERR_UNKNOWN;
+}
+
 static error_t take(int key, char *value, struct argp_state *state)
 {
     cli_request *r = state->input;
     refuse_again(r, key, state);
     switch (key) {
     case '?':
-        show_help(state, ARGP_HELP_STD_HELP);
-        return 0;
     case KEY_USAGE:
-        show_help(state, ARGP_HELP_USAGE);
+        show_help(state, key == '?' ? ARGP_HELP_STD_HELP : ARGP_HELP_USAGE);
+        return 0;
+    case ARGP_KEY_ARG:
+        add_case(r, value);
         return 0;
     case 'f':
         add_formulation(r, value);
@@ -194,22 +236,16 @@ static error_t take(int key, char *value, struct argp_state *state)
     case 's':
         add_assignment(r, value);
         return 0;
+    case 'Y':
+        add_scene(r, value);
+        return 0;
     case 'F':
         if (strcmp(value, "text") != 0 && strcmp(value, "json") != 0 && strcmp(value, "csv") != 0)
             refuse("--format: give text, json or csv");
         r->format = value;
         return 0;
-    case 'o':
-        r->output = value;
-        return 0;
-    case 'K':
-        r->keep_all = 1;
-        return 0;
     case 'S':
         r->steps = whole_number(value, "number of steps", 1, 1000000);
-        return 0;
-    case 'k':
-        r->select = value;
         return 0;
     case 'j':
         r->jobs = whole_number(value, "number of processes", 1, 64);
@@ -217,66 +253,18 @@ static error_t take(int key, char *value, struct argp_state *state)
     case 'L':
         r->time_limit = whole_number(value, "time limit", 0, 1000000);
         return 0;
-    case 'J':
-        r->json = value;
-        return 0;
-    case 'U':
-        r->junit = value;
+    case 't':
+        r->threads = whole_number(value, "number of threads", 1, TEAM_MOST);
         return 0;
     case 'P':
         r->shapes =
             value != NULL ? whole_number(value, "number of states", 1, SHAPES_ALL) : SHAPES_ALL;
         return 0;
-    case 'T':
-        r->truths = value;
-        return 0;
-    case 'M':
-        r->markdown = value;
-        return 0;
-    case 'A':
-        r->against = value;
-        return 0;
-    case 't':
-        r->threads = whole_number(value, "number of threads", 1, TEAM_MOST);
-        return 0;
-    case 'D':
-        r->dense = 1;
-        return 0;
     case 'X':
         r->plant = 0.01 * whole_number(value, "planted percentage", 0, 1000);
         return 0;
-    case ARGP_KEY_ARG:
-        add_case(r, value);
-        return 0;
-    case 'h':
-        r->threshold = value;
-        return 0;
-    case 'O':
-        r->to = value;
-        return 0;
-    case 'Y':
-        add_scene(r, value);
-        return 0;
-    case 'I':
-        r->built_in = 1;
-        return 0;
-    case 'B':
-        r->beside = value;
-        return 0;
-    case 'm':
-        r->map = value;
-        return 0;
-    case 'G':
-        r->gate = 1;
-        return 0;
-    case 'H':
-        r->schema = 1;
-        return 0;
-    case 'E':
-        r->keys = 1;
-        return 0;
     default:
-        return ARGP_ERR_UNKNOWN;
+        return take_plain(key, value, r);
     }
 }
 
@@ -310,32 +298,4 @@ void cli_parse(const char *verb, const char *arguments_doc, const char *doc, con
     arguments[0] = name;
     argp_err_exit_status = EXIT_REFUSED;
     argp_parse(&parser, count, arguments, ARGP_NO_HELP, NULL, out);
-}
-
-static const case_type *named_case(const cli_request *r)
-{
-    fault f;
-    if (r->case_name == NULL) {
-        cli_fail(STATUS_REFUSED, "which case? 'beamwork list cases' shows them");
-        return NULL;
-    }
-    const case_type *type = case_find(r->case_name, &f);
-    if (type == NULL)
-        cli_fail(STATUS_REFUSED, f.text);
-    return type;
-}
-
-const case_type *cli_case(cli_request *r)
-{
-    fault f;
-    const case_type *type = r->scene_count > 0 ? cli_scene_case(r) : named_case(r);
-    if (type == NULL)
-        return NULL;
-    parameters_default(type, r->parameter);
-    for (int i = 0; i < r->assignments; i++)
-        if (parameters_set(type, r->assignment[i], r->parameter, &f) != STATUS_OK) {
-            cli_fail(STATUS_REFUSED, f.text);
-            return NULL;
-        }
-    return type;
 }

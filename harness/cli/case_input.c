@@ -1,4 +1,4 @@
-/* Scene files in the place of a case, and the truths that belong to a run. */
+/* The case of a run, built in or a scene file, its parameters, and the truths that belong to it. */
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,6 +41,34 @@ const case_type *cli_scene_case(cli_request *r)
         return scene_file_case(r->scene);
     r->refusal = code;
     return NULL;
+}
+
+static const case_type *named_case(const cli_request *r)
+{
+    fault f;
+    if (r->case_name == NULL) {
+        cli_fail(STATUS_REFUSED, "which case? 'beamwork list cases' shows them");
+        return NULL;
+    }
+    const case_type *type = case_find(r->case_name, &f);
+    if (type == NULL)
+        cli_fail(STATUS_REFUSED, f.text);
+    return type;
+}
+
+const case_type *cli_case(cli_request *r)
+{
+    fault f;
+    const case_type *type = r->scene_count > 0 ? cli_scene_case(r) : named_case(r);
+    if (type == NULL)
+        return NULL;
+    parameters_default(type, r->parameter);
+    for (int i = 0; i < r->assignments; i++)
+        if (parameters_set(type, r->assignment[i], r->parameter, &f) != STATUS_OK) {
+            cli_fail(STATUS_REFUSED, f.text);
+            return NULL;
+        }
+    return type;
 }
 
 void cli_close(cli_request *r)
