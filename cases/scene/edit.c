@@ -1,5 +1,6 @@
 #include "cases/scene/edit.h"
 #include "cases/scene/unit.h"
+#include "elements/section/taper.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -25,7 +26,7 @@ static status reverse(scene *s, fault *f)
         mirror_section(&s->section[i]);
     for (int i = 0; i < s->members; i++) {
         scene_member *m = &s->member[i];
-        const int p = m->p, warp_p = m->warp_p;
+        const int p = m->p, warp_p = m->warp_p, section_p = m->section;
         if (m->curvature[0] != 0)
             return fault_set(f, STATUS_REFUSED,
                              "member %d: initially twisted, its y axis at the other end is not "
@@ -33,6 +34,8 @@ static status reverse(scene *s, fault *f)
                              i);
         m->p = m->q;
         m->q = p;
+        m->section = m->section_q;
+        m->section_q = section_p;
         m->warp_p = m->warp_q;
         m->warp_q = warp_p;
         m->curvature[2] = -m->curvature[2];
@@ -57,6 +60,16 @@ static int unused_name(const scene *s)
     return name;
 }
 
+/* The section there, a new one where it changes along the member. */
+static int section_between(scene *s, const scene_member *m, double fraction)
+{
+    section_spec spec;
+    if (!scene_member_tapers(m))
+        return m->section;
+    section_taper_at(&s->section[m->section], &s->section[m->section_q], fraction, &spec);
+    return scene_add_section(s, &spec);
+}
+
 static status split(scene *s, double fraction, fault *f)
 {
     const scene_member first = *scene_member_at(s, 0);
@@ -76,13 +89,16 @@ static status split(scene *s, double fraction, fault *f)
         between[k] = p + fraction * (q - p);
     }
     const int name = unused_name(s), middle = scene_add_node(s, between[0], between[1], between[2]);
-    const int second = scene_add_member(s, middle, first.q, first.section, first.y_axis);
+    const int profile = section_between(s, &first, fraction);
+    const int second = scene_add_member(s, middle, first.q, profile, first.y_axis);
     scene_member *m = scene_member_at(s, second);
+    m->section_q = first.section_q;
     m->warp_p = name;
     m->warp_q = first.warp_q;
     m->divisions = first.divisions;
     m = scene_member_at(s, 0);
     m->q = middle;
+    m->section_q = profile;
     m->warp_q = name;
     for (int i = 0; i < loads; i++)
         if (scene_load_along(&s->load[i]) && s->load[i].where == 0) {

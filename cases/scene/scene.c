@@ -104,10 +104,23 @@ int scene_add_member(scene *s, int p, int q, int profile, const double y_axis[3]
     scene_member *m = scene_member_at(s, i);
     m->p = p;
     m->q = q;
-    m->section = profile;
+    m->section = m->section_q = profile;
     memcpy(m->y_axis, y_axis, sizeof m->y_axis);
     m->warp_p = m->warp_q = SCENE_WARP_FREE;
     return i;
+}
+
+int scene_member_tapers(const scene_member *m)
+{
+    return m->section_q != m->section;
+}
+
+int scene_tapers(const scene *s)
+{
+    for (int i = 0; i < s->members; i++)
+        if (scene_member_tapers(&s->member[i]))
+            return 1;
+    return 0;
 }
 
 int scene_add_spring(scene *s, int p, int q, const double stiffness[36])

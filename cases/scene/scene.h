@@ -55,7 +55,9 @@ typedef struct scene_node {
 } scene_node;
 
 typedef struct scene_member {
-    int p, q, section;
+    int p, q;
+    int section, section_q; /* at p and at q; between them it changes linearly in its numbers
+                               (elements/section/taper.h), each element has that of its middle */
     double y_axis
         [3]; /* direction of the y axis in which the section is described (its part across the member) */
     int warp_p, warp_q; /* SCENE_WARP_FREE, SCENE_WARP_FIXED or a shared name */
@@ -148,7 +150,10 @@ int scene_add_node(scene *s, double x, double y, double z);
 int scene_add_attached(scene *s, int body, double x, double y,
                        double z); /* absolute undeformed position */
 int scene_add_member(scene *s, int p, int q, int profile,
-                     const double y_axis[3]); /* profile: a section of the scene */
+                     const double y_axis[3]); /* profile: a section of the scene, at both ends */
+/* Does its section change along it?  Does that of any member? */
+int scene_member_tapers(const scene_member *m);
+int scene_tapers(const scene *s);
 int scene_add_spring(scene *s, int p, int q, const double stiffness[36]);
 int scene_add_driver(scene *s, const char *name, int stations, const double path[],
                      const double value[]);

@@ -5,6 +5,21 @@
 #include "cases/scene/validate_node.h"
 #include "cases/scene/validate_wanted.h"
 #include "elements/math/dense.h"
+#include "elements/section/taper.h"
+
+static status check_taper(const scene *s, int i, fault *f)
+{
+    const int at[2] = {s->member[i].section, s->member[i].section_q};
+    section c[2];
+    fault why = {""};
+    for (int k = 0; k < 2; k++)
+        if (scene_constants(s, at[k], &c[k], NULL) != STATUS_OK)
+            return STATUS_OK; /* model_alloc says why */
+    const section *const ends[2] = {&c[0], &c[1]};
+    if (section_taper_check(&s->section[at[0]], &s->section[at[1]], ends, &why) != STATUS_OK)
+        return fault_set(f, STATUS_REFUSED, "member %d: %s", i, why.text);
+    return STATUS_OK;
+}
 
 static status check_member(const scene *s, int i, fault *f)
 {
@@ -12,7 +27,8 @@ static status check_member(const scene *s, int i, fault *f)
     if (m->p < 0 || m->p >= s->nodes || m->q < 0 || m->q >= s->nodes)
         return fault_set(f, STATUS_REFUSED,
                          "member %d: it ends at a node that does not exist; add the node first", i);
-    if (m->section < 0 || m->section >= s->sections)
+    if (m->section < 0 || m->section >= s->sections || m->section_q < 0 ||
+        m->section_q >= s->sections)
         return fault_set(f, STATUS_REFUSED,
                          "member %d: its section does not exist; add the section first", i);
     double d[3], length = 0, along = 0, across = 0;
@@ -31,7 +47,7 @@ static status check_member(const scene *s, int i, fault *f)
     if (m->divisions < 0)
         return fault_set(f, STATUS_REFUSED, "member %d: %d elements; give at least 1", i,
                          m->divisions);
-    return STATUS_OK;
+    return scene_member_tapers(m) ? check_taper(s, i, f) : STATUS_OK;
 }
 
 /* Symmetric, and no deformation gives energy away: elimination meets no negative pivot. */
@@ -145,11 +161,13 @@ static status check_load_kind(const scene *s, int i, fault *f)
     if (load->axes != SCENE_AXES_FIXED || load->follower)
         return fault_set(f, STATUS_REFUSED,
                          "load %d: gravity has fixed axes; leave 'axes' and 'follower' out", i);
-    const int profile = s->member[load->where].section;
-    if (scene_constants(s, profile, &c, NULL) == STATUS_OK && !(c.density > 0))
-        return fault_set(f, STATUS_REFUSED,
-                         "load %d: gravity on member %d, whose section has no density; give one", i,
-                         load->where);
+    const int profile[2] = {s->member[load->where].section, s->member[load->where].section_q};
+    for (int k = 0; k < 2; k++)
+        if (scene_constants(s, profile[k], &c, NULL) == STATUS_OK && !(c.density > 0))
+            return fault_set(
+                f, STATUS_REFUSED,
+                "load %d: gravity on member %d, whose section has no density; give one", i,
+                load->where);
     return STATUS_OK;
 }
 

@@ -1,5 +1,7 @@
 #include "harness/equations/internal.h"
 
+#include <math.h>
+
 #include "elements/math/dense.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/equations/loads.h"
@@ -26,6 +28,20 @@ static void take_off(void *context, const applied *what)
         of->force[3 + i] -= moment[i];
 }
 
+/* The element has a section of its own where it changes along the member, with other axes than at the end. */
+static void turn_to_end(const model *m, int member, int end, const mesh_element *el, double R[9])
+{
+    const scene_member *sm = &m->scene->member[member];
+    const double angle = m->section[end ? sm->section_q : sm->section].axes_angle -
+                         m->section[m->kind[el->kind].section].axes_angle,
+                 c = cos(angle), d = sin(angle);
+    for (int i = 0; i < 9 && angle != 0; i += 3) {
+        const double y = R[i + 1];
+        R[i + 1] = c * y + d * R[i + 2];
+        R[i + 2] = c * R[i + 2] - d * y;
+    }
+}
+
 void internal_at_end(model *m, const model_state *s, const double sigma[], double at, int member,
                      int end, double out[7])
 {
@@ -47,6 +63,7 @@ void internal_at_end(model *m, const model_state *s, const double sigma[], doubl
             applied_each(m, s, load, loads_factor(load, at), take_off, (void *)&of);
     }
     const double sign = end ? 1 : -1;
+    turn_to_end(m, member, end, el, x[k].R);
     mat3_transpose_mul_vec(x[k].R, of.force, out);
     mat3_transpose_mul_vec(x[k].R, of.force + 3, out + 3);
     out[6] = of.force[6];

@@ -18,6 +18,11 @@ static int is_zero(const double v[3])
 static status check_section(const scene *s, int member, fault *f)
 {
     const section_spec *profile = &s->section[s->member[member].section];
+    if (scene_member_tapers(&s->member[member]))
+        return fault_set(f, STATUS_REFUSED,
+                         "member %d: a section that changes along it is not written as solid; give "
+                         "it one section",
+                         member);
     const double poisson = profile->young / (2 * profile->shear_modulus) - 1;
     if (profile->kind != SECTION_RECTANGLE)
         return fault_set(f, STATUS_REFUSED,

@@ -93,7 +93,9 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
                                      .value = h.value,
                                      .noise = one->noise != NULL ? one->noise[quantity] : NAN,
                                      .nominal_order = fmax(1, ceil(q->least_order)),
-                                     .highest_order = order.highest,
+                                     .highest_order = scene_tapers(here) && order.highest > 2
+                                                          ? 2 /* of prismatic pieces */
+                                                          : order.highest,
                                      .near_zero = q->near_zero};
     return limit_of(&sequence);
 }

@@ -30,6 +30,12 @@ static void include(const scene *s, int node, char *reached, box *b)
     }
 }
 
+static int shares_section(const scene_member *a, const scene_member *b)
+{
+    return a->section == b->section || a->section == b->section_q || a->section_q == b->section ||
+           a->section_q == b->section_q;
+}
+
 /* Diagonal [m] of the box around a member and those of its section that it is connected with
  * through common nodes: a beam may be described by any number of short members. reached [nodes]:
  * not to be set; what is reached is. */
@@ -43,7 +49,7 @@ static double extent_of(const scene *s, int member, char *reached)
         grows = 0;
         for (int i = 0; i < s->members; i++) {
             const scene_member *m = &s->member[i];
-            if (m->section != first->section || reached[m->p] == reached[m->q])
+            if (!shares_section(m, first) || reached[m->p] == reached[m->q])
                 continue;
             include(s, reached[m->p] ? m->q : m->p, reached, &b);
             grows = 1;
@@ -58,11 +64,13 @@ static double phi_along_y(const scene *s)
 {
     double largest = 0;
     for (int i = 0; i < s->members; i++) {
-        section c;
+        const int end[2] = {s->member[i].section, s->member[i].section_q};
         char *reached = calloc((size_t)s->nodes + 1, 1);
-        if (reached != NULL && scene_constants(s, s->member[i].section, &c, NULL) == STATUS_OK) {
-            const double l = extent_of(s, i, reached);
-            largest = fmax(largest, 12 * c.young * c.Iz * c.F[0] / (c.shear_modulus * l * l));
+        const double l = reached != NULL ? extent_of(s, i, reached) : INFINITY;
+        for (int k = 0; k < 2; k++) {
+            section c;
+            if (scene_constants(s, end[k], &c, NULL) == STATUS_OK)
+                largest = fmax(largest, 12 * c.young * c.Iz * c.F[0] / (c.shear_modulus * l * l));
         } /* model_alloc says why a section is none */
         free(reached);
     }

@@ -9,6 +9,7 @@
 #include "harness/algebra/memory.h"
 #include "harness/model/member_arc.h"
 #include "harness/model/model_impl.h"
+#include "harness/model/profile.h"
 
 static int divisions(const scene *s, int member, int elements)
 {
@@ -53,16 +54,16 @@ static int same_vector(const double a[3], const double b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Index of the kind of element of a member with this length and curvature; made when it is new. */
-static status kind_of(model *m, const scene_member *member, double length,
+/* Index of the kind of element of a member with this section, length and curvature; made when it is new. */
+static status kind_of(model *m, const scene_member *member, int profile, double length,
                       const double curvature[3], int *out, fault *f)
 {
-    const int profile = member->section;
-    for (int i = 0; i < m->kinds; i++)
-        if (m->kind[i].section == profile && fabs(m->kind[i].length - length) <= 1e-12 * length &&
-            same_vector(m->kind[i].curvature, curvature) &&
-            same_vector(m->kind[i].strain, member->strain)) {
-            *out = i;
+    int *end = &m->kind_of_section[profile];
+    for (; *end != NONE; end = &m->kind[*end].next)
+        if (fabs(m->kind[*end].length - length) <= 1e-12 * length &&
+            same_vector(m->kind[*end].curvature, curvature) &&
+            same_vector(m->kind[*end].strain, member->strain)) {
+            *out = *end;
             return STATUS_OK;
         }
     mesh_kind *k = &m->kind[m->kinds];
@@ -72,21 +73,37 @@ static status kind_of(model *m, const scene_member *member, double length,
     memcpy(request.strain, member->strain, sizeof request.strain);
     TRY(features_of_section(m, profile, &request.features, f));
     k->section = profile;
+    k->next = NONE;
     k->length = length;
     memcpy(k->curvature, curvature, sizeof k->curvature);
     memcpy(k->strain, member->strain, sizeof k->strain);
     k->data = calloc(1, m->type->data_size(&request));
     if (k->data == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for an element");
-    *out = m->kinds++;
+    *out = *end = m->kinds++;
     return m->type->prepare(&request, k->data, f);
 }
 
+/* Where each element has a section of its own, its axes too. */
+static status arc_of_element(const model *m, int member, int profile, const member_arc *along,
+                             member_arc *out, fault *f)
+{
+    *out = *along;
+    if (!scene_member_tapers(&m->scene->member[member]))
+        return STATUS_OK;
+    return member_arc_of(m->scene, member, m->section[profile].axes_angle, out, f);
+}
+
 /* The vertices of one element of n along an arc: positions, triads, warping comes later. */
-static status add_element(model *m, const member_arc *a, int member, int number, int n,
+static status add_element(model *m, const member_arc *along, int member, int number, int n,
                           int inner_vertex, fault *f)
 {
     mesh_element *el = &m->element[m->elements];
+    const scene_member *sm = &m->scene->member[member];
+    const int profile = profile_at(m, member, number);
+    member_arc here;
+    TRY(arc_of_element(m, member, profile, along, &here, f));
+    const member_arc *a = &here;
     const int curved = (m->type->offers & FEATURE_CURVATURE) && vec3_norm(a->k) > 0,
               last = m->nodes - 1;
     const double straight[3] = {0, 0, 0};
@@ -96,9 +113,9 @@ static status add_element(model *m, const member_arc *a, int member, int number,
         const int at_start = number == 0 && k == 0, at_end = number == n - 1 && k == last;
         el->vertex[k] = inner_vertex + number * last + k - 1;
         if (at_start)
-            el->vertex[k] = m->scene->member[member].p;
+            el->vertex[k] = sm->p;
         else if (at_end)
-            el->vertex[k] = m->scene->member[member].q;
+            el->vertex[k] = sm->q;
         mesh_vertex *v = &m->vertex[el->vertex[k]];
         double position[3], between[3];
         member_arc_at(a, a->length * (number * last + k) / (n * last), position, el->triad[k]);
@@ -123,10 +140,10 @@ static status add_element(model *m, const member_arc *a, int member, int number,
         for (int i = 1; i <= last; i++)
             memcpy(el->triad[i], el->triad[0], sizeof el->triad[0]);
         m->elements++;
-        return kind_of(m, &m->scene->member[member], vec3_norm(between), straight, &el->kind, f);
+        return kind_of(m, sm, profile, vec3_norm(between), straight, &el->kind, f);
     }
     m->elements++;
-    return kind_of(m, &m->scene->member[member], a->length / n, a->k, &el->kind, f);
+    return kind_of(m, sm, profile, a->length / n, a->k, &el->kind, f);
 }
 
 /* Warping slot of a member's end: shared by name, own, or none. */
@@ -146,10 +163,11 @@ static void add_warps(model *m, int *named)
     const int last = m->nodes - 1;
     for (int member = 0; member < m->scene->members; member++) {
         const scene_member *sm = &m->scene->member[member];
+        const int profile = profile_at(m, member, 0); /* warps as the other elements: profile.c */
         unsigned features;
-        features_of_section(m, sm->section, &features, NULL);
+        features_of_section(m, profile, &features, NULL);
         const int warps = (features & FEATURE_WARPING) != 0,
-                  nothing_warps = m->section[sm->section].Iw <= 0;
+                  nothing_warps = m->section[profile].Iw <= 0;
         for (int i = m->first_element[member]; i < m->first_element[member + 1]; i++)
             for (int k = 0; k <= last; k++) {
                 mesh_element *el = &m->element[i];
@@ -206,6 +224,29 @@ static status allocate(model *m, int elements, fault *f)
     return STATUS_OK;
 }
 
+/* The sections of all elements, and no kind of any. */
+static status profiles(model *m, int elements, fault *f)
+{
+    const scene *s = m->scene;
+    int *count = malloc(((size_t)s->members + 1) * sizeof *count), sections = s->sections;
+    if (count == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the sections of members");
+    for (int i = 0; i < s->members; i++)
+        count[i] = divisions(s, i, elements);
+    const status outcome = profile_members(m, count, f);
+    for (int i = 0; i < s->members && outcome == STATUS_OK; i++)
+        if (sections <= profile_at(m, i, count[i] - 1))
+            sections = profile_at(m, i, count[i] - 1) + 1;
+    free(count);
+    TRY(outcome);
+    m->kind_of_section = malloc(((size_t)sections + 1) * sizeof *m->kind_of_section);
+    if (m->kind_of_section == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the sections of members");
+    for (int i = 0; i < sections; i++)
+        m->kind_of_section[i] = NONE;
+    return STATUS_OK;
+}
+
 status mesh_build(model *m, int elements, fault *f)
 {
     const scene *s = m->scene;
@@ -214,6 +255,7 @@ status mesh_build(model *m, int elements, fault *f)
     if (s->members < 1)
         return fault_set(f, STATUS_REFUSED, "scene %s: it has no member", s->name);
     TRY(allocate(m, elements, f));
+    TRY(profiles(m, elements, f));
     scene_vertices(m);
     int inner_vertex = s->nodes;
     for (int member = 0; member < s->members; member++) {

@@ -19,6 +19,15 @@ static int is_coupled(const section *c)
     return coupled;
 }
 
+const char *missing_in_section(const element_type *type, const section *c, int cells, int warps)
+{
+    if ((type->limits & LIMIT_DOUBLY_SYMMETRIC) && (features_eccentric(c) || is_coupled(c)))
+        return "sections that are not doubly symmetric";
+    if ((type->limits & LIMIT_WARPING_RIGID) && warps && cells > 0 && c->Iw > 0)
+        return "shear of warping, by which closed cells warp";
+    return NULL;
+}
+
 static int limit_hit(const scene *s, const element_type *type, char *words, int size)
 {
     const int warps = (features_needed(s) & FEATURE_WARPING) != 0;
@@ -26,11 +35,9 @@ static int limit_hit(const scene *s, const element_type *type, char *words, int 
         section c;
         if (scene_constants(s, i, &c, NULL) != STATUS_OK)
             continue;
-        if ((type->limits & LIMIT_DOUBLY_SYMMETRIC) && (features_eccentric(&c) || is_coupled(&c)))
-            return snprintf(words, (size_t)size, "sections that are not doubly symmetric") > 0;
-        if ((type->limits & LIMIT_WARPING_RIGID) && warps && s->section[i].cells > 0 && c.Iw > 0)
-            return snprintf(words, (size_t)size, "shear of warping, by which closed cells warp") >
-                   0;
+        const char *limit = missing_in_section(type, &c, s->section[i].cells, warps);
+        if (limit != NULL)
+            return snprintf(words, (size_t)size, "%s", limit) > 0;
     }
     return 0;
 }

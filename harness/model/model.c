@@ -12,19 +12,8 @@
 #include "harness/model/lacks.h"
 #include "harness/model/missing.h"
 #include "harness/model/model_impl.h"
+#include "harness/model/profile.h"
 #include "harness/model/spring.h"
-
-static status compute_sections(model *m, fault *f)
-{
-    const scene *s = m->scene;
-    m->section = calloc((size_t)(s->sections > 0 ? s->sections : 1), sizeof *m->section);
-    if (m->section == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for sections");
-    for (int i = 0; i < s->sections; i++) {
-        TRY(scene_constants(s, i, &m->section[i], f));
-    }
-    return STATUS_OK;
-}
 
 static void choose_options(model *m, const double options[])
 {
@@ -83,7 +72,7 @@ static status build(model *m, const model_request *request, fault *f)
         return fault_set(f, STATUS_REFUSED,
                          "formulation %s was written for another version of the element interface",
                          type->name);
-    TRY(compute_sections(m, f));
+    TRY(profile_scene(m, f));
     if (missing_words(s, type, words, sizeof words))
         return fault_set(f, STATUS_REFUSED,
                          "formulation %s does not offer %s, which scene %s needs", type->name,
@@ -144,6 +133,8 @@ void model_free(model *m)
         free(m->line[i]);
     free(m->line);
     free(m->section);
+    free(m->profile);
+    free(m->kind_of_section);
     free(m->vertex);
     free(m->element);
     free(m->kind);

@@ -46,6 +46,7 @@ typedef struct mesh_discrete {
 typedef struct mesh_kind {
     int section;
     double length, curvature[3], strain[3];
+    int next; /* kind of the same section, or NONE */
     element_data *data;
 } mesh_kind;
 
@@ -72,11 +73,13 @@ struct model {
     double options[ELEMENT_MAX_OPTIONS];
     int keep_all, nodes, coordinates, strains, inner, memory; /* per element: nodes, 7 nodes, ... */
     unsigned features;
-    section *section;
+    section *section; /* of the scene; behind them of members whose section changes: profile.h */
+    int *profile;     /* [members] section of the first element */
     int vertices, elements, kinds, warps;
     mesh_vertex *vertex;
     mesh_element *element;
     mesh_kind *kind;
+    int *kind_of_section; /* [sections] the first, or NONE */
     mesh_warp *warp;
     int discretes, springs; /* springs: the last of them */
     mesh_discrete *discrete;

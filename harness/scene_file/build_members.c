@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "elements/section/taper.h"
 #include "harness/language/range.h"
 #include "harness/scene_file/builder.h"
 
@@ -51,6 +52,42 @@ static void read_warping(const fields *f, scene_member *m)
     m->warp_q = warping_of(f, n->kind == DOCUMENT_LIST ? n->item[1] : n);
 }
 
+/* What changes along the member can. */
+static void check_taper(const fields *f, const document_node *n, const int profile[2])
+{
+    const scene *s = f->b->scene;
+    section c[2];
+    const section *const ends[2] = {&c[0], &c[1]};
+    fault why = {""};
+    for (int k = 0; k < 2; k++)
+        if (profile[k] < 0 || profile[k] >= s->sections ||
+            scene_constants(s, profile[k], &c[k], NULL) != STATUS_OK)
+            return; /* it is told already */
+    if (profile[0] != profile[1] &&
+        section_taper_check(&s->section[profile[0]], &s->section[profile[1]], ends, &why) !=
+            STATUS_OK)
+        document_mistake(f->b->mistakes, n, 0, "%s", why.text);
+}
+
+/* One name, or [at from, at to]. */
+static void read_sections(const fields *f, int profile[2])
+{
+    const document_node *n = document_find(f->map, "section");
+    profile[0] = profile[1] = SCENE_NONE;
+    if (n->kind != DOCUMENT_LIST) {
+        profile[0] = profile[1] = fields_entry_of(f, n, LIST_SECTIONS);
+        return;
+    }
+    if (n->count != 2) {
+        document_mistake(f->b->mistakes, n, 0,
+                         "section: the name of one, or [at from, at to] of two");
+        return;
+    }
+    for (int k = 0; k < 2; k++)
+        profile[k] = fields_entry_of(f, n->item[k], LIST_SECTIONS);
+    check_taper(f, n, profile);
+}
+
 void builder_members(builder *b)
 {
     for (int i = 0; i < b->list[LIST_MEMBERS].count; i++) {
@@ -58,8 +95,11 @@ void builder_members(builder *b)
         double y[3] = {0};
         fields_direction(&f, "y", y);
         const int p = fields_entry(&f, "from", LIST_NODES), q = fields_entry(&f, "to", LIST_NODES);
-        const int profile = fields_entry(&f, "section", LIST_SECTIONS);
-        scene_member *m = scene_member_at(b->scene, scene_add_member(b->scene, p, q, profile, y));
+        int profile[2];
+        read_sections(&f, profile);
+        scene_member *m =
+            scene_member_at(b->scene, scene_add_member(b->scene, p, q, profile[0], y));
+        m->section_q = profile[1];
         read_warping(&f, m);
         fields_vector(&f, "curvature", 3, m->curvature);
         fields_vector(&f, "strain", 3, m->strain);

@@ -146,7 +146,8 @@ const scene_key keys_node[] = {
 const scene_key keys_member[] = {
     {"from", KEY_NAME, .needed = 1, .summary = "node where its x axis begins"},
     {"to", KEY_NAME, .needed = 1, .summary = "node where it ends"},
-    {"section", KEY_NAME, .needed = 1, .summary = "name of its cross-section"},
+    {"section", KEY_FORMS, .needed = 1,
+     .summary = "NAME, or [at from, at to]: sizes change linearly, elements are prismatic"},
     {"y", KEY_VECTOR, .needed = 1, .count = 3, .summary = "direction of the section's y axis"},
     {"warping", KEY_FORMS, .summary = "free, fixed, {shared: NAME}, or [at from, at to]"},
     {"curvature", KEY_VECTOR, .count = 3, .unit = "1/m", .summary = "initial twist, curvatures"},

@@ -96,8 +96,11 @@ void write_members(writer *w)
     fputs("members:\n", w->to);
     for (int i = 0; i < w->scene->members; i++) {
         const scene_member *m = &w->scene->member[i];
-        fprintf(w->to, "  member_%d: {from: node_%d, to: node_%d, section: section_%d, y: ", i,
-                m->p, m->q, m->section);
+        fprintf(w->to, "  member_%d: {from: node_%d, to: node_%d, section: ", i, m->p, m->q);
+        if (scene_member_tapers(m))
+            fprintf(w->to, "[section_%d, section_%d], y: ", m->section, m->section_q);
+        else
+            fprintf(w->to, "section_%d, y: ", m->section);
         write_numbers(w, 3, m->y_axis);
         fputs(", warping: [", w->to);
         write_warping(w, m->warp_p);

@@ -68,8 +68,8 @@ static void fill_motion(const model *m, const scene *s, const double *u, int *in
 {
     for (int member = 0; member < s->members; member++) {
         const scene_member *sm = &s->member[member];
-        const section *c = model_section(m, sm->section);
-        const double radius = sqrt(c->Ip / c->A);
+        const section *p = model_section(m, sm->section), *q = model_section(m, sm->section_q);
+        const double radius = (sqrt(p->Ip / p->A) + sqrt(q->Ip / q->A)) / 2;
         double d[3], R[9];
         for (int i = 0; i < 3; i++)
             d[i] = s->node[sm->q].position[i] - s->node[sm->p].position[i];

@@ -60,9 +60,10 @@ static inline int same_warp(int a, int b)
 static inline int same_member(const scene_member *a, const scene_member *b)
 {
     return a->p == b->p && a->q == b->q && a->section == b->section &&
-           same_numbers(3, a->y_axis, b->y_axis) && same_warp(a->warp_p, b->warp_p) &&
-           same_warp(a->warp_q, b->warp_q) && same_numbers(3, a->curvature, b->curvature) &&
-           same_numbers(3, a->strain, b->strain) && a->divisions == b->divisions;
+           a->section_q == b->section_q && same_numbers(3, a->y_axis, b->y_axis) &&
+           same_warp(a->warp_p, b->warp_p) && same_warp(a->warp_q, b->warp_q) &&
+           same_numbers(3, a->curvature, b->curvature) && same_numbers(3, a->strain, b->strain) &&
+           a->divisions == b->divisions;
 }
 
 static inline int same_spring(const scene_spring *a, const scene_spring *b)
