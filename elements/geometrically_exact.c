@@ -40,13 +40,12 @@ static size_t data_size(const element_request *request)
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
     const int count = nodes(request->options);
-    const status outcome = exact_stiffness_prepare(request, count, &out->stiffness, f);
+    TRY(exact_stiffness_prepare(request, count, &out->stiffness, f));
     out->mass = lumped_of(request->section, request->features, request->length);
     out->nodes = count;
-    if (outcome == STATUS_OK)
-        exact_strain_prepare(count, count - 1, request->length, request->curvature, request->strain,
-                             count == 2 ? EXACT_MEASURE_ANGLE : EXACT_MEASURE_QUARTER, &out->line);
-    return outcome;
+    exact_strain_prepare(count, count - 1, request->length, request->curvature, request->strain,
+                         count == 2 ? EXACT_MEASURE_ANGLE : EXACT_MEASURE_QUARTER, &out->line);
+    return STATUS_OK;
 }
 
 static void strain(const element_data *d, const node_state x[], strain_output *out)

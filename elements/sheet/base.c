@@ -23,12 +23,8 @@ status sheet_base_prepare(const element_request *request, sheet_base_shear shear
         c.Iw = 0;
     const double Phi_y = flexible ? sheet_elastic_phi_y(&c, l0) : 0,
                  Phi_z = flexible ? sheet_elastic_phi_z(&c, l0) : 0;
-    status made =
-        sheet_strains_prepare(request, whole ? Phi_y : 0, whole ? Phi_z : 0, &out->table, f);
-    if (made == STATUS_OK)
-        made = sheet_wagner_prepare(request, &out->wagner, f);
-    if (made != STATUS_OK)
-        return made;
+    TRY(sheet_strains_prepare(request, whole ? Phi_y : 0, whole ? Phi_z : 0, &out->table, f));
+    TRY(sheet_wagner_prepare(request, &out->wagner, f));
     sheet_elastic_stiffness(&c, l0, Phi_y, Phi_z, out->S);
     for (int i = 0; i < SHEET_STRAINS * SHEET_STRAINS; i++)
         if (!isfinite(out->S[i]))

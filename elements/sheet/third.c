@@ -160,8 +160,8 @@ status sheet_third_prepare(const element_request *request, int printed, element_
             "initial shear strain %g along the thickness: N Eq. 50 knows none; leave it out",
             request->strain[1]);
     partial_inverse(request->length, sheet_fields_warp(request), out);
-    const status complete = sheet_potential_prepare(request, printed, &out->potential, f);
-    return complete == STATUS_OK ? set_rest(request, out, f) : complete;
+    TRY(sheet_potential_prepare(request, printed, &out->potential, f));
+    return set_rest(request, out, f);
 }
 
 /* At e = 0 along the strain v whose stress is sigma: x' = (dx/de) v, (dx/de)' = X v, C' by the product rule. */

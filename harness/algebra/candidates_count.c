@@ -11,16 +11,13 @@ static const double close = 1e-9; /* relative distance of eigenvalues that are n
 status candidates_count_above(candidates *p, double s, int *above, eigen_result *work, fault *f)
 {
     const sparse *K = p->problem->K;
-    status outcome = STATUS_OK;
     if (p->shifted.value == NULL)
-        outcome = sparse_alloc_like(K, &p->shifted, f);
-    if (outcome == STATUS_OK && p->shifted_factor == NULL)
-        outcome = factor_alloc(K, &p->shifted_factor, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+        TRY(sparse_alloc_like(K, &p->shifted, f));
+    if (p->shifted_factor == NULL)
+        TRY(factor_alloc(K, &p->shifted_factor, f));
     for (int i = 0; i < K->column[p->n]; i++)
         p->shifted.value[i] = K->value[i] - p->sign * p->problem->A->value[i] / s;
-    outcome = factor_numeric(p->shifted_factor, &p->shifted, f);
+    const status outcome = factor_numeric(p->shifted_factor, &p->shifted, f);
     *above = factor_count(p->shifted_factor).negative_pivots;
     work->factorisations++;
     return outcome;

@@ -154,8 +154,9 @@ static status missing(solver *s, int wanted, int *number, fault *f)
     s->out->factorisations++;
     if (s->shift > 0)
         return prove(s, last, outcome, below, number);
-    *number = outcome == STATUS_OK && below > last ? below - last : 0;
-    return outcome;
+    TRY(outcome);
+    *number = below > last ? below - last : 0;
+    return STATUS_OK;
 }
 
 /* K is indefinite: the least shift, in powers of ten, that makes it definite. */

@@ -49,8 +49,11 @@ static void fill(const sparse *K, const sparse *M, const sparse *G, double omega
 }
 
 /* With what gyroscopic_count frees. */
-static status count(const sparse *doubled, factor **factors, int *below, fault *f)
+static status count(const sparse *K, const sparse *M, const sparse *G, double omega,
+                    sparse *doubled, factor **factors, int *below, fault *f)
 {
+    TRY(doubled_alloc(K, doubled, f));
+    fill(K, M, G, omega, doubled);
     TRY(factor_alloc(doubled, factors, f));
     TRY(factor_numeric(*factors, doubled, f));
     *below = factor_count(*factors).negative_pivots / 2;
@@ -62,11 +65,7 @@ status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, doubl
 {
     sparse doubled;
     factor *factors = NULL;
-    status outcome = doubled_alloc(K, &doubled, f);
-    if (outcome == STATUS_OK) {
-        fill(K, M, G, omega, &doubled);
-        outcome = count(&doubled, &factors, below, f);
-    }
+    const status outcome = count(K, M, G, omega, &doubled, &factors, below, f);
     factor_free(factors);
     doubled_free(&doubled);
     return outcome;

@@ -65,17 +65,22 @@ static status keep_displaced(const analysis_context *c, shape_state *what, const
     return outcome;
 }
 
+/* sigma[stresses] is work space. */
+static status keep_displacements(const analysis_context *c, int analysis, double sigma[], shapes *s,
+                                 fault *f)
+{
+    const double *x = outcome_displacements(&c->outcomes[analysis]);
+    shape_state what = {SHAPE_LINEAR, analysis, 1, 1};
+    TRY(linear_stresses(c->model, x, sigma, f));
+    return keep_displaced(c, &what, x, sigma, s, f);
+}
+
 static status keep_linear(const analysis_context *c, int analysis, shapes *s, fault *f)
 {
-    shape_state what = {SHAPE_LINEAR, analysis, 1, 1};
     double *sigma = calloc((size_t)model_stresses(c->model) + 1, sizeof *sigma);
-    status outcome =
-        sigma != NULL
-            ? linear_stresses(c->model, outcome_displacements(&c->outcomes[analysis]), sigma, f)
-            : fault_set(f, STATUS_FAULT, "out of memory for the shape of a linear solution");
-    if (outcome == STATUS_OK)
-        outcome =
-            keep_displaced(c, &what, outcome_displacements(&c->outcomes[analysis]), sigma, s, f);
+    if (sigma == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the shape of a linear solution");
+    const status outcome = keep_displacements(c, analysis, sigma, s, f);
     free(sigma);
     return outcome;
 }
@@ -110,8 +115,12 @@ static status keep_modes(const analysis_context *c, int analysis, const outcome_
     return outcome;
 }
 
+/* With what collect_shapes frees. */
 static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
 {
+    TRY(shapes_alloc(s, f));
+    s->states = 0; /* counted again as they are filled */
+    centreline_points(c->model, s->first);
     keep(c, s, &(shape_state){SHAPE_UNDEFORMED, -1, 0, 1}, kinematics_rest(c->model));
     for (int i = 0; i < c->scene->analyses; i++) {
         const analysis_outcome *o = &c->outcomes[i];
@@ -136,12 +145,7 @@ status collect_shapes(const analysis_context *c, int most, shapes *s, fault *f)
     s->states = 1;
     for (int i = 0; i < c->scene->analyses; i++)
         s->states += count_of(&c->outcomes[i], most);
-    status outcome = shapes_alloc(s, f);
-    s->states = 0; /* counted again as they are filled */
-    if (outcome == STATUS_OK) {
-        centreline_points(c->model, s->first);
-        outcome = keep_all(c, most, s, f);
-    }
+    const status outcome = keep_all(c, most, s, f);
     if (outcome != STATUS_OK)
         shapes_free(s);
     return outcome;

@@ -192,6 +192,17 @@ static status rival_alloc(const continuation *p, rival *r, fault *f)
     return STATUS_OK;
 }
 
+/* After a step that failed (doubted 0) or that may have gone elsewhere; with a rival that reach
+ * frees. */
+static status try_again(continuation *p, path_goal goal, double station, const attempt *t,
+                        int doubted, rival *r, double *size, fault *f)
+{
+    const status kept = doubted ? rival_alloc(p, r, f) : STATUS_OK;
+    reject(p, t);
+    TRY(kept);
+    return retrace(p, goal, station, r, size, f);
+}
+
 /* One step to the goal, or several. */
 static status reach(continuation *p, path_goal goal, double station, double *size, fault *f)
 {
@@ -205,11 +216,8 @@ static status reach(continuation *p, path_goal goal, double station, double *siz
     }
     if (tried == STATUS_FAULT)
         return tried;
-    status outcome = tried == STATUS_OK ? rival_alloc(p, &r, f) : STATUS_OK;
-    reject(p, &t);
     *size = length / 2;
-    if (outcome == STATUS_OK)
-        outcome = retrace(p, goal, station, &r, size, f);
+    const status outcome = try_again(p, goal, station, &t, tried == STATUS_OK, &r, size, f);
     kinematics_state_free(r.state);
     return outcome;
 }
@@ -246,8 +254,11 @@ static status start(continuation *p, fault *f)
     return add_point(p, f);
 }
 
-static status walk(continuation *p, fault *f)
+/* With what continuation_analysis frees. */
+static status walk(analysis_context *c, int analysis, outcome_continuation *o, continuation *p,
+                   fault *f)
 {
+    TRY(continuation_alloc(c, analysis, o, p, f));
     double size = p->by->step;
     TRY(start(p, f));
     for (int i = 0; i < p->path->stations; i++) {
@@ -260,9 +271,7 @@ static status walk(continuation *p, fault *f)
 status continuation_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     continuation p;
-    status result = continuation_alloc(c, analysis, &o->left.continuation, &p, f);
-    if (result == STATUS_OK)
-        result = walk(&p, f);
+    const status result = walk(c, analysis, &o->left.continuation, &p, f);
     continuation_free(&p);
     return result;
 }

@@ -152,21 +152,26 @@ static status take_state(search *s, fault *f)
     return STATUS_OK;
 }
 
-/* The structure at `path`; *stable: it was stable there and has been taken. */
-static status go_to(search *s, double path, int *stable, fault *f)
+/* Equilibrium at `path`, and the tangent there, factored. */
+static status tangent_at_path(search *s, double path, fault *f)
 {
     step_record unused = {0};
     double increment = path - s->p[0];
     kinematics_state_copy(s->n.c->model, s->stable, s->n.state);
-    status outcome = static_walk(&s->n, path, &increment, f);
-    if (outcome == STATUS_OK)
-        outcome = newton_direction(&s->n, path, &unused, f);
-    if (outcome == STATUS_SINGULAR) { /* at the critical point */
-        *stable = 0;
+    TRY(static_walk(&s->n, path, &increment, f));
+    return newton_direction(&s->n, path, &unused, f);
+}
+
+/* The structure at `path`; *stable: it was stable there and has been taken. */
+static status go_to(search *s, double path, int *stable, fault *f)
+{
+    const status outcome = tangent_at_path(s, path, f);
+    *stable = 0;
+    if (outcome == STATUS_SINGULAR) /* at the critical point */
         return STATUS_OK;
-    }
-    *stable = outcome == STATUS_OK && factor_count(s->n.factor).negative_pivots == 0;
-    return *stable ? take_state(s, f) : outcome;
+    TRY(outcome);
+    *stable = factor_count(s->n.factor).negative_pivots == 0;
+    return *stable ? take_state(s, f) : STATUS_OK;
 }
 
 /* Where sigma vanishes, from the inverse interpolation p(sigma); INFINITY while it does not
@@ -218,17 +223,21 @@ static status find_critical(search *s, fault *f)
                            "no critical load: nothing loses stiffness up to path %g", s->p[0]);
 }
 
+/* With what loaded_buckling frees. */
+static status run(analysis_context *c, int analysis, search *s, outcome_side *out, fault *f)
+{
+    TRY(search_alloc(c, analysis, s, f));
+    TRY(find_critical(s, f));
+    outcome_take(&s->found.positive, out);
+    *out->value = s->estimate;
+    *out->error = 0; /* that of the eigenvalue is not the estimate's */
+    return STATUS_OK;
+}
+
 status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     search s = {.unstable = INFINITY, .estimate = INFINITY};
-    status result = search_alloc(c, analysis, &s, f);
-    if (result == STATUS_OK)
-        result = find_critical(&s, f);
-    if (result == STATUS_OK) {
-        outcome_take(&s.found.positive, &o->left.spectrum.positive);
-        *o->left.spectrum.positive.value = s.estimate;
-        *o->left.spectrum.positive.error = 0; /* that of the eigenvalue is not the estimate's */
-    }
+    const status result = run(c, analysis, &s, &o->left.spectrum.positive, f);
     search_free(&s);
     return result;
 }

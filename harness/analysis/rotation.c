@@ -180,16 +180,23 @@ static int is_enough(const analysis_context *c, int analysis, const rotation_mod
     return 1;
 }
 
+/* With a result that try_modes frees. */
+static status find_modes(analysis_context *c, const gyroscopic_problem *problem,
+                         gyroscopic_result *result, rotation_modes *out, fault *f)
+{
+    const status found = gyroscopic_solve(problem, result, f);
+    model_counters(c->model)->solutions += result->solutions;
+    model_counters(c->model)->factorisations += result->factorisations;
+    TRY(found);
+    return take_modes(c, result, out, f);
+}
+
 /* `wanted` modes, if they exist; *enough: there is one for every quantity, or there are no more. */
 static status try_modes(analysis_context *c, int analysis, const gyroscopic_problem *problem,
                         rotation_modes *out, int *enough, fault *f)
 {
     gyroscopic_result result = {0};
-    status outcome = gyroscopic_solve(problem, &result, f);
-    model_counters(c->model)->solutions += result.solutions;
-    model_counters(c->model)->factorisations += result.factorisations;
-    if (outcome == STATUS_OK)
-        outcome = take_modes(c, &result, out, f);
+    const status outcome = find_modes(c, problem, &result, out, f);
     *enough = result.count < problem->wanted || is_enough(c, analysis, out);
     gyroscopic_free(&result);
     return outcome;

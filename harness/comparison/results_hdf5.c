@@ -7,24 +7,29 @@
 
 enum { NAME = 200 };
 
+static status read_case(const char *path, hid_t cases, const char *name, results *out, fault *f)
+{
+    const hid_t here = H5Gopen2(cases, name, H5P_DEFAULT);
+    if (here < 0)
+        return results_damaged(path, "", name, f);
+    const status outcome = results_read_case(path, here, name, out, f);
+    H5Gclose(here);
+    return outcome;
+}
+
 static status read_cases(const char *path, hid_t cases, results *out, fault *f)
 {
     char name[NAME];
-    status outcome = STATUS_OK;
     H5G_info_t info = {0};
     if (H5Gget_info(cases, &info) < 0)
         return results_damaged(path, "", "cases", f);
-    for (hsize_t i = 0; i < info.nlinks && outcome == STATUS_OK; i++) {
+    for (hsize_t i = 0; i < info.nlinks; i++) {
         if (H5Lget_name_by_idx(cases, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name,
                                H5P_DEFAULT) <= 0)
             return results_damaged(path, "", "cases", f);
-        const hid_t here = H5Gopen2(cases, name, H5P_DEFAULT);
-        outcome = here >= 0 ? results_read_case(path, here, name, out, f)
-                            : results_damaged(path, "", name, f);
-        if (here >= 0)
-            H5Gclose(here);
+        TRY(read_case(path, cases, name, out, f));
     }
-    return outcome;
+    return STATUS_OK;
 }
 
 static status read_tables(const char *path, hid_t file, results *out, fault *f)

@@ -23,10 +23,10 @@ static status inertia_at(model *m, const node_state x[], int i, double path, ine
     const status outcome =
         m->type->inertia(m->kind[m->element[i].kind].data, x, m->rotates ? &spin : NULL, out);
     m->counters.inertia_evaluations++;
-    return outcome == STATUS_OK
-               ? outcome
-               : fault_set(f, outcome, "element %d of member %d: its inertia cannot be evaluated",
-                           i, m->element[i].member);
+    if (outcome != STATUS_OK)
+        return fault_set(f, outcome, "element %d of member %d: its inertia cannot be evaluated", i,
+                         m->element[i].member);
+    return STATUS_OK;
 }
 
 status rotating_frame_add(model *m, const node_state x[], int i, double path, double force[],

@@ -53,9 +53,19 @@ static status look_closer(const sweep_request *run, extreme_sweep *s, const trut
     return STATUS_OK;
 }
 
-static status run_all(const extreme_request *request, const truths *t, extreme_sweep *out, fault *f)
+static status read_all(const char *path, truths *t, extreme_sweep *out, fault *f)
+{
+    TRY(truths_read(path, t, f));
+    TRY(truths_read_extremes(path, t, f));
+    return extreme_expect_read(path, out, f);
+}
+
+/* With what extreme_run frees. */
+static status run_all(const extreme_request *request, const char *path, truths *t,
+                      extreme_sweep *out, fault *f)
 {
     const sweep_request run = {.jobs = request->jobs, .progress = request->progress};
+    TRY(read_all(path, t, out, f));
     TRY(extreme_plan(request, out, f));
     if (out->outcomes > 0)
         TRY(run_sweep(&run, &out->first, f));
@@ -66,20 +76,11 @@ static status run_all(const extreme_request *request, const truths *t, extreme_s
     return STATUS_OK;
 }
 
-static status read_all(const char *path, truths *t, extreme_sweep *out, fault *f)
-{
-    TRY(truths_read(path, t, f));
-    TRY(truths_read_extremes(path, t, f));
-    return extreme_expect_read(path, out, f);
-}
-
 status extreme_run(const extreme_request *request, const char *path, extreme_sweep *out, fault *f)
 {
     truths t = {0};
     memset(out, 0, sizeof *out);
-    status outcome = read_all(path, &t, out, f);
-    if (outcome == STATUS_OK)
-        outcome = run_all(request, &t, out, f);
+    const status outcome = run_all(request, path, &t, out, f);
     truths_free(&t);
     if (outcome != STATUS_OK)
         extreme_sweep_free(out);

@@ -58,13 +58,12 @@ static void take_text(char to[IMPORT_TEXT], int *line, const reader *r, const ch
     *line = r->line;
 }
 
-static void close_block(reader *r, status *outcome, fault *f)
+static status close_block(reader *r, fault *f)
 {
-    if (r->open && *outcome == STATUS_OK)
-        *outcome = import_block_close(&r->block, f);
-    else if (r->open)
-        imported_free(r->block.found);
+    if (!r->open)
+        return STATUS_OK;
     r->open = 0;
+    return import_block_close(&r->block, f);
 }
 
 static void take_header(reader *r, const char *key, const char *value)
@@ -217,21 +216,9 @@ static void read_row(reader *r, char *const field[], int count)
         import_block_add(&r->block, &row);
 }
 
-static void read_line(reader *r, char *line, status *outcome, fault *f)
+static void read_fields(reader *r, char *line)
 {
     char *field[FIELDS];
-    line = line_trim(line);
-    if (line[0] == '\0')
-        return;
-    if (!line_is_text(line)) {
-        mistakes_add(r->m, r->line, 1, "not a line of UTF-8 text without control characters");
-        return;
-    }
-    if (line[0] == '#') {
-        close_block(r, outcome, f);
-        read_header(r, line);
-        return;
-    }
     if (!r->versioned) {
         mistakes_add(r->m, r->line, 1, "the file begins with '# beamwork-import: 1'");
         r->versioned = 1;
@@ -247,27 +234,51 @@ static void read_line(reader *r, char *line, status *outcome, fault *f)
         read_row(r, field, count);
 }
 
+static status read_line(reader *r, char *line, fault *f)
+{
+    line = line_trim(line);
+    if (line[0] == '\0')
+        return STATUS_OK;
+    if (!line_is_text(line)) {
+        mistakes_add(r->m, r->line, 1, "not a line of UTF-8 text without control characters");
+    } else if (line[0] == '#') {
+        TRY(close_block(r, f));
+        read_header(r, line);
+    } else {
+        read_fields(r, line);
+    }
+    return STATUS_OK;
+}
+
+/* With what import_file_read frees. */
+static status read_lines(reader *r, FILE *from, char **line, fault *f)
+{
+    size_t room = 0;
+    while (r->rows <= IMPORT_ROWS && getline(line, &room, from) >= 0) {
+        r->line++;
+        TRY(read_line(r, *line, f));
+    }
+    if (ferror(from))
+        return fault_set(f, STATUS_FAULT, "%.200s: %s", r->path, strerror(errno));
+    TRY(close_block(r, f));
+    if (r->rows == 0 && r->m->count == 0)
+        mistakes_add(r->m, r->line > 0 ? r->line : 1, 1,
+                     "no values; the first line that is no remark "
+                     "names the columns, the others are values");
+    return mistakes_status(r->m, f);
+}
+
 status import_file_read(const char *path, import_set *into, mistakes *m, fault *f)
 {
     FILE *from = fopen(path, "r");
     if (from == NULL)
         return fault_set(f, STATUS_FAULT, "%.200s: %s", path, strerror(errno));
     reader r = {.set = into, .path = path, .m = m, .header = {.axes = axes_same}};
-    status outcome = STATUS_OK;
     char *line = NULL;
-    size_t room = 0;
-    while (outcome == STATUS_OK && r.rows <= IMPORT_ROWS && getline(&line, &room, from) >= 0) {
-        r.line++;
-        read_line(&r, line, &outcome, f);
-    }
-    close_block(&r, &outcome, f);
-    if (outcome == STATUS_OK && ferror(from))
-        outcome = fault_set(f, STATUS_FAULT, "%.200s: %s", path, strerror(errno));
-    if (outcome == STATUS_OK && r.rows == 0 && m->count == 0)
-        mistakes_add(m, r.line > 0 ? r.line : 1, 1,
-                     "no values; the first line that is no remark "
-                     "names the columns, the others are values");
+    const status outcome = read_lines(&r, from, &line, f);
+    if (r.open)
+        imported_free(r.block.found);
     free(line);
     fclose(from);
-    return outcome == STATUS_OK ? mistakes_status(m, f) : outcome;
+    return outcome;
 }

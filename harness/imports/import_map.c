@@ -230,16 +230,16 @@ static status read_values(map_reader *r, const document_node *values, const char
         name_files(r->block.found, file, files);
     if (r->m->count == 0)
         outcome = read_files(r, file, files, list, values->count, f);
-    if (outcome == STATUS_OK)
-        outcome = import_block_close(&r->block, f);
-    else
-        imported_free(r->block.found);
     free(list);
-    return outcome;
+    if (outcome != STATUS_OK) {
+        imported_free(r->block.found);
+        return outcome;
+    }
+    return import_block_close(&r->block, f);
 }
 
-static status read_map(map_reader *r, const char *map, const char *const file[], int files,
-                       import_set *into, fault *f)
+static status read_keys(map_reader *r, const char *map, const char *const file[], int files,
+                        import_set *into, fault *f)
 {
     map_keys_check(r->root, map_keys, r->m);
     if (strcmp(map_keys_text(r->m, r->root, "beamwork_map", ""), "1") != 0)
@@ -256,6 +256,16 @@ static status read_map(map_reader *r, const char *map, const char *const file[],
     return STATUS_OK;
 }
 
+static status read_map(map_reader *r, const char *map, const char *const file[], int files,
+                       import_set *into, fault *f)
+{
+    if (r->root != NULL && r->root->kind != DOCUMENT_MAP)
+        mistakes_add(r->m, 1, 1, "a map of keys; it begins with 'beamwork_map: 1'");
+    else if (r->root != NULL)
+        TRY(read_keys(r, map, file, files, into, f));
+    return mistakes_status(r->m, f);
+}
+
 status import_map_read(const char *map, const char *const file[], int files, import_set *into,
                        mistakes *m, fault *f)
 {
@@ -264,19 +274,17 @@ status import_map_read(const char *map, const char *const file[], int files, imp
     FILE *from = fopen(map, "rb");
     arena a = {0};
     map_reader r = {.m = m};
-    status outcome = STATUS_OK;
-    if (bytes == NULL || from == NULL)
+    status outcome;
+    if (bytes == NULL || from == NULL) {
         outcome = fault_set(f, STATUS_FAULT, "%.200s: %s", map, strerror(errno));
-    else
+    } else {
         r.root = document_read(bytes, fread(bytes, 1, room, from), &a, m);
-    if (r.root != NULL && r.root->kind != DOCUMENT_MAP)
-        mistakes_add(m, 1, 1, "a map of keys; it begins with 'beamwork_map: 1'");
-    else if (r.root != NULL)
+        m->out_of_memory |= a.failed;
         outcome = read_map(&r, map, file, files, into, f);
+    }
     if (from != NULL)
         fclose(from);
-    m->out_of_memory |= a.failed;
     arena_free(&a);
     free(bytes);
-    return outcome == STATUS_OK ? mistakes_status(m, f) : outcome;
+    return outcome;
 }

@@ -200,12 +200,13 @@ static status read_file(store_reader *r, hid_t file)
     const status outcome = read_cases(r, cases);
     if (cases >= 0)
         H5Gclose(cases);
-    if (outcome == STATUS_OK && r->found == 0)
+    TRY(outcome);
+    if (r->found == 0)
         return fault_set(r->f, STATUS_REFUSED,
                          "%.120s: nothing imported is in it; write it with 'beamwork import FILE "
                          "-o'",
                          r->path);
-    return outcome;
+    return STATUS_OK;
 }
 
 status import_store_read(const char *path, int gates, sweep *s, import_left *left, fault *f)

@@ -182,6 +182,12 @@ void assemble_pattern_free(mesh_pattern *p)
     memset(p, 0, sizeof *p);
 }
 
+static status fill_pattern(const model *m, mesh_pattern *p, fault *f)
+{
+    TRY(compress(m, p, f));
+    return find_places(m, p, f);
+}
+
 status assemble_pattern(model *m, int with_driven, const sparse **out, fault *f)
 {
     mesh_pattern *p = &m->pattern[with_driven];
@@ -190,9 +196,7 @@ status assemble_pattern(model *m, int with_driven, const sparse **out, fault *f)
         return STATUS_OK;
     p->matrix.n = with_driven ? m->free + m->driven : m->free;
     p->matrix.symmetric = is_symmetric(m);
-    status outcome = compress(m, p, f);
-    if (outcome == STATUS_OK)
-        outcome = find_places(m, p, f);
+    const status outcome = fill_pattern(m, p, f);
     p->made = outcome == STATUS_OK;
     if (!p->made)
         assemble_pattern_free(p); /* the next analysis tries again */

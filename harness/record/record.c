@@ -29,9 +29,25 @@ status record_open(record *r, fault *f)
     return fault_set(f, STATUS_FAULT, "no memory for results");
 }
 
-static status write_image(record *r, const char *path, fault *f)
+static status write_bytes(const char *image, size_t size, const char *path, fault *f)
 {
     output file;
+    char line[CHECKSUM_LENGTH + 1];
+    TRY(output_open_whole(path, &file, f));
+    checksum_write(image, size, line);
+    /* the stream remembers an error until it is closed */
+    fwrite(image, 1, size, file.stream);
+    fputs(line, file.stream);
+    return output_close(&file, f);
+}
+
+static status write_image(const record *r, const char *path, fault *f)
+{
+    if (r->bad)
+        return fault_set(f, STATUS_FAULT,
+                         "the results could not be put into HDF5 (out of memory?)");
+    if (path == NULL)
+        return STATUS_OK;
     const ssize_t size =
         H5Fflush(r->file, H5F_SCOPE_GLOBAL) >= 0 ? H5Fget_file_image(r->file, NULL, 0) : -1;
     char *image = size > 0 ? malloc((size_t)size) : NULL;
@@ -39,26 +55,14 @@ static status write_image(record *r, const char *path, fault *f)
         free(image);
         return fault_set(f, STATUS_FAULT, "%.200s: no memory for the file's image", path);
     }
-    status outcome = output_open_whole(path, &file, f);
-    if (outcome == STATUS_OK) {
-        char line[CHECKSUM_LENGTH + 1];
-        checksum_write(image, (size_t)size, line);
-        /* the stream remembers an error until it is closed */
-        fwrite(image, 1, (size_t)size, file.stream);
-        fputs(line, file.stream);
-        outcome = output_close(&file, f);
-    }
+    const status outcome = write_bytes(image, (size_t)size, path, f);
     free(image);
     return outcome;
 }
 
 status record_close(record *r, const char *path, fault *f)
 {
-    status outcome = r->bad ? fault_set(f, STATUS_FAULT,
-                                        "the results could not be put into HDF5 (out of memory?)")
-                            : STATUS_OK;
-    if (outcome == STATUS_OK && path != NULL)
-        outcome = write_image(r, path, f);
+    const status outcome = write_image(r, path, f);
     H5Sclose(r->scalar);
     H5Fclose(r->file);
     return outcome;

@@ -182,49 +182,62 @@ static status add_row(const scene_file *file, const double value[], const file_t
     return STATUS_OK;
 }
 
+/* With what scene_file_add_truths frees. */
+static status add_at(const scene_file *file, const double point[], scene *s, arena *a, truths *t,
+                     fault *f)
+{
+    mistakes m = {.file = file->path};
+    TRY(file->type.build_from(file, point, s, f));
+    truth_reader r = open_truths(file, point, a, &m);
+    for (int i = 0; i < r.count; i++) {
+        const fields those = fields_of(&r.b, &r.list[i]);
+        const file_truth one = read_one(file, &those, s, point);
+        m.out_of_memory |= a->failed;
+        TRY(mistakes_status(&m, f));
+        if (one.holds && !is_known_row(file, t, point, &one))
+            TRY(add_row(file, point, &one, t, f));
+    }
+    m.out_of_memory |= a->failed;
+    return mistakes_status(&m, f);
+}
+
 status scene_file_add_truths(const scene_file *file, const double value[], truths *t, fault *f)
 {
     arena a = {0};
-    mistakes m = {.file = file->path};
     double point[CASE_MAX_PARAMETERS] = {0};
     scene s;
     memcpy(point, value, (size_t)file->parameters * sizeof *point);
     scene_init(&s, file->type.name);
-    status outcome = file->type.build_from(file, point, &s, f);
-    truth_reader r = {.count = 0};
-    if (outcome == STATUS_OK)
-        r = open_truths(file, point, &a, &m);
-    for (int i = 0; i < r.count && outcome == STATUS_OK; i++) {
-        const fields those = fields_of(&r.b, &r.list[i]);
-        const file_truth one = read_one(file, &those, &s, point);
-        m.out_of_memory |= a.failed;
-        outcome = mistakes_status(&m, f);
-        if (outcome == STATUS_OK && one.holds && !is_known_row(file, t, point, &one))
-            outcome = add_row(file, point, &one, t, f);
-    }
-    m.out_of_memory |= a.failed;
+    const status outcome = add_at(file, point, &s, &a, t, f);
     scene_free(&s);
     arena_free(&a);
-    return outcome == STATUS_OK ? mistakes_status(&m, f) : outcome;
+    return outcome;
 }
 
-status scene_file_add_all_truths(const scene_file *file, truths *t, fault *f)
+/* At the defaults, and at every other point that a truth speaks of. */
+static status add_everywhere(const scene_file *file, arena *a, truths *t, fault *f)
 {
-    arena a = {0};
     mistakes m = {.file = file->path};
     double defaults[CASE_MAX_PARAMETERS] = {0};
     parameter_defaults(file->type.parameters, defaults);
-    status outcome = scene_file_add_truths(file, defaults, t, f);
-    const truth_reader r = open_truths(file, defaults, &a, &m);
-    for (int i = 0; i < r.count && outcome == STATUS_OK; i++) {
+    TRY(scene_file_add_truths(file, defaults, t, f));
+    const truth_reader r = open_truths(file, defaults, a, &m);
+    for (int i = 0; i < r.count; i++) {
         builder b = r.b;
         const fields those = fields_of(&b, &r.list[i]);
         double point[CASE_MAX_PARAMETERS];
         memcpy(point, defaults, sizeof point);
         if (!visit_point(file, &those, point))
-            outcome = scene_file_add_truths(file, point, t, f);
+            TRY(scene_file_add_truths(file, point, t, f));
     }
-    m.out_of_memory |= a.failed;
+    m.out_of_memory |= a->failed;
+    return mistakes_status(&m, f);
+}
+
+status scene_file_add_all_truths(const scene_file *file, truths *t, fault *f)
+{
+    arena a = {0};
+    const status outcome = add_everywhere(file, &a, t, f);
     arena_free(&a);
-    return outcome == STATUS_OK ? mistakes_status(&m, f) : outcome;
+    return outcome;
 }

@@ -118,19 +118,25 @@ static status read_bytes(const char *path, char *bytes, size_t room, size_t *siz
     return failed ? fault_set(f, STATUS_FAULT, "%.200s cannot be read", path) : STATUS_OK;
 }
 
+/* With bytes that scene_file_read frees. */
+static status read_file(const char *path, char *bytes, size_t room, scene_file **out, mistakes *m,
+                        fault *f)
+{
+    size_t size = 0;
+    TRY(read_bytes(path, bytes, room, &size, f));
+    return scene_file_read_bytes(bytes, size, path, out, m, f);
+}
+
 status scene_file_read(const char *path, scene_file **out, mistakes *m, fault *f)
 {
     const size_t room = DOCUMENT_BYTES + 1;
     char *bytes = malloc(room);
-    size_t size = 0;
     *out = NULL;
     memset(m, 0, sizeof *m);
     m->file = path;
     if (bytes == NULL)
         return fault_set(f, STATUS_FAULT, "%.200s: out of memory", path);
-    status outcome = read_bytes(path, bytes, room, &size, f);
-    if (outcome == STATUS_OK)
-        outcome = scene_file_read_bytes(bytes, size, path, out, m, f);
+    const status outcome = read_file(path, bytes, room, out, m, f);
     free(bytes);
     return outcome;
 }

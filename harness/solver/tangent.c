@@ -139,10 +139,12 @@ static status respond(const model *m, tangent *t, counters *n, int component, co
     return STATUS_OK;
 }
 
-/* Columns of C for unit loads on the components that are wanted and can move. */
-static status respond_all(const model *m, tangent *t, counters *n, const bordered *s,
-                          unsigned wanted, unsigned components, double C[36], fault *f)
+/* Columns of C for unit loads on the components that are wanted and can move; with what
+ * tangent_compliance frees. */
+static status respond_all(const model *m, tangent *t, counters *n, bordered *s, unsigned wanted,
+                          unsigned components, double C[36], fault *f)
 {
+    TRY(bordered_alloc(t, n, s, f));
     for (int j = 0; j < TANGENT_COMPONENTS; j++) {
         double response[TANGENT_COMPONENTS];
         if (!(wanted & components & 1u << j))
@@ -159,10 +161,8 @@ status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsi
 {
     counters *n = model_counters(c->model);
     bordered s = {0};
-    status outcome = bordered_alloc(t, n, &s, f);
     memset(C, 0, 36 * sizeof *C);
-    if (outcome == STATUS_OK)
-        outcome = respond_all(c->model, t, n, &s, wanted, components, C, f);
+    const status outcome = respond_all(c->model, t, n, &s, wanted, components, C, f);
     bordered_free(&s);
     return outcome;
 }

@@ -100,13 +100,22 @@ static status take_all(const sweep *again, const char wanted[], sweep *s, fault 
     return STATUS_OK;
 }
 
+/* With a sweep that noise_measure frees. */
+static status measure(const sweep_request *request, const char wanted[], sweep *s, sweep *again,
+                      fault *f)
+{
+    const status ran = run_again(request, wanted, s, again, f);
+    s->unfinished += again->unfinished;
+    TRY(ran);
+    if (again->unfinished > 0) /* then nothing is measured: series are missing */
+        return STATUS_OK;
+    return take_all(again, wanted, s, f);
+}
+
 status noise_measure(const sweep_request *request, const char wanted[], sweep *s, fault *f)
 {
     sweep again = {0};
-    status outcome = run_again(request, wanted, s, &again, f);
-    s->unfinished += again.unfinished; /* then nothing is measured: series are missing */
-    if (outcome == STATUS_OK && again.unfinished == 0)
-        outcome = take_all(&again, wanted, s, f);
+    const status outcome = measure(request, wanted, s, &again, f);
     sweep_free(&again);
     return outcome;
 }

@@ -90,12 +90,42 @@ static status read_lines(FILE *from, derived_value **out, int *count, fault *f)
     return STATUS_OK;
 }
 
+/* Closes its streams and waits for its end; how that was, as of waitpid. */
+static int stop(script *s)
+{
+    int how = 0;
+    if (s->says != NULL)
+        fclose(s->says);
+    if (s->complains != NULL)
+        fclose(s->complains);
+    if (s->process > 0)
+        waitpid(s->process, &how, 0);
+    *s = (script){0};
+    return how;
+}
+
+/* With what derive_values stops and frees. */
+static status derive(const char *path, const char *case_name, const char *parameters, script *s,
+                     derived_value **out, int *count, fault *f)
+{
+    char complaint[LINE] = "", more[LINE];
+    TRY(start(path, case_name, parameters, s, f));
+    TRY(read_lines(s->says, out, count, f));
+    while (fgets(more, sizeof more, s->complains) != NULL)
+        memcpy(complaint, more, sizeof complaint); /* the last line says it */
+    complaint[strcspn(complaint, "\n")] = '\0';
+    const int how = stop(s);
+    if (how == 0)
+        return STATUS_OK;
+    return WIFEXITED(how) && WEXITSTATUS(how) == NOT_DERIVABLE
+               ? fault_set(f, STATUS_REFUSED, "%.300s", complaint)
+               : fault_set(f, STATUS_FAULT, "the deriving program failed: %.250s", complaint);
+}
+
 status derive_values(const char *path, const char *case_name, const char *parameters,
                      derived_value **out, int *count, fault *f)
 {
     script s = {0};
-    char complaint[LINE] = "", more[LINE];
-    int how = 0;
     *out = NULL;
     *count = 0;
     if (access(path, R_OK) != 0)
@@ -103,22 +133,8 @@ status derive_values(const char *path, const char *case_name, const char *parame
                          "%.200s: the deriving programs are not here; run from a clone, or set "
                          "BEAMWORK_REFERENCE",
                          path);
-    status outcome = start(path, case_name, parameters, &s, f);
-    if (outcome == STATUS_OK)
-        outcome = read_lines(s.says, out, count, f);
-    while (s.complains != NULL && fgets(more, sizeof more, s.complains) != NULL)
-        memcpy(complaint, more, sizeof complaint); /* the last line says it */
-    complaint[strcspn(complaint, "\n")] = '\0';
-    if (s.says != NULL)
-        fclose(s.says);
-    if (s.complains != NULL)
-        fclose(s.complains);
-    if (s.process > 0)
-        waitpid(s.process, &how, 0);
-    if (outcome == STATUS_OK && WIFEXITED(how) && WEXITSTATUS(how) == NOT_DERIVABLE)
-        outcome = fault_set(f, STATUS_REFUSED, "%.300s", complaint);
-    else if (outcome == STATUS_OK && how != 0)
-        outcome = fault_set(f, STATUS_FAULT, "the deriving program failed: %.250s", complaint);
+    const status outcome = derive(path, case_name, parameters, &s, out, count, f);
+    stop(&s);
     if (outcome != STATUS_OK) {
         free(*out);
         *out = NULL;
