@@ -1,10 +1,10 @@
 /* Edits of a scene, field by field: what changes its sign, its side or its place, and what stays. */
 #include <gsl/gsl_test.h>
+#include <math.h>
 #include <string.h>
 
 #include "cases/scene/edit.h"
-
-static const double y_axis[3] = {0, 1, 0};
+#include "cases/test/refuse.h"
 
 /* A member with names of warping, divisions, and a load along it in its own axes that follows. */
 static void make(scene *s)
@@ -76,9 +76,69 @@ static void is_split(void)
     scene_free(&s);
 }
 
+static void twisted(scene *s)
+{
+    s->member[0].curvature[0] = 0.1;
+}
+
+static void curved(scene *s)
+{
+    s->member[0].curvature[2] = 0.1;
+}
+
+static void unchanged(scene *s)
+{
+    (void)s;
+}
+
+/* Changes of a scene that are not defined for it. */
+static void refused(void)
+{
+    static const struct {
+        spoil *how;
+        scene_edit edit;
+        const char *words;
+    } row[] = {
+        {twisted, {SCENE_EDIT_REVERSE, 0}, "member 0: initially twisted"},
+        {curved, {SCENE_EDIT_SPLIT, 0.5}, "member 0: curved"},
+        {unchanged, {SCENE_EDIT_SPLIT, 1}, "split at 1 of its length"},
+        {unchanged, {SCENE_EDIT_SPLIT, NAN}, "split at nan of its length"},
+        {unchanged, {SCENE_EDIT_UNIT, 0}, "no unit of length"},
+        {unchanged, {SCENE_EDIT_UNIT, INFINITY}, "no unit of length"},
+    };
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        scene s;
+        fault f = {""};
+        refuse_sound(&s);
+        row[i].how(&s);
+        gsl_test_int((int)scene_edit_apply(&s, &row[i].edit, &f), STATUS_REFUSED, "refused: %s",
+                     row[i].words);
+        gsl_test(strstr(f.text, row[i].words) == NULL, "%s: %s", row[i].words, f.text);
+        refuse_one_line(row[i].words, &f);
+        scene_free(&s);
+    }
+}
+
+/* An edited scene is a scene. */
+static void stay_scenes(void)
+{
+    static const scene_edit edit[] = {
+        {SCENE_EDIT_REVERSE, 0}, {SCENE_EDIT_SPLIT, 0.3}, {SCENE_EDIT_UNIT, 1000}};
+    for (size_t i = 0; i < sizeof edit / sizeof edit[0]; i++) {
+        scene s;
+        fault f = {""};
+        refuse_sound(&s);
+        gsl_test(scene_edit_apply(&s, &edit[i], &f) != STATUS_OK, "edit %d: %s", (int)i, f.text);
+        gsl_test(scene_validate(&s, &f) != STATUS_OK, "edit %d gives a scene: %s", (int)i, f.text);
+        scene_free(&s);
+    }
+}
+
 int main(void)
 {
     reversed();
     is_split();
+    refused();
+    stay_scenes();
     return gsl_test_summary();
 }

@@ -98,12 +98,12 @@ static void add_meshes(cli_request *r, char *list)
 static void add_formulation(cli_request *r, const char *text)
 {
     fault f;
-    for (int i = 0; strcmp(text, "all") == 0 && registry_formulations[i] != NULL &&
-                    r->formulations < CLI_MAX_FORMULATIONS;
-         i++)
-        formulation_default(registry_formulations[i], &r->formulation[r->formulations++]);
-    if (strcmp(text, "all") == 0)
+    if (strcmp(text, "all") == 0) {
+        for (int i = 0; registry_formulations[i] != NULL && r->formulations < CLI_MAX_FORMULATIONS;
+             i++)
+            formulation_default(registry_formulations[i], &r->formulation[r->formulations++]);
         return;
+    }
     if (r->formulations == CLI_MAX_FORMULATIONS)
         refuse("too many formulations");
     if (formulation_parse(text, &r->formulation[r->formulations], &f) != STATUS_OK)

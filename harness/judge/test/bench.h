@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "harness/judge/judgement.h"
+#include "harness/judge/sentence.h"
 
 enum { MESHES = 5 };
 static const int mesh[MESHES] = {2, 4, 8, 16, 32};
@@ -125,6 +126,14 @@ static inline void bench_expect(bench *b, verdict_kind kind, int code, const cha
     const verdict *v = bench_judge(b);
     gsl_test(v->kind != kind, "%s: %s", what, verdict_name(v->kind));
     gsl_test_int(judgement_exit(&b->j), code, "%s: exit code", what);
+}
+
+/* The verdict in words. */
+static inline void bench_says(const bench *b, const char *words_of_it)
+{
+    char sentence[2 * FAULT_TEXT];
+    sentence_of_verdict(&b->j.verdict[0], 2, sentence, sizeof sentence);
+    gsl_test(strcmp(sentence, words_of_it) != 0, "says '%s'", sentence);
 }
 
 #endif

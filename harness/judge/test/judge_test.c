@@ -1,19 +1,10 @@
-/* The judge on made-up series: every kind of verdict, the expected ones, stored values of meshes, and what the gate says. */
+/* The judge on made-up series: every kind of verdict, and what of it counts. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/judge/sentence.h"
 #include "harness/judge/test/bench.h"
-
-/* The verdict in words. */
-static void says(const bench *b, const char *words_of_it)
-{
-    char sentence[2 * FAULT_TEXT];
-    sentence_of_verdict(&b->j.verdict[0], 2, sentence, sizeof sentence);
-    gsl_test(strcmp(sentence, words_of_it) != 0, "says '%s'", sentence);
-}
 
 static void limits(void)
 {
@@ -23,17 +14,17 @@ static void limits(void)
     bench_expect(&b, VERDICT_PASS, 0, "right limit, right order, coarse meshes far off");
     gsl_test_rel(b.j.verdict[0].fit.order, 2, 1e-6, "its order");
     gsl_test_int(b.j.verdict[0].fit.from, 4, "the four finest meshes show it");
-    says(&b, "converges to the truth, order 2");
+    bench_says(&b, "converges to the truth, order 2");
     bench_fill(&b, 3.003, 0.7, 2);
     bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "smooth convergence to +0.1 %");
     gsl_test_rel(b.j.verdict[0].error, 1e-3, 1e-9, "the error is the limit's");
-    says(&b, "converges to a wrong limit: +0.1 %");
+    bench_says(&b, "converges to a wrong limit: +0.1 %");
     bench_fill(&b, 3 * (1 - 0.00115), 0.7, 4);
     bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "fast convergence to -0.115 %");
-    says(&b, "converges to a wrong limit: -0.115 %");
+    bench_says(&b, "converges to a wrong limit: -0.115 %");
     bench_fill(&b, 3 * (1 + 0.8e-4), 0.7, 2);
     bench_expect(&b, VERDICT_BIASED, 1, "limit within the tolerance, and sharp");
-    says(&b, "has a limit of its own within the tolerance: +0.008 %");
+    bench_says(&b, "has a limit of its own within the tolerance: +0.008 %");
     bench_fill(&b, 3 * (1 + 1.2e-4), 0.7, 2);
     bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "limit just outside, and sharp");
     bench_fill(&b, 3 * (1 + 2e-4), -6e-4 * 1024 * 0.9, 2);
@@ -56,7 +47,7 @@ static void orders(void)
     bench_make(&b);
     bench_fill(&b, 3, 0.07, 1);
     bench_expect(&b, VERDICT_LOW_ORDER, 1, "right limit, first order instead of second");
-    says(&b, "converges to the truth, but with order 1 instead of 2");
+    bench_says(&b, "converges to the truth, but with order 1 instead of 2");
     b.row[0].uncertainty = 0.05;
     bench_expect(&b, VERDICT_PASS, 0,
                  "changes that the truth's own uncertainty hides show no order");
@@ -76,7 +67,7 @@ static void orders(void)
     bench_expect(&b, VERDICT_PASS, 0, "an order within what finite meshes show");
     bench_fill(&b, 3, 1e-14, 1);
     bench_expect(&b, VERDICT_PASS, 0, "at the round-off floor no order is asked for");
-    says(&b, "has converged to the truth: the last meshes differ by noise only");
+    bench_says(&b, "has converged to the truth: the last meshes differ by noise only");
     bench_free(&b);
 }
 
@@ -87,11 +78,12 @@ static void doubts(void)
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 0.01 : -0.01);
     bench_expect(&b, VERDICT_UNDECIDED, 1, "alternating values");
-    says(&b, "undecided: its limit is -0.333 % off, known to 0.06 only (oscillating, 5 meshes)");
+    bench_says(&b,
+               "undecided: its limit is -0.333 % off, known to 0.06 only (oscillating, 5 meshes)");
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 1e-6 : -1e-6);
     bench_expect(&b, VERDICT_PASS, 0, "alternating values that surely stay inside the tolerance");
-    says(&b, "agrees with the truth within the tolerance, without an order");
+    bench_says(&b, "agrees with the truth within the tolerance, without an order");
     bench_fill(&b, 4, 0.01, 2);
     b.one.meshes = 3;
     bench_expect(&b, VERDICT_UNDECIDED, 1, "three meshes never say that a limit is wrong");
@@ -105,12 +97,12 @@ static void doubts(void)
     b.one.meshes = 1;
     b.quantity[0].value = 3;
     bench_expect(&b, VERDICT_UNDECIDED, 1, "one mesh shows no limit, even if it is right");
-    says(&b, "undecided: one mesh shows no limit");
+    bench_says(&b, "undecided: one mesh shows no limit");
     b.one.meshes = MESHES;
     bench_fill(&b, 3 * (1 + 1e-9), 1e-7, 1);
     b.row[0].uncertainty = 4e-9;
     bench_expect(&b, VERDICT_PASS, 0, "a limit that the truth's own digits do not tell from it");
-    says(&b, "converges to the truth, order 1; the difference is below the truth's digits");
+    bench_says(&b, "converges to the truth, order 1; the difference is below the truth's digits");
     double noise[1] = {1e-3};
     bench_fill(&b, 3 * (1 + 2e-4), 0.7, 2);
     b.one.noise = noise;
@@ -131,7 +123,7 @@ static void failures(void)
     snprintf(b.quantity[4].reason, sizeof b.quantity[4].reason, "singular at path 0.3");
     bench_expect(&b, VERDICT_DIVERGED, 1, "singular on the finest mesh");
     gsl_test(strcmp(b.j.verdict[0].reason, "singular at path 0.3") != 0, "with its reason");
-    says(&b, "has no value on the finest mesh: singular at path 0.3");
+    bench_says(&b, "has no value on the finest mesh: singular at path 0.3");
     b.quantity[4].status = STATUS_REFUSED;
     bench_expect(&b, VERDICT_REFUSED, 1, "refused");
     bench_fill(&b, 3, 0.7, 2);
@@ -139,36 +131,6 @@ static void failures(void)
     b.quantity[0].value = NAN;
     b.quantity[0].status = STATUS_NO_VALUE;
     bench_expect(&b, VERDICT_PASS, 0, "a coarse mesh without a value does not count");
-    bench_free(&b);
-}
-
-static void predictions(void)
-{
-    bench b;
-    bench_make(&b);
-    bench_fill(&b, 3.003, 0.7, 2);
-    b.row[1] = b.row[0];
-    b.row[1].kind = words[PREDICTED];
-    b.row[1].formulation = words[ELEMENT];
-    b.row[1].value = 3.003;
-    b.row[1].uncertainty = 1e-8;
-    b.t.rows = 2;
-    bench_expect(&b, VERDICT_WRONG_AS_PREDICTED, 1, "a wrong limit that was derived");
-    says(&b, "converges to the limit that was derived for it, 3.003: +0.1 % from the truth");
-    b.row[1].value = 3.0041;
-    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "another wrong limit than the one that was derived");
-    gsl_test(strstr(b.j.verdict[0].reason, "3.0041") == NULL, "says which: %s",
-             b.j.verdict[0].reason);
-    b.row[1].value = 3.003;
-    b.row[1].formulation = words[WHY];
-    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "a limit derived for another formulation");
-    b.row[1].formulation = words[ELEMENT];
-    b.row[1].on_curve = 1;
-    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "a point of a curve is not the limit");
-    b.row[1].on_curve = 0;
-    bench_fill(&b, 3.003, 1e-3, 2);
-    b.row[1].value = 3.003001;
-    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "near the derived limit, but surely another one");
     bench_free(&b);
 }
 
@@ -191,52 +153,6 @@ static void doubtful_noise(void)
     b.t.rows = 0;
     judgement_doubts(&b.s, &b.t, wanted);
     gsl_test_int(wanted[0], 0, "nothing to judge by");
-    bench_free(&b);
-}
-
-/* A formulation is judged by the truth of its own theory of shear, whatever the scene asks for. */
-static void theories(void)
-{
-    bench b;
-    bench_make(&b);
-    element_type haringx = element;
-    haringx.offers = FEATURE_SHEAR | FEATURE_HARINGX;
-    haringx.shear_theories = SHEAR_HARINGX;
-    b.one.formulation.type = &haringx;
-    b.p.scene.needs = FEATURE_SHEAR | FEATURE_ENGESSER;
-    bench_fill(&b, 3.003, 0.7, 2);
-    b.row[0].theory = words[ENGESSER];
-    bench_expect(&b, VERDICT_NO_TRUTH, 3, "a truth of another theory does not judge");
-    gsl_test_rel(b.j.verdict[0].model_error, 1e-3, 1e-6, "the models differ");
-    says(&b, "no truth of its theory of shear; its limit is +0.1 % from that of engesser");
-    b.row[1] = b.row[0];
-    b.row[1].theory = words[HARINGX];
-    b.row[1].value = 3.003;
-    b.t.rows = 2;
-    bench_expect(&b, VERDICT_PASS, 0, "one of its own does");
-    haringx.shear_theories = SHEAR_ENGESSER | SHEAR_HARINGX;
-    haringx.offers |= FEATURE_ENGESSER;
-    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "of two theories the one that is asked for");
-    haringx.shear_theories = SHEAR_OWN;
-    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "one of its own is shown against what there is");
-    bench_free(&b);
-}
-
-static void publications(void)
-{
-    bench b;
-    bench_make(&b);
-    bench_fill(&b, 3, 0.7, 2);
-    b.row[1] = b.row[0];
-    b.row[1].kind = words[PUBLISHED];
-    b.row[1].value = 3.01;
-    b.row[1].uncertainty = 0.005;
-    b.t.rows = 2;
-    bench_expect(&b, VERDICT_PASS, 0, "an exact truth judges beside a published one");
-    gsl_test(b.j.verdict[0].contradicted != &b.row[1], "which the limit contradicts");
-    b.row[1].uncertainty = 0.011;
-    bench_expect(&b, VERDICT_PASS, 0, "a published value with fewer digits");
-    gsl_test(b.j.verdict[0].contradicted != NULL, "is not contradicted");
     bench_free(&b);
 }
 
@@ -266,123 +182,6 @@ static void coverages(void)
     bench_free(&b);
 }
 
-static void expectations(void)
-{
-    bench b;
-    bench_make(&b);
-    snprintf(b.one.missing, sizeof b.one.missing, "shear");
-    bench_expect(&b, VERDICT_SKIP, 3, "nothing but skips: nothing was checked");
-    gsl_test_int(b.j.waiting, 1, "a truth that everybody skips waits");
-    b.one.missing[0] = '\0';
-    b.p.status = STATUS_REFUSED;
-    bench_expect(&b, VERDICT_REFUSED, 1, "a point whose scene is refused");
-    b.p.status = STATUS_OK;
-    bench_fill(&b, 3.003, 0.7, 2);
-    b.known = (rule){.name = words[WHY],
-                     .formulations = words[ELEMENT],
-                     .cases = words[MADE_UP],
-                     .condition = words[NOTHING],
-                     .quantities = words[LOAD],
-                     .verdicts = words[WRONG_LIMIT],
-                     .predicted = words[NOTHING],
-                     .largest_error = 0.002};
-    b.t.rule = &b.known;
-    b.t.rules = 1;
-    bench_expect(&b, VERDICT_WRONG_LIMIT, 0, "a known wrong limit");
-    b.known.largest_error = 0.0009;
-    bench_expect(&b, VERDICT_WRONG_LIMIT, 1,
-                 "a wrong limit that is farther off than its cause explains");
-    b.known.largest_error = NAN;
-    b.known.verdicts = words[LOW_ORDER];
-    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "another defect than the known one");
-    b.known.verdicts = words[WRONG_LIMIT];
-    b.twice[0] = b.twice[1] = b.known;
-    b.t.rule = b.twice;
-    b.t.rules = 2;
-    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "two rules for one verdict");
-    b.t.rule = &b.known;
-    b.t.rules = 1;
-    b.known.predicted = words[LOAD_OF_IT];
-    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "a rule whose prediction no verdict met");
-    b.known.predicted = words[NOTHING];
-    bench_fill(&b, 3, 0.7, 2);
-    bench_expect(&b, VERDICT_PASS, 1, "a known defect that is gone");
-    gsl_test_int(b.j.unobserved, 1, "is a rule nobody observed");
-    b.t.rules = 0;
-    b.row[0].parameter[0] = 5;
-    bench_expect(&b, VERDICT_NO_TRUTH, 3, "a truth of other parameters does not judge");
-    gsl_test_int(b.j.unmet, 1, "and is missed");
-    b.row[0].any[0] = 1;
-    bench_expect(&b, VERDICT_PASS, 0, "a truth of any length does");
-    b.row[0].any[0] = 0;
-    b.row[0].parameter[0] = 2;
-    bench_fill(&b, 3.003, 0.7, 2);
-    b.row[0].uncertainty = 0.0029;
-    bench_expect(&b, VERDICT_PASS, 0,
-                 "a limit within the tolerance and the truth's own uncertainty");
-    b.row[0].uncertainty = 0.0026;
-    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "and one beyond both");
-    b.row[0].uncertainty = 0;
-    bench_fill(&b, 3, 0.7, 2);
-    b.row[1] = b.row[0];
-    b.row[1].value = 3.003;
-    b.t.rows = 2;
-    for (int exact = 0; exact < 2; exact++) {
-        b.row[exact].kind = words[EXACT];
-        b.row[1 - exact].kind = words[PUBLISHED];
-        bench_expect(&b, exact == 0 ? VERDICT_PASS : VERDICT_WRONG_LIMIT, exact,
-                     "an exact truth judges, a published one that contradicts it does not");
-    }
-    b.row[0].kind = words[EXACT];
-    b.t.rows = 1;
-    b.row[0].model = words[OTHER];
-    bench_expect(&b, VERDICT_NO_TRUTH, 3, "a truth of another model does not judge");
-    gsl_test_abs(b.j.verdict[0].model_error, 0, 1e-6, "it gives the model error");
-    b.row[0].model = words[SAME];
-    b.row[0].quantity = words[WHY];
-    bench_expect(&b, VERDICT_NO_TRUTH, 3, "a truth of a quantity that does not exist");
-    gsl_test_int(b.j.unmet, 1, "is missed");
-    b.row[0].quantity = words[LOAD];
-    bench_expect(&b, VERDICT_PASS, 0, "all truths are met");
-    b.t.strangers = 1;
-    bench_expect(&b, VERDICT_PASS, 1, "but for those of a case that does not exist");
-    gsl_test_int(b.j.unmet, 1, "which is missed");
-    bench_free(&b);
-}
-
-static void stored_values(void)
-{
-    bench b;
-    fault f = {""};
-    bench_make(&b);
-    bench_fill(&b, 3, 0.7, 2);
-    b.row[1] = b.row[0];
-    b.row[1].formulation = words[ELEMENT];
-    b.row[1].elements = 4;
-    b.row[1].value = b.quantity[1].value * (1 + 0.9e-6);
-    b.t.rows = 2;
-    bench_expect(&b, VERDICT_PASS, 0, "a mesh agrees with its stored value");
-    gsl_test_int(b.j.agreements, 1, "one stored value");
-    b.row[1].value = b.quantity[1].value * (1 + 1.1e-6);
-    bench_expect(&b, VERDICT_PASS, 1, "a mesh differs from its stored value");
-    b.row[1].uncertainty = 1e-4;
-    bench_expect(&b, VERDICT_PASS, 0, "by less than it was printed to");
-    b.quantity[1].value = NAN;
-    bench_expect(&b, VERDICT_PASS, 1, "a mesh without a value does not agree");
-    b.cell[1].solve.quantities = 0;
-    bench_expect(&b, VERDICT_PASS, 1, "nor does one that crashed");
-    b.row[1].kind = words[UNREPEATABLE];
-    bench_expect(&b, VERDICT_PASS, 0, "a figure that nobody can compute again");
-    gsl_test_int(b.j.agreements, 0, "is compared with nothing");
-    b.row[1].kind = words[EXACT];
-    b.row[0].unit = words[KILONEWTON];
-    judgement_free(&b.j);
-    gsl_test(judgement_make(&b.s, &b.t, 1, &b.j, &f) != STATUS_FAULT ||
-                 strstr(f.text, "kN") == NULL,
-             "another unit: %s", f.text);
-    bench_free(&b);
-}
-
 static void selection(void)
 {
     bench b;
@@ -405,13 +204,8 @@ int main(void)
     orders();
     doubts();
     failures();
-    predictions();
     doubtful_noise();
-    theories();
-    publications();
     coverages();
-    expectations();
-    stored_values();
     selection();
     return gsl_test_summary();
 }

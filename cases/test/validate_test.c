@@ -1,0 +1,192 @@
+/* What springs, members, motions and loads may not be: every refusal names its culprit and says what to do, in one
+ * line; and what is refused is one thing only: the scene it was made from is accepted. */
+#include <math.h>
+
+#include "cases/test/refuse.h"
+
+static const double x_axis[3] = {1, 0, 0}, zero[3] = {0, 0, 0};
+
+static void end_of_member(scene *s)
+{
+    s->member[0].q = 5;
+}
+
+static void no_section(scene *s)
+{
+    s->member[0].section = 1;
+}
+
+static void no_length(scene *s)
+{
+    memset(s->node[TIP].position, 0, sizeof zero);
+}
+
+static void y_along(scene *s)
+{
+    memcpy(s->member[0].y_axis, x_axis, sizeof x_axis);
+}
+
+static void no_y(scene *s)
+{
+    memset(s->member[0].y_axis, 0, sizeof zero);
+}
+
+static void divisions(scene *s)
+{
+    s->member[0].divisions = -3;
+}
+
+static void idle_driver(scene *s)
+{
+    scene_drive(s, TIP, SCENE_UY, SCENE_FREE);
+}
+
+static void value_of_driver(scene *s)
+{
+    s->driver[0].value[1] = INFINITY;
+}
+
+static void path_of_driver(scene *s)
+{
+    s->driver[0].path[1] = 0;
+}
+
+static void no_load_there(scene *s)
+{
+    s->load[0].where = 3;
+}
+
+static void no_member_loaded(scene *s)
+{
+    s->load[0] = (scene_load){SCENE_DISTRIBUTED, .where = 1};
+}
+
+static void load(scene *s)
+{
+    s->load[0].vector[2] = NAN;
+}
+
+static void load_nowhere(scene *s)
+{
+    s->load[0].at[1] = INFINITY;
+}
+
+static void moment_beside(scene *s)
+{
+    s->load[0].kind = SCENE_MOMENT;
+    s->load[0].at[0] = 1;
+}
+
+static void node_along(scene *s)
+{
+    s->load[0].axes = SCENE_AXES_MEMBER;
+}
+
+static void weight_turns(scene *s)
+{
+    s->load[0] = (scene_load){SCENE_GRAVITY, .follower = 1};
+}
+
+static void weightless(scene *s)
+{
+    section_spec *spec = &s->section[0];
+    spec->kind = SECTION_RECTANGLE;
+    spec->young = spec->shear_modulus = spec->width = spec->height = 1;
+    spec->density = 0;
+    s->load[0] = (scene_load){SCENE_GRAVITY, .vector = {0, 0, -9.81}};
+}
+
+static void unknown_driver(scene *s)
+{
+    scene_drive(s, TIP, SCENE_UZ, scene_add_unknown_driver(s, "sought", TIP, SCENE_UY, SCENE_NONE));
+}
+
+static void condition_nowhere(scene *s)
+{
+    scene_drive(s, TIP, SCENE_UZ, scene_add_unknown_driver(s, "sought", 9, SCENE_UY, 0));
+}
+
+static scene_spring *spring_of(scene *s)
+{
+    const double stiffness[36] = {[0] = 4, [1] = 1, [6] = 1, [7] = 2, [35] = 3};
+    const int i = scene_add_spring(s, 0, 1, stiffness);
+    return &s->spring[i];
+}
+
+static void spring_nowhere(scene *s)
+{
+    spring_of(s)->q = 9;
+}
+
+static void spring_of_one(scene *s)
+{
+    spring_of(s)->p = 1;
+}
+
+static void unsymmetric_spring(scene *s)
+{
+    spring_of(s)->stiffness[1] = 1.1;
+}
+
+static void negative_spring(scene *s)
+{
+    spring_of(s)->stiffness[14] = -1;
+}
+
+static void indefinite_spring(scene *s)
+{
+    double *K = spring_of(s)->stiffness;
+    K[1] = K[6] = 2.9;
+}
+
+static void coupled_to_nothing(scene *s)
+{
+    double *K = spring_of(s)->stiffness;
+    K[2] = K[12] = 0.1;
+}
+
+static const refusal refusals[] = {
+    {spring_nowhere, "spring 0: ", "a node that does not exist"},
+    {spring_of_one, "spring 0: ", "both its ends are node 1"},
+    {unsymmetric_spring, "spring 0: ", "is not symmetric"},
+    {negative_spring, "spring 0: ", "gives energy away"},
+    {indefinite_spring, "spring 0: ", "gives energy away"},
+    {coupled_to_nothing, "spring 0: ", "gives energy away"},
+    {end_of_member, "member 0: ", "a node that does not exist"},
+    {no_section, "member 0: ", "its section does not exist"},
+    {no_length, "member 0: ", "its ends coincide"},
+    {y_along, "member 0: ", "its y axis is parallel"},
+    {no_y, "member 0: ", "its y axis is parallel"},
+    {divisions, "member 0: ", "-3 elements"},
+    {idle_driver, "driver push: ", "it moves nothing"},
+    {unknown_driver, "driver sought: ", "no condition fixes it"},
+    {condition_nowhere, "driver sought: ", "no condition fixes it"},
+    {value_of_driver, "driver push: ", "station 1 is not a number"},
+    {path_of_driver, "driver push: ", "must ascend"},
+    {no_load_there, "load 0: ", "does not exist"},
+    {no_member_loaded, "load 0: ", "does not exist"},
+    {load, "load 0: ", "not a number"},
+    {load_nowhere, "load 0: ", "not a number"},
+    {moment_beside, "load 0: ", "only forces act at an offset"},
+    {node_along, "load 0: ", "a member's axes and acts on a node"},
+    {weight_turns, "load 0: ", "gravity has fixed axes"},
+    {weightless, "load 0: ", "no density"},
+};
+
+static void says_that_memory_ran_out(void)
+{
+    scene s;
+    fault f = {""};
+    refuse_sound(&s);
+    s.out_of_memory = 1;
+    gsl_test_int((int)scene_validate(&s, &f), STATUS_FAULT, "no memory: %s", f.text);
+    gsl_test(strstr(f.text, "sound: out of memory") == NULL, "no memory: %s", f.text);
+    scene_free(&s);
+}
+
+int main(void)
+{
+    refuse_all(sizeof refusals / sizeof refusals[0], refusals);
+    says_that_memory_ran_out();
+    return gsl_test_summary();
+}

@@ -1,0 +1,156 @@
+/* What analyses and quantities may not be: every refusal names its culprit and says what to do, in one
+ * line; and what is refused is one thing only: the scene it was made from is accepted. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "cases/test/refuse.h"
+
+/* The path of an unknown load factor, which changes loads only. */
+static void driven(scene *s)
+{
+    const double station[] = {0, 1};
+    free(scene_path_of(&s->analysis[0])->value);
+    s->analyses = 0;
+    scene_add_continuation(
+        s, 2, station,
+        (scene_control){.node = TIP, .component = SCENE_UX, .step = 0.1, .step_max = 0.1});
+}
+
+static void continued(scene *s)
+{
+    driven(s);
+    scene_drive(s, TIP, SCENE_UY, SCENE_FREE);
+    free(s->driver[0].path);
+    free(s->driver[0].value);
+    s->drivers = 0;
+}
+
+static void buckles_by_follower(scene *s)
+{
+    s->load[0].follower = 1;
+    scene_add_buckling(s, SCENE_NONE);
+}
+
+static void turns_with_moments(scene *s)
+{
+    s->load[0] = (scene_load){SCENE_DISTRIBUTED_MOMENT, .vector = {1, 0, 0}};
+    scene_add_modal(s, scene_add_linear(s));
+}
+
+static void follows_itself(scene *s)
+{
+    s->analysis[0].follows = 0;
+}
+
+static void stations(scene *s)
+{
+    s->analysis[0].of.walk.path.value[1] = -1;
+}
+
+static void no_station(scene *s)
+{
+    s->analysis[0].of.walk.path.stations = 0;
+}
+
+static void spin(scene *s)
+{
+    scene_set_spin(s, 0, (scene_spin){.omega = {0, 0, NAN}});
+}
+
+static void two_names(scene *s)
+{
+    scene_add_quantity(s, "u", "m", 0, scene_coordinate(TIP, SCENE_UX));
+}
+
+static void no_analysis(scene *s)
+{
+    s->quantity[0].analysis = 1;
+}
+
+static void no_coordinate(scene *s)
+{
+    s->quantity[0].what.of.component.component = 6;
+}
+
+static void not_of_a_path(scene *s)
+{
+    scene_add_quantity(s, "frequency", "Hz", 0, scene_frequency(0, SCENE_ANY));
+}
+
+static void no_entry(scene *s)
+{
+    const int at_tip = scene_add_compliance(s, 0, (scene_compliance){.node = TIP});
+    scene_add_quantity(s, "entry", "m/N", at_tip, scene_compliance_entry(SCENE_UX, 6));
+}
+
+static void no_driver(scene *s)
+{
+    scene_add_quantity(s, "angle", "rad", 0, scene_driver_value(1));
+}
+
+static void uncontrolled(scene *s)
+{
+    continued(s);
+    s->analysis[0].of.continuation.control.component = SCENE_RX;
+}
+
+static void step(scene *s)
+{
+    continued(s);
+    s->analysis[0].of.continuation.control.step = 0;
+}
+
+static void smaller_step(scene *s)
+{
+    continued(s);
+    s->analysis[0].of.continuation.control.step_max = 0.05;
+}
+
+static void compliance_nowhere(scene *s)
+{
+    scene_add_compliance(s, SCENE_NONE, (scene_compliance){.node = SCENE_NONE});
+}
+
+static void compliance_of_compliance(scene *s)
+{
+    const scene_compliance at_tip = {.node = TIP};
+    scene_add_compliance(s, scene_add_compliance(s, 0, at_tip), at_tip);
+}
+
+static const refusal refusals[] = {
+    {buckles_by_follower, "analysis 1: ", "load 0 that follows has no potential"},
+    {turns_with_moments, "analysis 2: ", "distributed moments has no potential"},
+    {follows_itself, "analysis 0: ", "does not come before it"},
+    {stations, "analysis 0: ", "must ascend"},
+    {no_station, "analysis 0: ", "needs a station"},
+    {spin, "analysis 0: ", "angular velocity is not a number"},
+    {uncontrolled, "analysis 0: ", "control coordinate"},
+    {step, "analysis 0: ", "steps of 0 to 0.1"},
+    {smaller_step, "analysis 0: ", "steps of 0.1 to 0.05"},
+    {driven, "analysis 0: ", "changes loads only"},
+    {compliance_nowhere, "analysis 1: ", "a compliance needs a node"},
+    {compliance_of_compliance, "analysis 2: ", "follows a path or nothing"},
+    {two_names, "quantity u: ", "two of that name"},
+    {no_analysis, "quantity u: ", "no such analysis"},
+    {no_coordinate, "quantity u: ", "no such coordinate"},
+    {not_of_a_path, "quantity frequency: ", "does not have it"},
+    {no_entry, "quantity entry: ", "no such entry"},
+    {no_driver, "quantity angle: ", "no such driver"},
+};
+
+static void accepts_continuation(void)
+{
+    scene s;
+    fault f = {""};
+    refuse_sound(&s);
+    continued(&s);
+    gsl_test(scene_validate(&s, &f) != STATUS_OK, "a continued path is sound: %s", f.text);
+    scene_free(&s);
+}
+
+int main(void)
+{
+    refuse_all(sizeof refusals / sizeof refusals[0], refusals);
+    accepts_continuation();
+    return gsl_test_summary();
+}
