@@ -6,6 +6,7 @@ import numpy as np
 from reference.derive import defaults
 from reference.derive.beam import Beam
 from reference.derive.network import Network, clamped
+from reference.derive.torsion import rectangle_constant
 
 RELATIVE = 5e-12
 
@@ -57,15 +58,10 @@ def geradin_cardona(loads=(600e3, 300e3), form=lambda beam: beam):
         yield "geradin_cardona", at, "theta", -planar_angle(R), "rad", RELATIVE
 
 
-def square_torsion():
-    """Saint-Venant constant of the unit square: 1/3 - 64/pi^5 sum tanh(n pi/2)/n^5, n odd."""
-    return 1 / 3 - 64 / math.pi ** 5 * sum(math.tanh(n * math.pi / 2) / n ** 5 for n in range(1, 400, 2))
-
-
 def bend_45(torsions=("exact", "polar"), forces=(600, 300), form=lambda beam: beam):
     radius, angle, E, G = 100.0, math.pi / 4, 1e7, 5e6
     for torsion in torsions:
-        k, J = (5 / 6, square_torsion()) if torsion == "exact" else (1.0, 1 / 6)
+        k, J = (5 / 6, float(rectangle_constant(1, 1))) if torsion == "exact" else (1.0, 1 / 6)
         beam = form(Beam(radius * angle, EA=E, EIy=E / 12, EIz=E / 12, GJ=G * J, fy=1 / (k * G), fz=1 / (k * G), curvature=1 / radius))
         for force in forces:
             r, _ = dead_load(beam, (0, 0, force), 20)

@@ -3,11 +3,12 @@
 Bending, k = n pi/l: amplitudes of w (sin kx) and of the section's turn t (cos kx),
   strain  EI (k t)^2 + kGA (k w - t)^2        kinetic  rho (A w^2 + I t^2)
 and both planes alike; torsion and extension: (2n - 1) c/(4 l), c^2 = GJ/(rho Ip) or E/rho.
-J of the square by Saint-Venant's series: a^4 (1/3 - 64/pi^5 sum_odd tanh(n pi/2)/n^5).
+J of the square by Saint-Venant's series.
 """
-from mpmath import inf, mp, mpf, nsum, pi, sqrt, tanh
+from mpmath import mp, mpf, pi, sqrt
 
 from reference.derive import defaults
+from reference.derive.torsion import rectangle_constant
 
 mp.dps = 40
 E, RHO, LENGTH, SIDE, SHEAR_FACTOR = mpf("200e9"), mpf(8000), mpf(10), mpf(2), mpf(5) / 6
@@ -32,8 +33,7 @@ def bending(n, shear, rotary):
 def torsion_constant(exact):
     if not exact:
         return SIDE ** 4 / 6
-    series = nsum(lambda m: tanh((2 * m + 1) * pi / 2) / (2 * m + 1) ** 5, [0, inf])
-    return SIDE ** 4 * (mpf(1) / 3 - 64 / pi ** 5 * series)
+    return rectangle_constant(SIDE, SIDE)
 
 
 def frequencies(exact_torsion, shear, rotary):

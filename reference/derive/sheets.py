@@ -12,23 +12,18 @@ from reference.derive import defaults
 from reference.derive.beam import Beam, cross_matrix
 from reference.derive.compliance import name_of, unit_of
 from reference.derive.network import Network, clamped, free
+from reference.derive.torsion import rectangle_constant
 
 RELATIVE = 5e-12
 PLANAR = [(0, 0), (0, 1), (0, 5), (1, 0), (1, 1), (1, 5), (5, 0), (5, 1), (5, 5),
           (2, 2), (2, 3), (2, 4), (3, 2), (3, 3), (3, 4), (4, 2), (4, 3), (4, 4)]
 
 
-def rectangle_torsion(w, t):
-    """Saint-Venant constant, w >= t."""
-    total = sum(math.tanh(n * math.pi * w / (2 * t)) / n ** 5 for n in range(1, 400, 2))
-    return w * t ** 3 / 3 * (1 - 192 * t / (math.pi ** 5 * w) * total)
-
-
 def sheet(length, width, thickness, young, poisson, warping=1, shear=1, trapeze=1, wagner=0, shear_factor=0.0, **_):
     G, w, t = young / (2 * (1 + poisson)), width, thickness
     k = shear_factor or 10 * (1 + poisson) / (12 + 11 * poisson)
     f = 1 / (k * G * w * t) if shear else 0.0
-    return Beam(length, EA=young * w * t, EIy=young * t * w ** 3 / 12, EIz=young * w * t ** 3 / 12, GJ=G * rectangle_torsion(w, t), fy=f, fz=f,
+    return Beam(length, EA=young * w * t, EIy=young * t * w ** 3 / 12, EIz=young * w * t ** 3 / 12, GJ=G * float(rectangle_constant(w, t)), fy=f, fz=f,
                 EIw=young * (w * t) ** 3 / 144 if warping else 0.0, t=(w * w + t * t) / 12 if trapeze else 0.0, c=young * w ** 5 * t / 1440 if wagner else 0.0)
 
 

@@ -1,9 +1,20 @@
-"""Non-uniform torsion: twist_ratio = phi GJ/(T L) of a cantilever whose root cannot warp."""
-from mpmath import mp, mpf, tanh
+"""Torsion: Saint-Venant's constant of a rectangle; twist_ratio = phi GJ/(T L) of a cantilever whose root cannot warp."""
+import functools
+
+from mpmath import inf, mp, mpf, nsum, pi, tanh, workdps
 
 from reference.derive import defaults
 
 mp.dps = 40
+
+
+@functools.cache
+def rectangle_constant(w, t):
+    """w t^3/3 (1 - 192/pi^5 t/w sum tanh(n pi w/2t)/n^5), n odd, w >= t, to 30 digits: the terms left over are extrapolated."""
+    with workdps(40):
+        w, t = mpf(w), mpf(t)
+        series = nsum(lambda m: tanh((2 * m + 1) * pi * w / (2 * t)) / (2 * m + 1) ** 5, [0, inf])
+        return w * t ** 3 / 3 * (1 - 192 / pi ** 5 * t / w * series)
 
 
 def twist_ratio(kl, ends):

@@ -4,10 +4,10 @@ import sys
 import unittest
 
 import numpy as np
-from mpmath import besselj, findroot, mp, mpf, pi, sqrt
+from mpmath import besselj, exp, findroot, mp, mpf, pi, sqrt, zeta
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
-from reference.derive import channel_cantilever, channel_rotating, column, linear_buckling, rotating, tip_body  # noqa: E402
+from reference.derive import channel_cantilever, channel_rotating, column, linear_buckling, rotating, tip_body, torsion  # noqa: E402
 from reference.derive.section import section  # noqa: E402
 
 
@@ -32,6 +32,15 @@ class Sections(unittest.TestCase):
             self.assertLess(abs(getattr(a, name) / getattr(b, name) - 1), 1e-13)
         self.assertLess(abs(abs(a.ys) - abs(b.ys)) + abs(abs(a.zs) - abs(b.zs)), 1e-14)
         self.assertLess(np.max(np.abs(np.abs(np.array(a.F.tolist(), dtype=float)) / np.abs(np.array(b.F.tolist(), dtype=float)) - 1)), 1e-11)
+
+
+class Torsion(unittest.TestCase):
+    def test_rectangles(self):
+        """tanh x = 1 - 2/(exp 2x + 1); of the ones the sum is 31/32 zeta(5), and the rest vanishes fast."""
+        for w, t in ((1, 1), (2, 1), (mpf("0.05"), mpf("0.0005"))):
+            rest = sum(mpf(2) / n ** 5 / (exp(n * pi * w / t) + 1) for n in range(1, 40, 2))
+            value = w * t ** 3 / mpf(3) * (1 - 192 / pi ** 5 * t / w * (31 * zeta(5) / 32 - rest))
+            self.assertLess(abs(torsion.rectangle_constant(w, t) / value - 1), mpf(10) ** -30)
 
 
 class Buckling(unittest.TestCase):
