@@ -1,10 +1,8 @@
 """beamwork compare: exit status like diff, worse and better named, nothing believed of a file."""
-import os
-import pathlib
-import tempfile
 import unittest
 
-from harness.comparison.test.stored import altered, replace, run, table_of, verify
+from harness.comparison.test.stored import altered, replace, table_of, verify
+from harness.test.program import TRUTHS, ProgramTest, run
 
 TABLES = "cases/warping_torsion"
 
@@ -24,12 +22,11 @@ def change_rows(file, name, change):
     replace(group, name, rows[~own] if keep is False else rows)
 
 
-class Compare(unittest.TestCase):
+class Compare(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
-        cls.old, cls.new, cls.table = (os.path.join(cls.folder.name, name) for name in ("old.h5", "new.h5", "old.csv"))
+        folder = cls.class_folder()
+        cls.old, cls.new, cls.table = (folder / name for name in ("old.h5", "new.h5", "old.csv"))
         verify("warping_torsion/default", cls.old)
         table_of(cls.old, cls.table)
 
@@ -55,7 +52,7 @@ class Compare(unittest.TestCase):
         """One process and several give the same bits."""
         path = {}
         for jobs in ("1", "2", "5"):
-            path[jobs] = os.path.join(self.folder.name, f"j{jobs}.h5")
+            path[jobs] = self.folder / f"j{jobs}.h5"
             verify("elastica/default and collocation or sheet_wagner/default and collocation or "
                    "shear_column/default and beamw_consistent", path[jobs], "-j", jobs)
         for jobs in ("2", "5"):
@@ -125,22 +122,19 @@ class Compare(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("new      warping_torsion/default/beamw n=4", done.stdout)
 
-    def trouble(self, word, *arguments):
-        done = run("compare", *arguments)
-        self.assertEqual(done.returncode, 2, done)
-        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
-        self.assertIn(word, done.stderr)
+    def trouble(self, word, *arguments, **options):
+        self.refused(2, word, "compare", *arguments, **options)
 
     def test_trouble(self):
-        data, cut = pathlib.Path(self.old).read_bytes(), os.path.join(self.folder.name, "cut")
+        data, cut = self.old.read_bytes(), self.folder / "cut"
         for length in (0, 5, 100, len(data) // 2):
-            pathlib.Path(cut).write_bytes(data[:length])
-            self.trouble(cut, cut, self.old)
-        pathlib.Path(cut).write_text(pathlib.Path(self.table).read_text(encoding="utf-8")[:-10], encoding="utf-8")
+            cut.write_bytes(data[:length])
+            self.trouble(str(cut), cut, self.old)
+        cut.write_text(self.table.read_text(encoding="utf-8")[:-10], encoding="utf-8")
         self.trouble("damaged or cut short", cut, self.old)
-        self.trouble("not a file of results", self.old, os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5"))
+        self.trouble("not a file of results", self.old, TRUTHS)
         self.trouble("missing.h5", "missing.h5", self.old)
-        self.trouble("nothing was compared", "-k", "elastica", self.old, self.old)
+        self.trouble("nothing was compared", "-k", "elastica", self.old, self.old, silent=False)
         self.trouble("threshold", "--threshold", "work=-1", self.old, self.old)
         self.trouble("did you mean 'elastica'", "-k", "elastca", self.old, self.old)
         self.trouble("malformed", "-k", "and", self.old, self.old)

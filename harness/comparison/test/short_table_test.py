@@ -1,14 +1,12 @@
 """The short table of a run: it notices a change in any position; nothing is believed of it."""
 import csv
-import os
-import pathlib
-import tempfile
 import unittest
 
 import h5py
 import numpy as np
 
-from harness.comparison.test.stored import WORK, altered, run, table_of, verify
+from harness.comparison.test.stored import WORK, altered, table_of, verify
+from harness.test.program import ProgramTest, run
 
 SELECTION = "warping_torsion/default or bend_45/default and collocation"
 FLOOR, ERROR = 1e-8, 0.01  # thresholds of compare
@@ -26,18 +24,16 @@ def change_rows(file, table, change):
         group[table][()] = rows
 
 
-class ShortTable(unittest.TestCase):
+class ShortTable(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
+        folder = cls.class_folder()
         cls.old, cls.new, cls.table, cls.bad = (
-            os.path.join(cls.folder.name, name)
-            for name in ("old.h5", "new.h5", "old.csv", "bad.csv")
+            folder / name for name in ("old.h5", "new.h5", "old.csv", "bad.csv")
         )
         verify(SELECTION, cls.old)
         table_of(cls.old, cls.table)
-        cls.text = pathlib.Path(cls.table).read_text(encoding="utf-8")
+        cls.text = cls.table.read_text(encoding="utf-8")
         cls.row = list(csv.DictReader(cls.text.splitlines()))
 
     def noticed(self, table, change, former=None):
@@ -136,7 +132,7 @@ class ShortTable(unittest.TestCase):
 
     def test_renamed_limit(self):
         text = self.text.replace("u_tangent=", "v=")
-        pathlib.Path(self.bad).write_text(text, encoding="utf-8")
+        self.bad.write_text(text, encoding="utf-8")
         lines = self.noticed("cells", lambda case, rows: None, self.bad)
         self.assertEqual(
             [line.split(": ")[1] for line in lines],
@@ -195,10 +191,8 @@ class ShortTable(unittest.TestCase):
 
     def test_other_points(self):
         """Limits stand in rows of default points only."""
-        path = verify(
-            "warping_torsion and beamw_vlasov", os.path.join(self.folder.name, "points.h5")
-        )
-        text = pathlib.Path(table_of(path, self.bad)).read_text(encoding="utf-8")
+        path = verify("warping_torsion and beamw_vlasov", self.folder / "points.h5")
+        text = table_of(path, self.bad).read_text(encoding="utf-8")
         rows = list(csv.DictReader(text.splitlines()))
         self.assertGreater(len(rows), 3)
         self.assertEqual([row["series"] for row in rows], sorted(row["series"] for row in rows))
@@ -208,14 +202,14 @@ class ShortTable(unittest.TestCase):
     def test_missing(self):
         """Rows that are gone from either side."""
         lines = self.text.splitlines(keepends=True)
-        pathlib.Path(self.bad).write_text("".join(lines[:2] + lines[3:]), encoding="utf-8")
+        self.bad.write_text("".join(lines[:2] + lines[3:]), encoding="utf-8")
         for pair, word in (((self.table, self.bad), "gone"), ((self.bad, self.old), "new")):
             done = run("compare", *pair)
             self.assertEqual(done.returncode, 1, done)
             self.assertIn(f"{word:8} {self.row[1]['series']}\n", done.stdout)
 
     def damaged(self, text, word):
-        pathlib.Path(self.bad).write_text(text, encoding="utf-8")
+        self.bad.write_text(text, encoding="utf-8")
         done = run("compare", self.bad, self.old)
         self.assertEqual(done.returncode, 2, (text, done))
         self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)

@@ -1,21 +1,16 @@
 """Stored runs for tests: made by verify, altered in one place, compared."""
-import os
 import shutil
-import subprocess
 
 import h5py
+
+from harness.test.program import run
 from reference.pack import seal
 
-PROGRAM = os.environ.get("BEAMWORK", "build/beamwork")
 WORK = {
     "iterations": ("iterations",),
     "evaluations": ("strain_evaluations", "stress_evaluations", "inertia_evaluations"),
     "factorisations": ("factorisations",),
 }
-
-
-def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False)
 
 
 def verify(selection, path, *options):

@@ -1,11 +1,10 @@
 """import: names, units, parameters, axes; what is wrong is told at once; verify takes it beside."""
 import pathlib
-import tempfile
 import unittest
 
 import h5py
 
-from harness.test.program import run
+from harness.test.program import ROOT, ProgramTest, run
 
 HEAD = """# beamwork-import: 1
 # program: MBDyn 1.7.3, 3-node   # as legends show it
@@ -18,21 +17,14 @@ MAPS = pathlib.Path(__file__).parents[1] / "maps"
 SELECT = "sheet_cantilever and C_xx and shear_factor"
 
 
-class Import(unittest.TestCase):
-    def setUp(self):
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.place = pathlib.Path(place.name)
-
+class Import(ProgramTest):
     def read(self, text, status=0, name="theirs.csv"):
-        path = self.place / name
+        path = self.folder / name
         path.write_bytes(text if isinstance(text, bytes) else text.encode())
-        done = run("import", str(path), "-o", str(self.place / "theirs.h5"))
-        self.assertEqual(done.returncode, status, done.stderr)
-        return done
+        return self.answered("import", path, "-o", self.folder / "theirs.h5", code=status)
 
     def stored(self, case="sheet_cantilever", table="imports"):
-        with h5py.File(self.place / "theirs.h5") as file:
+        with h5py.File(self.folder / "theirs.h5") as file:
             rows = file["cases"][case][table][()]
             return [dict(zip(rows.dtype.names, row)) for row in rows]
 
@@ -72,7 +64,7 @@ class Import(unittest.TestCase):
         for i, (line, (row, words)) in enumerate(zip(said, bad.items())):
             self.assertIn(f"theirs.csv:{5 + i}: ", line, row)
             self.assertIn(words, line, row)
-        self.assertFalse((self.place / "theirs.h5").exists())
+        self.assertFalse((self.folder / "theirs.h5").exists())
 
     def test_headers(self):
         for change, words in ((("sheet_cantilever", "sheet_cantilevr"), "did you mean 'sheet_cantilever'"), (("warping", "warpin"), "did you mean 'warping'"),
@@ -94,40 +86,38 @@ class Import(unittest.TestCase):
         self.assertEqual({s["formulation"] for s in self.stored(table="series")}, {b"MBDyn 1.7.3, 3-node", b"other"})
 
     def test_a_scene_of_ones_own_and_a_solid(self):
-        leaf = pathlib.Path(__file__).parents[3] / "cases" / "examples" / "leaf_spring_guide.yaml"
+        leaf = ROOT / "cases/examples/leaf_spring_guide.yaml"
         self.read(f"# beamwork-import: 1\n# program: CalculiX\n# model: solid\n# case: {leaf}\nquantity,unit,elements,value\nk_drive,N/mm,320,2.85\n")
         row, = self.stored("leaf_spring_guide")
         self.assertAlmostEqual(row["value"], 2850, delta=1e-9)
-        done = run("verify", "--scene", str(leaf), "-f", "beamw", "--beside", str(self.place / "theirs.h5"), "--gate")
+        done = run("verify", "--scene", str(leaf), "-f", "beamw", "--beside", self.folder / "theirs.h5", "--gate")
         line, = [x for x in done.stdout.splitlines() if "CalculiX" in x]
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("no truth; +8.59 % from another model", line)
 
     def test_beside_informs_and_gates_where_asked(self):
         self.read(HEAD + COLUMNS + ROWS.replace("3.9", "4.9"))
-        beside = ("verify", "-k", SELECT, "-f", "collocation", "--beside", str(self.place / "theirs.h5"))
+        beside = ("verify", "-k", SELECT, "-f", "collocation", "--beside", self.folder / "theirs.h5")
         informs, gates = run(*beside), run(*beside, "--gate")
         for done in (informs, gates):
             self.assertIn("MBDyn 1.7.3, 3-node", done.stdout)
         self.assertEqual(informs.returncode, 0, informs.stderr)
         self.assertEqual(gates.returncode, 1, gates.stdout)
-        elsewhere = run("verify", "-k", "elastica/default", "-f", "collocation", "--beside", str(self.place / "theirs.h5"))
+        elsewhere = run("verify", "-k", "elastica/default", "-f", "collocation", "--beside", self.folder / "theirs.h5")
         self.assertEqual(elsewhere.returncode, 0)
         self.assertIn("were not run, the first sheet_cantilever/", elsewhere.stderr)
 
     def test_nothing_is_believed_of_a_stored_import(self):
         self.read(HEAD + COLUMNS + ROWS)
-        whole = (self.place / "theirs.h5").read_bytes()
+        whole = (self.folder / "theirs.h5").read_bytes()
         for name, data in (("cut.h5", whole[:-100]), ("none.h5", b"")):
-            (self.place / name).write_bytes(data)
-            done = run("verify", "-k", SELECT, "-f", "beamw", "--beside", str(self.place / name))
+            (self.folder / name).write_bytes(data)
+            done = run("verify", "-k", SELECT, "-f", "beamw", "--beside", self.folder / name)
             self.assertEqual(done.returncode, 4, done.stderr)
             self.assertIn(name, done.stderr)
 
     def mapped(self, name, *files, status=0):
-        done = run("import", *map(str, files), "--map", str(name), "-o", str(self.place / "theirs.h5"))
-        self.assertEqual(done.returncode, status, done.stderr)
-        return done
+        return self.answered("import", *files, "--map", name, "-o", self.folder / "theirs.h5", code=status)
 
     def test_files_of_mbdyn(self):
         """Written by MBDyn 1.7.3 from data/mbdyn_sheet.mbd: four 3-node beams, 0.06 % from the exact beam."""
@@ -135,7 +125,7 @@ class Import(unittest.TestCase):
         found = {row["quantity"].decode(): row["value"] for row in self.stored()}
         for name, value in (("u_x", 9.864219e-2 - 0.1), ("F_y", 3492.813), ("M_z", -172.2694)):
             self.assertAlmostEqual(found[name] / value, 1, delta=1e-12)
-        done = run("verify", "-k", "sheet_cantilever and shear_factor and F_y", "-f", "collocation", "--beside", str(self.place / "theirs.h5"))
+        done = run("verify", "-k", "sheet_cantilever and shear_factor and F_y", "-f", "collocation", "--beside", self.folder / "theirs.h5")
         line, = [x for x in done.stdout.splitlines() if "MBDyn" in x]
         self.assertIn("3492.813", line)
         self.assertIn("3492.69255", line)
@@ -155,7 +145,7 @@ class Import(unittest.TestCase):
 
        -1.000000D-10  3.600000E+03  0.000000E+00
 """
-        path = self.place / "job.dat"
+        path = self.folder / "job.dat"
         path.write_text(text, encoding="utf-8")
         self.mapped(MAPS / "calculix_dat.yaml", path)
         found = {row["quantity"].decode(): row["value"] for row in self.stored()}
@@ -163,7 +153,7 @@ class Import(unittest.TestCase):
         self.assertEqual(found["F_y"], 3600)
 
     def test_mistakes_of_a_map(self):
-        path = self.place / "map.yaml"
+        path = self.folder / "map.yaml"
         good = (MAPS / "mbdyn.yaml").read_text(encoding="utf-8")
         for change, words in ((("column: x", "colum: x"), "did you mean 'column'"), (("column: x", "column: ex"), "is no column"), (("label: 9", "label: 7"), "no such row"),
                               (("  u_x", "  u_xq"), "map.yaml:12: sheet_cantilever has no quantity 'u_xq'; did you mean 'u_x'"), (("unit: m,", "unit: kg,"), "cannot be converted"), (("elements: 4", "elements: four"), "is no number")):
@@ -173,11 +163,9 @@ class Import(unittest.TestCase):
             self.assertIn(words, said)
 
     def test_no_input_is_replaced(self):
-        path = self.place / "a.csv"
+        path = self.folder / "a.csv"
         path.write_text(HEAD + COLUMNS + ROWS, encoding="utf-8")
-        done = run("import", str(path), "-o", str(path))
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("would replace", done.stderr)
+        self.refused(2, "would replace", "import", path, "-o", path)
 
 
 if __name__ == "__main__":

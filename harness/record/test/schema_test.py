@@ -4,39 +4,35 @@ import csv
 import io
 import json
 import os
-import pathlib
 import re
-import subprocess
-import tempfile
 import unittest
 
 import h5py
 
-PROGRAM = os.path.abspath(os.environ.get("BEAMWORK", "build/beamwork"))
-ROOT = pathlib.Path(__file__).resolve().parents[3]
+from harness.test import program
+from harness.test.program import ROOT, ProgramTest
+
 KEYS = ("point", "formulation", "elements")
 JSON_ONLY = ("extremes", "formulations", "outcomes", "truths")
 KINDS = {"int": "i4", "long": "i8", "double": "f8", "flag": "b", "text": "S", "enum": "S"}
 
 
 def run(*arguments):
-    done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False)
-    return done.stdout
+    return program.run(*arguments).stdout
 
 
 def text(value):
     return value.decode() if isinstance(value, bytes) else str(value)
 
 
-class Schema(unittest.TestCase):
+class Schema(ProgramTest):
     @classmethod
     def setUpClass(cls):
         cls.schema = json.loads(run("schema", "--format", "json"))
         cls.records = {r["table"]: r["fields"] for r in cls.schema["records"]}
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
+        cls.stored = cls.class_folder()
         cls.results, cls.bench, cls.verdicts = (
-            os.path.join(cls.folder.name, name) for name in ("results.h5", "bench.h5", "v.json"))
+            cls.stored / name for name in ("results.h5", "bench.h5", "v.json"))
         run("verify", "-k", "lee_frame/default or elastica/default and collocation",
             "-o", cls.results, "--json", cls.verdicts)
         run("bench", "elastica", "-f", "collocation", "-n", "1,2", "-o", cls.bench)
@@ -96,7 +92,7 @@ class Schema(unittest.TestCase):
                 self.assertEqual(case["steps"]["iterations"].sum(), len(case["iterations"]))
 
     def test_json_of_verdicts(self):
-        record = json.loads(pathlib.Path(self.verdicts).read_text(encoding="utf-8"))
+        record = json.loads(self.verdicts.read_text(encoding="utf-8"))
         for table in ("verdicts", "agreements"):
             for row in record[table]:
                 self.assertEqual(sorted(row), sorted(self.names(table)))
@@ -124,7 +120,7 @@ class Schema(unittest.TestCase):
 
     def test_parameters(self):
         """Columns of points are the parameters of the case, with their units and values."""
-        path = os.path.join(self.folder.name, "s.h5")
+        path = self.folder / "s.h5"
         sets = ("solve", "sheet_cantilever", "-f", "sheet_third", "-n", "1",
                 "--set", "width=0.07", "--set", "tip_warping=1")
         run(*sets, "--shapes=1", "-o", path)
@@ -183,7 +179,7 @@ class Schema(unittest.TestCase):
         code = re.search(r"```python\n(.*?)```", readme, re.S).group(1)
         self.assertEqual(len(code.strip().splitlines()), 3)
         out, before = io.StringIO(), os.getcwd()
-        os.chdir(self.folder.name)
+        os.chdir(self.stored)
         try:
             with contextlib.redirect_stdout(out):
                 exec(compile(code, "README.md", "exec"), {})    # pylint: disable=exec-used
