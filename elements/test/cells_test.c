@@ -1,36 +1,17 @@
 /* Closed cells and tubes against closed forms (Bredt 1896; Vlasov 1961), and against other descriptions of themselves. */
-#include "elements/section/section.h"
-
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
 
 #include "elements/math/pi.h"
-
-static section_spec start_spec(void)
-{
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.young = 2e11;
-    spec.shear_modulus = 8e10;
-    return spec;
-}
-
-static section computed(const section_spec *spec)
-{
-    section c = {0};
-    fault f = {""};
-    gsl_test(section_compute(spec, &c, &f) != STATUS_OK, "section: %s", f.text);
-    return c;
-}
+#include "elements/test/sections.h"
 
 static const double h = 0.2, b = 0.09, tf = 0.012, tw = 0.007; /* mid-lines [m] */
 
 static section_spec box_spec(void)
 {
     static const double point[4][2] = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
-    section_spec spec = start_spec();
-    spec.kind = SECTION_WALLS;
+    section_spec spec = sections_steel(SECTION_WALLS);
     spec.points = spec.walls = 4;
     spec.cells = 1;
     for (int i = 0; i < 4; i++) {
@@ -46,7 +27,7 @@ static section_spec box_spec(void)
 static void box(void)
 {
     const section_spec spec = box_spec();
-    const section c = computed(&spec);
+    const section c = sections_computed(&spec);
     const double round = 2 * b / tf + 2 * h / tw,
                  corner = b * h / 4 * (h / tw - b / tf) / (h / tw + b / tf);
     gsl_test_rel(c.It, 4 * b * b * h * h / round + 2 * (b * tf * tf * tf + h * tw * tw * tw) / 3,
@@ -65,8 +46,7 @@ static void ring(void)
 {
     enum { N = 32 };
     const double R = 0.1, t = 0.0001;
-    section_spec spec = start_spec(), tube = start_spec();
-    spec.kind = SECTION_WALLS;
+    section_spec spec = sections_steel(SECTION_WALLS), tube = sections_steel(SECTION_TUBE);
     spec.points = spec.walls = N;
     spec.cells = 1;
     for (int i = 0; i < N; i++) {
@@ -76,10 +56,9 @@ static void ring(void)
         spec.wall[i].to = (i + 1) % N;
         spec.wall[i].thickness = t;
     }
-    tube.kind = SECTION_TUBE;
     tube.diameter = 2 * R + t;
     tube.wall_thickness = t;
-    const section c = computed(&spec), d = computed(&tube);
+    const section c = sections_computed(&spec), d = sections_computed(&tube);
     gsl_test_rel(c.It, d.It, 0.02, "ring: torsion");
     gsl_test_rel(c.Iy, d.Iy, 0.02, "ring: bending");
     gsl_test_rel(c.F[0], d.F[0], 0.02, "ring: shear");
@@ -91,17 +70,16 @@ static void ring(void)
 
 static void tube_closed_forms(void)
 {
-    section_spec spec = start_spec();
-    spec.kind = SECTION_TUBE;
+    section_spec spec = sections_steel(SECTION_TUBE);
     spec.diameter = 0.06;
     spec.wall_thickness = 0.03;
-    const section bar = computed(&spec);
+    const section bar = sections_computed(&spec);
     const double R = 0.03, r = 0.02;
     gsl_test_rel(bar.A, PI * R * R, 1e-14, "bar: area");
     gsl_test_rel(bar.It, PI * pow(R, 4) / 2, 1e-14, "bar: torsion");
     gsl_test_rel(bar.D[0] / bar.A, 6.0 / 7, 1e-14, "bar: shear");
     spec.wall_thickness = 0.01;
-    const section c = computed(&spec);
+    const section c = sections_computed(&spec);
     gsl_test_rel(c.Iy, PI * (pow(R, 4) - pow(r, 4)) / 4, 1e-14, "tube: bending");
     gsl_test_rel(c.Ip, c.It, 1e-14, "tube: polar moment");
     /* int |tau|^2 dA for tau = grad(f cos), f = (a s + b/s - s^3)/8, a = 3 (R^2 + r^2), b = 3 R^2 r^2 */
@@ -115,8 +93,7 @@ static section_spec two_cells(int swapped, double skew)
 {
     static const double point[6][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {0, 1}};
     static const int wall[7][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 0}, {1, 4}};
-    section_spec spec = start_spec();
-    spec.kind = SECTION_WALLS;
+    section_spec spec = sections_steel(SECTION_WALLS);
     spec.points = 6;
     spec.walls = 7;
     spec.cells = 2;
@@ -137,12 +114,12 @@ static section_spec two_cells(int swapped, double skew)
 static void cells(void)
 {
     const section_spec even = two_cells(0, 0);
-    const section c = computed(&even);
+    const section c = sections_computed(&even);
     const double area = 2 * b * h, round = (4 * b + 2 * h) / tw,
                  open = (4 * b + 3 * h) * tw * tw * tw / 3;
     gsl_test_rel(c.It, 4 * area * area / round + open, 1e-12, "two equal cells: Bredt");
     const section_spec skew = two_cells(0, 0.02), other = two_cells(1, 0.02);
-    const section d = computed(&skew), e = computed(&other);
+    const section d = sections_computed(&skew), e = sections_computed(&other);
     /* cells of widths p, q: (2 (p + .)/tw + h/tf) x1 - h/tf x2 = 2 p h, and so on */
     const double p = b + 0.02, q = b - 0.02, m11 = (2 * p + h) / tw + h / tf,
                  m22 = (2 * q + h) / tw + h / tf, m12 = -h / tf, det = m11 * m22 - m12 * m12;
@@ -177,7 +154,7 @@ static void points_between(void)
     two.point[5][1] = 0.1 * h;
     two.wall[5] = two.wall[1];
     two.wall[1].to = two.wall[5].from = 5;
-    const section c = computed(&one), d = computed(&two);
+    const section c = sections_computed(&one), d = sections_computed(&two);
     gsl_test_rel(d.It, c.It, 1e-13, "a point in between: torsion");
     gsl_test_rel(d.Iw, c.Iw, 1e-11, "a point in between: warping");
     gsl_test_rel(d.zs, c.zs, 1e-11, "a point in between: shear centre");
@@ -203,8 +180,7 @@ static void refusals(void)
     spec = two_cells(0, 0);
     spec.cells = 1;
     refusal(&spec, "closes a cell; give the number");
-    spec = start_spec();
-    spec.kind = SECTION_TUBE;
+    spec = sections_steel(SECTION_TUBE);
     spec.diameter = 0.02;
     spec.wall_thickness = 0.011;
     refusal(&spec, "thickness of the tube is 0.011");

@@ -7,30 +7,12 @@
 
 #include "elements/math/pi.h"
 #include "elements/math/quadrature.h"
-#include "elements/section/section.h"
-
-static section_spec start_spec(section_kind kind)
-{
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = kind;
-    spec.young = 2e11;
-    spec.shear_modulus = 8e10;
-    return spec;
-}
-
-static section computed(const section_spec *spec)
-{
-    section c = {0};
-    fault f = {""};
-    gsl_test(section_compute(spec, &c, &f) != STATUS_OK, "section: %s", f.text);
-    return c;
-}
+#include "elements/test/sections.h"
 
 /* One wall of length h and thickness t whose middle is at (y, z), turned by `angle` from the y axis. */
 static section wall_section(double h, double t, double y, double z, double angle)
 {
-    section_spec spec = start_spec(SECTION_WALLS);
+    section_spec spec = sections_steel(SECTION_WALLS);
     spec.points = 2;
     spec.walls = 1;
     for (int i = 0; i < 2; i++) {
@@ -40,17 +22,17 @@ static section wall_section(double h, double t, double y, double z, double angle
     }
     spec.wall[0].thickness = t;
     spec.thickness_terms = 1;
-    return computed(&spec);
+    return sections_computed(&spec);
 }
 
 static section rectangle(double width, double height, double ky, double kz)
 {
-    section_spec spec = start_spec(SECTION_RECTANGLE);
+    section_spec spec = sections_steel(SECTION_RECTANGLE);
     spec.width = width;
     spec.height = height;
     spec.shear_factor[0] = ky;
     spec.shear_factor[1] = kz;
-    return computed(&spec);
+    return sections_computed(&spec);
 }
 
 /* Without given factors: shear and warping shear of a wall. Its long side is y; the rectangle's is z where it is wide. */
@@ -122,7 +104,7 @@ static void area_moments(const section_spec *s, double sum[3][3])
 static void thick_walls(void)
 {
     static const double point[4][2] = {{0, 0}, {0.05, 0.01}, {0.05, 0.08}, {0.02, 0.1}};
-    section_spec spec = start_spec(SECTION_WALLS);
+    section_spec spec = sections_steel(SECTION_WALLS);
     spec.points = 4;
     spec.walls = 3;
     spec.thickness_terms = 1;
@@ -134,7 +116,7 @@ static void thick_walls(void)
         spec.wall[i].to = i + 1;
         spec.wall[i].thickness = 0.004 + 0.003 * i;
     }
-    const section c = computed(&spec);
+    const section c = sections_computed(&spec);
     double m[3][3];
     area_moments(&spec, m);
     const double yc = m[0][2] / m[2][2], zc = m[1][2] / m[2][2];
@@ -199,7 +181,7 @@ static void refusals(void)
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         section c;
         fault f = {""};
-        section_spec spec = start_spec(SECTION_RECTANGLE);
+        section_spec spec = sections_steel(SECTION_RECTANGLE);
         spec.width = 0.1;
         spec.height = 0.02;
         *(double *)(void *)((char *)&spec + row[i].offset) = row[i].value;

@@ -4,14 +4,7 @@
 #include <string.h>
 
 #include "elements/section/taper.h"
-
-static section computed(const section_spec *spec)
-{
-    section c = {0};
-    fault f = {""};
-    gsl_test(section_compute(spec, &c, &f) != STATUS_OK, "section: %s", f.text);
-    return c;
-}
+#include "elements/test/sections.h"
 
 /* Doubly symmetric, web along z. */
 static section_spec i_shape(double depth, double flange, double thickness)
@@ -25,17 +18,17 @@ static section_spec i_shape(double depth, double flange, double thickness)
 
 static status checked(const section_spec *p, const section_spec *q, fault *f)
 {
-    const section a = computed(p), b = computed(q), *const ends[] = {&a, &b};
+    const section a = sections_computed(p), b = sections_computed(q), *const ends[] = {&a, &b};
     return section_taper_check(p, q, ends, f);
 }
 
 static void ends_are_ends(const char *name, const section_spec *p, const section_spec *q)
 {
     section_spec at;
-    const section ends[] = {computed(p), computed(q)};
+    const section ends[] = {sections_computed(p), sections_computed(q)};
     for (int k = 0; k < 2; k++) {
         section_taper_at(p, q, k, &at);
-        const section c = computed(&at);
+        const section c = sections_computed(&at);
         gsl_test_rel(c.A, ends[k].A, 1e-14, "%s, end %d: A", name, k);
         gsl_test_rel(c.Iy, ends[k].Iy, 1e-14, "%s, end %d: Iy", name, k);
         gsl_test_rel(c.It, ends[k].It, 1e-14, "%s, end %d: It", name, k);
@@ -53,7 +46,7 @@ static void rectangles(void)
     gsl_test(checked(&p, &q, &f) != STATUS_OK, "rectangles: %s", f.text);
     ends_are_ends("rectangle", &p, &q);
     section_taper_at(&p, &q, 0.25, &at);
-    const section c = computed(&at);
+    const section c = sections_computed(&at);
     gsl_test_rel(c.A, 0.035 * 0.0225, 1e-15, "a quarter along: both sizes are linear");
     gsl_test_rel(c.young, 1.75e11, 1e-15, "a quarter along: E");
     gsl_test_rel(c.density, 7000, 1e-15, "a quarter along: density");
@@ -63,7 +56,7 @@ static void rectangles(void)
     q.given.It = 3e-9;
     gsl_test(checked(&p, &q, &f) != STATUS_OK, "given at both: %s", f.text);
     section_taper_at(&p, &q, 0.25, &at);
-    gsl_test_rel(computed(&at).It, 1.5e-9, 1e-15, "a quarter along: a given constant");
+    gsl_test_rel(sections_computed(&at).It, 1.5e-9, 1e-15, "a quarter along: a given constant");
 }
 
 static void constants(void)
@@ -77,8 +70,8 @@ static void constants(void)
     gsl_test(checked(&p, &q, &f) != STATUS_OK, "constants: %s", f.text);
     ends_are_ends("constants", &p, &q);
     section_taper_at(&p, &q, 0.5, &at);
-    gsl_test_rel(computed(&at).Iy, 3, 1e-15, "half way: Iy");
-    gsl_test_rel(computed(&at).F[0], 0.75, 1e-15, "half way: F");
+    gsl_test_rel(sections_computed(&at).Iy, 3, 1e-15, "half way: Iy");
+    gsl_test_rel(sections_computed(&at).F[0], 0.75, 1e-15, "half way: F");
     memset(q.constants.F, 0, sizeof q.constants.F);
     gsl_test(checked(&p, &q, &f) != STATUS_REFUSED, "F at one end only is refused");
 }
@@ -93,7 +86,7 @@ static void walls(void)
     ends_are_ends("walls", &p, &wide);
     section_taper_at(&p, &wide, 0.5, &at);
     /* two flanges with 1.5 mm x 45 mm at 50 mm: Iw = 2 t b^3/12 (h/2)^2 */
-    gsl_test_rel(computed(&at).Iw, 2 * 1.5e-3 * pow(0.045, 3) / 12 * 0.05 * 0.05, 1e-12,
+    gsl_test_rel(sections_computed(&at).Iw, 2 * 1.5e-3 * pow(0.045, 3) / 12 * 0.05 * 0.05, 1e-12,
                  "half way: Iw");
     gsl_test(checked(&p, &deep, &f) != STATUS_REFUSED || strstr(f.text, "warps") == NULL,
              "flanges that leave their planes: %s", f.text);

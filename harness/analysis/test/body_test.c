@@ -77,15 +77,9 @@ static void add_frequencies(scene *s, int analysis, const char *stem)
 static status build(const double value[], scene *s, fault *f)
 {
     static const double y_axis[3] = {0.1, 1, 0.2}, end = 1;
-    section_spec spec;
     (void)f;
-    section_spec_init(&spec);
-    spec.kind = SECTION_RECTANGLE;
-    spec.young = 2.1e11;
-    spec.shear_modulus = 8e10;
+    section_spec spec = section_spec_rectangle(2.1e11, 8e10, 0.02, 0.004);
     spec.density = 7800;
-    spec.width = 0.02;
-    spec.height = 0.004;
     const int profile = scene_add_section(s, &spec), root = scene_add_node(s, 0, 0, 0),
               hub = scene_add_node(s, hub_at[0], hub_at[1], hub_at[2]),
               tip = scene_add_attached(s, hub, 0.5, 0.08, 0.02);

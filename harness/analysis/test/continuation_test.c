@@ -7,9 +7,11 @@
 #include <string.h>
 
 #include "elements/math/pi.h"
+#include "elements/test/sections.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/test/cells.h"
+#include "harness/test/scenes.h"
 
 static cell_result solve(const case_type *type, const char *formulation_text, int n,
                          const char *assignments)
@@ -57,18 +59,9 @@ static void limit_points(void)
 static status build_column(const double value[], scene *s, fault *f)
 {
     (void)f;
-    section_spec spec = section_spec_constants(1, 1);
-    section *c = &spec.constants;
-    c->A = 100;
-    c->Iz = 1;
-    c->Iy = 40;
-    c->Ip = 41;
-    c->It = 40;
-    const double y_axis[3] = {0, 1, 0}, end = -0.3;
-    const int profile = scene_add_section(s, &spec), root = scene_add_node(s, 0, 0, 0),
-              tip = scene_add_node(s, 1, 0, 0);
-    scene_add_member(s, root, tip, profile, y_axis);
-    scene_hold_all(s, root);
+    const section_spec spec = sections_of(100, 40, 1, 40);
+    const double end = -0.3;
+    const int tip = scenes_cantilever(s, &spec);
     scene_add_load(s, SCENE_FORCE, tip, -1, 0, 0);
     if (value[0] != 0) /* an unsymmetric pattern */
         scene_add_load(s, SCENE_MOMENT, tip, 0, 0, 0);

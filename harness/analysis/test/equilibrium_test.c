@@ -6,8 +6,10 @@
 #include <string.h>
 
 #include "elements/math/pi.h"
+#include "elements/test/sections.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/test/cells.h"
+#include "harness/test/scenes.h"
 
 static double value_of(const char *case_name, const char *chosen, int n,
                        const char *const assignment[], const char *quantity)
@@ -58,18 +60,10 @@ static status solve_column(scene_analysis_kind kind, double P, double M, double 
     model *m = NULL;
     formulation fm;
     solve_result r;
-    const double y_axis[3] = {0, 1, 0};
-    scene_init(&s, "column");
-    section_spec spec = section_spec_constants(1, 1);
+    section_spec spec = sections_of(1e6, 2, 1, 1);
     spec.density = 1;
-    spec.constants.A = 1e6;
-    spec.constants.Iy = 2;
-    spec.constants.Iz = spec.constants.It = 1;
-    spec.constants.Ip = 3;
-    const int profile = scene_add_section(&s, &spec), root = scene_add_node(&s, 0, 0, 0),
-              tip = scene_add_node(&s, 1, 0, 0);
-    scene_add_member(&s, root, tip, profile, y_axis);
-    scene_hold_all(&s, root);
+    scene_init(&s, "column");
+    const int tip = scenes_cantilever(&s, &spec);
     if (P != 0)
         scene_add_load(&s, SCENE_FORCE, tip, -P, 0, 0);
     if (M != 0)

@@ -5,10 +5,12 @@
 #include <string.h>
 
 #include "elements/math/pi.h"
+#include "elements/test/sections.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 #include "harness/test/ask.h"
 #include "harness/test/cells.h"
+#include "harness/test/scenes.h"
 
 /* Solves a case with n elements; assignments end with NULL. The caller frees the result. */
 static status run(const char *case_name, const char *key, int n, const char *const assignment[],
@@ -137,14 +139,9 @@ static void fold_warping(void)
  * are (2k - 1)^2 pi^2 EI/4. */
 static void straight_column(scene *s, int stations, const double path[])
 {
-    const double y[3] = {0, 1, 0};
-    section_spec spec = section_spec_constants(1, 1);
-    spec.constants =
-        (section){.young = 1, .shear_modulus = 1, .A = 1e8, .Iy = 4, .Iz = 1, .It = 10, .Ip = 5};
+    const section_spec spec = sections_of(1e8, 4, 1, 10);
     scene_init(s, "straight_column");
-    const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, 1, 0, 0);
-    scene_hold_all(s, root);
-    scene_add_member(s, root, tip, scene_add_section(s, &spec), y);
+    const int tip = scenes_cantilever(s, &spec);
     scene_add_load(s, SCENE_FORCE, tip, -1, 0, 0);
     scene_add_static(s, stations, path, 1);
 }

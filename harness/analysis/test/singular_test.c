@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/test/sections.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
@@ -15,9 +16,7 @@
 static void two_beams(scene *s)
 {
     const double y[3] = {0, 1, 0}, end = 1;
-    section_spec spec = section_spec_constants(1, 1);
-    spec.constants =
-        (section){.young = 1, .shear_modulus = 1, .A = 1e4, .Iy = 4, .Iz = 1, .It = 1, .Ip = 5};
+    const section_spec spec = sections_of(1e4, 4, 1, 1);
     scene_init(s, "two_beams");
     const int profile = scene_add_section(s, &spec);
     for (int i = 0; i < 2; i++) {
@@ -211,9 +210,7 @@ static void driver_that_moves_nothing(double half_angle, int condition_component
     solve_result r = {0};
     formulation fm;
     fault f = {""};
-    section_spec spec = section_spec_constants(1, 1);
-    spec.constants =
-        (section){.young = 1, .shear_modulus = 1, .A = 1e4, .Iy = 4, .Iz = 1, .It = 1, .Ip = 5};
+    const section_spec spec = sections_of(1e4, 4, 1, 1);
     scene_init(&s, "v");
     const int profile = scene_add_section(&s, &spec), apex = scene_add_node(&s, c, 0, 0),
               tip = scene_add_node(&s, c + 0.3, 0, 0);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "elements/math/pi.h"
+#include "elements/test/sections.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/study/cell.h"
 
@@ -16,16 +17,8 @@ static const parameter_type none[] = {{.name = NULL}};
 
 static int add_section(scene *s)
 {
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
-    spec.young = spec.shear_modulus = 1;
+    section_spec spec = sections_of(7e6, 2 * EI, EI, EI);
     spec.density = 1e-7; /* rho A = 0.7 kg/m */
-    spec.constants.A = 7e6;
-    spec.constants.Iy = 2 * EI;
-    spec.constants.Iz = EI;
-    spec.constants.Ip = 3 * EI;
-    spec.constants.It = EI;
     return scene_add_section(s, &spec);
 }
 

@@ -4,8 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "elements/test/sections.h"
 #include "harness/catalogue/registry.h"
 #include "harness/test/ask.h"
+#include "harness/test/scenes.h"
 
 enum { NONE, PUSHES, PULLS, BOTH_GROW, CRITICAL, BENT, WAYS };
 
@@ -14,17 +16,10 @@ static void column(int way, scene *s)
 {
     static const double stays[WAYS] = {0, -1.5, 2, -0.5, -4, 0}, zero = 0, one = 1,
                         ends[3] = {0, 0.5, 1};
-    const double y[3] = {0, 1, 0}, growing[3] = {0.5, 0.75, 1}, bent[3] = {0, 0.6, 1};
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
-    spec.young = spec.shear_modulus = 1;
-    spec.constants =
-        (section){.young = 1, .shear_modulus = 1, .A = 1e6, .Iy = 2, .Iz = 1, .It = 1, .Ip = 3};
+    const double growing[3] = {0.5, 0.75, 1}, bent[3] = {0, 0.6, 1};
+    const section_spec spec = sections_of(1e6, 2, 1, 1);
     scene_init(s, "column");
-    const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, 1, 0, 0);
-    scene_hold_all(s, root);
-    scene_add_member(s, root, tip, scene_add_section(s, &spec), y);
+    const int tip = scenes_cantilever(s, &spec);
     const int push = scene_add_load(s, SCENE_FORCE, tip, -1, 0, 0);
     if (way == BOTH_GROW) /* from a half to the whole */
         scene_set_factor(s, push, 3, ends, growing);

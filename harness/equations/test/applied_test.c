@@ -5,12 +5,14 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/test/sections.h"
 #include "harness/analysis/solve.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/loads.h"
 #include "harness/model/kinematics.h"
+#include "harness/test/scenes.h"
 
 enum { MOST = 60 };
 static const double along[3] = {0.6, 0.8, 0}, across[3] = {-0.8, 0.6, 0};
@@ -18,19 +20,10 @@ static const double along[3] = {0.6, 0.8, 0}, across[3] = {-0.8, 0.6, 0};
 /* A leg longer than the other: principal axes off the walls. */
 static int add_angle(scene *s)
 {
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_WALLS;
-    spec.young = 2e5;
-    spec.shear_modulus = 8e4;
+    static const double point[3][2] = {{0, 0}, {0.1, 0}, {0, 0.05}}, thickness[2] = {0.01, 0.01};
+    static const int ends[2][2] = {{0, 1}, {0, 2}};
+    section_spec spec = section_spec_walls(2e5, 8e4, 2, point, ends, thickness);
     spec.density = 3;
-    spec.points = 3;
-    spec.walls = 2;
-    spec.point[1][0] = 0.1;
-    spec.point[2][1] = 0.05;
-    spec.wall[0].to = 1;
-    spec.wall[1].to = 2;
-    spec.wall[0].thickness = spec.wall[1].thickness = 0.01;
     return scene_add_section(s, &spec);
 }
 
@@ -114,22 +107,15 @@ static void along_a_member(const char *name)
 static void cantilever(const element_type *type, int attached, int follower, double out[6])
 {
     static const double P[3] = {0.2, -0.3, 0.4}, edge[3] = {0.1, 0.2, -0.3};
-    const double y[3] = {0, 1, 0}, end = 1;
-    section_spec spec;
+    const double end = 1;
+    const section_spec spec = sections_of(1e4, 1, 1, 1);
     scene s;
     model *m = NULL;
     solve_result r = {0};
     fault f = {""};
-    section_spec_init(&spec);
-    spec.kind = SECTION_CONSTANTS;
-    spec.young = spec.shear_modulus = 1;
-    spec.constants =
-        (section){.young = 1, .shear_modulus = 1, .A = 1e4, .Iy = 1, .Iz = 1, .It = 1, .Ip = 2};
     scene_init(&s, "cantilever");
-    const int root = scene_add_node(&s, 0, 0, 0), tip = scene_add_node(&s, 1, 0, 0),
+    const int tip = scenes_cantilever(&s, &spec),
               where = attached ? scene_add_attached(&s, tip, 1 + edge[0], edge[1], edge[2]) : tip;
-    scene_hold_all(&s, root);
-    scene_add_member(&s, root, tip, scene_add_section(&s, &spec), y);
     scene_load *load = scene_load_at(&s, scene_add_load(&s, SCENE_FORCE, where, P[0], P[1], P[2]));
     load->follower = follower;
     if (!attached)
@@ -139,7 +125,7 @@ static void cantilever(const element_type *type, int attached, int follower, dou
     for (int i = 0; i < 6; i++)
         scene_add_quantity(&s, name[i], "1", path,
                            i < 3 ? scene_coordinate(tip, SCENE_UX + i)
-                                 : scene_reaction(root, SCENE_UX + i));
+                                 : scene_reaction(tip - 1, SCENE_UX + i));
     const model_request request = {&s, type, NULL, 4, 0};
     const int good = scene_validate(&s, &f) == STATUS_OK &&
                      model_alloc(&request, &m, &f) == STATUS_OK &&

@@ -9,10 +9,12 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "elements/test/sections.h"
 #include "harness/catalogue/registry.h"
 #include "harness/equations/advance.h"
 #include "harness/equations/linearise.h"
 #include "harness/model/kinematics.h"
+#include "harness/test/scenes.h"
 
 enum { MOST = 40 };
 
@@ -24,16 +26,12 @@ static const char *const turned_body_name[] = {"free turns", "three angles", "tw
 /* A beam from a clamp to a body, which a load acts on beside its own node. */
 static inline void beam_and_body(int body, scene_load_kind kind, scene *s)
 {
-    const double y[3] = {0, 1, 0}, x[3] = {1, 0, 0}, z[3] = {0, 0, 1}, end = 1;
+    const double x[3] = {1, 0, 0}, z[3] = {0, 0, 1}, end = 1;
     static const double sequence[3][3] = {{0, 0, 1}, {0.6, 0.8, 0}, {1, 0, 0}};
-    section_spec spec = section_spec_constants(1, 1);
-    spec.constants =
-        (section){.young = 1, .shear_modulus = 1, .A = 1e3, .Iy = 2, .Iz = 1, .It = 1, .Ip = 3};
+    const section_spec spec = sections_of(1e3, 2, 1, 1);
     scene_init(s, "beam_and_body");
-    const int root = scene_add_node(s, 0, 0, 0), node = scene_add_node(s, 1, 0, 0),
+    const int node = scenes_cantilever(s, &spec),
               edge = scene_add_attached(s, node, 1.3, -0.4, 0.25);
-    scene_hold_all(s, root);
-    scene_add_member(s, root, node, scene_add_section(s, &spec), y);
     if (body == THREE_ANGLES || body == TWO_ANGLES) {
         scene_node *n = scene_node_at(s, node);
         n->rotation = SCENE_ROTATION_SEQUENCE;

@@ -10,6 +10,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/test/nodes.h"
+#include "elements/test/sections.h"
 #include "elements/test/worst.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
@@ -36,7 +37,7 @@ static void test_section(const element_type *type, section *out)
                             ? section_spec_rectangle(210e9, 80.7e9, 0.0371, 0.0123)
                             : section_spec_walls(210e9, 80.7e9, 3, point, NULL, thickness);
     spec.density = 7850;
-    gsl_test(section_compute(&spec, out, NULL) != STATUS_OK, "%s: section", type->name);
+    *out = sections_computed(&spec);
     out->Iw = out->A * pow(0.2, 4); /* so that warping is as large as what is compared with it */
 }
 
