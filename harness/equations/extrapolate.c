@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/equations/loads.h"
@@ -22,20 +23,12 @@ static void lagrange(int count, const model_state *const at[], double path, doub
     }
 }
 
-static double combined(int count, const double weight[], const double value[])
-{
-    double sum = 0;
-    for (int i = 0; i < count; i++)
-        sum += weight[i] * value[i];
-    return sum;
-}
-
 /* Is the next value of something prescribed, value[count], near what the extrapolation takes it
  * to? */
 static int continues(int count, const double weight[], const double value[])
 {
     const double rounding = 1e-12 * (fabs(value[count]) + fabs(value[count - 1]) + fabs(value[0]));
-    return fabs(combined(count, weight, value) - value[count]) <=
+    return fabs(dense_dot(count, weight, value) - value[count]) <=
            bent * fabs(value[count] - value[count - 1]) + rounding;
 }
 

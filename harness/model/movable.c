@@ -3,19 +3,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "elements/math/dense.h"
+
 enum { N = 6 };
 
 /* Axes of turns have an error of a few eps: smaller parts of unit columns are taken for
  * round-off. */
 static const double round_off = 1e-12;
-
-static double dot(int n, const double a[], const double b[])
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
-}
 
 /* column <- column without its part along the `count` orthonormal vectors, twice for
  * orthogonality. */
@@ -23,7 +17,7 @@ static void take_out(int n, int count, double (*basis)[N], double column[])
 {
     for (int pass = 0; pass < 2; pass++)
         for (int k = 0; k < count; k++) {
-            const double part = dot(n, basis[k], column);
+            const double part = dense_dot(n, basis[k], column);
             for (int i = 0; i < n; i++)
                 column[i] -= part * basis[k][i];
         }
@@ -38,7 +32,7 @@ static int orthonormal(int n, int count, double (*column)[N], double (*basis)[N]
         int longest = -1;
         double size = round_off;
         for (int k = 0; k < count; k++) {
-            const double length = sqrt(dot(n, column[k], column[k]));
+            const double length = sqrt(dense_dot(n, column[k], column[k]));
             if (length > size) {
                 size = length;
                 longest = k;
@@ -66,7 +60,7 @@ static int unit_columns(int columns, const double *T, double length, double (*co
             size = fmax(size, fabs(part) / (i < 3 ? fmax(1, length) : 1));
             c[i] = i < 3 ? part / length : part;
         }
-        const double norm = sqrt(dot(N, c, c));
+        const double norm = sqrt(dense_dot(N, c, c));
         for (int i = 0; i < N; i++)
             c[i] /= norm > 0 ? norm : 1;
         count += size > round_off;
@@ -129,7 +123,7 @@ void movable_prescribed(int columns, const double *T, const double m[3], double 
         double *c = column[count];
         for (int i = 0; i < 3; i++)
             c[i] = T[(3 + i) * columns + k];
-        const double norm = sqrt(dot(3, c, c));
+        const double norm = sqrt(dense_dot(3, c, c));
         for (int i = 0; i < 3; i++)
             c[i] /= norm > 0 ? norm : 1;
         count += norm > round_off;

@@ -9,14 +9,6 @@
 #include "harness/solver/border.h"
 #include "harness/solver/refinement.h"
 
-static double dot(int n, const double a[], const double b[])
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
-}
-
 status bordered_alloc(tangent *t, counters *n, bordered *out, fault *f)
 {
     const border *b = &t->border;
@@ -35,8 +27,8 @@ status bordered_alloc(tangent *t, counters *n, bordered *out, fault *f)
     }
     for (int i = 0; i < b->count; i++)
         for (int j = 0; j < b->count; j++)
-            out->S[i * b->count + j] =
-                b->W[i * b->count + j] - dot(t->free, b->V + i * t->free, out->Z + j * t->free);
+            out->S[i * b->count + j] = b->W[i * b->count + j] -
+                                       dense_dot(t->free, b->V + i * t->free, out->Z + j * t->free);
     return b->count > 0 && dense_lu_regular(b->count, out->S, out->pivot) != 0
                ? fault_set(f, STATUS_SINGULAR,
                            "the structure is not held when the prescribed motion is released")
@@ -56,7 +48,7 @@ void bordered_solve(tangent *t, counters *n, const bordered *s, double x[])
     factor_solve(t->factor, x);
     n->solutions++;
     for (int i = 0; i < b->count; i++)
-        z[i] = x[b->coordinate[i]] - dot(t->free, b->V + i * t->free, x);
+        z[i] = x[b->coordinate[i]] - dense_dot(t->free, b->V + i * t->free, x);
     if (b->count > 0)
         dense_lu_solve(b->count, 1, s->S, s->pivot, z);
     for (int i = 0; i < b->count; i++) {

@@ -120,14 +120,6 @@ static status meet_conditions(newton *n, int count, const model_condition condit
     return STATUS_OK;
 }
 
-static double work_of(int n, const double force[], const double motion[])
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += force[i] * motion[i];
-    return sum;
-}
-
 /* dx of the condensed system. */
 static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
 {
@@ -138,7 +130,7 @@ static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
     TRY(factored);
     memcpy(n->dx, n->residual, (size_t)n->free * sizeof *n->dx);
     factor_solve(n->factor, n->dx);
-    n->energy = fabs(work_of(n->free, n->residual, n->dx));
+    n->energy = fabs(dense_dot(n->free, n->residual, n->dx));
     const status met = meet_conditions(n, lin->conditions, lin->condition, f);
     phases_lap(p, PHASE_SOLUTION);
     return met;

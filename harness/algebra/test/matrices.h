@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/dense.h"
 #include "elements/math/pi.h"
 #include "elements/test/random.h"
 #include "harness/algebra/sparse.h"
@@ -41,6 +42,16 @@ static inline sparse matrices_chain(int nodes, int size)
     }
     s.value = calloc((size_t)s.column[n] + 1, sizeof *s.value);
     return s;
+}
+
+/* x^T A x */
+static inline double matrices_energy(const sparse *A, const double x[])
+{
+    double *y = malloc((size_t)A->n * sizeof *y);
+    sparse_mul(A, x, y);
+    const double energy = dense_dot(A->n, x, y);
+    free(y);
+    return energy;
 }
 
 static inline void matrices_free(sparse *s)

@@ -99,6 +99,24 @@ static inline void bench_make(bench *b)
     b->t = (truths){.rows = 1, .row = b->row};
 }
 
+/* A second row, like the first one but for its value and what the caller changes. */
+static inline truth *bench_add_row(bench *b, double value)
+{
+    b->row[1] = b->row[0];
+    b->row[1].value = value;
+    b->t.rows = 2;
+    return &b->row[1];
+}
+
+/* A second row: the limit that was derived for the formulation. */
+static inline truth *bench_add_prediction(bench *b, double limit)
+{
+    truth *row = bench_add_row(b, limit);
+    row->kind = words[PREDICTED];
+    row->formulation = words[ELEMENT];
+    return row;
+}
+
 /* limit + size n^-order */
 static inline void bench_fill(bench *b, double limit, double size, double order)
 {

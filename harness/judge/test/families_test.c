@@ -56,6 +56,14 @@ static void add(bench *b, int which, double limit, double size)
     }
 }
 
+/* A red and a blue one agree on 3. */
+static void make_two(bench *b)
+{
+    make(b);
+    add(b, RED_ONE, 3, 0.1);
+    add(b, BLUE_ONE, 3, 0.1);
+}
+
 static void finish(bench *b)
 {
     truths_free(&b->t);
@@ -107,9 +115,7 @@ static void two_families(void)
 static void disputes(void)
 {
     bench b;
-    make(&b);
-    add(&b, RED_ONE, 3, 0.1);
-    add(&b, BLUE_ONE, 3, 0.1);
+    make_two(&b);
     add(&b, RED_TWO, 3.2, 0.1);
     add(&b, BLUE_TWO, 3.2, 0.1);
     gsl_test(!families_limit_of(&b.s, 0, 0).disputed, "two limits with two families each");
@@ -127,9 +133,7 @@ static void disputes(void)
 static void uncertain(void)
 {
     bench b;
-    make(&b);
-    add(&b, RED_ONE, 3, 0.1);
-    add(&b, BLUE_ONE, 3, 0.1);
+    make_two(&b);
     b.one[1].meshes = 1;
     gsl_test(families_limit_of(&b.s, 0, 0).families > 1, "one mesh shows no limit");
     b.one[1].meshes = MESHES;

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/judge/judgement.h"
 #include "harness/judge/reach.h"
+#include "harness/judge/test/bench.h"
 
 /* Counts of which each alone fails the gate. */
 static const size_t failing[] = {
@@ -78,34 +78,24 @@ static void failures_together(void)
     }
 }
 
-enum { MESHES = 7 };
 static const double truth_value = -4;
 
-typedef struct bench {
-    sweep s;
-    point p;
-    series one;
-    cell_result cell[MESHES];
-    quantity_result quantity[MESHES];
+/* A series with times, and the verdict that reach is asked of. */
+typedef struct timed {
+    bench b;
     cell_timing timing[MESHES];
-    truth row;
     verdict v;
-} bench;
+} timed;
 
-static void bench_make(bench *b)
+static void timed_make(timed *t)
 {
-    memset(b, 0, sizeof *b);
-    scene_init(&b->p.scene, "made_up");
-    scene_add_quantity(&b->p.scene, "load", "N", 0, scene_coordinate(0, SCENE_UX));
-    b->one = (series){.meshes = MESHES, .cell = b->cell, .timing = b->timing};
-    b->s = (sweep){.points = 1, .seriess = 1, .point = &b->p, .series = &b->one};
-    b->row.value = truth_value;
-    b->v.truth = &b->row;
-    for (int i = 0; i < MESHES; i++) {
-        b->cell[i].solve.quantities = 1;
-        b->cell[i].solve.quantity = &b->quantity[i];
-        b->timing[i].as_is.rounds = 1;
-    }
+    memset(t, 0, sizeof *t);
+    bench_make(&t->b);
+    t->b.row[0].value = truth_value;
+    t->b.one.timing = t->timing;
+    t->v.truth = &t->b.row[0];
+    for (int i = 0; i < MESHES; i++)
+        t->timing[i].as_is.rounds = 1;
 }
 
 static double uniform(void)
@@ -136,32 +126,32 @@ static int by_definition(const double error[MESHES], double level)
     return -1;
 }
 
-static int fastest_by_definition(const bench *b, int first)
+static int fastest_by_definition(const timed *t, int first)
 {
     int best = first;
     for (int i = first; first >= 0 && i < MESHES; i++)
-        if (b->timing[i].as_is.round[0] < b->timing[best].as_is.round[0])
+        if (t->timing[i].as_is.round[0] < t->timing[best].as_is.round[0])
             best = i;
     return best;
 }
 
 static void reached(void)
 {
-    bench b;
+    timed t;
     int wrong[REACH_LEVELS] = {0}, slow = 0, seen[MESHES + 1] = {0};
-    bench_make(&b);
+    timed_make(&t);
     for (int round = 0; round < 20000; round++) {
         double error[MESHES];
         throw_errors(error);
         for (int i = 0; i < MESHES; i++) {
-            b.quantity[i].value = truth_value + error[i] * fabs(truth_value);
-            error[i] = verdict_error(&b.p.scene.quantity[0], b.quantity[i].value, truth_value);
-            b.timing[i].as_is.round[0] = uniform();
+            t.b.quantity[i].value = truth_value + error[i] * fabs(truth_value);
+            error[i] = verdict_error(&t.b.p.scene.quantity[0], t.b.quantity[i].value, truth_value);
+            t.timing[i].as_is.round[0] = uniform();
         }
         for (int k = 0; k < REACH_LEVELS; k++) {
             const int right = by_definition(error, reach_level[k]);
-            wrong[k] += reach_mesh(&b.s, &b.v, reach_level[k]) != right;
-            slow += reach_fastest(&b.s, &b.v, reach_level[k]) != fastest_by_definition(&b, right);
+            wrong[k] += reach_mesh(&t.b.s, &t.v, reach_level[k]) != right;
+            slow += reach_fastest(&t.b.s, &t.v, reach_level[k]) != fastest_by_definition(&t, right);
             seen[right + 1]++;
         }
     }
@@ -170,7 +160,7 @@ static void reached(void)
     gsl_test_int(slow, 0, "wrong fastest meshes");
     for (int i = 0; i <= MESHES; i++)
         gsl_test(seen[i] == 0, "every answer occurs: %d (%d times)", i - 1, seen[i]);
-    scene_free(&b.p.scene);
+    bench_free(&t.b);
 }
 
 /* Levels as they are named in every table. */
@@ -183,26 +173,26 @@ static void levels(void)
 /* Nothing is reached without a truth, without the formulation, or by a value that is not there. */
 static void unreached(void)
 {
-    bench b;
-    bench_make(&b);
+    timed t;
+    timed_make(&t);
     for (int i = 0; i < MESHES; i++)
-        b.quantity[i].value = truth_value;
-    gsl_test_int(reach_mesh(&b.s, &b.v, 0.1), 0, "exact from the first mesh on");
-    b.v.truth = NULL;
-    gsl_test_int(reach_mesh(&b.s, &b.v, 0.1), -1, "no truth");
-    gsl_test_int(reach_fastest(&b.s, &b.v, 0.1), -1, "no truth, no fastest");
-    b.v.truth = &b.row;
-    strcpy(b.one.missing, "shear");
-    gsl_test_int(reach_mesh(&b.s, &b.v, 0.1), -1, "not offered");
-    b.one.missing[0] = '\0';
-    b.cell[MESHES - 1].solve.quantities = 0;
-    gsl_test_int(reach_mesh(&b.s, &b.v, 0.1), -1, "no value on the finest mesh");
-    b.cell[MESHES - 1].solve.quantities = 1;
-    b.cell[2].solve.quantities = 0;
-    gsl_test_int(reach_mesh(&b.s, &b.v, 0.1), 3, "no value on a coarse one: those behind it");
-    b.one.timing = NULL;
-    gsl_test_int(reach_fastest(&b.s, &b.v, 0.1), 3, "without times the coarsest");
-    scene_free(&b.p.scene);
+        t.b.quantity[i].value = truth_value;
+    gsl_test_int(reach_mesh(&t.b.s, &t.v, 0.1), 0, "exact from the first mesh on");
+    t.v.truth = NULL;
+    gsl_test_int(reach_mesh(&t.b.s, &t.v, 0.1), -1, "no truth");
+    gsl_test_int(reach_fastest(&t.b.s, &t.v, 0.1), -1, "no truth, no fastest");
+    t.v.truth = &t.b.row[0];
+    strcpy(t.b.one.missing, "shear");
+    gsl_test_int(reach_mesh(&t.b.s, &t.v, 0.1), -1, "not offered");
+    t.b.one.missing[0] = '\0';
+    t.b.cell[MESHES - 1].solve.quantities = 0;
+    gsl_test_int(reach_mesh(&t.b.s, &t.v, 0.1), -1, "no value on the finest mesh");
+    t.b.cell[MESHES - 1].solve.quantities = 1;
+    t.b.cell[2].solve.quantities = 0;
+    gsl_test_int(reach_mesh(&t.b.s, &t.v, 0.1), 3, "no value on a coarse one: those behind it");
+    t.b.one.timing = NULL;
+    gsl_test_int(reach_fastest(&t.b.s, &t.v, 0.1), 3, "without times the coarsest");
+    bench_free(&t.b);
 }
 
 int main(void)

@@ -36,11 +36,7 @@ static void with_prediction(bench *b, double limit)
     bench_make(b);
     b->one.noise = none; /* it was measured */
     bench_fill(b, limit, 0.7, 2);
-    b->row[1] = b->row[0];
-    b->row[1].kind = words[PREDICTED];
-    b->row[1].formulation = words[ELEMENT];
-    b->row[1].value = limit;
-    b->t.rows = 2;
+    bench_add_prediction(b, limit);
 }
 
 /* A limit that is known well: the prediction's own uncertainty, whatever the error's size and sign; a

@@ -14,10 +14,7 @@
 
 static double norm(int n, const double *a)
 {
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += a[i] * a[i];
-    return sqrt(sum);
+    return sqrt(dense_dot(n, a, a));
 }
 
 /* J and H along random directions, in a state that is far from rest. */

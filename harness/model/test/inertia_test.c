@@ -58,14 +58,6 @@ static int prepare(const element_type *type, const double options[], unsigned fe
     return made;
 }
 
-static double dot(int n, const double a[], const double b[])
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
-}
-
 /* Largest |A[i][j] - sign A[j][i]| beside the largest entry. */
 static double departure(int n, const double A[], double sign)
 {
@@ -89,7 +81,7 @@ static void at_rest(const subject *s, const node_state x[])
         for (int i = 0; i < s->coordinates; i++)
             v[i] = i % 7 == c;
         dense_mul_vec(s->coordinates, s->coordinates, M, v, Mv);
-        gsl_test_rel(dot(s->coordinates, v, Mv), mass, 1e-13, "%s: total mass, direction %d",
+        gsl_test_rel(dense_dot(s->coordinates, v, Mv), mass, 1e-13, "%s: total mass, direction %d",
                      s->name, c);
     }
 }
@@ -109,7 +101,7 @@ static void own_motion(const subject *s, const node_state x[], int rotary,
     dense_mul_vec(n, n, out->M, v, Mv);
     dense_mul_vec(n, n, out->G, v, Gv);
     if (rotary)
-        gsl_test_rel(dot(n, v, Mv) / 2, -*out->potential, 1e-13,
+        gsl_test_rel(dense_dot(n, v, Mv) / 2, -*out->potential, 1e-13,
                      "%s: the frame's own motion has the centrifugal energy", s->name);
     for (int i = 0; i < n; i++) {
         const double size = i % 7 < 3 ? 1 : s->length;
@@ -139,9 +131,9 @@ static void derivatives(const subject *s, const node_state x[], const inertia_ou
     dense_mul_vec(n, n, out->N, d, Nd);
     const double first = (V[0] - 8 * V[1] + 8 * V[3] - V[4]) / (12 * h);
     const double second = (-V[0] + 16 * V[1] - 30 * V[2] + 16 * V[3] - V[4]) / (12 * h * h);
-    gsl_test_rel(-dot(n, out->force, d), first, 1e-8,
+    gsl_test_rel(-dense_dot(n, out->force, d), first, 1e-8,
                  "%s: centrifugal force is the gradient of its potential", s->name);
-    gsl_test_rel(dot(n, d, Nd), second, 1e-6, "%s: and its stiffness the second derivative",
+    gsl_test_rel(dense_dot(n, d, Nd), second, 1e-6, "%s: and its stiffness the second derivative",
                  s->name);
 }
 
@@ -240,7 +232,7 @@ static double turning_inertia(const element_type *type, const double options[], 
     s->type->inertia(s->data, x, NULL, &(inertia_output){.M = M});
     dense_mul_vec(s->coordinates, s->coordinates, M, v, Mv);
     free(s->data);
-    return dot(s->coordinates, v, Mv);
+    return dense_dot(s->coordinates, v, Mv);
 }
 
 /* Of a rigid rotation: rho l (Ip, Iy, Iz), each about its own axis, beside what the masses on the
