@@ -71,7 +71,7 @@ static void add_path(const double value[], scene *s, int node)
                                                .step = step > 0 ? step : value[LENGTH] / 900,
                                                .step_max = step > 0 ? step : value[LENGTH] / 40,
                                                .constant_steps = step > 0});
-    scene_set_spin(s, loading, (scene_spin){.omega = {0, 0, value[OMEGA]}});
+    scene_set_rotating_frame(s, loading, (scene_rotating_frame){.omega = {0, 0, value[OMEGA]}});
     scene_add_quantity(s, "load_at_w", "N", loading, scene_factor_at())->least_order = 1.8;
     scene_add_quantity(s, "lateral", "m", loading, scene_coordinate(node, SCENE_UY))->least_order =
         1.8;

@@ -81,8 +81,8 @@ static status build(const double value[], scene *s, fault *f)
     const int steps = value[AXIS] > 0 ? 8 : 1;
     const int rotation = scene_add_rotation(
         s, intervals + 1, path, steps, 2 * MODES,
-        (scene_spin){.omega = {omega * sin(value[AXIS]), 0, omega * cos(value[AXIS])},
-                     .centre = {-value[HUB_RADIUS], 0, 0}});
+        (scene_rotating_frame){.omega = {omega * sin(value[AXIS]), 0, omega * cos(value[AXIS])},
+                               .centre = {-value[HUB_RADIUS], 0, 0}});
     add_frequencies(s, rotation, omega, intervals > 0, value[AXIS] > 1.5);
     scene_quantity *growth = scene_add_quantity(s, "growth", "1", rotation, scene_growth());
     growth->near_zero = 1;

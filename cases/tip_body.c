@@ -47,8 +47,8 @@ static status build(const double value[], scene *s, fault *f)
                                 .inertia = {0, inertia, inertia}});
     const int modal = scene_add_modal(s, SCENE_NONE);
     add_frequencies(s, modal, "rest", SCENE_BENDING_Z);
-    const int rotation =
-        scene_add_rotation(s, 1, &path, 1, 2 * MODES, (scene_spin){.omega = {0, 0, value[OMEGA]}});
+    const int rotation = scene_add_rotation(s, 1, &path, 1, 2 * MODES,
+                                            (scene_rotating_frame){.omega = {0, 0, value[OMEGA]}});
     add_frequencies(s, rotation, "flap", SCENE_BENDING_Z);
     add_frequencies(s, rotation, "lag", SCENE_BENDING_Y);
     cantilever_quantity(s, "stretch", "1", rotation, tip, SCENE_UX, 1, 0);

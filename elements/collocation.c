@@ -176,10 +176,10 @@ static int strains(const double value[])
     return OUTER;
 }
 
-static status inertia(const element_data *d, const node_state x[], const element_spin *spin,
-                      inertia_output *out)
+static status inertia(const element_data *d, const node_state x[],
+                      const element_rotating_frame *frame, inertia_output *out)
 {
-    return lumped_element(&d->mass, 2, x, spin, out);
+    return lumped_element(&d->mass, 2, x, frame, out);
 }
 
 const element_type element_collocation = {

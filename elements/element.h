@@ -94,10 +94,10 @@ typedef struct node_state {
 } node_state;
 
 /* A frame that turns steadily. */
-typedef struct element_spin {
+typedef struct element_rotating_frame {
     double omega[3];  /* angular velocity [rad/s] */
     double centre[3]; /* a point of its axis [m] */
-} element_spin;
+} element_rotating_frame;
 
 typedef struct strain_output {
     double *e;       /* [strains] [m] */
@@ -116,7 +116,7 @@ typedef struct stress_output {
 
 typedef struct inertia_output {
     double *M; /* [7n x 7n] mass matrix: translations [kg] */
-    /* In a turning frame; zero without one. */
+    /* In a rotating frame; zero without one. */
     double *potential; /* [1] centrifugal: -1/2 int |Omega x r|^2 dm [J] */
     double *force;     /* [7n] centrifugal, outward: -d potential/dx [N, N m, N m^2] */
     double *N;         /* [7n x 7n] d2 potential/dx2, symmetric: centrifugal softening */
@@ -161,8 +161,8 @@ typedef struct element_type {
     void (*rest)(const element_data *, double inner[]);
     /* G[strains x strains] = derivative of C at e = 0 in the direction of the prestress sigma: sum sigma_i Q_i. NULL: zero. */
     void (*geometric)(const element_data *, const double sigma[], double G[]);
-    /* spin NULL: the frame is at rest. */
-    status (*inertia)(const element_data *, const node_state x[], const element_spin *,
+    /* frame NULL: the frame is at rest. */
+    status (*inertia)(const element_data *, const node_state x[], const element_rotating_frame *,
                       inertia_output *);
 } element_type;
 

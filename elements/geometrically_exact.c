@@ -65,10 +65,10 @@ static void geometric(const element_data *d, const double sigma[], double G[])
     exact_stiffness_geometric(&d->stiffness, sigma, G);
 }
 
-static status inertia(const element_data *d, const node_state x[], const element_spin *spin,
-                      inertia_output *out)
+static status inertia(const element_data *d, const node_state x[],
+                      const element_rotating_frame *frame, inertia_output *out)
 {
-    return lumped_element(&d->mass, d->nodes, x, spin, out);
+    return lumped_element(&d->mass, d->nodes, x, frame, out);
 }
 
 const element_type element_geometrically_exact = {

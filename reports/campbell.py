@@ -57,7 +57,7 @@ def draw_across(site, look):
 
 
 def draw_along(site, look):
-    """An unsymmetric shaft: frequencies in the turning frame and the rate of growth between its critical speeds."""
+    """An unsymmetric shaft: frequencies in the rotating frame and the rate of growth between its critical speeds."""
     mesh = finest(look, CASE, ALONG, KEY)
     if mesh is None or "whirl_1_curve" not in mesh.curves:
         return None
@@ -74,7 +74,7 @@ def draw_along(site, look):
     top.plot([10] * 4, [truth(look, CASE, ALONG, f"whirl_{i}") for i in (1, 2, 3, 4)], "ko", markersize=4, label="exact")
     top.annotate("unstable", (1.5 * first, 0.83 * top.get_ylim()[1]), ha="center", fontsize=8, color="0.4")
     top.set_ylim(0, None)
-    top.set_ylabel("frequency in the turning frame")
+    top.set_ylabel("frequency in the rotating frame")
     bottom.set_ylabel("growth")
     bottom.set_xlabel("angular velocity Ω [√(EI/(ρA L⁴))]")
     top.legend(fontsize=8, loc="upper left")

@@ -46,9 +46,9 @@ int scene_add_static(scene *s, int stations, const double path[], int steps_betw
 }
 
 int scene_add_rotation(scene *s, int stations, const double path[], int steps_between, int modes,
-                       scene_spin spin)
+                       scene_rotating_frame frame)
 {
-    const scene_walk walk = {path_of(s, stations, path), steps_between, modes, spin};
+    const scene_walk walk = {path_of(s, stations, path), steps_between, modes, frame};
     return add_walk(s, SCENE_ROTATION, walk);
 }
 
@@ -76,13 +76,13 @@ int scene_add_continuation(scene *s, int stations, const double path[], scene_co
     return i;
 }
 
-void scene_set_spin(scene *s, int analysis, scene_spin spin)
+void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame)
 {
     if (analysis < 0) /* memory ran out */
         return;
     scene_analysis *a = &s->analysis[analysis];
-    assert(scene_spin_of(a) != NULL);
-    *(a->kind == SCENE_CONTINUATION ? &a->of.continuation.spin : &a->of.walk.spin) = spin;
+    assert(scene_rotating_frame_of(a) != NULL);
+    *(a->kind == SCENE_CONTINUATION ? &a->of.continuation.frame : &a->of.walk.frame) = frame;
 }
 
 const scene_walk *scene_walk_of(const scene_analysis *a)
@@ -120,15 +120,15 @@ const scene_path *scene_path_of(const scene_analysis *a)
     return NULL;
 }
 
-const scene_spin *scene_spin_of(const scene_analysis *a)
+const scene_rotating_frame *scene_rotating_frame_of(const scene_analysis *a)
 {
     if (a->kind == SCENE_CONTINUATION)
-        return &a->of.continuation.spin;
-    return scene_path_of(a) != NULL ? &a->of.walk.spin : NULL;
+        return &a->of.continuation.frame;
+    return scene_path_of(a) != NULL ? &a->of.walk.frame : NULL;
 }
 
-int scene_spins(const scene_analysis *a)
+int scene_rotates(const scene_analysis *a)
 {
-    const scene_spin *spin = scene_spin_of(a);
-    return spin != NULL && (spin->omega[0] != 0 || spin->omega[1] != 0 || spin->omega[2] != 0);
+    const scene_rotating_frame *frame = scene_rotating_frame_of(a);
+    return frame != NULL && (frame->omega[0] != 0 || frame->omega[1] != 0 || frame->omega[2] != 0);
 }

@@ -37,17 +37,17 @@ typedef struct scene_path {
 
 /* The scene's axes turn.  Along a static path or a continuation this is constant, in a stationary
  * rotation it is times the path parameter.  Zero: at rest. */
-typedef struct scene_spin {
+typedef struct scene_rotating_frame {
     double omega[3];  /* angular velocity [rad/s] */
     double centre[3]; /* a point on its axis [m] */
-} scene_spin;
+} scene_rotating_frame;
 
 /* Static, rotation. */
 typedef struct scene_walk {
     scene_path path;
     int steps_between; /* first try of load steps from one station to the next; >= 1 */
     int modes;         /* rotation: how many to look for at first, of all families together */
-    scene_spin spin;
+    scene_rotating_frame frame;
 } scene_walk;
 
 typedef struct scene_compliance {
@@ -71,7 +71,7 @@ typedef struct scene_control {
 
 typedef struct scene_continuation {
     scene_path path;
-    scene_spin spin;
+    scene_rotating_frame frame;
     scene_control control;
 } scene_continuation;
 
@@ -93,17 +93,17 @@ int scene_add_modal(scene *s, int follows);
 int scene_add_compliance(scene *s, int follows, scene_compliance what);
 int scene_add_continuation(scene *s, int stations, const double path[], scene_control control);
 int scene_add_rotation(scene *s, int stations, const double path[], int steps_between, int modes,
-                       scene_spin spin);
+                       scene_rotating_frame frame);
 /* Turns the axes of a static path or a continuation. */
-void scene_set_spin(scene *s, int analysis, scene_spin spin);
+void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame);
 
 const scene_walk *scene_walk_of(const scene_analysis *a);
 const scene_compliance *scene_compliance_of(const scene_analysis *a);
 const scene_continuation *scene_continuation_of(const scene_analysis *a);
 /* NULL: the kind has none. */
 const scene_path *scene_path_of(const scene_analysis *a);
-const scene_spin *scene_spin_of(const scene_analysis *a);
+const scene_rotating_frame *scene_rotating_frame_of(const scene_analysis *a);
 /* Do the axes turn? */
-int scene_spins(const scene_analysis *a);
+int scene_rotates(const scene_analysis *a);
 
 #endif

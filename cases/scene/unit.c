@@ -117,11 +117,11 @@ static void scale_load(scene_load *load, double x)
 static void scale_analysis(scene_analysis *a, double x)
 {
     if (a->kind == SCENE_STATIC || a->kind == SCENE_ROTATION)
-        scale_vector(a->of.walk.spin.centre, x);
+        scale_vector(a->of.walk.frame.centre, x);
     if (a->kind != SCENE_CONTINUATION)
         return;
     scene_continuation *c = &a->of.continuation;
-    scale_vector(c->spin.centre, x);
+    scale_vector(c->frame.centre, x);
     for (int i = 0; i < c->path.stations; i++) /* of the control coordinate, a translation */
         c->path.value[i] *= x;
     if (!c->control.by_arc) {

@@ -37,10 +37,10 @@ static status check_path(const scene_analysis *a, int i, fault *f)
     return STATUS_OK;
 }
 
-static status check_spin(const scene_spin *spin, int i, fault *f)
+static status check_frame(const scene_rotating_frame *frame, int i, fault *f)
 {
     for (int k = 0; k < 3; k++)
-        if (!isfinite(spin->omega[k]) || !isfinite(spin->centre[k]))
+        if (!isfinite(frame->omega[k]) || !isfinite(frame->centre[k]))
             return fault_set(f, STATUS_REFUSED,
                              "analysis %d: its angular velocity is not a number; give finite "
                              "components, and a finite point of its axis",
@@ -66,7 +66,7 @@ static status check_potential(const scene *s, int i, fault *f)
 {
     static const char *const what[] = {[SCENE_BUCKLING] = "critical loads",
                                        [SCENE_MODAL] = "frequencies about a loaded state",
-                                       [SCENE_ROTATION] = "frequencies in a turning frame"};
+                                       [SCENE_ROTATION] = "frequencies in a rotating frame"};
     for (int k = 0; k < s->loads; k++)
         if (s->load[k].follower || s->load[k].kind == SCENE_DISTRIBUTED_MOMENT)
             return fault_set(
@@ -88,8 +88,8 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
             "analysis %d: it follows one that does not come before it; name an earlier one", i);
     if (scene_path_of(a) != NULL)
         TRY(check_path(a, i, f));
-    if (scene_spin_of(a) != NULL)
-        TRY(check_spin(scene_spin_of(a), i, f));
+    if (scene_rotating_frame_of(a) != NULL)
+        TRY(check_frame(scene_rotating_frame_of(a), i, f));
     if (a->kind == SCENE_BUCKLING || a->kind == SCENE_ROTATION ||
         (a->kind == SCENE_MODAL && a->follows != SCENE_NONE))
         TRY(check_potential(s, i, f));

@@ -61,7 +61,7 @@ static void everything(scene *s)
     scene_add_modal(s, SCENE_NONE);
     scene_add_compliance(s, SCENE_NONE, (scene_compliance){.node = 0});
     scene_add_continuation(s, 1, &end, (scene_control){.node = 0});
-    scene_add_rotation(s, 1, &end, 1, 0, (scene_spin){.omega = {0, 0, 1}});
+    scene_add_rotation(s, 1, &end, 1, 0, (scene_rotating_frame){.omega = {0, 0, 1}});
     const scene_extract what[] = {
         [SCENE_COORDINATE] = scene_coordinate(0, 0),
         [SCENE_REACTION] = scene_reaction(0, 0),

@@ -54,7 +54,7 @@ static void no_station(scene *s)
 
 static void spin(scene *s)
 {
-    scene_set_spin(s, 0, (scene_spin){.omega = {0, 0, NAN}});
+    scene_set_rotating_frame(s, 0, (scene_rotating_frame){.omega = {0, 0, NAN}});
 }
 
 static void two_names(scene *s)

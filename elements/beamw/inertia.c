@@ -65,7 +65,7 @@ typedef struct configuration {
     double mean[3][3];      /* m_k */
     double e[8], J[8 * N], s[8];
     const node_state *x;
-    const element_spin *spin;
+    const element_rotating_frame *frame;
     inertia_output *out;
 } configuration;
 
@@ -91,7 +91,7 @@ static void linear_part(const configuration *c, const interpolation *y, moving_v
             } else if (y->director == POSITION) {
                 T[N * i + NODE_COORDINATES * node + i] = weight[node];
                 v->y[i] +=
-                    weight[node] * (c->x[node].r[i] - (c->spin != NULL ? c->spin->centre[i] : 0));
+                    weight[node] * (c->x[node].r[i] - (c->frame != NULL ? c->frame->centre[i] : 0));
             }
         }
 }
@@ -140,7 +140,7 @@ static void add_interpolated(configuration *c, const interpolation *y)
     }
     moving_rotation_gradient(fixed[0], TP, N, T);
     moving_rotation_gradient(fixed[1], TQ, N, T);
-    moving_add(&v, c->spin, N, c->out, F);
+    moving_add(&v, c->frame, N, c->out, F);
     if (c->out->N == NULL)
         return;
     moving_rotation_stiffness(F, fixed[0], TP, N, c->out->N);
@@ -150,7 +150,7 @@ static void add_interpolated(configuration *c, const interpolation *y)
             add_curvature(c, F, k, y->sign[k], y->along[k], gradient[k]);
 }
 
-/* A twist whose rate has a mass and which no turning frame acts on. */
+/* A twist whose rate has a mass and which no rotating frame acts on. */
 static void add_scalar(const configuration *c, double mass, const double row[N])
 {
     if (c->out->M != NULL)
@@ -198,10 +198,10 @@ static void add_point(configuration *c, const element_data *d, int g)
                                              .sign = {1, 0, 0}});
 }
 
-static void add_consistent(const element_data *d, const node_state x[2], const element_spin *spin,
-                           inertia_output *out)
+static void add_consistent(const element_data *d, const node_state x[2],
+                           const element_rotating_frame *frame, inertia_output *out)
 {
-    configuration c = {.x = x, .spin = spin, .out = out};
+    configuration c = {.x = x, .frame = frame, .out = out};
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++) {
             for (int node = 0; node < 2; node++)
@@ -211,7 +211,7 @@ static void add_consistent(const element_data *d, const node_state x[2], const e
     beamw_modes_strain(d->l0, x, &(strain_output){.e = c.e, .J = c.J});
     for (int g = 0; g < BEAMW_GAUSS; g++)
         add_point(&c, d, g);
-    if (out->N == NULL || spin == NULL)
+    if (out->N == NULL || frame == NULL)
         return;
     double H[N * N];
     beamw_modes_strain(d->l0, x, &(strain_output){.s = c.s, .H = H});
@@ -219,14 +219,14 @@ static void add_consistent(const element_data *d, const node_state x[2], const e
         out->N[i] -= H[i];
 }
 
-status beamw_inertia_of(const element_data *d, const node_state x[], const element_spin *spin,
-                        inertia_output *out)
+status beamw_inertia_of(const element_data *d, const node_state x[],
+                        const element_rotating_frame *frame, inertia_output *out)
 {
     moving_clear(N, out);
     if (d->share < 1)
         for (int node = 0; node < 2; node++)
-            lumped_add(&d->lumped, 1 - d->share, &x[node], spin, NODE_COORDINATES * node, N, out);
+            lumped_add(&d->lumped, 1 - d->share, &x[node], frame, NODE_COORDINATES * node, N, out);
     if (d->share > 0)
-        add_consistent(d, x, spin, out);
+        add_consistent(d, x, frame, out);
     return STATUS_OK;
 }

@@ -16,7 +16,7 @@ typedef enum beamw_inertia_kind {
 void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_kind kind,
                            const beamw_stiffness_fields *fields, element_data *d);
 
-status beamw_inertia_of(const element_data *d, const node_state x[], const element_spin *spin,
-                        inertia_output *out);
+status beamw_inertia_of(const element_data *d, const node_state x[],
+                        const element_rotating_frame *frame, inertia_output *out);
 
 #endif

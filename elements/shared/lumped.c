@@ -23,20 +23,20 @@ void lumped_directors(const double rotary[3], double j[3])
         j[k] = half - rotary[k];
 }
 
-static void add_translation(double mass, const node_state *x, const element_spin *spin, int at,
-                            int n, inertia_output *out)
+static void add_translation(double mass, const node_state *x, const element_rotating_frame *frame,
+                            int at, int n, inertia_output *out)
 {
     static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     moving_vector v = {.mass = mass, .at = at, .columns = 3, .T = identity};
     double F[3];
-    if (spin != NULL)
+    if (frame != NULL)
         for (int i = 0; i < 3; i++)
-            v.y[i] = x->r[i] - spin->centre[i];
-    moving_add(&v, spin, n, out, F);
+            v.y[i] = x->r[i] - frame->centre[i];
+    moving_add(&v, frame, n, out, F);
 }
 
 static void add_rotation(const lumped_mass *l, double share, const node_state *x,
-                         const element_spin *spin, int at, int n, inertia_output *out)
+                         const element_rotating_frame *frame, int at, int n, inertia_output *out)
 {
     double j[3];
     lumped_directors(l->rotary, j);
@@ -48,15 +48,15 @@ static void add_rotation(const lumped_mass *l, double share, const node_state *x
                                  .columns = 3,
                                  .T = T};
         moving_rotation_gradient(v.y, 0, 3, T);
-        moving_add(&v, spin, n, out, F);
+        moving_add(&v, frame, n, out, F);
         if (out->N != NULL)
             moving_rotation_stiffness(F, v.y, at + 3, n, out->N);
     }
 }
 
-/* Warping moves the section along its normal by -omega a, in a turning frame away from the axis: a vector a n_X of mass rho Iw. */
-static void add_warping(double mass, const node_state *x, const element_spin *spin, int at, int n,
-                        inertia_output *out)
+/* Warping moves the section along its normal by -omega a, in a rotating frame away from the axis: a vector a n_X of mass rho Iw. */
+static void add_warping(double mass, const node_state *x, const element_rotating_frame *frame,
+                        int at, int n, inertia_output *out)
 {
     enum { COLUMNS = 4, A = 3 };
     const double normal[3] = {x->R[0], x->R[3], x->R[6]};
@@ -67,7 +67,7 @@ static void add_warping(double mass, const node_state *x, const element_spin *sp
         T[COLUMNS * i + A] = normal[i];
     }
     moving_rotation_gradient(v.y, 0, COLUMNS, T);
-    moving_add(&v, spin, n, out, F);
+    moving_add(&v, frame, n, out, F);
     if (out->N == NULL)
         return;
     moving_rotation_stiffness(F, v.y, at + 3, n, out->N);
@@ -78,14 +78,14 @@ static void add_warping(double mass, const node_state *x, const element_spin *sp
     }
 }
 
-void lumped_add(const lumped_mass *l, double share, const node_state *x, const element_spin *spin,
-                int at, int n, inertia_output *out)
+void lumped_add(const lumped_mass *l, double share, const node_state *x,
+                const element_rotating_frame *frame, int at, int n, inertia_output *out)
 {
-    add_translation(share * l->mass, x, spin, at, n, out);
+    add_translation(share * l->mass, x, frame, at, n, out);
     if (l->turns)
-        add_rotation(l, share, x, spin, at, n, out);
+        add_rotation(l, share, x, frame, at, n, out);
     if (l->warping > 0)
-        add_warping(share * l->warping, x, spin, at, n, out);
+        add_warping(share * l->warping, x, frame, at, n, out);
     if (!l->turns && out->M != NULL)
         for (int i = 0; i < 3; i++)
             for (int k = 0; k < 3; k++)
@@ -94,13 +94,14 @@ void lumped_add(const lumped_mass *l, double share, const node_state *x, const e
 }
 
 status lumped_element(const lumped_mass *whole, int nodes, const node_state x[],
-                      const element_spin *spin, inertia_output *out)
+                      const element_rotating_frame *frame, inertia_output *out)
 {
     static const double two[] = {0.5, 0.5}, three[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
     const int n = NODE_COORDINATES * nodes;
     assert(nodes == 2 || nodes == 3);
     moving_clear(n, out);
     for (int k = 0; k < nodes; k++)
-        lumped_add(whole, (nodes == 2 ? two : three)[k], &x[k], spin, NODE_COORDINATES * k, n, out);
+        lumped_add(whole, (nodes == 2 ? two : three)[k], &x[k], frame, NODE_COORDINATES * k, n,
+                   out);
     return STATUS_OK;
 }

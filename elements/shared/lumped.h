@@ -15,12 +15,12 @@ typedef struct lumped_mass {
 lumped_mass lumped_of(const section *c, unsigned features, double length);
 
 /* Adds `share` of it at a node whose coordinates begin at `at` of n. */
-void lumped_add(const lumped_mass *l, double share, const node_state *x, const element_spin *spin,
-                int at, int n, inertia_output *out);
+void lumped_add(const lumped_mass *l, double share, const node_state *x,
+                const element_rotating_frame *frame, int at, int n, inertia_output *out);
 
 /* An element of two or three nodes that carry its mass: a half each, or Simpson's shares. */
 status lumped_element(const lumped_mass *whole, int nodes, const node_state x[],
-                      const element_spin *spin, inertia_output *out);
+                      const element_rotating_frame *frame, inertia_output *out);
 
 /* Masses j of the three unit vectors of a section that have the rotary inertia diag(Ip, Iy, Iz) = sum_k j_k (1 - e_k e_k^T). */
 void lumped_directors(const double rotary[3], double j[3]);

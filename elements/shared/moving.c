@@ -31,17 +31,17 @@ static void project(const double omega[3], const double y[3], double Py[3])
     vec3_cross(wy, omega, Py);
 }
 
-void moving_add(const moving_vector *v, const element_spin *spin, int n, inertia_output *out,
-                double F[3])
+void moving_add(const moving_vector *v, const element_rotating_frame *frame, int n,
+                inertia_output *out, double F[3])
 {
     static const double none[3] = {0, 0, 0};
-    const double *omega = spin != NULL ? spin->omega : none;
+    const double *omega = frame != NULL ? frame->omega : none;
     F[0] = F[1] = F[2] = 0;
-    if (spin != NULL)
+    if (frame != NULL)
         project(omega, v->y, F);
     for (int i = 0; i < 3; i++)
         F[i] *= v->mass;
-    if (out->potential != NULL && spin != NULL)
+    if (out->potential != NULL && frame != NULL)
         *out->potential -= vec3_dot(F, v->y) / 2;
     for (int j = 0; j < v->columns; j++) {
         double t[3], P[3], coriolis[3];

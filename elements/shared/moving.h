@@ -17,8 +17,8 @@ typedef struct moving_vector {
 void moving_clear(int n, inertia_output *out);
 /* Adds a mass, but for the second derivatives of y, which are the caller's: N -= F . d2y/dx2 with F[3] the centrifugal force
  * (zero where no frame turns). */
-void moving_add(const moving_vector *v, const element_spin *spin, int n, inertia_output *out,
-                double F[3]);
+void moving_add(const moving_vector *v, const element_rotating_frame *frame, int n,
+                inertia_output *out, double F[3]);
 /* N -= F . d2v/dtheta2 of a vector v fixed to the node whose rotations begin at coordinate `at` (exponential chart). */
 void moving_rotation_stiffness(const double F[3], const double v[3], int at, int n, double N[]);
 /* T[3 x columns] += -v~ in columns at .. at + 2: a vector v fixed to a node turns with it. */

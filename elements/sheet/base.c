@@ -42,8 +42,8 @@ void sheet_base_strain(const element_data *d, const node_state x[], strain_outpu
     sheet_strains_evaluate(&data_of(d)->table, x, out);
 }
 
-status sheet_base_inertia(const element_data *d, const node_state x[], const element_spin *spin,
-                          inertia_output *out)
+status sheet_base_inertia(const element_data *d, const node_state x[],
+                          const element_rotating_frame *frame, inertia_output *out)
 {
-    return lumped_element(&data_of(d)->lumped, 2, x, spin, out);
+    return lumped_element(&data_of(d)->lumped, 2, x, frame, out);
 }

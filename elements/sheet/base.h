@@ -32,7 +32,7 @@ status sheet_base_prepare(const element_request *request, sheet_base_shear shear
 
 /* Members of element_type; the data begin with sheet_base_data. */
 void sheet_base_strain(const element_data *d, const node_state x[], strain_output *out);
-status sheet_base_inertia(const element_data *d, const node_state x[], const element_spin *spin,
-                          inertia_output *out);
+status sheet_base_inertia(const element_data *d, const node_state x[],
+                          const element_rotating_frame *frame, inertia_output *out);
 
 #endif

@@ -96,7 +96,7 @@ static status iterate(solver *s, int wanted, fault *f)
             return worst <= bearable_residual
                        ? STATUS_OK
                        : fault_set(f, STATUS_NOT_CONVERGED,
-                                   "frequencies in a turning frame: residual %.1e with %d vectors",
+                                   "frequencies in a rotating frame: residual %.1e with %d vectors",
                                    worst, s->basis.count);
     }
 }
@@ -250,7 +250,7 @@ static status find(solver *s, fault *f)
     for (int attempt = 0; lost > 0; attempt++) {
         if (attempt == MAX_STARTS)
             return fault_set(f, STATUS_NOT_CONVERGED,
-                             "%d frequencies in a turning frame are missing", lost);
+                             "%d frequencies in a rotating frame are missing", lost);
         TRY(start(s, first < n ? first : n, f));
         TRY(iterate(s, s->p->wanted, f));
         TRY(missing(s, s->p->wanted, &lost, f));
@@ -268,7 +268,7 @@ static status solve(solver *s, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory for modes");
     if (s->out->negative < 0)
         return fault_set(f, STATUS_REFUSED,
-                         "frequencies in a turning frame need a symmetric stiffness: no moments "
+                         "frequencies in a rotating frame need a symmetric stiffness: no moments "
                          "about fixed axes");
     if (s->out->negative > 0)
         TRY(find_shift(s, f));

@@ -8,12 +8,12 @@
 #include "harness/equations/linear.h"
 #include "harness/equations/loads.h"
 #include "harness/solver/context.h"
-#include "harness/solver/linear_forms.h"
 #include "harness/solver/linear_system.h"
+#include "harness/solver/quadratic_forms.h"
 
 /* What grows with the factor, and what stays. */
 typedef struct prestresses {
-    linear_forms growing, staying;
+    quadratic_forms growing, staying;
     int stays;         /* 0: nothing does */
     sparse G, of_stay; /* geometric stiffness of both */
     double *product;   /* [free] */
@@ -22,21 +22,21 @@ typedef struct prestresses {
 static double stiffness_form(void *context, const double mode[])
 {
     prestresses *p = context;
-    const double K = linear_forms_stiffness(&p->growing, mode);
-    return p->stays ? K + linear_forms_geometric(&p->staying, mode) : K;
+    const double K = quadratic_forms_stiffness(&p->growing, mode);
+    return p->stays ? K + quadratic_forms_geometric(&p->staying, mode) : K;
 }
 
 static double stiffness_rounding(void *context, const double mode[])
 {
     prestresses *p = context;
-    const double K = linear_forms_stiffness_rounding(&p->growing, mode);
-    return p->stays ? K + linear_forms_geometric_rounding(&p->staying, mode) : K;
+    const double K = quadratic_forms_stiffness_rounding(&p->growing, mode);
+    return p->stays ? K + quadratic_forms_geometric_rounding(&p->staying, mode) : K;
 }
 
 static void stiffness_product(void *context, const double mode[], double y[])
 {
     prestresses *p = context;
-    linear_forms_product(&p->growing, mode, y);
+    quadratic_forms_product(&p->growing, mode, y);
     if (!p->stays)
         return;
     sparse_mul(&p->of_stay, mode, p->product);
@@ -47,13 +47,13 @@ static void stiffness_product(void *context, const double mode[], double y[])
 static double geometric_form(void *context, const double mode[])
 {
     prestresses *p = context;
-    return linear_forms_geometric(&p->growing, mode);
+    return quadratic_forms_geometric(&p->growing, mode);
 }
 
 static double geometric_rounding(void *context, const double mode[])
 {
     prestresses *p = context;
-    return linear_forms_geometric_rounding(&p->growing, mode);
+    return quadratic_forms_geometric_rounding(&p->growing, mode);
 }
 
 /* Moves the modes into the outcome, with lambda = 1/mu. */
@@ -92,9 +92,9 @@ static status split_stays(analysis_context *c, linear_system *s, prestresses *p,
     p->product = calloc((size_t)size.free + 1, sizeof *p->product);
     if (p->product == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for loads that stay");
-    TRY(linear_forms_alloc(c->model, &s->K, &p->staying, f));
+    TRY(quadratic_forms_alloc(c->model, &s->K, &p->staying, f));
     TRY(linear_system_solve(c, s, 0, p->staying.load_x, f));
-    TRY(linear_forms_load(&p->staying, 0, f));
+    TRY(quadratic_forms_load(&p->staying, 0, f));
     TRY(sparse_alloc_like(&s->K, &p->of_stay, f));
     TRY(linear_geometric_stiffness(c->model, p->staying.sigma, 0, &p->of_stay, f));
     for (int i = 0; i < size.free + size.driven; i++)
@@ -117,11 +117,11 @@ static status prestress(analysis_context *c, linear_system *s, prestresses *p, f
     if (!s->K.symmetric)
         return fault_set(f, STATUS_REFUSED, "linear buckling needs a symmetric stiffness matrix");
     TRY(loads_proportional(c->model, f));
-    TRY(linear_forms_alloc(c->model, &s->K, &p->growing, f));
+    TRY(quadratic_forms_alloc(c->model, &s->K, &p->growing, f));
     TRY(linear_system_solve(c, s, 1, p->growing.load_x, f));
     if (loads_begin(c->model))
         TRY(split_stays(c, s, p, f));
-    TRY(linear_forms_load(&p->growing, 1, f));
+    TRY(quadratic_forms_load(&p->growing, 1, f));
     TRY(sparse_alloc_like(&s->K, &p->G, f));
     TRY(linear_geometric_stiffness(c->model, p->growing.sigma, 1, &p->G, f));
     if (p->stays) {
@@ -169,8 +169,8 @@ status buckling_analysis(analysis_context *c, int analysis, analysis_outcome *o,
     linear_system_free(&b.system);
     sparse_free_values(&b.of.G);
     sparse_free_values(&b.of.of_stay);
-    linear_forms_free(&b.of.growing);
-    linear_forms_free(&b.of.staying);
+    quadratic_forms_free(&b.of.growing);
+    quadratic_forms_free(&b.of.staying);
     free(b.of.product);
     return result;
 }

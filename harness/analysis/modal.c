@@ -12,8 +12,8 @@
 #include "harness/equations/linear.h"
 #include "harness/equations/rotating_frame.h"
 #include "harness/solver/context.h"
-#include "harness/solver/linear_forms.h"
 #include "harness/solver/linear_system.h"
+#include "harness/solver/quadratic_forms.h"
 #include "harness/solver/singular.h"
 
 int modal_wanted(const analysis_context *c, int analysis)
@@ -29,20 +29,20 @@ int modal_wanted(const analysis_context *c, int analysis)
 }
 
 /* K of the modes: of the structure, its prestress and the shift. */
-typedef struct forms {
-    linear_forms of;
+typedef struct modal_forms {
+    quadratic_forms of;
     int prestressed;
     sparse M, G;  /* G of the prestress; no values: there is none */
     double shift; /* [1/s^2] */
     double *work; /* [free] */
-} forms;
+} modal_forms;
 
 static double stiffness_form(void *context, const double mode[])
 {
-    forms *f = context;
-    double sum = linear_forms_stiffness(&f->of, mode);
+    modal_forms *f = context;
+    double sum = quadratic_forms_stiffness(&f->of, mode);
     if (f->prestressed)
-        sum += linear_forms_geometric(&f->of, mode);
+        sum += quadratic_forms_geometric(&f->of, mode);
     if (f->shift > 0) {
         sparse_mul(&f->M, mode, f->work);
         sum += f->shift * dense_dot(f->of.free, mode, f->work);
@@ -52,12 +52,13 @@ static double stiffness_form(void *context, const double mode[])
 
 static double stiffness_rounding(void *context, const double mode[])
 {
-    forms *f = context;
-    return linear_forms_stiffness_rounding(&f->of, mode);
+    modal_forms *f = context;
+    return quadratic_forms_stiffness_rounding(&f->of, mode);
 }
 
 /* y += times A x */
-static void add_product(const forms *f, const sparse *A, double times, const double x[], double y[])
+static void add_product(const modal_forms *f, const sparse *A, double times, const double x[],
+                        double y[])
 {
     sparse_mul(A, x, f->work);
     for (int i = 0; i < f->of.free; i++)
@@ -66,8 +67,8 @@ static void add_product(const forms *f, const sparse *A, double times, const dou
 
 static void stiffness_product(void *context, const double mode[], double y[])
 {
-    forms *f = context;
-    linear_forms_product(&f->of, mode, y);
+    modal_forms *f = context;
+    quadratic_forms_product(&f->of, mode, y);
     if (f->prestressed)
         add_product(f, &f->G, 1, mode, y);
     if (f->shift > 0)
@@ -76,7 +77,7 @@ static void stiffness_product(void *context, const double mode[], double y[])
 
 /* Moves the modes into the outcome, with omega^2 = 1/mu - shift; what is a rounding error of the
  * shift moves as a rigid body. */
-static void keep(const forms *about, eigen_side *side, analysis_outcome *o)
+static void keep(const modal_forms *about, eigen_side *side, analysis_outcome *o)
 {
     for (int i = 0; i < side->count; i++) {
         const double square = 1 / side->mu[i] - about->shift;
@@ -103,7 +104,7 @@ static status shifted_system(analysis_context *c, linear_system *s, const sparse
 }
 
 /* K += G of the stresses of the linear analysis that is followed. */
-static status add_prestress(analysis_context *c, int follows, linear_system *s, forms *about,
+static status add_prestress(analysis_context *c, int follows, linear_system *s, modal_forms *about,
                             fault *f)
 {
     const model_size size = model_sizes(c->model);
@@ -116,7 +117,7 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
             "frequencies of a loaded structure follow a linear analysis that has been solved");
     about->prestressed = 1;
     memcpy(about->of.load_x, x, (size_t)(size.free + size.driven) * sizeof *x);
-    TRY(linear_forms_load(&about->of, 1, f));
+    TRY(quadratic_forms_load(&about->of, 1, f));
     TRY(sparse_alloc_like(&s->K, &about->G, f));
     TRY(linear_geometric_stiffness(c->model, about->of.sigma, 1, &about->G, f));
     for (int i = 0; i < s->K.column[s->K.n]; i++)
@@ -126,13 +127,14 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
 }
 
 /* K with its factors, and M; K of a structure that is not held is shifted. */
-static status assemble(analysis_context *c, int follows, linear_system *s, forms *about, fault *f)
+static status assemble(analysis_context *c, int follows, linear_system *s, modal_forms *about,
+                       fault *f)
 {
     const status solved = linear_system_alloc(c, s, f);
     int singular = solved == STATUS_SINGULAR;
     if (!singular)
         TRY(solved);
-    TRY(linear_forms_alloc(c->model, &s->K, &about->of, f));
+    TRY(quadratic_forms_alloc(c->model, &s->K, &about->of, f));
     if (follows != SCENE_NONE && !singular) {
         const status stressed = add_prestress(c, follows, s, about, f);
         singular = stressed == STATUS_SINGULAR;
@@ -148,7 +150,7 @@ static status assemble(analysis_context *c, int follows, linear_system *s, forms
 }
 
 /* With what modal_analysis frees. */
-static status solve(analysis_context *c, int analysis, linear_system *s, forms *about,
+static status solve(analysis_context *c, int analysis, linear_system *s, modal_forms *about,
                     eigen_result *e, fault *f)
 {
     TRY(assemble(c, c->scene->analysis[analysis].follows, s, about, f));
@@ -171,12 +173,12 @@ status modal_analysis(analysis_context *c, int analysis, analysis_outcome *o, fa
 {
     linear_system s = {0};
     eigen_result e = {0};
-    forms about = {0};
+    modal_forms about = {0};
     const status result = solve(c, analysis, &s, &about, &e, f);
     keep(&about, &e.positive, o);
     eigen_free(&e);
     linear_system_free(&s);
-    linear_forms_free(&about.of);
+    quadratic_forms_free(&about.of);
     sparse_free_values(&about.M);
     sparse_free_values(&about.G);
     free(about.work);

@@ -46,9 +46,10 @@ static analysis_function *function_of(const scene *s, const scene_analysis *a)
 
 static void set_frame(model *m, const scene_analysis *a)
 {
-    static const scene_spin rest = {{0}, {0}};
-    const scene_spin *spin = scene_spin_of(a) != NULL ? scene_spin_of(a) : &rest;
-    rotating_frame_set(m, spin->omega, spin->centre, a->kind == SCENE_ROTATION);
+    static const scene_rotating_frame rest = {{0}, {0}};
+    const scene_rotating_frame *frame =
+        scene_rotating_frame_of(a) != NULL ? scene_rotating_frame_of(a) : &rest;
+    rotating_frame_set(m, frame->omega, frame->centre, a->kind == SCENE_ROTATION);
 }
 
 /* The first failure names the whole. */

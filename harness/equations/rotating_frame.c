@@ -10,8 +10,8 @@
 
 void rotating_frame_set(model *m, const double omega[3], const double centre[3], int follows_path)
 {
-    memcpy(m->rotation.omega, omega, sizeof m->rotation.omega);
-    memcpy(m->rotation.centre, centre, sizeof m->rotation.centre);
+    memcpy(m->frame.omega, omega, sizeof m->frame.omega);
+    memcpy(m->frame.centre, centre, sizeof m->frame.centre);
     m->rotation_follows_path = follows_path;
     m->rotates = omega[0] != 0 || omega[1] != 0 || omega[2] != 0;
 }
@@ -19,9 +19,9 @@ void rotating_frame_set(model *m, const double omega[3], const double centre[3],
 static status inertia_at(model *m, const node_state x[], int i, double path, inertia_output *out,
                          fault *f)
 {
-    const element_spin spin = model_spin(m, path);
+    const element_rotating_frame frame = model_rotating_frame(m, path);
     const status outcome =
-        m->type->inertia(m->kind[m->element[i].kind].data, x, m->rotates ? &spin : NULL, out);
+        m->type->inertia(m->kind[m->element[i].kind].data, x, m->rotates ? &frame : NULL, out);
     m->counters.inertia_evaluations++;
     if (outcome != STATUS_OK)
         return fault_set(f, outcome, "element %d of member %d: its inertia cannot be evaluated", i,

@@ -5,7 +5,7 @@
 #include "harness/model/model.h"
 
 /* Mass matrix on the pattern of M about a state (NULL: undeformed); G: gyroscopic matrix of a
- * turning frame, of which a symmetric pattern stores the upper triangle, or NULL: not wanted. */
+ * rotating frame, of which a symmetric pattern stores the upper triangle, or NULL: not wanted. */
 status rotating_frame_inertia(model *, const model_state *, double path, sparse *M, sparse *G,
                               fault *);
 

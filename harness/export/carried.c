@@ -132,7 +132,7 @@ static status check_analysis(const scene *s, int analysis, fault *f)
                          "analysis %d: linear, static and compliance are written for solids, "
                          "others not",
                          analysis);
-    if (a->kind == SCENE_STATIC && (analysis != carried_static(s) || scene_spins(a)))
+    if (a->kind == SCENE_STATIC && (analysis != carried_static(s) || scene_rotates(a)))
         return fault_set(f, STATUS_REFUSED,
                          "analysis %d: one static path in axes at rest is written for solids",
                          analysis);

@@ -73,7 +73,7 @@ static history history_of(const series *s, int quantity)
 static element_analysis analysis_of(const scene *s, const scene_quantity *q)
 {
     const scene_analysis *a = &s->analysis[q->analysis];
-    if (a->kind == SCENE_MODAL || a->kind == SCENE_ROTATION || scene_spins(a))
+    if (a->kind == SCENE_MODAL || a->kind == SCENE_ROTATION || scene_rotates(a))
         return ELEMENT_VIBRATION;
     return a->kind == SCENE_BUCKLING ? ELEMENT_BUCKLING : ELEMENT_STATICS;
 }

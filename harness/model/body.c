@@ -99,11 +99,11 @@ static double centrifugal(double mass, const double I[9], const double x[3], con
     return -(mass * vec3_dot(speed, speed) + vec3_dot(omega, h)) / 2;
 }
 
-void body_inertia(const scene_body *b, const node_state *x, const element_spin *spin,
+void body_inertia(const scene_body *b, const node_state *x, const element_rotating_frame *frame,
                   inertia_output *out)
 {
-    static const element_spin none = {{0, 0, 0}, {0, 0, 0}};
-    const element_spin *s = spin != NULL ? spin : &none;
+    static const element_rotating_frame none = {{0, 0, 0}, {0, 0, 0}};
+    const element_rotating_frame *s = frame != NULL ? frame : &none;
     double I[9], rho[3], from[3], outward[N], inward[N];
     inertia_now(b->inertia, x->R, I);
     mat3_mul_vec(x->R, b->centre, rho);

@@ -6,8 +6,8 @@
 #include "elements/element.h"
 
 /* Of the node's coordinates [7: translation, spatial turn, warping (not moved)], its frame at x:
- * position, and turn since the undeformed state in R.  spin NULL: the frame is at rest. */
-void body_inertia(const scene_body *, const node_state *x, const element_spin *spin,
+ * position, and turn since the undeformed state in R.  frame NULL: the frame is at rest. */
+void body_inertia(const scene_body *, const node_state *x, const element_rotating_frame *frame,
                   inertia_output *);
 
 #endif

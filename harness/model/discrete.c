@@ -73,7 +73,7 @@ static void evaluate(const model *m, const model_state *s, const mesh_discrete *
                      int material, double force[], double K[])
 {
     const int n = NODE_COORDINATES * d->el.nodes;
-    const element_spin spin = model_spin(m, path);
+    const element_rotating_frame frame = model_rotating_frame(m, path);
     node_state x[ELEMENT_MAX_NODES];
     if (d->spring != NULL) {
         spring_state p;
@@ -87,7 +87,7 @@ static void evaluate(const model *m, const model_state *s, const mesh_discrete *
         return;
     }
     kinematics_gather(m, s, &d->el, x);
-    body_inertia(d->body, x, &spin, &(inertia_output){.force = force, .N = K});
+    body_inertia(d->body, x, &frame, &(inertia_output){.force = force, .N = K});
     for (int k = 0; k < n; k++)
         force[k] = -force[k];
 }
@@ -125,13 +125,13 @@ status discrete_equations(const model *m, const model_state *s, const mesh_discr
 
 void discrete_inertia(const model *m, const model_state *s, double path, sparse *M, sparse *G)
 {
-    const element_spin spin = model_spin(m, path);
+    const element_rotating_frame frame = model_rotating_frame(m, path);
     for (int i = 0; i < m->discretes - m->springs; i++) {
         const mesh_discrete *d = &m->discrete[i];
         node_state x[ELEMENT_MAX_NODES];
         double mass[X * X], gyroscopic[X * X];
         kinematics_gather(m, s, &d->el, x);
-        body_inertia(d->body, x, &spin, &(inertia_output){.M = mass, .G = gyroscopic});
+        body_inertia(d->body, x, &frame, &(inertia_output){.M = mass, .G = gyroscopic});
         eliminate_matrix(m, s, &d->el, NULL, mass);
         assemble_discrete(&d->el, mass, M);
         if (G == NULL)

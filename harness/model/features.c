@@ -21,7 +21,7 @@ static unsigned needs_of_analyses(const scene *s)
             break;
         case SCENE_STATIC:
         case SCENE_CONTINUATION:
-            needs |= FEATURE_LARGE | (scene_spins(&s->analysis[i]) ? FEATURE_MASS : 0);
+            needs |= FEATURE_LARGE | (scene_rotates(&s->analysis[i]) ? FEATURE_MASS : 0);
             break;
         case SCENE_BUCKLING:
             needs |= FEATURE_GEOMETRIC;
@@ -83,7 +83,7 @@ unsigned features_needed_by_quantity(const scene *s, int quantity)
     const int analysis = s->quantity[quantity].analysis;
     const int moves = analysis >= 0 && (s->analysis[analysis].kind == SCENE_MODAL ||
                                         s->analysis[analysis].kind == SCENE_ROTATION ||
-                                        scene_spins(&s->analysis[analysis]));
+                                        scene_rotates(&s->analysis[analysis]));
     return features_needed(s) & (moves ? ~0U : ~inertia);
 }
 

@@ -91,9 +91,9 @@ struct model {
     double *work; /* [elements x work_size]: J, C, P' + C (D - e), D - e, memory of the last
                      linearisation */
     int work_size;
-    model_state *rest;     /* undeformed */
-    double *undeformed;    /* [elements x (J, C, 1 where both are known)] at rest; NULL: none yet */
-    element_spin rotation; /* of the frame, times the path if that is followed */
+    model_state *rest;  /* undeformed */
+    double *undeformed; /* [elements x (J, C, 1 where both are known)] at rest; NULL: none yet */
+    element_rotating_frame frame; /* its velocity times the path if that is followed */
     int rotates, rotation_follows_path;
     counters counters;
     phases phases;
@@ -117,13 +117,13 @@ struct model_state {
 };
 
 /* How the frame turns at that path parameter. */
-static inline element_spin model_spin(const model *m, double path)
+static inline element_rotating_frame model_rotating_frame(const model *m, double path)
 {
-    element_spin spin = m->rotation;
+    element_rotating_frame frame = m->frame;
     if (m->rotation_follows_path)
         for (int i = 0; i < 3; i++)
-            spin.omega[i] *= path;
-    return spin;
+            frame.omega[i] *= path;
+    return frame;
 }
 
 /* features.c */

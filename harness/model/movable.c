@@ -13,7 +13,7 @@ static const double round_off = 1e-12;
 
 /* column <- column without its part along the `count` orthonormal vectors, twice for
  * orthogonality. */
-static void take_out(int n, int count, double (*basis)[N], double column[])
+static void deflate(int n, int count, double (*basis)[N], double column[])
 {
     for (int pass = 0; pass < 2; pass++)
         for (int k = 0; k < count; k++) {
@@ -43,7 +43,7 @@ static int orthonormal(int n, int count, double (*column)[N], double (*basis)[N]
         for (int i = 0; i < n; i++)
             basis[rank][i] = column[longest][i] / size;
         for (int k = 0; k < count; k++)
-            take_out(n, rank + 1, basis, column[k]);
+            deflate(n, rank + 1, basis, column[k]);
     }
     return rank;
 }
@@ -133,5 +133,5 @@ void movable_prescribed(int columns, const double *T, const double m[3], double 
     if (rank == 3)
         memset(out, 0, 3 * sizeof *out);
     else
-        take_out(3, rank, basis, out);
+        deflate(3, rank, basis, out);
 }

@@ -5,12 +5,12 @@
 
 enum { MOST_STEPS = 1000000, MOST_MODES = 1000 };
 
-static scene_spin spin_of(const fields *f)
+static scene_rotating_frame frame_of(const fields *f)
 {
-    scene_spin spin = {{0}, {0}};
-    fields_vector(f, "omega", 3, spin.omega);
-    fields_vector(f, "centre", 3, spin.centre);
-    return spin;
+    scene_rotating_frame frame = {{0}, {0}};
+    fields_vector(f, "omega", 3, frame.omega);
+    fields_vector(f, "centre", 3, frame.centre);
+    return frame;
 }
 
 /* A mistake: the analysis whose state this one is about walks no path. */
@@ -32,7 +32,7 @@ static void add_static(const fields *f)
     const int added =
         scene_add_static(f->b->scene, count, path, fields_whole(f, "steps", 1, 1, MOST_STEPS));
     if (spin.map != NULL)
-        scene_set_spin(f->b->scene, added, spin_of(&spin));
+        scene_set_rotating_frame(f->b->scene, added, frame_of(&spin));
 }
 
 static void add_rotation(const fields *f)
@@ -40,7 +40,7 @@ static void add_rotation(const fields *f)
     double *path;
     const int count = fields_values(f, "stations", &path);
     scene_add_rotation(f->b->scene, count, path, fields_whole(f, "steps", 1, 1, MOST_STEPS),
-                       fields_whole(f, "wanted", 0, 0, MOST_MODES), spin_of(f));
+                       fields_whole(f, "wanted", 0, 0, MOST_MODES), frame_of(f));
 }
 
 static void add_compliance(const fields *f, int index)
@@ -66,7 +66,7 @@ static void add_continuation(const fields *f)
                                .constant_steps = fields_word(f, "constant", "no|yes", 0)};
     const int added = scene_add_continuation(f->b->scene, count, to, how);
     if (spin.map != NULL)
-        scene_set_spin(f->b->scene, added, spin_of(&spin));
+        scene_set_rotating_frame(f->b->scene, added, frame_of(&spin));
 }
 
 void builder_analyses(builder *b)

@@ -3,22 +3,22 @@
 
 #include "harness/scene_writer/write_impl.h"
 
-static int spins(const scene_spin *spin)
+static int turns(const scene_rotating_frame *frame)
 {
     for (int i = 0; i < 3; i++)
-        if (spin->omega[i] != 0 || spin->centre[i] != 0)
+        if (frame->omega[i] != 0 || frame->centre[i] != 0)
             return 1;
     return 0;
 }
 
-static void write_spin(writer *w, const scene_spin *spin)
+static void write_frame(writer *w, const scene_rotating_frame *frame)
 {
-    if (!spins(spin))
+    if (!turns(frame))
         return;
     fputs(", spin: {omega: ", w->to);
-    write_numbers(w, 3, spin->omega);
+    write_numbers(w, 3, frame->omega);
     fputs(", centre: ", w->to);
-    write_numbers(w, 3, spin->centre);
+    write_numbers(w, 3, frame->centre);
     fputc('}', w->to);
 }
 
@@ -28,9 +28,9 @@ static void write_walk(writer *w, const scene_analysis *a)
     const int rotation = a->kind == SCENE_ROTATION;
     if (rotation) {
         fputs("rotation: {omega: ", w->to);
-        write_numbers(w, 3, walk->spin.omega);
+        write_numbers(w, 3, walk->frame.omega);
         fputs(", centre: ", w->to);
-        write_numbers(w, 3, walk->spin.centre);
+        write_numbers(w, 3, walk->frame.centre);
     }
     fputs(rotation ? ", stations: " : "static: {stations: ", w->to);
     write_numbers(w, walk->path.stations, walk->path.value);
@@ -38,7 +38,7 @@ static void write_walk(writer *w, const scene_analysis *a)
     if (rotation)
         write_if(w, "wanted", walk->modes, 0);
     else
-        write_spin(w, &walk->spin);
+        write_frame(w, &walk->frame);
 }
 
 static void write_compliance(writer *w, const scene_analysis *a)
@@ -66,7 +66,7 @@ static void write_continuation(writer *w, const scene_analysis *a)
     write_number(w, c->control.step);
     write_if(w, "step_max", c->control.step_max, c->control.step);
     fputs(c->control.constant_steps ? ", constant: yes" : "", w->to);
-    write_spin(w, &c->spin);
+    write_frame(w, &c->frame);
 }
 
 void write_analyses(writer *w)

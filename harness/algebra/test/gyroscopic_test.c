@@ -1,4 +1,4 @@
-/* Frequencies in a turning frame against LAPACK on the whole problem: weak and strong gyroscopic
+/* Frequencies in a rotating frame against LAPACK on the whole problem: weak and strong gyroscopic
  * terms, singular masses, equal frequencies, and stiffness that is not definite. */
 #include <gsl/gsl_test.h>
 #include <lapacke.h>

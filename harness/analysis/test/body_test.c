@@ -96,8 +96,9 @@ static status build(const double value[], scene *s, fault *f)
     add_frequencies(s, scene_add_modal(s, SCENE_NONE), "rest");
     if (value[LOADED] != 0)
         add_frequencies(s, scene_add_modal(s, scene_add_static(s, 1, &end, 4)), "loaded");
-    const int rotation = scene_add_rotation(
-        s, 1, &end, 8, 2 * MODES, (scene_spin){.omega = {3, -7, 11}, .centre = {-0.3, 0.2, 0}});
+    const int rotation =
+        scene_add_rotation(s, 1, &end, 8, 2 * MODES,
+                           (scene_rotating_frame){.omega = {3, -7, 11}, .centre = {-0.3, 0.2, 0}});
     add_frequencies(s, rotation, "turning");
     scene_add_quantity(s, "moved", "m", rotation, scene_coordinate(tip, SCENE_UY));
     for (int c = SCENE_UX; c <= SCENE_RZ; c++) {

@@ -96,7 +96,7 @@ static status build_with_body(const double value[], scene *s, fault *f)
     scene_need(s, FEATURE_TRAPEZE | FEATURE_ROTARY_INERTIA);
     const double end = 1;
     const int rotation = scene_add_rotation(
-        s, 1, &end, 8, 0, (scene_spin){.omega = {3, -7, 21}, .centre = {-0.3, 0.2, 0}});
+        s, 1, &end, 8, 0, (scene_rotating_frame){.omega = {3, -7, 21}, .centre = {-0.3, 0.2, 0}});
     for (int i = 0; i < 4; i++) {
         char name[SCENE_NAME];
         snprintf(name, sizeof name, "frequency_%d", i);
@@ -141,7 +141,7 @@ static void reference_point(void)
     }
 }
 
-/* Counted work of the same path with and without a turning frame. */
+/* Counted work of the same path with and without a rotating frame. */
 static void at_rest(void)
 {
     const char *const slow[] = {"omega=1e-6", NULL};

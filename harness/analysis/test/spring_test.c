@@ -107,8 +107,8 @@ static status build_body(scene *s, int sprung)
     scene_add_load(s, SCENE_FORCE, body, 0.5, 3, -4);
     const int modal = scene_add_modal(s, SCENE_NONE), path = scene_add_static(s, 1, &end, 4),
               loaded = scene_add_modal(s, path),
-              turning =
-                  scene_add_rotation(s, 1, &end, 4, 4, (scene_spin){.omega = {0.3, -0.8, 1.7}});
+              turning = scene_add_rotation(s, 1, &end, 4, 4,
+                                           (scene_rotating_frame){.omega = {0.3, -0.8, 1.7}});
     const int compliance = scene_add_compliance(s, path, (scene_compliance){.node = body});
     for (int i = 0; i < 3; i++) {
         char name[SCENE_NAME];

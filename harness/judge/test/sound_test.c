@@ -28,7 +28,7 @@ static void add_analysis(scene_analysis_kind kind, scene *s)
     else if (kind == SCENE_CONTINUATION)
         scene_add_continuation(s, 1, &end, (scene_control){.node = 0});
     else
-        scene_add_rotation(s, 1, &end, 1, 0, (scene_spin){{0}, {0}});
+        scene_add_rotation(s, 1, &end, 1, 0, (scene_rotating_frame){{0}, {0}});
 }
 
 /* Three steps of four iterations. */
@@ -140,11 +140,11 @@ static status counted_stress(const element_data *d, const double e[], const doub
     return inner->stress(d, e, own, out);
 }
 
-static status counted_inertia(const element_data *d, const node_state x[], const element_spin *spin,
-                              inertia_output *out)
+static status counted_inertia(const element_data *d, const node_state x[],
+                              const element_rotating_frame *frame, inertia_output *out)
 {
     inertias++;
-    return inner->inertia(d, x, spin, out);
+    return inner->inertia(d, x, frame, out);
 }
 
 /* A real cell: the counters are what the elements count. Strains that reactions are read from

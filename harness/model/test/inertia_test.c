@@ -1,6 +1,6 @@
 /* Inertia of every formulation that has one, with every mass it offers, with and without rotary
  * inertia, in a strained state of an unsymmetric section (a rectangle where only that is possible):
- * mass, symmetry, and what a turning frame does. */
+ * mass, symmetry, and what a rotating frame does. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -26,8 +26,8 @@ typedef struct subject {
     char name[96];
 } subject;
 
-static const element_spin turning = {.omega = {31.3, -17.9, 23.7},
-                                     .centre = {0.213, -0.147, 0.089}};
+static const element_rotating_frame turning = {.omega = {31.3, -17.9, 23.7},
+                                               .centre = {0.213, -0.147, 0.089}};
 
 static void test_section(const element_type *type, section *out)
 {
@@ -142,7 +142,7 @@ static void turning_frame(const subject *s, const node_state x[], int rotary)
     double V, F[MOST], M[MOST * MOST], N[MOST * MOST], G[MOST * MOST];
     inertia_output out = {.M = M, .potential = &V, .force = F, .N = N, .G = G};
     gsl_test(s->type->inertia(s->data, x, &turning, &out) != STATUS_OK,
-             "%s: inertia in a turning frame", s->name);
+             "%s: inertia in a rotating frame", s->name);
     gsl_test(!(departure(s->coordinates, N, 1) < 1e-14), "%s: centrifugal stiffness is symmetric",
              s->name);
     gsl_test(!(departure(s->coordinates, G, -1) < 1e-14), "%s: gyroscopic matrix is skew", s->name);

@@ -91,7 +91,7 @@ static inline int same_load(const scene_load *a, const scene_load *b)
 static inline int same_analysis(const scene_analysis *a, const scene_analysis *b)
 {
     const scene_path *p = scene_path_of(a), *q = scene_path_of(b);
-    const scene_spin *s = scene_spin_of(a), *t = scene_spin_of(b);
+    const scene_rotating_frame *s = scene_rotating_frame_of(a), *t = scene_rotating_frame_of(b);
     int same = a->kind == b->kind && a->follows == b->follows && (p == NULL) == (q == NULL);
     if (same && p != NULL)
         same = p->stations == q->stations && same_numbers(p->stations, p->value, q->value) &&

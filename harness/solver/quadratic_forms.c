@@ -1,4 +1,4 @@
-#include "harness/solver/linear_forms.h"
+#include "harness/solver/quadratic_forms.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "harness/equations/rotating_frame.h"
 #include "harness/model/kinematics.h"
 
-status linear_forms_alloc(model *m, const sparse *pattern, linear_forms *p, fault *f)
+status quadratic_forms_alloc(model *m, const sparse *pattern, quadratic_forms *p, fault *f)
 {
     const model_size size = model_sizes(m);
     const size_t all = (size_t)(size.free + size.driven) + 1,
@@ -27,7 +27,7 @@ status linear_forms_alloc(model *m, const sparse *pattern, linear_forms *p, faul
                 : fault_set(f, STATUS_FAULT, "out of memory for prestress and modes");
 }
 
-void linear_forms_free(linear_forms *p)
+void quadratic_forms_free(quadratic_forms *p)
 {
     double *const all[] = {p->load_x, p->x, p->force, p->product, p->sigma, p->stress};
     for (int i = 0; i < 6; i++)
@@ -36,43 +36,43 @@ void linear_forms_free(linear_forms *p)
     memset(p, 0, sizeof *p);
 }
 
-status linear_forms_load(linear_forms *p, double path, fault *f)
+status quadratic_forms_load(quadratic_forms *p, double path, fault *f)
 {
     rotating_frame_load_stiffness(p->m, kinematics_rest(p->m), path, &p->loads);
     return linear_stresses(p->m, p->load_x, p->sigma, f);
 }
 
 /* With the driven coordinates. */
-static const double *all_of(linear_forms *p, const double x[])
+static const double *all_of(quadratic_forms *p, const double x[])
 {
     memcpy(p->x, x, (size_t)p->free * sizeof *x);
     return p->x;
 }
 
-double linear_forms_stiffness(linear_forms *p, const double x[])
+double quadratic_forms_stiffness(quadratic_forms *p, const double x[])
 {
     return linear_strain_energy2(p->m, all_of(p, x));
 }
 
-double linear_forms_stiffness_rounding(linear_forms *p, const double x[])
+double quadratic_forms_stiffness_rounding(quadratic_forms *p, const double x[])
 {
     return linear_strain_rounding(p->m, all_of(p, x));
 }
 
-double linear_forms_geometric(linear_forms *p, const double x[])
+double quadratic_forms_geometric(quadratic_forms *p, const double x[])
 {
     sparse_mul(&p->loads, x, p->product);
     return linear_geometric_energy2(p->m, p->sigma, all_of(p, x)) +
            dense_dot(p->free, x, p->product);
 }
 
-double linear_forms_geometric_rounding(linear_forms *p, const double x[])
+double quadratic_forms_geometric_rounding(quadratic_forms *p, const double x[])
 {
     return linear_geometric_rounding(p->m, p->load_x, p->sigma, all_of(p, x));
 }
 
 /* The undeformed elements have been evaluated when K was assembled: they do not fail here. */
-void linear_forms_product(linear_forms *p, const double x[], double y[])
+void quadratic_forms_product(quadratic_forms *p, const double x[], double y[])
 {
     linear_stresses(p->m, all_of(p, x), p->stress, NULL);
     linear_forces(p->m, p->stress, p->force);

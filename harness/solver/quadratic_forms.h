@@ -1,11 +1,11 @@
 /* Quadratic forms of the undeformed structure and of the stresses of a linear solution, from the
  * element strains: assembling the matrices loses digits of soft motions, this does not. */
-#ifndef BEAMWORK_LINEAR_FORMS_H
-#define BEAMWORK_LINEAR_FORMS_H
+#ifndef BEAMWORK_QUADRATIC_FORMS_H
+#define BEAMWORK_QUADRATIC_FORMS_H
 
 #include "harness/model/model.h"
 
-typedef struct linear_forms {
+typedef struct quadratic_forms {
     model *m;
     int free;
     double *load_x;    /* [free + driven] displacements by the loads, zero: no prestress ... */
@@ -13,19 +13,19 @@ typedef struct linear_forms {
     sparse loads;      /* what the loads add to K */
     double *x, *force; /* [free + driven] driven coordinates of x: zero */
     double *stress, *product; /* [elements x strains], [free] */
-} linear_forms;
+} quadratic_forms;
 
-status linear_forms_alloc(model *m, const sparse *pattern, linear_forms *p, fault *f);
-void linear_forms_free(linear_forms *p);
+status quadratic_forms_alloc(model *m, const sparse *pattern, quadratic_forms *p, fault *f);
+void quadratic_forms_free(quadratic_forms *p);
 /* The loads at `path` and their stresses, once load_x is known. */
-status linear_forms_load(linear_forms *p, double path, fault *f);
+status quadratic_forms_load(quadratic_forms *p, double path, fault *f);
 
 /* Of x[free]: x^T K x, x^T G x, and what rounding may change in them. */
-double linear_forms_stiffness(linear_forms *p, const double x[]);
-double linear_forms_geometric(linear_forms *p, const double x[]);
-double linear_forms_stiffness_rounding(linear_forms *p, const double x[]);
-double linear_forms_geometric_rounding(linear_forms *p, const double x[]);
+double quadratic_forms_stiffness(quadratic_forms *p, const double x[]);
+double quadratic_forms_geometric(quadratic_forms *p, const double x[]);
+double quadratic_forms_stiffness_rounding(quadratic_forms *p, const double x[]);
+double quadratic_forms_geometric_rounding(quadratic_forms *p, const double x[]);
 /* y[free] = K x[free] */
-void linear_forms_product(linear_forms *p, const double x[], double y[]);
+void quadratic_forms_product(quadratic_forms *p, const double x[], double y[]);
 
 #endif
