@@ -32,6 +32,7 @@ typedef struct cli_request {
     int mesh[CLI_MAX_MESHES], meshes;
     const char *format, *output, *json, *junit, *markdown, *truths, *select, *threshold, *against;
     int jobs, keep_all, steps;
+    int doublings;  /* of the finest mesh */
     int threads;    /* of the loop over elements */
     int dense;      /* 1: the dense reference is timed too */
     int time_limit; /* [s] of a cell; 0: none */

@@ -59,6 +59,8 @@ static const struct argp_option all_options[] = {
     {"beside", 'B', "FILE", 0,
      "what other programs found, stored by 'beamwork import': contestants that gate nothing", 0},
     {"map", 'm', "FILE.yaml", 0, "which columns of files without a header are which quantities", 0},
+    {"doublings", 'N', "N", 0,
+     "so many more meshes of each series, each of twice the elements: do the verdicts stand?", 0},
     {"gate", 'G', NULL, 0, "verdicts of --beside count as ours do", 0},
     {"to", 'O', "calculix", 0, "the program that the deck is for", 0},
     {"schema", 'H', NULL, 0, "describe all keys of scene files as JSON Schema", 0},
@@ -262,6 +264,9 @@ static error_t take(int key, char *value, struct argp_state *state)
         return 0;
     case 'X':
         r->plant = 0.01 * whole_number(value, "planted percentage", 0, 1000);
+        return 0;
+    case 'N':
+        r->doublings = whole_number(value, "number of doublings", 1, 10);
         return 0;
     default:
         return take_plain(key, value, r);

@@ -164,6 +164,7 @@ static status run(const cli_request *r, const scenes *own, sweep *s, truths *t, 
                                    .jobs = r->jobs,
                                    .time_limit = r->time_limit,
                                    .interruptible = 1,
+                                   .doublings = r->doublings,
                                    .formulations = r->formulations,
                                    .formulation = r->formulation,
                                    .shapes = states,
@@ -215,6 +216,6 @@ int cli_verify(int count, char **arguments)
               "status: 0 every verdict as expected, 1 one differs, 2 refused, 3 nothing was "
               "checked, 4 file, disk or memory, 5 interrupted (Ctrl-C, SIGTERM): what was judged "
               "until then is in files named .partial",
-              "fokjJUMLPTYBGI", count, arguments, &r);
+              "fokjJUMLPTYBGIN", count, arguments, &r);
     return verify_request(&r);
 }

@@ -187,7 +187,11 @@ static double change_of_limit(const limit_sequence *s, const meshes *m, int k, d
             change = fmax(change, before);
             *factor = unsure;
         }
-        change = fmax(change, before / pow(R, m->order[k] + 2)); /* small by accident */
+        /* small by accident; above the highest order that there is, another term comes into sight,
+         * and accident is likely */
+        const double next =
+            m->order[k] <= 1.1 * s->highest_order ? m->order[k] + 2 : s->nominal_order;
+        change = fmax(change, before / pow(R, next));
     }
     return measured ? change : fmax(change, doubted_step * fabs(value - m->f[k + 2]));
 }

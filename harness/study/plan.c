@@ -94,6 +94,8 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
         missing_words(&p->scene, chosen->type, one->missing, sizeof one->missing);
     for (int i = 0; i < p->scene.meshes; i++)
         add_mesh(one, p->scene.mesh[i]);
+    for (int i = 0; i < s->doublings && one->meshes > 0; i++)
+        add_mesh(one, 2 * one->mesh[one->meshes - 1]);
     if (t != NULL)
         for (int i = 0; i < t->rows; i++)
             if (t->row[i].elements > 0 && strcmp(t->row[i].formulation, chosen->key) == 0 &&
@@ -208,6 +210,7 @@ status plan_sweep(const sweep_request *request, const truths *t, sweep *out, fau
 {
     memset(out, 0, sizeof *out);
     out->select = request->select;
+    out->doublings = request->doublings;
     const status outcome = plan_all(request, t, out, f);
     if (outcome != STATUS_OK)
         sweep_free(out);

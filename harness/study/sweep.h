@@ -42,6 +42,7 @@ typedef struct sweep {
     /* of the request: what it leaves out is not judged either; NULL: nothing is left out */
     const char *select;
     int shapes;     /* of the request */
+    int doublings;  /* of the request */
     int threads;    /* of the loop over elements in every cell; 0, 1: one */
     int unfinished; /* cells that an interrupted run left; series that need them are gone */
     int points, seriess;
@@ -55,7 +56,8 @@ typedef struct sweep_request {
     int time_limit;     /* [s] of one cell, measured by its process and from outside; 0: none */
     int interruptible;  /* 1: who asks to end (Ctrl-C) ends the run, and what is finished is kept */
     const case_type *const *cases; /* NULL-terminated; NULL: all that there are */
-    int formulations;              /* restrict to these, or 0: all */
+    int doublings;    /* so many meshes beyond the scene's finest, each of twice the elements */
+    int formulations; /* restrict to these, or 0: all */
     const formulation *formulation;
     /* most states of a path whose centre lines are kept, of the finest mesh at the defaults; 0:
      * none */

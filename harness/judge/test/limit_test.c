@@ -127,6 +127,25 @@ static void settled(void)
     gsl_test_rel(l.order, 8, 0.02, "shows its order above it");
 }
 
+/* C_uz_My of sheet_second (sheet_cantilever, tip_warping=1) [1e-7/N]: from 64 elements on the trace of another term comes into sight,
+ * orders of 4.5 and 4.7 agree where four is the highest, and the limits seem to settle. 1024 elements show the limit. */
+static void orders_beyond_the_highest(void)
+{
+    static const double v[] = {-7.541557376815, -7.572498677944, -7.749537235739, -7.764447957971,
+                               -7.765605623215, -7.765686750034, -7.765690327019, -7.765690466550};
+    static const int n[] = {1, 2, 4, 8, 16, 32, 64, 128};
+    const double seen = -7.765691732;
+    limit_sequence s = {8, n, v, 1e-12, 2, 4, 0};
+    const mesh_limit l = limit_of(&s);
+    is_kind(l, LIMIT_ASYMPTOTIC, "orders that agree");
+    gsl_test_abs(l.order, 4.68, 0.01, "on what there is not");
+    gsl_test(!(fabs(l.limit - seen) < 2 * l.limit_uncertainty), "its limit is %.1e off, not %.1e",
+             fabs(l.limit - seen), l.limit_uncertainty);
+    s.highest_order = 8;
+    gsl_test(!(limit_of(&s).limit_uncertainty < 0.05 * l.limit_uncertainty),
+             "an order that there may be is believed");
+}
+
 static void out_of_order(void)
 {
     double v[MOST];
@@ -177,6 +196,7 @@ int main(void)
     worked();
     few_meshes();
     settled();
+    orders_beyond_the_highest();
     out_of_order();
     gaps();
     return gsl_test_summary();

@@ -88,9 +88,33 @@ static void points(const case_type *type, const int number[2])
     expect(type, 3, row, 2, 0, "of one that holds at none of them");
 }
 
+/* Each series has so many meshes more, the last one of 2^n times the elements; the others as before. */
+static void doublings(void)
+{
+    const truths none = {.rows = 0};
+    const sweep_request plain = {.select = NULL}, finer = {.select = NULL, .doublings = 2};
+    sweep one, two;
+    fault f = {""};
+    gsl_test(plan_sweep(&plain, &none, &one, &f) != STATUS_OK ||
+                 plan_sweep(&finer, &none, &two, &f) != STATUS_OK,
+             "doublings: %s", f.text);
+    gsl_test_int(two.seriess, one.seriess, "the same series");
+    for (int i = 0; i < one.seriess; i++) {
+        const series *a = &one.series[i], *b = &two.series[i];
+        const int n = a->meshes;
+        gsl_test(b->meshes != n + 2 || b->mesh[n] != 2 * a->mesh[n - 1] ||
+                     b->mesh[n + 1] != 4 * a->mesh[n - 1],
+                 "two meshes beyond %d elements", a->mesh[n - 1]);
+        gsl_test(memcmp(a->mesh, b->mesh, (size_t)n * sizeof *a->mesh) != 0, "the others stay");
+    }
+    sweep_free(&one);
+    sweep_free(&two);
+}
+
 int main(void)
 {
     int cases = 0;
+    doublings();
     for (int i = 0; registry_cases[i] != NULL; i++) {
         int number[2];
         double value[CASE_MAX_PARAMETERS] = {0};
