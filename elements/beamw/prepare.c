@@ -56,9 +56,7 @@ status beamw_prepare_variant(const element_request *request, beamw_stiffness_she
                              beamw_prepare_modes modes, element_data *out, fault *f)
 {
     const section *c = request->section;
-    const status sound = length_of(request, f);
-    if (sound != STATUS_OK)
-        return sound;
+    TRY(length_of(request, f));
     beamw_stiffness_fields fields;
     memset(out, 0, sizeof *out);
     out->l0 = request->length;
@@ -75,9 +73,7 @@ status beamw_prepare_consistent(const element_request *request, beamw_consistent
                                 fault *f)
 {
     const section *c = request->section;
-    const status sound = length_of(request, f);
-    if (sound != STATUS_OK)
-        return sound;
+    TRY(length_of(request, f));
     const int flexible = (request->features & FEATURE_SHEAR) != 0,
               warping = (request->features & FEATURE_WARPING) != 0;
     const beamw_twist t = beamw_twist_of(c, request->length, flexible,

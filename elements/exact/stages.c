@@ -87,9 +87,7 @@ status exact_stages_prepare(const element_request *request, int count, exact_sta
 {
     double point[EXACT_STAGES_MAX], at[EXACT_STAGES_NODES];
     memset(out, 0, sizeof *out);
-    const status outcome = exact_constants_of(request, &out->c, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(exact_constants_of(request, &out->c, f));
     out->stages = count;
     out->unknowns = 3 * count;
     const double none[3] = {0};

@@ -221,28 +221,34 @@ static status check_constants(const section *c, fault *f)
     return STATUS_OK;
 }
 
+/* The constants of its shape, or those that were given. */
+static status constants_of(const section_spec *spec, section *out, fault *f)
+{
+    switch (spec->kind) {
+    case SECTION_WALLS:
+        return section_walls(spec, out, f);
+    case SECTION_RECTANGLE:
+        return rectangle(spec, out, f);
+    case SECTION_TUBE:
+        return tube(spec, out, f);
+    case SECTION_CONSTANTS:
+        break;
+    }
+    *out = spec->constants;
+    return STATUS_OK;
+}
+
 status section_compute(const section_spec *spec, section *out, fault *f)
 {
-    status outcome = check_material(spec, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(check_material(spec, f));
     memset(out, 0, sizeof *out);
-    if (spec->kind == SECTION_WALLS)
-        outcome = section_walls(spec, out, f);
-    else if (spec->kind == SECTION_RECTANGLE)
-        outcome = rectangle(spec, out, f);
-    else if (spec->kind == SECTION_TUBE)
-        outcome = tube(spec, out, f);
-    else
-        *out = spec->constants;
-    TRY(outcome);
+    TRY(constants_of(spec, out, f));
     out->young = spec->young;
     out->shear_modulus = spec->shear_modulus;
     out->density = spec->density;
     /* Whichever of D and F is there gives the other; both zero: rigid in shear. */
-    outcome = out->F[0] == 0 && out->D[0] != 0 ? invert_on_support(out->D, out->F, "D", f)
-                                               : invert_on_support(out->F, out->D, "F", f);
-    TRY(outcome);
+    TRY(out->F[0] == 0 && out->D[0] != 0 ? invert_on_support(out->D, out->F, "D", f)
+                                         : invert_on_support(out->F, out->D, "F", f));
     TRY(apply_given(spec, out, f));
     return check_constants(out, f);
 }

@@ -77,7 +77,7 @@ static const element_data *chain_data(const chain *c)
 
 typedef struct chain_linearised {
     double J[ELEMENT_MAX_STRAINS * CHAIN_MOST], C[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS],
-        sigma[ELEMENT_MAX_STRAINS], gap[ELEMENT_MAX_STRAINS], memory[CHAIN_MAX_MEMORY];
+        sigma[ELEMENT_MAX_STRAINS], incompatibility[ELEMENT_MAX_STRAINS], memory[CHAIN_MAX_MEMORY];
 } chain_linearised;
 
 /* Tangent and force of element i. */
@@ -94,8 +94,8 @@ static void chain_linearise(const chain *c, int i, chain_linearised *w, double K
                         &(stress_output){.sigma = w->sigma, .C = w->C, .memory = w->memory}) !=
         STATUS_OK;
     for (int k = 0; k < n; k++)
-        w->gap[k] = e[k] - c->e[i][k];
-    dense_mul_vec(n, n, w->C, w->gap, more);
+        w->incompatibility[k] = e[k] - c->e[i][k];
+    dense_mul_vec(n, n, w->C, w->incompatibility, more);
     for (int k = 0; k < n; k++)
         w->sigma[k] += more[k];
     dense_add_congruence(n, m, w->J, w->C, K, work);
@@ -139,7 +139,7 @@ static void chain_advance(chain *c, chain_linearised *w, const double dx[])
         dense_mul_vec(n, n, w[e].C, de, more);
         for (int k = 0; k < n; k++) {
             c->sigma[e][k] = w[e].sigma[k] + more[k];
-            de[k] += w[e].gap[k];
+            de[k] += w[e].incompatibility[k];
             c->e[e][k] += de[k];
         }
         if (c->type->update != NULL)

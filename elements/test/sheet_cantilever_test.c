@@ -27,7 +27,8 @@ typedef struct cantilever {
 
 /* What one element adds: K += J^T C J + H, force += J^T [P'(e) + C (D(x) - e)] (N section 4, condensed). */
 static void element_terms(const cantilever *c, int i, double K[NODAL * NODAL], double force[NODAL],
-                          double J[N * NODAL], double gap[N], double P[N], double C[N * N])
+                          double J[N * NODAL], double incompatibility[N], double P[N],
+                          double C[N * N])
 {
     static const double half_turn[9] = {-1, 0, 0, 0, 1, 0, 0, 0, -1};
     double e[N], work[N * NODAL], s[N];
@@ -40,8 +41,8 @@ static void element_terms(const cantilever *c, int i, double K[NODAL * NODAL], d
     if (c->type->stress(c->data, c->e[i], NULL, &(stress_output){.sigma = P, .C = C}) != STATUS_OK)
         gsl_test(1, "%s: stress of element %d", c->type->name, i);
     for (int k = 0; k < N; k++)
-        gap[k] = e[k] - c->e[i][k];
-    dense_mul_vec(N, N, C, gap, s);
+        incompatibility[k] = e[k] - c->e[i][k];
+    dense_mul_vec(N, N, C, incompatibility, s);
     for (int k = 0; k < N; k++)
         s[k] += P[k];
     memset(force, 0, NODAL * sizeof *force);
@@ -62,8 +63,8 @@ static void assemble(const cantilever *c, double *K, double *force)
     memset(K, 0, (size_t)(size * size) * sizeof *K);
     memset(force, 0, (size_t)size * sizeof *force);
     for (int i = 0; i < c->n; i++) {
-        double Ke[NODAL * NODAL], fe[NODAL], J[N * NODAL], gap[N], P[N], C[N * N];
-        element_terms(c, i, Ke, fe, J, gap, P, C);
+        double Ke[NODAL * NODAL], fe[NODAL], J[N * NODAL], incompatibility[N], P[N], C[N * N];
+        element_terms(c, i, Ke, fe, J, incompatibility, P, C);
         for (int a = 0; a < NODAL; a++) {
             const int row = row_of(c, i, a);
             if (row < 0)
@@ -88,14 +89,14 @@ static void hold(int size, double *K, double *right, int coordinate, double moti
 static void advance(cantilever *c, const double *dx)
 {
     for (int i = 0; i < c->n; i++) {
-        double Ke[NODAL * NODAL], fe[NODAL], J[N * NODAL], gap[N], P[N], C[N * N],
+        double Ke[NODAL * NODAL], fe[NODAL], J[N * NODAL], incompatibility[N], P[N], C[N * N],
             motion[NODAL] = {0}, de[N], ds[N];
-        element_terms(c, i, Ke, fe, J, gap, P, C);
+        element_terms(c, i, Ke, fe, J, incompatibility, P, C);
         for (int a = 0; a < NODAL; a++)
             motion[a] = row_of(c, i, a) >= 0 ? dx[row_of(c, i, a)] : 0;
         dense_mul_vec(N, NODAL, J, motion, de);
         for (int k = 0; k < N; k++)
-            de[k] += gap[k];
+            de[k] += incompatibility[k];
         dense_mul_vec(N, N, C, de, ds);
         for (int k = 0; k < N; k++) {
             c->e[i][k] += de[k];

@@ -213,8 +213,7 @@ static status hand_over(candidates *p, int wanted, eigen_side *out, eigen_result
     out->error = calloc((size_t)count + 1, sizeof *out->error);
     if (out->residual == NULL || out->error == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for %d eigenvalues", count);
-    if (improve(p, count, out, r, f) != STATUS_OK)
-        return STATUS_FAULT;
+    TRY(improve(p, count, out, r, f));
     drop_lost(p, count, out);
     for (int i = 0; i < count; i++) {
         for (size_t k = 0; k < n; k++)

@@ -1,8 +1,8 @@
 /* Continuation of equilibrium paths under proportional loads, inside of its files.
  *
  * The load factor is one more unknown and one coordinate, or the arc, is given instead:
- *   K dx = r + f' dl,  g . dx = gap,  hence dx = K^-1 r + dl K^-1 f',
- *   dl = (gap - g . K^-1 r)/(g . K^-1 f').
+ *   K dx = r + f' dl,  g . dx = c,  hence dx = K^-1 r + dl K^-1 f',
+ *   dl = (c - g . K^-1 r)/(g . K^-1 f').
  * K is factored at every point that was found, which gives the tangent of the path, the first
  * direction of the next step and, where K is symmetric, the number of its negative eigenvalues. */
 #ifndef BEAMWORK_CONTINUATION_IMPL_H

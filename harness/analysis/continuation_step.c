@@ -80,8 +80,8 @@ static double control_value(const continuation *p)
     return kinematics_component(p->c->model, p->n.state, p->by->node, p->by->component);
 }
 
-/* What the constraint still lacks. */
-static double gap_of(const continuation *p, path_goal goal)
+/* Residual of the constraint. */
+static double residual_of(const continuation *p, path_goal goal)
 {
     return goal.value -
            (goal.by_arc ? continuation_dot(p, p->here.tangent, p->moved) : control_value(p));
@@ -109,7 +109,7 @@ status continuation_correct(continuation *p, path_goal goal, step_record *record
         double correction = 0;
         TRY(directions(p, record, f));
         const double change = change_of(p, goal, p->response);
-        const double more = (gap_of(p, goal) - change_of(p, goal, n->dx)) / change;
+        const double more = (residual_of(p, goal) - change_of(p, goal, n->dx)) / change;
         if (!isfinite(more))
             return fault_set(f, STATUS_NOT_CONVERGED,
                              "the load does not move the control coordinate at factor %g",

@@ -63,8 +63,7 @@ static status print_derived(const case_type *type, const double parameter[], fau
     char script[PATH_MAX], text[PARAMETERS_TEXT];
     derived_value *value;
     int count;
-    if (script_path(script, f) != STATUS_OK)
-        return STATUS_FAULT;
+    TRY(script_path(script, f));
     parameters_text(type, parameter, text, sizeof text);
     const status outcome = derive_values(script, type->name, text, &value, &count, f);
     for (int i = 0; i < count; i++)

@@ -62,9 +62,7 @@ static status read_file(const char *path, hid_t file, results *out, fault *f)
 
 status results_read_hdf5(const char *path, results *out, fault *f)
 {
-    const status sealed = checksum_check(path, f);
-    if (sealed != STATUS_OK)
-        return sealed;
+    TRY(checksum_check(path, f));
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file < 0)

@@ -18,15 +18,15 @@ int uncondensed_size(const model *m)
     return m->free + 2 * m->strains * m->elements;
 }
 
-typedef struct full {
+typedef struct uncondensed {
     int size, conditions;
     double *A, *b; /* column-major */
     const double *drive;
     const model_condition *condition;
-} full;
+} uncondensed;
 
 /* Adds a coefficient of coordinate `column`: unknown, prescribed, or the unknown of a condition. */
-static void put(const model *m, full *s, int row, int column, double value)
+static void put(const model *m, uncondensed *s, int row, int column, double value)
 {
     if (row < 0 || column < 0)
         return;
@@ -41,7 +41,8 @@ static void put(const model *m, full *s, int row, int column, double value)
         s->b[row] -= value * s->drive[column];
 }
 
-static status add_element(model *m, const model_state *state, int i, double path, full *s, fault *f)
+static status add_element(model *m, const model_state *state, int i, double path, uncondensed *s,
+                          fault *f)
 {
     enum { E = ELEMENT_MAX_STRAINS, X = ELEMENT_MAX_COORDINATES };
     const mesh_element *el = &m->element[i];
@@ -94,7 +95,7 @@ static status add_element(model *m, const model_state *state, int i, double path
 /* What loads add to the stiffness. */
 typedef struct load_part {
     const model *m;
-    full *s;
+    uncondensed *s;
 } load_part;
 
 static void put_load(void *context, int row, int column, double value)
@@ -104,7 +105,7 @@ static void put_load(void *context, int row, int column, double value)
 }
 
 static status add_discrete(model *m, const model_state *state, const mesh_discrete *d, double path,
-                           full *s, fault *f)
+                           uncondensed *s, fault *f)
 {
     const int n = NODE_COORDINATES * d->el.nodes;
     double force[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
@@ -123,7 +124,7 @@ status uncondensed_system(model *m, const model_state *state, double path, const
                           int conditions, const model_condition condition[], double A[], double b[],
                           double load[], fault *f)
 {
-    full s = {uncondensed_size(m) + conditions, conditions, A, b, drive, condition};
+    uncondensed s = {uncondensed_size(m) + conditions, conditions, A, b, drive, condition};
     memset(A, 0, (size_t)s.size * (size_t)s.size * sizeof *A);
     memset(b, 0, (size_t)s.size * sizeof *b);
     memset(load, 0, (size_t)(m->free + m->driven) * sizeof *load);

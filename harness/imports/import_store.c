@@ -166,6 +166,16 @@ static status read_case(store_reader *r, hid_t at, const char *of)
     return outcome;
 }
 
+static status read_named(store_reader *r, hid_t cases, const char *name)
+{
+    const hid_t here = H5Gopen2(cases, name, H5P_DEFAULT);
+    if (here < 0)
+        return damaged(r, name);
+    const status outcome = read_case(r, here, name);
+    H5Gclose(here);
+    return outcome;
+}
+
 static status read_cases(store_reader *r, hid_t cases)
 {
     char name[200];
@@ -176,12 +186,7 @@ static status read_cases(store_reader *r, hid_t cases)
         if (H5Lget_name_by_idx(cases, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name,
                                H5P_DEFAULT) <= 0)
             return damaged(r, "cases");
-        const hid_t here = H5Gopen2(cases, name, H5P_DEFAULT);
-        const status outcome = here >= 0 ? read_case(r, here, name) : damaged(r, name);
-        if (here >= 0)
-            H5Gclose(here);
-        if (outcome != STATUS_OK)
-            return outcome;
+        TRY(read_named(r, cases, name));
     }
     return STATUS_OK;
 }

@@ -150,9 +150,9 @@ status families_add_truths(const sweep *s, int files_only, truths *t, fault *f)
 {
     for (int i = 0; i < s->points; i++) {
         const point *p = &s->point[i];
-        if (files_only && p->type->build_from == NULL)
+        if (p->status != STATUS_OK || (files_only && p->type->build_from == NULL))
             continue;
-        for (int q = 0; q < p->scene.quantities && p->status == STATUS_OK; q++) {
+        for (int q = 0; q < p->scene.quantities; q++) {
             const char *name = p->scene.quantity[q].name;
             if (p->scene.quantity[q].reduction == SCENE_CURVE ||
                 truth_of(t, p->type, p->parameter, name, "same") != NULL ||

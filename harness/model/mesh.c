@@ -224,19 +224,27 @@ static status allocate(model *m, int elements, fault *f)
     return STATUS_OK;
 }
 
+/* Elements of each member; their sections, and *sections: how many there are of the model. */
+static status count_profiles(model *m, const int count[], int *sections, fault *f)
+{
+    *sections = m->scene->sections;
+    TRY(profile_members(m, count, f));
+    for (int i = 0; i < m->scene->members; i++)
+        if (*sections <= profile_at(m, i, count[i] - 1))
+            *sections = profile_at(m, i, count[i] - 1) + 1;
+    return STATUS_OK;
+}
+
 /* The sections of all elements, and no kind of any. */
 static status profiles(model *m, int elements, fault *f)
 {
     const scene *s = m->scene;
-    int *count = malloc(((size_t)s->members + 1) * sizeof *count), sections = s->sections;
+    int *count = malloc(((size_t)s->members + 1) * sizeof *count), sections;
     if (count == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the sections of members");
     for (int i = 0; i < s->members; i++)
         count[i] = divisions(s, i, elements);
-    const status outcome = profile_members(m, count, f);
-    for (int i = 0; i < s->members && outcome == STATUS_OK; i++)
-        if (sections <= profile_at(m, i, count[i] - 1))
-            sections = profile_at(m, i, count[i] - 1) + 1;
+    const status outcome = count_profiles(m, count, &sections, f);
     free(count);
     TRY(outcome);
     m->kind_of_section = malloc(((size_t)sections + 1) * sizeof *m->kind_of_section);

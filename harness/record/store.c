@@ -147,9 +147,7 @@ status store_write(const char *path, const sweep *s, const judgement *j, const e
 {
     record r;
     const gathering g = {s, j, NULL};
-    const status opened = record_open(&r, f);
-    if (opened != STATUS_OK)
-        return opened;
+    TRY(record_open(&r, f));
     record_count(&r, r.file, "unfinished_cells", s->unfinished);
     put_cases(&r, &g, e);
     return record_close(&r, path, f);
@@ -159,9 +157,7 @@ status store_write_solution(const char *path, const sweep *s, const environment 
 {
     record r;
     const gathering g = {s, NULL, NULL};
-    const status opened = record_open(&r, f);
-    if (opened != STATUS_OK)
-        return opened;
+    TRY(record_open(&r, f));
     put_cases(&r, &g, e);
     if (s->series[0].cell[0].solve.shapes.states > 0)
         vtkhdf_write(&r, &s->point[s->series[0].point].scene, &s->series[0].cell[0].solve.shapes);

@@ -101,7 +101,11 @@ static status motion_alloc(const model *m, const scene *s, const double mode[], 
     }
     free(u);
     free(index);
-    return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for a mode");
+    if (good)
+        return STATUS_OK;
+    free(out->part);
+    out->part = NULL;
+    return fault_set(f, STATUS_FAULT, "out of memory for a mode");
 }
 
 /* Sums of squares over the points. */
@@ -131,7 +135,7 @@ status modes_identify(const model *m, const scene *s, const double mode[], mode_
     static const scene_family family[MEASURES] = {SCENE_AXIAL, SCENE_BENDING_Y, SCENE_BENDING_Z,
                                                   SCENE_TORSION};
     motion shape;
-    const status outcome = motion_alloc(m, s, mode, &shape, f);
+    TRY(motion_alloc(m, s, mode, &shape, f));
     double moved[MEASURES], turned[MEASURES], all = 0, in_place = 0;
     squares(shape.points, shape.part, moved);
     squares(shape.points, shape.turn, turned);
@@ -142,10 +146,10 @@ status modes_identify(const model *m, const scene *s, const double mode[], mode_
     const int stays = !(all > in_place_part * in_place),
               leading = largest_of(stays ? turned : moved);
     out->family = family[leading];
-    out->half_waves = count_half_waves(outcome == STATUS_OK ? shape.first_member : 0,
-                                       (stays ? shape.turn : shape.part) + leading);
+    out->half_waves =
+        count_half_waves(shape.first_member, (stays ? shape.turn : shape.part) + leading);
     free(shape.part);
-    return outcome;
+    return STATUS_OK;
 }
 
 int modes_in_family(const scene_mode *wanted, const mode_shape *shape)

@@ -71,9 +71,7 @@ against against_judge(int pairs, const double a[], const double b[])
 static status lap_pair(against_lap *lap, void *a, void *b, int b_first, double *seconds_a,
                        double *seconds_b, fault *f)
 {
-    const status first = b_first ? lap(b, seconds_b, f) : lap(a, seconds_a, f);
-    if (first != STATUS_OK)
-        return first;
+    TRY(b_first ? lap(b, seconds_b, f) : lap(a, seconds_a, f));
     return b_first ? lap(a, seconds_a, f) : lap(b, seconds_b, f);
 }
 

@@ -130,9 +130,7 @@ static void lengths(void)
 static status all_met(const char *expression, fault *f)
 {
     select_words met;
-    const status outcome = select_begin(expression, &met, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(select_begin(expression, &met, f));
     select_meet(expression, "of_mine/load=3/beamw/u", &met);
     select_meet(expression, text, &met);
     return select_all_met(expression, &met, f);

@@ -52,18 +52,15 @@ static inline status contract_settled(const subject *s, const double e[], double
                                       stress_output *out)
 {
     double memory[4096], residual = 1;
-    status outcome = STATUS_OK;
     const double none[MOST_STRAINS] = {0};
     for (int i = 0; i < 30 && s->inner > 0; i++) {
-        outcome = s->type->stress(s->data, e, inner,
-                                  &(stress_output){.residual = &residual, .memory = memory});
-        if (outcome != STATUS_OK)
-            return outcome;
+        TRY(s->type->stress(s->data, e, inner,
+                            &(stress_output){.residual = &residual, .memory = memory}));
         if (s->type->update(s->data, none, memory, inner) < 1e-15)
             break;
     }
     out->memory = s->memory > 0 ? memory : NULL;
-    outcome = s->type->stress(s->data, e, inner, out);
+    const status outcome = s->type->stress(s->data, e, inner, out);
     out->memory = NULL;
     return outcome;
 }

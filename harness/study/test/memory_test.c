@@ -160,12 +160,10 @@ static status read_scene(const void *what, double *value, fault *f)
     scene s;
     truths t = {0};
     double parameter[CASE_MAX_PARAMETERS] = {0};
-    status outcome = scene_file_read(what, &file, &m, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(scene_file_read(what, &file, &m, f));
     parameter_defaults(scene_file_case(file)->parameters, parameter);
     scene_init(&s, "scene");
-    outcome = case_build(scene_file_case(file), parameter, &s, f);
+    status outcome = case_build(scene_file_case(file), parameter, &s, f);
     if (outcome == STATUS_OK)
         outcome = scene_file_add_all_truths(file, &t, f);
     *value = t.rows;
@@ -188,12 +186,10 @@ static status write_results(const void *what, double *value, fault *f)
     judgement j = {0};
     parameters_default(registry_cases[0], parameter);
     formulation_default(registry_formulations[0], &chosen);
-    status outcome = plan_one(registry_cases[0], parameter, &chosen, 1, mesh, 2, &s, f);
-    if (outcome != STATUS_OK)
-        return outcome;
+    TRY(plan_one(registry_cases[0], parameter, &chosen, 1, mesh, 2, &s, f));
     for (int i = 0; i < s.series[0].meshes; i++)
         s.series[0].cell[i].solve.status = STATUS_SINGULAR;
-    outcome = judgement_make(&s, &none, 0, &j, f);
+    status outcome = judgement_make(&s, &none, 0, &j, f);
     if (outcome == STATUS_OK)
         outcome = store_write(what, &s, &j, &e, f);
     *value = access(what, F_OK) == 0;
