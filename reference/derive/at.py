@@ -73,6 +73,11 @@ def sprung_beam(given):
     yield from program.values(given)
 
 
+def tapered_cantilever(given):
+    from reference.derive import tapered_cantilever as program
+    yield from program.values(given)
+
+
 def sheet_case(case, function):
     def solve(given):
         from reference.derive import sheets
@@ -141,6 +146,7 @@ SOLVERS = {
     "warping_torsion": (("kL", "ends"), warping_torsion, "torsion"),
     "tip_body": (("omega_star", "mass", "overhang", "gyration"), tip_body, "tip_body"),
     "sprung_beam": (("load", "spring", "moment"), sprung_beam, "sprung_beam"),
+    "tapered_cantilever": (("section", "ratio", "asked", "shear"), tapered_cantilever, "tapered_cantilever"),
     "sheet_cantilever": (SHEET, sheet_case("sheet_cantilever", "cantilever"), "sheets"),
     "sheet_wagner": (SHEET + ("tip_phi_z", "tip_phi_x"), sheet_case("sheet_wagner", "twisted"), "sheets"),
     "spherical_joint": (("length", "width", "thickness", "young", "poisson", "fold_angle", "radius", "azimuth", "tilt", "steps", "fold_warping", "wagner"), spherical_joint, "joint"),
