@@ -82,4 +82,21 @@ static inline status eigen_problems_solve(eigen_problem *p, eigen_result *r, fau
     return outcome;
 }
 
+/* Largest departure of X^T K X from the identity. */
+static inline double eigen_problems_departure(const sparse *K, int count, const double *x)
+{
+    double worst = 0, *product = malloc((size_t)K->n * sizeof *product);
+    for (int i = 0; i < count; i++) {
+        sparse_mul(K, x + i * K->n, product);
+        for (int j = 0; j < count; j++) {
+            double sum = i == j ? -1 : 0;
+            for (int k = 0; k < K->n; k++)
+                sum += x[j * K->n + k] * product[k];
+            worst = fmax(worst, fabs(sum));
+        }
+    }
+    free(product);
+    return worst;
+}
+
 #endif

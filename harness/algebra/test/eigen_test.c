@@ -3,28 +3,7 @@
 #include <gsl/gsl_test.h>
 #include <stdio.h>
 
-#include "elements/math/pi.h"
-#include "harness/algebra/candidates.h"
-#include "harness/algebra/candidates_count.h"
-#include "harness/algebra/lanczos.h"
 #include "harness/algebra/test/eigen_problems.h"
-
-/* Largest departure of X^T K X from the identity. */
-static double departure(const sparse *K, int count, const double *x)
-{
-    double worst = 0, *product = malloc((size_t)K->n * sizeof *product);
-    for (int i = 0; i < count; i++) {
-        sparse_mul(K, x + i * K->n, product);
-        for (int j = 0; j < count; j++) {
-            double sum = i == j ? -1 : 0;
-            for (int k = 0; k < K->n; k++)
-                sum += x[j * K->n + k] * product[k];
-            worst = fmax(worst, fabs(sum));
-        }
-    }
-    free(product);
-    return worst;
-}
 
 static void test_strings(int copies, int masses, double spread, int wanted, int iterate,
                          double allowed)
@@ -50,13 +29,12 @@ static void test_strings(int copies, int masses, double spread, int wanted, int 
     gsl_test(!(worst < allowed), "%s: within %.1e", name, worst);
     gsl_test(!(residual < 1e-8), "%s: residuals below %.1e", name, residual);
     gsl_test(!(error < 1e-15), "%s: estimated errors below %.1e", name, error);
-    const double apart = departure(&s.K, r.positive.count, r.positive.mode);
+    const double apart = eigen_problems_departure(&s.K, r.positive.count, r.positive.mode);
     gsl_test(!(apart < 1e-9), "%s: modes orthonormal within %.1e", name, apart);
     eigen_free(&r);
     strings_free(&s);
 }
 
-/* Indefinite A: the sparse way against the dense one. */
 /* The first values of both signs, where all of them were found. */
 static void compare_sides(const eigen_result *sparse_way, const eigen_result *dense_way, int wanted,
                           double tolerance, const char *what)
@@ -71,6 +49,7 @@ static void compare_sides(const eigen_result *sparse_way, const eigen_result *de
     }
 }
 
+/* Indefinite A: the sparse way against the dense one. */
 static void test_both_signs(void)
 {
     enum { NODES = 60, SIZE = 3, WANTED = 7 };
@@ -163,187 +142,8 @@ static void test_rank(int iterate)
     strings_free(&s);
 }
 
-/* What happens when the iteration has found one copy of a repeated eigenvalue: the inertia says so,
- * and the others come out of what that copy leaves. */
-static void test_missed_copies(void)
-{
-    enum { COPIES = 3, MASSES = 40, N = COPIES * MASSES };
-    strings s;
-    eigen_result work = {0};
-    candidates p;
-    double x[2 * N] = {0}, mu[2], all[COPIES * N] = {0};
-    int missing = -1, above = -1, found = 0;
-    strings_init(&s, COPIES, MASSES, 0);
-    eigen_problem e = {.K = &s.K,
-                       .A = &s.M,
-                       .sign = 1,
-                       .largest = COPIES,
-                       .K_energy = strings_energy,
-                       .context = &s};
-    gsl_test(factor_alloc(e.K, &e.K_factor, NULL) != STATUS_OK ||
-                 factor_numeric(e.K_factor, e.K, NULL) != STATUS_OK ||
-                 candidates_alloc(&p, &e, 1, NULL) != STATUS_OK,
-             "strings are factorised");
-    for (int c = 0; c < COPIES; c++)
-        for (int i = 0; i < MASSES; i++)
-            all[c * N + i * COPIES + c] = 1e5 * sin((i + 1) * PI / (MASSES + 1));
-    for (int i = 0; i < MASSES; i++) /* the second mode of one string */
-        x[i * COPIES] = sin(2 * (i + 1) * PI / (MASSES + 1));
-    const double first = strings_exact(&s, 0), second = strings_exact(&s, COPIES),
-                 scale = candidates_scale(&p, &work.solutions);
-    gsl_test(!(scale > 0.3 * first && scale < first * (1 + 1e-9)),
-             "the largest eigenvalue is estimated from below (%g of it)", scale / first);
-    candidates_count_above(&p, sqrt(first * second), &above, &work, NULL);
-    gsl_test_int(above, COPIES, "the inertia counts all copies");
-    gsl_test(candidates_add(&p, 1, x, 0, NULL) != STATUS_OK ||
-                 candidates_add(&p, 1, all, 0, NULL) != STATUS_OK,
-             "candidates are taken in");
-    gsl_test_rel(p.mu[0], first, 1e-14, "and sorted");
-    gsl_test_rel(p.mu[1], second, 1e-14, "by size");
-    gsl_test(candidates_count_missing(&p, 1, &missing, &work, NULL) != STATUS_OK || missing != 0,
-             "the largest value is right with one copy");
-    gsl_test_int((int)candidates_count_missing(&p, 2, &missing, &work, NULL), STATUS_OK,
-                 "values that lie above the second one are counted");
-    gsl_test_int(missing, COPIES - 1, "and two are missing");
-    const lanczos_problem rest = {e.K, e.A, e.K_factor, 1, p.count, p.x, p.Kx};
-    gsl_test(lanczos_largest(&rest, 2, &found, mu, x, &work.solutions, NULL) != STATUS_OK ||
-                 found != 2,
-             "Lanczos goes on where the candidates leave off");
-    gsl_test_rel(mu[0], first, 1e-12, "second copy");
-    gsl_test_rel(mu[1], first, 1e-12, "third copy");
-    gsl_test(candidates_add(&p, 2, x, 0, NULL) != STATUS_OK, "both are taken in");
-    gsl_test(candidates_count_missing(&p, COPIES + 1, &missing, &work, NULL) != STATUS_OK ||
-                 missing != 0,
-             "now nothing is missing");
-    const double apart = departure(&s.K, p.count, p.x);
-    gsl_test(!(apart < 1e-12), "candidates are orthonormal within %.1e", apart);
-    gsl_test(candidates_add(&p, 1, all, 0, NULL) != STATUS_OK, "the same vector again");
-    gsl_test_int((int)candidates_count_missing(&p, COPIES + 2, &missing, &work, NULL),
-                 STATUS_NOT_CONVERGED, "counts too many");
-    candidates_free(&p);
-    factor_free(e.K_factor);
-    strings_free(&s);
-}
-
-/* x^T A x, not to be had of one sign between two sizes. */
-typedef struct broken {
-    const sparse *A;
-    double sign, least, most;
-} broken;
-
-static double broken_energy(void *context, const double x[])
-{
-    const broken *b = context;
-    const double energy = matrices_energy(b->A, x), size = -b->sign * energy;
-    return size > b->least && size < b->most ? NAN : energy;
-}
-
-/* Values of both signs, of which those of one sign are lost as soon as they are found: the other
- * side is found all the same, as if it alone had been asked for, and the side that is not says
- * so. */
-static void test_sides_apart(void)
-{
-    enum { N = 800, WANTED = 4 };
-    strings s;
-    strings_init(&s, 1, N, 0);
-    for (int i = N / 2; i < N; i++)
-        matrices_add(&s.M, i, i, -2.5);
-    for (int sign = -1; sign <= 1; sign += 2) {
-        broken b = {&s.M, sign, 0, INFINITY};
-        eigen_result alone = {0}, r = {0};
-        fault f = {""};
-        eigen_problem p = {.K = &s.K, .A = &s.M, .sign = sign, .largest = WANTED};
-        gsl_test_int((int)eigen_problems_solve(&p, &alone, &f), STATUS_OK, "one side alone: %s",
-                     f.text);
-        p.smallest = WANTED;
-        p.A_energy = broken_energy;
-        p.context = &b;
-        gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_NOT_CONVERGED,
-                     "the whole is no success");
-        gsl_test_int((int)r.positive.status, STATUS_OK, "the side that can be found is found: %s",
-                     r.positive.reason);
-        gsl_test_int(r.positive.count, WANTED, "all of it");
-        for (int i = 0; i < r.positive.count && i < alone.positive.count; i++)
-            gsl_test_rel(r.positive.mu[i], alone.positive.mu[i], 1e-14,
-                         "value %d is that of one side alone", i);
-        gsl_test_int((int)r.negative.status, STATUS_NOT_CONVERGED, "the other one is not: %s",
-                     r.negative.reason);
-        gsl_test(r.negative.reason[0] == '\0' || strcmp(r.negative.reason, f.text) != 0,
-                 "and says so: %s", f.text);
-        gsl_test_int(r.negative.count, 0, "and gives none");
-        eigen_free(&r);
-        eigen_free(&alone);
-    }
-    strings_free(&s);
-}
-
-/* One value of a side is lost: those before it are given, and none behind it, for it is missing
- * among them. */
-static void test_side_in_part(int lost)
-{
-    enum { N = 800, WANTED = 4 };
-    strings s;
-    strings_init(&s, 1, N, 0);
-    for (int i = N / 2; i < N; i++)
-        matrices_add(&s.M, i, i, -2.5);
-    eigen_result all = {0}, r = {0};
-    fault f = {""};
-    eigen_problem p = {.K = &s.K, .A = &s.M, .sign = 1, .largest = WANTED, .smallest = WANTED};
-    gsl_test_int((int)eigen_problems_solve(&p, &all, &f), STATUS_OK, "both sides: %s", f.text);
-    const double size = -all.negative.mu[lost];
-    broken b = {&s.M, 1, size * (1 - 1e-3), size * (1 + 1e-3)};
-    p.A_energy = broken_energy;
-    p.context = &b;
-    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_NOT_CONVERGED,
-                 "without value %d: no success", lost);
-    gsl_test_int((int)r.negative.status, STATUS_NOT_CONVERGED, "without value %d: its side", lost);
-    gsl_test_int(r.negative.count, lost, "without value %d: those before it", lost);
-    for (int i = 0; i < r.negative.count; i++)
-        gsl_test_rel(r.negative.mu[i], all.negative.mu[i], 1e-12, "without value %d: value %d",
-                     lost, i);
-    gsl_test_int(r.positive.count, WANTED, "without value %d: the other side", lost);
-    eigen_free(&r);
-    eigen_free(&all);
-    strings_free(&s);
-}
-
-static double much(void *context, const double x[])
-{
-    (void)x;
-    return *(const double *)context;
-}
-
-/* What the caller says of rounding decides what is a value, and how many digits it has. */
-static void test_rounding(int masses)
-{
-    enum { WANTED = 3 };
-    strings s;
-    strings_init(&s, 1, masses, 0);
-    for (int all = 0; all < 2; all++) {
-        double size = all ? 1e9 : 1e-9;
-        eigen_result r = {0};
-        fault f = {""};
-        eigen_problem p = {.K = &s.K, .A = &s.M, .sign = 1, .largest = WANTED, .smallest = WANTED};
-        p.A_rounding = much;
-        p.context = &size;
-        gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_OK, "rounding of %g: %s", size,
-                     f.text);
-        gsl_test_int(r.positive.count, all ? 0 : WANTED, "rounding of %g: values that are more",
-                     size);
-        gsl_test(all != (r.positive.rounding > 0), "rounding of %g: the others are counted", size);
-        gsl_test(all && r.factorisations > 0, "rounding of %g: nothing is looked for in it", size);
-        eigen_free(&r);
-    }
-    strings_free(&s);
-}
-
 int main(void)
 {
-    test_sides_apart();
-    for (int lost = 0; lost < 4; lost++)
-        test_side_in_part(lost);
-    test_rounding(40);
-    test_rounding(120);
     static const double spreads[] = {0, 1e-12, 1e-9, 1e-7, 1e-4, 0.01};
     for (size_t i = 0; i < sizeof spreads / sizeof spreads[0]; i++)
         for (int copies = 1; copies <= 6; copies += copies == 1 ? 1 : 2)
@@ -358,6 +158,5 @@ int main(void)
     test_coupled_strings(61);
     test_rank(0);
     test_rank(1);
-    test_missed_copies();
     return gsl_test_summary();
 }

@@ -1,140 +1,49 @@
-/* Critical loads and frequencies of beams whose answer is known, for every formulation: sign, order
- * and number of equal values, what does not exist, and loads beside which rounding would look like
- * a load. */
+/* Critical loads of bars whose answer is known, for every formulation: sign, order and number of equal
+ * values, what does not exist. */
 #include <gsl/gsl_test.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "elements/math/pi.h"
+#include "harness/analysis/test/bar.h"
 #include "harness/catalogue/registry.h"
-#include "harness/test/ask.h"
-
-enum { WANTED = 4, ELEMENTS = 16 };
-
-/* A square bar: E = 2e11 Pa, so slender that shear is felt in the sixth digit. */
-static const double young = 2e11, side = 1e-3, length = 1;
-
-static double flexural_rigidity(void)
-{
-    return young * pow(side, 4) / 12;
-}
-
-static double euler(void)
-{
-    return PI * PI * flexural_rigidity() / (length * length);
-}
-
-static int square(scene *s)
-{
-    section_spec spec = section_spec_rectangle(young, young / 2.6, side, side);
-    spec.density = 7800;
-    return scene_add_section(s, &spec);
-}
-
-/* Critical loads of one scene; value[sign][order], NAN where there is none. */
-typedef struct loads {
-    char why[2][WANTED][FAULT_TEXT];
-    double value[2][WANTED];
-} loads;
-
-typedef void build(scene *s, const double direction[3]);
-
-static void ask_for_loads(scene *s, int signs)
-{
-    const int buckling = scene_add_buckling(s, SCENE_NONE);
-    for (int sign = 0; sign < signs; sign++)
-        for (int i = 0; i < WANTED; i++) {
-            char name[SCENE_NAME];
-            snprintf(name, sizeof name, "%s_%d", sign == 0 ? "positive" : "negative", i + 1);
-            scene_add_quantity(s, name, "N", buckling,
-                               scene_critical_factor(sign == 0 ? 1 : -1, i));
-        }
-}
-
-/* Positive ones only, or of both signs. 1: answered. */
-static int find_signs(const element_type *e, ask_tally *tally, build *make,
-                      const double direction[3], int n, int signs, loads *out)
-{
-    static answer a;
-    scene s;
-    memset(out, 0, sizeof *out);
-    scene_init(&s, "bar");
-    make(&s, direction);
-    ask_for_loads(&s, signs);
-    ask_scene(&s, e, NULL, n, &a);
-    scene_free(&s);
-    for (int i = 0; i < a.count; i++) {
-        out->value[i / WANTED][i % WANTED] = a.value[i];
-        snprintf(out->why[i / WANTED][i % WANTED], FAULT_TEXT, "%s", a.why[i]);
-    }
-    return ask_count(tally, &a, "bar of %d elements", n);
-}
-
-static int find_loads(const element_type *e, ask_tally *tally, build *make,
-                      const double direction[3], int n, loads *out)
-{
-    return find_signs(e, tally, make, direction, n, 2, out);
-}
-
-static int end_node(scene *s, const double direction[3], double at)
-{
-    return scene_add_node(s, at * direction[0], at * direction[1], at * direction[2]);
-}
-
-static const double along_x[3] = {1, 0, 0}, oblique[3] = {2.0 / 3, -1.0 / 3, 2.0 / 3},
-                    y_axis[3] = {0.1, 1, 0.05};
-
-static void push(scene *s, int node, const double direction[3], double force)
-{
-    scene_add_load(s, SCENE_FORCE, node, force * direction[0], force * direction[1],
-                   force * direction[2]);
-}
-
-static int cantilever(scene *s, const double direction[3])
-{
-    const int root = scene_add_node(s, 0, 0, 0), tip = end_node(s, direction, length);
-    scene_add_member(s, root, tip, square(s), y_axis);
-    scene_hold_all(s, root);
-    return tip;
-}
 
 static void compressed(scene *s, const double direction[3])
 {
-    push(s, cantilever(s, direction), direction, -1);
+    bar_push(s, bar_cantilever(s, direction), direction, -1);
 }
 
 static void stretched(scene *s, const double direction[3])
 {
-    push(s, cantilever(s, direction), direction, 1);
+    bar_push(s, bar_cantilever(s, direction), direction, 1);
 }
 
 static void unloaded(scene *s, const double direction[3])
 {
-    push(s, cantilever(s, direction), direction, 0);
+    bar_push(s, bar_cantilever(s, direction), direction, 0);
 }
 
 /* Held at both ends and pushed in the middle: one half is compressed, the other stretched. */
 static void half_and_half(scene *s, const double direction[3])
 {
-    const int a = scene_add_node(s, 0, 0, 0), b = end_node(s, direction, length / 2),
-              c = end_node(s, direction, length);
-    const int profile = square(s);
+    const int a = scene_add_node(s, 0, 0, 0), b = bar_end(s, direction, length / 2),
+              c = bar_end(s, direction, length);
+    const int profile = bar_section(s);
     scene_add_member(s, a, b, profile, y_axis);
     scene_add_member(s, b, c, profile, y_axis);
     scene_hold_all(s, a);
     scene_hold_all(s, c);
-    push(s, b, direction, 1);
+    bar_push(s, b, direction, 1);
 }
 
 /* The force acts on a rigid arm of the bar's length beyond its tip, or before it. */
 static void with_arm(scene *s, const double direction[3], double arm)
 {
-    const int tip = cantilever(s, direction);
+    const int tip = bar_cantilever(s, direction);
     const double at = length + arm;
     const int end =
         scene_add_attached(s, tip, at * direction[0], at * direction[1], at * direction[2]);
-    push(s, end, direction, -1);
+    bar_push(s, end, direction, -1);
 }
 
 static void arm_beyond(scene *s, const double direction[3])
@@ -156,7 +65,7 @@ static double load_with_arm(double arm)
         const double k = (low + high) / 2, value = cos(k * length) - k * arm * sin(k * length);
         *(value > 0 ? &low : &high) = k;
     }
-    return low * low * flexural_rigidity();
+    return low * low * bar_rigidity();
 }
 
 static void expect(const element_type *e, const char *what, const loads *l, int sign, int order,
@@ -177,9 +86,9 @@ static void expect_none(const element_type *e, const char *what, const loads *l,
 /* Every load twice, about y and about z. */
 static void columns(const element_type *e, ask_tally *tally, const double direction[3])
 {
-    const double first = euler() / 4, exact[WANTED] = {first, first, 9 * first, 9 * first};
+    const double first = bar_euler() / 4, exact[WANTED] = {first, first, 9 * first, 9 * first};
     loads l;
-    if (!find_loads(e, tally, compressed, direction, ELEMENTS, &l))
+    if (!bar_find(e, tally, compressed, direction, ELEMENTS, &l))
         return;
     for (int i = 0; i < WANTED; i++) {
         expect(e, "compressed", &l, 0, i, exact[i], i < 2 ? 2e-3 : 2e-2);
@@ -187,139 +96,25 @@ static void columns(const element_type *e, ask_tally *tally, const double direct
             gsl_test_rel(l.value[0][i], l.value[0][i - 1], 1e-7, "%s: loads %d and %d are equal",
                          e->name, i, i + 1);
     }
-    if (find_loads(e, tally, stretched, direction, ELEMENTS, &l)) {
+    if (bar_find(e, tally, stretched, direction, ELEMENTS, &l)) {
         for (int i = 0; i < WANTED; i++)
             expect(e, "stretched", &l, 1, i, -exact[i], i < 2 ? 2e-3 : 2e-2);
     }
-    if (find_loads(e, tally, unloaded, direction, ELEMENTS, &l)) {
+    if (bar_find(e, tally, unloaded, direction, ELEMENTS, &l)) {
         expect_none(e, "without load", &l, 0);
         expect_none(e, "without load", &l, 1);
     }
-    if (find_loads(e, tally, half_and_half, direction, ELEMENTS, &l))
+    if (bar_find(e, tally, half_and_half, direction, ELEMENTS, &l))
         for (int i = 0; i < WANTED; i++) {
             gsl_test_rel(l.value[0][i], -l.value[1][i], 1e-7,
                          "%s, half and half: load %d has both signs", e->name, i + 1);
             gsl_test(i > 0 && !(l.value[0][i] >= l.value[0][i - 1] * (1 - 1e-9)),
                      "%s, half and half: load %d in order", e->name, i + 1);
         }
-    if (find_loads(e, tally, arm_beyond, direction, ELEMENTS, &l))
+    if (bar_find(e, tally, arm_beyond, direction, ELEMENTS, &l))
         expect(e, "arm beyond the tip", &l, 0, 0, load_with_arm(length), 2e-3);
-    if (find_loads(e, tally, arm_before, direction, ELEMENTS, &l))
+    if (bar_find(e, tally, arm_before, direction, ELEMENTS, &l))
         expect(e, "arm before the tip", &l, 0, 0, load_with_arm(-length / 2), 5e-3);
-}
-
-/* States in which one element, or none, can buckle: whatever there is of a load must not be
- * rounding. */
-static void bent_between_forks(scene *s, const double direction[3], int component)
-{
-    const int a = scene_add_node(s, 0, 0, 0), b = end_node(s, direction, length);
-    scene_add_member(s, a, b, square(s), y_axis);
-    scene_hold(s, a, SCENE_UX, SCENE_RX);
-    scene_hold(s, b, SCENE_UY, SCENE_RX);
-    scene_add_load(s, SCENE_MOMENT, a, 0, component == SCENE_RY, component == SCENE_RZ);
-    scene_add_load(s, SCENE_MOMENT, b, 0, -(component == SCENE_RY), -(component == SCENE_RZ));
-}
-
-static void bent_about_y(scene *s, const double direction[3])
-{
-    bent_between_forks(s, direction, SCENE_RY);
-}
-
-static void bent_about_z(scene *s, const double direction[3])
-{
-    bent_between_forks(s, direction, SCENE_RZ);
-}
-
-static void pushed_across(scene *s, const double direction[3])
-{
-    const double across[3] = {direction[1], -direction[0], 0};
-    push(s, cantilever(s, direction), across, 1);
-}
-
-/* Displaced ends, no load: the stresses of nothing. */
-static void bent_in_a_frame(scene *s, const double direction[3])
-{
-    const int tip = cantilever(s, direction), low = end_node(s, direction, length / 2);
-    scene_add_member(s, tip, low, 0, (const double[3]){0.3, 0.1, 1});
-    push(s, low, y_axis, 1e-3);
-}
-
-/* An equal angle whose warping is left out, shear centre at its heel, between forks. */
-static void angle(scene *s, int *foot, int *head)
-{
-    section_spec spec = section_spec_constants(young, young / 2.6);
-    section *c = &spec.constants;
-    c->A = 1.9e-3;
-    c->Iy = 4.2e-6;
-    c->Iz = 1.05e-6;
-    c->Ip = c->Iy + c->Iz;
-    c->It = 4e-8;
-    c->ys = 0.041;
-    c->wagner_y = -8.5e-8;
-    *foot = scene_add_node(s, 0, 0, 0);
-    *head = scene_add_node(s, length, 0, 0);
-    scene_add_member(s, *foot, *head, scene_add_section(s, &spec), (const double[3]){0, 1, 0});
-    scene_hold(s, *foot, SCENE_UX, SCENE_RX);
-    scene_hold(s, *head, SCENE_UY, SCENE_RX);
-    scene_need(s, FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS);
-}
-
-static void angle_bent(scene *s, const double direction[3])
-{
-    int foot, head;
-    (void)direction;
-    angle(s, &foot, &head);
-    scene_add_load(s, SCENE_MOMENT, foot, 0, 1, 0);
-    scene_add_load(s, SCENE_MOMENT, head, 0, -1, 0);
-}
-
-static void angle_compressed(scene *s, const double direction[3])
-{
-    int foot, head;
-    angle(s, &foot, &head);
-    push(s, foot, direction, 1);
-    push(s, head, direction, -1);
-}
-
-/* Loads of one sign are the same whether or not the others are asked for, and whether or not those
- * are found: some formulations have one spurious load of the other sign for each element. */
-static void one_side_alone(const element_type *e, ask_tally *tally)
-{
-    for (int n = 2; n <= 64; n *= 2) {
-        loads both, alone;
-        ask_tally any = {0}; /* negative ones may not be found */
-        if (!find_signs(e, tally, angle_compressed, along_x, n, 1, &alone))
-            return;
-        find_signs(e, &any, angle_compressed, along_x, n, 2, &both);
-        gsl_test(any.count[ASK_NOT_OFFERED] + any.count[ASK_REFUSED] > 0,
-                 "%s, angle of %d elements: both signs are offered", e->name, n);
-        for (int i = 0; i < WANTED; i++)
-            gsl_test_rel(both.value[0][i], alone.value[0][i], 1e-9,
-                         "%s, angle of %d elements: load %d beside negative ones (%s)", e->name, n,
-                         i + 1, both.why[0][i]);
-        gsl_test(isnan(both.value[1][0]) && both.why[1][0][0] == '\0',
-                 "%s, angle of %d elements: a load, or why there is none", e->name, n);
-    }
-}
-
-/* A load that buckles this bar at this mesh is at most n^2 times Euler's, with room; rounding is
- * 1e16. */
-static void no_rounding(const element_type *e, ask_tally *tally)
-{
-    static build *const state[] = {angle_bent, bent_about_y, bent_about_z, pushed_across,
-                                   bent_in_a_frame};
-    for (int k = 0; k < 5; k++)
-        for (int n = 1; n <= 64; n *= 4) {
-            loads l;
-            if (!find_loads(e, tally, state[k], k < 3 ? along_x : oblique, n, &l))
-                continue;
-            for (int i = 0; i < 2 * WANTED; i++) {
-                const double value = l.value[i / WANTED][i % WANTED];
-                gsl_test(fabs(value) > 1e9 * (k == 0 ? 1e6 : euler()),
-                         "%s, state %d, %d elements: load %g is rounding (%s)", e->name, k, n,
-                         value, l.why[i / WANTED][i % WANTED]);
-            }
-        }
 }
 
 int main(void)
@@ -331,8 +126,6 @@ int main(void)
         columns(e, &tally, oblique);
         gsl_test((e->offers & FEATURE_GEOMETRIC) && tally.values == 0,
                  "%s offers stability and solves none of it", e->name);
-        no_rounding(e, &tally);
-        one_side_alone(e, &tally);
         ask_conclude(&tally, e, "critical loads of bars");
     }
     return gsl_test_summary();

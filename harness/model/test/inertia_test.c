@@ -1,6 +1,5 @@
 /* Inertia of every formulation that has one, with every mass it offers, with and without rotary
- * inertia, in a strained state of an unsymmetric section (a rectangle where only that is possible):
- * mass, symmetry, and what a rotating frame does. */
+ * inertia, in a strained state: mass, symmetry, and what a rotating frame does. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,53 +9,11 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/test/nodes.h"
-#include "elements/test/sections.h"
 #include "elements/test/worst.h"
-#include "harness/catalogue/formulations.h"
-#include "harness/catalogue/registry.h"
-
-enum { MOST = ELEMENT_MAX_COORDINATES };
-
-typedef struct subject {
-    const element_type *type;
-    element_data *data;
-    section section;
-    double length; /* [m] */
-    int nodes, coordinates;
-    char name[96];
-} subject;
+#include "harness/model/test/inertia_subject.h"
 
 static const element_rotating_frame turning = {.omega = {31.3, -17.9, 23.7},
                                                .centre = {0.213, -0.147, 0.089}};
-
-static void test_section(const element_type *type, section *out)
-{
-    static const double point[4][2] = {{0, 0}, {0.031, 0}, {0.031, 0.057}, {0.012, 0.057}};
-    static const double thickness[3] = {0.0013, 0.002, 0.0027};
-    section_spec spec = type->limits & LIMIT_DOUBLY_SYMMETRIC
-                            ? section_spec_rectangle(210e9, 80.7e9, 0.0371, 0.0123)
-                            : section_spec_walls(210e9, 80.7e9, 3, point, NULL, thickness);
-    spec.density = 7850;
-    *out = sections_computed(&spec);
-    out->Iw = out->A * pow(0.2, 4); /* so that warping is as large as what is compared with it */
-}
-
-/* 0: refused, and the test has failed; data to be freed in any case. */
-static int prepare(const element_type *type, const double options[], unsigned features, subject *s)
-{
-    fault f = {""};
-    s->type = type;
-    s->length = 0.2385;
-    s->nodes = element_nodes(type, options);
-    s->coordinates = NODE_COORDINATES * s->nodes;
-    test_section(type, &s->section);
-    const element_request request = {
-        .section = &s->section, .length = s->length, .features = features, .options = options};
-    s->data = calloc(1, type->data_size(&request));
-    const int made = type->prepare(&request, s->data, &f) == STATUS_OK;
-    gsl_test(!made, "%s: prepared (%s)", type->name, f.text);
-    return made;
-}
 
 /* Largest |A[i][j] - sign A[j][i]| beside the largest entry. */
 static double departure(int n, const double A[], double sign)
@@ -70,7 +27,7 @@ static double departure(int n, const double A[], double sign)
     return worst / largest;
 }
 
-static void at_rest(const subject *s, const node_state x[])
+static void at_rest(const inertia_subject *s, const node_state x[])
 {
     double M[MOST * MOST], v[MOST] = {0}, Mv[MOST];
     const double mass = s->section.density * s->section.A * s->length;
@@ -87,7 +44,7 @@ static void at_rest(const subject *s, const node_state x[])
 }
 
 /* The motion v of the frame itself has the kinetic energy 1/2 v^T M v = -V, and G v = -2 F. */
-static void own_motion(const subject *s, const node_state x[], int rotary,
+static void own_motion(const inertia_subject *s, const node_state x[], int rotary,
                        const inertia_output *out)
 {
     const int n = s->coordinates;
@@ -115,7 +72,7 @@ static void own_motion(const subject *s, const node_state x[], int rotary,
 }
 
 /* F = -dV/dx and N = d2V/dx2 by differences along a line. */
-static void derivatives(const subject *s, const node_state x[], const inertia_output *out)
+static void derivatives(const inertia_subject *s, const node_state x[], const inertia_output *out)
 {
     enum { SAMPLES = 5 };
     const int n = s->coordinates;
@@ -137,7 +94,7 @@ static void derivatives(const subject *s, const node_state x[], const inertia_ou
                  s->name);
 }
 
-static void turning_frame(const subject *s, const node_state x[], int rotary)
+static void turning_frame(const inertia_subject *s, const node_state x[], int rotary)
 {
     double V, F[MOST], M[MOST * MOST], N[MOST * MOST], G[MOST * MOST];
     inertia_output out = {.M = M, .potential = &V, .force = F, .N = N, .G = G};
@@ -150,123 +107,13 @@ static void turning_frame(const subject *s, const node_state x[], int rotary)
     derivatives(s, x, &out);
 }
 
-/* Masses at the nodes of an element stand as the rule for loads does: trapezoids with two nodes, Simpson's with three, whose
- * second moment about the end is exact. The twist has the section's own polar inertia, whatever gives it. */
-static void lumped_moments(const element_type *type, const double options[], const char *name)
-{
-    subject s = {0};
-    double M[MOST * MOST], x_moment = 0, polar = 0;
-    node_state x[ELEMENT_MAX_NODES];
-    const unsigned features = FEATURE_MASS | FEATURE_ROTARY_INERTIA;
-    snprintf(s.name, sizeof s.name, "%s", name);
-    s.type = type;
-    s.length = 0.2385;
-    s.nodes = element_nodes(type, options);
-    s.coordinates = NODE_COORDINATES * s.nodes;
-    test_section(type, &s.section);
-    s.section.Ip *= 1.3;
-    const element_request request = {
-        .section = &s.section, .length = s.length, .features = features, .options = options};
-    s.data = calloc(1, type->data_size(&request));
-    gsl_test(type->prepare(&request, s.data, NULL) != STATUS_OK, "%s: prepared", name);
-    nodes_straight(s.nodes, s.length, x);
-    type->inertia(s.data, x, NULL, &(inertia_output){.M = M});
-    for (int k = 0; k < s.nodes; k++) {
-        x_moment += M[(NODE_COORDINATES * k + 1) * (s.coordinates + 1)] * pow(x[k].r[0], 2);
-        polar += M[(NODE_COORDINATES * k + 3) * (s.coordinates + 1)];
-    }
-    const double mass = s.section.density * s.section.A * s.length;
-    gsl_test_rel(x_moment, mass * s.length * s.length / (s.nodes == 2 ? 2 : 3), 1e-13,
-                 "%s: second moment of the masses", name);
-    gsl_test_rel(polar, s.section.density * s.section.Ip * s.length, 1e-13, "%s: polar inertia",
-                 name);
-    free(s.data);
-}
-
-/* Which option is the mass, and how many choices it has. */
-static int mass_choices(const element_type *type, int *option)
-{
-    const int mass = parameter_index(type->options, "mass");
-    *option = mass < 0 ? 0 : mass;
-    return mass < 0 ? 1 : parameter_choices(parameter_at(type->options, mass));
-}
-
-static void check(const element_type *type, const double options[], int choice, unsigned left_out)
-{
-    subject s = {0};
-    double d[MOST];
-    node_state x[ELEMENT_MAX_NODES];
-    const unsigned features = type->offers & ~(unsigned)FEATURE_CURVATURE & ~left_out;
-    const int rotary = (features & FEATURE_ROTARY_INERTIA) != 0;
-    if (!prepare(type, options, features, &s)) {
-        free(s.data);
-        return;
-    }
-    snprintf(s.name, sizeof s.name, "%s, mass %d%s%s", type->name, choice, rotary ? ", rotary" : "",
-             features & FEATURE_WARPING ? ", warping" : "");
-    nodes_straight(s.nodes, s.length, x);
-    nodes_increments(s.nodes, s.length, 0.05, 31, d);
-    nodes_move(s.nodes, 1, d, x);
-    at_rest(&s, x);
-    turning_frame(&s, x, rotary);
-    free(s.data);
-}
-
-/* v^T M v of a straight element that turns about an axis through its first node at one radian a
- * second. */
-static double turning_inertia(const element_type *type, const double options[], unsigned features,
-                              int axis, subject *s)
-{
-    double M[MOST * MOST], v[MOST] = {0}, Mv[MOST], omega[3] = {0};
-    node_state x[ELEMENT_MAX_NODES];
-    omega[axis] = 1;
-    if (!prepare(type, options, features, s)) {
-        free(s->data);
-        return NAN;
-    }
-    nodes_straight(s->nodes, s->length, x);
-    for (int k = 0; k < s->nodes; k++) {
-        vec3_cross(omega, x[k].r, v + NODE_COORDINATES * k);
-        memcpy(v + NODE_COORDINATES * k + 3, omega, sizeof omega);
-    }
-    s->type->inertia(s->data, x, NULL, &(inertia_output){.M = M});
-    dense_mul_vec(s->coordinates, s->coordinates, M, v, Mv);
-    free(s->data);
-    return dense_dot(s->coordinates, v, Mv);
-}
-
-/* Of a rigid rotation: rho l (Ip, Iy, Iz), each about its own axis, beside what the masses on the
- * line have. */
-static void moments_of_inertia(const element_type *type, const double options[], int choice)
-{
-    const unsigned features = type->offers & ~(unsigned)FEATURE_CURVATURE;
-    subject s = {0};
-    if (!(features & FEATURE_ROTARY_INERTIA))
-        return;
-    snprintf(s.name, sizeof s.name, "%s, mass %d", type->name, choice);
-    for (int axis = 0; axis < 3; axis++) {
-        const double whole = turning_inertia(type, options, features, axis, &s);
-        const double line =
-            turning_inertia(type, options, features & ~(unsigned)FEATURE_ROTARY_INERTIA, axis, &s);
-        const section *c = &s.section;
-        const double moment = c->density * s.length *
-                              (axis == 0   ? c->Ip
-                               : axis == 1 ? c->Iy
-                                           : c->Iz);
-        gsl_test_rel(whole - (axis == 0 ? 0 : line), moment, 1e-10,
-                     "%s: moment of inertia about %c", s.name, "xyz"[axis]);
-        if (axis == 0)
-            gsl_test_rel(line, moment, 1e-12, "%s: the twist has inertia always", s.name);
-    }
-}
-
 /* Centrifugal energy [J] of a uniformly twisted element whose amplitudes are its twist rate. */
 static double twisted_energy(const element_type *type, const double options[], unsigned features,
-                             double angle, subject *s)
+                             double angle, inertia_subject *s)
 {
     double d[MOST] = {0}, V = NAN;
     node_state x[ELEMENT_MAX_NODES];
-    if (!prepare(type, options, features, s)) {
+    if (!inertia_subject_prepare(type, options, features, s)) {
         free(s->data);
         return NAN;
     }
@@ -291,7 +138,7 @@ static void warping_in_a_turning_frame(const element_type *type, const double op
 {
     const double angle = 0.005;
     const unsigned features = type->offers & ~(unsigned)FEATURE_CURVATURE;
-    subject s = {0};
+    inertia_subject s = {0};
     if (!(features & FEATURE_WARPING) || !(features & FEATURE_ROTARY_INERTIA))
         return;
     snprintf(s.name, sizeof s.name, "%s, mass %d", type->name, choice);
@@ -304,38 +151,38 @@ static void warping_in_a_turning_frame(const element_type *type, const double op
     gsl_test_rel(with - without, expected, 2e-4, "%s: centrifugal energy of warping", s.name);
 }
 
-static void lumped_elements(void)
+static void check(const element_type *type, const double options[], int choice, unsigned left_out)
 {
-    static const char *const name[] = {"geometrically_exact:nodes=2", "geometrically_exact:nodes=3",
-                                       "collocation"};
-    for (size_t i = 0; i < sizeof name / sizeof name[0]; i++) {
-        formulation chosen;
-        gsl_test(formulation_parse(name[i], &chosen, NULL) != STATUS_OK, "%s", name[i]);
-        lumped_moments(chosen.type, chosen.option, name[i]);
+    inertia_subject s = {0};
+    double d[MOST];
+    node_state x[ELEMENT_MAX_NODES];
+    const unsigned features = type->offers & ~(unsigned)FEATURE_CURVATURE & ~left_out;
+    const int rotary = (features & FEATURE_ROTARY_INERTIA) != 0;
+    if (!inertia_subject_prepare(type, options, features, &s)) {
+        free(s.data);
+        return;
     }
+    snprintf(s.name, sizeof s.name, "%s, mass %d%s%s", type->name, choice, rotary ? ", rotary" : "",
+             features & FEATURE_WARPING ? ", warping" : "");
+    nodes_straight(s.nodes, s.length, x);
+    nodes_increments(s.nodes, s.length, 0.05, 31, d);
+    nodes_move(s.nodes, 1, d, x);
+    at_rest(&s, x);
+    turning_frame(&s, x, rotary);
+    free(s.data);
+}
+
+static void every_way(const element_type *type, const double options[], int choice)
+{
+    static const unsigned left_out[] = {0, FEATURE_ROTARY_INERTIA, FEATURE_WARPING,
+                                        FEATURE_WARPING | FEATURE_SHEAR};
+    for (size_t k = 0; k < sizeof left_out / sizeof left_out[0]; k++)
+        check(type, options, choice, left_out[k]);
+    warping_in_a_turning_frame(type, options, choice);
 }
 
 int main(void)
 {
-    static const unsigned left_out[] = {0, FEATURE_ROTARY_INERTIA, FEATURE_WARPING,
-                                        FEATURE_WARPING | FEATURE_SHEAR};
-    for (int i = 0; registry_formulations[i] != NULL; i++) {
-        const element_type *type = registry_formulations[i];
-        double options[ELEMENT_MAX_OPTIONS] = {0};
-        int option;
-        if (type->inertia == NULL || !(type->offers & FEATURE_MASS))
-            continue;
-        parameter_defaults(type->options, options);
-        const int choices = mass_choices(type, &option);
-        for (int choice = 0; choice < choices; choice++) {
-            if (choices > 1)
-                options[option] = choice;
-            for (size_t k = 0; k < sizeof left_out / sizeof left_out[0]; k++)
-                check(type, options, choice, left_out[k]);
-            warping_in_a_turning_frame(type, options, choice);
-            moments_of_inertia(type, options, choice);
-        }
-    }
-    lumped_elements();
+    inertia_subject_each(every_way);
     return gsl_test_summary();
 }

@@ -1,6 +1,5 @@
-/* Files that appear complete or not at all: what a path leads to, what is replaced and what is written to, permissions, full
- * disks. */
-#include <dirent.h>
+/* Files that appear complete or not at all: what is replaced and what is written to, permissions,
+ * full disks. */
 #include <fcntl.h>
 #include <gsl/gsl_test.h>
 #include <signal.h>
@@ -13,17 +12,7 @@
 
 #include "harness/record/output.h"
 #include "harness/record/record.h"
-
-static int entries(const char *folder)
-{
-    int count = 0;
-    DIR *d = opendir(folder);
-    for (struct dirent *e = d != NULL ? readdir(d) : NULL; e != NULL; e = readdir(d))
-        count += e->d_name[0] != '.';
-    if (d != NULL)
-        closedir(d);
-    return count;
-}
+#include "harness/record/test/folder.h"
 
 /* Is it there, complete, for whoever reads it? */
 static int readable(const char *path, int count)
@@ -52,13 +41,13 @@ static void write_record(const char *path, const char *folder, int good, const c
         ramp[i] = i;
     record r;
     fault f = {""};
-    const int before = entries(folder);
+    const int before = folder_entries(folder);
     gsl_test(record_open(&r, &f) != STATUS_OK, "opened %s", f.text);
     H5Dclose(record_values(&r, r.file, "ramp", 1, &size, ramp, "m"));
     const status outcome = record_close(&r, path, &f);
     gsl_test(good ? outcome != STATUS_OK : outcome != STATUS_FAULT || strchr(f.text, '\n') != NULL,
              "%s: %s", what, f.text);
-    gsl_test_int(entries(folder) - before, good, "%s: files left", what);
+    gsl_test_int(folder_entries(folder) - before, good, "%s: files left", what);
     gsl_test(good && !readable(path, COUNT), "%s: the file can be read", what);
 }
 
@@ -87,112 +76,29 @@ static void write_failures(void)
         fputs("0123456789", o.stream);
     gsl_test(output_close(&o, &f) != STATUS_FAULT, "no room for text: %s", f.text);
     setrlimit(RLIMIT_FSIZE, &kept);
-    gsl_test_int(entries(folder), 1, "the file of before is still there, and nothing else");
+    gsl_test_int(folder_entries(folder), 1, "the file of before is still there, and nothing else");
     unlink(path);
     rmdir(folder);
-}
-
-/* A folder of its own for every test. */
-typedef struct folder {
-    char path[64];
-} folder;
-
-static folder folder_make(void)
-{
-    folder out = {"/tmp/beamwork-output-XXXXXX"};
-    gsl_test(mkdtemp(out.path) == NULL, "a folder");
-    return out;
-}
-
-static void folder_remove(const folder *of)
-{
-    char command[100];
-    snprintf(command, sizeof command, "rm -rf '%s'", of->path);
-    gsl_test(system(command) != 0, "the folder is removed");
-}
-
-typedef struct path {
-    char text[400];
-} path;
-
-static path in(const folder *of, const char *name)
-{
-    path out;
-    snprintf(out.text, sizeof out.text, "%s/%s", of->path, name);
-    return out;
-}
-
-static status write_text(const char *to, const char *text, fault *f)
-{
-    output o;
-    TRY(output_open(to, &o, f));
-    fputs(text, o.stream);
-    return output_close(&o, f);
-}
-
-/* Is this the whole content of the file? */
-static int holds(const char *file, const char *text)
-{
-    char content[200] = "";
-    FILE *from = fopen(file, "r");
-    const size_t size = from != NULL ? fread(content, 1, sizeof content - 1, from) : 0;
-    if (from != NULL)
-        fclose(from);
-    return size == strlen(text) && strcmp(content, text) == 0;
-}
-
-static mode_t mode_of(const char *file)
-{
-    struct stat there;
-    return lstat(file, &there) == 0 ? there.st_mode : 0;
-}
-
-/* The target of a link is replaced, not the link: near, far, over several links, and where nothing is yet. */
-static void links(void)
-{
-    const folder of = folder_make();
-    const path target = in(&of, "target"), far = in(&of, "far"), near = in(&of, "near"),
-               chain = in(&of, "chain"), new_one = in(&of, "new"), dangling = in(&of, "dangling"),
-               circle = in(&of, "circle");
-    fault f = {""};
-    gsl_test(write_text(target.text, "before", &f) != STATUS_OK, "a file %s", f.text);
-    gsl_test(symlink(target.text, far.text) | symlink("target", near.text) |
-                 symlink("near", chain.text) | symlink("new", dangling.text) |
-                 symlink("circle", circle.text),
-             "links");
-    const path link[] = {far, near, chain};
-    for (int i = 0; i < 3; i++) {
-        gsl_test(write_text(link[i].text, link[i].text, &f) != STATUS_OK, "written through %s %s",
-                 link[i].text, f.text);
-        gsl_test(!S_ISLNK(mode_of(link[i].text)) || !S_ISREG(mode_of(target.text)) ||
-                     !holds(target.text, link[i].text),
-                 "it is the link that stays and its target that is new");
-    }
-    gsl_test(write_text(dangling.text, "made", &f) != STATUS_OK || !holds(new_one.text, "made"),
-             "where the link leads to");
-    gsl_test(!S_ISLNK(mode_of(dangling.text)), "and it stays a link");
-    gsl_test(write_text(circle.text, "never", &f) != STATUS_FAULT, "links in a circle: %s", f.text);
-    gsl_test_int(entries(of.path), 7, "nothing else is left");
-    folder_remove(&of);
 }
 
 /* What could not be written leaves the file of before, and its own status. */
 static void finished(void)
 {
-    const folder of = folder_make();
-    const path file = in(&of, "file");
+    const test_folder of = folder_make();
+    const folder_entry file = folder_path(&of, "file");
     output o;
     fault f = {""};
-    gsl_test(write_text(file.text, "before", &f) != STATUS_OK, "a file %s", f.text);
+    gsl_test(folder_write_text(file.text, "before", &f) != STATUS_OK, "a file %s", f.text);
     gsl_test(output_open(file.text, &o, &f) != STATUS_OK, "opened %s", f.text);
     fputs("half", o.stream);
-    gsl_test(output_finish(&o, STATUS_REFUSED, &f) != STATUS_REFUSED || !holds(file.text, "before"),
+    gsl_test(output_finish(&o, STATUS_REFUSED, &f) != STATUS_REFUSED ||
+                 !folder_holds(file.text, "before"),
              "what was not written");
     gsl_test(output_open(file.text, &o, &f) != STATUS_OK, "opened %s", f.text);
     fputs("whole", o.stream);
-    gsl_test(output_finish(&o, STATUS_OK, &f) != STATUS_OK || !holds(file.text, "whole"),
+    gsl_test(output_finish(&o, STATUS_OK, &f) != STATUS_OK || !folder_holds(file.text, "whole"),
              "what was written");
-    gsl_test_int(entries(of.path), 1, "nothing else is left");
+    gsl_test_int(folder_entries(of.path), 1, "nothing else is left");
     folder_remove(&of);
     gsl_test(output_open(NULL, &o, &f) != STATUS_OK || o.stream != stdout, "no name: %s", f.text);
     gsl_test(output_finish(&o, STATUS_REFUSED, &f) != STATUS_REFUSED || puts("still open") < 0,
@@ -205,18 +111,19 @@ static void finished(void)
 static void permissions(void)
 {
     static const mode_t mode[] = {0600, 0640, 0664, 0755};
-    const folder of = folder_make();
-    const path fresh = in(&of, "fresh"), kept = in(&of, "kept");
+    const test_folder of = folder_make();
+    const folder_entry fresh = folder_path(&of, "fresh"), kept = folder_path(&of, "kept");
     fault f = {""};
     const mode_t before = umask(027);
-    gsl_test(write_text(fresh.text, "x", &f) != STATUS_OK, "written %s", f.text);
-    gsl_test_int((int)(mode_of(fresh.text) & 07777), 0640, "a new file as the umask says");
+    gsl_test(folder_write_text(fresh.text, "x", &f) != STATUS_OK, "written %s", f.text);
+    gsl_test_int((int)(folder_mode_of(fresh.text) & 07777), 0640, "a new file as the umask says");
     umask(077);
     for (size_t i = 0; i < sizeof mode / sizeof mode[0]; i++) {
-        gsl_test(write_text(kept.text, "x", &f) != STATUS_OK || chmod(kept.text, mode[i]) != 0 ||
-                     write_text(kept.text, "y", &f) != STATUS_OK,
+        gsl_test(folder_write_text(kept.text, "x", &f) != STATUS_OK ||
+                     chmod(kept.text, mode[i]) != 0 ||
+                     folder_write_text(kept.text, "y", &f) != STATUS_OK,
                  "replaced %s", f.text);
-        gsl_test_int((int)(mode_of(kept.text) & 07777), (int)mode[i], "as it was");
+        gsl_test_int((int)(folder_mode_of(kept.text) & 07777), (int)mode[i], "as it was");
     }
     umask(before);
     folder_remove(&of);
@@ -226,8 +133,8 @@ static void permissions(void)
 static void temporary_names(void)
 {
     enum { NAMES = 50 };
-    const folder of = folder_make();
-    const path file = in(&of, "file");
+    const test_folder of = folder_make();
+    const folder_entry file = folder_path(&of, "file");
     output o[NAMES];
     fault f = {""};
     int same = 0, beside = 0;
@@ -244,15 +151,15 @@ static void temporary_names(void)
     gsl_test_int(beside, NAMES, "files beside the one that is written");
     for (int i = 0; i < NAMES; i++)
         output_discard(&o[i]);
-    gsl_test_int(entries(of.path), 0, "discarded: nothing is left");
+    gsl_test_int(folder_entries(of.path), 0, "discarded: nothing is left");
     folder_remove(&of);
 }
 
 /* Text goes to pipes and devices and leaves them what they are; a whole file does not. */
 static void streams(void)
 {
-    const folder of = folder_make();
-    const path fifo = in(&of, "fifo"), link = in(&of, "link");
+    const test_folder of = folder_make();
+    const folder_entry fifo = folder_path(&of, "fifo"), link = folder_path(&of, "link");
     const char *const stream[] = {fifo.text, link.text, "/dev/null", "/dev/full"};
     char got[20] = "";
     output o;
@@ -260,14 +167,15 @@ static void streams(void)
     gsl_test(mkfifo(fifo.text, 0600) != 0 || symlink("fifo", link.text) != 0,
              "a pipe with a name, and a link to it");
     const int reader = open(fifo.text, O_RDONLY | O_NONBLOCK);
-    gsl_test(write_text(fifo.text, "one", &f) != STATUS_OK ||
-                 write_text(link.text, "two", &f) != STATUS_OK,
+    gsl_test(folder_write_text(fifo.text, "one", &f) != STATUS_OK ||
+                 folder_write_text(link.text, "two", &f) != STATUS_OK,
              "written %s", f.text);
     gsl_test(read(reader, got, sizeof got - 1) != 6 || strcmp(got, "onetwo") != 0, "and read: %s",
              got);
-    gsl_test(write_text("/dev/null", "x", &f) != STATUS_OK, "to a device %s", f.text);
+    gsl_test(folder_write_text("/dev/null", "x", &f) != STATUS_OK, "to a device %s", f.text);
     if (access("/dev/full", W_OK) == 0)
-        gsl_test(write_text("/dev/full", "x", &f) != STATUS_FAULT, "to a full one: %s", f.text);
+        gsl_test(folder_write_text("/dev/full", "x", &f) != STATUS_FAULT, "to a full one: %s",
+                 f.text);
     for (size_t i = 0; i < sizeof stream / sizeof stream[0]; i++) {
         place where;
         gsl_test(output_open_whole(stream[i], &o, &f) != STATUS_REFUSED ||
@@ -276,70 +184,11 @@ static void streams(void)
         gsl_test(output_try(stream[i], OUTPUT_WHOLE_FILE, &where, &f) != STATUS_REFUSED,
                  "noticed before");
     }
-    gsl_test(!S_ISFIFO(mode_of(fifo.text)) || !S_ISLNK(mode_of(link.text)) ||
-                 !S_ISCHR(mode_of("/dev/null")),
+    gsl_test(!S_ISFIFO(folder_mode_of(fifo.text)) || !S_ISLNK(folder_mode_of(link.text)) ||
+                 !S_ISCHR(folder_mode_of("/dev/null")),
              "all are what they were");
-    gsl_test_int(entries(of.path), 2, "nothing else is left");
+    gsl_test_int(folder_entries(of.path), 2, "nothing else is left");
     close(reader);
-    folder_remove(&of);
-}
-
-/* What is no place for an output is said before anything is computed, in one line. */
-static void no_places(void)
-{
-    const folder of = folder_make();
-    const path none = in(&of, "none/file"), slash = in(&of, "none/");
-    char longest[PATH_MAX + 100];
-    memset(longest, 'x', sizeof longest - 1);
-    longest[sizeof longest - 1] = '\0';
-    const struct {
-        const char *path;
-        status outcome;
-    } bad[] = {{"", STATUS_REFUSED},       {of.path, STATUS_FAULT}, {none.text, STATUS_FAULT},
-               {slash.text, STATUS_FAULT}, {longest, STATUS_FAULT}, {"/nowhere/x", STATUS_FAULT}};
-    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        fault f = {""};
-        place where;
-        gsl_test(output_try(bad[i].path, OUTPUT_TEXT, &where, &f) != bad[i].outcome ||
-                     strchr(f.text, '\n') != NULL || f.text[0] == '\0',
-                 "'%.60s': %s", bad[i].path, f.text);
-    }
-    gsl_test_int(entries(of.path), 0, "nothing is left");
-    folder_remove(&of);
-}
-
-/* One place under many names: other words, links, hard links; files that are not there yet. */
-static void same_places(void)
-{
-    const folder of = folder_make();
-    const path a = in(&of, "a"), dotted = in(&of, "./a"), link = in(&of, "link"),
-               hard = in(&of, "hard"), b = in(&of, "b"), free_a = in(&of, "free"),
-               free_dotted = in(&of, ".//free"), free_link = in(&of, "free_link"),
-               free_b = in(&of, "freed");
-    const char *const one[] = {a.text, dotted.text, link.text, hard.text};
-    const char *const other[] = {free_a.text, free_dotted.text, free_link.text};
-    fault f = {""};
-    place x, y;
-    gsl_test(write_text(a.text, "x", &f) != STATUS_OK || write_text(b.text, "x", &f) != STATUS_OK,
-             "two files %s", f.text);
-    gsl_test(symlink(a.text, link.text) != 0 ||
-                 linkat(AT_FDCWD, a.text, AT_FDCWD, hard.text, 0) != 0 ||
-                 symlink("free", free_link.text) != 0,
-             "links");
-    for (int i = 0; i < 4; i++)
-        gsl_test(place_find(a.text, &x, &f) | place_find(one[i], &y, &f) || !place_same(&x, &y),
-                 "the same: %s", one[i]);
-    for (int i = 0; i < 3; i++)
-        gsl_test(place_find(free_a.text, &x, &f) | place_find(other[i], &y, &f) ||
-                     !place_same(&x, &y),
-                 "the same: %s", other[i]);
-    gsl_test(place_find(a.text, &x, &f) | place_find(b.text, &y, &f) || place_same(&x, &y),
-             "two files are two");
-    gsl_test(place_find(free_a.text, &x, &f) | place_find(free_b.text, &y, &f) ||
-                 place_same(&x, &y),
-             "two new ones are two");
-    gsl_test(place_find(a.text, &x, &f) | place_find(free_a.text, &y, &f) || place_same(&x, &y),
-             "one and a new one are two");
     folder_remove(&of);
 }
 
@@ -362,13 +211,10 @@ static void partial_names(void)
 int main(void)
 {
     write_failures();
-    links();
     finished();
     permissions();
     temporary_names();
     streams();
-    no_places();
-    same_places();
     partial_names();
     return gsl_test_summary();
 }

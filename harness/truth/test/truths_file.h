@@ -2,6 +2,7 @@
 #ifndef BEAMWORK_TRUTHS_FILE_H
 #define BEAMWORK_TRUTHS_FILE_H
 
+#include <gsl/gsl_test.h>
 #include <hdf5.h>
 #include <math.h>
 #include <stdio.h>
@@ -135,6 +136,17 @@ static void truths_file_make(const char *path, const recipe *r)
     H5Sclose(scalar);
     H5Fclose(file);
     truths_file_checksum(path);
+}
+
+/* Refused with one line that has the word. */
+static void truths_file_refused(const char *path, const char *word, recipe r, const char *what)
+{
+    truths t;
+    fault f = {""};
+    truths_file_make(path, &r);
+    gsl_test(truths_read(path, &t, &f) != STATUS_FAULT || strstr(f.text, word) == NULL ||
+                 strchr(f.text, '\n') != NULL || strstr(f.text, path) == NULL || t.rows != 0,
+             "%s: %s", what, f.text);
 }
 
 #endif

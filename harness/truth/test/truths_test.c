@@ -41,69 +41,59 @@ static void good_file(const char *path)
     truths_free(&t);
 }
 
-static void refused(const char *path, const char *word, recipe r, const char *what)
-{
-    truths t;
-    fault f = {""};
-    truths_file_make(path, &r);
-    gsl_test(truths_read(path, &t, &f) != STATUS_FAULT || strstr(f.text, word) == NULL ||
-                 strchr(f.text, '\n') != NULL || strstr(f.text, path) == NULL || t.rows != 0,
-             "%s: %s", what, f.text);
-}
-
 static void wrong_files(const char *path)
 {
     recipe r = right;
     r.hash_change = 1;
-    refused(path, "stale", r, "hash of other defaults");
+    truths_file_refused(path, "stale", r, "hash of other defaults");
     r = right;
     r.schema = "beamwork-results";
-    refused(path, "not a file of truths", r, "foreign schema");
+    truths_file_refused(path, "not a file of truths", r, "foreign schema");
     r = right;
     r.version = TRUTHS_VERSION + 1;
-    refused(path, "version", r, "newer version");
+    truths_file_refused(path, "version", r, "newer version");
     r = right;
     r.left_out_column = "unit";
-    refused(path, "unit", r, "missing column");
+    truths_file_refused(path, "unit", r, "missing column");
     r.left_out_column = "proof";
-    refused(path, "proof", r, "missing column of the findings");
+    truths_file_refused(path, "proof", r, "missing column of the findings");
     r = right;
     r.short_column = 1;
-    refused(path, "uncertainty", r, "columns of different length");
+    truths_file_refused(path, "uncertainty", r, "columns of different length");
     r = right;
     r.value = NAN;
-    refused(path, "value", r, "not a number");
+    truths_file_refused(path, "value", r, "not a number");
     r = right;
     r.uncertainty = -1;
-    refused(path, "uncertainty", r, "negative uncertainty");
+    truths_file_refused(path, "uncertainty", r, "negative uncertainty");
     r.uncertainty = INFINITY;
-    refused(path, "uncertainty", r, "infinite uncertainty");
+    truths_file_refused(path, "uncertainty", r, "infinite uncertainty");
     r = right;
     r.kind = "rumour";
-    refused(path, "kind", r, "unknown kind");
+    truths_file_refused(path, "kind", r, "unknown kind");
     r = right;
     r.model = "";
-    refused(path, "model", r, "no model");
+    truths_file_refused(path, "model", r, "no model");
     r = right;
     r.elements = 4;
-    refused(path, "elements", r, "a mesh without a formulation");
+    truths_file_refused(path, "elements", r, "a mesh without a formulation");
     r.elements = -1;
-    refused(path, "elements", r, "negative number of elements");
+    truths_file_refused(path, "elements", r, "negative number of elements");
     r = right;
     r.kind = "predicted";
-    refused(path, "elements", r, "a predicted limit of no formulation");
+    truths_file_refused(path, "elements", r, "a predicted limit of no formulation");
     r.formulation = "beamw";
     r.elements = 4;
-    refused(path, "elements", r, "a predicted limit of one mesh");
+    truths_file_refused(path, "elements", r, "a predicted limit of one mesh");
     r = right;
     r.theory = "timoshenko";
-    refused(path, "theory", r, "unknown theory");
+    truths_file_refused(path, "theory", r, "unknown theory");
     r = right;
     r.convention = "spatial moments";
-    refused(path, "convention", r, "unknown convention");
+    truths_file_refused(path, "convention", r, "unknown convention");
     r = right;
     r.at = INFINITY;
-    refused(path, "at", r, "infinite abscissa");
+    truths_file_refused(path, "at", r, "infinite abscissa");
 }
 
 /* Rows that no limit is judged by: of one formulation, of a curve, of no gate. */
@@ -235,114 +225,6 @@ static void strangers(const char *path)
     truths_free(&t);
 }
 
-/* Does the rule, with this condition, hold for a point of the first case? */
-static int holds(const char *path, const char *condition, const rule_subject *s)
-{
-    truths t;
-    fault f = {""};
-    recipe r = right;
-    r.condition = condition;
-    truths_file_make(path, &r);
-    const int read = truths_read(path, &t, &f) == STATUS_OK,
-              out = read && rule_holds(&t.rule[0], s);
-    gsl_test(!read, "condition '%s' is read %s", condition, f.text);
-    truths_free(&t);
-    return out;
-}
-
-/* Every part of a rule must fit by itself. */
-static void subjects(const char *path)
-{
-    const case_type *type = registry_cases[0];
-    double value[CASE_MAX_PARAMETERS] = {0};
-    parameters_default(type, value);
-    const rule_subject fits = {type,   value,        FEATURE_SHEAR, "something:mass=lumped",
-                               "load", "wrong limit"};
-    rule_subject s = fits;
-    gsl_test(!holds(path, "", &s), "a rule fits: a pattern, its bare name");
-    s.formulation = "another:mass=lumped";
-    gsl_test(!holds(path, "", &s), "a name with its option");
-    s.formulation = "another";
-    gsl_test(holds(path, "", &s), "the name without its option");
-    s = fits;
-    s.quantity = "loads";
-    gsl_test(holds(path, "", &s), "another quantity");
-    s = fits;
-    s.verdict = "diverged";
-    gsl_test(holds(path, "", &s), "a verdict that it does not allow");
-    s = fits;
-    s.type = registry_cases[1];
-    gsl_test(holds(path, "", &s), "another case");
-}
-
-/* first: a parameter of the case that is a number. */
-static void conditions(const char *path)
-{
-    const case_type *type = registry_cases[0];
-    double value[CASE_MAX_PARAMETERS] = {0};
-    parameters_default(type, value);
-    int first = 0;
-    while (parameter_at(type->parameters, first)->choices != NULL)
-        first++;
-    value[first] = 0.25;
-    const rule_subject s = {type,   value,  FEATURE_SHEAR | FEATURE_WAGNER_TORQUE,
-                            "some", "load", "low order"};
-    static const struct {
-        const char *sign;
-        int holds;
-    } terms[] = {{"=0.25", 1},      {"=0.3", 0},  {"=0.3|0.25", 1}, {"!=0.25", 0}, {"!=0.3", 1},
-                 {"!=0.3|0.25", 0}, {"<0.25", 0}, {"<0.26", 1},     {"<=0.25", 1}, {"<=0.24", 0},
-                 {">0.25", 0},      {">0.24", 1}, {">=0.25", 1},    {">=0.26", 0}};
-    char text[64];
-    for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++) {
-        snprintf(text, sizeof text, "%s%s", parameter_at(type->parameters, first)->name,
-                 terms[i].sign);
-        gsl_test_int(holds(path, text, &s), terms[i].holds, "condition %s where it is 0.25", text);
-    }
-    gsl_test_int(holds(path, "shear", &s), 1, "a feature that is needed");
-    gsl_test_int(holds(path, "not shear", &s), 0, "not");
-    gsl_test_int(holds(path, "warping", &s), 0, "a feature that is not needed");
-    gsl_test_int(holds(path, "not warping; wagner torque", &s), 1, "two terms that hold");
-    gsl_test_int(holds(path, "wagner torque;warping", &s), 0, "two terms of which one does not");
-    static const char *const wrong[] = {"sheer", "no_parameter=1", "shear=1;", "=3",
-                                        "shear and warping"};
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        recipe r = right;
-        r.condition = wrong[i];
-        refused(path, "condition", r, wrong[i]);
-    }
-    snprintf(text, sizeof text, "%s=many", parameter_at(type->parameters, first)->name);
-    recipe r = right;
-    r.condition = text;
-    refused(path, "condition", r, "a word for a number");
-}
-
-/* A rule is observed when a verdict shows it and verdicts meet each of its predictions. */
-static void predictions(const char *path)
-{
-    truths t;
-    fault f = {""};
-    char text[128];
-    const case_type *type = registry_cases[0];
-    recipe r = right;
-    snprintf(text, sizeof text, "%s/load %s/other", type->name, type->name);
-    r.predicted = text;
-    truths_file_make(path, &r);
-    gsl_test(truths_read(path, &t, &f) != STATUS_OK, "a rule with two predictions %s", f.text);
-    rule *one = &t.rule[0];
-    gsl_test(rule_is_observed(one), "not observed yet");
-    one->observed = 1;
-    gsl_test(rule_is_observed(one), "observed, but not as predicted");
-    rule_foretell(one, &(rule_subject){.type = type, .quantity = "other"});
-    rule_foretell(one, &(rule_subject){.type = type, .quantity = "third"});
-    gsl_test(rule_is_observed(one), "one of two predictions met");
-    rule_foretell(one, &(rule_subject){.type = type, .quantity = "load"});
-    gsl_test(!rule_is_observed(one), "both");
-    one->observed = 0;
-    gsl_test(rule_is_observed(one), "predictions alone are no observation");
-    truths_free(&t);
-}
-
 int main(void)
 {
     char path[] = "/tmp/beamwork-truths-XXXXXX";
@@ -358,9 +240,6 @@ int main(void)
     new_columns(path);
     damaged_files(path);
     strangers(path);
-    subjects(path);
-    conditions(path);
-    predictions(path);
     unlink(path);
     return gsl_test_summary();
 }

@@ -1,0 +1,74 @@
+/* A formulation whose cells end as a test wants it. */
+#ifndef BEAMWORK_TEST_ENDING_H
+#define BEAMWORK_TEST_ENDING_H
+
+#include <signal.h>
+#include <unistd.h>
+
+#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/registry.h"
+#include "harness/model/missing.h"
+
+enum { KILLED, ENDED, HANGING, STOPPED };
+
+static inline void never_end(int says)
+{
+    const pid_t self = getpid();
+    if (says > 0 && write(says, &self, sizeof self) != (ssize_t)sizeof self)
+        _exit(4);
+    for (;;)
+        pause();
+}
+
+/* The formulation that runs on the first case. */
+static inline formulation ending_good(void)
+{
+    formulation chosen;
+    double value[CASE_MAX_PARAMETERS] = {0};
+    scene s;
+    char words[200];
+    scene_init(&s, "test");
+    parameters_default(registry_cases[0], value);
+    registry_cases[0]->build(value, &s, NULL);
+    int i = 0;
+    while (registry_formulations[i + 1] != NULL &&
+           missing_words(&s, registry_formulations[i], words, sizeof words))
+        i++;
+    scene_free(&s);
+    formulation_default(registry_formulations[i], &chosen);
+    return chosen;
+}
+
+/* The same with another end of the process that sets up its elements: that of a cell. */
+static struct {
+    element_type type;
+    status (*prepare)(const element_request *, element_data *, fault *);
+    int end, says; /* says: where a cell that never ends says its process */
+} ending;
+
+static inline status prepare_end(const element_request *request, element_data *data, fault *f)
+{
+    if (ending.end == KILLED)
+        raise(SIGKILL);
+    if (ending.end == ENDED)
+        _exit(3);
+    if (ending.end == HANGING)
+        never_end(ending.says);
+    if (ending.end == STOPPED) /* its own alarm has to wait */
+        raise(SIGSTOP);
+    return ending.prepare(request, data, f);
+}
+
+static inline formulation ending_bad(int end, int says)
+{
+    formulation out = ending_good();
+    ending.type = *out.type;
+    ending.prepare = out.type->prepare;
+    ending.end = end;
+    ending.says = says;
+    ending.type.prepare = prepare_end;
+    out.type = &ending.type;
+    return out;
+}
+
+#endif

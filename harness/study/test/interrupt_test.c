@@ -1,0 +1,185 @@
+/* No process outlives the one that started it, and who asks to end keeps what is finished. Nothing here
+ * depends on the machine's speed: every step waits for an event, and END and WAIT only bound a test
+ * that would never end. */
+#include <gsl/gsl_test.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "harness/study/interrupt.h"
+#include "harness/study/plan.h"
+#include "harness/study/run.h"
+#include "harness/study/test/ending.h"
+
+enum { END = 900, WAIT = 120 }; /* [s] */
+
+/* A process that runs a sweep of cells that never end, and what they say of themselves. */
+typedef struct family {
+    pid_t parent;
+    int says;
+} family;
+
+/* Child: its exit code is 0 when `sound` cells, then endless ones, gave what the request asks for.
+ */
+static int run_endless(const sweep_request *request, int sound, int says)
+{
+    static const int mesh[] = {1, 2, 3};
+    const formulation good = ending_good(), endless = ending_bad(HANGING, says);
+    double value[CASE_MAX_PARAMETERS] = {0};
+    sweep s = {0};
+    fault f = {""};
+    parameters_default(registry_cases[0], value);
+    status outcome = plan_add(&s, registry_cases[0], value, NULL, mesh, 3, &f);
+    if (outcome == STATUS_OK && sound)
+        outcome = plan_extend(&s, &good, 1, &f);
+    if (outcome == STATUS_OK)
+        outcome = plan_extend(&s, &endless, 1, &f);
+    if (outcome != STATUS_OK || run_sweep(request, &s, &f) != STATUS_OK)
+        return 1;
+    int right = request->interruptible ? s.seriess == sound && s.unfinished == 3
+                                       : s.seriess == 1 + sound && s.unfinished == 0;
+    for (int i = 0; i < s.seriess; i++)
+        for (int k = 0; k < 3; k++)
+            right = right &&
+                    (s.series[i].cell[k].solve.status == STATUS_TIME_LIMIT) == (i >= sound) &&
+                    (s.series[i].cell[k].solve.quantities > 0) == (i < sound);
+    sweep_free(&s);
+    return right ? 0 : 2;
+}
+
+static family begin_family(const sweep_request *request, int sound)
+{
+    int ends[2];
+    family out = {-1, -1};
+    if (pipe(ends) != 0 || (out.parent = fork()) < 0)
+        return out;
+    if (out.parent == 0) {
+        close(ends[0]);
+        _exit(run_endless(request, sound, ends[1]));
+    }
+    close(ends[1]);
+    out.says = ends[0];
+    return out;
+}
+
+/* The process of a cell that has begun; 0: all who could say so are gone; -1: nothing happens. */
+static pid_t next_cell(const family *of)
+{
+    struct pollfd end = {.fd = of->says, .events = POLLIN};
+    pid_t process = 0;
+    if (poll(&end, 1, 1000 * WAIT) <= 0)
+        return -1;
+    return read(of->says, &process, sizeof process) == (ssize_t)sizeof process ? process : 0;
+}
+
+static int exit_code(pid_t process)
+{
+    int how = 0;
+    return waitpid(process, &how, 0) == process && WIFEXITED(how) ? WEXITSTATUS(how) : -1;
+}
+
+/* Whoever is killed takes his workers along. */
+static void orphans(void)
+{
+    const sweep_request request = {.jobs = 2};
+    const family of = begin_family(&request, 0);
+    const pid_t first = next_cell(&of), second = next_cell(&of);
+    gsl_test(first <= 0 || second <= 0 || first == second, "two workers are at their cells");
+    kill(of.parent, SIGKILL);
+    exit_code(of.parent);
+    const int gone = next_cell(&of) == 0;
+    gsl_test(!gone, "nobody holds the pipe any more: the workers went with their parent");
+    if (!gone && first > 0 && second > 0) {
+        kill(first, SIGKILL);
+        kill(second, SIGKILL);
+    }
+    close(of.says);
+}
+
+static char state_of(pid_t process)
+{
+    char path[64], state = 'X';
+    snprintf(path, sizeof path, "/proc/%ld/stat", (long)process);
+    FILE *file = fopen(path, "r");
+    if (file == NULL || fscanf(file, "%*d (%*[^)]) %c", &state) != 1)
+        state = 'X';
+    if (file != NULL)
+        fclose(file);
+    return state;
+}
+
+/* A worker keeps the limit when nobody looks at it. */
+static void own_limit(void)
+{
+    const sweep_request request = {.jobs = 1, .time_limit = 1};
+    const family of = begin_family(&request, 0);
+    const pid_t cell = next_cell(&of);
+    gsl_test(cell <= 0, "a worker is at its cell");
+    kill(of.parent, SIGSTOP);
+    char state = 'R';
+    for (int i = 0; i < 100 * WAIT && cell > 0 && state != 'X' && state != 'Z'; i++) {
+        nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+        state = state_of(cell);
+    }
+    gsl_test(state != 'X' && state != 'Z', "it has ended while its parent is stopped (%c)", state);
+    if (state != 'X' && state != 'Z' && cell > 0)
+        kill(cell, SIGKILL);
+    kill(of.parent, SIGCONT);
+    gsl_test_int(exit_code(of.parent), 0, "and its parent says that the limit was reached");
+    close(of.says);
+}
+
+/* Asked to end, a run keeps the series that are finished, and only those. */
+static void interrupted(int number)
+{
+    const sweep_request request = {.jobs = 1, .interruptible = 1};
+    const family of = begin_family(&request, 1);
+    gsl_test(next_cell(&of) <= 0, "three cells are done, the fourth has begun");
+    kill(of.parent, number);
+    gsl_test_int(exit_code(of.parent), 0,
+                 "signal %d: one series of two is left, three cells are not done", number);
+    gsl_test_int(next_cell(&of), 0, "signal %d: no worker is left", number);
+    close(of.says);
+}
+
+static int is_asked(const interrupt *i)
+{
+    struct pollfd end = {.fd = i->descriptor, .events = POLLIN};
+    return poll(&end, 1, 0) > 0;
+}
+
+/* What is ignored (nohup) is no request; afterwards everything is as before. */
+static void requests(void)
+{
+    interrupt i;
+    sigset_t after;
+    interrupt_begin(&i);
+    gsl_test(i.descriptor < 0 || is_asked(&i), "nobody asks");
+    raise(SIGTERM);
+    gsl_test(!is_asked(&i), "somebody does, and is not obeyed at once");
+    interrupt_end(&i);
+    signal(SIGHUP, SIG_IGN);
+    interrupt_begin(&i);
+    raise(SIGHUP);
+    gsl_test(is_asked(&i), "an ignored signal is no request");
+    interrupt_end(&i);
+    signal(SIGHUP, SIG_DFL);
+    sigprocmask(SIG_SETMASK, NULL, &after);
+    gsl_test(sigismember(&after, SIGINT) || sigismember(&after, SIGTERM),
+             "the mask is the one of before");
+}
+
+int main(void)
+{
+    signal(SIGINT, SIG_DFL); /* a shell's background job ignores it, and what is ignored stays so */
+    alarm(END);
+    orphans();
+    own_limit();
+    interrupted(SIGINT);
+    interrupted(SIGTERM);
+    requests();
+    return gsl_test_summary();
+}
