@@ -281,7 +281,7 @@ def row_of(given):
     return {**dict.fromkeys(COLUMNS, ""), **filled}
 
 
-def rows(cases=CASES):
+def derived_rows(cases=CASES):
     """Those of points and quantities that have exact values, and differ from all of them."""
     exact = exact_values()
     for given in predictions(cases):
@@ -336,7 +336,7 @@ def main(arguments):
     unknown = [case for case in cases if case not in CASES]
     if unknown:
         raise SystemExit(f"predicted.py: nothing for '{unknown[0]}', only for {', '.join(CASES)}")
-    derived = list(rows(cases))
+    derived = list(derived_rows(cases))
     if "--write" in arguments:
         write(derived)
         return 0

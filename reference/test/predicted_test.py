@@ -261,7 +261,7 @@ class Machinery(unittest.TestCase):
         for name, points in (("sheet_second", sheets.cantilever), ("sheet_third", sheets.twisted)):
             rows = points(form=predicted.as_printed(name))
             given += [(name, *row[:5], predicted.RELATIVE, *row[6:]) for row in rows]
-        derived = [*predicted.rows(predicted.CLOSED_FORMS), *map(predicted.row_of, given)]
+        derived = [*predicted.derived_rows(predicted.CLOSED_FORMS), *map(predicted.row_of, given)]
         met = [row for row in derived if predicted.key_of(row) in stored]
         self.assertGreater(len(met), 100)
         for row in met:
