@@ -38,6 +38,10 @@ static status reverse(scene *s, fault *f)
         m->section_q = section_p;
         m->warp_p = m->warp_q;
         m->warp_q = warp_p;
+        const scene_release released =
+            m->release[0]; /* along lines that stay: x and y change sign */
+        m->release[0] = m->release[1];
+        m->release[1] = released;
         m->curvature[2] = -m->curvature[2];
         for (int k = 0; k < 3; k++)
             m->y_axis[k] = -m->y_axis[k];
@@ -95,11 +99,13 @@ static status split(scene *s, double fraction, fault *f)
     m->section_q = first.section_q;
     m->warp_p = name;
     m->warp_q = first.warp_q;
+    m->release[1] = first.release[1];
     m->divisions = first.divisions;
     m = scene_member_at(s, 0);
     m->q = middle;
     m->section_q = profile;
     m->warp_q = name;
+    m->release[1].count = 0;
     for (int i = 0; i < loads; i++)
         if (scene_load_along(&s->load[i]) && s->load[i].where == 0) {
             const scene_load whole = s->load[i];

@@ -123,6 +123,14 @@ int scene_tapers(const scene *s)
     return 0;
 }
 
+void scene_release_end(scene *s, int member, int end, int component)
+{
+    scene_release *r = &scene_member_at(s, member)->release[end];
+    if (r->count < SCENE_RELEASED)
+        r->component[r->count] = component;
+    r->count++;
+}
+
 int scene_add_spring(scene *s, int p, int q, const double stiffness[36])
 {
     const int i = scene_grow(s, &s->spring, &s->springs, sizeof *s->spring);

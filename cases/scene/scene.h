@@ -54,6 +54,17 @@ typedef struct scene_node {
     scene_body body;
 } scene_node;
 
+/* What an end of a member does not pass on to its node, in the member's axes there (y as in
+ * scene_member): turns, in their order, and shifts.  The end is at r + R_end s, R_end = R exp(a_1 t_1)
+ * exp(a_2 t_2) with the node's r, R: of two turns the axis of the first stays with the node, that of
+ * the second with the member (a universal joint), shifts are along the turned end.  Three turns are
+ * those of a ball. */
+enum { SCENE_RELEASED = 5 };
+typedef struct scene_release {
+    int count;                     /* 0: joined */
+    int component[SCENE_RELEASED]; /* SCENE_UX .. SCENE_RZ, each once */
+} scene_release;
+
 typedef struct scene_member {
     int p, q;
     int section, section_q; /* at p and at q; between them it changes linearly in its numbers
@@ -65,7 +76,8 @@ typedef struct scene_member {
         [3]; /* initial torsion, curvatures about local y and z [1/m]; position of interior nodes follows the arc */
     double strain
         [3]; /* initial elongation and shear strains that would leave no stress: heat, a misfit */
-    int divisions; /* 0: the mesh's -n; else this many elements always */
+    scene_release release[2]; /* at p, q */
+    int divisions;            /* 0: the mesh's -n; else this many elements always */
 } scene_member;
 
 /* Between two nodes, or a node and the ground: energy 1/2 d^T K d with d of the six components of q's frame against p's since
@@ -154,6 +166,9 @@ int scene_add_member(scene *s, int p, int q, int profile,
 /* Does its section change along it?  Does that of any member? */
 int scene_member_tapers(const scene_member *m);
 int scene_tapers(const scene *s);
+/* The end of a member (0 at p, 1 at q) keeps this component to itself, behind those that it has been
+ * told; more than SCENE_RELEASED are refused by scene_validate. */
+void scene_release_end(scene *s, int member, int end, int component);
 int scene_add_spring(scene *s, int p, int q, const double stiffness[36]);
 int scene_add_driver(scene *s, const char *name, int stations, const double path[],
                      const double value[]);

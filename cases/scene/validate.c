@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cases/scene/validate_node.h"
+#include "cases/scene/validate_release.h"
 #include "cases/scene/validate_wanted.h"
 #include "elements/math/dense.h"
 #include "elements/section/taper.h"
@@ -47,7 +48,9 @@ static status check_member(const scene *s, int i, fault *f)
     if (m->divisions < 0)
         return fault_set(f, STATUS_REFUSED, "member %d: %d elements; give at least 1", i,
                          m->divisions);
-    return scene_member_tapers(m) ? check_taper(s, i, f) : STATUS_OK;
+    if (scene_member_tapers(m))
+        TRY(check_taper(s, i, f));
+    return scene_validate_release(s, i, f);
 }
 
 /* Symmetric, and no deformation gives energy away: elimination meets no negative pivot. */
@@ -189,10 +192,11 @@ static status check_load(const scene *s, int i, fault *f)
 status scene_validate(const scene *s, fault *f)
 {
     static status (*const check[])(const scene *, int, fault *) = {
-        scene_validate_node,     check_member,           check_spring, check_driver, check_load,
+        scene_validate_node,     check_member,           check_spring,
+        scene_validate_turns,    check_driver,           check_load,
         scene_validate_analysis, scene_validate_quantity};
-    const int count[] = {s->nodes, s->members,  s->springs,   s->drivers,
-                         s->loads, s->analyses, s->quantities};
+    const int count[] = {s->nodes,   s->members, s->springs,  s->nodes,
+                         s->drivers, s->loads,   s->analyses, s->quantities};
     if (s->out_of_memory)
         return fault_set(f, STATUS_FAULT, "%s: out of memory while the scene was built", s->name);
     for (size_t k = 0; k < sizeof count / sizeof count[0]; k++)

@@ -6,6 +6,7 @@
 #include "elements/math/rotation.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/equations/loads.h"
+#include "harness/model/release.h"
 
 /* Strains, stresses and inner unknowns of one element. */
 static double advance_element(model *m, model_state *s, int i, const double dx[])
@@ -57,6 +58,8 @@ double advance_state(model *m, model_state *s, const double dx[], double path)
     for (int i = 0; i < m->vertices; i++)
         if (m->vertex[i].body == i)
             largest = fmax(largest, advance_vertex(m, s, i, dx));
+    for (int i = m->first_release; i < m->vertices; i++)
+        largest = fmax(largest, release_advance(m, s, i, dx));
     for (int i = 0; i < m->warps; i++) {
         s->warp[i] += dx[m->warp[i].coordinate];
         largest = fmax(largest, fabs(dx[m->warp[i].coordinate]) * m->size);

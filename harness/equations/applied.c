@@ -8,6 +8,7 @@
 #include "elements/math/rotation.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/release.h"
 
 /* The undeformed member's axes, y as the scene gives it: the triad of an element's node, whose y and
  * z are the principal ones of the section, turned back. */
@@ -102,12 +103,95 @@ static void add_following(const entries *all, const mesh_vertex *body, const dou
     }
 }
 
+/* What one coordinate does to a load on a released end. */
+typedef struct load_motion {
+    int coordinate;
+    int own;        /* 1: of the end, 0: of its body */
+    int chart;      /* 1: a turn about a fixed axis, in no order with the two others */
+    double axis[3]; /* of a turn */
+    double turn[3]; /* of the load's frame */
+    double shift[3];
+} load_motion;
+
+/* In the order of the frame: the body's place and turns, those of the end, its shifts. Returns how many there are. */
+static int motions_at_release(const entries *all, const applied *what,
+                              load_motion out[KINEMATICS_MOST])
+{
+    const mesh_release *r = release_of(all->m, what->vertex);
+    const int body = all->m->vertex[what->vertex].body;
+    int index[KINEMATICS_MOST];
+    double T[6 * KINEMATICS_MOST], of_body[6 * KINEMATICS_MOST];
+    const int from_body = kinematics_node_jacobian(all->m, all->s, body, 6, index, of_body),
+              count =
+                  kinematics_node_jacobian(all->m, all->s, what->vertex, KINEMATICS_MOST, index, T);
+    for (int k = 0; k < count; k++) {
+        load_motion *to = &out[k];
+        to->coordinate = index[k];
+        to->own = k >= from_body;
+        for (int i = 0; i < 3; i++) {
+            to->turn[i] = T[(3 + i) * count + k];
+            to->axis[i] = to->own ? to->turn[i] : of_body[(3 + i) * from_body + k];
+        }
+        vec3_cross(to->turn, what->arm, to->shift);
+        for (int i = 0; i < 3; i++)
+            to->shift[i] = T[i * count + k] + (what->offset ? to->shift[i] : 0);
+        to->chart =
+            vec3_norm(to->axis) > 0 && (to->own ? r->turns == 3 : all->m->vertex[body].angles == 0);
+    }
+    return count;
+}
+
+/* Does the turn e come before l and move what l moves along? 1/2: both in no order. */
+static double carries(const mesh_release *r, const load_motion *e, const load_motion *l)
+{
+    if (r->turns == 3 && e->own != l->own)
+        return 0;
+    return e->chart && l->chart && e->own == l->own ? 0.5 : e < l;
+}
+
+/* a . (b x c) */
+static double triple(const double a[3], const double b[3], const double c[3])
+{
+    double cross[3];
+    vec3_cross(b, c, cross);
+    return vec3_dot(a, cross);
+}
+
+/* Derivative of the generalised load of coordinate i by coordinate j. */
+static double release_entry(const mesh_release *r, const applied *what, const load_motion *i,
+                            const load_motion *j)
+{
+    const double *F = what->F, *M = F + 3, before = carries(r, j, i);
+    double value = i == j ? triple(F, i->axis, i->shift)
+                          : before * triple(F, j->axis, i->shift) +
+                                carries(r, i, j) * triple(F, i->axis, j->shift);
+    value += i == j ? 0 : before * triple(M, j->axis, i->turn);
+    if (what->follower)
+        value += triple(i->shift, j->turn, F) + triple(i->turn, j->turn, M);
+    return value;
+}
+
+static void add_stiffness_at_release(const entries *all, const applied *what)
+{
+    load_motion motion[KINEMATICS_MOST];
+    const int count = motions_at_release(all, what, motion);
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < count; j++)
+            all->take(
+                all->to, motion[i].coordinate, motion[j].coordinate,
+                release_entry(release_of(all->m, what->vertex), what, &motion[i], &motion[j]));
+}
+
 /* Derivative of the generalised load of a force F at offset rho and a spatial moment on one
  * body's rotations. */
 static void add_stiffness(void *context, const applied *what)
 {
     const entries *all = context;
     const double *F = what->F;
+    if (release_of(all->m, what->vertex) != NULL) {
+        add_stiffness_at_release(all, what);
+        return;
+    }
     const mesh_vertex *v = &all->m->vertex[what->vertex], *body = &all->m->vertex[v->body];
     double rho[3], D[9], moment[3] = {0, 0, 0}, b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     if (v->body == what->vertex && !what->offset && !what->follower && F[3] == 0 && F[4] == 0 &&

@@ -7,6 +7,7 @@
 #include "elements/math/rotation.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/equations/loads.h"
+#include "harness/model/release.h"
 
 /* Longest step to extrapolate over, relative to the last one; largest error of what is prescribed,
  * relative to its own step. */
@@ -88,6 +89,14 @@ static void extrapolate_rotation(const model *m, int vertex, int count, const do
     rotation_normalise(&out->q[4 * vertex]);
 }
 
+/* Has it an orientation of its own, that no angles give? */
+static int turns_by_itself(const model *m, int vertex)
+{
+    const mesh_release *r = release_of(m, vertex);
+    return r != NULL ? r->turns == 3
+                     : m->vertex[vertex].body == vertex && m->vertex[vertex].angles == 0;
+}
+
 int extrapolate_state(const model *m, int count, const model_state *const at[], double path,
                       model_state *out)
 {
@@ -105,7 +114,7 @@ int extrapolate_state(const model *m, int count, const model_state *const at[], 
         out->block[k] = sum;
     }
     for (int v = 0; v < m->vertices; v++)
-        if (m->vertex[v].body == v && m->vertex[v].angles == 0)
+        if (turns_by_itself(m, v))
             extrapolate_rotation(m, v, count, weight, at, out);
     kinematics_follow(m, out);
     return 1;

@@ -73,10 +73,11 @@ status linear_stiffness(model *m, sparse *K, fault *f)
     sparse_zero(K);
     for (int i = 0; i < m->elements; i++) {
         linear_element l;
-        double k[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES] = {0};
+        double k[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
         const status outcome = linear_of(m, i, &l);
         if (outcome != STATUS_OK)
             return not_evaluated(m, i, outcome, f);
+        memset(k, 0, (size_t)(m->coordinates * m->coordinates) * sizeof *k);
         dense_add_congruence(m->strains, m->coordinates, l.J, l.S, k, work);
         eliminate_matrix(m, m->rest, &m->element[i], NULL, k);
         assemble_matrix(pattern_of(m, K), i, k, K);
@@ -113,8 +114,7 @@ void linear_forces(model *m, const double sigma[], double f[])
     memset(f, 0, (size_t)(m->free + m->driven) * sizeof *f);
     for (int i = 0; i < m->elements; i++) {
         const element_data *data = m->kind[m->element[i].kind].data;
-        double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
-            force[ELEMENT_MAX_COORDINATES] = {0};
+        double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[MODEL_MAX_COORDINATES] = {0};
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, m->rest, &m->element[i], x);
         m->type->strain(data, x, &(strain_output){.J = J});
@@ -150,7 +150,7 @@ status linear_geometric_stiffness(model *m, const double sigma[], double path, s
         TRY(loads_have_potential(m, m->rest, path, f));
     sparse_zero(out);
     for (int i = 0; i < m->elements; i++) {
-        double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
+        double H[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
             G[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
         double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
             force[ELEMENT_MAX_COORDINATES] = {0};
@@ -224,7 +224,7 @@ double linear_strain_energy2(model *m, const double x[])
 /* x^T (sum sigma_i H_i + J^T G(sigma) J) x of one element. */
 static double geometric_energy2(model *m, int i, const double sigma[], const double x[])
 {
-    double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
+    double H[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
         G[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
     double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0},
                                                              local[ELEMENT_MAX_COORDINATES],
@@ -236,12 +236,13 @@ static double geometric_energy2(model *m, int i, const double sigma[], const dou
     if (m->element[i].plain)
         return inside + dense_quadratic(m->coordinates, H, local);
     /* Second derivatives of offsets and sequences act in the model's coordinates. */
-    double own[ELEMENT_MAX_COORDINATES];
-    for (int k = 0; k < m->coordinates; k++)
-        own[k] = m->element[i].index[k] == NONE ? 0 : x[m->element[i].index[k]];
+    const mesh_element *el = &m->element[i];
+    double own[MODEL_MAX_COORDINATES];
+    for (int k = 0; k < el->columns; k++)
+        own[k] = el->index[k] == NONE ? 0 : x[el->index[k]];
     dense_add_transpose_mul(m->coordinates, m->strains, 1, J, sigma, force);
-    eliminate_matrix(m, m->rest, &m->element[i], force, H);
-    return inside + dense_quadratic(m->coordinates, H, own);
+    eliminate_matrix(m, m->rest, el, force, H);
+    return inside + dense_quadratic(el->columns, H, own);
 }
 
 double linear_geometric_energy2(model *m, const double sigma[], const double x[])

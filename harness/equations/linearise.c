@@ -120,7 +120,7 @@ static status element_equations(model *m, const model_state *s, int i, int tange
 static void add_driven(const model *m, const mesh_element *el, const double drive[],
                        const double K[], double force[])
 {
-    const int n = NODE_COORDINATES * el->nodes;
+    const int n = el->columns;
     for (int j = 0; j < n; j++) {
         const double step = el->index[j] >= m->free ? drive[el->index[j]] : 0;
         if (step == 0)
@@ -134,7 +134,7 @@ static void add_driven(const model *m, const mesh_element *el, const double driv
 static void add_columns(const model *m, const mesh_element *el, const double K[],
                         model_linearisation *lin)
 {
-    const int n = NODE_COORDINATES * el->nodes;
+    const int n = el->columns;
     for (int c = 0; c < lin->conditions; c++) {
         double *column = lin->column + c * (m->free + m->driven);
         for (int j = 0; j < n; j++) {
@@ -175,7 +175,7 @@ static void add_part(model *m, const mesh_element *el, element_part *part, model
         add_driven(m, el, lin->drive, part->K, part->force);
     add_columns(m, el, part->K, lin);
     phases_lap(&m->phases, PHASE_ELEMENTS);
-    for (int k = 0; k < NODE_COORDINATES * el->nodes; k++)
+    for (int k = 0; k < el->columns; k++)
         part->force[k] = -part->force[k];
     assemble_vector(el, part->force, lin->residual);
     lin->incompatibility = fmax(lin->incompatibility, part->incompatibility);

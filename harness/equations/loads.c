@@ -56,9 +56,9 @@ typedef struct sum_of_loads {
 static void add_applied(void *context, const applied *what)
 {
     const sum_of_loads *sum = context;
-    int index[6];
-    double T[36], F[6], moment[3];
-    const int n = kinematics_node_jacobian(sum->m, sum->s, what->vertex, 6, index, T);
+    int index[KINEMATICS_MOST];
+    double T[6 * KINEMATICS_MOST], F[6], moment[3];
+    const int n = kinematics_node_jacobian(sum->m, sum->s, what->vertex, KINEMATICS_MOST, index, T);
     memcpy(F, what->F, sizeof F);
     if (what->offset) {
         vec3_cross(what->arm, F, moment);

@@ -51,8 +51,8 @@ status rotating_frame_inertia(model *m, const model_state *state, double path, s
 {
     const model_state *s = state != NULL ? state : m->rest;
     const mesh_pattern *p = &m->pattern[M->row == m->pattern[1].matrix.row];
-    double mass[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
-        gyroscopic[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
+    double mass[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
+        gyroscopic[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
     sparse_zero(M);
     if (G != NULL)
         sparse_zero(G);
@@ -81,7 +81,7 @@ void rotating_frame_load_stiffness(const model *m, const model_state *s, double 
 status rotating_frame_tangent_energy2(model *m, const model_state *s, double path, const double x[],
                                       double *energy)
 {
-    enum { X = ELEMENT_MAX_COORDINATES, E = ELEMENT_MAX_STRAINS };
+    enum { X = MODEL_MAX_COORDINATES, E = ELEMENT_MAX_STRAINS };
     *energy = 0;
     for (int i = 0; i < m->elements; i++) {
         const mesh_element *el = &m->element[i];
@@ -102,10 +102,10 @@ status rotating_frame_tangent_energy2(model *m, const model_state *s, double pat
         kinematics_local(m, s, el, x, local);
         dense_mul_vec(m->strains, m->coordinates, J, local, e);
         eliminate_matrix(m, s, el, force, H);
-        for (int k = 0; k < m->coordinates; k++)
+        for (int k = 0; k < el->columns; k++)
             own[k] = el->index[k] == NONE ? 0 : x[el->index[k]];
         *energy += dense_quadratic(m->strains, C, e) +
-                   dense_quadratic(m->coordinates, H, el->plain ? local : own);
+                   dense_quadratic(el->columns, H, el->plain ? local : own);
     }
     *energy += discrete_energy2(m, s, path, x);
     return STATUS_OK;

@@ -15,7 +15,7 @@ void stiffness_parts_material_product(const model *m, const model_state *s, cons
         const mesh_element *el = &m->element[i];
         const model_slot w = linearise_slot(m, i);
         double local[ELEMENT_MAX_COORDINATES], e[ELEMENT_MAX_STRAINS], sigma[ELEMENT_MAX_STRAINS],
-            force[ELEMENT_MAX_COORDINATES] = {0};
+            force[MODEL_MAX_COORDINATES] = {0};
         kinematics_local(m, s, el, x, local);
         dense_mul_vec(m->strains, m->coordinates, w.J, local, e);
         dense_mul_vec(m->strains, m->strains, w.C, e, sigma);
@@ -35,7 +35,7 @@ status stiffness_parts_geometric(model *m, const model_state *s, sparse *G, faul
         const model_slot w = linearise_slot(m, i);
         const double *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
         node_state x[ELEMENT_MAX_NODES];
-        double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
+        double H[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
             present[ELEMENT_MAX_COORDINATES] = {0};
         kinematics_gather(m, s, el, x);
         m->type->strain(m->kind[el->kind].data, x, &(strain_output){.s = sigma, .H = H});

@@ -44,10 +44,10 @@ static void put(const model *m, uncondensed *s, int row, int column, double valu
 static status add_element(model *m, const model_state *state, int i, double path, uncondensed *s,
                           fault *f)
 {
-    enum { E = ELEMENT_MAX_STRAINS, X = ELEMENT_MAX_COORDINATES };
+    enum { E = ELEMENT_MAX_STRAINS, X = MODEL_MAX_COORDINATES };
     const mesh_element *el = &m->element[i];
     const element_data *data = m->kind[el->kind].data;
-    const int n = m->coordinates, strains = m->strains, first_e = m->free + strains * i,
+    const int n = el->columns, strains = m->strains, first_e = m->free + strains * i,
               first_s = m->free + strains * (m->elements + i);
     const double *e = &state->e[(size_t)i * (size_t)strains],
                  *sigma = &state->sigma[(size_t)i * (size_t)strains];
@@ -62,7 +62,7 @@ static status add_element(model *m, const model_state *state, int i, double path
     if (outcome != STATUS_OK)
         return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i,
                          el->member, m->type->name);
-    dense_add_transpose_mul(n, strains, 1, J, sigma, force);
+    dense_add_transpose_mul(m->coordinates, strains, 1, J, sigma, force);
     TRY(rotating_frame_add(m, x, i, path, force, H, f));
     eliminate_matrix(m, state, el, force, H);
     eliminate_forces(m, state, el, force);
@@ -74,16 +74,17 @@ static status add_element(model *m, const model_state *state, int i, double path
             put(m, s, row, el->index[c], H[n * a + c]);
     }
     for (int k = 0; k < strains; k++) {
-        eliminate_forces(m, state, el, J + n * k);
+        double row[X];
+        memcpy(row, J + m->coordinates * k, (size_t)m->coordinates * sizeof *row);
+        eliminate_forces(m, state, el, row);
         s->b[first_e + k] += e[k] - D[k];
         s->b[first_s + k] += P[k] - sigma[k];
         s->A[(size_t)(first_e + k) * (size_t)s->size + (size_t)(first_e + k)] -= 1;
         s->A[(size_t)(first_s + k) * (size_t)s->size + (size_t)(first_s + k)] += 1;
         for (int c = 0; c < n; c++) {
-            put(m, s, first_e + k, el->index[c], J[n * k + c]);
+            put(m, s, first_e + k, el->index[c], row[c]);
             if (el->index[c] >= 0 && el->index[c] < m->free)
-                s->A[(size_t)(first_s + k) * (size_t)s->size + (size_t)el->index[c]] +=
-                    J[n * k + c];
+                s->A[(size_t)(first_s + k) * (size_t)s->size + (size_t)el->index[c]] += row[c];
         }
         for (int l = 0; l < strains; l++)
             s->A[(size_t)(first_e + l) * (size_t)s->size + (size_t)(first_s + k)] -=
@@ -107,7 +108,7 @@ static void put_load(void *context, int row, int column, double value)
 static status add_discrete(model *m, const model_state *state, const mesh_discrete *d, double path,
                            uncondensed *s, fault *f)
 {
-    const int n = NODE_COORDINATES * d->el.nodes;
+    const int n = d->el.columns;
     double force[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
     TRY(discrete_equations(m, state, d, path, force, K, f));
     for (int a = 0; a < n; a++) {

@@ -59,6 +59,11 @@ static status check_member(const scene *s, int member, fault *f)
                              "node %d: corners of members are not written as solids; make it a "
                              "rigid body with a node for each end (part_of)",
                              end[i]);
+    if (m->release[0].count + m->release[1].count > 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "member %d: released ends are not written as solids; join it, and let a "
+                         "node with a rotation of its own turn",
+                         member);
     if (m->warp_p != SCENE_WARP_FIXED || m->warp_q != SCENE_WARP_FIXED)
         return fault_set(f, STATUS_REFUSED,
                          "member %d: its ends warp, and rigid faces do not; say warping: fixed",

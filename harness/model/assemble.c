@@ -54,9 +54,8 @@ void assemble_subtract(sparse *K, int row, int column, double value)
 static size_t collect_of(const mesh_element *el, const mesh_pattern *p, size_t count, int row[],
                          int column[])
 {
-    const int coordinates = NODE_COORDINATES * el->nodes;
-    for (int a = 0; a < coordinates; a++)
-        for (int b = 0; b < coordinates; b++) {
+    for (int a = 0; a < el->columns; a++)
+        for (int b = 0; b < el->columns; b++) {
             if (!stored(p, el->index[a], el->index[b]))
                 continue;
             if (row != NULL) {
@@ -158,13 +157,14 @@ static status find_places(const model *m, mesh_pattern *p, fault *f)
     int count = 0;
     for (int i = 0; i < m->elements; i++) {
         p->start[i] = count;
-        for (int a = 0; a < m->coordinates; a++)
-            for (int b = 0; b < m->coordinates; b++)
+        const int columns = m->element[i].columns;
+        for (int a = 0; a < columns; a++)
+            for (int b = 0; b < columns; b++)
                 if (stored(p, m->element[i].index[a], m->element[i].index[b])) {
                     int low = probe.column[m->element[i].index[b]];
                     while (probe.row[low] != m->element[i].index[a])
                         low++;
-                    p->local[count] = a * m->coordinates + b;
+                    p->local[count] = a * columns + b;
                     p->place[count++] = low;
                 }
     }
@@ -211,7 +211,7 @@ void assemble_matrix(const mesh_pattern *p, int element, const double K[], spars
 
 void assemble_discrete(const mesh_element *el, const double K[], sparse *out)
 {
-    const int n = NODE_COORDINATES * el->nodes;
+    const int n = el->columns;
     for (int a = 0; a < n; a++)
         for (int b = 0; b < n; b++) {
             const int row = el->index[a], column = el->index[b];
@@ -223,7 +223,7 @@ void assemble_discrete(const mesh_element *el, const double K[], sparse *out)
 
 void assemble_vector(const mesh_element *el, const double local[], double out[])
 {
-    for (int i = 0; i < NODE_COORDINATES * el->nodes; i++)
+    for (int i = 0; i < el->columns; i++)
         if (el->index[i] != NONE)
             out[el->index[i]] += local[i];
 }

@@ -4,7 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/dense.h"
 #include "harness/model/model_impl.h"
+#include "harness/model/release.h"
 
 status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
 {
@@ -62,6 +64,17 @@ static void mark_used(const model *m, char *used)
             used[m->vertex[m->discrete[i].el.vertex[k]].body] = 1;
 }
 
+/* What a released end keeps to itself: shifts first, turns behind. */
+static void number_release(model *m, int index)
+{
+    mesh_vertex *v = &m->vertex[index];
+    const mesh_release *r = release_of(m, index);
+    for (int c = 0; c < VERTEX_COORDINATES; c++) {
+        const int own = c < SCENE_RX ? c < r->slides : c - SCENE_RX < r->turns;
+        v->coordinate[c] = own ? m->free++ : NONE;
+    }
+}
+
 static void number_vertex(model *m, int index, int pass, int used, int *held, int *unused)
 {
     mesh_vertex *v = &m->vertex[index];
@@ -100,22 +113,40 @@ static status number_vertices(model *m, int *held, fault *f)
     mark_used(m, used);
     for (int pass = 0; pass < 2; pass++) {
         /* The warping amplitudes come between: they are free. */
-        for (int i = 0; i < m->vertices; i++)
+        for (int i = 0; i < m->first_release; i++)
             number_vertex(m, i, pass, used[i], held, &unused);
-        if (pass == 0)
-            for (int i = 0; i < m->warps; i++)
-                m->warp[i].coordinate = m->free++;
+        if (pass > 0)
+            continue;
+        for (int i = m->first_release; i < m->vertices; i++)
+            number_release(m, i);
+        for (int i = 0; i < m->warps; i++)
+            m->warp[i].coordinate = m->free++;
     }
     free(used);
     return unused > 0 ? coordinates_note_left_out(m, f, "%d nodes that no member reaches", unused)
                       : STATUS_OK;
 }
 
-/* Global coordinates of an element's own, after rigid offsets and sequences have been
- * eliminated. */
+/* Those of a released end behind all others, turns first. A ball's place does not depend on how its
+ * node turns, unless that is beside the body. */
+static void index_release(const model *m, int node, mesh_element *el)
+{
+    const mesh_vertex *v = &m->vertex[el->vertex[node]];
+    const mesh_release *r = release_of(m, el->vertex[node]);
+    for (int k = 0; k < r->turns; k++)
+        el->index[el->columns++] = v->coordinate[SCENE_RX + k];
+    for (int k = 0; k < r->slides; k++)
+        el->index[el->columns++] = v->coordinate[k];
+    for (int c = SCENE_RX; c <= SCENE_RZ && r->turns == 3 && vec3_norm(v->offset) == 0; c++)
+        el->index[NODE_COORDINATES * node + c] = NONE;
+}
+
+/* Global coordinates of an element's own, after released ends, rigid offsets and sequences have
+ * been eliminated. */
 static void index_element(model *m, mesh_element *el)
 {
     el->plain = 1;
+    el->columns = NODE_COORDINATES * el->nodes;
     for (int k = 0; k < el->nodes; k++) {
         const mesh_vertex *v = &m->vertex[el->vertex[k]], *body = &m->vertex[v->body];
         for (int c = 0; c < VERTEX_COORDINATES; c++)
@@ -123,6 +154,8 @@ static void index_element(model *m, mesh_element *el)
         el->index[NODE_COORDINATES * k + 6] =
             el->warp[k] == NONE ? NONE : m->warp[el->warp[k]].coordinate;
         el->plain &= v->body == el->vertex[k] && body->angles == 0;
+        if (release_of(m, el->vertex[k]) != NULL)
+            index_release(m, k, el);
     }
 }
 

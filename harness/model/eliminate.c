@@ -6,6 +6,7 @@
 #include "elements/math/dense.h"
 #include "harness/model/model_impl.h"
 #include "harness/model/offset.h"
+#include "harness/model/release.h"
 
 static void sequence_force(int angles, double b[3][3], double force[7])
 {
@@ -19,9 +20,13 @@ void eliminate_forces(const model *m, const model_state *s, const mesh_element *
 {
     if (el->plain)
         return;
-    for (int k = 0; k < el->nodes; k++) {
+    for (int k = 0, own = NODE_COORDINATES * el->nodes; k < el->nodes; k++) {
         const int v = el->vertex[k], body = m->vertex[v].body;
         double rho[3], b[3][3];
+        if (release_of(m, v) != NULL) {
+            release_force(m, s, v, force + NODE_COORDINATES * k, force + own);
+            own += release_of(m, v)->turns + release_of(m, v)->slides;
+        }
         if (body != v) {
             kinematics_offset(m, s, v, rho);
             offset_force(rho, force + NODE_COORDINATES * k);
@@ -64,12 +69,18 @@ void eliminate_matrix(const model *m, const model_state *s, const mesh_element *
 {
     if (el->plain)
         return;
-    const int n = NODE_COORDINATES * el->nodes;
-    for (int k = 0; k < el->nodes; k++) {
+    const int n = el->columns;
+    if (n > NODE_COORDINATES * el->nodes)
+        release_widen(el, K);
+    for (int k = 0, own = NODE_COORDINATES * el->nodes; k < el->nodes; k++) {
         const int v = el->vertex[k], body = m->vertex[v].body;
         double rho[3], b[3][3], moment[7];
         if (force != NULL)
             memcpy(moment, force + NODE_COORDINATES * k, sizeof moment);
+        if (release_of(m, v) != NULL) {
+            release_matrix(m, s, v, n, NODE_COORDINATES * k, own, force != NULL ? moment : NULL, K);
+            own += release_of(m, v)->turns + release_of(m, v)->slides;
+        }
         if (body != v) {
             kinematics_offset(m, s, v, rho);
             offset_matrix(n, NODE_COORDINATES * k, rho,

@@ -8,6 +8,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "harness/model/model_impl.h"
+#include "harness/model/release.h"
 
 void kinematics_position(const model *m, const model_state *s, int index, double r[3])
 {
@@ -68,6 +69,7 @@ void kinematics_follow(const model *m, model_state *s)
             s->u[3 * i + k] = s->u[3 * v->body + k] + (rho[k] - v->offset[k]);
         memcpy(&s->q[4 * i], &s->q[4 * v->body], 4 * sizeof(double));
     }
+    release_follow(m, s);
 }
 
 void kinematics_gather(const model *m, const model_state *s, const mesh_element *el, node_state x[])
@@ -123,6 +125,8 @@ void kinematics_local(const model *m, const model_state *s, const mesh_element *
             for (int i = 0; i < 3; i++)
                 d[i] += moved[i];
         }
+        if (release_of(m, v) != NULL)
+            release_add_local(m, s, v, dx, d);
     }
 }
 
@@ -143,7 +147,7 @@ status kinematics_state_alloc(const model *m, model_state **out, fault *f)
     *out = s;
     if (s == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a state");
-    s->size = V * 10 + (size_t)m->warps + (size_t)m->scene->drivers +
+    s->size = V * 10 + 3 * (size_t)m->releases + (size_t)m->warps + (size_t)m->scene->drivers +
               E * (size_t)(2 * m->strains + m->inner);
     s->block = calloc(s->size, sizeof *s->block);
     if (s->block == NULL) {
@@ -154,7 +158,8 @@ status kinematics_state_alloc(const model *m, model_state **out, fault *f)
     s->u = s->block;
     s->q = s->u + 3 * V;
     s->angle = s->q + 4 * V;
-    s->warp = s->angle + 3 * V;
+    s->shift = s->angle + 3 * V;
+    s->warp = s->shift + 3 * m->releases;
     s->driver = s->warp + m->warps;
     s->e = s->driver + m->scene->drivers;
     s->sigma = s->e + E * (size_t)m->strains;
@@ -246,6 +251,17 @@ int kinematics_coordinate(const model *m, int node, int component)
     return m->vertex[node].body == node ? m->vertex[node].coordinate[component] : NONE;
 }
 
+/* Coordinates of a released end behind those of its body: turns, shifts. Returns how many there are. */
+static int append_own(const model *m, int vertex, int size, int count, int index[])
+{
+    const mesh_release *r = release_of(m, vertex);
+    for (int k = 0; r != NULL && k < r->turns && count < size; k++)
+        index[count++] = m->vertex[vertex].coordinate[SCENE_RX + k];
+    for (int k = 0; r != NULL && k < r->slides && count < size; k++)
+        index[count++] = m->vertex[vertex].coordinate[k];
+    return count;
+}
+
 int kinematics_node_jacobian(const model *m, const model_state *s, int node, int size, int index[],
                              double T[])
 {
@@ -264,6 +280,8 @@ int kinematics_node_jacobian(const model *m, const model_state *s, int node, int
             index[count++] = body->coordinate[c];
         }
     }
+    const int first_own = count;
+    count = append_own(m, node, size, count, index);
     memset(T, 0, 6 * (size_t)count * sizeof *T);
     double b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, rho[3];
     if (body->angles > 0)
@@ -283,5 +301,7 @@ int kinematics_node_jacobian(const model *m, const model_state *s, int node, int
             T[(3 + i) * count + slot[c]] += b[c - 3][i];
         }
     }
+    if (count > first_own)
+        release_jacobian(m, state, node, count, first_own, T);
     return count;
 }

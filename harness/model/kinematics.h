@@ -22,8 +22,10 @@ double kinematics_largest_turn(const model *, const model_state *, int *element_
 
 /* Coordinate index of a component of a node, or -1 where it is held, or dependent. */
 int kinematics_coordinate(const model *, int node, int component);
-/* Jacobian of the node's six spatial increments with respect to the coordinates it depends on:
- * returns the count m <= size, fills index[m] and T[6 x m] (row-major, leading dimension m). */
+/* Most coordinates that a vertex depends on: those of a body, and those of a released end. */
+enum { KINEMATICS_MOST = 6 + SCENE_RELEASED };
+/* Jacobian of the six spatial increments of a vertex with respect to the coordinates it depends on:
+ * returns the count m <= size (6 of a node), fills index[m] and T[6 x m] (row-major, leading dimension m). */
 int kinematics_node_jacobian(const model *, const model_state *, int node, int size, int index[],
                              double T[]);
 

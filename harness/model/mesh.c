@@ -10,6 +10,7 @@
 #include "harness/model/member_arc.h"
 #include "harness/model/model_impl.h"
 #include "harness/model/profile.h"
+#include "harness/model/release.h"
 
 static int divisions(const scene *s, int member, int elements)
 {
@@ -211,14 +212,17 @@ static status allocate(model *m, int elements, fault *f)
     if (total > most)
         return fault_set(f, STATUS_REFUSED, "%.0f elements: at most %.0f can be numbered", total,
                          most);
-    m->vertices = s->nodes + (int)total * (m->nodes - 1) - s->members;
+    const int ends = release_count(s);
+    m->first_release = s->nodes + (int)total * (m->nodes - 1) - s->members;
+    m->vertices = m->first_release + ends;
+    m->release = calloc((size_t)ends + 1, sizeof *m->release);
     m->vertex = calloc((size_t)m->vertices, sizeof *m->vertex);
     m->element = calloc((size_t)total, sizeof *m->element);
     m->kind = calloc((size_t)total, sizeof *m->kind);
     m->warp = calloc((size_t)total * ELEMENT_MAX_NODES, sizeof *m->warp);
     m->first_element = calloc((size_t)s->members + 1, sizeof *m->first_element);
-    if (m->vertex == NULL || m->element == NULL || m->kind == NULL || m->warp == NULL ||
-        m->first_element == NULL)
+    if (m->release == NULL || m->vertex == NULL || m->element == NULL || m->kind == NULL ||
+        m->warp == NULL || m->first_element == NULL)
         return fault_set(f, STATUS_REFUSED, "%.0f elements: more than memory allows; give fewer",
                          total);
     return STATUS_OK;
@@ -277,6 +281,7 @@ status mesh_build(model *m, int elements, fault *f)
         m->size = a.length > m->size ? a.length : m->size;
     }
     m->first_element[s->members] = m->elements;
+    TRY(release_build(m, f));
     const int names = largest_name(s) + 1;
     int *named = malloc((size_t)(names > 0 ? names : 1) * sizeof *named);
     if (named == NULL)

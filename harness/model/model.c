@@ -136,6 +136,7 @@ void model_free(model *m)
     free(m->profile);
     free(m->kind_of_section);
     free(m->vertex);
+    free(m->release);
     free(m->element);
     free(m->kind);
     free(m->warp);

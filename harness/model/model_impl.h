@@ -5,7 +5,12 @@
 #include "harness/algebra/team.h"
 #include "harness/model/model.h"
 
-enum { NONE = -1, VERTEX_COORDINATES = 6 };
+/* An element depends on the coordinates of its nodes and on those of released ends. */
+enum {
+    NONE = -1,
+    VERTEX_COORDINATES = 6,
+    MODEL_MAX_COORDINATES = ELEMENT_MAX_COORDINATES + 2 * SCENE_RELEASED
+};
 
 /* Where a frame is and what moves it. The first vertices are the scene's nodes, in order. */
 typedef struct mesh_vertex {
@@ -18,6 +23,12 @@ typedef struct mesh_vertex {
     int vector_driver[3]; /* prescribed rotation vector: its drivers; NONE: not prescribed so */
 } mesh_vertex;
 
+/* What an end of a member keeps to itself: see release.h. */
+typedef struct mesh_release {
+    int turns, slides;
+    double turn[3][3], slide[3][3]; /* undeformed axes, unit vectors */
+} mesh_release;
+
 /* A warping amplitude, shared by the element ends that meet there. */
 typedef struct mesh_warp {
     int coordinate; /* global */
@@ -29,9 +40,9 @@ typedef struct mesh_element {
     int vertex[ELEMENT_MAX_NODES];
     int warp[ELEMENT_MAX_NODES];        /* index, or NONE: held at zero or absent */
     double triad[ELEMENT_MAX_NODES][9]; /* initial, columns nX nY nZ */
-    int index[ELEMENT_MAX_COORDINATES]; /* global coordinate of each element coordinate after
-                                           elimination, or NONE */
-    int plain;                          /* 1: no offset and no sequence: elimination is selection */
+    int columns; /* coordinates after elimination: 7 nodes, behind them those of released ends */
+    int index[MODEL_MAX_COORDINATES]; /* the global one of each of them, or NONE */
+    int plain; /* 1: no offset, sequence or released end: elimination is selection */
 } mesh_element;
 
 /* A rigid body's mass at a vertex, or a spring between vertices: an element beside those of the
@@ -64,7 +75,7 @@ typedef struct element_part {
     status outcome;
     fault why;
     double incompatibility; /* |D(x) - e|/l */
-    double force[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
+    double force[MODEL_MAX_COORDINATES], K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
 } element_part;
 
 struct model {
@@ -76,6 +87,8 @@ struct model {
     section *section; /* of the scene; behind them of members whose section changes: profile.h */
     int *profile;     /* [members] section of the first element */
     int vertices, elements, kinds, warps;
+    int first_release, releases; /* vertices of released ends are the last */
+    mesh_release *release;
     mesh_vertex *vertex;
     mesh_element *element;
     mesh_kind *kind;
@@ -111,6 +124,7 @@ struct model_state {
     double *u;      /* [vertices x 3] displacement */
     double *q;      /* [vertices x 4] orientation */
     double *angle;  /* [vertices x 3] of sequences; accumulated spatial increments otherwise */
+    double *shift;  /* [releases x 3] along slides */
     double *warp;   /* [warps] */
     double *driver; /* [drivers] present value */
     double *e, *sigma, *inner; /* [elements x strains], [.. inner] */
@@ -152,9 +166,10 @@ void kinematics_follow(const model *m, model_state *s);
 void kinematics_local(const model *m, const model_state *s, const mesh_element *el,
                       const double dx[], double local[]);
 
-/* eliminate.c: element coordinates -> model coordinates, in place. force: internal, for the second
+/* eliminate.c: element coordinates -> model coordinates, in place; K[columns x columns]. force: internal, for the second
  * derivatives; NULL entries are skipped. */
-void eliminate_forces(const model *m, const model_state *s, const mesh_element *el, double force[]);
+void eliminate_forces(const model *m, const model_state *s, const mesh_element *el,
+                      double force[]); /* [columns] */
 void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el,
                       const double force[], double K[]);
 

@@ -88,6 +88,24 @@ static void read_sections(const fields *f, int profile[2])
     check_taper(f, n, profile);
 }
 
+/* One word or a list of them, in their order. */
+static void read_released(const fields *f, const char *key, int member, int end)
+{
+    const document_node *n = document_find(f->map, key);
+    const int count = n == NULL ? 0 : n->kind == DOCUMENT_LIST ? n->count : 1;
+    unsigned told = 0;
+    for (int i = 0; i < count; i++) {
+        const document_node *word = n->kind == DOCUMENT_LIST ? n->item[i] : n;
+        const int c = fields_word_of(f, word, "release", fields_components, -1);
+        if (c >= 0 && told >> c & 1u)
+            document_mistake(f->b->mistakes, word, 0,
+                             "release: '%s' twice at this end; leave one out", word->text);
+        else if (c >= 0)
+            scene_release_end(f->b->scene, member, end, c);
+        told |= c >= 0 ? 1u << c : 0;
+    }
+}
+
 void builder_members(builder *b)
 {
     for (int i = 0; i < b->list[LIST_MEMBERS].count; i++) {
@@ -97,10 +115,13 @@ void builder_members(builder *b)
         const int p = fields_entry(&f, "from", LIST_NODES), q = fields_entry(&f, "to", LIST_NODES);
         int profile[2];
         read_sections(&f, profile);
-        scene_member *m =
-            scene_member_at(b->scene, scene_add_member(b->scene, p, q, profile[0], y));
+        const int index = scene_add_member(b->scene, p, q, profile[0], y);
+        scene_member *m = scene_member_at(b->scene, index);
+        const fields release = fields_below(&f, "release");
         m->section_q = profile[1];
         read_warping(&f, m);
+        read_released(&release, "from", index, 0);
+        read_released(&release, "to", index, 1);
         fields_vector(&f, "curvature", 3, m->curvature);
         fields_vector(&f, "strain", 3, m->strain);
         m->divisions = fields_whole(&f, "divisions", 0, 0, 10000000);

@@ -143,6 +143,13 @@ const scene_key keys_node[] = {
     {.name = "spin", .kind = KEY_LATER},
     {.name = NULL}};
 
+static const scene_key release[] = {
+    {"from", KEY_WORDS, .words = COMPONENTS,
+     .summary = "at that end, in the member's axes: [rz] is a hinge, [rx, ry, rz] a ball"},
+    {"to", KEY_WORDS, .words = COMPONENTS,
+     .summary = "of two turns the first axis stays with the node, the second with the member"},
+    {.name = NULL}};
+
 const scene_key keys_member[] = {
     {"from", KEY_NAME, .needed = 1, .summary = "node where its x axis begins"},
     {"to", KEY_NAME, .needed = 1, .summary = "node where it ends"},
@@ -154,7 +161,8 @@ const scene_key keys_member[] = {
     {"strain", KEY_VECTOR, .count = 3, .unit = "1", .summary = "initial elongation, shears"},
     {"divisions", KEY_NUMBER, .summary = "elements, whatever the mesh"},
     {.name = "offset", .kind = KEY_LATER},
-    {.name = "release", .kind = KEY_LATER},
+    {"release", KEY_MAP, .below = release,
+     .summary = "what its ends do not pass on: hinges, slides"},
     {.name = "damping", .kind = KEY_LATER},
     {.name = NULL}};
 

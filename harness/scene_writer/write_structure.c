@@ -91,6 +91,23 @@ static void write_warping(writer *w, int warp)
         fputs(warp == SCENE_WARP_FREE ? "free" : "fixed", w->to);
 }
 
+static void write_release(writer *w, const scene_release release[2])
+{
+    static const char *const end[] = {"from", "to"};
+    if (release[0].count + release[1].count == 0)
+        return;
+    fputs(", release: {", w->to);
+    for (int i = 0; i < 2; i++) {
+        if (release[i].count == 0)
+            continue;
+        fprintf(w->to, "%s%s: [", i == 1 && release[0].count > 0 ? ", " : "", end[i]);
+        for (int k = 0; k < release[i].count; k++)
+            fprintf(w->to, "%s%s", k > 0 ? ", " : "", write_component[release[i].component[k]]);
+        fputc(']', w->to);
+    }
+    fputc('}', w->to);
+}
+
 void write_members(writer *w)
 {
     fputs("members:\n", w->to);
@@ -115,6 +132,7 @@ void write_members(writer *w)
             fputs(", strain: ", w->to);
             write_numbers(w, 3, m->strain);
         }
+        write_release(w, m->release);
         write_if(w, "divisions", m->divisions, 0);
         fputs("}\n", w->to);
     }

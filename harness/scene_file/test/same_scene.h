@@ -57,13 +57,19 @@ static inline int same_warp(int a, int b)
     return a >= 0 ? b >= 0 : a == b;
 }
 
+static inline int same_release(const scene_release *a, const scene_release *b)
+{
+    return a->count == b->count && memcmp(a->component, b->component, sizeof a->component) == 0;
+}
+
 static inline int same_member(const scene_member *a, const scene_member *b)
 {
     return a->p == b->p && a->q == b->q && a->section == b->section &&
            a->section_q == b->section_q && same_numbers(3, a->y_axis, b->y_axis) &&
            same_warp(a->warp_p, b->warp_p) && same_warp(a->warp_q, b->warp_q) &&
            same_numbers(3, a->curvature, b->curvature) && same_numbers(3, a->strain, b->strain) &&
-           a->divisions == b->divisions;
+           a->divisions == b->divisions && same_release(&a->release[0], &b->release[0]) &&
+           same_release(&a->release[1], &b->release[1]);
 }
 
 static inline int same_spring(const scene_spring *a, const scene_spring *b)

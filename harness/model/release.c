@@ -1,0 +1,286 @@
+#include "harness/model/release.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "harness/model/member_arc.h"
+#include "harness/model/offset.h"
+
+enum { BALL = 3 }; /* turns without order */
+
+int release_count(const scene *s)
+{
+    int count = 0;
+    for (int i = 0; i < s->members; i++)
+        for (int end = 0; end < 2; end++)
+            count += s->member[i].release[end].count > 0;
+    return count;
+}
+
+/* The vertex of an end. R: the member's axes there. */
+static void add_end(model *m, int member, int end, const double R[9])
+{
+    const scene_member *sm = &m->scene->member[member];
+    const scene_release *what = &sm->release[end];
+    const int node = end ? sm->q : sm->p, vertex = m->first_release + m->releases;
+    mesh_element *el =
+        &m->element[end ? m->first_element[member + 1] - 1 : m->first_element[member]];
+    mesh_release *r = &m->release[m->releases++];
+    m->vertex[vertex] = m->vertex[node]; /* its place, and what moves that */
+    m->vertex[vertex].angles = 0;
+    for (int k = 0; k < 3; k++)
+        m->vertex[vertex].vector_driver[k] = NONE;
+    el->vertex[end ? el->nodes - 1 : 0] = vertex;
+    for (int k = 0; k < what->count; k++) {
+        const int c = what->component[k];
+        double *axis = c < SCENE_RX ? r->slide[r->slides++] : r->turn[r->turns++];
+        for (int i = 0; i < 3; i++)
+            axis[i] = R[3 * i + c % 3];
+    }
+}
+
+status release_build(model *m, fault *f)
+{
+    for (int i = 0; i < m->scene->members; i++)
+        for (int end = 0; end < 2; end++) {
+            member_arc axis;
+            double position[3], R[9];
+            if (m->scene->member[i].release[end].count == 0)
+                continue;
+            TRY(member_arc_of(m->scene, i, 0, &axis, f)); /* in the axes of the description */
+            member_arc_at(&axis, end * axis.length, position, R);
+            add_end(m, i, end, R);
+        }
+    return STATUS_OK;
+}
+
+void release_axes(const model *m, const model_state *s, int vertex, double b[3][3])
+{
+    const mesh_release *r = release_of(m, vertex);
+    double q[4];
+    memcpy(q, &s->q[4 * m->vertex[vertex].body], sizeof q);
+    for (int k = 0; k < r->turns; k++) {
+        double turn[3], step[4];
+        for (int i = 0; i < 3; i++) {
+            turn[i] = r->turn[k][i] * s->angle[3 * vertex + k];
+            b[k][i] = i == k;
+        }
+        if (r->turns == BALL)
+            continue;
+        rotation_apply(q, r->turn[k], b[k]);
+        rotation_exp(turn, step);
+        rotation_compose(q, step, q);
+    }
+}
+
+void release_slides(const model *m, const model_state *s, int vertex, double along[3][3],
+                    double apart[3])
+{
+    const mesh_release *r = release_of(m, vertex);
+    memset(apart, 0, 3 * sizeof *apart);
+    for (int k = 0; k < r->slides; k++) {
+        rotation_apply(&s->q[4 * vertex], r->slide[k], along[k]);
+        for (int i = 0; i < 3; i++)
+            apart[i] += along[k][i] * s->shift[3 * (vertex - m->first_release) + k];
+    }
+}
+
+void release_add_local(const model *m, const model_state *s, int vertex, const double dx[],
+                       double d[6])
+{
+    const mesh_release *r = release_of(m, vertex);
+    const int *coordinate = m->vertex[vertex].coordinate;
+    double b[3][3], along[3][3], apart[3], moved[3];
+    release_axes(m, s, vertex, b);
+    release_slides(m, s, vertex, along, apart);
+    for (int i = 0; i < 3; i++) {
+        d[3 + i] = r->turns == BALL ? 0 : d[3 + i];
+        for (int k = 0; k < r->turns; k++)
+            d[3 + i] += b[k][i] * dx[coordinate[3 + k]];
+    }
+    vec3_cross(d + 3, apart, moved);
+    for (int i = 0; i < 3 && r->slides > 0; i++) {
+        d[i] += moved[i];
+        for (int k = 0; k < r->slides; k++)
+            d[i] += along[k][i] * dx[coordinate[k]];
+    }
+}
+
+void release_jacobian(const model *m, const model_state *s, int vertex, int count, int own,
+                      double T[])
+{
+    const mesh_release *r = release_of(m, vertex);
+    double b[3][3], along[3][3], apart[3];
+    release_axes(m, s, vertex, b);
+    release_slides(m, s, vertex, along, apart);
+    for (int k = 0; k < own && r->turns == BALL; k++)
+        for (int i = 3; i < 6; i++)
+            T[i * count + k] = 0;
+    for (int k = 0; k < r->turns; k++)
+        for (int i = 0; i < 3; i++)
+            T[(3 + i) * count + own + k] = b[k][i];
+    for (int k = 0; k < own + r->turns; k++) {
+        const double turn[3] = {T[3 * count + k], T[4 * count + k], T[5 * count + k]};
+        double moved[3];
+        vec3_cross(turn, apart, moved);
+        for (int i = 0; i < 3; i++)
+            T[i * count + k] += moved[i];
+    }
+    for (int k = 0; k < r->slides; k++)
+        for (int i = 0; i < 3; i++)
+            T[i * count + own + r->turns + k] = along[k][i];
+}
+
+double release_advance(const model *m, model_state *s, int vertex, const double dx[])
+{
+    const mesh_release *r = release_of(m, vertex);
+    const int *coordinate = m->vertex[vertex].coordinate;
+    double largest = 0, turn[3] = {0}, step[4];
+    for (int k = 0; k < r->slides; k++) {
+        s->shift[3 * (vertex - m->first_release) + k] += dx[coordinate[k]];
+        largest = fmax(largest, fabs(dx[coordinate[k]]) / m->size);
+    }
+    for (int k = 0; k < r->turns; k++) {
+        turn[k] = dx[coordinate[3 + k]];
+        s->angle[3 * vertex + k] += turn[k];
+        largest = fmax(largest, fabs(turn[k]));
+    }
+    if (r->turns == BALL) {
+        rotation_exp(turn, step);
+        rotation_compose(step, &s->q[4 * vertex], &s->q[4 * vertex]);
+        rotation_normalise(&s->q[4 * vertex]);
+    }
+    return largest;
+}
+
+/* Of less than three turns. */
+static void orientation(const mesh_release *r, const double angle[3], const double body[4],
+                        double q[4])
+{
+    memcpy(q, body, 4 * sizeof *q);
+    for (int k = 0; k < r->turns; k++) {
+        double turn[3], step[4];
+        for (int i = 0; i < 3; i++)
+            turn[i] = r->turn[k][i] * angle[k];
+        rotation_exp(turn, step);
+        rotation_compose(q, step, q);
+    }
+}
+
+void release_follow(const model *m, model_state *s)
+{
+    for (int i = m->first_release; i < m->vertices; i++) {
+        const mesh_vertex *v = &m->vertex[i];
+        const mesh_release *r = release_of(m, i);
+        const double *body = &s->q[4 * v->body];
+        double rho[3], along[3][3], apart[3];
+        if (r->turns < BALL)
+            orientation(r, &s->angle[3 * i], body, &s->q[4 * i]);
+        rotation_apply(body, v->offset, rho);
+        release_slides(m, s, i, along, apart);
+        for (int k = 0; k < 3; k++)
+            s->u[3 * i + k] = s->u[3 * v->body + k] + (rho[k] - v->offset[k]) + apart[k];
+    }
+}
+
+void release_force(const model *m, const model_state *s, int vertex, double force[6], double own[])
+{
+    const mesh_release *r = release_of(m, vertex);
+    double b[3][3], along[3][3], apart[3];
+    release_axes(m, s, vertex, b);
+    release_slides(m, s, vertex, along, apart);
+    for (int k = 0; k < r->slides; k++)
+        own[r->turns + k] = vec3_dot(along[k], force);
+    if (r->slides > 0)
+        offset_force(apart, force);
+    for (int k = 0; k < r->turns; k++)
+        own[k] = vec3_dot(b[k], force + 3);
+    if (r->turns == BALL)
+        memset(force + 3, 0, 3 * sizeof *force);
+}
+
+void release_widen(const mesh_element *el, double K[])
+{
+    const int n = NODE_COORDINATES * el->nodes, wide = el->columns;
+    for (int i = n; i-- > 0;) {
+        memmove(&K[i * wide], &K[i * n], (size_t)n * sizeof *K);
+        memset(&K[i * wide + n], 0, (size_t)(wide - n) * sizeof *K);
+    }
+    memset(&K[n * wide], 0, (size_t)(wide * (wide - n)) * sizeof *K);
+}
+
+/* Row and column `to` <- those of the three at `from`, along v. */
+static void take_along(int n, int from, const double v[3], int to, double K[])
+{
+    for (int i = 0; i < n; i++)
+        K[i * n + to] = vec3_dot(&K[i * n + from], v);
+    for (int j = 0; j < n; j++)
+        K[to * n + j] =
+            v[0] * K[from * n + j] + v[1] * K[(from + 1) * n + j] + v[2] * K[(from + 2) * n + j];
+}
+
+/* K[a][b] and K[b][a] += value */
+static void add_pair(int n, int a, int b, double value, double K[])
+{
+    K[a * n + b] += value;
+    K[b * n + a] += value;
+}
+
+/* F . (theta x along) of the end's turn before its shift. */
+static void take_slides(const mesh_release *r, double along[3][3], const double apart[3], int n,
+                        int at, int own, double force[6], double K[])
+{
+    for (int k = 0; k < r->slides; k++)
+        take_along(n, at, along[k], own + r->turns + k, K);
+    for (int k = 0; k < r->slides && force != NULL; k++) {
+        double cross[3];
+        vec3_cross(along[k], force, cross);
+        for (int i = 0; i < 3; i++)
+            add_pair(n, at + 3 + i, own + r->turns + k, cross[i], K);
+    }
+    offset_matrix(n, at, apart, force, K);
+    if (force != NULL)
+        offset_force(apart, force);
+}
+
+/* M . (theta x b_j)/2 of the body's turn before the end's, M . (b_i x b_j)/2 of the end's. */
+static void add_turned_moment(const mesh_release *r, double b[3][3], const double moment[3], int n,
+                              int at, int own, double K[])
+{
+    for (int j = 0; j < r->turns; j++) {
+        double cross[3];
+        vec3_cross(b[j], moment, cross);
+        for (int i = 0; i < 3; i++)
+            add_pair(n, at + 3 + i, own + j, cross[i] / 2, K);
+        for (int i = 0; i < j; i++) {
+            vec3_cross(b[i], b[j], cross);
+            add_pair(n, own + i, own + j, vec3_dot(moment, cross) / 2, K);
+        }
+    }
+}
+
+void release_matrix(const model *m, const model_state *s, int vertex, int n, int at, int own,
+                    double force[6], double K[])
+{
+    const mesh_release *r = release_of(m, vertex);
+    double b[3][3], along[3][3], apart[3];
+    release_axes(m, s, vertex, b);
+    release_slides(m, s, vertex, along, apart);
+    if (r->slides > 0)
+        take_slides(r, along, apart, n, at, own, force, K);
+    for (int k = 0; k < r->turns; k++)
+        take_along(n, at + 3, b[k], own + k, K);
+    if (r->turns < BALL && force != NULL)
+        add_turned_moment(r, b, force + 3, n, at, own, K);
+    if (r->turns < BALL)
+        return;
+    for (int k = 0; k < 3; k++) {
+        memset(&K[(at + 3 + k) * n], 0, (size_t)n * sizeof *K);
+        for (int i = 0; i < n; i++)
+            K[i * n + at + 3 + k] = 0;
+    }
+    if (force != NULL)
+        memset(force + 3, 0, 3 * sizeof *force);
+}
