@@ -38,8 +38,7 @@ static status reverse(scene *s, fault *f)
         m->section_q = section_p;
         m->warp_p = m->warp_q;
         m->warp_q = warp_p;
-        const scene_release released =
-            m->release[0]; /* along lines that stay: x and y change sign */
+        const scene_release released = m->release[0]; /* about the same lines */
         m->release[0] = m->release[1];
         m->release[1] = released;
         m->curvature[2] = -m->curvature[2];
