@@ -18,8 +18,8 @@ static void ask_all(scene *s, int path, int tip, int member)
 {
     static const double end = 1;
     const int modal = scene_add_modal(s, SCENE_NONE), linear = scene_add_linear(s),
-              turning =
-                  scene_add_rotation(s, 1, &end, 4, 4, (scene_spin){.omega = {0.3, -0.8, 1.7}}),
+              turning = scene_add_rotation(s, 1, &end, 4, 4,
+                                           (scene_rotating_frame){.omega = {0.3, -0.8, 1.7}}),
               compliance = scene_add_compliance(s, path, (scene_compliance){.node = tip});
     for (int i = 0; i < 3; i++) {
         char name[SCENE_NAME];

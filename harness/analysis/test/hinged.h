@@ -5,23 +5,15 @@
 #include <gsl/gsl_test.h>
 #include <string.h>
 
+#include "elements/test/sections.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/study/cell.h"
 
 static const double y_axis[3] = {0, 1, 0}, EI = 7.1, EA = 7e6, mass = 0.7;
 static inline int add_section(scene *s)
 {
-    section_spec spec = section_spec_constants(1, 1);
-    spec.young = spec.shear_modulus = 1;
+    section_spec spec = sections_of(EA, 2 * EI, EI, EI);
     spec.density = mass / EA;
-    spec.constants = (section){.young = 1,
-                               .shear_modulus = 1,
-                               .density = mass / EA,
-                               .A = EA,
-                               .Iy = 2 * EI,
-                               .Iz = EI,
-                               .Ip = 3 * EI,
-                               .It = EI};
     return scene_add_section(s, &spec);
 }
 
