@@ -15,7 +15,7 @@ static const parameter_type parameters[] = {
               "axial force at the centroid, the shear centre or the axis through the legs' tips; "
               "end moments about the strong axis"},
     [WARPING] = {"warping", "1", 1, 0, 1, NULL, "1: with the warping constant, 0: without"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static const double shear_centre = 41.012e-3,
@@ -76,8 +76,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_need(s, FEATURE_TRAPEZE);
     if (load == SHEAR_CENTRE) /* symmetry: no others */
         scene_need(s, FEATURE_WAGNER_MOMENTS);
-    const int meshes[] = {2, 4, 8, 16, 32, 64};
-    scene_meshes(s, 6, meshes);
+    scene_meshes_doubled(s, 2, 64);
     return STATUS_OK;
 }
 

@@ -12,7 +12,7 @@ static const parameter_type parameters[] = {
     [TORSION] = {"torsion", "", 0, 0, 0, "exact|polar",
                  "exact: J of the square and k = 5/6; polar: J = 1/6 and k = 1, as published tip "
                  "positions need"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static status build(const double value[], scene *s, fault *f)
@@ -42,8 +42,7 @@ static status build(const double value[], scene *s, fault *f)
         scene_quantity *q = scene_add_quantity(s, name[i], "m", path, scene_coordinate(tip, i));
         q->least_order = 1.8;
     }
-    const int meshes[] = {1, 2, 4, 8, 16, 32};
-    scene_meshes(s, 6, meshes);
+    scene_meshes_doubled(s, 1, 32);
     return STATUS_OK;
 }
 

@@ -31,7 +31,7 @@ static const parameter_type parameters[] = {
     [ROTARY] = {"rotary_inertia", "1", 0, 0, 1, NULL,
                 "where omega is not 0: 1: centrifugal moments and bimoments of the section too, 0: "
                 "forces on the line of centroids"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static channel section_sizes(int centreline)
@@ -103,8 +103,7 @@ static status build(const double value[], scene *s, fault *f)
     if (value[ROTARY] != 0 && value[OMEGA] != 0)
         scene_need(s, FEATURE_ROTARY_INERTIA);
     add_path(value, s, node);
-    const int meshes[] = {5, 10, 20, 40, 80};
-    scene_meshes(s, 5, meshes);
+    scene_meshes_doubled(s, 5, 80);
     return STATUS_OK;
 }
 

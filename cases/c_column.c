@@ -1,8 +1,7 @@
 /* Simply supported C-shaped column: buckling under an axial force at the centroid, and natural frequencies.
  * J section 5.1, Tables 1-3. */
 #include "cases/shared/column.h"
-
-#include <stdio.h>
+#include "cases/shared/frequencies.h"
 
 enum { ROTARY_INERTIA = COLUMN_PARAMETERS };
 enum { FREQUENCIES = 13 };
@@ -10,7 +9,7 @@ enum { FREQUENCIES = 13 };
 /* In the order of the enumeration. */
 static const parameter_type parameters[] = {
     {"rotary_inertia", "1", 1, 0, 1, NULL, "1: rotary and warping inertia, 0: translations only"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static status build(const double value[], scene *s, fault *f)
@@ -27,13 +26,7 @@ static status build(const double value[], scene *s, fault *f)
     load->least_order = 1.8;
 
     const int modal = scene_add_modal(s, SCENE_NONE);
-    for (int i = 0; i < FREQUENCIES; i++) {
-        char name[SCENE_NAME];
-        snprintf(name, sizeof name, "frequency_%d", i + 1);
-        scene_quantity *frequency =
-            scene_add_quantity(s, name, "Hz", modal, scene_frequency(i, SCENE_NOT_AXIAL));
-        frequency->least_order = 1.8;
-    }
+    frequencies_add(s, "frequency", modal, SCENE_NOT_AXIAL, FREQUENCIES);
     return STATUS_OK;
 }
 

@@ -14,7 +14,7 @@ static const parameter_type parameters[] = {
     [TURNS] = {"turns", "1", 1, 0, 100, NULL, "turns about (1, 2, 3) after the rod was strained"},
     [STRAIN] = {"strain", "rad", 1, -1.5, 1.5, NULL,
                 "rotation of the tip against the root, about (0.6, 0, 0.8)"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static void add_turn(scene *s, int node, int driver, const double axis[3])

@@ -29,7 +29,7 @@ static const parameter_type parameters[] = {
                   "middle of three"},
     [MOMENTS] = {"moment_convention", "", SCENE_MOMENTS_SPATIAL, 0, 0, SCENE_MOMENTS_CHOICES,
                  "moment of the drive while the arm tilts, in k_z, k_tilt_x and k_tilt_y"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static int has_free_tilts(const double value[])
@@ -126,8 +126,7 @@ static status build(const double value[], scene *s, fault *f)
         s, path, (scene_compliance){.node = arm, .moments = (scene_moments)value[MOMENTS]});
     add_path_quantities(s, path, arm);
     add_stiffnesses(s, turned, has_free_tilts(value) ? 5 : 3);
-    const int meshes[] = {1, 2, 4, 8, 16, 32, 64};
-    scene_meshes(s, 7, meshes);
+    scene_meshes_doubled(s, 1, 64);
     return STATUS_OK;
 }
 

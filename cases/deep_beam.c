@@ -1,9 +1,9 @@
 /* Deep simply supported beam, 10 m of 2 x 2 m: shear and rotary inertia in bending, and torsional and extensional frequencies
  * among them. NAFEMS test FV5. */
 #include "cases/case.h"
+#include "cases/shared/frequencies.h"
 
 #include <stddef.h>
-#include <stdio.h>
 
 enum { TORSION, SHEAR, ROTARY_INERTIA };
 enum { FREQUENCIES = 9 };
@@ -14,7 +14,7 @@ static const parameter_type parameters[] = {
     [SHEAR] = {"shear", "1", 1, 0, 1, NULL, "1: flexible in shear, k = 5/6; 0: shear-rigid"},
     [ROTARY_INERTIA] = {"rotary_inertia", "1", 1, 0, 1, NULL,
                         "1: rotary inertia, 0: translations only"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static int square(const double value[], scene *s)
@@ -43,16 +43,10 @@ static status build(const double value[], scene *s, fault *f)
     if (value[ROTARY_INERTIA] != 0)
         scene_need(s, FEATURE_ROTARY_INERTIA);
     const int modal = scene_add_modal(s, SCENE_NONE);
-    for (int i = 0; i < FREQUENCIES; i++) {
-        char name[SCENE_NAME];
-        snprintf(name, sizeof name, "frequency_%d", i + 1);
-        scene_quantity *q = scene_add_quantity(s, name, "Hz", modal, scene_frequency(i, SCENE_ANY));
-        q->least_order = 1.8;
-    }
+    frequencies_add(s, "frequency", modal, SCENE_ANY, FREQUENCIES);
     /* without shear and rotary inertia the ninth has most waves */
-    const int meshes[] = {2, 4, 8, 16, 32, 64, 128},
-              is_slender = value[SHEAR] == 0 && value[ROTARY_INERTIA] == 0;
-    scene_meshes(s, is_slender ? 7 : 6, meshes);
+    const int is_slender = value[SHEAR] == 0 && value[ROTARY_INERTIA] == 0;
+    scene_meshes_doubled(s, 2, is_slender ? 128 : 64);
     return STATUS_OK;
 }
 

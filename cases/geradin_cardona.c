@@ -7,7 +7,7 @@ enum { LOAD };
 
 static const parameter_type parameters[] = {
     [LOAD] = {"load", "N", 600e3, -1e7, 1e7, NULL, "tip force"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static status build(const double value[], scene *s, fault *f)

@@ -30,7 +30,7 @@ static const parameter_type parameters[] = {
     {"height", "m", 0.30, 1e-3, 1e3, NULL, "height of the platform above the cranks' plane"},
     {"stroke", "m", 0.05, 0, 1e2, NULL, "the platform moves from -stroke to +stroke"},
     {"steps", "1", 11, 2, MAX_STEPS, NULL, "positions of the platform"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 /* Joint axes for a rod: z along `direction`, x in the plane of the rod and the global z axis on the upper side. */
@@ -134,8 +134,7 @@ static status build(const double value[], scene *s, fault *f)
         s, lifting, (scene_compliance){.node = platform, .released = 1u << SCENE_UZ});
     add_stiffnesses(s, compliance, station + 1, steps);
     scene_add_quantity(s, "crank_angle", "rad", lifting, scene_driver_value(angle));
-    const int meshes[] = {1, 2, 4, 8};
-    scene_meshes(s, 4, meshes);
+    scene_meshes_doubled(s, 1, 8);
     return STATUS_OK;
 }
 

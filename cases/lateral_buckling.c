@@ -15,7 +15,7 @@ static const parameter_type parameters[] = {
     [PREBUCKLING] = {"prebuckling", "", 0, 0, 0, "neglected|included",
                      "deflection before buckling"},
     [RATIO] = {"ratio", "1", 1e4, 1, 1e8, NULL, "strong EI/weak EI"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static status build(const double value[], scene *s, fault *f)
@@ -61,8 +61,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_quantity *q =
         scene_add_quantity(s, "load_factor", "1", buckling, scene_critical_factor(1, 0));
     q->least_order = 1.8;
-    const int meshes[] = {1, 2, 4, 8, 16, 32};
-    scene_meshes(s, 6, meshes);
+    scene_meshes_doubled(s, 1, 32);
     return STATUS_OK;
 }
 

@@ -12,7 +12,7 @@ static const parameter_type parameters[] = {
                "1: too stiff to leave its plane, 0: equal stiffness all round, the frame buckles "
                "out of its plane"},
     [STEP] = {"step", "1", 0.02, 1e-4, 0.2, NULL, "first step of the arc"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static const double length = 120, load_at = 24; /* [m] */
@@ -79,8 +79,7 @@ static status build(const double value[], scene *s, fault *f)
                                                             .step = value[STEP],
                                                             .step_max = 5 * value[STEP]});
     add_quantities(value[PLANE] != 0, s, path, loaded);
-    const int meshes[] = {4, 8, 16, 32, 64};
-    scene_meshes(s, value[PLANE] != 0 ? 5 : 4, meshes);
+    scene_meshes_doubled(s, 4, value[PLANE] != 0 ? 64 : 32);
     return STATUS_OK;
 }
 

@@ -16,7 +16,7 @@ static const parameter_type parameters[] = {
               "P L^2/EI; of loads along it, q L^3/EI or m L^2/EI"},
     [ARM] = {"arm", "1", 0.0, -1, 1, NULL, "of a force at the tip: how far beyond it, of L"},
     [AXIAL] = {"axial", "1", 1e8, 1e2, 1e14, NULL, "EA L^2/EI"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static status build(const double value[], scene *s, fault *f)
@@ -47,10 +47,7 @@ static status build(const double value[], scene *s, fault *f)
     l->follower = load == FOLLOWER || load == PRESSURE;
     l->axes =
         load == PRESSURE || load == LINE || load == COUPLES ? SCENE_AXES_MEMBER : SCENE_AXES_FIXED;
-    const int path = cantilever_path(s, 4);
-    cantilever_quantity(s, "w_over_L", "1", path, tip, SCENE_UY, 1, 0);
-    cantilever_quantity(s, "u_over_L", "1", path, tip, SCENE_UX, -1, 0);
-    cantilever_quantity(s, "theta", "rad", path, tip, SCENE_RZ, 1, 0);
+    cantilever_bent(s, tip);
     return STATUS_OK;
 }
 

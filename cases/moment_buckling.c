@@ -10,7 +10,7 @@ enum { WAGNER_MOMENTS = COLUMN_PARAMETERS };
 /* In the order of the enumeration. */
 static const parameter_type parameters[] = {
     {"wagner_moments", "1", 1, 0, 1, NULL, "1: with int y(y^2+z^2) dA and int z(y^2+z^2) dA"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static void add_moment(scene *s, int buckling, const char *name, int sign)

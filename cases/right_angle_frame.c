@@ -16,7 +16,7 @@ static const parameter_type parameters[] = {
     [YOUNG] = {"young", "Pa", 71.24e9, 1e-3, 1e15, NULL, "modulus of elasticity"},
     [POISSON] = {"poisson", "1", 0.31, -0.99, 0.49, NULL, "Poisson's ratio"},
     [ANGLE] = {"angle", "rad", 1.5707963267948966, 0.1, 3.1, NULL, "between the legs"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 /* Hinge about z that can slide along x. */
@@ -56,8 +56,7 @@ static status build(const double value[], scene *s, fault *f)
     const int buckling = scene_add_buckling(s, SCENE_NONE);
     add_moment(s, buckling, "critical_moment", 0);
     add_moment(s, buckling, "critical_moment_2", 1);
-    const int meshes[] = {2, 4, 8, 16, 32, 64};
-    scene_meshes(s, 6, meshes);
+    scene_meshes_doubled(s, 2, 64);
     return STATUS_OK;
 }
 

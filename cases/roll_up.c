@@ -8,7 +8,7 @@ enum { TURNS };
 
 static const parameter_type parameters[] = {
     [TURNS] = {"turns", "1", 1.0, -2.0, 2.0, NULL, "full turns of the tip"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static status build(const double value[], scene *s, fault *f)
@@ -21,10 +21,8 @@ static status build(const double value[], scene *s, fault *f)
     const int path = cantilever_path(s, 10);
     cantilever_quantity(s, "tip_gap", "1", path, tip, SCENE_UX, 1, 1);
     s->quantity[s->quantities - 1].near_zero = 1;
-    const int meshes[] = {
-        1,  2,  4,  8, 16,
-        32, 64, 128}; /* a full turn needs more than four elements where a quarter turn is the limit */
-    scene_meshes(s, 8, meshes);
+    /* a full turn needs more than four elements where a quarter turn is the limit */
+    scene_meshes_doubled(s, 1, 128);
     return STATUS_OK;
 }
 

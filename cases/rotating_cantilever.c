@@ -22,7 +22,7 @@ static const parameter_type parameters[] = {
                          "bending stiffness in lag over that in flap"},
     [STATIONS] = {"stations", "1", 1, 1, MOST_STATIONS, NULL,
                   "angular velocities of the frequency curves, from zero upwards; 1: no curves"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static const double two_pi = 2 * PI; /* Hz -> rad/s */
@@ -89,13 +89,7 @@ static status build(const double value[], scene *s, fault *f)
     growth->least_order = 1.8;
     if (intervals > 0)
         make_curve(scene_add_quantity(s, "growth_curve", "1", rotation, scene_growth()), omega);
-    cantilever_quantity(s, "stretch", "1", rotation, tip, SCENE_UX, 1, 0);
-    scene_quantity *pull =
-        scene_add_quantity(s, "root_force", "1", rotation, scene_reaction(root, SCENE_UX));
-    pull->factor = -1;
-    pull->least_order = 1.8;
-    const int meshes[] = {2, 4, 8, 16, 32, 64};
-    scene_meshes(s, 6, meshes);
+    cantilever_turning(s, rotation, root, tip);
     return STATUS_OK;
 }
 

@@ -9,7 +9,7 @@ enum { GA, AXIAL };
 static const parameter_type parameters[] = {
     [GA] = {"GA", "N", 500.0, 1.0, 1e12, NULL, "shear stiffness"},
     [AXIAL] = {"axial", "N", 1e9, 1e3, 1e15, NULL, "EA"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static status build(const double value[], scene *s, fault *f)

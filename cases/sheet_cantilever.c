@@ -1,11 +1,11 @@
 /* Clamped sheet flexure with a prescribed tip deflection and no tip rotation about z: compliance of the deformed sheet.
  * N section 4.1, Fig. 5. */
+#include "cases/shared/frequencies.h"
 #include "cases/shared/sheet.h"
 #include "cases/shared/sheet_prediction.h"
 
 #include <math.h>
 #include <stddef.h>
-#include <stdio.h>
 #include <string.h>
 
 enum { MODES = SHEET_PARAMETERS, DENSITY, ROTARY, STATIONS };
@@ -20,7 +20,7 @@ static const parameter_type parameters[] = {
      "1: rotary and warping inertia, 0: translations and twist only"},
     {"stations", "1", 15, 1, MOST_STATIONS, NULL,
      "states from rest to the deflection, at equal distances"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 /* In the plane of bending nothing couples to the motion out of it: the other 18 entries are zero by symmetry. */
@@ -34,18 +34,6 @@ static void add_curve(scene *s, const char *name, int analysis, int component, d
     scene_quantity *q =
         scene_add_quantity(s, name, "m/N", analysis, scene_compliance_entry(component, component));
     scene_set_curve(q, "tip_deflection", "m", deflection, 0);
-}
-
-/* About the last state of the path.  The rotation about z is held in the sense of the rotation vector from there. */
-static void add_frequencies(scene *s, int path, int count)
-{
-    const int modal = scene_add_modal(s, path);
-    for (int i = 0; i < count; i++) {
-        char name[SCENE_NAME];
-        snprintf(name, sizeof name, "frequency_%d", i + 1);
-        scene_quantity *q = scene_add_quantity(s, name, "Hz", modal, scene_frequency(i, SCENE_ANY));
-        q->least_order = 1.8;
-    }
 }
 
 /* N's closed-form solution beside the elements, where it speaks of them. */
@@ -106,7 +94,9 @@ static status build(const double value[], scene *s, fault *f)
     if (s->sections > 0)
         add_predictions(value, s);
     if (value[MODES] > 0) {
-        add_frequencies(s, path_analysis, (int)value[MODES]);
+        /* About the last state of the path.  The rotation about z is held in the sense of the rotation vector from there. */
+        frequencies_add(s, "frequency", scene_add_modal(s, path_analysis), SCENE_ANY,
+                        (int)value[MODES]);
         if (value[ROTARY] != 0)
             scene_need(s, FEATURE_ROTARY_INERTIA);
     }

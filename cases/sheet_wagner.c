@@ -12,7 +12,7 @@ enum { STATIONS_BENT = 5, STATIONS_TWISTED = 5 };
 static const parameter_type parameters[] = {
     {"tip_phi_z", "rad", 0.15, -1.5, 1.5, NULL, "prescribed tip rotation about z"},
     {"tip_phi_x", "rad", 0.15, -1.5, 1.5, NULL, "prescribed tip twist, after the bending"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static void prescribe_tip(scene *s, int tip, const double value[])

@@ -16,7 +16,7 @@ static const parameter_type parameters[] = {
                  "what is given along the path: the arc or the apex's deflection"},
     [STEP] = {"step", "1", 0.02, 1e-5, 1, NULL,
               "first step: of the arc, or of the deflection over the length"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static int stiff_bar(scene *s)
@@ -65,8 +65,7 @@ static status build(const double value[], scene *s, fault *f)
                                                             .step = value[STEP],
                                                             .step_max = 5 * value[STEP]});
     add_quantities(s, path, height);
-    const int meshes[] = {1, 2, 4, 8};
-    scene_meshes(s, 4, meshes);
+    scene_meshes_doubled(s, 1, 8);
     return STATUS_OK;
 }
 

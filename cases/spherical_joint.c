@@ -14,7 +14,7 @@ enum { MAX_STEPS = 1000 };
 static const parameter_type parameters[] = {
     {"tilt", "rad", 15 * JOINT_DEGREE, 0, 1, NULL, "rotation of the end effector"},
     {"steps", "1", 50, 1, MAX_STEPS, NULL, "azimuths of the tilt axis in one turn"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 /* Station k = 1 .. steps: axis at azimuth 2 pi (k - 1)/steps; path 0 is the undeformed joint. */
@@ -69,8 +69,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_quantity *curve = add_stiffness(s, "support_stiffness_curve", tilted, SCENE_CURVE);
     const double step = 2 * PI / value[STEPS];
     scene_set_curve(curve, "azimuth", "rad", step, -step); /* station 1 is azimuth 0 */
-    const int meshes[] = {1, 2, 4, 8, 16};
-    scene_meshes(s, 5, meshes);
+    scene_meshes_doubled(s, 1, 16);
     return STATUS_OK;
 }
 

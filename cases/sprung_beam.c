@@ -14,7 +14,7 @@ static const parameter_type parameters[] = {
     [LOAD] = {"load", "", 0, 0, 0, "transverse|axial|moment", "how it is loaded"},
     [SPRING] = {"spring", "1", 4, 1e-6, 1e6, NULL, "rotational stiffness of each, in EI/L"},
     [MOMENT] = {"moment", "1", 2, -6, 6, NULL, "at the end, in EI/L"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static void add_spring(scene *s, int node, double k)
@@ -49,8 +49,7 @@ static status build(const double value[], scene *s, fault *f)
     const cantilever_stiffness k = {.EA = area, .GJ = 1, .EI = 1, .density = 1 / area};
     int root, end;
     cantilever_build(1, &k, s, &root, &end);
-    const int meshes[] = {2, 4, 8, 16, 32, 64};
-    scene_meshes(s, 6, meshes);
+    scene_meshes_doubled(s, 2, 64);
     scene_node_at(s, root)->angle[0] = scene_node_at(s, root)->angle[1] =
         scene_node_at(s, root)->angle[2] = SCENE_FREE;
     add_spring(s, root, value[SPRING]);

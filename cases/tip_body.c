@@ -4,10 +4,9 @@
  * of beam and axis, lag across it.  No shear, no rotary inertia of the beam. */
 #include <math.h>
 #include <stddef.h>
-#include <stdio.h>
 
 #include "cases/shared/cantilever.h"
-#include "elements/math/pi.h"
+#include "cases/shared/frequencies.h"
 
 enum { MASS, OVERHANG, GYRATION, OMEGA };
 enum { MODES = 3, SLENDERNESS = 1000 };
@@ -19,19 +18,8 @@ static const parameter_type parameters[] = {
     [GYRATION] = {"gyration", "1", 0.3, 0, 10, NULL,
                   "the body's radius of gyration about axes across the beam, in L"},
     [OMEGA] = {"omega_star", "1", 4, 0, 1e3, NULL, "angular velocity in sqrt(EI/(rho A L^4))"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
-
-static void add_frequencies(scene *s, int analysis, const char *stem, scene_family family)
-{
-    for (int i = 0; i < MODES; i++) {
-        char name[SCENE_NAME];
-        snprintf(name, sizeof name, "%s_%d", stem, i + 1);
-        scene_quantity *q = scene_add_quantity(s, name, "1", analysis, scene_frequency(i, family));
-        q->factor = 2 * PI; /* Hz -> rad/s */
-        q->least_order = 1.8;
-    }
-}
 
 static status build(const double value[], scene *s, fault *f)
 {
@@ -45,19 +33,12 @@ static status build(const double value[], scene *s, fault *f)
                    (scene_body){.mass = mass,
                                 .centre = {mass > 0 ? value[OVERHANG] : 0, 0, 0},
                                 .inertia = {0, inertia, inertia}});
-    const int modal = scene_add_modal(s, SCENE_NONE);
-    add_frequencies(s, modal, "rest", SCENE_BENDING_Z);
+    frequencies_add_angular(s, "rest", scene_add_modal(s, SCENE_NONE), SCENE_BENDING_Z, MODES);
     const int rotation = scene_add_rotation(s, 1, &path, 1, 2 * MODES,
                                             (scene_rotating_frame){.omega = {0, 0, value[OMEGA]}});
-    add_frequencies(s, rotation, "flap", SCENE_BENDING_Z);
-    add_frequencies(s, rotation, "lag", SCENE_BENDING_Y);
-    cantilever_quantity(s, "stretch", "1", rotation, tip, SCENE_UX, 1, 0);
-    scene_quantity *pull =
-        scene_add_quantity(s, "root_force", "1", rotation, scene_reaction(root, SCENE_UX));
-    pull->factor = -1;
-    pull->least_order = 1.8;
-    const int meshes[] = {2, 4, 8, 16, 32, 64};
-    scene_meshes(s, 6, meshes);
+    frequencies_add_angular(s, "flap", rotation, SCENE_BENDING_Z, MODES);
+    frequencies_add_angular(s, "lag", rotation, SCENE_BENDING_Y, MODES);
+    cantilever_turning(s, rotation, root, tip);
     return STATUS_OK;
 }
 

@@ -1,10 +1,10 @@
 /* Fork-ended column of an unsymmetric, branched thin-walled section under an axial force at the centroid: buckling load, and
  * natural frequencies of the loaded column.  Closed form: one half-wave at a time (reference/derive/column.py). */
 #include "cases/case.h"
+#include "cases/shared/forks.h"
+#include "cases/shared/frequencies.h"
 
 #include <stddef.h>
-#include <stdio.h>
-#include <string.h>
 
 enum { LENGTH, YOUNG, SHEAR_MODULUS, DENSITY, SHEAR, SHEAR_STABILITY, ROTARY_INERTIA, AXIAL_LOAD };
 enum { FREQUENCIES = 6 };
@@ -21,7 +21,7 @@ static const parameter_type parameters[] = {
                         "1: rotary and warping inertia, 0: translations and twist only"},
     [AXIAL_LOAD] = {"axial_load", "N", 5000.0, -1e9, 1e9, NULL,
                     "compression under which the column vibrates"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 /* Five points, four walls of different thickness [m]. */
@@ -34,32 +34,15 @@ static void branched_section(const double value[], section_spec *spec)
     spec->density = value[DENSITY];
 }
 
-static void add_frequencies(scene *s, int modal)
-{
-    for (int i = 0; i < FREQUENCIES; i++) {
-        char name[SCENE_NAME];
-        snprintf(name, sizeof name, "frequency_%d", i + 1);
-        scene_quantity *frequency =
-            scene_add_quantity(s, name, "Hz", modal, scene_frequency(i, SCENE_NOT_AXIAL));
-        frequency->least_order = 1.8;
-    }
-}
-
 static status build(const double value[], scene *s, fault *f)
 {
     (void)f;
     section_spec spec;
     branched_section(value, &spec);
-    const int profile = scene_add_section(s, &spec);
-    const double x_axis[3] = {1, 0, 0}, y_axis[3] = {0, 1, 0},
-                 load = value[AXIAL_LOAD] != 0 ? value[AXIAL_LOAD] : 1;
-    const int foot = scene_add_node(s, 0, 0, 0), head = scene_add_node(s, value[LENGTH], 0, 0);
-    scene_add_member(s, foot, head, profile, y_axis);
-    scene_hold(s, foot, SCENE_UX, SCENE_UZ);
-    scene_hold(s, head, SCENE_UY, SCENE_UZ);
-    scene_fork(s, foot, x_axis, y_axis);
-    scene_fork(s, head, x_axis, y_axis);
-    scene_add_load(s, SCENE_FORCE, head, -load, 0, 0);
+    const double load = value[AXIAL_LOAD] != 0 ? value[AXIAL_LOAD] : 1;
+    int ends[2];
+    forks_column(s, &spec, value[LENGTH], ends);
+    scene_add_load(s, SCENE_FORCE, ends[1], -load, 0, 0);
     scene_need(s, FEATURE_TRAPEZE);
     if (value[SHEAR] != 0)
         scene_need(s, FEATURE_SHEAR |
@@ -74,9 +57,8 @@ static status build(const double value[], scene *s, fault *f)
     critical->least_order = 1.8;
     const int loading = scene_add_linear(s),
               modal = scene_add_modal(s, value[AXIAL_LOAD] != 0 ? loading : SCENE_NONE);
-    add_frequencies(s, modal);
-    const int meshes[] = {2, 4, 8, 16, 32, 64};
-    scene_meshes(s, 6, meshes);
+    frequencies_add(s, "frequency", modal, SCENE_NOT_AXIAL, FREQUENCIES);
+    scene_meshes_doubled(s, 2, 64);
     return STATUS_OK;
 }
 

@@ -8,7 +8,7 @@ enum { ANGLE };
 
 static const parameter_type parameters[] = {
     [ANGLE] = {"angle", "rad", 1.0, -3.0, 3.0, NULL, "twist of the tip"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static status build(const double value[], scene *s, fault *f)
@@ -35,8 +35,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_quantity *shortening =
         scene_add_quantity(s, "shortening", "m", twisting, scene_coordinate(tip, SCENE_UX));
     shortening->factor = -1;
-    const int meshes[] = {1, 2, 4, 8};
-    scene_meshes(s, 4, meshes);
+    scene_meshes_doubled(s, 1, 8);
     return STATUS_OK;
 }
 

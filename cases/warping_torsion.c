@@ -11,7 +11,7 @@ static const parameter_type parameters[] = {
     [KL] = {"kL", "1", 1.0, 1e-4, 1e5, NULL, "length times sqrt(GJ/EIw)"},
     [ENDS] = {"ends", "", 0, 0, 0, "cantilever|fixed",
               "warping at the tip: free (cantilever) or fixed"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static status build(const double value[], scene *s, fault *f)
@@ -38,8 +38,7 @@ static status build(const double value[], scene *s, fault *f)
         scene_add_quantity(s, "twist_ratio", "1", linear, scene_coordinate(tip, SCENE_RX));
     twist->factor = spec.shear_modulus * spec.constants.It / length;
     twist->least_order = 3.5;
-    const int meshes[] = {1, 2, 4, 8, 16, 32};
-    scene_meshes(s, 6, meshes);
+    scene_meshes_doubled(s, 1, 32);
     return STATUS_OK;
 }
 

@@ -12,7 +12,7 @@ static const parameter_type parameters[] = {
     [STAYING] =
         {"staying", "1", 3.0, -1e3, 7.8, NULL,
          "the other one: q L^3/EI (below 7.837) or P L^2/EI (below 2.467); negative: it pulls"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static status build(const double value[], scene *s, fault *f)
@@ -39,8 +39,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_quantity *q = scene_add_quantity(s, "load_factor", "1", scene_add_buckling(s, SCENE_NONE),
                                            scene_critical_factor(1, 0));
     q->least_order = 1.8;
-    const int meshes[] = {1, 2, 4, 8, 16, 32};
-    scene_meshes(s, 6, meshes);
+    scene_meshes_doubled(s, 1, 32);
     return STATUS_OK;
 }
 

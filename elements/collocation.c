@@ -18,7 +18,7 @@ struct element_data {
 static const parameter_type options[] = {
     [OPTION_STAGES] = {"stages", "", 2, 0, 0, "3|4|5|6|7|8",
                        "Gauss points inside an element: order twice their number in statics"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static int stage_count(const double value[])

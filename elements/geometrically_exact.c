@@ -18,7 +18,7 @@ struct element_data {
 static const parameter_type options[] = {
     [OPTION_NODES] = {"nodes", "", 1, 0, 0, "2|3",
                       "nodes of an element; one integration point fewer"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static int nodes(const double value[])

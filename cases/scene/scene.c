@@ -261,6 +261,13 @@ void scene_meshes(scene *s, int count, const int mesh[])
     memcpy(s->mesh, mesh, (size_t)s->meshes * sizeof *mesh);
 }
 
+void scene_meshes_doubled(scene *s, int first, int last)
+{
+    s->meshes = 0;
+    for (int n = first; n <= last && s->meshes < 16; n *= 2)
+        s->mesh[s->meshes++] = n;
+}
+
 const char *scene_convention(const scene *s, const scene_quantity *q)
 {
     const scene_quantity_kind kind = q->what.kind;

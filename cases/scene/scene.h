@@ -205,6 +205,8 @@ const char *scene_convention(const scene *s, const scene_quantity *q);
 /* Physics (FEATURE_* bits) that the scene is to have; the data say the rest: analyses, sections. */
 void scene_need(scene *s, unsigned features);
 void scene_meshes(scene *s, int count, const int mesh[]);
+/* first, twice that, and so on up to last. */
+void scene_meshes_doubled(scene *s, int first, int last);
 
 /* What section i comes to; computed once, and again when its description has changed.  Not for two
  * threads at once. */

@@ -20,8 +20,7 @@ void cantilever_build(double length, const cantilever_stiffness *k, scene *s, in
     scene_hold_all(s, *root);
     if (k->GA > 0)
         scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
-    const int meshes[] = {1, 2, 4, 8, 16, 32};
-    scene_meshes(s, 6, meshes);
+    scene_meshes_doubled(s, 1, 32);
 }
 
 int cantilever_path(scene *s, int steps)
@@ -37,4 +36,22 @@ void cantilever_quantity(scene *s, const char *name, const char *unit, int analy
     q->factor = factor;
     q->offset = offset;
     q->least_order = 1.8;
+}
+
+void cantilever_bent(scene *s, int tip)
+{
+    const int path = cantilever_path(s, 4);
+    cantilever_quantity(s, "w_over_L", "1", path, tip, SCENE_UY, 1, 0);
+    cantilever_quantity(s, "u_over_L", "1", path, tip, SCENE_UX, -1, 0);
+    cantilever_quantity(s, "theta", "rad", path, tip, SCENE_RZ, 1, 0);
+}
+
+void cantilever_turning(scene *s, int rotation, int root, int tip)
+{
+    cantilever_quantity(s, "stretch", "1", rotation, tip, SCENE_UX, 1, 0);
+    scene_quantity *pull =
+        scene_add_quantity(s, "root_force", "1", rotation, scene_reaction(root, SCENE_UX));
+    pull->factor = -1;
+    pull->least_order = 1.8;
+    scene_meshes_doubled(s, 2, 64);
 }

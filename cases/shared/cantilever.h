@@ -20,4 +20,12 @@ int cantilever_path(scene *s, int steps);
 void cantilever_quantity(scene *s, const char *name, const char *unit, int analysis, int tip,
                          int row, double factor, double offset);
 
+/* Deflection, shortening and turn of a tip that is bent in the plane of x and y, all over L = 1 m:
+ * the end of a path of four steps. */
+void cantilever_bent(scene *s, int tip);
+
+/* What a steady rotation does to a beam of L = 1 m, EI = 1 N m^2: the stretch of its end, the pull
+ * on its root; from two elements on. */
+void cantilever_turning(scene *s, int rotation, int root, int tip);
+
 #endif

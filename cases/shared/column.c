@@ -2,6 +2,8 @@
 
 #include <stddef.h>
 
+#include "cases/shared/forks.h"
+
 const parameter_type column_parameters[] = {
     [COLUMN_LENGTH] = {"length", "m", 6.0, 1e-6, 1e6, NULL, "length of the beam"},
     [COLUMN_HEIGHT] = {"height", "m", 0.6, 1e-6, 1e6, NULL, "centre-line height of the web"},
@@ -14,22 +16,18 @@ const parameter_type column_parameters[] = {
     [COLUMN_DATA] =
         {"section_data", "", CHANNEL_SHEAR_FLOW, 0, 0, CHANNEL_DATA_CHOICES,
          "constants computed from the walls, or as printed (of the default sizes only)"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
-const parameter_type column_flexible[] = {
-    {"shear", "1", 1, 0, 1, NULL, "1: flexible in shear, 0: shear-rigid"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
-};
-
-const parameter_type column_rigid[] = {
-    {"shear", "1", 0, 0, 1, NULL, "1: flexible in shear, 0: shear-rigid"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
-};
+#define SHEAR(is_default)                                                                          \
+    {                                                                                              \
+        "shear", "1", is_default, 0, 1, NULL, "1: flexible in shear, 0: shear-rigid"               \
+    }
+const parameter_type column_flexible[] = {SHEAR(1), {0}}, column_rigid[] = {SHEAR(0), {0}};
 
 const parameter_type column_stability[] = {
     {"shear_stability", "", 0, 0, 0, "engesser|haringx", "theory of shear in stability"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static const char *first_changed_size(const double value[])
@@ -55,21 +53,11 @@ status column_build(const double value[], scene *s, int ends[2], fault *f)
     section_spec spec;
     channel_section(&c, &spec);
     channel_print_constants(data, &spec);
-    const int profile = scene_add_section(s, &spec);
-    const double y_axis[3] = {0, 1, 0};
-    ends[0] = scene_add_node(s, 0, 0, 0);
-    ends[1] = scene_add_node(s, value[COLUMN_LENGTH], 0, 0);
-    scene_add_member(s, ends[0], ends[1], profile, y_axis);
-    const double x_axis[3] = {1, 0, 0};
-    scene_hold(s, ends[0], SCENE_UX, SCENE_UZ);
-    scene_hold(s, ends[1], SCENE_UY, SCENE_UZ);
-    for (int i = 0; i < 2; i++)
-        scene_fork(s, ends[i], x_axis, y_axis); /* moments are about z */
+    forks_column(s, &spec, value[COLUMN_LENGTH], ends);
     if (value[COLUMN_SHEAR] != 0)
         scene_need(s, FEATURE_SHEAR |
                           (value[COLUMN_STABILITY] == 0 ? FEATURE_ENGESSER : FEATURE_HARINGX));
     scene_need(s, FEATURE_TRAPEZE);
-    const int meshes[] = {2, 4, 8, 16, 32, 64, 128};
-    scene_meshes(s, 7, meshes);
+    scene_meshes_doubled(s, 2, 128);
     return STATUS_OK;
 }

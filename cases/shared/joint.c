@@ -25,7 +25,7 @@ const parameter_type joint_parameters[] = {
     [JOINT_WAGNER] = {"wagner", "1", 1, 0, 1, NULL, "1: Wagner torque (N Eq. 46)"},
     [JOINT_DIRECTION] = {"element_direction", "", 0, 0, 0, "bodies|chained",
                          "elements begin at the bodies, or run base - fold - body"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 enum { FOLDS = 3 };

@@ -11,7 +11,7 @@ enum { OPTION_MASS, OPTION_TORSION, OPTION_INSIDE };
 const parameter_type beamw_prepare_mass[] = {
     [OPTION_MASS] = {"mass", "", BEAMW_INERTIA_CONSISTENT, 0, 0, "lumped|consistent|averaged",
                      "mass matrix: J Eq. 73, from the shape functions, or the mean of the two"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 /* OPTION_TORSION, OPTION_INSIDE. */
@@ -21,7 +21,7 @@ const parameter_type beamw_prepare_inside[] = {
     {"inside", "", 1, 0, 0, "linear|following",
      "bending, shear and warping inside the element: as without stress, or in "
      "equilibrium with it"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 const unsigned beamw_prepare_judged[] = {

@@ -10,7 +10,7 @@ const parameter_type formulation_common[] = {
     {"newton", "", SOLVE_MIXED, 0, 0, "mixed|displacement|dense",
      "Newton's iteration: coordinates, strains and stresses at once, condensed element by element; "
      "displacements only; or uncondensed with Gaussian elimination"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 assignment_list formulation_options(const element_type *type)

@@ -19,7 +19,7 @@ static const parameter_type parameter[] = {
     [AS] = {"as", "", 0, 0, 0, "points|hub|beside", "how the body is described"},
     [SUPPORT] = {"support", "", 0, 0, 0, "free|hinged", "how it turns"},
     [LOADED] = {"loaded", "1", 1, 0, 1, NULL, "1: frequencies about a loaded state too"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 static const double mass[MASSES] = {0.31, 0.17, 0.23, 0.41}, hub_at[3] = {0.53, 0.11, -0.07},

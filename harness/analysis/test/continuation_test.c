@@ -76,8 +76,7 @@ static status build_column(const double value[], scene *s, fault *f)
 static void bifurcations(const char *assignment)
 {
     static const parameter_type table[] = {
-        {"moment", "1", 0, 0, 1, NULL, "1: with a moment of no size"},
-        {NULL, NULL, 0, 0, 0, NULL, NULL}};
+        {"moment", "1", 0, 0, 1, NULL, "1: with a moment of no size"}, {0}};
     const case_type column = {.name = "column", .parameters = {table}, .build = build_column};
     const double EA = 100;
     cell_result r = solve(&column, "collocation", 8, assignment);

@@ -50,8 +50,7 @@ static status build(const double value[], scene *s, fault *f)
 }
 
 static const parameter_type table[] = {
-    {"continued", "1", 0, 0, 1, NULL, "1: in its deflection, 0: by its load"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL}};
+    {"continued", "1", 0, 0, 1, NULL, "1: in its deflection, 0: by its load"}, {0}};
 static const case_type drawn = {.name = "drawn", .parameters = {table}, .build = build};
 
 static status solve_edited(const case_type *type, const element_type *formulation_type, int n,

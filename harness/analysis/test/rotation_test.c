@@ -76,7 +76,7 @@ enum { BODY };
 static const parameter_type with_body_parameters[] = {
     [BODY] = {"body", "1", 0, 0, 1, NULL,
               "1: the tip is attached to a body whose reference point is elsewhere"},
-    {NULL, NULL, 0, 0, 0, NULL, NULL},
+    {0},
 };
 
 /* An inclined channel that turns about an axis beside it. */
