@@ -92,9 +92,15 @@ void scene_set_at(scene_quantity *q, double at)
     q->at = at;
 }
 
-scene_extract scene_internal_at(int member, int end, scene_resultant resultant)
+scene_extract scene_internal_at(int member, double place, scene_resultant resultant)
 {
-    return (scene_extract){SCENE_INTERNAL, {.internal = {member, end, resultant}}};
+    return (scene_extract){SCENE_INTERNAL,
+                           {.internal = {member, resultant, SCENE_ALONG_PLACE, place}}};
+}
+
+scene_extract scene_internal_along(int member, scene_along along, scene_resultant resultant)
+{
+    return (scene_extract){SCENE_INTERNAL, {.internal = {member, resultant, along, 0}}};
 }
 
 const scene_internal *scene_internal_of(const scene_quantity *q)

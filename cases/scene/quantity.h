@@ -19,7 +19,7 @@ typedef enum scene_quantity_kind {
     SCENE_FACTOR_AT,        /* load factor of a continuation where the control coordinate is ... */
     SCENE_CRITICAL_POINT,   /* of a continuation */
     SCENE_DRIVER_VALUE,     /* of an unknown driver */
-    SCENE_INTERNAL          /* resultant of the stresses at an end of a member */
+    SCENE_INTERNAL          /* resultant of the stresses on a section of a member */
 } scene_quantity_kind;
 
 /* A point of a path at which the tangent stiffness is singular. */
@@ -47,7 +47,9 @@ typedef struct scene_component {
 } scene_component;
 
 /* Resultants of the stresses of what lies towards the end q of a member on what lies towards p, in the principal axes of
- * the turned section, moments about its centroid. */
+ * the turned section, moments about its centroid. The parts of the torque add up to that about the shear centre,
+ * Mx - (ys Qz - zs Qy): of Saint-Venant's torsion, of the restrained warping (the bimoment falls by it along the member), and of
+ * what stresses along the fibres, which the twist turns, add. */
 typedef enum scene_resultant {
     SCENE_N,
     SCENE_QY,
@@ -55,12 +57,26 @@ typedef enum scene_resultant {
     SCENE_MX,
     SCENE_MY,
     SCENE_MZ,
-    SCENE_BIMOMENT
+    SCENE_BIMOMENT,
+    SCENE_MX_SAINT_VENANT,
+    SCENE_MX_WARPING,
+    SCENE_MX_WAGNER,
+    SCENE_RESULTANTS
 } scene_resultant;
 
+/* Which section of a member. */
+typedef enum scene_along {
+    SCENE_ALONG_PLACE,  /* at a place of it */
+    SCENE_ALONG_MAX,    /* where the value is largest */
+    SCENE_ALONG_MIN,    /* where it is least */
+    SCENE_ALONG_LARGEST /* where its magnitude is largest: that magnitude */
+} scene_along;
+
 typedef struct scene_internal {
-    int member, end; /* end: 0 at p, 1 at q */
+    int member;
     scene_resultant resultant;
+    scene_along along;
+    double place; /* of SCENE_ALONG_PLACE: 0 at p .. 1 at q, of the initial length */
 } scene_internal;
 
 typedef struct scene_entry {
@@ -112,7 +128,11 @@ scene_extract scene_frequency_of(int order, scene_family family, int half_waves)
 scene_extract scene_factor_at(void);
 scene_extract scene_critical_point(scene_critical kind, int order, scene_ordinate ordinate);
 scene_extract scene_driver_value(int driver);
-scene_extract scene_internal_at(int member, int end, scene_resultant resultant);
+/* place: 0 at p .. 1 at q */
+scene_extract scene_internal_at(int member, double place, scene_resultant resultant);
+scene_extract scene_internal_along(int member, scene_along along, scene_resultant resultant);
+/* What scene files and messages call it. */
+#define SCENE_RESULTANT_CHOICES "N|Qy|Qz|Mx|My|Mz|bimoment|Mx_saint_venant|Mx_warping|Mx_wagner"
 
 /* Abscissa of a curve. */
 typedef struct scene_abscissa {

@@ -128,11 +128,11 @@ static status check_extract(const scene *s, const scene_quantity *q, fault *f)
         break;
     case SCENE_INTERNAL: {
         const scene_internal *c = scene_internal_of(q);
-        if (c->member < 0 || c->member >= s->members || (c->end != 0 && c->end != 1) ||
-            c->resultant < SCENE_N || c->resultant > SCENE_BIMOMENT)
+        if (c->member < 0 || c->member >= s->members || !(c->place >= 0 && c->place <= 1) ||
+            c->resultant < SCENE_N || c->resultant >= SCENE_RESULTANTS)
             return fault_set(f, STATUS_REFUSED,
-                             "quantity %s: no such resultant; name a member, one of its ends, and "
-                             "N to BIMOMENT",
+                             "quantity %s: no such resultant; name a member, a place from 0 to 1 "
+                             "of it, and N to MX_WAGNER",
                              q->name);
         break;
     }

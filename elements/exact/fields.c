@@ -85,7 +85,7 @@ static void residual_bending(exact_fields *f, int g, int Q, int M, double sign, 
 }
 
 /* Stress times strain less half of stress times flexibility, at one point; shears are those of the shear centre. */
-static void energy_of_point(const exact_constants *c, exact_fields *f, int g)
+static void energy_of_point(const beam_constants *c, exact_fields *f, int g)
 {
     const int e = 6 * g, Q = f->free + EXACT_FIELDS_STRESSES * g;
     const double w = f->w[g];
@@ -119,7 +119,7 @@ static void energy_of_point(const exact_constants *c, exact_fields *f, int g)
     residual_bending(f, g, 1, 3, 1, part / c->EIy);  /* Q_z = M_y' */
 }
 
-static void energy_of_fields(const exact_constants *c, exact_fields *f)
+static void energy_of_fields(const beam_constants *c, exact_fields *f)
 {
     for (int i = 0; i < f->field; i++) {
         add_square(f, f->weight[i] * c->GJ, f->twist[i]);
@@ -146,7 +146,7 @@ int exact_fields_eliminate(const exact_fields *f, double X[])
     return failed;
 }
 
-void exact_fields_prepare(const exact_constants *c, int nodes, exact_fields *f)
+void exact_fields_prepare(const beam_constants *c, int nodes, exact_fields *f)
 {
     memset(f, 0, sizeof *f);
     f->nodes = nodes;

@@ -1,10 +1,10 @@
 /* What the energy of an element with strains at Gauss points depends on, and the elimination of what the nodes do not show
- * (stiffness.h says why).  Dimensionless (constants.h). */
+ * (stiffness.h says why).  Dimensionless (beam_constants.h). */
 #ifndef BEAMWORK_EXACT_FIELDS_H
 #define BEAMWORK_EXACT_FIELDS_H
 
-#include "elements/exact/constants.h"
 #include "elements/exact/stiffness.h"
+#include "elements/shared/beam_constants.h"
 
 enum {
     EXACT_FIELDS_MAX_BUBBLES = EXACT_STRAIN_MAX_POINTS, /* of the warping amplitude */
@@ -28,7 +28,7 @@ typedef struct exact_fields {
     double energy[EXACT_FIELDS_MAX_ALL * EXACT_FIELDS_MAX_ALL];     /* 2 x the quadratic form */
 } exact_fields;
 
-void exact_fields_prepare(const exact_constants *c, int nodes, exact_fields *f);
+void exact_fields_prepare(const beam_constants *c, int nodes, exact_fields *f);
 
 /* Bubbles and stresses as they follow from the strains: X[all - strains][strains]; 0, or the failing pivot. */
 int exact_fields_eliminate(const exact_fields *f, double X[]);

@@ -21,7 +21,7 @@ void exact_stage_at(int nodes, const double N[], const double dN[], const double
         p->kappa[j] -= rest_kappa[j];
 }
 
-double exact_stage_material(const exact_constants *c, const double kappa[3], const double N[3],
+double exact_stage_material(const beam_constants *c, const double kappa[3], const double N[3],
                             double T, double gradient[6], double M[36])
 {
     const double k = kappa[0];

@@ -2,8 +2,8 @@
 #ifndef BEAMWORK_EXACT_STAGE_H
 #define BEAMWORK_EXACT_STAGE_H
 
-#include "elements/exact/constants.h"
 #include "elements/exact/milenkovic.h"
+#include "elements/shared/beam_constants.h"
 
 enum {
     EXACT_STAGE_MILENKOVIC = 0,
@@ -22,7 +22,7 @@ void exact_stage_at(int nodes, const double N[], const double dN[], const double
                     const double force[3], const double rest_kappa[3], exact_stage *p);
 
 /* Energy of a point as a function of (kappa, N): gradient [6] and Hessian [36]; T: its warping torque. */
-double exact_stage_material(const exact_constants *c, const double kappa[3], const double N[3],
+double exact_stage_material(const beam_constants *c, const double kappa[3], const double N[3],
                             double T, double gradient[6], double M[36]);
 
 /* Derivatives of kappa and N. */

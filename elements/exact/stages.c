@@ -87,7 +87,7 @@ status exact_stages_prepare(const element_request *request, int count, exact_sta
 {
     double point[EXACT_STAGES_MAX], at[EXACT_STAGES_NODES];
     memset(out, 0, sizeof *out);
-    TRY(exact_constants_of(request, &out->c, f));
+    TRY(beam_constants_of(request, &out->c, f));
     out->stages = count;
     out->unknowns = 3 * count;
     const double none[3] = {0};

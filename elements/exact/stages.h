@@ -10,7 +10,7 @@
  *
  * is stationary in F and in the inner x.  In a linear problem this is collocation of the moments' equilibrium m' = F x r' at the
  * Gauss points; N = R^T F is in equilibrium exactly.  The tangent is symmetric, and the error of order 2 p.  All dimensionless
- * (constants.h). */
+ * (beam_constants.h). */
 #ifndef BEAMWORK_EXACT_STAGES_H
 #define BEAMWORK_EXACT_STAGES_H
 
@@ -27,7 +27,7 @@ enum {
 
 typedef struct exact_stages {
     int stages, unknowns; /* unknowns: F (3), x of the inner nodes */
-    exact_constants c;
+    beam_constants c;
     exact_strain_line line;
     double w[EXACT_STAGES_MAX], N[EXACT_STAGES_MAX][EXACT_STAGES_NODES],
         dN[EXACT_STAGES_MAX][EXACT_STAGES_NODES];

@@ -6,7 +6,7 @@
 #include "elements/exact/fields.h"
 #include "elements/math/dense.h"
 
-static void condense(const exact_constants *c, const exact_fields *f, const double X[],
+static void condense(const beam_constants *c, const exact_fields *f, const double X[],
                      exact_stiffness *out)
 {
     const int m = f->strains;
@@ -38,11 +38,11 @@ static void condense(const exact_constants *c, const exact_fields *f, const doub
 status exact_stiffness_prepare(const element_request *request, int nodes, exact_stiffness *out,
                                fault *fault_out)
 {
-    exact_constants c;
+    beam_constants c;
     exact_fields f;
     double X[EXACT_FIELDS_MAX_ALL * EXACT_STIFFNESS_MAX_STRAINS];
     memset(out, 0, sizeof *out);
-    TRY(exact_constants_of(request, &c, fault_out));
+    TRY(beam_constants_of(request, &c, fault_out));
     exact_fields_prepare(&c, nodes, &f);
     out->strains = f.strains;
     out->points = f.points;

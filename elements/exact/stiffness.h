@@ -13,8 +13,8 @@
 #ifndef BEAMWORK_EXACT_STIFFNESS_H
 #define BEAMWORK_EXACT_STIFFNESS_H
 
-#include "elements/exact/constants.h"
 #include "elements/exact/strain.h"
+#include "elements/shared/beam_constants.h"
 
 enum {
     EXACT_STIFFNESS_MAX_STRAINS = 6 * EXACT_STRAIN_MAX_POINTS + ELEMENT_MAX_NODES,

@@ -73,7 +73,7 @@ static void graded_points(double lambda, double x[], double rest[], double w[])
 }
 
 /* Mean[stages][functions]: P of every function at the stages; K: 2 x energy of their slopes and of what P does not see. */
-static void integrate(const exact_constants *c, const basis *b, int stages, const double x[],
+static void integrate(const beam_constants *c, const basis *b, int stages, const double x[],
                       const double w[], double mean[STAGES * FUNCTIONS],
                       double K[FUNCTIONS * FUNCTIONS])
 {
@@ -101,7 +101,7 @@ static void integrate(const exact_constants *c, const basis *b, int stages, cons
         }
 }
 
-void exact_warping_energy(const exact_constants *c, int stages, const double x[], const double w[],
+void exact_warping_energy(const beam_constants *c, int stages, const double x[], const double w[],
                           double S[EXACT_WARPING_MAX * EXACT_WARPING_MAX])
 {
     enum { SIZE = BUBBLES + STAGES };

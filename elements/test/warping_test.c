@@ -63,7 +63,7 @@ static void layer_means(const amplitude *a, const double x[], const double w[], 
 }
 
 /* Largest departure of S z from the exact gradient, in parts of its largest entry. */
-static double departure(const exact_constants *c, const amplitude *a)
+static double departure(const beam_constants *c, const amplitude *a)
 {
     const int m = a->stages + 2;
     double x[MOST], w[MOST], mean[MOST], z[EXACT_WARPING_MAX], exact[EXACT_WARPING_MAX],
@@ -94,7 +94,7 @@ static double departure(const exact_constants *c, const amplitude *a)
 /* One layer or polynomial term at a time: none hides behind a larger one. */
 static void compare(int stages, double lambda, double shear)
 {
-    const exact_constants c = {.GJ = 0.7, .EIw = 0.7 / (lambda * lambda), .F = {[8] = shear}};
+    const beam_constants c = {.GJ = 0.7, .EIw = 0.7 / (lambda * lambda), .F = {[8] = shear}};
     double layer = 0, smooth = 0, mixed = 0;
     uint64_t seed = (uint64_t)stages;
     for (int side = 0; side < 2; side++) {

@@ -2,37 +2,14 @@
 #include "harness/analysis/extract.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "harness/analysis/continuation_extract.h"
 #include "harness/analysis/extract_path.h"
+#include "harness/analysis/extract_section.h"
 #include "harness/analysis/extract_spectrum.h"
-#include "harness/equations/internal.h"
-#include "harness/equations/linear.h"
 #include "harness/model/kinematics.h"
 #include "harness/solver/quantity.h"
-
-/* At full load, about the undeformed state. */
-static void internal_of_linear(const analysis_context *c, const scene_quantity *q,
-                               const analysis_outcome *o, quantity_result *r)
-{
-    const scene_internal *what = scene_internal_of(q);
-    const model_size size = model_sizes(c->model);
-    double all[SCENE_BIMOMENT + 1],
-        *sigma = calloc((size_t)size.elements * (size_t)size.strains + 1, sizeof *sigma);
-    fault f = {"out of memory for stresses"};
-    const status known = sigma != NULL
-                             ? linear_stresses(c->model, outcome_displacements(o), sigma, &f)
-                             : STATUS_FAULT;
-    if (known == STATUS_OK) {
-        internal_at_end(c->model, kinematics_rest(c->model), sigma, 1, what->member, what->end,
-                        all);
-        r->value = quantity_scaled(q, all[what->resultant]);
-    } else
-        quantity_no_value(r, known, f.text);
-    free(sigma);
-}
 
 static void from_linear(const analysis_context *c, const scene_quantity *q,
                         const analysis_outcome *o, quantity_result *r)
@@ -73,7 +50,7 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
     switch (c->scene->analysis[q->analysis].kind) {
     case SCENE_LINEAR:
         if (q->what.kind == SCENE_INTERNAL)
-            internal_of_linear(c, q, o, r);
+            extract_section_linear(c, q, o, r);
         else
             from_linear(c, q, o, r);
         break;

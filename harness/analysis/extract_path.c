@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "elements/math/pi.h"
-#include "harness/equations/internal.h"
+#include "harness/analysis/extract_section.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/loads.h"
 #include "harness/model/kinematics.h"
@@ -47,17 +47,9 @@ static const rotation_modes *modes_at(const analysis_outcome *o, int i)
     return modes != NULL ? &modes[i] : NULL;
 }
 
-static double internal_of(const analysis_context *c, const scene_internal *what,
-                          const model_state *s)
-{
-    double all[SCENE_BIMOMENT + 1];
-    internal_at_end(c->model, s, NULL, kinematics_state_path(s), what->member, what->end, all);
-    return all[what->resultant];
-}
-
-/* Value of a quantity of the path at one station. */
+/* Value of a quantity of the path at one station; NAN: r may say why. */
 static double extracted(const analysis_context *c, const scene_quantity *q,
-                        const analysis_outcome *o, int i)
+                        const analysis_outcome *o, int i, quantity_result *r)
 {
     const outcome_path *path = outcome_path_of(o);
     switch (q->what.kind) {
@@ -80,7 +72,7 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
     case SCENE_FACTOR_AT:
         return kinematics_state_path(path->state[i]);
     case SCENE_INTERNAL:
-        return internal_of(c, scene_internal_of(q), path->state[i]);
+        return extract_section_state(c, q, path->state[i], r);
     case SCENE_CRITICAL_FACTOR:
     case SCENE_CRITICAL_POINT:
         break;
@@ -89,9 +81,9 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
 }
 
 static double at_station(const analysis_context *c, const scene_quantity *q,
-                         const analysis_outcome *o, int i)
+                         const analysis_outcome *o, int i, quantity_result *r)
 {
-    return quantity_scaled(q, extracted(c, q, o, i));
+    return quantity_scaled(q, extracted(c, q, o, i, r));
 }
 
 static double abscissa(const scene_quantity *q, const outcome_path *p, int i)
@@ -112,7 +104,7 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
     r->curve.points = p->reached;
     for (int i = 0; i < p->reached; i++) {
         r->curve.x[i] = abscissa(q, p, i);
-        r->curve.value[i] = at_station(c, q, o, i);
+        r->curve.value[i] = at_station(c, q, o, i, r);
     }
     r->value = p->reached > 0 ? r->curve.value[p->reached - 1] : NAN;
 }
@@ -143,7 +135,7 @@ void extract_path(const analysis_context *c, const scene_quantity *q, const anal
     int chosen = -1;
     for (int i = 0; i < p->reached; i++) {
         const double value =
-            q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ? at_station(c, q, o, i) : 0;
+            q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ? at_station(c, q, o, i, r) : 0;
         const int better = q->reduction == SCENE_MAX ? value > r->value : value < r->value;
         const int here = q->reduction == SCENE_AT
                              ? fabs(p->value[i] - q->at) <= 1e-12 * fmax(1, fabs(q->at))
@@ -164,6 +156,6 @@ void extract_path(const analysis_context *c, const scene_quantity *q, const anal
         path_ends(c, q, o, r);
         return;
     }
-    r->value = at_station(c, q, o, chosen);
+    r->value = at_station(c, q, o, chosen, r);
     r->x = abscissa(q, p, chosen);
 }

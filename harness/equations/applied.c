@@ -10,13 +10,10 @@
 #include "harness/model/kinematics.h"
 #include "harness/model/release.h"
 
-/* The undeformed member's axes, y as the scene gives it: the triad of an element's node, whose y and
- * z are the principal ones of the section, turned back. */
-static void member_axes(const model *m, const mesh_element *el, int node, double R[9])
+void applied_member_axes(const double triad[9], const section *of, double R[9])
 {
-    const double angle = m->section[m->kind[el->kind].section].axes_angle, c = cos(angle),
-                 d = sin(angle);
-    memcpy(R, el->triad[node], 9 * sizeof(double));
+    const double angle = of->axes_angle, c = cos(angle), d = sin(angle);
+    memcpy(R, triad, 9 * sizeof(double));
     for (int i = 0; i < 9; i += 3) {
         const double y = R[i + 1];
         R[i + 1] = c * y - d * R[i + 2];
@@ -56,27 +53,33 @@ static double density_of(const model *m, const scene_load *load, const mesh_elem
     return load->kind == SCENE_GRAVITY ? c->density * c->A : 1;
 }
 
+void applied_element(const model *m, const model_state *s, const scene_load *load, double scale,
+                     int element, void (*take)(void *context, const applied *), void *context)
+{
+    static const double two[] = {0.5, 0.5}, three[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
+    const mesh_element *el = &m->element[element];
+    for (int k = 0; k < m->nodes; k++) {
+        const double weight = scale * (m->nodes == 2 ? two : three)[k] * m->kind[el->kind].length *
+                              density_of(m, load, el);
+        double axes[9];
+        if (load->axes == SCENE_AXES_MEMBER)
+            applied_member_axes(el->triad[k], &m->section[m->kind[el->kind].section], axes);
+        const applied one = of_vertex(s, el->vertex[k], load, weight,
+                                      load->axes == SCENE_AXES_MEMBER ? axes : NULL);
+        take(context, &one);
+    }
+}
+
 void applied_each(const model *m, const model_state *s, const scene_load *load, double scale,
                   void (*take)(void *context, const applied *), void *context)
 {
-    static const double two[] = {0.5, 0.5}, three[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
     if (!scene_load_along(load)) {
         const applied one = of_vertex(s, load->where, load, scale, NULL);
         take(context, &one);
         return;
     }
     for (int i = m->first_element[load->where]; i < m->first_element[load->where + 1]; i++)
-        for (int k = 0; k < m->nodes; k++) {
-            const mesh_element *el = &m->element[i];
-            const double weight = scale * (m->nodes == 2 ? two : three)[k] *
-                                  m->kind[el->kind].length * density_of(m, load, el);
-            double axes[9];
-            if (load->axes == SCENE_AXES_MEMBER)
-                member_axes(m, el, k, axes);
-            const applied one = of_vertex(s, el->vertex[k], load, weight,
-                                          load->axes == SCENE_AXES_MEMBER ? axes : NULL);
-            take(context, &one);
-        }
+        applied_element(m, s, load, scale, i, take, context);
 }
 
 /* Where entries of the stiffness go. */

@@ -1,8 +1,10 @@
 #include "harness/equations/internal.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/equations/distributed.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/equations/loads.h"
 #include "harness/model/kinematics.h"
@@ -28,6 +30,32 @@ static void take_off(void *context, const applied *what)
         of->force[3 + i] -= moment[i];
 }
 
+/* What the outside exerts on the first (0) and the last (1) node of an element but for the loads along it, in fixed axes:
+ * ends[2][7]; and its nodes. */
+static void ends_of(model *m, const internal_state *s, int i, node_state x[], double ends[2][7])
+{
+    const mesh_element *el = &m->element[i];
+    double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0};
+    const size_t first = (size_t)i * (size_t)m->strains;
+    kinematics_gather(m, s->s, el, x);
+    m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
+    dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
+                            s->sigma != NULL ? &s->sigma[first] : &s->s->sigma[first], force);
+    rotating_frame_add(m, x, i, s->path, force, NULL,
+                       NULL); /* never fails in a state that is reached */
+    for (int end = 0; end < 2; end++) {
+        const int k = end ? m->nodes - 1 : 0;
+        const share of = {el->vertex[k], force + NODE_COORDINATES * k};
+        for (int l = 0; l < m->scene->loads; l++) {
+            const scene_load *load = &m->scene->load[l];
+            if (scene_load_along(load) && load->where == el->member)
+                applied_element(m, s->s, load, loads_factor(load, s->path), i, take_off,
+                                (void *)&of);
+        }
+        memcpy(ends[end], force + NODE_COORDINATES * k, 7 * sizeof(double));
+    }
+}
+
 /* The element has a section of its own where it changes along the member, with other axes than at the end. */
 static void turn_to_end(const model *m, int member, int end, const mesh_element *el, double R[9])
 {
@@ -42,31 +70,138 @@ static void turn_to_end(const model *m, int member, int end, const mesh_element 
     }
 }
 
-void internal_at_end(model *m, const model_state *s, const double sigma[], double at, int member,
-                     int end, double out[7])
+void internal_at_end(model *m, const internal_state *s, int member, int end, double out[7])
 {
     const int i = end ? m->first_element[member + 1] - 1 : m->first_element[member],
               k = end ? m->nodes - 1 : 0;
+    node_state x[ELEMENT_MAX_NODES];
+    double force[2][7];
+    ends_of(m, s, i, x, force);
+    turn_to_end(m, member, end, &m->element[i], x[k].R);
+    mat3_transpose_mul_vec(x[k].R, force[end], out);
+    mat3_transpose_mul_vec(x[k].R, force[end] + 3, out + 3);
+    out[6] = force[end][6];
+    for (int c = 0; c < 7 && !end; c++)
+        out[c] *= -1;
+}
+
+/* The ends of an element as span.h wants them. */
+static void take_ends(model *m, const internal_state *s, int i, span_end end[2])
+{
     const mesh_element *el = &m->element[i];
     node_state x[ELEMENT_MAX_NODES];
-    double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0};
-    const size_t first = (size_t)i * (size_t)m->strains;
-    kinematics_gather(m, s, el, x);
-    m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
-    dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
-                            sigma != NULL ? &sigma[first] : &s->sigma[first], force);
-    rotating_frame_add(m, x, i, at, force, NULL, NULL); /* never fails in a state that is reached */
-    const share of = {el->vertex[k], force + NODE_COORDINATES * k};
-    for (int l = 0; l < m->scene->loads; l++) {
-        const scene_load *load = &m->scene->load[l];
-        if (scene_load_along(load) && load->where == member)
-            applied_each(m, s, load, loads_factor(load, at), take_off, (void *)&of);
+    double force[2][7], moved[ELEMENT_MAX_COORDINATES] = {0};
+    ends_of(m, s, i, x, force);
+    if (s->x != NULL)
+        kinematics_local(m, s->s, el, s->x, moved);
+    for (int e = 0; e < 2; e++) {
+        const int k = e ? m->nodes - 1 : 0;
+        const double sign = e ? 1 : -1;
+        memcpy(end[e].frame.r, x[k].r, sizeof end[e].frame.r);
+        memcpy(end[e].frame.R, x[k].R, sizeof end[e].frame.R);
+        for (int c = 0; c < 3; c++) {
+            end[e].force[c] = sign * force[e][c];
+            end[e].moment[c] = sign * force[e][3 + c];
+        }
+        end[e].bimoment = sign * force[e][6];
+        end[e].amplitude = x[k].a + moved[NODE_COORDINATES * k + 6];
     }
-    const double sign = end ? 1 : -1;
-    turn_to_end(m, member, end, el, x[k].R);
-    mat3_transpose_mul_vec(x[k].R, of.force, out);
-    mat3_transpose_mul_vec(x[k].R, of.force + 3, out + 3);
-    out[6] = of.force[6];
-    for (int c = 0; c < 7; c++)
-        out[c] *= sign;
+}
+
+static status recover(model *m, const internal_state *s, int i, const span_grid *g,
+                      span_fields *out, fault *f)
+{
+    const mesh_kind *kind = &m->kind[m->element[i].kind];
+    distributed loads = {m, i, s->path};
+    element_request request = {
+        .section = &m->section[kind->section], .length = kind->length, .options = m->options};
+    span_problem problem = {
+        .request = &request, .linear = s->x != NULL, .context = &loads, .load = NULL};
+    TRY(features_of_section(m, kind->section, &request.features, f));
+    memcpy(request.curvature, kind->curvature, sizeof request.curvature);
+    memcpy(request.strain, kind->strain, sizeof request.strain);
+    if (distributed_acts(&loads))
+        problem.load = distributed_at;
+    take_ends(m, s, i, problem.end);
+    return span_recover(g, &problem, out, f);
+}
+
+status internal_at(model *m, const internal_state *s, int member, double place, double out[],
+                   fault *f)
+{
+    const int first = m->first_element[member], count = m->first_element[member + 1] - first;
+    const int i = (int)fmin(fmax(floor(place * count), 0), count - 1);
+    span_grid g;
+    span_fields fields;
+    span_grid_make(&g);
+    TRY(recover(m, s, first + i, &g, &fields, f));
+    span_at(&g, &fields, place * count - i, out);
+    return STATUS_OK;
+}
+
+/* One element's fields and what is measured of them. */
+typedef struct measured {
+    const span_grid *g;
+    const span_fields *fields;
+    internal_measure of;
+    void *context;
+} measured;
+
+static double measure_at(const measured *what, double x)
+{
+    double v[SPAN_VALUES];
+    span_at(what->g, what->fields, x, v);
+    return what->of(what->context, v);
+}
+
+/* Between a and b, where one point of the grid is larger than its neighbours: golden section. */
+static double refined(const measured *what, double a, double b)
+{
+    const double golden = (sqrt(5) - 1) / 2;
+    double c = b - golden * (b - a), d = a + golden * (b - a), at_c = measure_at(what, c),
+           at_d = measure_at(what, d);
+    for (int i = 0; i < 40; i++)
+        if (at_c > at_d) {
+            b = d;
+            d = c;
+            at_d = at_c;
+            c = b - golden * (b - a);
+            at_c = measure_at(what, c);
+        } else {
+            a = c;
+            c = d;
+            at_c = at_d;
+            d = a + golden * (b - a);
+            at_d = measure_at(what, d);
+        }
+    return fmax(at_c, at_d);
+}
+
+/* *largest: the greater of it and what the element has. */
+static void take_largest(const measured *what, double *largest)
+{
+    double value[SPAN_GRID_POINTS];
+    for (int j = 0; j < SPAN_GRID_POINTS; j++) {
+        value[j] = what->of(what->context, what->fields->value[j]);
+        *largest = fmax(*largest, value[j]);
+    }
+    for (int j = 1; j + 1 < SPAN_GRID_POINTS; j++) {
+        const double before = value[j] - value[j - 1], behind = value[j] - value[j + 1];
+        if (before >= 0 && behind >= 0 && value[j] + before + behind > *largest)
+            *largest = fmax(*largest, refined(what, what->g->x[j - 1], what->g->x[j + 1]));
+    }
+}
+
+status internal_largest(model *m, const internal_state *s, int member, internal_measure of,
+                        void *context, double *out, fault *f)
+{
+    span_grid g;
+    span_grid_make(&g);
+    *out = -INFINITY;
+    for (int i = m->first_element[member]; i < m->first_element[member + 1]; i++) {
+        span_fields fields;
+        TRY(recover(m, s, i, &g, &fields, f));
+        take_largest(&(measured){&g, &fields, of, context}, out);
+    }
+    return STATUS_OK;
 }

@@ -36,9 +36,20 @@ static unsigned needs_of_analyses(const scene *s)
     return needs;
 }
 
+/* The torque of stresses along the fibres is there where they are turned. */
+static unsigned needs_of_quantities(const scene *s)
+{
+    unsigned needs = 0;
+    for (int i = 0; i < s->quantities; i++)
+        if (s->quantity[i].what.kind == SCENE_INTERNAL &&
+            scene_internal_of(&s->quantity[i])->resultant == SCENE_MX_WAGNER)
+            needs |= FEATURE_TRAPEZE;
+    return needs;
+}
+
 unsigned features_needed(const scene *s)
 {
-    unsigned needs = s->needs | needs_of_analyses(s);
+    unsigned needs = s->needs | needs_of_analyses(s) | needs_of_quantities(s);
     for (int i = 0; i < s->members; i++)
         needs |= vec3_norm(s->member[i].strain) > 0 ? FEATURE_CURVATURE : 0;
     for (int i = 0; i < s->sections; i++) {

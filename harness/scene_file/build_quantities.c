@@ -92,12 +92,28 @@ static scene_extract motion(const fields *f)
     return scene_driver_value(fields_entry(f, "motion", LIST_MOTIONS));
 }
 
+/* Of a member's length. */
+static double place_of(const fields *f)
+{
+    const double place = fields_number(f, "where", 0);
+    if (place >= 0 && place <= 1)
+        return place;
+    document_mistake(f->b->mistakes, document_find(f->map, "where"), 0,
+                     "where = %g; give a part of the member's length, from 0 to 1", place);
+    return 0;
+}
+
 static scene_extract internal(const fields *f)
 {
     const int member = fields_entry(f, "member", LIST_MEMBERS);
-    const int end = fields_word(f, "end", "from|to", 0);
+    const scene_resultant what =
+        (scene_resultant)fields_word(f, "resultant", SCENE_RESULTANT_CHOICES, 0);
+    if (fields_have(f, "along"))
+        return scene_internal_along(
+            member, (scene_along)(SCENE_ALONG_MAX + fields_word(f, "along", "max|min|largest", 0)),
+            what);
     return scene_internal_at(
-        member, end, (scene_resultant)fields_word(f, "resultant", "N|Qy|Qz|Mx|My|Mz|bimoment", 0));
+        member, fields_have(f, "where") ? place_of(f) : fields_word(f, "end", "from|to", 0), what);
 }
 
 static const struct {

@@ -1,6 +1,7 @@
 /* Keys of what is asked: analyses, quantities, truths. */
 #include <stddef.h>
 
+#include "cases/scene/quantity.h"
 #include "harness/scene_file/keys.h"
 
 #define COMPONENTS "ux|uy|uz|rx|ry|rz"
@@ -96,8 +97,11 @@ static const scene_key reaction[] = {
 static const scene_key internal[] = {
     TAKEN,
     {"member", KEY_NAME, .needed = 1, .summary = "member"},
-    {"end", KEY_WORD, .needed = 1, .words = "from|to", .summary = "of the member"},
-    {"resultant", KEY_WORD, .needed = 1, .words = "N|Qy|Qz|Mx|My|Mz|bimoment",
+    {"end", KEY_WORD, .needed = 1, .group = 2, .words = "from|to", .summary = "of the member"},
+    {"where", KEY_NUMBER, .needed = 1, .group = 2, .summary = "0 'from' to 1 'to', of its length"},
+    {"along", KEY_WORD, .needed = 1, .group = 2, .words = "max|min|largest",
+     .summary = "over the member: largest and least value, or largest magnitude"},
+    {"resultant", KEY_WORD, .needed = 1, .words = SCENE_RESULTANT_CHOICES,
      .summary = "of what lies towards 'to', in the turned section's principal axes"},
     {.name = NULL}};
 
@@ -165,7 +169,7 @@ const scene_key keys_quantity[] = {
     KIND("factor_at", whole, "load factor where the control coordinate has a value"),
     KIND("critical_point", critical_point, "where the tangent is singular"),
     KIND("motion", motion, "value of an unknown motion"),
-    KIND("internal", internal, "resultant of stresses at an end of a member"),
+    KIND("internal", internal, "resultant of stresses on a section of a member"),
     {.name = "stress", .kind = KEY_LATER, .group = 1},
     {.name = "energy", .kind = KEY_LATER, .group = 1},
     {.name = "momentum", .kind = KEY_LATER, .group = 1},

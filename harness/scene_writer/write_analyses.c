@@ -105,6 +105,25 @@ static void write_which(writer *w, int order)
     write_if(w, "which", order, 0);
 }
 
+/* Which section of a member, and what of it. */
+static void write_place(writer *w, const scene_internal *c)
+{
+    static const char *const resultant[] = {"N",          "Qy",       "Qz",       "Mx",
+                                            "My",         "Mz",       "bimoment", "Mx_saint_venant",
+                                            "Mx_warping", "Mx_wagner"},
+                             *const along[] = {"", "max", "min", "largest"};
+    fprintf(w->to, ", member: member_%d", c->member);
+    if (c->along != SCENE_ALONG_PLACE) {
+        fprintf(w->to, ", along: %s", along[c->along]);
+    } else if (c->place == 0 || c->place == 1) {
+        fprintf(w->to, ", end: %s", c->place == 1 ? "to" : "from");
+    } else {
+        fputs(", where: ", w->to);
+        write_number(w, c->place);
+    }
+    fprintf(w->to, ", resultant: %s", resultant[c->resultant]);
+}
+
 /* "kind: {analysis: ...", what is extracted. */
 static void write_extract(writer *w, const scene_quantity *q)
 {
@@ -132,13 +151,9 @@ static void write_extract(writer *w, const scene_quantity *q)
         fprintf(w->to, ", row: %s, column: %s", write_component[scene_entry_of(q)->row],
                 write_component[scene_entry_of(q)->column]);
         break;
-    case SCENE_INTERNAL: {
-        static const char *const resultant[] = {"N", "Qy", "Qz", "Mx", "My", "Mz", "bimoment"};
-        const scene_internal *c = scene_internal_of(q);
-        fprintf(w->to, ", member: member_%d, end: %s, resultant: %s", c->member,
-                c->end ? "to" : "from", resultant[c->resultant]);
+    case SCENE_INTERNAL:
+        write_place(w, scene_internal_of(q));
         break;
-    }
     case SCENE_STIFFNESS_ENTRY:
         fprintf(w->to, ", component: %s", write_component[scene_entry_of(q)->row]);
         break;

@@ -141,7 +141,10 @@ static inline int same_extract(const scene_quantity *a, const scene_quantity *b)
     case SCENE_DRIVER_VALUE:
         return scene_driver_of(a) == scene_driver_of(b);
     case SCENE_INTERNAL:
-        return memcmp(scene_internal_of(a), scene_internal_of(b), sizeof(scene_internal)) == 0;
+        return scene_internal_of(a)->member == scene_internal_of(b)->member &&
+               scene_internal_of(a)->resultant == scene_internal_of(b)->resultant &&
+               scene_internal_of(a)->along == scene_internal_of(b)->along &&
+               scene_internal_of(a)->place == scene_internal_of(b)->place;
     case SCENE_GROWTH:
     case SCENE_FACTOR_AT:
         break;

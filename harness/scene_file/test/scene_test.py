@@ -289,6 +289,10 @@ analyses:
   linear: {linear: {}}
 quantities:
   ${r}_$e: {for: {r: [N, Qy, Qz, Mx, My, Mz, bimoment], e: [from, to]}, internal: {analysis: linear, member: bar, end: $e, resultant: $r}}
+  ${r}_at_$p: {for: {r: [Qy, Qz, Mx, My, bimoment, Mx_saint_venant, Mx_warping], p: 0..1}, internal: {analysis: linear, member: bar, where: 1/4 + p/2, resultant: $r}}
+  ${r}_$a: {for: {r: [My, Qz], a: [max, min, largest]}, internal: {analysis: linear, member: bar, along: $a, resultant: $r}}
+  ys: {internal: {analysis: linear, member: bar, end: to, resultant: N}, unit: m, factor: rail.ys/5}
+  zs: {internal: {analysis: linear, member: bar, end: to, resultant: N}, unit: m, factor: rail.zs/5}
 """
 
     def test_internal(self):
@@ -302,6 +306,15 @@ quantities:
                     for end, value in zip(("from", "to"), ends):
                         self.assertAlmostEqual(got[f"{name}_{end}"], value, delta=1e-10)
                 self.assertAlmostEqual(got["bimoment_to"], 0, delta=1e-10)
+                for place, b in ((0, 1.5), (1, 0.5)):
+                    inside = {"Qy": 0.7, "Qz": 0.3 + 0.2*b, "Mx": 1, "My": -0.3*b - 0.1*b*b}
+                    for name, value in inside.items():
+                        self.assertAlmostEqual(got[f"{name}_at_{place}"], value, delta=1e-10)
+                    # the parts: of the torque about the shear centre
+                    self.assertAlmostEqual(got[f"Mx_saint_venant_at_{place}"] + got[f"Mx_warping_at_{place}"] +
+                                           got["ys"]*inside["Qz"] - got["zs"]*inside["Qy"], 1, delta=1e-9)
+                for name, value in {"My_max": 0, "My_min": -1, "My_largest": 1, "Qz_max": 0.7, "Qz_min": 0.3}.items():
+                    self.assertAlmostEqual(got[name], value, delta=1e-10)
         again = self.scene(self.answered("scene", "--scene", path).stdout, "again.yaml")
         self.assertEqual(values(self.record("solve", "--scene", again, "-f", formulation, "-n", 3)), got)
 

@@ -1,9 +1,9 @@
-#include "elements/exact/constants.h"
+#include "elements/shared/beam_constants.h"
 
 #include <math.h>
 #include <string.h>
 
-status exact_constants_of(const element_request *request, exact_constants *out, fault *f)
+status beam_constants_of(const element_request *request, beam_constants *out, fault *f)
 {
     const section *c = request->section;
     const unsigned has = request->features;

@@ -1,12 +1,12 @@
 /* Section constants made dimensionless with the length l0 of an element and one of its bending stiffnesses, and only those
  * of the physics that is asked for. */
-#ifndef BEAMWORK_EXACT_CONSTANTS_H
-#define BEAMWORK_EXACT_CONSTANTS_H
+#ifndef BEAMWORK_BEAM_CONSTANTS_H
+#define BEAMWORK_BEAM_CONSTANTS_H
 
 #include "elements/element.h"
 
 /* Forces in units of EI/l0^2, moments of EI/l0, bimoments of EI, lengths of l0. */
-typedef struct exact_constants {
+typedef struct beam_constants {
     double energy; /* unit of energy EI/l0 [J], EI the smaller one */
     double EA, EIy, EIz, GJ, EIw;
     double F[9];   /* shear flexibility F/G: (g_y, g_z, g_w) = F (Q_y, Q_z, M_w); zero: rigid */
@@ -16,8 +16,8 @@ typedef struct exact_constants {
     double torque;     /* energy torque kappa_x^4 per length */
     double initial[3]; /* strains gx, gy, gz without stress */
     int warping;
-} exact_constants;
+} beam_constants;
 
-status exact_constants_of(const element_request *request, exact_constants *out, fault *f);
+status beam_constants_of(const element_request *request, beam_constants *out, fault *f);
 
 #endif

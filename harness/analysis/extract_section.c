@@ -1,0 +1,83 @@
+#include "harness/analysis/extract_section.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "harness/equations/internal.h"
+#include "harness/equations/linear.h"
+#include "harness/model/kinematics.h"
+#include "harness/solver/quantity.h"
+
+static const int value_of[SCENE_RESULTANTS] = {[SCENE_N] = SPAN_N,
+                                               [SCENE_QY] = SPAN_QY,
+                                               [SCENE_QZ] = SPAN_QZ,
+                                               [SCENE_MX] = SPAN_MX,
+                                               [SCENE_MY] = SPAN_MY,
+                                               [SCENE_MZ] = SPAN_MZ,
+                                               [SCENE_BIMOMENT] = SPAN_BIMOMENT,
+                                               [SCENE_MX_SAINT_VENANT] = SPAN_MX_SAINT_VENANT,
+                                               [SCENE_MX_WARPING] = SPAN_MX_WARPING,
+                                               [SCENE_MX_WAGNER] = SPAN_MX_WAGNER};
+
+/* One resultant, times a sign; its magnitude where the sign is zero. */
+typedef struct chosen {
+    scene_resultant resultant;
+    double sign;
+} chosen;
+
+static double measured(void *context, const double resultants[])
+{
+    const chosen *what = context;
+    const double value = resultants[value_of[what->resultant]];
+    return what->sign != 0 ? what->sign * value : fabs(value);
+}
+
+static status internal_of(const analysis_context *c, const scene_internal *what,
+                          const internal_state *s, double *out, fault *f)
+{
+    double all[SPAN_VALUES];
+    if (what->along != SCENE_ALONG_PLACE) {
+        chosen of = {what->resultant, what->along == SCENE_ALONG_LARGEST ? 0
+                                      : what->along == SCENE_ALONG_MIN   ? -1
+                                                                         : 1};
+        TRY(internal_largest(c->model, s, what->member, measured, &of, out, f));
+        *out *= of.sign < 0 ? -1 : 1;
+        return STATUS_OK;
+    }
+    if ((what->place == 0 || what->place == 1) && what->resultant <= SCENE_BIMOMENT)
+        internal_at_end(c->model, s, what->member, what->place == 1, all);
+    else
+        TRY(internal_at(c->model, s, what->member, what->place, all, f));
+    *out = all[value_of[what->resultant]];
+    return STATUS_OK;
+}
+
+double extract_section_state(const analysis_context *c, const scene_quantity *q,
+                             const model_state *s, quantity_result *r)
+{
+    const internal_state at = {.s = s, .path = kinematics_state_path(s)};
+    double value = NAN;
+    fault f = {""};
+    const status outcome = internal_of(c, scene_internal_of(q), &at, &value, &f);
+    if (outcome == STATUS_OK)
+        return value;
+    quantity_no_value(r, outcome, f.text);
+    return NAN;
+}
+
+void extract_section_linear(const analysis_context *c, const scene_quantity *q,
+                            const analysis_outcome *o, quantity_result *r)
+{
+    const model_size size = model_sizes(c->model);
+    double *sigma = calloc((size_t)size.elements * (size_t)size.strains + 1, sizeof *sigma), value;
+    const internal_state at = {kinematics_rest(c->model), sigma, outcome_displacements(o), 1};
+    fault f = {"out of memory for stresses"};
+    status outcome = sigma != NULL ? linear_stresses(c->model, at.x, sigma, &f) : STATUS_FAULT;
+    if (outcome == STATUS_OK)
+        outcome = internal_of(c, scene_internal_of(q), &at, &value, &f);
+    if (outcome == STATUS_OK)
+        r->value = quantity_scaled(q, value);
+    else
+        quantity_no_value(r, outcome, f.text);
+    free(sigma);
+}

@@ -1,0 +1,189 @@
+/* Resultants inside members against statics, the elastica and Vlasov's torsion, of every formulation; a value inside converges as
+ * those at the ends do. */
+#include <gsl/gsl_integration.h>
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "harness/catalogue/registry.h"
+#include "harness/test/ask.h"
+
+static section_spec bar(double Iw)
+{
+    section_spec spec = section_spec_constants(1, 1);
+    spec.constants = (section){
+        .young = 1, .shear_modulus = 1, .A = 1e9, .Iy = 2, .Iz = 1, .It = 1, .Iw = Iw, .Ip = 3};
+    return spec;
+}
+
+/* Clamped at x = 0, its tip at x = 2. */
+static int cantilever(scene *s, double Iw)
+{
+    const double y[3] = {0, 1, 0};
+    const section_spec spec = bar(Iw);
+    scene_init(s, "cantilever");
+    scene_add_node(s, 0, 0, 0);
+    const int tip = scene_add_node(s, 2, 0, 0);
+    scene_hold_all(s, 0);
+    const int member = scene_add_member(s, 0, tip, scene_add_section(s, &spec), y);
+    scene_member_at(s, member)->warp_p = SCENE_WARP_FIXED;
+    return tip;
+}
+
+/* Tip force and moment and a load along: N, Qy, Qz, Mx, My, Mz at 0.35 of the length, and the extremes of Mz. */
+static void statics(const element_type *e, ask_tally *tally, int elements)
+{
+    static answer a;
+    scene s;
+    const int tip = cantilever(&s, 0);
+    scene_add_load(&s, SCENE_FORCE, tip, 0.5, 0.4, -0.3);
+    scene_add_load(&s, SCENE_MOMENT, tip, 0.7, -0.2, 0.6);
+    scene_add_load(&s, SCENE_DISTRIBUTED, 0, 0.1, -0.9, 0.3);
+    scene_add_load(&s, SCENE_DISTRIBUTED_MOMENT, 0, 0.3, 0, 0.1);
+    const int linear = scene_add_linear(&s);
+    for (int r = SCENE_N; r <= SCENE_MZ; r++) {
+        char name[SCENE_NAME];
+        snprintf(name, sizeof name, "r%d", r);
+        scene_add_quantity(&s, name, "1", linear, scene_internal_at(0, 0.35, (scene_resultant)r));
+    }
+    scene_add_quantity(&s, "max", "1", linear, scene_internal_along(0, SCENE_ALONG_MAX, SCENE_MZ));
+    scene_add_quantity(&s, "min", "1", linear, scene_internal_along(0, SCENE_ALONG_MIN, SCENE_MZ));
+    scene_add_quantity(&s, "largest", "1", linear,
+                       scene_internal_along(0, SCENE_ALONG_LARGEST, SCENE_MZ));
+    ask_scene(&s, e, NULL, elements, &a);
+    scene_free(&s);
+    if (!ask_count(tally, &a, "statics of %d elements", elements))
+        return;
+    const double b = 1.3, /* what lies beyond */
+        top = 0.5 / 0.9;  /* Mz' = 0: 0.4 - 0.9 b + 0.1 */
+    const double exact[] = {0.5 + 0.1 * b,
+                            0.4 - 0.9 * b,
+                            -0.3 + 0.3 * b,
+                            0.7 + 0.3 * b,
+                            -0.2 + 0.3 * b - 0.15 * b * b,
+                            0.6 + 0.5 * b - 0.45 * b * b,
+                            0.6 + 0.5 * top - 0.45 * top * top,
+                            0.6 + 0.5 * 2 - 0.45 * 4,
+                            0.6 + 0.5 * top - 0.45 * top * top};
+    for (int i = 0; i < a.count; i++)
+        gsl_test_abs(a.value[i], exact[i], 1e-9, "%s: %s of %d elements", e->name, a.name[i],
+                     elements);
+}
+
+static double slope(double u, void *top)
+{
+    /* d s/d u at sin theta = top - u^2, for F/EI = 1: ds = d theta/sqrt(2 (top - sin theta)) */
+    const double sine = *(double *)top - u * u;
+    return sqrt(2) / sqrt(1 - sine * sine);
+}
+
+/* Arc length from the tip to where u is. */
+static double arc(double top, double u)
+{
+    double sum, error;
+    size_t count;
+    gsl_function f = {slope, &top};
+    gsl_integration_qng(&f, 0, u, 1e-13, 1e-13, &sum, &error, &count);
+    return sum;
+}
+
+/* Inextensible cantilever of length 2, EI = 1, under a dead unit force across it: Bernoulli's elastica. M/EI = sqrt(2) u at arc
+ * length `beyond` from the tip. */
+static double elastica(double beyond)
+{
+    double low = 0.5, high = 0.99999, least = 0, most;
+    for (int i = 0; i < 100; i++) { /* the tip's sine: theta = 0 at the root */
+        const double top = (low + high) / 2;
+        *(arc(top, sqrt(top)) < 2 ? &low : &high) = top;
+    }
+    most = sqrt(low);
+    for (int i = 0; i < 100; i++) {
+        const double u = (least + most) / 2;
+        *(arc(low, u) < beyond ? &least : &most) = u;
+    }
+    return sqrt(2) * (least + most) / 2;
+}
+
+static double bent(const element_type *e, ask_tally *tally, int elements, double error[2])
+{
+    const double one = 1;
+    static answer a;
+    scene s;
+    const int tip = cantilever(&s, 0);
+    scene_add_load(&s, SCENE_FORCE, tip, 0, 1, 0);
+    const int path = scene_add_static(&s, 1, &one, 4);
+    scene_add_quantity(&s, "root", "1", path, scene_internal_at(0, 0, SCENE_MZ));
+    scene_add_quantity(&s, "inside", "1", path, scene_internal_at(0, 0.37, SCENE_MZ));
+    scene_add_quantity(&s, "largest", "1", path,
+                       scene_internal_along(0, SCENE_ALONG_LARGEST, SCENE_MZ));
+    ask_scene(&s, e, NULL, elements, &a);
+    scene_free(&s);
+    if (!ask_count(tally, &a, "elastica of %d elements", elements))
+        return 0;
+    error[0] = fabs(a.value[0] - elastica(2));
+    error[1] = fabs(a.value[1] - elastica(1.26));
+    gsl_test_rel(a.value[2], a.value[0], 1e-9, "%s: the moment is largest at the root", e->name);
+    return 1;
+}
+
+static void bends(const element_type *e, ask_tally *tally)
+{
+    double coarse[2], fine[2];
+    if (!(e->offers & FEATURE_LARGE) || !bent(e, tally, 8, coarse) || !bent(e, tally, 16, fine))
+        return;
+    for (int i = 0; i < 2; i++)
+        gsl_test(!(fine[i] < 2e-3 && (fine[i] < coarse[i] / 3.5 || fine[i] < 1e-8)),
+                 "%s: moment %s, error %.3g with 8 elements, %.3g with 16", e->name,
+                 i ? "inside" : "at the root", coarse[i], fine[i]);
+}
+
+/* Torque on a bar that warps, held at its root: B = T/lambda sinh(lambda b)/cosh(lambda l), b from the tip (Vlasov). */
+static int twisted(const element_type *e, ask_tally *tally, int elements, double Iw,
+                   double error[4])
+{
+    static answer a;
+    scene s;
+    const int tip = cantilever(&s, Iw);
+    scene_add_load(&s, SCENE_MOMENT, tip, 0.5, 0, 0);
+    const int linear = scene_add_linear(&s);
+    scene_add_quantity(&s, "root", "1", linear, scene_internal_at(0, 0, SCENE_BIMOMENT));
+    scene_add_quantity(&s, "inside", "1", linear, scene_internal_at(0, 0.4, SCENE_BIMOMENT));
+    scene_add_quantity(&s, "warping", "1", linear, scene_internal_at(0, 0.4, SCENE_MX_WARPING));
+    scene_add_quantity(&s, "rest", "1", linear, scene_internal_at(0, 0.4, SCENE_MX_SAINT_VENANT));
+    ask_scene(&s, e, NULL, elements, &a);
+    scene_free(&s);
+    if (!ask_count(tally, &a, "torsion of %d elements", elements))
+        return 0;
+    const double k = 1 / sqrt(Iw), b = 1.2, c = cosh(2 * k),
+                 exact[] = {0.5 / k * sinh(2 * k) / c, 0.5 / k * sinh(k * b) / c,
+                            0.5 * cosh(k * b) / c, 0.5 - 0.5 * cosh(k * b) / c};
+    for (int i = 0; i < 4; i++)
+        error[i] = fabs(a.value[i] - exact[i]);
+    gsl_test_rel(a.value[2] + a.value[3], 0.5, 1e-9, "%s: the parts are the torque", e->name);
+    return 1;
+}
+
+static void twists(const element_type *e, ask_tally *tally)
+{
+    double coarse[4], fine[4];
+    if (!twisted(e, tally, 4, 0.25, coarse) || !twisted(e, tally, 8, 0.25, fine))
+        return;
+    for (int i = 0; i < 4; i++)
+        gsl_test(!(fine[i] < 3e-3 && (fine[i] < coarse[i] / 1.8 || fine[i] < 1e-9)),
+                 "%s: torsion, value %d: error %.3g with 4 elements, %.3g with 8", e->name, i,
+                 coarse[i], fine[i]);
+}
+
+int main(void)
+{
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        const element_type *e = registry_formulations[i];
+        ask_tally tally = {0};
+        statics(e, &tally, 1);
+        statics(e, &tally, 3);
+        bends(e, &tally);
+        twists(e, &tally);
+        ask_conclude(&tally, e, "resultants inside members");
+    }
+    return gsl_test_summary();
+}
