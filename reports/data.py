@@ -1,136 +1,14 @@
 """Reads results.h5 and truths.h5 into plain records. `beamwork schema` describes the tables, whose columns keep their names here."""
 import math
 import multiprocessing
-from dataclasses import dataclass, field
 
 import h5py
+
+from reports.records import Case, Clock, Dense, Kept, Mesh, Point, Series, Verdict
 
 
 class Unreadable(Exception):
     """A file that is missing, damaged or of another kind; the text names it."""
-
-
-@dataclass
-class Clock:
-    """Time of a cell: least of all repetitions, and the least and the greatest round; of a single run all three are the same."""
-    setup: float
-    solve: float
-    least: float
-    most: float
-    repeats: int
-    rounds: tuple = ()
-
-
-@dataclass
-class Kept:
-    """The same cell with nothing left out."""
-    clock: Clock
-    free: int
-
-
-@dataclass
-class Dense:
-    """The same cell by the published algorithm (newton=dense). whole: a run was timed, not one iteration times their number."""
-    seconds: float
-    unknowns: int
-    whole: bool
-
-
-@dataclass
-class Mesh:
-    """One cell: a formulation on one mesh."""
-    n: int
-    status: str
-    reason: str
-    clock: Clock
-    free: int
-    iterations: int
-    left_out: str
-    work: dict                                   # counter -> number
-    values: dict = field(default_factory=dict)   # quantity -> value
-    errors: dict = field(default_factory=dict)   # quantity -> relative error of discretisation
-    model_errors: dict = field(default_factory=dict)
-    reasons: dict = field(default_factory=dict)  # quantity -> why it has no value
-    curves: dict = field(default_factory=dict)   # quantity -> (x, value, x name, x unit, unit)
-    kept: Kept = None
-    parts: dict = field(default_factory=dict)   # part of Newton's iterations -> seconds
-    dense: Dense = None
-    predictions: dict = field(default_factory=dict)   # quantity -> value of an analytic model
-
-    @property
-    def seconds(self):
-        return self.clock.least
-
-
-@dataclass
-class Verdict:
-    """One line of the judge: columns of the table `verdicts`, in SI; errors are relative."""
-
-    quantity: str
-    verdict: str
-    expected: str = "pass"
-    as_expected: int = 1
-    message: str = ""
-    reason: str = ""
-    finding: str = ""
-    cause: str = ""
-    proof: str = ""
-    value: float = math.nan
-    limit: float = math.nan
-    limit_uncertainty: float = math.nan
-    order: float = math.nan
-    order_uncertainty: float = math.nan
-    limit_kind: str = "none"
-    noise: float = math.nan
-    noise_measured: int = 0
-    truth: float = math.nan
-    truth_uncertainty: float = math.nan
-    truth_kind: str = ""
-    theory: str = ""
-    source: str = ""
-    below_digits: int = 0
-    predicted: float = math.nan
-    contradicted: float = math.nan
-    error: float = math.nan
-    tolerance: float = math.nan
-    model_truth: float = math.nan
-    model_truth_kind: str = ""
-    model_theory: str = ""
-    model_error: float = math.nan
-    reach: dict = field(default_factory=dict)   # level -> elements of the coarsest mesh from which on every mesh is within it
-
-
-@dataclass
-class Series:
-    """One formulation at one parameter point."""
-    key: str
-    summary: str
-    source: str
-    missing: str
-    meshes: list
-    verdicts: list
-    imported: str = ""   # file of another program that it was read from
-    model: str = "beam"
-
-
-@dataclass
-class Point:
-    """One parameter point of a case."""
-    name: str
-    parameters: str
-    series: list
-    units: dict
-    others: list = field(default_factory=list)   # series of other programs (reports/beside.py)
-
-
-@dataclass
-class Case:
-    """A case with all its parameter points."""
-    name: str
-    summary: str
-    source: str
-    points: list
-    coverages: list = field(default_factory=list)   # rows: formulation, left_out, series, covered
 
 
 def text(value):

@@ -1,165 +1,21 @@
-"""Pictures of every scene, undeformed and deformed, with its sections and modes, from the centre lines in the result file.
+"""Pictures of every scene, undeformed and deformed, with its sections and modes (shapes.py).
 
-Surfaces are projected in parallel and painted from back to front; a wall of a section is a strip along its mid-line, thick ones are solid.
-Rigid bodies are the convex hulls of the points attached to them, those of points far apart joined by rods."""
-import dataclasses
+Surfaces are projected in parallel and painted from back to front."""
 import functools
 import html
 import math
 
-import h5py
 import numpy as np
 from matplotlib.collections import PolyCollection
-from scipy.spatial import ConvexHull
-from scipy.spatial.transform import Rotation
 
-from reports.data import text
+from reports.shapes import CLAMPED, bodies, distance, exaggeration, read, strips
 from reports.style import plt
 
 NAVIGATION = [("pictures.html", "pictures")]
 
 MEMBER, BODY, SUPPORT, REST = np.array([0.52, 0.71, 0.87]), np.array([0.93, 0.80, 0.62]), "#1c2430", "#8b95a3"
 LIGHT = np.array([0.35, -0.55, 0.76])
-SYMBOL = 0.03         # half a side of a rectangle that stands for constants, to the size, at most
-THIN = 0.2            # thickness to length of a wall that is drawn as a surface
-VISIBLE = 0.02        # displacement to size below which the picture exaggerates
-GAP = 0.35            # between the points of a body, to its extent, beyond which they are drawn as parts joined by rods
-CLAMPED = 63          # all six components held
 MOST_STRIPS, MOST_MODES = 900, 4
-
-
-@dataclasses.dataclass
-class Shapes:
-    """What the group `shapes` of a cell holds."""
-    formulation: str
-    n: int
-    members: np.ndarray      # [members x 3]: nodes p and q, section
-    first: np.ndarray        # [members + 1]
-    body: np.ndarray         # [nodes]: node it moves with, or -1
-    held: np.ndarray         # [nodes]: bits
-    sections: list           # [walls x 4 x 2] in m
-    equivalent: list         # section known by its constants only: a rectangle stands for it
-    kind: list
-    value: np.ndarray
-    position: np.ndarray     # [states x points x 3] in m
-    axes: np.ndarray         # [states x points x 3 x 3]: rows are the section's axes
-    nodes: np.ndarray        # [states x nodes x 3] in m
-
-
-def matrices(q):
-    """Rows: axes x, y, z of the triads of quaternions q[..., 4]."""
-    w, x, y, z = np.moveaxis(q, -1, 0)
-    rows = [[1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
-            [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)],
-            [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)]]
-    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
-
-
-def read(site, case):
-    """Shapes of a case's defaults, or None when the results hold none."""
-    with h5py.File(site.results) as file:
-        place = f"cases/{case.name}/shapes/default"
-        if place not in file:
-            return None
-        g = file[place]
-        sections = [g["sections"][str(i)] for i in range(len(g["sections"]))]
-        equivalent = [bool(s.attrs["equivalent"]) for s in sections]
-        size = np.linalg.norm(np.ptp(g["position"][0], axis=0))
-        walls = [s[()] * min(1, SYMBOL * size / np.abs(s[()]).max()) if symbol else s[()] for s, symbol in zip(sections, equivalent)]
-        return Shapes(text(g.attrs["formulation"]), int(g.attrs["elements"]), g["members"][()], g["first_point"][()], g["bodies"][:, 0], g["bodies"][:, 1],
-                      walls, equivalent, [text(k) for k in g["kind"]], g["value"][()],
-                      g["position"][()], matrices(g["orientation"][()]), g["nodes"][()])
-
-
-def size_of(s):
-    return float(np.linalg.norm(np.ptp(s.position[0], axis=0)))
-
-
-def turns(s, a, b):
-    """Rotation vectors [points x 3] from state a to b."""
-    return Rotation.from_matrix(np.swapaxes(s.axes[b], -1, -2) @ s.axes[a]).as_rotvec()
-
-
-def distance(s, a, b):
-    """Largest displacement of a corner, nearly."""
-    radius = max(np.linalg.norm(walls, axis=2).max() for walls in s.sections)
-    return float((np.linalg.norm(s.position[a] - s.position[b], axis=1) + radius * np.linalg.norm(turns(s, a, b), axis=1)).max())
-
-
-def exaggeration(s, state):
-    """1 when the displacements can be seen, else the round number that makes them visible."""
-    moved = distance(s, state, 0)
-    if moved == 0 or moved > VISIBLE * size_of(s):
-        return 1
-    exact = min(0.1 * size_of(s) / moved, 0.6 / max(np.linalg.norm(turns(s, 0, state), axis=1).max(), 1e-300))
-    decade = 10 ** math.floor(math.log10(exact))
-    return max(1, decade * (5 if exact >= 5 * decade else 2 if exact >= 2 * decade else 1))
-
-
-def axes_of(s, state, scale):
-    if scale == 1:
-        return s.axes[state]
-    turned = Rotation.from_rotvec(scale * turns(s, 0, state)).as_matrix()
-    return s.axes[0] @ np.swapaxes(turned, -1, -2)
-
-
-def strips(s, state, scale, every):
-    """Quadrilaterals [.. x 4 x 3] of all members."""
-    out = []
-    position = s.position[0] + scale * (s.position[state] - s.position[0])
-    axes = axes_of(s, state, scale)
-    for i, (_, _, section) in enumerate(s.members):
-        at = np.arange(s.first[i], s.first[i + 1])
-        at = np.append(at[:-1:every], at[-1])
-        r, y, z = position[at], axes[at, 1], axes[at, 2]
-        for wall in s.sections[section]:
-            thick = np.linalg.norm(wall[0] - wall[1]) > THIN * np.linalg.norm(wall[1] - wall[2])
-            corners = wall if thick else np.array([(wall[0] + wall[1]) / 2, (wall[2] + wall[3]) / 2])
-            edges = [r + c[0] * y + c[1] * z for c in corners]
-            pairs = [(k, (k + 1) % 4) for k in range(4)] if thick else [(0, 1)]
-            out += [np.stack([edges[a][:-1], edges[b][:-1], edges[b][1:], edges[a][1:]], axis=1) for a, b in pairs]
-            if thick:
-                out += [np.stack([e[k] for e in edges])[None] for k in (0, -1)]
-    return np.concatenate(out)
-
-
-def hull(points):
-    """Faces of the convex hull; of points in a plane the polygon, of points in a line the segment."""
-    points = np.unique(np.round(points, 12), axis=0)
-    middle = points.mean(axis=0)
-    _, extent, axes = np.linalg.svd(points - middle, full_matrices=False)
-    rank = int((extent > 1e-6 * max(extent[0], 1e-300)).sum()) if len(points) > 1 else 0
-    if rank == 3:
-        return [points[list(f)] for f in ConvexHull(points).simplices]
-    flat = (points - middle) @ axes.T
-    if rank == 2:
-        return [points[ConvexHull(flat[:, :2]).vertices]]
-    return [points[[flat[:, 0].argmin(), flat[:, 0].argmax()]]] if rank == 1 else []
-
-
-def clusters(points):
-    """Indices of points that lie together: gaps below a third of the whole extent join."""
-    reach = GAP * np.linalg.norm(np.ptp(points, axis=0))
-    group = np.arange(len(points))
-    for i in range(len(points)):
-        for j in range(i):
-            if np.linalg.norm(points[i] - points[j]) <= reach:
-                group[group == group[i]] = group[j]
-    return [np.flatnonzero(group == g) for g in np.unique(group)]
-
-
-def bodies(s, state, scale):
-    """Faces, and rods between their middles. A body has its own node too when that is a hinge, which is held in part."""
-    faces = []
-    nodes = s.nodes[0] + scale * (s.nodes[state] - s.nodes[0])
-    for b in sorted({int(b) for b in s.body if b >= 0}):
-        attached = list(np.flatnonzero(s.body == b)) + ([b] if s.held[b] not in (0, CLAMPED) else [])
-        groups = clusters(s.nodes[0][attached])
-        for group in groups:
-            faces += hull(nodes[attached][group])
-        if len(groups) > 1:
-            faces += hull(np.array([nodes[attached][group].mean(axis=0) for group in groups]))
-    return faces
 
 
 class View:

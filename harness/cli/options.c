@@ -32,13 +32,11 @@ static const struct argp_option all_options[] = {
     {"junit", 'U', "FILE", 0, "verdicts as JUnit XML", 0},
     {"threshold", 'h', "NAME=R[,NAME=R]", 0,
      "changes that count (default error=0.01,floor=1e-8,work=0.02): of an error relative to "
-     "itself, of a value relative to its "
-     "truth, of a count relative to itself",
+     "itself, of a value relative to its truth, of a count relative to itself",
      0},
     {"shapes", 'P', "STATES", OPTION_ARG_OPTIONAL,
      "store centre lines, sections and resultants of at most so many states of a path (solve: all, "
-     "and -o FILE becomes HDF5 for "
-     "ParaView; verify: 5)",
+     "and -o FILE becomes HDF5 for ParaView; verify: 5)",
      0},
     {"markdown", 'M', "FILE", 0, "summary as Markdown, for a pull request", 0},
     {"against", 'A', "OTHER", 0,

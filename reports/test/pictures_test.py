@@ -5,27 +5,27 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from harness.test.program import ProgramTest, drawn
-from reports import pictures
+from reports import shapes
 
 
 class Geometry(unittest.TestCase):
     def test_axes(self):
         rotation = Rotation.from_rotvec([0.3, -1.1, 0.7])
         x, y, z, w = rotation.as_quat()
-        np.testing.assert_allclose(pictures.matrices(np.array([w, x, y, z])), rotation.as_matrix().T, atol=1e-15)
+        np.testing.assert_allclose(shapes.matrices(np.array([w, x, y, z])), rotation.as_matrix().T, atol=1e-15)
 
     def test_hull(self):
         square = np.array([[0, 0, 1.], [1, 0, 1], [1, 1, 1], [0, 1, 1], [0.5, 0.5, 1]])
-        faces = pictures.hull(square)
+        faces = shapes.hull(square)
         self.assertEqual([len(f) for f in faces], [4])
-        self.assertEqual(len(pictures.hull(square[:1])), 0)
-        self.assertEqual([len(f) for f in pictures.hull(square[[0, 4, 2]])], [2])
+        self.assertEqual(len(shapes.hull(square[:1])), 0)
+        self.assertEqual([len(f) for f in shapes.hull(square[[0, 4, 2]])], [2])
         corners = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)], float)
-        self.assertEqual(len(pictures.hull(corners)), 12)
+        self.assertEqual(len(shapes.hull(corners)), 12)
 
     def test_clusters(self):
         points = np.array([[0, 0, 0.], [0.1, 0, 0], [1, 0, 0], [1, 0.1, 0]])
-        self.assertEqual([list(g) for g in pictures.clusters(points)], [[0, 1], [2, 3]])
+        self.assertEqual([list(g) for g in shapes.clusters(points)], [[0, 1], [2, 3]])
 
 
 class Report(ProgramTest):
