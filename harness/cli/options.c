@@ -11,60 +11,77 @@
 
 enum { KEY_USAGE = 256 };
 
-static const struct argp_option all_options[] = {
-    {"formulation", 'f', "NAME[:KEY=VALUE,...]", 0,
+/* An option of the verbs. member: of the request, takes it as it is: its text, or 1 where it has no
+ * argument; 0: see take. */
+typedef struct verb_option {
+    const char *name;
+    int key;
+    const char *argument, *doc;
+    size_t member;
+} verb_option;
+
+static const verb_option all_options[] = {
+    {"formulation", 'f', "NAME[:KEY=VALUE,...]",
      "formulation and its options; again for another, 'all' for every one", 0},
-    {"elements", 'n', "N[,N...]", 0, "elements per member", 0},
-    {"set", 's', "NAME=VALUE", 0, "value of a case parameter (SI); again for another", 0},
-    {"format", 'F', "text|json|csv", 0, "form of the output (default text)", 0},
-    {"output", 'o', "FILE", 0,
-     "write there instead of to standard output (verify: results as HDF5)", 0},
-    {"keep-all", 'K', NULL, 0, "leave nothing out: same answer, more work", 0},
-    {"steps", 'S', "N", 0, "load steps between two stations of a path, to begin with", 0},
-    {"select", 'k', "EXPRESSION", 0,
+    {"elements", 'n', "N[,N...]", "elements per member", 0},
+    {"set", 's', "NAME=VALUE", "value of a case parameter (SI); again for another", 0},
+    {"format", 'F', "text|json|csv", "form of the output (default text)", 0},
+    {"output", 'o', "FILE", "write there instead of to standard output (verify: results as HDF5)",
+     offsetof(cli_request, output)},
+    {"keep-all", 'K', NULL, "leave nothing out: same answer, more work",
+     offsetof(cli_request, keep_all)},
+    {"steps", 'S', "N", "load steps between two stations of a path, to begin with", 0},
+    {"select", 'k', "EXPRESSION",
      "words joined by and, or, not, in brackets where they belong together; looked for in "
      "case/parameters/formulation/quantity",
-     0},
-    {"jobs", 'j', "N", 0, "processes (default: one for each processor)", 0},
-    {"time-limit", 'L', "SECONDS", 0,
+     offsetof(cli_request, select)},
+    {"jobs", 'j', "N", "processes (default: one for each processor)", 0},
+    {"time-limit", 'L', "SECONDS",
      "of one cell (default 120, 0: none); a cell that exceeds it is a failure of that name", 0},
-    {"json", 'J', "FILE", 0, "verdicts as JSON", 0},
-    {"junit", 'U', "FILE", 0, "verdicts as JUnit XML", 0},
-    {"threshold", 'h', "NAME=R[,NAME=R]", 0,
+    {"json", 'J', "FILE", "verdicts as JSON", offsetof(cli_request, json)},
+    {"junit", 'U', "FILE", "verdicts as JUnit XML", offsetof(cli_request, junit)},
+    {"threshold", 'h', "NAME=R[,NAME=R]",
      "changes that count (default error=0.01,floor=1e-8,work=0.02): of an error relative to "
      "itself, of a value relative to its truth, of a count relative to itself",
-     0},
-    {"shapes", 'P', "STATES", OPTION_ARG_OPTIONAL,
+     offsetof(cli_request, threshold)},
+    {"shapes", 'P', "STATES",
      "store centre lines, sections and resultants of at most so many states of a path (solve: all, "
      "and -o FILE becomes HDF5 for ParaView; verify: 5)",
      0},
-    {"markdown", 'M', "FILE", 0, "summary as Markdown, for a pull request", 0},
-    {"against", 'A', "OTHER", 0,
+    {"markdown", 'M', "FILE", "summary as Markdown, for a pull request",
+     offsetof(cli_request, markdown)},
+    {"against", 'A', "OTHER",
      "compare in alternation with another formulation, or with another program (a path with a '/')",
-     0},
-    {"threads", 't', "N", 0,
+     offsetof(cli_request, against)},
+    {"threads", 't', "N",
      "threads that share the loop over elements (default 1); results are the same", 0},
-    {"dense", 'D', NULL, 0, "time the published algorithm (newton=dense) beside every cell", 0},
-    {"plant", 'X', "PERCENT", 0,
+    {"dense", 'D', NULL, "time the published algorithm (newton=dense) beside every cell",
+     offsetof(cli_request, dense)},
+    {"plant", 'X', "PERCENT",
      "make the other slower by that much, to see whether the comparison finds it", 0},
-    {"truths", 'T', "FILE", 0,
-     "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)", 0},
-    {"scene", 'Y', "FILE", 0,
+    {"truths", 'T', "FILE",
+     "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)",
+     offsetof(cli_request, truths)},
+    {"scene", 'Y', "FILE",
      "a scene of your own in YAML, in the place of a case (verify: or a folder of them; again for "
      "another)",
      0},
-    {"built-in", 'I', NULL, 0, "the built-in cases beside those of --scene", 0},
-    {"beside", 'B', "FILE", 0,
-     "what other programs found, stored by 'beamwork import': contestants that gate nothing", 0},
-    {"map", 'm', "FILE.yaml", 0, "which columns of files without a header are which quantities", 0},
-    {"doublings", 'N', "N", 0,
+    {"built-in", 'I', NULL, "the built-in cases beside those of --scene",
+     offsetof(cli_request, built_in)},
+    {"beside", 'B', "FILE",
+     "what other programs found, stored by 'beamwork import': contestants that gate nothing",
+     offsetof(cli_request, beside)},
+    {"map", 'm', "FILE.yaml", "which columns of files without a header are which quantities",
+     offsetof(cli_request, map)},
+    {"doublings", 'N', "N",
      "so many more meshes of each series, each of twice the elements: do the verdicts stand?", 0},
-    {"gate", 'G', NULL, 0, "verdicts of --beside count as ours do", 0},
-    {"to", 'O', "calculix", 0, "the program that the deck is for", 0},
-    {"schema", 'H', NULL, 0, "describe all keys of scene files as JSON Schema", 0},
-    {"keys", 'E', NULL, 0, "list all keys of scene files", 0},
-    {"help", '?', NULL, 0, "this list", -1},
-    {"usage", KEY_USAGE, NULL, 0, "the options in short", -1},
+    {"gate", 'G', NULL, "verdicts of --beside count as ours do", offsetof(cli_request, gate)},
+    {"to", 'O', "calculix", "the program that the deck is for", offsetof(cli_request, to)},
+    {"schema", 'H', NULL, "describe all keys of scene files as JSON Schema",
+     offsetof(cli_request, schema)},
+    {"keys", 'E', NULL, "list all keys of scene files", offsetof(cli_request, keys)},
+    {"help", '?', NULL, "this list", 0},
+    {"usage", KEY_USAGE, NULL, "the options in short", 0},
     {0},
 };
 
@@ -174,45 +191,19 @@ static void add_scene(cli_request *r, const char *path)
     r->scene_path[r->scene_count++] = path;
 }
 
-/* An option that a member of the request takes as it is. */
-typedef struct plain {
-    int key;
-    size_t member;
-} plain;
-
-static const plain texts[] = {
-    {'o', offsetof(cli_request, output)},   {'k', offsetof(cli_request, select)},
-    {'J', offsetof(cli_request, json)},     {'U', offsetof(cli_request, junit)},
-    {'M', offsetof(cli_request, markdown)}, {'T', offsetof(cli_request, truths)},
-    {'A', offsetof(cli_request, against)},  {'h', offsetof(cli_request, threshold)},
-    {'O', offsetof(cli_request, to)},       {'B', offsetof(cli_request, beside)},
-    {'m', offsetof(cli_request, map)},
-};
-
-static const plain switches[] = {
-    {'K', offsetof(cli_request, keep_all)}, {'D', offsetof(cli_request, dense)},
-    {'I', offsetof(cli_request, built_in)}, {'G', offsetof(cli_request, gate)},
-    {'H', offsetof(cli_request, schema)},   {'E', offsetof(cli_request, keys)},
-};
-
-/* The member that an option of the list belongs to, or NULL. */
-static void *member_of(size_t count, const plain list[], int key, cli_request *r)
-{
-    for (size_t i = 0; i < count; i++)
-        if (list[i].key == key)
-            return (char *)r + list[i].member;
-    return NULL;
-}
-
 static error_t take_plain(int key, const char *value, cli_request *r)
 {
-    const char **text = member_of(sizeof texts / sizeof texts[0], texts, key, r);
-    int *given = member_of(sizeof switches / sizeof switches[0], switches, key, r);
-    if (text != NULL)
-        *text = value;
-    if (given != NULL)
-        *given = 1;
-    return text != NULL || given != NULL ? 0 : ARGP_ERR_UNKNOWN;
+    const verb_option *o = all_options;
+    while (o->name != NULL && o->key != key)
+        o++;
+    void *member = (char *)r + o->member;
+    if (o->member == 0)
+        return ARGP_ERR_UNKNOWN;
+    if (o->argument != NULL)
+        *(const char **)member = value;
+    else
+        *(int *)member = 1;
+    return 0;
 }
 
 static error_t take(int key, char *value, struct argp_state *state)
@@ -284,10 +275,13 @@ void cli_parse(const char *verb, const char *arguments_doc, const char *doc, con
     struct argp_option chosen[sizeof all_options / sizeof all_options[0]] = {{0}};
     char name[64];
     int n = 0;
-    for (int i = 0; all_options[i].name != NULL; i++)
-        if (all_options[i].key == '?' || all_options[i].key == KEY_USAGE ||
-            strchr(keys, all_options[i].key) != NULL)
-            chosen[n++] = all_options[i];
+    for (const verb_option *o = all_options; o->name != NULL; o++) {
+        const int always = o->key == '?' || o->key == KEY_USAGE;
+        if (always || strchr(keys, o->key) != NULL)
+            chosen[n++] = (struct argp_option){o->name,     o->key,
+                                               o->argument, o->key == 'P' ? OPTION_ARG_OPTIONAL : 0,
+                                               o->doc,      always ? -1 : 0};
+    }
     const struct argp parser = {
         .options = chosen, .parser = take, .args_doc = arguments_doc, .doc = doc};
     memset(out, 0, sizeof *out);
