@@ -22,14 +22,16 @@ void kinematics_offset(const model *m, const model_state *s, int index, double r
     rotation_apply(&s->q[4 * v->body], v->offset, rho);
 }
 
-void kinematics_axes(const model *m, const model_state *s, int index, double b[3][3])
+/* Orientation after a sequence's present angles, and its spatial axes b (NULL: not wanted). */
+static void sequence_orientation(const model *m, const model_state *s, int index, double b[][3],
+                                 double q[4])
 {
     const mesh_vertex *v = &m->vertex[index];
-    double q[4];
     rotation_identity(q);
     for (int k = 0; k < v->angles; k++) {
         double turn[3], step[4];
-        rotation_apply(q, v->axis[k], b[k]);
+        if (b != NULL)
+            rotation_apply(q, v->axis[k], b[k]);
         for (int i = 0; i < 3; i++)
             turn[i] = v->axis[k][i] * s->angle[3 * index + k];
         rotation_exp(turn, step);
@@ -37,28 +39,18 @@ void kinematics_axes(const model *m, const model_state *s, int index, double b[3
     }
 }
 
-static void sequence_orientation(const model *m, model_state *s, int index)
+void kinematics_axes(const model *m, const model_state *s, int index, double b[3][3])
 {
-    const mesh_vertex *v = &m->vertex[index];
-    double *q = &s->q[4 * index];
-    rotation_identity(q);
-    for (int k = 0; k < v->angles; k++) {
-        double turn[3], step[4];
-        for (int i = 0; i < 3; i++)
-            turn[i] = v->axis[k][i] * s->angle[3 * index + k];
-        rotation_exp(turn, step);
-        rotation_compose(q, step, q);
-    }
+    double q[4];
+    sequence_orientation(m, s, index, b, q);
 }
 
 /* Rigid offset: u = u_body + (R - 1) offset. */
 void kinematics_follow(const model *m, model_state *s)
 {
-    for (int i = 0; i < m->scene->nodes; i++) {
-        const mesh_vertex *v = &m->vertex[i];
-        if (v->angles > 0)
-            sequence_orientation(m, s, i);
-    }
+    for (int i = 0; i < m->scene->nodes; i++)
+        if (m->vertex[i].angles > 0)
+            sequence_orientation(m, s, i, NULL, &s->q[4 * i]);
     for (int i = 0; i < m->scene->nodes; i++) {
         const mesh_vertex *v = &m->vertex[i];
         if (v->body == i)
