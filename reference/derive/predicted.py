@@ -7,7 +7,6 @@ of the exact one in the programs that derive exact values; predicted_column.py h
 What agrees with the exact value is no prediction and is left out.  shear_stability=*: these
 formulations have one form of the second order, whatever theory a case asks for.
 """
-import csv
 import pathlib
 import sys
 
@@ -21,11 +20,9 @@ from reference.derive import equilibrium, hexapod, joint, rederive, sheets  # no
 from reference.derive.predicted_beam import Printed  # noqa: E402
 from reference.derive.predicted_column import (  # noqa: E402
     compression, critical, moment, pinned_square)
-from reference.pack import COLUMNS  # noqa: E402
+from reference.derive.predicted_rows import (  # noqa: E402
+    differences, exact_values, row_of, write)
 
-WORDS = [name for name in COLUMNS if name not in ("value", "uncertainty")]
-FOLDER = ROOT / "reference" / "predicted"
-SOURCE = "reference/derive/predicted.py"
 RELATIVE, CLOSED = 1e-9, 1e-12  # of beams (proved in predicted_test.py) and of closed forms
 SAME = 10 * RELATIVE  # what lies so near the exact value is no prediction
 JONKER = ("beamw", "beamw_first")
@@ -261,26 +258,6 @@ def predictions(cases=CASES):
                 yield (one, *rest)
 
 
-def exact_values():
-    """{(case, parameters, quantity): values}, one for each theory of shear."""
-    found = {}
-    for path in (ROOT / "reference" / "tables").glob("*.csv"):
-        for row in rederive.read_table(path):
-            if row["kind"] == "exact" and not row.get("at"):
-                key = row["case"], rederive.canonical(row["parameters"]), row["quantity"]
-                found.setdefault(key, []).append(float(row["value"]))
-    return found
-
-
-def row_of(given):
-    name, case, parameters, quantity, value, unit, relative = given[:7]
-    filled = {"case": case, "parameters": parameters, "formulation": name, "quantity": quantity,
-              "value": rederive.as_text(value, relative), "unit": unit, "kind": "predicted",
-              "uncertainty": "%.1e" % (abs(float(value)) * relative), "model": "same",
-              "convention": given[7] if len(given) > 7 else "", "source": SOURCE}
-    return {**dict.fromkeys(COLUMNS, ""), **filled}
-
-
 def derived_rows(cases=CASES):
     """Those of points and quantities that have exact values, and differ from all of them."""
     exact = exact_values()
@@ -289,46 +266,6 @@ def derived_rows(cases=CASES):
         known = exact.get((given[1], point, given[3]), [])
         if known and all(abs(float(given[4]) - value) > SAME * abs(value) for value in known):
             yield row_of(given)
-
-
-def key_of(row):
-    return row["case"], rederive.canonical(row["parameters"]), row["formulation"], row["quantity"]
-
-
-def stored_rows(cases=CASES):
-    paths = [FOLDER / f"{case}.csv" for case in cases]
-    tables = [rederive.read_table(path) for path in paths if path.exists()]
-    return {key_of(row): row for table in tables for row in table}
-
-
-def write(derived):
-    FOLDER.mkdir(exist_ok=True)
-    for case in sorted({row["case"] for row in derived}):
-        with open(FOLDER / f"{case}.csv", "w", newline="", encoding="utf-8") as table:
-            writer = csv.DictWriter(table, COLUMNS, lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(row for row in derived if row["case"] == case)
-
-
-def difference(row, known):
-    """One line, or None where both agree."""
-    if known is None:
-        return f"derived {row['value']} {row['unit']}, not stored"
-    gap = abs(float(row["value"]) - float(known["value"]))
-    if gap <= float(known["uncertainty"]) and all(known[name] == row[name] for name in WORDS):
-        return None
-    values = [f"{one['value']} +- {one['uncertainty']} {one['unit']}" for one in (row, known)]
-    return f"derived {values[0]}, stored {values[1]}, or another word differs"
-
-
-def differences(derived, cases):
-    """Lines that say what differs from the stored rows of the cases."""
-    stored = stored_rows(cases)
-    for row in derived:
-        line = difference(row, stored.pop(key_of(row), None))
-        if line:
-            yield f"{key_of(row)}: {line}"
-    yield from (f"{key}: stored, but not derived" for key in stored)
 
 
 def main(arguments):
