@@ -34,9 +34,8 @@ const element_type element_beamw_consistent = {
     .source = "J; stiffness and modes: reference/ERRATA.md, J 58/62/66, App. A",
     .family = "beamw",
     .abi = ELEMENT_ABI,
-    .offers = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ENGESSER | FEATURE_HARINGX |
-              FEATURE_WAGNER_MOMENTS | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC |
-              FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
+    .offers =
+        BEAMW_OFFERS | FEATURE_SHEAR | FEATURE_ENGESSER | FEATURE_HARINGX | FEATURE_WAGNER_MOMENTS,
     .shear_theories = SHEAR_ENGESSER | SHEAR_HARINGX,
     .options = {beamw_prepare_mass, beamw_prepare_inside},
     .judged = beamw_prepare_judged,

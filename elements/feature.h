@@ -30,32 +30,25 @@ enum { FEATURE_TABLE(FEATURE_NUMBER) FEATURES };
 enum element_feature { FEATURE_TABLE(FEATURE_BIT) FEATURE_END = 1 << FEATURES };
 #undef FEATURE_BIT
 
-/* Name of one bit, for results and rules; "unknown" for what is none. */
+/* Name of one bit, for results and rules, and what it is, in one line; "unknown" for what is none. */
+#define FEATURE_TEXT(feature, name, summary)                                                       \
+    if (bit == FEATURE_##feature)                                                                  \
+        return wanted_summary ? summary : name;
+static inline const char *feature_text(unsigned bit, int wanted_summary)
+{
+    FEATURE_TABLE(FEATURE_TEXT)
+    return "unknown";
+}
+#undef FEATURE_TEXT
+
 static inline const char *feature_name(unsigned bit)
 {
-#define FEATURE_NAME(feature, name, summary)                                                       \
-    case FEATURE_##feature:                                                                        \
-        return name;
-    switch (bit) {
-        FEATURE_TABLE(FEATURE_NAME)
-    default:
-        return "unknown";
-    }
-#undef FEATURE_NAME
+    return feature_text(bit, 0);
 }
 
-/* What it is, in one line. */
 static inline const char *feature_summary(unsigned bit)
 {
-#define FEATURE_SUMMARY(feature, name, summary)                                                    \
-    case FEATURE_##feature:                                                                        \
-        return summary;
-    switch (bit) {
-        FEATURE_TABLE(FEATURE_SUMMARY)
-    default:
-        return "unknown";
-    }
-#undef FEATURE_SUMMARY
+    return feature_text(bit, 1);
 }
 
 /* The bit of a name; 0: there is none. */

@@ -77,13 +77,7 @@ const element_type element_geometrically_exact = {
     .source = "Reissner, J. Appl. Math. Phys. 32 (1981); Simo, Comput. Methods Appl. Mech. Eng. 49 "
               "(1985); interpolation of "
               "rotations ours",
-    .family = "reissner",
-    .abi = ELEMENT_ABI,
-    .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE |
-              FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE | FEATURE_HARINGX | FEATURE_GEOMETRIC |
-              FEATURE_LARGE | FEATURE_CURVATURE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
-    .limits = 0,
-    .shear_theories = SHEAR_HARINGX,
+    EXACT_TYPE,
     .options = {options},
     .nodes = nodes,
     .strains = strains,

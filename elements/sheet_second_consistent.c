@@ -11,14 +11,8 @@ const element_type element_sheet_second_consistent = {
     .name = "sheet_second_consistent",
     .summary = "second-order sheet-flexure element with shear kept in its deformation function",
     .source = "N Eqs. 7, 13-17, 33-36; reference/ERRATA.md, N 37",
-    .family = "sheet",
-    .abi = ELEMENT_ABI,
+    SHEET_SECOND_TYPE,
     .offers = SHEET_BASE_OFFERS | FEATURE_HARINGX, /* Simo-Reissner: the section's rotation */
-    .limits = SHEET_BASE_LIMITS,
     .shear_theories = SHEAR_HARINGX,
-    .data_size = sheet_second_data_size,
     .prepare = prepare,
-    .strain = sheet_base_strain,
-    .stress = sheet_second_stress,
-    .inertia = sheet_base_inertia,
 };

@@ -3,6 +3,7 @@
 #define BEAMWORK_BEAMW_PREPARE_H
 
 #include "elements/beamw/condensed.h"
+#include "elements/beamw/inertia.h"
 
 typedef enum beamw_prepare_modes {
     BEAMW_PREPARE_FIRST_ORDER, /* ebar = e */
@@ -27,5 +28,18 @@ status beamw_prepare_consistent(const element_request *request, beamw_consistent
 extern const parameter_type beamw_prepare_mass[], beamw_prepare_inside[];
 /* element_type.judged of both. */
 extern const unsigned beamw_prepare_judged[];
+
+/* In an element_type: what those that beamw_prepare_variant prepares have; and what they offer
+ * beside theories of shear. */
+#define BEAMW_VARIANT_TYPE                                                                         \
+    .family = "beamw", .abi = ELEMENT_ABI, .limits = LIMIT_QUARTER_TURN,                           \
+    .options = {beamw_prepare_mass}, .judged = beamw_prepare_judged,                               \
+    .data_size = beamw_variants_data_size, .strain = beamw_variants_strain,                        \
+    .stress = beamw_variants_stress, .geometric = beamw_variants_geometric,                        \
+    .inertia = beamw_inertia_of
+enum {
+    BEAMW_OFFERS = FEATURE_TRAPEZE | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC |
+                   FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA
+};
 
 #endif

@@ -20,4 +20,12 @@ typedef struct beam_constants {
 
 status beam_constants_of(const element_request *request, beam_constants *out, fault *f);
 
+/* In an element_type: what geometrically exact beams with warping are and offer. */
+#define EXACT_TYPE                                                                                 \
+    .family = "reissner", .abi = ELEMENT_ABI, .limits = 0, .shear_theories = SHEAR_HARINGX,        \
+    .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE |              \
+              FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE | FEATURE_HARINGX |                   \
+              FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_CURVATURE | FEATURE_MASS |               \
+              FEATURE_ROTARY_INERTIA
+
 #endif

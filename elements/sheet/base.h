@@ -35,4 +35,12 @@ void sheet_base_strain(const element_data *d, const node_state x[], strain_outpu
 status sheet_base_inertia(const element_data *d, const node_state x[],
                           const element_rotating_frame *frame, inertia_output *out);
 
+/* In an element_type: what every sheet element has; and those whose strains see no shear. */
+#define SHEET_BASE_TYPE                                                                            \
+    .family = "sheet", .abi = ELEMENT_ABI, .limits = SHEET_BASE_LIMITS,                            \
+    .strain = sheet_base_strain, .inertia = sheet_base_inertia
+#define SHEET_BASE_WITHOUT_SHEAR                                                                   \
+    .offers = SHEET_BASE_OFFERS, .shear_theories = SHEAR_OWN,                                      \
+    .own_theory = "N Eq. 37: generalized strains that see no shear (reference/ERRATA.md, N 37)"
+
 #endif

@@ -10,4 +10,8 @@ status sheet_second_prepare(const element_request *request, sheet_base_shear she
 status sheet_second_stress(const element_data *d, const double e[], const double inner[],
                            stress_output *out);
 
+/* In an element_type. */
+#define SHEET_SECOND_TYPE                                                                          \
+    SHEET_BASE_TYPE, .data_size = sheet_second_data_size, .stress = sheet_second_stress
+
 #endif
