@@ -49,8 +49,7 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_bend_45 = {
     .name = "bend_45",
     .summary = "45-degree bend under a force across its plane",
-    .source = "Bathe and Bolourchi, Int. J. Numer. Meth. Eng. 14 (1979); exact solution of the "
-              "Simo-Reissner beam",
+    .source = "Bathe and Bolourchi, Int. J. Numer. Meth. Eng. 14 (1979); exact Simo-Reissner beam",
     .parameters = {parameters},
     .build = build,
 };

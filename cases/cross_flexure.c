@@ -133,8 +133,7 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_cross_flexure = {
     .name = "cross_flexure",
     .summary = "cross-flexure hinge: moment, shift and support stiffness of the turned arm",
-    .source =
-        "truths: geometrically exact beams between rigid bodies (reference/derive/network.py)",
+    .source = "geometrically exact beams between rigid bodies (reference/derive/network.py)",
     .parameters = {parameters},
     .build = build,
 };

@@ -140,8 +140,7 @@ static status build(const double value[], scene *s, fault *f)
 
 const case_type case_hexapod = {
     .name = "hexapod",
-    .summary =
-        "flexure-based hexapod of twelve spherical joints: support stiffness along its stroke",
+    .summary = "flexure hexapod of twelve spherical joints: support stiffness along its stroke",
     .source = "N section 4.3, Fig. 10; synthetic sizes",
     .parameters = {joint_parameters, parameters},
     .build = build,
