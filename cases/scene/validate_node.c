@@ -61,24 +61,22 @@ static int is_inertia(const double I[6])
            A[2] * A[0] - zx * zx >= -small * half && determinant >= -small * half * half;
 }
 
+/* Is the end of a member or a spring at the body of this node? */
+static int is_at(const scene *s, int end, int body)
+{
+    return end >= 0 && end < s->nodes && (end == body || s->node[end].attached == body);
+}
+
 /* Does a member or a spring hold the node's body? */
 static int is_reached(const scene *s, int node)
 {
     const int body = s->node[node].attached == SCENE_NONE ? node : s->node[node].attached;
-    for (int i = 0; i < s->members; i++) {
-        const int ends[] = {s->member[i].p, s->member[i].q};
-        for (int k = 0; k < 2; k++)
-            if (ends[k] >= 0 && ends[k] < s->nodes &&
-                (ends[k] == body || s->node[ends[k]].attached == body))
-                return 1;
-    }
-    for (int i = 0; i < s->springs; i++) {
-        const int ends[] = {s->spring[i].p, s->spring[i].q};
-        for (int k = 0; k < 2; k++)
-            if (ends[k] >= 0 && ends[k] < s->nodes &&
-                (ends[k] == body || s->node[ends[k]].attached == body))
-                return 1;
-    }
+    for (int i = 0; i < s->members; i++)
+        if (is_at(s, s->member[i].p, body) || is_at(s, s->member[i].q, body))
+            return 1;
+    for (int i = 0; i < s->springs; i++)
+        if (is_at(s, s->spring[i].p, body) || is_at(s, s->spring[i].q, body))
+            return 1;
     return 0;
 }
 

@@ -2,7 +2,6 @@
 #include "harness/analysis/continuation_extract.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "harness/model/kinematics.h"
 #include "harness/solver/context.h"
@@ -18,30 +17,20 @@ int continuation_extract_keeps_states(const scene *s, int analysis)
     return 0;
 }
 
-static double abscissa(const scene_quantity *q, double control)
-{
-    return control * q->x.factor + q->x.offset;
-}
-
 /* Load factor or coordinate against the control coordinate, at every point. */
 static void take_curve(const analysis_context *c, const scene_quantity *q,
                        const analysis_outcome *o, quantity_result *r)
 {
     const outcome_continuation *p = outcome_continuation_of(o);
-    r->curve.x = calloc((size_t)p->points + 1, sizeof(double));
-    r->curve.value = calloc((size_t)p->points + 1, sizeof(double));
-    if (r->curve.x == NULL || r->curve.value == NULL) {
-        quantity_no_value(r, STATUS_FAULT, "out of memory");
+    if (!quantity_curve(r, p->points))
         return;
-    }
-    r->curve.points = p->points;
     for (int i = 0; i < p->points; i++) {
         const double value =
             q->what.kind == SCENE_FACTOR_AT
                 ? p->factor[i]
                 : kinematics_component(c->model, p->state[i], scene_component_of(q)->node,
                                        scene_component_of(q)->component);
-        r->curve.x[i] = abscissa(q, p->control[i]);
+        r->curve.x[i] = quantity_abscissa(q, p->control[i]);
         r->curve.value[i] = quantity_scaled(q, value);
     }
     r->value = p->points > 0 ? r->curve.value[p->points - 1] : NAN;
@@ -60,7 +49,7 @@ static void take_critical(const analysis_context *c, const scene_quantity *q,
         if (e->analysis != q->analysis || e->kind != kind || order++ < what->order)
             continue;
         r->value = quantity_scaled(q, what->ordinate == SCENE_LOAD_FACTOR ? e->factor : e->control);
-        r->x = abscissa(q, e->control);
+        r->x = quantity_abscissa(q, e->control);
         return;
     }
     quantity_no_value(r, o->status,

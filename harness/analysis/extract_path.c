@@ -1,7 +1,6 @@
 #include "harness/analysis/extract_path.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "elements/math/pi.h"
 #include "harness/analysis/extract_section.h"
@@ -86,24 +85,14 @@ static double at_station(const analysis_context *c, const scene_quantity *q,
     return quantity_scaled(q, extracted(c, q, o, i, r));
 }
 
-static double abscissa(const scene_quantity *q, const outcome_path *p, int i)
-{
-    return p->value[i] * q->x.factor + q->x.offset;
-}
-
 static void take_curve(const analysis_context *c, const scene_quantity *q,
                        const analysis_outcome *o, quantity_result *r)
 {
     const outcome_path *p = outcome_path_of(o);
-    r->curve.x = calloc((size_t)p->reached + 1, sizeof(double));
-    r->curve.value = calloc((size_t)p->reached + 1, sizeof(double));
-    if (r->curve.x == NULL || r->curve.value == NULL) {
-        quantity_no_value(r, STATUS_FAULT, "out of memory");
+    if (!quantity_curve(r, p->reached))
         return;
-    }
-    r->curve.points = p->reached;
     for (int i = 0; i < p->reached; i++) {
-        r->curve.x[i] = abscissa(q, p, i);
+        r->curve.x[i] = quantity_abscissa(q, p->value[i]);
         r->curve.value[i] = at_station(c, q, o, i, r);
     }
     r->value = p->reached > 0 ? r->curve.value[p->reached - 1] : NAN;
@@ -157,5 +146,5 @@ void extract_path(const analysis_context *c, const scene_quantity *q, const anal
         return;
     }
     r->value = at_station(c, q, o, chosen, r);
-    r->x = abscissa(q, p, chosen);
+    r->x = quantity_abscissa(q, p->value[chosen]);
 }

@@ -106,17 +106,14 @@ static int bench_request(cli_request *r)
 
 int cli_bench(int count, char **arguments)
 {
-    cli_request r;
     rounds_single_thread(arguments - 1); /* main passes what follows the program's name */
-    cli_parse("bench", "[CASE...]",
-              "Times every formulation and mesh of the cases named (or, without one, of all cases "
-              "at all parameter points that have a truth, selected with -k): the least of enough "
-              "repetitions in five alternating rounds on one processor, set-up and solution "
-              "apart, with the error. Times whose rounds overlap are undecided. With --against: "
-              "one cell in alternation with the same cell of another formulation or program, "
-              "until the noise allows an answer.",
-              "+fnskFojTAXDtY", count, arguments, &r);
-    const int code = bench_request(&r);
-    cli_close(&r);
-    return code;
+    return cli_run(
+        "bench", "[CASE...]",
+        "Times every formulation and mesh of the cases named (or, without one, of all cases "
+        "at all parameter points that have a truth, selected with -k): the least of enough "
+        "repetitions in five alternating rounds on one processor, set-up and solution "
+        "apart, with the error. Times whose rounds overlap are undecided. With --against: "
+        "one cell in alternation with the same cell of another formulation or program, "
+        "until the noise allows an answer.",
+        "+fnskFojTAXDtY", count, arguments, bench_request);
 }

@@ -103,3 +103,13 @@ status cli_truths_read(const cli_request *r, truths *t, fault *f)
         truths_free(t);
     return outcome;
 }
+
+int cli_run(const char *verb, const char *arguments_doc, const char *doc, const char *keys,
+            int count, char **arguments, cli_answer *answer)
+{
+    cli_request r;
+    cli_parse(verb, arguments_doc, doc, keys, count, arguments, &r);
+    const int code = answer(&r);
+    cli_close(&r);
+    return code;
+}

@@ -65,6 +65,11 @@ void cli_parse(const char *verb, const char *arguments_doc, const char *doc, con
 const case_type *cli_case(cli_request *r);
 /* Frees what cli_case has read. */
 void cli_close(cli_request *r);
+/* What a verb does with its request; its exit code. */
+typedef int cli_answer(cli_request *r);
+/* cli_parse, the answer, cli_close. */
+int cli_run(const char *verb, const char *arguments_doc, const char *doc, const char *keys,
+            int count, char **arguments, cli_answer *answer);
 /* The case of --scene FILE, or NULL after messages: all its mistakes. */
 const case_type *cli_scene_case(cli_request *r);
 /* Reads one scene file; EXIT_AS_EXPECTED, or an exit code after messages. */

@@ -73,11 +73,8 @@ static int converge_request(cli_request *r)
 
 int cli_converge(int count, char **arguments)
 {
-    cli_request r;
-    cli_parse("converge", "CASE",
-              "Solves one case on several meshes and shows errors, observed order and the limit.",
-              "fnsFojTY", count, arguments, &r);
-    const int code = converge_request(&r);
-    cli_close(&r);
-    return code;
+    return cli_run(
+        "converge", "CASE",
+        "Solves one case on several meshes and shows errors, observed order and the limit.",
+        "fnsFojTY", count, arguments, converge_request);
 }

@@ -60,15 +60,12 @@ static int export_request(cli_request *r)
 
 int cli_export(int count, char **arguments)
 {
-    cli_request r;
-    cli_parse("export", "[CASE]",
-              "Writes a case, or a scene of your own (--scene FILE), as solids in the words of "
-              "another program: rectangles as bricks with 20 nodes and reduced integration, ends "
-              "and bodies rigid; -n elements along each member (default 20), dense at its ends. "
-              "What a deck cannot say is refused. harness/export/read_back.py makes an import of "
-              "what the program prints.",
-              "nsoYO", count, arguments, &r);
-    const int code = export_request(&r);
-    cli_close(&r);
-    return code;
+    return cli_run(
+        "export", "[CASE]",
+        "Writes a case, or a scene of your own (--scene FILE), as solids in the words of "
+        "another program: rectangles as bricks with 20 nodes and reduced integration, ends "
+        "and bodies rigid; -n elements along each member (default 20), dense at its ends. "
+        "What a deck cannot say is refused. harness/export/read_back.py makes an import of "
+        "what the program prints.",
+        "nsoYO", count, arguments, export_request);
 }

@@ -94,12 +94,9 @@ static int solve_request(cli_request *r)
 
 int cli_solve(int count, char **arguments)
 {
-    cli_request r;
-    cli_parse("solve", "CASE",
-              "Solves one case with one formulation and one mesh and shows every quantity with its "
-              "error.",
-              "fnsFoKSPtTY", count, arguments, &r);
-    const int code = solve_request(&r);
-    cli_close(&r);
-    return code;
+    return cli_run(
+        "solve", "CASE",
+        "Solves one case with one formulation and one mesh and shows every quantity with its "
+        "error.",
+        "fnsFoKSPtTY", count, arguments, solve_request);
 }

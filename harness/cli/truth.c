@@ -98,17 +98,14 @@ static int truth_request(cli_request *r)
 
 int cli_truth(int count, char **arguments)
 {
-    static cli_request r;
-    cli_parse("truth", "CASE",
-              "Shows the truths of a parameter point: value, uncertainty, unit, kind, model, "
-              "source. Where the tables have none of "
-              "the case's own model, the "
-              "deriving program is run to solve for them. Exit status: 0 shown, 1 none is stored "
-              "and no program derives this case "
-              "or these parameters, "
-              "2 refused, 4 file, disk or memory.",
-              "sTY", count, arguments, &r);
-    const int code = truth_request(&r);
-    cli_close(&r);
-    return code;
+    return cli_run(
+        "truth", "CASE",
+        "Shows the truths of a parameter point: value, uncertainty, unit, kind, model, "
+        "source. Where the tables have none of "
+        "the case's own model, the "
+        "deriving program is run to solve for them. Exit status: 0 shown, 1 none is stored "
+        "and no program derives this case "
+        "or these parameters, "
+        "2 refused, 4 file, disk or memory.",
+        "sTY", count, arguments, truth_request);
 }

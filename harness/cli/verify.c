@@ -196,7 +196,7 @@ static int verify_scenes(const cli_request *r, const scenes *own)
     return code;
 }
 
-static int verify_request(const cli_request *r)
+static int verify_request(cli_request *r)
 {
     scenes own;
     if (r->case_name != NULL)
@@ -210,12 +210,11 @@ static int verify_request(const cli_request *r)
 
 int cli_verify(int count, char **arguments)
 {
-    cli_request r;
-    cli_parse("verify", "",
-              "Judges every formulation on every case and parameter point that has a truth. Exit "
-              "status: 0 every verdict as expected, 1 one differs, 2 refused, 3 nothing was "
-              "checked, 4 file, disk or memory, 5 interrupted (Ctrl-C, SIGTERM): what was judged "
-              "until then is in files named .partial",
-              "fokjJUMLPTYBGIN", count, arguments, &r);
-    return verify_request(&r);
+    return cli_run(
+        "verify", "",
+        "Judges every formulation on every case and parameter point that has a truth. Exit "
+        "status: 0 every verdict as expected, 1 one differs, 2 refused, 3 nothing was "
+        "checked, 4 file, disk or memory, 5 interrupted (Ctrl-C, SIGTERM): what was judged "
+        "until then is in files named .partial",
+        "fokjJUMLPTYBGIN", count, arguments, verify_request);
 }

@@ -17,45 +17,39 @@ void csv_solution(FILE *to, const sweep *s)
     subjects_free(&list);
 }
 
-void csv_convergence(FILE *to, const sweep *s, const truths *t)
+/* A line for each quantity of each mesh, or for those with a truth; the parts are of the quantity and
+ * its cell. */
+static void list_meshes(FILE *to, const gathering *g, int with_truth, int parts, csv_part row[])
 {
-    enum { QUANTITY, CELL, PARTS };
-    const gathering g = {s, NULL, t};
-    csv_part row[PARTS] = {{.type = &record_quantity}, {.type = &record_cell}};
-    csv_head(to, PARTS, row);
+    const sweep *s = g->sweep;
+    csv_head(to, parts, row);
     for (int i = 0; i < s->seriess; i++)
         if (s->series[i].missing[0] == '\0')
             for (int k = 0; k < s->series[i].meshes; k++) {
                 subjects list = {0};
-                gather_mesh(&g, &record_quantity, i, k, &list);
-                row[CELL].s = gather_cell(&g, i, k);
+                gather_mesh(g, &record_quantity, i, k, &list);
                 for (int q = 0; q < list.count; q++) {
-                    row[QUANTITY].s = list.row[q];
-                    csv_line(to, PARTS, row);
+                    for (int part = 0; part < parts; part++) {
+                        const record_type *type = row[part].type;
+                        row[part].s = type == &record_quantity ? list.row[q] : gather_cell(g, i, k);
+                        if (type == &record_timing)
+                            row[part].s.record = &s->series[i].timing[k];
+                    }
+                    if (!with_truth || list.row[q].truth != NULL)
+                        csv_line(to, parts, row);
                 }
                 subjects_free(&list);
             }
 }
 
+void csv_convergence(FILE *to, const sweep *s, const truths *t)
+{
+    csv_part row[] = {{.type = &record_quantity}, {.type = &record_cell}};
+    list_meshes(to, &(gathering){s, NULL, t}, 0, 2, row);
+}
+
 void csv_timing(FILE *to, const sweep *s, const judgement *j)
 {
-    enum { TIMING, QUANTITY, CELL, PARTS };
-    const gathering g = {s, j, NULL};
-    csv_part row[PARTS] = {
-        {.type = &record_timing}, {.type = &record_quantity}, {.type = &record_cell}};
-    csv_head(to, PARTS, row);
-    for (int i = 0; i < s->seriess; i++)
-        if (s->series[i].missing[0] == '\0')
-            for (int k = 0; k < s->series[i].meshes; k++) {
-                subjects list = {0};
-                gather_mesh(&g, &record_quantity, i, k, &list);
-                row[TIMING].s = row[CELL].s = gather_cell(&g, i, k);
-                row[TIMING].s.record = &s->series[i].timing[k];
-                for (int q = 0; q < list.count; q++) {
-                    row[QUANTITY].s = list.row[q];
-                    if (list.row[q].truth != NULL)
-                        csv_line(to, PARTS, row);
-                }
-                subjects_free(&list);
-            }
+    csv_part row[] = {{.type = &record_timing}, {.type = &record_quantity}, {.type = &record_cell}};
+    list_meshes(to, &(gathering){s, j, NULL}, 1, 3, row);
 }
