@@ -36,3 +36,17 @@ double cells_value(const cell_result *r, const char *quantity)
             return r->solve.quantity[i].value;
     return NAN;
 }
+
+void cells_solve(status (*build)(const double value[], scene *, fault *),
+                 const char *formulation_text, int elements, cell_result *r)
+{
+    static const parameter_type none[] = {{0}};
+    const case_type type = {.name = "of_the_test",
+                            .summary = "a case of the test",
+                            .source = "none",
+                            .parameters = {none},
+                            .build = build};
+    const cell_request request = cells_of(&type, formulation_text, elements);
+    fault f = {""};
+    gsl_test(cell_run(&request, r, &f) != STATUS_OK, "%s solved: %s", formulation_text, f.text);
+}

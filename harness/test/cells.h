@@ -9,6 +9,10 @@
 cell_request cells_of(const case_type *, const char *formulation, int elements);
 /* assignment: "name=value" of parameters, ends with NULL; NULL: none. */
 void cells_set(cell_request *, const char *const assignment[]);
+/* Solves what the function builds, a case of the test's own without parameters; a cell that is not
+ * solved fails the test. */
+void cells_solve(status (*build)(const double value[], scene *, fault *), const char *formulation,
+                 int elements, cell_result *);
 /* SI; NAN when there is none of that name. */
 double cells_value(const cell_result *, const char *quantity);
 

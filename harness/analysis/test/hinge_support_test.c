@@ -108,9 +108,9 @@ static void supported(const char *chosen)
     for (what_released = 0; what_released < 4; what_released++) {
         cell_result at_support, at_node;
         how_supported = 0;
-        solve(build_supported, chosen, 4, &at_support);
+        cells_solve(build_supported, chosen, 4, &at_support);
         how_supported = 1;
-        solve(build_supported, chosen, 4, &at_node);
+        cells_solve(build_supported, chosen, 4, &at_node);
         const int asked = dense ? 19 : 23;
         gsl_test(at_node.solve.quantities != asked || at_support.solve.quantities != asked,
                  "%s, %s: %d quantities", chosen, released_name[what_released],

@@ -159,14 +159,14 @@ static void statics(const char *chosen, double allowed)
 {
     cell_result r;
     const double V = -5 - 3 * 1.2 / 2;
-    solve(build_beam, chosen, 1, &r);
+    cells_solve(build_beam, chosen, 1, &r);
     check(&r, 0, V * 0.512 / (3 * EI), allowed, 0, chosen);
     check(&r, 1, 3 * 1.2 / 2, 1e-9, 0, chosen);
     check(&r, 2, 0.8 * V, 1e-9, 0, chosen);
     check(&r, 3, 0, 1e-12, 5, chosen);
     check(&r, 4, 0, 1e-12, 5, chosen);
     cell_result_free(&r);
-    solve(build_frame, chosen, 1, &r);
+    cells_solve(build_frame, chosen, 1, &r);
     check(&r, 0, -2 * 4.0 / 4 / 4, 1e-6, 0, chosen);
     check(&r, 1, -1, 1e-6, 0, chosen);
     check(&r, 2, -1.5, 1e-6, 0, chosen);
@@ -203,16 +203,16 @@ static double hertz(double u)
 static void eigenvalues(const char *chosen, int n, double allowed)
 {
     cell_result r;
-    solve(build_column, chosen, n, &r);
+    cells_solve(build_column, chosen, n, &r);
     check(&r, 0, PI * PI * EI / 4, allowed, 0, chosen);
     cell_result_free(&r);
-    solve(build_pinned, chosen, n, &r);
+    cells_solve(build_pinned, chosen, n, &r);
     check(&r, 0, PI * PI * EI, allowed, 0, chosen);
     cell_result_free(&r);
-    solve(build_half_pinned, chosen, n, &r);
+    cells_solve(build_half_pinned, chosen, n, &r);
     check(&r, 0, gsl_pow_2(4.493409457909064) * EI, allowed, 0, chosen);
     cell_result_free(&r);
-    solve(build_vibration, chosen, n, &r);
+    cells_solve(build_vibration, chosen, n, &r);
     check(&r, 0, hertz(zero(clamped_free, 1, 3)), allowed, 0, chosen);
     check(&r, 1, hertz(zero(clamped_pinned, 3, 4.5)), allowed, 0, chosen);
     cell_result_free(&r);
@@ -223,7 +223,7 @@ static void roof(const char *chosen)
 {
     cell_result r;
     const double l0 = hypot(2, 0.6), l = hypot(2, 0.9), N = EA * (l - l0) / l0;
-    solve(build_roof, chosen, 1, &r);
+    cells_solve(build_roof, chosen, 1, &r);
     check(&r, 0, -2 * N * 0.9 / l, 1e-9, 0, chosen);
     check(&r, 1, N, 1e-9, 0, chosen);
     check(&r, 2, 0, 1e-9, EI, chosen);

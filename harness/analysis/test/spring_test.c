@@ -10,10 +10,9 @@
 #include "elements/test/sections.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/study/cell.h"
+#include "harness/test/cells.h"
 
 static const double length = 1.3, EI = 7.1, kappa = 3.7; /* kappa: of the springs, in EI/L */
-
-static const parameter_type none[] = {{.name = NULL}};
 
 static int add_section(scene *s)
 {
@@ -143,24 +142,6 @@ static status build_rigid(const double value[], scene *s, fault *f)
     return build_body(s, 0);
 }
 
-static void solve(status (*build)(const double[], scene *, fault *), const char *chosen, int n,
-                  cell_result *r)
-{
-    const case_type type = {.name = "springs",
-                            .summary = "a case of the test",
-                            .source = "none",
-                            .parameters = {none},
-                            .build = build};
-    cell_request request = {.type = &type, .elements = n};
-    formulation fm;
-    fault f = {""};
-    gsl_test(formulation_parse(chosen, &fm, &f) != STATUS_OK, "%s exists", chosen);
-    request.formulation = fm.type;
-    request.solve.newton = formulation_newton(&fm);
-    memcpy(request.option, fm.option, sizeof request.option);
-    gsl_test(cell_run(&request, r, &f) != STATUS_OK, "%s solved: %s", chosen, f.text);
-}
-
 static void check(const cell_result *r, int i, double exact, double allowed, const char *chosen)
 {
     if (i < r->solve.quantities)
@@ -194,16 +175,16 @@ static double vibrating(double u)
 static void closed_forms(const char *chosen, int n, double allowed)
 {
     cell_result r;
-    solve(build_beam, chosen, n, &r);
+    cells_solve(build_beam, chosen, n, &r);
     const double L3 = length * length * length, u = zero(buckled, PI / 2, PI),
                  v = 2 * zero(vibrating, PI / 2, PI) / length;
     check(&r, 0, L3 / (48 * EI) * (1 - 0.75 * kappa / (2 + kappa)), allowed, chosen);
     check(&r, 1, v * v * sqrt(EI / 0.7) / (2 * PI), allowed, chosen);
     cell_result_free(&r);
-    solve(build_column, chosen, n, &r);
+    cells_solve(build_column, chosen, n, &r);
     check(&r, 0, EI * 4 * u * u / (length * length), allowed, chosen);
     cell_result_free(&r);
-    solve(build_roll, chosen, n, &r);
+    cells_solve(build_roll, chosen, n, &r);
     const double turned = 2.9 / kappa, bent = 2.9;
     check(&r, 0, length * ((sin(turned + bent) - sin(turned)) / bent - 1), allowed, chosen);
     check(&r, 1, length * (cos(turned) - cos(turned + bent)) / bent, allowed, chosen);
@@ -214,8 +195,8 @@ static void closed_forms(const char *chosen, int n, double allowed)
 static void stiff(const char *chosen)
 {
     cell_result sprung, rigid;
-    solve(build_sprung, chosen, 3, &sprung);
-    solve(build_rigid, chosen, 3, &rigid);
+    cells_solve(build_sprung, chosen, 3, &sprung);
+    cells_solve(build_rigid, chosen, 3, &rigid);
     gsl_test_int(rigid.solve.quantities, 17, "%s: all quantities", chosen);
     for (int i = 0; i < rigid.solve.quantities; i++)
         check(&sprung, i, rigid.solve.quantity[i].value, 3e-6, chosen);

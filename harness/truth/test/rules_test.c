@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "harness/catalogue/registry.h"
 #include "harness/truth/test/truths_file.h"
@@ -119,15 +118,6 @@ static void predictions(const char *path)
 
 int main(void)
 {
-    char path[] = "/tmp/beamwork-truths-XXXXXX";
-    const int file = mkstemp(path);
-    if (file < 0)
-        return 1;
-    close(file);
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    subjects(path);
-    conditions(path);
-    predictions(path);
-    unlink(path);
-    return gsl_test_summary();
+    static void (*const all[])(const char *) = {subjects, conditions, predictions};
+    return truths_file_run((int)(sizeof all / sizeof all[0]), all);
 }

@@ -227,19 +227,8 @@ static void strangers(const char *path)
 
 int main(void)
 {
-    char path[] = "/tmp/beamwork-truths-XXXXXX";
-    const int file = mkstemp(path);
-    if (file < 0)
-        return 1;
-    close(file);
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    good_file(path);
-    wrong_files(path);
-    rows_that_do_not_judge(path);
-    any_value(path);
-    new_columns(path);
-    damaged_files(path);
-    strangers(path);
-    unlink(path);
-    return gsl_test_summary();
+    static void (*const all[])(const char *) = {good_file, wrong_files, rows_that_do_not_judge,
+                                                any_value, new_columns, damaged_files,
+                                                strangers};
+    return truths_file_run((int)(sizeof all / sizeof all[0]), all);
 }
