@@ -1,4 +1,5 @@
 #include "harness/comparison/table_reader.h"
+#include "harness/truth/handles.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -31,10 +32,7 @@ static int add_column(hid_t type, hid_t stored, const table_column *c)
     const hid_t member = index >= 0 ? H5Tget_member_type(stored, (unsigned)index) : -1;
     const hid_t own = member >= 0 ? memory_type(member, c) : -1;
     const int good = own >= 0 && H5Tinsert(type, c->name, c->offset, own) >= 0;
-    if (own >= 0)
-        H5Tclose(own);
-    if (member >= 0)
-        H5Tclose(member);
+    handles_close(2, (const hid_t[]){own, member});
     return good;
 }
 
@@ -80,12 +78,7 @@ int table_read(hid_t at, const char *name, int columns, const table_column colum
         free(*rows);
         *rows = NULL;
     }
-    if (type >= 0)
-        H5Tclose(type);
-    if (stored >= 0)
-        H5Tclose(stored);
-    if (set >= 0)
-        H5Dclose(set);
+    handles_close(3, (const hid_t[]){type, stored, set});
     return count;
 }
 
@@ -97,12 +90,7 @@ int attribute_text(hid_t at, const char *name, char *text, size_t size)
                      H5Tget_size(type) < size && H5Sget_simple_extent_npoints(space) == 1;
     memset(text, 0, size);
     const int read = good && H5Aread(a, type, text) >= 0;
-    if (space >= 0)
-        H5Sclose(space);
-    if (type >= 0)
-        H5Tclose(type);
-    if (a >= 0)
-        H5Aclose(a);
+    handles_close(3, (const hid_t[]){space, type, a});
     return read;
 }
 
@@ -112,9 +100,6 @@ int attribute_count(hid_t at, const char *name, long *out)
     const hid_t space = a >= 0 ? H5Aget_space(a) : -1;
     const int good = space >= 0 && H5Sget_simple_extent_npoints(space) == 1 &&
                      H5Aread(a, H5T_NATIVE_LONG, out) >= 0;
-    if (space >= 0)
-        H5Sclose(space);
-    if (a >= 0)
-        H5Aclose(a);
+    handles_close(2, (const hid_t[]){space, a});
     return good;
 }

@@ -1,4 +1,5 @@
 #include "harness/truth/columns.h"
+#include "harness/truth/handles.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -18,10 +19,7 @@ int columns_length(hid_t group, const char *column)
     const hid_t space = set >= 0 ? H5Dget_space(set) : -1;
     const int good = space >= 0 && H5Sget_simple_extent_ndims(space) == 1 &&
                      H5Sget_simple_extent_dims(space, &size, NULL) == 1 && size < 10000000;
-    if (space >= 0)
-        H5Sclose(space);
-    if (set >= 0)
-        H5Dclose(set);
+    handles_close(2, (const hid_t[]){space, set});
     return good ? (int)size : -1;
 }
 
@@ -50,12 +48,7 @@ status columns_strings(const columns *r, const char *column, char **out)
     for (int i = 0; i < r->rows && good; i++)
         good = (out[i] = strndup(all + (size_t)i * size, size)) != NULL;
     free(all);
-    if (memory >= 0)
-        H5Tclose(memory);
-    if (stored >= 0)
-        H5Tclose(stored);
-    if (set >= 0)
-        H5Dclose(set);
+    handles_close(3, (const hid_t[]){memory, stored, set});
     return good ? STATUS_OK : columns_broken(r, column);
 }
 

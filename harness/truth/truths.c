@@ -7,6 +7,7 @@
 #include "harness/catalogue/registry.h"
 #include "harness/truth/checksum.h"
 #include "harness/truth/columns.h"
+#include "harness/truth/handles.h"
 #include "harness/truth/truth_rows.h"
 
 static status read_table(columns *r, const case_type *type, truths *out)
@@ -72,12 +73,7 @@ static status check_schema(hid_t file, const char *path, fault *f)
         H5Aexists(file, "version") > 0 ? H5Aopen(file, "version", H5P_DEFAULT) : -1;
     if (number >= 0)
         H5Aread(number, H5T_NATIVE_INT, &version);
-    if (number >= 0)
-        H5Aclose(number);
-    if (type >= 0)
-        H5Tclose(type);
-    if (schema >= 0)
-        H5Aclose(schema);
+    handles_close(3, (const hid_t[]){number, type, schema});
     if (strcmp(name, "beamwork-truths") != 0)
         return fault_set(f, STATUS_FAULT, "%s: not a file of truths; build it with 'make all'",
                          path);
