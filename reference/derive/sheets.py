@@ -15,6 +15,7 @@ from reference.derive.network import Network, clamped, free
 from reference.derive.torsion import rectangle_constant
 
 RELATIVE = 5e-12
+ROUNDING = 1e-15  # of a coordinate, in lengths of the sheet
 PLANAR = [(0, 0), (0, 1), (0, 5), (1, 0), (1, 1), (1, 5), (5, 0), (5, 1), (5, 5),
           (2, 2), (2, 3), (2, 4), (3, 2), (3, 3), (3, 4), (4, 2), (4, 3), (4, 4)]
 
@@ -63,7 +64,8 @@ def quantities(case, given, net, tip, entries):
     if case == "sheet_cantilever":
         yield case, at, "C_xx", C[0, 0], "m/N", RELATIVE, note
         yield case, at, "C_zz", C[2, 2], "m/N", RELATIVE, note
-    yield case, at, "u_x", net.length * (tip.x[0] - 1), "m", RELATIVE, turned
+    shortening = 1 - tip.x[0]
+    yield case, at, "u_x", -net.length * shortening, "m", max(RELATIVE, ROUNDING / abs(shortening)), turned
     if case == "sheet_wagner":
         yield case, at, "u_z", net.length * tip.x[2], "m", RELATIVE, turned
     yield case, at, "F_y", net.force * tip.load[1], "N", RELATIVE, turned
