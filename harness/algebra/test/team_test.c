@@ -37,8 +37,32 @@ static void every_index_once(int threads)
     team_free(t);
 }
 
+static void count_parts(void *context, int first, int end)
+{
+    (void)end;
+    ((int *)context)[first] = 1; /* each part begins at an index of its own */
+}
+
+/* However many are asked for, there are TEAM_MOST at most; as many parts as threads. */
+static void no_more_than_there_is_room_for(int threads)
+{
+    int begins[MOST] = {0}, parts = 0;
+    team *t = NULL;
+    fault f = {""};
+    gsl_test(team_alloc(threads, &t, &f) != STATUS_OK, "%d threads (%s)", threads, f.text);
+    team_run(t, MOST, count_parts, begins);
+    for (int i = 0; i < MOST; i++)
+        parts += begins[i];
+    gsl_test_int(parts, threads < TEAM_MOST ? threads : TEAM_MOST, "%d threads: parts", threads);
+    team_free(t);
+}
+
 int main(void)
 {
+    no_more_than_there_is_room_for(5);
+    no_more_than_there_is_room_for(TEAM_MOST);
+    no_more_than_there_is_room_for(TEAM_MOST + 1);
+    no_more_than_there_is_room_for(10 * TEAM_MOST);
     for (int threads = 1; threads <= 4; threads++)
         every_index_once(threads);
     team *unused = NULL;

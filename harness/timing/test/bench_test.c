@@ -86,6 +86,11 @@ static void test_compare(void)
     gsl_test_int(rounds_compare(&b, &a), 1, "all rounds slower");
     gsl_test_int(rounds_compare(&a, &c), 0, "rounds overlap: undecided");
     gsl_test(isfinite(rounds_least(&never)), "a cell that never ran has no time");
+    gsl_test(isfinite(rounds_most(&never)), "and no slowest one");
+    gsl_test_int(rounds_compare(&never, &a), 1, "it is no faster than one that ran");
+    gsl_test_int(rounds_compare(&never, &never), 0, "nor than another that did not");
+    const rounds_reading even = reading(1, 0);
+    gsl_test_int(rounds_compare(&even, &even), 0, "times that are equal do not differ");
 }
 
 /* Errors 20 %, 0.5 %, 3 %, 0.2 %, 0.05 %: what counts is the coarsest mesh from which on all are within. */
