@@ -12,9 +12,11 @@
 #include "harness/model/features.h"
 #include "harness/truth/truth.h"
 
+/* Beyond what the rule explains?  A limit that was derived binds by its own distance. */
 static int is_beyond(const rule *r, const verdict *v)
 {
-    return isfinite(v->error) && isfinite(r->largest_error) && fabs(v->error) > r->largest_error;
+    return isfinite(v->departure) && isfinite(r->largest_error) &&
+           fabs(v->departure) > r->largest_error;
 }
 
 /* What is not a pass is expected where exactly one rule of the ledger speaks of it. */
@@ -45,8 +47,9 @@ static void expect(const sweep *s, truths *t, verdict *v)
             rule_foretell(r, &subject);
         if (is_beyond(r, v))
             snprintf(v->reason, sizeof v->reason,
-                     "its error of %.3g is beyond the %.3g of finding %.60s", v->error,
-                     r->largest_error, r->name);
+                     "its limit is %.3g from %s, beyond the %.3g of finding %.60s", v->departure,
+                     v->predicted != NULL ? "the derived one" : "the truth", r->largest_error,
+                     r->name);
         else
             v->expected = v->kind;
     }

@@ -232,7 +232,7 @@ void verdict_reach(const sweep *s, const truths *t, verdict *v)
 {
     const series *one = &s->series[v->series];
     const scene_quantity *q = &s->point[one->point].scene.quantity[v->quantity];
-    v->finest = v->error = v->model_error = v->tolerance = NAN;
+    v->finest = v->error = v->departure = v->model_error = v->tolerance = NAN;
     v->fit = (mesh_limit){.limit = NAN,
                           .limit_uncertainty = NAN,
                           .order = NAN,
@@ -251,7 +251,9 @@ void verdict_reach(const sweep *s, const truths *t, verdict *v)
         return;
     }
     v->tolerance = q->tolerance * scale_of(q, v->truth->value) + v->truth->uncertainty;
-    v->error = verdict_error(q, v->fit.limit, v->truth->value);
+    v->error = v->departure = verdict_error(q, v->fit.limit, v->truth->value);
+    if (v->predicted != NULL)
+        v->departure -= verdict_error(q, v->predicted->value, v->truth->value);
     v->below_digits = fabs(v->fit.limit - v->truth->value) <= v->truth->uncertainty;
     v->kind = compare(q, v);
     if (v->kind == VERDICT_PASS || v->kind == VERDICT_LOW_ORDER)

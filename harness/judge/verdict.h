@@ -38,6 +38,7 @@ typedef struct verdict {
     double finest; /* value on the finest mesh, NAN: none */
     /* (limit - truth)/truth, relative to near_zero where the truth is near zero; NAN */
     double error;
+    double departure;   /* the same of the limit from the derived one; from the truth without one */
     double model_error; /* against the truth of another model */
     double tolerance;   /* absolute, uncertainty of the truth included */
     /* 1: the limit differs from the truth by less than the truth is uncertain */

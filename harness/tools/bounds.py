@@ -3,8 +3,9 @@
 
 usage: bounds.py VERIFY_JSON FINDINGS_CSV
 
-A rule's largest_error is the least of 1, 2 and 5 times a power of ten that no error of its verdicts
-exceeds; empty where none of them has an error.  Status 1 where the ledger says anything else.  The
+A rule's largest_error is the least of 1, 2 and 5 times a power of ten that no limit of its verdicts
+exceeds: in its distance from the derived limit where there is one, else from the truth, relative to
+the truth; empty where none of them has an error.  Status 1 where the ledger says anything else.  The
 digits are those of the limit that is farthest from its prediction, on the meshes of the verdict.
 """
 import argparse
@@ -31,6 +32,14 @@ def apart(verdict):
     return abs(verdict["limit"] / verdict["predicted"] - 1)
 
 
+def departure(verdict):
+    """Of a limit from the derived one, else from the truth, in parts of the truth; None: no limit."""
+    if verdict["predicted"] is None or not verdict["error"]:
+        return verdict["error"] and abs(verdict["error"])
+    size = (verdict["limit"] - verdict["truth"]) / verdict["error"]
+    return abs((verdict["limit"] - verdict["predicted"]) / size)
+
+
 def digits(verdicts):
     """Digits that the worst of the met predictions has in common with its limit; None: no such."""
     met = [apart(v) for v in verdicts if v["verdict"] == PREDICTED and v["predicted"]]
@@ -39,8 +48,7 @@ def digits(verdicts):
 
 def line(rule, verdicts):
     """What is said of a rule: its verdicts, errors and predictions, and whether its bound stands."""
-    errors = [abs(v["error"]) for v in verdicts if v["error"] is not None]
-    seen = max(errors, default=None)
+    seen = max((departure(v) for v in verdicts if v["error"] is not None), default=None)
     allowed = rule["largest_error"]
     stands = (allowed and float(allowed)) == (bound_of(seen) and float(bound_of(seen)))
     return {"rule": rule["rule"], "verdicts": len(verdicts), "seen": seen, "allowed": allowed,

@@ -17,9 +17,11 @@ typedef struct rule {
     char *verdicts;     /* "wrong limit|undecided" */
     char *predicted;    /* list of "case/quantity" whose limit is predicted; empty: none */
     char *cause, *proof;
-    double largest_error; /* relative, of the limit; beyond it the rule does not explain */
-    int observed;         /* by the judge: verdicts it explains */
-    unsigned foretold;    /* by the judge: bits of the predictions that were met */
+    /* relative, of the limit from the derived one, or from the truth where none was derived; beyond it
+     * the rule does not explain */
+    double largest_error;
+    int observed;      /* by the judge: verdicts it explains */
+    unsigned foretold; /* by the judge: bits of the predictions that were met */
 } rule;
 
 /* What a rule may speak of. */

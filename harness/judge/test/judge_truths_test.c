@@ -74,6 +74,35 @@ static void publications(void)
     bench_free(&b);
 }
 
+/* Where a limit was derived, a rule is bound by the distance from it, however far the truth is. */
+static void bound_by_the_derived_limit(void)
+{
+    static char kind[] = "wrong limit, as predicted|undecided";
+    bench b;
+    bench_make(&b);
+    bench_fill(&b, 3.3, 0.7, 2);
+    truth *derived = bench_add_prediction(&b, 3.3);
+    derived->uncertainty = 0.01;
+    b.known = (rule){.name = words[WHY],
+                     .formulations = words[ELEMENT],
+                     .cases = words[MADE_UP],
+                     .condition = words[NOTHING],
+                     .quantities = words[LOAD],
+                     .verdicts = kind,
+                     .predicted = words[NOTHING],
+                     .largest_error = 1e-3};
+    b.t.rule = &b.known;
+    b.t.rules = 1;
+    bench_expect(&b, VERDICT_WRONG_AS_PREDICTED, 0, "0.1 from the truth, and where it should be");
+    for (int side = -1; side <= 1; side += 2) {
+        derived->value = 3.3 + side * 3 * 0.9e-3;
+        bench_expect(&b, VERDICT_WRONG_AS_PREDICTED, 0, "within the bound of the derived limit");
+        derived->value = 3.3 + side * 3 * 1.1e-3;
+        bench_expect(&b, VERDICT_WRONG_AS_PREDICTED, 1, "beyond the bound of the derived limit");
+    }
+    bench_free(&b);
+}
+
 static void expectations(void)
 {
     bench b;
@@ -192,6 +221,7 @@ int main(void)
     predictions();
     theories();
     publications();
+    bound_by_the_derived_limit();
     expectations();
     stored_values();
     return gsl_test_summary();

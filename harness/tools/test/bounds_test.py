@@ -5,8 +5,9 @@ from harness.tools import bounds
 
 
 def verdict(error, limit=1.0, predicted=None, kind="biased", rule="a"):
+    truth = None if limit is None or error is None else limit / (1 + error)
     return {"finding": rule, "error": error, "limit": limit, "predicted": predicted,
-            "verdict": kind}
+            "truth": truth, "verdict": kind}
 
 
 class Bounds(unittest.TestCase):
@@ -28,6 +29,12 @@ class Bounds(unittest.TestCase):
             one = self.said(allowed, given)
             self.assertFalse(one["stands"])
             self.assertIn("should allow 0.0005", bounds.text_of(one))
+
+    def test_derived_limits_bind(self):
+        """The distance counts from the derived limit where there is one, in parts of the truth."""
+        derived = {**verdict(-0.25, 3.0, 3.004, bounds.PREDICTED), "truth": 4.0}
+        self.assertAlmostEqual(self.said("1e-3", [derived])["seen"], 1e-3)
+        self.assertAlmostEqual(self.said("1", [derived, verdict(2e-3)])["seen"], 2e-3)
 
     def test_without_an_error(self):
         given = [verdict(None, limit=None, kind="diverged")]
