@@ -6,7 +6,9 @@ enum { LEAST = 2, MOST = 30 };
 
 /* Of a correction: beyond the first nobody asks for more; the second is a thousandth of the
  * tolerance that quantities are judged by (SCENE_TOLERANCE), for what is derived from the solution
- * may lose digits of its own. */
+ * may lose digits of its own.  By the level of refinement.h, eps (L/side)^2 times 2.5, bars beyond
+ * L/side = 1300 leave the first, beyond 42000 the second; in a run of verify no correction that was
+ * judged by it exceeded 2e-12. */
 static const double sure_digits = 1e-9, enough_digits = 1e-6;
 
 refinement_state refinement_judge(refinement *r, double correction)
