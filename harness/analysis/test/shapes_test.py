@@ -92,6 +92,36 @@ class Solution(ProgramTest):
         # the triads' x axes follow the line
         self.assertAlmostEqual(max(moved / 0.1, turn / 0.5), 1, delta=2e-2)
 
+    def test_lines(self):
+        """Between two nodes runs the cubic whose slopes at its ends are their x axes, each as long
+        as the element; the sections between stand across it."""
+        for formulation in ("sheet_third", "collocation"):
+            _, shapes, tables = self.solve("sheet_cantilever", formulation, 1, "--shapes")
+            position, length = shapes["position"][-1], tables["points"]["length"][0]
+            t = numpy.linspace(0, 1, len(position))
+            cubic = numpy.polynomial.polynomial.polyfit(t, position, 3)
+            passed = numpy.polynomial.polynomial.polyval(t, cubic).T
+            slope = numpy.polynomial.polynomial.polyval(
+                t, numpy.polynomial.polynomial.polyder(cubic)).T
+            axis = turned(shapes["orientation"][-1], numpy.array([1.0, 0, 0]))
+            self.assertLess(numpy.abs(passed - position).max(), 1e-14)
+            self.assertGreater(numpy.linalg.norm(axis[6] - axis[0]), 0.05)
+            self.assertLess(numpy.abs(slope[[0, -1]] - length * axis[[0, -1]]).max(), 1e-12)
+            across = numpy.cross(slope, axis) / numpy.linalg.norm(slope, axis=1)[:, None]
+            self.assertLess(numpy.abs(across).max(), 1e-12, formulation)
+
+    def test_bimoments_of_elements(self):
+        """Linear in an element, the same on both sides of a node, none at an end that may warp."""
+        _, shapes, _ = self.solve("warping_torsion", "collocation", 4, "--shapes")
+        bimoment = shapes["bimoment"][-1].ravel()
+        size = numpy.abs(bimoment).max()
+        self.assertEqual(len(bimoment), 13)
+        for node in (3, 6, 9, 12):
+            before = 2 * bimoment[node - 1] - bimoment[node - 2]
+            self.assertLess(abs(before - bimoment[node]), 1e-8 * size)
+        self.assertLess(abs(bimoment[-1]), 1e-8 * size)
+        self.assertEqual(size, abs(bimoment[0]))
+
     def test_supports_and_bimoments(self):
         """What holds each node, as bits ux uy uz rx ry rz; bimoments are moments over a length:
         zero where warping is free, and not at the clamp."""

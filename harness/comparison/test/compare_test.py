@@ -122,6 +122,32 @@ class Compare(ProgramTest):
         self.assertEqual(done.returncode, 1)
         self.assertIn("new      warping_torsion/default/beamw n=4", done.stdout)
 
+    def test_quantities(self):
+        """One that has another name is gone, and a new one."""
+        def rename(file):
+            def other(rows):
+                rows["quantity"][0] = b"other"
+            change_rows(file, "quantities", other)
+        done = self.compared(rename)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stdout, r"(?m)^gone     warping_torsion/default/beamw n=4: (?!other$).+$")
+        self.assertRegex(done.stdout, r"(?m)^new      warping_torsion/default/beamw n=4: other$")
+
+    def test_near_zero(self):
+        """A value without a truth has changed beyond the floor of its size, or of near_zero where it may vanish."""
+        def without_truth(near_zero):
+            def change(rows):
+                rows["error"], rows["near_zero"] = float("nan"), near_zero * abs(rows["value"])
+            return lambda file: change_rows(file, "quantities", change)
+
+        def move(rows):
+            rows["value"] *= 1 + 1e-6
+        for near_zero, code in ((0, 1), (10, 1), (1000, 0)):
+            old = altered(self.old, self.folder / "zero.h5", without_truth(near_zero))
+            new = altered(old, self.new, lambda file: change_rows(file, "quantities", move))
+            done = run("compare", old, new, "--threshold", "floor=1e-8")
+            self.assertEqual(done.returncode, code, (near_zero, done.stdout))
+
     def trouble(self, word, *arguments, **options):
         self.refused(2, word, "compare", *arguments, **options)
 
