@@ -6,49 +6,63 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The one table: FEATURE_* (in the order of its bits), name without a comma, summary. */
-#define FEATURE_TABLE(ROW)                                                                         \
-    ROW(WARPING, "warping", "warping amplitude as a coordinate, bimoment")                         \
-    ROW(SHEAR, "shear", "transverse (and warping) shear flexibility")                              \
-    ROW(ECCENTRIC, "eccentric shear centre", "shear centre off the centroid")                      \
-    ROW(TRAPEZE, "trapeze", "torsion-elongation coupling Ip/A phi'^2/2")                           \
-    ROW(WAGNER_MOMENTS, "wagner moments", "int y(y^2+z^2), int z(y^2+z^2)")                        \
-    ROW(WAGNER_TORQUE, "wagner torque", "torque cubic in the twist rate")                          \
-    ROW(ENGESSER, "engesser", "shear in stability: 1/2 (v'^2 + w'^2) of the fibre")                \
-    ROW(HARINGX, "haringx", "shear in stability: rotation of the section (Simo-Reissner)")         \
-    ROW(GEOMETRIC, "geometric", "stiffness of the prestressed undeformed state")                   \
-    ROW(LARGE, "large rotations", "large displacements and rotations of the structure")            \
-    ROW(MASS, "mass", "inertia")                                                                   \
-    ROW(ROTARY_INERTIA, "rotary inertia", "rotary and warping inertia in it")                      \
-    ROW(CURVATURE, "initial curvature", "initial curvature and strain")
+/* Bits; feature_row_of has a row for each. */
+enum element_feature {
+    FEATURE_WARPING = 1 << 0,
+    FEATURE_SHEAR = 1 << 1,
+    FEATURE_ECCENTRIC = 1 << 2,
+    FEATURE_TRAPEZE = 1 << 3,
+    FEATURE_WAGNER_MOMENTS = 1 << 4,
+    FEATURE_WAGNER_TORQUE = 1 << 5,
+    FEATURE_ENGESSER = 1 << 6,
+    FEATURE_HARINGX = 1 << 7,
+    FEATURE_GEOMETRIC = 1 << 8,
+    FEATURE_LARGE = 1 << 9,
+    FEATURE_MASS = 1 << 10,
+    FEATURE_ROTARY_INERTIA = 1 << 11,
+    FEATURE_CURVATURE = 1 << 12,
+    FEATURE_END = 1 << 13
+};
 
-#define FEATURE_NUMBER(feature, name, summary) FEATURE_NUMBER_##feature,
-enum { FEATURE_TABLE(FEATURE_NUMBER) FEATURES };
-#undef FEATURE_NUMBER
+typedef struct feature_row {
+    unsigned bit;
+    const char *name; /* without a comma */
+    const char *summary;
+} feature_row;
 
-#define FEATURE_BIT(feature, name, summary) FEATURE_##feature = 1 << FEATURE_NUMBER_##feature,
-enum element_feature { FEATURE_TABLE(FEATURE_BIT) FEATURE_END = 1 << FEATURES };
-#undef FEATURE_BIT
-
-/* Name of one bit, for results and rules, and what it is, in one line; "unknown" for what is none. */
-#define FEATURE_TEXT(feature, name, summary)                                                       \
-    if (bit == FEATURE_##feature)                                                                  \
-        return wanted_summary ? summary : name;
-static inline const char *feature_text(unsigned bit, int wanted_summary)
+/* For results and rules; "unknown" for what is no single bit. */
+static inline const feature_row *feature_row_of(unsigned bit)
 {
-    FEATURE_TABLE(FEATURE_TEXT)
-    return "unknown";
+    static const feature_row row[] = {
+        {FEATURE_WARPING, "warping", "warping amplitude as a coordinate, bimoment"},
+        {FEATURE_SHEAR, "shear", "transverse (and warping) shear flexibility"},
+        {FEATURE_ECCENTRIC, "eccentric shear centre", "shear centre off the centroid"},
+        {FEATURE_TRAPEZE, "trapeze", "torsion-elongation coupling Ip/A phi'^2/2"},
+        {FEATURE_WAGNER_MOMENTS, "wagner moments", "int y(y^2+z^2), int z(y^2+z^2)"},
+        {FEATURE_WAGNER_TORQUE, "wagner torque", "torque cubic in the twist rate"},
+        {FEATURE_ENGESSER, "engesser", "shear in stability: 1/2 (v'^2 + w'^2) of the fibre"},
+        {FEATURE_HARINGX, "haringx", "shear in stability: rotation of the section (Simo-Reissner)"},
+        {FEATURE_GEOMETRIC, "geometric", "stiffness of the prestressed undeformed state"},
+        {FEATURE_LARGE, "large rotations", "large displacements and rotations of the structure"},
+        {FEATURE_MASS, "mass", "inertia"},
+        {FEATURE_ROTARY_INERTIA, "rotary inertia", "rotary and warping inertia in it"},
+        {FEATURE_CURVATURE, "initial curvature", "initial curvature and strain"},
+        {0, "unknown", "unknown"}};
+    const feature_row *one = row;
+    while (one->bit != 0 && one->bit != bit)
+        one++;
+    return one;
 }
-#undef FEATURE_TEXT
 
 static inline const char *feature_name(unsigned bit)
 {
-    return feature_text(bit, 0);
+    return feature_row_of(bit)->name;
 }
 
+/* What it is, in one line. */
 static inline const char *feature_summary(unsigned bit)
 {
-    return feature_text(bit, 1);
+    return feature_row_of(bit)->summary;
 }
 
 /* The bit of a name; 0: there is none. */

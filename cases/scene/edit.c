@@ -46,10 +46,11 @@ static status reverse(scene *s, fault *f)
             m->y_axis[k] = -m->y_axis[k];
     }
     for (int i = 0; i < s->loads; i++)
-        for (int k = 0; k < 2 && s->load[i].axes == SCENE_AXES_MEMBER; k++) { /* x and y */
-            s->load[i].vector[k] = -s->load[i].vector[k];
-            s->load[i].at[k] = -s->load[i].at[k];
-        }
+        if (s->load[i].axes == SCENE_AXES_MEMBER)
+            for (int k = 0; k < 2; k++) { /* x and y */
+                s->load[i].vector[k] = -s->load[i].vector[k];
+                s->load[i].at[k] = -s->load[i].at[k];
+            }
     return STATUS_OK;
 }
 

@@ -102,14 +102,16 @@ int main(void)
     gsl_test(s.analyses != SCENE_ROTATION + 1 || s.quantities != SCENE_INTERNAL + 1,
              "every kind is there");
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
-        for (int k = 0; k < s.analyses && row[i].analyses != 0; k++)
-            gsl_test_int(ended_by(row[i].read, &s.analysis[k]),
-                         row[i].analyses >> s.analysis[k].kind & 1 ? 0 : SIGABRT,
-                         "%s of analysis %d", row[i].name, k);
-        for (int k = 0; k < s.quantities && row[i].quantities != 0; k++)
-            gsl_test_int(ended_by(row[i].read, &s.quantity[k]),
-                         row[i].quantities >> s.quantity[k].what.kind & 1 ? 0 : SIGABRT,
-                         "%s of quantity %d", row[i].name, k);
+        if (row[i].analyses != 0)
+            for (int k = 0; k < s.analyses; k++)
+                gsl_test_int(ended_by(row[i].read, &s.analysis[k]),
+                             row[i].analyses >> s.analysis[k].kind & 1 ? 0 : SIGABRT,
+                             "%s of analysis %d", row[i].name, k);
+        if (row[i].quantities != 0)
+            for (int k = 0; k < s.quantities; k++)
+                gsl_test_int(ended_by(row[i].read, &s.quantity[k]),
+                             row[i].quantities >> s.quantity[k].what.kind & 1 ? 0 : SIGABRT,
+                             "%s of quantity %d", row[i].name, k);
     }
     scene_free(&s);
     return gsl_test_summary();

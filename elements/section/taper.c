@@ -86,20 +86,23 @@ static status check_warping(const section_spec *p, const section_spec *q,
         return STATUS_OK;
     int moves = hypot(ends[1]->ys - ends[0]->ys, ends[1]->zs - ends[0]->zs) > same * size ||
                 fabs(ends[1]->axes_angle - ends[0]->axes_angle) > same;
-    for (int w = 0; w < p->walls && p->kind == SECTION_WALLS; w++)
-        moves |= out_of_plane(p, q, ends, w) > same * size;
+    if (p->kind == SECTION_WALLS)
+        for (int w = 0; w < p->walls; w++)
+            moves |= out_of_plane(p, q, ends, w) > same * size;
     if (moves)
         return fault_set(f, STATUS_REFUSED,
                          "its section warps, and along it the shear centre moves or walls leave "
                          "their planes, which couples warping with torsion; %s",
                          remedy);
-    for (int w = 0; w < p->walls && p->cells > 0; w++)
-        if (memcmp(&p->wall[w], &q->wall[w], sizeof p->wall[w]) != 0 ||
-            memcmp(p->point, q->point, sizeof p->point) != 0)
-            return fault_set(f, STATUS_REFUSED,
-                             "its closed cells change along it and with them their sectorial "
-                             "coordinate, which couples warping with torsion; leave its warping "
-                             "out (given: {Iw: 0} at both ends)");
+    if (p->cells > 0)
+        for (int w = 0; w < p->walls; w++)
+            if (memcmp(&p->wall[w], &q->wall[w], sizeof p->wall[w]) != 0 ||
+                memcmp(p->point, q->point, sizeof p->point) != 0)
+                return fault_set(
+                    f, STATUS_REFUSED,
+                    "its closed cells change along it and with them their sectorial "
+                    "coordinate, which couples warping with torsion; leave its warping "
+                    "out (given: {Iw: 0} at both ends)");
     return STATUS_OK;
 }
 

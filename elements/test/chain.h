@@ -65,8 +65,9 @@ static int chain_start(chain *c, const element_type *type, const double option[]
     if (type->prepare(&request, (element_data *)c->store.bytes, &f) != STATUS_OK)
         return -1;
     nodes_straight(c->nodes, length, c->x);
-    for (int i = 0; i < elements && type->rest != NULL; i++)
-        type->rest((element_data *)c->store.bytes, c->inner[i]);
+    if (type->rest != NULL)
+        for (int i = 0; i < elements; i++)
+            type->rest((element_data *)c->store.bytes, c->inner[i]);
     return 0;
 }
 
@@ -123,8 +124,9 @@ static void chain_assemble(const chain *c, chain_linearised *w, double *K, doubl
                     K[(first + i) * n + first + j] += local[i * m + j];
         }
     }
-    for (int i = 6; i < n && !(c->features & FEATURE_WARPING); i += 7)
-        K[i * (n + 1)] = 1; /* nothing warps */
+    if (!(c->features & FEATURE_WARPING))
+        for (int i = 6; i < n; i += 7)
+            K[i * (n + 1)] = 1; /* nothing warps */
 }
 
 static void chain_advance(chain *c, chain_linearised *w, const double dx[])
@@ -204,8 +206,9 @@ static inline void chain_compliance(chain *c, double C[36])
         K[(tip + 3 + i) * n + tip + 3 + j] += force[tip + 3 + k] / 2;
         K[(tip + 3 + j) * n + tip + 3 + i] -= force[tip + 3 + k] / 2;
     }
-    for (int i = 0; i < n && c->held[6]; i++)
-        K[(tip + 6) * n + i] = K[i * n + tip + 6] = i == tip + 6;
+    if (c->held[6])
+        for (int i = 0; i < n; i++)
+            K[(tip + 6) * n + i] = K[i * n + tip + 6] = i == tip + 6;
     for (int k = 0; k < 6; k++)
         X[(tip + k) * 6 + k] = 1;
     failures += dense_lu(n, K, pivot) != 0;

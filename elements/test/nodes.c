@@ -47,11 +47,9 @@ void nodes_place(int nodes, double length, const double d[], node_state x[])
 void nodes_increments(int nodes, double length, double size, unsigned seed, double d[])
 {
     uint64_t state = seed;
-    for (int i = 0; i < NODE_COORDINATES * nodes; i++) {
-        const int c = i % NODE_COORDINATES;
-        const double unit = c < 3 ? length : c < 6 ? 1 : 1 / length;
-        d[i] = size / 2 * random_number(&state) * unit;
-    }
+    const double unit[NODE_COORDINATES] = {length, length, length, 1, 1, 1, 1 / length};
+    for (int i = 0; i < NODE_COORDINATES * nodes; i++)
+        d[i] = size / 2 * random_number(&state) * unit[i % NODE_COORDINATES];
 }
 
 static double largest(int n, const double a[])

@@ -33,10 +33,11 @@ static void element_terms(const cantilever *c, int i, double K[NODAL * NODAL], d
     static const double half_turn[9] = {-1, 0, 0, 0, 1, 0, 0, 0, -1};
     double e[N], work[N * NODAL], s[N];
     node_state x[2] = {c->node[i], c->node[i + 1]};
-    for (int k = 0; k < 2 && c->reversed; k++) {
-        x[k] = c->node[i + 1 - k];
-        mat3_mul(c->node[i + 1 - k].R, half_turn, x[k].R);
-    }
+    if (c->reversed)
+        for (int k = 0; k < 2; k++) {
+            x[k] = c->node[i + 1 - k];
+            mat3_mul(c->node[i + 1 - k].R, half_turn, x[k].R);
+        }
     c->type->strain(c->data, x, &(strain_output){.e = e, .J = J, .s = c->sigma[i], .H = K});
     if (c->type->stress(c->data, c->e[i], NULL, &(stress_output){.sigma = P, .C = C}) != STATUS_OK)
         gsl_test(1, "%s: stress of element %d", c->type->name, i);

@@ -155,13 +155,15 @@ static void second_order_limit(void)
             stiffness_at_rest(&element_sheet_second, &c, features, second);
             stiffness_at_rest(type, &c, features, third);
             /* without amplitudes e7 = e8 = e2: only their sum of stiffness counts */
-            for (int pass = 0; pass < 2 && !warping; pass++) {
-                double *C = pass == 0 ? second : third;
-                for (int i = 0; i < N; i++)
-                    C[N * i + 1] += C[N * i + 6] + C[N * i + 7], C[N * i + 6] = C[N * i + 7] = 0;
-                for (int j = 0; j < N; j++)
-                    C[N + j] += C[N * 6 + j] + C[N * 7 + j], C[N * 6 + j] = C[N * 7 + j] = 0;
-            }
+            if (!warping)
+                for (int pass = 0; pass < 2; pass++) {
+                    double *C = pass == 0 ? second : third;
+                    for (int i = 0; i < N; i++)
+                        C[N * i + 1] += C[N * i + 6] + C[N * i + 7],
+                            C[N * i + 6] = C[N * i + 7] = 0;
+                    for (int j = 0; j < N; j++)
+                        C[N + j] += C[N * 6 + j] + C[N * 7 + j], C[N * 6 + j] = C[N * 7 + j] = 0;
+                }
             for (int i = 0; i < N; i++)
                 for (int j = 0; j < N; j++)
                     worst =

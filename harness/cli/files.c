@@ -57,8 +57,9 @@ status cli_check_files(const cli_request *r, int whole_file, const char *truths_
             continue;
         TRY(output_try(out[i].path, out[i].form, &out[i].where, f));
         TRY(check_inputs(&out[i], input, f));
-        for (int k = 0; k < r->case_count && r->reads_files; k++)
-            TRY(check_inputs(&out[i], (const char *const[INPUTS]){r->cases[k]}, f));
+        if (r->reads_files)
+            for (int k = 0; k < r->case_count; k++)
+                TRY(check_inputs(&out[i], (const char *const[INPUTS]){r->cases[k]}, f));
         for (int k = 0; k < i; k++)
             if (out[k].path != NULL)
                 TRY(check_pair(&out[k], &out[i], f));

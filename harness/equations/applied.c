@@ -201,8 +201,9 @@ static void add_stiffness(void *context, const applied *what)
         F[5] == 0)
         return;
     kinematics_offset(all->m, all->s, what->vertex, rho);
-    for (int i = 0; i < 3 && what->offset; i++)
-        rho[i] += what->arm[i];
+    if (what->offset)
+        for (int i = 0; i < 3; i++)
+            rho[i] += what->arm[i];
     const double dot = vec3_dot(F, rho);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
@@ -225,8 +226,9 @@ static void add_stiffness(void *context, const applied *what)
                 value += vec3_dot(F + 3, cross) / 2;
             all->take(all->to, body->coordinate[3 + i], body->coordinate[3 + j], value);
         }
-    for (int j = 0; j < 3 && what->follower; j++)
-        add_following(all, body, F, rho, b, j);
+    if (what->follower)
+        for (int j = 0; j < 3; j++)
+            add_following(all, body, F, rho, b, j);
 }
 
 void applied_stiffness(const model *m, const model_state *s, const scene_load *load, double scale,

@@ -63,11 +63,12 @@ static void turn_to_end(const model *m, int member, int end, const mesh_element 
     const double angle = m->section[end ? sm->section_q : sm->section].axes_angle -
                          m->section[m->kind[el->kind].section].axes_angle,
                  c = cos(angle), d = sin(angle);
-    for (int i = 0; i < 9 && angle != 0; i += 3) {
-        const double y = R[i + 1];
-        R[i + 1] = c * y + d * R[i + 2];
-        R[i + 2] = c * R[i + 2] - d * y;
-    }
+    if (angle != 0)
+        for (int i = 0; i < 9; i += 3) {
+            const double y = R[i + 1];
+            R[i + 1] = c * y + d * R[i + 2];
+            R[i + 2] = c * R[i + 2] - d * y;
+        }
 }
 
 void internal_at_end(model *m, const internal_state *s, int member, int end, double out[7])

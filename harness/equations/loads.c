@@ -193,8 +193,9 @@ static void add_at_node(void *context, const applied *what)
     if (sum->m->vertex[what->vertex].body != sum->node)
         return;
     kinematics_offset(sum->m, sum->s, what->vertex, rho);
-    for (int k = 0; k < 3 && what->offset; k++)
-        rho[k] += what->arm[k];
+    if (what->offset)
+        for (int k = 0; k < 3; k++)
+            rho[k] += what->arm[k];
     vec3_cross(rho, what->F, moment);
     const int away = what->vertex != sum->node || what->offset;
     for (int k = 0; k < 6; k++)

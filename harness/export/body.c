@@ -18,10 +18,11 @@ int body_direction(int component)
 void body_write_nodes(const body_numbers *b, const scene *s, FILE *to)
 {
     for (int i = 0; i < s->nodes; i++)
-        for (int k = 0; k < COMPONENTS && rigid_moves(s, i); k += TRANSLATIONS) {
-            const double *p = s->node[i].position;
-            fprintf(to, "%d,%.12e,%.12e,%.12e\n", body_node(b, i, k), p[0], p[1], p[2]);
-        }
+        if (rigid_moves(s, i))
+            for (int k = 0; k < COMPONENTS; k += TRANSLATIONS) {
+                const double *p = s->node[i].position;
+                fprintf(to, "%d,%.12e,%.12e,%.12e\n", body_node(b, i, k), p[0], p[1], p[2]);
+            }
 }
 
 static void write_body(const body_numbers *b, const scene *s, int node, const brick bricks[],
@@ -45,8 +46,9 @@ void body_write(const body_numbers *b, const scene *s, const brick bricks[], FIL
             write_body(b, s, i, bricks, to);
     fputs("*NSET,NSET=BODIES\n", to);
     for (int i = 0; i < s->nodes; i++)
-        for (int k = 0; k < COMPONENTS && rigid_moves(s, i); k += TRANSLATIONS)
-            fprintf(to, "%d,\n", body_node(b, i, k));
+        if (rigid_moves(s, i))
+            for (int k = 0; k < COMPONENTS; k += TRANSLATIONS)
+                fprintf(to, "%d,\n", body_node(b, i, k));
 }
 
 /* SCENE_FREE, SCENE_HELD or a driver. */
@@ -66,14 +68,15 @@ static void write_boundary(const body_numbers *b, const scene *s, const double *
 {
     fputs("*BOUNDARY,OP=NEW\n", to);
     for (int i = 0; i < s->nodes; i++)
-        for (int k = 0; k < COMPONENTS && rigid_moves(s, i); k++) {
-            const int by = mover(&s->node[i], k), direction = body_direction(k);
-            if (by == SCENE_FREE || (i == node && (released >> k & 1)))
-                continue;
-            const int stays = by == SCENE_HELD || path == NULL;
-            fprintf(to, "%d,%d,%d,%.12e\n", body_node(b, i, k), direction, direction,
-                    stays ? 0 : loads_driver_value(&s->driver[by], *path));
-        }
+        if (rigid_moves(s, i))
+            for (int k = 0; k < COMPONENTS; k++) {
+                const int by = mover(&s->node[i], k), direction = body_direction(k);
+                if (by == SCENE_FREE || (i == node && (released >> k & 1)))
+                    continue;
+                const int stays = by == SCENE_HELD || path == NULL;
+                fprintf(to, "%d,%d,%d,%.12e\n", body_node(b, i, k), direction, direction,
+                        stays ? 0 : loads_driver_value(&s->driver[by], *path));
+            }
 }
 
 void body_write_state(const body_numbers *b, const scene *s, double path, FILE *to)

@@ -84,8 +84,9 @@ static wanted read_value(const map_reader *r, const document_node *key, const do
         w.column = column_named(r, of, column);
     if (x != NULL)
         w.abscissa = column_named(r, of, x);
-    for (int i = 0; w.where != NULL && i < w.where->count && w.where->kind == DOCUMENT_MAP; i++)
-        column_named(r, w.where->key[i], w.where->key[i]->text);
+    if (w.where != NULL && w.where->kind == DOCUMENT_MAP)
+        for (int i = 0; i < w.where->count; i++)
+            column_named(r, w.where->key[i], w.where->key[i]->text);
     return w;
 }
 
@@ -97,8 +98,9 @@ static int ends_in(const char *name, const char *ending)
 
 static int holds(const map_reader *r, const wanted *w, const double number[], int count)
 {
-    for (int i = 0; w->where != NULL && w->where->kind == DOCUMENT_MAP && i < w->where->count;
-         i++) {
+    if (w->where == NULL || w->where->kind != DOCUMENT_MAP)
+        return 1;
+    for (int i = 0; i < w->where->count; i++) {
         const int column = column_named(r, w->where->key[i], w->where->key[i]->text);
         double value;
         if (column < 0 || column >= count || w->where->item[i]->kind != DOCUMENT_TEXT ||
@@ -150,10 +152,11 @@ static void read_lines(map_reader *r, FILE *from, const char *path, wanted list[
         const int numbers = numbers_of(line, number);
         if (numbers == 0 && begin[0] != '\0')
             memcpy(heading, begin, sizeof heading);
-        for (int i = 0; i < count && numbers > 0; i++)
-            if (ends_in(path, list[i].file) &&
-                strncmp(heading, list[i].under, strlen(list[i].under)) == 0)
-                take_row(r, &list[i], number, numbers, at);
+        if (numbers > 0)
+            for (int i = 0; i < count; i++)
+                if (ends_in(path, list[i].file) &&
+                    strncmp(heading, list[i].under, strlen(list[i].under)) == 0)
+                    take_row(r, &list[i], number, numbers, at);
     }
     free(line);
 }

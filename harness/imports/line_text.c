@@ -19,15 +19,22 @@ char *line_trim(char *line)
     return line;
 }
 
+/* Bytes that follow the first one of a character; 0: it is none of several. */
+static int following(unsigned char first)
+{
+    if (first < 0xc2 || first >= 0xf5)
+        return 0;
+    if (first < 0xe0)
+        return 1;
+    return first < 0xf0 ? 2 : 3;
+}
+
 /* Bytes of the character that begins here; 0: none that is allowed. */
 static int character_length(const unsigned char *at)
 {
     if (at[0] < 0x80)
         return at[0] >= 0x20 && at[0] != 0x7f ? 1 : at[0] == '\t';
-    const int more = at[0] >= 0xc2 && at[0] < 0xe0   ? 1
-                     : at[0] >= 0xe0 && at[0] < 0xf0 ? 2
-                     : at[0] >= 0xf0 && at[0] < 0xf5 ? 3
-                                                     : 0;
+    const int more = following(at[0]);
     for (int i = 1; i <= more; i++)
         if ((at[i] & 0xc0) != 0x80)
             return 0;

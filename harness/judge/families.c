@@ -99,11 +99,9 @@ static char *source_of(const sweep *s, const families_limit *l)
     size_t used = 0;
     for (int k = 0; k < l->families && used < sizeof text; k++) {
         const formulation *one = &s->series[l->series[k]].formulation;
+        const char *before = k < l->families - 1 ? ", " : " and ";
         used += (size_t)snprintf(text + used, sizeof text - used, "%s%.40s (%.12s)",
-                                 k == 0                ? ""
-                                 : k < l->families - 1 ? ", "
-                                                       : " and ",
-                                 one->key, one->type->family);
+                                 k > 0 ? before : "", one->key, one->type->family);
     }
     if (used < sizeof text)
         snprintf(text + used, sizeof text - used, " agree");

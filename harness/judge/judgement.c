@@ -170,7 +170,9 @@ void judgement_doubts(const sweep *s, const truths *t, char wanted[])
     for (int i = 0; i < s->seriess; i++) {
         const point *p = &s->point[s->series[i].point];
         wanted[i] = 0;
-        for (int q = 0; q < p->scene.quantities && !wanted[i] && s->series[i].imported == NULL; q++)
+        if (s->series[i].imported != NULL)
+            continue;
+        for (int q = 0; q < p->scene.quantities && !wanted[i]; q++)
             wanted[i] = p->scene.quantity[q].reduction != SCENE_CURVE &&
                         sweep_selects(s, p, &s->series[i].formulation, p->scene.quantity[q].name) &&
                         noise_may_decide(s, t, i, q);

@@ -47,20 +47,21 @@ static int write_unreferenced(FILE *to, const sweep *s, const truths *t)
 {
     const char *before = "; no reference, neither a truth nor an agreement of two families, for ";
     int known = 0;
-    for (int q = 0; s->seriess > 0 && q < s->point[s->series[0].point].scene.quantities; q++) {
-        const point *p = &s->point[s->series[0].point];
-        int found = 0;
-        if (p->scene.quantity[q].reduction == SCENE_CURVE)
-            continue;
-        for (int i = 0; i < s->seriess; i++)
-            found |= verdict_reference(t, p, &s->series[i].formulation, q) != NULL;
-        known += found;
-        if (found)
-            continue;
-        if (to != NULL)
-            fprintf(to, "%s%s", before, p->scene.quantity[q].name);
-        before = ", ";
-    }
+    if (s->seriess > 0)
+        for (int q = 0; q < s->point[s->series[0].point].scene.quantities; q++) {
+            const point *p = &s->point[s->series[0].point];
+            int found = 0;
+            if (p->scene.quantity[q].reduction == SCENE_CURVE)
+                continue;
+            for (int i = 0; i < s->seriess; i++)
+                found |= verdict_reference(t, p, &s->series[i].formulation, q) != NULL;
+            known += found;
+            if (found)
+                continue;
+            if (to != NULL)
+                fprintf(to, "%s%s", before, p->scene.quantity[q].name);
+            before = ", ";
+        }
     return known;
 }
 

@@ -12,8 +12,9 @@ void builder_springs(builder *b)
         const int count = fields_values(&f, "stiffness", &given);
         if (count == 36)
             memcpy(stiffness, given, sizeof stiffness);
-        for (int k = 0; k < 6 && count == 6; k++)
-            stiffness[7 * k] = given[k];
+        if (count == 6)
+            for (int k = 0; k < 6; k++)
+                stiffness[7 * k] = given[k];
         if (count != 6 && count != 36)
             document_mistake(b->mistakes, document_find(f.map, "stiffness"), 0,
                              "stiffness: %d numbers; give six, or the 36 of a matrix", count);

@@ -153,23 +153,29 @@ static const scene_key prediction[] = {
     {"source", KEY_TEXT, .needed = 1, .summary = "of the model"},
     {.name = NULL}};
 
-#define KIND(NAME, BELOW, SUMMARY)                                                                 \
-    {                                                                                              \
-        NAME, KEY_MAP, .needed = 1, .group = 1, .below = BELOW, .summary = SUMMARY                 \
-    }
-
 const scene_key keys_quantity[] = {
-    KIND("displacement", component, "or rotation, of a node"),
-    KIND("reaction", reaction, "of a held or driven component"),
-    KIND("compliance", entry, "entry of the matrix"),
-    KIND("stiffness", diagonal, "1/compliance, the other components free"),
-    KIND("critical_factor", critical, "critical load factor"),
-    KIND("frequency", frequency, "natural frequency"),
-    KIND("growth", whole, "largest rate of growth of a small motion"),
-    KIND("factor_at", whole, "load factor where the control coordinate has a value"),
-    KIND("critical_point", critical_point, "where the tangent is singular"),
-    KIND("motion", motion, "value of an unknown motion"),
-    KIND("internal", internal, "resultant of stresses on a section of a member"),
+    {"displacement", KEY_MAP, .needed = 1, .group = 1, .below = component,
+     .summary = "or rotation, of a node"},
+    {"reaction", KEY_MAP, .needed = 1, .group = 1, .below = reaction,
+     .summary = "of a held or driven component"},
+    {"compliance", KEY_MAP, .needed = 1, .group = 1, .below = entry,
+     .summary = "entry of the matrix"},
+    {"stiffness", KEY_MAP, .needed = 1, .group = 1, .below = diagonal,
+     .summary = "1/compliance, the other components free"},
+    {"critical_factor", KEY_MAP, .needed = 1, .group = 1, .below = critical,
+     .summary = "critical load factor"},
+    {"frequency", KEY_MAP, .needed = 1, .group = 1, .below = frequency,
+     .summary = "natural frequency"},
+    {"growth", KEY_MAP, .needed = 1, .group = 1, .below = whole,
+     .summary = "largest rate of growth of a small motion"},
+    {"factor_at", KEY_MAP, .needed = 1, .group = 1, .below = whole,
+     .summary = "load factor where the control coordinate has a value"},
+    {"critical_point", KEY_MAP, .needed = 1, .group = 1, .below = critical_point,
+     .summary = "where the tangent is singular"},
+    {"motion", KEY_MAP, .needed = 1, .group = 1, .below = motion,
+     .summary = "value of an unknown motion"},
+    {"internal", KEY_MAP, .needed = 1, .group = 1, .below = internal,
+     .summary = "resultant of stresses on a section of a member"},
     {.name = "stress", .kind = KEY_LATER, .group = 1},
     {.name = "energy", .kind = KEY_LATER, .group = 1},
     {.name = "momentum", .kind = KEY_LATER, .group = 1},

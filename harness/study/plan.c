@@ -94,8 +94,9 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
         missing_words(&p->scene, chosen->type, one->missing, sizeof one->missing);
     for (int i = 0; i < p->scene.meshes; i++)
         add_mesh(one, p->scene.mesh[i]);
-    for (int i = 0; i < s->doublings && one->meshes > 0; i++)
-        add_mesh(one, 2 * one->mesh[one->meshes - 1]);
+    if (one->meshes > 0)
+        for (int i = 0; i < s->doublings; i++)
+            add_mesh(one, 2 * one->mesh[one->meshes - 1]);
     if (t != NULL)
         for (int i = 0; i < t->rows; i++)
             if (t->row[i].elements > 0 && strcmp(t->row[i].formulation, chosen->key) == 0 &&

@@ -64,8 +64,9 @@ static double mesh_value(const beam *b, int k, int vibration)
     double K[16], G[16], M[16], form[2][3];
     const double phase = k * PI * b->h;
     matrices_beam(b->h, K, G, M);
+    const double *const both[] = {K, vibration ? M : G};
     for (int which = 0; which < 2; which++) {
-        const double *e = which == 0 ? K : vibration ? M : G;
+        const double *e = both[which];
         form[which][0] = e[0] + e[10] + 2 * e[2] * cos(phase);
         form[which][1] = (e[6] - e[3]) * sin(phase);
         form[which][2] = e[5] + e[15] + 2 * e[7] * cos(phase);

@@ -29,8 +29,10 @@ static void fill_random(int n, kind what, uint64_t *seed, double A[])
                 A[j * n + j] += fabs(value);
             }
         }
-    for (int i = 0; i < n; i++)
-        A[i * n + i] += what == DEFINITE ? 0.03 : what == INDEFINITE ? 4 * random_number(seed) : 1;
+    for (int i = 0; i < n; i++) {
+        const double other = what == INDEFINITE ? 4 * random_number(seed) : 1;
+        A[i * n + i] += what == DEFINITE ? 0.03 : other;
+    }
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             A[i * n + j] *= (i % 3 == 0 ? 1e3 : 1) * (j % 3 == 0 ? 1e3 : 1);
@@ -164,7 +166,7 @@ static void condition_of_a_triangle(void)
     for (int j = 0; j < N; j++) {
         for (int i = j > 0 ? j - 1 : 0; i <= j + 1 && i < N; i++) {
             const double scale = (i == N - 1 ? 1 : sqrt(2)) * (j == N - 1 ? 1 : sqrt(2));
-            const double entry = i != j ? -1 : j == N - 1 ? 1 : 2;
+            const double diagonal = j == N - 1 ? 1 : 2, entry = i != j ? -1 : diagonal;
             dense[i * N + j] = entry / scale;
             whole_row[whole] = i;
             whole_value[whole++] = entry;

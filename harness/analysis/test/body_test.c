@@ -55,9 +55,10 @@ static scene_body body_of_points(const double from[3])
 
 static void add_body(scene *s, int hub, int as)
 {
-    for (int k = 0; k < MASSES && as == POINTS; k++)
-        scene_set_body(s, scene_add_attached(s, hub, point[k][0], point[k][1], point[k][2]),
-                       (scene_body){.mass = mass[k]});
+    if (as == POINTS)
+        for (int k = 0; k < MASSES; k++)
+            scene_set_body(s, scene_add_attached(s, hub, point[k][0], point[k][1], point[k][2]),
+                           (scene_body){.mass = mass[k]});
     if (as == AT_HUB)
         scene_set_body(s, hub, body_of_points(hub_at));
     if (as == BESIDE)

@@ -48,7 +48,10 @@ static int grow(sample *s, uint64_t *seed, int depth, int around)
         value = !grow(s, seed, depth - 1, NOT);
     } else {
         value = grow(s, seed, depth - 1, kind);
-        add(s, kind == OR ? " or " : random_below(seed, 2) ? " and " : "\t");
+        if (kind == OR)
+            add(s, " or ");
+        else
+            add(s, random_below(seed, 2) ? " and " : "\t");
         const int right = grow(s, seed, depth - 1, kind);
         value = kind == OR ? value || right : value && right;
     }

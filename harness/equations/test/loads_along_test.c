@@ -49,8 +49,8 @@ static void along_a_member(const char *name, int nodes)
     double F[MOST], sum[3] = {0};
     forces_along(LINE, name, 1, 0, nodes, F);
     for (int k = 0; k < nodes; k++) {
-        const int place = k == 0 ? 0 : k == 1 ? nodes - 1 : 1;
-        const double x = 2.0 * place / (nodes - 1), force = F[k];
+        const int place[] = {0, nodes - 1, 1};
+        const double x = 2.0 * place[k] / (nodes - 1), force = F[k];
         for (int power = 0; power < 3; power++)
             sum[power] += force * pow(x, power);
     }

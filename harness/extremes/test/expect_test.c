@@ -40,7 +40,8 @@ static void kinds(void)
                   skip = kind == OUTCOME_SKIP;
         const extreme_count c = judged(kind, NULL, 1, &unexpected, &code);
         gsl_test_int(unexpected, !good && !skip, "%s: without a finding", outcome_name(kind));
-        gsl_test_int(code, skip ? 3 : good ? 0 : 1, "%s: its exit code", outcome_name(kind));
+        const int failed = good ? 0 : 1;
+        gsl_test_int(code, skip ? 3 : failed, "%s: its exit code", outcome_name(kind));
         gsl_test_int(c.tried, !skip, "%s: tried", outcome_name(kind));
         gsl_test_int(c.survived, good, "%s: survived", outcome_name(kind));
         gsl_test_int(c.coarse, kind == OUTCOME_COARSE, "%s: coarse", outcome_name(kind));

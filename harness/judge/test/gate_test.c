@@ -109,7 +109,9 @@ static void throw_errors(double error[MESHES])
     for (int i = 0; i < MESHES; i++) {
         const double size =
             uniform() < 0.2 ? reach_level[rand() % REACH_LEVELS] : pow(10, -6 * uniform());
-        error[i] = uniform() < 0.1 ? NAN : uniform() < 0.5 ? -size : size;
+        error[i] = NAN;
+        if (uniform() >= 0.1)
+            error[i] = uniform() < 0.5 ? -size : size;
     }
 }
 
@@ -129,9 +131,10 @@ static int by_definition(const double error[MESHES], double level)
 static int fastest_by_definition(const timed *t, int first)
 {
     int best = first;
-    for (int i = first; first >= 0 && i < MESHES; i++)
-        if (t->timing[i].as_is.round[0] < t->timing[best].as_is.round[0])
-            best = i;
+    if (first >= 0)
+        for (int i = first; i < MESHES; i++)
+            if (t->timing[i].as_is.round[0] < t->timing[best].as_is.round[0])
+                best = i;
     return best;
 }
 

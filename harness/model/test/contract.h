@@ -53,12 +53,13 @@ static inline status contract_settled(const subject *s, const double e[], double
 {
     double memory[4096], residual = 1;
     const double none[MOST_STRAINS] = {0};
-    for (int i = 0; i < 30 && s->inner > 0; i++) {
-        TRY(s->type->stress(s->data, e, inner,
-                            &(stress_output){.residual = &residual, .memory = memory}));
-        if (s->type->update(s->data, none, memory, inner) < 1e-15)
-            break;
-    }
+    if (s->inner > 0)
+        for (int i = 0; i < 30; i++) {
+            TRY(s->type->stress(s->data, e, inner,
+                                &(stress_output){.residual = &residual, .memory = memory}));
+            if (s->type->update(s->data, none, memory, inner) < 1e-15)
+                break;
+        }
     out->memory = s->memory > 0 ? memory : NULL;
     const status outcome = s->type->stress(s->data, e, inner, out);
     out->memory = NULL;

@@ -44,11 +44,12 @@ static void rounding(const case_type *type)
              f.text);
     gsl_test(s.series[0].noise != NULL, "not where it is not wanted");
     for (int i = 1; i < count; i++)
-        for (int q = 0; q < s.point[0].scene.quantities && s.series[i].noise != NULL; q++)
-            if (isfinite(s.series[i].noise[q])) {
-                measured++;
-                largest = fmax(largest, s.series[i].noise[q]);
-            }
+        if (s.series[i].noise != NULL)
+            for (int q = 0; q < s.point[0].scene.quantities; q++)
+                if (isfinite(s.series[i].noise[q])) {
+                    measured++;
+                    largest = fmax(largest, s.series[i].noise[q]);
+                }
     gsl_test(measured == 0 || !(largest > 0 && largest < 1e-6), "%s: %d values, largest noise %.1e",
              type->name, measured, largest);
     gsl_test_int(noise_cells(&s), 2 * (sweep_cells(&s) / 2 - (s.series[0].missing[0] == '\0')),

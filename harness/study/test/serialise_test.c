@@ -15,10 +15,11 @@ static void round_trips(dice *d)
     FILE *file = tmpfile();
     int unwritten = 0, unread = 0;
     difference first = {NULL};
-    for (int i = 0; i < CELLS && file != NULL; i++) {
-        sent[i] = random_cell(d);
-        unwritten += serialise_write(file, &sent[i]) != 0;
-    }
+    if (file != NULL)
+        for (int i = 0; i < CELLS; i++) {
+            sent[i] = random_cell(d);
+            unwritten += serialise_write(file, &sent[i]) != 0;
+        }
     rewind(file);
     for (int i = 0; i < CELLS; i++) { /* one behind the other, as a worker sends them */
         cell_result got;
