@@ -4,7 +4,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-double memory_limit(void)
+/* Memory of the machine, or what this process may use of it [byte]. */
+static double usable(void)
 {
     struct rlimit own;
     const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
@@ -16,7 +17,7 @@ double memory_limit(void)
 
 status memory_check(double bytes, const char *what, const char *remedy, fault *f)
 {
-    const double giga = 1e9, limit = memory_limit();
+    const double giga = 1e9, limit = usable();
     if (bytes <= limit)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED, "%s need more than memory allows (%.3g of %.3g GB); %s",

@@ -5,9 +5,6 @@
 
 #include "elements/shared/status.h"
 
-/* Memory of the machine, or what this process may use of it [byte]. */
-double memory_limit(void);
-
 /* REFUSED when `what` needs more than that. bytes: at least so many. */
 status memory_check(double bytes, const char *what, const char *remedy, fault *f);
 

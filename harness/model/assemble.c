@@ -27,7 +27,8 @@ static int stored(const mesh_pattern *p, int row, int column)
            (!p->matrix.symmetric || row <= column);
 }
 
-double *assemble_entry(sparse *a, int row, int column)
+/* NULL when not stored. */
+static double *place_of(sparse *a, int row, int column)
 {
     int low = a->column[column], high = a->column[column + 1] - 1;
     while (low <= high) {
@@ -46,7 +47,7 @@ void assemble_subtract(sparse *K, int row, int column, double value)
 {
     if (row < 0 || column < 0 || row >= K->n || column >= K->n || (K->symmetric && row > column))
         return;
-    double *entry = assemble_entry(K, row, column);
+    double *entry = place_of(K, row, column);
     if (entry != NULL)
         *entry -= value;
 }
@@ -217,7 +218,7 @@ void assemble_discrete(const mesh_element *el, const double K[], sparse *out)
             const int row = el->index[a], column = el->index[b];
             if (row != NONE && column != NONE && row < out->n && column < out->n &&
                 (!out->symmetric || row <= column))
-                *assemble_entry(out, row, column) += K[n * a + b];
+                *place_of(out, row, column) += K[n * a + b];
         }
 }
 

@@ -179,7 +179,6 @@ void assemble_matrix(const mesh_pattern *p, int element, const double K[], spars
 /* The same of a discrete element, whose places are looked for. */
 void assemble_discrete(const mesh_element *el, const double K[], sparse *out);
 void assemble_vector(const mesh_element *el, const double local[], double out[]);
-double *assemble_entry(sparse *a, int row, int column); /* NULL when not stored */
 /* Nothing where it is not stored. */
 void assemble_subtract(sparse *a, int row, int column, double value);
 

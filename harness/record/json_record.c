@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-json_t *json_number(double value)
+static json_t *number(double value)
 {
     return isfinite(value) ? json_real(value) : json_null();
 }
@@ -11,7 +11,7 @@ json_t *json_numbers(int count, const double value[])
 {
     json_t *list = json_array();
     for (int i = 0; i < count; i++)
-        json_array_append_new(list, json_number(value[i]));
+        json_array_append_new(list, number(value[i]));
     return list;
 }
 
@@ -32,7 +32,7 @@ static json_t *json_of(const schema_field *which, const field_value *v)
     if (which->kind == FIELD_FLAG)
         return json_boolean(v->whole);
     if (which->kind == FIELD_DOUBLE)
-        return which->count > 0 ? matrix(which->count, v->numbers) : json_number(*v->numbers);
+        return which->count > 0 ? matrix(which->count, v->numbers) : number(*v->numbers);
     return json_string(v->text);
 }
 

@@ -6,7 +6,7 @@
 
 #include "harness/schema/schema.h"
 
-json_t *json_number(double value); /* JSON has no NaN: a value that does not exist is null */
+/* JSON has no NaN: a value that does not exist is null. */
 json_t *json_numbers(int count, const double value[]);
 /* keys: KEY_AROUND where nothing around the record says where it belongs; 0: all of it is said. */
 json_t *json_record(const record_type *type, const subject *s, int keys);

@@ -100,11 +100,6 @@ void record_text(record *r, hid_t at, const char *name, const char *text)
     H5Tclose(type);
 }
 
-void record_number(record *r, hid_t at, const char *name, double value)
-{
-    put(r, at, name, H5T_NATIVE_DOUBLE, &value);
-}
-
 void record_count(record *r, hid_t at, const char *name, long value)
 {
     put(r, at, name, H5T_NATIVE_LONG, &value);

@@ -23,7 +23,6 @@ hid_t record_group(record *r, hid_t at, const char *name);
 void record_text(record *r, hid_t at, const char *name, const char *text);
 /* An attribute text[count]. */
 void record_text_list(record *r, hid_t at, const char *name, int count, const char *const text[]);
-void record_number(record *r, hid_t at, const char *name, double value);
 void record_count(record *r, hid_t at, const char *name, long value);
 /* Two whole numbers; a text in ASCII of exactly its length (what VTK expects). */
 void record_version(record *r, hid_t at, const char *name, const int version[2]);
