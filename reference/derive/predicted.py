@@ -131,13 +131,18 @@ def joints():
                 yield name, "spherical_joint", at, quantity, value, "N/m", RELATIVE
 
 
+HEXAPODS = (({}, SHEETS), ({"wagner": 0}, ("beamw", *SHEETS)))
+
+
 def hexapods():
-    """One formulation: a minute."""
-    name, given = "sheet_third", {"wagner": 0}
-    at, curve = sheets.parameters(given), hexapod.stiffness_curve(form=as_printed(name), **given)
-    for k, (stiffness, _) in enumerate(curve):
-        yield name, "hexapod", at, f"support_stiffness_{k + 1}", stiffness, "N/m", RELATIVE
-    yield name, "hexapod", at, "crank_angle", curve[-1][1], "rad", RELATIVE
+    """A minute and a half apiece."""
+    for given, names in HEXAPODS:
+        at = sheets.parameters(given)
+        for name in names:
+            curve = hexapod.stiffness_curve(form=as_printed(name), **given)
+            for k, (stiffness, _) in enumerate(curve):
+                yield name, "hexapod", at, f"support_stiffness_{k + 1}", stiffness, "N/m", RELATIVE
+            yield name, "hexapod", at, "crank_angle", curve[-1][1], "rad", RELATIVE
 
 
 def channel_rows(name, given, deflections, points, relative):

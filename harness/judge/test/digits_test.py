@@ -38,6 +38,7 @@ PASSES = (
 SLOW = (("frequency_3", ()), ("frequency_6", ()), ("frequency_6", ("axial_load=0",)))
 JOINT = "fold_warping=free", "wagner=0", "tilt=0.1", "steps=10"
 FOLDS = "1,2,4,8,16,32,64,128"
+PRINTED = ("beamw", "sheet_second", "sheet_third", "sheet_third_printed", "sheet_second_consistent")
 
 
 class Digits(ProgramTest):
@@ -93,22 +94,31 @@ class Digits(ProgramTest):
         self.assertEqual(fine["verdict"], "wrong limit, as predicted")
         self.assertLess(abs(fine["limit"] / fine["predicted"] - 1), 1e-7)
 
-    def from_prediction(self, formulation):
-        """{elements: distance of the joint's stiffness from the predicted limit, relative}"""
-        found = self.limit("spherical_joint", formulation, JOINT, "support_stiffness_max", FOLDS)
+    def from_prediction(self, case, formulation, given, quantity, meshes):
+        """{elements: distance of a stiffness from the predicted limit, relative}"""
+        found = self.limit(case, formulation, given, quantity, meshes)
         return {mesh["elements"]: abs(mesh["value"] / found["predicted"] - 1)
                 for mesh in found["meshes"]}
 
     def test_joints(self):
         """From 32 elements a sheet on they are shorter than it is thick: the distance from the
         prediction falls with every mesh, in proportion at least."""
-        for formulation in ("beamw", "sheet_second", "sheet_third", "sheet_third_printed",
-                            "sheet_second_consistent"):
+        for formulation in PRINTED:
             with self.subTest(formulation=formulation):
-                apart = self.from_prediction(formulation)
+                apart = self.from_prediction("spherical_joint", formulation, JOINT,
+                                             "support_stiffness_max", FOLDS)
                 self.assertLess(apart[128], 4e-6)
                 self.assertLess(apart[64], 0.6 * apart[32])
                 self.assertLess(apart[128], 0.6 * apart[64])
+
+    def test_hexapod(self):
+        """The same of its twelve joints at the end of the stroke."""
+        for formulation in PRINTED:
+            with self.subTest(formulation=formulation):
+                apart = self.from_prediction("hexapod", formulation, ("wagner=0",),
+                                             "support_stiffness_11", "32,64")
+                self.assertLess(apart[64], 4e-5)
+                self.assertLess(apart[64], 0.6 * apart[32])
 
 
 if __name__ == "__main__":
