@@ -21,7 +21,8 @@ enum element_feature {
     FEATURE_MASS = 1 << 10,
     FEATURE_ROTARY_INERTIA = 1 << 11,
     FEATURE_CURVATURE = 1 << 12,
-    FEATURE_END = 1 << 13
+    FEATURE_COUPLED = 1 << 13,
+    FEATURE_END = 1 << 14
 };
 
 typedef struct feature_row {
@@ -47,6 +48,8 @@ static inline const feature_row *feature_row_of(unsigned bit)
         {FEATURE_MASS, "mass", "inertia"},
         {FEATURE_ROTARY_INERTIA, "rotary inertia", "rotary and warping inertia in it"},
         {FEATURE_CURVATURE, "initial curvature", "initial curvature and strain"},
+        {FEATURE_COUPLED, "coupled section",
+         "stiffness and mass matrices of a section with any entries"},
         {0, "unknown", "unknown"}};
     const feature_row *one = row;
     while (one->bit != 0 && one->bit != bit)

@@ -18,6 +18,11 @@ static void mirror_section(section_spec *spec)
                            &c->F[7],        &c->axes_angle,   &c->centroid[0]};
     for (size_t i = 0; i < sizeof odd / sizeof odd[0]; i++)
         *odd[i] = -*odd[i];
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++) { /* stress resultants, and velocities */
+            c->stiffness[6 * i + j] *= (i % 3 == 2) != (j % 3 == 2) ? -1 : 1;
+            c->mass[6 * i + j] *= (i % 3 == 2) != (j % 3 == 2) ? -1 : 1;
+        }
 }
 
 static status reverse(scene *s, fault *f)

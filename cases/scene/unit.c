@@ -35,6 +35,11 @@ static void scale_constants(section *c, double x)
                            {&c->width, 1},       {&c->height, 1},
                            {&c->centroid[0], 1}, {&c->centroid[1], 1}};
     SCALE(list, x);
+    for (int i = 0; i < 36; i++) { /* forces, then moments */
+        const int power = (i / 6 > 2) + (i % 6 > 2);
+        c->stiffness[i] *= pow(x, power);
+        c->mass[i] *= pow(x, power - 2);
+    }
     for (int i = 0; i < 9; i++) { /* order y, z, omega */
         const int power = 2 + (i / 3 == 2) + (i % 3 == 2);
         c->D[i] *= pow(x, power);

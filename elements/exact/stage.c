@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "elements/exact/coupled.h"
 #include "elements/math/dense.h"
 
 void exact_stage_at(int nodes, const double N[], const double dN[], const double x[],
@@ -24,6 +25,8 @@ void exact_stage_at(int nodes, const double N[], const double dN[], const double
 double exact_stage_material(const beam_constants *c, const double kappa[3], const double N[3],
                             double T, double gradient[6], double M[36])
 {
+    if (c->coupled)
+        return exact_coupled_material(c, kappa, N, gradient, M);
     const double k = kappa[0];
     const double ky = kappa[1] + c->bend_y * k * k / 2, kz = kappa[2] + c->bend_z * k * k / 2,
                  My = c->EIy * ky, Mz = c->EIz * kz;

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "elements/exact/coupled.h"
 #include "elements/exact/fields.h"
 #include "elements/math/dense.h"
 
@@ -43,6 +44,12 @@ status exact_stiffness_prepare(const element_request *request, int nodes, exact_
     double X[EXACT_FIELDS_MAX_ALL * EXACT_STIFFNESS_MAX_STRAINS];
     memset(out, 0, sizeof *out);
     TRY(beam_constants_of(request, &c, fault_out));
+    if (c.coupled) {
+        out->strains = 6 * (nodes - 1) + nodes;
+        out->points = nodes - 1;
+        out->l0 = request->length;
+        return exact_coupled_stiffness(&c, out->points, out->strains, out->l0, out->S, fault_out);
+    }
     exact_fields_prepare(&c, nodes, &f);
     out->strains = f.strains;
     out->points = f.points;

@@ -6,6 +6,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/pi.h"
+#include "elements/section/matrices.h"
 #include "elements/section/walls.h"
 
 void section_spec_init(section_spec *spec)
@@ -232,6 +233,7 @@ static status constants_of(const section_spec *spec, section *out, fault *f)
     case SECTION_TUBE:
         return tube(spec, out, f);
     case SECTION_CONSTANTS:
+    case SECTION_MATRICES:
         break;
     }
     *out = spec->constants;
@@ -240,6 +242,10 @@ static status constants_of(const section_spec *spec, section *out, fault *f)
 
 status section_compute(const section_spec *spec, section *out, fault *f)
 {
+    if (spec->kind == SECTION_MATRICES) {
+        memset(out, 0, sizeof *out);
+        return section_matrices(spec, out, f);
+    }
     TRY(check_material(spec, f));
     memset(out, 0, sizeof *out);
     TRY(constants_of(spec, out, f));

@@ -1,7 +1,7 @@
 /* Cross-section constants: what a beam element needs to know of a section.
  *
  * Axes: x along the line of centroids, y and z principal.  A section is given
- * by straight thin walls (open, or with closed cells), as a solid rectangle, as a round tube, or by its numbers. */
+ * by straight thin walls (open, or with closed cells), as a solid rectangle, as a round tube, by its numbers, or by two matrices. */
 #ifndef BEAMWORK_SECTION_H
 #define BEAMWORK_SECTION_H
 
@@ -27,9 +27,11 @@ typedef struct section {
     double D
         [9]; /* shear rigidities / G, order y, z, omega [m^2, m^2, m^4; m^3 off the diagonal]: (Qy, Qz, Mw) = G D (gy, gz, gw) */
     double F[9]; /* D^-1, kept because it exists when D would be infinite (F = 0: shear-rigid) */
-    double axes_angle;  /* beta [rad]: principal y axis from the wall y axis */
-    double centroid[2]; /* in wall coordinates [m] */
-    int rectangle;      /* 1: a solid rectangle with the sizes below */
+    double axes_angle;              /* beta [rad]: principal y axis from the wall y axis */
+    double centroid[2];             /* in wall coordinates [m] */
+    int matrices;                   /* 1: a section by its matrices (matrices.h) */
+    double stiffness[36], mass[36]; /* of that; else zero */
+    int rectangle;                  /* 1: a solid rectangle with the sizes below */
     double width,
         height; /* of the rectangle: `width` along z (the sheet's w), `height` along y (its t) [m] */
 } section;
@@ -38,7 +40,8 @@ typedef enum section_kind {
     SECTION_WALLS,
     SECTION_RECTANGLE,
     SECTION_TUBE,
-    SECTION_CONSTANTS
+    SECTION_CONSTANTS,
+    SECTION_MATRICES
 } section_kind;
 
 /* What a scene says of a section; section_compute turns it into constants. */
@@ -58,7 +61,8 @@ typedef struct section_spec {
         [2]; /* rectangle: k for Qy and Qz; 0: 5/6 from the thickness terms; both 0: their warping shear too */
     int sheet_warping; /* rectangle: Iw = w^3 t^3/144 (same) and It = exact Saint-Venant series in either case */
     double diameter, wall_thickness; /* tube: outer diameter; half of it: a solid bar [m] */
-    section constants;               /* SECTION_CONSTANTS: taken as given; D or F must be given */
+    section
+        constants; /* SECTION_CONSTANTS: taken as given; D or F must be given.  SECTION_MATRICES: stiffness and mass; no material */
     /* Overrides applied after computing (a printed table's rounded values); NAN: keep what was computed. */
     struct {
         double Iw, ys, zs, Dy, Dz, Dw, Dyz, Dyw, Dzw, It, Ip;

@@ -109,7 +109,7 @@ static status check_warping(const section_spec *p, const section_spec *q,
 status section_taper_check(const section_spec *p, const section_spec *q,
                            const section *const ends[2], fault *f)
 {
-    static const char *const form[] = {"walls", "a rectangle", "a tube", "constants"};
+    static const char *const form[] = {"walls", "a rectangle", "a tube", "constants", "matrices"};
     if (p->kind != q->kind)
         return fault_set(f, STATUS_REFUSED,
                          "its section changes from %s to %s; give both ends the same form",
@@ -164,6 +164,8 @@ static void blend_constants(const section *q, double x, section *out)
                   {&out->wagner_torque, &q->wagner_torque}};
     for (size_t i = 0; i < sizeof number / sizeof number[0]; i++)
         blend(1, x, number[i].q, number[i].p);
+    blend(36, x, q->stiffness, out->stiffness);
+    blend(36, x, q->mass, out->mass);
     blend(9, x, q->D, out->D);
     blend(9, x, q->F, out->F);
 }

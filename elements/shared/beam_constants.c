@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "elements/shared/beam_coupled.h"
+
 status beam_constants_of(const element_request *request, beam_constants *out, fault *f)
 {
     const section *c = request->section;
@@ -19,6 +21,8 @@ status beam_constants_of(const element_request *request, beam_constants *out, fa
     out->GJ = G * c->It;
     out->warping = (has & FEATURE_WARPING) != 0;
     memcpy(out->initial, request->strain, sizeof out->initial);
+    if (c->matrices)
+        TRY(beam_coupled_of(c, l0, EI, out, f));
     out->EIw = E * c->Iw / (l0 * l0);
     const double scale[3] = {1 / l0, 1 / l0, 1};
     if (has & FEATURE_SHEAR)

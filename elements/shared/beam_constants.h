@@ -16,6 +16,9 @@ typedef struct beam_constants {
     double torque;     /* energy torque kappa_x^4 per length */
     double initial[3]; /* strains gx, gy, gz without stress */
     int warping;
+    int coupled; /* 1: of a section by its matrices; only what follows, energy, initial and warping = 0 count (beam_coupled.h) */
+    double C[36];     /* (N, Q, M) = C (gamma, kappa) */
+    double mixed[36]; /* (M, -gamma) = mixed (kappa, N) */
 } beam_constants;
 
 status beam_constants_of(const element_request *request, beam_constants *out, fault *f);
@@ -26,6 +29,6 @@ status beam_constants_of(const element_request *request, beam_constants *out, fa
     .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE |              \
               FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE | FEATURE_HARINGX |                   \
               FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_CURVATURE | FEATURE_MASS |               \
-              FEATURE_ROTARY_INERTIA
+              FEATURE_ROTARY_INERTIA | FEATURE_COUPLED
 
 #endif

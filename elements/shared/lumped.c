@@ -4,10 +4,51 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/section/matrices.h"
 #include "elements/shared/moving.h"
+
+static void add_vector(lumped_mass *l, double mass, const double a[3])
+{
+    if (mass != 0) {
+        memcpy(l->vector[l->vectors], a, sizeof l->vector[0]);
+        l->carried[l->vectors++] = mass;
+    }
+}
+
+/* Inertia J about the centre is that of masses A = (tr J/2) 1 - J = sum_i (A_ii - sum_j A_ij) e_i e_i^T + sum_i<j A_ij (e_i +
+ * e_j)(e_i + e_j)^T, of either sign. */
+static lumped_mass of_matrices(const section *c, double length)
+{
+    lumped_mass out = {.mass = c->mass[0] * length, .turns = 1};
+    double centre[3], A[9], trace = 0;
+    section_matrices_centre(c, centre);
+    memcpy(out.vector[0], centre, sizeof centre);
+    out.carried[0] = out.mass;
+    out.vectors = 1;
+    const double square = vec3_dot(centre, centre);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            A[3 * i + j] = out.mass * ((i == j ? square : 0) - centre[i] * centre[j]) -
+                           length * c->mass[6 * (3 + i) + 3 + j];
+    for (int i = 0; i < 3; i++)
+        trace -= A[4 * i];
+    for (int i = 0; i < 3; i++)
+        A[4 * i] += trace / 2;
+    for (int i = 0; i < 3; i++) {
+        double e[3] = {0, 0, 0};
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        e[i] = 1;
+        add_vector(&out, A[4 * i] - A[3 * i + j] - A[3 * i + k], e);
+        e[j] = 1;
+        add_vector(&out, A[3 * i + j], e);
+    }
+    return out;
+}
 
 lumped_mass lumped_of(const section *c, unsigned features, double length)
 {
+    if (c->matrices)
+        return of_matrices(c, length);
     const double m = c->density * length;
     const int turns = (features & FEATURE_ROTARY_INERTIA) != 0;
     return (lumped_mass){.mass = m * c->A,
@@ -78,9 +119,34 @@ static void add_warping(double mass, const node_state *x, const element_rotating
     }
 }
 
+/* r + R vector[0], and the others turned by R. */
+static void add_vectors(const lumped_mass *l, double share, const node_state *x,
+                        const element_rotating_frame *frame, int at, int n, inertia_output *out)
+{
+    enum { COLUMNS = 6, TURN = 3 };
+    for (int k = 0; k < l->vectors; k++) {
+        double T[3 * COLUMNS] = {0}, F[3], turned[3];
+        moving_vector v = {.mass = share * l->carried[k], .at = at, .columns = COLUMNS, .T = T};
+        mat3_mul_vec(x->R, l->vector[k], turned);
+        memcpy(v.y, turned, sizeof turned);
+        for (int i = 0; i < 3 && k == 0; i++) {
+            T[COLUMNS * i + i] = 1;
+            v.y[i] += x->r[i] - (frame != NULL ? frame->centre[i] : 0);
+        }
+        moving_rotation_gradient(turned, TURN, COLUMNS, T);
+        moving_add(&v, frame, n, out, F);
+        if (out->N != NULL)
+            moving_rotation_stiffness(F, turned, at + TURN, n, out->N);
+    }
+}
+
 void lumped_add(const lumped_mass *l, double share, const node_state *x,
                 const element_rotating_frame *frame, int at, int n, inertia_output *out)
 {
+    if (l->vectors > 0) {
+        add_vectors(l, share, x, frame, at, n, out);
+        return;
+    }
     add_translation(share * l->mass, x, frame, at, n, out);
     if (l->turns)
         add_rotation(l, share, x, frame, at, n, out);

@@ -4,14 +4,19 @@
 
 #include "elements/element.h"
 
+enum { LUMPED_VECTORS = 7 };
+
 typedef struct lumped_mass {
     double mass;      /* [kg] */
     double rotary[3]; /* Ip, Iy, Iz about the columns of R [kg m^2] */
     double warping;   /* [kg m^4] */
     int turns; /* 1: rotary inertia; 0: a twist has inertia, but a rotating frame does nothing to it */
+    int vectors; /* of a section by its matrices, all of its inertia; 0: none, else the rest is not there */
+    double vector[LUMPED_VECTORS][3], carried[LUMPED_VECTORS]; /* fixed to R, with their masses: the
+                                                first is the centre of mass [m], the others are of length 1 or root 2 */
 } lumped_mass;
 
-/* Of `length` [m] of beam.  Without FEATURE_ROTARY_INERTIA only translations and the polar moment of the twist count. */
+/* Of `length` [m] of beam.  A section by its matrices has all that they say.  Of others, without FEATURE_ROTARY_INERTIA only translations and the polar moment of the twist count. */
 lumped_mass lumped_of(const section *c, unsigned features, double length);
 
 /* Adds `share` of it at a node whose coordinates begin at `at` of n. */

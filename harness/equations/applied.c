@@ -6,6 +6,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "elements/section/matrices.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/release.h"
@@ -21,9 +22,9 @@ void applied_member_axes(const double triad[9], const section *of, double R[9])
     }
 }
 
-/* A load on one vertex. axes: those it is given in; NULL: fixed ones. */
+/* A load on one vertex. axes: those it is given in; NULL: fixed ones. beside: where it acts besides `at`, in fixed axes. */
 static applied of_vertex(const model_state *s, int vertex, const scene_load *load, double scale,
-                         const double axes[9])
+                         const double axes[9], const double beside[3])
 {
     applied out = {.vertex = vertex, .follower = load->follower};
     const int moment = load->kind == SCENE_MOMENT || load->kind == SCENE_DISTRIBUTED_MOMENT ? 3 : 0;
@@ -34,6 +35,8 @@ static applied of_vertex(const model_state *s, int vertex, const scene_load *loa
         mat3_mul_vec(axes, load->vector, v);
         mat3_mul_vec(axes, load->at, at);
     }
+    for (int i = 0; i < 3; i++)
+        at[i] += beside[i];
     out.offset = vec3_norm(at) > 0;
     if (out.offset)
         rotation_apply(&s->q[4 * vertex], at, out.arm);
@@ -53,6 +56,19 @@ static double density_of(const model *m, const scene_load *load, const mesh_elem
     return load->kind == SCENE_GRAVITY ? c->density * c->A : 1;
 }
 
+/* Gravity acts at the centre of mass of the undeformed section. */
+static void weight_centre(const model *m, const scene_load *load, const mesh_element *el, int node,
+                          double centre[3])
+{
+    const section *c = &m->section[m->kind[el->kind].section];
+    double at[3];
+    memset(centre, 0, 3 * sizeof *centre);
+    if (load->kind != SCENE_GRAVITY || !c->matrices)
+        return;
+    section_matrices_centre(c, at);
+    mat3_mul_vec(el->triad[node], at, centre);
+}
+
 void applied_element(const model *m, const model_state *s, const scene_load *load, double scale,
                      int element, void (*take)(void *context, const applied *), void *context)
 {
@@ -61,11 +77,12 @@ void applied_element(const model *m, const model_state *s, const scene_load *loa
     for (int k = 0; k < m->nodes; k++) {
         const double weight = scale * (m->nodes == 2 ? two : three)[k] * m->kind[el->kind].length *
                               density_of(m, load, el);
-        double axes[9];
+        double axes[9], centre[3];
         if (load->axes == SCENE_AXES_MEMBER)
             applied_member_axes(el->triad[k], &m->section[m->kind[el->kind].section], axes);
+        weight_centre(m, load, el, k, centre);
         const applied one = of_vertex(s, el->vertex[k], load, weight,
-                                      load->axes == SCENE_AXES_MEMBER ? axes : NULL);
+                                      load->axes == SCENE_AXES_MEMBER ? axes : NULL, centre);
         take(context, &one);
     }
 }
@@ -74,7 +91,8 @@ void applied_each(const model *m, const model_state *s, const scene_load *load, 
                   void (*take)(void *context, const applied *), void *context)
 {
     if (!scene_load_along(load)) {
-        const applied one = of_vertex(s, load->where, load, scale, NULL);
+        static const double none[3] = {0, 0, 0};
+        const applied one = of_vertex(s, load->where, load, scale, NULL, none);
         take(context, &one);
         return;
     }

@@ -5,6 +5,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "elements/section/matrices.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/equations/loads.h"
 
@@ -52,6 +53,8 @@ static void add_load(const distributed *of, const scene_load *load, const double
         mat3_mul_vec(axes, load->at, at);
     }
     mat3_transpose_mul_vec(before, at, moved);
+    if (load->kind == SCENE_GRAVITY && c->matrices)
+        section_matrices_centre(c, moved);
     mat3_mul_vec(R, moved, at);
     if (load->follower) {
         mat3_transpose_mul_vec(before, v, moved);
@@ -69,6 +72,26 @@ static void add_load(const distributed *of, const scene_load *load, const double
     }
 }
 
+/* The same of a section by its matrices: momentum p and h of the velocity v of the line and of omega, -omega x p and -omega x h - v x
+ * p on the line. */
+static void add_rotating_matrices(const section *c, const double omega[3], const double speed[3],
+                                  const double R[9], span_load *out)
+{
+    double v[6], p[6], force[3], momentum[3], turning[3], moving[3];
+    mat3_transpose_mul_vec(R, speed, v);
+    mat3_transpose_mul_vec(R, omega, v + 3);
+    dense_mul_vec(6, 6, c->mass, v, p);
+    mat3_mul_vec(R, p, momentum);
+    vec3_cross(omega, momentum, force);
+    vec3_cross(speed, momentum, moving);
+    mat3_mul_vec(R, p + 3, momentum);
+    vec3_cross(omega, momentum, turning);
+    for (int i = 0; i < 3; i++) {
+        out->force[i] -= force[i];
+        out->moment[i] -= turning[i] + moving[i];
+    }
+}
+
 /* Centrifugal force on the mass at the centroid, and moment on the section's inertia. */
 static void add_rotating(const distributed *of, const span_frame *at, span_load *out)
 {
@@ -80,6 +103,10 @@ static void add_rotating(const distributed *of, const span_frame *at, span_load 
     for (int i = 0; i < 3; i++)
         arm[i] = at->r[i] - frame.centre[i];
     vec3_cross(frame.omega, arm, speed);
+    if (c->matrices) {
+        add_rotating_matrices(c, frame.omega, speed, at->R, out);
+        return;
+    }
     vec3_cross(frame.omega, speed, force);
     for (int i = 0; i < 3; i++)
         out->force[i] -= c->density * c->A * force[i];

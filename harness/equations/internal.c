@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/section/taper.h"
 #include "harness/equations/distributed.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/equations/loads.h"
@@ -56,19 +57,29 @@ static void ends_of(model *m, const internal_state *s, int i, node_state x[], do
     }
 }
 
-/* The element has a section of its own where it changes along the member, with other axes than at the end. */
-static void turn_to_end(const model *m, int member, int end, const mesh_element *el, double R[9])
+/* The element has a section of its own where it changes along the member, whose axes are not those at the place: the angle between
+ * them [rad]. */
+static double axes_turned(const model *m, int member, double place, const mesh_element *el)
 {
-    const scene_member *sm = &m->scene->member[member];
-    const double angle = m->section[end ? sm->section_q : sm->section].axes_angle -
-                         m->section[m->kind[el->kind].section].axes_angle,
-                 c = cos(angle), d = sin(angle);
-    if (angle != 0)
-        for (int i = 0; i < 9; i += 3) {
-            const double y = R[i + 1];
-            R[i + 1] = c * y + d * R[i + 2];
-            R[i + 2] = c * R[i + 2] - d * y;
-        }
+    const scene *s = m->scene;
+    const scene_member *sm = &s->member[member];
+    section_spec spec;
+    section c;
+    if (!scene_member_tapers(sm))
+        return 0;
+    section_taper_at(&s->section[sm->section], &s->section[sm->section_q], place, &spec);
+    const int known = section_compute(&spec, &c, NULL) == STATUS_OK; /* as those beside it are */
+    return known ? c.axes_angle - m->section[m->kind[el->kind].section].axes_angle : 0;
+}
+
+/* To axes that are turned by an angle about x. */
+static void turn_components(double angle, double v[3])
+{
+    const double c = cos(angle), d = sin(angle), y = v[1];
+    if (angle != 0) {
+        v[1] = c * y + d * v[2];
+        v[2] = c * v[2] - d * y;
+    }
 }
 
 void internal_at_end(model *m, const internal_state *s, int member, int end, double out[7])
@@ -78,9 +89,11 @@ void internal_at_end(model *m, const internal_state *s, int member, int end, dou
     node_state x[ELEMENT_MAX_NODES];
     double force[2][7];
     ends_of(m, s, i, x, force);
-    turn_to_end(m, member, end, &m->element[i], x[k].R);
+    const double angle = axes_turned(m, member, end, &m->element[i]);
     mat3_transpose_mul_vec(x[k].R, force[end], out);
     mat3_transpose_mul_vec(x[k].R, force[end] + 3, out + 3);
+    turn_components(angle, out);
+    turn_components(angle, out + 3);
     out[6] = force[end][6];
     for (int c = 0; c < 7 && !end; c++)
         out[c] *= -1;
@@ -137,6 +150,9 @@ status internal_at(model *m, const internal_state *s, int member, double place, 
     span_grid_make(&g);
     TRY(recover(m, s, first + i, &g, &fields, f));
     span_at(&g, &fields, place * count - i, out);
+    const double angle = axes_turned(m, member, place, &m->element[first + i]);
+    turn_components(angle, &out[SPAN_N]);
+    turn_components(angle, &out[SPAN_MX]);
     return STATUS_OK;
 }
 
@@ -197,6 +213,11 @@ status internal_largest(model *m, const internal_state *s, int member, internal_
                         void *context, double *out, fault *f)
 {
     span_grid g;
+    if (axes_turned(m, member, 0, &m->element[m->first_element[member]]) != 0 ||
+        axes_turned(m, member, 1, &m->element[m->first_element[member + 1] - 1]) != 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "member %d: the axes of its sections turn along it; ask at places of it",
+                         member);
     span_grid_make(&g);
     *out = -INFINITY;
     for (int i = m->first_element[member]; i < m->first_element[member + 1]; i++) {

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "elements/math/dense.h"
+#include "elements/section/matrices.h"
 #include "harness/model/model_impl.h"
 
 int features_eccentric(const section *c)
@@ -47,6 +48,15 @@ static unsigned needs_of_quantities(const scene *s)
     return needs;
 }
 
+static unsigned needs_of_matrices(const section *c, unsigned needs)
+{
+    if (!c->matrices)
+        return 0;
+    const int coupled = section_matrices_couple(c, (needs & FEATURE_MASS) != 0,
+                                                (needs & FEATURE_ROTARY_INERTIA) != 0);
+    return FEATURE_SHEAR | (coupled ? FEATURE_COUPLED : 0);
+}
+
 unsigned features_needed(const scene *s)
 {
     unsigned needs = s->needs | needs_of_analyses(s) | needs_of_quantities(s);
@@ -57,6 +67,7 @@ unsigned features_needed(const scene *s)
         if (scene_constants(s, i, &c, NULL) != STATUS_OK)
             continue; /* model_alloc says why */
         needs |= c.Iw > 0 ? FEATURE_WARPING : 0;
+        needs |= needs_of_matrices(&c, needs);
         needs |= features_eccentric(&c) ? FEATURE_ECCENTRIC : 0;
     }
     return needs;
@@ -104,7 +115,7 @@ status features_of_section(const model *m, int index, unsigned *features, fault 
     (void)f;
     const section *c = &m->section[index];
     *features = m->features & m->type->offers;
-    if (c->Iw <= 0 && !m->keep_all)
+    if ((c->Iw <= 0 && !m->keep_all) || c->matrices)
         *features &= ~(unsigned)FEATURE_WARPING;
     if (!features_eccentric(c))
         *features &= ~(unsigned)FEATURE_ECCENTRIC;

@@ -51,7 +51,8 @@ static void add_rectangle(outline *out, double height, double width)
 void outline_of(const section_spec *spec, const section *c, outline *out)
 {
     out->walls = 0;
-    out->equivalent = spec->kind == SECTION_CONSTANTS && !c->rectangle;
+    out->equivalent =
+        spec->kind == SECTION_MATRICES || (spec->kind == SECTION_CONSTANTS && !c->rectangle);
     if (spec->kind == SECTION_TUBE) {
         for (int k = 0; k < RING; k++)
             add_side(out, spec, k);

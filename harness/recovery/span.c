@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/shared/beam_constants.h"
+#include "elements/shared/beam_coupled.h"
 #include "harness/recovery/fixed_point.h"
 #include "harness/recovery/span_twist.h"
 
@@ -21,6 +21,7 @@ typedef struct work {
     span_curve curve;
     span_twist twist;
     double N[SPAN_GRID_POINTS][3], M[SPAN_GRID_POINTS][3];
+    double flexibility[36]; /* of a section by its matrices */
 } work;
 
 static void begin(work *w)
@@ -121,6 +122,21 @@ static int twisted(work *w, const double strains[])
     return span_twist_solve(w->g, &t, &w->twist);
 }
 
+/* Of a section by its matrices: no part of the torque is that of warping. */
+static void strained_matrices(work *w, double out[])
+{
+    for (int j = 0; j < N; j++) {
+        double stress[6], strain[6];
+        memcpy(stress, w->N[j], sizeof w->N[j]);
+        memcpy(stress + 3, w->M[j], sizeof w->M[j]);
+        dense_mul_vec(6, 6, w->flexibility, stress, strain);
+        memcpy(&out[GAMMA + 3 * j], strain, 3 * sizeof *out);
+        memcpy(&out[KAPPA + 3 * j], strain + 3, 3 * sizeof *out);
+        w->twist.rate[j] = strain[3];
+        w->twist.bimoment[j] = w->twist.warping[j] = 0;
+    }
+}
+
 /* Strains that the resultants make on the line that the strains before gave. */
 static int again(void *context, const double strains[], double out[])
 {
@@ -136,6 +152,10 @@ static int again(void *context, const double strains[], double out[])
         }
     span_curve_between(w->g, &w->end[0].frame, &w->end[1].frame, kappa, gamma, &w->curve);
     resultants(w);
+    if (c->coupled) {
+        strained_matrices(w, out);
+        return 0;
+    }
     if (twisted(w, strains) != 0)
         return 1;
     for (int j = 0; j < N; j++) {
@@ -161,7 +181,7 @@ static void take(const work *w, span_fields *out)
             v[SPAN_MX + i] = w->M[j][i] * w->c.energy;
         }
         v[SPAN_BIMOMENT] = w->twist.bimoment[j] * w->c.energy * w->l0;
-        v[SPAN_MX_SAINT_VENANT] = w->c.GJ * k * w->c.energy;
+        v[SPAN_MX_SAINT_VENANT] = (w->c.coupled ? w->M[j][0] : w->c.GJ * k) * w->c.energy;
         v[SPAN_MX_WARPING] = w->twist.warping[j] * w->c.energy;
         v[SPAN_MX_WAGNER] = wagner(w, j, k) * k * w->c.energy;
         v[SPAN_TWIST] = k / w->l0;
@@ -173,6 +193,8 @@ status span_recover(const span_grid *g, const span_problem *problem, span_fields
     work w = {.g = g, .problem = problem};
     double strains[UNKNOWNS] = {0}, made[UNKNOWNS];
     TRY(beam_constants_of(problem->request, &w.c, f));
+    if (w.c.coupled && beam_coupled_inverse(6, w.c.C, w.flexibility) != 0)
+        return beam_coupled_too_stiff(problem->request->length, f);
     begin(&w);
     if (problem->linear) {
         if (again(&w, strains, made) != 0)

@@ -116,10 +116,10 @@ static void tell_refusal(const builder *b, const char *text)
         const char *word;
         builder_list list;
         int named;
-    } all[] = {{"node ", LIST_NODES, 0},         {"member ", LIST_MEMBERS, 0},
-               {"spring ", LIST_SPRINGS, 0},     {"load ", LIST_LOADS, 0},
-               {"analysis ", LIST_ANALYSES, 0},  {"driver ", LIST_MOTIONS, 1},
-               {"quantity ", LIST_QUANTITIES, 1}};
+    } all[] = {{"section ", LIST_SECTIONS, 0}, {"node ", LIST_NODES, 0},
+               {"member ", LIST_MEMBERS, 0},   {"spring ", LIST_SPRINGS, 0},
+               {"load ", LIST_LOADS, 0},       {"analysis ", LIST_ANALYSES, 0},
+               {"driver ", LIST_MOTIONS, 1},   {"quantity ", LIST_QUANTITIES, 1}};
     const char *colon = strstr(text, ": ");
     if (colon != NULL)
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {

@@ -110,6 +110,54 @@ static void read_given(const fields *f, section_spec *spec)
         *all[i].value = fields_number(&given, all[i].key, NAN);
 }
 
+/* 36 numbers, or six of the diagonal. */
+static void read_matrix(const fields *f, const char *key, double out[36])
+{
+    double *given;
+    const int count = fields_values(f, key, &given);
+    if (count == 36)
+        memcpy(out, given, 36 * sizeof *out);
+    for (int k = 0; k < 6 && count == 6; k++)
+        out[7 * k] = given[k];
+    if (fields_have(f, key) && count != 6 && count != 36)
+        document_mistake(f->b->mistakes, document_find(f->map, key), 0,
+                         "%s: %d numbers; give the 36 of a matrix, or the six of its diagonal", key,
+                         count);
+}
+
+static void read_matrices(const fields *f, section_spec *spec)
+{
+    spec->kind = SECTION_MATRICES;
+    read_matrix(f, "stiffness", spec->constants.stiffness);
+    read_matrix(f, "mass", spec->constants.mass);
+}
+
+/* Material and overrides belong to all sections but those of matrices, and masses of their own to these. */
+static void check_material(const fields *f)
+{
+    static const struct {
+        const char *key, *about;
+    } material[] = {{"young", "modulus of elasticity"}, {"shear_modulus", "E/(2 (1 + nu))"}},
+      other[] = {{"young", ""}, {"shear_modulus", ""}, {"density", ""}, {"given", ""}};
+    mistakes *m = f->b->mistakes;
+    if (!fields_have(f, "stiffness")) {
+        for (size_t i = 0; i < sizeof material / sizeof material[0]; i++)
+            if (!fields_have(f, material[i].key))
+                document_mistake(m, f->place, 0, "%.40s: '%s' is missing (%s)", f->place->text,
+                                 material[i].key, material[i].about);
+        if (fields_have(f, "mass"))
+            document_mistake(m, document_find(f->map, "mass"), 0,
+                             "a mass matrix is of a section with a stiffness matrix; give a "
+                             "density");
+        return;
+    }
+    for (size_t i = 0; i < sizeof other / sizeof other[0]; i++)
+        if (fields_have(f, other[i].key))
+            document_mistake(m, document_find(f->map, other[i].key), 0,
+                             "'%s' is not of a section by its stiffness matrix; leave it out",
+                             other[i].key);
+}
+
 void builder_sections(builder *b)
 {
     for (int i = 0; i < b->list[LIST_SECTIONS].count; i++) {
@@ -120,10 +168,13 @@ void builder_sections(builder *b)
         int known = 0;
         fault why = {""};
         section_spec_init(&spec);
+        check_material(&f);
         spec.young = fields_number(&f, "young", 1);
         spec.shear_modulus = fields_number(&f, "shear_modulus", 1);
         spec.density = fields_number(&f, "density", 0);
-        if (fields_have(&f, "walls"))
+        if (fields_have(&f, "stiffness"))
+            read_matrices(&f, &spec);
+        else if (fields_have(&f, "walls"))
             read_walls(&f, &spec);
         else if (build_shapes_read(&f, &spec))
             spec.thickness_terms = fields_word(&f, "thickness_terms", "no|yes", 0);
@@ -153,6 +204,7 @@ void builder_sections(builder *b)
             document_mistake(b->mistakes, document_find(f.map, "thickness_terms"), 0,
                              "thickness terms are of walls; leave them out");
         scene_add_section(b->scene, &spec);
-        b->names = section_names_add(b->names, entry->name, known ? &computed : NULL, b->arena);
+        b->names = section_names_add(b->names, entry->name,
+                                     known && !computed.matrices ? &computed : NULL, b->arena);
     }
 }

@@ -85,12 +85,24 @@ static void write_given(writer *w, const section_spec *spec)
     fputs(count > 0 ? "}" : "", w->to);
 }
 
+static void write_matrices(writer *w, const section *c)
+{
+    write_matrix(w, "stiffness: ", c->stiffness);
+    if (write_any(36, c->mass))
+        write_matrix(w, ", mass: ", c->mass);
+}
+
 void write_sections(writer *w)
 {
     fputs("sections:\n", w->to);
     for (int i = 0; i < w->scene->sections; i++) {
         const section_spec *spec = &w->scene->section[i];
         fprintf(w->to, "  section_%d: {", i);
+        if (spec->kind == SECTION_MATRICES) {
+            write_matrices(w, &spec->constants);
+            fputs("}\n", w->to);
+            continue;
+        }
         if (spec->kind == SECTION_WALLS)
             write_walls(w, spec);
         else if (spec->kind == SECTION_RECTANGLE)

@@ -143,17 +143,11 @@ void write_springs(writer *w)
     fputs(w->scene->springs > 0 ? "springs:\n" : "", w->to);
     for (int i = 0; i < w->scene->springs; i++) {
         const scene_spring *p = &w->scene->spring[i];
-        double diagonal[6];
-        int whole = 0;
-        for (int k = 0; k < 36; k++)
-            whole |= k % 7 != 0 && p->stiffness[k] != 0;
-        for (int k = 0; k < 6; k++)
-            diagonal[k] = p->stiffness[7 * k];
         fprintf(w->to, "  spring_%d: {", i);
         if (p->p != SCENE_NONE)
             fprintf(w->to, "from: node_%d, ", p->p);
-        fprintf(w->to, "to: node_%d, stiffness: ", p->q);
-        write_numbers(w, whole ? 36 : 6, whole ? p->stiffness : diagonal);
+        fprintf(w->to, "to: node_%d, ", p->q);
+        write_matrix(w, "stiffness: ", p->stiffness);
         fputs("}\n", w->to);
     }
 }

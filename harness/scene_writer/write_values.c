@@ -77,3 +77,15 @@ void write_motion_name(writer *w, int index)
     else
         fprintf(w->to, "motion_%d", index);
 }
+
+void write_matrix(writer *w, const char *key, const double A[36])
+{
+    double diagonal[6];
+    int whole = 0;
+    for (int k = 0; k < 36; k++)
+        whole |= k % 7 != 0 && A[k] != 0;
+    for (int k = 0; k < 6; k++)
+        diagonal[k] = A[7 * k];
+    fputs(key, w->to);
+    write_numbers(w, whole ? 36 : 6, whole ? A : diagonal);
+}

@@ -19,21 +19,16 @@ typedef struct subject {
     int nodes, strains, coordinates, inner, memory;
 } subject;
 
-/* A rectangle: what every formulation can do. Lengths in units of `unit` metres, force in
- * newtons. */
-static inline status contract_prepare(const element_type *type, unsigned features, double unit,
-                                      subject *out, fault *f)
+/* Lengths in units of `unit` metres, force in newtons. */
+static inline status contract_prepare_of(const section_spec *spec, const element_type *type,
+                                         unsigned features, double unit, subject *out, fault *f)
 {
     memset(out, 0, sizeof *out);
-    section_spec spec = section_spec_rectangle(210e9 * unit * unit, 80.7e9 * unit * unit,
-                                               0.0371 / unit, 0.0123 / unit);
-    spec.density = 7850 * unit * unit * unit;
-    spec.shear_factor[0] = spec.shear_factor[1] = 0.847;
     out->type = type;
     out->unit = unit;
     out->length = 0.2385 / unit;
     parameter_defaults(type->options, out->options);
-    gsl_test(section_compute(&spec, &out->section, f) != STATUS_OK, "%s: section", type->name);
+    gsl_test(section_compute(spec, &out->section, f) != STATUS_OK, "%s: section", type->name);
     const element_request request = {.section = &out->section,
                                      .length = out->length,
                                      .features = features,
@@ -45,6 +40,17 @@ static inline status contract_prepare(const element_type *type, unsigned feature
     out->coordinates = NODE_COORDINATES * out->nodes;
     out->data = calloc(1, type->data_size(&request));
     return type->prepare(&request, out->data, f);
+}
+
+/* A rectangle: what every formulation can do. */
+static inline status contract_prepare(const element_type *type, unsigned features, double unit,
+                                      subject *out, fault *f)
+{
+    section_spec spec = section_spec_rectangle(210e9 * unit * unit, 80.7e9 * unit * unit,
+                                               0.0371 / unit, 0.0123 / unit);
+    spec.density = 7850 * unit * unit * unit;
+    spec.shear_factor[0] = spec.shear_factor[1] = 0.847;
+    return contract_prepare_of(&spec, type, features, unit, out, f);
 }
 
 /* Energy with inner unknowns solved for: Newton on the element's own equations. */

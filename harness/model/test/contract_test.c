@@ -7,6 +7,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "elements/test/matrices.h"
 #include "elements/test/nodes.h"
 #include "elements/test/worst.h"
 #include "harness/catalogue/registry.h"
@@ -206,9 +207,33 @@ static void whole(const element_type *type)
     free(s.data);
 }
 
+/* Of a section by its matrices. */
+static void coupled(const element_type *type)
+{
+    const unsigned features =
+        type->offers & ~(unsigned)FEATURE_CURVATURE & ~(unsigned)FEATURE_WARPING;
+    const section_spec spec = matrices_spec(1);
+    subject s;
+    fault f = {""};
+    if (contract_prepare_of(&spec, type, features, 1, &s, &f) == STATUS_OK) {
+        derivatives_of_stress(&s);
+        rigid_motion(&s);
+        total_mass(&s);
+    } else
+        gsl_test(1, "%s, section by its matrices: prepared %s", type->name, f.text);
+    free(s.data);
+}
+
 int main(void)
 {
-    for (int i = 0; registry_formulations[i] != NULL; i++)
+    int carry = 0;
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
         whole(registry_formulations[i]);
+        if (registry_formulations[i]->offers & FEATURE_COUPLED) {
+            coupled(registry_formulations[i]);
+            carry++;
+        }
+    }
+    gsl_test(carry < 1, "%d formulations carry sections by their matrices", carry);
     return gsl_test_summary();
 }

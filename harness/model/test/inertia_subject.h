@@ -34,22 +34,28 @@ static inline void inertia_subject_section(const element_type *type, section *ou
     out->Iw = out->A * pow(0.2, 4); /* so that warping is as large as what is compared with it */
 }
 
-/* 0: refused, and the test has failed; data to be freed in any case. */
-static inline int inertia_subject_prepare(const element_type *type, const double options[],
-                                          unsigned features, inertia_subject *s)
+/* Of the section that is there.  0: refused, and the test has failed; data to be freed in any case. */
+static inline int inertia_subject_prepare_of(const element_type *type, const double options[],
+                                             unsigned features, inertia_subject *s)
 {
     fault f = {""};
     s->type = type;
     s->length = 0.2385;
     s->nodes = element_nodes(type, options);
     s->coordinates = NODE_COORDINATES * s->nodes;
-    inertia_subject_section(type, &s->section);
     const element_request request = {
         .section = &s->section, .length = s->length, .features = features, .options = options};
     s->data = calloc(1, type->data_size(&request));
     const int made = type->prepare(&request, s->data, &f) == STATUS_OK;
     gsl_test(!made, "%s: prepared (%s)", type->name, f.text);
     return made;
+}
+
+static inline int inertia_subject_prepare(const element_type *type, const double options[],
+                                          unsigned features, inertia_subject *s)
+{
+    inertia_subject_section(type, &s->section);
+    return inertia_subject_prepare_of(type, options, features, s);
 }
 
 /* All formulations that have an inertia, with every mass they offer. */

@@ -8,6 +8,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "elements/test/matrices.h"
 #include "elements/test/nodes.h"
 #include "elements/test/worst.h"
 #include "harness/model/test/inertia_subject.h"
@@ -151,24 +152,27 @@ static void warping_in_a_turning_frame(const element_type *type, const double op
     gsl_test_rel(with - without, expected, 2e-4, "%s: centrifugal energy of warping", s.name);
 }
 
+/* An element that is prepared, in a strained state. */
+static void strained(const inertia_subject *s, int rotary)
+{
+    double d[MOST];
+    node_state x[ELEMENT_MAX_NODES];
+    nodes_straight(s->nodes, s->length, x);
+    nodes_increments(s->nodes, s->length, 0.05, 31, d);
+    nodes_move(s->nodes, 1, d, x);
+    at_rest(s, x);
+    turning_frame(s, x, rotary);
+}
+
 static void check(const element_type *type, const double options[], int choice, unsigned left_out)
 {
     inertia_subject s = {0};
-    double d[MOST];
-    node_state x[ELEMENT_MAX_NODES];
     const unsigned features = type->offers & ~(unsigned)FEATURE_CURVATURE & ~left_out;
     const int rotary = (features & FEATURE_ROTARY_INERTIA) != 0;
-    if (!inertia_subject_prepare(type, options, features, &s)) {
-        free(s.data);
-        return;
-    }
     snprintf(s.name, sizeof s.name, "%s, mass %d%s%s", type->name, choice, rotary ? ", rotary" : "",
              features & FEATURE_WARPING ? ", warping" : "");
-    nodes_straight(s.nodes, s.length, x);
-    nodes_increments(s.nodes, s.length, 0.05, 31, d);
-    nodes_move(s.nodes, 1, d, x);
-    at_rest(&s, x);
-    turning_frame(&s, x, rotary);
+    if (inertia_subject_prepare(type, options, features, &s))
+        strained(&s, rotary);
     free(s.data);
 }
 
@@ -181,8 +185,47 @@ static void every_way(const element_type *type, const double options[], int choi
     warping_in_a_turning_frame(type, options, choice);
 }
 
+/* The mass matrix of one node of a straight element is half that of the slice times its length. */
+static void slice(const inertia_subject *s)
+{
+    double M[MOST * MOST], worst = 0;
+    node_state x[ELEMENT_MAX_NODES];
+    nodes_straight(s->nodes, s->length, x);
+    s->type->inertia(s->data, x, NULL, &(inertia_output){.M = M});
+    for (int i = 0; i < 36; i++)
+        worst = worst_of(
+            worst, fabs(M[s->coordinates * (i / 6) + i % 6] - s->length / 2 * s->section.mass[i]) /
+                       (s->length * s->section.mass[0]));
+    gsl_test(!(worst < 1e-16), "%s: mass matrix of a node (%.1e)", s->name, worst);
+}
+
+/* Sections by their matrices have all their inertia, whatever is asked for. */
+static void by_matrices(const element_type *type, const double options[], int *carry)
+{
+    const section_spec spec = matrices_spec(1);
+    inertia_subject s = {0};
+    if (!(type->offers & FEATURE_COUPLED))
+        return;
+    snprintf(s.name, sizeof s.name, "%s, by matrices", type->name);
+    s.section = sections_computed(&spec);
+    if (inertia_subject_prepare_of(type, options, FEATURE_MASS | FEATURE_SHEAR, &s)) {
+        strained(&s, 1);
+        *carry += 1;
+        if (s.nodes == 2)
+            slice(&s);
+    }
+    free(s.data);
+}
+
 int main(void)
 {
+    int carry = 0;
     inertia_subject_each(every_way);
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        double options[ELEMENT_MAX_OPTIONS] = {0};
+        parameter_defaults(registry_formulations[i]->options, options);
+        by_matrices(registry_formulations[i], options, &carry);
+    }
+    gsl_test(carry < 1, "%d formulations carry sections by their matrices", carry);
     return gsl_test_summary();
 }

@@ -1,0 +1,60 @@
+#include "elements/exact/coupled.h"
+
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/quadrature.h"
+#include "elements/shared/beam_coupled.h"
+
+enum { ALL = 6, HALF = 3 };
+
+double exact_coupled_material(const beam_constants *c, const double kappa[3], const double N[3],
+                              double gradient[6], double M[36])
+{
+    double at[ALL], energy = -N[0] - vec3_dot(c->initial, N);
+    memcpy(at, kappa, HALF * sizeof *at);
+    memcpy(at + HALF, N, HALF * sizeof *at);
+    memcpy(M, c->mixed, ALL * ALL * sizeof *M);
+    dense_mul_vec(ALL, ALL, M, at, gradient);
+    for (int i = 0; i < ALL; i++)
+        energy += gradient[i] * at[i] / 2;
+    gradient[HALF] -= 1;
+    for (int i = 0; i < HALF; i++)
+        gradient[HALF + i] -= c->initial[i];
+    return energy;
+}
+
+/* F += 1/12 A^T Fkk A with A (N, Q, M) = (0, Qz, -Qy), the slope of the moment. */
+static void add_linear_moment(double F[36])
+{
+    static const int shear[] = {2, 1}, moment[] = {4, 5};
+    static const double sign[] = {1, -1};
+    double added[4];
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++)
+            added[2 * i + j] = sign[i] * sign[j] * F[ALL * moment[i] + moment[j]] / 12;
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++)
+            F[ALL * shear[i] + shear[j]] += added[2 * i + j];
+}
+
+status exact_coupled_stiffness(const beam_constants *c, int points, int strains, double length,
+                               double S[], fault *f)
+{
+    const double unit = c->energy / (length * length);
+    double x[ELEMENT_MAX_NODES], w[ELEMENT_MAX_NODES], C[36], F[36];
+    quadrature_points(points, x, w);
+    memcpy(C, c->C, sizeof C);
+    if (points == 1) {
+        int failed = beam_coupled_inverse(ALL, c->C, F);
+        add_linear_moment(F);
+        failed = failed != 0 || beam_coupled_inverse(ALL, F, C) != 0;
+        if (failed)
+            return beam_coupled_too_stiff(length, f);
+    }
+    for (int g = 0; g < points; g++)
+        for (int i = 0; i < ALL; i++)
+            for (int j = 0; j < ALL; j++)
+                S[(ALL * g + i) * strains + ALL * g + j] = unit * w[g] * C[ALL * i + j];
+    return STATUS_OK;
+}

@@ -1,0 +1,150 @@
+#include "elements/section/matrices.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+
+enum { N = 6 };
+
+static const char *const stress[N] = {"N", "Qy", "Qz", "Mx", "My", "Mz"};
+
+static status check_symmetric(const double A[36], const char *name, fault *f)
+{
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++) {
+            if (!isfinite(A[N * i + j]))
+                return fault_set(f, STATUS_REFUSED,
+                                 "section: the %s matrix has an entry that is not a number; give "
+                                 "36 finite ones, or the six of its diagonal",
+                                 name);
+            if (A[N * i + j] != A[N * j + i])
+                return fault_set(f, STATUS_REFUSED,
+                                 "section: the %s matrix is not symmetric, (%d, %d) is %g and "
+                                 "(%d, %d) is %g; give both the same",
+                                 name, i + 1, j + 1, A[N * i + j], j + 1, i + 1, A[N * j + i]);
+        }
+    return STATUS_OK;
+}
+
+static status check_stiffness(const double C[36], fault *f)
+{
+    double scaled[36];
+    TRY(check_symmetric(C, "stiffness", f));
+    for (int i = 0; i < N; i++)
+        if (!(C[7 * i] > 0))
+            return fault_set(f, STATUS_REFUSED,
+                             "section: the stiffness of %s, entry (%d, %d), is %g; it must be "
+                             "positive",
+                             stress[i], i + 1, i + 1, C[7 * i]);
+    for (int i = 0; i < 36; i++)
+        scaled[i] = C[i] / sqrt(C[7 * (i / N)] * C[7 * (i % N)]);
+    if (dense_cholesky(N, scaled) != 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "section: the stiffness matrix is not positive definite, some strain "
+                         "would give energy away; make its terms off the diagonal smaller");
+    return STATUS_OK;
+}
+
+void section_matrices_centre(const section *c, double centre[3])
+{
+    const double *M = c->mass, m = M[0];
+    centre[0] = 0;
+    centre[1] = m > 0 ? M[N * 2 + 3] / m : 0; /* (1, 5) = m cz, (3, 4) = m cy */
+    centre[2] = m > 0 ? M[4] / m : 0;
+}
+
+/* No negative moment about any axis: all principal minors. */
+static int is_semidefinite(const double J[9])
+{
+    const double small = 1e-9 * (J[0] + J[4] + J[8]);
+    double minors = 1;
+    for (int i = 0; i < 3; i++) {
+        const int k = (i + 1) % 3;
+        minors = fmin(minors, J[4 * i] >= -small ? 1 : -1);
+        minors = fmin(minors, J[4 * i] * J[4 * k] - J[3 * i + k] * J[3 * i + k] >=
+                                      -small * (J[0] + J[4] + J[8])
+                                  ? 1
+                                  : -1);
+    }
+    const double determinant = J[0] * (J[4] * J[8] - J[5] * J[5]) -
+                               J[1] * (J[1] * J[8] - J[5] * J[2]) +
+                               J[2] * (J[1] * J[5] - J[4] * J[2]);
+    return minors > 0 && determinant >= -small * pow(J[0] + J[4] + J[8], 2);
+}
+
+static status check_mass(const section *c, fault *f)
+{
+    const double *M = c->mass, m = M[0];
+    double centre[3], J[9];
+    TRY(check_symmetric(M, "mass", f));
+    int slice = m >= 0 && M[7] == m && M[14] == m && M[1] == 0 && M[2] == 0 && M[8] == 0;
+    slice &= M[N + 3] == -M[4] && M[2 * N + 3] == -M[5] && M[3] == 0;
+    slice &= M[N + 4] == 0 && M[N + 5] == 0 && M[2 * N + 4] == 0 && M[2 * N + 5] == 0;
+    slice &= m > 0 || (M[4] == 0 && M[5] == 0);
+    if (!slice)
+        return fault_set(f, STATUS_REFUSED,
+                         "section: the mass matrix is not that of a slice: m on the first three of "
+                         "the diagonal, (1, 5) = -(2, 4) = m cz, -(1, 6) = (3, 4) = m cy, and "
+                         "moments of inertia in the last three rows and columns");
+    section_matrices_centre(c, centre);
+    const double square = vec3_dot(centre, centre);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            J[3 * i + j] =
+                M[N * (3 + i) + 3 + j] - m * ((i == j ? square : 0) - centre[i] * centre[j]);
+    if (!is_semidefinite(J))
+        return fault_set(f, STATUS_REFUSED,
+                         "section: the mass matrix has a negative moment of inertia about the "
+                         "centre of mass (0, %g, %g) m; give larger ones in its last three rows",
+                         centre[1], centre[2]);
+    return STATUS_OK;
+}
+
+status section_matrices(const section_spec *spec, section *out, fault *f)
+{
+    const double *C = spec->constants.stiffness, *M = spec->constants.mass;
+    for (int i = 0; i < 36; i++) { /* 0 has no sign */
+        out->stiffness[i] = C[i] + 0.0;
+        out->mass[i] = M[i] + 0.0;
+    }
+    out->matrices = 1;
+    TRY(check_stiffness(C, f));
+    TRY(check_mass(out, f));
+    out->young = out->shear_modulus = 1;
+    out->A = C[0];
+    out->It = C[21];
+    out->Iy = C[28];
+    out->Iz = C[35];
+    out->density = M[0] / out->A;
+    out->Ip = M[0] > 0 && M[21] > 0 ? M[21] / out->density : out->Iy + out->Iz;
+    out->F[0] = 1 / C[7];
+    out->F[4] = 1 / C[14];
+    out->D[0] = C[7];
+    out->D[4] = C[14];
+    return STATUS_OK;
+}
+
+static int is_diagonal(const double A[36])
+{
+    for (int i = 0; i < 36; i++)
+        if (i % 7 != 0 && A[i] != 0)
+            return 0;
+    return 1;
+}
+
+static int differ(double a, double b)
+{
+    return fabs(a - b) > 1e-12 * fmax(fabs(a), fabs(b));
+}
+
+int section_matrices_couple(const section *c, int inertia, int rotary)
+{
+    const double *M = c->mass;
+    if (!is_diagonal(c->stiffness))
+        return 1;
+    if (!inertia)
+        return 0;
+    return !is_diagonal(M) || !(M[21] > 0) || differ(M[28], rotary ? c->density * c->Iy : 0) ||
+           differ(M[35], rotary ? c->density * c->Iz : 0);
+}
