@@ -78,6 +78,11 @@ def tapered_cantilever(given):
     yield from program.values(given)
 
 
+def coupled_beam(given):
+    from reference.derive import coupled_beam as program
+    yield from program.values(given)
+
+
 def sheet_case(case, function):
     def solve(given):
         from reference.derive import sheets
@@ -147,6 +152,7 @@ SOLVERS = {
     "tip_body": (("omega_star", "mass", "overhang", "gyration"), tip_body, "tip_body"),
     "sprung_beam": (("load", "spring", "moment"), sprung_beam, "sprung_beam"),
     "tapered_cantilever": (("section", "ratio", "asked", "shear"), tapered_cantilever, "tapered_cantilever"),
+    "coupled_beam": (("asked", "coupling", "turn"), coupled_beam, "coupled_beam"),
     "sheet_cantilever": (SHEET, sheet_case("sheet_cantilever", "cantilever"), "sheets"),
     "sheet_wagner": (SHEET + ("tip_phi_z", "tip_phi_x"), sheet_case("sheet_wagner", "twisted"), "sheets"),
     "spherical_joint": (("length", "width", "thickness", "young", "poisson", "fold_angle", "radius", "azimuth", "tilt", "steps", "fold_warping", "wagner"), spherical_joint, "joint"),

@@ -27,6 +27,8 @@ def of(case, parameters, quantity):
         return ""
     if case in LARGE_DISPLACEMENT:
         return "" if quantity == "support_stiffness_undeformed" else "haringx"
+    if case == "coupled_beam":
+        return "haringx" if quantity.startswith("buckling") else ""
     if case == "c_cantilever":
         return "haringx"
     if case in ("sheet_cantilever", "sheet_wagner"):

@@ -7,7 +7,7 @@ from reference.derive import at
 
 TABLES = pathlib.Path(__file__).resolve().parents[1] / "tables"
 CHEAP = {"c_column": 3, "moment_buckling": 8, "unsymmetric_column": 3, "shear_column": 12, "warping_torsion": 10, "elastica": 2, "shear_elastica": 1, "geradin_cardona": 1, "bend_45": 2,
-         "roll_up": 3, "wagner_torsion": 3, "sheet_cantilever": 2, "rotating_cantilever": 2, "tip_body": 2, "sprung_beam": 9, "tapered_cantilever": 2}
+         "roll_up": 3, "wagner_torsion": 3, "sheet_cantilever": 2, "rotating_cantilever": 2, "tip_body": 2, "sprung_beam": 9, "tapered_cantilever": 2, "coupled_beam": 6}
 
 
 def exact_rows(case):
