@@ -85,6 +85,13 @@ void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame
     *(a->kind == SCENE_CONTINUATION ? &a->of.continuation.frame : &a->of.walk.frame) = frame;
 }
 
+const char *scene_analysis_name(scene_analysis_kind kind)
+{
+    static const char *const name[] = {"linear",     "static",       "buckling", "modal",
+                                       "compliance", "continuation", "rotation"};
+    return name[kind];
+}
+
 const scene_walk *scene_walk_of(const scene_analysis *a)
 {
     assert(a->kind == SCENE_STATIC || a->kind == SCENE_ROTATION);

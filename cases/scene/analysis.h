@@ -97,6 +97,9 @@ int scene_add_rotation(scene *s, int stations, const double path[], int steps_be
 /* Turns the axes of a static path or a continuation. */
 void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame);
 
+/* "linear", "static", ...: as a scene file says it. */
+const char *scene_analysis_name(scene_analysis_kind);
+
 const scene_walk *scene_walk_of(const scene_analysis *a);
 const scene_compliance *scene_compliance_of(const scene_analysis *a);
 const scene_continuation *scene_continuation_of(const scene_analysis *a);

@@ -7,6 +7,7 @@
 #include "harness/algebra/clock.h"
 #include "harness/analysis/buckling.h"
 #include "harness/analysis/collect.h"
+#include "harness/analysis/collect_systems.h"
 #include "harness/analysis/compliance.h"
 #include "harness/analysis/continuation.h"
 #include "harness/analysis/extract.h"
@@ -15,7 +16,6 @@
 #include "harness/analysis/modal.h"
 #include "harness/analysis/rotation.h"
 #include "harness/analysis/static.h"
-#include "harness/equations/rotating_frame.h"
 #include "harness/solver/context.h"
 #include "harness/solver/singular.h"
 
@@ -44,14 +44,6 @@ static analysis_function *function_of(const scene *s, const scene_analysis *a)
     return NULL;
 }
 
-static void set_frame(model *m, const scene_analysis *a)
-{
-    static const scene_rotating_frame rest = {{0}, {0}};
-    const scene_rotating_frame *frame =
-        scene_rotating_frame_of(a) != NULL ? scene_rotating_frame_of(a) : &rest;
-    rotating_frame_set(m, frame->omega, frame->centre, a->kind == SCENE_ROTATION);
-}
-
 /* The first failure names the whole. */
 static void run_analyses(analysis_context *c)
 {
@@ -61,7 +53,7 @@ static void run_analyses(analysis_context *c)
         const scene_analysis *a = &c->scene->analysis[i];
         analysis_function *run = function_of(c->scene, a);
         o->kind = a->kind;
-        set_frame(c->model, a);
+        context_set_frame(c, i);
         if (c->options->sample > 0 && a->kind != SCENE_STATIC)
             continue;
         c->singular = 0;
@@ -75,6 +67,18 @@ static void run_analyses(analysis_context *c)
             snprintf(c->result->reason, sizeof c->result->reason, "%s", f.text);
         }
     }
+}
+
+/* The matrices of all states, where they are wanted. */
+static void keep_systems(analysis_context *c)
+{
+    fault f = {""};
+    solve_result *r = c->result;
+    const status kept = c->options->systems ? collect_systems(c, &r->systems, &f) : STATUS_OK;
+    if (kept == STATUS_OK || r->status != STATUS_OK)
+        return;
+    r->status = kept;
+    snprintf(r->reason, sizeof r->reason, "%s", f.text);
 }
 
 status solve_scene(const scene *s, model *m, const solve_options *options, solve_result *result,
@@ -110,6 +114,7 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
     if (c.options->shapes > 0 &&
         collect_shapes(&c, c.options->shapes, &result->shapes, f) != STATUS_OK)
         result->status = STATUS_FAULT;
+    keep_systems(&c);
     *model_counters(m) = work;
     for (int i = 0; i < s->analyses; i++)
         outcome_free(&c.outcomes[i]);

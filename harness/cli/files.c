@@ -6,12 +6,14 @@
 
 #include "harness/cli/cli.h"
 #include "harness/record/output.h"
+#include "harness/record/output_folder.h"
 
-enum { OUTPUTS = 4, INPUTS = 7 };
+enum { OUTPUTS = 5, INPUTS = 7 };
 
 typedef struct named_place {
     const char *option, *path;
     output_form form;
+    int folder; /* 1: a new one */
     place where;
 } named_place;
 
@@ -43,7 +45,8 @@ status cli_check_files(const cli_request *r, int whole_file, const char *truths_
         {.option = "-o", .path = r->output, .form = whole_file ? OUTPUT_WHOLE_FILE : OUTPUT_TEXT},
         {.option = "--json", .path = r->json},
         {.option = "--junit", .path = r->junit},
-        {.option = "--markdown", .path = r->markdown}};
+        {.option = "--markdown", .path = r->markdown},
+        {.option = "--matrices", .path = r->matrices, .folder = 1}};
     const int is_path = r->against != NULL && strchr(r->against, '/') != NULL;
     const char *const input[INPUTS] = {truths_path,
                                        r->most_arguments == 2 ? r->case_name : NULL,
@@ -55,7 +58,8 @@ status cli_check_files(const cli_request *r, int whole_file, const char *truths_
     for (int i = 0; i < OUTPUTS; i++) {
         if (out[i].path == NULL)
             continue;
-        TRY(output_try(out[i].path, out[i].form, &out[i].where, f));
+        TRY(out[i].folder ? output_folder_try(out[i].path, &out[i].where, f)
+                          : output_try(out[i].path, out[i].form, &out[i].where, f));
         TRY(check_inputs(&out[i], input, f));
         if (r->reads_files)
             for (int k = 0; k < r->case_count; k++)
@@ -69,8 +73,8 @@ status cli_check_files(const cli_request *r, int whole_file, const char *truths_
 
 status cli_check_input(const cli_request *r, const char *path, fault *f)
 {
-    const char *const option[OUTPUTS] = {"-o", "--json", "--junit", "--markdown"};
-    const char *const out[OUTPUTS] = {r->output, r->json, r->junit, r->markdown};
+    const char *const option[OUTPUTS] = {"-o", "--json", "--junit", "--markdown", "--matrices"};
+    const char *const out[OUTPUTS] = {r->output, r->json, r->junit, r->markdown, r->matrices};
     const char *const input[INPUTS] = {path};
     for (int i = 0; i < OUTPUTS; i++) {
         named_place one = {.option = option[i], .path = out[i]};

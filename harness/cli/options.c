@@ -1,5 +1,4 @@
 #include <errno.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,82 +7,7 @@
 #include "harness/algebra/team.h"
 #include "harness/catalogue/registry.h"
 #include "harness/cli/cli.h"
-
-enum { KEY_USAGE = 256 };
-
-/* An option of the verbs. member: of the request, takes it as it is: its text, or 1 where it has no
- * argument; 0: see take. */
-typedef struct verb_option {
-    const char *name;
-    int key;
-    const char *argument, *doc;
-    size_t member;
-} verb_option;
-
-static const verb_option all_options[] = {
-    {"formulation", 'f', "NAME[:KEY=VALUE,...]",
-     "formulation and its options; again for another, 'all' for every one", 0},
-    {"elements", 'n', "N[,N...]", "elements per member", 0},
-    {"set", 's', "NAME=VALUE", "value of a case parameter (SI); again for another", 0},
-    {"format", 'F', "text|json|csv", "form of the output (default text)", 0},
-    {"output", 'o', "FILE", "write there instead of to standard output (verify: results as HDF5)",
-     offsetof(cli_request, output)},
-    {"keep-all", 'K', NULL, "leave nothing out: same answer, more work",
-     offsetof(cli_request, keep_all)},
-    {"steps", 'S', "N", "load steps between two stations of a path, to begin with", 0},
-    {"select", 'k', "EXPRESSION",
-     "words joined by and, or, not, in brackets where they belong together; looked for in "
-     "case/parameters/formulation/quantity",
-     offsetof(cli_request, select)},
-    {"jobs", 'j', "N", "processes (default: one for each processor)", 0},
-    {"time-limit", 'L', "SECONDS",
-     "of one cell (default 120, 0: none); a cell that exceeds it is a failure of that name", 0},
-    {"json", 'J', "FILE", "verdicts as JSON", offsetof(cli_request, json)},
-    {"junit", 'U', "FILE", "verdicts as JUnit XML", offsetof(cli_request, junit)},
-    {"threshold", 'h', "NAME=R[,NAME=R]",
-     "changes that count (default error=0.01,floor=1e-8,work=0.02): of an error relative to "
-     "itself, of a value relative to its truth, of a count relative to itself",
-     offsetof(cli_request, threshold)},
-    {"shapes", 'P', "STATES",
-     "store centre lines, sections and resultants of at most so many states of a path (solve: all, "
-     "and -o FILE becomes HDF5 for ParaView; verify: 5)",
-     0},
-    {"markdown", 'M', "FILE", "summary as Markdown, for a pull request",
-     offsetof(cli_request, markdown)},
-    {"against", 'A', "OTHER",
-     "compare in alternation with another formulation, or with another program (a path with a '/')",
-     offsetof(cli_request, against)},
-    {"threads", 't', "N",
-     "threads that share the loop over elements (default 1); results are the same", 0},
-    {"dense", 'D', NULL, "time the published algorithm (newton=dense) beside every cell",
-     offsetof(cli_request, dense)},
-    {"plant", 'X', "PERCENT",
-     "make the other slower by that much, to see whether the comparison finds it", 0},
-    {"truths", 'T', "FILE",
-     "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)",
-     offsetof(cli_request, truths)},
-    {"scene", 'Y', "FILE",
-     "a scene of your own in YAML, in the place of a case (verify: or a folder of them; again for "
-     "another)",
-     0},
-    {"built-in", 'I', NULL, "the built-in cases beside those of --scene",
-     offsetof(cli_request, built_in)},
-    {"beside", 'B', "FILE",
-     "what other programs found, stored by 'beamwork import': contestants that gate nothing",
-     offsetof(cli_request, beside)},
-    {"map", 'm', "FILE.yaml", "which columns of files without a header are which quantities",
-     offsetof(cli_request, map)},
-    {"doublings", 'N', "N",
-     "so many more meshes of each series, each of twice the elements: do the verdicts stand?", 0},
-    {"gate", 'G', NULL, "verdicts of --beside count as ours do", offsetof(cli_request, gate)},
-    {"to", 'O', "calculix", "the program that the deck is for", offsetof(cli_request, to)},
-    {"schema", 'H', NULL, "describe all keys of scene files as JSON Schema",
-     offsetof(cli_request, schema)},
-    {"keys", 'E', NULL, "list all keys of scene files", offsetof(cli_request, keys)},
-    {"help", '?', NULL, "this list", 0},
-    {"usage", KEY_USAGE, NULL, "the options in short", 0},
-    {0},
-};
+#include "harness/cli/option_table.h"
 
 static void refuse(const char *text)
 {
@@ -193,7 +117,7 @@ static void add_scene(cli_request *r, const char *path)
 
 static error_t take_plain(int key, const char *value, cli_request *r)
 {
-    const verb_option *o = all_options;
+    const verb_option *o = option_table;
     while (o->name != NULL && o->key != key)
         o++;
     void *member = (char *)r + o->member;
@@ -272,10 +196,10 @@ static int most_arguments(const char *keys)
 void cli_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys,
                int count, char **arguments, cli_request *out)
 {
-    struct argp_option chosen[sizeof all_options / sizeof all_options[0]] = {{0}};
+    struct argp_option chosen[OPTION_COUNT] = {{0}};
     char name[64];
     int n = 0;
-    for (const verb_option *o = all_options; o->name != NULL; o++) {
+    for (const verb_option *o = option_table; o->name != NULL; o++) {
         const int always = o->key == '?' || o->key == KEY_USAGE;
         if (always || strchr(keys, o->key) != NULL)
             chosen[n++] = (struct argp_option){o->name,     o->key,

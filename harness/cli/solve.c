@@ -6,6 +6,7 @@
 #include "harness/record/json.h"
 #include "harness/record/output.h"
 #include "harness/record/store.h"
+#include "harness/record/system_folder.h"
 #include "harness/study/plan.h"
 #include "harness/tables/table_solution.h"
 
@@ -33,14 +34,29 @@ static status write_out(const cli_request *r, const sweep *s, const truths *t, f
     return output_finish(&file, write_to(file.stream, r, s, t, f), f);
 }
 
+/* The matrices of all states that were reached, where they are wanted. */
+static status write_matrices(const cli_request *r, const sweep *s, fault *f)
+{
+    const cell_result *cell = &s->series[0].cell[0];
+    char title[200];
+    if (r->matrices == NULL)
+        return STATUS_OK;
+    snprintf(title, sizeof title, "%s, %s, %d elements per member", s->point[0].scene.name,
+             r->formulation[0].key, r->mesh[0]);
+    return system_folder_write(r->matrices, title, &s->point[0].scene, &cell->solve.systems, f);
+}
+
 /* The one cell, solved in this process so that its options reach it. */
 static status solve_cell(const cli_request *r, sweep *s, fault *f)
 {
-    const point *p = &s->point[0];
+    point *p = &s->point[0];
+    if (r->matrices != NULL)
+        scene_need(&p->scene, FEATURE_MASS);
     cell_request request = {.scene = &p->scene, .elements = r->mesh[0], .keep_all = r->keep_all};
     cell_formulation(&request, &r->formulation[0]);
     request.solve.steps_between = r->steps;
     request.solve.shapes = r->shapes;
+    request.solve.systems = r->matrices != NULL;
     request.threads = r->threads;
     return cell_run(&request, &s->series[0].cell[0], f);
 }
@@ -81,6 +97,8 @@ static int solve_request(cli_request *r)
         code = cli_fail(solved, f.text);
     } else {
         outcome = write_out(r, &s, &t, &unwritten);
+        if (outcome == STATUS_OK)
+            outcome = write_matrices(r, &s, &unwritten);
         code = EXIT_AS_EXPECTED;
         if (outcome != STATUS_OK)
             code = cli_fail(outcome, unwritten.text);
@@ -98,5 +116,5 @@ int cli_solve(int count, char **arguments)
         "solve", "CASE",
         "Solves one case with one formulation and one mesh and shows every quantity with its "
         "error.",
-        "fnsFoKSPtTY", count, arguments, solve_request);
+        "fnsFoKSPRtTY", count, arguments, solve_request);
 }

@@ -70,8 +70,8 @@ static void add_applied(void *context, const applied *what)
             sum->out[index[k]] += T[i * n + k] * F[i];
 }
 
-static void add_load(const model *m, const model_state *s, const scene_load *load, double scale,
-                     double out[])
+void loads_add_one(const model *m, const model_state *s, const scene_load *load, double scale,
+                   double out[])
 {
     sum_of_loads sum = {m, s, out};
     applied_each(m, s, load, scale, add_applied, &sum);
@@ -80,14 +80,14 @@ static void add_load(const model *m, const model_state *s, const scene_load *loa
 void loads_add(const model *m, const model_state *s, double path, double out[])
 {
     for (int i = 0; i < m->scene->loads; i++)
-        add_load(m, s, &m->scene->load[i], loads_factor(&m->scene->load[i], path), out);
+        loads_add_one(m, s, &m->scene->load[i], loads_factor(&m->scene->load[i], path), out);
 }
 
 void loads_rate(const model *m, const model_state *s, double path, double out[])
 {
     memset(out, 0, (size_t)(m->free + m->driven) * sizeof *out);
     for (int i = 0; i < m->scene->loads; i++)
-        add_load(m, s, &m->scene->load[i], rate_along_path(&m->scene->load[i], path), out);
+        loads_add_one(m, s, &m->scene->load[i], rate_along_path(&m->scene->load[i], path), out);
 }
 
 void loads_stiffness(const model *m, const model_state *s, double path, loads_entry take,

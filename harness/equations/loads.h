@@ -8,6 +8,9 @@
 double loads_factor(const scene_load *load, double path);
 /* Of a known driver [m or rad]. */
 double loads_driver_value(const scene_driver *d, double path);
+/* out[free + driven] += the load times `scale` in a state. */
+void loads_add_one(const model *, const model_state *, const scene_load *, double scale,
+                   double out[]);
 /* Derivative of the loads by the path parameter in a state, out[free + driven]. */
 void loads_rate(const model *, const model_state *, double path, double out[]);
 /* Loads of the undeformed state at `path`, f[free + driven]. */

@@ -71,15 +71,13 @@ static void add_continuation(const fields *f)
 
 void builder_analyses(builder *b)
 {
-    static const char *const kind[] = {"linear",     "static",       "buckling", "modal",
-                                       "compliance", "continuation", "rotation"};
     for (int i = 0; i < b->list[LIST_ANALYSES].count; i++) {
         const fields entry = fields_of(b, &b->list[LIST_ANALYSES].entry[i]);
-        int k = 0;
-        while (k < 6 && !fields_have(&entry, kind[k]))
-            k++;
-        const fields f = fields_below(&entry, kind[k]);
-        switch ((scene_analysis_kind)k) {
+        scene_analysis_kind kind = SCENE_LINEAR;
+        while (kind < SCENE_ROTATION && !fields_have(&entry, scene_analysis_name(kind)))
+            kind++;
+        const fields f = fields_below(&entry, scene_analysis_name(kind));
+        switch (kind) {
         case SCENE_LINEAR:
             scene_add_linear(b->scene);
             break;

@@ -1,5 +1,16 @@
 #include "harness/solver/context.h"
 
+#include "harness/equations/rotating_frame.h"
+
+void context_set_frame(const analysis_context *c, int analysis)
+{
+    static const scene_rotating_frame rest = {{0}, {0}};
+    const scene_analysis *a = &c->scene->analysis[analysis];
+    const scene_rotating_frame *frame =
+        scene_rotating_frame_of(a) != NULL ? scene_rotating_frame_of(a) : &rest;
+    rotating_frame_set(c->model, frame->omega, frame->centre, a->kind == SCENE_ROTATION);
+}
+
 status context_factor(analysis_context *c, factor *fa, const sparse *K, fault *f)
 {
     const status outcome = factor_numeric(fa, K, f);

@@ -15,6 +15,8 @@ typedef struct analysis_context {
     int singular;               /* 1: the last factorisation failed */
 } analysis_context;
 
+/* From here on the axes of the model turn as those of the analysis do. */
+void context_set_frame(const analysis_context *, int analysis);
 /* The numeric factors of K, and into the context whether they exist. */
 status context_factor(analysis_context *, factor *, const sparse *K, fault *);
 /* When it was asked for: the condition of a matrix just factored, into the counters. */

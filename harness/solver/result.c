@@ -25,6 +25,7 @@ void result_free(solve_result *r)
     free(r->quantity);
     free(r->step);
     shapes_free(&r->shapes);
+    system_matrices_free(&r->systems);
     free(r->iteration);
     free(r->event);
     memset(r, 0, sizeof *r);

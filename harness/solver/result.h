@@ -5,6 +5,7 @@
 
 #include "harness/model/model.h"
 #include "harness/solver/shapes.h"
+#include "harness/solver/system_matrices.h"
 
 /* The mixed Newton condensed element by element; for comparison, in displacements only, and
  * uncondensed with dense elimination. */
@@ -23,9 +24,10 @@ typedef struct solve_options {
     int condition; /* 1: estimate the condition of the tangents (of a static path: at its stations)
                     */
     int phases;    /* 1: read the clock between the parts of an iteration */
-    int sample; /* > 0: only so many iterations of each static path, for their time: there will be
+    int sample;  /* > 0: only so many iterations of each static path, for their time: there will be
                    no values */
-    int shapes; /* most states of every path whose centre lines are kept; 0: no shapes */
+    int shapes;  /* most states of every path whose centre lines are kept; 0: no shapes */
+    int systems; /* 1: the matrices of small motions about all states are kept */
 } solve_options;
 
 typedef struct curve {
@@ -107,6 +109,7 @@ typedef struct solve_result {
         seconds_solve; /* scene, sections, quadrature, mesh, analysis of the pattern | the rest */
     double phase[PHASES]; /* [s] in the iterations, when asked for */
     shapes shapes;
+    system_matrices systems;
 } solve_result;
 
 const char *result_event_name(event_kind); /* "limit point", ... */

@@ -1,0 +1,188 @@
+#include "harness/analysis/collect_systems.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/equations/linear.h"
+#include "harness/equations/linearise.h"
+#include "harness/equations/loads.h"
+#include "harness/equations/rotating_frame.h"
+#include "harness/model/assemble.h"
+#include "harness/model/kinematics.h"
+
+/* What all states share. */
+typedef struct workspace {
+    sparse K, M, G;
+    double *residual, *load; /* [free + driven] */
+    double *sigma;           /* [stresses] */
+    double *input;           /* [loads x free] */
+    model_state *state;
+} workspace;
+
+static status workspace_alloc(const analysis_context *c, workspace *w, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    const size_t free_count = (size_t)size.free, all = free_count + (size_t)size.driven + 1;
+    const sparse *pattern;
+    memset(w, 0, sizeof *w);
+    w->residual = calloc(2 * all, sizeof *w->residual);
+    w->sigma = calloc((size_t)model_stresses(c->model) + 1, sizeof *w->sigma);
+    w->input = calloc((size_t)c->scene->loads * free_count + 1, sizeof *w->input);
+    if (w->residual == NULL || w->sigma == NULL || w->input == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for matrices of states");
+    w->load = w->residual + all;
+    TRY(assemble_pattern(c->model, 0, &pattern, f));
+    TRY(sparse_alloc_like(pattern, &w->K, f));
+    TRY(sparse_alloc_like(pattern, &w->M, f));
+    TRY(sparse_alloc_like(pattern, &w->G, f));
+    return kinematics_state_alloc(c->model, &w->state, f);
+}
+
+static void workspace_free(workspace *w)
+{
+    sparse_free_values(&w->K);
+    sparse_free_values(&w->M);
+    sparse_free_values(&w->G);
+    free(w->residual);
+    free(w->sigma);
+    free(w->input);
+    kinematics_state_free(w->state);
+}
+
+/* The next entry, which system_matrices_free frees whatever becomes of it. */
+static status next(system_matrices *s, state_matrices **out, fault *f)
+{
+    if (s->states == s->room) {
+        const int room = 2 * s->room + 8;
+        state_matrices *more = realloc(s->state, (size_t)room * sizeof *more);
+        if (more == NULL)
+            return fault_set(f, STATUS_FAULT, "out of memory for matrices of states");
+        s->state = more;
+        s->room = room;
+    }
+    *out = &s->state[s->states++];
+    **out = (state_matrices){.analysis = SCENE_NONE, .station = SCENE_NONE};
+    return STATUS_OK;
+}
+
+/* B: each load at factor 1, as it acts in the state. */
+static status inputs(const analysis_context *c, const model_state *state, workspace *w,
+                     triplets *out, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    const size_t n = (size_t)size.free;
+    for (int i = 0; i < c->scene->loads; i++) {
+        memset(w->load, 0, (n + (size_t)size.driven) * sizeof *w->load);
+        loads_add_one(c->model, state, &c->scene->load[i], 1, w->load);
+        memcpy(w->input + (size_t)i * n, w->load, n * sizeof *w->input);
+    }
+    return triplets_of_columns(size.free, c->scene->loads, w->input, out, f);
+}
+
+/* With K known: B, and of a formulation with inertia M, and G where the axes turn. */
+static status keep(const analysis_context *c, const model_state *state, double path, workspace *w,
+                   state_matrices *out, fault *f)
+{
+    out->path = path;
+    TRY(triplets_of(&w->K, 0, &out->K, f));
+    TRY(inputs(c, state, w, &out->B, f));
+    if (!(model_sizes(c->model).features & FEATURE_MASS))
+        return STATUS_OK;
+    TRY(rotating_frame_inertia(c->model, state, path, &w->M, out->turns ? &w->G : NULL, f));
+    TRY(triplets_of(&w->M, 0, &out->M, f));
+    return out->turns ? triplets_of(&w->G, 1, &out->G, f) : STATUS_OK;
+}
+
+/* Of the undeformed structure; displaced: those of a linear solution whose stresses count, NULL:
+ * there are none. */
+static status keep_linear(const analysis_context *c, int analysis, const double displaced[],
+                          workspace *w, system_matrices *s, fault *f)
+{
+    state_matrices *out = NULL;
+    static const double none[3];
+    TRY(next(s, &out, f));
+    out->analysis = analysis;
+    rotating_frame_set(c->model, none, none, 0);
+    TRY(linear_stiffness(c->model, &w->K, f));
+    if (displaced != NULL) {
+        TRY(linear_stresses(c->model, displaced, w->sigma, f));
+        TRY(linear_geometric_stiffness(c->model, w->sigma, 1, &w->G, f));
+        for (int i = 0; i < w->K.column[w->K.n]; i++)
+            w->K.value[i] += w->G.value[i];
+    }
+    return keep(c, kinematics_rest(c->model), 0, w, out, f);
+}
+
+/* The tangent of a state of a path, in the axes of the analysis. */
+static status keep_state(const analysis_context *c, int analysis, int station,
+                         const model_state *state, workspace *w, system_matrices *s, fault *f)
+{
+    state_matrices *out = NULL;
+    const double path = kinematics_state_path(state);
+    model_linearisation lin = {.path = path, .K = &w->K, .residual = w->residual};
+    TRY(next(s, &out, f));
+    out->analysis = analysis;
+    out->station = station;
+    out->turns = scene_rotates(&c->scene->analysis[analysis]);
+    context_set_frame(c, analysis);
+    kinematics_state_copy(c->model, state, w->state);
+    if (c->options->newton == SOLVE_DISPLACEMENT)
+        TRY(linearise_make_compatible(c->model, w->state, f));
+    TRY(linearise_state(c->model, w->state, &lin, f));
+    return keep(c, w->state, path, w, out, f);
+}
+
+static status keep_path(const analysis_context *c, int analysis, workspace *w, system_matrices *s,
+                        fault *f)
+{
+    const outcome_path *path = outcome_path_of(&c->outcomes[analysis]);
+    if (c->scene->analysis[analysis].kind == SCENE_COMPLIANCE) /* about those of another */
+        return STATUS_OK;
+    for (int i = 0; i < path->reached; i++)
+        TRY(keep_state(c, analysis, i, path->state[i], w, s, f));
+    return STATUS_OK;
+}
+
+/* About what the modal analysis follows; nothing where that failed. */
+static status keep_modal(const analysis_context *c, int analysis, workspace *w, system_matrices *s,
+                         fault *f)
+{
+    const int follows = c->scene->analysis[analysis].follows;
+    if (follows == SCENE_NONE || c->outcomes[follows].status != STATUS_OK)
+        return STATUS_OK;
+    if (c->scene->analysis[follows].kind == SCENE_LINEAR)
+        return keep_linear(c, analysis, outcome_displacements(&c->outcomes[follows]), w, s, f);
+    const outcome_path *path = outcome_path_of(&c->outcomes[follows]);
+    return path->reached > 0
+               ? keep_state(c, analysis, SCENE_NONE, path->state[path->reached - 1], w, s, f)
+               : STATUS_OK;
+}
+
+static status collect(const analysis_context *c, workspace *w, system_matrices *s, fault *f)
+{
+    TRY(workspace_alloc(c, w, f));
+    TRY(keep_linear(c, SCENE_NONE, NULL, w, s, f));
+    for (int i = 0; i < c->scene->analyses; i++) {
+        if (outcome_has_path(&c->outcomes[i]))
+            TRY(keep_path(c, i, w, s, f));
+        else if (c->scene->analysis[i].kind == SCENE_MODAL)
+            TRY(keep_modal(c, i, w, s, f));
+    }
+    return STATUS_OK;
+}
+
+status collect_systems(const analysis_context *c, system_matrices *s, fault *f)
+{
+    workspace w;
+    memset(s, 0, sizeof *s);
+    s->rows = model_sizes(c->model).free;
+    s->label = calloc((size_t)s->rows + 1, sizeof *s->label);
+    if (s->label == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for matrices of states");
+    rows_label(c->model, s->label);
+    const status outcome = collect(c, &w, s, f);
+    workspace_free(&w);
+    if (outcome != STATUS_OK)
+        system_matrices_free(s);
+    return outcome;
+}

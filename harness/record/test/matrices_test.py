@@ -1,0 +1,272 @@
+"""Matrices that `solve --matrices` writes: what scipy finds with them is what the program finds."""
+import csv
+import os
+import resource
+import unittest
+
+import numpy
+import scipy.io
+import scipy.linalg
+
+from harness.test.program import ProgramTest, run
+
+FORMULATIONS = ("beamw_first", "beamw", "beamw_vlasov", "beamw_consistent", "sheet_second",
+                "sheet_second_consistent", "sheet_third", "sheet_third_printed",
+                "geometrically_exact", "geometrically_exact:nodes=3", "collocation")
+
+# Stocky, so that matrices keep twelve digits; rigid in shear, so that every formulation carries it.
+BAR = """beamwork: 1
+sections:
+  bar: {constants: {A: 1e-4, Iy: 5e-7, Iz: 8e-7, It: 9e-7}, young: 1e9, shear_modulus: 4e8,
+        density: 1000}
+nodes:
+  root: {at: [0, 0, 0], hold: all}
+  tip: {at: [0.9, 0.3, 0.2], mass: 0.03, centre: [0.05, 0.02, -0.03],
+        inertia: [2e-4, 3e-4, 4e-4, 1e-5, 2e-5, -1e-5]}
+members:
+  bar: {from: root, to: tip, section: bar, y: [0, 1, 0]}
+loads:
+  across: {force: [-30, 20, 40], on: tip}
+"""
+LOADED = BAR + """  beside: {force: [10, 0, 5], on: tip, at: [0.1, 0, 0.05]}
+analyses:
+  solution: {linear: {}}
+  rest: {modal: {wanted: 6}}
+  path: {static: {stations: [0.5, 1]}}
+  bent: {modal: {wanted: 6, about: path}}
+  stressed: {modal: {wanted: 6, about: solution}}
+quantities:
+  uz: {displacement: {analysis: solution, node: tip, component: uz}, unit: m}
+  rest_$n: {for: {n: 0..5}, frequency: {analysis: rest, which: n}, unit: Hz}
+  bent_$n: {for: {n: 0..5}, frequency: {analysis: bent, which: n}, unit: Hz}
+  stressed_$n: {for: {n: 0..5}, frequency: {analysis: stressed, which: n}, unit: Hz}
+needs: [rotary_inertia]
+"""
+TURNING = BAR + """analyses:
+  turning: {rotation: {omega: [3, 4, 12], centre: [0.1, 0, 0], stations: [0.5, 1], wanted: 6}}
+quantities:
+  turning_$n: {for: {n: 0..5}, frequency: {analysis: turning, which: n}, unit: Hz}
+needs: [rotary_inertia]
+"""
+FOLLOWER = BAR.replace("on: tip}", "on: tip, follower: true}") + """analyses:
+  path: {static: {stations: [1]}}
+"""
+PORTAL = """beamwork: 1
+sections:
+  post: {i: {depth: 0.1, flange: 0.06, web_thickness: 0.004, flange_thickness: 0.006},
+         young: 2e11, shear_modulus: 8e10, density: 7800}
+nodes:
+  left: {at: [0, 0, 0], hold: all}
+  corner: {at: [0, 2, 0]}
+  right: {at: [3, 2, 0], hold: [ux, uy, uz], rotation: {sequence: [{axis: z, angle: free}]}}
+members:
+  post: {from: left, to: corner, section: post, y: [1, 0, 0], warping: [fixed, free]}
+  beam: {from: corner, to: right, section: post, y: [0, 1, 0], release: {from: [rz]},
+         warping: [free, fixed]}
+"""
+
+
+def scaled(K, *others):
+    """All by the roots of K's diagonal: rows of metres and of radians alike."""
+    d = 1 / numpy.sqrt(numpy.diag(K))
+    return [A * d[:, None] * d for A in (K, *others)]
+
+
+def frequencies(K, M):
+    """[Hz] of K x = omega^2 M x, ascending; M may be singular."""
+    K, M = scaled(K, M)
+    inverse = scipy.linalg.eigh(M, K, eigvals_only=True)[::-1]
+    return 1 / numpy.sqrt(inverse[inverse > 1e-14 * inverse[0]]) / (2 * numpy.pi)
+
+
+def turning_frequencies(K, M, G):
+    """[Hz] of (K + i omega G - omega^2 M) x = 0: with K = L L^T and M = R^T R Hermitian in 1/omega."""
+    K, M, G = scaled(K, M, G)
+    L = scipy.linalg.cholesky(K, lower=True)
+    size, vectors = scipy.linalg.eigh(M)
+    R = numpy.sqrt(numpy.maximum(size, 0))[:, None] * vectors.T
+    half = scipy.linalg.solve_triangular(L, R.T, lower=True)
+    turned = scipy.linalg.solve_triangular(L, scipy.linalg.solve_triangular(L, G, lower=True).T,
+                                           lower=True).T
+    whole = numpy.block([[-1j * turned, half], [half.T, numpy.zeros_like(K)]])
+    inverse = scipy.linalg.eigvalsh(whole)[::-1]
+    return 1 / inverse[inverse > 1e-7 * inverse[0]] / (2 * numpy.pi)
+
+
+class Matrices(ProgramTest):
+    def solve(self, scene, formulation, *more, n=2):
+        """Values by name and the folder, or None where it is refused."""
+        file, folder = self.folder / "scene.yaml", self.folder / formulation.replace(":", "_")
+        file.write_text(scene, encoding="utf-8")
+        work = ("solve", "--scene", file, "-f", formulation, "-n", n, "--matrices", folder, *more)
+        done = run(*work)
+        if done.returncode == 2 and "does not offer" in done.stderr:
+            self.assertFalse(folder.exists())
+            return None
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return folder
+
+    def solved(self, scene, formulation, *more, n=2):
+        folder = self.solve(scene, formulation, *more, n=n)
+        if folder is None:
+            return None, None
+        values = self.record("solve", "--scene", self.folder / "scene.yaml", "-f", formulation,
+                             "-n", n, *more)
+        return folder, {q["quantity"]: q["value"] for q in values["quantities"]}
+
+    @staticmethod
+    def read(folder, state, letter):
+        return scipy.io.mmread(folder / state / f"{letter}.mtx").toarray()
+
+    @staticmethod
+    def rows(folder, name="dofs.csv"):
+        with open(folder / name, encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def agree(self, values, stem, found, what):
+        for i in range(6):
+            value = values[f"{stem}_{i}"]
+            self.assertLess(abs(found[i] / value - 1), 2e-12, (what, stem, i, found[i], value))
+
+
+class Frequencies(Matrices):
+    def test_loaded(self):
+        """At rest, prestressed, and bent by a quarter of its length, with a rigid body."""
+        checked = 0
+        for formulation in FORMULATIONS:
+            folder, values = self.solved(LOADED, formulation)
+            if folder is None:
+                continue
+            checked += 1
+            for state, stem in (("undeformed", "rest"), ("modal_3", "bent"),
+                                ("modal_4", "stressed")):
+                found = frequencies(self.read(folder, state, "K"), self.read(folder, state, "M"))
+                self.agree(values, stem, found, formulation)
+            self.assertEqual((folder / "modal_3/K.mtx").read_text().splitlines()[2:],
+                             (folder / "static_2_station_1/K.mtx").read_text().splitlines()[2:])
+            self.assertFalse((folder / "undeformed/G.mtx").exists())
+            self.inputs(folder, values["uz"])
+        self.assertEqual(checked, len(FORMULATIONS))
+
+    def inputs(self, folder, value):
+        """K x = B 1 is the linear solution, and the table says which row is which."""
+        K, B = self.read(folder, "undeformed", "K"), self.read(folder, "undeformed", "B")
+        x = numpy.linalg.solve(K, B.sum(axis=1))
+        rows = self.rows(folder)
+        self.assertEqual([int(r["row"]) for r in rows], list(range(1, len(K) + 1)))
+        tip = [x[i] for i, r in enumerate(rows) if (r["node"], r["component"]) == ("node_1", "uz")]
+        self.assertEqual(len(tip), 1)
+        self.assertLess(abs(tip[0] / value - 1), 1e-11)
+        loads = self.rows(folder, "loads.csv")
+        self.assertEqual([(r["column"], r["node"], float(r["z"])) for r in loads],
+                         [("1", "node_1", 40), ("2", "node_1", 5)])
+
+    def test_turning(self):
+        """In a frame that turns: two stations, the last with the frequencies."""
+        checked = 0
+        for formulation in FORMULATIONS:
+            folder, values = self.solved(TURNING, formulation)
+            if folder is None:
+                continue
+            checked += 1
+            K, M, G = (self.read(folder, "rotation_0_station_1", letter) for letter in "KMG")
+            self.assertEqual(numpy.abs(G + G.T).max(), 0)
+            self.assertGreater(numpy.abs(G).max(), 1e-3)
+            self.agree(values, "turning", turning_frequencies(K, M, G), formulation)
+            half = self.read(folder, "rotation_0_station_0", "G")
+            self.assertLess(numpy.abs(2 * half - G).max(), 0.5 * numpy.abs(G).max())
+        self.assertEqual(checked, len(FORMULATIONS))
+
+    def test_newton(self):
+        """Each form of Newton's method: the same matrices to round-off."""
+        scene = BAR + "analyses:\n  path: {static: {stations: [1]}}\n"
+        K = self.read(self.solve(scene, "collocation"), "static_0_station_0", "K")
+        for newton in ("displacement", "dense"):
+            other = self.solve(scene, f"collocation:newton={newton}")
+            change = numpy.abs(self.read(other, "static_0_station_0", "K") - K).max()
+            self.assertLess(change, 1e-9 * numpy.abs(K).max(), newton)
+
+
+class Contents(Matrices):
+    def test_states(self):
+        folder = self.solve(LOADED, "beamw")
+        states = self.rows(folder, "states.csv")
+        self.assertEqual([(s["folder"], s["analysis"], s["kind"], s["station"], float(s["path"]))
+                          for s in states],
+                         [("undeformed", "", "", "", 0),
+                          ("static_2_station_0", "analysis_2", "static", "0", 0.5),
+                          ("static_2_station_1", "analysis_2", "static", "1", 1),
+                          ("modal_3", "analysis_3", "modal", "", 1),
+                          ("modal_4", "analysis_4", "modal", "", 0)])
+        self.assertEqual(sorted(os.listdir(folder)), sorted(
+            [s["folder"] for s in states] + ["dofs.csv", "loads.csv", "states.csv"]))
+
+    def test_follower(self):
+        """A load that turns with its node: a tangent without symmetry, and said so."""
+        folder = self.solve(FOLLOWER, "collocation")
+        head = (folder / "static_0_station_0/K.mtx").read_text().splitlines()[0]
+        self.assertEqual(head, "%%MatrixMarket matrix coordinate real general")
+        K = self.read(folder, "static_0_station_0", "K")
+        self.assertGreater(numpy.abs(K - K.T).max(), 1e-6 * numpy.abs(K).max())
+
+    def test_rows(self):
+        """Nodes, interior nodes, released ends, angles of a sequence and warping amplitudes."""
+        folder = self.solve(PORTAL, "beamw_consistent")
+        rows = self.rows(folder)
+        count = {}
+        for r in rows:
+            key = (r["node"], r["member"], r["along"], r["unit"])
+            count.setdefault(key, []).append(r["component"])
+        plain, turns = ["ux", "uy", "uz"], ["rx", "ry", "rz"]
+        self.assertEqual(count, {
+            ("node_1", "", "", "m"): plain, ("node_1", "", "", "rad"): turns,
+            ("node_2", "", "", "rad"): ["angle 1"],
+            ("", "member_0", "0.5", "m"): plain, ("", "member_0", "0.5", "rad"): turns,
+            ("", "member_1", "0.5", "m"): plain, ("", "member_1", "0.5", "rad"): turns,
+            ("", "member_1", "0", "rad"): ["turn 1"],
+            ("", "member_0", "0.5", "rad/m"): ["warping"],
+            ("node_1", "member_0", "1", "rad/m"): ["warping"],
+            ("", "member_1", "0", "rad/m"): ["warping"],
+            ("", "member_1", "0.5", "rad/m"): ["warping"]})
+        middle = [r for r in rows if r["member"] == "member_1" and r["along"] == "0.5"]
+        self.assertEqual([float(middle[0][k]) for k in "xyz"], [1.5, 2, 0])
+
+
+class Places(Matrices):
+    WORK = ("solve", "warping_torsion", "-f", "beamw", "-n", "20", "--matrices")
+
+    def test_refused(self):
+        """What cannot be written is noticed before anything is computed."""
+        there = self.folder / "there"
+        there.mkdir()
+        (there / "mine").write_text("mine", encoding="utf-8")
+        self.refused(2, "not empty", *self.WORK, there)
+        self.refused(2, "no folder", *self.WORK, there / "mine")
+        self.refused(2, "without a name", *self.WORK, "")
+        self.refused(4, "cannot be written", *self.WORK, self.folder / "none" / "new")
+        self.refused(4, "cannot be written", *self.WORK, self.folder / ("x" * 300))
+        self.refused(2, "the same file", *self.WORK, self.folder / "a", "-o", self.folder / "a")
+        self.assertEqual(os.listdir(self.folder), ["there"])
+        self.assertEqual(os.listdir(there), ["mine"])
+
+    def test_empty_folder(self):
+        """An empty folder is taken, also through a link and with a slash behind it."""
+        there, link = self.folder / "there", self.folder / "link"
+        there.mkdir()
+        link.symlink_to("there")
+        self.answered(*self.WORK, f"{link}/")
+        self.assertTrue(link.is_symlink())
+        self.assertTrue((there / "undeformed/M.mtx").exists())
+        self.assertEqual(sorted(os.listdir(self.folder)), ["link", "there"])
+
+    def test_full_disk(self):
+        """Complete or not at all."""
+        def small():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
+        self.refused(4, ["cannot be written", "nothing was left"], *self.WORK, self.folder / "new",
+                     preexec_fn=small, silent=False)
+        self.assertEqual(os.listdir(self.folder), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
