@@ -29,6 +29,7 @@ class Shapes:
     body: np.ndarray         # [nodes]: node it moves with, or -1
     held: np.ndarray         # [nodes]: bits
     sections: list           # [walls x 4 x 2] in m
+    far: dict                # member: the same at its far end, where the section changes along it
     equivalent: list         # section known by its constants only: a rectangle stands for it
     kind: list
     value: np.ndarray
@@ -56,9 +57,11 @@ def read(site, case):
         sections = [g["sections"][str(i)] for i in range(len(g["sections"]))]
         equivalent = [bool(s.attrs["equivalent"]) for s in sections]
         size = np.linalg.norm(np.ptp(g["position"][0], axis=0))
-        walls = [s[()] * min(1, SYMBOL * size / np.abs(s[()]).max()) if symbol else s[()] for s, symbol in zip(sections, equivalent)]
+        scale = [min(1, SYMBOL * size / np.abs(s[()]).max()) if symbol else 1 for s, symbol in zip(sections, equivalent)]
+        walls = [s[()] * by if by != 1 else s[()] for s, by in zip(sections, scale)]
+        far = {int(i): end[()] * scale[g["members"][int(i), 2]] for i, end in g.get("far_ends", {}).items()}
         return Shapes(text(g.attrs["formulation"]), int(g.attrs["elements"]), g["members"][()], g["first_point"][()], g["bodies"][:, 0], g["bodies"][:, 1],
-                      walls, equivalent, [text(k) for k in g["kind"]], g["value"][()],
+                      walls, far, equivalent, [text(k) for k in g["kind"]], g["value"][()],
                       g["position"][()], matrices(g["orientation"][()]), g["nodes"][()])
 
 
@@ -103,14 +106,17 @@ def strips(s, state, scale, every):
         at = np.arange(s.first[i], s.first[i + 1])
         at = np.append(at[:-1:every], at[-1])
         r, y, z = position[at], axes[at, 1], axes[at, 2]
-        for wall in s.sections[section]:
+        along = ((at - at[0]) / (at[-1] - at[0]))[:, None, None, None]
+        walls = s.sections[section]
+        here = walls + along * (s.far.get(i, walls) - walls)      # [points x walls x 4 x 2]
+        for k, wall in enumerate(walls):
             thick = np.linalg.norm(wall[0] - wall[1]) > THIN * np.linalg.norm(wall[1] - wall[2])
-            corners = wall if thick else np.array([(wall[0] + wall[1]) / 2, (wall[2] + wall[3]) / 2])
-            edges = [r + c[0] * y + c[1] * z for c in corners]
+            corners = here[:, k] if thick else (here[:, k, ::2] + here[:, k, 1::2]) / 2
+            edges = [r + c[:, :1] * y + c[:, 1:] * z for c in np.moveaxis(corners, 1, 0)]
             pairs = [(k, (k + 1) % 4) for k in range(4)] if thick else [(0, 1)]
             out += [np.stack([edges[a][:-1], edges[b][:-1], edges[b][1:], edges[a][1:]], axis=1) for a, b in pairs]
             if thick:
-                out += [np.stack([e[k] for e in edges])[None] for k in (0, -1)]
+                out += [np.stack([e[end] for e in edges])[None] for end in (0, -1)]
     return np.concatenate(out)
 
 

@@ -41,15 +41,29 @@ static void principal(const section *s, const double point[2], double out[2])
     out[1] = c * z - d * y;
 }
 
-/* The mid-line follows the longer side. */
-static void add_rectangle(outline *out, double height, double width)
+/* Sides along y and z of a rectangle that stands for a section. */
+static void sides_of(const section_spec *spec, const section *c, double side[2])
 {
-    const double side[2] = {width < height ? height / 2 : 0, width < height ? 0 : width / 2};
-    add_wall(out, (double[2]){-side[0], -side[1]}, side, fmin(width, height));
+    const double ratio = sqrt(c->Iy / c->Iz); /* of width to height: Iy/Iz = (w/h)^2 */
+    side[0] = spec->kind == SECTION_MATRICES ? sqrt(12 * c->Iz / c->A) : sqrt(c->A / ratio);
+    side[1] = spec->kind == SECTION_MATRICES ? sqrt(12 * c->Iy / c->A) : sqrt(c->A * ratio);
+    if (c->rectangle) {
+        side[0] = c->height;
+        side[1] = c->width;
+    }
 }
 
-void outline_of(const section_spec *spec, const section *c, outline *out)
+/* The mid-line is along y or along z. */
+static void add_rectangle(outline *out, const double side[2], int along_y)
 {
+    const double to[2] = {along_y ? side[0] / 2 : 0, along_y ? 0 : side[1] / 2};
+    add_wall(out, (double[2]){-to[0], -to[1]}, to, side[along_y]);
+}
+
+void outline_of_far_end(const section_spec *spec, const section *c, const section *near,
+                        outline *out)
+{
+    double side[2];
     out->walls = 0;
     out->equivalent =
         spec->kind == SECTION_MATRICES || (spec->kind == SECTION_CONSTANTS && !c->rectangle);
@@ -67,9 +81,22 @@ void outline_of(const section_spec *spec, const section *c, outline *out)
         }
         return;
     }
-    const double ratio = sqrt(c->Iy / c->Iz); /* of width to height: Iy/Iz = (w/h)^2 */
-    if (out->equivalent)
-        add_rectangle(out, sqrt(c->A / ratio), sqrt(c->A * ratio));
-    else
-        add_rectangle(out, c->height, c->width);
+    sides_of(spec, near, side);
+    const int along_y = side[1] < side[0]; /* the longer one */
+    sides_of(spec, c, side);
+    add_rectangle(out, side, along_y);
+}
+
+void outline_of(const section_spec *spec, const section *c, outline *out)
+{
+    outline_of_far_end(spec, c, c, out);
+}
+
+void outline_between(const outline *near, const outline *far, double x, outline *out)
+{
+    *out = *near;
+    for (int w = 0; w < near->walls; w++)
+        for (int k = 0; k < 4; k++)
+            for (int i = 0; i < 2; i++)
+                out->corner[w][k][i] += x * (far->corner[w][k][i] - near->corner[w][k][i]);
 }

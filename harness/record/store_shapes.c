@@ -99,12 +99,35 @@ static void put_sections(record *r, hid_t at, const scene *sc)
     H5Gclose(all);
 }
 
+/* Of the far ends of members along which the section changes, by the member's number. */
+static void put_far_ends(record *r, hid_t at, const scene *sc)
+{
+    if (!scene_tapers(sc))
+        return;
+    const hid_t all = record_group(r, at, "far_ends");
+    for (int i = 0; i < sc->members; i++) {
+        const scene_member *m = &sc->member[i];
+        outline o;
+        char name[16];
+        section near, far;
+        if (!scene_member_tapers(m) || scene_constants(sc, m->section, &near, NULL) != STATUS_OK ||
+            scene_constants(sc, m->section_q, &far, NULL) != STATUS_OK)
+            continue;
+        outline_of_far_end(&sc->section[m->section_q], &far, &near, &o);
+        const hsize_t size[3] = {(hsize_t)o.walls, 4, 2};
+        snprintf(name, sizeof name, "%d", i);
+        H5Dclose(record_values(r, all, name, 3, size, &o.corner[0][0][0], "m"));
+    }
+    H5Gclose(all);
+}
+
 hid_t store_shapes(record *r, hid_t at, const char *name, const scene *sc, const shapes *s)
 {
     const hid_t here = record_group(r, at, name);
     const hsize_t size[3] = {(hsize_t)s->states, (hsize_t)s->nodes, 3};
     put_structure(r, here, sc);
     put_sections(r, here, sc);
+    put_far_ends(r, here, sc);
     put_integers(r, here, "first_point", s->members + 1, 1, s->first);
     put_state_numbers(r, here, s);
     put_columns(r, here, "position", s, 0, 3, "m", "x y z");

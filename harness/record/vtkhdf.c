@@ -15,6 +15,7 @@ typedef struct grid {
     const scene *scene;
     const shapes *shapes;
     outline *outline;       /* [sections] */
+    outline *far;           /* [members] of the far ends where sections change; NULL: none does */
     int points, cells, ids; /* of one state */
     int states, *state;     /* the states that are time steps */
 } grid;
@@ -137,6 +138,13 @@ static void fill_state(const grid *g, int state, double *out[FIELDS])
             const centreline_point *p = &s->point[(size_t)state * (size_t)s->points + (size_t)i],
                                    *rest = &s->point[i];
             const outline *o = outline_at(g, member);
+            outline between;
+            if (scene_member_tapers(&g->scene->member[member])) {
+                outline_between(o, &g->far[member],
+                                (double)(i - s->first[member]) / (points_of(g, member) - 1),
+                                &between);
+                o = &between;
+            }
             fill_point(p, rest, 0, 0, out);
             for (int w = 0; w < o->walls; w++)
                 for (int end = 0; end < 2; end++) {
@@ -232,23 +240,44 @@ static void put_grid(record *r, const grid *g)
     H5Gclose(at);
 }
 
-void vtkhdf_write(record *r, const scene *sc, const shapes *s)
+/* Outlines of all sections, and of the far ends of members along which they change. */
+static void make_outlines(record *r, grid *g)
 {
-    grid g = {.scene = sc, .shapes = s};
-    g.outline = calloc((size_t)sc->sections + 1, sizeof *g.outline);
-    g.state = calloc((size_t)s->states + 1, sizeof *g.state);
-    r->bad |= g.outline == NULL || g.state == NULL;
+    const scene *sc = g->scene;
+    g->outline = calloc((size_t)sc->sections + 1, sizeof *g->outline);
+    r->bad |= g->outline == NULL;
     for (int i = 0; i < sc->sections && !r->bad; i++) {
         section c;
         r->bad |= scene_constants(sc, i, &c, NULL) != STATUS_OK;
         if (!r->bad)
-            outline_of(&sc->section[i], &c, &g.outline[i]);
+            outline_of(&sc->section[i], &c, &g->outline[i]);
     }
+    if (!scene_tapers(sc))
+        return;
+    g->far = calloc((size_t)sc->members + 1, sizeof *g->far);
+    r->bad |= g->far == NULL;
+    for (int i = 0; i < sc->members && !r->bad; i++) {
+        const scene_member *m = &sc->member[i];
+        section near, far;
+        r->bad |= scene_constants(sc, m->section, &near, NULL) != STATUS_OK ||
+                  scene_constants(sc, m->section_q, &far, NULL) != STATUS_OK;
+        if (!r->bad)
+            outline_of_far_end(&sc->section[m->section_q], &far, &near, &g->far[i]);
+    }
+}
+
+void vtkhdf_write(record *r, const scene *sc, const shapes *s)
+{
+    grid g = {.scene = sc, .shapes = s};
+    make_outlines(r, &g);
+    g.state = calloc((size_t)s->states + 1, sizeof *g.state);
+    r->bad |= g.state == NULL;
     if (!r->bad) {
         count(&g);
         choose_states(&g);
         put_grid(r, &g);
     }
     free(g.outline);
+    free(g.far);
     free(g.state);
 }
