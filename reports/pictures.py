@@ -55,6 +55,12 @@ def supports(s):
     return [i for i, (b, held) in enumerate(zip(s.body, s.held)) if (b >= 0 and s.held[b] == CLAMPED) or (b < 0 and held and (i not in owner or held != CLAMPED))]
 
 
+def hinges(s):
+    """Points at ends that are released."""
+    ends = np.column_stack([s.first[:-1], s.first[1:] - 1])
+    return ends[s.released != 0]
+
+
 def paint(axes, view, s, state, scale):
     """One state over the pale undeformed one."""
     every = max(1, math.ceil(len(s.position[0]) / MOST_STRIPS))
@@ -72,6 +78,8 @@ def paint(axes, view, s, state, scale):
     at = supports(s)
     spots = view.flat(nodes[at]) if at else np.empty((0, 2))
     axes.plot(spots[:, 0], spots[:, 1], "s", color=SUPPORT, markersize=3, zorder=2)
+    joints = view.flat(s.position[0][hinges(s)] + scale * (s.position[state] - s.position[0])[hinges(s)])
+    axes.plot(joints[:, 0], joints[:, 1], "o", color=SUPPORT, markerfacecolor="white", markersize=4, zorder=3)
 
 
 def frame(axes, view, s, states):
@@ -156,7 +164,7 @@ def write_case(site, case):
 
 
 def caption(s):
-    return (f"Computed with {html.escape(s.formulation)}, n = {s.n}; between the nodes a cubic through their axes. Grey: undeformed; sand: rigid bodies; black: held. "
+    return (f"Computed with {html.escape(s.formulation)}, n = {s.n}; between the nodes a cubic through their axes. Grey: undeformed; sand: rigid bodies; black: held; circles: released ends. "
             "Modes: largest displacement a tenth of the size, or largest turn half a radian.")
 
 

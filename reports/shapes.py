@@ -28,6 +28,7 @@ class Shapes:
     first: np.ndarray        # [members + 1]
     body: np.ndarray         # [nodes]: node it moves with, or -1
     held: np.ndarray         # [nodes]: bits
+    released: np.ndarray     # [members x 2]: bits of both ends
     sections: list           # [walls x 4 x 2] in m
     far: dict                # member: the same at its far end, where the section changes along it
     equivalent: list         # section known by its constants only: a rectangle stands for it
@@ -61,6 +62,7 @@ def read(site, case):
         walls = [s[()] * by if by != 1 else s[()] for s, by in zip(sections, scale)]
         far = {int(i): end[()] * scale[g["members"][int(i), 2]] for i, end in g.get("far_ends", {}).items()}
         return Shapes(text(g.attrs["formulation"]), int(g.attrs["elements"]), g["members"][()], g["first_point"][()], g["bodies"][:, 0], g["bodies"][:, 1],
+                      g["released"][()] if "released" in g else np.zeros((len(g["members"]), 2), int),
                       walls, far, equivalent, [text(k) for k in g["kind"]], g["value"][()],
                       g["position"][()], matrices(g["orientation"][()]), g["nodes"][()])
 

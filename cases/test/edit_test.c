@@ -16,6 +16,9 @@ static void make(scene *s)
     const int one = scene_add_member(s, root, tip, scene_add_section(s, &spec), y_axis);
     scene_member *m = scene_member_at(s, one);
     m->warp_p = 3;
+    scene_release_end(s, 0, 0, SCENE_RY);
+    scene_release_end(s, 0, 0, SCENE_UX);
+    scene_release_end(s, 0, 1, SCENE_RZ);
     m->warp_q = 7;
     m->divisions = 2;
     const int load = scene_add_load(s, SCENE_DISTRIBUTED, one, 5, 6, 7);
@@ -46,6 +49,9 @@ static void reversed(void)
     const scene_load *l = scene_load_at(&s, 0);
     gsl_test(m->p != 1 || m->q != 0, "ends %d %d", m->p, m->q);
     gsl_test(m->warp_p != 7 || m->warp_q != 3, "warping %d %d", m->warp_p, m->warp_q);
+    gsl_test(m->release[0].count != 1 || m->release[0].component[0] != SCENE_RZ ||
+                 m->release[1].count != 2 || m->release[1].component[1] != SCENE_UX,
+             "released ends change places");
     is_vector(m->curvature, 0, 0.25, -0.5, "about z the other way");
     is_vector(m->y_axis, 0, -1, 0, "turned by half a turn about z");
     is_vector(l->vector, -5, -6, 7, "load in the member's axes");
@@ -67,6 +73,9 @@ static void is_split(void)
     gsl_test(first->warp_p != 3 || second->warp_q != 7 || first->warp_q != second->warp_p ||
                  first->warp_q <= 7,
              "warping %d %d, %d %d", first->warp_p, first->warp_q, second->warp_p, second->warp_q);
+    gsl_test(first->release[0].count != 2 || first->release[1].count != 0 ||
+                 second->release[0].count != 0 || second->release[1].count != 1,
+             "ends stay released, the cut is not");
     gsl_test_int(second->divisions, 2, "divisions");
     const scene_load *l = scene_load_at(&s, 1);
     gsl_test(l->where != 1 || l->axes != SCENE_AXES_MEMBER || !l->follower, "its load");

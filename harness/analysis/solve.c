@@ -44,6 +44,13 @@ static analysis_function *function_of(const scene *s, const scene_analysis *a)
     return NULL;
 }
 
+/* Did it fail before it left the undeformed state? */
+static int is_stuck(const analysis_outcome *o)
+{
+    const int failed = o->status == STATUS_SINGULAR || o->status == STATUS_NOT_CONVERGED;
+    return failed && (!outcome_has_path(o) || outcome_path_of(o)->reached == 0);
+}
+
 /* The first failure names the whole. */
 static void run_analyses(analysis_context *c)
 {
@@ -61,6 +68,8 @@ static void run_analyses(analysis_context *c)
                                 : fault_set(&f, STATUS_REFUSED, "analysis %d: not available", i);
         if (o->status == STATUS_SINGULAR && c->singular)
             singular_explain(c, &f);
+        else if (is_stuck(o))
+            o->status = singular_mechanism(c, o->status, &f);
         snprintf(o->reason, sizeof o->reason, "%s", f.text);
         if (o->status != STATUS_OK && c->result->status == STATUS_OK) {
             c->result->status = o->status;

@@ -143,6 +143,20 @@ void centreline_nodes(const model *m, const model_state *s, double out[])
         kinematics_position(m, s, i, out + 3 * i);
 }
 
+/* A node that released ends may be all that is at. */
+static void increment_of_node(const model *m, const model_state *s, int node, const double x[],
+                              double out[])
+{
+    int index[6];
+    double T[36];
+    const int count = kinematics_node_jacobian(m, s, node, 6, index, T);
+    for (int i = 0; i < 6; i++) {
+        out[6 * node + i] = 0;
+        for (int k = 0; k < count; k++)
+            out[6 * node + i] += T[i * count + k] * x[index[k]];
+    }
+}
+
 /* Increments of a vertex's frame: translation, spatial rotation. */
 static void increments_of(const model *m, const model_state *s, const double x[], double out[])
 {
@@ -153,6 +167,8 @@ static void increments_of(const model *m, const model_state *s, const double x[]
             memcpy(&out[6 * m->element[i].vertex[k]], &local[NODE_COORDINATES * k],
                    6 * sizeof(double));
     }
+    for (int i = m->first_release; i < m->vertices; i++)
+        increment_of_node(m, s, m->release[i - m->first_release].node, x, out);
 }
 
 /* Makes a mode visible: its translations, or its rotations when these are larger. */

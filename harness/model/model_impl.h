@@ -25,6 +25,7 @@ typedef struct mesh_vertex {
 
 /* What an end of a member keeps to itself: see release.h. */
 typedef struct mesh_release {
+    int node; /* of the scene, from which it is released */
     int turns, slides;
     double turn[3][3], slide[3][3]; /* undeformed axes, unit vectors */
 } mesh_release;

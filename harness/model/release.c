@@ -28,6 +28,7 @@ static void add_end(model *m, int member, int end, const double R[9])
     mesh_element *el =
         &m->element[end ? m->first_element[member + 1] - 1 : m->first_element[member]];
     mesh_release *r = &m->release[m->releases++];
+    r->node = node;
     m->vertex[vertex] = m->vertex[node]; /* its place, and what moves that */
     m->vertex[vertex].angles = 0;
     for (int k = 0; k < 3; k++)
@@ -56,15 +57,16 @@ status release_build(model *m, fault *f)
     return STATUS_OK;
 }
 
-void release_axes(const model *m, const model_state *s, int vertex, double b[3][3])
+/* Orientation behind the turns of an end of a body; of a ball that of the body. b[turns x 3]: spatial axes of the turns, of a
+ * ball the fixed ones. */
+static void follow_turns(const mesh_release *r, const double angle[3], const double body[4],
+                         double b[3][3], double q[4])
 {
-    const mesh_release *r = release_of(m, vertex);
-    double q[4];
-    memcpy(q, &s->q[4 * m->vertex[vertex].body], sizeof q);
+    memcpy(q, body, 4 * sizeof *q);
     for (int k = 0; k < r->turns; k++) {
         double turn[3], step[4];
         for (int i = 0; i < 3; i++) {
-            turn[i] = r->turn[k][i] * s->angle[3 * vertex + k];
+            turn[i] = r->turn[k][i] * angle[k];
             b[k][i] = i == k;
         }
         if (r->turns == BALL)
@@ -73,6 +75,13 @@ void release_axes(const model *m, const model_state *s, int vertex, double b[3][
         rotation_exp(turn, step);
         rotation_compose(q, step, q);
     }
+}
+
+void release_axes(const model *m, const model_state *s, int vertex, double b[3][3])
+{
+    double q[4];
+    follow_turns(release_of(m, vertex), &s->angle[3 * vertex], &s->q[4 * m->vertex[vertex].body], b,
+                 q);
 }
 
 void release_slides(const model *m, const model_state *s, int vertex, double along[3][3],
@@ -155,29 +164,15 @@ double release_advance(const model *m, model_state *s, int vertex, const double 
     return largest;
 }
 
-/* Of less than three turns. */
-static void orientation(const mesh_release *r, const double angle[3], const double body[4],
-                        double q[4])
-{
-    memcpy(q, body, 4 * sizeof *q);
-    for (int k = 0; k < r->turns; k++) {
-        double turn[3], step[4];
-        for (int i = 0; i < 3; i++)
-            turn[i] = r->turn[k][i] * angle[k];
-        rotation_exp(turn, step);
-        rotation_compose(q, step, q);
-    }
-}
-
 void release_follow(const model *m, model_state *s)
 {
     for (int i = m->first_release; i < m->vertices; i++) {
         const mesh_vertex *v = &m->vertex[i];
         const mesh_release *r = release_of(m, i);
         const double *body = &s->q[4 * v->body];
-        double rho[3], along[3][3], apart[3];
+        double rho[3], along[3][3], apart[3], b[3][3];
         if (r->turns < BALL)
-            orientation(r, &s->angle[3 * i], body, &s->q[4 * i]);
+            follow_turns(r, &s->angle[3 * i], body, b, &s->q[4 * i]);
         rotation_apply(body, v->offset, rho);
         release_slides(m, s, i, along, apart);
         for (int k = 0; k < 3; k++)

@@ -59,11 +59,16 @@ static void put_integers(record *r, hid_t at, const char *name, int rows, int co
 static void put_structure(record *r, hid_t at, const scene *sc)
 {
     int *member = calloc((size_t)sc->members * 3 + 1, sizeof *member),
-        *attached = calloc((size_t)sc->nodes * 2 + 1, sizeof *attached);
-    r->bad |= member == NULL || attached == NULL;
+        *attached = calloc((size_t)sc->nodes * 2 + 1, sizeof *attached),
+        *released = calloc((size_t)sc->members * 2 + 1, sizeof *released);
+    r->bad |= member == NULL || attached == NULL || released == NULL;
     for (int i = 0; i < sc->members && !r->bad; i++) {
         const scene_member *m = &sc->member[i];
         memcpy(member + 3 * i, (const int[3]){m->p, m->q, m->section}, 3 * sizeof *member);
+        for (int k = 0; k < m->release[0].count; k++)
+            released[2 * i] |= 1 << m->release[0].component[k];
+        for (int k = 0; k < m->release[1].count; k++)
+            released[2 * i + 1] |= 1 << m->release[1].component[k];
     }
     for (int i = 0; i < sc->nodes && !r->bad; i++) {
         const scene_node *n = &sc->node[i];
@@ -75,9 +80,11 @@ static void put_structure(record *r, hid_t at, const scene *sc)
     if (!r->bad) {
         put_integers(r, at, "members", sc->members, 3, member);
         put_integers(r, at, "bodies", sc->nodes, 2, attached);
+        put_integers(r, at, "released", sc->members, 2, released);
     }
     free(member);
     free(attached);
+    free(released);
 }
 
 static void put_sections(record *r, hid_t at, const scene *sc)

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "elements/math/dense.h"
+#include "harness/equations/linkage.h"
 #include "harness/model/metric.h"
 #include "harness/model/supports.h"
 #include "harness/solver/context.h"
@@ -22,6 +23,26 @@ static void name_motion(int node, const double motion[6], double length, fault *
               "node %d is not held, nor what it is joined to: it can %s (%.3g, %.3g, %.3g); hold "
               "it against that",
               node, turns ? "turn about" : "move along", v[0] / size, v[1] / size, v[2] / size);
+}
+
+status singular_mechanism(const analysis_context *c, status otherwise, fault *f)
+{
+    int node, member;
+    double motion[6];
+    if (!linkage_mechanism(c->model, &node, &member, motion))
+        return otherwise;
+    const double *shift = motion, *turn = motion + 3,
+                 turned = vec3_norm(turn) * model_length(c->model);
+    const int turns = turned > 1e-6 * vec3_norm(shift);
+    const double *v = turns ? turn : shift, size = vec3_norm(v);
+    double axis[3];
+    for (int i = 0; i < 3; i++)
+        axis[i] = fabs(v[i]) > 1e-9 * size ? v[i] / size : 0;
+    return fault_set(f, STATUS_SINGULAR,
+                     "%s %d can %s (%.3g, %.3g, %.3g) while nothing deforms: the released ends "
+                     "make a mechanism; join one of them, hold it against that, or drive it",
+                     node >= 0 ? "node" : "member", node >= 0 ? node : member,
+                     turns ? "turn about" : "move along", axis[0], axis[1], axis[2]);
 }
 
 /* How far apart the stiffnesses of K's coordinates are, displacements in units of the structure's
@@ -106,6 +127,8 @@ void singular_explain(analysis_context *c, fault *f)
         name_motion(node, motion, model_length(c->model), f);
         return;
     }
+    if (singular_mechanism(c, STATUS_OK, f) != STATUS_OK)
+        return;
     condition_at_rest(c, c->model, &lost);
     if (lost)
         explain_loss(c, f);

@@ -1,11 +1,12 @@
 """Pictures: geometry of what is drawn, and that a report with shapes has them."""
+import types
 import unittest
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from harness.test.program import ProgramTest, drawn
-from reports import shapes
+from reports import pictures, shapes
 
 
 class Geometry(unittest.TestCase):
@@ -26,6 +27,11 @@ class Geometry(unittest.TestCase):
     def test_clusters(self):
         points = np.array([[0, 0, 0.], [0.1, 0, 0], [1, 0, 0], [1, 0.1, 0]])
         self.assertEqual([list(g) for g in shapes.clusters(points)], [[0, 1], [2, 3]])
+
+    def test_hinges(self):
+        """Points at the ends of members that release something."""
+        ends = types.SimpleNamespace(first=np.array([0, 13, 26, 39]), released=np.array([[0, 32], [1, 0], [0, 0]]))
+        self.assertEqual(list(pictures.hinges(ends)), [12, 13])
 
 
 class Report(ProgramTest):
