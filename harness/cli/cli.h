@@ -42,16 +42,17 @@ typedef struct cli_request {
     int given_count;
     const char *scene_path[CLI_MAX_CASES]; /* --scene: in the place of a case */
     int scene_count, most_scenes;
-    int built_in;       /* 1: the built-in cases beside --scene */
-    scene_file *scene;  /* what was read from the one; cli_close frees it */
-    int refusal;        /* exit code where there is no case */
-    int reads_files;    /* 1: the arguments are files that are read */
-    const char *beside; /* stored import: contestants of a run */
-    const char *map;    /* of columns without a header */
-    int gate;           /* 1: their verdicts count */
-    const char *to;     /* program that a deck is for */
-    int schema, keys;   /* 1: describe the keys of scene files as JSON Schema, as a list */
-    double plant;       /* share of its time that is added to every run of the other */
+    int built_in;                      /* 1: the built-in cases beside --scene */
+    scene_file *scene;                 /* what was read from the one; cli_close frees it */
+    int refusal;                       /* exit code where there is no case */
+    int reads_files;                   /* 1: the arguments are files that are read */
+    const char *beside[CLI_MAX_CASES]; /* stored imports: contestants of a run */
+    int beside_count;
+    const char *map;  /* of columns without a header */
+    int gate;         /* 1: their verdicts count */
+    const char *to;   /* program that a deck is for */
+    int schema, keys; /* 1: describe the keys of scene files as JSON Schema, as a list */
+    double plant;     /* share of its time that is added to every run of the other */
 } cli_request;
 
 typedef int cli_verb(int count, char **arguments);

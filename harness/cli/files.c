@@ -8,7 +8,7 @@
 #include "harness/record/output.h"
 #include "harness/record/output_folder.h"
 
-enum { OUTPUTS = 5, INPUTS = 7 };
+enum { OUTPUTS = 5, INPUTS = 6 };
 
 typedef struct named_place {
     const char *option, *path;
@@ -48,13 +48,9 @@ status cli_check_files(const cli_request *r, int whole_file, const char *truths_
         {.option = "--markdown", .path = r->markdown},
         {.option = "--matrices", .path = r->matrices, .folder = 1}};
     const int is_path = r->against != NULL && strchr(r->against, '/') != NULL;
-    const char *const input[INPUTS] = {truths_path,
-                                       r->most_arguments == 2 ? r->case_name : NULL,
-                                       r->second,
-                                       r->scene_path[0],
-                                       r->beside,
-                                       r->map,
-                                       is_path ? r->against : "/proc/self/exe"};
+    const char *const input[INPUTS] = {truths_path, r->most_arguments == 2 ? r->case_name : NULL,
+                                       r->second,   r->scene_path[0],
+                                       r->map,      is_path ? r->against : "/proc/self/exe"};
     for (int i = 0; i < OUTPUTS; i++) {
         if (out[i].path == NULL)
             continue;

@@ -7,13 +7,22 @@
 #include "harness/record/place.h"
 #include "harness/record/store.h"
 
-/* All mistakes of a file, a line each. */
-static void print_mistakes(const mistakes *m)
+static int as_json(const cli_request *r)
 {
+    return strcmp(r->format, "json") == 0;
+}
+
+/* All mistakes of a file, a line each; as JSON where that is the form of the output: then of every
+ * file, also of one that has none. */
+static status print_mistakes(const cli_request *r, const mistakes *m, fault *f)
+{
+    if (as_json(r))
+        return mistakes_json(m, stdout, f);
     for (int i = 0; i < m->count; i++)
         fprintf(stderr, "%s:%d: %s\n", m->file, m->list[i].line, m->list[i].text);
     if (m->more > 0)
         fprintf(stderr, "%s: %d more mistakes\n", m->file, m->more);
+    return STATUS_OK;
 }
 
 /* All files by one map: one series. */
@@ -21,7 +30,7 @@ static status read_mapped(const cli_request *r, import_set *set, fault *f)
 {
     mistakes m = {.file = r->map};
     const status outcome = import_map_read(r->map, r->cases, r->case_count, set, &m, f);
-    print_mistakes(&m);
+    TRY(print_mistakes(r, &m, f));
     if (m.count > 0)
         fault_set(f, outcome, "nothing was imported: mistakes in %.200s", r->map);
     return outcome;
@@ -35,7 +44,7 @@ static status read_files(const cli_request *r, import_set *set, fault *f)
         mistakes m = {.file = r->cases[i]};
         fault here = {""};
         const status one = import_file_read(r->cases[i], set, &m, &here);
-        print_mistakes(&m);
+        TRY(print_mistakes(r, &m, f));
         if (one == STATUS_OK || outcome == STATUS_FAULT)
             continue;
         outcome = one;
@@ -79,12 +88,15 @@ static status import(cli_request *r, import_set *set, fault *f)
 {
     if (r->case_count == 0 || r->output == NULL)
         return fault_set(f, STATUS_REFUSED, "give files to import, and -o FILE.h5");
+    if (strcmp(r->format, "csv") == 0)
+        return fault_set(f, STATUS_REFUSED, "--format: give text or json");
     TRY(cli_check_files(r, 1, NULL, f));
     TRY(r->map != NULL ? read_mapped(r, set, f) : read_files(r, set, f));
     TRY(check_again(&set->sweep, f));
     const environment e = environment_now(1);
     TRY(store_write(r->output, &set->sweep, NULL, &e, f));
-    tell(&set->sweep);
+    if (!as_json(r))
+        tell(&set->sweep);
     return STATUS_OK;
 }
 
@@ -97,8 +109,8 @@ int cli_import(int count, char **arguments)
               "Reads what other programs found of a case or scene: CSV with a declared header "
               "(harness/imports/README.md). Names, units and parameters are checked, values "
               "converted; -o FILE is of the same schema as results of verify, whose --beside takes "
-              "it as one more contestant.",
-              "o+m", count, arguments, &r);
+              "it as one more contestant. --format json: the mistakes of each file, for editors.",
+              "o+mF", count, arguments, &r);
     r.reads_files = 1;
     const status outcome = import(&r, &set, &f);
     import_set_free(&set);

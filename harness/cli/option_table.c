@@ -56,8 +56,9 @@ const verb_option option_table[OPTION_COUNT] = {
     {"built-in", 'I', NULL, "the built-in cases beside those of --scene",
      offsetof(cli_request, built_in)},
     {"beside", 'B', "FILE",
-     "what other programs found, stored by 'beamwork import': contestants that gate nothing",
-     offsetof(cli_request, beside)},
+     "what other programs found, stored by 'beamwork import': contestants that gate nothing; again "
+     "for another file",
+     0},
     {"map", 'm', "FILE.yaml", "which columns of files without a header are which quantities",
      offsetof(cli_request, map)},
     {"doublings", 'N', "N",

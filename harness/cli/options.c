@@ -78,7 +78,7 @@ static void refuse_again(cli_request *r, int key, const struct argp_state *state
     char message[160];
     while (o->name != NULL && o->key != key)
         o++;
-    if (o->name == NULL || o->arg == NULL || strchr("fnsY", key) != NULL)
+    if (o->name == NULL || o->arg == NULL || strchr("fnsYB", key) != NULL)
         return;
     for (int i = 0; i < r->given_count; i++)
         if (r->given[i] == key) {
@@ -104,15 +104,16 @@ static void add_case(cli_request *r, const char *name)
     r->second = r->cases[1];
 }
 
-static void add_scene(cli_request *r, const char *path)
+/* One more path of an option that may be given again, each once. */
+static void add_path(const char *path, int most, const char *list[], int *count)
 {
-    if (r->scene_count == r->most_scenes)
-        refuse(r->most_scenes == 1 ? "--scene is given twice; give it one value"
-                                   : "too many --scene; give a folder");
-    for (int i = 0; i < r->scene_count; i++)
-        if (strcmp(r->scene_path[i], path) == 0)
-            refuse("--scene is given twice with one path; give it once");
-    r->scene_path[r->scene_count++] = path;
+    if (*count == most)
+        refuse(most == 1 ? "--scene is given twice; give it one value"
+                         : "too many --scene or --beside; give a folder, import files together");
+    for (int i = 0; i < *count; i++)
+        if (strcmp(list[i], path) == 0)
+            refuse("--scene or --beside is given twice with one path; give it once");
+    list[(*count)++] = path;
 }
 
 static error_t take_plain(int key, const char *value, cli_request *r)
@@ -151,8 +152,11 @@ static error_t take(int key, char *value, struct argp_state *state)
     case 's':
         add_assignment(r, value);
         return 0;
+    case 'B':
+        add_path(value, CLI_MAX_CASES, r->beside, &r->beside_count);
+        return 0;
     case 'Y':
-        add_scene(r, value);
+        add_path(value, r->most_scenes, r->scene_path, &r->scene_count);
         return 0;
     case 'F':
         if (strcmp(value, "text") != 0 && strcmp(value, "json") != 0 && strcmp(value, "csv") != 0)

@@ -142,15 +142,20 @@ static status measure_noise(const sweep_request *request, const truths *t, sweep
 }
 
 /* Other programs as contestants; those of no point of this run are told. */
-static status add_beside(const cli_request *r, sweep *s, fault *f)
+static status add_beside(const char *path, int gates, sweep *s, fault *f)
 {
     import_left left;
-    TRY(import_store_read(r->beside, r->gate, s, &left, f));
-    if (left.series > 0)
+    TRY(import_store_read(path, gates, s, &left, f));
+    if (left.series == left.all)
         fprintf(stderr,
-                "beamwork: %s: %d series of cases or parameters that were not run, the "
+                "beamwork: %s: nothing of it was run: it is of %s; select that with -k, or give "
+                "its --scene\n",
+                path, left.first);
+    else if (left.series > 0)
+        fprintf(stderr,
+                "beamwork: %s: %d of %d series are of cases or parameters that were not run, the "
                 "first %s\n",
-                r->beside, left.series, left.first);
+                path, left.series, left.all, left.first);
     return STATUS_OK;
 }
 
@@ -172,13 +177,15 @@ static status run(const cli_request *r, const scenes *own, sweep *s, truths *t, 
     TRY(cli_check_files(r, 1, cli_truths_path(r), f));
     for (int i = 0; i < own->count; i++)
         TRY(cli_check_input(r, own->path[i], f));
+    for (int i = 0; i < r->beside_count; i++)
+        TRY(cli_check_input(r, r->beside[i], f));
     TRY(scenes_truths(own, r, t, f));
     TRY(plan_sweep(&request, t, s, f));
     TRY(run_sweep(&request, s, f));
     if (s->unfinished == 0)
         TRY(measure_noise(&request, t, s, f));
-    if (r->beside != NULL)
-        TRY(add_beside(r, s, f));
+    for (int i = 0; i < r->beside_count; i++)
+        TRY(add_beside(r->beside[i], r->gate, s, f));
     return judge_and_write(r, s, t, j, f);
 }
 

@@ -54,7 +54,6 @@ typedef struct store_reader {
     int gates;
     sweep *s;
     import_left *left;
-    int found; /* series */
     fault *f;
 } store_reader;
 
@@ -75,6 +74,15 @@ static int point_of(const sweep *s, const char *of, const char *parameters)
             return s->series[i].point;
     }
     return -1;
+}
+
+/* Has the point a contestant of that name? */
+static int is_there(const sweep *s, int place, const char *name)
+{
+    for (int i = 0; i < s->seriess; i++)
+        if (s->series[i].point == place && strcmp(s->series[i].formulation.key, name) == 0)
+            return 1;
+    return 0;
 }
 
 static imported *gather_rows(const value_row *first, int count)
@@ -122,7 +130,7 @@ static status take_series(store_reader *r, const char *of, const tables *t, cons
     for (int i = 0; i < count; i++)
         if (first[i].elements < 1 || !isfinite(first[i].value))
             return damaged(r, "an imported value");
-    r->found++;
+    r->left->all++;
     const int place = point_of(r->s, of, parameters);
     if (place < 0) {
         if (r->left->series++ == 0)
@@ -130,6 +138,11 @@ static status take_series(store_reader *r, const char *of, const tables *t, cons
                      parameters[0] != '\0' ? parameters : "default", first->formulation);
         return STATUS_OK;
     }
+    if (is_there(r->s, place, first->formulation))
+        return fault_set(r->f, STATUS_REFUSED,
+                         "%.100s: %.60s/%.60s of %.100s is beside this run already; give it once",
+                         r->path, of, parameters[0] != '\0' ? parameters : "default",
+                         first->formulation);
     imported *found = gather_rows(first, count);
     if (found == NULL)
         return fault_set(r->f, STATUS_FAULT, "out of memory for imported values");
@@ -206,7 +219,7 @@ static status read_file(store_reader *r, hid_t file)
     if (cases >= 0)
         H5Gclose(cases);
     TRY(outcome);
-    if (r->found == 0)
+    if (r->left->all == 0)
         return fault_set(r->f, STATUS_REFUSED,
                          "%.120s: nothing imported is in it; write it with 'beamwork import FILE "
                          "-o'",
@@ -216,8 +229,8 @@ static status read_file(store_reader *r, hid_t file)
 
 status import_store_read(const char *path, int gates, sweep *s, import_left *left, fault *f)
 {
-    store_reader r = {path, gates, s, left, 0, f};
-    *left = (import_left){0, ""};
+    store_reader r = {path, gates, s, left, f};
+    *left = (import_left){0, 0, ""};
     TRY(checksum_check(path, f));
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);

@@ -1,4 +1,5 @@
 """import: names, units, parameters, axes; what is wrong is told at once; verify takes it beside."""
+import json
 import pathlib
 import unittest
 
@@ -81,6 +82,11 @@ class Import(ProgramTest):
         found = {row["quantity"]: (row["value"], row["factor"]) for row in self.stored()}
         self.assertEqual(found, {b"C_uy_Fy": (3, 1), b"C_uy_Fx": (-4, -1)})
 
+    def test_mirrored_axes(self):
+        """Seen in a mirror a turn about the normal that stays is the other way round."""
+        self.read(HEAD + "# axes: x=x y=-y z=z\n# convention: spatial\n" + COLUMNS + "C_ux_Mz, 1/N, 2,,,, 3,\nC_uy_Mz, 1/N, 2,,,, 4,\nC_thz_Mz, rad/(N m), 2,,,, 5,\n")
+        self.assertEqual({row["quantity"]: row["value"] for row in self.stored()}, {b"C_ux_Mz": -3, b"C_uy_Mz": 4, b"C_thz_Mz": 5})
+
     def test_two_programs_in_one_file(self):
         self.read(HEAD + COLUMNS + ROWS + "# program: other\n" + ROWS)
         self.assertEqual({s["formulation"] for s in self.stored(table="series")}, {b"MBDyn 1.7.3, 3-node", b"other"})
@@ -105,7 +111,51 @@ class Import(ProgramTest):
         self.assertEqual(gates.returncode, 1, gates.stdout)
         elsewhere = run("verify", "-k", "elastica/default", "-f", "collocation", "--beside", self.folder / "theirs.h5")
         self.assertEqual(elsewhere.returncode, 0)
-        self.assertIn("were not run, the first sheet_cantilever/", elsewhere.stderr)
+        self.assertIn("theirs.h5: nothing of it was run: it is of sheet_cantilever/", elsewhere.stderr)
+        self.assertEqual(len(elsewhere.stderr.splitlines()), 1, elsewhere.stderr)
+
+    def test_several_beside(self):
+        """Each file once, each program once at a point; what a file has of other points is counted."""
+        self.read(HEAD.replace("MBDyn 1.7.3, 3-node", "rival") + COLUMNS + ROWS + "# case: elastica\nw_over_L, 1, 2,,,, 1,\n")
+        (self.folder / "theirs.h5").rename(self.folder / "rivals.h5")
+        self.read(HEAD + COLUMNS + ROWS)
+        select = ("verify", "-k", SELECT, "-f", "collocation")
+        done = run(*select, "--beside", self.folder / "theirs.h5", "--beside", self.folder / "rivals.h5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("MBDyn 1.7.3, 3-node", "rival"):
+            self.assertEqual(sum(name in line for line in done.stdout.splitlines()), 1, done.stdout)
+        self.assertIn("rivals.h5: 1 of 2 series are of cases or parameters that were not run, the first elastica/default/rival", done.stderr)
+        (self.folder / "copy.h5").write_bytes((self.folder / "theirs.h5").read_bytes())
+        self.refused(2, "is beside this run already; give it once", *select, "--beside", self.folder / "theirs.h5", "--beside", self.folder / "copy.h5")
+        self.refused(2, "is given twice with one path", *select, "--beside", self.folder / "theirs.h5", "--beside", self.folder / "theirs.h5")
+        self.refused(2, "would replace", *select, "--beside", self.folder / "copy.h5", "--beside", self.folder / "theirs.h5", "-o", self.folder / "theirs.h5")
+
+    def test_mistakes_as_json(self):
+        """Of each file, in one form with those of scenes; a file without any has an empty list."""
+        files = {"good.csv": HEAD + COLUMNS + ROWS, "bad.csv": HEAD + "# modle: solid\n" + COLUMNS + ROWS}
+        for name, text in files.items():
+            (self.folder / name).write_text(text, encoding="utf-8")
+        paths = [self.folder / name for name in files]
+        done = self.answered("import", *paths, "-o", self.folder / "theirs.h5", "--format", "json", code=2)
+        decoder, text, found = json.JSONDecoder(), done.stdout.strip(), []
+        while text:
+            one, end = decoder.raw_decode(text)
+            found.append(one)
+            text = text[end:].strip()
+        self.assertEqual([one["file"] for one in found], [str(path) for path in paths])
+        self.assertEqual([one["mistakes"] for one in found],
+                         [[], [{"line": 4, "column": 1, "text": "unknown header 'modle'; did you mean 'model'?"}]])
+        whole = self.answered("import", paths[0], "-o", self.folder / "theirs.h5", "--format", "json", code=0)
+        self.assertEqual(json.loads(whole.stdout)["mistakes"], [])
+        self.refused(2, "give text or json", "import", paths[0], "-o", self.folder / "theirs.h5", "--format", "csv")
+
+    def test_curves(self):
+        """Points in the order of their abscissa, whatever their order in the file, and the abscissa in SI is theirs."""
+        self.read(HEAD + COLUMNS + "C_xx_curve, mm/N, 4,,, 0.01, 29,\nC_xx_curve, mm/N, 4,,, 0.005, 14,\n")
+        with h5py.File(self.folder / "theirs.h5") as file:
+            case = file["cases"]["sheet_cantilever"]
+            self.assertEqual(list(case["curve_x"]), [0.005, 0.01])
+            self.assertEqual(list(case["curve_value"]), [14e-3, 29e-3])
 
     def test_nothing_is_believed_of_a_stored_import(self):
         self.read(HEAD + COLUMNS + ROWS)
