@@ -5,7 +5,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "harness/catalogue/choice.h"
 #include "harness/cli/cli.h"
+#include "harness/scene_writer/write.h"
+#include "harness/study/cell.h"
 #include "harness/truth/derive.h"
 #include "harness/truth/truth.h"
 
@@ -43,8 +46,8 @@ static int print_stored(const truths *t, const case_type *type, const double par
     return continuum;
 }
 
-/* BEAMWORK_REFERENCE, or reference/ of the clone in whose build folder the program is. */
-static status script_path(char out[PATH_MAX], fault *f)
+/* Of reference/derive in BEAMWORK_REFERENCE, or in reference/ of the clone in whose build folder the program is. */
+static status script_path(const char *name, char out[PATH_MAX], fault *f)
 {
     char program[PATH_MAX] = "";
     const char *given = getenv("BEAMWORK_REFERENCE");
@@ -52,8 +55,8 @@ static status script_path(char out[PATH_MAX], fault *f)
     const char *folder = given;
     if (folder == NULL)
         folder = found > 0 ? dirname(program) : ".";
-    const int length =
-        snprintf(out, PATH_MAX, "%s%s/derive/at.py", folder, given != NULL ? "" : "/../reference");
+    const int length = snprintf(out, PATH_MAX, "%s%s/derive/%s", folder,
+                                given != NULL ? "" : "/../reference", name);
     return length < PATH_MAX ? STATUS_OK
                              : fault_set(f, STATUS_FAULT, "%.60s...: the path is too long", folder);
 }
@@ -63,13 +66,76 @@ static status print_derived(const case_type *type, const double parameter[], fau
     char script[PATH_MAX], text[PARAMETERS_TEXT];
     derived_value *value;
     int count;
-    TRY(script_path(script, f));
+    TRY(script_path("at.py", script, f));
     parameters_text(type, parameter, text, sizeof text);
     const status outcome = derive_values(script, type->name, text, &value, &count, f);
     for (int i = 0; i < count; i++)
         print_value(value[i].quantity, value[i].value, value[i].uncertainty, value[i].unit, "exact",
                     "same", value[i].source, value[i].convention);
     free(value);
+    return outcome;
+}
+
+/* All parameters of the scene: a line without them would speak of any values. */
+static void print_point(const case_type *type, const double parameter[])
+{
+    const parameter_type *p;
+    for (int i = 0; (p = parameter_at(type->parameters, i)) != NULL; i++) {
+        char word[SCENE_NAME];
+        if (p->choices != NULL)
+            choice_name(p->choices, (int)parameter[i], word, sizeof word);
+        else
+            for (int digits = 15; digits <= 17; digits++) {
+                snprintf(word, sizeof word, "%.*g", digits, parameter[i]);
+                if (strtod(word, NULL) == parameter[i])
+                    break;
+            }
+        printf("%s%s: %s", i == 0 ? ", parameters: {" : ", ", p->name, word);
+    }
+    printf("%s", parameter_at(type->parameters, 0) != NULL ? "}" : "");
+}
+
+/* As a line for the file. */
+static void print_line(const derived_value *v, const case_type *type, const double parameter[])
+{
+    printf("  - {quantity: %s, value: %.17g, uncertainty: %.1e, kind: exact, source: \"%s\"",
+           v->quantity, v->value, v->uncertainty, v->source);
+    if (v->convention[0] != '\0')
+        printf(", convention: %s", v->convention);
+    print_point(type, parameter);
+    printf("}\n");
+}
+
+/* With a file that print_scene closes. */
+static status print_scene_of(const case_type *type, const double parameter[], FILE *text, fault *f)
+{
+    char script[PATH_MAX];
+    scene s = {0};
+    derived_value *value;
+    int count;
+    const write_head head = {type->name, type->summary, type->source};
+    TRY(script_path("of_scene.py", script, f));
+    status outcome = cell_scene(type, parameter, NULL, &s, f);
+    if (outcome == STATUS_OK)
+        outcome = write_scene(text, &s, &head, f);
+    scene_free(&s);
+    TRY(outcome);
+    TRY(derive_scene(script, text, &value, &count, f));
+    printf("derived, as lines for the file\ntruths:\n");
+    for (int i = 0; i < count; i++)
+        print_line(&value[i], type, parameter);
+    free(value);
+    return STATUS_OK;
+}
+
+/* Of a scene file: solved as a network of members and bodies. */
+static status print_scene(const case_type *type, const double parameter[], fault *f)
+{
+    FILE *text = tmpfile();
+    if (text == NULL)
+        return fault_set(f, STATUS_FAULT, "no temporary file for the scene");
+    const status outcome = print_scene_of(type, parameter, text, f);
+    fclose(text);
     return outcome;
 }
 
@@ -86,11 +152,16 @@ static int truth_request(cli_request *r)
         return cli_fail(outcome, f.text);
     parameters_text(type, r->parameter, text, sizeof text);
     printf("%s%s%s\n", type->name, text[0] != '\0' ? ": " : "", text);
-    if (print_stored(&t, type, r->parameter) == 0) {
-        fflush(stdout);
-        outcome = r->scene == NULL ? print_derived(type, r->parameter, &f)
-                                   : fault_set(&f, STATUS_REFUSED, "the file has no truth there");
+    const int stored = print_stored(&t, type, r->parameter);
+    fflush(stdout);
+    if (r->scene != NULL)
+        outcome = print_scene(type, r->parameter, &f);
+    if (r->scene != NULL && stored > 0 && outcome == STATUS_REFUSED) {
+        fprintf(stderr, "beamwork: %s\n", f.text);
+        outcome = STATUS_OK;
     }
+    if (r->scene == NULL && stored == 0)
+        outcome = print_derived(type, r->parameter, &f);
     truths_free(&t);
     const int code = cli_exit(outcome, &f);
     return code == EXIT_REFUSED ? EXIT_DIFFERS : code;
@@ -98,14 +169,17 @@ static int truth_request(cli_request *r)
 
 int cli_truth(int count, char **arguments)
 {
-    return cli_run(
-        "truth", "CASE",
-        "Shows the truths of a parameter point: value, uncertainty, unit, kind, model, "
-        "source. Where the tables have none of "
-        "the case's own model, the "
-        "deriving program is run to solve for them. Exit status: 0 shown, 1 none is stored "
-        "and no program derives this case "
-        "or these parameters, "
-        "2 refused, 4 file, disk or memory.",
-        "sTY", count, arguments, truth_request);
+    return cli_run("truth", "CASE",
+                   "Shows the truths of a parameter point: value, uncertainty, unit, kind, model, "
+                   "source. Where the tables have none of "
+                   "the case's own model, the "
+                   "deriving program is run to solve for them. A scene of your own (--scene FILE) "
+                   "is solved as a "
+                   "network of geometrically exact beams and rigid bodies, beside what the file "
+                   "has: lines to be "
+                   "pasted into its truths. Exit status: 0 shown, 1 none is stored "
+                   "and no program derives this case "
+                   "or these parameters, or a scene of your own, "
+                   "2 refused, 4 file, disk or memory.",
+                   "sTY", count, arguments, truth_request);
 }

@@ -16,8 +16,14 @@ typedef struct script {
     FILE *says, *complains;
 } script;
 
-static status start(const char *path, const char *case_name, const char *parameters, script *s,
-                    fault *f)
+/* What is asked of a program of reference/derive. */
+typedef struct question {
+    const char *path;
+    const char *case_name, *parameters; /* NULL: none */
+    FILE *input;                        /* a scene; NULL: none */
+} question;
+
+static status start(const question *q, script *s, fault *f)
 {
     int out[2] = {-1, -1}, error[2] = {-1, -1};
     if (pipe(out) != 0 || pipe(error) != 0 || (s->process = fork()) < 0) {
@@ -34,10 +40,12 @@ static status start(const char *path, const char *case_name, const char *paramet
             close(out[i]);
             close(error[i]);
         }
+        if (q->input != NULL && dup2(fileno(q->input), STDIN_FILENO) < 0)
+            _exit(127);
         /* By its full name: it takes its libraries from beside the name it is called by, looked up
          * in PATH; and isolated
          * (-I) from the environment of whoever works in a virtual one. */
-        execl(python, python, "-I", "-B", path, case_name, parameters, (char *)NULL);
+        execl(python, python, "-I", "-B", q->path, q->case_name, q->parameters, (char *)NULL);
         _exit(127);
     }
     close(out[1]);
@@ -104,15 +112,17 @@ static int stop(script *s)
     return how;
 }
 
-/* With what derive_values stops and frees. */
-static status derive(const char *path, const char *case_name, const char *parameters, script *s,
-                     derived_value **out, int *count, fault *f)
+/* With what derive_asked stops and frees. */
+static status derive(const question *q, script *s, derived_value **out, int *count, fault *f)
 {
     char complaint[LINE] = "", more[LINE];
-    TRY(start(path, case_name, parameters, s, f));
+    TRY(start(q, s, f));
     TRY(read_lines(s->says, out, count, f));
-    while (fgets(more, sizeof more, s->complains) != NULL)
+    while (fgets(more, sizeof more, s->complains) != NULL) {
         memcpy(complaint, more, sizeof complaint); /* the last line says it */
+        if (*count > 0)
+            fputs(complaint, stderr); /* what of a scene is beyond the program */
+    }
     complaint[strcspn(complaint, "\n")] = '\0';
     const int how = stop(s);
     if (how == 0)
@@ -122,18 +132,17 @@ static status derive(const char *path, const char *case_name, const char *parame
                : fault_set(f, STATUS_FAULT, "the deriving program failed: %.250s", complaint);
 }
 
-status derive_values(const char *path, const char *case_name, const char *parameters,
-                     derived_value **out, int *count, fault *f)
+static status derive_asked(const question *q, derived_value **out, int *count, fault *f)
 {
     script s = {0};
     *out = NULL;
     *count = 0;
-    if (access(path, R_OK) != 0)
+    if (access(q->path, R_OK) != 0)
         return fault_set(f, STATUS_FAULT,
                          "%.200s: the deriving programs are not here; run from a clone, or set "
                          "BEAMWORK_REFERENCE",
-                         path);
-    const status outcome = derive(path, case_name, parameters, &s, out, count, f);
+                         q->path);
+    const status outcome = derive(q, &s, out, count, f);
     stop(&s);
     if (outcome != STATUS_OK) {
         free(*out);
@@ -141,4 +150,18 @@ status derive_values(const char *path, const char *case_name, const char *parame
         *count = 0;
     }
     return outcome;
+}
+
+status derive_values(const char *path, const char *case_name, const char *parameters,
+                     derived_value **out, int *count, fault *f)
+{
+    const question q = {path, case_name, parameters, NULL};
+    return derive_asked(&q, out, count, f);
+}
+
+status derive_scene(const char *path, FILE *scene_text, derived_value **out, int *count, fault *f)
+{
+    const question q = {path, NULL, NULL, scene_text};
+    rewind(scene_text);
+    return derive_asked(&q, out, count, f);
 }

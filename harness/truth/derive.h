@@ -3,6 +3,8 @@
 #ifndef BEAMWORK_DERIVE_H
 #define BEAMWORK_DERIVE_H
 
+#include <stdio.h>
+
 #include "cases/scene/scene.h"
 
 typedef struct derived_value {
@@ -14,5 +16,9 @@ typedef struct derived_value {
  * parameters; FAULT when it could not be run or said something else. *out: malloced. */
 status derive_values(const char *script, const char *case_name, const char *parameters,
                      derived_value **out, int *count, fault *f);
+/* The same of `script` with a scene, as write_scene writes it, on its standard input; what of it no program derives is said on
+ * standard error, a line each. */
+status derive_scene(const char *script, FILE *scene_text, derived_value **out, int *count,
+                    fault *f);
 
 #endif

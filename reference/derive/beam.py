@@ -40,6 +40,7 @@ class Beam:
 
 class Scaled:
     """Dimensionless beam; length in units of the network's."""
+    carries = False  # has it loads along it, and states for them?
 
     @property
     def states(self):

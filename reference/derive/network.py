@@ -10,6 +10,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
 
 from reference.derive.beam import STEP, cross_matrix, exponential, product, quaternion, rotation
+from reference.derive.line_load import Loaded
 from reference.derive.parts import Body, Member
 
 BODY = 12  # x, rotation, force, moment
@@ -41,10 +42,13 @@ class Network:
         self.bodies.append(Body(np.array(position) / self.length, conditions))
         return self.bodies[-1]
 
-    def member(self, beam, first, second, start, axes, warp=("fixed", "fixed")):
-        """start [m]: where the beam begins, fixed to the first body; axes: columns are its x, y, z."""
+    def member(self, beam, first, second, start, axes, warp=("fixed", "fixed"), loads=()):
+        """start [m]: where the beam begins, fixed to the first body; axes: columns are its x, y, z; loads: LineLoad along it."""
         offset = np.array(start) / self.length - first.x
-        self.members.append(Member(beam.scaled(self.length, self.force), (first, second), [offset, None], quaternion(np.array(axes)), warp, self.intervals, self.nodes))
+        scaled = beam.scaled(self.length, self.force)
+        if loads:
+            scaled = Loaded(scaled, [load.scaled(self.length, self.force) for load in loads])
+        self.members.append(Member(scaled, (first, second), [offset, None], quaternion(np.array(axes)), warp, self.intervals, self.nodes))
         return self.members[-1]
 
     def _places(self):
@@ -86,6 +90,9 @@ class Network:
         for b, sign in zip(m.bodies, (1.0, -1.0)):
             _block(put, b.at, m.at, sign * np.eye(6))
             right[b.at:b.at + 6] -= sign * m.p
+        if m.beam.carries:
+            _block(put, m.bodies[1].at, m.at + m.size - 6, -np.eye(6))
+            right[m.bodies[1].at:m.bodies[1].at + 6] += m.y[-1, -1, n - 6:]
         first = m.at + 6  # column of (kx, B) at the start, then the states at the intervals' ends
         nodes = first + (2 if warps else 0)
         row = m.at
@@ -131,8 +138,8 @@ class Network:
         groups = {}
         for m in (m for m in self.members if m.beam.warps):
             for end in range(2):
-                column = m.at + (6 if end == 0 else 8 + m.y.shape[0] * 9 - 2)
-                state = m.y[0, 0, 7:] if end == 0 else m.y[-1, -1, 7:]
+                column = m.at + (6 if end == 0 else m.size - m.beam.states + 7)
+                state = m.y[0, 0, 7:9] if end == 0 else m.y[-1, -1, 7:9]
                 row, kind = m.warp_row + end, m.warp[end]
                 if kind in ("fixed", "free"):
                     put(row, column + (kind == "free"), 1.0)
@@ -152,6 +159,8 @@ class Network:
         """Sparse matrix and right-hand side of Newton's method; override: other conditions for some bodies."""
         first_number, total = self._places()
         self._places_of_numbers = list(range(first_number, total))
+        for m in self.members:
+            m.beam.level = level
         rows, columns, values, right = [], [], [], np.zeros(total)
 
         def put(row, column, value):
@@ -191,17 +200,21 @@ class Network:
             b.q = b.q / np.linalg.norm(b.q)
         self.numbers = self.numbers + step[len(step) - len(self.numbers):]
 
+    def iterate(self, level):
+        """One step of Newton's method; its largest change, beside the values."""
+        matrix, right = self.system(level)
+        step = splu(matrix).solve(right)
+        self._advance(step)
+        size = np.max(np.abs(step) / (1 + self._magnitudes()))
+        if not np.isfinite(size):
+            raise ArithmeticError("Newton's method left the numbers")
+        return size
+
     def solve(self, path=(1.0,), tolerance=1e-12):
         """Equilibrium at each level in turn; the last ones to round-off."""
         for level in path:
             for _ in range(30):
-                matrix, right = self.system(level)
-                step = splu(matrix).solve(right)
-                self._advance(step)
-                size = np.max(np.abs(step) / (1 + self._magnitudes()))
-                if not np.isfinite(size):
-                    raise ArithmeticError("Newton's method left the numbers")
-                if size <= tolerance:
+                if self.iterate(level) <= tolerance:
                     break
             else:
                 raise ArithmeticError(f"Newton's method did not converge at level {level}")
@@ -213,7 +226,9 @@ class Network:
         for m in self.members:
             out[m.at:m.at + 6] = np.max(np.abs(m.p))
             if m.beam.warps:
-                out[m.at + 6:m.at + m.size] = np.max(np.abs(m.y[:, :, 7:]))
+                out[m.at + 6:m.at + m.size] = np.max(np.abs(m.y[:, :, 7:9]))
+            if m.beam.carries:
+                out[m.at + 6:m.at + m.size] += np.max(np.abs(m.y[:, :, -6:]))
         return out
 
     def response(self, level, body, override):

@@ -2,14 +2,16 @@
 no partial file."""
 import os
 import pathlib
+import re
 import shutil
 import unittest
 
 import h5py
 
-from harness.test.program import TRUTHS, ProgramTest, environment, run
+from harness.test.program import ROOT, TRUTHS, ProgramTest, environment, run
 from reference.pack import seal
 
+EXAMPLES = ROOT / "cases" / "examples"
 
 
 def solve(case, *assignments):
@@ -105,6 +107,45 @@ class Answers(ProgramTest):
         self.answered("truth", "no_such_case", code=2)
         self.refused(4, "", "truth", "elastica", "--set", "load=2.5",
                      silent=False, env=environment(BEAMWORK_REFERENCE="/nowhere"))
+
+    def derived(self, scene, *words):
+        """{quantity: (value, uncertainty)} of the lines for the file, and the lines."""
+        done = self.answered("truth", "--scene", scene, *words)
+        lines = done.stdout.partition("truths:\n")[2]
+        found = re.findall(r"quantity: (\w+), value: (\S+), uncertainty: (\S+), kind: exact", lines)
+        return {name: (float(value), float(plus)) for name, value, plus in found}, lines
+
+    def test_truth_of_a_scene(self):
+        """A scene of one's own is solved as a network: what its file and the built-in case know."""
+        for case in ("bend_45", "shear_elastica", "roll_up"):
+            scene = self.folder / f"{case}.yaml"
+            self.answered("scene", case, "-o", scene)
+            stored = re.findall(r"^  (\w+) +(\S+) \+- (\S+) .* exact ",
+                                self.answered("truth", case).stdout, re.MULTILINE)
+            found = self.derived(scene)[0]
+            self.assertEqual({name for name, _, _ in stored}, set(found))
+            for name, value, plus in stored:
+                self.assertLessEqual(abs(float(value) - found[name][0]),
+                                     float(plus) + found[name][1], (case, name))
+        text = (EXAMPLES / "box_girder.yaml").read_text(encoding="utf-8")
+        beyond, start = self.folder / "beyond.yaml", text.index("truths:\n")
+        beyond.write_text(text[:start] + text[text.index("needs:", start):], encoding="utf-8")
+        self.refused(1, "cells", "truth", "--scene", beyond, silent=False)
+        done = self.answered("truth", "--scene", EXAMPLES / "box_girder.yaml")
+        self.assertIn("cells", done.stderr)
+
+    def test_derived_lines_belong_into_the_file(self):
+        """Of the parameters they were derived for, and no others."""
+        scene = self.folder / "portal.yaml"
+        text = (EXAMPLES / "plane_portal.yaml").read_text(encoding="utf-8")
+        head, _, tail = text.partition("truths:\n")
+        found, lines = self.derived(EXAMPLES / "plane_portal.yaml", "--set", "push=900")
+        scene.write_text(head + "truths:\n" + lines + tail[tail.index("needs:"):], encoding="utf-8")
+        there = self.answered("truth", "--scene", scene, "--set", "push=900").stdout
+        for name, (value, _) in found.items():
+            self.assertRegex(there, rf"{name} +{re.escape(str(value)[:12])}\S* .*exact")
+        elsewhere = self.answered("truth", "--scene", scene).stdout
+        self.assertNotIn("same  reference", elsewhere)
 
     def test_help(self):
         for verb in ("solve", "verify", "converge", "list"):

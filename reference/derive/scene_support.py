@@ -1,0 +1,143 @@
+"""What holds, drives and loads a body of a scene, as conditions of network.py.
+
+Six conditions on place x, rotation R and the load of the members (f, mu about the body's point): where a component is free, f or mu is
+what is applied.  Turns: increments about fixed axes, each free or held; a rotation vector; or a sequence R = exp(a_1 t_1) exp(a_2 t_2) ...,
+whose free angles are numbers of the problem with mu . (axis of the turn) = 0.  A fork is the sequence (guides' normal, web), both free.
+"""
+import numpy as np
+
+from reference.derive.beam import cross_matrix, exponential, rotation
+
+FREE, HELD = "free", "held"
+WORDS = ("ux", "uy", "uz", "rx", "ry", "rz")
+
+
+def turn(axis, angle):
+    """exp(axis angle); the angle may be complex."""
+    A = cross_matrix(np.array(axis, dtype=float))
+    return np.eye(3) + np.sin(angle) * A + (1 - np.cos(angle)) * (A @ A)
+
+
+def skew(D):
+    return np.array([D[2, 1] - D[1, 2], D[0, 2] - D[2, 0], D[1, 0] - D[0, 1]]) / 2
+
+
+def rotation_vector(R):
+    """Of a real rotation matrix of less than half a turn."""
+    s = skew(R)
+    sine, cosine = np.linalg.norm(s), (np.trace(R) - 1) / 2
+    return s * (np.arctan2(sine, cosine) / sine if sine > 0 else 1.0)
+
+
+class Applied:
+    """A load on a body: force or moment, in fixed axes, or turning with the body; arm: where a force acts, from the body's point; factor(level).
+    stays: it does not follow the body, as in linear analysis."""
+    stays = False
+
+    def __init__(self, force, moment, arm, turns, factor):
+        self.force, self.moment, self.arm, self.turns, self.factor = (*(np.array(v, dtype=float) for v in (force, moment, arm)), turns, factor)
+
+    def at(self, level, R):
+        R = R.real if self.stays else R  # what is not varied has no derivative
+        turned = R if self.turns else np.eye(3)
+        f = self.factor(level) * (turned @ self.force)
+        return np.concatenate([f, np.cross(R @ self.arm, f) + self.factor(level) * (turned @ self.moment)])
+
+
+class Support:
+    """kinds: of the six components FREE, HELD or a motion(level, numbers) (dimensionless); sequence: [(axis, FREE, HELD or a motion)] or vector:
+    three motions, instead of the last three kinds, which are HELD then."""
+
+    def __init__(self, place):
+        self.place, self.kinds, self.sequence, self.vector = np.array(place, dtype=float), [FREE] * 6, None, None
+        self.loads, self.angles = [], []  # angles: numbers of the sequence's free turns
+
+    def applied(self, level, R):
+        return sum((load.at(level, R) for load in self.loads), np.zeros(6))
+
+    def value(self, kind, level, numbers):
+        return 0.0 if kind == HELD else kind(level, numbers)
+
+    def _shifts(self, level, x, force, numbers, kinds):
+        return [force[i] if kinds[i] == FREE else x[i] - self.place[i] - self.value(kinds[i], level, numbers) for i in range(3)]
+
+    def _sequence(self, level, numbers):
+        """[(axis now, number)] of the free turns, and R."""
+        R, free, angles = np.eye(3), [], iter(self.angles)
+        for axis, kind in self.sequence:
+            if kind == FREE:
+                k = next(angles)
+                free.append((R @ axis, k))
+                R = R @ turn(axis, numbers[k])
+            else:
+                R = R @ turn(axis, self.value(kind, level, numbers))
+        return free, R
+
+    def prescribed(self, level, numbers):
+        """Rotation matrix where the turn is given entirely (by numbers, too); None: it is not."""
+        if self.sequence is not None:
+            return self._sequence(level, numbers)[1]
+        if self.vector is not None:
+            return rotation(exponential(np.array([self.value(kind, level, numbers) for kind in self.vector])))
+        kinds = self.kinds[3:]
+        driven = [i for i in range(3) if callable(kinds[i])]
+        if FREE in kinds:
+            return None
+        return turn(np.eye(3)[driven[0]], self.value(kinds[driven[0]], level, numbers)) if driven else np.eye(3)
+
+    def _turns(self, level, R, moment, numbers, kinds):
+        if FREE not in kinds:
+            return skew(R @ self.prescribed(level, numbers).T)
+        now = skew(R @ R.real.T)  # an increment: it has no value, only a derivative
+        out = []
+        for i, kind in enumerate(kinds):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            angle = self.value(kind, level, numbers) if callable(kind) else 0.0
+            out.append(moment[i] if kind == FREE else now[i] if kind == HELD else R[k, j] * np.cos(angle) - R[j, j] * np.sin(angle))
+        return out
+
+    def axes_now(self, level, numbers):
+        """Of the free turns of a sequence, as rows."""
+        return np.array([axis for axis, _ in self._sequence(level, numbers)[0]])
+
+    def conditions(self, kept=None, axes=None):
+        """kept: {component: load it has now} of released components; axes: of free turns, which stay where they are, so that no moment turns
+        with them."""
+        kept = kept or {}
+        across = None if axes is None else np.linalg.svd(axes)[2][len(axes):]
+        kinds = [FREE if i in kept else kind for i, kind in enumerate(self.kinds)]
+
+        def of(level, x, R, force, moment, numbers):
+            given = self.applied(level, R)
+            for i, value in kept.items():
+                given = given + value * np.eye(6)[i]
+            if axes is not None:
+                turns = np.concatenate([axes @ (moment - given[3:]), across @ skew(R @ R.real.T)])
+                return np.concatenate([self._shifts(level, x, force - given[:3], numbers, kinds), turns])
+            return np.concatenate([self._shifts(level, x, force - given[:3], numbers, kinds), self._turns(level, R, moment - given[3:], numbers, kinds[3:])])
+        return of
+
+    def kept_angles(self):
+        """Conditions of the free angles where others stand for them."""
+        return [lambda level, x, R, force, moment, numbers, k=k: [numbers[k] - numbers[k].real] for k in self.angles]
+
+    def extra(self):
+        """Conditions of the free angles, one for each."""
+        def of(which):
+            def condition(level, x, R, force, moment, numbers):
+                axis, _ = self._sequence(level, numbers)[0][which]
+                return [axis @ (moment - self.applied(level, R)[3:])]
+            return condition
+        return [of(i) for i in range(len(self.angles))]
+
+    def path_dependent(self, R):
+        """Word of a component whose increments are held or driven although the node turns about several axes; None: there is none."""
+        kinds = self.kinds[3:]
+        if FREE not in kinds or kinds == [FREE] * 3:
+            return None
+        v = rotation_vector(R)
+        driven = [i for i in range(3) if callable(kinds[i])]
+        for i in range(3):
+            if (kinds[i] == HELD or (driven and i not in driven)) and abs(v[i]) > 1e-9:
+                return WORDS[3 + (driven[0] if driven else i)]
+        return None

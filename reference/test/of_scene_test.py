@@ -1,0 +1,156 @@
+"""Scenes solved as networks against stored truths of cases, closed forms, and themselves in other words; what is beyond the program is named."""
+import csv
+import math
+import pathlib
+import unittest
+
+from reference.derive import of_scene, scene_text
+from reference.derive.scene_text import Refused
+
+TABLES = pathlib.Path(__file__).resolve().parents[1] / "tables"
+BAR = """beamwork: 1
+sections:
+  bar: {constants: {A: 1e8, Iy: 1, Iz: 1, It: 1}, young: 1, shear_modulus: 1}
+nodes:
+  root: {at: [0, 0, 0], hold: [ux, uy, uz, rx, ry, rz]}
+  tip: {at: [1, 0, 0]%(tip)s}
+members:
+  beam: {from: root, to: tip, section: bar, y: [0, 1, 0]%(beam)s}
+loads:
+  load: {%(load)s}
+%(motions)sanalyses:
+  path: {%(path)s}
+quantities:
+%(quantities)sneeds: [%(needs)s]
+"""
+HINGE = """beamwork: 1
+sections:
+  leaf: {rectangle: {width: 0.01, thickness: 3e-4}, shear_factor: [0.84967320261437906, 0.84967320261437906], young: 2e11, shear_modulus: 76923076923.076923}
+nodes:
+  arm: {at: [0, 0, 0], rotation: {sequence: [{axis: [0, 0, 1], angle: turn}, {axis: [0, 1, 0], angle: free}, {axis: [1, 0, 0], angle: free}]}}
+%(nodes)smembers:
+%(members)smotions:
+  turn: {path: [0, 1], value: [0, 0.35]}
+analyses:
+  path: {static: {stations: [1]}}
+  there: {compliance: {node: arm, moments: spatial, about: path}}
+quantities:
+  moment: {reaction: {analysis: path, node: arm, component: rz}, unit: "N m"}
+  shift_x: {displacement: {analysis: path, node: arm, component: ux}, unit: m}
+  k_tilt_x: {stiffness: {analysis: there, component: rx}, unit: N m/rad}
+  k_z: {stiffness: {analysis: there, component: uz}, unit: N/m}
+needs: [shear, trapeze, haringx]
+"""
+
+
+def bar(load, quantities, path="static: {stations: [1], steps: 4}", **changes):
+    words = {"tip": "", "beam": "", "motions": "", "needs": "", **changes}
+    return BAR % {"load": load, "path": path, "quantities": "".join(f"  {name}: {{{what}}}\n" for name, what in quantities.items()), **words}
+
+
+def tip(component, kind="displacement", **_):
+    return f"{kind}: {{analysis: path, node: tip, component: {component}}}, unit: m"
+
+
+def values(text):
+    """{quantity: (value, uncertainty)}; what is refused fails."""
+    out = {}
+    for row in of_scene.solve(scene_text.read(text)):
+        if isinstance(row[1], Refused):
+            raise row[1]
+        out[row[0]] = row[1], row[3]
+    return out
+
+
+def stored(case, **given):
+    """{quantity: value} of the exact rows of exactly these parameters."""
+    with open(TABLES / f"{case}.csv", newline="", encoding="utf-8") as table:
+        return {row["quantity"]: float(row["value"]) for row in csv.DictReader(table)
+                if row["kind"] == "exact" and row["model"] == "same" and dict(p.split("=") for p in row["parameters"].split(";") if p) == given}
+
+
+class Scenes(unittest.TestCase):
+    def close(self, found, expected, digits=9):
+        value, uncertainty = found
+        self.assertLessEqual(abs(value - expected), 10.0 ** -digits * abs(expected) + uncertainty)
+        self.assertLessEqual(uncertainty, 1e-9 * abs(expected))
+
+    def test_elastica(self):
+        truth = stored("elastica")
+        found = values(bar("force: [0, 1, 0], on: tip", {"w": tip("uy"), "u": tip("ux") + ", factor: -1", "t": tip("rz")}))
+        for mine, theirs in (("w", "w_over_L"), ("u", "u_over_L"), ("t", "theta")):
+            self.close(found[mine], truth[theirs], 11)
+
+    def test_load_and_motion_say_the_same(self):
+        w = values(bar("force: [0, 3, 0], on: tip", {"w": tip("uy")}))["w"][0]
+        driven = bar("force: [0, 0, 0], on: tip", {"f": tip("uy", "reaction")}, tip=", drive: {uy: push}", motions=f"motions:\n  push: {{path: [0, 1], value: [0, {w!r}]}}\n")
+        self.close(values(driven)["f"], 3.0)
+
+    def test_unknown_motion(self):
+        """The place of the tip is given; a motion of the root, which is driven, is what reaches it."""
+        text = bar("force: [0, 0, 0], on: tip", {"a": "motion: {analysis: path, motion: turn}, unit: rad"},
+                   motions="motions:\n  turn: {such_that: {node: tip, component: uy, motion: rise}}\n  rise: {path: [0, 1], value: [0, 0.6]}\n")
+        text = text.replace("hold: [ux, uy, uz, rx, ry, rz]", "hold: [ux, uy, uz], rotation: {sequence: [{axis: [0, 0, 1], angle: turn}]}")
+        self.close(values(text)["a"], math.asin(0.6))
+
+    def test_line_load(self):
+        """q L^4/(8 EI) in the linear theory; of a follower of small size too."""
+        linear = bar("distributed: [0, 2, 0], on: beam", {"w": tip("uy"), "t": tip("rz")}, path="linear: {}")
+        found = values(linear)
+        self.close(found["w"], 2 / 8)
+        self.close(found["t"], 2 / 6)
+        for kind in ("false", "true"):
+            small = values(bar(f"distributed: [0, 2e-5, 0], on: beam, follower: {kind}", {"w": tip("uy")}))["w"]
+            self.assertAlmostEqual(small[0] / 2.5e-6, 1, delta=1e-9)
+
+    def test_line_moment_and_offset(self):
+        """An axial load beside the centroids is a moment along the beam."""
+        one = values(bar("distributed: [3, 0, 0], on: beam, at: [0, 0.1, 0]", {"w": tip("uy"), "u": tip("ux")}))
+        other = values(bar("distributed_moment: [0, 0, -0.3], on: beam", {"w": tip("uy")}, path="linear: {}"))
+        self.close(other["w"], -0.3 / 3)
+        self.assertNotAlmostEqual(one["w"][0], other["w"][0], delta=1e-3)
+
+    def test_roll_up(self):
+        """A moment 2 pi EI/L makes a circle."""
+        found = values(bar(f"moment: [0, 0, {math.pi!r}], on: tip", {"u": tip("ux"), "w": tip("uy")}))
+        self.close(found["u"], -1.0)
+        self.close(found["w"], 2 / math.pi)
+
+    def test_hinge(self):
+        nodes = members = ""
+        for i in range(3):
+            a = math.pi / 4 if i == 1 else 3 * math.pi / 4
+            x, y, z = 0.03 * math.cos(a), 0.03 * math.sin(a), (i - 1) * 0.012
+            nodes += f"  base_{i}: {{at: [{-x!r}, {-y!r}, {z!r}], hold: [ux, uy, uz, rx, ry, rz]}}\n  end_{i}: {{at: [{x!r}, {y!r}, {z!r}], part_of: arm}}\n"
+            members += f"  leaf_{i}: {{from: base_{i}, to: end_{i}, section: leaf, y: [{-math.sin(a)!r}, {math.cos(a)!r}, 0], warping: [fixed, fixed]}}\n"
+        truth = stored("cross_flexure", rotation="first")
+        for quantity, found in values(HINGE % {"nodes": nodes, "members": members}).items():
+            self.close(found, truth[quantity])
+
+
+class Refusals(unittest.TestCase):
+    def refused(self, words, text):
+        with self.assertRaisesRegex(Refused, words):
+            values(text)
+
+    def test_each_names_what(self):
+        push, asked = "force: [0, 1, 0], on: tip", {"w": tip("uy")}
+        self.refused("'springs'", bar(push, asked) + "springs: {}\n")
+        self.refused("'mass'", bar(push, asked, tip=", mass: 3"))
+        self.refused("'strain'", bar(push, asked, beam=", strain: [1e-3, 0, 0]"))
+        self.refused("needs: 'engesser'", bar(push, asked, needs="engesser"))
+        self.refused("changes along", bar(push, asked).replace("section: bar", "section: [bar, bar]"))
+        self.refused("kind 'modal'", bar(push, {"w": "displacement: {analysis: path, node: tip, component: ux}"}, path="modal: {}"))
+        self.refused("'critical_factor'", bar(push, {"w": "critical_factor: {analysis: path}"}, path="buckling: {}"))
+        self.refused("'cells'", bar(push, asked).replace("constants: {A: 1e8, Iy: 1, Iz: 1, It: 1}", "points: {}, walls: [], cells: 1"))
+        self.refused("curvature about y", bar(push, asked, beam=", curvature: [0, 0.1, 0]"))
+        self.refused("is not a number", bar(push, asked).replace("young: 1", "young: stiff"))
+        self.refused("version", "beamwork: 2\n")
+
+    def test_path_dependent_turn(self):
+        """One component of the turn is held as an increment, while the node turns about the other two."""
+        self.refused("'rx' means depend", bar("force: [0, 1, 0.5], on: tip", {"w": tip("uy")}, tip=", hold: [rx]").replace("Iy: 1", "Iy: 2"))
+
+
+if __name__ == "__main__":
+    unittest.main()
