@@ -82,8 +82,10 @@ static status build(const double value[], scene *s, fault *f)
 
 const case_type case_angle_column = {
     .name = "angle_column",
-    .summary = "fork-ended equal angle: buckling under eccentric axial force and end moments",
-    .source = "code_aster V3.01.103 (SSLL103); closed form, one half-wave at a time",
+    .summary = "fork-ended equal angle: flexural-torsional buckling under eccentric axial force "
+               "and end moments",
+    .source = "code_aster V3.01.103 (SSLL103); closed form of the thin-walled column, one "
+              "half-wave at a time",
     .parameters = {parameters},
     .build = build,
 };

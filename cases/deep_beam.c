@@ -53,7 +53,8 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_deep_beam = {
     .name = "deep_beam",
     .summary = "deep simply supported beam: frequencies in bending, torsion and extension",
-    .source = "NAFEMS, Selected Benchmarks for Natural Frequency Analysis (1987), FV5; closed form",
+    .source = "NAFEMS, Selected Benchmarks for Natural Frequency Analysis (1987), test FV5; closed "
+              "form of the Timoshenko beam",
     .parameters = {parameters},
     .build = build,
 };

@@ -28,7 +28,8 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_geradin_cardona = {
     .name = "geradin_cardona",
     .summary = "cantilever in bending with shear, large displacement",
-    .source = "Geradin and Cardona, Flexible Multibody Dynamics (2001); exact Simo-Reissner beam",
+    .source = "Geradin and Cardona, Flexible Multibody Dynamics (2001); quadrature of the "
+              "Simo-Reissner beam",
     .parameters = {parameters},
     .build = build,
 };

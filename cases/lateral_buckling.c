@@ -68,7 +68,8 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_lateral_buckling = {
     .name = "lateral_buckling",
     .summary = "lateral-torsional buckling of cantilevers and simply supported beams",
-    .source = "Timoshenko and Gere, Theory of Elastic Stability; exact equations of thin beams",
+    .source =
+        "Timoshenko and Gere, Theory of Elastic Stability; boundary-value problem of thin beams",
     .parameters = {parameters},
     .build = build,
 };

@@ -96,7 +96,9 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_rotating_cantilever = {
     .name = "rotating_cantilever",
     .summary = "cantilever that turns steadily: flap and lag frequencies, stretch",
-    .source = "exact flap and lag of the stretched beam; its stretch is tan k/k - 1",
+    .source =
+        "exact flap and lag of the stretched beam (reference/derive/rotating.py); its stretch "
+        "is tan k/k - 1",
     .parameters = {parameters},
     .build = build,
 };

@@ -75,7 +75,8 @@ static status build(const double value[], scene *s, fault *f)
 
 const case_type case_spherical_joint = {
     .name = "spherical_joint",
-    .summary = "joint of six folded sheets: support stiffness around one turn of its tilt axis",
+    .summary = "spherical flexure joint of six folded sheets: support stiffness around one turn of "
+               "its tilt axis",
     .source = "N section 4.2, Fig. 8, Table 1; geometry reconstructed",
     .parameters = {joint_parameters, parameters},
     .build = build,

@@ -64,7 +64,8 @@ static status build(const double value[], scene *s, fault *f)
 
 const case_type case_unsymmetric_column = {
     .name = "unsymmetric_column",
-    .summary = "fork-ended unsymmetric column: buckling load, frequencies under axial load",
+    .summary =
+        "fork-ended column of an unsymmetric section: buckling load, frequencies under axial load",
     .source = "closed form of the thin-walled column, one half-wave at a time",
     .parameters = {parameters},
     .build = build,

@@ -46,7 +46,8 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_weighted_column = {
     .name = "weighted_column",
     .summary = "buckling under weight and a load on the head, of which one stays",
-    .source = "Timoshenko and Gere, Theory of Elastic Stability: a bar under its weight and a load",
+    .source = "Timoshenko and Gere, Theory of Elastic Stability: a bar under its own weight and an "
+              "end load",
     .parameters = {parameters},
     .build = build,
 };
