@@ -58,7 +58,8 @@ section_spec section_spec_walls(double young, double shear_modulus, int walls,
     return spec;
 }
 
-double section_rectangle_torsion(double a, double b)
+/* Exact Saint-Venant constant of a rectangle a x b (series; relative error below 1e-15 for every ratio) [m^4]. */
+static double rectangle_torsion(double a, double b)
 {
     const double h = fmax(a, b), t = fmin(a, b);
     /* J = h t^3/3 [1 - 192/pi^5 t/h sum over odd n of tanh(n pi h/2t)/n^5]. Of n^-5 alone the sum is
@@ -85,7 +86,7 @@ static status rectangle(const section_spec *s, section *out, fault *f)
     out->Iy = h * w * w * w / 12;
     out->Iz = w * h * h * h / 12;
     out->Ip = out->Iy + out->Iz;
-    out->It = section_rectangle_torsion(w, h);
+    out->It = rectangle_torsion(w, h);
     out->Iw = w * w * w * h * h * h / 144;
     out->wagner_torque = pow(wide, 5) * thin / 1440;
     const int theory = s->shear_factor[0] > 0 || s->shear_factor[1] > 0;

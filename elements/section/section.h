@@ -87,7 +87,4 @@ section_spec section_spec_walls(double young, double shear_modulus, int walls,
  * sizes, a cell too many, disconnected walls, a point used by no wall, D not positive definite, G or E not positive, nan. */
 status section_compute(const section_spec *spec, section *out, fault *f);
 
-/* Exact Saint-Venant constant of a rectangle a x b (series; relative error below 1e-15 for every ratio) [m^4]. */
-double section_rectangle_torsion(double a, double b);
-
 #endif

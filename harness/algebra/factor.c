@@ -116,20 +116,6 @@ void factor_solve_transposed(factor *fa, double x[])
         factor_solve(fa, x);
 }
 
-void factor_solve_refined(factor *fa, const sparse *a, double x[])
-{
-    double *b = fa->other;
-    for (int i = 0; i < fa->n; i++)
-        b[i] = x[i];
-    factor_solve(fa, x);
-    sparse_mul(a, x, fa->residual);
-    for (int i = 0; i < fa->n; i++)
-        b[i] -= fa->residual[i];
-    factor_solve(fa, b);
-    for (int i = 0; i < fa->n; i++)
-        x[i] += b[i];
-}
-
 factor_counts factor_count(const factor *fa)
 {
     return fa->counts;

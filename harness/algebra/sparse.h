@@ -40,8 +40,6 @@ void factor_free(factor *fa);
 status factor_numeric(factor *fa, const sparse *a, fault *f);
 void factor_solve(factor *fa, double x[]);            /* in place */
 void factor_solve_transposed(factor *fa, double x[]); /* A^T x = b */
-void factor_solve_refined(factor *fa, const sparse *a,
-                          double x[]); /* with one step of iterative refinement */
 factor_counts factor_count(const factor *fa);
 /* 1-norm condition number of the factored matrix a, rows and columns scaled by the root of its
  * diagonal: Hager's estimate, a lower bound within a small factor. NAN when memory ran out. */

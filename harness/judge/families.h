@@ -23,7 +23,7 @@ typedef struct families_limit {
     int series[FAMILIES_MOST]; /* the nearest of each family, `families` of them */
 } families_limit;
 
-/* Of one point and quantity. */
+/* Of one point and quantity; for tests too, which see a dispute and how many agree. */
 families_limit families_limit_of(const sweep *s, int point_index, int quantity);
 /* Adds a truth of kind agreement for every quantity of a point that has none of its model.
  * files_only: 1: of scene files, not of built-in cases. */

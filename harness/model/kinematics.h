@@ -10,7 +10,8 @@ const model_state *kinematics_rest(const model *); /* undeformed */
 void kinematics_state_copy(const model *, const model_state *from, model_state *to);
 double kinematics_state_path(const model_state *);
 
-/* Frame of a scene node in a state. */
+/* Frame of a scene node in a state: position [m] and unit quaternion. For tests of other rooms: what a
+ * state keeps is known in this one only. */
 void kinematics_frame(const model *, const model_state *, int node, double r[3], double q[4]);
 /* Displacement [m] or rotation-vector component [rad] of a scene node since the undeformed
  * state. */

@@ -110,11 +110,6 @@ status model_alloc(const model_request *request, model **out, fault *f)
     return outcome;
 }
 
-int model_kinds(const model *m)
-{
-    return m->kinds;
-}
-
 status model_coarse(const model *m, model **out, fault *f)
 {
     const model_request request = {m->scene, m->type, m->options, 1, m->keep_all};

@@ -41,8 +41,6 @@ typedef struct model_size {
     unsigned features;
 } model_size;
 model_size model_sizes(const model *);
-/* Elements that differ in section, length, initial curvature or strain. */
-int model_kinds(const model *);
 /* The same with one element per member. */
 status model_coarse(const model *, model **, fault *);
 /* Longest member [m]: displacements are small or large beside it. */

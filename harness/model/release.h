@@ -23,11 +23,6 @@ static inline const mesh_release *release_of(const model *m, int vertex)
     return vertex < m->first_release ? NULL : &m->release[vertex - m->first_release];
 }
 
-/* Spatial axes of the turns [turns x 3]; of three: the fixed ones. */
-void release_axes(const model *, const model_state *, int vertex, double b[3][3]);
-/* Spatial directions of the shifts [slides x 3], and how far the end is from its node [m]. */
-void release_slides(const model *, const model_state *, int vertex, double along[3][3],
-                    double apart[3]);
 /* The end's motion d[6] += what its own coordinates, by dx, add to that of its node. */
 void release_add_local(const model *, const model_state *, int vertex, const double dx[],
                        double d[6]);

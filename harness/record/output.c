@@ -97,7 +97,7 @@ status output_open_whole(const char *path, output *out, fault *f)
     return open_as(path, OUTPUT_WHOLE_FILE, out, f);
 }
 
-void output_discard(output *out)
+static void discard(output *out)
 {
     if (out->stream != NULL && out->stream != stdout)
         fclose(out->stream);
@@ -138,7 +138,7 @@ status output_close(output *out, fault *f)
     }
     if (good)
         return STATUS_OK;
-    output_discard(out);
+    discard(out);
     return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s)%s", out->to.path,
                      why != 0 ? strerror(why) : "no room",
                      out->temporary[0] != '\0' ? "; nothing was left" : "");
@@ -148,7 +148,7 @@ status output_finish(output *out, status written, fault *f)
 {
     if (written == STATUS_OK)
         return output_close(out, f);
-    output_discard(out);
+    discard(out);
     return written;
 }
 

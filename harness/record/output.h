@@ -21,7 +21,6 @@ status output_open(const char *path, output *out, fault *f);
 status output_open_whole(const char *path, output *out, fault *f);
 /* Flushes and renames; every error is found here. On failure nothing is left. */
 status output_close(output *out, fault *f);
-void output_discard(output *out);
 /* Closes what was written and discards what was not. */
 status output_finish(output *out, status written, fault *f);
 /* Standard output has gone where it goes, or FAULT. */

@@ -18,6 +18,7 @@ typedef struct against {
 } against;
 
 const char *against_name(against_outcome);
+/* Of given seconds of `pairs` laps each: tests give them, no clock is asked. */
 against against_judge(int pairs, const double a[], const double b[]);
 
 /* One lap of a contestant takes *seconds. */

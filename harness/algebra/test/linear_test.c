@@ -102,7 +102,7 @@ static int determinant_sign(int n, const double A[])
 static void random_matrices(kind what, const char *name, double allowed)
 {
     uint64_t seed = 2385;
-    double worst = 0, worst_refined = 0, least_condition = INFINITY, most_condition = 0;
+    double worst = 0, least_condition = INFINITY, most_condition = 0;
     int wrong_inertia = 0, wrong_sign = 0, failures = 0, most_negative = 0;
     for (int sample = 0; sample < 40; sample++) {
         const int n = 2 + sample * (MOST - 2) / 39;
@@ -132,8 +132,6 @@ static void random_matrices(kind what, const char *name, double allowed)
                 b[i] = x[i] = random_number(&seed);
             factor_solve(fa, x);
             worst = fmax(worst, distance_from_dense(n, A, x, b));
-            factor_solve_refined(fa, &s, memcpy(x, b, sizeof x));
-            worst_refined = fmax(worst_refined, distance_from_dense(n, A, x, b));
         }
         gsl_test(factor_count(fa).entries < n || factor_count(fa).flops <= 0,
                  "%s matrix of %d: work is counted", name, n);
@@ -150,8 +148,6 @@ static void random_matrices(kind what, const char *name, double allowed)
                      "%s: negative pivots are the negative eigenvalues (up to %d)", name,
                      most_negative);
     gsl_test(!(worst < allowed), "%s: as LAPACK within %.1f eps times the condition", name, worst);
-    gsl_test(!(worst_refined < 1), "%s: refined, within %.2f eps times the condition", name,
-             worst_refined);
 }
 
 /* The upper triangle and the whole of a symmetric matrix have one condition: of a chain of n springs held at one end, with rows
@@ -215,7 +211,6 @@ static void nothing_to_solve(void)
                      factor_numeric(fa, &none, NULL) != STATUS_OK,
                  "no unknowns are no problem");
         factor_solve(fa, NULL);
-        factor_solve_refined(fa, &none, NULL);
         gsl_test_int(factor_count(fa).negative_pivots, symmetric ? 0 : -1, "of %s kind",
                      symmetric ? "symmetric" : "unsymmetric");
         factor_free(fa);

@@ -59,8 +59,7 @@ static void kinds(const element_type *type)
         model *m = meshed(&s, type, ELEMENTS, &f);
         gsl_test(m == NULL, "%s, %s: %s", type->name, row[i].what, f.text);
         if (m != NULL)
-            gsl_test_int(model_kinds(m), row[i].kinds, "%s: kinds where %s", type->name,
-                         row[i].what);
+            gsl_test_int(m->kinds, row[i].kinds, "%s: kinds where %s", type->name, row[i].what);
         model_free(m);
         scene_free(&s);
     }

@@ -150,7 +150,7 @@ static void temporary_names(void)
     gsl_test_int(same, 0, "names given twice");
     gsl_test_int(beside, NAMES, "files beside the one that is written");
     for (int i = 0; i < NAMES; i++)
-        output_discard(&o[i]);
+        output_finish(&o[i], STATUS_FAULT, &f);
     gsl_test_int(folder_entries(of.path), 0, "discarded: nothing is left");
     folder_remove(&of);
 }
