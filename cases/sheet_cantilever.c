@@ -42,9 +42,9 @@ static void add_predictions(const double value[], scene *s)
     section c;
     if (scene_constants(s, 0, &c, NULL) != STATUS_OK)
         return; /* model_alloc says why */
-    const sheet_prediction p = sheet_predict(&c, value[SHEET_LENGTH], value[SHEET_DEFLECTION],
-                                             value[SHEET_TIP_WARPING] != 0, value[SHEET_SHEAR] != 0,
-                                             (scene_moments)value[SHEET_MOMENTS]);
+    const sheet_prediction p = sheet_prediction_of(
+        &c, value[SHEET_LENGTH], value[SHEET_DEFLECTION], value[SHEET_TIP_WARPING] != 0,
+        value[SHEET_SHEAR] != 0, (scene_moments)value[SHEET_MOMENTS]);
     const struct {
         const char *name;
         double value;

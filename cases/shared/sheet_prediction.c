@@ -180,8 +180,8 @@ static double compliance_zz(const section *s, const plane *p, double X, double Y
     return C[0];
 }
 
-sheet_prediction sheet_predict(const section *c, double length, double deflection, int tip_warps,
-                               int shear, scene_moments moments)
+sheet_prediction sheet_prediction_of(const section *c, double length, double deflection,
+                                     int tip_warps, int shear, scene_moments moments)
 {
     plane p = {.EA = c->young * c->A, .EIz = c->young * c->Iz, .L = length};
     double w = 0, force[3], K[9], C[3] = {1, 0, 0};

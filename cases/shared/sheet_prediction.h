@@ -14,7 +14,7 @@ typedef struct sheet_prediction {
 } sheet_prediction;
 
 /* tip_warps: 1, the tip is free to warp; shear: 0, rigid in shear; k: shear factor.  Values that do not exist are NAN. */
-sheet_prediction sheet_predict(const section *c, double length, double deflection, int tip_warps,
-                               int shear, scene_moments moments);
+sheet_prediction sheet_prediction_of(const section *c, double length, double deflection,
+                                     int tip_warps, int shear, scene_moments moments);
 
 #endif

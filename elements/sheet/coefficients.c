@@ -146,8 +146,8 @@ static void list_terms(sums *total, sheet_potential *out)
     }
 }
 
-status sheet_potential_prepare(const element_request *r, int printed, sheet_potential *out,
-                               fault *f)
+status sheet_coefficients_prepare(const element_request *r, int printed, sheet_potential *out,
+                                  fault *f)
 {
     const section *c = r->section;
     const double L = r->length,

@@ -23,8 +23,8 @@ typedef struct sheet_potential {
 } sheet_potential;
 
 /* printed: u_y in M_x with the sign of N Eq. 49 as printed.  Refuses a section without torsional stiffness. */
-status sheet_potential_prepare(const element_request *request, int printed, sheet_potential *out,
-                               fault *f);
+status sheet_coefficients_prepare(const element_request *request, int printed, sheet_potential *out,
+                                  fault *f);
 
 /* P[1], its gradient[8] and Hessian[8 x 8] at x; NULL: not wanted.  SINGULAR when A is not positive definite there. */
 status sheet_potential_evaluate(const sheet_potential *p, const double x[SHEET_LOCAL_COORDINATES],

@@ -160,7 +160,7 @@ status sheet_third_prepare(const element_request *request, int printed, element_
             "initial shear strain %g along the thickness: N Eq. 50 knows none; leave it out",
             request->strain[1]);
     partial_inverse(request->length, sheet_fields_warp(request), out);
-    TRY(sheet_potential_prepare(request, printed, &out->potential, f));
+    TRY(sheet_coefficients_prepare(request, printed, &out->potential, f));
     return set_rest(request, out, f);
 }
 

@@ -76,7 +76,7 @@ static void coefficients(void)
                            .Ip = 2};
         const element_request request = {.section = &c, .length = 1, .features = FEATURE_WARPING};
         sheet_potential p;
-        gsl_test(sheet_potential_prepare(&request, bimoment_values[row].printed, &p, NULL) !=
+        gsl_test(sheet_coefficients_prepare(&request, bimoment_values[row].printed, &p, NULL) !=
                      STATUS_OK,
                  "potential, lambda = %g", lambda);
         double error = 0;

@@ -67,7 +67,7 @@ static status accept(continuation *p, step_record *record, fault *f)
 /* The first step goes where the control coordinate goes, with or against the load. */
 static void turn_start(continuation *p)
 {
-    if (p->o->points > 1 || continuation_dot(p, p->here.tangent, p->moved) >= 0)
+    if (p->o->points > 1 || continuation_step_dot(p, p->here.tangent, p->moved) >= 0)
         return;
     p->here.rate = -p->here.rate;
     for (int k = 0; k < p->n.all; k++)
@@ -80,10 +80,10 @@ static status try_step(continuation *p, path_goal goal, double station, int last
                        fault *f)
 {
     kinematics_state_copy(p->c->model, p->n.state, p->n.backup);
-    TRY(continuation_correct(p, goal, &t->record, f));
-    TRY(continuation_look(p, p->moved, &p->next, &t->record, f));
+    TRY(continuation_step_correct(p, goal, &t->record, f));
+    TRY(continuation_step_look(p, p->moved, &p->next, &t->record, f));
     if (goal.by_arc && (p->here.control < station) != (p->next.control < station)) {
-        continuation_go_back(p);
+        continuation_step_go_back(p);
         history_drop_step(p->c->result, &t->record);
         t->record = (step_record){.rejected = t->record.rejected};
         return try_step(p, (path_goal){0, station}, station, last_resort, t, f);
@@ -91,7 +91,7 @@ static status try_step(continuation *p, path_goal goal, double station, int last
     if (!goal.by_arc)
         p->next.control = goal.value;
     turn_start(p);
-    t->doubt = continuation_doubt(p, last_resort, &t->swing);
+    t->doubt = continuation_sound_doubt(p, last_resort, &t->swing);
     int jump = 0;
     if (t->doubt == NULL)
         TRY(continuation_critical(p, goal, &jump, f));
@@ -102,7 +102,7 @@ static status try_step(continuation *p, path_goal goal, double station, int last
 
 static void reject(continuation *p, const attempt *t)
 {
-    continuation_go_back(p);
+    continuation_step_go_back(p);
     history_drop_step(p->c->result, &t->record);
     model_counters(p->c->model)->rejected_steps++;
 }
@@ -180,7 +180,8 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
         nearest = goal.by_arc ? fmin(nearest, distance) : distance;
     }
     const double same = goal.by_arc ? goal.value / 2 : 1e-5;
-    return r->state != NULL && nearest > same ? continuation_report_jump(p, r, from, f) : STATUS_OK;
+    return r->state != NULL && nearest > same ? continuation_sound_report_jump(p, r, from, f)
+                                              : STATUS_OK;
 }
 
 /* Where a step in doubt ends: smaller ones may lead elsewhere. */
@@ -250,7 +251,7 @@ static status start(continuation *p, fault *f)
 {
     step_record record = {0};
     TRY(newton_to(&p->n, 0, &record, f));
-    TRY(continuation_look(p, NULL, &p->here, &record, f));
+    TRY(continuation_step_look(p, NULL, &p->here, &record, f));
     return add_point(p, f);
 }
 
@@ -258,7 +259,7 @@ static status start(continuation *p, fault *f)
 static status walk(analysis_context *c, int analysis, outcome_continuation *o, continuation *p,
                    fault *f)
 {
-    TRY(continuation_alloc(c, analysis, o, p, f));
+    TRY(continuation_step_alloc(c, analysis, o, p, f));
     double size = p->by->step;
     TRY(start(p, f));
     for (int i = 0; i < p->path->stations; i++) {
@@ -272,6 +273,6 @@ status continuation_analysis(analysis_context *c, int analysis, analysis_outcome
 {
     continuation p;
     const status result = walk(c, analysis, &o->left.continuation, &p, f);
-    continuation_free(&p);
+    continuation_step_free(&p);
     return result;
 }

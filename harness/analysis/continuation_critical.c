@@ -56,7 +56,7 @@ static double load_work(continuation *p)
         product += p->mode[k] * load[k];
         square += load[k] != 0 && p->weight[k] > 0 ? load[k] * load[k] / p->weight[k] : 0;
     }
-    return fabs(product) / sqrt(square * continuation_dot(p, p->mode, p->mode));
+    return fabs(product) / sqrt(square * continuation_step_dot(p, p->mode, p->mode));
 }
 
 static path_goal part_of(const continuation *p, path_goal goal, double part)
@@ -79,11 +79,11 @@ static int is_before(const continuation *p, int by_rate)
 static status try_at(continuation *p, path_goal goal, int by_rate, bound *b, int *before, fault *f)
 {
     step_record record = {0};
-    continuation_go_back(p);
-    const status corrected = continuation_correct(p, part_of(p, goal, b->at), &record, f);
+    continuation_step_go_back(p);
+    const status corrected = continuation_step_correct(p, part_of(p, goal, b->at), &record, f);
     history_drop_step(p->c->result, &record);
     TRY(corrected);
-    TRY(continuation_look(p, p->moved, &p->trial, &record, f));
+    TRY(continuation_step_look(p, p->moved, &p->trial, &record, f));
     *before = is_before(p, by_rate);
     b->value = by_rate ? p->trial.rate : least_eigenvalue(p);
     /* Another eigenvalue may be the least one: its sign tells nothing of this point. */

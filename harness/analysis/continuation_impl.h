@@ -43,25 +43,25 @@ typedef struct continuation {
     int looked; /* 1: n.dx, response and the factors belong to the present state */
 } continuation;
 
-status continuation_alloc(analysis_context *, int analysis, outcome_continuation *, continuation *,
-                          fault *);
-void continuation_free(continuation *);
+status continuation_step_alloc(analysis_context *, int analysis, outcome_continuation *,
+                               continuation *, fault *);
+void continuation_step_free(continuation *);
 
-double continuation_dot(const continuation *, const double a[],
-                        const double b[]); /* in the metric */
+double continuation_step_dot(const continuation *, const double a[],
+                             const double b[]); /* in the metric */
 /* Newton to the goal from n.backup = the state of `here`; the arc is measured along its tangent. */
-status continuation_correct(continuation *, path_goal, step_record *, fault *);
+status continuation_step_correct(continuation *, path_goal, step_record *, fault *);
 /* Factors K in the present state and fills the point; its tangent goes the way of along[free +
  * driven] (NULL: to a larger load). */
-status continuation_look(continuation *, const double along[], path_point *, step_record *,
-                         fault *);
+status continuation_step_look(continuation *, const double along[], path_point *, step_record *,
+                              fault *);
 /* The state goes back to that of `here`. */
-void continuation_go_back(continuation *);
+void continuation_step_go_back(continuation *);
 
 /* continuation_sound.c: why the step from `here` to `next` is too long or led to another branch;
  * NULL: sound. *swing: how much it turns relative to what is allowed. last_resort: several critical
  * points may lie in one step, as it cannot be shorter. */
-const char *continuation_doubt(const continuation *, int last_resort, double *swing);
+const char *continuation_sound_doubt(const continuation *, int last_resort, double *swing);
 
 /* The end of a step in doubt. */
 typedef struct rival {
@@ -71,7 +71,7 @@ typedef struct rival {
 
 /* The step from the control coordinate `from` had led to the rival, the path leads here: an event,
  * and with constant steps the end. */
-status continuation_report_jump(continuation *, const rival *, double from, fault *);
+status continuation_sound_report_jump(continuation *, const rival *, double from, fault *);
 
 /* continuation_critical.c: the critical points between `here` and `next`, if any, become events.
  * The step was found with the goal. *jump: 1 when the tangent stiffness changes its inertia without

@@ -11,13 +11,13 @@ static const double largest_turn = 0.25; /* [rad] of any node in one step */
 
 static double angle_to_secant(const continuation *p, const double tangent[], double length)
 {
-    return acos(fmin(1, fmax(-1, continuation_dot(p, tangent, p->moved) / length)));
+    return acos(fmin(1, fmax(-1, continuation_step_dot(p, tangent, p->moved) / length)));
 }
 
-const char *continuation_doubt(const continuation *p, int last_resort, double *swing)
+const char *continuation_sound_doubt(const continuation *p, int last_resort, double *swing)
 {
     const path_point *a = &p->here, *b = &p->next;
-    const double length = sqrt(continuation_dot(p, p->moved, p->moved));
+    const double length = sqrt(continuation_step_dot(p, p->moved, p->moved));
     const double before = angle_to_secant(p, a->tangent, length),
                  after = angle_to_secant(p, b->tangent, length);
     const double turned = metric_turn_between(p->c->model, p->n.backup, p->n.state);
@@ -35,7 +35,7 @@ const char *continuation_doubt(const continuation *p, int last_resort, double *s
     return NULL;
 }
 
-status continuation_report_jump(continuation *p, const rival *r, double from, fault *f)
+status continuation_sound_report_jump(continuation *p, const rival *r, double from, fault *f)
 {
     const path_event event = {.kind = EVENT_BRANCH_JUMP,
                               .analysis = p->analysis,

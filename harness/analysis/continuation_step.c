@@ -11,8 +11,8 @@
 #include "harness/solver/context.h"
 #include "harness/solver/newton.h"
 
-status continuation_alloc(analysis_context *c, int analysis, outcome_continuation *o,
-                          continuation *p, fault *f)
+status continuation_step_alloc(analysis_context *c, int analysis, outcome_continuation *o,
+                               continuation *p, fault *f)
 {
     memset(p, 0, sizeof *p);
     p->c = c;
@@ -37,7 +37,7 @@ status continuation_alloc(analysis_context *c, int analysis, outcome_continuatio
     return STATUS_OK;
 }
 
-void continuation_free(continuation *p)
+void continuation_step_free(continuation *p)
 {
     newton_free(&p->n);
     kinematics_state_free(p->end);
@@ -51,7 +51,7 @@ void continuation_free(continuation *p)
     free(p->trial.tangent);
 }
 
-double continuation_dot(const continuation *p, const double a[], const double b[])
+double continuation_step_dot(const continuation *p, const double a[], const double b[])
 {
     double sum = 0;
     for (int k = 0; k < p->n.free; k++)
@@ -84,14 +84,14 @@ static double control_value(const continuation *p)
 static double residual_of(const continuation *p, path_goal goal)
 {
     return goal.value -
-           (goal.by_arc ? continuation_dot(p, p->here.tangent, p->moved) : control_value(p));
+           (goal.by_arc ? continuation_step_dot(p, p->here.tangent, p->moved) : control_value(p));
 }
 
 /* Its change with an increment of the coordinates. */
 static double change_of(const continuation *p, path_goal goal, const double dx[])
 {
     if (goal.by_arc)
-        return continuation_dot(p, p->here.tangent, dx);
+        return continuation_step_dot(p, p->here.tangent, dx);
     int index[6];
     double T[36], sum = 0;
     const int n = kinematics_node_jacobian(p->c->model, p->n.state, p->by->node, 6, index, T);
@@ -100,7 +100,7 @@ static double change_of(const continuation *p, path_goal goal, const double dx[]
     return sum;
 }
 
-status continuation_correct(continuation *p, path_goal goal, step_record *record, fault *f)
+status continuation_step_correct(continuation *p, path_goal goal, step_record *record, fault *f)
 {
     newton *n = &p->n;
     newton_watch watch = newton_watch_start;
@@ -129,15 +129,15 @@ status continuation_correct(continuation *p, path_goal goal, step_record *record
     return STATUS_OK;
 }
 
-status continuation_look(continuation *p, const double along[], path_point *out,
-                         step_record *record, fault *f)
+status continuation_step_look(continuation *p, const double along[], path_point *out,
+                              step_record *record, fault *f)
 {
     p->looked = 0;
     TRY(directions(p, record, f));
-    const double length = sqrt(continuation_dot(p, p->response, p->response));
+    const double length = sqrt(continuation_step_dot(p, p->response, p->response));
     if (!(length > 0) || !isfinite(length))
         return fault_set(f, STATUS_SINGULAR, "the loads move nothing");
-    const double sign = along != NULL && continuation_dot(p, along, p->response) < 0 ? -1 : 1;
+    const double sign = along != NULL && continuation_step_dot(p, along, p->response) < 0 ? -1 : 1;
     for (int k = 0; k < p->n.all; k++)
         out->tangent[k] = sign * p->response[k] / length;
     out->rate = sign / length;
@@ -149,7 +149,7 @@ status continuation_look(continuation *p, const double along[], path_point *out,
     return STATUS_OK;
 }
 
-void continuation_go_back(continuation *p)
+void continuation_step_go_back(continuation *p)
 {
     kinematics_state_copy(p->c->model, p->n.backup, p->n.state);
     p->looked = 0;

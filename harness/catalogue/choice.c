@@ -62,3 +62,12 @@ const char *choice_nearest(const char *word, const char *(*next)(const void *, i
     }
     return nearest;
 }
+
+status choice_unknown(const char *what, const char *word,
+                      const char *(*next)(const void *context, int i), fault *f)
+{
+    const char *near = choice_nearest(word, next, NULL);
+    return fault_set(f, STATUS_REFUSED, "unknown %s '%s'%s%s%s; 'beamwork list' shows them all",
+                     what, word, near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
+                     near != NULL ? "'?" : "");
+}

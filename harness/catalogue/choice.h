@@ -2,9 +2,15 @@
 #ifndef BEAMWORK_CHOICE_H
 #define BEAMWORK_CHOICE_H
 
+#include "elements/shared/status.h"
+
 /* Index of `word` in "a|b|c", or -1. */
 int choice_index(const char *choices, const char *word);
 void choice_name(const char *choices, int index, char *text, int size);
+
+/* REFUSED: "unknown WHAT 'WORD', did you mean 'NEAREST'?"; candidates as below. */
+status choice_unknown(const char *what, const char *word,
+                      const char *(*next)(const void *context, int i), fault *f);
 
 /* The candidate nearest to a misspelt word (edit distance), or NULL when none is near.
  * next(context, i): NULL ends. */

@@ -46,7 +46,7 @@ static void count_cell(contestant *c, cell_result *cell)
     const subject s = {.series = &one, .record = cell};
     for (int i = 0; i < c->counts; i++) {
         field_value v;
-        field_read(&s, c->counted[i], &v);
+        schema_read(&s, c->counted[i], &v);
         c->count[i] = c->counted[i]->kind == FIELD_DOUBLE ? *v.numbers : (double)v.whole;
     }
 }

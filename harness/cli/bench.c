@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "harness/catalogue/case_find.h"
 #include "harness/catalogue/registry.h"
 #include "harness/cli/cli.h"
 #include "harness/record/csv.h"

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "harness/catalogue/case_find.h"
 #include "harness/cli/cli.h"
 
 /* All mistakes, a line each; as JSON where that is the form of the output. */
@@ -98,7 +99,7 @@ status cli_truths_read(const cli_request *r, truths *t, fault *f)
     memset(t, 0, sizeof *t);
     if (r->scene == NULL)
         return truths_read(cli_truths_path(r), t, f);
-    const status outcome = scene_file_add_truths(r->scene, r->parameter, t, f);
+    const status outcome = scene_file_truths_add(r->scene, r->parameter, t, f);
     if (outcome != STATUS_OK)
         truths_free(t);
     return outcome;

@@ -4,7 +4,7 @@
 
 #include <argp.h>
 
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/scene_file/scene_file.h"
 #include "harness/truth/truths.h"
 

@@ -18,7 +18,7 @@ static status write_table(const char *path, const results *r, fault *f)
 {
     output file;
     TRY(output_open(path, &file, f));
-    results_write_table(file.stream, r);
+    results_table_write(file.stream, r);
     return output_close(&file, f);
 }
 

@@ -113,7 +113,7 @@ int cli_import(int count, char **arguments)
               "o+mF", count, arguments, &r);
     r.reads_files = 1;
     const status outcome = import(&r, &set, &f);
-    import_set_free(&set);
+    import_block_free_set(&set);
     cli_close(&r);
     return cli_exit(outcome, &f);
 }

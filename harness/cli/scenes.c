@@ -126,7 +126,7 @@ static status add_truths(const scenes *s, const cli_request *r, truths *t, fault
     else
         TRY(truths_read_rules(cli_truths_path(r), t, f));
     for (int i = 0; i < s->count; i++)
-        TRY(scene_file_add_all_truths(s->file[i], t, f));
+        TRY(scene_file_truths_add_all(s->file[i], t, f));
     return STATUS_OK;
 }
 

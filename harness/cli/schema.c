@@ -38,7 +38,7 @@ static const record_type *const of_extremes[] = {&record_extreme, &record_extrem
 static void show_field(const schema_field *which)
 {
     printf("  %-20s %-7s %-7s %s", which->name,
-           which->key == KEY_AROUND ? "text *" : field_kind_name(which->kind),
+           which->key == KEY_AROUND ? "text *" : schema_kind_name(which->kind),
            strcmp(which->unit, OWN_UNIT) == 0 ? "[unit]" : which->unit, which->summary);
     for (int i = 0; i < which->words; i++)
         printf("%s%s", i > 0 ? ", " : " (", which->word(i));

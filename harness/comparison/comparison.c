@@ -58,7 +58,7 @@ static void run_cells(listing l, const results *before, const results *after, co
         if (order == 0)
             comparison_cells(&l, a, b);
         else
-            comparison_lone(&l, a != NULL ? CHANGE_GONE : CHANGE_NEW);
+            comparison_lines_lone(&l, a != NULL ? CHANGE_GONE : CHANGE_NEW);
     }
 }
 
@@ -77,7 +77,7 @@ static void run_series(listing l, const results *before, const results *after, c
         if (order == 0)
             comparison_series(&l, a, b);
         else
-            comparison_lone(&l, a != NULL ? CHANGE_GONE : CHANGE_NEW);
+            comparison_lines_lone(&l, a != NULL ? CHANGE_GONE : CHANGE_NEW);
     }
 }
 

@@ -19,7 +19,7 @@ static void compare_value(const listing *l, const result_value *a, const result_
 {
     const comparison_limits *m = l->limits;
     if (isfinite(a->value) != isfinite(b->value)) {
-        comparison_heading(l, isfinite(a->value) ? CHANGE_WORSE : CHANGE_BETTER);
+        comparison_lines_heading(l, isfinite(a->value) ? CHANGE_WORSE : CHANGE_BETTER);
         fprintf(l->to, ": %s %s\n", a->quantity,
                 isfinite(a->value) ? "has no value any more" : "has a value now");
     } else if (isfinite(a->error) && isfinite(b->error)) {
@@ -29,11 +29,11 @@ static void compare_value(const listing *l, const result_value *a, const result_
         comparison_kind kind = CHANGE_OTHER;
         if (change != 0)
             kind = change > 0 ? CHANGE_WORSE : CHANGE_BETTER;
-        comparison_heading(l, kind);
+        comparison_lines_heading(l, kind);
         fprintf(l->to, ": error of %s %+.3e -> %+.3e\n", a->quantity, a->error, b->error);
     } else if (isfinite(a->value) &&
                fabs(b->value - a->value) > m->floor * fmax(fabs(a->value), a->near_zero)) {
-        comparison_heading(l, CHANGE_OTHER);
+        comparison_lines_heading(l, CHANGE_OTHER);
         fprintf(l->to, ": %s %.12g -> %.12g\n", a->quantity, a->value, b->value);
     }
 }
@@ -46,19 +46,19 @@ static void compare_values(const listing *l, const result_cell *a, const result_
             compare_value(l, &a->value[i], other);
             continue;
         }
-        comparison_heading(l, CHANGE_GONE);
+        comparison_lines_heading(l, CHANGE_GONE);
         fprintf(l->to, ": %s\n", a->value[i].quantity);
     }
     for (int i = 0; i < b->values; i++)
         if (value_named(a, i, b->value[i].quantity) == NULL) {
-            comparison_heading(l, CHANGE_NEW);
+            comparison_lines_heading(l, CHANGE_NEW);
             fprintf(l->to, ": %s\n", b->value[i].quantity);
         }
 }
 
 void comparison_cells(const listing *l, const result_cell *a, const result_cell *b)
 {
-    comparison_status(l, a->status, b->status);
-    comparison_work(l, a->work, b->work, 1);
+    comparison_lines_status(l, a->status, b->status);
+    comparison_lines_work(l, a->work, b->work, 1);
     compare_values(l, a, b);
 }

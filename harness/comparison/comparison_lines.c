@@ -6,7 +6,7 @@
 const char *const comparison_kind_names[COMPARISON_KINDS] = {"worse", "better", "changed", "gone",
                                                              "new"};
 
-void comparison_heading(const listing *l, comparison_kind kind)
+void comparison_lines_heading(const listing *l, comparison_kind kind)
 {
     l->out->count[kind]++;
     fprintf(l->to, "%-8s %s", comparison_kind_names[kind], l->name);
@@ -14,13 +14,13 @@ void comparison_heading(const listing *l, comparison_kind kind)
         fprintf(l->to, " n=%d", l->elements);
 }
 
-void comparison_lone(const listing *l, comparison_kind kind)
+void comparison_lines_lone(const listing *l, comparison_kind kind)
 {
-    comparison_heading(l, kind);
+    comparison_lines_heading(l, kind);
     fputc('\n', l->to);
 }
 
-void comparison_status(const listing *l, const char *before, const char *after)
+void comparison_lines_status(const listing *l, const char *before, const char *after)
 {
     if (strcmp(before, after) == 0)
         return;
@@ -29,12 +29,12 @@ void comparison_status(const listing *l, const char *before, const char *after)
         kind = CHANGE_BETTER;
     else if (strcmp(before, "ok") == 0)
         kind = CHANGE_WORSE;
-    comparison_heading(l, kind);
+    comparison_lines_heading(l, kind);
     fprintf(l->to, ": %s -> %s\n", before, after);
 }
 
-void comparison_work(const listing *l, const long before[RESULTS_WORKS],
-                     const long after[RESULTS_WORKS], int meshes)
+void comparison_lines_work(const listing *l, const long before[RESULTS_WORKS],
+                           const long after[RESULTS_WORKS], int meshes)
 {
     for (int k = 0; k < RESULTS_WORKS; k++) {
         const double old = (double)before[k], new = (double)after[k];
@@ -42,7 +42,7 @@ void comparison_work(const listing *l, const long before[RESULTS_WORKS],
         l->out->work[1][k] += new;
         if (fabs(new - old) <= l->limits->work * old / meshes)
             continue;
-        comparison_heading(l, new > old ? CHANGE_WORSE : CHANGE_BETTER);
+        comparison_lines_heading(l, new > old ? CHANGE_WORSE : CHANGE_BETTER);
         fprintf(l->to, ": %s %ld -> %ld", results_work_names[k], before[k], after[k]);
         fprintf(l->to, old > 0 ? " (%+.1f %%)\n" : "\n", 100 * (new - old) / old);
     }

@@ -14,13 +14,13 @@ typedef struct listing {
 } listing;
 
 /* Counts a line and writes its beginning: kind, name, mesh. */
-void comparison_heading(const listing *l, comparison_kind kind);
+void comparison_lines_heading(const listing *l, comparison_kind kind);
 /* A line where something is in one of the two only. */
-void comparison_lone(const listing *l, comparison_kind kind);
-void comparison_status(const listing *l, const char *before, const char *after);
+void comparison_lines_lone(const listing *l, comparison_kind kind);
+void comparison_lines_status(const listing *l, const char *before, const char *after);
 /* Sums of `meshes` meshes: what one of them may change by is noticed, whatever their number. */
-void comparison_work(const listing *l, const long before[RESULTS_WORKS],
-                     const long after[RESULTS_WORKS], int meshes);
+void comparison_lines_work(const listing *l, const long before[RESULTS_WORKS],
+                           const long after[RESULTS_WORKS], int meshes);
 
 void comparison_cells(const listing *l, const result_cell *a, const result_cell *b);
 void comparison_series(const listing *l, const result_series *a, const result_series *b);

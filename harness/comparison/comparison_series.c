@@ -24,9 +24,9 @@ static int compare_meshes(const listing *l, const result_series *a, const result
         listing here = *l;
         here.elements = old != NULL ? old->elements : new->elements;
         if (old != NULL && new != NULL)
-            comparison_status(&here, old->status, new->status);
+            comparison_lines_status(&here, old->status, new->status);
         else
-            comparison_lone(&here, old != NULL ? CHANGE_GONE : CHANGE_NEW);
+            comparison_lines_lone(&here, old != NULL ? CHANGE_GONE : CHANGE_NEW);
         same = same && old != NULL && new != NULL;
         i += old != NULL;
         k += new != NULL;
@@ -42,7 +42,7 @@ static int compare_error(const listing *l, const char *which, const result_error
     if (fabs(b->size - a->size) <=
         m->floor + (m->error + last_digit(RESULTS_ERROR_DIGITS)) * a->size)
         return 0;
-    comparison_heading(l, b->size > a->size ? CHANGE_WORSE : CHANGE_BETTER);
+    comparison_lines_heading(l, b->size > a->size ? CHANGE_WORSE : CHANGE_BETTER);
     fprintf(l->to, ": %s error %.3e (%s n=%d) -> %.3e (%s n=%d)\n", which, a->size, a->quantity,
             a->elements, b->size, b->quantity, b->elements);
     return 1;
@@ -53,7 +53,7 @@ static void compare_errors(const listing *l, const result_series *a, const resul
     const double change = b->decades - a->decades;
     const double slack = log10(1 + l->limits->error) + pow(10, -RESULTS_DECADES_DECIMALS);
     if (a->errors != b->errors) {
-        comparison_heading(l, b->errors < a->errors ? CHANGE_WORSE : CHANGE_OTHER);
+        comparison_lines_heading(l, b->errors < a->errors ? CHANGE_WORSE : CHANGE_OTHER);
         fprintf(l->to, ": %d values have an error, %d had\n", b->errors, a->errors);
         return;
     }
@@ -61,7 +61,7 @@ static void compare_errors(const listing *l, const result_series *a, const resul
     const int least = compare_error(l, "least", &a->least, &b->least);
     if (largest || least || fabs(change) <= slack)
         return;
-    comparison_heading(l, change > 0 ? CHANGE_WORSE : CHANGE_BETTER);
+    comparison_lines_heading(l, change > 0 ? CHANGE_WORSE : CHANGE_BETTER);
     fprintf(l->to, ": errors between the least and the largest moved by %+.4f decades in all\n",
             change);
 }
@@ -79,7 +79,7 @@ static void compare_limits(const listing *l, const result_series *a, const resul
     for (int i = 0; i < a->limits; i++) {
         const result_limit *old = &a->limit[i], *new = limit_named(b, old->quantity);
         if (new == NULL) {
-            comparison_heading(l, CHANGE_WORSE);
+            comparison_lines_heading(l, CHANGE_WORSE);
             fprintf(l->to, ": %s has no limit any more\n", old->quantity);
             continue;
         }
@@ -88,12 +88,12 @@ static void compare_limits(const listing *l, const result_series *a, const resul
             l->limits->floor * scale + last_digit(RESULTS_LIMIT_DIGITS) * fabs(old->value);
         if (fabs(new->value - old->value) <= slack)
             continue;
-        comparison_heading(l, CHANGE_OTHER);
+        comparison_lines_heading(l, CHANGE_OTHER);
         fprintf(l->to, ": limit of %s %.10g -> %.10g\n", old->quantity, old->value, new->value);
     }
     for (int i = 0; i < b->limits; i++)
         if (limit_named(a, b->limit[i].quantity) == NULL) {
-            comparison_heading(l, CHANGE_BETTER);
+            comparison_lines_heading(l, CHANGE_BETTER);
             fprintf(l->to, ": %s has a limit now\n", b->limit[i].quantity);
         }
 }
@@ -101,7 +101,7 @@ static void compare_limits(const listing *l, const result_series *a, const resul
 void comparison_series(const listing *l, const result_series *a, const result_series *b)
 {
     if (compare_meshes(l, a, b)) { /* sums over other meshes say nothing */
-        comparison_work(l, a->work, b->work, a->meshes);
+        comparison_lines_work(l, a->work, b->work, a->meshes);
         compare_errors(l, a, b);
     }
     if (l->out->judged)

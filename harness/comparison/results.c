@@ -29,14 +29,14 @@ result_series *results_add_series(results *r)
     return all != NULL ? &all[r->seriess++] : NULL;
 }
 
-result_mesh *result_add_mesh(result_series *s)
+result_mesh *results_add_mesh(result_series *s)
 {
     result_mesh *all = grow(s->mesh, s->meshes, 8, sizeof *all);
     s->mesh = all != NULL ? all : s->mesh;
     return all != NULL ? &all[s->meshes++] : NULL;
 }
 
-result_limit *result_add_limit(result_series *s)
+result_limit *results_add_limit(result_series *s)
 {
     result_limit *all = grow(s->limit, s->limits, 8, sizeof *all);
     s->limit = all != NULL ? all : s->limit;

@@ -82,15 +82,15 @@ void results_free(results *r);
 /* A zeroed one at the end, or NULL. */
 result_cell *results_add(results *r);
 result_series *results_add_series(results *r);
-result_mesh *result_add_mesh(result_series *s);
-result_limit *result_add_limit(result_series *s);
+result_mesh *results_add_mesh(result_series *s);
+result_limit *results_add_limit(result_series *s);
 
 int results_order(const result_cell *a, const result_cell *b); /* of name, then elements */
 /* Fills the series from the cells, which are in order. FAULT: out of memory. */
-status results_summarise(results *r, fault *f);
+status results_series_summarise(results *r, fault *f);
 
-status results_read_hdf5(const char *path, results *out, fault *f);
-status results_read_table(const char *path, FILE *from, results *out, fault *f);
-void results_write_table(FILE *to, const results *r);
+status results_hdf5_read(const char *path, results *out, fault *f);
+status results_table_read(const char *path, FILE *from, results *out, fault *f);
+void results_table_write(FILE *to, const results *r);
 
 #endif

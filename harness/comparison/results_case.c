@@ -9,7 +9,7 @@
 
 enum { NAME = 200 };
 
-status results_damaged(const char *path, const char *where, const char *what, fault *f)
+status results_case_damaged(const char *path, const char *where, const char *what, fault *f)
 {
     return fault_set(f, STATUS_FAULT,
                      "%.120s: %s%.120s is missing or damaged; run 'beamwork verify -o' again", path,
@@ -89,22 +89,23 @@ static const char *read_tables(hid_t at, tables *t)
 {
     void *rows;
     memset(t, 0, sizeof *t);
-    t->points = table_read(at, "points", COLUMNS(point_columns), sizeof *t->point, &rows);
+    t->points = table_reader_rows(at, "points", COLUMNS(point_columns), sizeof *t->point, &rows);
     t->point = rows;
     if (t->points < 0)
         return "points";
-    t->cells = table_read(at, "cells", COLUMNS(cell_columns), sizeof *t->cell, &rows);
+    t->cells = table_reader_rows(at, "cells", COLUMNS(cell_columns), sizeof *t->cell, &rows);
     t->cell = rows;
     if (t->cells < 0)
         return "cells";
-    t->values = table_read(at, "quantities", COLUMNS(value_columns), sizeof *t->value, &rows);
+    t->values =
+        table_reader_rows(at, "quantities", COLUMNS(value_columns), sizeof *t->value, &rows);
     t->value = rows;
     if (t->values < 0)
         return "quantities";
     t->limits = -1;
     if (H5Lexists(at, "verdicts", H5P_DEFAULT) <= 0)
         return NULL;
-    t->limits = table_read(at, "verdicts", COLUMNS(limit_columns), sizeof *t->limit, &rows);
+    t->limits = table_reader_rows(at, "verdicts", COLUMNS(limit_columns), sizeof *t->limit, &rows);
     t->limit = rows;
     return t->limits < 0 ? "verdicts" : NULL;
 }
@@ -164,10 +165,10 @@ static status take_cell(const char *path, const char *of, const tables *t, const
     char name[NAME + PARAMETERS_TEXT + FORMULATION_KEY];
     const char *parameters = parameters_of(t, row->point);
     if (parameters == NULL)
-        return results_damaged(path, of, ": the point of a cell", f);
+        return results_case_damaged(path, of, ": the point of a cell", f);
     snprintf(name, sizeof name, "%s/%s/%s", of, parameters, row->formulation);
     if (row->elements < 1 || row->elements > RESULTS_MOST_ELEMENTS || !are_counts(row))
-        return results_damaged(path, name, "", f);
+        return results_case_damaged(path, name, "", f);
     result_cell *cell = results_add(out);
     if (cell == NULL || (cell->name = strdup(name)) == NULL || !take_values(t, row, next, cell))
         return fault_set(f, STATUS_FAULT, "out of memory for results");
@@ -212,12 +213,12 @@ static status take_limits(const char *path, const char *of, const tables *t, res
             continue;
         const int finest = finest_cell(t, limit);
         if (finest < 0 || !set_limit(&cell[finest], limit))
-            return results_damaged(path, of, ": the cell of a limit", f);
+            return results_case_damaged(path, of, ": the cell of a limit", f);
     }
     return STATUS_OK;
 }
 
-/* With what results_read_case frees. */
+/* With what results_case_read frees. */
 static status take_case(const char *path, hid_t at, const char *name, tables *t, results *out,
                         fault *f)
 {
@@ -227,15 +228,15 @@ static status take_case(const char *path, hid_t at, const char *name, tables *t,
     snprintf(where, sizeof where, "%s/", name);
     const char *bad = read_tables(at, t);
     if (bad != NULL)
-        return results_damaged(path, where, bad, f);
+        return results_case_damaged(path, where, bad, f);
     for (int i = 0; i < t->cells; i++)
         TRY(take_cell(path, name, t, &t->cell[i], &next, out, f));
     if (next < t->values)
-        return results_damaged(path, where, "quantities: the cell of a value", f);
+        return results_case_damaged(path, where, "quantities: the cell of a value", f);
     return take_limits(path, name, t, out->cells > first ? &out->cell[first] : NULL, f);
 }
 
-status results_read_case(const char *path, hid_t at, const char *name, results *out, fault *f)
+status results_case_read(const char *path, hid_t at, const char *name, results *out, fault *f)
 {
     tables t;
     const status outcome = take_case(path, at, name, &t, out, f);

@@ -7,8 +7,8 @@
 #include "harness/comparison/results.h"
 
 /* Adds its cells. at: the group of the case, whose name is given. */
-status results_read_case(const char *path, hid_t at, const char *name, results *out, fault *f);
+status results_case_read(const char *path, hid_t at, const char *name, results *out, fault *f);
 /* What of a file, and where, is not as it was written. */
-status results_damaged(const char *path, const char *where, const char *what, fault *f);
+status results_case_damaged(const char *path, const char *where, const char *what, fault *f);
 
 #endif

@@ -11,8 +11,8 @@ static status read_case(const char *path, hid_t cases, const char *name, results
 {
     const hid_t here = H5Gopen2(cases, name, H5P_DEFAULT);
     if (here < 0)
-        return results_damaged(path, "", name, f);
-    const status outcome = results_read_case(path, here, name, out, f);
+        return results_case_damaged(path, "", name, f);
+    const status outcome = results_case_read(path, here, name, out, f);
     H5Gclose(here);
     return outcome;
 }
@@ -22,11 +22,11 @@ static status read_cases(const char *path, hid_t cases, results *out, fault *f)
     char name[NAME];
     H5G_info_t info = {0};
     if (H5Gget_info(cases, &info) < 0)
-        return results_damaged(path, "", "cases", f);
+        return results_case_damaged(path, "", "cases", f);
     for (hsize_t i = 0; i < info.nlinks; i++) {
         if (H5Lget_name_by_idx(cases, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name,
                                H5P_DEFAULT) <= 0)
-            return results_damaged(path, "", "cases", f);
+            return results_case_damaged(path, "", "cases", f);
         TRY(read_case(path, cases, name, out, f));
     }
     return STATUS_OK;
@@ -36,7 +36,7 @@ static status read_tables(const char *path, hid_t file, results *out, fault *f)
 {
     const hid_t cases = H5Gopen2(file, "cases", H5P_DEFAULT);
     const status outcome =
-        cases < 0 ? results_damaged(path, "", "cases", f) : read_cases(path, cases, out, f);
+        cases < 0 ? results_case_damaged(path, "", "cases", f) : read_cases(path, cases, out, f);
     out->whole = 1;
     if (cases >= 0)
         H5Gclose(cases);
@@ -47,8 +47,9 @@ static status read_file(const char *path, hid_t file, results *out, fault *f)
 {
     char schema[64];
     long version = 0;
-    if (!attribute_text(file, "schema", schema, sizeof schema) ||
-        strcmp(schema, SCHEMA_NAME) != 0 || !attribute_count(file, "schema_version", &version))
+    if (!table_reader_attribute_text(file, "schema", schema, sizeof schema) ||
+        strcmp(schema, SCHEMA_NAME) != 0 ||
+        !table_reader_attribute_count(file, "schema_version", &version))
         return fault_set(f, STATUS_FAULT,
                          "%.120s: not a file of results; write one with 'beamwork verify -o'",
                          path);
@@ -60,7 +61,7 @@ static status read_file(const char *path, hid_t file, results *out, fault *f)
     return read_tables(path, file, out, f);
 }
 
-status results_read_hdf5(const char *path, results *out, fault *f)
+status results_hdf5_read(const char *path, results *out, fault *f)
 {
     TRY(checksum_check(path, f));
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);

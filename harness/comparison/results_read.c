@@ -48,10 +48,10 @@ static int is_hdf5(FILE *from)
 
 static status read_sorted(const char *path, FILE *from, results *out, fault *f)
 {
-    TRY(is_hdf5(from) ? results_read_hdf5(path, out, f) : results_read_table(path, from, out, f));
+    TRY(is_hdf5(from) ? results_hdf5_read(path, out, f) : results_table_read(path, from, out, f));
     TRY(sort_cells(path, out, f));
     if (out->whole)
-        TRY(results_summarise(out, f));
+        TRY(results_series_summarise(out, f));
     return sort_series(path, out, f);
 }
 

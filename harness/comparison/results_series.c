@@ -30,7 +30,7 @@ static int take_limits(result_series *s, const result_cell *cell)
 {
     for (int i = 0; i < cell->values; i++) {
         const result_value *v = &cell->value[i];
-        result_limit *limit = isfinite(v->limit) ? result_add_limit(s) : NULL;
+        result_limit *limit = isfinite(v->limit) ? results_add_limit(s) : NULL;
         if (limit == NULL && isfinite(v->limit))
             return 0;
         if (limit == NULL)
@@ -45,7 +45,7 @@ static int take_limits(result_series *s, const result_cell *cell)
 /* 0: out of memory. */
 static int take_cell(result_series *s, const result_cell *cell)
 {
-    result_mesh *mesh = result_add_mesh(s);
+    result_mesh *mesh = results_add_mesh(s);
     if (mesh == NULL)
         return 0;
     mesh->elements = cell->elements;
@@ -56,7 +56,7 @@ static int take_cell(result_series *s, const result_cell *cell)
     return take_limits(s, cell);
 }
 
-status results_summarise(results *r, fault *f)
+status results_series_summarise(results *r, fault *f)
 {
     result_series *s = NULL;
     for (int i = 0; i < r->cells; i++) {

@@ -80,7 +80,7 @@ static int take_mesh(char *text, result_series *s)
     char *end = strchr(text, ':');
     if (end != NULL)
         *end++ = '\0';
-    result_mesh *mesh = result_add_mesh(s);
+    result_mesh *mesh = results_add_mesh(s);
     if (mesh == NULL || !whole(text, RESULTS_MOST_ELEMENTS, &elements) || elements < 1)
         return 0;
     mesh->elements = (int)elements;
@@ -92,7 +92,7 @@ static int take_mesh(char *text, result_series *s)
 static int take_limit(char *text, result_series *s)
 {
     char *value = strrchr(text, '=');
-    result_limit *limit = value != NULL ? result_add_limit(s) : NULL;
+    result_limit *limit = value != NULL ? results_add_limit(s) : NULL;
     if (limit == NULL)
         return 0;
     *value++ = '\0';
@@ -167,7 +167,7 @@ static status take_row(char *line, const char *path, int row, results *out, faul
                      path, row);
 }
 
-status results_read_table(const char *path, FILE *from, results *out, fault *f)
+status results_table_read(const char *path, FILE *from, results *out, fault *f)
 {
     char line[LONGEST_LINE];
     if (fgets(line, sizeof line, from) == NULL || !take_line(line) ||

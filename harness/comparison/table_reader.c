@@ -66,8 +66,8 @@ static int read_rows(hid_t set, hid_t type, hid_t stored, size_t size, void **ro
     return (int)count;
 }
 
-int table_read(hid_t at, const char *name, int columns, const table_column column[], size_t size,
-               void **rows)
+int table_reader_rows(hid_t at, const char *name, int columns, const table_column column[],
+                      size_t size, void **rows)
 {
     *rows = NULL;
     const hid_t set = H5Lexists(at, name, H5P_DEFAULT) > 0 ? H5Dopen2(at, name, H5P_DEFAULT) : -1;
@@ -82,7 +82,7 @@ int table_read(hid_t at, const char *name, int columns, const table_column colum
     return count;
 }
 
-int attribute_text(hid_t at, const char *name, char *text, size_t size)
+int table_reader_attribute_text(hid_t at, const char *name, char *text, size_t size)
 {
     const hid_t a = H5Aexists(at, name) > 0 ? H5Aopen(at, name, H5P_DEFAULT) : -1;
     const hid_t type = a >= 0 ? H5Aget_type(a) : -1, space = a >= 0 ? H5Aget_space(a) : -1;
@@ -94,7 +94,7 @@ int attribute_text(hid_t at, const char *name, char *text, size_t size)
     return read;
 }
 
-int attribute_count(hid_t at, const char *name, long *out)
+int table_reader_attribute_count(hid_t at, const char *name, long *out)
 {
     const hid_t a = H5Aexists(at, name) > 0 ? H5Aopen(at, name, H5P_DEFAULT) : -1;
     const hid_t space = a >= 0 ? H5Aget_space(a) : -1;

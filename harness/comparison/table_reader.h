@@ -17,12 +17,12 @@ typedef struct table_column {
 
 /* Rows of `size` bytes, which the caller frees; their number. -1: the table, a column of that kind,
  * or memory is missing. */
-int table_read(hid_t at, const char *name, int columns, const table_column column[], size_t size,
-               void **rows);
+int table_reader_rows(hid_t at, const char *name, int columns, const table_column column[],
+                      size_t size, void **rows);
 
 /* Text attribute of fixed length; 0: it is not there, too long or of another type. */
-int attribute_text(hid_t at, const char *name, char *text, size_t size);
+int table_reader_attribute_text(hid_t at, const char *name, char *text, size_t size);
 /* Whole number of a scalar attribute; 0: it is not there or of another type. */
-int attribute_count(hid_t at, const char *name, long *out);
+int table_reader_attribute_count(hid_t at, const char *name, long *out);
 
 #endif

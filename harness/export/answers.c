@@ -19,7 +19,7 @@ typedef struct writer {
 } writer;
 
 /* Loads on the same coordinate are one card. */
-static void write_loads(const writer *w, double path)
+static void write_structure_loads(const writer *w, double path)
 {
     fputs("*CLOAD,OP=NEW\n", w->to);
     for (int node = 0; node < w->s->nodes; node++)
@@ -45,7 +45,7 @@ static void write_state(writer *w, double path, int increments)
     else
         fputs("*STEP\n*STATIC,SOLVER=SPOOLES\n", w->to);
     body_write_state(w->bodies, w->s, path, w->to);
-    write_loads(w, path);
+    write_structure_loads(w, path);
     fputs(PRINTS, w->to);
     w->steps++;
 }

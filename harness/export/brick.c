@@ -113,7 +113,7 @@ static void each_node(const brick *b, int first, int last, visit *what, FILE *to
                     what(b, at, to);
 }
 
-static void write_number(const brick *b, const int at[3], FILE *to)
+static void write_values_number(const brick *b, const int at[3], FILE *to)
 {
     fprintf(to, "%d,\n", number_of(b, at));
 }
@@ -126,7 +126,7 @@ void brick_write_nodes(const brick *b, FILE *to)
 void brick_write_face(const brick *b, int end, FILE *to)
 {
     const int at = end ? 2 * b->elements[BRICK_ALONG] : 0;
-    each_node(b, at, at, write_number, to);
+    each_node(b, at, at, write_values_number, to);
 }
 
 static void write_element(const brick *b, int number, const int cell[3], FILE *to)

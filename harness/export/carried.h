@@ -9,6 +9,6 @@ int carried_static(const scene *s);
 /* REFUSED: names what of the structure and its analyses no deck says, and what to do. */
 status carried_check(const scene *s, fault *f);
 /* The same of the quantities. */
-status carried_check_asked(const scene *s, fault *f);
+status carried_asked_check(const scene *s, fault *f);
 
 #endif

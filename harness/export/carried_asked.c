@@ -75,7 +75,7 @@ static status check_quantity(const scene *s, const scene_quantity *q, fault *f)
     }
 }
 
-status carried_check_asked(const scene *s, fault *f)
+status carried_asked_check(const scene *s, fault *f)
 {
     if (s->quantities == 0)
         return fault_set(f, STATUS_REFUSED, "a scene without quantities asks nothing of a solid");

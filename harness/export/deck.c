@@ -11,7 +11,7 @@ status deck_check(const deck_request *r, fault *f)
         return fault_set(f, STATUS_REFUSED, "%d elements along a member: give 1 to %d with -n",
                          r->elements, DECK_MOST_ELEMENTS);
     TRY(carried_check(r->scene, f));
-    return carried_check_asked(r->scene, f);
+    return carried_asked_check(r->scene, f);
 }
 
 /* Bricks of all members, with the numbers behind the last one. */

@@ -12,7 +12,7 @@ static json_t *extreme_of(const extreme *e)
     json_t *out = json_record(&record_extreme, &one, KEY_AROUND), *quantities = json_array();
     for (int i = 0; i < EXTREME_MAX_QUANTITIES && e->quantity[i].name != NULL; i++)
         json_array_append_new(quantities, json_string(e->quantity[i].name));
-    json_object_set_new(out, "values", json_numbers(e->values, e->value));
+    json_object_set_new(out, "values", json_record_numbers(e->values, e->value));
     json_object_set_new(out, "quantities", quantities);
     return out;
 }
@@ -25,11 +25,11 @@ status extreme_json(FILE *to, const extreme_sweep *s, fault *f)
         json_array_append_new(table, extreme_of(&extremes[i]));
     for (int i = 0; i < s->formulations; i++) {
         const subject one = {.record = &s->count[i]};
-        json_add_record(counts, &record_extreme_count, &one, KEY_AROUND);
+        json_record_add(counts, &record_extreme_count, &one, KEY_AROUND);
     }
     for (int i = 0; i < s->outcomes; i++) {
         const subject one = extreme_record_subject(s, &s->outcome[i]);
-        json_add_record(outcomes, &record_outcome, &one, KEY_AROUND);
+        json_record_add(outcomes, &record_outcome, &one, KEY_AROUND);
     }
     json_t *root =
         json_pack("{s:i,s:s,s:s,s:s,s:i,s:i,s:o,s:o,s:o}", "schema_version", SCHEMA_VERSION,

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/catalogue/case_find.h"
 #include "harness/catalogue/registry.h"
 #include "harness/study/plan.h"
 

@@ -11,34 +11,34 @@ static const extreme_outcome *outcome_of(const subject *s)
 
 static void get_extreme(const subject *s, field_value *out)
 {
-    field_text(out, extremes[outcome_of(s)->extreme].name);
+    schema_set_text(out, extremes[outcome_of(s)->extreme].name);
 }
 
 static void get_group(const subject *s, field_value *out)
 {
-    field_text(out, extremes[outcome_of(s)->extreme].group);
+    schema_set_text(out, extremes[outcome_of(s)->extreme].group);
 }
 
 static void get_base(const subject *s, field_value *out)
 {
-    field_text(out, extremes[outcome_of(s)->extreme].base);
+    schema_set_text(out, extremes[outcome_of(s)->extreme].base);
 }
 
 static void get_quantity(const subject *s, field_value *out)
 {
     const extreme_outcome *o = outcome_of(s);
-    field_text(out, extremes[o->extreme].quantity[o->quantity].name);
+    schema_set_text(out, extremes[o->extreme].quantity[o->quantity].name);
 }
 
 static void get_condition(const subject *s, field_value *out)
 {
-    const double condition = subject_cell(s)->counters.condition;
-    field_number(out, condition > 0 ? condition : NAN);
+    const double condition = fields_keys_cell(s)->counters.condition;
+    schema_set_number(out, condition > 0 ? condition : NAN);
 }
 
 static void get_proof(const subject *s, field_value *out)
 {
-    field_text(out, outcome_of(s)->finding != NULL ? outcome_of(s)->finding->proof : "");
+    schema_set_text(out, outcome_of(s)->finding != NULL ? outcome_of(s)->finding->proof : "");
 }
 
 static const char *word_of_outcome(int kind)

@@ -141,9 +141,9 @@ void extreme_table(FILE *to, const extreme_sweep *s)
 void extreme_table_csv(FILE *to, const extreme_sweep *s)
 {
     csv_part row = {.type = &record_outcome};
-    csv_head(to, 1, &row);
+    csv_record_head(to, 1, &row);
     for (int i = 0; i < s->outcomes; i++) {
         row.s = extreme_record_subject(s, &s->outcome[i]);
-        csv_line(to, 1, &row);
+        csv_record_line(to, 1, &row);
     }
 }

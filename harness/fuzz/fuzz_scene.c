@@ -48,7 +48,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (outcome != STATUS_OK)
         return 0;
     truths t = {0};
-    scene_file_add_all_truths(file, &t, &f);
+    scene_file_truths_add_all(file, &t, &f);
     truths_free(&t);
     size_t one = 0, two = 0;
     char *text = written(file, &one), *same = NULL;

@@ -7,7 +7,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     results r = {0}, again = {0};
     fault f = {""};
     FILE *from = fuzz_stream(data, size);
-    const status outcome = results_read_table("table", from, &r, &f);
+    const status outcome = results_table_read("table", from, &r, &f);
     fclose(from);
     fuzz_must((outcome == STATUS_OK) == (f.text[0] == '\0') && strchr(f.text, '\n') == NULL,
               "a refusal has one line");
@@ -16,10 +16,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         size_t length = 0;
         FILE *to = open_memstream(&written, &length);
         fuzz_must(to != NULL, "there is memory");
-        results_write_table(to, &r);
+        results_table_write(to, &r);
         fclose(to);
         from = fuzz_stream((const uint8_t *)written, length);
-        fuzz_must(results_read_table("table", from, &again, &f) == STATUS_OK &&
+        fuzz_must(results_table_read("table", from, &again, &f) == STATUS_OK &&
                       again.seriess == r.seriess,
                   "what is written reads back");
         fclose(from);

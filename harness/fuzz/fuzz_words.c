@@ -1,6 +1,6 @@
 /* Any bytes as the words of the command line that have a grammar: formulation with options,
  * selection, thresholds. */
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/comparison/comparison.h"
 #include "harness/fuzz/fuzz.h"
 #include "harness/study/sweep.h"

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/catalogue/case_find.h"
 #include "harness/catalogue/choice.h"
 #include "harness/imports/conversion.h"
 #include "harness/imports/import_cells.h"
@@ -21,7 +22,7 @@ static int line_of(const import_block *b, const imported_row *row)
     return b->at > 0 ? b->at : row->line;
 }
 
-void import_set_free(import_set *set)
+void import_block_free_set(import_set *set)
 {
     sweep_free(&set->sweep);
     for (int i = 0; i < set->scenes; i++) {

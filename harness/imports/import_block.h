@@ -17,7 +17,7 @@ typedef struct import_set {
     char *scene_path[IMPORT_SCENES];
 } import_set;
 
-void import_set_free(import_set *);
+void import_block_free_set(import_set *);
 
 /* A header as it was said, with the lines it was said at; 0: not said. */
 typedef struct import_header {

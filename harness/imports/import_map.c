@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/imports/line_text.h"
+#include "harness/imports/line.h"
 #include "harness/imports/map_keys.h"
 #include "harness/language/document.h"
 

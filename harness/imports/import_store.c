@@ -168,10 +168,10 @@ static status read_case(store_reader *r, hid_t at, const char *of)
     void *rows = NULL;
     if (H5Lexists(at, "imports", H5P_DEFAULT) <= 0)
         return STATUS_OK;
-    t.points = table_read(at, "points", COLUMNS(point_columns), sizeof *t.point, &rows);
+    t.points = table_reader_rows(at, "points", COLUMNS(point_columns), sizeof *t.point, &rows);
     t.point = rows;
     rows = NULL;
-    t.values = table_read(at, "imports", COLUMNS(value_columns), sizeof *t.value, &rows);
+    t.values = table_reader_rows(at, "imports", COLUMNS(value_columns), sizeof *t.value, &rows);
     t.value = rows;
     const status outcome = t.points < 0 || t.values < 0 ? damaged(r, of) : take_case(r, of, &t);
     free(t.point);
@@ -208,8 +208,9 @@ static status read_file(store_reader *r, hid_t file)
 {
     char schema[64];
     long version = 0;
-    if (!attribute_text(file, "schema", schema, sizeof schema) ||
-        strcmp(schema, SCHEMA_NAME) != 0 || !attribute_count(file, "schema_version", &version) ||
+    if (!table_reader_attribute_text(file, "schema", schema, sizeof schema) ||
+        strcmp(schema, SCHEMA_NAME) != 0 ||
+        !table_reader_attribute_count(file, "schema_version", &version) ||
         version != SCHEMA_VERSION)
         return fault_set(r->f, STATUS_FAULT,
                          "%.120s: not a file of results; write it with 'beamwork import FILE -o'",

@@ -33,7 +33,7 @@ static void expect(const sweep *s, truths *t, verdict *v)
         return;
     for (int i = 0; i < t->rules && !v->matches; i++) {
         rule *r = &t->rule[i];
-        if (!rule_holds(r, &subject))
+        if (!rules_hold(r, &subject))
             continue;
         if (v->rule != NULL) {
             snprintf(v->reason, sizeof v->reason, "two findings speak of it: %.60s and %.60s",
@@ -44,7 +44,7 @@ static void expect(const sweep *s, truths *t, verdict *v)
         v->rule = r;
         r->observed++;
         if (v->kind == VERDICT_BIASED_AS_PREDICTED || v->kind == VERDICT_WRONG_AS_PREDICTED)
-            rule_foretell(r, &subject);
+            rules_foretell(r, &subject);
         if (is_beyond(r, v))
             snprintf(v->reason, sizeof v->reason,
                      "its limit is %.3g from %s, beyond the %.3g of finding %.60s", v->departure,
@@ -207,7 +207,7 @@ static void judge_series(const sweep *s, truths *t, int index, judgement *out)
 static void count_missed(const truths *t, judgement *out)
 {
     for (int i = 0; i < t->rules; i++)
-        out->unobserved += !rule_is_observed(&t->rule[i]);
+        out->unobserved += !rules_is_observed(&t->rule[i]);
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
         const int elsewhere =

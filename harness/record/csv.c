@@ -9,12 +9,12 @@ void csv_solution(FILE *to, const sweep *s)
     subjects list = {0};
     csv_part row = {&record_quantity, gather_cell(&g, 0, 0)};
     gather_mesh(&g, &record_quantity, 0, 0, &list);
-    csv_head(to, 1, &row);
+    csv_record_head(to, 1, &row);
     for (int i = 0; i < list.count; i++) {
         row.s = list.row[i];
-        csv_line(to, 1, &row);
+        csv_record_line(to, 1, &row);
     }
-    subjects_free(&list);
+    gather_free(&list);
 }
 
 /* A line for each quantity of each mesh, or for those with a truth; the parts are of the quantity and
@@ -22,7 +22,7 @@ void csv_solution(FILE *to, const sweep *s)
 static void list_meshes(FILE *to, const gathering *g, int with_truth, int parts, csv_part row[])
 {
     const sweep *s = g->sweep;
-    csv_head(to, parts, row);
+    csv_record_head(to, parts, row);
     for (int i = 0; i < s->seriess; i++)
         if (s->series[i].missing[0] == '\0')
             for (int k = 0; k < s->series[i].meshes; k++) {
@@ -36,9 +36,9 @@ static void list_meshes(FILE *to, const gathering *g, int with_truth, int parts,
                             row[part].s.record = &s->series[i].timing[k];
                     }
                     if (!with_truth || list.row[q].truth != NULL)
-                        csv_line(to, parts, row);
+                        csv_record_line(to, parts, row);
                 }
-                subjects_free(&list);
+                gather_free(&list);
             }
 }
 

@@ -54,7 +54,7 @@ static void write_value(FILE *to, const schema_field *which, const field_value *
         fprintf(to, "%.17g", *v->numbers);
 }
 
-void csv_head(FILE *to, int parts, const csv_part part[])
+void csv_record_head(FILE *to, int parts, const csv_part part[])
 {
     column list[MOST_COLUMNS];
     const int count = columns_of(parts, part, list);
@@ -63,13 +63,13 @@ void csv_head(FILE *to, int parts, const csv_part part[])
     fputc('\n', to);
 }
 
-void csv_line(FILE *to, int parts, const csv_part part[])
+void csv_record_line(FILE *to, int parts, const csv_part part[])
 {
     column list[MOST_COLUMNS];
     const int count = columns_of(parts, part, list);
     for (int i = 0; i < count; i++) {
         field_value v;
-        field_read(&part[list[i].part].s, list[i].field, &v);
+        schema_read(&part[list[i].part].s, list[i].field, &v);
         if (i > 0)
             fputc(',', to);
         write_value(to, list[i].field, &v);

@@ -13,7 +13,7 @@ typedef struct csv_part {
     subject s;
 } csv_part;
 
-void csv_head(FILE *to, int parts, const csv_part part[]);
-void csv_line(FILE *to, int parts, const csv_part part[]);
+void csv_record_head(FILE *to, int parts, const csv_part part[]);
+void csv_record_line(FILE *to, int parts, const csv_part part[]);
 
 #endif

@@ -36,7 +36,7 @@ static json_t *truths_of(const subject *s, const truths *t)
                 !truth_holds(row, p->type, p->parameter))
                 continue;
             one.truth = row;
-            json_add_record(list, &record_truth, &one, 0);
+            json_record_add(list, &record_truth, &one, 0);
         }
     return list;
 }
@@ -48,9 +48,9 @@ static void add_list(json_t *root, const gathering *g, const record_type *type)
     json_t *all = json_array();
     gather_mesh(g, type, 0, 0, &list);
     for (int i = 0; i < list.count; i++)
-        json_add_record(all, type, &list.row[i], 0);
+        json_record_add(all, type, &list.row[i], 0);
     json_object_set_new(root, type->table, all);
-    subjects_free(&list);
+    gather_free(&list);
 }
 
 static void add_quantities(json_t *root, const gathering *g)
@@ -65,7 +65,7 @@ static void add_quantities(json_t *root, const gathering *g)
         json_array_append_new(all, one);
     }
     json_object_set_new(root, record_quantity.table, all);
-    subjects_free(&list);
+    gather_free(&list);
 }
 
 /* As in HDF5 the points stand in arrays; here each curve has its own. */
@@ -79,12 +79,12 @@ static void add_curves(json_t *root, const gathering *g)
         const curve *c = &((const quantity_result *)s.record)->curve;
         s.group = 0;
         json_t *one = json_record(&record_curve, &s, 0);
-        json_object_set_new(one, "curve_x", json_numbers(c->points, c->x));
-        json_object_set_new(one, "curve_value", json_numbers(c->points, c->value));
+        json_object_set_new(one, "curve_x", json_record_numbers(c->points, c->x));
+        json_object_set_new(one, "curve_value", json_record_numbers(c->points, c->value));
         json_array_append_new(all, one);
     }
     json_object_set_new(root, record_curve.table, all);
-    subjects_free(&list);
+    gather_free(&list);
 }
 
 status json_finish(json_t *root, FILE *to, fault *f)
@@ -128,16 +128,16 @@ status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const e
            *counts = json_object();
     for (int i = 0; i < j->verdicts; i++) {
         const subject one = gather_verdict(&g, &j->verdict[i]);
-        json_add_record(verdicts, &record_verdict, &one, KEY_AROUND);
+        json_record_add(verdicts, &record_verdict, &one, KEY_AROUND);
     }
     for (int i = 0; i < j->agreements; i++) {
         const subject one = gather_agreement(&g, &j->agreement[i]);
-        json_add_record(agreements, &record_agreement, &one, KEY_AROUND);
+        json_record_add(agreements, &record_agreement, &one, KEY_AROUND);
     }
     for (int i = 0; i < j->coverages; i++)
         for (int k = 0; k < COVERAGE_MESHES; k++) {
             const subject one = gather_coverage(&g, &j->coverage[i], k);
-            json_add_record(coverages, &record_coverage, &one, KEY_AROUND);
+            json_record_add(coverages, &record_coverage, &one, KEY_AROUND);
         }
     for (int k = 0; k < VERDICT_KINDS; k++)
         json_object_set_new(counts, verdict_name((verdict_kind)k), json_integer(j->by_kind[k]));

@@ -24,7 +24,7 @@ static json_t *meshes_of(const gathering *g, int series_index, int quantity)
             json_decref(found);
         }
         json_array_append_new(all, one);
-        subjects_free(&list);
+        gather_free(&list);
     }
     return all;
 }

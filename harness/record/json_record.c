@@ -7,7 +7,7 @@ static json_t *number(double value)
     return isfinite(value) ? json_real(value) : json_null();
 }
 
-json_t *json_numbers(int count, const double value[])
+json_t *json_record_numbers(int count, const double value[])
 {
     json_t *list = json_array();
     for (int i = 0; i < count; i++)
@@ -21,7 +21,7 @@ static json_t *matrix(int count, const double value[])
     const int size = (int)lround(sqrt(count));
     json_t *rows = json_array();
     for (int i = 0; i < size; i++)
-        json_array_append_new(rows, json_numbers(size, value + size * i));
+        json_array_append_new(rows, json_record_numbers(size, value + size * i));
     return rows;
 }
 
@@ -43,13 +43,13 @@ json_t *json_record(const record_type *type, const subject *s, int keys)
     json_t *out = json_object();
     for (int i = 0; i < count; i++) {
         field_value v;
-        field_read(s, list[i], &v);
+        schema_read(s, list[i], &v);
         json_object_set_new(out, list[i]->name, json_of(list[i], &v));
     }
     return out;
 }
 
-void json_add_record(json_t *list, const record_type *type, const subject *s, int keys)
+void json_record_add(json_t *list, const record_type *type, const subject *s, int keys)
 {
     json_array_append_new(list, json_record(type, s, keys));
 }
@@ -57,7 +57,7 @@ void json_add_record(json_t *list, const record_type *type, const subject *s, in
 static json_t *json_field(const schema_field *which)
 {
     json_t *out = json_pack("{s:s,s:s,s:s,s:s,s:b}", "name", which->name, "kind",
-                            field_kind_name(which->kind), "unit", which->unit, "summary",
+                            schema_kind_name(which->kind), "unit", which->unit, "summary",
                             which->summary, "key", which->key != 0);
     json_object_set_new(out, "said_around", json_boolean(which->key == KEY_AROUND));
     json_t *words = json_array();

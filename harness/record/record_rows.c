@@ -26,7 +26,7 @@ static size_t longest_text(const schema_field *which, int count, const subject r
     size_t longest = 1;
     for (int i = 0; i < count; i++) {
         field_value v;
-        field_read(&row[i], which, &v);
+        schema_read(&row[i], which, &v);
         const size_t length = strlen(v.text);
         longest = length > longest ? length : longest;
     }
@@ -81,7 +81,7 @@ static hid_t row_type(int fields, const column list[], size_t size)
 static void pack(const column *c, const subject *s, char *to)
 {
     field_value v;
-    field_read(s, c->field, &v);
+    schema_read(s, c->field, &v);
     const int whole = (int)v.whole;
     if (c->field->kind == FIELD_INT)
         memcpy(to, &whole, sizeof whole);
@@ -127,7 +127,8 @@ void record_rows(record *r, hid_t at, const char *name, int fields,
     free(rows);
 }
 
-void record_records(record *r, hid_t at, const record_type *type, int count, const subject row[])
+void record_rows_of_type(record *r, hid_t at, const record_type *type, int count,
+                         const subject row[])
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
     const int fields = schema_fields(type, KEY, list);

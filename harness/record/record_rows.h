@@ -10,6 +10,7 @@
 void record_rows(record *r, hid_t at, const char *name, int fields,
                  const schema_field *const list[], int count, const subject row[]);
 /* The table of a kind of record, with its keys. */
-void record_records(record *r, hid_t at, const record_type *type, int count, const subject row[]);
+void record_rows_of_type(record *r, hid_t at, const record_type *type, int count,
+                         const subject row[]);
 
 #endif

@@ -113,12 +113,12 @@ static void put_records(record *r, hid_t at, const gathering *g, const record_ty
     if (type == &record_point)
         put_points(r, at, of, &list);
     else if (!r->bad)
-        record_records(r, at, type, list.count, list.row);
+        record_rows_of_type(r, at, type, list.count, list.row);
     if (type == &record_curve)
         put_curves(r, at, &list);
     if (type == &record_cell)
         put_pictures(r, at, &list);
-    subjects_free(&list);
+    gather_free(&list);
 }
 
 static void put_case(record *r, hid_t cases, const gathering *g, const case_type *of)

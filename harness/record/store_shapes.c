@@ -33,7 +33,7 @@ static void put_state_numbers(record *r, hid_t at, const shapes *s)
     double *column = calloc(3 * (size_t)s->states + 1, sizeof *column);
     r->bad |= kind == NULL || column == NULL;
     for (int i = 0; i < s->states && !r->bad; i++) {
-        kind[i] = shape_kind_name(s->state[i].kind);
+        kind[i] = shapes_kind_name(s->state[i].kind);
         column[i] = s->state[i].analysis;
         column[s->states + i] = s->state[i].value;
         column[2 * s->states + i] = s->state[i].scale;

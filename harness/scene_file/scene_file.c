@@ -80,7 +80,7 @@ static void read_all(scene_file *file, const char *bytes, size_t size, mistakes 
     scene_init(&s, file->type.name);
     build_at(file, value, &s, m);
     if (m->count == 0)
-        file_truths_check(file, &s, value, m);
+        scene_file_truths_check(file, &s, value, m);
     scene_free(&s);
 }
 

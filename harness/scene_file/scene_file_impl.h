@@ -19,6 +19,7 @@ void parameter_table_read(scene_file *file, mistakes *m);
 /* The names of the parameters with these values. */
 const scope *parameter_table_names(const scene_file *file, const double value[], arena *a);
 /* Mistakes of the truths, whose quantities are those of the scene, at a point. */
-void file_truths_check(const scene_file *file, const scene *s, const double value[], mistakes *m);
+void scene_file_truths_check(const scene_file *file, const scene *s, const double value[],
+                             mistakes *m);
 
 #endif

@@ -41,7 +41,7 @@ static void write_line(writer *w, const char *key, const char *text)
     if (text == NULL || text[0] == '\0')
         return;
     fprintf(w->to, "%s: ", key);
-    write_quoted(w, text);
+    write_values_quoted(w, text);
     fputc('\n', w->to);
 }
 
@@ -52,13 +52,13 @@ status write_scene(FILE *to, const scene *s, const write_head *head, fault *f)
     write_line(&w, "summary", head->summary);
     write_line(&w, "source", head->source);
     write_sections(&w);
-    write_nodes(&w);
-    write_members(&w);
-    write_springs(&w);
-    write_motions(&w);
-    write_loads(&w);
+    write_structure_nodes(&w);
+    write_structure_members(&w);
+    write_structure_springs(&w);
+    write_structure_motions(&w);
+    write_structure_loads(&w);
     write_analyses(&w);
-    write_quantities(&w);
+    write_analyses_quantities(&w);
     write_needs(&w);
     write_meshes(&w);
     return w.unwritable ? fault_set(f, STATUS_REFUSED,

@@ -16,9 +16,9 @@ static void write_frame(writer *w, const scene_rotating_frame *frame)
     if (!turns(frame))
         return;
     fputs(", spin: {omega: ", w->to);
-    write_numbers(w, 3, frame->omega);
+    write_values_numbers(w, 3, frame->omega);
     fputs(", centre: ", w->to);
-    write_numbers(w, 3, frame->centre);
+    write_values_numbers(w, 3, frame->centre);
     fputc('}', w->to);
 }
 
@@ -28,15 +28,15 @@ static void write_walk(writer *w, const scene_analysis *a)
     const int rotation = a->kind == SCENE_ROTATION;
     if (rotation) {
         fputs("rotation: {omega: ", w->to);
-        write_numbers(w, 3, walk->frame.omega);
+        write_values_numbers(w, 3, walk->frame.omega);
         fputs(", centre: ", w->to);
-        write_numbers(w, 3, walk->frame.centre);
+        write_values_numbers(w, 3, walk->frame.centre);
     }
     fputs(rotation ? ", stations: " : "static: {stations: ", w->to);
-    write_numbers(w, walk->path.stations, walk->path.value);
-    write_if(w, "steps", walk->steps_between, 1);
+    write_values_numbers(w, walk->path.stations, walk->path.value);
+    write_values_if(w, "steps", walk->steps_between, 1);
     if (rotation)
-        write_if(w, "wanted", walk->modes, 0);
+        write_values_if(w, "wanted", walk->modes, 0);
     else
         write_frame(w, &walk->frame);
 }
@@ -49,7 +49,8 @@ static void write_compliance(writer *w, const scene_analysis *a)
             scene_moments_name(c->moments));
     for (int i = 0; i < 6; i++)
         if (c->released >> i & 1u)
-            fprintf(w->to, "%s%s", count++ == 0 ? ", released: [" : ", ", write_component[i]);
+            fprintf(w->to, "%s%s", count++ == 0 ? ", released: [" : ", ",
+                    write_values_component[i]);
     fputs(count > 0 ? "]" : "", w->to);
     if (a->follows != SCENE_NONE)
         fprintf(w->to, ", about: analysis_%d", a->follows);
@@ -60,11 +61,11 @@ static void write_continuation(writer *w, const scene_analysis *a)
     const scene_continuation *c = scene_continuation_of(a);
     fprintf(w->to,
             "continuation: {control: {node: node_%d, component: %s}, by: %s, to: ", c->control.node,
-            write_component[c->control.component], c->control.by_arc ? "arc" : "coordinate");
-    write_numbers(w, c->path.stations, c->path.value);
+            write_values_component[c->control.component], c->control.by_arc ? "arc" : "coordinate");
+    write_values_numbers(w, c->path.stations, c->path.value);
     fputs(", step: ", w->to);
-    write_number(w, c->control.step);
-    write_if(w, "step_max", c->control.step_max, c->control.step);
+    write_values_number(w, c->control.step);
+    write_values_if(w, "step_max", c->control.step_max, c->control.step);
     fputs(c->control.constant_steps ? ", constant: yes" : "", w->to);
     write_frame(w, &c->frame);
 }
@@ -102,7 +103,7 @@ void write_analyses(writer *w)
 
 static void write_which(writer *w, int order)
 {
-    write_if(w, "which", order, 0);
+    write_values_if(w, "which", order, 0);
 }
 
 /* Which section of a member, and what of it. */
@@ -119,7 +120,7 @@ static void write_place(writer *w, const scene_internal *c)
         fprintf(w->to, ", end: %s", c->place == 1 ? "to" : "from");
     } else {
         fputs(", where: ", w->to);
-        write_number(w, c->place);
+        write_values_number(w, c->place);
     }
     fprintf(w->to, ", resultant: %s", resultant[c->resultant]);
 }
@@ -145,17 +146,17 @@ static void write_extract(writer *w, const scene_quantity *q)
     case SCENE_COORDINATE:
     case SCENE_REACTION:
         fprintf(w->to, ", node: node_%d, component: %s", scene_component_of(q)->node,
-                write_component[scene_component_of(q)->component]);
+                write_values_component[scene_component_of(q)->component]);
         break;
     case SCENE_COMPLIANCE_ENTRY:
-        fprintf(w->to, ", row: %s, column: %s", write_component[scene_entry_of(q)->row],
-                write_component[scene_entry_of(q)->column]);
+        fprintf(w->to, ", row: %s, column: %s", write_values_component[scene_entry_of(q)->row],
+                write_values_component[scene_entry_of(q)->column]);
         break;
     case SCENE_INTERNAL:
         write_place(w, scene_internal_of(q));
         break;
     case SCENE_STIFFNESS_ENTRY:
-        fprintf(w->to, ", component: %s", write_component[scene_entry_of(q)->row]);
+        fprintf(w->to, ", component: %s", write_values_component[scene_entry_of(q)->row]);
         break;
     case SCENE_CRITICAL_FACTOR:
         fputs(scene_critical_load_of(q)->sign < 0 ? ", sign: negative" : "", w->to);
@@ -164,7 +165,7 @@ static void write_extract(writer *w, const scene_quantity *q)
     case SCENE_FREQUENCY:
         write_which(w, scene_mode_of(q)->order);
         fprintf(w->to, ", family: %s", family[scene_mode_of(q)->family]);
-        write_if(w, "half_waves", scene_mode_of(q)->half_waves, 0);
+        write_values_if(w, "half_waves", scene_mode_of(q)->half_waves, 0);
         break;
     case SCENE_CRITICAL_POINT:
         fprintf(w->to, ", kind: %s, value: %s",
@@ -174,7 +175,7 @@ static void write_extract(writer *w, const scene_quantity *q)
         break;
     case SCENE_DRIVER_VALUE:
         fputs(", motion: ", w->to);
-        write_motion_name(w, scene_driver_of(q));
+        write_values_motion(w, scene_driver_of(q));
         break;
     case SCENE_GROWTH:
     case SCENE_FACTOR_AT:
@@ -198,7 +199,7 @@ static void write_reduction(writer *w, const scene_quantity *q)
         break;
     case SCENE_AT:
         fputs(", at: ", w->to);
-        write_number(w, q->at);
+        write_values_number(w, q->at);
         break;
     }
     fputc('}', w->to);
@@ -207,39 +208,39 @@ static void write_reduction(writer *w, const scene_quantity *q)
 static void write_rest(writer *w, const scene_quantity *q)
 {
     fputs(", unit: ", w->to);
-    write_quoted(w, q->unit);
+    write_values_quoted(w, q->unit);
     /* also where it is one: units are then what the scene says they are */
     fputs(", factor: ", w->to);
-    write_number(w, q->factor);
-    write_if(w, "offset", q->offset, 0);
-    write_if(w, "near_zero", q->near_zero, 0);
-    write_if(w, "tolerance", q->tolerance, SCENE_TOLERANCE);
-    write_if(w, "order", q->least_order, 0);
+    write_values_number(w, q->factor);
+    write_values_if(w, "offset", q->offset, 0);
+    write_values_if(w, "near_zero", q->near_zero, 0);
+    write_values_if(w, "tolerance", q->tolerance, SCENE_TOLERANCE);
+    write_values_if(w, "order", q->least_order, 0);
     if (q->reduction == SCENE_CURVE) {
         fputs(", x: {name: ", w->to);
-        write_quoted(w, q->x.name);
+        write_values_quoted(w, q->x.name);
         fputs(", unit: ", w->to);
-        write_quoted(w, q->x.unit);
-        write_if(w, "factor", q->x.factor, 1);
-        write_if(w, "offset", q->x.offset, 0);
+        write_values_quoted(w, q->x.unit);
+        write_values_if(w, "factor", q->x.factor, 1);
+        write_values_if(w, "offset", q->x.offset, 0);
         fputc('}', w->to);
     }
     if (q->prediction.source != NULL) {
         fputs(", prediction: {value: ", w->to);
-        write_number(w, q->prediction.value);
+        write_values_number(w, q->prediction.value);
         fputs(", source: ", w->to);
-        write_quoted(w, q->prediction.source);
+        write_values_quoted(w, q->prediction.source);
         fputc('}', w->to);
     }
 }
 
-void write_quantities(writer *w)
+void write_analyses_quantities(writer *w)
 {
     fputs(w->scene->quantities > 0 ? "quantities:\n" : "", w->to);
     for (int i = 0; i < w->scene->quantities; i++) {
         const scene_quantity *q = &w->scene->quantity[i];
         fputs("  ", w->to);
-        write_quoted(w, q->name);
+        write_values_quoted(w, q->name);
         fputs(": {", w->to);
         write_extract(w, q);
         write_reduction(w, q);

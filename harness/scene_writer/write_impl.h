@@ -13,29 +13,29 @@ typedef struct writer {
 } writer;
 
 /* Six digits, or as many more as give the same number. */
-void write_number(writer *w, double value);
+void write_values_number(writer *w, double value);
 /* [a, b, c] */
-void write_numbers(writer *w, int count, const double value[]);
+void write_values_numbers(writer *w, int count, const double value[]);
 /* KEY followed by the diagonal of a 6 x 6 matrix, or by all of it where the rest is not zero. */
 void write_matrix(writer *w, const char *key, const double A[36]);
 /* Is one of them not zero? */
-int write_any(int count, const double value[]);
+int write_values_any(int count, const double value[]);
 /* ", key: number" where it differs from what a reader takes when it is not there. */
-void write_if(writer *w, const char *key, double value, double otherwise);
+void write_values_if(writer *w, const char *key, double value, double otherwise);
 /* In double quotes. */
-void write_quoted(writer *w, const char *text);
+void write_values_quoted(writer *w, const char *text);
 /* Name of a motion: its own where it can be one. */
-void write_motion_name(writer *w, int index);
+void write_values_motion(writer *w, int index);
 /* "ux" .. "rz" */
-extern const char *const write_component[6];
+extern const char *const write_values_component[6];
 
 void write_sections(writer *w);
-void write_nodes(writer *w);
-void write_members(writer *w);
-void write_springs(writer *w);
-void write_motions(writer *w);
-void write_loads(writer *w);
+void write_structure_nodes(writer *w);
+void write_structure_members(writer *w);
+void write_structure_springs(writer *w);
+void write_structure_motions(writer *w);
+void write_structure_loads(writer *w);
 void write_analyses(writer *w);
-void write_quantities(writer *w);
+void write_analyses_quantities(writer *w);
 
 #endif

@@ -6,24 +6,24 @@
 static void write_constants(writer *w, const section *c)
 {
     fputs("constants: {A: ", w->to);
-    write_number(w, c->A);
+    write_values_number(w, c->A);
     const struct {
         const char *key;
         double value;
     } needed[] = {{"Iy", c->Iy}, {"Iz", c->Iz}, {"It", c->It}, {"Ip", c->Ip}};
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
-        write_if(w, needed[i].key, needed[i].value, NAN);
-    write_if(w, "Iw", c->Iw, 0);
-    write_if(w, "ys", c->ys, 0);
-    write_if(w, "zs", c->zs, 0);
-    write_if(w, "wagner_y", c->wagner_y, 0);
-    write_if(w, "wagner_z", c->wagner_z, 0);
-    write_if(w, "wagner_torque", c->wagner_torque, 0);
+        write_values_if(w, needed[i].key, needed[i].value, NAN);
+    write_values_if(w, "Iw", c->Iw, 0);
+    write_values_if(w, "ys", c->ys, 0);
+    write_values_if(w, "zs", c->zs, 0);
+    write_values_if(w, "wagner_y", c->wagner_y, 0);
+    write_values_if(w, "wagner_z", c->wagner_z, 0);
+    write_values_if(w, "wagner_torque", c->wagner_torque, 0);
     /* which of the two is taken: see section_compute */
     const int by_D = c->F[0] == 0 && c->D[0] != 0;
-    if (write_any(9, by_D ? c->D : c->F)) {
+    if (write_values_any(9, by_D ? c->D : c->F)) {
         fputs(by_D ? ", D: " : ", F: ", w->to);
-        write_numbers(w, 9, by_D ? c->D : c->F);
+        write_values_numbers(w, 9, by_D ? c->D : c->F);
     }
     fputc('}', w->to);
 }
@@ -33,37 +33,37 @@ static void write_walls(writer *w, const section_spec *spec)
     fputs("points: {", w->to);
     for (int i = 0; i < spec->points; i++) {
         fprintf(w->to, "%sp%d: ", i > 0 ? ", " : "", i);
-        write_numbers(w, 2, spec->point[i]);
+        write_values_numbers(w, 2, spec->point[i]);
     }
     fputs("}, walls: [", w->to);
     for (int i = 0; i < spec->walls; i++) {
         fprintf(w->to, "%s{from: p%d, to: p%d, thickness: ", i > 0 ? ", " : "", spec->wall[i].from,
                 spec->wall[i].to);
-        write_number(w, spec->wall[i].thickness);
+        write_values_number(w, spec->wall[i].thickness);
         fputc('}', w->to);
     }
     fputs(spec->thickness_terms ? "], thickness_terms: yes" : "]", w->to);
-    write_if(w, "cells", spec->cells, 0);
+    write_values_if(w, "cells", spec->cells, 0);
 }
 
 static void write_rectangle(writer *w, const section_spec *spec)
 {
     fputs("rectangle: {width: ", w->to);
-    write_number(w, spec->width);
+    write_values_number(w, spec->width);
     fputs(", thickness: ", w->to);
-    write_number(w, spec->height);
+    write_values_number(w, spec->height);
     fputc('}', w->to);
-    if (write_any(2, spec->shear_factor)) {
+    if (write_values_any(2, spec->shear_factor)) {
         fputs(", shear_factor: ", w->to);
-        write_numbers(w, 2, spec->shear_factor);
+        write_values_numbers(w, 2, spec->shear_factor);
     }
 }
 
 static void write_tube(writer *w, const section_spec *spec)
 {
     fputs("tube: {diameter: ", w->to);
-    write_number(w, spec->diameter);
-    write_if(w, "thickness", spec->wall_thickness, NAN);
+    write_values_number(w, spec->diameter);
+    write_values_if(w, "thickness", spec->wall_thickness, NAN);
     fputc('}', w->to);
 }
 
@@ -80,7 +80,7 @@ static void write_given(writer *w, const section_spec *spec)
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         if (!isnan(all[i].value)) {
             fprintf(w->to, "%s%s: ", count++ == 0 ? ", given: {" : ", ", all[i].key);
-            write_number(w, all[i].value);
+            write_values_number(w, all[i].value);
         }
     fputs(count > 0 ? "}" : "", w->to);
 }
@@ -88,7 +88,7 @@ static void write_given(writer *w, const section_spec *spec)
 static void write_matrices(writer *w, const section *c)
 {
     write_matrix(w, "stiffness: ", c->stiffness);
-    if (write_any(36, c->mass))
+    if (write_values_any(36, c->mass))
         write_matrix(w, ", mass: ", c->mass);
 }
 
@@ -112,9 +112,9 @@ void write_sections(writer *w)
         else
             write_constants(w, &spec->constants);
         write_given(w, spec);
-        write_if(w, "young", spec->young, NAN);
-        write_if(w, "shear_modulus", spec->shear_modulus, NAN);
-        write_if(w, "density", spec->density, 0);
+        write_values_if(w, "young", spec->young, NAN);
+        write_values_if(w, "shear_modulus", spec->shear_modulus, NAN);
+        write_values_if(w, "density", spec->density, 0);
         fputs("}\n", w->to);
     }
 }

@@ -10,12 +10,13 @@ static void write_supports(writer *w, const scene_node *n, int count)
         how[c] = c < SCENE_RX ? n->translation[c] : n->angle[c - SCENE_RX];
     for (int c = 0; c < count; c++)
         if (how[c] == SCENE_HELD)
-            fprintf(w->to, "%s%s", held++ == 0 ? ", hold: [" : ", ", write_component[c]);
+            fprintf(w->to, "%s%s", held++ == 0 ? ", hold: [" : ", ", write_values_component[c]);
     fputs(held > 0 ? "]" : "", w->to);
     for (int c = 0; c < count; c++)
         if (how[c] >= 0) {
-            fprintf(w->to, "%s%s: ", driven++ == 0 ? ", drive: {" : ", ", write_component[c]);
-            write_motion_name(w, how[c]);
+            fprintf(w->to, "%s%s: ", driven++ == 0 ? ", drive: {" : ", ",
+                    write_values_component[c]);
+            write_values_motion(w, how[c]);
         }
     fputs(driven > 0 ? "}" : "", w->to);
 }
@@ -23,7 +24,7 @@ static void write_supports(writer *w, const scene_node *n, int count)
 static void write_angle(writer *w, int how)
 {
     if (how >= 0)
-        write_motion_name(w, how);
+        write_values_motion(w, how);
     else
         fputs(how == SCENE_HELD ? "held" : "free", w->to);
 }
@@ -32,19 +33,19 @@ static void write_rotation(writer *w, const scene_node *n)
 {
     if (n->rotation == SCENE_ROTATION_FORK) {
         fputs(", fork: {axis: ", w->to);
-        write_numbers(w, 3, n->axis[0]);
+        write_values_numbers(w, 3, n->axis[0]);
         fputs(", web: ", w->to);
-        write_numbers(w, 3, n->axis[1]);
+        write_values_numbers(w, 3, n->axis[1]);
         fputc('}', w->to);
         return;
     }
     const int vector = n->rotation == SCENE_ROTATION_VECTOR;
     fputs(vector ? ", rotation: {vector: [" : ", rotation: {sequence: [", w->to);
-    for (int i = 0; i < 3 && (vector || write_any(3, n->axis[i])); i++) {
+    for (int i = 0; i < 3 && (vector || write_values_any(3, n->axis[i])); i++) {
         fputs(i > 0 ? ", " : "", w->to);
         if (!vector) {
             fputs("{axis: ", w->to);
-            write_numbers(w, 3, n->axis[i]);
+            write_values_numbers(w, 3, n->axis[i]);
             fputs(", angle: ", w->to);
         }
         write_angle(w, n->angle[i]);
@@ -55,24 +56,24 @@ static void write_rotation(writer *w, const scene_node *n)
 
 static void write_body(writer *w, const scene_body *b)
 {
-    write_if(w, "mass", b->mass, 0);
-    if (write_any(3, b->centre)) {
+    write_values_if(w, "mass", b->mass, 0);
+    if (write_values_any(3, b->centre)) {
         fputs(", centre: ", w->to);
-        write_numbers(w, 3, b->centre);
+        write_values_numbers(w, 3, b->centre);
     }
-    if (write_any(6, b->inertia)) {
+    if (write_values_any(6, b->inertia)) {
         fputs(", inertia: ", w->to);
-        write_numbers(w, 6, b->inertia);
+        write_values_numbers(w, 6, b->inertia);
     }
 }
 
-void write_nodes(writer *w)
+void write_structure_nodes(writer *w)
 {
     fputs("nodes:\n", w->to);
     for (int i = 0; i < w->scene->nodes; i++) {
         const scene_node *n = &w->scene->node[i];
         fprintf(w->to, "  node_%d: {at: ", i);
-        write_numbers(w, 3, n->position);
+        write_values_numbers(w, 3, n->position);
         if (n->attached != SCENE_NONE)
             fprintf(w->to, ", part_of: node_%d", n->attached);
         write_supports(w, n, n->rotation == SCENE_ROTATION_SPATIAL ? 6 : 3);
@@ -102,13 +103,14 @@ static void write_release(writer *w, const scene_release release[2])
             continue;
         fprintf(w->to, "%s%s: [", i == 1 && release[0].count > 0 ? ", " : "", end[i]);
         for (int k = 0; k < release[i].count; k++)
-            fprintf(w->to, "%s%s", k > 0 ? ", " : "", write_component[release[i].component[k]]);
+            fprintf(w->to, "%s%s", k > 0 ? ", " : "",
+                    write_values_component[release[i].component[k]]);
         fputc(']', w->to);
     }
     fputc('}', w->to);
 }
 
-void write_members(writer *w)
+void write_structure_members(writer *w)
 {
     fputs("members:\n", w->to);
     for (int i = 0; i < w->scene->members; i++) {
@@ -118,27 +120,27 @@ void write_members(writer *w)
             fprintf(w->to, "[section_%d, section_%d], y: ", m->section, m->section_q);
         else
             fprintf(w->to, "section_%d, y: ", m->section);
-        write_numbers(w, 3, m->y_axis);
+        write_values_numbers(w, 3, m->y_axis);
         fputs(", warping: [", w->to);
         write_warping(w, m->warp_p);
         fputs(", ", w->to);
         write_warping(w, m->warp_q);
         fputc(']', w->to);
-        if (write_any(3, m->curvature)) {
+        if (write_values_any(3, m->curvature)) {
             fputs(", curvature: ", w->to);
-            write_numbers(w, 3, m->curvature);
+            write_values_numbers(w, 3, m->curvature);
         }
-        if (write_any(3, m->strain)) {
+        if (write_values_any(3, m->strain)) {
             fputs(", strain: ", w->to);
-            write_numbers(w, 3, m->strain);
+            write_values_numbers(w, 3, m->strain);
         }
         write_release(w, m->release);
-        write_if(w, "divisions", m->divisions, 0);
+        write_values_if(w, "divisions", m->divisions, 0);
         fputs("}\n", w->to);
     }
 }
 
-void write_springs(writer *w)
+void write_structure_springs(writer *w)
 {
     fputs(w->scene->springs > 0 ? "springs:\n" : "", w->to);
     for (int i = 0; i < w->scene->springs; i++) {
@@ -152,30 +154,30 @@ void write_springs(writer *w)
     }
 }
 
-void write_motions(writer *w)
+void write_structure_motions(writer *w)
 {
     fputs(w->scene->drivers > 0 ? "motions:\n" : "", w->to);
     for (int i = 0; i < w->scene->drivers; i++) {
         const scene_driver *d = &w->scene->driver[i];
         fputs("  ", w->to);
-        write_motion_name(w, i);
+        write_values_motion(w, i);
         if (d->value != NULL) {
             fputs(": {path: ", w->to);
-            write_numbers(w, d->stations, d->path);
+            write_values_numbers(w, d->stations, d->path);
             fputs(", value: ", w->to);
-            write_numbers(w, d->stations, d->value);
+            write_values_numbers(w, d->stations, d->value);
         } else {
             fprintf(w->to,
                     ": {such_that: {node: node_%d, component: %s, motion: ", d->condition_node,
-                    write_component[d->condition_component]);
-            write_motion_name(w, d->condition_driver);
+                    write_values_component[d->condition_component]);
+            write_values_motion(w, d->condition_driver);
             fputc('}', w->to);
         }
         fputs("}\n", w->to);
     }
 }
 
-void write_loads(writer *w)
+void write_structure_loads(writer *w)
 {
     static const char *const kind[] = {"force", "moment", "distributed", "distributed_moment",
                                        "gravity"};
@@ -183,19 +185,19 @@ void write_loads(writer *w)
     for (int i = 0; i < w->scene->loads; i++) {
         const scene_load *load = &w->scene->load[i];
         fprintf(w->to, "  load_%d: {%s: ", i, kind[load->kind]);
-        write_numbers(w, 3, load->vector);
+        write_values_numbers(w, 3, load->vector);
         fprintf(w->to, ", on: %s_%d", scene_load_along(load) ? "member" : "node", load->where);
-        if (write_any(3, load->at)) {
+        if (write_values_any(3, load->at)) {
             fputs(", at: ", w->to);
-            write_numbers(w, 3, load->at);
+            write_values_numbers(w, 3, load->at);
         }
         fputs(load->axes == SCENE_AXES_MEMBER ? ", axes: member" : "", w->to);
         fputs(load->follower ? ", follower: true" : "", w->to);
         if (load->stations > 0) {
             fputs(", path: ", w->to);
-            write_numbers(w, load->stations, load->path);
+            write_values_numbers(w, load->stations, load->path);
             fputs(", factor: ", w->to);
-            write_numbers(w, load->stations, load->factor);
+            write_values_numbers(w, load->stations, load->factor);
         }
         fputs("}\n", w->to);
     }

@@ -5,9 +5,9 @@
 
 #include "harness/scene_writer/write_impl.h"
 
-const char *const write_component[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
+const char *const write_values_component[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
 
-void write_number(writer *w, double value)
+void write_values_number(writer *w, double value)
 {
     char text[40];
     if (!isfinite(value)) {
@@ -22,17 +22,17 @@ void write_number(writer *w, double value)
     fputs(text, w->to);
 }
 
-void write_numbers(writer *w, int count, const double value[])
+void write_values_numbers(writer *w, int count, const double value[])
 {
     fputc('[', w->to);
     for (int i = 0; i < count; i++) {
         fputs(i > 0 ? ", " : "", w->to);
-        write_number(w, value[i]);
+        write_values_number(w, value[i]);
     }
     fputc(']', w->to);
 }
 
-int write_any(int count, const double value[])
+int write_values_any(int count, const double value[])
 {
     for (int i = 0; i < count; i++)
         if (value[i] != 0)
@@ -40,15 +40,15 @@ int write_any(int count, const double value[])
     return 0;
 }
 
-void write_if(writer *w, const char *key, double value, double otherwise)
+void write_values_if(writer *w, const char *key, double value, double otherwise)
 {
     if (value == otherwise && !signbit(value) == !signbit(otherwise))
         return;
     fprintf(w->to, ", %s: ", key);
-    write_number(w, value);
+    write_values_number(w, value);
 }
 
-void write_quoted(writer *w, const char *text)
+void write_values_quoted(writer *w, const char *text)
 {
     fputc('"', w->to);
     for (; *text != '\0'; text++)
@@ -70,7 +70,7 @@ static int is_good_name(const scene *s, int index)
     return 1;
 }
 
-void write_motion_name(writer *w, int index)
+void write_values_motion(writer *w, int index)
 {
     if (is_good_name(w->scene, index))
         fputs(w->scene->driver[index].name, w->to);
@@ -87,5 +87,5 @@ void write_matrix(writer *w, const char *key, const double A[36])
     for (int k = 0; k < 6; k++)
         diagonal[k] = A[7 * k];
     fputs(key, w->to);
-    write_numbers(w, whole ? 36 : 6, whole ? A : diagonal);
+    write_values_numbers(w, whole ? 36 : 6, whole ? A : diagonal);
 }

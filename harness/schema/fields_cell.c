@@ -6,14 +6,14 @@
 
 static void get_features(const subject *s, field_value *out)
 {
-    feature_words(subject_cell(s)->size.features, out->room, sizeof out->room);
+    feature_words(fields_keys_cell(s)->size.features, out->room, sizeof out->room);
     out->text = out->room;
 }
 
 /* Lines that no longer fit end the text. */
 static void get_left_out(const subject *s, field_value *out)
 {
-    const cell_result *cell = subject_cell(s);
+    const cell_result *cell = fields_keys_cell(s);
     size_t used = 0;
     out->room[0] = '\0';
     for (int i = 0;
@@ -24,8 +24,8 @@ static void get_left_out(const subject *s, field_value *out)
 
 static const schema_field fields_of_point[] = {
     {"parameters", "", FIELD_TEXT, "where they differ from the defaults", AT(point, text)},
-    {"status", "", FIELD_ENUM, "of building the scene", AT(point, status), .word = word_of_status,
-     .words = STATUSES},
+    {"status", "", FIELD_ENUM, "of building the scene", AT(point, status),
+     .word = fields_keys_word_of_status, .words = STATUSES},
     {"reason", "", FIELD_TEXT, "why it was refused", AT(point, reason)},
     {0}};
 const record_type record_point = {"point",
@@ -35,12 +35,12 @@ const record_type record_point = {"point",
 
 static void get_imported(const subject *s, field_value *out)
 {
-    field_text(out, s->series->imported != NULL ? s->series->imported->file : "");
+    schema_set_text(out, s->series->imported != NULL ? s->series->imported->file : "");
 }
 
 static void get_model(const subject *s, field_value *out)
 {
-    field_text(out, s->series->imported != NULL ? s->series->imported->model : "beam");
+    schema_set_text(out, s->series->imported != NULL ? s->series->imported->model : "beam");
 }
 
 static const schema_field fields_of_series[] = {
@@ -60,8 +60,8 @@ const record_type record_series = {"series",
 
 #define CELL(member) AT(cell_result, member)
 static const schema_field fields_of_cell[] = {
-    {"status", "", FIELD_ENUM, "ok, or how it failed", CELL(solve.status), .word = word_of_status,
-     .words = STATUSES},
+    {"status", "", FIELD_ENUM, "ok, or how it failed", CELL(solve.status),
+     .word = fields_keys_word_of_status, .words = STATUSES},
     {"reason", "", FIELD_TEXT, "why it failed", CELL(solve.reason)},
     {"elements_total", "1", FIELD_INT, "elements of the whole structure", CELL(size.elements)},
     {"free", "1", FIELD_INT, "unknown coordinates", CELL(size.free)},

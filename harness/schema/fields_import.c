@@ -3,17 +3,17 @@
 
 static void get_file(const subject *s, field_value *out)
 {
-    field_text(out, s->series->imported->file);
+    schema_set_text(out, s->series->imported->file);
 }
 
 static void get_model(const subject *s, field_value *out)
 {
-    field_text(out, s->series->imported->model);
+    schema_set_text(out, s->series->imported->model);
 }
 
 static void get_convention(const subject *s, field_value *out)
 {
-    field_text(out, s->series->imported->convention);
+    schema_set_text(out, s->series->imported->convention);
 }
 
 static const schema_field fields_of_import[] = {

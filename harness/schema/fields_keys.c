@@ -26,22 +26,22 @@ const schema_field names_of_quantity[] = {
     {"unit", "", FIELD_TEXT, "of its value", OF(QUANTITY, scene_quantity, unit)},
     {0}};
 
-const char *word_of_status(int value)
+const char *fields_keys_word_of_status(int value)
 {
     return status_name((status)value);
 }
 
-const char *word_of_moments(int convention)
+const char *fields_keys_word_of_moments(int convention)
 {
     return scene_moments_name((scene_moments)convention);
 }
 
-const scene_quantity *subject_quantity(const subject *s)
+const scene_quantity *fields_keys_quantity(const subject *s)
 {
     return &s->point->scene.quantity[s->index];
 }
 
-const cell_result *subject_cell(const subject *s)
+const cell_result *fields_keys_cell(const subject *s)
 {
     return &s->series->cell[s->mesh];
 }

@@ -13,11 +13,11 @@ extern const schema_field names_of_quantity[]; /* its name and unit */
 
 enum { STATUSES = STATUS_NO_VALUE + 1 };
 /* ENUM fields: their words. */
-const char *word_of_status(int status);
-const char *word_of_moments(int convention);
+const char *fields_keys_word_of_status(int status);
+const char *fields_keys_word_of_moments(int convention);
 
 /* Of the quantity that s->index counts. */
-const scene_quantity *subject_quantity(const subject *s);
-const cell_result *subject_cell(const subject *s);
+const scene_quantity *fields_keys_quantity(const subject *s);
+const cell_result *fields_keys_cell(const subject *s);
 
 #endif

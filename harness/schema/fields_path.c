@@ -5,45 +5,47 @@
 
 static void get_moments(const subject *s, field_value *out)
 {
-    field_text(out, scene_convention(&s->point->scene, subject_quantity(s)));
+    schema_set_text(out, scene_convention(&s->point->scene, fields_keys_quantity(s)));
 }
 
 static double error_of(const subject *s, double value, const truth *against)
 {
-    return against != NULL ? verdict_error(subject_quantity(s), value, against->value) : NAN;
+    return against != NULL ? verdict_error(fields_keys_quantity(s), value, against->value) : NAN;
 }
 
 static void get_error(const subject *s, field_value *out)
 {
-    field_number(out, error_of(s, ((const quantity_result *)s->record)->value, s->truth));
+    schema_set_number(out, error_of(s, ((const quantity_result *)s->record)->value, s->truth));
 }
 
 static void get_model_error(const subject *s, field_value *out)
 {
-    field_number(out, error_of(s, ((const quantity_result *)s->record)->value, s->model_truth));
+    schema_set_number(out,
+                      error_of(s, ((const quantity_result *)s->record)->value, s->model_truth));
 }
 
 static double predicted(const subject *s)
 {
-    return subject_quantity(s)->prediction.source != NULL ? subject_quantity(s)->prediction.value
-                                                          : NAN;
+    return fields_keys_quantity(s)->prediction.source != NULL
+               ? fields_keys_quantity(s)->prediction.value
+               : NAN;
 }
 
 static void get_prediction(const subject *s, field_value *out)
 {
-    field_number(out, predicted(s));
+    schema_set_number(out, predicted(s));
 }
 
 static void get_prediction_error(const subject *s, field_value *out)
 {
-    field_number(out, isfinite(predicted(s)) ? error_of(s, predicted(s), s->truth) : NAN);
+    schema_set_number(out, isfinite(predicted(s)) ? error_of(s, predicted(s), s->truth) : NAN);
 }
 
 #define VALUE(member) AT(quantity_result, member)
 static const schema_field fields_of_quantity[] = {
     {"moments", "", FIELD_TEXT, "what a moment does while its node turns", .get = get_moments},
-    {"status", "", FIELD_ENUM, "ok: there is a value", VALUE(status), .word = word_of_status,
-     .words = STATUSES},
+    {"status", "", FIELD_ENUM, "ok: there is a value", VALUE(status),
+     .word = fields_keys_word_of_status, .words = STATUSES},
     {"reason", "", FIELD_TEXT, "why there is none", VALUE(reason)},
     {"value", OWN_UNIT, FIELD_DOUBLE, "the value", VALUE(value)},
     {"truth", OWN_UNIT, FIELD_DOUBLE, "of the same continuum model", OF(TRUTH, truth, value)},
@@ -170,7 +172,8 @@ static void get_stiffness(const subject *s, field_value *out)
 static const schema_field fields_of_matrix[] = {
     {"node", "1", FIELD_INT, "of the scene", AT(nodal_matrices, node)},
     {"moments", "", FIELD_ENUM, "what a moment does while its node turns",
-     AT(nodal_matrices, moments), .word = word_of_moments, .words = SCENE_MOMENTS_SYMMETRISED + 1},
+     AT(nodal_matrices, moments), .word = fields_keys_word_of_moments,
+     .words = SCENE_MOMENTS_SYMMETRISED + 1},
     {"path", "1", FIELD_DOUBLE, "path parameter of the state", .get = get_path},
     {"compliance", "SI", FIELD_DOUBLE, "ux uy uz thx thy thz by Fx Fy Fz Mx My Mz",
      .get = get_compliance, .count = 36},

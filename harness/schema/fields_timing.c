@@ -19,7 +19,7 @@ static void get_measured(const subject *s, field_value *out)
 {
     const cell_timing *t = timing_of(s);
     const double stored = *(const double *)((const char *)t + out->of->offset);
-    field_number(out, reading_of(out, t)->rounds > 0 ? stored : NAN);
+    schema_set_number(out, reading_of(out, t)->rounds > 0 ? stored : NAN);
 }
 
 static void get_round(const subject *s, field_value *out)
@@ -32,26 +32,27 @@ static void get_round(const subject *s, field_value *out)
 static void get_least(const subject *s, field_value *out)
 {
     const rounds_reading *c = &timing_of(s)->as_is;
-    field_number(out, c->rounds > 0 ? rounds_least(c) : NAN);
+    schema_set_number(out, c->rounds > 0 ? rounds_least(c) : NAN);
 }
 
 static void get_most(const subject *s, field_value *out)
 {
     const rounds_reading *c = &timing_of(s)->as_is;
-    field_number(out, c->rounds > 0 ? rounds_most(c) : NAN);
+    schema_set_number(out, c->rounds > 0 ? rounds_most(c) : NAN);
 }
 
 static void get_dense_iteration(const subject *s, field_value *out)
 {
     const dense_reference *dense = &timing_of(s)->dense;
-    field_number(out, dense->unknowns > 0 ? dense->iteration : NAN);
+    schema_set_number(out, dense->unknowns > 0 ? dense->iteration : NAN);
 }
 
 static void get_dense_seconds(const subject *s, field_value *out)
 {
     const dense_reference *dense = &timing_of(s)->dense;
-    field_number(out, dense->unknowns > 0
-                          ? dense_reference_seconds(dense, subject_cell(s)->counters.iterations)
+    schema_set_number(out,
+                      dense->unknowns > 0
+                          ? dense_reference_seconds(dense, fields_keys_cell(s)->counters.iterations)
                           : NAN);
 }
 

@@ -13,23 +13,24 @@ static const char *word_of_verdict(int kind)
 
 static void get_message(const subject *s, field_value *out)
 {
-    sentence_of_verdict(s->verdict, subject_quantity(s)->least_order, out->room, sizeof out->room);
+    sentence_of_verdict(s->verdict, fields_keys_quantity(s)->least_order, out->room,
+                        sizeof out->room);
     out->text = out->room;
 }
 
 static void get_finding(const subject *s, field_value *out)
 {
-    field_text(out, s->verdict->rule != NULL ? s->verdict->rule->name : "");
+    schema_set_text(out, s->verdict->rule != NULL ? s->verdict->rule->name : "");
 }
 
 static void get_cause(const subject *s, field_value *out)
 {
-    field_text(out, s->verdict->rule != NULL ? s->verdict->rule->cause : "");
+    schema_set_text(out, s->verdict->rule != NULL ? s->verdict->rule->cause : "");
 }
 
 static void get_proof(const subject *s, field_value *out)
 {
-    field_text(out, s->verdict->rule != NULL ? s->verdict->rule->proof : "");
+    schema_set_text(out, s->verdict->rule != NULL ? s->verdict->rule->proof : "");
 }
 
 static const char *word_of_limit(int kind)
@@ -39,12 +40,13 @@ static const char *word_of_limit(int kind)
 
 static void get_predicted(const subject *s, field_value *out)
 {
-    field_number(out, s->verdict->predicted != NULL ? s->verdict->predicted->value : NAN);
+    schema_set_number(out, s->verdict->predicted != NULL ? s->verdict->predicted->value : NAN);
 }
 
 static void get_contradicted(const subject *s, field_value *out)
 {
-    field_number(out, s->verdict->contradicted != NULL ? s->verdict->contradicted->value : NAN);
+    schema_set_number(out,
+                      s->verdict->contradicted != NULL ? s->verdict->contradicted->value : NAN);
 }
 
 static void get_noise_measured(const subject *s, field_value *out)
@@ -133,7 +135,7 @@ const record_type record_agreement = {
 
 static void get_formulation(const subject *s, field_value *out)
 {
-    field_text(out, ((const coverage *)s->record)->type->name);
+    schema_set_text(out, ((const coverage *)s->record)->type->name);
 }
 
 static void get_series(const subject *s, field_value *out)

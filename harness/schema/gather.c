@@ -240,7 +240,7 @@ void gather_case(const gathering *g, const record_type *type, const case_type *o
             gather_series(g, type, i, out);
 }
 
-void subjects_free(subjects *list)
+void gather_free(subjects *list)
 {
     free(list->row);
     memset(list, 0, sizeof *list);

@@ -27,6 +27,6 @@ subject gather_cell(const gathering *g, int series_index, int mesh);
 subject gather_verdict(const gathering *g, const verdict *v);
 subject gather_agreement(const gathering *g, const agreement *a);
 subject gather_coverage(const gathering *g, const coverage *c, int left_out);
-void subjects_free(subjects *list);
+void gather_free(subjects *list);
 
 #endif

@@ -13,12 +13,12 @@ int schema_fields(const record_type *type, int keys, const schema_field *out[SCH
     return count;
 }
 
-void field_text(field_value *out, const char *text)
+void schema_set_text(field_value *out, const char *text)
 {
     out->text = text != NULL ? text : "";
 }
 
-void field_number(field_value *out, double number)
+void schema_set_number(field_value *out, double number)
 {
     out->number = number;
     out->numbers = &out->number;
@@ -56,7 +56,7 @@ static void read_member(const char *at, const schema_field *which, field_value *
     if (which->kind == FIELD_DOUBLE)
         out->numbers = (const double *)at;
     else if (which->kind == FIELD_TEXT)
-        field_text(out, which->address ? *(const char *const *)at : at);
+        schema_set_text(out, which->address ? *(const char *const *)at : at);
     else
         out->whole = which->kind == FIELD_LONG ? *(const long *)at : *(const int *)at;
 }
@@ -64,11 +64,11 @@ static void read_member(const char *at, const schema_field *which, field_value *
 static void no_value(field_value *out)
 {
     out->whole = 0;
-    field_text(out, "");
-    field_number(out, NAN);
+    schema_set_text(out, "");
+    schema_set_number(out, NAN);
 }
 
-void field_read(const subject *s, const schema_field *which, field_value *out)
+void schema_read(const subject *s, const schema_field *which, field_value *out)
 {
     const char *base = which->get == NULL ? base_of(s, which->base) : NULL;
     out->of = which;
@@ -83,7 +83,7 @@ void field_read(const subject *s, const schema_field *which, field_value *out)
             out->whole >= 0 && out->whole < which->words ? which->word((int)out->whole) : "?";
 }
 
-const char *field_kind_name(field_kind kind)
+const char *schema_kind_name(field_kind kind)
 {
     static const char *const name[FIELD_KINDS] = {"int", "long", "double", "flag", "text", "enum"};
     return kind < FIELD_KINDS ? name[kind] : "?";

@@ -102,10 +102,10 @@ extern const record_type record_truth;          /* of a quantity, in JSON only *
 
 /* Pointers to the fields whose key is at most `keys`, in order; their number. */
 int schema_fields(const record_type *type, int keys, const schema_field *out[SCHEMA_MOST_FIELDS]);
-void field_read(const subject *s, const schema_field *which, field_value *out);
-const char *field_kind_name(field_kind kind);
+void schema_read(const subject *s, const schema_field *which, field_value *out);
+const char *schema_kind_name(field_kind kind);
 /* Helps getters: a text that may be NULL, a number. */
-void field_text(field_value *out, const char *text);
-void field_number(field_value *out, double number);
+void schema_set_text(field_value *out, const char *text);
+void schema_set_number(field_value *out, double number);
 
 #endif

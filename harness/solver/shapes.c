@@ -24,7 +24,7 @@ void shapes_free(shapes *s)
     memset(s, 0, sizeof *s);
 }
 
-const char *shape_kind_name(shape_kind kind)
+const char *shapes_kind_name(shape_kind kind)
 {
     static const char *const name[] = {"undeformed", "path", "linear", "buckling", "mode"};
     return name[kind];

@@ -32,6 +32,6 @@ enum { SHAPES_ALL = 1 << 30, SHAPES_MODES = 6 };
 /* Empty arrays for that many of each; FAULT: out of memory. */
 status shapes_alloc(shapes *, fault *);
 void shapes_free(shapes *);
-const char *shape_kind_name(shape_kind);
+const char *shapes_kind_name(shape_kind);
 
 #endif

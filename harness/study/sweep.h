@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/catalogue/select.h"
 #include "harness/study/cell.h"
 #include "harness/study/imported.h"

@@ -4,7 +4,7 @@
 
 enum { MOST_STEPS = 40 };
 
-void table_steps(FILE *to, const solve_result *r)
+void table_path_steps(FILE *to, const solve_result *r)
 {
     if (r->steps == 0)
         return;
@@ -40,7 +40,7 @@ static void matrix(FILE *to, const double value[36], const char *const row[6],
     }
 }
 
-void table_matrices(FILE *to, const solve_result *r)
+void table_path_matrices(FILE *to, const solve_result *r)
 {
     static const char *const motion[] = {"ux", "uy", "uz", "thx", "thy", "thz"};
     static const char *const load[] = {"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
@@ -71,7 +71,7 @@ static void row_of_event(FILE *to, const path_event *e)
         fputc('\n', to);
 }
 
-void table_events(FILE *to, const solve_result *r)
+void table_path_events(FILE *to, const solve_result *r)
 {
     for (int i = 0; i < r->events; i++)
         row_of_event(to, &r->event[i]);

@@ -35,7 +35,7 @@ static void not_met(FILE *to, const judgement *j, const truths *t)
 {
     if (j->unobserved > 0)
         for (int i = 0; i < t->rules; i++)
-            if (!rule_is_observed(&t->rule[i]))
+            if (!rules_is_observed(&t->rule[i]))
                 fprintf(to, "\nfinding %s %s (%s; %s; %s)\n", t->rule[i].name,
                         t->rule[i].observed == 0 ? "was not observed"
                                                  : "names a prediction that no verdict met",

@@ -40,7 +40,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
                 c->counters.negative_pivots);
     for (int i = 0; i < c->left_out_lines; i++)
         fprintf(to, "left out: %s\n", c->left_out[i]);
-    table_events(to, &c->solve);
+    table_path_events(to, &c->solve);
     fprintf(to, "%-28s %24s %-10s %11s\n", "quantity", "value", "unit", "error");
     for (int i = 0; i < c->solve.quantities; i++) {
         const scene_quantity *q = &p->scene.quantity[i];
@@ -60,6 +60,6 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
         fputc('\n', to);
     }
     predictions(to, p, t);
-    table_matrices(to, &c->solve);
-    table_steps(to, &c->solve);
+    table_path_matrices(to, &c->solve);
+    table_path_steps(to, &c->solve);
 }

@@ -114,14 +114,14 @@ static int condition_holds(const char *condition, const rule_subject *s)
     return 1;
 }
 
-int rule_holds(const rule *r, const rule_subject *s)
+int rules_hold(const rule *r, const rule_subject *s)
 {
     return list_has(r->cases, s->type->name) && list_has(r->quantities, s->quantity) &&
            list_has_formulation(r->formulations, s->formulation) &&
            choice_index(r->verdicts, s->verdict) >= 0 && condition_holds(r->condition, s);
 }
 
-void rule_foretell(rule *r, const rule_subject *s)
+void rules_foretell(rule *r, const rule_subject *s)
 {
     char word[WORD], here[WORD];
     unsigned bit = 1;
@@ -131,7 +131,7 @@ void rule_foretell(rule *r, const rule_subject *s)
             r->foretold |= bit;
 }
 
-int rule_is_observed(const rule *r)
+int rules_is_observed(const rule *r)
 {
     char word[WORD];
     unsigned all = 0;

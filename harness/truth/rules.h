@@ -12,7 +12,7 @@ typedef struct rule {
     char *name;         /* one word */
     char *formulations; /* list: name with options ("beamw:mass=lumped"), or the bare name */
     char *cases;        /* list */
-    char *condition;    /* terms joined by ';', all of which must hold; see rule_holds */
+    char *condition;    /* terms joined by ';', all of which must hold; see rules_hold */
     char *quantities;   /* list */
     char *verdicts;     /* "wrong limit|undecided" */
     char *predicted;    /* list of "case/quantity" whose limit is predicted; empty: none */
@@ -35,12 +35,12 @@ typedef struct rule_subject {
 /* A term of the condition is a feature that the scene needs ("shear", "not shear") or compares a
  * parameter of the case ("omega>0", "load=tip|mid", "tip_deflection!=0.015", also < <= >=); one
  * that the case does not have does not hold. */
-int rule_holds(const rule *, const rule_subject *);
+int rules_hold(const rule *, const rule_subject *);
 
 /* Notes that a verdict met a prediction which the rule names. */
-void rule_foretell(rule *, const rule_subject *);
+void rules_foretell(rule *, const rule_subject *);
 /* Has a verdict shown it, and verdicts all its predictions? */
-int rule_is_observed(const rule *);
+int rules_is_observed(const rule *);
 
 /* FAULT names a column that is damaged, or a rule whose condition means nothing. */
 status rules_read(const char *path, hid_t file, rule **out, int *count, fault *f);

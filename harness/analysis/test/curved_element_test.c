@@ -14,7 +14,7 @@
 #include "elements/test/random.h"
 #include "elements/test/sections.h"
 #include "elements/test/worst.h"
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/catalogue/registry.h"
 
 enum {

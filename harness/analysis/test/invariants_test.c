@@ -9,7 +9,8 @@
 #include <string.h>
 
 #include "elements/test/worst.h"
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/case_find.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/catalogue/registry.h"
 #include "harness/test/ask.h"
 

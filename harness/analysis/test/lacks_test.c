@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "harness/analysis/solve.h"
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/catalogue/registry.h"
 #include "harness/model/missing.h"
 

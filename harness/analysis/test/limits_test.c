@@ -3,7 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/case_find.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
 #include "harness/test/ask.h"

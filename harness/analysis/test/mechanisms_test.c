@@ -6,7 +6,8 @@
 
 #include "elements/math/pi.h"
 #include "elements/test/sections.h"
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/case_find.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/catalogue/registry.h"
 #include "harness/test/ask.h"
 #include "harness/test/cells.h"

@@ -7,7 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/case_find.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
 #include "harness/study/cell.h"

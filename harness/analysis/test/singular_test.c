@@ -6,7 +6,8 @@
 
 #include "elements/math/dense.h"
 #include "elements/test/sections.h"
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/case_find.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
 #include "harness/model/supports.h"

@@ -8,7 +8,7 @@
 
 #include "elements/math/pi.h"
 #include "elements/test/sections.h"
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/study/cell.h"
 #include "harness/test/cells.h"
 

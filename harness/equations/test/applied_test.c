@@ -7,7 +7,7 @@
 #include "elements/math/dense.h"
 #include "elements/test/sections.h"
 #include "harness/analysis/solve.h"
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/catalogue/registry.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/loads.h"

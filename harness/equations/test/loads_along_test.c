@@ -2,7 +2,7 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/rotating_frame.h"
 #include "harness/model/kinematics.h"

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/equations/advance.h"
 #include "harness/equations/linearise.h"
 #include "harness/model/assemble.h"

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "harness/catalogue/case_find.h"
 #include "harness/extremes/extreme_judge.h"
 #include "harness/extremes/extreme_sweep.h"
 

@@ -6,7 +6,8 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/case_find.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/judge/sound.h"
 

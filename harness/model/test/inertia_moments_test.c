@@ -8,7 +8,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/test/nodes.h"
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/model/test/inertia_subject.h"
 
 /* Masses at the nodes of an element stand as the rule for loads does: trapezoids with two nodes, Simpson's with three, whose

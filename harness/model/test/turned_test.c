@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
 #include "harness/study/cell.h"

@@ -55,9 +55,9 @@ static void compare(const char *first, const char *last)
     snprintf(it.first, sizeof it.first, "%s", first);
     snprintf(it.last, sizeof it.last, "%s", last);
     FILE *to = open_memstream(&text, &length);
-    csv_head(to, 1, &part);
+    csv_record_head(to, 1, &part);
     for (int i = 0; i < LINES; i++)
-        csv_line(to, 1, &part);
+        csv_record_line(to, 1, &part);
     fclose(to);
     const char *at = text;
     gsl_test_int(read_line(&at, field), 4, "'%s', '%s': columns", first, last);
@@ -84,7 +84,7 @@ static void no_number(void)
         thing it = {.size = none[i]};
         const csv_part part = {&type, {.record = &it}};
         FILE *to = open_memstream(&text, &length);
-        csv_line(to, 1, &part);
+        csv_record_line(to, 1, &part);
         fclose(to);
         const char *at = text;
         gsl_test_int(read_line(&at, field), 4, "%g: fields", none[i]);

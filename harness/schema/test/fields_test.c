@@ -99,7 +99,7 @@ static double number_of(const record_type *type, const subject *s, const char *n
     for (int i = 0; i < count; i++)
         if (strcmp(list[i]->name, name) == 0) {
             field_value v;
-            field_read(s, list[i], &v);
+            schema_read(s, list[i], &v);
             return list[i]->kind == FIELD_DOUBLE ? v.numbers[k] : (double)v.whole;
         }
     return NAN;
@@ -163,7 +163,7 @@ static void paths(const gathering *g)
         expect(&record_iteration, &list.row[i], "iteration", 0, i < 2 ? i : i - 2);
         expect(&record_iteration, &list.row[i], "correction", 0, i + 1);
     }
-    subjects_free(&list);
+    gather_free(&list);
 }
 
 /* Curves of several meshes stand behind each other. */
@@ -179,7 +179,7 @@ static void curves(const gathering *g)
         first += number_of(&record_curve, &list.row[i], "points", 0);
     }
     gsl_test_abs(first, 4 + 3 + 5 + 3, 0, "all points");
-    subjects_free(&list);
+    gather_free(&list);
 }
 
 static void errors(const gathering *g)
@@ -189,7 +189,7 @@ static void errors(const gathering *g)
     gsl_test_int(list.count, 2, "a record for each quantity");
     expect(&record_quantity, &list.row[0], "error", 0, 0.04);
     expect(&record_quantity, &list.row[0], "model_error", 0, 2.08 / 4 - 1);
-    subjects_free(&list);
+    gather_free(&list);
 }
 
 int main(void)

@@ -72,8 +72,8 @@ static int same(const void *a, const void *b, const schema_field *f)
 {
     const subject left = {.record = a}, right = {.record = b};
     field_value x, y;
-    field_read(&left, f, &x);
-    field_read(&right, f, &y);
+    schema_read(&left, f, &x);
+    schema_read(&right, f, &y);
     if (f->kind == FIELD_DOUBLE)
         return *x.numbers == *y.numbers;
     return f->kind == FIELD_TEXT || f->kind == FIELD_ENUM ? strcmp(x.text, y.text) == 0

@@ -5,7 +5,7 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/catalogue/registry.h"
 #include "harness/model/missing.h"
 

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "harness/catalogue/case_find.h"
 #include "harness/catalogue/registry.h"
 #include "harness/record/store.h"
 #include "harness/scene_file/scene_file.h"
@@ -165,7 +166,7 @@ static status read_scene(const void *what, double *value, fault *f)
     scene_init(&s, "scene");
     status outcome = case_build(scene_file_case(file), parameter, &s, f);
     if (outcome == STATUS_OK)
-        outcome = scene_file_add_all_truths(file, &t, f);
+        outcome = scene_file_truths_add_all(file, &t, f);
     *value = t.rows;
     for (int i = 0; outcome == STATUS_OK && i < s.nodes; i++)
         *value += fabs(s.node[i].position[0]) + 3 * fabs(s.node[i].position[1]);

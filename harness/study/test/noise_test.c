@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "harness/catalogue/case_find.h"
 #include "harness/catalogue/registry.h"
 #include "harness/study/noise.h"
 #include "harness/study/plan.h"

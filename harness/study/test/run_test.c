@@ -7,7 +7,8 @@
 #include <unistd.h>
 
 #include "elements/test/random.h"
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/case_find.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/study/plan.h"
 #include "harness/study/sweep.h"
 #include "harness/truth/truth.h"

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/case_find.h"
 #include "harness/catalogue/registry.h"
 #include "harness/judge/reach.h"
 #include "harness/test/cells.h"

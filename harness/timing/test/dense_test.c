@@ -3,7 +3,8 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/case_find.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/equations/uncondensed.h"
 #include "harness/test/cells.h"
 #include "harness/timing/dense_reference.h"

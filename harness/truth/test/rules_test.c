@@ -17,7 +17,7 @@ static int holds(const char *path, const char *condition, const rule_subject *s)
     r.condition = condition;
     truths_file_make(path, &r);
     const int read = truths_read(path, &t, &f) == STATUS_OK,
-              out = read && rule_holds(&t.rule[0], s);
+              out = read && rules_hold(&t.rule[0], s);
     gsl_test(!read, "condition '%s' is read %s", condition, f.text);
     truths_free(&t);
     return out;
@@ -103,16 +103,16 @@ static void predictions(const char *path)
     truths_file_make(path, &r);
     gsl_test(truths_read(path, &t, &f) != STATUS_OK, "a rule with two predictions %s", f.text);
     rule *one = &t.rule[0];
-    gsl_test(rule_is_observed(one), "not observed yet");
+    gsl_test(rules_is_observed(one), "not observed yet");
     one->observed = 1;
-    gsl_test(rule_is_observed(one), "observed, but not as predicted");
-    rule_foretell(one, &(rule_subject){.type = type, .quantity = "other"});
-    rule_foretell(one, &(rule_subject){.type = type, .quantity = "third"});
-    gsl_test(rule_is_observed(one), "one of two predictions met");
-    rule_foretell(one, &(rule_subject){.type = type, .quantity = "load"});
-    gsl_test(!rule_is_observed(one), "both");
+    gsl_test(rules_is_observed(one), "observed, but not as predicted");
+    rules_foretell(one, &(rule_subject){.type = type, .quantity = "other"});
+    rules_foretell(one, &(rule_subject){.type = type, .quantity = "third"});
+    gsl_test(rules_is_observed(one), "one of two predictions met");
+    rules_foretell(one, &(rule_subject){.type = type, .quantity = "load"});
+    gsl_test(!rules_is_observed(one), "both");
     one->observed = 0;
-    gsl_test(rule_is_observed(one), "predictions alone are no observation");
+    gsl_test(rules_is_observed(one), "predictions alone are no observation");
     truths_free(&t);
 }
 

@@ -1,4 +1,4 @@
-#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/formulation.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -32,28 +32,6 @@ static const char *formulation_name(const void *context, int i)
 {
     (void)context;
     return registry_formulations[i] != NULL ? registry_formulations[i]->name : NULL;
-}
-
-static const char *case_name(const void *context, int i)
-{
-    (void)context;
-    return registry_cases[i] != NULL ? registry_cases[i]->name : NULL;
-}
-
-static status unknown(fault *f, const char *what, const char *name, const char *near)
-{
-    return fault_set(f, STATUS_REFUSED, "unknown %s '%s'%s%s%s; 'beamwork list' shows them all",
-                     what, name, near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
-                     near != NULL ? "'?" : "");
-}
-
-const case_type *case_find(const char *name, fault *f)
-{
-    for (int i = 0; registry_cases[i] != NULL; i++)
-        if (strcmp(registry_cases[i]->name, name) == 0)
-            return registry_cases[i];
-    unknown(f, "case", name, choice_nearest(name, case_name, NULL));
-    return NULL;
 }
 
 const element_type *formulation_find(const char *key)
@@ -114,7 +92,7 @@ status formulation_parse(const char *text, formulation *out, fault *f)
     snprintf(name, sizeof name, "%.*s", (int)length, text);
     const element_type *type = formulation_find(name);
     if (type == NULL)
-        return unknown(f, "formulation", name, choice_nearest(name, formulation_name, NULL));
+        return choice_unknown("formulation", name, formulation_name, f);
     formulation_default(type, out);
     if (text[length] == '\0')
         return STATUS_OK;

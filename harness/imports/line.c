@@ -1,4 +1,4 @@
-#include "harness/imports/line_text.h"
+#include "harness/imports/line.h"
 
 #include <math.h>
 #include <stdlib.h>

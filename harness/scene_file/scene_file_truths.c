@@ -122,7 +122,8 @@ static truth_reader open_truths(const scene_file *file, const double value[], ar
     return r;
 }
 
-void file_truths_check(const scene_file *file, const scene *s, const double value[], mistakes *m)
+void scene_file_truths_check(const scene_file *file, const scene *s, const double value[],
+                             mistakes *m)
 {
     arena a = {0};
     truth_reader r = open_truths(file, value, &a, m);
@@ -182,7 +183,7 @@ static status add_row(const scene_file *file, const double value[], const file_t
     return STATUS_OK;
 }
 
-/* With what scene_file_add_truths frees. */
+/* With what scene_file_truths_add frees. */
 static status add_at(const scene_file *file, const double point[], scene *s, arena *a, truths *t,
                      fault *f)
 {
@@ -201,7 +202,7 @@ static status add_at(const scene_file *file, const double point[], scene *s, are
     return mistakes_status(&m, f);
 }
 
-status scene_file_add_truths(const scene_file *file, const double value[], truths *t, fault *f)
+status scene_file_truths_add(const scene_file *file, const double value[], truths *t, fault *f)
 {
     arena a = {0};
     double point[CASE_MAX_PARAMETERS] = {0};
@@ -220,7 +221,7 @@ static status add_everywhere(const scene_file *file, arena *a, truths *t, fault 
     mistakes m = {.file = file->path};
     double defaults[CASE_MAX_PARAMETERS] = {0};
     parameter_defaults(file->type.parameters, defaults);
-    TRY(scene_file_add_truths(file, defaults, t, f));
+    TRY(scene_file_truths_add(file, defaults, t, f));
     const truth_reader r = open_truths(file, defaults, a, &m);
     for (int i = 0; i < r.count; i++) {
         builder b = r.b;
@@ -228,13 +229,13 @@ static status add_everywhere(const scene_file *file, arena *a, truths *t, fault 
         double point[CASE_MAX_PARAMETERS];
         memcpy(point, defaults, sizeof point);
         if (!visit_point(file, &those, point))
-            TRY(scene_file_add_truths(file, point, t, f));
+            TRY(scene_file_truths_add(file, point, t, f));
     }
     m.out_of_memory |= a->failed;
     return mistakes_status(&m, f);
 }
 
-status scene_file_add_all_truths(const scene_file *file, truths *t, fault *f)
+status scene_file_truths_add_all(const scene_file *file, truths *t, fault *f)
 {
     arena a = {0};
     const status outcome = add_everywhere(file, &a, t, f);

@@ -1,6 +1,6 @@
 /* Lines of other programs' files as text, fields, numbers. Nothing is believed of them. */
-#ifndef BEAMWORK_LINE_TEXT_H
-#define BEAMWORK_LINE_TEXT_H
+#ifndef BEAMWORK_LINE_H
+#define BEAMWORK_LINE_H
 
 /* Without blanks at both ends, within the line, which is cut. */
 char *line_trim(char *line);

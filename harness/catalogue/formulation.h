@@ -1,6 +1,6 @@
 /* -f name:key=value,...: a formulation with its options. */
-#ifndef BEAMWORK_FORMULATIONS_H
-#define BEAMWORK_FORMULATIONS_H
+#ifndef BEAMWORK_FORMULATION_H
+#define BEAMWORK_FORMULATION_H
 
 #include "cases/case.h"
 #include "harness/analysis/solve.h"
@@ -28,6 +28,5 @@ void formulation_default(const element_type *type, formulation *out);
 int formulation_choice(const element_type *type, int index, int choice, formulation *out);
 /* Features on which the options that differ from their defaults bear (element_judged). */
 unsigned formulation_bears_on(const formulation *chosen);
-const case_type *case_find(const char *name, fault *f); /* NULL: unknown, f names the nearest */
 
 #endif
