@@ -37,9 +37,9 @@ static status internal_of(const analysis_context *c, const scene_internal *what,
 {
     double all[SPAN_VALUES];
     if (what->along != SCENE_ALONG_PLACE) {
-        chosen of = {what->resultant, what->along == SCENE_ALONG_LARGEST ? 0
-                                      : what->along == SCENE_ALONG_MIN   ? -1
-                                                                         : 1};
+        static const double sign[] = {
+            [SCENE_ALONG_MAX] = 1, [SCENE_ALONG_MIN] = -1, [SCENE_ALONG_LARGEST] = 0};
+        chosen of = {what->resultant, sign[what->along]};
         TRY(internal_largest(c->model, s, what->member, measured, &of, out, f));
         *out *= of.sign < 0 ? -1 : 1;
         return STATUS_OK;

@@ -92,8 +92,10 @@ static void read_sections(const fields *f, int profile[2])
 static void read_released(const fields *f, const char *key, int member, int end)
 {
     const document_node *n = document_find(f->map, key);
-    const int count = n == NULL ? 0 : n->kind == DOCUMENT_LIST ? n->count : 1;
     unsigned told = 0;
+    if (n == NULL)
+        return;
+    const int count = n->kind == DOCUMENT_LIST ? n->count : 1;
     for (int i = 0; i < count; i++) {
         const document_node *word = n->kind == DOCUMENT_LIST ? n->item[i] : n;
         const int c = fields_word_of(f, word, "release", fields_components, -1);

@@ -41,7 +41,9 @@ static void compare_sides(const eigen_result *sparse_way, const eigen_result *de
 {
     const int found = sparse_way->positive.count >= wanted && sparse_way->negative.count >= wanted;
     gsl_test(!found, "%s: all are found", what);
-    for (int i = 0; i < wanted && found; i++) {
+    if (!found)
+        return;
+    for (int i = 0; i < wanted; i++) {
         gsl_test_rel(sparse_way->positive.mu[i], dense_way->positive.mu[i], tolerance,
                      "%s: positive value %d", what, i);
         gsl_test_rel(sparse_way->negative.mu[i], dense_way->negative.mu[i], tolerance,

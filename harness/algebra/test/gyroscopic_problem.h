@@ -43,9 +43,8 @@ static inline void gyroscopic_problem_fill(problem *p, double gyroscopic, int ma
             p->M[i * n + j] = i < n - massless && j < n - massless
                                   ? (i == j ? 1 + 0.3 * i / n : 0.2 / (1 + abs(i - j)))
                                   : 0;
-            p->G[i * n + j] = i == j ? 0
-                                     : gyroscopic * (i < j ? 1 : -1) *
-                                           (0.3 + B[(i < j ? i : j) * n + (i < j ? j : i)]);
+            const double upper = 0.3 + B[(i < j ? i : j) * n + (i < j ? j : i)];
+            p->G[i * n + j] = gyroscopic * ((i < j) - (i > j)) * upper;
         }
     for (int i = 0; i < n; i++)
         p->K[i * n + i] += n - softening * n;

@@ -83,8 +83,9 @@ static void along_arc(const subject *s, double x, const double strain[3], double
         rotation_exp(part, q);
         rotation_matrix(q, R);
         mat3_mul_vec(R, direction, axis);
-        for (int i = 0; i < 3 && g < POINTS; i++)
-            r[i] += x * w[g] * axis[i];
+        if (g < POINTS)
+            for (int i = 0; i < 3; i++)
+                r[i] += x * w[g] * axis[i];
     }
 }
 

@@ -35,10 +35,11 @@ static void stiff_in_shear(const element_type *e)
         apart[k][1] = fabs(answer_of(&sheared, "u") / answer_of(&rigid, "u_over_L") + 1);
     }
     ask_conclude(&tally, e, "stiff in shear");
-    for (int i = 0; i < 2 && tally.count[ASK_ANSWERED] == 4; i++)
-        gsl_test(!(apart[0][i] <= 1e-9 || apart[1][i] <= apart[0][i] / 10),
-                 "%s: %s in the limit GA to infinity is that without shear (%.1e)", e->name,
-                 i == 0 ? "deflection" : "shortening", apart[0][i]);
+    if (tally.count[ASK_ANSWERED] == 4)
+        for (int i = 0; i < 2; i++)
+            gsl_test(!(apart[0][i] <= 1e-9 || apart[1][i] <= apart[0][i] / 10),
+                     "%s: %s in the limit GA to infinity is that without shear (%.1e)", e->name,
+                     i == 0 ? "deflection" : "shortening", apart[0][i]);
 }
 
 /* Deflection of the elastica's beam with an initial curvature [1/m]; NAN: not solved. */
@@ -65,7 +66,8 @@ static void nearly_straight(const element_type *e)
     ask_tally tally = {0};
     const double straight = curved(e, 0, &tally), more = curved(e, 1e-4, &tally),
                  slope = (more - curved(e, -1e-4, &tally)) / 2e-4;
-    for (int power = -5; power >= -15 && !isnan(slope); power -= 2) {
+    const int least = isnan(slope) ? 0 : -15; /* nothing to go by: no power */
+    for (int power = -5; power >= least; power -= 2) {
         const double curvature = pow(10, power), change = curved(e, curvature, &tally) - straight;
         gsl_test_abs(change, slope * curvature, 1e-3 * fabs(slope) * curvature + 2e-14,
                      "%s: an initial curvature of 1e%d", e->name, power);

@@ -46,9 +46,10 @@ static void add(const model *m, const double R[9], int member, int k, int waves,
     for (int i = 0; i < count; i++) {
         const double value = size * sin(waves * PI * (i + 0.3) / (count - 1 + 0.6));
         const mesh_vertex *v = &m->vertex[vertex[i]];
-        for (int c = 0; c < 3 && k < WARPING; c++)
-            x[v->coordinate[3 * (k / 3) + c]] += R[3 * c + k % 3] * value;
-        if (k == WARPING)
+        if (k < WARPING)
+            for (int c = 0; c < 3; c++)
+                x[v->coordinate[3 * (k / 3) + c]] += R[3 * c + k % 3] * value;
+        else
             for (int e = m->first_element[member]; e < m->first_element[member + 1]; e++)
                 for (int end = 0; end < m->nodes; end++)
                     if (m->element[e].vertex[end] == vertex[i])

@@ -118,10 +118,11 @@ static void supports(const char *formulation_text, int elements)
         gsl_test(loose && node != 2, "%s: node %d is named", changes[i].what, node);
         for (int k = 0; k < 6; k++)
             largest = fmax(largest, fabs(motion[k]));
-        for (int k = 0; k < 6 && loose && !changes[i].any; k++)
-            gsl_test(!(fabs(fabs(motion[k]) / largest - expected[k]) <= 1e-9),
-                     "%s: component %d of the motion is %g", changes[i].what, k,
-                     motion[k] / largest);
+        if (loose && !changes[i].any)
+            for (int k = 0; k < 6; k++)
+                gsl_test(!(fabs(fabs(motion[k]) / largest - expected[k]) <= 1e-9),
+                         "%s: component %d of the motion is %g", changes[i].what, k,
+                         motion[k] / largest);
         const status outcome = solve_scene(&s, m, NULL, &r, &f);
         gsl_test_int((int)outcome, loose ? STATUS_SINGULAR : STATUS_OK, "%s, %s: %s",
                      changes[i].what, formulation_text, f.text);
@@ -189,8 +190,9 @@ static void round_off(void)
         gsl_test(outcome != STATUS_OK && outcome != STATUS_SINGULAR &&
                      outcome != STATUS_NOT_CONVERGED,
                  "%s: a named failure", row[i].case_name);
-        for (int k = 0; k < r.solve.quantities && outcome == STATUS_OK; k++)
-            if (strcmp(r.scene.quantity[k].name, row[i].quantity) == 0 && !isnan(row[i].exact))
+        const int judged = outcome == STATUS_OK && !isnan(row[i].exact) ? r.solve.quantities : 0;
+        for (int k = 0; k < judged; k++)
+            if (strcmp(r.scene.quantity[k].name, row[i].quantity) == 0)
                 gsl_test_rel(r.solve.quantity[k].value, row[i].exact, 1e-5,
                              "%s: an answer is right", row[i].case_name);
         lost += outcome == STATUS_SINGULAR;

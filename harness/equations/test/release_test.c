@@ -70,8 +70,9 @@ static void bent(int place, const char *const set[2], scene *s)
         scene_load *l = scene_load_at(
             s, scene_add_load(s, (scene_load_kind)kind, member, 0.3 - 0.1 * i, 0.4, -0.5));
         l->follower = i > 1;
-        for (int k = 0; k < 3 && kind == SCENE_DISTRIBUTED; k++)
-            l->at[k] = 0.1 * (k + 1) - 0.25;
+        if (kind == SCENE_DISTRIBUTED)
+            for (int k = 0; k < 3; k++)
+                l->at[k] = 0.1 * (k + 1) - 0.25;
     }
     scene_add_static(s, 1, &end, 1);
 }

@@ -81,10 +81,8 @@ static void moments_of_inertia(const element_type *type, const double options[],
         const double line =
             turning_inertia(type, options, features & ~(unsigned)FEATURE_ROTARY_INERTIA, axis, &s);
         const section *c = &s.section;
-        const double moment = c->density * s.length *
-                              (axis == 0   ? c->Ip
-                               : axis == 1 ? c->Iy
-                                           : c->Iz);
+        const double second[3] = {c->Ip, c->Iy, c->Iz},
+                     moment = c->density * s.length * second[axis];
         gsl_test_rel(whole - (axis == 0 ? 0 : line), moment, 1e-10,
                      "%s: moment of inertia about %c", s.name, "xyz"[axis]);
         if (axis == 0)

@@ -49,10 +49,11 @@ static void solve(const char *name, const double g[3], const int held[6], double
     status outcome = model_alloc(&what, &m, &f);
     if (outcome == STATUS_OK) {
         outcome = solve_scene(&s, m, NULL, &r, &f);
-        for (int i = 0; i < 6 && outcome == STATUS_OK; i++) {
-            u[i] = r.quantity[i].value;
-            F[i] = r.quantity[6 + i].value;
-        }
+        if (outcome == STATUS_OK)
+            for (int i = 0; i < 6; i++) {
+                u[i] = r.quantity[i].value;
+                F[i] = r.quantity[6 + i].value;
+            }
         result_free(&r);
     }
     gsl_test(outcome != STATUS_OK, "%s: %s", name, f.text);

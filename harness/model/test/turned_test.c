@@ -59,7 +59,8 @@ static int compare(int original, const element_type *element)
     const int runs = solve(original, 0, element, &before) == STATUS_OK;
     gsl_test(runs != ask_offered(&before.scene, element), "%s, %s: solved where it is offered %s",
              before.scene.name, element->name, before.solve.reason);
-    for (size_t k = 0; k < sizeof angle / sizeof angle[0] && runs; k++) {
+    const size_t angles = runs ? sizeof angle / sizeof angle[0] : 0;
+    for (size_t k = 0; k < angles; k++) {
         gsl_test(solve(original, angle[k], element, &after) != STATUS_OK, "%s, %s turned by %g: %s",
                  before.scene.name, element->name, angle[k], after.solve.reason);
         for (int i = 0; i < after.solve.quantities; i++) {

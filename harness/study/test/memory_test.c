@@ -168,7 +168,8 @@ static status read_scene(const void *what, double *value, fault *f)
     if (outcome == STATUS_OK)
         outcome = scene_file_truths_add_all(file, &t, f);
     *value = t.rows;
-    for (int i = 0; outcome == STATUS_OK && i < s.nodes; i++)
+    const int nodes = outcome == STATUS_OK ? s.nodes : 0;
+    for (int i = 0; i < nodes; i++)
         *value += fabs(s.node[i].position[0]) + 3 * fabs(s.node[i].position[1]);
     truths_free(&t);
     scene_free(&s);
