@@ -1,6 +1,8 @@
 #include "harness/algebra/memory.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -22,4 +24,21 @@ status memory_check(double bytes, const char *what, const char *remedy, fault *f
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED, "%s need more than memory allows (%.3g of %.3g GB); %s",
                      what, bytes / giga, limit / giga, remedy);
+}
+
+status memory_append(void *list, int *count, const void *entry, size_t size, const char *what,
+                     fault *f)
+{
+    char *entries;
+    memcpy(&entries, list, sizeof entries);
+    const size_t n = (size_t)*count;
+    if ((n & (n - 1)) == 0) { /* lists double when their count is a power of two */
+        entries = realloc(entries, (n == 0 ? 1 : 2 * n) * size);
+        if (entries == NULL)
+            return fault_set(f, STATUS_FAULT, "out of memory for %s", what);
+        memcpy(list, &entries, sizeof entries);
+    }
+    memcpy(entries + n * size, entry, size);
+    *count += 1;
+    return STATUS_OK;
 }

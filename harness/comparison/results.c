@@ -6,41 +6,38 @@
 const char *const results_work_names[RESULTS_WORKS] = {"iterations", "evaluations",
                                                        "factorisations"};
 
-/* The array with a zeroed item at [count], where it grows by `step` items; NULL: out of memory. */
-static void *grow(void *array, int count, int step, size_t size)
+/* A zeroed item at the end of *list (the address of its pointer), which grows by `step` items; NULL: out of memory. */
+static void *add(void *list, int *count, int step, size_t size)
 {
-    char *all = count % step == 0 ? realloc(array, ((size_t)count + (size_t)step) * size) : array;
-    if (all != NULL)
-        memset(all + (size_t)count * size, 0, size);
-    return all;
+    char *all;
+    memcpy(&all, list, sizeof all);
+    if (*count % step == 0) {
+        all = realloc(all, ((size_t)*count + (size_t)step) * size);
+        if (all == NULL)
+            return NULL;
+        memcpy(list, &all, sizeof all);
+    }
+    return memset(all + (size_t)(*count)++ * size, 0, size);
 }
 
 result_cell *results_add(results *r)
 {
-    result_cell *all = grow(r->cell, r->cells, 1024, sizeof *all);
-    r->cell = all != NULL ? all : r->cell;
-    return all != NULL ? &all[r->cells++] : NULL;
+    return add(&r->cell, &r->cells, 1024, sizeof *r->cell);
 }
 
 result_series *results_add_series(results *r)
 {
-    result_series *all = grow(r->series, r->seriess, 1024, sizeof *all);
-    r->series = all != NULL ? all : r->series;
-    return all != NULL ? &all[r->seriess++] : NULL;
+    return add(&r->series, &r->seriess, 1024, sizeof *r->series);
 }
 
 result_mesh *results_add_mesh(result_series *s)
 {
-    result_mesh *all = grow(s->mesh, s->meshes, 8, sizeof *all);
-    s->mesh = all != NULL ? all : s->mesh;
-    return all != NULL ? &all[s->meshes++] : NULL;
+    return add(&s->mesh, &s->meshes, 8, sizeof *s->mesh);
 }
 
 result_limit *results_add_limit(result_series *s)
 {
-    result_limit *all = grow(s->limit, s->limits, 8, sizeof *all);
-    s->limit = all != NULL ? all : s->limit;
-    return all != NULL ? &all[s->limits++] : NULL;
+    return add(&s->limit, &s->limits, 8, sizeof *s->limit);
 }
 
 int results_order(const result_cell *a, const result_cell *b)

@@ -1,9 +1,9 @@
 #include "harness/judge/agreements.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "harness/algebra/memory.h"
 #include "harness/truth/truth.h"
 
 /* relative, of a value against its own stored discrete value */
@@ -11,11 +11,7 @@ static const double agreement_least = 1e-6;
 
 static status add_agreement(const agreement *one, judgement *out, fault *f)
 {
-    agreement *more = realloc(out->agreement, (size_t)(out->agreements + 1) * sizeof *more);
-    if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for agreements");
-    out->agreement = more;
-    more[out->agreements++] = *one;
+    TRY(memory_append(&out->agreement, &out->agreements, one, sizeof *one, "agreements", f));
     out->disagreements += !one->good;
     return STATUS_OK;
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/algebra/memory.h"
 #include "harness/judge/agreements.h"
 #include "harness/judge/coverage.h"
 #include "harness/judge/sound.h"
@@ -56,16 +57,6 @@ static void expect(const sweep *s, truths *t, verdict *v)
     v->matches = v->kind == v->expected;
 }
 
-static status add_flaw(const flaw *one, judgement *out, fault *f)
-{
-    flaw *more = realloc(out->flaw, (size_t)(out->flaws + 1) * sizeof *more);
-    if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for flaws of cells");
-    out->flaw = more;
-    more[out->flaws++] = *one;
-    return STATUS_OK;
-}
-
 /* Every cell of a series against what it says of its own work. */
 static status check_cells(const sweep *s, int index, judgement *out, fault *f)
 {
@@ -76,7 +67,7 @@ static status check_cells(const sweep *s, int index, judgement *out, fault *f)
     for (int i = 0; i < one->meshes; i++) {
         flaw c = {.series = index, .mesh = i};
         if (!sound_cell(&one->cell[i], what, formulation_newton(&one->formulation), c.why))
-            TRY(add_flaw(&c, out, f));
+            TRY(memory_append(&out->flaw, &out->flaws, &c, sizeof c, "flaws of cells", f));
     }
     return STATUS_OK;
 }

@@ -1,31 +1,23 @@
 #include "harness/solver/history.h"
 
 #include <math.h>
-#include <stdlib.h>
 
-/* Room for one more: lists double when their count is a power of two. */
-static void *grown(void *list, int count, size_t size)
-{
-    if ((count & (count - 1)) != 0)
-        return list;
-    return realloc(list, (count == 0 ? 1 : 2 * (size_t)count) * size);
-}
+#include "harness/algebra/memory.h"
 
 status history_add_iteration(solve_result *r, step_record *step, const iteration_record *one,
                              double energy, fault *f)
 {
-    iteration_record *more = grown(r->iteration, r->iterations, sizeof *more);
-    if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for step records");
-    if (step->iterations == 0) {
-        step->first = r->iterations;
+    const int first = step->iterations == 0;
+    const double start = first ? energy : step->energy;
+    iteration_record entry = *one;
+    entry.residual = energy == 0 ? 0 : sqrt(energy / start);
+    TRY(memory_append(&r->iteration, &r->iterations, &entry, sizeof entry, "step records", f));
+    if (first) {
+        step->first = r->iterations - 1;
         step->energy = energy;
     }
-    r->iteration = more;
-    more[r->iterations] = *one;
-    more[r->iterations++].residual = energy == 0 ? 0 : sqrt(energy / step->energy);
     step->iterations++;
-    step->residual = more[r->iterations - 1].residual;
+    step->residual = entry.residual;
     step->correction = one->correction;
     step->incompatibility = one->incompatibility;
     return STATUS_OK;
@@ -39,20 +31,10 @@ void history_drop_step(solve_result *r, const step_record *step)
 
 status history_add_step(solve_result *r, const step_record *record, fault *f)
 {
-    step_record *more = realloc(r->step, ((size_t)r->steps + 1) * sizeof *more);
-    if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for step records");
-    r->step = more;
-    r->step[r->steps++] = *record;
-    return STATUS_OK;
+    return memory_append(&r->step, &r->steps, record, sizeof *record, "step records", f);
 }
 
 status history_add_event(solve_result *r, const path_event *event, fault *f)
 {
-    path_event *more = realloc(r->event, ((size_t)r->events + 1) * sizeof *more);
-    if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for events");
-    r->event = more;
-    r->event[r->events++] = *event;
-    return STATUS_OK;
+    return memory_append(&r->event, &r->events, event, sizeof *event, "events", f);
 }

@@ -7,6 +7,7 @@
 
 #include "harness/analysis/test/hinged.h"
 #include "harness/catalogue/registry.h"
+#include "harness/test/scenes.h"
 
 /* An end that turns or slides at a support (0), or a clamped node that it is released from (1): answers of every
  * analysis. */
@@ -21,16 +22,12 @@ static void ask_all(scene *s, int path, int tip, int member)
               turning = scene_add_rotation(s, 1, &end, 4, 4,
                                            (scene_rotating_frame){.omega = {0.3, -0.8, 1.7}}),
               compliance = scene_add_compliance(s, path, (scene_compliance){.node = tip});
+    scenes_ask_frequencies(s, "rest", modal, 3);
+    scenes_ask_frequencies(s, "turning", turning, 3);
+    scenes_ask_motion(s, "linear", linear, tip);
+    scenes_ask_motion(s, "moved", path, tip);
     for (int i = 0; i < 3; i++) {
         char name[SCENE_NAME];
-        snprintf(name, sizeof name, "rest_%d", i);
-        scene_add_quantity(s, name, "Hz", modal, scene_frequency(i, SCENE_ANY));
-        snprintf(name, sizeof name, "turning_%d", i);
-        scene_add_quantity(s, name, "Hz", turning, scene_frequency(i, SCENE_ANY));
-        snprintf(name, sizeof name, "linear_%d", i);
-        scene_add_quantity(s, name, "m", linear, scene_coordinate(tip, i));
-        snprintf(name, sizeof name, "moved_%d", i);
-        scene_add_quantity(s, name, "m", path, scene_coordinate(tip, i));
         snprintf(name, sizeof name, "force_%d", i);
         scene_add_quantity(s, name, "N", path,
                            scene_internal_at(member, 1, (scene_resultant)(SCENE_N + i)));
@@ -49,11 +46,7 @@ static void ask_about(scene *s, int path, int tip)
     const scene_control control = {
         .node = tip, .component = SCENE_UY, .step = 0.05, .step_max = 0.1};
     const int loaded = scene_add_modal(s, path);
-    for (int i = 0; i < 3; i++) {
-        char name[SCENE_NAME];
-        snprintf(name, sizeof name, "loaded_%d", i);
-        scene_add_quantity(s, name, "Hz", loaded, scene_frequency(i, SCENE_ANY));
-    }
+    scenes_ask_frequencies(s, "loaded", loaded, 3);
     scene_add_quantity(s, "factor", "1", scene_add_continuation(s, 1, &far, control),
                        scene_factor_at());
 }

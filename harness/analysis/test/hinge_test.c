@@ -185,16 +185,6 @@ static double clamped_pinned(double u)
     return sin(u) - cos(u) * tanh(u);
 }
 
-/* Zero of g between a and b by bisection. */
-static double zero(double (*g)(double), double a, double b)
-{
-    for (int i = 0; i < 200; i++) {
-        const double c = (a + b) / 2;
-        *(g(a) * g(c) <= 0 ? &b : &a) = c;
-    }
-    return (a + b) / 2;
-}
-
 static double hertz(double u)
 {
     return u * u * sqrt(EI / mass) / (2 * PI);
@@ -213,8 +203,8 @@ static void eigenvalues(const char *chosen, int n, double allowed)
     check(&r, 0, gsl_pow_2(4.493409457909064) * EI, allowed, 0, chosen);
     cell_result_free(&r);
     cells_solve(build_vibration, chosen, n, &r);
-    check(&r, 0, hertz(zero(clamped_free, 1, 3)), allowed, 0, chosen);
-    check(&r, 1, hertz(zero(clamped_pinned, 3, 4.5)), allowed, 0, chosen);
+    check(&r, 0, hertz(hinged_zero(clamped_free, 1, 3)), allowed, 0, chosen);
+    check(&r, 1, hertz(hinged_zero(clamped_pinned, 3, 4.5)), allowed, 0, chosen);
     cell_result_free(&r);
 }
 

@@ -1,4 +1,5 @@
-/* A bar that only bends, twists and stretches, and the solution of a scene of it: for tests of hinges. */
+/* A bar that only bends, twists and stretches, and the solution of a scene of it: for tests of hinges and
+ * springs. */
 #ifndef BEAMWORK_TEST_HINGED_H
 #define BEAMWORK_TEST_HINGED_H
 
@@ -15,6 +16,16 @@ static inline int add_section(scene *s)
     section_spec spec = sections_of(EA, 2 * EI, EI, EI);
     spec.density = mass / EA;
     return scene_add_section(s, &spec);
+}
+
+/* Zero of g between a and b by bisection. */
+static inline double hinged_zero(double (*g)(double), double a, double b)
+{
+    for (int i = 0; i < 200; i++) {
+        const double c = (a + b) / 2;
+        *(g(a) * g(c) <= 0 ? &b : &a) = c;
+    }
+    return (a + b) / 2;
 }
 
 #endif

@@ -7,19 +7,10 @@
 #include <string.h>
 
 #include "elements/math/pi.h"
-#include "elements/test/sections.h"
-#include "harness/catalogue/formulation.h"
-#include "harness/study/cell.h"
-#include "harness/test/cells.h"
+#include "harness/analysis/test/hinged.h"
+#include "harness/test/scenes.h"
 
-static const double length = 1.3, EI = 7.1, kappa = 3.7; /* kappa: of the springs, in EI/L */
-
-static int add_section(scene *s)
-{
-    section_spec spec = sections_of(7e6, 2 * EI, EI, EI);
-    spec.density = 1e-7; /* rho A = 0.7 kg/m */
-    return scene_add_section(s, &spec);
-}
+static const double length = 1.3, kappa = 3.7; /* kappa: of the springs, in EI/L */
 
 static void rotational(scene *s, int p, int q, double k)
 {
@@ -27,8 +18,6 @@ static void rotational(scene *s, int p, int q, double k)
     stiffness[21] = stiffness[28] = stiffness[35] = k;
     scene_add_spring(s, p, q, stiffness);
 }
-
-static const double y_axis[3] = {0, 1, 0};
 
 /* Both ends held, and turning against springs; the second one to a body that is held itself. */
 static status build_beam(const double value[], scene *s, fault *f)
@@ -109,16 +98,12 @@ static status build_body(scene *s, int sprung)
               turning = scene_add_rotation(s, 1, &end, 4, 4,
                                            (scene_rotating_frame){.omega = {0.3, -0.8, 1.7}});
     const int compliance = scene_add_compliance(s, path, (scene_compliance){.node = body});
+    scenes_ask_frequencies(s, "rest", modal, 3);
+    scenes_ask_frequencies(s, "loaded", loaded, 3);
+    scenes_ask_frequencies(s, "turning", turning, 3);
+    scenes_ask_motion(s, "moved", path, body);
     for (int i = 0; i < 3; i++) {
         char name[SCENE_NAME];
-        snprintf(name, sizeof name, "rest_%d", i);
-        scene_add_quantity(s, name, "Hz", modal, scene_frequency(i, SCENE_ANY));
-        snprintf(name, sizeof name, "loaded_%d", i);
-        scene_add_quantity(s, name, "Hz", loaded, scene_frequency(i, SCENE_ANY));
-        snprintf(name, sizeof name, "turning_%d", i);
-        scene_add_quantity(s, name, "Hz", turning, scene_frequency(i, SCENE_ANY));
-        snprintf(name, sizeof name, "moved_%d", i);
-        scene_add_quantity(s, name, "m", path, scene_coordinate(body, i));
         snprintf(name, sizeof name, "reaction_%d", i);
         scene_add_quantity(s, name, "N m", path, scene_reaction(root, SCENE_RX + i));
     }
@@ -151,16 +136,6 @@ static void check(const cell_result *r, int i, double exact, double allowed, con
         gsl_test(1, "%s: quantity %d is there", chosen, i);
 }
 
-/* Zero of g between a and b by bisection. */
-static double zero(double (*g)(double), double a, double b)
-{
-    for (int i = 0; i < 200; i++) {
-        const double c = (a + b) / 2;
-        *(g(a) * g(c) <= 0 ? &b : &a) = c;
-    }
-    return (a + b) / 2;
-}
-
 /* Half the wave number times the length: tan u = -2 u/kappa, tan u + tanh u = -4 u/kappa. */
 static double buckled(double u)
 {
@@ -176,10 +151,10 @@ static void closed_forms(const char *chosen, int n, double allowed)
 {
     cell_result r;
     cells_solve(build_beam, chosen, n, &r);
-    const double L3 = length * length * length, u = zero(buckled, PI / 2, PI),
-                 v = 2 * zero(vibrating, PI / 2, PI) / length;
+    const double L3 = length * length * length, u = hinged_zero(buckled, PI / 2, PI),
+                 v = 2 * hinged_zero(vibrating, PI / 2, PI) / length;
     check(&r, 0, L3 / (48 * EI) * (1 - 0.75 * kappa / (2 + kappa)), allowed, chosen);
-    check(&r, 1, v * v * sqrt(EI / 0.7) / (2 * PI), allowed, chosen);
+    check(&r, 1, v * v * sqrt(EI / mass) / (2 * PI), allowed, chosen);
     cell_result_free(&r);
     cells_solve(build_column, chosen, n, &r);
     check(&r, 0, EI * 4 * u * u / (length * length), allowed, chosen);

@@ -9,8 +9,7 @@
 static void limits(void)
 {
     bench b;
-    bench_make(&b);
-    bench_fill(&b, 3, 0.7, 2);
+    bench_converge(&b);
     bench_expect(&b, VERDICT_PASS, 0, "right limit, right order, coarse meshes far off");
     gsl_test_rel(b.j.verdict[0].fit.order, 2, 1e-6, "its order");
     gsl_test_int(b.j.verdict[0].fit.from, 4, "the four finest meshes show it");
@@ -114,8 +113,7 @@ static void doubts(void)
 static void failures(void)
 {
     bench b;
-    bench_make(&b);
-    bench_fill(&b, 3, 0.7, 2);
+    bench_converge(&b);
     b.quantity[4].value = NAN;
     b.quantity[4].status = STATUS_NO_VALUE;
     bench_expect(&b, VERDICT_DIVERGED, 1, "no number on the finest mesh");
@@ -160,8 +158,7 @@ static void doubtful_noise(void)
 static void coverages(void)
 {
     bench b;
-    bench_make(&b);
-    bench_fill(&b, 3, 0.7, 2);
+    bench_converge(&b);
     bench_expect(&b, VERDICT_PASS, 0, "a series");
     gsl_test_int(b.j.coverages, 1, "of one formulation");
     for (int k = 0; k < COVERAGE_MESHES; k++)
@@ -186,8 +183,7 @@ static void selection(void)
 {
     bench b;
     fault f = {""};
-    bench_make(&b);
-    bench_fill(&b, 3, 0.7, 2);
+    bench_converge(&b);
     b.s.select = "made_up and load";
     bench_expect(&b, VERDICT_PASS, 0, "a quantity is selected");
     b.s.select = "not load";

@@ -61,8 +61,7 @@ static void theories(void)
 static void publications(void)
 {
     bench b;
-    bench_make(&b);
-    bench_fill(&b, 3, 0.7, 2);
+    bench_converge(&b);
     truth *published = bench_add_row(&b, 3.01);
     published->kind = words[PUBLISHED];
     published->uncertainty = 0.005;
@@ -189,8 +188,7 @@ static void stored_values(void)
 {
     bench b;
     fault f = {""};
-    bench_make(&b);
-    bench_fill(&b, 3, 0.7, 2);
+    bench_converge(&b);
     truth *stored = bench_add_row(&b, b.quantity[1].value * (1 + 0.9e-6));
     stored->formulation = words[ELEMENT];
     stored->elements = 4;
