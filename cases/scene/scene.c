@@ -257,14 +257,14 @@ void scene_need(scene *s, unsigned features)
 
 void scene_meshes(scene *s, int count, const int mesh[])
 {
-    s->meshes = count < 16 ? count : 16;
+    s->meshes = count < SCENE_MESHES ? count : SCENE_MESHES;
     memcpy(s->mesh, mesh, (size_t)s->meshes * sizeof *mesh);
 }
 
 void scene_meshes_doubled(scene *s, int first, int last)
 {
     s->meshes = 0;
-    for (int n = first; n <= last && s->meshes < 16; n *= 2)
+    for (int n = first; n <= last && s->meshes < SCENE_MESHES; n *= 2)
         s->mesh[s->meshes++] = n;
 }
 

@@ -16,6 +16,9 @@
 /* Of a limit, relative: what engineers ask of a model. A limit of its own within it is seen all the same, by its uncertainty. */
 #define SCENE_TOLERANCE 1e-3
 
+/* Most numbers of elements that a scene or a command gives. */
+enum { SCENE_MESHES = 24 };
+
 /* Components of a node: three translations, three rotations (fixed axes). */
 enum { SCENE_UX, SCENE_UY, SCENE_UZ, SCENE_RX, SCENE_RY, SCENE_RZ };
 
@@ -143,7 +146,7 @@ struct scene {
     scene_quantity *quantity;
     unsigned needs; /* FEATURE_* bits that cannot be derived from the data: scene_need sets them */
     int meshes;     /* default -n values of verify and converge */
-    int mesh[16];
+    int mesh[SCENE_MESHES];
     int out_of_memory;
     /* What is pointed to when memory ran out, so that a case can write without asking. */
     union {

@@ -17,7 +17,7 @@ enum {
     EXIT_INTERRUPTED = 5
 };
 
-enum { CLI_MAX_CASES = 64, CLI_MAX_FORMULATIONS = 64, CLI_MAX_MESHES = 24 };
+enum { CLI_MAX_CASES = 64, CLI_MAX_FORMULATIONS = 64, CLI_MAX_MESHES = SCENE_MESHES };
 
 /* What the verbs' options have in common. */
 typedef struct cli_request {

@@ -88,25 +88,24 @@ static void read_needs(builder *b)
 static void read_meshes(builder *b)
 {
     static const int usual[] = {1, 2, 4, 8};
-    enum { MOST = sizeof b->scene->mesh / sizeof b->scene->mesh[0] };
     const fields f = {b, b->names, b->root, b->root, NULL};
     double *value;
-    int mesh[MOST];
+    int mesh[SCENE_MESHES];
     const int count = fields_values(&f, "meshes", &value);
     if (count == 0) {
         scene_meshes(b->scene, 4, usual);
         return;
     }
     const document_node *n = document_find(b->root, "meshes");
-    if (count > MOST)
-        document_mistake(b->mistakes, n, 0, "%d meshes; give at most %d", count, MOST);
-    for (int i = 0; i < count && i < MOST; i++) {
+    if (count > SCENE_MESHES)
+        document_mistake(b->mistakes, n, 0, "%d meshes; give at most %d", count, SCENE_MESHES);
+    for (int i = 0; i < count && i < SCENE_MESHES; i++) {
         mesh[i] = value[i] >= 1 && value[i] <= 1e7 ? (int)value[i] : 1;
         if (mesh[i] != value[i])
             document_mistake(b->mistakes, n, 0, "a mesh of %g elements; give whole numbers from 1",
                              value[i]);
     }
-    scene_meshes(b->scene, count < MOST ? count : MOST, mesh);
+    scene_meshes(b->scene, count < SCENE_MESHES ? count : SCENE_MESHES, mesh);
 }
 
 /* Where the entry stands that a refusal speaks of ("node 3: ..."), and what it says of it. */

@@ -1,5 +1,6 @@
 #include "harness/study/plan.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -67,16 +68,34 @@ static status plan_points(const case_type *const *cases, const truths *t, sweep 
     return STATUS_OK;
 }
 
-static void add_mesh(series *s, int n)
+static status add_mesh(series *s, const char *name, int n, fault *f)
 {
     int at = 0;
     while (at < s->meshes && s->mesh[at] < n)
         at++;
-    if ((at < s->meshes && s->mesh[at] == n) || s->meshes == SERIES_MAX_MESHES)
-        return;
+    if (at < s->meshes && s->mesh[at] == n)
+        return STATUS_OK;
+    if (s->meshes == SERIES_MAX_MESHES)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: more than %d meshes in a series; give fewer meshes or doublings",
+                         name, SERIES_MAX_MESHES);
     for (int i = s->meshes++; i > at; i--)
         s->mesh[i] = s->mesh[i - 1];
     s->mesh[at] = n;
+    return STATUS_OK;
+}
+
+static status double_meshes(series *s, const char *name, int doublings, fault *f)
+{
+    for (int i = 0; i < doublings && s->meshes > 0; i++) {
+        const int finest = s->mesh[s->meshes - 1];
+        if (finest > INT_MAX / 2)
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: %d elements cannot be doubled again; give fewer doublings", name,
+                             finest);
+        TRY(add_mesh(s, name, 2 * finest, f));
+    }
+    return STATUS_OK;
 }
 
 static status add_series(sweep *s, int index, const formulation *chosen, const truths *t, fault *f)
@@ -93,15 +112,13 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
     if (p->status == STATUS_OK)
         missing_words(&p->scene, chosen->type, one->missing, sizeof one->missing);
     for (int i = 0; i < p->scene.meshes; i++)
-        add_mesh(one, p->scene.mesh[i]);
-    if (one->meshes > 0)
-        for (int i = 0; i < s->doublings; i++)
-            add_mesh(one, 2 * one->mesh[one->meshes - 1]);
+        TRY(add_mesh(one, p->type->name, p->scene.mesh[i], f));
+    TRY(double_meshes(one, p->type->name, s->doublings, f));
     if (t != NULL)
         for (int i = 0; i < t->rows; i++)
             if (t->row[i].elements > 0 && strcmp(t->row[i].formulation, chosen->key) == 0 &&
                 truth_holds(&t->row[i], p->type, p->parameter))
-                add_mesh(one, t->row[i].elements);
+                TRY(add_mesh(one, p->type->name, t->row[i].elements, f));
     return STATUS_OK;
 }
 

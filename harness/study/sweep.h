@@ -11,7 +11,7 @@
 #include "harness/study/imported.h"
 #include "harness/truth/truths.h"
 
-enum { SERIES_MAX_MESHES = 24 };
+enum { SERIES_MAX_MESHES = SCENE_MESHES };
 
 typedef struct point {
     const case_type *type;

@@ -111,10 +111,53 @@ static void doublings(void)
     sweep_free(&two);
 }
 
+/* The first case of the registry with as many meshes as a scene can have, or with one of so many elements. */
+static status with_meshes(const double value[], scene *s, fault *f)
+{
+    double defaults[CASE_MAX_PARAMETERS] = {0};
+    int mesh[SCENE_MESHES];
+    parameters_default(registry_cases[0], defaults);
+    const status built = registry_cases[0]->build(defaults, s, f);
+    for (int i = 0; i < SCENE_MESHES; i++)
+        mesh[i] = value[0] > 0 ? (int)value[0] : i + 1;
+    scene_meshes(s, SCENE_MESHES, mesh);
+    return built;
+}
+
+static void refuses(double elements, int doublings, const char *refusal)
+{
+    const parameter_type table[] = {{"elements", "1", elements, 0, 1e7, NULL, "0: 1 to 24"}, {0}};
+    const case_type type = {.name = "many", .parameters = {table}, .build = with_meshes};
+    const case_type *const cases[] = {&type, NULL};
+    const truths none = {.rows = 0};
+    const sweep_request finer = {.cases = cases, .doublings = doublings};
+    sweep s;
+    fault f = {""};
+    const status outcome = plan_sweep(&finer, &none, &s, &f);
+    gsl_test_int((int)outcome, (int)(refusal != NULL ? STATUS_REFUSED : STATUS_OK), "%s", f.text);
+    if (outcome != STATUS_OK) {
+        gsl_test(refusal == NULL || strstr(f.text, refusal) == NULL, "%s", f.text);
+        return;
+    }
+    gsl_test(s.seriess == 0 || s.series[0].meshes != (elements > 0 ? doublings + 1 : SCENE_MESHES),
+             "%d doublings of %g elements: %d meshes", doublings, elements, s.series[0].meshes);
+    sweep_free(&s);
+}
+
+/* What does not fit is refused: no mesh is left out. */
+static void too_many(void)
+{
+    refuses(0, 0, NULL);
+    refuses(0, 1, "many: more than 24 meshes in a series; give fewer");
+    refuses(1e7, 7, NULL);
+    refuses(1e7, 8, "many: 1280000000 elements cannot be doubled again; give fewer doublings");
+}
+
 int main(void)
 {
     int cases = 0;
     doublings();
+    too_many();
     for (int i = 0; registry_cases[i] != NULL; i++) {
         int number[2];
         double value[CASE_MAX_PARAMETERS] = {0};
