@@ -61,14 +61,20 @@ static status build_column(const double value[], scene *s, fault *f)
 {
     (void)f;
     const section_spec spec = sections_of(100, 40, 1, 40);
-    const double end = -0.3;
-    const int tip = scenes_cantilever(s, &spec);
-    scene_add_load(s, SCENE_FORCE, tip, -1, 0, 0);
+    /* along x, or turned so that its load works on every coordinate */
+    const double along[2][3] = {{1, 0, 0}, {0.48, 0.6, 0.64}},
+                 across[2][3] = {{0, 1, 0}, {0.8, 0, -0.6}};
+    const double *const t = along[value[1] != 0];
+    const double end = -0.3 * t[0], step = 0.0123 * t[0];
+    const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, t[0], t[1], t[2]);
+    scene_hold_all(s, root);
+    scene_add_member(s, root, tip, scene_add_section(s, &spec), across[value[1] != 0]);
+    scene_add_load(s, SCENE_FORCE, tip, -t[0], -t[1], -t[2]);
     if (value[0] != 0) /* an unsymmetric pattern */
         scene_add_load(s, SCENE_MOMENT, tip, 0, 0, 0);
     const int path = scene_add_continuation(
         s, 1, &end,
-        (scene_control){.node = tip, .component = SCENE_UX, .step = 0.0123, .step_max = 0.0123});
+        (scene_control){.node = tip, .component = SCENE_UX, .step = step, .step_max = step});
     scene_add_quantity(s, "bifurcation", "N", path,
                        scene_critical_point(SCENE_BIFURCATION, 0, SCENE_LOAD_FACTOR));
     return STATUS_OK;
@@ -77,7 +83,9 @@ static status build_column(const double value[], scene *s, fault *f)
 static void bifurcations(const char *assignment)
 {
     static const parameter_type table[] = {
-        {"moment", "1", 0, 0, 1, NULL, "1: with a moment of no size"}, {0}};
+        {"moment", "1", 0, 0, 1, NULL, "1: with a moment of no size"},
+        {"turned", "1", 0, 0, 1, NULL, "1: along no axis"},
+        {0}};
     const case_type column = {.name = "column", .parameters = {table}, .build = build_column};
     const double EA = 100;
     cell_result r = solve(&column, "collocation", 8, assignment);
@@ -227,6 +235,7 @@ int main(void)
     limit_points();
     bifurcations("moment=0");
     bifurcations("moment=1");
+    bifurcations("turned=1");
     both_kinds();
     constant_steps();
     jump_ends_constant_steps();
