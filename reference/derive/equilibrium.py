@@ -6,6 +6,10 @@ Vibration: with y = (r, q, a, B) and p = (F, m0) of the equilibrium, and small u
   dy' = (df/dy) dy + (df/dp) dp - omega^2 rho Iw a on B,
   dF' = -omega^2 rho A u,   dm0' = r x dF' - omega^2 rho R diag(Ip, Iy, Iz) R^T theta
 (m = m0 - r x F is the moment in fixed axes), integrated spectrally as in network.py: an eigenvalue problem L z = omega^2 M z.
+
+interpolated: a consistent mass takes the amplitude of warping along an element from its twist, psi = kx - w (1 - 6 x (1 - x)), w = kx - a,
+so that kx^2 + w^2/5 has the inertia of a^2 (J section 3.2 without flexible warping; J Eq. 66 makes w = -(n_y ky + n_z kz)).  Its momentum rho Iw
+(kx + w/5) adds to Mx, -rho Iw w/5 to B'; Mx changes kx in turn, which is left out: 1e-11 of a frequency.
 """
 import math
 
@@ -54,8 +58,8 @@ def buckling():
 class Vibration:
     """Generalised eigenvalue problem of one member whose ends are at bodies' reference points; all in the network's units."""
 
-    def __init__(self, member, inertia):
-        self.m, self.n = member, member.beam.states
+    def __init__(self, member, inertia, interpolated=False):
+        self.m, self.n, self.interpolated = member, member.beam.states, interpolated
         self.fields = self.n + 6
         self.inertia = inertia  # (rho A, diag rho (Ip, Iy, Iz), rho Iw)
         self.intervals, self.points = member.y.shape[:2]
@@ -64,7 +68,7 @@ class Vibration:
     def slopes(self, y):
         """dz/ds = A z - omega^2 G z at one point; z = (dy, dp)."""
         n, L = self.n, self.m.beam.length
-        _, fy, fp = self.m.beam.slope_and_derivatives(y[:, None], self.m.p[:, None])
+        slope, fy, fp = self.m.beam.slope_and_derivatives(y[:, None], self.m.p[:, None])
         A, G = np.zeros((self.fields, self.fields)), np.zeros((self.fields, self.fields))
         A[:n, :n], A[:n, n:] = fy[0], fp[0]
         line, turn, warp = self.inertia
@@ -72,7 +76,12 @@ class Vibration:
         G[n:n + 3, :3] = L * line * np.eye(3)
         G[n + 3:, :3] = L * line * cross_matrix(y[:3])
         G[n + 3:, 3:7] = L * R @ np.diag(turn) @ R.T @ theta
-        if self.m.beam.warps:
+        if self.m.beam.warps and self.interpolated:
+            amplitude = np.eye(self.fields)[7]
+            rate = twist_rate(y[3:7], slope[3:7, 0], A[3:7], self.fields) / L
+            G[8] -= L * warp / 5 * (rate - amplitude)
+            G[:n] -= np.outer(fp[0][:, 3:] @ R[:, 0], warp * (rate + (rate - amplitude) / 5))
+        elif self.m.beam.warps:
             G[8, 7] = L * warp
         return A, G
 
@@ -111,6 +120,14 @@ class Vibration:
         return 1 / mu[:count]
 
 
+def twist_rate(q, slope, by, fields):
+    """Change [fields] of the x component of 2 vec(q* o q'); by: of q' [4, fields], q' = slope."""
+    conjugate = np.array([1, -1, -1, -1])
+    rate = 2 * product(q * conjugate, by)[1]
+    rate[3:7] += [2 * product(e * conjugate, slope)[1] for e in np.eye(4)]
+    return rate
+
+
 def turn_of(q):
     """theta [3, 4] of a change of the quaternion q: 2 vec(dq o q*)."""
     back = np.asarray(q) * np.array([1, -1, -1, -1])
@@ -137,7 +154,7 @@ def held_tip(vibration, y, p, free_warping):
     return rows[:6]
 
 
-def sheet_frequencies(count, given, form=lambda beam: beam):
+def sheet_frequencies(count, given, form=lambda beam: beam, interpolated=False):
     """Hz, of the sheet held at its deflected tip; form: see sheets.deflected."""
     value = {**defaults.values("sheet_cantilever"), **given}
     net, _ = deflected(given, form)
@@ -147,7 +164,7 @@ def sheet_frequencies(count, given, form=lambda beam: beam):
     mass = value["density"] / net.force  # times area and length^2: dimensionless, per 1/s^2
     inertia = (mass * A * length ** 2, mass * np.array([Iy + Iz, Iy, Iz]), mass * beam.EIw / value["young"] / length ** 2)
     member = net.members[0]
-    vibration = Vibration(member, inertia)
+    vibration = Vibration(member, inertia, interpolated)
     n = vibration.n
     start = np.eye(vibration.fields)[:8 if n == 9 else 7]
     end = held_tip(vibration, member.y[-1, -1], member.p, value["tip_warping"])

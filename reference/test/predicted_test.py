@@ -56,6 +56,13 @@ class Machinery(unittest.TestCase):
             for one, two in zip(coarse, fine):
                 self.assertLess(abs(one[3] / two[3] - 1), one[5], one[:3])
 
+    def test_amplitude_between_the_nodes(self):
+        """Where the twist rate is the amplitude both say the same; J Eq. 66 makes them differ."""
+        for name, least, most in (("beamw_first", 0, 1e-10), ("beamw", 2e-7, 3e-7)):
+            form = predicted.as_printed(name)
+            nodes, between = (equilibrium.sheet_frequencies(3, {}, form, one)[2] for one in (0, 1))
+            self.assertTrue(least <= abs(between / nodes - 1) < most, (name, nodes, between))
+
     def test_stored_rows(self):
         """Every closed form, and points of the beams."""
         stored = predicted_rows.stored_rows(predicted.CASES)
