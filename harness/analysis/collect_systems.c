@@ -76,7 +76,7 @@ static status inputs(const analysis_context *c, const model_state *state, worksp
         loads_add_one(c->model, state, &c->scene->load[i], 1, w->load);
         memcpy(w->input + (size_t)i * n, w->load, n * sizeof *w->input);
     }
-    return triplets_of_columns(size.free, c->scene->loads, w->input, out, f);
+    return system_matrices_triplets_of_columns(size.free, c->scene->loads, w->input, out, f);
 }
 
 /* With K known: B, and of a formulation with inertia M, and G where the axes turn. */
@@ -84,13 +84,13 @@ static status keep(const analysis_context *c, const model_state *state, double p
                    state_matrices *out, fault *f)
 {
     out->path = path;
-    TRY(triplets_of(&w->K, 0, &out->K, f));
+    TRY(system_matrices_triplets(&w->K, 0, &out->K, f));
     TRY(inputs(c, state, w, &out->B, f));
     if (!(model_sizes(c->model).features & FEATURE_MASS))
         return STATUS_OK;
     TRY(rotating_frame_inertia(c->model, state, path, &w->M, out->turns ? &w->G : NULL, f));
-    TRY(triplets_of(&w->M, 0, &out->M, f));
-    return out->turns ? triplets_of(&w->G, 1, &out->G, f) : STATUS_OK;
+    TRY(system_matrices_triplets(&w->M, 0, &out->M, f));
+    return out->turns ? system_matrices_triplets(&w->G, 1, &out->G, f) : STATUS_OK;
 }
 
 /* Of the undeformed structure; displaced: those of a linear solution whose stresses count, NULL:

@@ -17,7 +17,7 @@ void write_values_number(writer *w, double value);
 /* [a, b, c] */
 void write_values_numbers(writer *w, int count, const double value[]);
 /* KEY followed by the diagonal of a 6 x 6 matrix, or by all of it where the rest is not zero. */
-void write_matrix(writer *w, const char *key, const double A[36]);
+void write_values_matrix(writer *w, const char *key, const double A[36]);
 /* Is one of them not zero? */
 int write_values_any(int count, const double value[]);
 /* ", key: number" where it differs from what a reader takes when it is not there. */

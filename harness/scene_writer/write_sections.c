@@ -87,9 +87,9 @@ static void write_given(writer *w, const section_spec *spec)
 
 static void write_matrices(writer *w, const section *c)
 {
-    write_matrix(w, "stiffness: ", c->stiffness);
+    write_values_matrix(w, "stiffness: ", c->stiffness);
     if (write_values_any(36, c->mass))
-        write_matrix(w, ", mass: ", c->mass);
+        write_values_matrix(w, ", mass: ", c->mass);
 }
 
 void write_sections(writer *w)

@@ -149,7 +149,7 @@ void write_structure_springs(writer *w)
         if (p->p != SCENE_NONE)
             fprintf(w->to, "from: node_%d, ", p->p);
         fprintf(w->to, "to: node_%d, ", p->q);
-        write_matrix(w, "stiffness: ", p->stiffness);
+        write_values_matrix(w, "stiffness: ", p->stiffness);
         fputs("}\n", w->to);
     }
 }

@@ -78,7 +78,7 @@ void write_values_motion(writer *w, int index)
         fprintf(w->to, "motion_%d", index);
 }
 
-void write_matrix(writer *w, const char *key, const double A[36])
+void write_values_matrix(writer *w, const char *key, const double A[36])
 {
     double diagonal[6];
     int whole = 0;

@@ -31,7 +31,7 @@ static void add(triplets *t, int row, int column, double value)
     t->value[t->entries++] = value;
 }
 
-status triplets_of(const sparse *a, int skew, triplets *out, fault *f)
+status system_matrices_triplets(const sparse *a, int skew, triplets *out, fault *f)
 {
     const matrix_kind half = skew ? MATRIX_SKEW : MATRIX_SYMMETRIC;
     TRY(triplets_alloc(a->n, a->n, a->symmetric ? half : MATRIX_GENERAL, a->column[a->n], out, f));
@@ -45,7 +45,8 @@ status triplets_of(const sparse *a, int skew, triplets *out, fault *f)
     return STATUS_OK;
 }
 
-status triplets_of_columns(int rows, int columns, const double value[], triplets *out, fault *f)
+status system_matrices_triplets_of_columns(int rows, int columns, const double value[],
+                                           triplets *out, fault *f)
 {
     TRY(triplets_alloc(rows, columns, MATRIX_GENERAL, rows * columns, out, f));
     for (int j = 0; j < columns; j++)

@@ -34,9 +34,10 @@ typedef struct system_matrices {
 } system_matrices;
 
 /* Entries of a; skew: of a symmetric pattern the upper triangle of a skew matrix is stored. */
-status triplets_of(const sparse *a, int skew, triplets *out, fault *);
+status system_matrices_triplets(const sparse *a, int skew, triplets *out, fault *);
 /* From columns [columns x rows], one after the other. */
-status triplets_of_columns(int rows, int columns, const double value[], triplets *out, fault *);
+status system_matrices_triplets_of_columns(int rows, int columns, const double value[],
+                                           triplets *out, fault *);
 void system_matrices_free(system_matrices *);
 
 #endif
