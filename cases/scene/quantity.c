@@ -103,6 +103,22 @@ scene_extract scene_internal_along(int member, scene_along along, scene_resultan
     return (scene_extract){SCENE_INTERNAL, {.internal = {member, resultant, along, 0}}};
 }
 
+scene_extract scene_stress_along(int member, scene_stress_measure measure)
+{
+    return (scene_extract){SCENE_STRESS, {.stress = {member, measure, 1, 0}}};
+}
+
+scene_extract scene_stress_at(int member, double place, scene_stress_measure measure)
+{
+    return (scene_extract){SCENE_STRESS, {.stress = {member, measure, 0, place}}};
+}
+
+const scene_stress *scene_stress_of(const scene_quantity *q)
+{
+    assert(q->what.kind == SCENE_STRESS);
+    return &q->what.of.stress;
+}
+
 const scene_internal *scene_internal_of(const scene_quantity *q)
 {
     assert(q->what.kind == SCENE_INTERNAL);
@@ -160,10 +176,10 @@ int scene_gives(scene_analysis_kind analysis, scene_quantity_kind kind)
 {
     enum {
         STATE = 1 << SCENE_COORDINATE | 1 << SCENE_REACTION | 1 << SCENE_DRIVER_VALUE |
-                1 << SCENE_INTERNAL,
+                1 << SCENE_INTERNAL | 1 << SCENE_STRESS,
     };
     static const int gives[] = {
-        [SCENE_LINEAR] = 1 << SCENE_COORDINATE | 1 << SCENE_INTERNAL,
+        [SCENE_LINEAR] = 1 << SCENE_COORDINATE | 1 << SCENE_INTERNAL | 1 << SCENE_STRESS,
         [SCENE_STATIC] = STATE,
         [SCENE_BUCKLING] = 1 << SCENE_CRITICAL_FACTOR,
         [SCENE_MODAL] = 1 << SCENE_FREQUENCY,

@@ -19,7 +19,8 @@ typedef enum scene_quantity_kind {
     SCENE_FACTOR_AT,        /* load factor of a continuation where the control coordinate is ... */
     SCENE_CRITICAL_POINT,   /* of a continuation */
     SCENE_DRIVER_VALUE,     /* of an unknown driver */
-    SCENE_INTERNAL          /* resultant of the stresses on a section of a member */
+    SCENE_INTERNAL,         /* resultant of the stresses on a section of a member */
+    SCENE_STRESS            /* largest of a section or a member */
 } scene_quantity_kind;
 
 /* A point of a path at which the tangent stiffness is singular. */
@@ -79,6 +80,20 @@ typedef struct scene_internal {
     double place; /* of SCENE_ALONG_PLACE: 0 at p .. 1 at q, of the initial length */
 } scene_internal;
 
+/* Of all points of a section (elements/section/stress.h) [Pa]. */
+typedef enum scene_stress_measure {
+    SCENE_VON_MISES,
+    SCENE_NORMAL_MAX, /* along the fibres, tension positive */
+    SCENE_NORMAL_MIN
+} scene_stress_measure;
+
+typedef struct scene_stress {
+    int member;
+    scene_stress_measure measure;
+    int whole;    /* 1: of all sections of the member; 0: of the one at ... */
+    double place; /* 0 at p .. 1 at q, of the initial length */
+} scene_stress;
+
 typedef struct scene_entry {
     int row, column; /* response, load: SCENE_UX .. SCENE_RZ */
 } scene_entry;
@@ -113,6 +128,7 @@ typedef struct scene_extract {
         scene_point point;
         int driver;
         scene_internal internal;
+        scene_stress stress;
     } of;
 } scene_extract;
 
@@ -131,7 +147,11 @@ scene_extract scene_driver_value(int driver);
 /* place: 0 at p .. 1 at q */
 scene_extract scene_internal_at(int member, double place, scene_resultant resultant);
 scene_extract scene_internal_along(int member, scene_along along, scene_resultant resultant);
-/* What scene files and messages call it. */
+/* Over a member: of its sections the one that has most, of SCENE_NORMAL_MIN least. */
+scene_extract scene_stress_along(int member, scene_stress_measure measure);
+scene_extract scene_stress_at(int member, double place, scene_stress_measure measure);
+/* What scene files call it. */
+#define SCENE_STRESS_CHOICES    "von_mises|normal_max|normal_min"
 #define SCENE_RESULTANT_CHOICES "N|Qy|Qz|Mx|My|Mz|bimoment|Mx_saint_venant|Mx_warping|Mx_wagner"
 
 /* Abscissa of a curve. */
@@ -179,6 +199,7 @@ const scene_mode *scene_mode_of(const scene_quantity *q);
 const scene_point *scene_point_of(const scene_quantity *q);
 int scene_driver_of(const scene_quantity *q);
 const scene_internal *scene_internal_of(const scene_quantity *q);
+const scene_stress *scene_stress_of(const scene_quantity *q);
 /* Is it of this kind and this analysis? */
 int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind);
 /* Can it be extracted from an analysis of this kind? */

@@ -159,6 +159,8 @@ static int power_of(const scene *s, const scene_quantity *q)
     case SCENE_INTERNAL:
         return (scene_internal_of(q)->resultant >= SCENE_MX) +
                (scene_internal_of(q)->resultant == SCENE_BIMOMENT);
+    case SCENE_STRESS:
+        return -2;
     case SCENE_CRITICAL_FACTOR:
     case SCENE_GROWTH:
     case SCENE_FREQUENCY:

@@ -103,6 +103,26 @@ static int is_component(int component)
     return component >= SCENE_UX && component <= SCENE_RZ;
 }
 
+static status check_stress(const scene *s, const scene_quantity *q, fault *f)
+{
+    const scene_stress *c = scene_stress_of(q);
+    if (c->member < 0 || c->member >= s->members || !(c->place >= 0 && c->place <= 1) ||
+        c->measure < SCENE_VON_MISES || c->measure > SCENE_NORMAL_MIN)
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: no such stress; name a member, a place from 0 to 1 of it, "
+                         "and VON_MISES, NORMAL_MAX or NORMAL_MIN",
+                         q->name);
+    const int profile = s->member[c->member].section;
+    if (profile >= 0 && profile < s->sections &&
+        (s->section[profile].kind == SECTION_CONSTANTS ||
+         s->section[profile].kind == SECTION_MATRICES))
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: the section of member %d is given by numbers and has no "
+                         "points; describe it by sizes or walls, or ask for a resultant",
+                         q->name, c->member);
+    return STATUS_OK;
+}
+
 static status check_extract(const scene *s, const scene_quantity *q, fault *f)
 {
     switch (q->what.kind) {
@@ -136,6 +156,8 @@ static status check_extract(const scene *s, const scene_quantity *q, fault *f)
                              q->name);
         break;
     }
+    case SCENE_STRESS:
+        return check_stress(s, q, f);
     case SCENE_CRITICAL_FACTOR:
     case SCENE_GROWTH:
     case SCENE_FREQUENCY:

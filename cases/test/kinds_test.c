@@ -45,6 +45,11 @@ static void read_internal(const void *q)
     scene_internal_of(q);
 }
 
+static void read_stress(const void *q)
+{
+    scene_stress_of(q);
+}
+
 static void read_driver(const void *q)
 {
     scene_driver_of(q);
@@ -74,6 +79,7 @@ static void everything(scene *s)
         [SCENE_CRITICAL_POINT] = scene_critical_point(SCENE_LIMIT_POINT, 0, SCENE_CONTROL),
         [SCENE_DRIVER_VALUE] = scene_driver_value(0),
         [SCENE_INTERNAL] = scene_internal_at(0, 0, SCENE_N),
+        [SCENE_STRESS] = scene_stress_along(0, SCENE_VON_MISES),
     };
     for (size_t i = 0; i < sizeof what / sizeof what[0]; i++)
         scene_add_quantity(s, "q", "1", 0, what[i]);
@@ -96,10 +102,11 @@ int main(void)
         {"point", read_point, 0, 1 << SCENE_CRITICAL_POINT},
         {"driver", read_driver, 0, 1 << SCENE_DRIVER_VALUE},
         {"resultant", read_internal, 0, 1 << SCENE_INTERNAL},
+        {"stress", read_stress, 0, 1 << SCENE_STRESS},
     };
     scene s;
     everything(&s);
-    gsl_test(s.analyses != SCENE_ROTATION + 1 || s.quantities != SCENE_INTERNAL + 1,
+    gsl_test(s.analyses != SCENE_ROTATION + 1 || s.quantities != SCENE_STRESS + 1,
              "every kind is there");
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         if (row[i].analyses != 0)

@@ -24,16 +24,8 @@ flow_frame flow_frame_of(const section_spec *s, int w, const double y[], const d
     return (flow_frame){length, ty, tz, tz, -ty};
 }
 
-/* First moments of y, z and omega at the far point of a wall, with what the cells add
- * [m^3, m^3, m^4]. */
-typedef struct moments {
-    double start[3];
-} moments;
-
-/* Moment i of wall t->wall[k] at x in [0, 1] from its far to its near point, positive towards the
- * latter; value: y, z and omega at the points. */
-static double moment_at(const section_spec *s, const section_tree *t, const double *value[3],
-                        const moments *q, int k, int i, double x)
+double flow_moment(const section_spec *s, const section_tree *t, const double *value[3],
+                   const flow_moments *q, int k, int i, double x)
 {
     const double h = s->wall[t->wall[k]].thickness, length = tree_wall_length(s, t->wall[k]);
     const int near = t->near[k], far = t->far[k];
@@ -43,8 +35,8 @@ static double moment_at(const section_spec *s, const section_tree *t, const doub
 
 /* The walls are taken from the free ends towards the root, so that the moments of everything beyond are known.  Cells
  * are cut where the walls that close them end; what flows across the cuts then makes the warping one-valued. */
-static void first_moments(const section_spec *s, const section_tree *t, const double *value[3],
-                          moments q[])
+void flow_first_moments(const section_spec *s, const section_tree *t, const double *value[3],
+                        flow_moments q[])
 {
     const flow_rule rule = flow_rule_of_three();
     double beyond[SECTION_MAX_POINTS][3] = {{0}};
@@ -65,7 +57,7 @@ static void first_moments(const section_spec *s, const section_tree *t, const do
             const int w = t->wall[k], sign = s->wall[w].from == t->far[k] ? 1 : -1;
             for (int g = 0; g < FLOW_GAUSS; g++)
                 jump[w] -= sign * rule.w[g] * tree_wall_length(s, w) / s->wall[w].thickness *
-                           moment_at(s, t, value, q, k, i, rule.x[g]);
+                           flow_moment(s, t, value, q, k, i, rule.x[g]);
         }
         tree_flow(s, t, jump, flow);
         for (int k = 0; k < s->walls; k++)
@@ -77,8 +69,8 @@ void flow_compliance(const section_spec *s, const section_tree *t, const double 
                      const double pole[2], double sum[9])
 {
     const flow_rule rule = flow_rule_of_three();
-    moments q[SECTION_MAX_WALLS];
-    first_moments(s, t, value, q);
+    flow_moments q[SECTION_MAX_WALLS];
+    flow_first_moments(s, t, value, q);
     for (int k = s->walls - 1; k >= 0; k--) {
         const int w = t->wall[k];
         const double h = s->wall[w].thickness, length = tree_wall_length(s, w);
@@ -86,7 +78,7 @@ void flow_compliance(const section_spec *s, const section_tree *t, const double 
             const double ds = rule.w[g] * length;
             double S[3];
             for (int i = 0; i < 3; i++)
-                S[i] = moment_at(s, t, value, q, k, i, rule.x[g]);
+                S[i] = flow_moment(s, t, value, q, k, i, rule.x[g]);
             for (int i = 0; i < 3; i++)
                 for (int j = 0; j < 3; j++)
                     sum[3 * i + j] += ds * S[i] * S[j] / h;

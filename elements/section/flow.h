@@ -25,6 +25,18 @@ typedef struct flow_frame {
 
 flow_frame flow_frame_of(const section_spec *s, int w, const double y[], const double z[]);
 
+/* First moments of y, z and omega at the far point of a wall, with what the cells add [m^3, m^3, m^4]. */
+typedef struct flow_moments {
+    double start[3];
+} flow_moments;
+
+/* q[walls], in the order of the tree; value: y, z and omega at the points. */
+void flow_first_moments(const section_spec *s, const section_tree *t, const double *value[3],
+                        flow_moments q[]);
+/* Moment i of wall t->wall[k] at x in [0, 1] from its far to its near point, positive towards the latter. */
+double flow_moment(const section_spec *s, const section_tree *t, const double *value[3],
+                   const flow_moments q[], int k, int i, double x);
+
 /* Adds int S_i S_j/t ds, plus the share across the thickness about the shear centre `pole`, to sum.
  * value: y, z and omega at the points. */
 void flow_compliance(const section_spec *s, const section_tree *t, const double *value[3],

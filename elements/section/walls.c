@@ -4,6 +4,7 @@
 #include "elements/section/walls.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "elements/section/flow.h"
 
@@ -152,13 +153,14 @@ static double warping_constant(const section_spec *s, const double y[], const do
     return Iw;
 }
 
-status section_walls(const section_spec *s, section *out, fault *f)
+status walls_lines_of(const section_spec *s, walls_lines *lines, section *out, fault *f)
 {
-    section_tree t;
     TRY(check_walls(s, f));
-    TRY(tree_grow(s, &t, f));
-    double y[SECTION_MAX_POINTS] = {0}, z[SECTION_MAX_POINTS] = {0},
-           omega[SECTION_MAX_POINTS] = {0}, first[2] = {0, 0};
+    TRY(tree_grow(s, &lines->tree, f));
+    memset(lines->y, 0, sizeof lines->y);
+    memset(lines->z, 0, sizeof lines->z);
+    memset(lines->omega, 0, sizeof lines->omega);
+    double *y = lines->y, *z = lines->z, first[2] = {0, 0};
     for (int w = 0; w < s->walls; w++) {
         const double area = tree_wall_length(s, w) * s->wall[w].thickness;
         out->A += area;
@@ -190,15 +192,23 @@ status section_walls(const section_spec *s, section *out, fault *f)
                          "stiffness across it; switch "
                          "thickness_terms on or give a rectangle");
 
-    double pole[2] = {0, 0}, psi[SECTION_MAX_WALLS];
-    out->It += cell_torsion(s, &t, y, z, psi);
-    sectorial(s, &t, y, z, 0, 0, out->A, psi, omega);
+    double *omega = lines->omega, *pole = lines->pole;
+    out->It += cell_torsion(s, &lines->tree, y, z, lines->flow);
+    sectorial(s, &lines->tree, y, z, 0, 0, out->A, lines->flow, omega);
     pole[0] = product(s, omega, z) / out->Iy;
     pole[1] = -product(s, omega, y) / out->Iz;
-    sectorial(s, &t, y, z, pole[0], pole[1], out->A, psi, omega);
+    sectorial(s, &lines->tree, y, z, pole[0], pole[1], out->A, lines->flow, omega);
     out->ys = pole[0];
     out->zs = pole[1];
     out->Iw = warping_constant(s, y, z, omega, pole);
+    return STATUS_OK;
+}
+
+status section_walls(const section_spec *s, section *out, fault *f)
+{
+    walls_lines lines;
+    TRY(walls_lines_of(s, &lines, out, f));
+    const double *y = lines.y, *z = lines.z, *omega = lines.omega;
     /* Walls that meet in one point do not warp along their mid-lines: what is left of Iw is rounding. */
     const int warps = out->Iw > 1e-24 * out->Ip * out->Ip / out->A;
     if (!warps)
@@ -207,7 +217,7 @@ status section_walls(const section_spec *s, section *out, fault *f)
 
     const double *value[3] = {y, z, omega};
     const double inertia[3] = {out->Iz, out->Iy, out->Iw};
-    flow_compliance(s, &t, value, pole, out->F);
+    flow_compliance(s, &lines.tree, value, lines.pole, out->F);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             out->F[3 * i + j] =

@@ -49,7 +49,7 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
     }
     switch (c->scene->analysis[q->analysis].kind) {
     case SCENE_LINEAR:
-        if (q->what.kind == SCENE_INTERNAL)
+        if (q->what.kind == SCENE_INTERNAL || q->what.kind == SCENE_STRESS)
             extract_section_linear(c, q, o, r);
         else
             from_linear(c, q, o, r);

@@ -71,6 +71,7 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
     case SCENE_FACTOR_AT:
         return kinematics_state_path(path->state[i]);
     case SCENE_INTERNAL:
+    case SCENE_STRESS:
         return extract_section_state(c, q, path->state[i], r);
     case SCENE_CRITICAL_FACTOR:
     case SCENE_CRITICAL_POINT:

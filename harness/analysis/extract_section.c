@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "harness/equations/internal.h"
+#include "harness/equations/internal_stress.h"
 #include "harness/equations/linear.h"
 #include "harness/model/kinematics.h"
 #include "harness/solver/quantity.h"
@@ -25,8 +26,10 @@ typedef struct chosen {
     double sign;
 } chosen;
 
-static double measured(void *context, const double resultants[])
+static double measured(void *context, int element, double x, const double resultants[])
 {
+    (void)element;
+    (void)x;
     const chosen *what = context;
     const double value = resultants[value_of[what->resultant]];
     return what->sign != 0 ? what->sign * value : fabs(value);
@@ -52,13 +55,28 @@ static status internal_of(const analysis_context *c, const scene_internal *what,
     return STATUS_OK;
 }
 
+static status value_in(const analysis_context *c, const scene_quantity *q, const internal_state *s,
+                       double *out, fault *f)
+{
+    static const stress_measure measure[] = {[SCENE_VON_MISES] = STRESS_VON_MISES,
+                                             [SCENE_NORMAL_MAX] = STRESS_NORMAL_MAX,
+                                             [SCENE_NORMAL_MIN] = STRESS_NORMAL_MIN};
+    if (q->what.kind == SCENE_INTERNAL)
+        return internal_of(c, scene_internal_of(q), s, out, f);
+    const scene_stress *what = scene_stress_of(q);
+    if (what->whole)
+        return internal_stress_largest(c->model, s, what->member, measure[what->measure], out, f);
+    return internal_stress_at(c->model, s, what->member, what->place, measure[what->measure], out,
+                              f);
+}
+
 double extract_section_state(const analysis_context *c, const scene_quantity *q,
                              const model_state *s, quantity_result *r)
 {
     const internal_state at = {.s = s, .path = kinematics_state_path(s)};
     double value = NAN;
     fault f = {""};
-    const status outcome = internal_of(c, scene_internal_of(q), &at, &value, &f);
+    const status outcome = value_in(c, q, &at, &value, &f);
     if (outcome == STATUS_OK)
         return value;
     quantity_no_value(r, outcome, f.text);
@@ -74,7 +92,7 @@ void extract_section_linear(const analysis_context *c, const scene_quantity *q,
     fault f = {"out of memory for stresses"};
     status outcome = sigma != NULL ? linear_stresses(c->model, at.x, sigma, &f) : STATUS_FAULT;
     if (outcome == STATUS_OK)
-        outcome = internal_of(c, scene_internal_of(q), &at, &value, &f);
+        outcome = value_in(c, q, &at, &value, &f);
     if (outcome == STATUS_OK)
         r->value = quantity_scaled(q, value);
     else

@@ -160,6 +160,7 @@ status internal_at(model *m, const internal_state *s, int member, double place, 
 typedef struct measured {
     const span_grid *g;
     const span_fields *fields;
+    int element; /* counted along the member */
     internal_measure of;
     void *context;
 } measured;
@@ -168,7 +169,7 @@ static double measure_at(const measured *what, double x)
 {
     double v[SPAN_VALUES];
     span_at(what->g, what->fields, x, v);
-    return what->of(what->context, v);
+    return what->of(what->context, what->element, x, v);
 }
 
 /* Between a and b, where one point of the grid is larger than its neighbours: golden section. */
@@ -199,7 +200,7 @@ static void take_largest(const measured *what, double *largest)
 {
     double value[SPAN_GRID_POINTS];
     for (int j = 0; j < SPAN_GRID_POINTS; j++) {
-        value[j] = what->of(what->context, what->fields->value[j]);
+        value[j] = what->of(what->context, what->element, what->g->x[j], what->fields->value[j]);
         *largest = fmax(*largest, value[j]);
     }
     for (int j = 1; j + 1 < SPAN_GRID_POINTS; j++) {
@@ -223,7 +224,7 @@ status internal_largest(model *m, const internal_state *s, int member, internal_
     for (int i = m->first_element[member]; i < m->first_element[member + 1]; i++) {
         span_fields fields;
         TRY(recover(m, s, i, &g, &fields, f));
-        take_largest(&(measured){&g, &fields, of, context}, out);
+        take_largest(&(measured){&g, &fields, i - m->first_element[member], of, context}, out);
     }
     return STATUS_OK;
 }

@@ -27,8 +27,9 @@ void internal_at_end(model *, const internal_state *, int member, int end, doubl
 status internal_at(model *, const internal_state *, int member, double place, double out[],
                    fault *);
 
-/* Largest value of `of` over a member, that of a section from its resultants [SPAN_VALUES]. */
-typedef double (*internal_measure)(void *context, const double resultants[]);
+/* Largest value of `of` over a member, that of the section at x in [0, 1] of an element, counted along the member, from its
+ * resultants [SPAN_VALUES]. */
+typedef double (*internal_measure)(void *context, int element, double x, const double resultants[]);
 status internal_largest(model *, const internal_state *, int member, internal_measure of,
                         void *context, double *out, fault *);
 

@@ -71,6 +71,7 @@ static scene_extract extract_of(const axes *a, const scene_quantity *q, int *sig
     case SCENE_CRITICAL_POINT:
     case SCENE_DRIVER_VALUE:
     case SCENE_INTERNAL: /* in the section's own axes */
+    case SCENE_STRESS:
         break;
     }
     return q->what;

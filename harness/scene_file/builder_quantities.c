@@ -116,6 +116,30 @@ static scene_extract internal(const fields *f)
         member, fields_have(f, "where") ? place_of(f) : fields_word(f, "end", "from|to", 0), what);
 }
 
+/* Given constants have no points. */
+static void check_points(const fields *f, int member)
+{
+    const scene *s = f->b->scene;
+    if (member < 0 || member >= s->members || s->member[member].section < 0 ||
+        s->member[member].section >= s->sections ||
+        (s->section[s->member[member].section].kind != SECTION_CONSTANTS &&
+         s->section[s->member[member].section].kind != SECTION_MATRICES))
+        return;
+    document_mistake(f->b->mistakes, document_find(f->map, "member"), 0,
+                     "its section is given by numbers and has no points; describe it by sizes "
+                     "or walls, or ask for 'internal'");
+}
+
+static scene_extract stress(const fields *f)
+{
+    const int member = fields_entry(f, "member", LIST_MEMBERS);
+    const scene_stress_measure what =
+        (scene_stress_measure)fields_word(f, "measure", SCENE_STRESS_CHOICES, 0);
+    check_points(f, member);
+    return fields_have(f, "where") ? scene_stress_at(member, place_of(f), what)
+                                   : scene_stress_along(member, what);
+}
+
 static const struct {
     const char *key;
     scene_extract (*read)(const fields *);
@@ -129,7 +153,8 @@ static const struct {
              {"factor_at", factor_at},
              {"critical_point", critical_point},
              {"motion", motion},
-             {"internal", internal}};
+             {"internal", internal},
+             {"stress", stress}};
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 
 /* Unit of a value where the file gives none. */
@@ -160,6 +185,8 @@ static const char *usual_unit(const scene *s, const scene_quantity *q)
         if (scene_internal_of(q)->resultant == SCENE_BIMOMENT)
             return "N m^2";
         return scene_internal_of(q)->resultant < SCENE_MX ? "N" : "N m";
+    case SCENE_STRESS:
+        return "Pa";
     case SCENE_CRITICAL_FACTOR:
     case SCENE_FACTOR_AT:
         break;

@@ -105,6 +105,14 @@ static const scene_key internal[] = {
      .summary = "of what lies towards 'to', in the turned section's principal axes"},
     {.name = NULL}};
 
+static const scene_key stress[] = {
+    TAKEN,
+    {"member", KEY_NAME, .needed = 1, .summary = "member; its section not given by constants"},
+    {"where", KEY_NUMBER, .summary = "0 'from' to 1 'to', of its length; left out: all along it"},
+    {"measure", KEY_WORD, .words = SCENE_STRESS_CHOICES,
+     .summary = "over the section's points; von_mises where it is left out"},
+    {.name = NULL}};
+
 static const scene_key entry[] = {
     TAKEN,
     {"row", KEY_WORD, .needed = 1, .words = COMPONENTS, .summary = "response"},
@@ -176,7 +184,8 @@ const scene_key keys_quantity[] = {
      .summary = "value of an unknown motion"},
     {"internal", KEY_MAP, .needed = 1, .group = 1, .below = internal,
      .summary = "resultant of stresses on a section of a member"},
-    {.name = "stress", .kind = KEY_LATER, .group = 1},
+    {"stress", KEY_MAP, .needed = 1, .group = 1, .below = stress,
+     .summary = "largest stress of a member or of a section of it"},
     {.name = "energy", .kind = KEY_LATER, .group = 1},
     {.name = "momentum", .kind = KEY_LATER, .group = 1},
     {"unit", KEY_TEXT, .summary = "SI unit; left out: that of the kind"},

@@ -125,6 +125,17 @@ static void write_place(writer *w, const scene_internal *c)
     fprintf(w->to, ", resultant: %s", resultant[c->resultant]);
 }
 
+static void write_stress(writer *w, const scene_stress *c)
+{
+    static const char *const measure[] = {"von_mises", "normal_max", "normal_min"};
+    fprintf(w->to, ", member: member_%d", c->member);
+    if (!c->whole) {
+        fputs(", where: ", w->to);
+        write_values_number(w, c->place);
+    }
+    fprintf(w->to, ", measure: %s", measure[c->measure]);
+}
+
 /* "kind: {analysis: ...", what is extracted. */
 static void write_extract(writer *w, const scene_quantity *q)
 {
@@ -138,7 +149,8 @@ static void write_extract(writer *w, const scene_quantity *q)
                                       [SCENE_FACTOR_AT] = "factor_at",
                                       [SCENE_CRITICAL_POINT] = "critical_point",
                                       [SCENE_DRIVER_VALUE] = "motion",
-                                      [SCENE_INTERNAL] = "internal"};
+                                      [SCENE_INTERNAL] = "internal",
+                                      [SCENE_STRESS] = "stress"};
     static const char *const family[] = {"any",       "not_axial", "axial",
                                          "bending_y", "bending_z", "torsion"};
     fprintf(w->to, "%s: {analysis: analysis_%d", key[q->what.kind], q->analysis);
@@ -154,6 +166,9 @@ static void write_extract(writer *w, const scene_quantity *q)
         break;
     case SCENE_INTERNAL:
         write_place(w, scene_internal_of(q));
+        break;
+    case SCENE_STRESS:
+        write_stress(w, scene_stress_of(q));
         break;
     case SCENE_STIFFNESS_ENTRY:
         fprintf(w->to, ", component: %s", write_values_component[scene_entry_of(q)->row]);

@@ -159,6 +159,45 @@ quantities:
         again = self.scene(self.answered("scene", "--scene", path).stdout, "again.yaml")
         self.assertEqual(values(self.record("solve", "--scene", again, "-f", formulation, "-n", 3)), got)
 
+    STRESS = """\
+beamwork: 1
+sections:
+  box: {box: {depth: 0.1, flange: 0.06, flange_thickness: 2e-3, web_thickness: 3e-3}, young: 210e9, shear_modulus: 81e9}
+nodes:
+  base: {at: [0, 0, 0], hold: all}
+  tip: {at: [2, 0, 0]}
+members:
+  bar: {from: base, to: tip, section: box, y: [0, 1, 0], warping: free}
+loads:
+  push: {force: [500, 0, 0], on: tip}
+  bend: {moment: [300, 0, 0], on: tip}
+analyses:
+  linear: {linear: {}}
+  pulled: {static: {stations: [0.5, 1]}}
+quantities:
+  ${m}_$a: {for: {m: [von_mises, normal_max, normal_min], a: [linear, pulled]}, stress: {analysis: $a, member: bar, measure: $m}}
+  middle: {stress: {analysis: linear, member: bar, where: 0.5}}
+  path: {stress: {analysis: pulled, member: bar, take: max}, unit: MPa, factor: 1e-6}
+"""
+
+    def test_stress(self):
+        """A box, free to warp, pulled and twisted: Bredt's flow and what varies through its thinnest wall; the same bits when written."""
+        area, swept, perimeter = 2*(0.1*3e-3 + 0.06*2e-3), 2*0.1*0.06, 2*(0.1/3e-3 + 0.06/2e-3)
+        It = swept**2/perimeter + 2*(0.1*3e-3**3 + 0.06*2e-3**3)/3
+        tau = max(300/It*(swept/perimeter/t + t) for t in (2e-3, 3e-3))
+        mises = ((500/area)**2 + 3*tau**2)**0.5
+        path = self.scene(self.STRESS, "stress.yaml")
+        for formulation in ("collocation", "geometrically_exact", "beamw", "beamw_consistent"):
+            got = values(self.record("solve", "--scene", path, "-f", formulation, "-n", 2))
+            self.assertAlmostEqual(got["von_mises_linear"]/mises, 1, delta=1e-9)
+            self.assertAlmostEqual(got["middle"]/mises, 1, delta=1e-9)
+            self.assertAlmostEqual(got["normal_max_linear"]*area/500, 1, delta=1e-9)
+            self.assertAlmostEqual(got["normal_min_linear"]*area/500, 1, delta=1e-9)
+            self.assertAlmostEqual(got["path"]*1e6/got["von_mises_pulled"], 1, delta=1e-12)
+            self.assertAlmostEqual(got["von_mises_pulled"]/mises, 1, delta=1e-3)
+        again = self.scene(self.answered("scene", "--scene", path).stdout, "again.yaml")
+        self.assertEqual(values(self.record("solve", "--scene", again, "-f", formulation, "-n", 2)), got)
+
     def test_instance_by_axes(self):
         """An instance placed by its axes is what its members are when they are written out."""
         got = values(self.record("solve", "--scene", self.scene(PLACED), "-f", "collocation",

@@ -1,0 +1,208 @@
+#include "elements/section/stress.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/pi.h"
+#include "elements/section/flow.h"
+#include "elements/section/walls.h"
+
+enum { PER_QY, PER_QZ, PER_WARPING, PER_TWIST };
+
+/* Saint-Venant's torsion of a rectangle, thickness 1, w wide: shear stress at the middle of its long sides per G kappa t. */
+static double long_side(double w)
+{
+    double sum = 0;
+    for (int n = 11; n >= 1; n -= 2)
+        sum += 1 / (n * n * cosh(n * PI * w / 2));
+    return 1 - 8 / (PI * PI) * sum;
+}
+
+/* At the middle of its short sides: the alternating sum of tanh/n^2, without the tanh Catalan's constant. */
+static double short_side(double w)
+{
+    const double catalan = 0.915965594177219015;
+    double sum = catalan;
+    for (int n = 11; n >= 1; n -= 2)
+        sum -= (n % 4 == 1 ? 1.0 : -1.0) / (n * n) * 2 / (exp(n * PI * w) + 1);
+    return 8 / (PI * PI) * sum;
+}
+
+static void rectangle_points(const section *c, stress_points *out)
+{
+    const double h = c->height, w = c->width; /* along y, along z */
+    const int flat = w >= h;                  /* thin along y */
+    const double thin = fmin(h, w), ratio = fmax(h, w) / thin, at_long = long_side(ratio) * thin,
+                 at_short = short_side(ratio) * thin, parabola = 1.5 / c->A;
+    for (int i = -1; i <= 1; i++)
+        for (int k = -1; k <= 1; k++) {
+            stress_point *p = &out->point[out->count++];
+            memset(p, 0, sizeof *p);
+            p->y = i * h / 2;
+            p->z = k * w / 2;
+            p->omega = (flat ? -1 : 1) * p->y * p->z;
+            if (i == 0) {
+                p->across[PER_QY][0] = parabola;
+                p->across[PER_TWIST][0] = -k * (flat ? at_short : at_long);
+                if (flat && c->Iw > 0)
+                    p->across[PER_WARPING][0] = -p->z * h * h / (8 * c->Iw);
+            }
+            if (k == 0) {
+                p->across[PER_QZ][1] = parabola;
+                p->across[PER_TWIST][1] = i * (flat ? at_long : at_short);
+                if (!flat && c->Iw > 0)
+                    p->across[PER_WARPING][1] = p->y * w * w / (8 * c->Iw);
+            }
+        }
+}
+
+/* Walls' values and first moments. */
+typedef struct wall_flow {
+    const section_spec *spec;
+    const section *constants;
+    walls_lines lines;
+    flow_moments q[SECTION_MAX_WALLS];
+} wall_flow;
+
+/* Both surfaces of the wall of entry k at x in [0, 1] from its far to its near point. */
+static void wall_points(const wall_flow *of, int k, double x, stress_points *out)
+{
+    const section_spec *s = of->spec;
+    const section *c = of->constants;
+    const walls_lines *l = &of->lines;
+    const int w = l->tree.wall[k], near = l->tree.near[k], far = l->tree.far[k],
+              forward = s->wall[w].from == far;
+    const double t = s->wall[w].thickness, *value[3] = {l->y, l->z, l->omega},
+                 inertia[3] = {c->Iz, c->Iy, c->Iw};
+    const flow_frame n = flow_frame_of(s, w, l->y, l->z);
+    for (int side = -1; side <= 1; side += 2) {
+        stress_point *p = &out->point[out->count++];
+        memset(p, 0, sizeof *p);
+        p->y = l->y[far] + x * (l->y[near] - l->y[far]);
+        p->z = l->z[far] + x * (l->z[near] - l->z[far]);
+        p->omega = l->omega[far] + x * (l->omega[near] - l->omega[far]);
+        const double arm = (p->y - l->pole[0]) * n.ty + (p->z - l->pole[1]) * n.tz;
+        for (int i = 0; i < 3; i++) { /* q = -Q S/I, from far to near */
+            const double stress =
+                inertia[i] > 0 ? -flow_moment(s, &l->tree, value, of->q, k, i, x) / (inertia[i] * t)
+                               : 0;
+            p->across[i][0] = (forward ? 1 : -1) * stress * n.ty;
+            p->across[i][1] = (forward ? 1 : -1) * stress * n.tz;
+        }
+        p->across[PER_TWIST][0] = (l->flow[w] / t + side * t) * n.ty;
+        p->across[PER_TWIST][1] = (l->flow[w] / t + side * t) * n.tz;
+        if (s->thickness_terms) { /* the stress varies through the wall */
+            p->y += side * t / 2 * n.ny;
+            p->z += side * t / 2 * n.nz;
+            p->omega -= side * t / 2 * arm;
+        }
+    }
+}
+
+static status walls_of(const section_spec *s, const section *c, stress_points *out, fault *f)
+{
+    wall_flow of = {.spec = s, .constants = c};
+    section scratch;
+    memset(&scratch, 0, sizeof scratch);
+    TRY(walls_lines_of(s, &of.lines, &scratch, f));
+    const double *value[3] = {of.lines.y, of.lines.z, of.lines.omega};
+    flow_first_moments(s, &of.lines.tree, value, of.q);
+    for (int k = 0; k < s->walls; k++) {
+        const int near = of.lines.tree.near[k], far = of.lines.tree.far[k];
+        for (int i = 0; i < 3; i++)
+            wall_points(&of, k, i / 2.0, out);
+        for (int i = 0; i < 3; i++)
+            if (value[i][near] * value[i][far] < 0)
+                wall_points(&of, k, value[i][far] / (value[i][far] - value[i][near]), out);
+    }
+    return STATUS_OK;
+}
+
+status stress_points_of(const section_spec *spec, const section *constants, stress_points *out,
+                        fault *f)
+{
+    out->section = constants;
+    out->count = 0;
+    out->radius = 0;
+    switch (spec->kind) {
+    case SECTION_RECTANGLE:
+        rectangle_points(constants, out);
+        return STATUS_OK;
+    case SECTION_TUBE:
+        out->radius = spec->diameter / 2;
+        return STATUS_OK;
+    case SECTION_WALLS:
+        return walls_of(spec, constants, out, f);
+    case SECTION_CONSTANTS:
+    case SECTION_MATRICES:
+        break;
+    }
+    return fault_set(f, STATUS_REFUSED,
+                     "stresses of a section that is given by numbers: it has no points; describe "
+                     "it by sizes or walls, or ask for resultants");
+}
+
+/* Of a fibre, along it and across it in y and z. */
+typedef struct stress {
+    double along, y, z;
+} stress;
+
+static double measured(const stress *s, stress_measure what)
+{
+    switch (what) {
+    case STRESS_VON_MISES:
+        return sqrt(s->along * s->along + 3 * (s->y * s->y + s->z * s->z));
+    case STRESS_NORMAL_MAX:
+        return s->along;
+    case STRESS_NORMAL_MIN:
+        break;
+    }
+    return -s->along;
+}
+
+/* Elongation of a turned fibre beyond what the section takes as N, My and Mz. */
+static double turned(const section *c, double y, double z, double twist)
+{
+    const double u = y - c->ys, v = z - c->zs, mean = c->Ip / c->A + c->ys * c->ys + c->zs * c->zs,
+                 by_y = c->wagner_y / c->Iz - 2 * c->ys, by_z = c->wagner_z / c->Iy - 2 * c->zs;
+    return c->young * twist * twist / 2 * (u * u + v * v - mean - by_y * y - by_z * z);
+}
+
+static double of_point(const section *c, const stress_point *p, const stress_resultants *r,
+                       stress_measure what)
+{
+    const double by[4] = {r->Qy, r->Qz, r->warping, c->shear_modulus * r->twist};
+    stress s = {r->N / c->A - r->Mz * p->y / c->Iz + r->My * p->z / c->Iy, 0, 0};
+    if (c->Iw > 0)
+        s.along -= r->bimoment * p->omega / c->Iw;
+    if (r->turned)
+        s.along += turned(c, p->y, p->z, r->twist);
+    for (int i = 0; i < 4; i++) {
+        s.y += by[i] * p->across[i][0];
+        s.z += by[i] * p->across[i][1];
+    }
+    return measured(&s, what);
+}
+
+/* The outermost fibres of a tube in the plane of bending. */
+static double of_tube(const section *c, double R, const stress_resultants *r, stress_measure what)
+{
+    double largest = -INFINITY;
+    for (int side = -1; side <= 1; side += 2) {
+        stress s = {r->N / c->A + side * hypot(r->My, r->Mz) * R / c->Iy,
+                    c->shear_modulus * r->twist * R, 0};
+        if (r->turned)
+            s.along += turned(c, R, 0, r->twist);
+        largest = fmax(largest, measured(&s, what));
+    }
+    return largest;
+}
+
+double stress_of(const stress_points *points, const stress_resultants *r, stress_measure what)
+{
+    double largest =
+        points->radius > 0 ? of_tube(points->section, points->radius, r, what) : -INFINITY;
+    for (int i = 0; i < points->count; i++)
+        largest = fmax(largest, of_point(points->section, &points->point[i], r, what));
+    return what == STRESS_NORMAL_MIN ? -largest : largest;
+}
