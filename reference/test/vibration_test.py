@@ -31,7 +31,7 @@ def square(field, weight):
 class Scenes(unittest.TestCase):
     def test_scenes_have_what_is_derived(self):
         stored = {(row["case"], row["quantity"]): row for row in scenes.stored()}
-        for name, count in (("off_centre_masses", 6), ("double_cross", 16)):
+        for name, count in (("off_centre_masses", 6), ("double_cross", 16), ("bent_leaf", 6)):
             rows = [row for row, _ in rederive.derived_rows(name, True)]
             self.assertEqual(len(rows), count)
             for row in rows:

@@ -1,0 +1,59 @@
+"""Leaf between a clamp and a stage that moves across it without turning, free along the leaf: the elastica, extensible.
+
+Each half is a cantilever under a force F across it at the point of inflection: N = F sin t, and with s the initial length
+  EI t'' = -F cos t (1 + F sin t/EA),   EI t'^2/2 = F (sin e - sin t) + F^2 (sin^2 e - sin^2 t)/2EA,   e = t at the inflection.
+With sin t = sin e - u^2 the integrals over the angle are smooth.  At the clamp N = 0: the stress there is E t' h/2.
+"""
+from mpmath import asin, cos, findroot, mp, mpf, quad, sin, sqrt
+
+mp.dps = 30
+TABLES = "examples"
+E, LENGTH, WIDTH, THICK, TRAVEL = mpf("200e9"), mpf("0.1"), mpf("0.02"), mpf("0.5e-3"), mpf("0.03")
+EI, EA = E * WIDTH * THICK ** 3 / 12, E * WIDTH * THICK
+
+
+def curvature(F, e, u):
+    """t' where sin t = sin e - u^2."""
+    return u * sqrt(2 * F / EI * (1 + F / EA * (sin(e) - u ** 2 / 2)))
+
+
+def integral(F, e, low, f):
+    """Of f(sin t) over the initial length from the inflection to where u = low .. of a half."""
+    def slope(u):
+        t = asin(sin(e) - u ** 2)
+        return f(sin(t)) * 2 / (cos(t) * sqrt(2 * F / EI * (1 + F / EA * (sin(e) - u ** 2 / 2))))
+    return quad(slope, [0, low])
+
+
+def solved(travel):
+    """Force and angle at the inflection."""
+    def missing(F, e):
+        root = sqrt(sin(e))
+        return (integral(F, e, root, lambda sine: 1) / LENGTH - mpf(1) / 2,
+                integral(F, e, root, lambda sine: sine * (1 + F * sine / EA)) / travel - mpf(1) / 2)
+    return findroot(missing, (12 * EI * travel / LENGTH ** 3, mpf(3) / 2 * travel / LENGTH))
+
+
+def stress(travel):
+    """At the clamp, where it is largest."""
+    F, e = solved(travel)
+    return E * THICK / 2 * curvature(F, e, sqrt(sin(e)))
+
+
+def moment(travel, place):
+    """At a part of the length below one half."""
+    F, e = solved(travel)
+    u = findroot(lambda low: integral(F, e, low, lambda sine: 1) / LENGTH - (mpf(1) / 2 - place), sqrt(sin(e)) * (1 - 2 * place))
+    return EI * curvature(F, e, u)
+
+
+def rows():
+    def row(quantity, value, unit):
+        return "bent_leaf", "thickness=0.5e-3", quantity, value, unit
+    most = stress(TRAVEL)
+    yield row("stress_small", stress(TRAVEL / 100), "Pa")
+    yield row("stress", most, "Pa")
+    yield row("compression", -most, "Pa")
+    yield row("quarter", moment(TRAVEL, mpf(1) / 4), "N m")
+    yield row("largest", most * WIDTH * THICK ** 2 / 6, "N m")
+    yield row("force", solved(TRAVEL)[0], "N")
