@@ -1,0 +1,120 @@
+/* Resultants and stresses inside members that twist far, turn steadily, or have their shear centre beside them. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "harness/catalogue/registry.h"
+#include "harness/test/ask.h"
+
+/* A strip, free to shorten and to warp, twisted by 0.6 rad: kappa is uniform, M = G J kappa + 4 E c kappa^3, and its edges are
+ * stretched. */
+static void strip(const element_type *e, ask_tally *tally)
+{
+    const double y[3] = {0, 1, 0}, w = 0.04, h = 1e-3, l = 0.4, path[2] = {0, 1},
+                 turn[2] = {0, 0.6};
+    static answer a;
+    scene s;
+    const section_spec spec = section_spec_rectangle(200e9, 80e9, w, h);
+    section c;
+    scene_init(&s, "strip");
+    const int root = scene_add_node(&s, 0, 0, 0), tip = scene_add_node(&s, l, 0, 0);
+    scene_hold_all(&s, root);
+    scene_hold(&s, tip, SCENE_UY, SCENE_UZ);
+    scene_hold(&s, tip, SCENE_RY, SCENE_RZ);
+    scene_drive(&s, tip, SCENE_RX, scene_add_driver(&s, "turn", 2, path, turn));
+    scene_add_member(&s, root, tip, scene_add_section(&s, &spec), y);
+    scene_need(&s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
+    const int twisted = scene_add_static(&s, 1, &path[1], 4);
+    scene_add_quantity(&s, "torque", "N m", twisted, scene_internal_at(0, 0.3, SCENE_MX));
+    scene_add_quantity(&s, "shear", "N m", twisted,
+                       scene_internal_at(0, 0.3, SCENE_MX_SAINT_VENANT));
+    scene_add_quantity(&s, "fibres", "N m", twisted, scene_internal_at(0, 0.3, SCENE_MX_WAGNER));
+    scene_add_quantity(&s, "edge", "Pa", twisted, scene_stress_along(0, SCENE_NORMAL_MAX));
+    scene_add_quantity(&s, "middle", "Pa", twisted, scene_stress_along(0, SCENE_NORMAL_MIN));
+    gsl_test(scene_constants(&s, 0, &c, NULL) != STATUS_OK, "a strip");
+    ask_scene(&s, e, NULL, 4, &a);
+    scene_free(&s);
+    if (!ask_count(tally, &a, "strip"))
+        return;
+    const double k = 0.6 / l, shear = 80e9 * c.It * k,
+                 fibres = 4 * 200e9 * c.wagner_torque * k * k * k,
+                 exact[] = {shear + fibres, shear, fibres, 200e9 * k * k * (w * w + h * h) / 12,
+                            -200e9 * k * k * (w * w + h * h) / 24};
+    for (int i = 0; i < a.count; i++)
+        gsl_test_rel(a.value[i], exact[i], 1e-5, "%s: %s of a twisted strip", e->name, a.name[i]);
+}
+
+/* A blade that turns about z, its root on the axis: N = rho A Omega^2 (l^2 - x^2)/2, but for its stretch of some 1e-6. */
+static void blade(const element_type *e, ask_tally *tally)
+{
+    const double y[3] = {0, 1, 0}, l = 0.5, one = 1, omega = 20;
+    static answer a;
+    scene s;
+    section_spec spec = section_spec_rectangle(200e9, 80e9, 0.02, 0.01);
+    spec.density = 7800;
+    scene_init(&s, "blade");
+    const int root = scene_add_node(&s, 0, 0, 0), tip = scene_add_node(&s, l, 0, 0);
+    scene_hold_all(&s, root);
+    scene_add_member(&s, root, tip, scene_add_section(&s, &spec), y);
+    const int turning = scene_add_rotation(&s, 1, &one, 1, 0, (scene_rotating_frame){.omega = {0, 0, omega}});
+    scene_add_quantity(&s, "N", "N", turning, scene_internal_at(0, 0.6, SCENE_N));
+    scene_add_quantity(&s, "stress", "Pa", turning, scene_stress_along(0, SCENE_VON_MISES));
+    ask_scene(&s, e, NULL, 3, &a);
+    scene_free(&s);
+    if (!ask_count(tally, &a, "blade"))
+        return;
+    const double root_stress = 7800 * omega * omega * l * l / 2;
+    gsl_test_rel(a.value[0], root_stress * 0.02 * 0.01 * (1 - 0.36), 1e-4, "%s: pull inside",
+                 e->name);
+    gsl_test_rel(a.value[1], root_stress, 1e-4, "%s: stress at the root", e->name);
+}
+
+/* A C under a force at its centroid, root held: torque F e about the shear centre, B = F e/lambda tanh(lambda l). */
+static void channel(const element_type *e, ask_tally *tally)
+{
+    static const double y[3] = {0, 1, 0}, t[3] = {3e-3, 3e-3, 3e-3},
+                        point[4][2] = {{-0.03, 0.05}, {0.02, 0.05}, {0.02, -0.05}, {-0.03, -0.05}};
+    static answer a;
+    scene s;
+    section c;
+    const double l = 1.5, F = 40;
+    const section_spec spec = section_spec_walls(200e9, 80e9, 3, point, NULL, t);
+    scene_init(&s, "channel");
+    const int root = scene_add_node(&s, 0, 0, 0), tip = scene_add_node(&s, l, 0, 0),
+              member = scene_add_member(&s, root, tip, scene_add_section(&s, &spec), y);
+    scene_hold_all(&s, root);
+    scene_member_at(&s, member)->warp_p = SCENE_WARP_FIXED;
+    scene_add_load(&s, SCENE_FORCE, tip, 0, 0, F);
+    const int linear = scene_add_linear(&s);
+    scene_add_quantity(&s, "root", "N m^2", linear, scene_internal_at(0, 0, SCENE_BIMOMENT));
+    scene_add_quantity(&s, "inside", "N m^2", linear,
+                       scene_internal_along(0, SCENE_ALONG_LARGEST, SCENE_BIMOMENT));
+    scene_add_quantity(&s, "stress", "Pa", linear, scene_stress_along(0, SCENE_NORMAL_MAX));
+    gsl_test(scene_constants(&s, 0, &c, NULL) != STATUS_OK, "a C");
+    ask_scene(&s, e, NULL, 16, &a);
+    scene_free(&s);
+    if (!ask_count(tally, &a, "channel"))
+        return;
+    const double k = sqrt(80e9 * c.It / (200e9 * c.Iw)), B = F * fabs(c.ys) / k * tanh(k * l);
+    /* at the ends of flanges and at their corners: e of a thin C, and the warping function there */
+    const double f = 0.05, h = 0.1, web = 3 * f * f / (h + 6 * f), tip_omega = h / 2 * (f - web),
+                 corner = h / 2 * web, bend = F * l * h / 2 / c.Iy,
+                 most = fmax(bend + B * corner / c.Iw, fabs(bend - B * tip_omega / c.Iw));
+    gsl_test_rel(fabs(c.ys - 0.02 + c.centroid[0]), web, 1e-12, "shear centre of a C");
+    gsl_test_rel(fabs(a.value[0]), B, 3e-3, "%s: bimoment at the root", e->name);
+    gsl_test_rel(a.value[1], fabs(a.value[0]), 1e-9, "%s: it is largest there", e->name);
+    gsl_test_rel(a.value[2], most, 3e-3, "%s: bending and bimoment together", e->name);
+}
+
+int main(void)
+{
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        const element_type *e = registry_formulations[i];
+        ask_tally tally = {0};
+        strip(e, &tally);
+        blade(e, &tally);
+        channel(e, &tally);
+        ask_conclude(&tally, e, "resultants of states");
+    }
+    return gsl_test_summary();
+}
