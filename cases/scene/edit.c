@@ -25,6 +25,31 @@ static void mirror_section(section_spec *spec)
         }
 }
 
+/* With mirror_section: forces change sides, x and y their direction. */
+static void reverse_internal(scene_quantity *q)
+{
+    const scene_internal what = *scene_internal_of(q);
+    const int odd = what.resultant == SCENE_QZ || what.resultant == SCENE_MZ ||
+                    what.resultant == SCENE_BIMOMENT;
+    scene_along along = what.along;
+    if (odd && along == SCENE_ALONG_MAX)
+        along = SCENE_ALONG_MIN;
+    else if (odd && along == SCENE_ALONG_MIN)
+        along = SCENE_ALONG_MAX;
+    q->what = along == SCENE_ALONG_PLACE
+                  ? scene_internal_at(what.member, 1 - what.place, what.resultant)
+                  : scene_internal_along(what.member, along, what.resultant);
+    if (odd && along != SCENE_ALONG_LARGEST)
+        q->factor = -q->factor;
+}
+
+static void reverse_stress(scene_quantity *q)
+{
+    const scene_stress *what = scene_stress_of(q);
+    if (!what->whole)
+        q->what = scene_stress_at(what->member, 1 - what->place, what->measure);
+}
+
 static status reverse(scene *s, fault *f)
 {
     for (int i = 0; i < s->sections; i++)
@@ -56,6 +81,43 @@ static status reverse(scene *s, fault *f)
                 s->load[i].vector[k] = -s->load[i].vector[k];
                 s->load[i].at[k] = -s->load[i].at[k];
             }
+    for (int i = 0; i < s->quantities; i++) {
+        scene_quantity *q = &s->quantity[i];
+        if (q->what.kind == SCENE_INTERNAL)
+            reverse_internal(q);
+        else if (q->what.kind == SCENE_STRESS)
+            reverse_stress(q);
+    }
+    return STATUS_OK;
+}
+
+/* A place of the first member, which ends at `fraction` now: in that one, or in the second. */
+static double split_place(double place, double fraction, int second, int *member)
+{
+    *member = place < fraction ? 0 : second;
+    return place < fraction ? place / fraction : (place - fraction) / (1 - fraction);
+}
+
+static status split_quantity(scene_quantity *q, double fraction, int second, fault *f)
+{
+    const int internal = q->what.kind == SCENE_INTERNAL && scene_internal_of(q)->member == 0,
+              stress = q->what.kind == SCENE_STRESS && scene_stress_of(q)->member == 0;
+    int member;
+    if ((internal && scene_internal_of(q)->along != SCENE_ALONG_PLACE) ||
+        (stress && scene_stress_of(q)->whole))
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s is of all of member 0, which is split; ask for a place of it",
+                         q->name);
+    if (internal) {
+        const scene_internal what = *scene_internal_of(q);
+        const double place = split_place(what.place, fraction, second, &member);
+        q->what = scene_internal_at(member, place, what.resultant);
+    }
+    if (stress) {
+        const scene_stress what = *scene_stress_of(q);
+        const double place = split_place(what.place, fraction, second, &member);
+        q->what = scene_stress_at(member, place, what.measure);
+    }
     return STATUS_OK;
 }
 
@@ -123,6 +185,8 @@ static status split(scene *s, double fraction, fault *f)
             if (whole.stations > 0)
                 scene_set_factor(s, part, whole.stations, whole.path, whole.factor);
         }
+    for (int i = 0; i < s->quantities; i++)
+        TRY(split_quantity(&s->quantity[i], fraction, second, f));
     return STATUS_OK;
 }
 

@@ -56,7 +56,8 @@ static void blade(const element_type *e, ask_tally *tally)
     const int root = scene_add_node(&s, 0, 0, 0), tip = scene_add_node(&s, l, 0, 0);
     scene_hold_all(&s, root);
     scene_add_member(&s, root, tip, scene_add_section(&s, &spec), y);
-    const int turning = scene_add_rotation(&s, 1, &one, 1, 0, (scene_rotating_frame){.omega = {0, 0, omega}});
+    const int turning =
+        scene_add_rotation(&s, 1, &one, 1, 0, (scene_rotating_frame){.omega = {0, 0, omega}});
     scene_add_quantity(&s, "N", "N", turning, scene_internal_at(0, 0.6, SCENE_N));
     scene_add_quantity(&s, "stress", "Pa", turning, scene_stress_along(0, SCENE_VON_MISES));
     ask_scene(&s, e, NULL, 3, &a);
@@ -106,6 +107,70 @@ static void channel(const element_type *e, ask_tally *tally)
     gsl_test_rel(a.value[2], most, 3e-3, "%s: bending and bimoment together", e->name);
 }
 
+/* All of it, of a section without symmetry under every load. */
+static void everything(scene *s, int whole)
+{
+    static const double y[3] = {0, 1, 0}, t[3] = {3e-3, 2e-3, 4e-3},
+                        point[4][2] = {{-0.03, 0.05}, {0.02, 0.06}, {0.02, -0.05}, {-0.05, -0.04}};
+    const section_spec spec = section_spec_walls(200e9, 80e9, 3, point, NULL, t);
+    scene_init(s, "everything");
+    const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, 1.5, 0.3, 0.2),
+              member = scene_add_member(s, root, tip, scene_add_section(s, &spec), y);
+    scene_hold_all(s, root);
+    scene_member_at(s, member)->warp_p = SCENE_WARP_FIXED;
+    scene_add_load(s, SCENE_FORCE, tip, 200, -30, 40);
+    scene_add_load(s, SCENE_MOMENT, tip, 5, 7, -3);
+    scene_load_at(s, scene_add_load(s, SCENE_DISTRIBUTED, member, 20, 30, 10))->axes =
+        SCENE_AXES_MEMBER;
+    const int linear = scene_add_linear(s);
+    for (int r = SCENE_N; r <= SCENE_MX_WARPING; r++)
+        for (int along = SCENE_ALONG_PLACE; along <= SCENE_ALONG_LARGEST; along++) {
+            char name[SCENE_NAME];
+            snprintf(name, sizeof name, "%d_%d", r, along);
+            if (along == SCENE_ALONG_PLACE || whole)
+                scene_add_quantity(
+                    s, name, "1", linear,
+                    along == SCENE_ALONG_PLACE
+                        ? scene_internal_at(member, 0.3, (scene_resultant)r)
+                        : scene_internal_along(member, (scene_along)along, (scene_resultant)r));
+        }
+    for (int i = SCENE_VON_MISES; i <= SCENE_NORMAL_MIN; i++) {
+        char name[SCENE_NAME];
+        snprintf(name, sizeof name, "stress_%d", i);
+        scene_add_quantity(s, name, "Pa", linear,
+                           whole ? scene_stress_along(member, (scene_stress_measure)i)
+                                 : scene_stress_at(member, 0.8, (scene_stress_measure)i));
+    }
+}
+
+/* The same answer when the member runs the other way, is two, or is measured in millimetres. */
+static void in_other_words(const element_type *e, ask_tally *tally)
+{
+    static const scene_edit edits[] = {
+        {SCENE_EDIT_REVERSE, 0}, {SCENE_EDIT_UNIT, 1000}, {SCENE_EDIT_SPLIT, 0.5}};
+    static answer a, b;
+    for (int i = 0; i < 3; i++) {
+        scene s;
+        fault f = {""};
+        everything(&s, edits[i].kind != SCENE_EDIT_SPLIT);
+        ask_scene(&s, e, NULL, 4, &a);
+        gsl_test(scene_edit_apply(&s, &edits[i], &f) != STATUS_OK, "edit %d: %s", i, f.text);
+        ask_scene(&s, e, NULL, edits[i].kind == SCENE_EDIT_SPLIT ? 2 : 4, &b);
+        scene_free(&s);
+        if (!ask_count(tally, &a, "everything") || !ask_count(tally, &b, "edit %d", i))
+            continue;
+        for (int k = 0; k < a.count; k++)
+            gsl_test(!(fabs(b.value[k] - a.value[k]) <= 1e-7 * (fabs(a.value[k]) + 1e-2)),
+                     "%s: %s in other words %d: %.12g, %.12g", e->name, a.name[k], i, b.value[k],
+                     a.value[k]);
+    }
+    scene s;
+    fault f = {""};
+    everything(&s, 1);
+    gsl_test(scene_edit_apply(&s, &edits[2], &f) != STATUS_REFUSED, "the whole is not split");
+    scene_free(&s);
+}
+
 int main(void)
 {
     for (int i = 0; registry_formulations[i] != NULL; i++) {
@@ -114,6 +179,7 @@ int main(void)
         strip(e, &tally);
         blade(e, &tally);
         channel(e, &tally);
+        in_other_words(e, &tally);
         ask_conclude(&tally, e, "resultants of states");
     }
     return gsl_test_summary();
