@@ -107,6 +107,36 @@ static void channel(const element_type *e, ask_tally *tally)
     gsl_test_rel(a.value[2], most, 3e-3, "%s: bending and bimoment together", e->name);
 }
 
+/* A bar that tapers from h to h/4 under a force at its thin tip: 6 F b/(w h(b)^2) is largest a third of the length from there,
+ * whatever the elements, each of which has the section of its middle. */
+static void tapered(const element_type *e, ask_tally *tally, int elements)
+{
+    const double y[3] = {0, 1, 0}, w = 0.02, h = 0.04, l = 0.9, F = 50;
+    static answer a;
+    scene s;
+    const section_spec thick = section_spec_rectangle(200e9, 80e9, w, h),
+                       thin = section_spec_rectangle(200e9, 80e9, w, h / 4);
+    scene_init(&s, "tapered");
+    const int root = scene_add_node(&s, 0, 0, 0), tip = scene_add_node(&s, l, 0, 0),
+              member = scene_add_member(&s, root, tip, scene_add_section(&s, &thick), y);
+    scene_member_at(&s, member)->section_q = scene_add_section(&s, &thin);
+    scene_hold_all(&s, root);
+    scene_add_load(&s, SCENE_FORCE, tip, 0, F, 0);
+    const int linear = scene_add_linear(&s);
+    scene_add_quantity(&s, "largest", "Pa", linear, scene_stress_along(0, SCENE_NORMAL_MAX));
+    scene_add_quantity(&s, "root", "Pa", linear, scene_stress_at(0, 0, SCENE_NORMAL_MIN));
+    scene_add_quantity(&s, "shear", "Pa", linear, scene_stress_at(0, 1, SCENE_VON_MISES));
+    ask_scene(&s, e, NULL, elements, &a);
+    scene_free(&s);
+    if (!ask_count(tally, &a, "taper of %d elements", elements))
+        return;
+    const double exact[] = {6 * F * (l / 3) / (w * h * h / 4), -6 * F * l / (w * h * h),
+                            sqrt(3) * 1.5 * F / (w * h / 4)};
+    for (int i = 0; i < a.count; i++)
+        gsl_test_rel(a.value[i], exact[i], 1e-8, "%s: %s of a taper, %d elements", e->name,
+                     a.name[i], elements);
+}
+
 /* All of it, of a section without symmetry under every load. */
 static void everything(scene *s, int whole)
 {
@@ -179,6 +209,8 @@ int main(void)
         strip(e, &tally);
         blade(e, &tally);
         channel(e, &tally);
+        tapered(e, &tally, 1);
+        tapered(e, &tally, 4);
         in_other_words(e, &tally);
         ask_conclude(&tally, e, "resultants of states");
     }
