@@ -101,7 +101,7 @@ baseline: verify ## print what has changed, for the commit message, and accept i
 	@$(PROGRAM) compare $(BASELINE) $(BUILD)/results.h5 || [ $$? = 1 ]
 	@$(PROGRAM) compare $(BUILD)/results.h5 -o $(BASELINE)
 
-truths: needs-truths ## derive every exact and predicted row again, and solids where CalculiX is installed; compare with reference/
+truths: needs-truths all ## derive every exact and predicted row again, and solids where CalculiX is installed; compare with reference/
 	@$(PYTHON) reference/derive/rederive.py
 	@$(PYTHON) reference/derive/predicted.py
 

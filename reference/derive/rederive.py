@@ -56,14 +56,17 @@ def is_solid(name):
 
 
 def derived_rows(name, everything):
-    """A program yields (case, parameters, quantity, value, unit[, relative uncertainty[, convention[, at]]])."""
+    """A program yields (case, parameters, quantity, value, unit[, relative uncertainty[, convention[, at[, formulation]]]]);
+    with a formulation: the limit that it must have."""
     module = importlib.import_module(f"reference.derive.{name}")
     kind, model = ("independent", "other") if is_solid(name) else ("exact", "same")
     for given in module.rows(everything) if is_solid(name) else module.rows():
         case, parameters, quantity, value, unit = given[:5]
         relative = given[5] if len(given) > 5 else 10.0 ** (1 - DIGITS) / 2
         uncertainty = abs(float(value)) * relative if float(value) != 0 else relative
-        row = {**dict.fromkeys(COLUMNS, ""), "case": case, "parameters": parameters, "quantity": quantity, "unit": unit, "kind": kind, "model": model,
+        formulation = given[8] if len(given) > 8 else ""
+        row = {**dict.fromkeys(COLUMNS, ""), "case": case, "parameters": parameters, "quantity": quantity, "unit": unit, "kind": "predicted" if formulation else kind, "model": model,
+               "formulation": formulation,
                "theory": "" if is_solid(name) else theory.of(case, parameters, quantity), "at": given[7] if len(given) > 7 else "",
                "value": as_text(value, relative), "uncertainty": "%.1e" % uncertainty,
                "convention": given[6] if len(given) > 6 else "", "source": f"reference/derive/{name.replace('.', '/')}.py"}
@@ -71,7 +74,7 @@ def derived_rows(name, everything):
 
 
 def key_of(folder, row):
-    return folder, row["case"], canonical(row["parameters"]), row["quantity"], row["at"], row["kind"]
+    return folder, row["case"], canonical(row["parameters"]), row["quantity"], row["at"], row["kind"], row["formulation"]
 
 
 def write(names):

@@ -12,7 +12,7 @@ from reference.derive.scene_text import Refused, named, number, numbers, only, t
 
 NEEDS = ("shear", "trapeze", "wagner_moments", "wagner_torque", "rotary_inertia", "warping", "haringx")
 SCENE = ("beamwork", "name", "summary", "source", "sections", "nodes", "members", "motions", "loads", "analyses", "quantities", "needs", "meshes")
-NODE = ("at", "hold", "drive", "part_of", "rotation", "fork")
+NODE = ("at", "hold", "drive", "part_of", "rotation", "fork", "mass", "centre", "inertia")  # no inertia matters at rest
 MEMBER = ("from", "to", "section", "y", "warping", "curvature", "divisions")
 LOAD = ("force", "moment", "distributed", "distributed_moment", "gravity", "on", "path", "factor", "at", "axes", "follower")
 
@@ -50,9 +50,10 @@ class Frame:
 class SceneNetwork:
     """net; places {name: Place}; motion {name: function(level, numbers)} in SI; unknown {motion: its number}."""
 
-    def __init__(self, scene, intervals, nodes):
+    def __init__(self, scene, intervals, nodes, form=lambda beam: beam):
+        """form: turns a beam into another one, as predicted.py does."""
         only(scene, "the scene", SCENE)
-        self.scene, self.needs = scene, scene.get("needs", [])
+        self.scene, self.needs, self.form = scene, scene.get("needs", []), form
         for word in self.needs:
             if word not in NEEDS:
                 raise Refused(f"needs: '{word}' is not within the deriving program")
@@ -125,7 +126,7 @@ class SceneNetwork:
         only(entry, name, NODE)
         at = numbers(entry["at"], name, 3)
         if "part_of" in entry:
-            only(entry, name, ("at", "part_of"))
+            only(entry, name, ("at", "part_of", "mass", "centre", "inertia"))
             owner = self.scene["nodes"][entry["part_of"]]
             if entry["part_of"] not in self.places:
                 self._node(entry["part_of"], owner)
@@ -209,14 +210,14 @@ class SceneNetwork:
             frame, (section, where) = self.frames[name], self._section(entry)
             if frame.curvature and constants_of(section, where).turned:
                 raise Refused(f"{name}: a curved member with inclined principal axes is not within the deriving program")
-            form, s = beam(section, self.needs, frame.length, frame.curvature, where)
+            plain, s = beam(section, self.needs, frame.length, frame.curvature, where)
             ends = [named(self.places, entry[end], "node", name) for end in ("from", "to")]
             principal = frame.principal(s.turned)
             loads = list(self._line_loads(name, frame.described, principal, s, number(section.get("density", "0"), where)))
             warping = entry.get("warping", ["free", "free"])
             warp = tuple(w if isinstance(w, str) else w["shared"] for w in (warping if isinstance(warping, list) else [warping] * 2))
             start = numbers(self.scene["nodes"][entry["from"]]["at"], name, 3)
-            self.member[name] = self.net.member(form, ends[0].body, ends[1].body, start, rotation(quaternion(principal)), warp, loads)
+            self.member[name] = self.net.member(self.form(plain), ends[0].body, ends[1].body, start, rotation(quaternion(principal)), warp, loads)
 
     def displacement(self, name, component):
         """[m, rad] of a node."""

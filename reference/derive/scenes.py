@@ -4,8 +4,8 @@ import re
 
 FOLDER = "examples"
 PATH = pathlib.Path(__file__).resolve().parents[2] / "cases" / FOLDER
-FIELDS = ("quantity", "value", "uncertainty", "kind", "source", "parameters")
-ROW = re.compile(r'^ *- \{quantity: (\w+), value: (\S+), uncertainty: (\S+), kind: (\w+), source: "([^"]*)"(?:, parameters: \{(.*)\})?\}$')
+FIELDS = ("quantity", "value", "uncertainty", "kind", "formulation", "source", "parameters")
+ROW = re.compile(r'^ *- \{quantity: (\w+), value: (\S+), uncertainty: (\S+), kind: (\w+)(?:, formulation: ([\w*]+))?, source: "([^"]*)"(?:, parameters: \{(.*)\})?\}$')
 
 
 def names():
@@ -16,7 +16,8 @@ def line_of(row):
     """A derived row, as a scene has it."""
     given = row["parameters"].replace("=", ": ").replace(";", ", ")
     text = ", ".join(f"{name}: {row[name]}" for name in FIELDS[:4])
-    return "  - {" + text + f', source: "{row["source"]}"' + (f", parameters: {{{given}}}" if given else "") + "}"
+    of = f', formulation: {row["formulation"]}' if row["formulation"] else ""
+    return "  - {" + text + of + f', source: "{row["source"]}"' + (f", parameters: {{{given}}}" if given else "") + "}"
 
 
 def stored():
@@ -24,6 +25,6 @@ def stored():
     for path in sorted(PATH.glob("*.yaml")):
         for line in path.read_text(encoding="utf-8").splitlines():
             found = ROW.match(line)
-            if found and found[5].startswith("reference/derive/"):
+            if found and found[6].startswith("reference/derive/"):
                 row = dict(zip(FIELDS, found.groups("")))
                 yield {**row, "case": path.stem, "parameters": row["parameters"].replace(": ", "=").replace(", ", ";"), **dict.fromkeys(("at", "theory", "convention"), "")}

@@ -110,6 +110,23 @@ class Scenes(unittest.TestCase):
         self.close(other["w"], -0.3 / 3)
         self.assertNotAlmostEqual(one["w"][0], other["w"][0], delta=1e-3)
 
+    def test_resultants(self):
+        """At the root of a cantilever: the load at its tip and its moment; at the end of one with a line load: nothing."""
+        def at(end, what):
+            return f"internal: {{analysis: path, member: beam, end: {end}, resultant: {what}}}, unit: N"
+        asked = {"Q": at("from", "Qy"), "M": at("from", "Mz"), "N": at("from", "N"), "end": at("to", "Mz")}
+        found = values(bar("force: [2, 3, 0], on: tip", asked, path="linear: {}"))
+        for name, expected in (("Q", 3.0), ("M", 3.0), ("N", 2.0)):
+            self.close(found[name], expected)
+        self.assertAlmostEqual(found["end"][0], 0, delta=1e-11)
+        found = values(bar("distributed: [0, 2, 0], on: beam", asked, path="linear: {}"))
+        self.close(found["Q"], 2.0)
+        self.close(found["M"], 1.0)
+        self.assertAlmostEqual(found["end"][0], 0, delta=1e-11)
+        found = values(bar("force: [0, 3, 0], on: tip", {**asked, "u": tip("ux")}))
+        self.close(found["Q"], 3.0)
+        self.close(found["M"], 3 * (1 + found["u"][0]))
+
     def test_roll_up(self):
         """A moment 2 pi EI/L makes a circle."""
         found = values(bar(f"moment: [0, 0, {math.pi!r}], on: tip", {"u": tip("ux"), "w": tip("uy")}))
@@ -136,7 +153,6 @@ class Refusals(unittest.TestCase):
     def test_each_names_what(self):
         push, asked = "force: [0, 1, 0], on: tip", {"w": tip("uy")}
         self.refused("'springs'", bar(push, asked) + "springs: {}\n")
-        self.refused("'mass'", bar(push, asked, tip=", mass: 3"))
         self.refused("'strain'", bar(push, asked, beam=", strain: [1e-3, 0, 0]"))
         self.refused("needs: 'engesser'", bar(push, asked, needs="engesser"))
         self.refused("changes along", bar(push, asked).replace("section: bar", "section: [bar, bar]"))

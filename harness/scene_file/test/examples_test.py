@@ -13,7 +13,7 @@ class ExamplesTest(SceneCase):
         judged = 0
         for path in sorted(EXAMPLES.glob("*.yaml")):
             self.answered("list", "--scene", path)
-            known = run("truth", "--scene", path).returncode == 0
+            known = "\ntruths:" in path.read_text(encoding="utf-8")
             done = run("verify", "--scene", path, "-f", "collocation")
             self.assertEqual(done.returncode, 0 if known else 3, (path.name, done.stdout))
             judged += known
@@ -23,7 +23,7 @@ class ExamplesTest(SceneCase):
         """All examples at once, every formulation as expected; a case beside them; names once."""
         done = self.answered("verify", "--scene", EXAMPLES)
         self.assertIn("0 verdicts differ", done.stdout)
-        found = re.findall(r"^  (\S+) +k_drive .* biased, as predicted, N50-mechanisms$",
+        found = re.findall(r"^  (\S+) +k_drive .* biased, as predicted, N50-examples$",
                            done.stdout, re.M)
         self.assertEqual(found, ["sheet_third", "sheet_third_printed"])
         verdicts = self.folder / "verdicts.json"
@@ -41,14 +41,14 @@ class ExamplesTest(SceneCase):
         self.refused(2, "would replace", "verify", "--scene", self.folder, "-o", taken)
 
     def test_leaf_spring_guide(self):
-        """Both exact stiffnesses, and the limit of the pushed stage's support stiffness."""
+        """Stiffnesses at rest by hand, those of the pushed stage by the deriving program."""
         path = EXAMPLES / "leaf_spring_guide.yaml"
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 4))
         self.assertAlmostEqual(got["k_drive"] / 2624.536778, 1, delta=1e-9)
         self.assertAlmostEqual(got["k_support"] / 1.05e8, 1, delta=1e-12)
         self.assertAlmostEqual(got["k_pushed"] / 13.1869e6, 1, delta=1e-5)
         done = self.answered("verify", "--scene", path, "-f", "collocation")
-        self.assertIn("2 pass", done.stdout)
+        self.assertIn("5 pass", done.stdout)
 
     def test_double_cross(self):
         """Stiffness out of the plane leaves the sixteen frequencies in it alone."""
