@@ -63,7 +63,9 @@ int cli_export(int count, char **arguments)
     return cli_run(
         "export", "[CASE]",
         "Writes a case, or a scene of your own (--scene FILE), as solids in the words of "
-        "another program: rectangles as bricks with 20 nodes and reduced integration, ends "
+        "another program: rectangles and straight walls at right angles as bricks with 20 nodes "
+        "and "
+        "reduced integration, ends "
         "and bodies rigid; -n elements along each member (default 20), dense at its ends. "
         "What a deck cannot say is refused. harness/export/read_back.py makes an import of "
         "what the program prints.",

@@ -3,10 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "elements/math/pi.h"
 #include "elements/math/rotation.h"
 
-enum { BRICK_NODES = 20, SHEET_RATIO = 4, SHEET_ACROSS = 8, ACROSS = 2, DECK_LINE = 10 };
+enum { BRICK_NODES = 20, DECK_LINE = 10 };
 
 /* Corners, then middles of the edges of the lower face, of the upper face and between them, in
  * half steps. */
@@ -15,18 +14,13 @@ static const int places[BRICK_NODES][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 
                                            {1, 2, 0}, {0, 1, 0}, {1, 0, 2}, {2, 1, 2}, {1, 2, 2},
                                            {0, 1, 2}, {0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {0, 2, 1}};
 
-static int across(double side, double other)
-{
-    if (side >= SHEET_RATIO * other)
-        return SHEET_ACROSS;
-    return other >= SHEET_RATIO * side ? 1 : ACROSS;
-}
-
-void brick_init(brick *out, const scene *s, int member, int along, int first_node,
-                int first_element)
+status brick_init(brick *out, const scene *s, int member, int along, int first_node,
+                  int first_element, fault *f)
 {
     const scene_member *m = &s->member[member];
-    const section_spec *profile = &s->section[m->section];
+    section constants;
+    TRY(scene_constants(s, m->section, &constants, f));
+    TRY(face_of(&s->section[m->section], &constants, &out->face, f));
     double x[3], squared = 0;
     for (int i = 0; i < 3; i++) {
         out->origin[i] = s->node[m->p].position[i];
@@ -35,13 +29,12 @@ void brick_init(brick *out, const scene *s, int member, int along, int first_nod
     }
     rotation_triad(x, m->y_axis, out->axes);
     out->length = sqrt(squared);
-    out->height = profile->height;
-    out->width = profile->width;
     out->elements[BRICK_ALONG] = along;
-    out->elements[BRICK_Y] = across(out->height, out->width);
-    out->elements[BRICK_Z] = across(out->width, out->height);
+    out->elements[BRICK_Y] = out->face.elements[0];
+    out->elements[BRICK_Z] = out->face.elements[1];
     out->first_node = first_node;
     out->first_element = first_element;
+    return STATUS_OK;
 }
 
 static int places_along(const brick *b, int axis)
@@ -64,33 +57,47 @@ int brick_next_node(const brick *b)
 
 int brick_next_element(const brick *b)
 {
-    return b->first_element + b->elements[0] * b->elements[1] * b->elements[2];
+    int filled = 0;
+    for (int i = 0; i < b->elements[BRICK_Y]; i++)
+        for (int k = 0; k < b->elements[BRICK_Z]; k++)
+            filled += b->face.filled[i][k];
+    return b->first_element + b->elements[BRICK_ALONG] * filled;
 }
 
-/* Corner k of n elements on 0 to 1, dense at both ends. */
-static double graded(int k, int n)
-{
-    return (1 - cos(PI * k / n)) / 2;
-}
-
-/* Place `at` of the lattice along an axis, from 0 to 1. Single elements stay as they are. */
+/* Place `at` of the lattice along the member, from 0 to 1. */
 static double share(int at, int n)
 {
-    return (graded(at / 2, n) + graded((at + 1) / 2, n)) / 2;
+    return (face_graded(at / 2, n) + face_graded((at + 1) / 2, n)) / 2;
+}
+
+/* Place `at` of the lattice along an axis of the face [m]. */
+static double across(const double corner[], int at)
+{
+    return (corner[at / 2] + corner[(at + 1) / 2]) / 2;
+}
+
+/* Is there a brick at this place of the face? */
+static int is_filled(const face *s, int y, int z)
+{
+    for (int i = (y - 1) / 2; i <= y / 2; i++)
+        for (int k = (z - 1) / 2; k <= z / 2; k++)
+            if (i < s->elements[0] && k < s->elements[1] && s->filled[i][k])
+                return 1;
+    return 0;
 }
 
 /* A place between corners in two directions has no node. */
-static int has_node(const int at[3])
+static int has_node(const brick *b, const int at[3])
 {
-    return at[0] % 2 + at[1] % 2 + at[2] % 2 < 2;
+    return at[0] % 2 + at[1] % 2 + at[2] % 2 < 2 && is_filled(&b->face, at[BRICK_Y], at[BRICK_Z]);
 }
 
 static void write_node(const brick *b, const int at[3], FILE *to)
 {
     const double local[3] = {
         b->length * share(at[BRICK_ALONG], b->elements[BRICK_ALONG]),
-        b->height * (share(at[BRICK_Y], b->elements[BRICK_Y]) - 0.5),
-        b->width * (share(at[BRICK_Z], b->elements[BRICK_Z]) - 0.5),
+        across(b->face.corner[0], at[BRICK_Y]),
+        across(b->face.corner[1], at[BRICK_Z]),
     };
     double p[3];
     for (int i = 0; i < 3; i++) {
@@ -109,7 +116,7 @@ static void each_node(const brick *b, int first, int last, visit *what, FILE *to
     for (at[0] = first; at[0] <= last; at[0]++)
         for (at[1] = 0; at[1] < places_along(b, BRICK_Y); at[1]++)
             for (at[2] = 0; at[2] < places_along(b, BRICK_Z); at[2]++)
-                if (has_node(at))
+                if (has_node(b, at))
                     what(b, at, to);
 }
 
@@ -147,5 +154,6 @@ void brick_write_elements(const brick *b, FILE *to)
     for (cell[0] = 0; cell[0] < b->elements[0]; cell[0]++)
         for (cell[1] = 0; cell[1] < b->elements[1]; cell[1]++)
             for (cell[2] = 0; cell[2] < b->elements[2]; cell[2]++)
-                write_element(b, number++, cell, to);
+                if (b->face.filled[cell[BRICK_Y]][cell[BRICK_Z]])
+                    write_element(b, number++, cell, to);
 }

@@ -1,11 +1,11 @@
-/* A member with a rectangular section as a structured mesh of C3D20R: bricks with 20 nodes and
- * reduced integration. */
+/* A member as a structured mesh of C3D20R: bricks with 20 nodes and reduced integration. */
 #ifndef BEAMWORK_BRICK_H
 #define BEAMWORK_BRICK_H
 
 #include <stdio.h>
 
 #include "cases/scene/scene.h"
+#include "harness/export/face.h"
 
 enum { BRICK_ALONG, BRICK_Y, BRICK_Z };
 
@@ -15,13 +15,13 @@ typedef struct brick {
     int elements[3];               /* along x, y, z of the member */
     int first_node, first_element; /* counted from 1 */
     double origin[3], axes[9];     /* centre of the first face [m]; columns: x, y, z */
-    double length, height, width;  /* along x, y, z [m] */
+    double length;                 /* [m] */
+    face face;                     /* of every place along it */
 } brick;
 
-/* Numbers begin where told. along: elements along the member; across it 8 and 1 of a sheet, else 2
- * for the smaller side. */
-void brick_init(brick *out, const scene *s, int member, int along, int first_node,
-                int first_element);
+/* Numbers begin where told. along: elements along the member; across it those of its face. REFUSED: a section without a face. */
+status brick_init(brick *out, const scene *s, int member, int along, int first_node,
+                  int first_element, fault *f);
 /* First numbers behind it. */
 int brick_next_node(const brick *);
 int brick_next_element(const brick *);

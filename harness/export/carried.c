@@ -1,5 +1,6 @@
 #include "harness/export/carried.h"
 
+#include "harness/export/brick.h"
 #include "harness/export/rigid.h"
 
 int carried_static(const scene *s)
@@ -23,11 +24,11 @@ static status check_section(const scene *s, int member, fault *f)
                          "member %d: a section that changes along it is not written as solid; give "
                          "it one section",
                          member);
+    brick mesh;
+    fault why = {""};
+    if (brick_init(&mesh, s, member, 1, 1, 1, &why) != STATUS_OK)
+        return fault_set(f, STATUS_REFUSED, "member %d: %.250s", member, why.text);
     const double poisson = profile->young / (2 * profile->shear_modulus) - 1;
-    if (profile->kind != SECTION_RECTANGLE)
-        return fault_set(f, STATUS_REFUSED,
-                         "member %d: only rectangles are written as solids; give it a rectangle",
-                         member);
     if (poisson > -1 && poisson < 0.5)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,

@@ -14,17 +14,18 @@ status deck_check(const deck_request *r, fault *f)
     return carried_asked_check(r->scene, f);
 }
 
-/* Bricks of all members, with the numbers behind the last one. */
-static body_numbers make_bricks(const deck_request *r, brick out[])
+/* Bricks of all members; bodies: the numbers behind the last one. */
+static status make_bricks(const deck_request *r, brick out[], body_numbers *bodies, fault *f)
 {
     int node = 1, element = 1;
     for (int i = 0; i < r->scene->members; i++) {
         const int own = r->scene->member[i].divisions;
-        brick_init(&out[i], r->scene, i, own > 0 ? own : r->elements, node, element);
+        TRY(brick_init(&out[i], r->scene, i, own > 0 ? own : r->elements, node, element, f));
         node = brick_next_node(&out[i]);
         element = brick_next_element(&out[i]);
     }
-    return (body_numbers){.first = node};
+    *bodies = (body_numbers){.first = node};
+    return STATUS_OK;
 }
 
 static void write_head(const deck_request *r, int elements, FILE *to)
@@ -59,6 +60,30 @@ static void write_mesh(const scene *s, const brick bricks[], const body_numbers 
     body_write(bodies, s, bricks, to);
 }
 
+/* How far the area of each solid is from that of its beam: walls overlap where they meet. */
+static status write_areas(const scene *s, const brick bricks[], FILE *to, fault *f)
+{
+    for (int i = 0; i < s->members; i++) {
+        section constants;
+        TRY(scene_constants(s, s->member[i].section, &constants, f));
+        fprintf(to, "**AREA member %d: %+.3g %% of the beam's\n", i,
+                100 * (face_area(&bricks[i].face) / constants.A - 1));
+    }
+    return STATUS_OK;
+}
+
+/* bricks: [members], room for them. */
+static status write_with(const deck_request *r, brick bricks[], FILE *to, fault *f)
+{
+    const scene *s = r->scene;
+    body_numbers bodies;
+    TRY(make_bricks(r, bricks, &bodies, f));
+    write_head(r, brick_next_element(&bricks[s->members - 1]) - 1, to);
+    TRY(write_areas(s, bricks, to, f));
+    write_mesh(s, bricks, &bodies, to);
+    return answers_write(s, &bodies, to, f);
+}
+
 status deck_write(const deck_request *r, FILE *to, fault *f)
 {
     const scene *s = r->scene;
@@ -66,10 +91,7 @@ status deck_write(const deck_request *r, FILE *to, fault *f)
     brick *bricks = calloc((size_t)s->members, sizeof *bricks);
     if (bricks == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a mesh of solids");
-    const body_numbers bodies = make_bricks(r, bricks);
-    write_head(r, brick_next_element(&bricks[s->members - 1]) - 1, to);
-    write_mesh(s, bricks, &bodies, to);
-    const status outcome = answers_write(s, &bodies, to, f);
+    const status outcome = write_with(r, bricks, to, f);
     free(bricks);
     return outcome;
 }

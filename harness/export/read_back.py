@@ -1,8 +1,9 @@
 """What CalculiX printed for a deck of `beamwork export`, as a file that `beamwork import` reads.
 
-    python3 harness/export/read_back.py DECK.inp [-o VALUES.csv]
+    python3 harness/export/read_back.py DECK.inp... [-o VALUES.csv]
 
-DECK.dat stands beside the deck. Answers (lines `**Q`) are explained in answers.h. The uncertainty
+DECK.dat stands beside each deck. Decks of one scene with other meshes are one series: its limit is
+what the solid comes to. Answers (lines `**Q`) are explained in answers.h. The uncertainty
 of a value is that of its 7 digits.
 """
 import argparse
@@ -68,7 +69,7 @@ def said(lines, card):
 
 
 def rows(deck):
-    """Head of the import and its rows."""
+    """Head of the import and the rows of one deck."""
     lines = deck.read_text(encoding="utf-8").splitlines()
     head = HEAD.format(PROGRAM, said(lines, "**CASE "))
     elements, count = said(lines, "**ELEMENTS "), unknowns(lines)
@@ -83,15 +84,30 @@ def rows(deck):
     return head, out
 
 
+def series(decks):
+    """Head and rows of decks of one scene, with other meshes each."""
+    heads, out, meshes = set(), [], set()
+    for deck in decks:
+        head, found = rows(deck)
+        heads.add(head)
+        meshes.add(found[0][2] if found else None)
+        out += found
+    if len(heads) > 1:
+        raise Incomplete("the decks are of several scenes or parameters; read each by itself")
+    if len(meshes) < len(decks):
+        raise Incomplete("two decks have as many elements; give each mesh once")
+    return heads.pop(), out
+
+
 def main():
     words = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    words.add_argument("deck", type=pathlib.Path)
+    words.add_argument("deck", type=pathlib.Path, nargs="+")
     words.add_argument("-o", "--output", type=pathlib.Path)
     given = words.parse_args()
     try:
-        head, found = rows(given.deck)
+        head, found = series(given.deck)
     except (OSError, Incomplete) as problem:
-        print(f"{given.deck}: {problem}", file=sys.stderr)
+        print(f"{' '.join(map(str, given.deck))}: {problem}", file=sys.stderr)
         return 2
     text = io.StringIO()
     text.write(head)

@@ -1,5 +1,6 @@
 """export: decks are meshes that fill their members, what they do not carry is refused, and the
 answers of CalculiX, where it is there, are those of beams and plates."""
+import collections
 import csv
 import os
 import re
@@ -38,6 +39,25 @@ quantities:
   shortening: {displacement: {analysis: run, node: tip, component: uy}, unit: m}
   turn:       {displacement: {analysis: run, node: tip, component: rz}, unit: rad}
 """
+RECTANGLE = "rectangle: {width: 10e-3, thickness: 2e-3}"
+# Sections of walls, the area of their centre lines, and what ends within other walls have twice.
+WALLS = {
+    "channel: {depth: 0.02, flange: 0.01, flange_thickness: 1e-3, web_thickness: 0.6e-3}":
+        (2 * 10e-6 + 12e-6, 0),
+    "zed: {depth: 0.02, flange: 0.01, flange_thickness: 1e-3, web_thickness: 0.6e-3}":
+        (2 * 10e-6 + 12e-6, 0),
+    "angle: {along_y: 0.01, along_z: 0.02, thickness: 1e-3}": (30e-6, 0),
+    "box: {depth: 0.02, flange: 0.01, flange_thickness: 1e-3, web_thickness: 0.6e-3}":
+        (2 * 10e-6 + 2 * 12e-6, 0),
+    "i: {depth: 0.02, flange: 0.01, flange_thickness: 1e-3, web_thickness: 0.6e-3}":
+        (2 * 10e-6 + 12e-6, 2 * 0.5e-3 * 0.6e-3),
+    "points: {a: [0, -0.01], b: [0, 0], c: [0, 0.01], d: [0.02, 0]}, walls: [{from: a, to: b, "
+    "thickness: 1e-3}, {from: b, to: c, thickness: 1e-3}, {from: b, to: d, thickness: 2e-3}]":
+        (20e-6 + 40e-6, 0.5e-3 * 2e-3),
+}
+CHANNEL = "channel: {depth: 0.2, flange: 0.1, flange_thickness: 10e-3, web_thickness: 6e-3}"
+TIP = "at: [0.02, 2, 0]"  # its axis is along y
+PERCENT = {"ux": -0.29, "uy": 0, "uz": 0.04, "rx": -0.19, "ry": 1.32, "rz": -0.26, "twist": 0.89}
 # A linear analysis has none.
 HELD = "  held:       {reaction: {analysis: run, node: base, component: ux}, unit: N}\n"
 PATH = "{static: {stations: [0.5, 1]}}"
@@ -122,6 +142,40 @@ class Decks(ExportTest):
                 np.testing.assert_allclose(nodes[middle], (nodes[e[a]] + nodes[e[b]]) / 2,
                                            atol=1e-12)
 
+    def test_walls(self):
+        """Bricks share their faces, and none is filled twice; the area is that of the walls but
+        for ends within another wall, and how far it is off is said."""
+        faces = [(0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
+        for section, (area, twice) in WALLS.items():
+            deck = self.deck(self.scene(cantilever(1.0).replace(RECTANGLE, section)), "-n", "3")
+            nodes, elements = mesh_of(deck)
+            corners = np.array([[nodes[n] for n in e[:8]] for e in elements])
+            x, y, z = (corners[:, k] - corners[:, 0] for k in (1, 3, 4))
+            volume = np.einsum("ij,ij->i", np.cross(x, y), z)
+            self.assertGreater(volume.min(), 0, section)
+            filled = volume.sum() / LENGTH
+            self.assertAlmostEqual(filled / (area - twice), 1, places=9, msg=section)
+            used = {n for e in elements for n in e}
+            self.assertEqual(len(set(nodes) - used), 2 * 2, section)
+            places = np.array([nodes[n] for n in sorted(used)])
+            self.assertEqual(len(np.unique(places.round(9), axis=0)), len(used), section)
+            shared = collections.Counter(frozenset(e[list(f)]) for e in elements for f in faces)
+            self.assertEqual(set(shared.values()), {1, 2}, section)
+            off, = re.findall(r"^\*\*AREA member 0: (\S+) % of",
+                              deck.read_text(encoding="utf-8"), re.M)
+            self.assertAlmostEqual(float(off), -100 * twice / area, delta=1e-2, msg=section)
+
+    def test_walls_are_where_the_section_says(self):
+        """A channel, its y along x and its z along z; its web is b^2 tf/A from the centroid."""
+        section = next(iter(WALLS))
+        scene = self.scene(cantilever(1.0).replace(RECTANGLE, section))
+        nodes, elements = mesh_of(self.deck(scene, "-n", "1"))
+        places = np.array([nodes[n] for n in {n for e in elements for n in e}])
+        web = 0.01**2 * 1e-3 / 32e-6
+        for place, sides in ((places.max(axis=0), [0.02 + web + 0.3e-3, LENGTH, 0.0105]),
+                             (places.min(axis=0), [0.02 + web - 0.01, 0, -0.0105])):
+            np.testing.assert_allclose(place, sides, atol=1e-9)
+
     def test_each_quantity_has_its_answer(self):
         deck = self.deck(EXAMPLES / "leaf_spring_guide.yaml", "-n", "2").read_text(encoding="utf-8")
         answers = [line.split("|")[0][4:] for line in deck.splitlines() if line.startswith("**Q ")]
@@ -149,9 +203,11 @@ class Decks(ExportTest):
         plain = cantilever(1.0)
         wrong = {
             "warp": plain.replace(", warping: fixed", ""),
-            "rectangle": plain.replace("rectangle: {width: 10e-3, thickness: 2e-3}",
-                                       "points: {a: [0, 0], b: [0.1, 0]}, "
-                                       "walls: [{from: a, to: b, thickness: 1e-3}]"),
+            "wall 0 is oblique": plain.replace(
+                RECTANGLE, "points: {a: [0, 0], b: [0.1, 0.1], c: [0.1, 0.2]}, walls: [{from: a, "
+                "to: b, thickness: 1e-3}, {from: b, to: c, thickness: 1e-3}]"),
+            "rectangles and straight walls": plain.replace(
+                RECTANGLE, "tube: {diameter: 10e-3, thickness: 1e-3}"),
             "Poisson": plain.replace("shear_modulus: 100e9", "shear_modulus: 1e9"),
             "along members": plain.replace("force: [1.0, 0, 0], on: tip",
                                            "distributed: [1, 0, 0], on: bar"),
@@ -208,6 +264,25 @@ class Answers(ExportTest):
         self.assertEqual({name: float(row[6]) for name, row in rows.items()},
                          {"deflection": 0.25, "shortening": 0.5, "turn": 0.125, "held": 4})
         self.assertEqual(float(rows["deflection"][7]), 0.25 * read_back.DIGITS)
+
+    def test_meshes_of_one_scene(self):
+        """One series; decks of other scenes or of one mesh are refused."""
+        scene, decks = self.scene(cantilever(1.0)), []
+        for n in ("1", "2"):
+            decks.append(self.deck(scene, "-n", n).rename(self.folder / f"deck{n}.inp"))
+        for deck in decks:
+            bodies = re.findall(r"REF NODE=(\d+),ROT NODE=(\d+)", deck.read_text(encoding="utf-8"))
+            rows = "".join(f"{n} 0.25 0.5 0.125\n" for pair in bodies for n in pair)
+            deck.with_suffix(".dat").write_text(f" displacements (vx,vy,vz) for set\n{rows}",
+                                                encoding="utf-8")
+        found = read_back.series(decks)[1]
+        self.assertEqual([row[2] for row in found if row[0] == "turn"], ["8", "16"])
+        with self.assertRaisesRegex(read_back.Incomplete, "as many elements"):
+            read_back.series([decks[0], decks[0]])
+        text = decks[1].read_text(encoding="utf-8")
+        decks[1].write_text(text.replace("**CASE ", "**CASE other"), encoding="utf-8")
+        with self.assertRaisesRegex(read_back.Incomplete, "several scenes"):
+            read_back.series(decks)
 
     def test_stopped(self):
         deck = self.printed()
@@ -274,6 +349,23 @@ class Solved(ExportTest):
         found = self.solved(self.scene(text), "-n", "10")
         for name, (*_, value) in entries.items():
             self.assertAlmostEqual(found[name] / value, 1, delta=2e-3, msg=name)
+
+    def test_channel(self):
+        """A channel of 2 m with rigid ends: so many percent more is each compliance of the solid,
+        and the twist by a force on the centroid."""
+        head = cantilever(1.0).replace(RECTANGLE, CHANNEL).replace("at: [0.02, 0.1, 0]", TIP)
+        text = head[:head.index("loads:")] + (
+            "analyses:\n  run: {compliance: {node: tip}}\nquantities:\n" + "".join(
+                f"  {c}: {{compliance: {{analysis: run, row: {c}, column: {c}}}}}\n"
+                for c in PERCENT if c != "twist") +
+            "  twist: {compliance: {analysis: run, row: ry, column: uz}}\n")
+        scene = self.scene(text)
+        solid = self.solved(scene, "-n", "8")
+        told = self.record("solve", "--scene", scene, "-f", "collocation", "-n", "4")
+        more = {q["quantity"]: 100 * (solid[q["quantity"]] / q["value"] - 1)
+                for q in told["quantities"]}
+        for name, percent in PERCENT.items():
+            self.assertAlmostEqual(more[name], percent, delta=0.1, msg=name)
 
     def test_leaf_spring_guide(self):
         """Plates hold their anticlastic bending: stiffer than beams by what finer meshes keep."""
