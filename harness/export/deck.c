@@ -36,6 +36,18 @@ static void write_head(const deck_request *r, int elements, FILE *to)
             r->scene->name, r->of, elements);
 }
 
+/* What a moment does while its node turns: about the undeformed structure, which is all that decks ask with moments, all conventions
+ * are the same. */
+static void write_convention(const scene *s, FILE *to)
+{
+    for (int i = 0; i < s->analyses; i++)
+        if (s->analysis[i].kind == SCENE_COMPLIANCE) {
+            fprintf(to, "**CONVENTION %s\n",
+                    scene_moments_name(scene_compliance_of(&s->analysis[i])->moments));
+            return;
+        }
+}
+
 static void write_material(const scene *s, int member, FILE *to)
 {
     const section_spec *profile = &s->section[s->member[member].section];
@@ -79,6 +91,7 @@ static status write_with(const deck_request *r, brick bricks[], FILE *to, fault 
     body_numbers bodies;
     TRY(make_bricks(r, bricks, &bodies, f));
     write_head(r, brick_next_element(&bricks[s->members - 1]) - 1, to);
+    write_convention(s, to);
     TRY(write_areas(s, bricks, to, f));
     write_mesh(s, bricks, &bodies, to);
     return answers_write(s, &bodies, to, f);

@@ -68,10 +68,18 @@ def said(lines, card):
     raise Incomplete(f"the deck has no line '{card}': was it written by beamwork export?")
 
 
+def head_of(lines):
+    """Head of the import of a deck."""
+    head = HEAD.format(PROGRAM, said(lines, "**CASE "))
+    if any(line.startswith("**CONVENTION ") for line in lines):
+        head += f"# convention: {said(lines, '**CONVENTION ')}\n"
+    return head
+
+
 def rows(deck):
     """Head of the import and the rows of one deck."""
     lines = deck.read_text(encoding="utf-8").splitlines()
-    head = HEAD.format(PROGRAM, said(lines, "**CASE "))
+    head = head_of(lines)
     elements, count = said(lines, "**ELEMENTS "), unknowns(lines)
     blocks = printed(deck.with_suffix(".dat"))
     out = []

@@ -265,6 +265,20 @@ class Answers(ExportTest):
                          {"deflection": 0.25, "shortening": 0.5, "turn": 0.125, "held": 4})
         self.assertEqual(float(rows["deflection"][7]), 0.25 * read_back.DIGITS)
 
+    def test_convention(self):
+        """Moments about the undeformed structure are those of the scene's convention: taken."""
+        text = cantilever(1.0).replace("run: {linear: {}}", "run: {compliance: {node: tip}}")
+        text = text[:text.index("  deflection:")] + (
+            "  turn: {compliance: {analysis: run, row: rz, column: rz}, unit: rad/(N m)}\n")
+        deck, out = self.deck(self.scene(text), "-n", "1"), self.folder / "values.csv"
+        node = re.search(r"^\*\*Q turn\|[^|]*\|displacements\|1\|(\d+)\|3\|",
+                         deck.read_text(encoding="utf-8"), re.M)[1]
+        deck.with_suffix(".dat").write_text(f" displacements (vx,vy,vz) for set\n{node} 0 0 0.25\n",
+                                            encoding="utf-8")
+        run(ROOT / "harness/export/read_back.py", deck, "-o", out, program=sys.executable)
+        self.assertIn("# convention: spatial\n", out.read_text(encoding="utf-8"))
+        self.answered("import", out, "-o", self.folder / "values.h5")
+
     def test_meshes_of_one_scene(self):
         """One series; decks of other scenes or of one mesh are refused."""
         scene, decks = self.scene(cantilever(1.0)), []
