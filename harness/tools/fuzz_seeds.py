@@ -10,6 +10,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+IMPORTS = ROOT / "harness" / "imports"
 WORDS = ("\0beamw:mass=lumped,newton=displacement", "\0collocation:stages=5",
          "\0geometrically_exact:nodes=3", "\1c_column and not beamw or default", "\1not not a b",
          "\2error=0.01,floor=1e-8,work=0.02", "\2work=1")
@@ -60,8 +61,22 @@ def scenes():
             yield path.read_bytes()
 
 
+def imports():
+    """Behind the number of its form: a CSV of two programs, the map and the columns of others."""
+    head = ("# beamwork-import: 1\n# program: other 1.0\n# case: sheet_cantilever; warping=0\n"
+            "# axes: x=-y y=x z=z\n# convention: spatial\n")
+    rows = ("quantity, unit, elements, unknowns, seconds, x, value, uncertainty\n"
+            "C_ux_Fx, mm/N, 2, 24, 2.1e-3, , 3.9e-4, 1e-9\nC_uz_Fz, m/kN, 4,,,, 3,\n")
+    curve = "# axes: x=x y=y z=z\nC_xx_curve, um/mN, 4,,, 0.01, 29,\nC_xx_curve, m/N, 4,,, 0, 14,\n"
+    yield b"\0" + (head + rows + "# program: another\n" + curve).encode()
+    yield b"\1" + (IMPORTS / "maps" / "mbdyn.yaml").read_bytes()
+    yield (b"\2 displacements (vx,vy,vz) for set NTIP and time  0.1E+01\n\n 4 -1.3D+00 1.5E+01 0.0\n"
+           b"\n total force (fx,fy,fz) for set NTIP and time 0.1E+01\n\n -1.0D-10 3.6E+03 0.0\n")
+
+
 def main(program, folder):
     save(folder / "scene", scenes())
+    save(folder / "import", imports())
     save(folder / "parameters", parameters())
     save(folder / "words", WORDS)
     save(folder / "command", COMMANDS)
