@@ -61,6 +61,24 @@ static status solve_cell(const cli_request *r, sweep *s, fault *f)
     return cell_run(&request, &s->series[0].cell[0], f);
 }
 
+/* Which analysis was made up where the scene states none. */
+static void tell_analysis(const cli_request *r, const scene *s)
+{
+    if (r->scene == NULL || scene_file_states(r->scene, "analyses"))
+        return;
+    const scene_analysis *a = &s->analysis[0];
+    if (a->kind == SCENE_LINEAR) {
+        fprintf(stderr, "beamwork: the scene states no analysis; this is a linear one, as "
+                        "analyses: {run: {linear: {}}}\n");
+        return;
+    }
+    const scene_path *path = scene_path_of(a);
+    fprintf(stderr,
+            "beamwork: the scene states no analysis; its motions are followed to their end, as "
+            "analyses: {run: {static: {stations: [%g]}}}\n",
+            path->value[path->stations - 1]);
+}
+
 static int solve_request(cli_request *r)
 {
     sweep s;
@@ -90,6 +108,7 @@ static int solve_request(cli_request *r)
         truths_free(&t);
         return cli_fail(outcome, f.text);
     }
+    tell_analysis(r, &s.point[0].scene);
     const status solved = solve_cell(r, &s, &f);
     fault unwritten = {""};
     int code = EXIT_AS_EXPECTED;

@@ -9,7 +9,7 @@
 #include "harness/catalogue/choice.h"
 #include "harness/language/expression.h"
 
-const char *const placement_list[PLACEMENT_LISTS] = {"nodes", "members", "loads"};
+const char *const placement_list[PLACEMENT_LISTS] = {"nodes", "members", "springs", "loads"};
 
 static void rotate(const double R[9], double v[3])
 {

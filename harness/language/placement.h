@@ -13,8 +13,8 @@ typedef struct placement {
     const document_node *connect; /* PORT: NODE; NULL: none */
 } placement;
 
-enum { PLACEMENT_LISTS = 3 };
-/* Of a part: "nodes", "members", "loads". */
+enum { PLACEMENT_LISTS = 4 };
+/* Of a part: "nodes", "members", "springs", "loads". */
 extern const char *const placement_list[PLACEMENT_LISTS];
 
 /* Adds the entries of all instances of the scene behind list[k] of count[k], in the order of placement_list. */

@@ -45,7 +45,8 @@ void build_sections(builder *b)
 /* Entries of the scene's own lists but sections, and behind them those of its instances. */
 static void list_entries(builder *b)
 {
-    static const builder_list placed[PLACEMENT_LISTS] = {LIST_NODES, LIST_MEMBERS, LIST_LOADS};
+    static const builder_list placed[PLACEMENT_LISTS] = {LIST_NODES, LIST_MEMBERS, LIST_SPRINGS,
+                                                         LIST_LOADS};
     unrolled *list[PLACEMENT_LISTS];
     int count[PLACEMENT_LISTS];
     for (int i = LIST_SECTIONS + 1; i < LISTS; i++)

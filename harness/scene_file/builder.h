@@ -66,6 +66,8 @@ unsigned fields_words(const fields *f, const char *key, const char *choices);
 /* Index of the entry that is named; SCENE_NONE where there is none. */
 int fields_entry(const fields *f, const char *key, builder_list list);
 int fields_entry_of(const fields *f, const document_node *name, builder_list list);
+/* Is there an entry of that name? Nothing is told. */
+int fields_names(const fields *f, const char *key, builder_list list);
 /* "ux|uy|uz|rx|ry|rz" */
 extern const char fields_components[];
 

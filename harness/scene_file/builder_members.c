@@ -193,6 +193,25 @@ static int along_member(const fields *f, const char *key, double out[3])
     return fields_vector(f, key, 3, out);
 }
 
+/* The weight of a body is a force at its centre of mass, which turns with it. */
+static void weigh_body(const fields *f, scene_load *what)
+{
+    const int node = fields_entry(f, "on", LIST_NODES);
+    const scene_body *body = &scene_node_at(f->b->scene, node)->body;
+    if (body->mass == 0)
+        document_mistake(f->b->mistakes, document_find(f->map, "on"), 0,
+                         "gravity on a node that has no mass; give it mass: [kg], or name a "
+                         "member");
+    if (fields_have(f, "at") || what->axes == SCENE_AXES_MEMBER)
+        document_mistake(f->b->mistakes, document_find(f->map, "gravity"), 0,
+                         "the weight of a body acts at its centre, along fixed axes; leave out "
+                         "'at' and 'axes'");
+    what->kind = SCENE_FORCE;
+    for (int k = 0; k < 3; k++)
+        what->vector[k] *= body->mass;
+    memcpy(what->at, body->centre, sizeof what->at);
+}
+
 void builder_loads(builder *b)
 {
     static const char *const key[] = {"force", "moment", "distributed", "distributed_moment",
@@ -209,6 +228,9 @@ void builder_loads(builder *b)
         double *v = what.vector;
         vector_of(&f, key[what.kind], v);
         vector_of(&f, "at", what.at);
+        if (what.kind == SCENE_GRAVITY && !fields_names(&f, "on", LIST_MEMBERS) &&
+            fields_names(&f, "on", LIST_NODES))
+            weigh_body(&f, &what);
         const int where =
             fields_entry(&f, "on", scene_load_along(&what) ? LIST_MEMBERS : LIST_NODES);
         const int load = scene_add_load(b->scene, what.kind, where, v[0], v[1], v[2]);

@@ -1,43 +1,73 @@
 /* Nodes of a scene: supports, rigid bodies, rotations. */
+#include <math.h>
 #include <string.h>
 
 #include "harness/language/expression.h"
 #include "harness/scene_file/builder.h"
 
-/* Components are along the axes of the scene: an instance that is turned has none of its own. */
-static void check_axes(const fields *f, const char *key, int components)
+/* Lengths of a unit vector below it are round-off. */
+static const double round_off = 1e-12;
+
+/* Of the instance's component c that of the scene, and whether it has the same sign; SCENE_NONE: it is along none. */
+static int component_of(const fields *f, int c, int *same)
 {
-    if (components && f->placed != NULL && f->placed->turned)
-        document_mistake(f->b->mistakes, document_find(f->map, key), 0,
-                         "%s: components in a part that is turned are not carried yet; name them "
-                         "at a node of the scene, and connect it",
-                         key);
+    double axis[3] = {0};
+    int along = SCENE_NONE, others = 0;
+    axis[c % 3] = 1;
+    placement_turn(f->placed, axis);
+    for (int k = 0; k < 3; k++)
+        if (fabs(axis[k]) > round_off) {
+            others += along != SCENE_NONE;
+            along = k;
+        }
+    *same = along != SCENE_NONE && axis[along] > 0;
+    return others > 0 || along == SCENE_NONE ? SCENE_NONE : c - c % 3 + along;
+}
+
+/* Components are along the axes of the scene. */
+static void refuse_components(const fields *f, const char *key)
+{
+    document_mistake(f->b->mistakes, document_find(f->map, key), 0,
+                     "%s: components that are not along axes of the scene, in a part that is "
+                     "turned; name them at a node of the scene, and connect it",
+                     key);
 }
 
 static void read_hold(const fields *f, int node)
 {
     static const char choices[] = "all|ux|uy|uz|rx|ry|rz";
     const unsigned held = fields_words(f, "hold", choices);
-    check_axes(f, "hold", held != 0 && held != 1);
-    for (int c = SCENE_UX; c <= SCENE_RZ; c++)
-        if (held & 1u || held >> (c + 1) & 1u)
-            scene_hold(f->b->scene, node, c, c);
+    for (int c = SCENE_UX; c <= SCENE_RZ; c++) {
+        int same;
+        const int ours = held & 1u ? c : component_of(f, c, &same);
+        if (!(held & 1u || held >> (c + 1) & 1u))
+            continue;
+        if (ours == SCENE_NONE)
+            refuse_components(f, "hold");
+        else
+            scene_hold(f->b->scene, node, ours, ours);
+    }
 }
 
 static void read_drive(const fields *f, int node)
 {
     static const char *const component[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
     const fields drive = fields_below(f, "drive");
-    check_axes(f, "drive", drive.map != NULL);
     const scene_node *n = scene_node_at(f->b->scene, node);
     for (int c = SCENE_UX; c <= SCENE_RZ; c++) {
         const int motion = fields_entry(&drive, component[c], LIST_MOTIONS);
+        int same = 1;
+        const int ours = component_of(f, c, &same);
         if (motion < 0)
             continue;
-        if ((c < SCENE_RX ? n->translation[c] : n->angle[c - SCENE_RX]) == SCENE_HELD)
+        if (ours == SCENE_NONE || !same) {
+            refuse_components(f, "drive");
+            continue;
+        }
+        if ((ours < SCENE_RX ? n->translation[ours] : n->angle[ours - SCENE_RX]) == SCENE_HELD)
             document_mistake(f->b->mistakes, document_find(drive.map, component[c]), 0,
                              "%s is held and driven; leave one out", component[c]);
-        scene_drive(f->b->scene, node, c, motion);
+        scene_drive(f->b->scene, node, ours, motion);
     }
 }
 
@@ -103,7 +133,8 @@ static void check_masters(const fields *f, const scene_node *n)
     const int held =
         n->angle[0] != SCENE_FREE || n->angle[1] != SCENE_FREE || n->angle[2] != SCENE_FREE;
     const document_node *rotation = document_find(f->map, "rotation");
-    check_axes(f, "rotation", document_find(rotation, "vector") != NULL);
+    if (document_find(rotation, "vector") != NULL && f->placed != NULL && f->placed->turned)
+        refuse_components(f, "rotation");
     if (rotation != NULL && (held || fields_have(f, "fork")))
         document_mistake(f->b->mistakes, rotation, 0,
                          "'rotation' says all about turns; leave out rx, ry, rz and forks");

@@ -166,6 +166,26 @@ static int find_entry(const fields *f, const char *text, builder_list list, int 
     return found;
 }
 
+/* The name that a node of the tree says: of a loop, of a port, or as it is; *port: of a port. */
+static const char *name_of(const fields *f, const document_node *n, builder_list list, int *port)
+{
+    const scope *known = scope_find(f->names, n->text, strlen(n->text));
+    const char *text = known != NULL && known->word != NULL ? known->word : n->text;
+    const document_node *to = list == LIST_NODES ? placement_port(f->placed, text) : NULL;
+    *port = to != NULL;
+    return to != NULL ? to->text : text;
+}
+
+int fields_names(const fields *f, const char *key, builder_list list)
+{
+    const document_node *n = document_find(f->map, key);
+    int port;
+    if (n == NULL || n->kind != DOCUMENT_TEXT)
+        return 0;
+    const char *text = name_of(f, n, list, &port);
+    return find_entry(f, text, list, !port) >= 0;
+}
+
 int fields_entry_of(const fields *f, const document_node *n, builder_list list)
 {
     static const char *const what[] = {"section", "node", "member",   "spring",
@@ -176,12 +196,9 @@ int fields_entry_of(const fields *f, const document_node *n, builder_list list)
         document_mistake(f->b->mistakes, n, 0, "the name of a %s is expected", what[list]);
         return SCENE_NONE;
     }
-    const scope *known = scope_find(f->names, n->text, strlen(n->text));
-    const char *text = known != NULL && known->word != NULL ? known->word : n->text;
-    const document_node *port = list == LIST_NODES ? placement_port(f->placed, text) : NULL;
-    if (port != NULL)
-        text = port->text;
-    const int found = find_entry(f, text, list, port == NULL);
+    int port;
+    const char *text = name_of(f, n, list, &port);
+    const int found = find_entry(f, text, list, !port);
     if (found >= 0)
         return found;
     if (strchr(text, '$') == NULL && !f->b->list[list].incomplete) /* else it is told already */

@@ -200,7 +200,7 @@ const scene_key keys_load[] = {
     {"distributed_moment", KEY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N",
      .summary = "moments along a member, N m per m"},
     {"gravity", KEY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "m/s^2",
-     .summary = "on a member, whose section has a density"},
+     .summary = "on a member, whose section has a density, or a node, which has a mass"},
     {"on", KEY_NAME, .needed = 1, .summary = "node or member"},
     {"path", KEY_NUMBERS, .summary = "path parameter, ascending"},
     {"factor", KEY_NUMBERS, .summary = "at these; left out: the path parameter itself"},
@@ -215,8 +215,8 @@ const scene_key keys_load[] = {
 const scene_key keys_part[] = {
     {"let", KEY_NAMES, .below = number, .summary = "values derived for the part"},
     {"nodes", KEY_ENTRIES, .below = keys_node, .summary = "NAME is INSTANCE.NAME in the scene"},
-    {"members", KEY_ENTRIES, .needed = 1, .below = keys_member,
-     .summary = "between nodes or places"},
+    {"members", KEY_ENTRIES, .below = keys_member, .summary = "between nodes or places"},
+    {"springs", KEY_ENTRIES, .below = keys_spring, .summary = "in the part's axes"},
     {"loads", KEY_ENTRIES, .below = keys_load, .summary = "in the part's axes"},
     {"places", KEY_FORMS, .summary = "[NAME, ...]: nodes of the scene that instances connect"},
     {.name = NULL}};

@@ -149,6 +149,11 @@ void scene_file_free(scene_file *file)
     free(file);
 }
 
+int scene_file_states(const scene_file *file, const char *key)
+{
+    return document_find(file->root, key) != NULL;
+}
+
 const case_type *scene_file_case(const scene_file *file)
 {
     return &file->type;

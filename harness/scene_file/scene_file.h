@@ -20,6 +20,8 @@ void scene_file_free(scene_file *);
 
 /* Lives as long as the file. */
 const case_type *scene_file_case(const scene_file *);
+/* Does the file say anything under this key? */
+int scene_file_states(const scene_file *, const char *key);
 /* Adds the file's truths that hold at a point of its parameters, and their values there. */
 status scene_file_truths_add(const scene_file *, const double value[], truths *t, fault *f);
 /* The same at the defaults and at every point that a truth names. */

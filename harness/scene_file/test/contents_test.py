@@ -1,6 +1,9 @@
 """What a scene file can hold: loads, sections, instances, resultants; written with the same bits."""
+import math
 import re
 import unittest
+
+import numpy as np
 
 from harness.scene_file.test.scene_case import EXAMPLES, SceneCase, values
 from harness.test.scenes import LEAF
@@ -235,6 +238,83 @@ quantities:
             text = LEAF.replace("rectangle: {width: 50e-3, thickness: 0.5e-3}", shape)
             written.append(self.answered("scene", "--scene", self.scene(text)).stdout)
         self.assertEqual(*written)
+
+    def same_again(self, path, *where):
+        """What it solves to, which is what it solves to when it is written, bit for bit."""
+        again = self.scene(self.answered("scene", "--scene", path).stdout, f"{path.stem}_again.yaml")
+        got, twice = (values(self.record("solve", "--scene", p, *where)) for p in (path, again))
+        self.assertEqual(got, twice)
+        return got
+
+    def test_springs_of_a_part(self):
+        """In its axes: a turned part's spring is the one of the turned matrix T K T^T, on a port as between its own nodes."""
+        turn, a = 0.4, [3e3, 1e3, 2e3, 4.0, 5.0, 6.0]
+        c, s = math.cos(turn), math.sin(turn)
+        R = np.kron(np.eye(2), [[c, -s, 0], [s, c, 0], [0, 0, 1]])
+        K = R @ (np.diag(a) + 0.1*np.ones((6, 6))) @ R.T
+        def numbers(matrix):
+            return ", ".join(repr(float(x)) for x in ((matrix + matrix.T) / 2).ravel())
+        placed = PLACED.replace("parts:", f"""parts:
+  bearing: {{places: [at], springs: {{s: {{to: at, stiffness: [{numbers(np.diag(a) + 0.1*np.ones((6, 6)))}]}}}}}}
+  pair:
+    places: [at]
+    nodes: {{own: {{at: [0, 0, 0]}}}}
+    springs: {{s: {{from: at, to: own, stiffness: [{numbers(np.array(a))}]}}}}""").replace("instances:", f"""instances:
+  b: {{part: bearing, at: [0, 0, 0.1], turn: {{z: {turn}}}, connect: {{at: tip}}}}
+  p: {{part: pair, at: [0, 0, 0.1], turn: {{z: {turn}}}, connect: {{at: tip}}}}""") + "  pull: {force: [0.5, 1, 2], on: p.own}\n"
+        plain = PLACED.replace("parts:", "  own: {at: [0, 0, 0.1]}\nparts:").replace("loads:", f"""springs:
+  b: {{to: tip, stiffness: [{numbers(K)}]}}
+  p: {{from: tip, to: own, stiffness: [{numbers(R @ np.diag(a) @ R.T)}]}}
+loads:""") + "  pull: {force: [0.5, 1, 2], on: own}\n"
+        where = ("-f", "collocation", "-n", 2)
+        got = self.same_again(self.scene(placed, "placed.yaml"), *where)
+        own = values(self.record("solve", "--scene", self.scene(plain, "plain.yaml"), *where))
+        for name, value in own.items():
+            self.assertAlmostEqual(got[name.replace("own", "p.own")] / value, 1, delta=1e-9, msg=name)
+        self.assertGreater(min(map(abs, own.values())), 1e-9)
+
+    def test_components_of_a_turned_part(self):
+        """Held and driven along the part's axes where these are axes of the scene; a motion against its axis is refused."""
+        part = PLACED.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
+            "loads:", "motions:\n  pushed: {unit: m, path: [0, 1], value: [0, 1e-3]}\nloads:")
+        where = ("-f", "collocation", "-n", 1)
+        got = self.same_again(self.scene(part, "part.yaml"), *where)  # its x is z of the scene
+        plain = LEAF.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
+            "loads:", "motions:\n  pushed: {unit: m, path: [0, 1], value: [0, 1e-3]}\nloads:")
+        self.assertNotEqual(plain, LEAF)
+        own = values(self.record("solve", "--scene", self.scene(plain), *where))
+        self.assertAlmostEqual(got["tip_uz"], 1e-3, delta=1e-4)
+        self.assertAlmostEqual(got["tip_uz"] / own["tip_ux"], 1, delta=1e-9)
+        self.refused(2, "drive: components that are not along axes of the scene", "scene", "--scene",
+                     self.scene(part.replace("x: [0, 0, 2]", "x: [0, 0, -2]")))
+
+    def test_weight_of_a_body(self):
+        """A force at its centre of mass, which turns with it: P L^3/3 E I + P a L^2/2 E I, and the bits of that force."""
+        heavy = LEAF.replace("  push: {force: [0, 1, 0], on: tip}", "  weight: {gravity: [0, -9.81, 0], on: tip}")
+        body = heavy.replace("tip:  {at: [0.1, 0, 0]}", "tip:  {at: [0.1, 0, 0], mass: 0.01, centre: [0.02, 0, 0]}")
+        self.assertNotIn("push", body)
+        self.assertIn("mass", body)
+        stiff = ("needs: []\n", "-f", "beamw_vlasov", "-n", 1)
+        got = self.same_again(self.scene(body + stiff[0], "body.yaml"), *stiff[1:])
+        force = repr(-9.81*0.01)
+        plain = body.replace("gravity: [0, -9.81, 0], on: tip", f"force: [0, {force}, 0], at: [0.02, 0, 0], on: tip")
+        self.assertEqual(got, values(self.record("solve", "--scene", self.scene(plain + stiff[0], "plain.yaml"), *stiff[1:])))
+        EI = 210e9 * 50e-3 * 0.5e-3**3 / 12
+        self.assertAlmostEqual(got["tip_uy"] / (-9.81*0.01 * (0.1**3/3 + 0.02*0.1**2/2) / EI), 1, delta=1e-9)
+        for change, words in ((("mass: 0.01, ", ""), "has no mass"), (("on: tip", "on: tip, at: [1, 0, 0]"), "leave out 'at'")):
+            self.refused(2, words, "scene", "--scene", self.scene(body.replace(*change)))
+
+    def test_the_analysis_that_was_made_up(self):
+        """Said where the scene states none."""
+        where = ("-f", "collocation", "-n", 1)
+        done = self.answered("solve", "--scene", self.scene(LEAF), *where)
+        self.assertIn("states no analysis; this is a linear one", done.stderr)
+        driven = LEAF.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
+            "loads:", "motions:\n  pushed: {unit: m, path: [0, 0.5], value: [0, 1e-3]}\nloads:")
+        done = self.answered("solve", "--scene", self.scene(driven), *where)
+        self.assertIn("analyses: {run: {static: {stations: [0.5]}}}", done.stderr)
+        done = self.answered("solve", "--scene", self.scene(LEAF + "analyses:\n  run: {linear: {}}\n"), *where)
+        self.assertEqual(done.stderr, "")
 
 
 if __name__ == "__main__":
