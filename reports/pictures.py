@@ -12,6 +12,7 @@ from reports.shapes import CLAMPED, bodies, distance, exaggeration, read, strips
 from reports.style import plt
 
 NAVIGATION = [("pictures.html", "pictures")]
+FAR, NEARLY = 0.45, 0.9    # of the largest distance: below a half and the whole, which evenly spaced states miss by a little
 
 MEMBER, BODY, SUPPORT, REST = np.array([0.52, 0.71, 0.87]), np.array([0.93, 0.80, 0.62]), "#1c2430", "#8b95a3"
 LIGHT = np.array([0.35, -0.55, 0.76])
@@ -103,13 +104,14 @@ def title_of(s, state, scale):
 
 
 def chosen(s):
-    """States worth a picture: of a path the first that has moved far and the one farthest from it, a linear solution, the first modes."""
+    """States worth a picture: of a path the first that has moved far and the last that is farthest from it, a linear solution, the first modes."""
     path = [k for k, kind in enumerate(s.kind) if kind == "path"]
     out = [0]
     if path:
         moved = [distance(s, k, 0) for k in path]
-        first = next(k for k, d in zip(path, moved) if d >= 0.5 * max(moved))
-        out += sorted({first, max(path, key=lambda k: distance(s, k, first))}) if first != path[-1] else [first]
+        first = next(k for k, d in zip(path, moved) if d >= FAR * max(moved))
+        apart = [distance(s, k, first) for k in path]
+        out += sorted({first, max(k for k, d in zip(path, apart) if d >= NEARLY * max(apart))}) if first != path[-1] else [first]
     for kind in ("linear", "buckling", "mode"):
         out += [k for k, each in enumerate(s.kind) if each == kind][:MOST_MODES]
     return out

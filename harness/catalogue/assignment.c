@@ -31,7 +31,8 @@ static status set_value(const assignment_list *l, const parameter_type *p, const
                                "%s %s of %s: unknown choice '%.60s'; give one of %s", l->what,
                                p->name, l->owner, text, p->choices)
                    : fault_set(f, STATUS_REFUSED,
-                               "%s %s of %s: '%.60s' is not a finite number, or too small for one",
+                               "%s %s of %s: '%.60s' is not a finite number, or too small for one; "
+                               "values are SI without units",
                                l->what, p->name, l->owner, text);
     if (p->choices == NULL) {
         const int flag = strcmp(p->unit, "1") == 0 && p->min == 0 && p->max == 1;

@@ -124,8 +124,9 @@ static int tell(const cli_request *r, const sweep *s, const judgement *j)
     }
     const int code = judgement_exit(j);
     if (code == EXIT_NOTHING)
-        fprintf(stderr, "beamwork: nothing was checked: no verdict against a truth; see 'beamwork "
-                        "list' and -k\n");
+        fprintf(stderr, "beamwork: nothing was checked: no verdict against a truth; see %s\n",
+                r->scene_count > 0 ? "'truths' in 'beamwork scene --keys'"
+                                   : "'beamwork list' and -k");
     return code;
 }
 

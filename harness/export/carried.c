@@ -136,8 +136,8 @@ static status check_analysis(const scene *s, int analysis, fault *f)
     if (a->kind != SCENE_LINEAR && a->kind != SCENE_STATIC && a->kind != SCENE_COMPLIANCE)
         return fault_set(f, STATUS_REFUSED,
                          "analysis %d: linear, static and compliance are written for solids, "
-                         "others not",
-                         analysis);
+                         "%s not; leave it and its quantities out",
+                         analysis, scene_analysis_name(a->kind));
     if (a->kind == SCENE_STATIC && (analysis != carried_static(s) || scene_rotates(a)))
         return fault_set(f, STATUS_REFUSED,
                          "analysis %d: one static path in axes at rest is written for solids",

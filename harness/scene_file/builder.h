@@ -79,6 +79,9 @@ void builder_motions(builder *b);
 void builder_loads(builder *b);
 void builder_analyses(builder *b);
 void builder_quantities(builder *b);
+/* Tells that an analysis does not have the quantity `key` at `what`, and which kinds of analysis do. */
+void builder_no_quantity(const fields *what, const char *analysis, const char *key,
+                         scene_analysis_kind is, scene_quantity_kind kind);
 /* Analyses and quantities where the file has none. */
 void builder_defaults(builder *b);
 

@@ -1,4 +1,5 @@
 /* Analyses of a scene. */
+#include <stdio.h>
 #include <string.h>
 
 #include "harness/scene_file/builder.h"
@@ -101,4 +102,19 @@ void builder_analyses(builder *b)
             break;
         }
     }
+}
+
+void builder_no_quantity(const fields *what, const char *analysis, const char *key,
+                         scene_analysis_kind is, scene_quantity_kind kind)
+{
+    char who[128] = "";
+    for (int k = SCENE_LINEAR; k <= SCENE_ROTATION; k++)
+        if (scene_gives((scene_analysis_kind)k, kind)) {
+            const size_t used = strlen(who);
+            snprintf(who + used, sizeof who - used, "%s%s", used > 0 ? ", " : "",
+                     scene_analysis_name((scene_analysis_kind)k));
+        }
+    document_mistake(what->b->mistakes, document_find(what->map, "analysis"), 0,
+                     "'%s' is %s and has no %s; name an analysis that has: %s", analysis,
+                     scene_analysis_name(is), key, who);
 }

@@ -281,9 +281,8 @@ void builder_quantities(builder *b)
         const scene_extract extract = kinds[k].read(&what);
         if (analysis >= 0 && analysis < b->scene->analyses &&
             !scene_gives(b->scene->analysis[analysis].kind, extract.kind))
-            document_mistake(b->mistakes, document_find(what.map, "analysis"), 0,
-                             "'%s' has no %s; name an analysis of another kind",
-                             b->list[LIST_ANALYSES].entry[analysis].name, kinds[k].key);
+            builder_no_quantity(&what, b->list[LIST_ANALYSES].entry[analysis].name, kinds[k].key,
+                                b->scene->analysis[analysis].kind, extract.kind);
         scene_quantity *q = scene_add_quantity(b->scene, entry->name, "", analysis, extract);
         read_unit(&f, q);
         read_stations(&f, &what, q);

@@ -14,15 +14,18 @@
 static const double no_digits = 1e15;
 
 /* A rigid motion that the supports allow, in words. */
-static void name_motion(int node, const double motion[6], double length, fault *f)
+static void name_motion(const scene *s, int node, const double motion[6], double length, fault *f)
 {
+    const double *at = s->node[node].position;
     const double *shift = motion, *turn = motion + 3;
     const int turns = vec3_norm(turn) * length > 1e-6 * vec3_norm(shift);
     const double *v = turns ? turn : shift, size = vec3_norm(v);
-    fault_set(f, STATUS_SINGULAR,
-              "node %d is not held, nor what it is joined to: it can %s (%.3g, %.3g, %.3g); hold "
-              "it against that",
-              node, turns ? "turn about" : "move along", v[0] / size, v[1] / size, v[2] / size);
+    fault_set(
+        f, STATUS_SINGULAR,
+        "node %d at (%.4g, %.4g, %.4g) is not held, nor what it is joined to: it can %s (%.3g, "
+        "%.3g, %.3g); hold it against that",
+        node, at[0], at[1], at[2], turns ? "turn about" : "move along", v[0] / size, v[1] / size,
+        v[2] / size);
 }
 
 status singular_mechanism(const analysis_context *c, status otherwise, fault *f)
@@ -124,7 +127,7 @@ void singular_explain(analysis_context *c, fault *f)
     double motion[6];
     int node, lost;
     if (supports_loose_part(c->model, &node, motion)) {
-        name_motion(node, motion, model_length(c->model), f);
+        name_motion(c->scene, node, motion, model_length(c->model), f);
         return;
     }
     if (singular_mechanism(c, STATUS_OK, f) != STATUS_OK)

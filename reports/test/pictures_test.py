@@ -24,6 +24,13 @@ class Geometry(unittest.TestCase):
         corners = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)], float)
         self.assertEqual(len(shapes.hull(corners)), 12)
 
+    def test_chosen(self):
+        """Of an even path, whose middle is a little less than half as far, the end is shown; of one that returns both extremes."""
+        for moved, wanted in (([0, 0.75, 1.499, 2.25, 3], [0, 2, 4]), ([0, 0.6, 1.2, 1.8, 2.4, 3], [0, 3, 5]), ([0, -3, -1.5, 0, 1.5, 3], [0, 1, 5])):
+            s = types.SimpleNamespace(kind=["undeformed"] + ["path"] * (len(moved) - 1), sections=[np.zeros((1, 1, 2))],
+                                      position=np.array(moved, float)[:, None, None] * np.array([1, 0, 0]), axes=np.tile(np.eye(3), (len(moved), 1, 1, 1)))
+            self.assertEqual(pictures.chosen(s), wanted)
+
     def test_clusters(self):
         points = np.array([[0, 0, 0.], [0.1, 0, 0], [1, 0, 0], [1, 0.1, 0]])
         self.assertEqual([list(g) for g in shapes.clusters(points)], [[0, 1], [2, 3]])
