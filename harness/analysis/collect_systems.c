@@ -76,7 +76,7 @@ static status inputs(const analysis_context *c, const model_state *state, worksp
         loads_add_one(c->model, state, &c->scene->load[i], 1, w->load);
         memcpy(w->input + (size_t)i * n, w->load, n * sizeof *w->input);
     }
-    return system_matrices_triplets_of_columns(size.free, c->scene->loads, w->input, out, f);
+    return triplets_of_columns(size.free, c->scene->loads, w->input, out, f);
 }
 
 /* With K known: B, and of a formulation with inertia M, and G where the axes turn. */
@@ -84,13 +84,13 @@ static status keep(const analysis_context *c, const model_state *state, double p
                    state_matrices *out, fault *f)
 {
     out->path = path;
-    TRY(system_matrices_triplets(&w->K, 0, &out->K, f));
+    TRY(triplets_of(&w->K, 0, &out->K, f));
     TRY(inputs(c, state, w, &out->B, f));
     if (!(model_sizes(c->model).features & FEATURE_MASS))
         return STATUS_OK;
     TRY(rotating_frame_inertia(c->model, state, path, &w->M, out->turns ? &w->G : NULL, f));
-    TRY(system_matrices_triplets(&w->M, 0, &out->M, f));
-    return out->turns ? system_matrices_triplets(&w->G, 1, &out->G, f) : STATUS_OK;
+    TRY(triplets_of(&w->M, 0, &out->M, f));
+    return out->turns ? triplets_of(&w->G, 1, &out->G, f) : STATUS_OK;
 }
 
 /* Of the undeformed structure; displaced: those of a linear solution whose stresses count, NULL:
@@ -143,19 +143,39 @@ static status keep_path(const analysis_context *c, int analysis, workspace *w, s
     return STATUS_OK;
 }
 
-/* About what the modal analysis follows; nothing where that failed. */
-static status keep_modal(const analysis_context *c, int analysis, workspace *w, system_matrices *s,
+/* About what the modal analysis follows. */
+static status keep_about(const analysis_context *c, int analysis, workspace *w, system_matrices *s,
                          fault *f)
 {
     const int follows = c->scene->analysis[analysis].follows;
-    if (follows == SCENE_NONE || c->outcomes[follows].status != STATUS_OK)
-        return STATUS_OK;
+    if (follows == SCENE_NONE)
+        return keep_linear(c, analysis, NULL, w, s, f);
     if (c->scene->analysis[follows].kind == SCENE_LINEAR)
         return keep_linear(c, analysis, outcome_displacements(&c->outcomes[follows]), w, s, f);
     const outcome_path *path = outcome_path_of(&c->outcomes[follows]);
-    return path->reached > 0
-               ? keep_state(c, analysis, SCENE_NONE, path->state[path->reached - 1], w, s, f)
-               : STATUS_OK;
+    return keep_state(c, analysis, SCENE_NONE, path->state[path->reached - 1], w, s, f);
+}
+
+/* With its modes; nothing where it failed. */
+static status keep_modal(const analysis_context *c, int analysis, workspace *w, system_matrices *s,
+                         fault *f)
+{
+    if (c->outcomes[analysis].status != STATUS_OK)
+        return STATUS_OK;
+    TRY(keep_about(c, analysis, w, s, f));
+    const outcome_side *found = &outcome_spectrum_of(&c->outcomes[analysis])->positive;
+    state_matrices *out = &s->state[s->states - 1];
+    const size_t count = (size_t)found->count, rows = (size_t)s->rows;
+    out->frequency = malloc((count + 1) * sizeof *out->frequency);
+    out->mode = malloc((count * rows + 1) * sizeof *out->mode);
+    if (out->frequency == NULL || out->mode == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for matrices of states");
+    out->modes = found->count;
+    if (count > 0) {
+        memcpy(out->frequency, found->value, count * sizeof *out->frequency);
+        memcpy(out->mode, found->mode, count * rows * sizeof *out->mode);
+    }
+    return STATUS_OK;
 }
 
 static status collect(const analysis_context *c, workspace *w, system_matrices *s, fault *f)

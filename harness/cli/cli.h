@@ -31,6 +31,7 @@ typedef struct cli_request {
     int formulations;
     int mesh[CLI_MAX_MESHES], meshes;
     const char *format, *output, *json, *junit, *markdown, *truths, *select, *threshold, *against;
+    const char *follow;   /* NAME=A..B/N: modes over a parameter */
     const char *matrices; /* folder for the matrices of all states */
     int jobs, keep_all, steps;
     int doublings;  /* of the finest mesh */

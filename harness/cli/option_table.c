@@ -30,6 +30,10 @@ const verb_option option_table[OPTION_COUNT] = {
      "store centre lines, sections and resultants of at most so many states of a path (solve: all, "
      "and -o FILE becomes HDF5 for ParaView; verify: 5)",
      0},
+    {"follow", 'V', "NAME=A..B/N",
+     "modes over a parameter, in N equal parts or smaller ones: matched by their shapes, so that "
+     "those that cross keep their number",
+     offsetof(cli_request, follow)},
     {"matrices", 'R', "FOLDER",
      "also stiffness, mass and gyroscopic matrices about every state, as Matrix Market, with a "
      "table "

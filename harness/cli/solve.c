@@ -1,13 +1,17 @@
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "harness/catalogue/parameters.h"
 #include "harness/cli/cli.h"
 #include "harness/record/csv.h"
+#include "harness/record/follow_record.h"
 #include "harness/record/json.h"
 #include "harness/record/output.h"
 #include "harness/record/store.h"
 #include "harness/record/system_folder.h"
 #include "harness/study/plan.h"
+#include "harness/tables/table_follow.h"
 #include "harness/tables/table_solution.h"
 
 static status write_to(FILE *to, const cli_request *r, const sweep *s, const truths *t, fault *f)
@@ -79,6 +83,72 @@ static void tell_analysis(const cli_request *r, const scene *s)
             path->value[path->stations - 1]);
 }
 
+/* NAME=A..B/N: both ends within the limits of the parameter. */
+static status range_of(const cli_request *r, const case_type *type, follow_request *out, fault *f)
+{
+    const char *ends = strchr(r->follow, '='), *dots = ends != NULL ? strstr(ends, "..") : NULL,
+               *slash = dots != NULL ? strchr(dots, '/') : NULL;
+    const assignment_list list = parameters_list(type);
+    double value[CASE_MAX_PARAMETERS];
+    char text[160];
+    int used = 0;
+    if (slash == NULL || sscanf(slash + 1, "%d%n", &out->parts, &used) != 1 ||
+        slash[1 + used] != '\0' || out->parts < 1 || out->parts > 100000)
+        return fault_set(f, STATUS_REFUSED,
+                         "--follow '%.60s': give NAME=A..B/N with N from 1 to 100000, such as "
+                         "width=0.01..0.03/20",
+                         r->follow);
+    memcpy(value, r->parameter, sizeof value);
+    snprintf(text, sizeof text, "%.*s", (int)(dots - r->follow), r->follow);
+    TRY(assignment_set(&list, text, value, NULL, &out->parameter, f));
+    out->from = value[out->parameter];
+    snprintf(text, sizeof text, "%.*s%.*s", (int)(ends + 1 - r->follow), r->follow,
+             (int)(slash - dots - 2), dots + 2);
+    TRY(assignment_set(&list, text, value, NULL, &out->parameter, f));
+    out->to = value[out->parameter];
+    return fabs(out->to - out->from) > 0
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED, "--follow '%.60s': both ends are the same; give two",
+                           r->follow);
+}
+
+static status write_curves(const cli_request *r, const char *name, const follow_curves *c, fault *f)
+{
+    output file;
+    status written = STATUS_OK;
+    TRY(output_open(r->output, &file, f));
+    if (strcmp(r->format, "json") == 0)
+        written = follow_record_json(file.stream, name, c, f);
+    else if (strcmp(r->format, "csv") == 0)
+        follow_record_csv(file.stream, name, c);
+    else
+        table_follow(file.stream, name, c);
+    return output_finish(&file, written, f);
+}
+
+/* --follow: modes over a parameter instead of one solution. */
+static status follow_modes(const cli_request *r, const case_type *type, fault *f)
+{
+    char name[SCENE_NAME];
+    follow_curves curves;
+    follow_request what = {
+        .cell = {
+            .type = type, .elements = r->mesh[0], .keep_all = r->keep_all, .threads = r->threads}};
+    if (r->shapes > 0 || r->matrices != NULL)
+        return fault_set(f, STATUS_REFUSED,
+                         "--follow gives curves of modes: leave --shapes and --matrices");
+    TRY(range_of(r, type, &what, f));
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(r->follow, "="), r->follow);
+    TRY(cli_check_files(r, 0, cli_truths_path(r), f));
+    cell_formulation(&what.cell, &r->formulation[0]);
+    what.cell.solve.steps_between = r->steps;
+    memcpy(what.cell.parameter, r->parameter, sizeof what.cell.parameter);
+    TRY(follow_run(&what, &curves, f));
+    const status written = write_curves(r, name, &curves, f);
+    follow_free(&curves);
+    return written;
+}
+
 static int solve_request(cli_request *r)
 {
     sweep s;
@@ -92,6 +162,8 @@ static int solve_request(cli_request *r)
                         "which formulation? Give one -f; 'beamwork list formulations' shows them");
     if (r->meshes != 1)
         return cli_fail(STATUS_REFUSED, "how many elements per member? Give one -n");
+    if (r->follow != NULL)
+        return cli_exit(follow_modes(r, type, &f), &f);
     if (r->shapes > 0 && r->output == NULL)
         return cli_fail(STATUS_REFUSED, "--shapes: into which file? Give -o FILE");
     status outcome = cli_check_files(r, r->shapes > 0, cli_truths_path(r), &f);
@@ -135,5 +207,5 @@ int cli_solve(int count, char **arguments)
         "solve", "CASE",
         "Solves one case with one formulation and one mesh and shows every quantity with its "
         "error.",
-        "fnsFoKSPRtTY", count, arguments, solve_request);
+        "fnsFoKSPRVtTY", count, arguments, solve_request);
 }

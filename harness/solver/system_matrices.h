@@ -4,18 +4,8 @@
 #ifndef BEAMWORK_SYSTEM_MATRICES_H
 #define BEAMWORK_SYSTEM_MATRICES_H
 
-#include "harness/algebra/sparse.h"
+#include "harness/algebra/triplets.h"
 #include "harness/equations/rows.h"
-
-typedef enum matrix_kind { MATRIX_GENERAL, MATRIX_SYMMETRIC, MATRIX_SKEW } matrix_kind;
-
-/* Entries that are not zero; where the kind is not general those on and below the diagonal only. */
-typedef struct triplets {
-    matrix_kind kind;
-    int rows, columns, entries;
-    int *row, *column; /* [entries] from zero, column by column */
-    double *value;     /* [entries] */
-} triplets;
 
 typedef struct state_matrices {
     int analysis; /* of the scene; SCENE_NONE: the undeformed structure at rest */
@@ -23,7 +13,9 @@ typedef struct state_matrices {
     double path;  /* parameter of the loads and drivers */
     int turns;    /* 1: the axes turn, and there is G */
     triplets K, M, G;
-    triplets B; /* [rows x loads] generalised force of each load at factor 1 */
+    triplets B;               /* [rows x loads] generalised force of each load at factor 1 */
+    int modes;                /* of a modal analysis: what it found, ascending; else 0 */
+    double *frequency, *mode; /* [modes] [rad/s]; [modes x rows] */
 } state_matrices;
 
 typedef struct system_matrices {
@@ -33,11 +25,6 @@ typedef struct system_matrices {
     state_matrices *state;
 } system_matrices;
 
-/* Entries of a; skew: of a symmetric pattern the upper triangle of a skew matrix is stored. */
-status system_matrices_triplets(const sparse *a, int skew, triplets *out, fault *);
-/* From columns [columns x rows], one after the other. */
-status system_matrices_triplets_of_columns(int rows, int columns, const double value[],
-                                           triplets *out, fault *);
 void system_matrices_free(system_matrices *);
 
 #endif

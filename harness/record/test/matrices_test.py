@@ -138,12 +138,14 @@ class Frequencies(Matrices):
             if folder is None:
                 continue
             checked += 1
-            for state, stem in (("undeformed", "rest"), ("modal_3", "bent"),
+            for state, stem in (("modal_1", "rest"), ("modal_3", "bent"),
                                 ("modal_4", "stressed")):
                 found = frequencies(self.read(folder, state, "K"), self.read(folder, state, "M"))
                 self.agree(values, stem, found, formulation)
             self.assertEqual((folder / "modal_3/K.mtx").read_text().splitlines()[2:],
                              (folder / "static_2_station_1/K.mtx").read_text().splitlines()[2:])
+            self.assertEqual((folder / "modal_1/K.mtx").read_text().splitlines()[2:],
+                             (folder / "undeformed/K.mtx").read_text().splitlines()[2:])
             self.assertFalse((folder / "undeformed/G.mtx").exists())
             self.inputs(folder, values["uz"])
         self.assertEqual(checked, len(FORMULATIONS))
@@ -194,6 +196,7 @@ class Contents(Matrices):
         self.assertEqual([(s["folder"], s["analysis"], s["kind"], s["station"], float(s["path"]))
                           for s in states],
                          [("undeformed", "", "", "", 0),
+                          ("modal_1", "analysis_1", "modal", "", 0),
                           ("static_2_station_0", "analysis_2", "static", "0", 0.5),
                           ("static_2_station_1", "analysis_2", "static", "1", 1),
                           ("modal_3", "analysis_3", "modal", "", 1),
