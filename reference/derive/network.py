@@ -42,6 +42,11 @@ class Network:
         self.bodies.append(Body(np.array(position) / self.length, conditions))
         return self.bodies[-1]
 
+    def joint(self, body, position, conditions):
+        """A massless body at position [m], whose load acts back on another body; its conditions see the place and rotation of that one last."""
+        self.bodies.append(Body(np.array(position) / self.length, conditions, body))
+        return self.bodies[-1]
+
     def member(self, beam, first, second, start, axes, warp=("fixed", "fixed"), loads=()):
         """start [m]: where the beam begins, fixed to the first body; axes: columns are its x, y, z; loads: LineLoad along it."""
         offset = np.array(start) / self.length - first.x
@@ -62,28 +67,32 @@ class Network:
 
     def _body_rows(self, level, conditions, b, put):
         """Six conditions at rows b.at + 6 ..; linearised by complex steps."""
-        numbers = self._places_of_numbers
-        columns = list(range(b.at, b.at + BODY)) + numbers
+        columns = list(range(b.at, b.at + BODY)) + self._places_of_numbers
+        on = [] if b.on is None else list(range(b.on.at, b.on.at + 6))
         R = b.R
         values = None
-        for k, column in enumerate(columns):
-            d = np.zeros(BODY + len(numbers), dtype=complex)
+        for k, column in enumerate(columns + on):
+            d = np.zeros(len(columns) + 6, dtype=complex)
             d[k] = 1j * STEP
-            value = np.array(conditions(level, b.x + d[:3], R + cross_matrix(d[3:6]) @ R, b.load[:3] + d[6:9], b.load[3:] + d[9:12], self.numbers + d[12:]), dtype=complex)
+            e = d[len(columns):]
+            other = [] if b.on is None else [(b.on.x + e[:3], b.on.R + cross_matrix(e[3:]) @ b.on.R)]
+            value = np.array(conditions(level, b.x + d[:3], R + cross_matrix(d[3:6]) @ R, b.load[:3] + d[6:9], b.load[3:] + d[9:12],
+                                        self.numbers + d[12:len(columns)], *other), dtype=complex)
             values = value.real
             for i in np.nonzero(value.imag)[0]:
                 put(i, column, value[i].imag / STEP)
         return values
 
     def _equilibrium(self, b, put, right):
-        """Rows b.at .. b.at + 5: external load, then the members add theirs."""
-        for i in range(3):
-            put(b.at + i, b.at + 6 + i, 1.0)
-            put(b.at + 3 + i, b.at + 9 + i, 1.0)
-        right[b.at:b.at + 3] -= b.load[:3]
-        right[b.at + 3:b.at + 6] -= b.load[3:] + np.cross(b.x, b.load[:3])
-        _block(put, b.at + 3, b.at + 6, cross_matrix(b.x))
-        _block(put, b.at + 3, b.at, -cross_matrix(b.load[:3]))
+        """Rows b.at .. b.at + 5: external load, then the members add theirs; that of a joint acts back."""
+        for owner, sign in ((b, 1.0), (b.on, -1.0)):
+            if owner is None:
+                continue
+            _block(put, owner.at, b.at + 6, sign * np.eye(6))
+            _block(put, owner.at + 3, b.at + 6, sign * cross_matrix(b.x))
+            _block(put, owner.at + 3, b.at, -sign * cross_matrix(b.load[:3]))
+            right[owner.at:owner.at + 3] -= sign * b.load[:3]
+            right[owner.at + 3:owner.at + 6] -= sign * (b.load[3:] + np.cross(b.x, b.load[:3]))
 
     def _member_rows(self, m, put, right):
         n, warps = m.beam.states, m.beam.warps

@@ -1,4 +1,5 @@
-"""Exact values of a scene that is a network of geometrically exact beams, rigid bodies and supports: displacements, reactions, stiffnesses.
+"""Exact values of a scene that is a network of geometrically exact beams, rigid bodies and supports: displacements, reactions, stiffnesses,
+resultants at the ends of members, frequencies about the undeformed state.
 
 usage: of_scene.py [FILE]     The scene (FILE or standard input) as 'beamwork scene' writes it.  One line for each quantity, as at.py has them.
 Exit status: 0; 3 the scene, or all of its quantities, are beyond this program, with a line for each that says what is.
@@ -20,12 +21,13 @@ from reference.derive.predicted_beam import Printed  # noqa: E402
 from reference.derive.scene_states import Path, compliance, linear, reaction, resultants  # noqa: E402
 from reference.derive.scene_support import WORDS  # noqa: E402
 from reference.derive.scene_text import Refused, number, only  # noqa: E402
+from reference.derive.scene_vibration import frequencies  # noqa: E402
 
 TABLES = "examples"
 SOURCE = "reference/derive/of_scene.py"
 GRIDS = ((4, 13), (6, 14), (10, 15), (16, 16))  # intervals, nodes of each
 AGREEMENT, ROUND_OFF, NOTHING = 1e-10, 1e-11, 1e-13  # of grids; of a value; of its scale
-KINDS = ("displacement", "reaction", "stiffness", "compliance", "motion", "internal")
+KINDS = ("displacement", "reaction", "stiffness", "compliance", "motion", "internal", "frequency")
 RESULTANTS = ("N", "Qy", "Qz", "Mx", "My", "Mz")
 
 
@@ -33,13 +35,15 @@ class Question:
     """A quantity of the scene: kind, what of it, and how it is told."""
 
     def __init__(self, name, entry):
-        only(entry, name, (*KINDS, "unit", "tolerance", "order", "near_zero", "factor", "offset", "prediction"))
+        only(entry, name, (*KINDS, "unit", "tolerance", "order", "near_zero", "factor", "offset", "x", "prediction"))
         self.name, self.entry = name, entry
         self.kind = next(kind for kind in KINDS if kind in entry)
         self.of = entry[self.kind]
-        only(self.of, name, ("analysis", "at", "take", "node", "component", "row", "column", "motion", "member", "end", "where", "resultant"))
+        only(self.of, name, ("analysis", "at", "take", "node", "component", "row", "column", "motion", "member", "end", "where", "resultant", "which", "family", "half_waves"))
         if self.kind == "internal" and (self.of["resultant"] not in RESULTANTS or self._end() is None):
             raise Refused(f"{name}: of internal forces {', '.join(RESULTANTS)} at the ends of members are within the deriving program")
+        if self.kind == "frequency" and (self.of.get("family", "any") != "any" or self.of.get("half_waves", "0") != "0"):
+            raise Refused(f"{name}: a family of modes is not within the deriving program")
         if self.of.get("take") == "curve":
             raise Refused(f"{name}: a curve is not within the deriving program")
 
@@ -123,6 +127,12 @@ def analyses(scene, questions, grid, scales=None):
         elif kind == "compliance" and "about" not in entry[kind] and asked:
             C = compliance(SceneNetwork(scene, *grid), 0.0, entry[kind], name)
             answer(asked, [0.0], [{q.name: q.of_matrix(C) for q in asked}])
+        elif kind == "modal" and "about" not in entry[kind] and asked:
+            which = [int(number(q.of.get("which", "0"), q.name)) for q in asked]
+            found = frequencies(SceneNetwork({key: value for key, value in scene.items() if key != "loads"}, *grid), max(which) + 1)
+            answer(asked, [0.0], [{q.name: found[i] for q, i in zip(asked, which)}])
+        elif kind == "modal" and asked:
+            raise Refused(f"{name}: frequencies about a loaded state are not within the deriving program")
         elif kind != "compliance" and asked:
             raise Refused(f"{name}: analyses of the kind '{kind}' are not within the deriving program")
     for name in scene["analyses"]:

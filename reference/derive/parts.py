@@ -5,7 +5,9 @@ from reference.derive.beam import chebyshev, product, rotation
 
 
 class Body:
-    def __init__(self, x, conditions):
+    def __init__(self, x, conditions, on=None):
+        """on: the body that a joint is on."""
+        self.on = on
         self.x, self.q, self.load, self.conditions = np.array(x, dtype=float), np.array([1.0, 0, 0, 0]), np.zeros(6), conditions
 
     @property

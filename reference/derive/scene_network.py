@@ -6,14 +6,15 @@ import numpy as np
 from reference.derive.beam import quaternion, rotation
 from reference.derive.line_load import LineLoad
 from reference.derive.network import Network
+from reference.derive.scene_release import Release
 from reference.derive.scene_section import beam, constants_of
 from reference.derive.scene_support import FREE, HELD, WORDS, Applied, Support, rotation_vector
 from reference.derive.scene_text import Refused, named, number, numbers, only, table
 
 NEEDS = ("shear", "trapeze", "wagner_moments", "wagner_torque", "rotary_inertia", "warping", "haringx")
 SCENE = ("beamwork", "name", "summary", "source", "sections", "nodes", "members", "motions", "loads", "analyses", "quantities", "needs", "meshes")
-NODE = ("at", "hold", "drive", "part_of", "rotation", "fork", "mass", "centre", "inertia")  # no inertia matters at rest
-MEMBER = ("from", "to", "section", "y", "warping", "curvature", "divisions")
+NODE = ("at", "hold", "drive", "part_of", "rotation", "fork", "mass", "centre", "inertia")  # inertia: scene_vibration.py
+MEMBER = ("from", "to", "section", "y", "warping", "curvature", "divisions", "release")
 LOAD = ("force", "moment", "distributed", "distributed_moment", "gravity", "on", "path", "factor", "at", "axes", "follower")
 
 
@@ -79,12 +80,12 @@ class SceneNetwork:
             ends = [numbers(named(self.scene["nodes"], entry[end], "node", name)["at"], name, 3) for end in ("from", "to")]
             self.frames[name] = Frame(*ends, numbers(entry["y"], name, 3), numbers(entry.get("curvature", ["0"] * 3), name, 3), name)
         name = min(self.frames, key=lambda each: self.frames[each].length)
-        section, where = self._section(self.scene["members"][name])
+        section, where = self.section_of(self.scene["members"][name])
         s = constants_of(section, where)
         self.length = self.frames[name].length
         self.force = number(section["young"], where) * min(s.Iy, s.Iz) / self.length ** 2
 
-    def _section(self, member):
+    def section_of(self, member):
         name = member["section"]
         if isinstance(name, list):
             raise Refused("a section that changes along a member is not within the deriving program")
@@ -207,7 +208,7 @@ class SceneNetwork:
     def _members(self):
         self.member = {}
         for name, entry in self.scene["members"].items():
-            frame, (section, where) = self.frames[name], self._section(entry)
+            frame, (section, where) = self.frames[name], self.section_of(entry)
             if frame.curvature and constants_of(section, where).turned:
                 raise Refused(f"{name}: a curved member with inclined principal axes is not within the deriving program")
             plain, s = beam(section, self.needs, frame.length, frame.curvature, where)
@@ -217,7 +218,20 @@ class SceneNetwork:
             warping = entry.get("warping", ["free", "free"])
             warp = tuple(w if isinstance(w, str) else w["shared"] for w in (warping if isinstance(warping, list) else [warping] * 2))
             start = numbers(self.scene["nodes"][entry["from"]]["at"], name, 3)
-            self.member[name] = self.net.member(self.form(plain), ends[0].body, ends[1].body, start, rotation(quaternion(principal)), warp, loads)
+            bodies = [self._end(name, entry, end, place, frame) for end, place in zip(("from", "to"), ends)]
+            self.member[name] = self.net.member(self.form(plain), *bodies, start, rotation(quaternion(principal)), warp, loads)
+
+    def _end(self, name, entry, end, place, frame):
+        """The body that an end of a member is at: that of its node, or of a joint on it."""
+        words = entry.get("release", {}).get(end, [])
+        if not words:
+            return place.body
+        if frame.curvature:
+            raise Refused(f"{name}: a release of a curved member is not within the deriving program")
+        release = Release(words, frame.described, place.offset / self.length, self._new_number)
+        joint = self.net.joint(place.body, self.length * place.body.x + place.offset, release.conditions)
+        self.extra += [(joint, condition) for condition in release.extra()]
+        return joint
 
     def displacement(self, name, component):
         """[m, rad] of a node."""

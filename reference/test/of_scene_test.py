@@ -4,6 +4,8 @@ import math
 import pathlib
 import unittest
 
+from scipy.optimize import brentq
+
 from reference.derive import of_scene, scene_text
 from reference.derive.scene_text import Refused
 
@@ -127,6 +129,43 @@ class Scenes(unittest.TestCase):
         self.close(found["Q"], 3.0)
         self.close(found["M"], 3 * (1 + found["u"][0]))
 
+    def test_releases(self):
+        """A bar that a hinge lets turn; one that slides; a propped cantilever, by a hinge and by a ball; a universal joint, whose second axis turns with
+        the first."""
+        motion = "motions:\n  push: {path: [0, 1], value: [0, 0.6]}\n"
+        found = values(bar("force: [0, 0, 0], on: tip", {"u": tip("ux"), "t": tip("rz")}, tip=", drive: {uy: push}", motions=motion, beam=", release: {from: [rz]}"))
+        self.close(found["u"], -0.2)
+        self.close(found["t"], math.asin(0.6))
+        found = values(bar("force: [0, 0, 0], on: tip", {"f": tip("ux", "reaction"), "u": tip("ux")}, tip=", drive: {ux: push}", motions=motion, beam=", release: {from: [ux]}"))
+        self.close(found["u"], 0.6)
+        self.assertAlmostEqual(found["f"][0], 0, delta=1e-9)
+        asked = {"M": "internal: {analysis: path, member: beam, end: from, resultant: Mz}, unit: N m"}
+        for words in ("rz", "rx, ry, rz"):
+            held = bar("distributed: [0, 2, 0], on: beam", asked, path="linear: {}", tip=", hold: [ux, uy, uz, rx, ry, rz]", beam=f", release: {{to: [{words}]}}")
+            self.close(values(held)["M"], 2 / 8)
+        both = "motions:\n  up: {path: [0, 1, 2], value: [0, 0.6, 0.6]}\n  aside: {path: [0, 1, 2], value: [0, 0, 0.48]}\n"
+        found = values(bar("force: [0, 0, 0], on: tip", {"u": tip("ux"), "x": tip("rx"), "y": tip("ry"), "z": tip("rz")}, path="static: {stations: [2], steps: 4}",
+                           tip=", drive: {uy: up, uz: aside}", motions=both, beam=", release: {from: [rz, ry]}"))
+        self.close(found["u"], math.sqrt(1 - 0.6 ** 2 - 0.48 ** 2) - 1)
+        a, b = math.atan2(0.6, math.sqrt(1 - 0.6 ** 2 - 0.48 ** 2)), -math.asin(0.48)  # exp(z a) exp(y b)
+        c, s = math.cos(a / 2) * math.cos(b / 2), math.hypot(math.sin(a / 2), math.cos(a / 2) * math.sin(b / 2))
+        scale = 2 * math.atan2(s, c) / s
+        for name, value in (("x", -math.sin(a / 2) * math.sin(b / 2)), ("y", math.cos(a / 2) * math.sin(b / 2)), ("z", math.sin(a / 2) * math.cos(b / 2))):
+            self.close(found[name], scale * value)
+
+    def test_frequencies(self):
+        """Of a cantilever, without rotary inertia: bending both ways, twist, with a point mass at its tip."""
+        asked = {f"f{i}": f"frequency: {{analysis: path, which: {i}}}, unit: Hz" for i in range(4)}
+        text = bar("force: [0, 0, 1], on: tip", asked, path="modal: {}").replace("shear_modulus: 1}", "shear_modulus: 1, density: 1e-8}").replace("It: 1", "It: 0.36")
+        found = values(text)
+        for name, root in (("f0", 1.8751040687119611), ("f1", 1.8751040687119611), ("f3", 4.6940911329741745)):
+            self.close(found[name], root ** 2 / (2 * math.pi))
+        twist = values(text.replace("It: 0.36", "It: 1, Ip: 2e9"))["f0"]
+        self.close(twist, math.sqrt(1 / 20) / 4)
+        heavy = values(text.replace("tip: {at: [1, 0, 0]", "tip: {at: [1, 0, 0], mass: 3"))
+        root = brentq(lambda b: 1 + math.cos(b) * math.cosh(b) + 3 * b * (math.cos(b) * math.sinh(b) - math.sin(b) * math.cosh(b)), 0.5, 1.5, xtol=1e-15)
+        self.close(heavy["f0"], root ** 2 / (2 * math.pi))
+
     def test_roll_up(self):
         """A moment 2 pi EI/L makes a circle."""
         found = values(bar(f"moment: [0, 0, {math.pi!r}], on: tip", {"u": tip("ux"), "w": tip("uy")}))
@@ -156,8 +195,10 @@ class Refusals(unittest.TestCase):
         self.refused("'strain'", bar(push, asked, beam=", strain: [1e-3, 0, 0]"))
         self.refused("needs: 'engesser'", bar(push, asked, needs="engesser"))
         self.refused("changes along", bar(push, asked).replace("section: bar", "section: [bar, bar]"))
-        self.refused("kind 'modal'", bar(push, {"w": "displacement: {analysis: path, node: tip, component: ux}"}, path="modal: {}"))
+        self.refused("family", bar(push, {"w": "frequency: {analysis: path, family: torsion}"}, path="modal: {}"))
         self.refused("'critical_factor'", bar(push, {"w": "critical_factor: {analysis: path}"}, path="buckling: {}"))
+        self.refused("a curve", bar(push, {"w": "displacement: {analysis: path, node: tip, component: ux, take: curve}, x: {name: load}"}))
+        self.refused("release of a curved member", bar(push, asked, beam=", curvature: [0, 0, 0.1], release: {from: [rz]}"))
         self.refused("'cells'", bar(push, asked).replace("constants: {A: 1e8, Iy: 1, Iz: 1, It: 1}", "points: {}, walls: [], cells: 1"))
         self.refused("curvature about y", bar(push, asked, beam=", curvature: [0, 0.1, 0]"))
         self.refused("is not a number", bar(push, asked).replace("young: 1", "young: stiff"))
