@@ -237,6 +237,37 @@ static void flanged(const element_type *e, ask_tally *tally)
              a.value[0]);
 }
 
+/* A bar that turns steadily beside one at rest, in either order: each quantity is that of its own analysis. */
+static void turns_beside_rest(const element_type *e, ask_tally *tally, int turning_first)
+{
+    const double one = 1, tension = 2; /* rho A Omega^2 l^2/2 */
+    static answer a;
+    scene s;
+    const int tip = cantilever(&s, 0);
+    s.section[0].density = s.section[0].constants.density =
+        1e-9; /* rho A = 1, no rotary inertia to speak of */
+    scene_add_load(&s, SCENE_FORCE, tip, 0, 0.01, 0);
+    int rest = -1;
+    if (!turning_first)
+        rest = scene_add_linear(&s);
+    const int turning = scene_add_static(&s, 1, &one, 1);
+    scene_set_rotating_frame(&s, turning, (scene_rotating_frame){.omega = {0, 0, 1}});
+    if (turning_first)
+        rest = scene_add_linear(&s);
+    scene_add_quantity(&s, "N at rest", "N", rest, scene_internal_at(0, 0.5, SCENE_N));
+    scene_add_quantity(&s, "N turning", "N", turning, scene_internal_at(0, 0.5, SCENE_N));
+    scene_add_quantity(&s, "reaction", "N", turning, scene_reaction(0, 0));
+    ask_scene(&s, e, NULL, 4, &a);
+    scene_free(&s);
+    if (!ask_count(tally, &a, "a turning bar beside one at rest, %d", turning_first))
+        return;
+    gsl_test_abs(a.value[0], 0, 1e-9, "%s: no axial force at rest, %d", e->name, turning_first);
+    gsl_test_rel(a.value[1], 0.75 * tension, 0.02, "%s: tension half-way while it turns, %d",
+                 e->name, turning_first);
+    gsl_test_rel(a.value[2], -tension, 0.02, "%s: reaction while it turns, %d", e->name,
+                 turning_first);
+}
+
 int main(void)
 {
     for (int i = 0; registry_formulations[i] != NULL; i++) {
@@ -248,6 +279,8 @@ int main(void)
         twists(e, &tally);
         flat_bar(e, &tally);
         flanged(e, &tally);
+        turns_beside_rest(e, &tally, 0);
+        turns_beside_rest(e, &tally, 1);
         ask_conclude(&tally, e, "resultants inside members");
     }
     return gsl_test_summary();
