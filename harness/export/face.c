@@ -158,9 +158,23 @@ static status fill_walls(const section_spec *spec, const double centroid[2], fac
     return STATUS_OK;
 }
 
+/* Does the description replace what its sizes come to? */
+static int is_overridden(const section_spec *spec)
+{
+    double given[sizeof spec->given / sizeof(double)];
+    memcpy(given, &spec->given, sizeof given);
+    for (size_t i = 0; i < sizeof given / sizeof given[0]; i++)
+        if (!isnan(given[i]))
+            return 1;
+    return 0;
+}
+
 status face_of(const section_spec *spec, const section *constants, face *out, fault *f)
 {
     memset(out, 0, sizeof *out);
+    if (is_overridden(spec))
+        return fault_set(f, STATUS_REFUSED,
+                         "a solid has the constants of its sizes; leave out 'given'");
     if (spec->kind == SECTION_WALLS)
         return fill_walls(spec, constants->centroid, out, f);
     if (spec->kind != SECTION_RECTANGLE)

@@ -22,7 +22,7 @@ typedef struct face {
 
 /* Place of corner k of n elements on 0 to 1, dense at both ends. */
 double face_graded(int k, int n);
-/* section: what the spec comes to. REFUSED: tubes, constants, walls that are oblique to y and z. */
+/* section: what the spec comes to. REFUSED: tubes, constants, also given ones, walls that are oblique to y and z. */
 status face_of(const section_spec *spec, const section *constants, face *out, fault *f);
 /* Of what is filled [m^2]. */
 double face_area(const face *);
