@@ -181,6 +181,8 @@ class SceneNetwork:
         for name, entry in self.scene.get("loads", {}).items():
             only(entry, name, LOAD)
             if "force" not in entry and "moment" not in entry:
+                if entry["on"] not in self.scene["members"]:
+                    raise Refused(f"{name}: the weight of a body is not within the deriving program")
                 continue
             if entry.get("axes", "fixed") != "fixed":
                 raise Refused(f"{name}: a member's axes at a node are not within the deriving program")

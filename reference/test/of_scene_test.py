@@ -192,6 +192,7 @@ class Refusals(unittest.TestCase):
     def test_each_names_what(self):
         push, asked = "force: [0, 1, 0], on: tip", {"w": tip("uy")}
         self.refused("'springs'", bar(push, asked) + "springs: {}\n")
+        self.refused("weight of a body", bar("gravity: [0, 0, -9.81], on: tip", asked, tip=", mass: 3"))
         self.refused("'strain'", bar(push, asked, beam=", strain: [1e-3, 0, 0]"))
         self.refused("needs: 'engesser'", bar(push, asked, needs="engesser"))
         self.refused("changes along", bar(push, asked).replace("section: bar", "section: [bar, bar]"))
