@@ -32,24 +32,34 @@ static int known_limits(const sweep *s, int point_index, int quantity, known_lim
     return count;
 }
 
-/* Distance of the second from the first, its uncertainty included; INFINITY: they do not agree. */
-static double distance(const scene_quantity *q, const known_limit *a, const known_limit *b)
+/* How far two limits are apart, and what both are uncertain by. */
+typedef struct difference {
+    double apart, unknown;
+} difference;
+
+static difference difference_of(const known_limit *a, const known_limit *b)
 {
-    const double apart = fabs(a->value - b->value);
-    const double size = fmax(fmax(fabs(a->value), fabs(b->value)), q->near_zero);
-    const int agree = apart + a->uncertainty + b->uncertainty <= FAMILIES_APART * size;
-    return agree ? apart + b->uncertainty : INFINITY;
+    return (difference){fabs(a->value - b->value), a->uncertainty + b->uncertainty};
 }
 
-/* What agrees with one limit: of each family the nearest. */
+static int agree(const scene_quantity *q, const known_limit *a, const known_limit *b)
+{
+    const difference d = difference_of(a, b);
+    const double size = fmax(fmax(fabs(a->value), fabs(b->value)), q->near_zero);
+    return d.apart + d.unknown <= FAMILIES_APART * size;
+}
+
+/* What agrees with one limit: of each family the nearest.  A family that is known badly does not
+ * make worse what two others know: it counts by what it is off beyond its own uncertainty. */
 static families_limit around(const scene_quantity *q, const known_limit *all, int count, int centre)
 {
     families_limit out = {.value = all[centre].value};
-    double nearest[FAMILIES_MOST];
+    double nearest[FAMILIES_MOST], best = INFINITY, beyond = 0;
     for (int i = 0; i < count; i++) {
-        const double far = distance(q, &all[centre], &all[i]);
+        const difference d = difference_of(&all[centre], &all[i]);
+        const double far = d.apart + d.unknown;
         int k = 0;
-        if (!isfinite(far))
+        if (!agree(q, &all[centre], &all[i]))
             continue;
         while (k < out.families && strcmp(all[out.series[k]].family, all[i].family) != 0)
             k++;
@@ -59,8 +69,14 @@ static families_limit around(const scene_quantity *q, const known_limit *all, in
         out.series[k] = i;
         out.families += k == out.families;
     }
-    for (int k = 0; k < out.families; k++)
-        out.uncertainty = fmax(out.uncertainty, nearest[k]);
+    for (int k = 0; k < out.families; k++) {
+        const difference d = difference_of(&all[centre], &all[out.series[k]]);
+        if (strcmp(all[centre].family, all[out.series[k]].family) == 0)
+            continue;
+        best = fmin(best, d.apart + d.unknown);
+        beyond = fmax(beyond, d.apart - d.unknown);
+    }
+    out.uncertainty = fmax(best, beyond);
     return out;
 }
 
@@ -85,8 +101,8 @@ families_limit families_limit_of(const sweep *s, int point_index, int quantity)
         }
     }
     for (int i = 0; i < count; i++)
-        best.disputed |= !isfinite(distance(q, &all[centre], &all[i])) &&
-                         around(q, all, count, i).families >= best.families;
+        best.disputed |=
+            !agree(q, &all[centre], &all[i]) && around(q, all, count, i).families >= best.families;
     for (int k = 0; k < best.families; k++)
         best.series[k] = all[best.series[k]].series;
     return best;

@@ -4,8 +4,9 @@
  *
  * Each formulation has a limit L and its uncertainty U (limit.h).  Two agree when |L1 - L2| + U1 +
  * U2 is within FAMILIES_APART of their size.  The reference is the limit that most families agree
- * with, at least two; of several that with the least uncertainty: the largest over the families of
- * the distance to their nearest limit, its uncertainty included. Where as many families
+ * with, at least two; of several that with the least uncertainty: the distance to the nearest of
+ * another family with what both are uncertain by, or what a third is off beyond its own
+ * uncertainty, where that is more. Where as many families
  * agree on another limit, there is no reference. */
 #ifndef BEAMWORK_FAMILIES_H
 #define BEAMWORK_FAMILIES_H

@@ -111,6 +111,24 @@ static void two_families(void)
     finish(&b);
 }
 
+/* What a third family hardly knows makes neither the limit nor its uncertainty worse. */
+static void known_badly(void)
+{
+    bench b;
+    make(&b);
+    add(&b, GREEN_ONE, 3, 0.1);
+    for (int k = 0; k < MESHES; k++) /* it goes up and down by 1e-4 */
+        b.quantity[0][k].value = 3 * (1 + (k % 2 ? 1e-4 : -1e-4));
+    add(&b, RED_ONE, 3, 0.1);
+    add(&b, BLUE_ONE, 3.000003, 0.1);
+    const families_limit l = families_limit_of(&b.s, 0, 0);
+    gsl_test(l.families != 3, "three families agree: %d", l.families);
+    gsl_test(!(fabs(l.value - 3) < 1e-5) || !(l.uncertainty >= 3e-6 && l.uncertainty < 5e-5),
+             "the limit of those who know, %.8g, and how well they do: %.2g", l.value,
+             l.uncertainty);
+    finish(&b);
+}
+
 /* Two against two: nobody knows. Three against two: the three. */
 static void disputes(void)
 {
@@ -165,6 +183,7 @@ int main(void)
 {
     one_family_is_none();
     two_families();
+    known_badly();
     disputes();
     uncertain();
     reach();
