@@ -10,8 +10,12 @@ def main():
     parser.add_argument("results")
     parser.add_argument("truths")
     parser.add_argument("-o", dest="folder", required=True)
-    parser.add_argument("--bench", help="times of 'beamwork bench -o'; without it those of single runs")
-    parser.add_argument("--beside", action="append", default=[], help="what other programs found, stored by 'beamwork import'")
+    parser.add_argument("--bench",
+                        help="times of 'beamwork bench -o'; without it those of single runs")
+    parser.add_argument("--beside",
+                        action="append",
+                        default=[],
+                        help="what other programs found, stored by 'beamwork import'")
     given = parser.parse_args()
     try:
         from reports import pages

@@ -12,9 +12,9 @@ class Way:
     """The cheapest mesh of a formulation that stays within a level on every finer mesh too."""
     key: str
     n: int
-    clock: object     # data.Clock
+    clock: object  # data.Clock
     error: float
-    worst: object     # data.Verdict: the worst of those that it takes
+    worst: object  # data.Verdict: the worst of those that it takes
 
     @property
     def seconds(self):
@@ -80,7 +80,8 @@ def speed_up(found):
 
 def front(point, quantity):
     """[(series, mesh)] not beaten in both time and error, by time."""
-    cells = [(s, m) for s in point.series if not s.missing for m in s.meshes if math.isfinite(m.errors.get(quantity, math.nan))]
+    cells = [(s, m) for s in point.series if not s.missing for m in s.meshes
+             if math.isfinite(m.errors.get(quantity, math.nan))]
     best, out = math.inf, []
     for series, mesh in sorted(cells, key=lambda c: (c[1].seconds, abs(c[1].errors[quantity]))):
         if abs(mesh.errors[quantity]) < best:
@@ -94,7 +95,9 @@ def failures(point):
     out = []
     for series in point.series:
         for mesh in series.meshes if not series.missing else []:
-            lost = [q for q, v in mesh.values.items() if not math.isfinite(v) and q not in mesh.curves]
+            lost = [
+                q for q, v in mesh.values.items() if not math.isfinite(v) and q not in mesh.curves
+            ]
             if mesh.status != "ok" or lost:
                 reason = mesh.reason or next((mesh.reasons[q] for q in lost if mesh.reasons[q]), "")
                 out.append((series, mesh, reason, lost))

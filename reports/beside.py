@@ -42,7 +42,10 @@ def named(point, key):
 
 def style(index):
     """Grey, hollow, dotted: taken elsewhere."""
-    return {"color": str(0.15 + 0.08 * (index % 8)), "marker": "sDv^<>ph"[index % 8], "markerfacecolor": "white", "linestyle": (0, (1, 1)), "linewidth": 1, "markersize": 6}
+    return {
+        "color": str(0.15 + 0.08 * (index % 8)), "marker": "sDv^<>ph"[index % 8],
+        "markerfacecolor": "white", "linestyle": (0, (1, 1)), "linewidth": 1, "markersize": 6
+    }
 
 
 def label(key):
@@ -56,8 +59,11 @@ def rows(point):
     out = []
     for series in point.others:
         judged = {v.quantity: v for v in series.verdicts}
-        names = dict.fromkeys(q for m in series.meshes for q, value in m.values.items() if math.isfinite(value))
+        names = dict.fromkeys(
+            q for m in series.meshes for q, value in m.values.items() if math.isfinite(value))
         for quantity in names:
-            mesh = max((m for m in series.meshes if math.isfinite(m.values.get(quantity, math.nan))), key=lambda m: m.n)
+            mesh = max(
+                (m for m in series.meshes if math.isfinite(m.values.get(quantity, math.nan))),
+                key=lambda m: m.n)
             out.append((series, judged.get(quantity), quantity, mesh))
     return out

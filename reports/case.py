@@ -6,8 +6,8 @@ from reports import answers, beside, plots
 from reports.site import LEVELS
 
 NAVIGATION = []
-MOST_POINTS = 4      # parameter points with a figure
-MOST_PANELS = 24     # small figures of the other quantities
+MOST_POINTS = 4  # parameter points with a figure
+MOST_PANELS = 24  # small figures of the other quantities
 
 
 def figures_of(site, case, index):
@@ -21,15 +21,22 @@ def figures_of(site, case, index):
     if quantities:
         drawn = plots.work_precision(site, point, quantities[0], f"{name}_{quantities[0]}")
         out["main"] = [(quantities[0], drawn)] if drawn else []
-    others = [q for q in quantities[1:] if any(plots.finite(s, q) for s in point.series)][:MOST_PANELS]
+    others = [q for q in quantities[1:]
+              if any(plots.finite(s, q) for s in point.series)][:MOST_PANELS]
     if others and index == 0:
-        out["others"] = [(", ".join(others), plots.small_multiples(site, point, others, f"{name}_others"))]
-    modelled = [q for q in point.units if any(plots.finite(s, q, "model_errors") for s in point.series)][:MOST_PANELS]
+        out["others"] = [(", ".join(others),
+                          plots.small_multiples(site, point, others, f"{name}_others"))]
+    modelled = [
+        q for q in point.units if any(plots.finite(s, q, "model_errors") for s in point.series)
+    ][:MOST_PANELS]
     if modelled:
-        out["model"] = [(", ".join(modelled), plots.small_multiples(site, point, modelled, f"{name}_model", "model_errors", "model error", "elements"))]
+        out["model"] = [(", ".join(modelled),
+                         plots.small_multiples(site, point, modelled, f"{name}_model",
+                                               "model_errors", "model error", "elements"))]
     if index == 0:
         names = sorted({q for s in point.series for m in s.meshes for q in m.curves})
-        out["curves"] = [(q, f) for q, f in ((q, plots.curves(site, point, q, f"{name}_{q}_curve")) for q in names) if f]
+        out["curves"] = [(q, f) for q, f in ((q, plots.curves(site, point, q, f"{name}_{q}_curve"))
+                                             for q in names) if f]
     return out
 
 
@@ -39,8 +46,11 @@ def table_of(point, quantity):
     for level in LEVELS:
         found = answers.ways(point, quantity, level)
         for w in found:
-            rows.setdefault(w.key, {})[level] = (w, w.seconds / found[0].seconds, w is not found[0] and not answers.differ(w.clock, found[0].clock))
-    return sorted(rows.items(), key=lambda r: (-len(r[1]), min(w[0].seconds for w in r[1].values())))
+            rows.setdefault(w.key,
+                            {})[level] = (w, w.seconds / found[0].seconds, w is not found[0] and
+                                          not answers.differ(w.clock, found[0].clock))
+    return sorted(rows.items(),
+                  key=lambda r: (-len(r[1]), min(w[0].seconds for w in r[1].values())))
 
 
 def cheapest_of(point):
@@ -56,23 +66,37 @@ def limits_of(point):
     for s in point.series:
         for v in s.verdicts:
             rows.setdefault(v.quantity, []).append((s.key, v))
-    return [(q, [(key, v) for key, v in found if v.verdict != "skip"]) for q, found in rows.items() if q in point.units and all(v.verdict in ("no truth", "skip") for _, v in found)]
+    return [(q, [(key, v) for key, v in found if v.verdict != "skip"]) for q, found in rows.items()
+            if q in point.units and all(v.verdict in ("no truth", "skip") for _, v in found)]
 
 
 def parts_of(site, case, index):
     """What a page shows of one parameter point."""
     point = case.points[index]
     names = answers.judged(point)
-    return {"point": point, "figures": figures_of(site, case, index), "table": table_of(point, names[0]) if names else [], "quantity": names[0] if names else None,
-            "limits": limits_of(point), "others": beside.rows(point), "cheapest": cheapest_of(point), "front": answers.front(point, names[0]) if names else [], "failures": answers.failures(point), "savings": answers.savings(point),
-            "noise": sorted(100 * (m.clock.most / m.clock.least - 1) for s in point.series for m in s.meshes if m.clock.repeats > 1 and m.clock.least > 0),
-            "has_model": any(math.isfinite(v.model_error) for s in point.series for v in s.verdicts)}
+    return {
+        "point": point, "figures": figures_of(
+            site, case, index), "table": table_of(point, names[0]) if names else [],
+        "quantity": names[0] if names else None, "limits": limits_of(point),
+        "others": beside.rows(point), "cheapest": cheapest_of(point),
+        "front": answers.front(point, names[0]) if names else [],
+        "failures": answers.failures(point), "savings": answers.savings(point), "noise": sorted(
+            100 * (m.clock.most / m.clock.least - 1) for s in point.series for m in s.meshes
+            if m.clock.repeats > 1 and m.clock.least > 0), "has_model": any(
+                math.isfinite(v.model_error) for s in point.series for v in s.verdicts)
+    }
 
 
 def write(site, case):
     sections = [found for section in site.sections for found in section(site, case)]
-    site.write("case.html", f"{case.name}.html", case=case, parts=[parts_of(site, case, i) for i in range(len(case.points))], sections=sections, undecided=answers.undecided,
-               differ=answers.differ, timed=site.bench is not None)
+    site.write("case.html",
+               f"{case.name}.html",
+               case=case,
+               parts=[parts_of(site, case, i) for i in range(len(case.points))],
+               sections=sections,
+               undecided=answers.undecided,
+               differ=answers.differ,
+               timed=site.bench is not None)
 
 
 def tasks(site):

@@ -7,9 +7,10 @@ from reports import answers, data, plots
 from reports.site import LEVELS
 
 NAVIGATION = [("claims.html", "claims")]
-PEERS = "warping=0;trapeze=0;shear_factor=0.8333333333333334"   # of sheet_cantilever: what reference/peers.csv speaks of
-SECTIONS = ("printed constants", "section_data=printed"), ("shear flow", "")  # of J Table 2: no single set gives all of its four entries
-TARGET = 0.01, 2e-4   # both errors of the peers' case within 1 %, in less than 0.2 ms of solving
+PEERS = "warping=0;trapeze=0;shear_factor=0.8333333333333334"  # of sheet_cantilever: what reference/peers.csv speaks of
+SECTIONS = ("printed constants", "section_data=printed"), (
+    "shear flow", "")  # of J Table 2: no single set gives all of its four entries
+TARGET = 0.01, 2e-4  # both errors of the peers' case within 1 %, in less than 0.2 ms of solving
 
 
 class Lookup:
@@ -43,35 +44,53 @@ def percent(value):
 def sheets(look, truths):
     free, far = "tip_warping=1", "tip_deflection=0.05;tip_warping=1"
     yield ("N 4.1: one third-order element within 0.8 % at 0.15 L (tip free to warp)", "0.8 %",
-           ", ".join(f"{q} {percent(look.error('sheet_cantilever', free, 'sheet_third', 1, q))}" for q in ("C_xx", "C_zz")))
-    yield ("N 4.1: within 2.4 % of du_z/dF_z at 0.5 L (tip free to warp)", "2.4 %", f"C_zz {percent(look.error('sheet_cantilever', far, 'sheet_third', 1, 'C_zz'))}")
-    yield ("N 4.1: the second order needs more than three elements", "> 3",
-           ", ".join(f"n = {n}: {percent(look.error('sheet_cantilever', free, 'sheet_second', n, 'C_zz'))}" for n in (1, 2, 3, 4)))
-    for wagner, quantity, claim in (("", "C_ux_My", "2.4 %"), (";wagner=0", "C_ux_My", "38 %"), ("", "C_uz_Fz", "all components: 6.4 %")):
-        value, plate = look.value("sheet_wagner", free + wagner, "sheet_third", 3, quantity), data.read_other_model(truths, "sheet_wagner", free + wagner, quantity)
-        yield (f"N 4.1: three elements {'without' if wagner else 'with'} the Wagner torque, {quantity} against a plate (tip free to warp)", claim, percent(value / plate - 1))
+           ", ".join(f"{q} {percent(look.error('sheet_cantilever', free, 'sheet_third', 1, q))}"
+                     for q in ("C_xx", "C_zz")))
+    yield ("N 4.1: within 2.4 % of du_z/dF_z at 0.5 L (tip free to warp)", "2.4 %",
+           f"C_zz {percent(look.error('sheet_cantilever', far, 'sheet_third', 1, 'C_zz'))}")
+    yield ("N 4.1: the second order needs more than three elements", "> 3", ", ".join(
+        f"n = {n}: {percent(look.error('sheet_cantilever', free, 'sheet_second', n, 'C_zz'))}"
+        for n in (1, 2, 3, 4)))
+    for wagner, quantity, claim in (("", "C_ux_My", "2.4 %"), (";wagner=0", "C_ux_My", "38 %"),
+                                    ("", "C_uz_Fz", "all components: 6.4 %")):
+        value, plate = look.value("sheet_wagner", free + wagner,
+                                  "sheet_third", 3, quantity), data.read_other_model(
+                                      truths, "sheet_wagner", free + wagner, quantity)
+        yield (
+            f"N 4.1: three elements {'without' if wagner else 'with'} the Wagner torque, {quantity} against a plate (tip free to warp)",
+            claim, percent(value / plate - 1))
 
 
 def joint(look, truths):
-    published = (("sheet_third", "", 1, 9.77, 1.0), ("sheet_third", "", 2, 9.61, 3.3), ("sheet_second", "wagner=0", 1, 10.95, 0.9),
-                 ("sheet_second", "wagner=0", 2, 9.68, 3.1), ("sheet_second", "wagner=0", 4, 9.63, 9.6))
+    published = (("sheet_third", "", 1, 9.77, 1.0), ("sheet_third", "", 2, 9.61, 3.3),
+                 ("sheet_second", "wagner=0", 1, 10.95, 0.9), ("sheet_second", "wagner=0", 2, 9.68,
+                                                               3.1), ("sheet_second", "wagner=0", 4,
+                                                                      9.63, 9.6))
     first = look.mesh("spherical_joint", "", "sheet_third", 1)
     for key, parameters, n, maximum, time in published:
         mesh = look.mesh("spherical_joint", parameters, key, n)
         value = look.value("spherical_joint", parameters, key, n, "support_stiffness_max")
         ratio = mesh.seconds / first.seconds if mesh and first else math.nan
-        yield (f"N 4.2: joint, {key}, {n} per sheet: maximum, relative time", f"{maximum} x 1e5 N/m, {time}", f"{value / 1e5:.3f} x 1e5 N/m, {ratio:.2f}")
-    one, four = (look.value("spherical_joint", parameters, key, n, "support_stiffness_max") for key, parameters, n, *_ in (published[0], published[4]))
-    yield ("N 4.2: one element of third order from four of second", "1.5 %", percent(one / four - 1))
+        yield (f"N 4.2: joint, {key}, {n} per sheet: maximum, relative time",
+               f"{maximum} x 1e5 N/m, {time}", f"{value / 1e5:.3f} x 1e5 N/m, {ratio:.2f}")
+    one, four = (look.value("spherical_joint", parameters, key, n, "support_stiffness_max")
+                 for key, parameters, n, *_ in (published[0], published[4]))
+    yield ("N 4.2: one element of third order from four of second", "1.5 %",
+           percent(one / four - 1))
 
 
 def column(look, truths):
-    for key, shear, loads in (("beamw", "", (12.86, 11.90)), ("beamw_vlasov", "shear=0", (18.34, 16.67))):
+    for key, shear, loads in (("beamw", "", (12.86, 11.90)), ("beamw_vlasov", "shear=0", (18.34,
+                                                                                          16.67))):
         for n, load in zip((2, 4), loads):
-            sets = ((name, look.value("c_column", f"{parameters};{shear}", key, n, "buckling_load")) for name, parameters in SECTIONS)
-            yield f"J Table 2: {key}, {n} elements", f"{load:.2f} MN", ", ".join(f"{value / 1e6:.3f} MN ({name})" for name, value in sets)
-    for i, (ours, published) in enumerate(((1, 33.23), (2, 67.17), (3, 99.03), (4, 102.79), (5, 169.05), (6, 178.01))):
-        value, error = (f("c_column", "", "beamw_consistent", 64, f"frequency_{ours}") for f in (look.value, look.error))
+            sets = ((name, look.value("c_column", f"{parameters};{shear}", key, n, "buckling_load"))
+                    for name, parameters in SECTIONS)
+            yield f"J Table 2: {key}, {n} elements", f"{load:.2f} MN", ", ".join(
+                f"{value / 1e6:.3f} MN ({name})" for name, value in sets)
+    for i, (ours, published) in enumerate(
+        ((1, 33.23), (2, 67.17), (3, 99.03), (4, 102.79), (5, 169.05), (6, 178.01))):
+        value, error = (f("c_column", "", "beamw_consistent", 64, f"frequency_{ours}")
+                        for f in (look.value, look.error))
         yield f"J Table 3 (a): frequency {i + 1}", f"{published} Hz", f"{value / (1 + error):.3f} Hz exact, {value:.2f} Hz with 64 elements (beamw_consistent)"
 
 
@@ -92,7 +111,10 @@ def baseline(site):
     """The joint and the hexapod with the dense baseline, where 'make bench-mechanisms' wrote them beside the results."""
     files = {"spherical_joint": "mechanisms_joint.h5", "hexapod": "mechanisms_hexapod.h5"}
     here = pathlib.Path(site.results).parent
-    return [data.read_case(here / name, case) for case, name in files.items() if (here / name).is_file()]
+    return [
+        data.read_case(here / name, case) for case, name in files.items()
+        if (here / name).is_file()
+    ]
 
 
 def row_of(look, claim, fast, slow):
@@ -101,8 +123,13 @@ def row_of(look, claim, fast, slow):
     third, second = look.mesh(name, "", *fast), look.mesh(name, "", *slow)
     if third is None or second is None or not math.isfinite(second.seconds):
         return None
-    return {"case": name, "paper": paper, "published": published, "fast": fast[0], "slow": slow[0], "how": "condensed, sparse", "factor": interval(second.clock, third.clock),
-            "decided": answers.differ(second.clock, third.clock), "less": 1 - third.seconds / second.seconds, "errors": [m.errors.get(quantity, math.nan) for m in (third, second)]}
+    return {
+        "case": name, "paper": paper, "published": published,
+        "fast": fast[0], "slow": slow[0], "how": "condensed, sparse", "factor": interval(
+            second.clock, third.clock), "decided": answers.differ(
+                second.clock, third.clock), "less": 1 - third.seconds / second.seconds,
+        "errors": [m.errors.get(quantity, math.nan) for m in (third, second)]
+    }
 
 
 def row_dense(look, claim, fast, slow):
@@ -112,10 +139,14 @@ def row_dense(look, claim, fast, slow):
     if None in times:
         return None
     factor = times[0].seconds / times[1].seconds
-    return {**row, "how": "uncondensed, dense", "factor": f"{factor:.2f}", "decided": True, "less": 1 - 1 / factor}
+    return {
+        **row, "how": "uncondensed, dense", "factor": f"{factor:.2f}", "decided": True,
+        "less": 1 - 1 / factor
+    }
 
 
-CLAIMS = (("spherical_joint", "support_stiffness_max", "N 4.2: 68 % less time", 1 / (1 - 0.68)), ("hexapod", "support_stiffness_1", "N 4.3: a factor of 6.32", 6.32))
+CLAIMS = (("spherical_joint", "support_stiffness_max", "N 4.2: 68 % less time", 1 / (1 - 0.68)),
+          ("hexapod", "support_stiffness_1", "N 4.3: a factor of 6.32", 6.32))
 
 
 def headlines(site):
@@ -123,7 +154,10 @@ def headlines(site):
     look, dense = Lookup(site.cases), Lookup(baseline(site))
     rows, soonest = [], []
     for claim in CLAIMS:
-        rows += [row_of(look, claim, ("sheet_third", 1), (key, 2)) for key in ("sheet_second", "sheet_second_consistent")]
+        rows += [
+            row_of(look, claim, ("sheet_third", 1), (key, 2))
+            for key in ("sheet_second", "sheet_second_consistent")
+        ]
         rows.append(row_dense(dense, claim, ("sheet_third", 1), ("sheet_second", 2)))
         point = look.points.get((claim[0], ""))
         for level in LEVELS if point else ():
@@ -141,14 +175,18 @@ def peers(site):
     """(rows by unknowns, figure, answer) of the case that other programs were run on."""
     point = Lookup(site.cases).points.get(("sheet_cantilever", canonical(PEERS)))
     ours, reached, out = [], [], []
-    others = {s.key: [m for m in s.meshes if all(map(math.isfinite, both(m)))] for s in point.others} if point else {}
+    others = {
+        s.key: [m for m in s.meshes if all(map(math.isfinite, both(m)))]
+        for s in point.others
+    } if point else {}
     for program, meshes in others.items():
         out += [(program, m.n, m.free, *both(m), m.clock.solve, False) for m in meshes]
     for series in point.series if point else []:
         meshes = [m for m in series.meshes if all(map(math.isfinite, both(m)))]
         ours += [(series.key, meshes)] if meshes else []
         out += [(series.key, m.n, m.free, *both(m), m.clock.solve, True) for m in meshes]
-        reached += [(m.clock.solve, series.key, m.n) for m in meshes if max(map(abs, both(m))) <= TARGET[0]]
+        reached += [(m.clock.solve, series.key, m.n) for m in meshes
+                    if max(map(abs, both(m))) <= TARGET[0]]
     figure = plots.peers_figure(site, ours, others, "peers") if ours else None
     return sorted(out, key=lambda row: (row[2], row[0])), figure, min(reached, default=None)
 
@@ -156,14 +194,27 @@ def peers(site):
 def write(site):
     rows, figure, best = peers(site)
     compared, soonest = headlines(site)
-    site.write("claims.html", "claims.html", claims=claims(site.cases, site.truths), headlines=compared, soonest=soonest, undecided=answers.undecided, peers=rows, figure=figure, best=best, target=TARGET, timed=site.bench is not None)
+    site.write("claims.html",
+               "claims.html",
+               claims=claims(site.cases, site.truths),
+               headlines=compared,
+               soonest=soonest,
+               undecided=answers.undecided,
+               peers=rows,
+               figure=figure,
+               best=best,
+               target=TARGET,
+               timed=site.bench is not None)
 
 
 def section(site, case):
     """On the page of the peers' case: their figure."""
     if case.name != "sheet_cantilever":
         return []
-    return [("Other programs on this case", '<p>Errors of other programs, which were run elsewhere, are beside ours on the page of <a href="claims.html#peers">claims</a>.</p>')]
+    return [(
+        "Other programs on this case",
+        '<p>Errors of other programs, which were run elsewhere, are beside ours on the page of <a href="claims.html#peers">claims</a>.</p>'
+    )]
 
 
 def tasks(site):

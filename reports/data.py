@@ -21,13 +21,17 @@ SCHEMA, VERSION = "beamwork-results", 2
 
 def column(values):
     """A column as plain numbers or texts."""
-    return [value.decode() for value in values.tolist()] if values.dtype.kind == "S" else values.tolist()
+    return [value.decode()
+            for value in values.tolist()] if values.dtype.kind == "S" else values.tolist()
 
 
 def rows(group, name):
     """[{column: value}] of a table."""
     table = group[name][()]
-    return [dict(zip(table.dtype.names, row)) for row in zip(*(column(table[c]) for c in table.dtype.names))]
+    return [
+        dict(zip(table.dtype.names, row))
+        for row in zip(*(column(table[c]) for c in table.dtype.names))
+    ]
 
 
 def of_series(row):
@@ -51,7 +55,10 @@ def read_timings(group, meshes):
         mesh = meshes.get(of_mesh(row))
         if mesh is None:
             continue
-        mesh.parts = {part: row[f"seconds_{part}"] for part in ("elements", "assembly", "factorisation", "solution")}
+        mesh.parts = {
+            part: row[f"seconds_{part}"]
+            for part in ("elements", "assembly", "factorisation", "solution")
+        }
         if row["dense_unknowns"]:
             mesh.dense = Dense(row["dense_seconds"], row["dense_unknowns"], row["dense_whole"])
         mesh.clock = read_clock(row, "", "seconds_setup", "seconds_solve") or mesh.clock
@@ -63,7 +70,8 @@ def read_cell(row):
     setup, solve = row["seconds_setup"], row["seconds_solve"]
     work = {name: float(value) for name, value in row.items() if isinstance(value, (int, float))}
     clock = Clock(setup, solve, setup + solve, setup + solve, 1)
-    return Mesh(row["elements"], row["status"], row["reason"], clock, row["free"], row["iterations"], row["left_out"], work)
+    return Mesh(row["elements"], row["status"], row["reason"], clock, row["free"],
+                row["iterations"], row["left_out"], work)
 
 
 def read_meshes(group):
@@ -71,7 +79,8 @@ def read_meshes(group):
     meshes, units = {of_mesh(row): read_cell(row) for row in rows(group, "cells")}, {}
     for row in rows(group, "quantities"):
         mesh, name = meshes[of_mesh(row)], row["quantity"]
-        mesh.values[name], mesh.errors[name], mesh.model_errors[name] = row["value"], row["error"], row["model_error"]
+        mesh.values[name], mesh.errors[name], mesh.model_errors[name] = row["value"], row[
+            "error"], row["model_error"]
         mesh.reasons[name] = row["reason"]
         units.setdefault(row["point"], {})[name] = row["unit"]
         if math.isfinite(row["prediction"]):
@@ -79,7 +88,8 @@ def read_meshes(group):
     x, value = group["curve_x"][()], group["curve_value"][()]
     for row in rows(group, "curves"):
         part = slice(row["first"], row["first"] + row["points"])
-        meshes[of_mesh(row)].curves[row["quantity"]] = (x[part], value[part], row["x_name"], row["x_unit"], row["unit"])
+        meshes[of_mesh(row)].curves[row["quantity"]] = (x[part], value[part], row["x_name"],
+                                                        row["x_unit"], row["unit"])
     return meshes, units
 
 
@@ -91,15 +101,19 @@ def read_verdict(row):
 def read_points(group, meshes, units):
     series, points = {}, []
     for row in rows(group, "series"):
-        series[of_series(row)] = Series(row["formulation"], row["summary"], row["source"], row["missing"], [], [], row.get("imported", ""), row.get("model", "beam"))
+        series[of_series(row)] = Series(row["formulation"], row["summary"], row["source"],
+                                        row["missing"], [], [], row.get("imported", ""),
+                                        row.get("model", "beam"))
     for (point, key, _), mesh in sorted(meshes.items()):
         series[point, key].meshes.append(mesh)
     for row in rows(group, "verdicts"):
         series[of_series(row)].verdicts.append(read_verdict(row))
     for row in rows(group, "points"):
-        own = sorted((s for (point, _), s in series.items() if point == row["point"]), key=lambda s: s.key)
+        own = sorted((s for (point, _), s in series.items() if point == row["point"]),
+                     key=lambda s: s.key)
         ours, others = [s for s in own if not s.imported], [s for s in own if s.imported]
-        points.append(Point(row["point"], row["parameters"], ours, units.get(row["point"], {}), others))
+        points.append(
+            Point(row["point"], row["parameters"], ours, units.get(row["point"], {}), others))
     return sorted(points, key=lambda p: (p.name != "default", p.parameters))
 
 
@@ -109,7 +123,8 @@ def read_case(path, name, bench=None):
         group = file["cases"][name]
         meshes, units = read_meshes(group)
         read_timings(group, meshes)
-        case = Case(name, text(group.attrs["summary"]), text(group.attrs["source"]), read_points(group, meshes, units), rows(group, "coverages"))
+        case = Case(name, text(group.attrs["summary"]), text(group.attrs["source"]),
+                    read_points(group, meshes, units), rows(group, "coverages"))
     if bench:
         read_bench(bench, name, meshes)
     return case
@@ -127,12 +142,17 @@ def read_about(path):
     try:
         with h5py.File(path) as file:
             if text(file.attrs.get("schema", "")) != SCHEMA:
-                raise Unreadable(f"{path}: not a file of results; 'make verify' and 'make bench' write them")
+                raise Unreadable(
+                    f"{path}: not a file of results; 'make verify' and 'make bench' write them")
             if file.attrs["schema_version"] != VERSION:
-                raise Unreadable(f"{path}: results of version {file.attrs['schema_version']}, the report reads {VERSION}; write it again with 'make verify' or 'make bench'")
+                raise Unreadable(
+                    f"{path}: results of version {file.attrs['schema_version']}, the report reads {VERSION}; write it again with 'make verify' or 'make bench'"
+                )
             return {name: text(value) for name, value in file.attrs.items()}
     except OSError as why:
-        raise Unreadable(f"{path}: cannot be read ({why}); 'make verify' writes build/results.h5, 'make bench' build/bench.h5") from why
+        raise Unreadable(
+            f"{path}: cannot be read ({why}); 'make verify' writes build/results.h5, 'make bench' build/bench.h5"
+        ) from why
 
 
 def read_results(path, bench=None):
@@ -142,7 +162,8 @@ def read_results(path, bench=None):
         with h5py.File(path) as file:
             names = list(file["cases"])
         with multiprocessing.get_context("fork").Pool() as pool:
-            return environment, pool.starmap(read_case, [(path, name, bench) for name in names], chunksize=1)
+            return environment, pool.starmap(read_case, [(path, name, bench) for name in names],
+                                             chunksize=1)
     except (OSError, KeyError, ValueError) as why:
         raise Unreadable(f"{path}: cannot be read ({why}); 'make verify' writes it") from why
 
@@ -151,7 +172,8 @@ def holds(parameters, at):
     """Does a truth with these parameters, `*` for any value, hold at a point?  Both are `name=value;...`."""
     said = dict(item.split("=", 1) for item in parameters.split(";") if item)
     there = dict(item.split("=", 1) for item in at.split(";") if item)
-    return all(value == "*" or there.get(name) == value for name, value in said.items()) and all(name in said for name in there)
+    return all(value == "*" or there.get(name) == value
+               for name, value in said.items()) and all(name in said for name in there)
 
 
 def read_other_model(path, case, parameters, quantity):

@@ -16,7 +16,8 @@ def noise(site):
     """{case: (cells timed, median and greatest spread between rounds)}."""
     out = {}
     for case in site.cases:
-        spread = sorted(m.clock.most / m.clock.least - 1 for p in case.points for s in p.series for m in s.meshes if m.clock.repeats > 1)
+        spread = sorted(m.clock.most / m.clock.least - 1 for p in case.points for s in p.series
+                        for m in s.meshes if m.clock.repeats > 1)
         if spread:
             out[case.name] = (len(spread), spread[len(spread) // 2], spread[-1])
     return out
@@ -24,7 +25,13 @@ def noise(site):
 
 def write(site):
     names = [n for n in site.about if n in (site.bench or site.about)]
-    site.write("environment.html", "environment.html", names=names, about=site.about, bench=site.bench, noise=noise(site), planted=planted(site))
+    site.write("environment.html",
+               "environment.html",
+               names=names,
+               about=site.about,
+               bench=site.bench,
+               noise=noise(site),
+               planted=planted(site))
 
 
 def tasks(site):

@@ -10,7 +10,9 @@ NAVIGATION = [("errata.html", "errata")]
 
 def write(site):
     text = (ROOT / "reference" / "ERRATA.md").read_text(encoding="utf-8")
-    site.write("errata.html", "errata.html", body=markdown.markdown(text, extensions=["tables", "toc"]))
+    site.write("errata.html",
+               "errata.html",
+               body=markdown.markdown(text, extensions=["tables", "toc"]))
 
 
 def tasks(site):

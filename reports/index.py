@@ -21,7 +21,8 @@ def winners(case):
 
 def count_verdicts(cases):
     """{verdict: number} from good to bad, without second names and misprints that repeat what is counted."""
-    return dict(sorted(tally.counts(tally.rows(cases))[0].items(), key=lambda item: SEVERITY[item[0]]))
+    return dict(
+        sorted(tally.counts(tally.rows(cases))[0].items(), key=lambda item: SEVERITY[item[0]]))
 
 
 def formulation_rows(cases):
@@ -36,8 +37,17 @@ def formulation_rows(cases):
 
 def write(site):
     column = site.case("c_column")
-    site.write("index.html", "index.html", cases=site.cases, kinds=site.kinds, counts=count_verdicts(site.cases), rows=formulation_rows(site.cases), undecided=answers.undecided,
-               winners={c.name: winners(c) for c in site.cases}, timed=site.bench is not None, column=plots.column_figure(site, column) if column else None)
+    site.write("index.html",
+               "index.html",
+               cases=site.cases,
+               kinds=site.kinds,
+               counts=count_verdicts(site.cases),
+               rows=formulation_rows(site.cases),
+               undecided=answers.undecided,
+               winners={c.name: winners(c)
+                        for c in site.cases},
+               timed=site.bench is not None,
+               column=plots.column_figure(site, column) if column else None)
 
 
 def tasks(site):

@@ -32,7 +32,10 @@ def singles(data):
     """[(case, [(contestant, unit, {form: (largest, iterations)}, tried)])]"""
     cases = {}
     for s in data["singles"]:
-        row = (f"{s['formulation']}, n = {s['elements']}", s["unit"], {form: largest(s["values"], s[form]) for form in FORMS}, s["values"][-1])
+        row = (f"{s['formulation']}, n = {s['elements']}", s["unit"], {
+            form: largest(s["values"], s[form])
+            for form in FORMS
+        }, s["values"][-1])
         cases.setdefault(f"{s['case']}: {s['parameter']} in one step", []).append(row)
     return list(cases.items())
 
@@ -41,7 +44,10 @@ def contests(data):
     """[(case, [(contestant, first steps, {form: summary})])]"""
     cases = {}
     for c in data["contests"]:
-        row = (f"{c['formulation']}, n = {c['elements']}", c["first_steps"], {form: c[form] for form in FORMS})
+        row = (f"{c['formulation']}, n = {c['elements']}", c["first_steps"], {
+            form: c[form]
+            for form in FORMS
+        })
         cases.setdefault(f"{c['case']} ({c['parameters']})", []).append(row)
     return list(cases.items())
 
@@ -51,9 +57,15 @@ def figure_of(case, histories):
     figure, axes = plt.subplots(figsize=(5.2, 4.2))
     for marker, form in zip("o+", FORMS):
         for h in (h for h in histories if h["form"] == form):
-            pairs = [(a, b) for s in h["steps"] for a, b in zip(s["corrections"], s["corrections"][1:]) if a and b and b > 1e-15]
+            pairs = [(a, b) for s in h["steps"]
+                     for a, b in zip(s["corrections"], s["corrections"][1:])
+                     if a and b and b > 1e-15]
             if pairs:
-                axes.loglog(*zip(*pairs), marker, label=f"{h['formulation']}, {form}", fillstyle="none", linestyle="none")
+                axes.loglog(*zip(*pairs),
+                            marker,
+                            label=f"{h['formulation']}, {form}",
+                            fillstyle="none",
+                            linestyle="none")
     axes.loglog([1e-7, 1], [1e-14, 1], "k--", linewidth=0.8, label="square")
     axes.set_xlabel("correction")
     axes.set_ylabel("the next one")
@@ -71,8 +83,13 @@ def write(site):
     cases = {}
     for h in data["histories"]:
         cases.setdefault(h["case"], []).append(h)
-    drawn = [(case, site.image(figure_of(case, rows), f"newton_{case}"), rows) for case, rows in cases.items()]
-    site.write("newton.html", "newton.html", singles=singles(data), contests=contests(data), histories=drawn)
+    drawn = [(case, site.image(figure_of(case, rows), f"newton_{case}"), rows)
+             for case, rows in cases.items()]
+    site.write("newton.html",
+               "newton.html",
+               singles=singles(data),
+               contests=contests(data),
+               histories=drawn)
 
 
 def tasks(site):

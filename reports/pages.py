@@ -32,7 +32,8 @@ PAGES = (
     "environment",
 )
 
-_tasks = []  # of the run at hand; inherited by the processes of the pool, so that no record is copied
+_tasks = [
+]  # of the run at hand; inherited by the processes of the pool, so that no record is copied
 
 
 def _run(index):

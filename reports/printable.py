@@ -18,16 +18,24 @@ def sheet(case):
     for series in point.series:
         v = answers.verdict_of(series, quantity)
         if v is not None and not series.missing:
-            rows.append((series.key, v, [answers.way(series, [quantity], level) for level in LEVELS]))
+            rows.append(
+                (series.key, v, [answers.way(series, [quantity], level) for level in LEVELS]))
     truth = next((v for _, v, _ in rows if math.isfinite(v.truth)), None)
     if truth is None:
         return None
-    return {"case": case, "quantity": quantity, "unit": point.units[quantity], "image": f"{case.name}_{point.name}_{quantity}.svg", "rows": rows, "truth": truth}
+    return {
+        "case": case, "quantity": quantity, "unit": point.units[quantity],
+        "image": f"{case.name}_{point.name}_{quantity}.svg", "rows": rows, "truth": truth
+    }
 
 
 def write(site):
     sheets = [s for s in map(sheet, site.cases) if s]
-    site.write("convergence.html", "convergence.html", sheets=sheets, about=site.about, bench=site.bench)
+    site.write("convergence.html",
+               "convergence.html",
+               sheets=sheets,
+               about=site.about,
+               bench=site.bench)
 
 
 def tasks(site):

@@ -39,16 +39,16 @@ class Mesh:
     free: int
     iterations: int
     left_out: str
-    work: dict                                   # counter -> number
-    values: dict = field(default_factory=dict)   # quantity -> value
-    errors: dict = field(default_factory=dict)   # quantity -> relative error of discretisation
+    work: dict  # counter -> number
+    values: dict = field(default_factory=dict)  # quantity -> value
+    errors: dict = field(default_factory=dict)  # quantity -> relative error of discretisation
     model_errors: dict = field(default_factory=dict)
     reasons: dict = field(default_factory=dict)  # quantity -> why it has no value
-    curves: dict = field(default_factory=dict)   # quantity -> (x, value, x name, x unit, unit)
+    curves: dict = field(default_factory=dict)  # quantity -> (x, value, x name, x unit, unit)
     kept: Kept = None
-    parts: dict = field(default_factory=dict)   # part of Newton's iterations -> seconds
+    parts: dict = field(default_factory=dict)  # part of Newton's iterations -> seconds
     dense: Dense = None
-    predictions: dict = field(default_factory=dict)   # quantity -> value of an analytic model
+    predictions: dict = field(default_factory=dict)  # quantity -> value of an analytic model
 
     @property
     def seconds(self):
@@ -90,7 +90,9 @@ class Verdict:
     model_truth_kind: str = ""
     model_theory: str = ""
     model_error: float = math.nan
-    reach: dict = field(default_factory=dict)   # level -> elements of the coarsest mesh from which on every mesh is within it
+    reach: dict = field(
+        default_factory=dict
+    )  # level -> elements of the coarsest mesh from which on every mesh is within it
 
 
 @dataclass
@@ -102,7 +104,7 @@ class Series:
     missing: str
     meshes: list
     verdicts: list
-    imported: str = ""   # file of another program that it was read from
+    imported: str = ""  # file of another program that it was read from
     model: str = "beam"
 
 
@@ -113,7 +115,7 @@ class Point:
     parameters: str
     series: list
     units: dict
-    others: list = field(default_factory=list)   # series of other programs (reports/beside.py)
+    others: list = field(default_factory=list)  # series of other programs (reports/beside.py)
 
 
 @dataclass
@@ -123,4 +125,4 @@ class Case:
     summary: str
     source: str
     points: list
-    coverages: list = field(default_factory=list)   # rows: formulation, left_out, series, covered
+    coverages: list = field(default_factory=list)  # rows: formulation, left_out, series, covered

@@ -12,11 +12,11 @@ from scipy.spatial.transform import Rotation
 
 from reports.data import text
 
-SYMBOL = 0.03         # half a side of a rectangle that stands for constants, to the size, at most
-THIN = 0.2            # thickness to length of a wall that is drawn as a surface
-VISIBLE = 0.02        # displacement to size below which the picture exaggerates
-GAP = 0.35            # between the points of a body, to its extent, beyond which they are drawn as parts joined by rods
-CLAMPED = 63          # all six components held
+SYMBOL = 0.03  # half a side of a rectangle that stands for constants, to the size, at most
+THIN = 0.2  # thickness to length of a wall that is drawn as a surface
+VISIBLE = 0.02  # displacement to size below which the picture exaggerates
+GAP = 0.35  # between the points of a body, to its extent, beyond which they are drawn as parts joined by rods
+CLAMPED = 63  # all six components held
 
 
 @dataclasses.dataclass
@@ -24,19 +24,19 @@ class Shapes:
     """What the group `shapes` of a cell holds."""
     formulation: str
     n: int
-    members: np.ndarray      # [members x 3]: nodes p and q, section
-    first: np.ndarray        # [members + 1]
-    body: np.ndarray         # [nodes]: node it moves with, or -1
-    held: np.ndarray         # [nodes]: bits
-    released: np.ndarray     # [members x 2]: bits of both ends
-    sections: list           # [walls x 4 x 2] in m
-    far: dict                # member: the same at its far end, where the section changes along it
-    equivalent: list         # section known by its constants only: a rectangle stands for it
+    members: np.ndarray  # [members x 3]: nodes p and q, section
+    first: np.ndarray  # [members + 1]
+    body: np.ndarray  # [nodes]: node it moves with, or -1
+    held: np.ndarray  # [nodes]: bits
+    released: np.ndarray  # [members x 2]: bits of both ends
+    sections: list  # [walls x 4 x 2] in m
+    far: dict  # member: the same at its far end, where the section changes along it
+    equivalent: list  # section known by its constants only: a rectangle stands for it
     kind: list
     value: np.ndarray
-    position: np.ndarray     # [states x points x 3] in m
-    axes: np.ndarray         # [states x points x 3 x 3]: rows are the section's axes
-    nodes: np.ndarray        # [states x nodes x 3] in m
+    position: np.ndarray  # [states x points x 3] in m
+    axes: np.ndarray  # [states x points x 3 x 3]: rows are the section's axes
+    nodes: np.ndarray  # [states x nodes x 3] in m
 
 
 def matrices(q):
@@ -58,13 +58,21 @@ def read(site, case):
         sections = [g["sections"][str(i)] for i in range(len(g["sections"]))]
         equivalent = [bool(s.attrs["equivalent"]) for s in sections]
         size = np.linalg.norm(np.ptp(g["position"][0], axis=0))
-        scale = [min(1, SYMBOL * size / np.abs(s[()]).max()) if symbol else 1 for s, symbol in zip(sections, equivalent)]
+        scale = [
+            min(1, SYMBOL * size / np.abs(s[()]).max()) if symbol else 1
+            for s, symbol in zip(sections, equivalent)
+        ]
         walls = [s[()] * by if by != 1 else s[()] for s, by in zip(sections, scale)]
-        far = {int(i): end[()] * scale[g["members"][int(i), 2]] for i, end in g.get("far_ends", {}).items()}
-        return Shapes(text(g.attrs["formulation"]), int(g.attrs["elements"]), g["members"][()], g["first_point"][()], g["bodies"][:, 0], g["bodies"][:, 1],
-                      g["released"][()] if "released" in g else np.zeros((len(g["members"]), 2), int),
-                      walls, far, equivalent, [text(k) for k in g["kind"]], g["value"][()],
-                      g["position"][()], matrices(g["orientation"][()]), g["nodes"][()])
+        far = {
+            int(i): end[()] * scale[g["members"][int(i), 2]]
+            for i, end in g.get("far_ends", {}).items()
+        }
+        return Shapes(
+            text(g.attrs["formulation"]), int(g.attrs["elements"]), g["members"][()],
+            g["first_point"][()], g["bodies"][:, 0], g["bodies"][:, 1],
+            g["released"][()] if "released" in g else np.zeros((len(g["members"]), 2), int), walls,
+            far, equivalent, [text(k) for k in g["kind"]], g["value"][()], g["position"][()],
+            matrices(g["orientation"][()]), g["nodes"][()])
 
 
 def size_of(s):
@@ -79,7 +87,8 @@ def turns(s, a, b):
 def distance(s, a, b):
     """Largest displacement of a corner, nearly."""
     radius = max(np.linalg.norm(walls, axis=2).max() for walls in s.sections)
-    return float((np.linalg.norm(s.position[a] - s.position[b], axis=1) + radius * np.linalg.norm(turns(s, a, b), axis=1)).max())
+    return float((np.linalg.norm(s.position[a] - s.position[b], axis=1) +
+                  radius * np.linalg.norm(turns(s, a, b), axis=1)).max())
 
 
 def exaggeration(s, state):
@@ -87,7 +96,8 @@ def exaggeration(s, state):
     moved = distance(s, state, 0)
     if moved == 0 or moved > VISIBLE * size_of(s):
         return 1
-    exact = min(0.1 * size_of(s) / moved, 0.6 / max(np.linalg.norm(turns(s, 0, state), axis=1).max(), 1e-300))
+    exact = min(0.1 * size_of(s) / moved,
+                0.6 / max(np.linalg.norm(turns(s, 0, state), axis=1).max(), 1e-300))
     decade = 10 ** math.floor(math.log10(exact))
     return max(1, decade * (5 if exact >= 5 * decade else 2 if exact >= 2 * decade else 1))
 
@@ -110,13 +120,16 @@ def strips(s, state, scale, every):
         r, y, z = position[at], axes[at, 1], axes[at, 2]
         along = ((at - at[0]) / (at[-1] - at[0]))[:, None, None, None]
         walls = s.sections[section]
-        here = walls + along * (s.far.get(i, walls) - walls)      # [points x walls x 4 x 2]
+        here = walls + along * (s.far.get(i, walls) - walls)  # [points x walls x 4 x 2]
         for k, wall in enumerate(walls):
             thick = np.linalg.norm(wall[0] - wall[1]) > THIN * np.linalg.norm(wall[1] - wall[2])
             corners = here[:, k] if thick else (here[:, k, ::2] + here[:, k, 1::2]) / 2
             edges = [r + c[:, :1] * y + c[:, 1:] * z for c in np.moveaxis(corners, 1, 0)]
             pairs = [(k, (k + 1) % 4) for k in range(4)] if thick else [(0, 1)]
-            out += [np.stack([edges[a][:-1], edges[b][:-1], edges[b][1:], edges[a][1:]], axis=1) for a, b in pairs]
+            out += [
+                np.stack([edges[a][:-1], edges[b][:-1], edges[b][1:], edges[a][1:]], axis=1)
+                for a, b in pairs
+            ]
             if thick:
                 out += [np.stack([e[end] for e in edges])[None] for end in (0, -1)]
     return np.concatenate(out)
@@ -152,7 +165,8 @@ def bodies(s, state, scale):
     faces = []
     nodes = s.nodes[0] + scale * (s.nodes[state] - s.nodes[0])
     for b in sorted({int(b) for b in s.body if b >= 0}):
-        attached = list(np.flatnonzero(s.body == b)) + ([b] if s.held[b] not in (0, CLAMPED) else [])
+        attached = list(
+            np.flatnonzero(s.body == b)) + ([b] if s.held[b] not in (0, CLAMPED) else [])
         groups = clusters(s.nodes[0][attached])
         for group in groups:
             faces += hull(nodes[attached][group])

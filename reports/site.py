@@ -27,7 +27,8 @@ def limit(v):
     """A limit to the digits that are known, and one more, with its uncertainty."""
     if not math.isfinite(v.limit):
         return "–"
-    known = math.log10(abs(v.limit) / v.limit_uncertainty) if v.limit and v.limit_uncertainty > 0 else 10
+    known = math.log10(abs(v.limit) /
+                       v.limit_uncertainty) if v.limit and v.limit_uncertainty > 0 else 10
     return f"{v.limit:.{max(2, min(12, math.ceil(known) + 2))}g} ± {v.limit_uncertainty:.1g}"
 
 
@@ -62,9 +63,24 @@ class Site:
         self.navigation, self.sections = [], []
         os.makedirs(folder, exist_ok=True)
         loader = jinja2.FileSystemLoader(pathlib.Path(__file__).parent / "templates")
-        self.templates = jinja2.Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-        self.templates.filters.update(number=number, percent=percent, seconds=seconds, limit=limit, breakable=breakable, file_of=file_of)
-        self.templates.globals.update(levels=LEVELS, nan=math.nan, kinds_of_verdicts=verdicts.BY_NAME, remarks=verdicts.remarks, navigation=self.navigation, colour=lambda key: self.styles.of(key)["color"], shape=self.styles.shape)
+        self.templates = jinja2.Environment(loader=loader,
+                                            autoescape=True,
+                                            trim_blocks=True,
+                                            lstrip_blocks=True,
+                                            undefined=jinja2.StrictUndefined)
+        self.templates.filters.update(number=number,
+                                      percent=percent,
+                                      seconds=seconds,
+                                      limit=limit,
+                                      breakable=breakable,
+                                      file_of=file_of)
+        self.templates.globals.update(levels=LEVELS,
+                                      nan=math.nan,
+                                      kinds_of_verdicts=verdicts.BY_NAME,
+                                      remarks=verdicts.remarks,
+                                      navigation=self.navigation,
+                                      colour=lambda key: self.styles.of(key)["color"],
+                                      shape=self.styles.shape)
 
     def case(self, name):
         """The case of this name, or None."""
@@ -79,6 +95,8 @@ class Site:
 
     def image(self, figure, name, tight=True):
         """Writes a figure as SVG and closes it; returns the file's name for a page's <img src>. tight: cut to what is drawn, which draws it twice."""
-        figure.savefig(os.path.join(self.folder, f"{name}.svg"), metadata={"Date": None}, bbox_inches="tight" if tight else None)
+        figure.savefig(os.path.join(self.folder, f"{name}.svg"),
+                       metadata={"Date": None},
+                       bbox_inches="tight" if tight else None)
         plt.close(figure)
         return f"{name}.svg"

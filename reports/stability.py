@@ -9,9 +9,15 @@ from reports.style import plt
 NAVIGATION = [("stability.html", "stability")]
 
 # From good to bad: colours that differ in brightness too, and a mark that needs no colour.
-LOOK = {"value": ("#009E73", ""), "coarse": ("#8FD3F4", "·"), "named": ("#E69F00", "△"), "wrong": ("#000000", "×"), "fault": ("#CC79A7", "!")}
-MEANING = {"value": "a value within the extreme's tolerance", "coarse": "outside it, falls with more elements", "named": "a named refusal or failure",
-           "wrong": "a wrong number, known and explained below", "fault": "crashed"}
+LOOK = {
+    "value": ("#009E73", ""), "coarse": ("#8FD3F4", "·"), "named": ("#E69F00", "△"),
+    "wrong": ("#000000", "×"), "fault": ("#CC79A7", "!")
+}
+MEANING = {
+    "value": "a value within the extreme's tolerance",
+    "coarse": "outside it, falls with more elements", "named": "a named refusal or failure",
+    "wrong": "a wrong number, known and explained below", "fault": "crashed"
+}
 NAMED = ("not converged", "singular", "refused", "no value")
 
 
@@ -34,14 +40,18 @@ class Cell:
         order = list(LOOK)
         worst = max(outcomes, key=lambda o: (order.index(kind(o)), abs(o["error"] or 0.0)))
         self.kind, self.outcome = kind(worst), worst["outcome"]
-        self.error = max((abs(o["error"]) for o in outcomes if o["error"] is not None), default=math.nan)
-        self.condition, self.iterations, self.reason = worst["condition"] or math.nan, worst["iterations"], worst["reason"]
+        self.error = max((abs(o["error"]) for o in outcomes if o["error"] is not None),
+                         default=math.nan)
+        self.condition, self.iterations, self.reason = worst["condition"] or math.nan, worst[
+            "iterations"], worst["reason"]
         self.expected = all(o["as_expected"] for o in outcomes)
         self.mark = LOOK[self.kind][1]
 
     @property
     def text(self):
-        return self.outcome if self.kind in ("named", "fault") else f"{self.error:.1e}{' ~' if self.kind == 'coarse' else ' ×' if self.kind == 'wrong' else ''}"
+        return self.outcome if self.kind in (
+            "named", "fault"
+        ) else f"{self.error:.1e}{' ~' if self.kind == 'coarse' else ' ×' if self.kind == 'wrong' else ''}"
 
 
 def cells(record):
@@ -71,26 +81,60 @@ def draw_map(site, record, all_cells):
         for row, key in enumerate(keys):
             found = all_cells.get((extreme["name"], key))
             if found is None:
-                ax.text(column + 0.45, row + 0.45, "–", ha="center", va="center", color="#9aa3ad", fontsize=8)
+                ax.text(column + 0.45,
+                        row + 0.45,
+                        "–",
+                        ha="center",
+                        va="center",
+                        color="#9aa3ad",
+                        fontsize=8)
                 continue
             for i, x in enumerate(extreme["values"]):
                 cell = found.get(x)
                 if cell is None:
-                    ax.text(column + (i + 0.5) * width, row + 0.45, "–", ha="center", va="center", color="#9aa3ad", fontsize=6)
+                    ax.text(column + (i + 0.5) * width,
+                            row + 0.45,
+                            "–",
+                            ha="center",
+                            va="center",
+                            color="#9aa3ad",
+                            fontsize=6)
                     continue
-                ax.add_patch(plt.Rectangle((column + i * width, row + 0.05), width, 0.8, facecolor=LOOK[cell.kind][0], edgecolor="white", linewidth=0.4))
-                ax.text(column + (i + 0.5) * width, row + 0.45, cell.mark, ha="center", va="center", fontsize=6, color="white" if cell.kind == "wrong" else "black")
+                ax.add_patch(
+                    plt.Rectangle((column + i * width, row + 0.05),
+                                  width,
+                                  0.8,
+                                  facecolor=LOOK[cell.kind][0],
+                                  edgecolor="white",
+                                  linewidth=0.4))
+                ax.text(column + (i + 0.5) * width,
+                        row + 0.45,
+                        cell.mark,
+                        ha="center",
+                        va="center",
+                        fontsize=6,
+                        color="white" if cell.kind == "wrong" else "black")
     ax.set_xlim(-0.1, len(extremes))
     ax.set_ylim(len(keys), -0.1)
-    ax.set_xticks([i + 0.45 for i in range(len(extremes))], [e["name"] for e in extremes], rotation=60, ha="right", rotation_mode="anchor", fontsize=7)
+    ax.set_xticks([i + 0.45 for i in range(len(extremes))], [e["name"] for e in extremes],
+                  rotation=60,
+                  ha="right",
+                  rotation_mode="anchor",
+                  fontsize=7)
     ax.set_yticks([i + 0.45 for i in range(len(keys))], keys, fontsize=8)
     ax.tick_params(length=0)
     ax.grid(False)
     for side in ax.spines.values():
         side.set_visible(False)
-    present = [k for k in LOOK if any(c.kind == k for found in all_cells.values() for c in found.values())]
+    present = [
+        k for k in LOOK if any(c.kind == k for found in all_cells.values() for c in found.values())
+    ]
     handles = [plt.Rectangle((0, 0), 1, 1, facecolor=LOOK[k][0]) for k in present]
-    ax.legend(handles, [f"{k} {LOOK[k][1]}  {MEANING[k]}" for k in present], loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, fontsize=7.5)
+    ax.legend(handles, [f"{k} {LOOK[k][1]}  {MEANING[k]}" for k in present],
+              loc="lower center",
+              bbox_to_anchor=(0.5, 1.0),
+              ncols=2,
+              fontsize=7.5)
     return site.image(figure, "stability_map")
 
 
@@ -102,17 +146,28 @@ def draw_curve(site, extreme, keys, all_cells):
         found = all_cells.get((extreme["name"], key))
         if found is None:
             continue
-        points = [(x, max(found[x].error, floor)) for x in extreme["values"] if x in found and math.isfinite(found[x].error)]
-        style = site.styles.of(key) if key in site.styles.order else {"color": "#5b6675", "marker": "."}
+        points = [(x, max(found[x].error, floor)) for x in extreme["values"]
+                  if x in found and math.isfinite(found[x].error)]
+        style = site.styles.of(key) if key in site.styles.order else {
+            "color": "#5b6675", "marker": "."
+        }
         ax.plot([x for x, _ in points], [e for _, e in points], label=key, alpha=0.85, **style)
-        failed = [x for x in extreme["values"] if x in found and found[x].kind in ("named", "fault")]
-        ax.plot(failed, [1] * len(failed), "^", color=style["color"], markersize=8, markerfacecolor="none", clip_on=False)
+        failed = [
+            x for x in extreme["values"] if x in found and found[x].kind in ("named", "fault")
+        ]
+        ax.plot(failed, [1] * len(failed),
+                "^",
+                color=style["color"],
+                markersize=8,
+                markerfacecolor="none",
+                clip_on=False)
     ax.axhline(extreme["tolerance"], color="#5b6675", linewidth=0.8, linestyle=":")
     ax.set_yscale("log")
     ax.set_ylim(floor / 2, 1)
     if min(extreme["values"]) > 0 and max(extreme["values"]) / min(extreme["values"]) >= 20:
         ax.set_xscale("log")
-    ax.set_xlabel(f"{extreme['x_name']}{'' if extreme['x_unit'] == '1' else ' [' + extreme['x_unit'] + ']'}")
+    ax.set_xlabel(
+        f"{extreme['x_name']}{'' if extreme['x_unit'] == '1' else ' [' + extreme['x_unit'] + ']'}")
     ax.set_ylabel("relative error")
     ax.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize=7)
     figure.tight_layout()
@@ -124,8 +179,10 @@ def findings(record):
     rows = {}
     for o in record["outcomes"]:
         if kind(o) in ("named", "wrong", "fault"):
-            rows.setdefault((o["extreme"], o["formulation"], o["outcome"], o["proof"] or "not expected: " + o["reason"]), set()).add(o["x"])
-    return [(*key[:3], ", ".join(f"{x:g}" for x in sorted(found)), key[3]) for key, found in rows.items()]
+            rows.setdefault((o["extreme"], o["formulation"], o["outcome"], o["proof"] or
+                             "not expected: " + o["reason"]), set()).add(o["x"])
+    return [(*key[:3], ", ".join(f"{x:g}" for x in sorted(found)), key[3])
+            for key, found in rows.items()]
 
 
 def write(site):
@@ -134,11 +191,25 @@ def write(site):
         site.write("stability.html", "stability.html", record=None)
         return
     all_cells = cells(record)
-    record["extremes"] = [e for e in record["extremes"] if any(name == e["name"] for name, _ in all_cells)]
+    record["extremes"] = [
+        e for e in record["extremes"] if any(name == e["name"] for name, _ in all_cells)
+    ]
     keys = [f["formulation"] for f in record["formulations"]]
-    total = {name: sum(f[name] for f in record["formulations"]) for name in ("tried", "survived", "coarse", "named_failures", "wrong", "faults")}
-    site.write("stability.html", "stability.html", record=record, total=total, image=draw_map(site, record, all_cells), cells=all_cells, keys=keys, findings=findings(record),
-               curves={e["name"]: draw_curve(site, e, keys, all_cells) for e in record["extremes"]}, largest=largest)
+    total = {
+        name: sum(f[name] for f in record["formulations"])
+        for name in ("tried", "survived", "coarse", "named_failures", "wrong", "faults")
+    }
+    site.write("stability.html",
+               "stability.html",
+               record=record,
+               total=total,
+               image=draw_map(site, record, all_cells),
+               cells=all_cells,
+               keys=keys,
+               findings=findings(record),
+               curves={e["name"]: draw_curve(site, e, keys, all_cells)
+                       for e in record["extremes"]},
+               largest=largest)
 
 
 def tasks(site):

@@ -51,9 +51,11 @@ def line(rule, verdicts):
     seen = max((departure(v) for v in verdicts if v["error"] is not None), default=None)
     allowed = rule["largest_error"]
     stands = (allowed and float(allowed)) == (bound_of(seen) and float(bound_of(seen)))
-    return {"rule": rule["rule"], "verdicts": len(verdicts), "seen": seen, "allowed": allowed,
-            "bound": bound_of(seen), "stands": stands, "digits": digits(verdicts),
-            "met": sum(v["verdict"] == PREDICTED for v in verdicts)}
+    return {
+        "rule": rule["rule"], "verdicts": len(verdicts), "seen": seen, "allowed": allowed,
+        "bound": bound_of(seen), "stands": stands, "digits": digits(verdicts), "met": sum(
+            v["verdict"] == PREDICTED for v in verdicts)
+    }
 
 
 def lines(rules, verdicts):
@@ -68,8 +70,10 @@ def covered(verdicts):
     """(limits that lie within what they and their predictions are known to, all with a prediction),
     whatever the verdict: what calling a limit predicted by its uncertainty alone rests on."""
     told = [v for v in verdicts if v["predicted"] is not None and v["limit"] is not None]
-    near = [abs(v["limit"] - v["predicted"])
-            <= SURELY * (v["limit_uncertainty"] or 0) + KNOWN * abs(v["predicted"]) for v in told]
+    near = [
+        abs(v["limit"] - v["predicted"]) <= SURELY *
+        (v["limit_uncertainty"] or 0) + KNOWN * abs(v["predicted"]) for v in told
+    ]
     return sum(near), len(told)
 
 
@@ -77,8 +81,8 @@ def text_of(one):
     seen = "" if one["seen"] is None else "%.3g" % one["seen"]
     met = "" if one["digits"] is None else "%d met, %.1f digits" % (one["met"], one["digits"])
     remark = "" if one["stands"] else f"  should allow {one['bound'] or 'nothing'}"
-    return "%-26s %5d verdicts  seen %-9s allowed %-8s %s%s" % (
-        one["rule"], one["verdicts"], seen, one["allowed"], met, remark)
+    return "%-26s %5d verdicts  seen %-9s allowed %-8s %s%s" % (one["rule"], one["verdicts"], seen,
+                                                                one["allowed"], met, remark)
 
 
 def main():

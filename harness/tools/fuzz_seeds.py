@@ -43,14 +43,20 @@ def truths(scratch):
     for name in ("findings.csv", "extreme_findings.csv"):
         lines = (ROOT / "reference" / name).read_text(encoding="utf-8").splitlines()
         (scratch / name).write_text("\n".join(lines[:3]) + "\n", encoding="utf-8")
-    subprocess.run([sys.executable, ROOT / "reference" / "pack.py", "-o", scratch / "t.h5",
-                    "--folder", scratch], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([
+        sys.executable, ROOT / "reference" / "pack.py", "-o", scratch / "t.h5", "--folder", scratch
+    ],
+                   check=True,
+                   stdout=subprocess.DEVNULL)
     yield (scratch / "t.h5").read_bytes()
 
 
 def runs(program, scratch):
-    subprocess.run([program, "verify", "-k", "warping_torsion/default and beamw_vlasov",
-                    "-o", scratch / "r.h5"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([
+        program, "verify", "-k", "warping_torsion/default and beamw_vlasov", "-o", scratch / "r.h5"
+    ],
+                   check=True,
+                   stdout=subprocess.DEVNULL)
     yield (scratch / "r.h5").read_bytes()
 
 
@@ -70,8 +76,9 @@ def imports():
     curve = "# axes: x=x y=y z=z\nC_xx_curve, um/mN, 4,,, 0.01, 29,\nC_xx_curve, m/N, 4,,, 0, 14,\n"
     yield b"\0" + (head + rows + "# program: another\n" + curve).encode()
     yield b"\1" + (IMPORTS / "maps" / "mbdyn.yaml").read_bytes()
-    yield (b"\2 displacements (vx,vy,vz) for set NTIP and time  0.1E+01\n\n 4 -1.3D+00 1.5E+01 0.0\n"
-           b"\n total force (fx,fy,fz) for set NTIP and time 0.1E+01\n\n -1.0D-10 3.6E+03 0.0\n")
+    yield (
+        b"\2 displacements (vx,vy,vz) for set NTIP and time  0.1E+01\n\n 4 -1.3D+00 1.5E+01 0.0\n"
+        b"\n total force (fx,fy,fz) for set NTIP and time 0.1E+01\n\n -1.0D-10 3.6E+03 0.0\n")
 
 
 def main(program, folder):

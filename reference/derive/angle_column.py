@@ -11,8 +11,10 @@ from reference.derive import defaults
 mp.dps = 40
 E, L = mpf("2.1e11"), mpf("1.2")
 G = E / mpf("2.6")
-A, IY, IZ, IT, IW = mpf("1856e-6"), mpf("4167339e-12"), mpf("1045547e-12"), mpf("39595e-12"), mpf("44398819e-18")
-YS, WAGNER_Y = mpf("41.012e-3"), mpf("-84948392e-15")  # zs = 0, int z (y^2 + z^2) dA = 0: y is an axis of symmetry
+A, IY, IZ, IT, IW = mpf("1856e-6"), mpf("4167339e-12"), mpf("1045547e-12"), mpf("39595e-12"), mpf(
+    "44398819e-18")
+YS, WAGNER_Y = mpf("41.012e-3"), mpf(
+    "-84948392e-15")  # zs = 0, int z (y^2 + z^2) dA = 0: y is an axis of symmetry
 POINTS = {"centroid": (0, 0), "shear_centre": (YS, 0), "leg": (0, YS)}
 HALF_WAVES, LOADS = 12, 3
 
@@ -51,7 +53,8 @@ def stress_of(load):
 
 def least_factors(warping, stress):
     """The LOADS least positive ones of all half-waves."""
-    return sorted(v for n in range(1, HALF_WAVES + 1) for v in factors(n * pi / L, warping, stress))[:LOADS]
+    return sorted(
+        v for n in range(1, HALF_WAVES + 1) for v in factors(n * pi / L, warping, stress))[:LOADS]
 
 
 def rows():

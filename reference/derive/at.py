@@ -32,15 +32,18 @@ def channel_section(case, given):
 def c_column(given):
     from reference.derive import column
     s, at = channel_section("c_column", given)
-    yield "buckling_load", column.buckling_load(s, at["length"], at["shear"], at["shear_stability"] == "haringx"), "N"
-    for i, value in enumerate(column.frequencies(s, at["length"], at["shear"], at["rotary_inertia"], 13)):
+    yield "buckling_load", column.buckling_load(s, at["length"], at["shear"],
+                                                at["shear_stability"] == "haringx"), "N"
+    for i, value in enumerate(
+            column.frequencies(s, at["length"], at["shear"], at["rotary_inertia"], 13)):
         yield f"frequency_{i + 1}", value, "Hz"
 
 
 def moment_buckling(given):
     from reference.derive import column
     s, at = channel_section("moment_buckling", given)
-    low, high = column.buckling_moments(s, at["length"], at["shear"], at["shear_stability"] == "haringx", at["wagner_moments"])
+    low, high = column.buckling_moments(s, at["length"], at["shear"],
+                                        at["shear_stability"] == "haringx", at["wagner_moments"])
     yield "buckling_moment_negative", low, "N m"
     yield "buckling_moment_positive", high, "N m"
 
@@ -64,7 +67,8 @@ def warping_torsion(given):
 def tip_body(given):
     from reference.derive import tip_body as program
     at = {n: float(v) for n, v in defaults.decimals("tip_body", given).items()}
-    for quantity, value, relative in program.values(at["omega_star"], at["mass"], at["overhang"], at["gyration"]):
+    for quantity, value, relative in program.values(at["omega_star"], at["mass"], at["overhang"],
+                                                    at["gyration"]):
         yield quantity, value, "1", relative or 5e-13
 
 
@@ -84,21 +88,25 @@ def coupled_beam(given):
 
 
 def sheet_case(case, function):
+
     def solve(given):
         from reference.derive import sheets
         for row in getattr(sheets, function)(**numbers(given)):
             if row[0] == case:
                 yield row[2:]
+
     return solve
 
 
 def cantilever(family, *names):
     """Families of cantilevers.py, each of a case of that name: one tuple of values for each parameter."""
+
     def solve(given):
         from reference.derive import cantilevers
         at = {**defaults.values(family), **numbers(given)}
-        for row in getattr(cantilevers, family)(*((at[name],) for name in names)):
+        for row in getattr(cantilevers, family)(*((at[name], ) for name in names)):
             yield row[2:]
+
     return solve
 
 
@@ -138,35 +146,46 @@ def weighted_column(given):
     yield "load_factor", column.load_factor(given), "1"
 
 
-SHEET = ("length", "width", "thickness", "young", "poisson", "tip_deflection", "tip_warping", "warping", "shear", "trapeze", "wagner", "shear_factor", "moment_convention")
-CHANNEL = ("length", "height", "width", "web_thickness", "young", "shear_modulus", "density", "section_data", "shear", "shear_stability")
-HEXAPOD = ("length", "width", "thickness", "young", "poisson", "fold_angle", "radius", "fold_warping", "wagner", "base_radius", "crank_length", "crank_azimuth", "platform_radius",
-           "platform_azimuth", "height", "stroke", "steps")
+SHEET = ("length", "width", "thickness", "young", "poisson", "tip_deflection", "tip_warping",
+         "warping", "shear", "trapeze", "wagner", "shear_factor", "moment_convention")
+CHANNEL = ("length", "height", "width", "web_thickness", "young", "shear_modulus", "density",
+           "section_data", "shear", "shear_stability")
+HEXAPOD = ("length", "width", "thickness", "young", "poisson", "fold_angle", "radius",
+           "fold_warping", "wagner", "base_radius", "crank_length", "crank_azimuth",
+           "platform_radius", "platform_azimuth", "height", "stroke", "steps")
 # Per case: the parameters that may differ from the defaults, what solves, the program it uses.
 SOLVERS = {
-    "c_column": (CHANNEL + ("rotary_inertia",), c_column, "column"),
-    "moment_buckling": (CHANNEL + ("wagner_moments",), moment_buckling, "column"),
-    "unsymmetric_column": (("length", "shear", "shear_stability", "rotary_inertia", "axial_load"), unsymmetric_column, "column"),
-    "shear_column": (("length", "side", "young", "shear_modulus", "shear_stability"), shear_column, "linear_buckling"),
+    "c_column": (CHANNEL + ("rotary_inertia", ), c_column, "column"),
+    "moment_buckling": (CHANNEL + ("wagner_moments", ), moment_buckling, "column"),
+    "unsymmetric_column": (("length", "shear", "shear_stability", "rotary_inertia", "axial_load"),
+                           unsymmetric_column, "column"),
+    "shear_column": (("length", "side", "young", "shear_modulus", "shear_stability"), shear_column,
+                     "linear_buckling"),
     "warping_torsion": (("kL", "ends"), warping_torsion, "torsion"),
     "tip_body": (("omega_star", "mass", "overhang", "gyration"), tip_body, "tip_body"),
     "sprung_beam": (("load", "spring", "moment"), sprung_beam, "sprung_beam"),
-    "tapered_cantilever": (("section", "ratio", "asked", "shear"), tapered_cantilever, "tapered_cantilever"),
+    "tapered_cantilever": (("section", "ratio", "asked", "shear"), tapered_cantilever,
+                           "tapered_cantilever"),
     "coupled_beam": (("asked", "coupling", "turn"), coupled_beam, "coupled_beam"),
     "sheet_cantilever": (SHEET, sheet_case("sheet_cantilever", "cantilever"), "sheets"),
-    "sheet_wagner": (SHEET + ("tip_phi_z", "tip_phi_x"), sheet_case("sheet_wagner", "twisted"), "sheets"),
-    "spherical_joint": (("length", "width", "thickness", "young", "poisson", "fold_angle", "radius", "azimuth", "tilt", "steps", "fold_warping", "wagner"), spherical_joint, "joint"),
+    "sheet_wagner": (SHEET + ("tip_phi_z", "tip_phi_x"), sheet_case("sheet_wagner",
+                                                                    "twisted"), "sheets"),
+    "spherical_joint": (("length", "width", "thickness", "young", "poisson", "fold_angle", "radius",
+                         "azimuth", "tilt", "steps", "fold_warping", "wagner"), spherical_joint,
+                        "joint"),
     "hexapod": (HEXAPOD, hexapod, "hexapod"),
-    "cross_flexure": (("length", "width", "thickness", "pitch", "half_angle", "young", "poisson", "angle", "rotation", "moment_convention"), cross_flexure, "cross_flexure"),
-    "elastica": (("load",), cantilever("elastica", "load"), "cantilevers"),
+    "cross_flexure": (("length", "width", "thickness", "pitch", "half_angle", "young", "poisson",
+                       "angle", "rotation", "moment_convention"), cross_flexure, "cross_flexure"),
+    "elastica": (("load", ), cantilever("elastica", "load"), "cantilevers"),
     "loaded_cantilever": (("load", "size", "arm", "axial"), loaded_cantilever, "loaded_cantilever"),
     "weighted_column": (("grows", "staying"), weighted_column, "weighted_column"),
-    "shear_elastica": (("GA",), cantilever("shear_elastica", "GA"), "cantilevers"),
-    "geradin_cardona": (("load",), cantilever("geradin_cardona", "load"), "cantilevers"),
+    "shear_elastica": (("GA", ), cantilever("shear_elastica", "GA"), "cantilevers"),
+    "geradin_cardona": (("load", ), cantilever("geradin_cardona", "load"), "cantilevers"),
     "bend_45": (("force", "torsion"), cantilever("bend_45", "torsion", "force"), "cantilevers"),
-    "roll_up": (("turns",), cantilever("roll_up", "turns"), "cantilevers"),
-    "wagner_torsion": (("angle",), cantilever("wagner_torsion", "angle"), "cantilevers"),
-    "rotating_cantilever": (("omega_star", "slenderness", "hub_radius"), rotating_cantilever, "rotating"),
+    "roll_up": (("turns", ), cantilever("roll_up", "turns"), "cantilevers"),
+    "wagner_torsion": (("angle", ), cantilever("wagner_torsion", "angle"), "cantilevers"),
+    "rotating_cantilever": (("omega_star", "slenderness", "hub_radius"), rotating_cantilever,
+                            "rotating"),
 }
 
 
@@ -174,21 +193,28 @@ def solve(case, text):
     """Yields (quantity, value, unit, relative uncertainty, convention)."""
     given = dict(item.split("=", 1) for item in text.split(";") if item)
     if case not in SOLVERS:
-        raise NotDerivable(f"case {case}: no program derives it at new points; its stored truths are all there is")
+        raise NotDerivable(
+            f"case {case}: no program derives it at new points; its stored truths are all there is")
     names, function, _ = SOLVERS[case]
     strange = [name for name in given if name not in names]
     if strange:
-        raise NotDerivable(f"case {case}: no program derives it where {strange[0]} differs from its default; it may differ in {', '.join(names)}")
+        raise NotDerivable(
+            f"case {case}: no program derives it where {strange[0]} differs from its default; it may differ in {', '.join(names)}"
+        )
     default = importlib.import_module("reference.derive.rederive").DIGITS
     for row in function(given):
-        yield row[0], row[1], row[2], row[3] if len(row) > 3 else 10.0 ** (1 - default) / 2, row[4] if len(row) > 4 else ""
+        yield row[0], row[1], row[2], row[3] if len(row) > 3 else 10.0 ** (
+            1 - default) / 2, row[4] if len(row) > 4 else ""
 
 
 def main(arguments):
     try:
-        for quantity, value, unit, relative, convention in solve(arguments[0], arguments[1] if len(arguments) > 1 else ""):
+        for quantity, value, unit, relative, convention in solve(
+                arguments[0], arguments[1] if len(arguments) > 1 else ""):
             uncertainty = abs(float(value)) * relative if float(value) != 0 else relative
-            print(f"{quantity}\t{float(value):.17g}\t{unit}\t{uncertainty:.1e}\t{convention}\treference/derive/{SOLVERS[arguments[0]][2]}.py", flush=True)
+            print(
+                f"{quantity}\t{float(value):.17g}\t{unit}\t{uncertainty:.1e}\t{convention}\treference/derive/{SOLVERS[arguments[0]][2]}.py",
+                flush=True)
     except NotDerivable as why:
         print(why, file=sys.stderr)
         return 3

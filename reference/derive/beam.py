@@ -20,7 +20,21 @@ STEP = 1e-30
 class Beam:
     """Stiffnesses in SI; shear: 3 x 3 compliance f of (y, z, w), or fy and fz alone; EIw = 0: uniform torsion."""
 
-    def __init__(self, length, EA, EIy, EIz, GJ, fy=0.0, fz=0.0, EIw=0.0, t=0.0, c=0.0, curvature=0.0, centre=(0.0, 0.0), shear=None, wagner=(0.0, 0.0)):
+    def __init__(self,
+                 length,
+                 EA,
+                 EIy,
+                 EIz,
+                 GJ,
+                 fy=0.0,
+                 fz=0.0,
+                 EIw=0.0,
+                 t=0.0,
+                 c=0.0,
+                 curvature=0.0,
+                 centre=(0.0, 0.0),
+                 shear=None,
+                 wagner=(0.0, 0.0)):
         self.length, self.EA, self.EIy, self.EIz, self.GJ = length, EA, EIy, EIz, GJ
         self.f = np.diag([fy, fz, 0.0]) if shear is None else np.array(shear, dtype=float)
         self.EIw, self.t, self.c, self.curvature, self.centre, self.wagner = EIw, t, c, curvature, centre, wagner  # wagner = (by, bz)
@@ -32,9 +46,12 @@ class Beam:
         s.length, s.warps = self.length / length, self.EIw > 0
         dimension = np.array([1.0, 1.0, length])
         s.a, s.f = force / self.EA, self.f * force * np.outer(dimension, dimension)
-        s.by, s.bz, s.gj = moment * length / self.EIy, moment * length / self.EIz, self.GJ / (moment * length)
-        s.iw, s.t, s.c = self.EIw / (moment * length ** 3), self.t / length ** 2, self.c / (moment * length ** 3)
-        s.curvature, s.centre, s.wagner = self.curvature * length, np.array(self.centre) / length, np.array(self.wagner) / length
+        s.by, s.bz, s.gj = moment * length / self.EIy, moment * length / self.EIz, self.GJ / (
+            moment * length)
+        s.iw, s.t, s.c = self.EIw / (moment * length ** 3), self.t / length ** 2, self.c / (
+            moment * length ** 3)
+        s.curvature, s.centre, s.wagner = self.curvature * length, np.array(
+            self.centre) / length, np.array(self.wagner) / length
         return s
 
 
@@ -73,9 +90,16 @@ class Scaled:
         kx = self._twist(torque, rigidity, N, y[7] if self.warps else None)
         Mw = torque - rigidity * kx - 4 * self.c * kx ** 3 if self.warps else 0 * kx
         sheared = [self.f[i, 0] * N[1] + self.f[i, 1] * N[2] + self.f[i, 2] * Mw for i in range(2)]
-        g = np.array([1 + self.a * N[0] - self.t * kx * kx / 2, sheared[0] + zs * kx, sheared[1] - ys * kx])
-        k = np.array([kx, self.by * M[1] - self.wagner[0] * kx * kx / 2, self.bz * M[2] + self.curvature + self.wagner[1] * kx * kx / 2])
-        out = [np.einsum("ijk,jk->ik", R, g), product(y[3:7], np.concatenate([np.zeros_like(k[:1]), k])) / 2]
+        g = np.array(
+            [1 + self.a * N[0] - self.t * kx * kx / 2, sheared[0] + zs * kx, sheared[1] - ys * kx])
+        k = np.array([
+            kx, self.by * M[1] - self.wagner[0] * kx * kx / 2,
+            self.bz * M[2] + self.curvature + self.wagner[1] * kx * kx / 2
+        ])
+        out = [
+            np.einsum("ijk,jk->ik", R, g),
+            product(y[3:7], np.concatenate([np.zeros_like(k[:1]), k])) / 2
+        ]
         if self.warps:
             out.append(np.array([y[8] / self.iw, -Mw]))
         return self.length * np.concatenate(out)
@@ -94,11 +118,15 @@ class Scaled:
         """States [states, many] of the stress-free beam at s in [0, 1]."""
         angle = self.curvature * self.length * s
         with np.errstate(divide="ignore", invalid="ignore"):
-            along = np.where(angle == 0, s * self.length, np.sin(angle) / self.curvature if self.curvature else 0)
+            along = np.where(angle == 0, s * self.length,
+                             np.sin(angle) / self.curvature if self.curvature else 0)
             across = 2 * np.sin(angle / 2) ** 2 / self.curvature if self.curvature else 0 * s
         y = np.zeros((self.states, len(s)))
         y[:3] = np.array(start)[:, None] + rotation(q0) @ np.array([along, across, 0 * s])
-        y[3:7] = product(np.array(q0)[:, None] + 0 * s, np.array([np.cos(angle / 2), 0 * s, 0 * s, np.sin(angle / 2)]))
+        y[3:7] = product(
+            np.array(q0)[:, None] + 0 * s,
+            np.array([np.cos(angle / 2), 0 * s, 0 * s,
+                      np.sin(angle / 2)]))
         return y
 
 
@@ -112,8 +140,12 @@ def rotation(q):
 
 def product(a, b):
     """Quaternion product a o b."""
-    return np.array([a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3], a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-                     a[0] * b[2] + a[2] * b[0] + a[3] * b[1] - a[1] * b[3], a[0] * b[3] + a[3] * b[0] + a[1] * b[2] - a[2] * b[1]])
+    return np.array([
+        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+        a[0] * b[2] + a[2] * b[0] + a[3] * b[1] - a[1] * b[3],
+        a[0] * b[3] + a[3] * b[0] + a[1] * b[2] - a[2] * b[1]
+    ])
 
 
 def quaternion(R):
@@ -126,7 +158,8 @@ def quaternion(R):
         q = np.array([squares[0]] + skew)
     else:
         i = largest - 1
-        q = np.array([skew[i]] + [squares[largest] if j == i else R[i, j] + R[j, i] for j in range(3)])
+        q = np.array([skew[i]] +
+                     [squares[largest] if j == i else R[i, j] + R[j, i] for j in range(3)])
     return q / np.linalg.norm(q)
 
 

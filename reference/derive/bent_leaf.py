@@ -19,18 +19,22 @@ def curvature(F, e, u):
 
 def integral(F, e, low, f):
     """Of f(sin t) over the initial length from the inflection to where u = low .. of a half."""
+
     def slope(u):
         t = asin(sin(e) - u ** 2)
         return f(sin(t)) * 2 / (cos(t) * sqrt(2 * F / EI * (1 + F / EA * (sin(e) - u ** 2 / 2))))
+
     return quad(slope, [0, low])
 
 
 def solved(travel):
     """Force and angle at the inflection."""
+
     def missing(F, e):
         root = sqrt(sin(e))
         return (integral(F, e, root, lambda sine: 1) / LENGTH - mpf(1) / 2,
                 integral(F, e, root, lambda sine: sine * (1 + F * sine / EA)) / travel - mpf(1) / 2)
+
     return findroot(missing, (12 * EI * travel / LENGTH ** 3, mpf(3) / 2 * travel / LENGTH))
 
 
@@ -43,13 +47,16 @@ def stress(travel):
 def moment(travel, place):
     """At a part of the length below one half."""
     F, e = solved(travel)
-    u = findroot(lambda low: integral(F, e, low, lambda sine: 1) / LENGTH - (mpf(1) / 2 - place), sqrt(sin(e)) * (1 - 2 * place))
+    u = findroot(lambda low: integral(F, e, low, lambda sine: 1) / LENGTH - (mpf(1) / 2 - place),
+                 sqrt(sin(e)) * (1 - 2 * place))
     return EI * curvature(F, e, u)
 
 
 def rows():
+
     def row(quantity, value, unit):
         return "bent_leaf", "thickness=0.5e-3", quantity, value, unit
+
     most = stress(TRAVEL)
     yield row("stress_small", stress(TRAVEL / 100), "Pa")
     yield row("stress", most, "Pa")

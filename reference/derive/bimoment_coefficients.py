@@ -13,8 +13,14 @@ LAMBDAS = ("0.001", "0.03", "0.5", "2.385", "5.9", "6.1", "27.3", "1000", "10000
 TWIST = {"PX": (0, 6, -6), "WP": (1, -4, 3), "WQ": (0, -2, 3)}  # phi_x' of N Eq. 19
 # f = M_x' and the end values m0, m1 of M_x for the stresses M~yp, M~yq and the angles zp, zq
 LOADS = {
-    "corrected": {"PP": ((4, -10, 6), -1, 0), "PQ": ((2, -8, 6), 0, 0), "QP": ((0, -4, 6), 0, 0), "QQ": ((0, -2, 6), 0, 1)},
-    "printed": {"PP": ((6, -18, 12), -1, 0), "PQ": ((2, -12, 12), 0, 0), "QP": ((2, -12, 12), 0, 0), "QQ": ((0, -6, 12), 0, 1)},
+    "corrected": {
+        "PP": ((4, -10, 6), -1, 0), "PQ": ((2, -8, 6), 0, 0), "QP": ((0, -4, 6), 0, 0),
+        "QQ": ((0, -2, 6), 0, 1)
+    },
+    "printed": {
+        "PP": ((6, -18, 12), -1, 0), "PQ": ((2, -12, 12), 0, 0), "QP": ((2, -12, 12), 0, 0),
+        "QQ": ((0, -6, 12), 0, 1)
+    },
 }
 
 
@@ -50,7 +56,10 @@ class Sum:
     def derivative(self):
         parts = {}
         for k, p in self.parts.items():
-            parts[k] = [k * self.lam * c + (i + 1) * p[i + 1] if i + 1 < len(p) else k * self.lam * c for i, c in enumerate(p)]
+            parts[k] = [
+                k * self.lam * c + (i + 1) * p[i + 1] if i + 1 < len(p) else k * self.lam * c
+                for i, c in enumerate(p)
+            ]
         return Sum(self.lam, parts)
 
     def integral(self):
@@ -74,10 +83,15 @@ def bimoments(lam, loads):
     sine, half = (exp(lam) - exp(-lam)) / 2, (exp(lam / 2) + exp(-lam / 2)) / 2
     c1 = Sum(lam, {1: [1 / (2 * sine)], -1: [1 / (2 * sine)]})
     c2 = Sum(lam, {-1: [exp(lam) / (2 * sine)], 1: [exp(-lam) / (2 * sine)]})
-    B = {"M": Sum(lam, {-1: [exp(lam / 2) / (2 * half * lam)], 1: [-exp(-lam / 2) / (2 * half * lam)]})}
+    B = {
+        "M": Sum(lam,
+                 {-1: [exp(lam / 2) / (2 * half * lam)], 1: [-exp(-lam / 2) / (2 * half * lam)]})
+    }
     for name, ((f0, f1, f2), m0, m1) in loads.items():
-        particular = polynomial(lam, [(f0 + 2 * f2 / lam**2) / lam**2, f1 / lam**2, f2 / lam**2])
-        B[name] = particular + c1.scaled((-m1 - (2 * f2 + f1) / lam**2) / lam) + c2.scaled((f1 / lam**2 + m0) / lam)
+        particular = polynomial(lam,
+                                [(f0 + 2 * f2 / lam ** 2) / lam ** 2, f1 / lam ** 2, f2 / lam ** 2])
+        B[name] = particular + c1.scaled((-m1 - (2 * f2 + f1) / lam ** 2) / lam) + c2.scaled(
+            (f1 / lam ** 2 + m0) / lam)
     return B, {"WP": c2.scaled(-1 / lam), "WQ": c1.scaled(1 / lam)}
 
 
@@ -94,34 +108,47 @@ def coefficients(lam, loads):
     twist = {name: polynomial(lam, p) for name, p in TWIST.items()}
     stress, values = list(B), []
     for i, a in enumerate(stress):
-        for b in stress[: i + 1]:
-            values.append((T[a] * T[b] + (B[a] * B[b]).scaled(lam**2)).integral())
+        for b in stress[:i + 1]:
+            values.append((T[a] * T[b] + (B[a] * B[b]).scaled(lam ** 2)).integral())
     for a in stress:
         for name, rate in twist.items():
             value = T[a] * rate + B[a] * rate.derivative()
             if name in ends:
-                value += (T[a] * ends[name].derivative() + (B[a] * ends[name]).scaled(lam**2)).scaled(-1)
+                value += (T[a] * ends[name].derivative() +
+                          (B[a] * ends[name]).scaled(lam ** 2)).scaled(-1)
             values.append(value.integral())
     for a, b in (("WP", "WP"), ("WP", "WQ"), ("WQ", "WQ")):
         x, y = ends[a], ends[b]
-        value = x.derivative() * twist[b] + y.derivative() * twist[a] + x * twist[b].derivative() + y * twist[a].derivative()
-        value += (x.derivative() * y.derivative() + (x * y).scaled(lam**2)).scaled(-1)
+        value = x.derivative() * twist[b] + y.derivative() * twist[a] + x * twist[b].derivative(
+        ) + y * twist[a].derivative()
+        value += (x.derivative() * y.derivative() + (x * y).scaled(lam ** 2)).scaled(-1)
         values.append(value.integral() / (2 if a == b else 1))
     return values
 
 
 def main():
-    print("/* Written by reference/derive/bimoment_coefficients.py: torsional coefficients of the third-order potential for L = GJ = 1,")
-    print(" * EIw = 1/lambda^2.  Order: A of the unit torques M, PP, PQ, QP, QQ (lower triangle by rows), b of each of them with px, Wp, Wq,")
+    print(
+        "/* Written by reference/derive/bimoment_coefficients.py: torsional coefficients of the third-order potential for L = GJ = 1,"
+    )
+    print(
+        " * EIw = 1/lambda^2.  Order: A of the unit torques M, PP, PQ, QP, QQ (lower triangle by rows), b of each of them with px, Wp, Wq,"
+    )
     print(" * P0 of Wp^2, Wp Wq, Wq^2. */")
-    print("#ifndef BEAMWORK_TEST_BIMOMENT_VALUES_H\n#define BEAMWORK_TEST_BIMOMENT_VALUES_H\n\n/* clang-format off */\n")
+    print(
+        "#ifndef BEAMWORK_TEST_BIMOMENT_VALUES_H\n#define BEAMWORK_TEST_BIMOMENT_VALUES_H\n\n/* clang-format off */\n"
+    )
     print("enum { BIMOMENT_VALUES = 33 };\n")
-    print("static const struct {\n    int printed; /* sign of u_y in M_x */\n    double lambda, value[BIMOMENT_VALUES];\n} bimoment_values[] = {")
+    print(
+        "static const struct {\n    int printed; /* sign of u_y in M_x */\n    double lambda, value[BIMOMENT_VALUES];\n} bimoment_values[] = {"
+    )
     for printed, form in enumerate(LOADS):
         for lam in LAMBDAS:
             values = coefficients(mpf(lam), LOADS[form])
-            text = [nstr(v, 17, min_fixed=0, max_fixed=0) if abs(v) > mpf(10) ** -60 else "0" for v in values]
-            lines = [", ".join(text[i : i + 5]) for i in range(0, len(text), 5)]
+            text = [
+                nstr(v, 17, min_fixed=0, max_fixed=0) if abs(v) > mpf(10) ** -60 else "0"
+                for v in values
+            ]
+            lines = [", ".join(text[i:i + 5]) for i in range(0, len(text), 5)]
             print(f"    {{{printed},\n     {lam},\n     {{" + ",\n      ".join(lines) + "}},")
     print("};\n\n#endif")
 

@@ -16,8 +16,12 @@ def dead_load(beam, F, steps):
     net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=6)
     load = np.array(F) / net.force
     angle = beam.curvature * beam.length
-    end = beam.length * np.array([math.sin(angle), 2 * math.sin(angle / 2) ** 2, 0]) / angle if angle else (beam.length, 0, 0)
-    root, tip = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body(end, lambda level, x, R, force, moment, numbers: np.concatenate([force - level * load, moment]))
+    end = beam.length * np.array([math.sin(angle), 2 *
+                                  math.sin(angle / 2) ** 2, 0]) / angle if angle else (beam.length,
+                                                                                       0, 0)
+    root, tip = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body(
+        end,
+        lambda level, x, R, force, moment, numbers: np.concatenate([force - level * load, moment]))
     net.member(beam, root, tip, (0, 0, 0), np.eye(3))
     net.solve(np.linspace(1 / steps, 1, steps))
     return tip.x, tip.R
@@ -50,7 +54,8 @@ def shear_elastica(stiffnesses=(500, 50, 10), form=lambda beam: beam):
 
 def geradin_cardona(loads=(600e3, 300e3), form=lambda beam: beam):
     for load in loads:
-        beam = form(Beam(5.0, EA=4.8e8, EIy=9.346e6, EIz=9.346e6, GJ=1e6, fy=1 / 3.231e8, fz=1 / 3.231e8))
+        beam = form(
+            Beam(5.0, EA=4.8e8, EIy=9.346e6, EIz=9.346e6, GJ=1e6, fy=1 / 3.231e8, fz=1 / 3.231e8))
         r, R = dead_load(beam, (0, -load, 0), 10)
         at = defaults.differing("geradin_cardona", load=f"{load:g}")
         yield "geradin_cardona", at, "tip_x", 5 * r[0], "m", RELATIVE
@@ -62,7 +67,15 @@ def bend_45(torsions=("exact", "polar"), forces=(600, 300), form=lambda beam: be
     radius, angle, E, G = 100.0, math.pi / 4, 1e7, 5e6
     for torsion in torsions:
         k, J = (5 / 6, float(rectangle_constant(1, 1))) if torsion == "exact" else (1.0, 1 / 6)
-        beam = form(Beam(radius * angle, EA=E, EIy=E / 12, EIz=E / 12, GJ=G * J, fy=1 / (k * G), fz=1 / (k * G), curvature=1 / radius))
+        beam = form(
+            Beam(radius * angle,
+                 EA=E,
+                 EIy=E / 12,
+                 EIz=E / 12,
+                 GJ=G * J,
+                 fy=1 / (k * G),
+                 fz=1 / (k * G),
+                 curvature=1 / radius))
         for force in forces:
             r, _ = dead_load(beam, (0, 0, force), 20)
             at = defaults.differing("bend_45", force=force, torsion=torsion)

@@ -8,7 +8,8 @@ from mpmath import matrix, mp, mpf, cos, pi, sin, sqrt
 from reference.derive import defaults
 
 mp.dps = 40
-QUANTITIES = (("M_x", "N m"), ("M_y", "N m"), ("M_z", "N m"), ("u_x", "m"), ("u_y", "m"), ("u_z", "m"))
+QUANTITIES = (("M_x", "N m"), ("M_y", "N m"), ("M_z", "N m"), ("u_x", "m"), ("u_y", "m"), ("u_z",
+                                                                                           "m"))
 
 
 def cross(a, b):

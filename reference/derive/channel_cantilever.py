@@ -22,8 +22,16 @@ def channel_beam(sizes, shear, wagner_moments):
     """(beam, half the height, y of the web) of flanges 16 mm and web 10 mm thick."""
     s = channel(*SIZES[sizes], "0.016", "0.010")
     ys, zs = float(s.ys), float(s.zs)
-    beam = Beam(LENGTH, EA=E * float(s.A), EIy=E * float(s.Iy), EIz=E * float(s.Iz), GJ=G * float(s.It), EIw=E * float(s.Iw),
-                t=float(s.Ip / s.A) + ys ** 2 + zs ** 2, centre=(ys, zs), wagner=(-2 * zs, float(s.wagner_y / s.Iz) * wagner_moments - 2 * ys), shear=np.array((s.F / G).tolist(), dtype=float) * shear)
+    beam = Beam(LENGTH,
+                EA=E * float(s.A),
+                EIy=E * float(s.Iy),
+                EIz=E * float(s.Iz),
+                GJ=G * float(s.It),
+                EIw=E * float(s.Iw),
+                t=float(s.Ip / s.A) + ys ** 2 + zs ** 2,
+                centre=(ys, zs),
+                wagner=(-2 * zs, float(s.wagner_y / s.Iz) * wagner_moments - 2 * ys),
+                shear=np.array((s.F / G).tolist(), dtype=float) * shear)
     return beam, float(SIZES[sizes][0]) / 2, float(s.points[1][0])
 
 
@@ -39,22 +47,32 @@ def path(deflections, intervals=6, nodes=11, form=lambda beam: beam, **given):
     def loaded(level, x, R, force, moment, numbers):
         pull = np.array([0 * numbers[0], 0 * numbers[0], -numbers[0]])
         return np.concatenate([force - pull, moment - np.cross(R @ arm, pull)])
+
     root, tip = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body((LENGTH, 0, 0), loaded)
     net.member(beam, root, tip, (0, 0, 0), np.eye(3), ("fixed", "free"))
-    net.extra = [(tip, lambda level, x, R, force, moment, numbers: [x[2] + (R @ arm)[2] - arm[2] + level])]
+    net.extra = [
+        (tip, lambda level, x, R, force, moment, numbers: [x[2] + (R @ arm)[2] - arm[2] + level])
+    ]
     out, at = [], 0.0
     for w in deflections:
         while at < w - 1e-12:
             at = min(at + (0.01 if at < 0.4 else 0.05), w)
-            net.solve((at / LENGTH,), tolerance=1e-11 if at == w else 1e-7)
+            net.solve((at / LENGTH, ), tolerance=1e-11 if at == w else 1e-7)
         out.append((net.numbers[0] * net.force, (tip.x + tip.R @ arm - arm)[1] * LENGTH))
     return out
 
 
-POINTS = (({}, (0.125, 0.25, 0.5, 1.0, 1.5, 2.0, 2.5, 2.6)), ({"load_point": "E"}, (0.125, 0.25, 0.5, 1.0, 1.2, 1.5, 2.0, 2.5)), ({"sizes": "centreline"}, (0.25, 1.0, 2.5)),
-          ({"sizes": "centreline", "load_point": "E"}, (1.0,)), ({"shear": 1}, (0.25, 1.0, 2.5)), ({"shear": 1, "load_point": "E"}, (1.0,)),
-          ({"wagner_moments": 1}, (1.0,)), ({"load_height": "edge", "wagner_moments": 1}, (0.1, 0.2, 0.5, 1.04, 2.6)),
-          ({"load_height": "edge", "load_point": "E", "wagner_moments": 1}, (0.1, 0.2, 0.494, 1.04, 1.2)), ({"load_height": "edge"}, (0.1, 0.2, 0.5, 1.04, 2.6)), ({"load_height": "edge", "load_point": "E"}, (0.1, 0.2, 0.494, 1.04, 1.2)))
+POINTS = (({}, (0.125, 0.25, 0.5, 1.0, 1.5, 2.0, 2.5, 2.6)), ({
+    "load_point": "E"
+}, (0.125, 0.25, 0.5, 1.0, 1.2, 1.5, 2.0, 2.5)), ({"sizes": "centreline"}, (0.25, 1.0, 2.5)), ({
+    "sizes": "centreline", "load_point": "E"
+}, (1.0, )), ({"shear": 1}, (0.25, 1.0, 2.5)), ({"shear": 1, "load_point": "E"}, (1.0, )), ({
+    "wagner_moments": 1
+}, (1.0, )), ({"load_height": "edge", "wagner_moments": 1}, (0.1, 0.2, 0.5, 1.04, 2.6)), ({
+    "load_height": "edge", "load_point": "E", "wagner_moments": 1
+}, (0.1, 0.2, 0.494, 1.04, 1.2)), ({"load_height": "edge"}, (0.1, 0.2, 0.5, 1.04, 2.6)), ({
+    "load_height": "edge", "load_point": "E"
+}, (0.1, 0.2, 0.494, 1.04, 1.2)))
 
 
 def rows():

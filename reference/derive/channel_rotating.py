@@ -23,13 +23,15 @@ class Turning:
 
     def __init__(self, omega, rotary, form):
         value = defaults.values("c_cantilever")
-        beam, self.half, self.web = channel_beam(*(value[k] for k in ("sizes", "shear", "wagner_moments")))
+        beam, self.half, self.web = channel_beam(*(value[k]
+                                                   for k in ("sizes", "shear", "wagner_moments")))
         self.force = beam.EIz / LENGTH ** 2
         self.beam = form(beam).scaled(LENGTH, self.force)
         area = beam.EA / 210e9
         self.pull = DENSITY * area * omega ** 2 * LENGTH ** 2 / self.force
         turning = rotary * DENSITY * omega ** 2 / self.force  # times the moments of area: without a unit
-        self.moments, self.bimoments = turning * np.array([beam.EIz, beam.EIy]) / 210e9, turning * beam.EIw / 210e9 / LENGTH ** 2
+        self.moments, self.bimoments = turning * np.array(
+            [beam.EIz, beam.EIy]) / 210e9, turning * beam.EIw / 210e9 / LENGTH ** 2
         self.arm = np.array([0, self.web, self.half]) / LENGTH
         self.points, self.W = chebyshev(NODES)
         s = np.concatenate([[0.0]] + [(i + self.points[1:]) / INTERVALS for i in range(INTERVALS)])
@@ -41,7 +43,8 @@ class Turning:
         outward = self.pull * z[:3] * np.array([1, 1, 0])[:, None]
         R, a = rotation(z[3:7]), z[7]
         P = np.array([1, 1, 0])[:, None]
-        moment = sum(I * np.cross(R[:, k], P * R[:, k], axis=0) for k, I in enumerate((self.bimoments * a * a, *self.moments)))
+        moment = sum(I * np.cross(R[:, k], P * R[:, k], axis=0)
+                     for k, I in enumerate((self.bimoments * a * a, *self.moments)))
         y = self.beam.slope(z[:9], z[9:])
         y[8] -= self.bimoments * a * np.sum(R[:, 0] * P * R[:, 0], axis=0)
         return np.concatenate([y, -outward, -np.cross(z[:3], outward, axis=0) - moment])
@@ -50,15 +53,19 @@ class Turning:
         """Sixteen conditions: root clamped and unable to warp; force, moment, bimoment and deflection of the tip."""
         r, R, F = z1[:3], rotation(z1[3:7]), z1[9:12]
         arm, pull = R @ self.arm, np.array([0 * load, 0 * load, -load])
-        return np.concatenate([z0[:3], z0[3:7] - np.array([1, 0, 0, 0]), [z0[7], z1[8]], F - pull, z1[12:] - np.cross(r, F) - np.cross(arm, pull),
-                               [r[2] + arm[2] - self.arm[2] + deflection]])
+        return np.concatenate([
+            z0[:3], z0[3:7] - np.array([1, 0, 0, 0]), [z0[7], z1[8]], F - pull,
+            z1[12:] - np.cross(r, F) - np.cross(arm, pull),
+            [r[2] + arm[2] - self.arm[2] + deflection]
+        ])
 
     def system(self, deflection):
         many, h = self.z.shape[1], 1.0 / INTERVALS
         columns = np.repeat(self.z.astype(complex)[:, :, None], STATES, axis=2)
         columns[np.arange(STATES), :, np.arange(STATES)] += 1j * STEP
         f = self.slope(columns.reshape(STATES, -1)).reshape(STATES, many, STATES)
-        value, jacobian = f[:, :, 0].real, np.moveaxis(f.imag / STEP, 0, 1)  # [many, states, states]
+        value, jacobian = f[:, :, 0].real, np.moveaxis(f.imag / STEP, 0,
+                                                       1)  # [many, states, states]
         size = STATES * many + 1
         A, b = np.zeros((size, size)), np.zeros(size)
         row = 0
@@ -66,17 +73,21 @@ class Turning:
             at = i * NODES
             for j in range(1, NODES + 1):
                 rows = slice(row, row + STATES)
-                b[rows] = self.z[:, at + j] - self.z[:, at] - h * value[:, at:at + NODES + 1] @ self.W[j]
+                b[rows] = self.z[:, at +
+                                 j] - self.z[:, at] - h * value[:, at:at + NODES + 1] @ self.W[j]
                 for k in range(NODES + 1):
-                    A[rows, STATES * (at + k):STATES * (at + k + 1)] -= h * self.W[j, k] * jacobian[at + k]
+                    A[rows, STATES * (at + k):STATES *
+                      (at + k + 1)] -= h * self.W[j, k] * jacobian[at + k]
                 A[rows, STATES * (at + j):STATES * (at + j + 1)] += np.eye(STATES)
                 A[rows, STATES * at:STATES * (at + 1)] -= np.eye(STATES)
                 row += STATES
         b[row:] = self.ends(self.z[:, 0], self.z[:, -1], self.load, deflection)
-        for k, column in [(k, k) for k in range(STATES)] + [(STATES + k, size - 1 - STATES + k) for k in range(STATES + 1)]:
+        for k, column in [(k, k) for k in range(STATES)] + [(STATES + k, size - 1 - STATES + k)
+                                                            for k in range(STATES + 1)]:
             d = np.zeros(2 * STATES + 1, dtype=complex)
             d[k] = 1j * STEP
-            A[row:, column] += self.ends(self.z[:, 0] + d[:STATES], self.z[:, -1] + d[STATES:-1], self.load + d[-1], deflection).imag / STEP
+            A[row:, column] += self.ends(self.z[:, 0] + d[:STATES], self.z[:, -1] + d[STATES:-1],
+                                         self.load + d[-1], deflection).imag / STEP
         return A, b
 
     def solve(self, deflection, tolerance):
@@ -110,7 +121,8 @@ def path(deflections, omega, rotary=0, form=lambda beam: beam):
     for w in deflections:
         while at < w - 1e-12:
             at = advance(t, at, w)
-        out.append((t.load * t.force, (t.z[:3, -1] + rotation(t.z[3:7, -1]) @ t.arm - t.arm)[1] * LENGTH))
+        out.append(
+            (t.load * t.force, (t.z[:3, -1] + rotation(t.z[3:7, -1]) @ t.arm - t.arm)[1] * LENGTH))
     return out
 
 

@@ -14,7 +14,10 @@ from reference.derive import defaults
 from reference.derive.section import channel, section
 
 mp.dps = 40
-PRINTED = {"Iw": "1.3886e-4", "ys": "0.4571", "Dy": "0.0279", "Dz": "0.0158", "Dzw": "-3.70e-3", "Dw": "3.65e-3"}
+PRINTED = {
+    "Iw": "1.3886e-4", "ys": "0.4571", "Dy": "0.0279", "Dz": "0.0158", "Dzw": "-3.70e-3",
+    "Dw": "3.65e-3"
+}
 
 
 def channel_data(**given):
@@ -116,7 +119,9 @@ def frequencies(s, length, shear, rotary, count, load=0, haringx=False, prestres
         found += [1 / sqrt(nu) / (2 * pi) for nu in _ratios(s.G * inverse(s.F), mass)]
     for n in range(1, 30):
         k = n * pi / length
-        for nu in _ratios(_strain(s, k, shear) - load * prestress(s, k, shear, int(haringx)), _kinetic(s, k, shear, rotary)):
+        for nu in _ratios(
+                _strain(s, k, shear) - load * prestress(s, k, shear, int(haringx)),
+                _kinetic(s, k, shear, rotary)):
             if nu > mpf(10) ** -30:
                 found.append(1 / sqrt(nu) / (2 * pi))
     return sorted(found)[:count]
@@ -150,7 +155,8 @@ def other_sizes():
     for given in ({"length": 4, "height": "0.9", "width": "0.3"}, {"web_thickness": "0.01"}):
         s, l = channel_data(**given), length_of("c_column", given)
         yield "c_column", _text(**given), "buckling_load", buckling_load(s, l, True, False), "N"
-        yield "c_column", _text(**given, shear=0), "buckling_load", buckling_load(s, l, False, False), "N"
+        yield "c_column", _text(**given, shear=0), "buckling_load", buckling_load(
+            s, l, False, False), "N"
         for i, value in enumerate(frequencies(s, l, True, True, 4)):
             yield "c_column", _text(**given), f"frequency_{i + 1}", value, "Hz"
         for shear in (0, 1):
@@ -164,7 +170,8 @@ def branched():
     """The unsymmetric section of four walls, in SI."""
     mm = mpf(10) ** -3
     points = [(0, 0), (50, 0), (50, 80), (20, 80), (50, 100)]
-    s = section([(y * mm, z * mm) for y, z in points], [(0, 1, 2 * mm), (1, 2, 3 * mm), (2, 3, 4 * mm), (2, 4, mm)])
+    s = section([(y * mm, z * mm) for y, z in points], [(0, 1, 2 * mm), (1, 2, 3 * mm),
+                                                        (2, 3, 4 * mm), (2, 4, mm)])
     at = defaults.decimals("unsymmetric_column", {})
     s.E, s.G, s.RHO = at["young"], at["shear_modulus"], at["density"]
     return s
@@ -174,15 +181,18 @@ def loaded(s, at):
     """(quantity, value, unit) of a column under an axial load; at: all parameters."""
     l, shear, haringx = at["length"], at["shear"], at["shear_stability"] == "haringx"
     yield "buckling_load", buckling_load(s, l, shear, haringx), "N"
-    for i, value in enumerate(frequencies(s, l, shear, at["rotary_inertia"], 6, at["axial_load"], haringx)):
+    for i, value in enumerate(
+            frequencies(s, l, shear, at["rotary_inertia"], 6, at["axial_load"], haringx)):
         yield f"frequency_{i + 1}", value, "Hz"
 
 
 def unsymmetric():
     s = branched()
-    for given in ({}, {"axial_load": 0}, {"length": mpf("0.6"), "axial_load": 100000}, {"length": mpf("0.6"), "shear_stability": "haringx", "axial_load": 100000},
-                  {"shear": 0, "rotary_inertia": 0, "axial_load": 0}, {"length": 1, "axial_load": -50000}):
-        at = ";".join(f"{k}={v if isinstance(v, (int, str)) else float(v)}" for k, v in given.items())
+    for given in ({}, {"axial_load": 0}, {"length": mpf("0.6"), "axial_load": 100000}, {
+            "length": mpf("0.6"), "shear_stability": "haringx", "axial_load": 100000
+    }, {"shear": 0, "rotary_inertia": 0, "axial_load": 0}, {"length": 1, "axial_load": -50000}):
+        at = ";".join(
+            f"{k}={v if isinstance(v, (int, str)) else float(v)}" for k, v in given.items())
         for row in loaded(s, defaults.decimals("unsymmetric_column", given)):
             yield "unsymmetric_column", at, *row
 
@@ -195,19 +205,25 @@ def rows():
         l = length_of("c_column", at)
         plain, printed = channel_data(), channel_data(section_data="printed")
         yield "c_column", _text(**at), "buckling_load", buckling_load(plain, l, True, False), "N"
-        yield "c_column", _text(**at, shear_stability="haringx"), "buckling_load", buckling_load(plain, l, True, True), "N"
-        yield "c_column", _text(**at, shear=0), "buckling_load", buckling_load(plain, l, False, False), "N"
+        yield "c_column", _text(**at, shear_stability="haringx"), "buckling_load", buckling_load(
+            plain, l, True, True), "N"
+        yield "c_column", _text(**at, shear=0), "buckling_load", buckling_load(
+            plain, l, False, False), "N"
         for i, value in enumerate(frequencies(plain, l, True, True, 13)):
             yield "c_column", _text(**at), f"frequency_{i + 1}", value, "Hz"
         if length is None:
-            yield "c_column", "section_data=printed", "buckling_load", buckling_load(printed, l, True, False), "N"
-            yield "c_column", "section_data=printed;shear=0", "buckling_load", buckling_load(printed, l, False, False), "N"
+            yield "c_column", "section_data=printed", "buckling_load", buckling_load(
+                printed, l, True, False), "N"
+            yield "c_column", "section_data=printed;shear=0", "buckling_load", buckling_load(
+                printed, l, False, False), "N"
             for i, value in enumerate(frequencies(printed, l, True, True, 13)):
                 yield "c_column", "section_data=printed", f"frequency_{i + 1}", value, "Hz"
             for i, value in enumerate(frequencies(plain, l, False, False, 13)):
                 yield "c_column", "shear=0;rotary_inertia=0", f"frequency_{i + 1}", value, "Hz"
-            yield "c_column", "shear=0;rotary_inertia=0", "buckling_load", buckling_load(plain, l, False, False), "N"
-        for shear, haringx, wagner in ((0, 0, 1), (0, 0, 0), (1, 0, 1), (1, 0, 0), (1, 1, 1), (1, 1, 0)):
+            yield "c_column", "shear=0;rotary_inertia=0", "buckling_load", buckling_load(
+                plain, l, False, False), "N"
+        for shear, haringx, wagner in ((0, 0, 1), (0, 0, 0), (1, 0, 1), (1, 0, 0), (1, 1, 1), (1, 1,
+                                                                                               0)):
             if length is not None and not wagner:
                 continue
             given = dict(at)

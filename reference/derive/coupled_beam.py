@@ -12,7 +12,7 @@ from mpmath import cos, det, expm, findroot, matrix, mp, mpf, pi, quad, sin, sqr
 from reference.derive import defaults
 
 mp.dps = 30
-STIFF = [mpf(v) for v in (10**7, 4 * 10**6, 3 * 10**6, 800, 1000, 4000)]
+STIFF = [mpf(v) for v in (10 ** 7, 4 * 10 ** 6, 3 * 10 ** 6, 800, 1000, 4000)]
 MASS, CENTRE, ABOUT = mpf(2), (mpf("0.02"), mpf("-0.01")), (mpf("0.0008"), mpf("0.0018"))
 GRAVITY = mpf("9.81")
 NAMES = (("ux", "m"), ("uy", "m"), ("uz", "m"), ("rx", "rad"), ("ry", "rad"), ("rz", "rad"))
@@ -24,7 +24,8 @@ def stiffness(coupling, helix):
         C[i, i] = STIFF[i]
     parts = {(0, 3): coupling / 2, (3, 4): coupling}
     if not helix:
-        parts.update({(0, 1): 3 * coupling / 10, (1, 5): -coupling / 5, (2, 4): coupling / 5, (3, 5): 2 * coupling / 5})
+        parts.update({(0, 1): 3 * coupling / 10, (1, 5): -coupling / 5, (2, 4): coupling / 5,
+                      (3, 5): 2 * coupling / 5})
     for (i, j), part in parts.items():
         C[i, j] = C[j, i] = part * sqrt(STIFF[i] * STIFF[j])
     return C
@@ -52,7 +53,7 @@ def at_section(x, tip):
 
 def weight_at_section(x, coupling):
     w, rest, (y, _) = -MASS * GRAVITY, 1 - x, CENTRE
-    return matrix([0, 0, w * rest, w * rest * coupling * y, -w * rest**2 / 2, 0])
+    return matrix([0, 0, w * rest, w * rest * coupling * y, -w * rest ** 2 / 2, 0])
 
 
 def displacement(coupling, weight, row):
@@ -60,7 +61,8 @@ def displacement(coupling, weight, row):
     unit = [mpf(i == row) for i in range(6)]
 
     def density(x):
-        here = weight_at_section(x, coupling) if weight else at_section(x, (mpf(1000), 0, mpf(50), mpf(10), 0, 0))
+        here = weight_at_section(x, coupling) if weight else at_section(
+            x, (mpf(1000), 0, mpf(50), mpf(10), 0, 0))
         return (at_section(x, unit).T * F * here)[0]
 
     return quad(density, [0, 1])  # a polynomial
@@ -68,14 +70,15 @@ def displacement(coupling, weight, row):
 
 def helix(coupling, turn):
     C = stiffness(coupling, True)
-    F = C**-1
+    F = C ** -1
     k, b = C[3, 3] - C[0, 3] ** 2 / C[0, 0], C[3, 4]
-    soft = (k + C[4, 4]) / 2 - sqrt((k - C[4, 4]) ** 2 / 4 + b**2)
-    size = sqrt(b**2 + (soft - k) ** 2)
+    soft = (k + C[4, 4]) / 2 - sqrt((k - C[4, 4]) ** 2 / 4 + b ** 2)
+    size = sqrt(b ** 2 + (soft - k) ** 2)
     M = matrix([0, 0, 0, soft * turn * b / size, soft * turn * (soft - k) / size, 0])
     strain = F * M
     axis, along = strain[3:6] / turn, matrix([1 + strain[0], strain[1], strain[2]])
-    cross = lambda a, c: matrix([a[1] * c[2] - a[2] * c[1], a[2] * c[0] - a[0] * c[2], a[0] * c[1] - a[1] * c[0]])
+    cross = lambda a, c: matrix(
+        [a[1] * c[2] - a[2] * c[1], a[2] * c[0] - a[0] * c[2], a[0] * c[1] - a[1] * c[0]])
     once = cross(axis, along)
     r = along + (1 - cos(turn)) / turn * once + (1 - sin(turn) / turn) * cross(axis, once)
     return (("ux", r[0] - 1, "m"), ("uy", r[1], "m"), ("uz", r[2], "m"))
@@ -100,7 +103,8 @@ def free_end(F, M, squared, force):
             A[6 + i, j] = -squared * M[i, j] / scale if j < 6 else mpf(0)
     for i in range(3):
         for j in range(12):
-            A[9 + i, j] += sum(n[i, k] * A[k, j] for k in range(3)) / scale - (axis[i, j - 6] if 6 <= j < 9 else 0)
+            A[9 + i, j] += sum(n[i, k] * A[k, j]
+                               for k in range(3)) / scale - (axis[i, j - 6] if 6 <= j < 9 else 0)
     return det(expm(A)[6:12, 6:12])
 
 
@@ -111,14 +115,18 @@ def first_roots(f, step, wanted):
         high = low + step
         other = f(high)
         if value * other < 0:
-            found.append(findroot(f, (low, high), solver="anderson", tol=mpf(10) ** -20, verify=False))
+            found.append(
+                findroot(f, (low, high), solver="anderson", tol=mpf(10) ** -20, verify=False))
         low, value = high, other
     return found
 
 
 def frequencies(coupling, wanted):
     F, M = stiffness(coupling, False) ** -1, mass(coupling)
-    return [w / (2 * pi) for w in first_roots(lambda w: free_end(F, M, w**2, 0), sqrt(STIFF[4] / MASS) / 3, wanted)]
+    return [
+        w / (2 * pi) for w in first_roots(lambda w: free_end(F, M, w ** 2, 0),
+                                          sqrt(STIFF[4] / MASS) / 3, wanted)
+    ]
 
 
 def buckling_load(coupling):
@@ -142,10 +150,13 @@ def values(given):
                 yield name, displacement(coupling, at["asked"] == "weight", row), unit
 
 
-POINTS = ("", "coupling=0.2", "coupling=0", "asked=weight", "asked=helix", "asked=helix;turn=-6", "asked=frequencies", "asked=frequencies;coupling=0.2", "asked=buckling", "asked=buckling;coupling=0.2")
+POINTS = ("", "coupling=0.2", "coupling=0", "asked=weight", "asked=helix", "asked=helix;turn=-6",
+          "asked=frequencies", "asked=frequencies;coupling=0.2", "asked=buckling",
+          "asked=buckling;coupling=0.2")
 
 
 def rows():
     for at in POINTS:
-        for quantity, value, unit in values(dict(item.split("=") for item in at.split(";") if item)):
+        for quantity, value, unit in values(dict(
+                item.split("=") for item in at.split(";") if item)):
             yield "coupled_beam", at, quantity, value, unit

@@ -33,6 +33,7 @@ def hinge(given, intervals=4, nodes=14, form=lambda beam: beam):
 
     def conditions(level, x, R, force, moment, numbers):
         return np.concatenate([force, turned(level, x, R, force, moment, numbers)[3:]])
+
     arm = net.body((0, 0, 0), conditions)
     for i in range(3):
         a = value["half_angle"] if i == 1 else math.pi - value["half_angle"]
@@ -46,8 +47,10 @@ def hinge(given, intervals=4, nodes=14, form=lambda beam: beam):
 
 def compliance(net, arm, turned, tilts_free, convention):
     """[5, 5] of (ux, uy, uz, thx, thy) with the tilts free, else [3, 3], in SI."""
+
     def tilting(level, x, R, force, moment, numbers):
         return np.concatenate([force, moment[:2], turned(level, x, R, force, moment, numbers)[5:]])
+
     C = net.response(1.0, arm, {arm: tilting} if tilts_free else {})
     if not tilts_free:
         return C[:3, :3]
@@ -75,9 +78,11 @@ def quantities(given, form=lambda beam: beam):
         yield name, 1 / C[i, i], "N/m" if i < 3 else "N m/rad", RELATIVE, convention
 
 
-POINTS = [{}, {"angle": 0.01}, {"angle": 0.3490658503988659}, {"half_angle": 0.5, "angle": -0.2, "pitch": 0.03}]
+POINTS = [{}, {"angle": 0.01}, {"angle": 0.3490658503988659},
+          {"half_angle": 0.5, "angle": -0.2, "pitch": 0.03}]
 POINTS += [{"rotation": rotation} for rotation in ("vector", *TILTS_FREE)]
-POINTS += [{"rotation": "first", "moment_convention": convention} for convention in ("semitangential", "symmetrised")]
+POINTS += [{"rotation": "first", "moment_convention": convention}
+           for convention in ("semitangential", "symmetrised")]
 
 
 def rows():

@@ -25,7 +25,8 @@ def bending(n, shear, rotary):
     if not rotary:  # t follows: t = s k/(EI k^2 + s) w
         return [E * I * k ** 4 * s / (E * I * k ** 2 + s) / (RHO * A)]
     # RHO A RHO I x^2 - (s k^2 RHO I + (EI k^2 + s) RHO A) x + s EI k^4 = 0
-    a, b, c = RHO * A * RHO * I, s * k ** 2 * RHO * I + (E * I * k ** 2 + s) * RHO * A, s * E * I * k ** 4
+    a, b, c = RHO * A * RHO * I, s * k ** 2 * RHO * I + (E * I * k ** 2 +
+                                                         s) * RHO * A, s * E * I * k ** 4
     root = sqrt(b ** 2 - 4 * a * c)
     return [(b - root) / (2 * a), (b + root) / (2 * a)]
 
@@ -37,7 +38,10 @@ def torsion_constant(exact):
 
 
 def frequencies(exact_torsion, shear, rotary):
-    found = [sqrt(x) / (2 * pi) for n in range(1, HALF_WAVES) for x in bending(n, shear, rotary) for _ in "yz"]
+    found = [
+        sqrt(x) / (2 * pi) for n in range(1, HALF_WAVES) for x in bending(n, shear, rotary)
+        for _ in "yz"
+    ]
     if shear and rotary:  # no half-wave at all: the sections turn in pure shear
         found += [sqrt(SHEAR_FACTOR * G * A / (RHO * I)) / (2 * pi)] * 2
     twist = sqrt(G * torsion_constant(exact_torsion) / (RHO * 2 * I))
@@ -51,4 +55,5 @@ def rows():
         at = {**defaults.values("deep_beam"), **given}
         found = frequencies(at["torsion"] == "exact", at["shear"], at["rotary_inertia"])
         for i, value in enumerate(found):
-            yield "deep_beam", defaults.differing("deep_beam", **given), f"frequency_{i + 1}", value, "Hz"
+            yield "deep_beam", defaults.differing("deep_beam",
+                                                  **given), f"frequency_{i + 1}", value, "Hz"

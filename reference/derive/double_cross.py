@@ -44,7 +44,8 @@ FAMILIES = ((turning, 1), (moving, 2), (at_rest, 5))  # and how many modes alike
 
 
 def frequencies():
-    return sorted(f for family, alike in FAMILIES for f in zeros(family, HIGHEST, STEP) for _ in range(alike))
+    return sorted(f for family, alike in FAMILIES for f in zeros(family, HIGHEST, STEP)
+                  for _ in range(alike))
 
 
 def rows():

@@ -36,6 +36,7 @@ def singular_load(net, start, end):
         level[0] = target
         sign, logarithm = np.linalg.slogdet(net.system(target)[0].toarray())
         return sign * math.exp(logarithm - size)
+
     return brentq(determinant, start, end, xtol=1e-11 * end, rtol=1e-12)
 
 
@@ -44,15 +45,19 @@ def lateral(bracket, ratio, K=0.0):
     beam = Beam(1.0, EA=1e6, EIy=ratio, EIz=1.0, GJ=1.0, EIw=1 / K if K else 0.0)
     net = Network(1.0, 1.0, intervals=6, nodes=14)
     root = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0)))
-    tip = net.body((1, 0, 0), lambda level, x, R, force, moment, numbers: np.concatenate([force - level * np.array([0, 0, -1.0]), moment]))
+    tip = net.body((1, 0, 0), lambda level, x, R, force, moment, numbers: np.concatenate(
+        [force - level * np.array([0, 0, -1.0]), moment]))
     net.member(beam, root, tip, (0, 0, 0), np.eye(3), ("fixed", "free"))
     return singular_load(net, *bracket)
 
 
 def buckling():
-    for bracket, ratio, K in (((3.9, 4.1), 10000, 0.0), ((4.4, 4.9), 10, 0.0), ((6.5, 7.5), 4, 0.0), ((11.5, 13.5), 10, 10.0)):
-        at = ([f"K={K:g}"] if K else []) + ["prebuckling=included"] + ([f"ratio={ratio}"] if ratio != 10000 else [])
-        yield "lateral_buckling", ";".join(at), "load_factor", lateral(bracket, ratio, K), "1", RELATIVE
+    for bracket, ratio, K in (((3.9, 4.1), 10000, 0.0), ((4.4, 4.9), 10, 0.0), ((6.5, 7.5), 4, 0.0),
+                              ((11.5, 13.5), 10, 10.0)):
+        at = ([f"K={K:g}"] if K else []) + ["prebuckling=included"
+                                            ] + ([f"ratio={ratio}"] if ratio != 10000 else [])
+        yield "lateral_buckling", ";".join(at), "load_factor", lateral(bracket, ratio,
+                                                                       K), "1", RELATIVE
 
 
 class Vibration:
@@ -162,7 +167,8 @@ def sheet_frequencies(count, given, form=lambda beam: beam, interpolated=False):
     beam = sheet(**value)
     A, Iy, Iz = width * thickness, thickness * width ** 3 / 12, width * thickness ** 3 / 12
     mass = value["density"] / net.force  # times area and length^2: dimensionless, per 1/s^2
-    inertia = (mass * A * length ** 2, mass * np.array([Iy + Iz, Iy, Iz]), mass * beam.EIw / value["young"] / length ** 2)
+    inertia = (mass * A * length ** 2, mass * np.array([Iy + Iz, Iy, Iz]),
+               mass * beam.EIw / value["young"] / length ** 2)
     member = net.members[0]
     vibration = Vibration(member, inertia, interpolated)
     n = vibration.n

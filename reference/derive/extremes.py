@@ -11,7 +11,8 @@ from reference.derive.beam import Beam
 
 TABLES = "extremes"
 mp.dps = 40
-EQUAL_WIDTH = mpf("0.223203587801597")  # of the C-shaped column whose lowest bending and torsion frequencies are equal
+EQUAL_WIDTH = mpf("0.223203587801597"
+                  )  # of the C-shaped column whose lowest bending and torsion frequencies are equal
 
 
 def decimal(value):
@@ -32,15 +33,18 @@ def inextensible():
         beam = Beam(1.0, EA=axial, EIy=1.0, EIz=1.0, GJ=1.0)
         r, R = cantilevers.dead_load(beam, (0, 5, 0), 10)
         at = f"load=5;axial={decimal(axial)}"
-        for name, value, unit in (("w_over_L", r[1], "1"), ("u_over_L", 1 - r[0], "1"), ("theta", cantilevers.planar_angle(R), "rad")):
+        for name, value, unit in (("w_over_L", r[1], "1"), ("u_over_L", 1 - r[0], "1"),
+                                  ("theta", cantilevers.planar_angle(R), "rad")):
             yield "elastica", at, name, value, unit, cantilevers.RELATIVE
 
 
 def channel(**given):
     """Buckling load (Engesser) and lowest frequency of the C-shaped column."""
-    s, value, at = column.channel_data(**given), defaults.decimals("c_column", given), sheets.parameters(given)
+    s, value, at = column.channel_data(**given), defaults.decimals("c_column",
+                                                                   given), sheets.parameters(given)
     load = column.buckling_load(s, value["length"], value["shear"], False)
-    frequency = column.frequencies(s, value["length"], value["shear"], value["rotary_inertia"], 1)[0]
+    frequency = column.frequencies(s, value["length"], value["shear"], value["rotary_inertia"],
+                                   1)[0]
     yield "c_column", at, "buckling_load", load, "N"
     yield "c_column", at, "frequency_1", frequency, "Hz"
 
@@ -68,7 +72,9 @@ def channels():
 
 def squares():
     default = defaults.decimals("shear_column", {})
-    lengths = [decimal(default["side"] * mpf(ratio)) for ratio in ("1", "10", "1e2", "1e3", "1e4", "1e5")]
+    lengths = [
+        decimal(default["side"] * mpf(ratio)) for ratio in ("1", "10", "1e2", "1e3", "1e4", "1e5")
+    ]
     moduli = [decimal(default["young"] / mpf(ratio)) for ratio in ("2.6", "10", "1e2", "1e4")]
     for given in [{"length": one} for one in lengths] + [{"shear_modulus": one} for one in moduli]:
         yield linear_buckling.column_row({**given, "shear_stability": "haringx"})
@@ -78,7 +84,8 @@ def torsion():
     for kl in ("1e-3", "1e-2", "1e-1", "1e2", "1e3", "1e4"):
         x = mpf(kl)
         yield "warping_torsion", f"kL={decimal(x)}", "twist_ratio", 1 - tanh(x) / x, "1"
-        yield "warping_torsion", f"kL={decimal(x)};ends=fixed", "twist_ratio", 1 - tanh(x / 2) / (x / 2), "1"
+        yield "warping_torsion", f"kL={decimal(x)};ends=fixed", "twist_ratio", 1 - tanh(
+            x / 2) / (x / 2), "1"
 
 
 def lateral():
@@ -90,13 +97,15 @@ def lateral():
         yield "lateral_buckling", f"K={decimal(K)}", "load_factor", guess, "1"
     guess = mpf("6.81")
     digits = mp.dps
-    for K, extra, terms in (("16", 0, 160), ("1e2", 20, 300), ("1e3", 40, 500), ("1e4", 100, 1000), ("1e5", 300, 2500), ("1e6", 900, 6000)):
+    for K, extra, terms in (("16", 0, 160), ("1e2", 20, 300), ("1e3", 40, 500), ("1e4", 100, 1000),
+                            ("1e5", 300, 2500), ("1e6", 900, 6000)):
         mp.dps = digits + extra
         limit = mpf("4.012599")
         guess = linear_buckling.lateral_load("tip", K, guess, terms)
         if K in ("1e2", "1e4", "1e6"):
             yield "lateral_buckling", f"K={decimal(K)}", "load_factor", guess, "1"
-        guess = limit + (guess - limit) / sqrt(mpf(10)) if K != "16" else limit + (guess - limit) * mpf("0.4")
+        guess = limit + (guess - limit) / sqrt(
+            mpf(10)) if K != "16" else limit + (guess - limit) * mpf("0.4")
         mp.dps = digits
 
 
@@ -106,7 +115,8 @@ def twisted():
     half = math.sqrt(beam.GJ / beam.EIw) * beam.length / 2
     for angle in (0.1, 0.5, 1, 1.3, 1.4, 1.5):
         at = f"wagner=0;tip_deflection=0;tip_phi_z=0;tip_phi_x={decimal(angle)}"
-        yield "sheet_wagner", at, "M_x", beam.GJ * angle / beam.length / (1 - math.tanh(half) / half), "N m", 5e-13, "RyRzRx"
+        yield "sheet_wagner", at, "M_x", beam.GJ * angle / beam.length / (
+            1 - math.tanh(half) / half), "N m", 5e-13, "RyRzRx"
     for angle in (0.1, 1.4, 1.6, 3):
         yield from cantilevers.wagner_strip(angle)
 
@@ -114,7 +124,8 @@ def twisted():
 def turns():
     for part in (0.5, 0.75, 1.5):
         angle = 2 * math.pi * part
-        yield "roll_up", f"turns={part}", "tip_gap", float(mp.sinpi(2 * mpf(part))) / angle, "1", 1e-13
+        yield "roll_up", f"turns={part}", "tip_gap", float(mp.sinpi(
+            2 * mpf(part))) / angle, "1", 1e-13
 
 
 def rows():

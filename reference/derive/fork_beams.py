@@ -57,16 +57,22 @@ def _start(theta, K):
 
 def _middle(theta, P, q, ratio, K, tolerance=1e-13):
     """theta in the middle, and the fields there [FIELDS, solutions]."""
-    path = solve_ivp(_slopes, (0, 0.5), _start(theta, K), method="DOP853", rtol=tolerance,
-                     atol=tolerance * 1e-2, args=(P, q, ratio, K))
+    path = solve_ivp(_slopes, (0, 0.5),
+                     _start(theta, K),
+                     method="DOP853",
+                     rtol=tolerance,
+                     atol=tolerance * 1e-2,
+                     args=(P, q, ratio, K))
     y = path.y[:, -1]
     return y[THETA], y[FIRST:].reshape(FIELDS, -1)
 
 
 def _rotation_at_fork(P, distributed, ratio, K, near):
     """theta(0) of the plane state, by Newton's secants from the neighbouring load's."""
+
     def turn(theta):
         return _middle(theta, P, P if distributed else 0.0, ratio, K)[0]
+
     before, now = near - 1e-3, near
     f_before, f_now = turn(before), turn(now)
     for _ in range(50):
@@ -88,6 +94,7 @@ def critical_load(distributed, ratio, K, bracket, steps=12):
         turns[P] = _rotation_at_fork(P, distributed, ratio, K, near)
         fields = _middle(turns[P], P, P if distributed else 0.0, ratio, K)[1]
         return np.linalg.det(fields[[2, 3, 5] if K else [2, 3]])
+
     path = [determinant(P) for P in np.linspace(0, bracket[0], steps + 1)[1:]]
     if min(path) * max(path) <= 0:
         raise ArithmeticError(f"a critical load below {bracket[0]}")
@@ -107,6 +114,7 @@ def row(load, ratio, K, bracket):
 
 def rows():
     for load, ratio, K, bracket in CRITICAL:
-        at = ([f"K={K:g}"] if K else []) + [f"load={load}", "prebuckling=included", f"ratio={ratio:g}"]
+        at = ([f"K={K:g}"]
+              if K else []) + [f"load={load}", "prebuckling=included", f"ratio={ratio:g}"]
         value = row(load, ratio, K, bracket)
         yield "lateral_buckling", ";".join(at), "load_factor", value, "1", RELATIVE

@@ -31,10 +31,13 @@ def along(angle):
 
 def tip(clamp, M0, F, intervals):
     """The crank's end, and the moment there."""
+
     def slope(Y):
         e = np.array([np.cos(Y[:, 0]), np.sin(Y[:, 0])])
         g = 1 + (F[0] * e[0] + F[1] * e[1]) / (YOUNG * WIDTH * THIN)
-        return np.array([(M0 - Y[:, 1] * F[1] + Y[:, 2] * F[0]) / (YOUNG * WIDTH * THIN ** 3 / 12), g * e[0], g * e[1]]).T
+        return np.array([(M0 - Y[:, 1] * F[1] + Y[:, 2] * F[0]) / (YOUNG * WIDTH * THIN ** 3 / 12),
+                         g * e[0], g * e[1]]).T
+
     y, h = np.array([clamp, 0, 0]), CRANK / intervals
     for _ in range(intervals):
         Y = np.tile(y, (len(POINTS), 1))
@@ -71,7 +74,10 @@ def solved(intervals=16):
     directions = at_rest()
     u = np.array([0, 0, directions[0], 0, directions[1]])
     for level in range(1, LEVELS + 1):
-        u, _, good, words = fsolve(residual, u, (level / LEVELS, intervals), xtol=1e-14, full_output=True)
+        u, _, good, words = fsolve(residual,
+                                   u, (level / LEVELS, intervals),
+                                   xtol=1e-14,
+                                   full_output=True)
         if np.abs(residual(u, level / LEVELS, intervals)).max() > 1e-10:
             raise ArithmeticError(words)
     return u
@@ -80,7 +86,10 @@ def solved(intervals=16):
 def values(u):
     M0, pull, _, push, across = u
     c, r = at_rest()[1], ROCKER * (1 + push / (YOUNG * WIDTH * THICK)) * along(across)
-    return {"move_x": (r[0] - ROCKER * np.cos(c), "m"), "move_y": (r[1] - ROCKER * np.sin(c), "m"), "torque": (-M0, "N m"), "coupler": (pull, "N"), "rocker": (push, "N")}
+    return {
+        "move_x": (r[0] - ROCKER * np.cos(c), "m"), "move_y": (r[1] - ROCKER * np.sin(c), "m"),
+        "torque": (-M0, "N m"), "coupler": (pull, "N"), "rocker": (push, "N")
+    }
 
 
 def rows():

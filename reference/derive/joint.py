@@ -27,7 +27,8 @@ def fold(net, beam, given, centre, axes, azimuth, mirrored, bodies, name):
     """Two sheets and the body where they meet; axes: columns are the joint's x, y, z."""
     value = {**DEFAULTS, **given}
     up = np.diag([1, 1, -1.0 if mirrored else 1.0])
-    turn = np.array([[math.cos(azimuth), -math.sin(azimuth), 0], [math.sin(azimuth), math.cos(azimuth), 0], [0, 0, 1]])
+    turn = np.array([[math.cos(azimuth), -math.sin(azimuth), 0],
+                     [math.sin(azimuth), math.cos(azimuth), 0], [0, 0, 1]])
     to_global = axes @ turn @ up
     polar, half = value["polar_angle"], value["fold_angle"] / 2
     line = np.array([math.sin(polar), 0, math.cos(polar)])
@@ -35,13 +36,15 @@ def fold(net, beam, given, centre, axes, azimuth, mirrored, bodies, name):
     middle = (value["radius"] - value["width"] / 2) * line
     crease = net.body(centre + to_global @ middle)
     for side, body in ((1, bodies[0]), (-1, bodies[1])):
-        along = math.cos(half) * outward + side * math.sin(half) * np.array([0, 1, 0])  # from the fold to the body
+        along = math.cos(half) * outward + side * math.sin(half) * np.array(
+            [0, 1, 0])  # from the fold to the body
         end = middle + value["length"] * along
         x, z = -to_global @ along, to_global @ line
         at_fold = {"shared": name, "free": "free", "fixed": "fixed"}[value["fold_warping"]]
         # z along the fold line, y normal to the sheet.
         y = np.cross(z, x)
-        net.member(beam, body, crease, centre + to_global @ end, np.column_stack([x, y, z]), ("fixed", at_fold))
+        net.member(beam, body, crease, centre + to_global @ end, np.column_stack([x, y, z]),
+                   ("fixed", at_fold))
 
 
 def add_joint(net, beam, given, centre, axes, base, effector, name):
@@ -49,9 +52,11 @@ def add_joint(net, beam, given, centre, axes, base, effector, name):
     middle = net.body(centre)
     first = {**DEFAULTS, **given}["azimuth"]
     for k in range(3):
-        fold(net, beam, given, centre, axes, first + 2 * math.pi * k / 3, False, (base, middle), f"{name}.{k}")
+        fold(net, beam, given, centre, axes, first + 2 * math.pi * k / 3, False, (base, middle),
+             f"{name}.{k}")
     for k in range(3):
-        fold(net, beam, given, centre, axes, first + 2 * math.pi * (k + 0.5) / 3, True, (middle, effector), f"{name}.{k + 3}")
+        fold(net, beam, given, centre, axes, first + 2 * math.pi * (k + 0.5) / 3, True,
+             (middle, effector), f"{name}.{k + 3}")
     return middle
 
 
@@ -63,6 +68,7 @@ def turned(given):
         """Levels below 1 lead to the first azimuth."""
         azimuth = 2 * math.pi * max(level - 1, 0) / steps
         return min(level, 1.0) * tilt * np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
+
     return vector
 
 
@@ -75,23 +81,27 @@ def stiffness_curve(intervals=4, nodes=10, form=lambda beam: beam, **given):
 
     def driven(level, x, R, force, moment, numbers):
         return np.concatenate([force, place(level, x, R, force, moment, numbers)[3:]])
+
     base, effector = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body((0, 0, 0), driven)
     add_joint(net, beam, given, np.zeros(3), np.eye(3), base, effector, "joint")
 
     def stiffness(level):
         return 1 / net.response(level, effector, {})[2, 2]
+
     undeformed, curve = stiffness(0.0), []
     for level in (0.5, 1.0):
-        net.solve((level,))
+        net.solve((level, ))
     steps = {**DEFAULTS, **given}["steps"]
     for k in range(steps):
-        net.solve((1.0 + k,), tolerance=1e-9)
+        net.solve((1.0 + k, ), tolerance=1e-9)
         curve.append(stiffness(1.0 + k))
     return undeformed, curve
 
 
 def rows():
-    for given in ({}, {"wagner": 0}, {"fold_warping": "free", "wagner": 0, "tilt": 0.1, "steps": 10}):
+    for given in ({}, {"wagner": 0}, {
+            "fold_warping": "free", "wagner": 0, "tilt": 0.1, "steps": 10
+    }):
         undeformed, curve = stiffness_curve(**given)
         at = parameters(given)
         for name, value in (("max", max(curve)), ("min", min(curve)), ("undeformed", undeformed)):

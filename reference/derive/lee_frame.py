@@ -23,15 +23,21 @@ class Frame:
         net = self.net = Network(LENGTH, EI / LENGTH ** 2, numbers=[0.0], intervals=3, nodes=12)
 
         def hinge(place):
-            return lambda level, x, R, force, moment, numbers: np.array([*(x - np.array(place) / LENGTH), R[2, 0], R[2, 1], moment[2]])
+            return lambda level, x, R, force, moment, numbers: np.array(
+                [*(x - np.array(place) / LENGTH), R[2, 0], R[2, 1], moment[2]])
 
         def loaded(level, x, R, force, moment, numbers):
-            return np.concatenate([force + np.array([0 * numbers[0], numbers[0], 0 * numbers[0]]), moment])
+            return np.concatenate(
+                [force + np.array([0 * numbers[0], numbers[0], 0 * numbers[0]]), moment])
+
         places = (0, 0, 0), (0, LENGTH, 0), (LOAD_AT, LENGTH, 0), (LENGTH, LENGTH, 0)
-        bodies = net.body(places[0], hinge(places[0])), net.body(places[1]), net.body(places[2], loaded), net.body(places[3], hinge(places[3]))
+        bodies = net.body(places[0], hinge(places[0])), net.body(places[1]), net.body(
+            places[2], loaded), net.body(places[3], hinge(places[3]))
         up, right = np.array([[0, -1.0, 0], [1, 0, 0], [0, 0, 1]]), np.eye(3)
-        for i, (length, axes) in enumerate(((LENGTH, up), (LOAD_AT, right), (LENGTH - LOAD_AT, right))):
-            net.member(Beam(length, EA=EA, EIy=across[0], EIz=EI, GJ=across[1]), bodies[i], bodies[i + 1], places[i], axes)
+        for i, (length, axes) in enumerate(
+            ((LENGTH, up), (LOAD_AT, right), (LENGTH - LOAD_AT, right))):
+            net.member(Beam(length, EA=EA, EIy=across[0], EIz=EI, GJ=across[1]), bodies[i],
+                       bodies[i + 1], places[i], axes)
         self.node = 2
         self.way, self.origin = np.array([0, 0, 0, 1.0]), self.place()
 
@@ -47,8 +53,9 @@ class Frame:
         """Another frame, so far along the arc."""
         one = copy.deepcopy(self)
         way, origin = self.way, self.origin
-        one.net.extra = [(one.net.bodies[self.node], lambda level, x, R, force, moment, numbers: [way @ (self.coordinates(x, R, numbers) - origin) - level])]
-        one.net.solve((arc,))
+        one.net.extra = [(one.net.bodies[self.node], lambda level, x, R, force, moment, numbers:
+                          [way @ (self.coordinates(x, R, numbers) - origin) - level])]
+        one.net.solve((arc, ))
         return one
 
     def turned(self, before):
@@ -75,7 +82,8 @@ def path(frame, least):
     """Points of the path until it comes up again from below to the force `least` [N]."""
     points = [frame, frame.advanced(STEP)]
     points[1].turned(frame)
-    while len(points) < 400 and not (points[-1].force > points[-2].force > least and min(p.force for p in points) < 0):
+    while len(points) < 400 and not (points[-1].force > points[-2].force > least and
+                                     min(p.force for p in points) < 0):
         points.append(points[-1].advanced(STEP).turned(points[-1]))
     return points
 
@@ -84,7 +92,10 @@ def extremum(before, width):
     """(force, deflection) at the extremum of the force between two points of the path."""
     nodes = (1 - np.cos(np.pi * (np.arange(11) + 0.5) / 11)) / 2 * width
     found = [before.advanced(s) for s in nodes]
-    series = [np.polynomial.Polynomial.fit(nodes, [getattr(p, name) for p in found], 10) for name in ("force", "deflection")]
+    series = [
+        np.polynomial.Polynomial.fit(nodes, [getattr(p, name) for p in found], 10)
+        for name in ("force", "deflection")
+    ]
     zeros = series[0].deriv().roots()
     at = next(z.real for z in zeros if abs(z.imag) < 1e-9 and 0 <= z.real <= width)
     return series[0](at), series[1](at)
@@ -92,7 +103,11 @@ def extremum(before, width):
 
 def rows():
     points = path(Frame(True), 0.5)
-    turns = [i for i in range(1, len(points) - 1) if (points[i].force - points[i - 1].force) * (points[i + 1].force - points[i].force) < 0]
+    turns = [
+        i for i in range(1,
+                         len(points) - 1)
+        if (points[i].force - points[i - 1].force) * (points[i + 1].force - points[i].force) < 0
+    ]
     for i, name in zip(turns, ("", "_back")):
         force, deflection = extremum(points[i - 1], 2 * STEP)
         yield "lee_frame", "", "limit_load" + name, force, "N", RELATIVE

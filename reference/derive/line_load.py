@@ -12,10 +12,12 @@ class LineLoad:
     section's axes; factor(level)."""
 
     def __init__(self, force, moment, at, turns, factor):
-        self.force, self.moment, self.at, self.turns, self.factor = (*(np.array(v, dtype=float) for v in (force, moment, at)), turns, factor)
+        self.force, self.moment, self.at, self.turns, self.factor = (*(np.array(
+            v, dtype=float) for v in (force, moment, at)), turns, factor)
 
     def scaled(self, length, force):
-        return LineLoad(self.force * length / force, self.moment / force, self.at / length, self.turns, self.factor)
+        return LineLoad(self.force * length / force, self.moment / force, self.at / length,
+                        self.turns, self.factor)
 
 
 class Loaded(Scaled):
@@ -38,7 +40,8 @@ class Loaded(Scaled):
         for load in self.loads:
             factor = load.factor(self.level)
             turned = R if load.turns else np.eye(3)[:, :, None]
-            q, c = (np.einsum("ijk,j->ik", turned, factor * v) + 0 * y[:3] for v in (load.force, load.moment))
+            q, c = (np.einsum("ijk,j->ik", turned, factor * v) + 0 * y[:3]
+                    for v in (load.force, load.moment))
             out[:3] -= q
             out[3:] -= np.cross(place[:3] + np.einsum("ijk,j->ik", R, load.at), q, axis=0) + c
         return np.concatenate([self.plain.slope(y[:n], p + y[n:]), self.length * out])

@@ -13,7 +13,11 @@ TERMS = 160
 LEG_TERMS = 64  # 7^64/64! = 1e-35
 
 # m(x) as coefficients of powers of x, measured from the end where the loaded length is zero; where the half beam ends
-LOADS = {"tip": ([0, 1], 1), "distributed": ([0, 0, mpf(1) / 2], 1), "mid": ([0, mpf(1) / 2], mpf(1) / 2), "mid_distributed": ([0, mpf(1) / 2, -mpf(1) / 2], mpf(1) / 2)}
+LOADS = {
+    "tip": ([0, 1], 1), "distributed": ([0, 0, mpf(1) / 2], 1),
+    "mid": ([0, mpf(1) / 2], mpf(1) / 2), "mid_distributed": ([0, mpf(1) / 2,
+                                                               -mpf(1) / 2], mpf(1) / 2)
+}
 GUESS = {"tip": "4.0", "distributed": "12.9", "mid": "16.9", "mid_distributed": "28.3"}
 
 
@@ -32,7 +36,8 @@ def _series(start, K, gamma, m2, terms):
         n = len(c) - (4 if K else 2)
         load = gamma ** 2 * sum(a * c[n - i] for i, a in enumerate(m2) if 0 <= n - i)
         if K:
-            c.append(K * ((n + 2) * (n + 1) * c[n + 2] + load) / ((n + 4) * (n + 3) * (n + 2) * (n + 1)))
+            c.append(
+                K * ((n + 2) * (n + 1) * c[n + 2] + load) / ((n + 4) * (n + 3) * (n + 2) * (n + 1)))
         else:
             c.append(-load / ((n + 2) * (n + 1)))
     return c
@@ -60,7 +65,8 @@ def _condition(load, K, gamma, terms):
     starts = ((1, 0, 0, 0), (0, 1, 0, K)) if cantilever else ((0, 1, 0, 0), (0, 0, 0, 1))
     orders = (0, 1) if cantilever else (1, 3)
     a, b = (_series(s, K, gamma, m2, terms) for s in starts)
-    return _value(a, end, orders[0]) * _value(b, end, orders[1]) - _value(a, end, orders[1]) * _value(b, end, orders[0])
+    return _value(a, end, orders[0]) * _value(b, end, orders[1]) - _value(
+        a, end, orders[1]) * _value(b, end, orders[0])
 
 
 def lateral_load(load, K, guess, terms=TERMS):
@@ -72,11 +78,16 @@ def lateral_load(load, K, guess, terms=TERMS):
 
 def lateral_rows():
     for load in LOADS:
-        yield "lateral_buckling", defaults.differing("lateral_buckling", load=load), "load_factor", lateral_load(load, 0, GUESS[load]), "1"
+        yield "lateral_buckling", defaults.differing("lateral_buckling",
+                                                     load=load), "load_factor", lateral_load(
+                                                         load, 0, GUESS[load]), "1"
     for K, guess in ((1, "15.7"), (4, "9.75"), (16, "6.81")):
         yield "lateral_buckling", f"K={K}", "load_factor", lateral_load("tip", K, guess), "1"
-    for load, K, guess in (("distributed", 4, "39.7"), ("distributed", 40, "20.7"), ("mid", 4, "31.7"), ("mid", 40, "19.2"), ("mid_distributed", 4, "52.7"), ("mid_distributed", 40, "31.7")):
-        yield "lateral_buckling", f"load={load};K={K}", "load_factor", lateral_load(load, K, guess), "1"
+    for load, K, guess in (("distributed", 4, "39.7"), ("distributed", 40, "20.7"),
+                           ("mid", 4, "31.7"), ("mid", 40, "19.2"), ("mid_distributed", 4, "52.7"),
+                           ("mid_distributed", 40, "31.7")):
+        yield "lateral_buckling", f"load={load};K={K}", "load_factor", lateral_load(load, K,
+                                                                                    guess), "1"
 
 
 def column_load(given):
@@ -90,10 +101,12 @@ def column_load(given):
 
 
 def column_row(given):
-    return "shear_column", defaults.differing("shear_column", **given), "buckling_load", column_load(given), "N"
+    return "shear_column", defaults.differing("shear_column",
+                                              **given), "buckling_load", column_load(given), "N"
 
 
-COLUMNS = [{"length": length, "shear_modulus": G} for length in ("1", "0.1") for G in (27 * 10 ** 9, 27 * 10 ** 8, 7 * 10 ** 7)]
+COLUMNS = [{"length": length, "shear_modulus": G} for length in ("1", "0.1")
+           for G in (27 * 10 ** 9, 27 * 10 ** 8, 7 * 10 ** 7)]
 COLUMNS += [{"length": "0.7", "side": "0.09", "young": 12 * 10 ** 9, "shear_modulus": 5 * 10 ** 8}]
 
 
@@ -126,7 +139,8 @@ def frame_determinant(M, EI, GJ, length, angle):
     """
     first, second = _leg(length, M, EI, GJ), _leg(length, -M, EI, GJ)
     c, s = cos(angle), sin(angle)
-    turn = matrix([[1, 0, 0, 0, 0, 0], [0, c, s, 0, 0, 0], [0, -s, c, 0, 0, 0], [0, 0, 0, -c, -s, 0], [0, 0, 0, s, -c, 0], [0, 0, 0, 0, 0, -1]])
+    turn = matrix([[1, 0, 0, 0, 0, 0], [0, c, s, 0, 0, 0], [0, -s, c, 0, 0, 0],
+                   [0, 0, 0, -c, -s, 0], [0, 0, 0, s, -c, 0], [0, 0, 0, 0, 0, -1]])
     both = zeros(6, 6)
     second = second * turn
     for i in range(3):
@@ -135,20 +149,27 @@ def frame_determinant(M, EI, GJ, length, angle):
     return det(both)
 
 
-FRAMES = ({}, {"angle": "1"}, {"angle": "2.5"}, {"leg": "0.6", "poisson": "0"}, {"leg": "0.1", "thickness": "0.002", "angle": "2"}, {"young": "210000000000", "depth": "0.05", "poisson": "0.45"})
+FRAMES = ({}, {"angle": "1"}, {"angle": "2.5"}, {"leg": "0.6", "poisson": "0"}, {
+    "leg": "0.1", "thickness": "0.002", "angle": "2"
+}, {"young": "210000000000", "depth": "0.05", "poisson": "0.45"})
 
 
 def frame_rows():
     """Thin strips, GJ = G b t^3/3; the second factor lies between 1.4 pi and 2 pi for every angle."""
     for given in FRAMES:
         value = defaults.decimals("right_angle_frame", given)
-        E, nu, b, t, length, angle = (value[k] for k in ("young", "poisson", "depth", "thickness", "leg", "angle"))
+        E, nu, b, t, length, angle = (value[k] for k in ("young", "poisson", "depth", "thickness",
+                                                         "leg", "angle"))
         EI, GJ = E * b * t ** 3 / 12, E / (2 * (1 + nu)) * b * t ** 3 / 3
         # with lengths in legs and forces in sqrt(EI GJ)/leg^2 one number is left, EI/GJ
         root = sqrt(EI / GJ)
         at = ";".join(f"{k}={v}" for k, v in given.items())
-        for name, bracket in (("critical_moment", ("3.0", "3.3")), ("critical_moment_2", ("4.4", "6.25"))):
-            factor = findroot(lambda g: frame_determinant(g, root, 1 / root, mpf(1), angle), [mpf(x) for x in bracket], tol=mpf(10) ** -25, solver="anderson")
+        for name, bracket in (("critical_moment", ("3.0", "3.3")), ("critical_moment_2", ("4.4",
+                                                                                          "6.25"))):
+            factor = findroot(lambda g: frame_determinant(g, root, 1 / root, mpf(1), angle),
+                              [mpf(x) for x in bracket],
+                              tol=mpf(10) ** -25,
+                              solver="anderson")
             yield "right_angle_frame", at, name, factor * sqrt(EI * GJ) / length, "N m"
 
 

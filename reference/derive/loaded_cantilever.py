@@ -13,7 +13,9 @@ from reference.derive import defaults
 
 RELATIVE = 5e-12
 LOADS = ("follower", "dead", "pressure", "line", "couples", "weight")
-POINTS = ({}, {"size": 1}, {"arm": "0.2"}, {"load": "dead", "arm": "0.2"}, {"load": "pressure"}, {"load": "pressure", "size": 4}, {"load": "line"}, {"load": "couples", "size": 2}, {"load": "weight", "size": 6})
+POINTS = ({}, {"size": 1}, {"arm": "0.2"}, {"load": "dead", "arm": "0.2"}, {"load": "pressure"}, {
+    "load": "pressure", "size": 4
+}, {"load": "line"}, {"load": "couples", "size": 2}, {"load": "weight", "size": 6})
 
 
 def from_tip(at, angle):
@@ -30,14 +32,24 @@ def from_tip(at, angle):
         _, _, t, fx, fy, moment = y
         along = 1 + (fx * cos(t) + fy * sin(t)) / axial
         dx, dy = along * cos(t), along * sin(t)
-        q = {"pressure": (-size * sin(t), size * cos(t)), "line": (0.0, size), "weight": (0.0, size)}.get(load, (0.0, 0.0))
+        q = {
+            "pressure": (-size * sin(t), size * cos(t)), "line": (0.0, size), "weight": (0.0, size)
+        }.get(load, (0.0, 0.0))
         return [-dx, -dy, -moment, q[0], q[1], -(dy * fx - dx * fy - couple)]
-    return solve_ivp(slope, (0, 1), [0.0, 0.0, angle, F[0], F[1], M], method="DOP853", rtol=3e-14, atol=1e-15).y[:3, -1]
+
+    return solve_ivp(slope, (0, 1), [0.0, 0.0, angle, F[0], F[1], M],
+                     method="DOP853",
+                     rtol=3e-14,
+                     atol=1e-15).y[:3, -1]
 
 
 def tip(given):
     """(x, y, angle) of the tip, L = EI = 1."""
-    at = {**defaults.values("loaded_cantilever"), **{k: defaults.value(str(v)) for k, v in given.items()}}
+    at = {
+        **defaults.values("loaded_cantilever"),
+        **{k: defaults.value(str(v))
+           for k, v in given.items()}
+    }
     if at["load"] in ("follower", "pressure"):
         x, y, t = from_tip(at, 0.0)
         return -(x * cos(t) + y * sin(t)), -(y * cos(t) - x * sin(t)), -t

@@ -27,15 +27,21 @@ def clamped(at, turned=None):
 
     def conditions(level, x, R, force, moment, numbers):
         D = R @ rotation(exponential(np.array(turn(level)))).T
-        return np.concatenate([x - np.array(place(level)), np.array([D[2, 1] - D[1, 2], D[0, 2] - D[2, 0], D[1, 0] - D[0, 1]]) / 2])
+        return np.concatenate([
+            x - np.array(place(level)),
+            np.array([D[2, 1] - D[1, 2], D[0, 2] - D[2, 0], D[1, 0] - D[0, 1]]) / 2
+        ])
+
     return conditions
 
 
 class Network:
+
     def __init__(self, length, force, numbers=(), intervals=4, nodes=12):
         self.length, self.force, self.numbers = length, force, np.array(numbers, dtype=float)
         self.bodies, self.members, self.intervals, self.nodes = [], [], intervals, nodes
-        self.extra = []  # conditions that fix the numbers: (body, function(level, x, R, force, moment, numbers))
+        self.extra = [
+        ]  # conditions that fix the numbers: (body, function(level, x, R, force, moment, numbers))
 
     def body(self, position, conditions=free):
         """position [m]; conditions see dimensionless values."""
@@ -53,7 +59,9 @@ class Network:
         scaled = beam.scaled(self.length, self.force)
         if loads:
             scaled = Loaded(scaled, [load.scaled(self.length, self.force) for load in loads])
-        self.members.append(Member(scaled, (first, second), [offset, None], quaternion(np.array(axes)), warp, self.intervals, self.nodes))
+        self.members.append(
+            Member(scaled, (first, second), [offset, None], quaternion(np.array(axes)), warp,
+                   self.intervals, self.nodes))
         return self.members[-1]
 
     def _places(self):
@@ -75,9 +83,12 @@ class Network:
             d = np.zeros(len(columns) + 6, dtype=complex)
             d[k] = 1j * STEP
             e = d[len(columns):]
-            other = [] if b.on is None else [(b.on.x + e[:3], b.on.R + cross_matrix(e[3:]) @ b.on.R)]
-            value = np.array(conditions(level, b.x + d[:3], R + cross_matrix(d[3:6]) @ R, b.load[:3] + d[6:9], b.load[3:] + d[9:12],
-                                        self.numbers + d[12:len(columns)], *other), dtype=complex)
+            other = [] if b.on is None else [(b.on.x + e[:3],
+                                              b.on.R + cross_matrix(e[3:]) @ b.on.R)]
+            value = np.array(conditions(level, b.x + d[:3], R + cross_matrix(d[3:6]) @ R,
+                                        b.load[:3] + d[6:9], b.load[3:] + d[9:12],
+                                        self.numbers + d[12:len(columns)], *other),
+                             dtype=complex)
             values = value.real
             for i in np.nonzero(value.imag)[0]:
                 put(i, column, value[i].imag / STEP)
@@ -174,16 +185,19 @@ class Network:
 
         def put(row, column, value):
             rows.append(row), columns.append(column), values.append(value)
+
         for b in self.bodies:
             self._equilibrium(b, put, right)
             conditions = (override or {}).get(b, b.conditions)
             at = b.at + 6
-            right[at:at + 6] -= self._body_rows(level, conditions, b, lambda i, c, v: put(at + i, c, v))
+            right[at:at + 6] -= self._body_rows(level, conditions, b,
+                                                lambda i, c, v: put(at + i, c, v))
         for m in self.members:
             self._member_rows(m, put, right)
         self._warp_rows(put, right)
         for k, (b, conditions) in enumerate((override or {}).get("extra", self.extra)):
-            right[first_number + k] -= self._body_rows(level, conditions, b, lambda i, c, v: put(first_number + k, c, v))[0]
+            right[first_number + k] -= self._body_rows(
+                level, conditions, b, lambda i, c, v: put(first_number + k, c, v))[0]
         return coo_matrix((values, (rows, columns)), shape=(total, total)).tocsc(), right
 
     def _advance(self, step):
@@ -219,7 +233,7 @@ class Network:
             raise ArithmeticError("Newton's method left the numbers")
         return size
 
-    def solve(self, path=(1.0,), tolerance=1e-12):
+    def solve(self, path=(1.0, ), tolerance=1e-12):
         """Equilibrium at each level in turn; the last ones to round-off."""
         for level in path:
             for _ in range(30):
@@ -249,7 +263,9 @@ class Network:
         right = np.zeros((matrix.shape[0], 6))
         right[body.at + 6 + np.arange(6), np.arange(6)] = 1.0
         out = splu(matrix).solve(right)[body.at:body.at + 6]
-        scale = np.array([self.length] * 3 + [1.0] * 3)[:, None] / np.array([self.force] * 3 + [self.force * self.length] * 3)[None, :]
+        scale = np.array([self.length] * 3 +
+                         [1.0] * 3)[:, None] / np.array([self.force] * 3 +
+                                                        [self.force * self.length] * 3)[None, :]
         return out * scale
 
 

@@ -35,14 +35,21 @@ class Question:
     """A quantity of the scene: kind, what of it, and how it is told."""
 
     def __init__(self, name, entry):
-        only(entry, name, (*KINDS, "unit", "tolerance", "order", "near_zero", "factor", "offset", "x", "prediction"))
+        only(entry, name, (*KINDS, "unit", "tolerance", "order", "near_zero", "factor", "offset",
+                           "x", "prediction"))
         self.name, self.entry = name, entry
         self.kind = next(kind for kind in KINDS if kind in entry)
         self.of = entry[self.kind]
-        only(self.of, name, ("analysis", "at", "take", "node", "component", "row", "column", "motion", "member", "end", "where", "resultant", "which", "family", "half_waves"))
-        if self.kind == "internal" and (self.of["resultant"] not in RESULTANTS or self._end() is None):
-            raise Refused(f"{name}: of internal forces {', '.join(RESULTANTS)} at the ends of members are within the deriving program")
-        if self.kind == "frequency" and (self.of.get("family", "any") != "any" or self.of.get("half_waves", "0") != "0"):
+        only(self.of, name,
+             ("analysis", "at", "take", "node", "component", "row", "column", "motion", "member",
+              "end", "where", "resultant", "which", "family", "half_waves"))
+        if self.kind == "internal" and (self.of["resultant"] not in RESULTANTS or
+                                        self._end() is None):
+            raise Refused(
+                f"{name}: of internal forces {', '.join(RESULTANTS)} at the ends of members are within the deriving program"
+            )
+        if self.kind == "frequency" and (self.of.get("family", "any") != "any" or
+                                         self.of.get("half_waves", "0") != "0"):
             raise Refused(f"{name}: a family of modes is not within the deriving program")
         if self.of.get("take") == "curve":
             raise Refused(f"{name}: a curve is not within the deriving program")
@@ -55,13 +62,15 @@ class Question:
         return rows[self._end(), RESULTANTS.index(self.of["resultant"])]
 
     def told(self, value):
-        return value * number(self.entry.get("factor", "1"), self.name) + number(self.entry.get("offset", "0"), self.name)
+        return value * number(self.entry.get("factor", "1"), self.name) + number(
+            self.entry.get("offset", "0"), self.name)
 
     def reduced(self, stations, values):
         take = self.of.get("take", "last")
         if "at" in self.of:
             at = number(self.of["at"], self.name)
-            return next(v for s, v in zip(stations, values) if abs(s - at) <= 1e-12 * max(1, abs(at)))
+            return next(
+                v for s, v in zip(stations, values) if abs(s - at) <= 1e-12 * max(1, abs(at)))
         return {"last": lambda v: v[-1], "max": max, "min": min}[take](values)
 
     def of_state(self, scene, level):
@@ -80,7 +89,9 @@ class Question:
         if self.kind == "displacement":
             return 1.0 if turns else scene.length
         if self.kind in ("reaction", "internal"):
-            return max(np.max(np.abs(body.load)) for body in scene.net.bodies) * scene.force * (scene.length if turns else 1.0)
+            return max(
+                np.max(np.abs(body.load))
+                for body in scene.net.bodies) * scene.force * (scene.length if turns else 1.0)
         return 0.0
 
     def of_matrix(self, C):
@@ -105,10 +116,22 @@ def analyses(scene, questions, grid, scales=None):
         if kind == "linear":
             network = SceneNetwork(scene, *grid)
             moved, inside = linear(network)
-            scales.update({q.name: np.max(np.abs(moved[q.of["node"]] if q.kind == "displacement" else inside[q.of["member"]])) for q in asked})
-            answer(asked, [1.0], [{q.name: moved[q.of["node"]][WORDS.index(q.of["component"])] if q.kind == "displacement" else q.of_resultants(inside[q.of["member"]]) for q in asked}])
+            scales.update({
+                q.name: np.max(
+                    np.abs(moved[q.of["node"]] if q.kind ==
+                           "displacement" else inside[q.of["member"]]))
+                for q in asked
+            })
+            answer(asked, [1.0], [{
+                q.name: moved[q.of["node"]][WORDS.index(q.of["component"])]
+                if q.kind == "displacement" else q.of_resultants(inside[q.of["member"]])
+                for q in asked
+            }])
         elif kind == "static":
-            after = [n for n, a in scene["analyses"].items() if a.get("compliance", {}).get("about") == name]
+            after = [
+                n for n, a in scene["analyses"].items()
+                if a.get("compliance", {}).get("about") == name
+            ]
             about = {n: [q for q in questions if q.of["analysis"] == n] for n in after}
             if not asked and not any(about.values()):
                 return
@@ -122,6 +145,7 @@ def analyses(scene, questions, grid, scales=None):
                         C = compliance(state, level, scene["analyses"][n]["compliance"], n)
                         found.update({q.name: q.of_matrix(C) for q in some})
                 return found
+
             states = path.walk(ask)
             answer(asked + [q for some in about.values() for q in some], path.stations, states)
         elif kind == "compliance" and "about" not in entry[kind] and asked:
@@ -129,18 +153,25 @@ def analyses(scene, questions, grid, scales=None):
             answer(asked, [0.0], [{q.name: q.of_matrix(C) for q in asked}])
         elif kind == "modal" and "about" not in entry[kind] and asked:
             which = [int(number(q.of.get("which", "0"), q.name)) for q in asked]
-            found = frequencies(SceneNetwork({key: value for key, value in scene.items() if key != "loads"}, *grid), max(which) + 1)
+            found = frequencies(
+                SceneNetwork({key: value
+                              for key, value in scene.items() if key != "loads"}, *grid),
+                max(which) + 1)
             answer(asked, [0.0], [{q.name: found[i] for q, i in zip(asked, which)}])
         elif kind == "modal" and asked:
-            raise Refused(f"{name}: frequencies about a loaded state are not within the deriving program")
+            raise Refused(
+                f"{name}: frequencies about a loaded state are not within the deriving program")
         elif kind != "compliance" and asked:
-            raise Refused(f"{name}: analyses of the kind '{kind}' are not within the deriving program")
+            raise Refused(
+                f"{name}: analyses of the kind '{kind}' are not within the deriving program")
+
     for name in scene["analyses"]:
         try:
             try_one(name)
         except Refused as why:
             for q in questions:
-                if q.of["analysis"] == name or scene["analyses"][q.of["analysis"]].get("compliance", {}).get("about") == name:
+                if q.of["analysis"] == name or scene["analyses"][q.of["analysis"]].get(
+                        "compliance", {}).get("about") == name:
                     out[q.name] = why
     return out
 
@@ -156,14 +187,17 @@ def solve(scene, form=lambda beam: beam):
     found, scales = [], {}
     for grid in ((*grid, form) for grid in GRIDS):
         found.append(analyses(scene, questions, grid, scales))
-        if len(found) > 1 and all(near(found[-1][q.name], found[-2][q.name], abs(scales.get(q.name, 0.0))) for q in questions):
+        if len(found) > 1 and all(
+                near(found[-1][q.name], found[-2][q.name], abs(scales.get(q.name, 0.0)))
+                for q in questions):
             break
     for q in questions:
         value = found[-1][q.name]
         if isinstance(value, Refused):
             yield q.name, value
             continue
-        uncertainty = max(2 * abs(value - found[-2][q.name]), ROUND_OFF * abs(value), NOTHING * abs(scales.get(q.name, 0.0)))
+        uncertainty = max(2 * abs(value - found[-2][q.name]), ROUND_OFF * abs(value),
+                          NOTHING * abs(scales.get(q.name, 0.0)))
         yield q.name, value, q.entry.get("unit", "1"), uncertainty, moments_of(scene, q)
 
 
@@ -175,11 +209,14 @@ def moments_of(scene, question):
     """Where they are not those that a scene has by itself."""
     if question.kind not in ("stiffness", "compliance"):
         return ""
-    return scene["analyses"][question.of["analysis"]]["compliance"].get("moments", "spatial").replace("spatial", "")
+    return scene["analyses"][question.of["analysis"]]["compliance"].get("moments",
+                                                                        "spatial").replace(
+                                                                            "spatial", "")
 
 
 EXAMPLES = ("cross_flexure_hinge", "folded_leaf_stage", "leaf_spring_guide", "channel_portal")
-PROGRAM = os.environ.get("BEAMWORK", str(pathlib.Path(__file__).resolve().parents[2] / "build" / "beamwork"))
+PROGRAM = os.environ.get("BEAMWORK",
+                         str(pathlib.Path(__file__).resolve().parents[2] / "build" / "beamwork"))
 PREDICTED = EXAMPLES[:3]  # limits of sheet_third there, which is rigid in shear along y
 LIMIT = 1e-9  # relative, of these
 KNOWN = {"leaf_spring_guide": ("k_drive", "k_support")}  # in closed form
@@ -191,14 +228,19 @@ def rows():
         raise SystemExit(f"of_scene.py: {PROGRAM} is not there; run make all first")
     for name in EXAMPLES:
         path = scenes.PATH / f"{name}.yaml"
-        text = subprocess.run([PROGRAM, "scene", "--scene", path], check=True, text=True, stdout=subprocess.PIPE).stdout
+        text = subprocess.run([PROGRAM, "scene", "--scene", path],
+                              check=True,
+                              text=True,
+                              stdout=subprocess.PIPE).stdout
         parameters = scene_text.read(path.read_text(encoding="utf-8")).get("parameters", {})
         at = ";".join(f"{key}={entry['value']}" for key, entry in parameters.items())
         for row in solve(scene_text.read(text)):
             if not isinstance(row[1], Refused) and row[0] not in KNOWN.get(name, ()):
                 quantity, value, unit, uncertainty, _ = row
                 yield name, at, quantity, value, unit, uncertainty / abs(value)
-        for quantity, value, unit, *_ in solve(scene_text.read(text), lambda beam: Printed(beam, "sheet_third")) if name in PREDICTED else ():
+        for quantity, value, unit, *_ in solve(
+                scene_text.read(text),
+                lambda beam: Printed(beam, "sheet_third")) if name in PREDICTED else ():
             if quantity not in KNOWN.get(name, ()):
                 yield name, at, quantity, value, unit, LIMIT, "", "", "sheet_third*"
 
@@ -213,7 +255,8 @@ def main(arguments):
                 continue
             name, value, unit, uncertainty, convention = row
             values += 1
-            print(f"{name}\t{value:.17g}\t{unit}\t{uncertainty:.1e}\t{convention}\t{SOURCE}", flush=True)
+            print(f"{name}\t{value:.17g}\t{unit}\t{uncertainty:.1e}\t{convention}\t{SOURCE}",
+                  flush=True)
     except Refused as why:
         print(why, file=sys.stderr)
         return 3

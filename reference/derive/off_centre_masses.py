@@ -11,7 +11,8 @@ from reference.derive.vibrating_beam import along, bending, zeros
 
 mp.dps = 40
 TABLES = "examples"
-E, RHO, LENGTH, DIAMETER, HEAVY, LIGHT = mpf("200e9"), mpf(8000), mpf(10), mpf("0.5"), mpf(10000), mpf(1000)
+E, RHO, LENGTH, DIAMETER, HEAVY, LIGHT = mpf("200e9"), mpf(8000), mpf(10), mpf("0.5"), mpf(
+    10000), mpf(1000)
 G, A, I = E / mpf("2.6"), pi * DIAMETER ** 2 / 4, pi * DIAMETER ** 4 / 64
 COUNT, HIGHEST, STEP = 6, 60, mpf("0.5")  # [Hz]
 
@@ -31,9 +32,13 @@ def in_plane(f, arm, flexibility=0):
     o, (m, y, J) = 2 * pi * f, body(arm)
     bent, (u, N) = end(o, flexibility), along(LENGTH, o, E * A, sqrt(E / RHO))
     rows = matrix(3, 3)
-    for k, (v, t, M, Q, u, N) in enumerate([[*bent[:, 0], 0, 0], [*bent[:, 1], 0, 0], [0, 0, 0, 0, u, N]]):
+    for k, (v, t, M, Q, u, N) in enumerate([[*bent[:, 0], 0, 0], [*bent[:, 1], 0, 0],
+                                            [0, 0, 0, 0, u, N]]):
         centre = m * o ** 2 * (u - y * t)
-        rows[0, k], rows[1, k], rows[2, k] = Q - m * o ** 2 * v, N - centre, M - o ** 2 * J * t + y * centre
+        rows[0,
+             k], rows[1,
+                      k], rows[2,
+                               k] = Q - m * o ** 2 * v, N - centre, M - o ** 2 * J * t + y * centre
     return det(rows)
 
 
@@ -41,14 +46,18 @@ def across(f, arm, flexibility=0):
     o, (m, y, J) = 2 * pi * f, body(arm)
     bent, (p, T) = end(o, flexibility), along(LENGTH, o, 2 * G * I, sqrt(G / RHO))
     rows = matrix(3, 3)
-    for k, (w, M, Q, p, T) in enumerate([[bent[0, 0], *bent[2:, 0], 0, 0], [bent[0, 1], *bent[2:, 1], 0, 0], [0, 0, 0, p, T]]):
+    for k, (w, M, Q, p, T) in enumerate([[bent[0, 0], *bent[2:, 0], 0, 0],
+                                         [bent[0, 1], *bent[2:, 1], 0, 0], [0, 0, 0, p, T]]):
         centre = m * o ** 2 * (w + y * p)
         rows[0, k], rows[1, k], rows[2, k] = Q - centre, M, T - o ** 2 * J * p - y * centre
     return det(rows)
 
 
 def frequencies(arm, flexibility=0):
-    found = [f for family in (in_plane, across) for f in zeros(lambda f, one=family: one(f, mpf(arm), flexibility), HIGHEST, STEP)]
+    found = [
+        f for family in (in_plane, across)
+        for f in zeros(lambda f, one=family: one(f, mpf(arm), flexibility), HIGHEST, STEP)
+    ]
     return sorted(found)[:COUNT]
 
 

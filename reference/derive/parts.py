@@ -5,10 +5,12 @@ from reference.derive.beam import chebyshev, product, rotation
 
 
 class Body:
+
     def __init__(self, x, conditions, on=None):
         """on: the body that a joint is on."""
         self.on = on
-        self.x, self.q, self.load, self.conditions = np.array(x, dtype=float), np.array([1.0, 0, 0, 0]), np.zeros(6), conditions
+        self.x, self.q, self.load, self.conditions = np.array(x, dtype=float), np.array(
+            [1.0, 0, 0, 0]), np.zeros(6), conditions
 
     @property
     def R(self):
@@ -26,7 +28,8 @@ class Member:
         grid = (np.arange(intervals)[:, None] + self.s[None, :]) / intervals
         self.h = 1.0 / intervals
         start = np.array(bodies[0].x) + ends[0]
-        self.y = np.moveaxis(beam.at_rest(start, q0, grid.ravel()).reshape(beam.states, intervals, -1), 0, 2)
+        self.y = np.moveaxis(
+            beam.at_rest(start, q0, grid.ravel()).reshape(beam.states, intervals, -1), 0, 2)
         self.q_end[1] = self.y[-1, -1, 3:7].copy()
         self.ends[1] = self.y[-1, -1, :3] - bodies[1].x
 
@@ -44,7 +47,8 @@ class Member:
         """Per interval: Y = base + A y_start + B p for changes, with the residual of the current values folded into base."""
         m, n1, n = self.y.shape
         columns = self.y.reshape(-1, n).T
-        f, fy, fp = self.beam.slope_and_derivatives(columns, np.repeat(self.p[:, None], columns.shape[1], axis=1))
+        f, fy, fp = self.beam.slope_and_derivatives(
+            columns, np.repeat(self.p[:, None], columns.shape[1], axis=1))
         f, fy, fp = f.T.reshape(m, n1, n), fy.reshape(m, n1, n, n), fp.reshape(m, n1, n, 6)
         W = self.h * self.W
         matrix = -np.einsum("jk,mkab->mjakb", W, fy).reshape(m, n1 * n, n1 * n)

@@ -26,10 +26,12 @@ def exact_values():
 
 def row_of(given):
     name, case, parameters, quantity, value, unit, relative = given[:7]
-    filled = {"case": case, "parameters": parameters, "formulation": name, "quantity": quantity,
-              "value": rederive.as_text(value, relative), "unit": unit, "kind": "predicted",
-              "uncertainty": "%.1e" % (abs(float(value)) * relative), "model": "same",
-              "convention": given[7] if len(given) > 7 else "", "source": SOURCE}
+    filled = {
+        "case": case, "parameters": parameters, "formulation": name, "quantity": quantity,
+        "value": rederive.as_text(value, relative), "unit": unit, "kind": "predicted",
+        "uncertainty": "%.1e" % (abs(float(value)) * relative), "model": "same",
+        "convention": given[7] if len(given) > 7 else "", "source": SOURCE
+    }
     return {**dict.fromkeys(COLUMNS, ""), **filled}
 
 

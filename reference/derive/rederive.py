@@ -30,7 +30,8 @@ def read_table(path):
 def programs(names):
     """Every module here with a function rows(); those of solids, which need another program, as solids.NAME."""
     here = ROOT / "reference" / "derive"
-    found = sorted(".".join(p.relative_to(here).with_suffix("").parts) for p in here.rglob("*.py") if "\ndef rows(" in p.read_text(encoding="utf-8"))
+    found = sorted(".".join(p.relative_to(here).with_suffix("").parts) for p in here.rglob("*.py")
+                   if "\ndef rows(" in p.read_text(encoding="utf-8"))
     unknown = [n for n in names if n not in found]
     if unknown:
         raise SystemExit(f"rederive.py: no program '{unknown[0]}'; there are {', '.join(found)}")
@@ -65,16 +66,21 @@ def derived_rows(name, everything):
         relative = given[5] if len(given) > 5 else 10.0 ** (1 - DIGITS) / 2
         uncertainty = abs(float(value)) * relative if float(value) != 0 else relative
         formulation = given[8] if len(given) > 8 else ""
-        row = {**dict.fromkeys(COLUMNS, ""), "case": case, "parameters": parameters, "quantity": quantity, "unit": unit, "kind": "predicted" if formulation else kind, "model": model,
-               "formulation": formulation,
-               "theory": "" if is_solid(name) else theory.of(case, parameters, quantity), "at": given[7] if len(given) > 7 else "",
-               "value": as_text(value, relative), "uncertainty": "%.1e" % uncertainty,
-               "convention": given[6] if len(given) > 6 else "", "source": f"reference/derive/{name.replace('.', '/')}.py"}
+        row = {
+            **dict.fromkeys(COLUMNS, ""), "case": case, "parameters": parameters,
+            "quantity": quantity, "unit": unit, "kind": "predicted" if formulation else kind,
+            "model": model, "formulation": formulation,
+            "theory": "" if is_solid(name) else theory.of(case, parameters, quantity),
+            "at": given[7] if len(given) > 7 else "", "value": as_text(value, relative),
+            "uncertainty": "%.1e" % uncertainty, "convention": given[6] if len(given) > 6 else "",
+            "source": f"reference/derive/{name.replace('.', '/')}.py"
+        }
         yield row, float(value)
 
 
 def key_of(folder, row):
-    return folder, row["case"], canonical(row["parameters"]), row["quantity"], row["at"], row["kind"], row["formulation"]
+    return folder, row["case"], canonical(
+        row["parameters"]), row["quantity"], row["at"], row["kind"], row["formulation"]
 
 
 def write(names):
@@ -85,12 +91,17 @@ def write(names):
                 print(scenes.line_of(row))
                 continue
             if row["case"] not in cases:
-                raise SystemExit(f"rederive.py: {name} knows case {row['case']}, reference/defaults.csv does not; add its parameters there first")
+                raise SystemExit(
+                    f"rederive.py: {name} knows case {row['case']}, reference/defaults.csv does not; add its parameters there first"
+                )
             derived.setdefault((folder_of(name), row["case"]), []).append(row)
     for (folder, case), rows in derived.items():
         path = ROOT / "reference" / folder / f"{case}.csv"
         replaced = {row["source"] for row in rows}
-        kept = [row for row in (read_table(path) if path.exists() else []) if row["source"] not in replaced]
+        kept = [
+            row for row in (read_table(path) if path.exists() else [])
+            if row["source"] not in replaced
+        ]
         with open(path, "w", newline="", encoding="utf-8") as table:
             writer = csv.DictWriter(table, COLUMNS, lineterminator="\n")
             writer.writeheader()
@@ -111,10 +122,16 @@ def differences(name, stored, seen, cases, everything):
         known = stored.get(key)
         if known is None:
             lines.append(f"{key}: derived {value:.15g} {row['unit']}, not in the table")
-        elif known.get("unit", row["unit"]) != row["unit"] or abs(value - float(known["value"])) > float(known["uncertainty"]):
-            lines.append(f"{key}: derived {value:.15g} {row['unit']}, stored {known['value']} +- {known['uncertainty']} {known.get('unit', '')}")
+        elif known.get("unit",
+                       row["unit"]) != row["unit"] or abs(value - float(known["value"])) > float(
+                           known["uncertainty"]):
+            lines.append(
+                f"{key}: derived {value:.15g} {row['unit']}, stored {known['value']} +- {known['uncertainty']} {known.get('unit', '')}"
+            )
         elif any(known[name] != row[name] for name in ("theory", "convention")):
-            lines.append(f"{key}: stored as {known['theory']}, {known['convention']}; derived as {row['theory']}, {row['convention']}")
+            lines.append(
+                f"{key}: stored as {known['theory']}, {known['convention']}; derived as {row['theory']}, {row['convention']}"
+            )
         else:
             agree += 1
     return agree, lines, waiting
@@ -123,17 +140,24 @@ def differences(name, stored, seen, cases, everything):
 def read_stored():
     """{key: row} of every row that a program derives."""
     stored = {}
-    for path in sorted(p for folder in FOLDERS for p in (ROOT / "reference" / folder).glob("*.csv")):
-        stored.update({key_of(path.parent.name, row): row for row in read_table(path) if row["source"].startswith("reference/derive/")})
+    for path in sorted(
+            p for folder in FOLDERS for p in (ROOT / "reference" / folder).glob("*.csv")):
+        stored.update({
+            key_of(path.parent.name, row): row
+            for row in read_table(path) if row["source"].startswith("reference/derive/")
+        })
     return {**stored, **{key_of(scenes.FOLDER, row): row for row in scenes.stored()}}
 
 
 def compare(names, whole, everything):
     """Exit status; whole: every program is asked, so that a row that none of them derives is missed."""
-    stored, seen, agree, differ, cases = read_stored(), set(), 0, 0, read_defaults(ROOT / "reference" / "defaults.csv")
+    stored, seen, agree, differ, cases = read_stored(), set(), 0, 0, read_defaults(
+        ROOT / "reference" / "defaults.csv")
     for name in names:
         if is_solid(name) and not deck.available():
-            print(f"{name:<24} skipped: {deck.PROGRAM} is not installed (Debian package calculix-ccx)")
+            print(
+                f"{name:<24} skipped: {deck.PROGRAM} is not installed (Debian package calculix-ccx)"
+            )
             continue
         good, lines, waiting = differences(name, stored, seen, cases, everything)
         agree, differ = agree + good, differ + len(lines)
@@ -141,7 +165,10 @@ def compare(names, whole, everything):
         print(f"{name:<24} {good:5d} rows agree {len(lines):5d} differ{later}", flush=True)
         for line in lines:
             print(f"  {line}")
-    for key in [k for k, row in stored.items() if whole and k not in seen and (everything or row["kind"] == "exact")]:
+    for key in [
+            k for k, row in stored.items()
+            if whole and k not in seen and (everything or row["kind"] == "exact")
+    ]:
         differ += 1
         print(f"  {key}: {stored[key]['kind']}, but no program derives it")
     print(f"{agree} rows agree, {differ} differ")

@@ -30,7 +30,10 @@ def _basis(times):
         for _ in range(times):
             series.append(legendre.legint(series[-1], lbnd=-1))
         scale = np.sqrt(2 * n + 1)
-        fields.append([scale * 2.0 ** (d - times) * legendre.legval(points, series[times - d]) for d in range(times + 1)])
+        fields.append([
+            scale * 2.0 ** (d - times) * legendre.legval(points, series[times - d])
+            for d in range(times + 1)
+        ])
     return (points + 1) / 2, weights / 2, np.array(fields)
 
 
@@ -39,18 +42,21 @@ def matrices(omega, s, R=0):
     X, weight, w = _basis(2)
     _, _, u = _basis(1)
     k = omega / s
-    strain = (2 * np.sin(k * (1 - X) / 2) * np.sin(k * (1 + X) / 2) + k * R * np.sin(k * (1 - X))) / np.cos(k)  # without cancellation
+    strain = (2 * np.sin(k * (1 - X) / 2) * np.sin(k * (1 + X) / 2) +
+              k * R * np.sin(k * (1 - X))) / np.cos(k)  # without cancellation
     stretch, force = 1 + strain, s * s * strain
     slope = -k * (np.sin(k * X) + k * R * np.cos(k * (1 - X))) / np.cos(k)  # of the stretch
     curvature = w[:, 2] / stretch - w[:, 1] * slope / stretch ** 2
     K = (curvature * weight) @ curvature.T + (w[:, 1] * (weight * force / stretch)) @ w[:, 1].T
     M = (w[:, 0] * weight) @ w[:, 0].T
-    return K, M, s * s * (u[:, 1] * weight) @ u[:, 1].T, (u[:, 0] * weight) @ u[:, 0].T, (u[:, 0] * weight) @ w[:, 0].T
+    return K, M, s * s * (u[:, 1] * weight) @ u[:, 1].T, (u[:, 0] * weight) @ u[:, 0].T, (
+        u[:, 0] * weight) @ w[:, 0].T
 
 
 def flap(omega, s, count=3, R=0):
     K, M, _, _, _ = matrices(omega, s, R)
-    return 1 / np.sqrt(eigh(M, K, eigvals_only=True)[::-1][:count])  # the lowest are the best conditioned so
+    return 1 / np.sqrt(eigh(
+        M, K, eigvals_only=True)[::-1][:count])  # the lowest are the best conditioned so
 
 
 def lag(omega, s, count=3, R=0):
@@ -58,13 +64,16 @@ def lag(omega, s, count=3, R=0):
     K, M, Ku, Mu, C = matrices(omega, s, R)
     n = SIZE
     mass = np.block([[Mu, np.zeros((n, n))], [np.zeros((n, n)), M]])
-    stiffness = np.block([[Ku - omega ** 2 * Mu, np.zeros((n, n))], [np.zeros((n, n)), K - omega ** 2 * M]])
+    stiffness = np.block([[Ku - omega ** 2 * Mu, np.zeros((n, n))],
+                          [np.zeros((n, n)), K - omega ** 2 * M]])
     gyroscopic = 2 * omega * np.block([[np.zeros((n, n)), -C], [C.T, np.zeros((n, n))]])
     # With stiffness = L L^T and z = L^T x: (mu^2 + mu L^-1 G L^-T + L^-1 M L^-T) z = 0, mu = 1/(i omega): well conditioned where it matters.
     inverse = np.linalg.inv(np.linalg.cholesky(stiffness))
-    B = np.block([[np.zeros((2 * n, 2 * n)), np.eye(2 * n)], [-inverse @ mass @ inverse.T, -inverse @ gyroscopic @ inverse.T]])
+    B = np.block([[np.zeros((2 * n, 2 * n)), np.eye(2 * n)],
+                  [-inverse @ mass @ inverse.T, -inverse @ gyroscopic @ inverse.T]])
     values = eig(B, right=False)
-    found = np.sort(1 / np.abs(values.imag[np.abs(values.imag) > 1e-9 * np.max(np.abs(values.imag))]))
+    found = np.sort(
+        1 / np.abs(values.imag[np.abs(values.imag) > 1e-9 * np.max(np.abs(values.imag))]))
     return found[::2][:count]
 
 
@@ -80,7 +89,10 @@ def root_force(omega, s, R=0):
 
 def bending(count):
     """Natural frequencies of the cantilever at rest: cos(z) cosh(z) = -1, omega = z^2."""
-    return [findroot(lambda z: cos(z) + 1 / cosh(z), (j + mpf(1) / 2) * pi + (mpf("0.3") if j == 0 else 0)) ** 2 for j in range(count)]
+    return [
+        findroot(lambda z: cos(z) + 1 / cosh(z),
+                 (j + mpf(1) / 2) * pi + (mpf("0.3") if j == 0 else 0)) ** 2 for j in range(count)
+    ]
 
 
 def whirl(omega, ratio, count):
@@ -98,9 +110,11 @@ def whirl(omega, ratio, count):
 
 def across(**given):
     """Rows of flap, lag and stretch about an axis normal to the beam, which is stable there."""
-    value, at = {**defaults.values("rotating_cantilever"), **given}, defaults.differing("rotating_cantilever", **given)
+    value, at = {**defaults.values("rotating_cantilever"), **given}, defaults.differing(
+                     "rotating_cantilever", **given)
     omega, slenderness, R = value["omega_star"], value["slenderness"], value["hub_radius"]
-    for name, values in (("flap", flap(omega, slenderness, R=R)), ("lag", lag(omega, slenderness, R=R))):
+    for name, values in (("flap", flap(omega, slenderness,
+                                       R=R)), ("lag", lag(omega, slenderness, R=R))):
         for i, value in enumerate(values):
             yield "rotating_cantilever", at, f"{name}_{i + 1}", value, "1", RELATIVE
     if omega:
@@ -113,11 +127,13 @@ def rows():
     for slenderness in (1000, 100):
         for omega in (0, 2, 6, 12):
             yield from across(omega_star=omega, slenderness=slenderness)
-    for given in ({"omega_star": 12, "stations": 13}, {"hub_radius": 1}, {"hub_radius": -2, "omega_star": 1}):
+    for given in ({"omega_star": 12,
+                   "stations": 13}, {"hub_radius": 1}, {"hub_radius": -2, "omega_star": 1}):
         yield from across(**given)
     for name, value in (("stretch", stretch(5, 10)), ("root_force", root_force(5, 10))):
         yield "rotating_cantilever", "omega_star=5;slenderness=10", name, value, "1"
-    for omega, ratio, more in ((2, 1, ""), (5, 4, ";stiffness_ratio=4"), (10, 4, ";stations=41;stiffness_ratio=4")):
+    for omega, ratio, more in ((2, 1, ""), (5, 4, ";stiffness_ratio=4"),
+                               (10, 4, ";stations=41;stiffness_ratio=4")):
         at = f"axis=1.5707963267948966;omega_star={omega}{more}"
         frequencies, growth = whirl(omega, ratio, 4)
         for i in range(4):

@@ -11,11 +11,15 @@ from reference.derive.scene_section import beam, constants_of
 from reference.derive.scene_support import FREE, HELD, WORDS, Applied, Support, rotation_vector
 from reference.derive.scene_text import Refused, named, number, numbers, only, table
 
-NEEDS = ("shear", "trapeze", "wagner_moments", "wagner_torque", "rotary_inertia", "warping", "haringx")
-SCENE = ("beamwork", "name", "summary", "source", "sections", "nodes", "members", "motions", "loads", "analyses", "quantities", "needs", "meshes")
-NODE = ("at", "hold", "drive", "part_of", "rotation", "fork", "mass", "centre", "inertia")  # inertia: scene_vibration.py
+NEEDS = ("shear", "trapeze", "wagner_moments", "wagner_torque", "rotary_inertia", "warping",
+         "haringx")
+SCENE = ("beamwork", "name", "summary", "source", "sections", "nodes", "members", "motions",
+         "loads", "analyses", "quantities", "needs", "meshes")
+NODE = ("at", "hold", "drive", "part_of", "rotation", "fork", "mass", "centre", "inertia"
+        )  # inertia: scene_vibration.py
 MEMBER = ("from", "to", "section", "y", "warping", "curvature", "divisions", "release")
-LOAD = ("force", "moment", "distributed", "distributed_moment", "gravity", "on", "path", "factor", "at", "axes", "follower")
+LOAD = ("force", "moment", "distributed", "distributed_moment", "gravity", "on", "path", "factor",
+        "at", "axes", "follower")
 
 
 class Place:
@@ -30,18 +34,23 @@ class Frame:
 
     def __init__(self, first, last, y, curvature, where):
         if curvature[0] or curvature[1]:
-            raise Refused(f"{where}: initial twist or curvature about y is not within the deriving program")
+            raise Refused(
+                f"{where}: initial twist or curvature about y is not within the deriving program")
         chord, self.curvature = np.array(last) - np.array(first), curvature[2]
         distance = np.linalg.norm(chord)
-        half = math.asin(distance * self.curvature / 2) if abs(distance * self.curvature) < 2 else None
+        half = math.asin(distance * self.curvature /
+                         2) if abs(distance * self.curvature) < 2 else None
         if half is None:
-            raise Refused(f"{where}: an arc of half a turn or more is not within the deriving program")
+            raise Refused(
+                f"{where}: an arc of half a turn or more is not within the deriving program")
         self.length = 2 * half / self.curvature if self.curvature else distance
         x = chord / distance
         y = np.array(y) - (np.array(y) @ x) * x
         y /= np.linalg.norm(y)
         z = np.cross(x, y)
-        self.described = np.column_stack([math.cos(half) * x - math.sin(half) * y, math.cos(half) * y + math.sin(half) * x, z])
+        self.described = np.column_stack(
+            [math.cos(half) * x - math.sin(half) * y,
+             math.cos(half) * y + math.sin(half) * x, z])
 
     def principal(self, angle):
         c, s = math.cos(angle), math.sin(angle)
@@ -77,8 +86,12 @@ class SceneNetwork:
         self.frames = {}
         for name, entry in self.scene["members"].items():
             only(entry, name, MEMBER)
-            ends = [numbers(named(self.scene["nodes"], entry[end], "node", name)["at"], name, 3) for end in ("from", "to")]
-            self.frames[name] = Frame(*ends, numbers(entry["y"], name, 3), numbers(entry.get("curvature", ["0"] * 3), name, 3), name)
+            ends = [
+                numbers(named(self.scene["nodes"], entry[end], "node", name)["at"], name, 3)
+                for end in ("from", "to")
+            ]
+            self.frames[name] = Frame(*ends, numbers(entry["y"], name, 3),
+                                      numbers(entry.get("curvature", ["0"] * 3), name, 3), name)
         name = min(self.frames, key=lambda each: self.frames[each].length)
         section, where = self.section_of(self.scene["members"][name])
         s = constants_of(section, where)
@@ -88,7 +101,8 @@ class SceneNetwork:
     def section_of(self, member):
         name = member["section"]
         if isinstance(name, list):
-            raise Refused("a section that changes along a member is not within the deriving program")
+            raise Refused(
+                "a section that changes along a member is not within the deriving program")
         return named(self.scene["sections"], name, "section", "members"), name
 
     def _new_number(self):
@@ -109,18 +123,22 @@ class SceneNetwork:
         """Fixed by a translation of a node."""
         i = WORDS.index(what["component"])
         if i > 2:
-            raise Refused(f"{name}: an unknown motion that fixes a turn is not within the deriving program")
+            raise Refused(
+                f"{name}: an unknown motion that fixes a turn is not within the deriving program")
         k = self.unknown[name] = self._new_number()
         self.motion[name] = lambda level, numbers: numbers[k]
 
         def condition():
             place = self.places[what["node"]]
             start, arm = place.body.x + place.offset / self.length, place.offset / self.length
-            return place.body, lambda level, x, R, force, moment, numbers: [(x + R @ arm - start)[i] - self.motion[what["motion"]](level, numbers) / self.length]
+            return place.body, lambda level, x, R, force, moment, numbers: [(x + R @ arm - start)[
+                i] - self.motion[what["motion"]](level, numbers) / self.length]
+
         self.conditions_of.append(condition)
 
     def _moved(self, name, translation, where):
-        motion, unit = named(self.motion, name, "motion", where), self.length if translation else 1.0
+        motion, unit = named(self.motion, name, "motion",
+                             where), self.length if translation else 1.0
         return lambda level, numbers: motion(level, numbers) / unit
 
     def _node(self, name, entry):
@@ -132,7 +150,9 @@ class SceneNetwork:
             if entry["part_of"] not in self.places:
                 self._node(entry["part_of"], owner)
             place = self.places[entry["part_of"]]
-            self.places[name] = Place(place.body, None, place.offset + np.array(at) - np.array(numbers(owner["at"], name, 3)))
+            self.places[name] = Place(
+                place.body, None,
+                place.offset + np.array(at) - np.array(numbers(owner["at"], name, 3)))
         elif name not in self.places:
             body = self.net.body(at)
             self.places[name] = Place(body, self._support(name, entry, body), (0.0, 0.0, 0.0))
@@ -140,13 +160,15 @@ class SceneNetwork:
     def _support(self, name, entry, body):
         support = Support(body.x)
         for word in entry.get("hold", []):
-            for i in range(6) if word == "all" else (WORDS.index(word),):
+            for i in range(6) if word == "all" else (WORDS.index(word), ):
                 support.kinds[i] = HELD
         for word, motion in entry.get("drive", {}).items():
             support.kinds[WORDS.index(word)] = self._moved(motion, WORDS.index(word) < 3, name)
         turns = support.kinds[3:]
         if sum(callable(kind) for kind in turns) > 1:
-            raise Refused(f"{name}: several turns driven as increments depend on their order; give a sequence or a vector")
+            raise Refused(
+                f"{name}: several turns driven as increments depend on their order; give a sequence or a vector"
+            )
         if "fork" in entry:
             web, axis = (np.array(numbers(entry["fork"][key], name, 3)) for key in ("web", "axis"))
             n = np.cross(web, axis)
@@ -155,7 +177,8 @@ class SceneNetwork:
         if "vector" in rotation_of:
             support.vector = [self._angle(word, name) for word in rotation_of["vector"]]
         elif "sequence" in rotation_of:
-            support.sequence = [(self._axis(one["axis"], name), self._angle(one["angle"], name)) for one in rotation_of["sequence"]]
+            support.sequence = [(self._axis(one["axis"], name), self._angle(one["angle"], name))
+                                for one in rotation_of["sequence"]]
         if support.sequence is not None or support.vector is not None:
             support.kinds[3:] = [HELD] * 3
         for _, kind in support.sequence or ():
@@ -169,7 +192,8 @@ class SceneNetwork:
 
     @staticmethod
     def _axis(word, where):
-        axis = np.eye(3)["xyz".index(word)] if isinstance(word, str) else np.array(numbers(word, where, 3))
+        axis = np.eye(3)["xyz".index(word)] if isinstance(word, str) else np.array(
+            numbers(word, where, 3))
         return axis / np.linalg.norm(axis)
 
     def factor(self, entry, where):
@@ -182,15 +206,23 @@ class SceneNetwork:
             only(entry, name, LOAD)
             if "force" not in entry and "moment" not in entry:
                 if entry["on"] not in self.scene["members"]:
-                    raise Refused(f"{name}: the weight of a body is not within the deriving program")
+                    raise Refused(
+                        f"{name}: the weight of a body is not within the deriving program")
                 continue
             if entry.get("axes", "fixed") != "fixed":
-                raise Refused(f"{name}: a member's axes at a node are not within the deriving program")
+                raise Refused(
+                    f"{name}: a member's axes at a node are not within the deriving program")
             place = named(self.places, entry["on"], "node", name)
-            owner = next(p for p in self.places.values() if p.body is place.body and p.support is not None)
-            force, moment = ([v / self.force / unit for v in numbers(entry.get(kind, ["0"] * 3), name, 3)] for kind, unit in (("force", 1), ("moment", self.length)))
-            arm = (place.offset + np.array(numbers(entry.get("at", ["0"] * 3), name, 3))) / self.length
-            owner.support.loads.append(Applied(force, moment, arm, entry.get("follower") in ("true", "yes"), self.factor(entry, name)))
+            owner = next(
+                p for p in self.places.values() if p.body is place.body and p.support is not None)
+            force, moment = ([
+                v / self.force / unit for v in numbers(entry.get(kind, ["0"] * 3), name, 3)
+            ] for kind, unit in (("force", 1), ("moment", self.length)))
+            arm = (place.offset +
+                   np.array(numbers(entry.get("at", ["0"] * 3), name, 3))) / self.length
+            owner.support.loads.append(
+                Applied(force, moment, arm,
+                        entry.get("follower") in ("true", "yes"), self.factor(entry, name)))
 
     def _line_loads(self, member, described, principal, s, density):
         for name, entry in self.scene.get("loads", {}).items():
@@ -198,30 +230,44 @@ class SceneNetwork:
                 continue
             axes = described if entry.get("axes") == "member" else np.eye(3)
             follows = entry.get("follower") in ("true", "yes")
-            if self.frames[member].curvature and (follows or "at" in entry or entry.get("axes") == "member"):
+            if self.frames[member].curvature and (follows or "at" in entry or
+                                                  entry.get("axes") == "member"):
                 raise Refused(f"{name}: on a curved member it is not within the deriving program")
             kind = next(k for k in ("distributed", "distributed_moment", "gravity") if k in entry)
-            v = axes @ np.array(numbers(entry[kind], name, 3)) * (density * s.A if kind == "gravity" else 1.0)
+            v = axes @ np.array(numbers(entry[kind], name,
+                                        3)) * (density * s.A if kind == "gravity" else 1.0)
             v = principal.T @ v if follows else v
             none = np.zeros(3)
-            yield LineLoad(none if kind == "distributed_moment" else v, v if kind == "distributed_moment" else none,
-                           principal.T @ axes @ np.array(numbers(entry.get("at", ["0"] * 3), name, 3)), follows, self.factor(entry, name))
+            yield LineLoad(
+                none if kind == "distributed_moment" else v,
+                v if kind == "distributed_moment" else none,
+                principal.T @ axes @ np.array(numbers(entry.get("at", ["0"] * 3), name, 3)),
+                follows, self.factor(entry, name))
 
     def _members(self):
         self.member = {}
         for name, entry in self.scene["members"].items():
             frame, (section, where) = self.frames[name], self.section_of(entry)
             if frame.curvature and constants_of(section, where).turned:
-                raise Refused(f"{name}: a curved member with inclined principal axes is not within the deriving program")
+                raise Refused(
+                    f"{name}: a curved member with inclined principal axes is not within the deriving program"
+                )
             plain, s = beam(section, self.needs, frame.length, frame.curvature, where)
             ends = [named(self.places, entry[end], "node", name) for end in ("from", "to")]
             principal = frame.principal(s.turned)
-            loads = list(self._line_loads(name, frame.described, principal, s, number(section.get("density", "0"), where)))
+            loads = list(
+                self._line_loads(name, frame.described, principal, s,
+                                 number(section.get("density", "0"), where)))
             warping = entry.get("warping", ["free", "free"])
-            warp = tuple(w if isinstance(w, str) else w["shared"] for w in (warping if isinstance(warping, list) else [warping] * 2))
+            warp = tuple(w if isinstance(w, str) else w["shared"]
+                         for w in (warping if isinstance(warping, list) else [warping] * 2))
             start = numbers(self.scene["nodes"][entry["from"]]["at"], name, 3)
-            bodies = [self._end(name, entry, end, place, frame) for end, place in zip(("from", "to"), ends)]
-            self.member[name] = self.net.member(self.form(plain), *bodies, start, rotation(quaternion(principal)), warp, loads)
+            bodies = [
+                self._end(name, entry, end, place, frame)
+                for end, place in zip(("from", "to"), ends)
+            ]
+            self.member[name] = self.net.member(self.form(plain), *bodies, start,
+                                                rotation(quaternion(principal)), warp, loads)
 
     def _end(self, name, entry, end, place, frame):
         """The body that an end of a member is at: that of its node, or of a joint on it."""
@@ -229,9 +275,11 @@ class SceneNetwork:
         if not words:
             return place.body
         if frame.curvature:
-            raise Refused(f"{name}: a release of a curved member is not within the deriving program")
+            raise Refused(
+                f"{name}: a release of a curved member is not within the deriving program")
         release = Release(words, frame.described, place.offset / self.length, self._new_number)
-        joint = self.net.joint(place.body, self.length * place.body.x + place.offset, release.conditions)
+        joint = self.net.joint(place.body, self.length * place.body.x + place.offset,
+                               release.conditions)
         self.extra += [(joint, condition) for condition in release.extra()]
         return joint
 

@@ -33,15 +33,21 @@ class Release:
 
     def conditions(self, level, x, R, force, moment, numbers, on):
         apart = self._apart(R, numbers)
-        turned = moment + np.cross(apart, force) if self.ball else skew(R @ self._axes(on[1], numbers)[1].T)
+        turned = moment + np.cross(apart, force) if self.ball else skew(
+            R @ self._axes(on[1], numbers)[1].T)
         return np.concatenate([x - on[0] - on[1] @ self.at - apart, turned])
 
     def extra(self):
         """Of the numbers, in their order."""
+
         def turns(which):
             return lambda level, x, R, force, moment, numbers, on: [
-                self._axes(on[1], numbers)[0][which] @ (moment + np.cross(self._apart(R, numbers), force))]
+                self._axes(on[1], numbers)[0][which] @ (moment + np.cross(
+                    self._apart(R, numbers), force))
+            ]
 
         def slides(along):
             return lambda level, x, R, force, moment, numbers, on: [(R @ along) @ force]
-        return [turns(i) for i in range(len(self.turns))] + [slides(along) for along, _ in self.slides]
+
+        return [turns(i)
+                for i in range(len(self.turns))] + [slides(along) for along, _ in self.slides]

@@ -25,7 +25,8 @@ class Constants:
     def __init__(self, **values):
         for name in NAMES:
             setattr(self, name, values.get(name, 0.0))
-        self.F, self.turned = np.array(values.get("F", np.zeros((3, 3))), dtype=float), values.get("turned", 0.0)
+        self.F, self.turned = np.array(values.get("F", np.zeros((3, 3))), dtype=float), values.get(
+            "turned", 0.0)
 
 
 def rectangle(entry, where):
@@ -36,9 +37,16 @@ def rectangle(entry, where):
     wide, thin = max(w, h), min(w, h)
     given = entry.get("shear_factor")
     k = numbers(given, where, 2) if isinstance(given, list) else [number(given or "0", where)] * 2
-    F = np.diag([1 / ((factor or 5 / 6) * w * h) for factor in k] + [0.0 if any(k) else 1 / (5 / 6 * thin * wide ** 3 / 12)])
-    return Constants(A=w * h, Iy=h * w ** 3 / 12, Iz=w * h ** 3 / 12, Ip=w * h * (w * w + h * h) / 12, It=float(rectangle_constant(wide, thin)), Iw=(w * h) ** 3 / 144,
-                     wagner_torque=wide ** 5 * thin / 1440, F=F)
+    F = np.diag([1 / ((factor or 5 / 6) * w * h)
+                 for factor in k] + [0.0 if any(k) else 1 / (5 / 6 * thin * wide ** 3 / 12)])
+    return Constants(A=w * h,
+                     Iy=h * w ** 3 / 12,
+                     Iz=w * h ** 3 / 12,
+                     Ip=w * h * (w * w + h * h) / 12,
+                     It=float(rectangle_constant(wide, thin)),
+                     Iw=(w * h) ** 3 / 144,
+                     wagner_torque=wide ** 5 * thin / 1440,
+                     F=F)
 
 
 def tube(entry, where):
@@ -50,7 +58,13 @@ def tube(entry, where):
     ring, m = R * R - r * r, R * r / (R * R + r * r)
     A, I = math.pi * ring, math.pi / 4 * ring * (R * R + r * r)
     shear = (7 / 6 + 10 / 3 * m * m) / A
-    return Constants(A=A, Iy=I, Iz=I, Ip=2 * I, It=2 * I, wagner_torque=math.pi * ring ** 3 / 96, F=np.diag([shear, shear, 0.0]))
+    return Constants(A=A,
+                     Iy=I,
+                     Iz=I,
+                     Ip=2 * I,
+                     It=2 * I,
+                     wagner_torque=math.pi * ring ** 3 / 96,
+                     F=np.diag([shear, shear, 0.0]))
 
 
 def walls(entry, where):
@@ -59,10 +73,15 @@ def walls(entry, where):
     names = list(entry["points"])
     points = [numbers(entry["points"][name], where, 2) for name in names]
     try:
-        s = section(points, [(names.index(w["from"]), names.index(w["to"]), number(w["thickness"], where)) for w in entry["walls"]])
+        s = section(points,
+                    [(names.index(w["from"]), names.index(w["to"]), number(w["thickness"], where))
+                     for w in entry["walls"]])
     except ValueError as error:
         raise Refused(f"{where}: {error}") from error
-    return Constants(F=s.F.tolist(), turned=float(s.beta), **{name: float(getattr(s, name)) for name in NAMES if hasattr(s, name)})
+    return Constants(F=s.F.tolist(),
+                     turned=float(s.beta),
+                     **{name: float(getattr(s, name))
+                        for name in NAMES if hasattr(s, name)})
 
 
 def constants(entry, where):
@@ -118,7 +137,17 @@ def beam(entry, needs, length, curvature, where):
     if "walls" in entry and "wagner_torque" in needs:
         raise Refused(f"{where}: the Wagner torque of walls is not within the deriving program")
     moments = "wagner_moments" in needs
-    out = Beam(length, EA=E * s.A, EIy=E * s.Iy, EIz=E * s.Iz, GJ=G * s.It, EIw=E * s.Iw, curvature=curvature, centre=(s.ys, s.zs),
-               t=("trapeze" in needs) * s.Ip / s.A + s.ys ** 2 + s.zs ** 2, c=("wagner_torque" in needs) * E * s.wagner_torque,
-               wagner=(moments * s.wagner_z / s.Iy - 2 * s.zs, moments * s.wagner_y / s.Iz - 2 * s.ys), shear=("shear" in needs) * s.F / G)
+    out = Beam(
+        length,
+        EA=E * s.A,
+        EIy=E * s.Iy,
+        EIz=E * s.Iz,
+        GJ=G * s.It,
+        EIw=E * s.Iw,
+        curvature=curvature,
+        centre=(s.ys, s.zs),
+        t=("trapeze" in needs) * s.Ip / s.A + s.ys ** 2 + s.zs ** 2,
+        c=("wagner_torque" in needs) * E * s.wagner_torque,
+        wagner=(moments * s.wagner_z / s.Iy - 2 * s.zs, moments * s.wagner_y / s.Iz - 2 * s.ys),
+        shear=("shear" in needs) * s.F / G)
     return out, s

@@ -41,7 +41,7 @@ class Path:
     def _reach(self, level, target, halvings):
         state = keep(self.scene.net)
         try:
-            self.scene.net.solve((target,), tolerance=1e-6)
+            self.scene.net.solve((target, ), tolerance=1e-6)
         except (ArithmeticError, RuntimeError, np.linalg.LinAlgError):
             if halvings == 0:
                 raise Refused(f"no equilibrium was found beyond {level:g} of the path") from None
@@ -53,11 +53,14 @@ class Path:
         for name, place in self.scene.places.items():
             word = place.support and place.support.path_dependent(place.body.R)
             if word:
-                raise Refused(f"{name}: its turn about several axes makes what '{word}' means depend on the path; give it a sequence or a vector")
+                raise Refused(
+                    f"{name}: its turn about several axes makes what '{word}' means depend on the path; give it a sequence or a vector"
+                )
 
 
 def keep(net):
-    return [(b.x, b.q, b.load) for b in net.bodies], [(m.p, m.y.copy()) for m in net.members], net.numbers
+    return [(b.x, b.q, b.load) for b in net.bodies], [(m.p, m.y.copy())
+                                                      for m in net.members], net.numbers
 
 
 def restore(net, state):
@@ -81,7 +84,8 @@ def settle(net, level):
 def reaction(scene, name, component, level):
     place = scene.places[name]
     if place.support is None:
-        raise Refused(f"the reaction at a part of a body ({name}) is not within the deriving program")
+        raise Refused(
+            f"the reaction at a part of a body ({name}) is not within the deriving program")
     loads = place.body.load - place.support.applied(level, place.body.R)
     return loads[component] * scene.force * (scene.length if component > 2 else 1.0)
 
@@ -90,35 +94,49 @@ def compliance(scene, level, entry, name):
     """C [6, 6] in SI of dead forces and moments on a node, whose released components are free and keep their load."""
     net, place = scene.net, scene.places[entry["node"]]
     if place.support is None:
-        raise Refused(f"{name}: the compliance of a part of a body is not within the deriving program")
+        raise Refused(
+            f"{name}: the compliance of a part of a body is not within the deriving program")
     support, released = place.support, [WORDS.index(word) for word in entry.get("released", [])]
     now = place.body.load - support.applied(level, place.body.R)
     turns = [i for i in released if i > 2]
     extra, axes = list(net.extra), None
     if support.angles:
         if len(turns) in (1, 2):
-            raise Refused(f"{name}: some of the turns of a sequence are released, not all; this is not within the deriving program")
+            raise Refused(
+                f"{name}: some of the turns of a sequence are released, not all; this is not within the deriving program"
+            )
         axes = None if turns else support.axes_now(level, net.numbers)
         first = min(support.angles)
-        extra[first:first + len(support.angles)] = [(place.body, one) for one in support.kept_angles()]
-    matrix, _ = net.system(level, {place.body: support.conditions({i: now[i] for i in released}, axes), "extra": extra})
+        extra[first:first + len(support.angles)] = [(place.body, one)
+                                                    for one in support.kept_angles()]
+    matrix, _ = net.system(
+        level,
+        {place.body: support.conditions({i: now[i]
+                                         for i in released}, axes), "extra": extra})
     load = place.body.at + 6 + np.arange(6)
     rows = np.r_[load, np.arange(matrix.shape[0] - len(net.numbers), matrix.shape[0])]
     right = np.zeros((matrix.shape[0], 6))
     right[rows] = matrix[rows][:, load].toarray()
     C = splu(matrix).solve(right)[place.body.at:place.body.at + 6]
-    scale = np.array([scene.length] * 3 + [1.0] * 3)[:, None] / (scene.force * np.array([1.0] * 3 + [scene.length] * 3))[None, :]
+    scale = np.array([scene.length] * 3 + [1.0] * 3)[:, None] / (
+        scene.force * np.array([1.0] * 3 + [scene.length] * 3))[None, :]
     convention, moment = entry.get("moments", "spatial"), now[3:] * scene.force * scene.length
-    return under(C * scale, now[3:] * scene.force * scene.length, entry.get("moments", "spatial"), name)
+    return under(C * scale, now[3:] * scene.force * scene.length, entry.get("moments", "spatial"),
+                 name)
 
 
 def under(C, moment, convention, name):
     """Compliance under another convention of moments, on the components that can move."""
-    some = [i for i in range(6) if abs(C[i, i]) > 1e-14 * np.max(np.abs(C[i // 3 * 3:i // 3 * 3 + 3]))]
+    some = [
+        i for i in range(6) if abs(C[i, i]) > 1e-14 * np.max(np.abs(C[i // 3 * 3:i // 3 * 3 + 3]))
+    ]
     if convention == "spatial" or not np.any(moment):
         return C
-    if np.linalg.cond(C[np.ix_(some, some)] / np.sqrt(np.outer(np.diag(C)[some], np.diag(C)[some]))) > 1e12:
-        raise Refused(f"{name}: {convention} moments where turns depend on each other are not within the deriving program")
+    if np.linalg.cond(C[np.ix_(some, some)] / np.sqrt(np.outer(np.diag(C)[some],
+                                                               np.diag(C)[some]))) > 1e12:
+        raise Refused(
+            f"{name}: {convention} moments where turns depend on each other are not within the deriving program"
+        )
     K, out = np.linalg.inv(C[np.ix_(some, some)]), np.zeros((6, 6))
     if convention == "semitangential":
         half = np.zeros((6, 6))
@@ -135,7 +153,8 @@ def linear(scene):
     supports = [place.support for place in scene.places.values() if place.support]
     for support in supports:
         if support.sequence or support.vector or any(callable(kind) for kind in support.kinds[3:]):
-            raise Refused("a linear analysis with prescribed turns is not within the deriving program")
+            raise Refused(
+                "a linear analysis with prescribed turns is not within the deriving program")
         for load in support.loads:
             load.stays = True
     for beam in (m.beam for m in scene.net.members if m.beam.carries):
@@ -154,7 +173,8 @@ def linear_resultants(scene, m, step):
     rows, p = [], step[m.at:m.at + 6]
     for y in (m.y[0, 0], m.y[-1, -1]):
         R, r = rotation(y[3:7]), y[:3]
-        rows.append(in_units(scene, np.concatenate([R.T @ p[:3], R.T @ (p[3:] - np.cross(r, p[:3]))])))
+        rows.append(
+            in_units(scene, np.concatenate([R.T @ p[:3], R.T @ (p[3:] - np.cross(r, p[:3]))])))
         p = p + (step[m.at + m.size - 6:m.at + m.size] if m.beam.carries else 0.0)
     return np.array(rows)
 
@@ -165,7 +185,8 @@ def resultants(scene, name):
     for y in (m.y[0, 0], m.y[-1, -1]):
         p = m.p + (y[-6:] if m.beam.carries else 0.0)
         R = rotation(y[3:7])
-        rows.append(in_units(scene, np.concatenate([R.T @ p[:3], R.T @ (p[3:] - np.cross(y[:3], p[:3]))])))
+        rows.append(
+            in_units(scene, np.concatenate([R.T @ p[:3], R.T @ (p[3:] - np.cross(y[:3], p[:3]))])))
     return np.array(rows)
 
 

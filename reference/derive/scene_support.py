@@ -35,13 +35,15 @@ class Applied:
     stays = False
 
     def __init__(self, force, moment, arm, turns, factor):
-        self.force, self.moment, self.arm, self.turns, self.factor = (*(np.array(v, dtype=float) for v in (force, moment, arm)), turns, factor)
+        self.force, self.moment, self.arm, self.turns, self.factor = (*(np.array(
+            v, dtype=float) for v in (force, moment, arm)), turns, factor)
 
     def at(self, level, R):
         R = R.real if self.stays else R  # what is not varied has no derivative
         turned = R if self.turns else np.eye(3)
         f = self.factor(level) * (turned @ self.force)
-        return np.concatenate([f, np.cross(R @ self.arm, f) + self.factor(level) * (turned @ self.moment)])
+        return np.concatenate(
+            [f, np.cross(R @ self.arm, f) + self.factor(level) * (turned @ self.moment)])
 
 
 class Support:
@@ -49,7 +51,8 @@ class Support:
     three motions, instead of the last three kinds, which are HELD then."""
 
     def __init__(self, place):
-        self.place, self.kinds, self.sequence, self.vector = np.array(place, dtype=float), [FREE] * 6, None, None
+        self.place, self.kinds, self.sequence, self.vector = np.array(
+            place, dtype=float), [FREE] * 6, None, None
         self.loads, self.angles = [], []  # angles: numbers of the sequence's free turns
 
     def applied(self, level, R):
@@ -59,7 +62,10 @@ class Support:
         return 0.0 if kind == HELD else kind(level, numbers)
 
     def _shifts(self, level, x, force, numbers, kinds):
-        return [force[i] if kinds[i] == FREE else x[i] - self.place[i] - self.value(kinds[i], level, numbers) for i in range(3)]
+        return [
+            force[i] if kinds[i] == FREE else x[i] - self.place[i] -
+            self.value(kinds[i], level, numbers) for i in range(3)
+        ]
 
     def _sequence(self, level, numbers):
         """[(axis now, number)] of the free turns, and R."""
@@ -78,12 +84,14 @@ class Support:
         if self.sequence is not None:
             return self._sequence(level, numbers)[1]
         if self.vector is not None:
-            return rotation(exponential(np.array([self.value(kind, level, numbers) for kind in self.vector])))
+            return rotation(
+                exponential(np.array([self.value(kind, level, numbers) for kind in self.vector])))
         kinds = self.kinds[3:]
         driven = [i for i in range(3) if callable(kinds[i])]
         if FREE in kinds:
             return None
-        return turn(np.eye(3)[driven[0]], self.value(kinds[driven[0]], level, numbers)) if driven else np.eye(3)
+        return turn(np.eye(3)[driven[0]], self.value(kinds[driven[0]], level,
+                                                     numbers)) if driven else np.eye(3)
 
     def _turns(self, level, R, moment, numbers, kinds):
         if FREE not in kinds:
@@ -93,7 +101,8 @@ class Support:
         for i, kind in enumerate(kinds):
             j, k = (i + 1) % 3, (i + 2) % 3
             angle = self.value(kind, level, numbers) if callable(kind) else 0.0
-            out.append(moment[i] if kind == FREE else now[i] if kind == HELD else R[k, j] * np.cos(angle) - R[j, j] * np.sin(angle))
+            out.append(moment[i] if kind == FREE else now[i] if kind == HELD else R[k, j] *
+                       np.cos(angle) - R[j, j] * np.sin(angle))
         return out
 
     def axes_now(self, level, numbers):
@@ -113,21 +122,33 @@ class Support:
                 given = given + value * np.eye(6)[i]
             if axes is not None:
                 turns = np.concatenate([axes @ (moment - given[3:]), across @ skew(R @ R.real.T)])
-                return np.concatenate([self._shifts(level, x, force - given[:3], numbers, kinds), turns])
-            return np.concatenate([self._shifts(level, x, force - given[:3], numbers, kinds), self._turns(level, R, moment - given[3:], numbers, kinds[3:])])
+                return np.concatenate(
+                    [self._shifts(level, x, force - given[:3], numbers, kinds), turns])
+            return np.concatenate([
+                self._shifts(level, x, force - given[:3], numbers, kinds),
+                self._turns(level, R, moment - given[3:], numbers, kinds[3:])
+            ])
+
         return of
 
     def kept_angles(self):
         """Conditions of the free angles where others stand for them."""
-        return [lambda level, x, R, force, moment, numbers, k=k: [numbers[k] - numbers[k].real] for k in self.angles]
+        return [
+            lambda level, x, R, force, moment, numbers, k=k: [numbers[k] - numbers[k].real]
+            for k in self.angles
+        ]
 
     def extra(self):
         """Conditions of the free angles, one for each."""
+
         def of(which):
+
             def condition(level, x, R, force, moment, numbers):
                 axis, _ = self._sequence(level, numbers)[0][which]
                 return [axis @ (moment - self.applied(level, R)[3:])]
+
             return condition
+
         return [of(i) for i in range(len(self.angles))]
 
     def path_dependent(self, R):

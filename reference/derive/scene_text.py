@@ -53,6 +53,7 @@ def named(table, name, what, where):
 
 def table(path, value):
     """Linear between the stations of a path, constant beyond them."""
+
     def at(level):
         if level <= path[0]:
             return value[0]
@@ -60,4 +61,5 @@ def table(path, value):
             if level <= b:
                 return u + (v - u) * (level - a) / (b - a)
         return value[-1]
+
     return at

@@ -21,7 +21,8 @@ def inertia_of(scene, name):
     section, where = scene.section_of(scene.scene["members"][name])
     s, rho = constants_of(section, where), number(section.get("density", "0"), where) / scene.force
     rotary = float("rotary_inertia" in scene.needs)
-    return rho * s.A * scene.length ** 2, rho * np.array([s.Ip, rotary * s.Iy, rotary * s.Iz]), rotary * rho * s.Iw / scene.length ** 2
+    return rho * s.A * scene.length ** 2, rho * np.array(
+        [s.Ip, rotary * s.Iy, rotary * s.Iz]), rotary * rho * s.Iw / scene.length ** 2
 
 
 def body_masses(scene, size):
@@ -29,11 +30,13 @@ def body_masses(scene, size):
     out = np.zeros((size, size))
     for name, entry in scene.scene["nodes"].items():
         m = number(entry.get("mass", "0"), name) * scene.length / scene.force
-        J = np.array(numbers(entry.get("inertia", ["0"] * 6), name, 6)) / (scene.force * scene.length)
+        J = np.array(numbers(entry.get("inertia", ["0"] * 6), name,
+                             6)) / (scene.force * scene.length)
         if m == 0 and not np.any(J):
             continue
         place = scene.places[name]
-        c = (place.offset + np.array(numbers(entry.get("centre", ["0"] * 3), name, 3))) / scene.length
+        c = (place.offset +
+             np.array(numbers(entry.get("centre", ["0"] * 3), name, 3))) / scene.length
         at, x = place.body.at, cross_matrix(place.body.x + c)
         tensor = np.array([[J[0], J[3], J[5]], [J[3], J[1], J[4]], [J[5], J[4], J[2]]])
         shift = np.hstack([np.eye(3), -cross_matrix(c)])  # u + theta x c
@@ -59,7 +62,8 @@ class Assembly:
         places, values = self.parts[which]
         if not places:
             return coo_matrix((size, size)).tocsc()
-        return coo_matrix((np.concatenate(values), np.concatenate(places, axis=1)), shape=(size, size)).tocsc()
+        return coo_matrix((np.concatenate(values), np.concatenate(places, axis=1)),
+                          shape=(size, size)).tocsc()
 
 
 def add_inside(out, v, at):
@@ -135,11 +139,18 @@ def lowest(left, mass, count):
     try:
         solved = splu(left)
     except RuntimeError as why:
-        raise Refused("frequencies of what is not held are not within the deriving program") from why
+        raise Refused(
+            "frequencies of what is not held are not within the deriving program") from why
     operator = LinearOperator(left.shape, matvec=lambda x: solved.solve(mass @ x), dtype=float)
     start = np.random.default_rng(1).standard_normal(left.shape[0])
     wanted = count + 6
-    mu = eigs(operator, k=wanted, ncv=min(left.shape[0] - 1, 4 * wanted + 20), which="LM", v0=start, return_eigenvectors=False, tol=1e-14)
+    mu = eigs(operator,
+              k=wanted,
+              ncv=min(left.shape[0] - 1, 4 * wanted + 20),
+              which="LM",
+              v0=start,
+              return_eigenvectors=False,
+              tol=1e-14)
     mu = mu[np.argsort(-np.abs(mu))][:count]
     if np.any(np.abs(mu.imag) > 1e-6 * np.abs(mu.real)) or np.any(mu.real <= 0):
         raise Refused("a mode that does not vibrate is not within the deriving program")

@@ -5,7 +5,9 @@ import re
 FOLDER = "examples"
 PATH = pathlib.Path(__file__).resolve().parents[2] / "cases" / FOLDER
 FIELDS = ("quantity", "value", "uncertainty", "kind", "formulation", "source", "parameters")
-ROW = re.compile(r'^ *- \{quantity: (\w+), value: (\S+), uncertainty: (\S+), kind: (\w+)(?:, formulation: ([\w*]+))?, source: "([^"]*)"(?:, parameters: \{(.*)\})?\}$')
+ROW = re.compile(
+    r'^ *- \{quantity: (\w+), value: (\S+), uncertainty: (\S+), kind: (\w+)(?:, formulation: ([\w*]+))?, source: "([^"]*)"(?:, parameters: \{(.*)\})?\}$'
+)
 
 
 def names():
@@ -17,7 +19,8 @@ def line_of(row):
     given = row["parameters"].replace("=", ": ").replace(";", ", ")
     text = ", ".join(f"{name}: {row[name]}" for name in FIELDS[:4])
     of = f', formulation: {row["formulation"]}' if row["formulation"] else ""
-    return "  - {" + text + of + f', source: "{row["source"]}"' + (f", parameters: {{{given}}}" if given else "") + "}"
+    return "  - {" + text + of + f', source: "{row["source"]}"' + (f", parameters: {{{given}}}"
+                                                                   if given else "") + "}"
 
 
 def stored():
@@ -27,4 +30,8 @@ def stored():
             found = ROW.match(line)
             if found and found[6].startswith("reference/derive/"):
                 row = dict(zip(FIELDS, found.groups("")))
-                yield {**row, "case": path.stem, "parameters": row["parameters"].replace(": ", "=").replace(", ", ";"), **dict.fromkeys(("at", "theory", "convention"), "")}
+                yield {
+                    **row, "case": path.stem,
+                    "parameters": row["parameters"].replace(": ", "=").replace(", ", ";"),
+                    **dict.fromkeys(("at", "theory", "convention"), "")
+                }

@@ -57,7 +57,8 @@ def section(points, walls):
     izz = area_integral(lambda i, j, s: at(y, i, j, s) ** 2)
     iyz = area_integral(lambda i, j, s: at(y, i, j, s) * at(z, i, j, s))
     beta = atan2(2 * iyz, izz - iyy) / 2 if abs(iyz) > mp.eps * (iyy + izz) else mpf(0)
-    y, z = ([cos(beta) * a + sin(beta) * b for a, b in zip(y, z)], [-sin(beta) * a + cos(beta) * b for a, b in zip(y, z)])
+    y, z = ([cos(beta) * a + sin(beta) * b
+             for a, b in zip(y, z)], [-sin(beta) * a + cos(beta) * b for a, b in zip(y, z)])
     out.beta, out.points = beta, list(zip(y, z))
     out.Iy = area_integral(lambda i, j, s: at(z, i, j, s) ** 2)
     out.Iz = area_integral(lambda i, j, s: at(y, i, j, s) ** 2)
@@ -80,8 +81,10 @@ def section(points, walls):
     out.zs = -area_integral(lambda i, j, s: at(omega, i, j, s) * at(y, i, j, s)) / out.Iz
     omega = sectorial(out.ys, out.zs)
     out.Iw = area_integral(lambda i, j, s: at(omega, i, j, s) ** 2)
-    out.wagner_y = area_integral(lambda i, j, s: at(y, i, j, s) * (at(y, i, j, s) ** 2 + at(z, i, j, s) ** 2))
-    out.wagner_z = area_integral(lambda i, j, s: at(z, i, j, s) * (at(y, i, j, s) ** 2 + at(z, i, j, s) ** 2))
+    out.wagner_y = area_integral(lambda i, j, s: at(y, i, j, s) *
+                                 (at(y, i, j, s) ** 2 + at(z, i, j, s) ** 2))
+    out.wagner_z = area_integral(lambda i, j, s: at(z, i, j, s) *
+                                 (at(y, i, j, s) ** 2 + at(z, i, j, s) ** 2))
 
     field, inertia = (y, z, omega), (out.Iz, out.Iy, out.Iw)
     carried = [[mpf(0)] * 3 for _ in p]
@@ -92,9 +95,11 @@ def section(points, walls):
 
         def moment(k, s):
             return start[k] + t * l * s * (field[k][outer] * (1 - s / 2) + field[k][inner] * s / 2)
+
         for a in range(3):
             for b in range(3):
-                out.F[a, b] += _integrate(lambda s: moment(a, s) * moment(b, s)) * l / t / (inertia[a] * inertia[b])
+                out.F[a, b] += _integrate(lambda s: moment(a, s) * moment(b, s)) * l / t / (
+                    inertia[a] * inertia[b])
         for k in range(3):
             carried[inner][k] += moment(k, mpf(1))
     return out

@@ -16,9 +16,10 @@ def rows():
         start = mpf(text)
         limit = acos(cos(start) ** (mpf(1) / 3))
         assert abs(force(start, limit) - 2 * sqrt(1 - cos(start) ** (mpf(2) / 3)) ** 3) < 1e-25
-        values = (("limit_load", force(start, limit), "N"), ("limit_load_back", -force(start, limit), "N"),
-                  ("deflection_at_limit", cos(start) * (tan(start) - tan(limit)), "m"),
-                  ("load_inverted", force(start, atan(-tan(start) * 3 / 2)), "N"))
+        values = (("limit_load", force(start,
+                                       limit), "N"), ("limit_load_back", -force(start, limit), "N"),
+                  ("deflection_at_limit", cos(start) * (tan(start) - tan(limit)),
+                   "m"), ("load_inverted", force(start, atan(-tan(start) * 3 / 2)), "N"))
         for control in ("arc", "displacement"):
             at = defaults.differing("snap_through", angle=text, control=control)
             for name, value, unit in values:

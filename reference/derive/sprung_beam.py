@@ -20,28 +20,33 @@ def buckling_load(k):
 
 
 def frequency(k):
-    return 4 * findroot(lambda u: (sin(u) + cos(u) * tanh(u)) * k + 4 * u * cos(u), (pi / 2, mpf(3) * pi / 4 + mpf(1) / 10), solver="anderson") ** 2
+    return 4 * findroot(lambda u: (sin(u) + cos(u) * tanh(u)) * k + 4 * u * cos(u),
+                        (pi / 2, mpf(3) * pi / 4 + mpf(1) / 10),
+                        solver="anderson") ** 2
 
 
 def rolled(k, m):
     turned, m = mpf(m) / mpf(k), mpf(m)
-    return (("x", (sin(turned + m) - sin(turned)) / m, "m"), ("y", (cos(turned) - cos(turned + m)) / m, "m"))
+    return (("x", (sin(turned + m) - sin(turned)) / m, "m"),
+            ("y", (cos(turned) - cos(turned + m)) / m, "m"))
 
 
 def values(given):
     at = defaults.decimals("sprung_beam", given)
     k, load = at["spring"], at["load"]
     if load == "axial":
-        return (("buckling_load", buckling_load(k), "N"),)
+        return (("buckling_load", buckling_load(k), "N"), )
     if load == "moment":
         return rolled(k, at["moment"])
     return (("deflection", deflection(k), "m"), ("frequency", frequency(k), "1"))
 
 
-POINTS = ("", "spring=0.01", "spring=1000", "load=axial", "load=axial;spring=0.01", "load=axial;spring=1000", "load=moment", "load=moment;spring=1", "load=moment;moment=3.5")
+POINTS = ("", "spring=0.01", "spring=1000", "load=axial", "load=axial;spring=0.01",
+          "load=axial;spring=1000", "load=moment", "load=moment;spring=1", "load=moment;moment=3.5")
 
 
 def rows():
     for at in POINTS:
-        for quantity, value, unit in values(dict(item.split("=") for item in at.split(";") if item)):
+        for quantity, value, unit in values(dict(
+                item.split("=") for item in at.split(";") if item)):
             yield "sprung_beam", at, quantity, value, unit

@@ -13,17 +13,20 @@ from reference.derive import defaults
 from reference.derive.section import section
 
 mp.dps = 30
-E, G, RHO = mpf(210) * 10**9, mpf(81) * 10**9, mpf(7800)
-WIDTH, THICKNESS, DEPTH, FLANGE, WALL = mpf("0.03"), mpf("0.02"), mpf("0.1"), mpf("0.06"), mpf("0.002")
+E, G, RHO = mpf(210) * 10 ** 9, mpf(81) * 10 ** 9, mpf(7800)
+WIDTH, THICKNESS, DEPTH, FLANGE, WALL = mpf("0.03"), mpf("0.02"), mpf("0.1"), mpf("0.06"), mpf(
+    "0.002")
 LOADS = (mpf(1000), mpf(100), mpf(100), mpf(10))  # Fx, Fy, Fz, Mx at the tip
-NAMES = (("stretch", "m"), ("deflection_y", "m"), ("deflection_z", "m"), ("twist", "rad"), ("slope_y", "rad"), ("slope_z", "rad"))
+NAMES = (("stretch", "m"), ("deflection_y", "m"), ("deflection_z", "m"), ("twist", "rad"),
+         ("slope_y", "rad"), ("slope_z", "rad"))
 
 
 def rectangle_torsion(a, b):
     """h t^3/3 [1 - 192/pi^5 t/h sum tanh(n pi h/2t)/n^5]"""
     h, t = max(a, b), min(a, b)
-    total = mp.zeta(5) * 31 / 32 + sum((tanh(n * pi * h / (2 * t)) - 1) / mpf(n) ** 5 for n in range(1, 60, 2))
-    return h * t**3 / 3 * (1 - 192 / pi**5 * t / h * total)
+    total = mp.zeta(5) * 31 / 32 + sum(
+        (tanh(n * pi * h / (2 * t)) - 1) / mpf(n) ** 5 for n in range(1, 60, 2))
+    return h * t ** 3 / 3 * (1 - 192 / pi ** 5 * t / h * total)
 
 
 class At:
@@ -33,7 +36,8 @@ class At:
         size = 1 + x * (ratio - 1)
         if form == "wedge":
             t = size * THICKNESS
-            self.A, self.Iy, self.Iz, self.It = WIDTH * t, t * WIDTH**3 / 12, WIDTH * t**3 / 12, rectangle_torsion(WIDTH, t)
+            self.A, self.Iy, self.Iz, self.It = WIDTH * t, t * WIDTH ** 3 / 12, WIDTH * t ** 3 / 12, rectangle_torsion(
+                WIDTH, t)
             self.Iw = self.ys = self.zs = self.beta = mpf(0)
             return
         b, h, t = size * FLANGE, DEPTH / 2, WALL
@@ -41,7 +45,9 @@ class At:
             points = [(-b / 2, h), (0, h), (b / 2, h), (-b / 2, -h), (0, -h), (b / 2, -h)]
             walls = [(0, 1, t), (1, 2, t), (1, 4, t), (3, 4, t), (4, 5, t)]
         else:
-            points, walls = [(-b, h), (0, h), (0, -h), (-b if form == "channel" else b, -h)], [(i, i + 1, t) for i in range(3)]
+            points, walls = [(-b, h), (0, h), (0, -h),
+                             (-b if form == "channel" else b, -h)], [(i, i + 1, t)
+                                                                     for i in range(3)]
         s = section(points, walls)
         self.A, self.Iy, self.Iz, self.It, self.Iw, self.ys, self.zs, self.beta = s.A, s.Iy, s.Iz, s.It, s.Iw, s.ys, s.zs, s.beta
 
@@ -63,8 +69,11 @@ def displacement(form, ratio, shear, row):
     def density(x):
         at = At(form, ratio, x)
         slide = mpf(6) / 5 / (G * at.A) if shear else mpf(0)
-        flexibility = (1 / (E * at.A), slide, slide, 1 / (G * at.It) if form != "i" else 0, 1 / (E * at.Iy), 1 / (E * at.Iz))
-        return sum(a * b * f for a, b, f in zip(resultants(at, x, load), resultants(at, x, unit), flexibility))
+        flexibility = (1 / (E * at.A), slide, slide, 1 / (G * at.It) if form != "i" else 0,
+                       1 / (E * at.Iy), 1 / (E * at.Iz))
+        return sum(
+            a * b * f
+            for a, b, f in zip(resultants(at, x, load), resultants(at, x, unit), flexibility))
 
     value = quad(density, [0, mpf(1) / 2, 1])
     return value + (twist_of_i(ratio) if form == "i" and row == 3 else 0)
@@ -118,7 +127,7 @@ def first_roots(f, start, step, wanted):
 
 def buckling_load(ratio):
     tip, root, _ = ends(ratio)
-    unit = E * WIDTH * THICKNESS**3 / 12 / root**3
+    unit = E * WIDTH * THICKNESS ** 3 / 12 / root ** 3
 
     def condition(q):
         """w(tip) = 0, seen from the tip, and w'(root) = 0; with z = 2 q/sqrt(s): w ~ Z1(z)/z, w' ~ z^2 Z2(z)."""
@@ -126,23 +135,30 @@ def buckling_load(ratio):
         return besselj(1, here) * bessely(2, there) - bessely(1, here) * besselj(2, there)
 
     low = first_roots(condition, mpf(1) / 100 * sqrt(root), sqrt(tip) * tip / 3, 1)[0]
-    return unit * low**2
+    return unit * low ** 2
 
 
 def bending(ratio, wanted):
     tip, root, _ = ends(ratio)
-    speed = sqrt(E * THICKNESS**2 / (12 * RHO)) / root  # b^4 = (omega/speed)^2
+    speed = sqrt(E * THICKNESS ** 2 / (12 * RHO)) / root  # b^4 = (omega/speed)^2
 
     def condition(b):
         """With z = 2 b sqrt(s), w ~ Z1(z)/z: every derivative is another of the order above, d/ds Zn/z^n ~ Zn+1/z^(n+1)."""
         rows = []
         for Z, sign in ((besselj, -1), (bessely, -1), (besseli, 1), (besselk, -1)):
-            row = [sign**k * Z(k + 1, 2 * b * sqrt(s)) / sqrt(s) ** (k + 1) for k, s in ((0, root), (1, root), (2, tip), (3, tip))]
+            row = [
+                sign ** k * Z(k + 1, 2 * b * sqrt(s)) / sqrt(s) ** (k + 1)
+                for k, s in ((0, root), (1, root), (2, tip), (3, tip))
+            ]
             scale = max(abs(value) for value in row)
             rows.append([value / scale for value in row])
         return det(matrix(rows))
 
-    return [speed * b**2 / (2 * pi) for b in first_roots(condition, mpf(1) / 2 / sqrt(root), mpf(1) / 4 / (sqrt(root)), wanted)]
+    return [
+        speed * b ** 2 / (2 * pi) for b in first_roots(condition,
+                                                       mpf(1) / 2 / sqrt(root),
+                                                       mpf(1) / 4 / (sqrt(root)), wanted)
+    ]
 
 
 def values(given):
@@ -159,10 +175,12 @@ def values(given):
         yield name, displacement(at["section"], ratio, at["shear"] == 1, row), unit
 
 
-POINTS = ("", "ratio=0.25", "ratio=2", "shear=1", "section=i", "section=channel", "section=zed", "asked=waves", "asked=waves;ratio=0.25", "asked=waves;ratio=2")
+POINTS = ("", "ratio=0.25", "ratio=2", "shear=1", "section=i", "section=channel", "section=zed",
+          "asked=waves", "asked=waves;ratio=0.25", "asked=waves;ratio=2")
 
 
 def rows():
     for at in POINTS:
-        for quantity, value, unit in values(dict(item.split("=") for item in at.split(";") if item)):
+        for quantity, value, unit in values(dict(
+                item.split("=") for item in at.split(";") if item)):
             yield "tapered_cantilever", at, quantity, value, unit

@@ -31,7 +31,9 @@ def at_rest(m, c, g, count=COUNT):
         w2 = [z ** 2 * (cosh(z) + cos(z)) / cosh(z), z ** 2 * (sinh(z) + sin(z)) / cosh(z)]
         w3 = [z ** 3 * (sinh(z) - sin(z)) / cosh(z), z ** 3 * (cosh(z) + cos(z)) / cosh(z)]
         y = [w[i] + c * w1[i] for i in (0, 1)]
-        return det(matrix([[w2[i] - z ** 4 * (J * w1[i] + m * c * y[i]) for i in (0, 1)], [w3[i] + z ** 4 * m * y[i] for i in (0, 1)]]))
+        return det(
+            matrix([[w2[i] - z ** 4 * (J * w1[i] + m * c * y[i]) for i in (0, 1)],
+                    [w3[i] + z ** 4 * m * y[i] for i in (0, 1)]]))
 
     found, step, z = [], mpf(1) / 50, mpf(1) / 50
     while len(found) < count:
@@ -55,7 +57,8 @@ def _ends(times):
         for _ in range(times):
             series.append(legendre.legint(series[-1], lbnd=-1))
         scale = np.sqrt(2 * n + 1)
-        fields.append([scale * 2.0 ** (d - times) * legendre.legval(1.0, series[times - d]) for d in (0, 1)])
+        fields.append(
+            [scale * 2.0 ** (d - times) * legendre.legval(1.0, series[times - d]) for d in (0, 1)])
     return np.array(fields)
 
 
@@ -75,14 +78,16 @@ def matrices(omega, m, c, g, s=S):
     curvature = w[:, 2] / stretch - w[:, 1] * slope / stretch ** 2
     K = (curvature * weight) @ curvature.T + (w[:, 1] * (weight * force / stretch)) @ w[:, 1].T
     M = (w[:, 0] * weight) @ w[:, 0].T
-    Ku, Mu, C = s * s * (u[:, 1] * weight) @ u[:, 1].T, (u[:, 0] * weight) @ u[:, 0].T, (u[:, 0] * weight) @ w[:, 0].T
+    Ku, Mu, C = s * s * (u[:, 1] * weight) @ u[:, 1].T, (u[:, 0] * weight) @ u[:, 0].T, (
+        u[:, 0] * weight) @ w[:, 0].T
     at = _ends(2)
     t, u_end = at[:, 1] / end_stretch, _ends(1)[:, 0]
     y = at[:, 0] + c * t
     tt, translations = np.outer(t, t), M + m * np.outer(y, y)
     mass, pulled = translations + J * tt, K + omega ** 2 * m * c * (end + c) * tt
     Mu = Mu + m * np.outer(u_end, u_end)
-    return ((pulled + omega ** 2 * J * tt, mass), (pulled - omega ** 2 * translations, mass), (Ku - omega ** 2 * Mu, Mu), C + m * np.outer(u_end, y))
+    return ((pulled + omega ** 2 * J * tt, mass), (pulled - omega ** 2 * translations, mass),
+            (Ku - omega ** 2 * Mu, Mu), C + m * np.outer(u_end, y))
 
 
 def flap(omega, m, c, g, s=S, count=COUNT):
@@ -98,9 +103,11 @@ def lag(omega, m, c, g, s=S, count=COUNT):
     mass, stiffness = np.block([[Mu, none], [none, M]]), np.block([[Ku, none], [none, K]])
     gyroscopic = 2 * omega * np.block([[none, -C], [C.T, none]])
     inverse = np.linalg.inv(np.linalg.cholesky(stiffness))
-    B = np.block([[np.zeros((2 * n, 2 * n)), np.eye(2 * n)], [-inverse @ mass @ inverse.T, -inverse @ gyroscopic @ inverse.T]])
+    B = np.block([[np.zeros((2 * n, 2 * n)), np.eye(2 * n)],
+                  [-inverse @ mass @ inverse.T, -inverse @ gyroscopic @ inverse.T]])
     values = eig(B, right=False)
-    found = np.sort(1 / np.abs(values.imag[np.abs(values.imag) > 1e-9 * np.max(np.abs(values.imag))]))
+    found = np.sort(
+        1 / np.abs(values.imag[np.abs(values.imag) > 1e-9 * np.max(np.abs(values.imag))]))
     return found[::2][:count]
 
 
@@ -117,11 +124,13 @@ def values(omega, m, c, g):
         yield "root_force", mpf(S) ** 2 * (B * k - 1), None
 
 
-POINTS = (("", 4, 1.0, 0.2, 0.3), ("omega_star=0", 0, 1.0, 0.2, 0.3), ("gyration=0;omega_star=10;overhang=0", 10, 1.0, 0.0, 0.0),
-          ("mass=10;omega_star=2", 2, 10.0, 0.2, 0.3), ("mass=0.1;omega_star=8;overhang=-0.5", 8, 0.1, -0.5, 0.3))
+POINTS = (("", 4, 1.0, 0.2, 0.3), ("omega_star=0", 0, 1.0, 0.2,
+                                   0.3), ("gyration=0;omega_star=10;overhang=0", 10, 1.0, 0.0, 0.0),
+          ("mass=10;omega_star=2", 2, 10.0, 0.2, 0.3), ("mass=0.1;omega_star=8;overhang=-0.5", 8,
+                                                        0.1, -0.5, 0.3))
 
 
 def rows():
     for at, omega, m, c, g in POINTS:
         for quantity, value, relative in values(omega, m, c, g):
-            yield ("tip_body", at, quantity, value, "1") + ((relative,) if relative else ())
+            yield ("tip_body", at, quantity, value, "1") + ((relative, ) if relative else ())

@@ -26,4 +26,6 @@ def twist_ratio(kl, ends):
 def rows():
     for kl in ("0.001", "0.5", "1", "2", "5", "10", "20"):
         for ends in ("cantilever", "fixed"):
-            yield "warping_torsion", defaults.differing("warping_torsion", kL=kl, ends=ends), "twist_ratio", twist_ratio(kl, ends), "1"
+            yield "warping_torsion", defaults.differing("warping_torsion", kL=kl,
+                                                        ends=ends), "twist_ratio", twist_ratio(
+                                                            kl, ends), "1"

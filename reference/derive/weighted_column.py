@@ -8,7 +8,8 @@ from reference.derive import defaults
 
 mp.dps = 30
 TERMS = 120
-POINTS = ({}, {"staying": 4}, {"staying": -20}, {"grows": "weight", "staying": 1}, {"grows": "weight", "staying": -5})
+POINTS = ({}, {"staying": 4}, {"staying": -20}, {"grows": "weight",
+                                                 "staying": 1}, {"grows": "weight", "staying": -5})
 
 
 def slope_at_foot(P, q):
@@ -25,7 +26,9 @@ def load_factor(given):
     at = defaults.decimals("weighted_column", given)
 
     def value(factor):
-        return slope_at_foot(factor, at["staying"]) if at["grows"] == "head" else slope_at_foot(at["staying"], factor)
+        return slope_at_foot(factor, at["staying"]) if at["grows"] == "head" else slope_at_foot(
+            at["staying"], factor)
+
     low = mpf(0)
     while value(low + mpf("0.05")) > 0:
         low += mpf("0.05")
@@ -34,4 +37,5 @@ def load_factor(given):
 
 def rows():
     for given in POINTS:
-        yield "weighted_column", defaults.differing("weighted_column", **given), "load_factor", load_factor(given), "1"
+        yield "weighted_column", defaults.differing("weighted_column",
+                                                    **given), "load_factor", load_factor(given), "1"

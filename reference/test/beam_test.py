@@ -15,6 +15,7 @@ from reference.derive.network import Network, clamped, free  # noqa: E402
 
 
 class Pieces(unittest.TestCase):
+
     def test_integration_is_exact_for_polynomials(self):
         x, W = chebyshev(9)
         for power in range(10):
@@ -35,11 +36,17 @@ class Sheet(unittest.TestCase):
     given = {"wagner": 1, "tip_phi_x": 0.15}
 
     def twisted(self, intervals, nodes):
+
         def conditions(level, x, R, force, moment, numbers):
-            return np.array([x[1] - 0.15 * level, R[1, 0] - math.sin(0.15 * level), R[1, 2] + math.tan(0.1 * level) * R[1, 1], force[0], force[2], moment[1]])
+            return np.array([
+                x[1] - 0.15 * level, R[1, 0] - math.sin(0.15 * level),
+                R[1, 2] + math.tan(0.1 * level) * R[1, 1], force[0], force[2], moment[1]
+            ])
+
         beam = sheets.sheet(**{**defaults.values("sheet_wagner"), **self.given})
         net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=intervals, nodes=nodes)
-        root, tip = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body((beam.length, 0, 0), conditions)
+        root, tip = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body((beam.length, 0, 0),
+                                                                            conditions)
         member = net.member(beam, root, tip, (0, 0, 0), np.eye(3))
         net.solve((0.25, 0.5, 0.75, 1.0))
         return net, tip, member
@@ -48,7 +55,11 @@ class Sheet(unittest.TestCase):
         _, tip, member = self.twisted(6, 14)
         y0 = member.y[0, 0]
         p = member.p[:, None]
-        tall = solve_ivp(lambda s, y: member.beam.slope(y[:, None], p)[:, 0], (0, 1), y0, method="DOP853", rtol=1e-12, atol=1e-14).y[:, -1]
+        tall = solve_ivp(lambda s, y: member.beam.slope(y[:, None], p)[:, 0], (0, 1),
+                         y0,
+                         method="DOP853",
+                         rtol=1e-12,
+                         atol=1e-14).y[:, -1]
         self.assertLess(np.max(np.abs(tall[:3] - tip.x)), 1e-9)
         self.assertLess(np.max(np.abs(rotation(tall[3:7]) - tip.R)), 1e-9)
         self.assertLess(abs(tall[7]), 1e-8)
@@ -68,14 +79,18 @@ class Sheet(unittest.TestCase):
         for k in range(6):
             change = np.zeros(6)
             change[k] = 1e-4
-            tip.conditions = lambda level, x, R, force, moment, numbers: np.concatenate([force, moment]) - load - level * change
-            net.solve((1.0,))
+            tip.conditions = lambda level, x, R, force, moment, numbers: np.concatenate(
+                [force, moment]) - load - level * change
+            net.solve((1.0, ))
             plus = np.concatenate([tip.x, _spin(tip.R, R)])
-            net.solve((-1.0,))
+            net.solve((-1.0, ))
             minus = np.concatenate([tip.x, _spin(tip.R, R)])
-            net.solve((0.0,))
+            net.solve((0.0, ))
             unit = np.array([net.length] * 3 + [1] * 3) / (net.force * (1 if k < 3 else net.length))
-            self.assertLess(np.max(np.abs((plus - minus) / 2e-4 * unit - C[:, k]) / np.sqrt(np.diag(C) * C[k, k])), 1e-6)
+            self.assertLess(
+                np.max(
+                    np.abs((plus - minus) / 2e-4 * unit - C[:, k]) / np.sqrt(np.diag(C) * C[k, k])),
+                1e-6)
         self.assertLess(np.max(np.abs(tip.x - x)), 1e-11)
 
     def test_linear_compliance_of_the_straight_sheet(self):
@@ -85,13 +100,20 @@ class Sheet(unittest.TestCase):
         root, tip = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body((beam.length, 0, 0))
         net.member(beam, root, tip, (0, 0, 0), np.eye(3))
         C = net.response(1.0, tip, {})
-        self.assertAlmostEqual(C[2, 2] / (beam.length ** 3 / (3 * beam.EIy) + beam.length * beam.f[1, 1]), 1, delta=1e-12)
+        self.assertAlmostEqual(
+            C[2, 2] / (beam.length ** 3 / (3 * beam.EIy) + beam.length * beam.f[1, 1]),
+            1,
+            delta=1e-12)
         self.assertAlmostEqual(C[0, 0] / (beam.length / beam.EA), 1, delta=1e-12)
         rate = beam.length * math.sqrt(beam.GJ / beam.EIw)  # both ends cannot warp
-        self.assertAlmostEqual(C[3, 3] / (beam.length / beam.GJ * (1 - math.tanh(rate / 2) / (rate / 2))), 1, delta=1e-11)
+        self.assertAlmostEqual(
+            C[3, 3] / (beam.length / beam.GJ * (1 - math.tanh(rate / 2) / (rate / 2))),
+            1,
+            delta=1e-11)
 
 
 class Elastica(unittest.TestCase):
+
     def test_elliptic_integrals(self):
         """Nearly inextensible: P L^2/EI = (K(m) - F(phi, m))^2 with m = (1 + sin theta)/2, sin^2 phi = 1/2m."""
         r, R = cantilevers.dead_load(Beam(1.0, EA=1e13, EIy=1.0, EIz=1.0, GJ=1.0), (0, 5.0, 0), 10)

@@ -27,8 +27,13 @@ def slope(f, x=X, h=1e-5):
 def shapes(Phi):
     """Functions of J Eq. 38b as corrected."""
     f = 1 / (1 + Phi)
-    return {"13": lambda x: f * (x * x * (3 - 2 * x) + Phi * x), "23": lambda x: f * 6 * x * (1 - x), "12": lambda x: f * x * ((1 - x) ** 2 + Phi / 2 * (1 - x)),
-            "14": lambda x: f * x * (x - x * x + Phi / 2 * (1 - x)), "22": lambda x: f * (-3 * x * x + 4 * x - 1 + Phi * (x - 1)), "24": lambda x: f * x * (3 * x - 2 + Phi)}
+    return {
+        "13": lambda x: f * (x * x * (3 - 2 * x) + Phi * x), "23": lambda x: f * 6 * x * (1 - x),
+        "12": lambda x: f * x * ((1 - x) ** 2 + Phi / 2 *
+                                 (1 - x)), "14": lambda x: f * x * (x - x * x + Phi / 2 * (1 - x)),
+        "22": lambda x: f * (-3 * x * x + 4 * x - 1 + Phi *
+                             (x - 1)), "24": lambda x: f * x * (3 * x - 2 + Phi)
+    }
 
 
 class Modes(unittest.TestCase):
@@ -39,11 +44,15 @@ class Modes(unittest.TestCase):
         l0, d = self.l0, r[3:] - r[:3]
         n = d / np.linalg.norm(d)
         (_, yp, zp), (_, yq, zq) = Rp.T, Rq.T
-        return np.array([np.linalg.norm(d) - l0, l0 / 2 * (zp @ yq - yp @ zq), -l0 * n @ zp, l0 * n @ zq, l0 * n @ yp, -l0 * n @ yq])
+        return np.array([
+            np.linalg.norm(d) - l0, l0 / 2 * (zp @ yq - yp @ zq), -l0 * n @ zp, l0 * n @ zq,
+            l0 * n @ yp, -l0 * n @ yq
+        ])
 
     def setUp(self):
         self.r = np.array([0.1, -0.2, 0.3, 1.2, 0.4, -0.1])
-        self.Rp, self.Rq = rotation(exponential(np.array([0.3, 0.2, -0.4]))), rotation(exponential(np.array([-0.2, 0.5, 0.1])))
+        self.Rp, self.Rq = rotation(exponential(np.array([0.3, 0.2, -0.4]))), rotation(
+            exponential(np.array([-0.2, 0.5, 0.1])))
 
     def measured(self):
         """Gradient with columns r^p, phi^p, r^q, phi^q by central differences."""
@@ -56,7 +65,10 @@ class Modes(unittest.TestCase):
                     r[k if k < 3 else k - 3] += sign * STEP
                 else:
                     turn[3 if k < 6 else 9][k % 3] = sign * STEP
-                values.append(self.modes(r, rotation(exponential(turn[3])) @ self.Rp, rotation(exponential(turn[9])) @ self.Rq))
+                values.append(
+                    self.modes(r,
+                               rotation(exponential(turn[3])) @ self.Rp,
+                               rotation(exponential(turn[9])) @ self.Rq))
             columns.append((values[0] - values[1]) / (2 * STEP))
         return np.array(columns).T
 
@@ -67,14 +79,21 @@ class Modes(unittest.TestCase):
         P = np.eye(3) - np.outer(n, n)
         (_, yp, zp), (_, yq, zq) = self.Rp.T, self.Rq.T
         zero, c = np.zeros(3), np.cross
-        right = np.array([np.concatenate(row) for row in (
-            (-n, zero, n, zero), (zero, l0 / 2 * (c(zp, yq) - c(yp, zq)), zero, l0 / 2 * (c(yq, zp) - c(zq, yp))),
-            (l0 / l * P @ zp, -l0 * c(zp, n), -l0 / l * P @ zp, zero), (-l0 / l * P @ zq, zero, l0 / l * P @ zq, l0 * c(zq, n)),
-            (-l0 / l * P @ yp, l0 * c(yp, n), l0 / l * P @ yp, zero), (l0 / l * P @ yq, zero, -l0 / l * P @ yq, -l0 * c(yq, n)))])
+        right = np.array([
+            np.concatenate(row)
+            for row in ((-n, zero, n, zero), (zero, l0 / 2 * (c(zp, yq) - c(yp, zq)), zero,
+                                              l0 / 2 * (c(yq, zp) - c(zq, yp))),
+                        (l0 / l * P @ zp, -l0 * c(zp, n), -l0 / l * P @ zp,
+                         zero), (-l0 / l * P @ zq, zero, l0 / l * P @ zq, l0 * c(zq, n)),
+                        (-l0 / l * P @ yp, l0 * c(yp, n), l0 / l * P @ yp,
+                         zero), (l0 / l * P @ yq, zero, -l0 / l * P @ yq, -l0 * c(yq, n)))
+        ])
         measured = self.measured()
         self.assertLess(np.max(np.abs(right - measured)), 1e-9)
-        printed4 = np.concatenate([-l0 / l * (zq - (n @ zp) * n), zero, l0 / l * (zq - (n @ zp) * n), zero])
-        printed6 = np.concatenate([-l0 / l * (yq - (n @ yp) * n), zero, l0 / l * (yp - (n @ yp) * n), zero])
+        printed4 = np.concatenate(
+            [-l0 / l * (zq - (n @ zp) * n), zero, l0 / l * (zq - (n @ zp) * n), zero])
+        printed6 = np.concatenate(
+            [-l0 / l * (yq - (n @ yp) * n), zero, l0 / l * (yp - (n @ yp) * n), zero])
         self.assertGreater(np.max(np.abs(printed4 - measured[3])), 0.1)
         self.assertGreater(np.max(np.abs(printed6 - measured[5])), 0.1)
 
@@ -114,7 +133,8 @@ class Interpolation(unittest.TestCase):
     def test_coupling_of_shear_and_warping(self):
         """S24 = d2/de2 de4 of int G D_zw g_z g_w dx = G D_zw q_w q_z/(2 l0^2); printed with 2/l0."""
         l0, G, D, qz, qw = 1.7, 2.0, -0.3, 0.4, 0.2
-        energy = lambda e2, e4: G * D * l0 * (qz * e4 / (2 * l0)) * (qw * e2 / l0 ** 2)  # noqa: E731
+        energy = lambda e2, e4: G * D * l0 * (qz * e4 /
+                                              (2 * l0)) * (qw * e2 / l0 ** 2)  # noqa: E731
         second = energy(1, 1) - energy(1, 0) - energy(0, 1) + energy(0, 0)
         self.assertAlmostEqual(second, G * D * qw * qz / (2 * l0 ** 2), delta=1e-15)
         self.assertGreater(abs(second / (2 * G * D * qw * qz / l0) - 1), 0.5)
@@ -136,15 +156,20 @@ class Modified(unittest.TestCase):
         w = lambda x: N["12"](x) * e[3] + N["14"](x) * e[4]  # noqa: E731
         phi = lambda x: N["13"](x) * e[2] + N["12"](x) * e[7] - N["14"](x) * e[8]  # noqa: E731
         bending = integral(slope(v) ** 2 + slope(w) ** 2) / 2
-        self.assertAlmostEqual(bending, (2 * e[3] ** 2 + e[3] * e[4] + 2 * e[4] ** 2 + 2 * e[5] ** 2 + e[5] * e[6] + 2 * e[6] ** 2) / 30, delta=1e-9)
-        printed = (3 * e[2] * (6 * e[2] - e[7] - e[8]) + 2 * e[7] ** 2 - e[7] * e[8] + 2 * e[8] ** 2) / 30
+        self.assertAlmostEqual(bending,
+                               (2 * e[3] ** 2 + e[3] * e[4] + 2 * e[4] ** 2 + 2 * e[5] ** 2 +
+                                e[5] * e[6] + 2 * e[6] ** 2) / 30,
+                               delta=1e-9)
+        printed = (3 * e[2] *
+                   (6 * e[2] - e[7] - e[8]) + 2 * e[7] ** 2 - e[7] * e[8] + 2 * e[8] ** 2) / 30
         self.assertAlmostEqual(integral(slope(phi) ** 2) / 2, printed, delta=1e-9)
 
     def elongation(self, e, Phi, ys):
         """int (v_c'^2 + w_c'^2)/2 dx with l0 = 1: e[3], e[4] about the shear centre, v_c = v_s, w_c = w_s - ys phi."""
         N = shapes(Phi)
         e3, e4 = e[3] - ys * e[2], e[4] + ys * e[2]
-        w = lambda x: N["12"](x) * e3 + N["14"](x) * e4 - ys * (N["13"](x) * e[2] + N["12"](x) * e[7] - N["14"](x) * e[8]) + ys * e[2] * x  # noqa: E731
+        w = lambda x: N["12"](x) * e3 + N["14"](x) * e4 - ys * (N["13"](x) * e[2] + N["12"](x) * e[
+            7] - N["14"](x) * e[8]) + ys * e[2] * x  # noqa: E731
         # The chord passes through the centroids, so that w_s(1) = ys phi(1): the last term.
         return integral(slope(w) ** 2) / 2
 
@@ -156,7 +181,8 @@ class Modified(unittest.TestCase):
         for Phi in (1.0, 100.0):  # fine meshes: Phi grows with 1/l0^2
             Vt = (e[3] - e[4]) / (2 * (1 + Phi))
             Vs = (e[3] + e[4]) / 2
-            self.assertAlmostEqual(self.elongation(e, Phi, 0.0), (Vs ** 2 / 3 + Vt ** 2 / 5) / 2, delta=1e-9)
+            self.assertAlmostEqual(self.elongation(e, Phi, 0.0), (Vs ** 2 / 3 + Vt ** 2 / 5) / 2,
+                                   delta=1e-9)
             self.assertGreater(abs(self.elongation(e, Phi, 0.0) / printed - 1), 0.2)
 
     @staticmethod
@@ -168,9 +194,14 @@ class Modified(unittest.TestCase):
         ys, e = 0.7, {2: 0.6, 3: 0.8, 4: -0.5, 7: 0.4, 8: -0.3}
         for Phi in (0.0, 2.0):
             tw = (e[2] - (e[7] + e[8]) / 2) / (1 + Phi)
-            Ws, Wt = (e[3] + e[4]) / 2 - ys * (e[7] - e[8]) / 2, (e[3] - e[4] - 2 * ys * e[2]) / (2 * (1 + Phi)) + ys * tw
-            self.assertAlmostEqual(self.elongation(e, Phi, ys), (Ws ** 2 / 3 + Wt ** 2 / 5) / 2, delta=1e-9)
-            self.assertGreater(abs(self.elongation(e, Phi, ys) - self.sum66(e[3], e[4]) + ys ** 2 * e[2] ** 2 / 10), 0.01)
+            Ws, Wt = (e[3] + e[4]) / 2 - ys * (e[7] - e[8]) / 2, (e[3] - e[4] - 2 * ys * e[2]) / (
+                2 * (1 + Phi)) + ys * tw
+            self.assertAlmostEqual(self.elongation(e, Phi, ys), (Ws ** 2 / 3 + Wt ** 2 / 5) / 2,
+                                   delta=1e-9)
+            self.assertGreater(
+                abs(
+                    self.elongation(e, Phi, ys) - self.sum66(e[3], e[4]) +
+                    ys ** 2 * e[2] ** 2 / 10), 0.01)
 
     def test_term_of_an_eccentric_shear_centre(self):
         """Uniform twist without shear: no term in strains of the shear centre; in J's e a product of twist and bending, which the printed
@@ -179,7 +210,10 @@ class Modified(unittest.TestCase):
         for e3, e4, alone in ((0.8, -0.5, False), (ys * e2, -ys * e2, True)):
             exact = self.elongation({2: e2, 3: e3, 4: e4, 7: e2, 8: e2}, 0.0, ys)
             self.assertAlmostEqual(exact, self.sum66(e3 - ys * e2, e4 + ys * e2), delta=1e-9)
-            self.assertAlmostEqual(exact, self.sum66(e3, e4) + ys ** 2 * e2 ** 2 / 10 - ys * (e3 - e4) * e2 / 10, delta=1e-9)
+            self.assertAlmostEqual(
+                exact,
+                self.sum66(e3, e4) + ys ** 2 * e2 ** 2 / 10 - ys * (e3 - e4) * e2 / 10,
+                delta=1e-9)
             printed = self.sum66(e3, e4) - ys ** 2 * e2 ** 2 / 10
             self.assertEqual(abs(exact - printed) < 1e-9, alone)
             self.assertEqual(abs(exact - printed) > 0.01, not alone)
@@ -191,7 +225,8 @@ class Modified(unittest.TestCase):
         shift = [0, 0, -ys, ys, -zs, zs, 0, 0]
         s = [a + b * e[1] / length for a, b in zip(e, shift)]
         hg = ((s[4] - s[5]) / (2 * length), (s[3] - s[2]) / (2 * length))
-        right = second_order.all_modes(e, hg, (Fraction(0), Fraction(0)), Fraction(0), 0, (ys, zs))[1]
+        right = second_order.all_modes(e, hg, (Fraction(0), Fraction(0)), Fraction(0), 0,
+                                       (ys, zs))[1]
         self.assertEqual(right, (s[3] * s[4] - s[2] * s[5]) / length)
         self.assertNotEqual(right, (e[3] * e[4] - e[2] * e[5]) / length)
 
@@ -236,10 +271,13 @@ class ThirdOrder(unittest.TestCase):
     def test_sign_of_the_shear_strain(self):
         """g_z = +(u_z' + phi_y) in N Eqs. 16, 20 and 25; Eq. 11 has the opposite."""
         Phi, yp, yq = 0.8, 0.3, 0.5
-        u = lambda x: yp * (-x + 2 * x ** 2 - x ** 3) + yq * (x ** 2 - x ** 3) + Phi * (yp + yq) * (x - 3 * x ** 2 + 2 * x ** 3) / (2 + 2 * Phi)  # noqa: E731
+        u = lambda x: yp * (-x + 2 * x ** 2 - x ** 3) + yq * (x ** 2 - x ** 3) + Phi * (yp + yq) * (
+            x - 3 * x ** 2 + 2 * x ** 3) / (2 + 2 * Phi)  # noqa: E731
         phi = -slope(u) + Phi * (yp + yq) / (2 + 2 * Phi)  # Eq. 16
-        self.assertLess(np.max(np.abs(slope(u) + phi - Phi * (yq - -yp) / (2 + 2 * Phi))), 1e-9)  # Eq. 25 with e3 = -L yp
-        self.assertTrue(math.isclose(phi[0] + slope(u)[0], Phi * (yp + yq) / (2 + 2 * Phi), rel_tol=1e-9))
+        self.assertLess(np.max(np.abs(slope(u) + phi - Phi * (yq - -yp) / (2 + 2 * Phi))),
+                        1e-9)  # Eq. 25 with e3 = -L yp
+        self.assertTrue(
+            math.isclose(phi[0] + slope(u)[0], Phi * (yp + yq) / (2 + 2 * Phi), rel_tol=1e-9))
 
 
 if __name__ == "__main__":

@@ -47,7 +47,10 @@ needs: [shear, trapeze, haringx]
 
 def bar(load, quantities, path="static: {stations: [1], steps: 4}", **changes):
     words = {"tip": "", "beam": "", "motions": "", "needs": "", **changes}
-    return BAR % {"load": load, "path": path, "quantities": "".join(f"  {name}: {{{what}}}\n" for name, what in quantities.items()), **words}
+    return BAR % {
+        "load": load, "path": path, "quantities": "".join(
+            f"  {name}: {{{what}}}\n" for name, what in quantities.items()), **words
+    }
 
 
 def tip(component, kind="displacement", **_):
@@ -67,11 +70,16 @@ def values(text):
 def stored(case, **given):
     """{quantity: value} of the exact rows of exactly these parameters."""
     with open(TABLES / f"{case}.csv", newline="", encoding="utf-8") as table:
-        return {row["quantity"]: float(row["value"]) for row in csv.DictReader(table)
-                if row["kind"] == "exact" and row["model"] == "same" and dict(p.split("=") for p in row["parameters"].split(";") if p) == given}
+        return {
+            row["quantity"]: float(row["value"])
+            for row in csv.DictReader(table)
+            if row["kind"] == "exact" and row["model"] == "same" and dict(
+                p.split("=") for p in row["parameters"].split(";") if p) == given
+        }
 
 
 class Scenes(unittest.TestCase):
+
     def close(self, found, expected, digits=9):
         value, uncertainty = found
         self.assertLessEqual(abs(value - expected), 10.0 ** -digits * abs(expected) + uncertainty)
@@ -79,44 +87,64 @@ class Scenes(unittest.TestCase):
 
     def test_elastica(self):
         truth = stored("elastica")
-        found = values(bar("force: [0, 1, 0], on: tip", {"w": tip("uy"), "u": tip("ux") + ", factor: -1", "t": tip("rz")}))
+        found = values(
+            bar("force: [0, 1, 0], on: tip",
+                {"w": tip("uy"), "u": tip("ux") + ", factor: -1", "t": tip("rz")}))
         for mine, theirs in (("w", "w_over_L"), ("u", "u_over_L"), ("t", "theta")):
             self.close(found[mine], truth[theirs], 11)
 
     def test_load_and_motion_say_the_same(self):
         w = values(bar("force: [0, 3, 0], on: tip", {"w": tip("uy")}))["w"][0]
-        driven = bar("force: [0, 0, 0], on: tip", {"f": tip("uy", "reaction")}, tip=", drive: {uy: push}", motions=f"motions:\n  push: {{path: [0, 1], value: [0, {w!r}]}}\n")
+        driven = bar("force: [0, 0, 0], on: tip", {"f": tip("uy", "reaction")},
+                     tip=", drive: {uy: push}",
+                     motions=f"motions:\n  push: {{path: [0, 1], value: [0, {w!r}]}}\n")
         self.close(values(driven)["f"], 3.0)
 
     def test_unknown_motion(self):
         """The place of the tip is given; a motion of the root, which is driven, is what reaches it."""
-        text = bar("force: [0, 0, 0], on: tip", {"a": "motion: {analysis: path, motion: turn}, unit: rad"},
-                   motions="motions:\n  turn: {such_that: {node: tip, component: uy, motion: rise}}\n  rise: {path: [0, 1], value: [0, 0.6]}\n")
-        text = text.replace("hold: [ux, uy, uz, rx, ry, rz]", "hold: [ux, uy, uz], rotation: {sequence: [{axis: [0, 0, 1], angle: turn}]}")
+        text = bar(
+            "force: [0, 0, 0], on: tip", {"a": "motion: {analysis: path, motion: turn}, unit: rad"},
+            motions=
+            "motions:\n  turn: {such_that: {node: tip, component: uy, motion: rise}}\n  rise: {path: [0, 1], value: [0, 0.6]}\n"
+        )
+        text = text.replace(
+            "hold: [ux, uy, uz, rx, ry, rz]",
+            "hold: [ux, uy, uz], rotation: {sequence: [{axis: [0, 0, 1], angle: turn}]}")
         self.close(values(text)["a"], math.asin(0.6))
 
     def test_line_load(self):
         """q L^4/(8 EI) in the linear theory; of a follower of small size too."""
-        linear = bar("distributed: [0, 2, 0], on: beam", {"w": tip("uy"), "t": tip("rz")}, path="linear: {}")
+        linear = bar("distributed: [0, 2, 0], on: beam", {"w": tip("uy"), "t": tip("rz")},
+                     path="linear: {}")
         found = values(linear)
         self.close(found["w"], 2 / 8)
         self.close(found["t"], 2 / 6)
         for kind in ("false", "true"):
-            small = values(bar(f"distributed: [0, 2e-5, 0], on: beam, follower: {kind}", {"w": tip("uy")}))["w"]
+            small = values(
+                bar(f"distributed: [0, 2e-5, 0], on: beam, follower: {kind}",
+                    {"w": tip("uy")}))["w"]
             self.assertAlmostEqual(small[0] / 2.5e-6, 1, delta=1e-9)
 
     def test_line_moment_and_offset(self):
         """An axial load beside the centroids is a moment along the beam."""
-        one = values(bar("distributed: [3, 0, 0], on: beam, at: [0, 0.1, 0]", {"w": tip("uy"), "u": tip("ux")}))
-        other = values(bar("distributed_moment: [0, 0, -0.3], on: beam", {"w": tip("uy")}, path="linear: {}"))
+        one = values(
+            bar("distributed: [3, 0, 0], on: beam, at: [0, 0.1, 0]",
+                {"w": tip("uy"), "u": tip("ux")}))
+        other = values(
+            bar("distributed_moment: [0, 0, -0.3], on: beam", {"w": tip("uy")}, path="linear: {}"))
         self.close(other["w"], -0.3 / 3)
         self.assertNotAlmostEqual(one["w"][0], other["w"][0], delta=1e-3)
 
     def test_resultants(self):
         """At the root of a cantilever: the load at its tip and its moment; at the end of one with a line load: nothing."""
+
         def at(end, what):
             return f"internal: {{analysis: path, member: beam, end: {end}, resultant: {what}}}, unit: N"
-        asked = {"Q": at("from", "Qy"), "M": at("from", "Mz"), "N": at("from", "N"), "end": at("to", "Mz")}
+
+        asked = {
+            "Q": at("from", "Qy"), "M": at("from", "Mz"), "N": at("from", "N"), "end": at(
+                "to", "Mz")
+        }
         found = values(bar("force: [2, 3, 0], on: tip", asked, path="linear: {}"))
         for name, expected in (("Q", 3.0), ("M", 3.0), ("N", 2.0)):
             self.close(found[name], expected)
@@ -133,42 +161,72 @@ class Scenes(unittest.TestCase):
         """A bar that a hinge lets turn; one that slides; a propped cantilever, by a hinge and by a ball; a universal joint, whose second axis turns with
         the first."""
         motion = "motions:\n  push: {path: [0, 1], value: [0, 0.6]}\n"
-        found = values(bar("force: [0, 0, 0], on: tip", {"u": tip("ux"), "t": tip("rz")}, tip=", drive: {uy: push}", motions=motion, beam=", release: {from: [rz]}"))
+        found = values(
+            bar("force: [0, 0, 0], on: tip", {"u": tip("ux"), "t": tip("rz")},
+                tip=", drive: {uy: push}",
+                motions=motion,
+                beam=", release: {from: [rz]}"))
         self.close(found["u"], -0.2)
         self.close(found["t"], math.asin(0.6))
-        found = values(bar("force: [0, 0, 0], on: tip", {"f": tip("ux", "reaction"), "u": tip("ux")}, tip=", drive: {ux: push}", motions=motion, beam=", release: {from: [ux]}"))
+        found = values(
+            bar("force: [0, 0, 0], on: tip", {"f": tip("ux", "reaction"), "u": tip("ux")},
+                tip=", drive: {ux: push}",
+                motions=motion,
+                beam=", release: {from: [ux]}"))
         self.close(found["u"], 0.6)
         self.assertAlmostEqual(found["f"][0], 0, delta=1e-9)
-        asked = {"M": "internal: {analysis: path, member: beam, end: from, resultant: Mz}, unit: N m"}
+        asked = {
+            "M": "internal: {analysis: path, member: beam, end: from, resultant: Mz}, unit: N m"
+        }
         for words in ("rz", "rx, ry, rz"):
-            held = bar("distributed: [0, 2, 0], on: beam", asked, path="linear: {}", tip=", hold: [ux, uy, uz, rx, ry, rz]", beam=f", release: {{to: [{words}]}}")
+            held = bar("distributed: [0, 2, 0], on: beam",
+                       asked,
+                       path="linear: {}",
+                       tip=", hold: [ux, uy, uz, rx, ry, rz]",
+                       beam=f", release: {{to: [{words}]}}")
             self.close(values(held)["M"], 2 / 8)
         both = "motions:\n  up: {path: [0, 1, 2], value: [0, 0.6, 0.6]}\n  aside: {path: [0, 1, 2], value: [0, 0, 0.48]}\n"
-        found = values(bar("force: [0, 0, 0], on: tip", {"u": tip("ux"), "x": tip("rx"), "y": tip("ry"), "z": tip("rz")}, path="static: {stations: [2], steps: 4}",
-                           tip=", drive: {uy: up, uz: aside}", motions=both, beam=", release: {from: [rz, ry]}"))
+        found = values(
+            bar("force: [0, 0, 0], on: tip",
+                {"u": tip("ux"), "x": tip("rx"), "y": tip("ry"), "z": tip("rz")},
+                path="static: {stations: [2], steps: 4}",
+                tip=", drive: {uy: up, uz: aside}",
+                motions=both,
+                beam=", release: {from: [rz, ry]}"))
         self.close(found["u"], math.sqrt(1 - 0.6 ** 2 - 0.48 ** 2) - 1)
-        a, b = math.atan2(0.6, math.sqrt(1 - 0.6 ** 2 - 0.48 ** 2)), -math.asin(0.48)  # exp(z a) exp(y b)
-        c, s = math.cos(a / 2) * math.cos(b / 2), math.hypot(math.sin(a / 2), math.cos(a / 2) * math.sin(b / 2))
+        a, b = math.atan2(
+            0.6, math.sqrt(1 - 0.6 ** 2 - 0.48 ** 2)), -math.asin(0.48)  # exp(z a) exp(y b)
+        c, s = math.cos(a / 2) * math.cos(b / 2), math.hypot(math.sin(a / 2),
+                                                             math.cos(a / 2) * math.sin(b / 2))
         scale = 2 * math.atan2(s, c) / s
-        for name, value in (("x", -math.sin(a / 2) * math.sin(b / 2)), ("y", math.cos(a / 2) * math.sin(b / 2)), ("z", math.sin(a / 2) * math.cos(b / 2))):
+        for name, value in (("x", -math.sin(a / 2) * math.sin(b / 2)),
+                            ("y", math.cos(a / 2) * math.sin(b / 2)),
+                            ("z", math.sin(a / 2) * math.cos(b / 2))):
             self.close(found[name], scale * value)
 
     def test_frequencies(self):
         """Of a cantilever, without rotary inertia: bending both ways, twist, with a point mass at its tip."""
         asked = {f"f{i}": f"frequency: {{analysis: path, which: {i}}}, unit: Hz" for i in range(4)}
-        text = bar("force: [0, 0, 1], on: tip", asked, path="modal: {}").replace("shear_modulus: 1}", "shear_modulus: 1, density: 1e-8}").replace("It: 1", "It: 0.36")
+        text = bar("force: [0, 0, 1], on: tip", asked, path="modal: {}").replace(
+            "shear_modulus: 1}", "shear_modulus: 1, density: 1e-8}").replace("It: 1", "It: 0.36")
         found = values(text)
-        for name, root in (("f0", 1.8751040687119611), ("f1", 1.8751040687119611), ("f3", 4.6940911329741745)):
+        for name, root in (("f0", 1.8751040687119611), ("f1", 1.8751040687119611),
+                           ("f3", 4.6940911329741745)):
             self.close(found[name], root ** 2 / (2 * math.pi))
         twist = values(text.replace("It: 0.36", "It: 1, Ip: 2e9"))["f0"]
         self.close(twist, math.sqrt(1 / 20) / 4)
         heavy = values(text.replace("tip: {at: [1, 0, 0]", "tip: {at: [1, 0, 0], mass: 3"))
-        root = brentq(lambda b: 1 + math.cos(b) * math.cosh(b) + 3 * b * (math.cos(b) * math.sinh(b) - math.sin(b) * math.cosh(b)), 0.5, 1.5, xtol=1e-15)
+        root = brentq(lambda b: 1 + math.cos(b) * math.cosh(b) + 3 * b *
+                      (math.cos(b) * math.sinh(b) - math.sin(b) * math.cosh(b)),
+                      0.5,
+                      1.5,
+                      xtol=1e-15)
         self.close(heavy["f0"], root ** 2 / (2 * math.pi))
 
     def test_roll_up(self):
         """A moment 2 pi EI/L makes a circle."""
-        found = values(bar(f"moment: [0, 0, {math.pi!r}], on: tip", {"u": tip("ux"), "w": tip("uy")}))
+        found = values(
+            bar(f"moment: [0, 0, {math.pi!r}], on: tip", {"u": tip("ux"), "w": tip("uy")}))
         self.close(found["u"], -1.0)
         self.close(found["w"], 2 / math.pi)
 
@@ -185,6 +243,7 @@ class Scenes(unittest.TestCase):
 
 
 class Refusals(unittest.TestCase):
+
     def refused(self, words, text):
         with self.assertRaisesRegex(Refused, words):
             values(text)
@@ -192,22 +251,39 @@ class Refusals(unittest.TestCase):
     def test_each_names_what(self):
         push, asked = "force: [0, 1, 0], on: tip", {"w": tip("uy")}
         self.refused("'springs'", bar(push, asked) + "springs: {}\n")
-        self.refused("weight of a body", bar("gravity: [0, 0, -9.81], on: tip", asked, tip=", mass: 3"))
+        self.refused("weight of a body",
+                     bar("gravity: [0, 0, -9.81], on: tip", asked, tip=", mass: 3"))
         self.refused("'strain'", bar(push, asked, beam=", strain: [1e-3, 0, 0]"))
         self.refused("needs: 'engesser'", bar(push, asked, needs="engesser"))
-        self.refused("changes along", bar(push, asked).replace("section: bar", "section: [bar, bar]"))
-        self.refused("family", bar(push, {"w": "frequency: {analysis: path, family: torsion}"}, path="modal: {}"))
-        self.refused("'critical_factor'", bar(push, {"w": "critical_factor: {analysis: path}"}, path="buckling: {}"))
-        self.refused("a curve", bar(push, {"w": "displacement: {analysis: path, node: tip, component: ux, take: curve}, x: {name: load}"}))
-        self.refused("release of a curved member", bar(push, asked, beam=", curvature: [0, 0, 0.1], release: {from: [rz]}"))
-        self.refused("'cells'", bar(push, asked).replace("constants: {A: 1e8, Iy: 1, Iz: 1, It: 1}", "points: {}, walls: [], cells: 1"))
+        self.refused("changes along",
+                     bar(push, asked).replace("section: bar", "section: [bar, bar]"))
+        self.refused(
+            "family",
+            bar(push, {"w": "frequency: {analysis: path, family: torsion}"}, path="modal: {}"))
+        self.refused("'critical_factor'",
+                     bar(push, {"w": "critical_factor: {analysis: path}"}, path="buckling: {}"))
+        self.refused(
+            "a curve",
+            bar(
+                push, {
+                    "w": "displacement: {analysis: path, node: tip, component: ux, take: curve}, x: {name: load}"
+                }))
+        self.refused("release of a curved member",
+                     bar(push, asked, beam=", curvature: [0, 0, 0.1], release: {from: [rz]}"))
+        self.refused(
+            "'cells'",
+            bar(push, asked).replace("constants: {A: 1e8, Iy: 1, Iz: 1, It: 1}",
+                                     "points: {}, walls: [], cells: 1"))
         self.refused("curvature about y", bar(push, asked, beam=", curvature: [0, 0.1, 0]"))
         self.refused("is not a number", bar(push, asked).replace("young: 1", "young: stiff"))
         self.refused("version", "beamwork: 2\n")
 
     def test_path_dependent_turn(self):
         """One component of the turn is held as an increment, while the node turns about the other two."""
-        self.refused("'rx' means depend", bar("force: [0, 1, 0.5], on: tip", {"w": tip("uy")}, tip=", hold: [rx]").replace("Iy: 1", "Iy: 2"))
+        self.refused(
+            "'rx' means depend",
+            bar("force: [0, 1, 0.5], on: tip", {"w": tip("uy")}, tip=", hold: [rx]").replace(
+                "Iy: 1", "Iy: 2"))
 
 
 if __name__ == "__main__":

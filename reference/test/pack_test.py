@@ -16,13 +16,18 @@ from reference import pack  # noqa: E402
 
 
 class Pack(unittest.TestCase):
+
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp())
         (self.folder / "tables").mkdir()
-        self.write("defaults.csv", ["case,parameter,value,choices", "beam,length,2,", "beam,ends,1,free|fixed"])
+        self.write("defaults.csv",
+                   ["case,parameter,value,choices", "beam,length,2,", "beam,ends,1,free|fixed"])
         self.write("findings.csv", [",".join(pack.FINDING_COLUMNS)])
         self.write("extreme_findings.csv", [",".join(pack.EXTREME_COLUMNS)])
-        self.row = ["beam", "length=3;ends=free", "", "", "", "load", "", "12.5", "N", "0.1", "exact", "same", "", "closed form"]
+        self.row = [
+            "beam", "length=3;ends=free", "", "", "", "load", "", "12.5", "N", "0.1", "exact",
+            "same", "", "closed form"
+        ]
 
     def tearDown(self):
         shutil.rmtree(self.folder)
@@ -43,8 +48,13 @@ class Pack(unittest.TestCase):
             writer = csv.writer(table, lineterminator="\n")
             writer.writerow(pack.COLUMNS)
             writer.writerows(rows)
-        return subprocess.run([sys.executable, ROOT / "reference" / "pack.py", "-o", self.folder / "t.h5", "--folder", self.folder],
-                              capture_output=True, text=True, check=False)
+        return subprocess.run([
+            sys.executable, ROOT / "reference" / "pack.py", "-o", self.folder / "t.h5", "--folder",
+            self.folder
+        ],
+                              capture_output=True,
+                              text=True,
+                              check=False)
 
     def changed(self, **fields):
         row = list(self.row)
@@ -76,14 +86,27 @@ class Pack(unittest.TestCase):
         self.assertEqual(pack.parameter_hash([("x", 1.0, [])], "x=*", "here"), pack.fnv1a("x=*;"))
 
     def test_refused_truths(self):
-        for word, fields in (("unknown case", {"case": "bean"}), ("unknown parameter", {"parameters": "lenght=3"}), ("is none of", {"parameters": "ends=loose"}),
-                             ("finite", {"parameters": "length=long"}), ("given twice", {"parameters": "length=3;length=4"}), ("name=value", {"parameters": "length"}),
-                             ("finite", {"value": "nan"}), ("finite", {"value": "inf"}), ("finite", {"value": ""}), ("finite", {"uncertainty": "nan"}),
-                             ("negative", {"uncertainty": "-1"}), ("kind", {"kind": "guess"}), ("model", {"model": "similar"}), ("unit", {"unit": ""}), ("source", {"source": ""}),
-                             ("discrete", {"formulation": "beamw"}), ("discrete", {"elements": "4"}), ("elements", {"formulation": "beamw", "elements": "four"}),
-                             ("elements", {"formulation": "beamw", "elements": "-2"}), ("theory", {"theory": "timoshenko"}), ("convention", {"convention": "spatial moments"}),
-                             ("convention", {"convention": "vector spatial"}), ("at", {"at": "half"}), ("predicted", {"kind": "predicted"}), ("discrete", {"kind": "agreement", "formulation": "beamw"}),
-                             ("predicted", {"kind": "predicted", "formulation": "beamw", "elements": "4"})):
+        for word, fields in (("unknown case", {"case": "bean"}), ("unknown parameter", {
+                "parameters": "lenght=3"
+        }), ("is none of", {"parameters": "ends=loose"}), ("finite", {
+                "parameters": "length=long"
+        }), ("given twice", {"parameters": "length=3;length=4"}), ("name=value", {
+                "parameters": "length"
+        }), ("finite", {"value": "nan"}), ("finite", {"value": "inf"}), ("finite", {
+                "value": ""
+        }), ("finite", {"uncertainty": "nan"}), ("negative", {"uncertainty": "-1"}), ("kind", {
+                "kind": "guess"
+        }), ("model", {"model": "similar"}), ("unit", {"unit": ""}), ("source", {
+                "source": ""
+        }), ("discrete", {"formulation": "beamw"}), ("discrete", {"elements": "4"}), ("elements", {
+                "formulation": "beamw", "elements": "four"
+        }), ("elements", {"formulation": "beamw", "elements": "-2"}), ("theory", {
+                "theory": "timoshenko"
+        }), ("convention", {"convention": "spatial moments"}), ("convention", {
+                "convention": "vector spatial"
+        }), ("at", {"at": "half"}), ("predicted", {"kind": "predicted"}), ("discrete", {
+                "kind": "agreement", "formulation": "beamw"
+        }), ("predicted", {"kind": "predicted", "formulation": "beamw", "elements": "4"})):
             with self.subTest(word=word, **fields):
                 self.refused(word, self.changed(**fields))
 
@@ -102,27 +125,41 @@ class Pack(unittest.TestCase):
         self.refused("the same row", self.changed(at="0.5"), self.changed(at="0.50"))
 
     def test_theories_are_told_apart(self):
-        self.assertEqual(self.packed("theory", self.changed(theory="engesser"), self.changed(theory="haringx")), [b"engesser", b"haringx"])
+        self.assertEqual(
+            self.packed("theory", self.changed(theory="engesser"), self.changed(theory="haringx")),
+            [b"engesser", b"haringx"])
         self.refused("the same row", self.changed(theory="haringx"), self.changed(theory="haringx"))
 
     def test_words_that_contradict_the_parameters(self):
-        self.write("defaults.csv", ["case,parameter,value,choices", "beam,length,2,", "beam,ends,1,free|fixed", "beam,shear_stability,0,engesser|haringx",
-                                    "beam,moment_convention,0,spatial|semitangential|symmetrised"])
+        self.write("defaults.csv", [
+            "case,parameter,value,choices", "beam,length,2,", "beam,ends,1,free|fixed",
+            "beam,shear_stability,0,engesser|haringx",
+            "beam,moment_convention,0,spatial|semitangential|symmetrised"
+        ])
         self.refused("shear_stability", self.changed(theory="haringx"))
-        self.refused("shear_stability", self.changed(parameters="shear_stability=haringx", theory="engesser"))
+        self.refused("shear_stability",
+                     self.changed(parameters="shear_stability=haringx", theory="engesser"))
         self.refused("moment_convention", self.changed(quantity="C_xx"))
-        self.refused("moment_convention", self.changed(quantity="C_xx", convention="semitangential RyRzRx"))
-        self.assertEqual(self.run_pack(self.changed(parameters="shear_stability=haringx", theory="haringx"), self.changed(quantity="C_xx", convention="spatial RyRzRx")).returncode, 0)
+        self.refused("moment_convention",
+                     self.changed(quantity="C_xx", convention="semitangential RyRzRx"))
+        self.assertEqual(
+            self.run_pack(self.changed(parameters="shear_stability=haringx", theory="haringx"),
+                          self.changed(quantity="C_xx", convention="spatial RyRzRx")).returncode, 0)
 
     def test_refused_pairs(self):
         self.refused("the same row", self.row, self.row)
-        self.refused("the same row", self.row, self.changed(parameters="ends=free;length=3.0", source="another program"))
+        self.refused("the same row", self.row,
+                     self.changed(parameters="ends=free;length=3.0", source="another program"))
         self.refused("but in N", self.row, self.changed(parameters="", unit="kN"))
 
     def test_refused_findings(self):
-        good = ["shear-left-out", "beamw", "beam", "length>1", "load", "wrong limit", "0.1", "beam/load", "why", "test"]
-        wrong = (("one word", 0, "two words"), ("formulations", 1, ""), ("unknown case", 2, "bean"), ("needs quantities", 4, ""),
-                 ("is none of", 5, "wrong"), ("finite", 6, "nan"), ("case/quantity", 7, "load"), ("needs cause", 8, ""), ("needs proof", 9, ""))
+        good = [
+            "shear-left-out", "beamw", "beam", "length>1", "load", "wrong limit", "0.1",
+            "beam/load", "why", "test"
+        ]
+        wrong = (("one word", 0, "two words"), ("formulations", 1, ""), ("unknown case", 2, "bean"),
+                 ("needs quantities", 4, ""), ("is none of", 5, "wrong"), ("finite", 6, "nan"),
+                 ("case/quantity", 7, "load"), ("needs cause", 8, ""), ("needs proof", 9, ""))
         for word, at, value in wrong:
             with self.subTest(word=word):
                 bad = good[:at] + [value] + good[at + 1:]
@@ -139,7 +176,8 @@ class Pack(unittest.TestCase):
         (self.folder / "tables" / "other.csv").write_bytes(b"case,\xff\n")
         self.refused("decode", self.row)
         (self.folder / "tables" / "other.csv").unlink()
-        self.write("defaults.csv", ["case,parameter,value,choices", "beam,length,2,", "beam,length,3,"])
+        self.write("defaults.csv",
+                   ["case,parameter,value,choices", "beam,length,2,", "beam,length,3,"])
         self.refused("given twice", self.row)
 
     def test_old_file_survives_a_refusal(self):
@@ -150,24 +188,32 @@ class Pack(unittest.TestCase):
 
 
 class Words(unittest.TestCase):
+
     def test_the_program_knows_the_same_words(self):
-        text = "".join((ROOT / "harness" / "truth" / name).read_text(encoding="utf-8") for name in ("truths.h", "truths.c", "truth.c", "truth_rows.c"))
-        for name, words in (("truth_kinds", pack.KINDS), ("TRUTH_THEORIES", pack.THEORIES[1:]), ("conventions", pack.CONVENTIONS[1:])):
+        text = "".join((ROOT / "harness" / "truth" / name).read_text(encoding="utf-8")
+                       for name in ("truths.h", "truths.c", "truth.c", "truth_rows.c"))
+        for name, words in (("truth_kinds", pack.KINDS), ("TRUTH_THEORIES", pack.THEORIES[1:]),
+                            ("conventions", pack.CONVENTIONS[1:])):
             quoted = re.search(rf'\b{name}(?:\[\] =)?\s+((?:"[^"]*"\s*)+)', text)[1]
-            self.assertEqual("".join(re.findall(r'"([^"]*)"', quoted)).split("|"), list(words), name)
+            self.assertEqual("".join(re.findall(r'"([^"]*)"', quoted)).split("|"), list(words),
+                             name)
         self.assertIn(f"TRUTHS_VERSION = {pack.VERSION} ", text)
 
 
 class Tables(unittest.TestCase):
+
     def test_tables_parse(self):
         defaults = pack.read_defaults(ROOT / "reference" / "defaults.csv")
-        truths = pack.read_truths([ROOT / "reference" / name for name in pack.TRUTH_FOLDERS], defaults)
+        truths = pack.read_truths([ROOT / "reference" / name for name in pack.TRUTH_FOLDERS],
+                                  defaults)
         self.assertGreater(sum(len(rows) for rows in truths.values()), 300)
-        self.assertLessEqual(len(pack.read_findings(ROOT / "reference" / "findings.csv", defaults)), 45)
+        self.assertLessEqual(len(pack.read_findings(ROOT / "reference" / "findings.csv", defaults)),
+                             45)
 
     def test_every_exact_row_names_its_program(self):
         defaults = pack.read_defaults(ROOT / "reference" / "defaults.csv")
-        for rows in pack.read_truths([ROOT / "reference" / name for name in pack.TRUTH_FOLDERS], defaults).values():
+        for rows in pack.read_truths([ROOT / "reference" / name for name in pack.TRUTH_FOLDERS],
+                                     defaults).values():
             for row in rows:
                 if row["kind"] == "exact":
                     self.assertTrue((ROOT / row["source"]).is_file(), row)

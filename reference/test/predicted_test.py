@@ -23,19 +23,22 @@ def planar(name, GA):
     beam = Printed(Beam(1.0, EA=1e9, EIy=10.0, EIz=10.0, GJ=10.0, fy=1 / GA, fz=1 / GA), name)
     net = Network(1.0, 10.0, intervals=6)
     root = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0)))
-    tip = net.body((1, 0, 0), lambda level, x, R, force, moment, numbers:
-                   np.concatenate([force - level * np.array([0, 1.0, 0]), moment]))
+    tip = net.body((1, 0, 0), lambda level, x, R, force, moment, numbers: np.concatenate(
+        [force - level * np.array([0, 1.0, 0]), moment]))
     net.member(beam, root, tip, (0, 0, 0), np.eye(3))
     return net
 
 
 class Machinery(unittest.TestCase):
+
     def test_exact_strains_give_the_exact_beam(self):
         """With measures of the Simo-Reissner beam: every exact value of three points."""
         form = lambda beam: Printed(beam, predicted_strains.simo_reissner)  # noqa: E731
         exact = predicted_rows.exact_values()
-        rows = [*sheets.cantilever(form=form), *sheets.twisted(form=form, tip_warping=1),
-                *cantilevers.shear_elastica((50,), form=form)]
+        rows = [
+            *sheets.cantilever(form=form), *sheets.twisted(form=form, tip_warping=1),
+            *cantilevers.shear_elastica((50, ), form=form)
+        ]
         for case, parameters, quantity, value, *_ in rows:
             known = exact[case, rederive.canonical(parameters), quantity][0]
             self.assertLess(abs(value / known - 1), 1e-10, (case, parameters, quantity))
@@ -43,12 +46,14 @@ class Machinery(unittest.TestCase):
 
     def test_other_intervals_and_nodes(self):
         """The uncertainty that the rows state."""
+
         def finer(*arguments, intervals=4, **options):
             return Network(*arguments, **{**options, "intervals": intervals + 3, "nodes": 17})
 
         def both(form):
             bent = sheets.cantilever(form=form, tip_deflection=0.05)
             return [*bent, *sheets.twisted(form=form, wagner=0)]
+
         for name in ("beamw", "sheet_second"):
             coarse = both(predicted.as_printed(name))
             with mock.patch("reference.derive.sheets.Network", finer):
@@ -67,17 +72,20 @@ class Machinery(unittest.TestCase):
         """Every closed form, and points of the beams."""
         stored = predicted_rows.stored_rows(predicted.CASES)
         self.assertEqual({row["kind"] for row in stored.values()}, {"predicted"})
-        (force, lateral), = channel_cantilever.path((0.25,), form=predicted.as_printed("beamw"))
+        (force, lateral), = channel_cantilever.path((0.25, ), form=predicted.as_printed("beamw"))
         given = [("beamw_vlasov", "c_cantilever", "w=0.25", "load_at_w", force, "N", 1e-9),
                  ("beamw", "c_cantilever", "w=0.25", "lateral", lateral, "m", 1e-9)]
         for name, points in (("sheet_second", sheets.cantilever), ("sheet_third", sheets.twisted)):
             rows = points(form=predicted.as_printed(name))
             given += [(name, *row) for row in rows]
-        derived = [*predicted.derived_rows(predicted.CLOSED_FORMS), *map(predicted_rows.row_of, given)]
+        derived = [
+            *predicted.derived_rows(predicted.CLOSED_FORMS), *map(predicted_rows.row_of, given)
+        ]
         met = [row for row in derived if predicted_rows.key_of(row) in stored]
         self.assertGreater(len(met), 100)
         for row in met:
-            self.assertIsNone(predicted_rows.difference(row, stored[predicted_rows.key_of(row)]), row)
+            self.assertIsNone(predicted_rows.difference(row, stored[predicted_rows.key_of(row)]),
+                              row)
 
     def test_end_of_the_path(self):
         """shear_elastica, GA = 10: where the beams of J lose equilibrium (reference/ERRATA.md)."""
@@ -86,7 +94,7 @@ class Machinery(unittest.TestCase):
             while step > 8e-6:
                 before = copy.deepcopy(net)
                 try:
-                    net.solve((at + step,), tolerance=1e-9)
+                    net.solve((at + step, ), tolerance=1e-9)
                     at += step
                 except ArithmeticError:
                     net, step = before, step / 2
@@ -97,8 +105,8 @@ def cantilever_column(beam, level):
     """Critical dead compression [N], near level, of a cantilever: half a fork-ended column."""
     net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=4, nodes=12)
     root = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0)))
-    tip = net.body((beam.length, 0, 0), lambda level, x, R, force, moment, numbers:
-                   np.concatenate([force + level * np.array([1.0, 0, 0]), moment]))
+    tip = net.body((beam.length, 0, 0), lambda level, x, R, force, moment, numbers: np.concatenate(
+        [force + level * np.array([1.0, 0, 0]), moment]))
     net.member(beam, root, tip, (0, 0, 0), np.eye(3), ("fixed", "free"))
     bracket = 0.96 * level / net.force, 1.03 * level / net.force
     return equilibrium.singular_load(net, *bracket) * net.force
@@ -112,8 +120,15 @@ class ClosedForms(unittest.TestCase):
         names = "A Iy Iz It Iw ys Ip E G".split()
         A, Iy, Iz, It, Iw, ys, Ip, E, G = (float(getattr(s, name)) for name in names)
         shear = np.array((s.F / s.G).tolist(), dtype=float)
-        beam = Beam(3.0, EA=1e7 * E * A, EIy=E * Iy, EIz=E * Iz, GJ=G * It, EIw=E * Iw,
-                    t=Ip / A + ys ** 2, centre=(ys, 0.0), shear=shear)
+        beam = Beam(3.0,
+                    EA=1e7 * E * A,
+                    EIy=E * Iy,
+                    EIz=E * Iz,
+                    GJ=G * It,
+                    EIw=E * Iw,
+                    t=Ip / A + ys ** 2,
+                    centre=(ys, 0.0),
+                    shear=shear)
         for name in predicted.JONKER:
             closed = float(critical(s, mpf(6), 1, compression, name == "beamw")[1])
             load = cantilever_column(Printed(beam, name), closed)
@@ -126,6 +141,7 @@ class ClosedForms(unittest.TestCase):
         def potential(stretch, z):
             eps = stretch - 1 - z ** 2 / 2
             return EA * eps ** 2 / 2 + GA * z ** 2 / 2 - F * stretch * sin(z)
+
         rows = [row for row in predicted.right_angle() if row[3] == "v"]
         stretch, z = rows[0][4], pi / 2
         for order in ((1, 0), (0, 1)):

@@ -6,6 +6,7 @@ from reference.derive import rederive
 
 
 class Programs(unittest.TestCase):
+
     def test_each_takes_no_more_than_whether_all_are_wanted(self):
         """A program of another kind that calls a function rows() would be taken for one of these."""
         for name in rederive.programs([]):

@@ -9,6 +9,7 @@ from reference.derive import second_order  # noqa: E402
 
 
 class ModifiedModes(unittest.TestCase):
+
     def test_sheet_element_consistent_with_shear(self):
         same, stretched = second_order.against_sheet()
         self.assertEqual((len(same), second_order.largest(same)), (28, 0))

@@ -18,7 +18,8 @@ def fields(held, length, count=14):
     points, weights = legendre.leggauss(3 * count)
     x, found = np.append((points + 1) / 2, 1.0), []
     for k in range(count):
-        one = Polynomial([0.0] * held + [1.0]) * legendre.Legendre.basis(k, domain=[0, 1]).convert(kind=Polynomial)
+        one = Polynomial([0.0] * held + [1.0]) * legendre.Legendre.basis(
+            k, domain=[0, 1]).convert(kind=Polynomial)
         found.append([one.deriv(d)(x) / length ** d for d in range(3)])
     found = np.array(found)
     return found[:, :, :-1].transpose(1, 0, 2), found[:, :, -1], weights * length / 2
@@ -29,52 +30,66 @@ def square(field, weight):
 
 
 class Scenes(unittest.TestCase):
+
     def test_scenes_have_what_is_derived(self):
         stored = {(row["case"], row["quantity"]): row for row in scenes.stored()}
         for name, count in (("off_centre_masses", 6), ("double_cross", 16), ("bent_leaf", 6)):
             rows = [row for row, _ in rederive.derived_rows(name, True)]
             self.assertEqual(len(rows), count)
             for row in rows:
-                self.assertEqual(scenes.line_of(row), scenes.line_of(stored.pop((row["case"], row["quantity"]))))
+                self.assertEqual(scenes.line_of(row),
+                                 scenes.line_of(stored.pop((row["case"], row["quantity"]))))
         self.assertEqual(stored, {})
 
 
 class DoubleCross(unittest.TestCase):
+
     def ritz(self, conditions):
         """Frequencies of an arm below 60 Hz: rows of conditions on (w, t, u) at the hub."""
-        E, rho, A, I = (float(v) for v in (double_cross.E, double_cross.RHO, double_cross.A, double_cross.I))
+        E, rho, A, I = (float(v)
+                        for v in (double_cross.E, double_cross.RHO, double_cross.A, double_cross.I))
         value, end, weight = fields(1, 5.0)
         n, none = len(end), np.zeros((len(end), len(end)))
-        K = np.block([[E * I * square(value[2], weight), none], [none, E * A * square(value[1], weight)]])
+        K = np.block([[E * I * square(value[2], weight), none],
+                      [none, E * A * square(value[1], weight)]])
         M = rho * A * np.block([[square(value[0], weight), none], [none, square(value[0], weight)]])
         hub = np.zeros((3, 2 * n))
         hub[0, :n], hub[1, :n], hub[2, n:] = end[:, 0], end[:, 1], end[:, 0]
-        free = null_space(np.array(conditions) @ hub / [[np.abs(row).max()] for row in np.array(conditions) @ hub])
+        free = null_space(
+            np.array(conditions) @ hub / [[np.abs(row).max()]
+                                          for row in np.array(conditions) @ hub])
         found = np.sqrt(eigh(free.T @ K @ free, free.T @ M @ free, eigvals_only=True)) / (2 * np.pi)
         return found[found < 60]
 
     def test_ritz(self):
-        for family, conditions in ((double_cross.turning, [[1, 0, 0], [0, 0, 1]]), (double_cross.moving, [[0, 1, 0], [1, 0, -1]]),
-                                   (double_cross.at_rest, [[1, 0, 0], [0, 1, 0], [0, 0, 1]])):
+        for family, conditions in ((double_cross.turning, [[1, 0, 0], [
+                0, 0, 1
+        ]]), (double_cross.moving, [[0, 1, 0], [1, 0, -1]]), (double_cross.at_rest, [[1, 0, 0],
+                                                                                     [0, 1, 0],
+                                                                                     [0, 0, 1]])):
             got = zeros(family, double_cross.HIGHEST, double_cross.STEP)
             for one, value in zip(got, self.ritz(conditions), strict=True):
                 self.assertLess(abs(float(one) / value - 1), 1e-8)
 
     def test_closed_form(self):
         """Pinned at both ends, n^2 pi^2 sqrt(EI/(rho A))/L^2."""
-        first = pi / 2 * sqrt(double_cross.E * double_cross.I / (double_cross.RHO * double_cross.A)) / double_cross.LENGTH ** 2
+        first = pi / 2 * sqrt(double_cross.E * double_cross.I /
+                              (double_cross.RHO * double_cross.A)) / double_cross.LENGTH ** 2
         found = double_cross.frequencies()
         self.assertLess(abs(found[0] / first - 1) + abs(found[8] / first / 4 - 1), 1e-25)
 
 
 class OffCentreMasses(unittest.TestCase):
+
     def ritz(self, arm):
         p = off_centre_masses
         E, G, rho, A, I, m = (float(v) for v in (p.E, p.G, p.RHO, p.A, p.I, p.HEAVY + p.LIGHT))
         bent, bent_end, weight = fields(2, 10.0)
         rod, rod_end, _ = fields(1, 10.0)
         n, none = len(bent_end), np.zeros((len(bent_end), len(bent_end)))
-        K = [E * I * square(bent[2], weight), E * A * square(rod[1], weight)], [E * I * square(bent[2], weight), 2 * G * I * square(rod[1], weight)]
+        K = [E * I * square(bent[2], weight), E * A * square(rod[1], weight)], [
+            E * I * square(bent[2], weight), 2 * G * I * square(rod[1], weight)
+        ]
         mass = rho * A * square(bent[0], weight) + rho * I * square(bent[1], weight)
         M = [mass, rho * A * square(rod[0], weight)], [mass, 2 * rho * I * square(rod[0], weight)]
         squares = []
@@ -82,7 +97,8 @@ class OffCentreMasses(unittest.TestCase):
             k, total = (np.block([[a, none], [none, b]]) for a, b in (K[plane], M[plane]))
             for at, point in ((arm, 10000.0), (-arm, 1000.0)):
                 if plane == 0:  # along y: v; along x: u - y t
-                    moved = [(bent_end[:, 0], 0 * rod_end[:, 0]), (-at * bent_end[:, 1], rod_end[:, 0])]
+                    moved = [(bent_end[:, 0], 0 * rod_end[:, 0]),
+                             (-at * bent_end[:, 1], rod_end[:, 0])]
                 else:  # along z: w + y p
                     moved = [(bent_end[:, 0], at * rod_end[:, 0])]
                 for row in (np.concatenate(one) for one in moved):
@@ -97,11 +113,15 @@ class OffCentreMasses(unittest.TestCase):
 
 
 class TransferMatrices(unittest.TestCase):
+
     def test_cantilever_with_a_mass(self):
         """Bernoulli and Euler: the determinant of tip_body.py."""
+
         def end(f):
             t, o = bending(mpf(1), f, mpf(1), mpf(1)), f
-            return t[2, 2] * (t[3, 3] - 2 * o ** 2 * t[0, 3]) - t[2, 3] * (t[3, 2] - 2 * o ** 2 * t[0, 2])
+            return t[2, 2] * (t[3, 3] - 2 * o ** 2 * t[0, 3]) - t[2, 3] * (t[3, 2] -
+                                                                           2 * o ** 2 * t[0, 2])
+
         for got, value in zip(zeros(end, 60, mpf("0.5")), tip_body.at_rest(2, 0, 0), strict=True):
             self.assertLess(abs(got / value - 1), 1e-25)
 
@@ -114,6 +134,7 @@ class TransferMatrices(unittest.TestCase):
         def end(o):  # w = M = 0 at both ends: columns t, Q
             t = bending(mpf(1), o, mpf(1), mpf(1), mpf(1), mpf(1))
             return t[0, 1] * t[2, 3] - t[0, 3] * t[2, 1]
+
         found = zeros(end, values[1] + mpf("0.1"), mpf("0.05"))
         for value in values:
             self.assertLess(min(abs(one / value - 1) for one in found), 1e-25)

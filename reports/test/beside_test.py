@@ -16,13 +16,16 @@ EVIL = '_<script>alert(1)</script>&$x$"q"\\a'
 
 
 class Beside(ProgramTest):
+
     @classmethod
     def setUpClass(cls):
         cls.place = cls.class_folder()
         (cls.place / "theirs.csv").write_text(HEAD.format(EVIL.replace("/", "|")), encoding="utf-8")
         for done in (run("import", cls.place / "theirs.csv", "-o", cls.place / "theirs.h5"),
-                     run("verify", "-k", "elastica/default", "-f", "beamw", "-f", "collocation", "-o", cls.place / "ours.h5"),
-                     run("verify", "-k", "elastica/default", "-f", "beamw", "--beside", cls.place / "theirs.h5", "-o", cls.place / "both.h5")):
+                     run("verify", "-k", "elastica/default", "-f", "beamw", "-f", "collocation",
+                         "-o", cls.place / "ours.h5"),
+                     run("verify", "-k", "elastica/default", "-f", "beamw", "--beside",
+                         cls.place / "theirs.h5", "-o", cls.place / "both.h5")):
             assert done.returncode == 0, done.stderr
 
     def point(self, name):

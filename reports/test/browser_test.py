@@ -7,7 +7,8 @@ import unittest
 
 from harness.test.program import ProgramTest, drawn, run
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which(
+    "google-chrome")
 
 # All pages at once, each in a frame; what is wrong is written into the document.
 DRIVER = """<!DOCTYPE html><html><head><link rel="icon" href="data:,"></head><body><pre id="out"></pre>{frames}<script>
@@ -24,8 +25,14 @@ addEventListener("load", () => {{
 
 
 def chromium(folder, *arguments):
-    return subprocess.run([CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files", f"--user-data-dir={folder}/profile", "--enable-logging=stderr",
-                           "--window-size=1400,1000", *arguments], capture_output=True, text=True, check=False)
+    return subprocess.run([
+        CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files",
+        f"--user-data-dir={folder}/profile", "--enable-logging=stderr", "--window-size=1400,1000",
+        *arguments
+    ],
+                          capture_output=True,
+                          text=True,
+                          check=False)
 
 
 def console(done):
@@ -34,19 +41,26 @@ def console(done):
 
 @unittest.skipUnless(CHROMIUM, "needs chromium")
 class Browser(ProgramTest):
+
     @classmethod
     def setUpClass(cls):
         folder = cls.class_folder()
         bench = folder / "bench.h5"
         run("bench", "elastica", "-f", "collocation", "-f", "beamw", "-o", bench)
-        cls.site = drawn(folder, "-k", "warping_torsion/default or elastica/default", "--shapes", options=("--bench", bench))
+        cls.site = drawn(folder,
+                         "-k",
+                         "warping_torsion/default or elastica/default",
+                         "--shapes",
+                         options=("--bench", bench))
 
     def open_all(self, pages):
         driver = self.site / "driver.html"
-        frames = "".join(f'<iframe width="1300" height="900" src="{html.escape(p.name)}"></iframe>' for p in pages)
+        frames = "".join(f'<iframe width="1300" height="900" src="{html.escape(p.name)}"></iframe>'
+                         for p in pages)
         driver.write_text(DRIVER.format(frames=frames), encoding="utf-8")
         try:
-            done = chromium(self.folder, "--virtual-time-budget=60000", "--dump-dom", driver.as_uri())
+            done = chromium(self.folder, "--virtual-time-budget=60000", "--dump-dom",
+                            driver.as_uri())
         finally:
             driver.unlink()
         return done, re.search(r'<pre id="out">(.*?)</pre>', done.stdout, re.S)
@@ -61,21 +75,26 @@ class Browser(ProgramTest):
 
     def test_what_is_wrong_is_seen(self):
         page = self.site / "planted.html"
-        page.write_text('<img src="nowhere.svg"><script>nothing()</script><div style="width:3000px">wide</div>', encoding="utf-8")
+        page.write_text(
+            '<img src="nowhere.svg"><script>nothing()</script><div style="width:3000px">wide</div>',
+            encoding="utf-8")
         try:
             done, out = self.open_all([page])
         finally:
             page.unlink()
-        self.assertTrue(any("nothing is not defined" in line for line in console(done)), done.stderr[-2000:])
+        self.assertTrue(any("nothing is not defined" in line for line in console(done)),
+                        done.stderr[-2000:])
         self.assertIn("nowhere.svg", out.group(1))
         self.assertIn("wider than the window", out.group(1))
 
     def test_prints(self):
         pdf = self.folder / "convergence.pdf"
-        chromium(self.folder, "--no-pdf-header-footer", f"--print-to-pdf={pdf}", (self.site / "convergence.html").as_uri())
+        chromium(self.folder, "--no-pdf-header-footer", f"--print-to-pdf={pdf}",
+                 (self.site / "convergence.html").as_uri())
         content = pdf.read_bytes()
         self.assertTrue(content.startswith(b"%PDF"))
-        self.assertGreaterEqual(len(re.findall(rb"/Type\s*/Page\b", content)), 2)   # a sheet for each case
+        self.assertGreaterEqual(len(re.findall(rb"/Type\s*/Page\b", content)),
+                                2)  # a sheet for each case
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ from reports.claims import Lookup
 
 
 class Campbell(ProgramTest):
+
     @classmethod
     def setUpClass(cls):
         folder = cls.class_folder()
@@ -24,7 +25,8 @@ class Campbell(ProgramTest):
             x, value = mesh.curves[f"{name}_curve"][:2]
             for at, parameters in campbell.EXACT_AT.items():
                 exact = campbell.truth(self.look, campbell.CASE, parameters, name)
-                self.assertLess(abs(dict(zip(x.round(9), value))[at] / exact - 1), 2e-6, f"{name} at {at}")
+                self.assertLess(abs(dict(zip(x.round(9), value))[at] / exact - 1), 2e-6,
+                                f"{name} at {at}")
 
     def test_growth_between_the_critical_speeds_only(self):
         mesh = campbell.finest(self.look, campbell.CASE, campbell.ALONG, campbell.KEY)

@@ -12,6 +12,7 @@ def experiment(kind, gone, what="shear", formulation="beam"):
 
 
 class Causes(ProgramTest):
+
     def test_what_is_concluded(self):
         finer = experiment("finer", False, "more elements")
         instead = experiment("instead", True, "modes", "other")
@@ -33,7 +34,8 @@ class Causes(ProgramTest):
         (self.folder / "causes.json").write_text(json.dumps(record), encoding="utf-8")
         causes.write(site)
         rules = site.pages["causes.html"]["rules"]
-        self.assertEqual([(name, len(found)) for name, found in rules.items()], [("a", 1), ("b", 2)])
+        self.assertEqual([(name, len(found)) for name, found in rules.items()], [("a", 1),
+                                                                                 ("b", 2)])
 
 
 if __name__ == "__main__":

@@ -43,6 +43,7 @@ def sheet(second_name):
 
 
 class Tally(unittest.TestCase):
+
     def standings(self, found):
         return {(r.formulation, r.verdict.quantity): r.standing for r in tally.rows([found])}
 
@@ -63,14 +64,14 @@ class Tally(unittest.TestCase):
 
 
 class Ledger(unittest.TestCase):
+
     def contents(self, *rules):
         return ledger.contents([sheet(1.5)], rules)
 
     def test_line(self):
-        (line,) = self.contents(RULE)["lines"]
-        self.assertEqual(
-            dict(line["seen"]), {"wrong limit, as predicted": 1, "biased": 1, "wrong limit": 1}
-        )
+        (line, ) = self.contents(RULE)["lines"]
+        self.assertEqual(dict(line["seen"]),
+                         {"wrong limit, as predicted": 1, "biased": 1, "wrong limit": 1})
         self.assertEqual((line["number"], line["aliases"], line["misprints"]), (3, 2, 1))
         self.assertEqual(line["worst"].verdict.error, 0.05)
         self.assertEqual([line["met"][name] for name in ("met", "missed", "open")], [1, 0, 0])
@@ -88,14 +89,12 @@ class Ledger(unittest.TestCase):
 
     def test_what_nobody_saw_is_there(self):
         line = self.contents(RULE, {**RULE, "rule": "other", "proof": "test_a"})["lines"][1]
-        self.assertEqual(
-            (line["seen"], line["worst"], line["met"], line["link"]), ([], None, None, "")
-        )
+        self.assertEqual((line["seen"], line["worst"], line["met"], line["link"]),
+                         ([], None, None, ""))
 
     def test_what_is_not_expected_is_named(self):
-        self.assertEqual(
-            self.contents()["unexplained"], [(("sheet_third_printed", "wrong limit"), 1)]
-        )
+        self.assertEqual(self.contents()["unexplained"],
+                         [(("sheet_third_printed", "wrong limit"), 1)])
 
     def test_proofs_lead_to_sections_that_exist(self):
         site = Site()

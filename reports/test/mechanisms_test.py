@@ -6,6 +6,7 @@ from harness.test.program import ProgramTest, drawn
 
 
 class Page(ProgramTest):
+
     def page(self):
         site = drawn(self.folder, "-k", "spherical_joint/default and sheet_third")
         return (site / "mechanisms.html").read_text(encoding="utf-8")
@@ -17,10 +18,14 @@ class Page(ProgramTest):
 
     def test_with_times(self):
         """The time of the dense baseline and the parts of an iteration are there."""
-        done = self.answered("bench", "spherical_joint", "-f", "sheet_third", "-n", "1", "--dense", "-o", self.folder / "mechanisms_joint.h5")
-        parts = re.search(r"sheet_third +1 +([\d.]+) +([\d.]+) +([\d.]+) +([\d.]+)  dense ([\d.]+) ms \(243 unknowns\): ([\d.]+) times", done.stdout)
+        done = self.answered("bench", "spherical_joint", "-f", "sheet_third", "-n", "1", "--dense",
+                             "-o", self.folder / "mechanisms_joint.h5")
+        parts = re.search(
+            r"sheet_third +1 +([\d.]+) +([\d.]+) +([\d.]+) +([\d.]+)  dense ([\d.]+) ms \(243 unknowns\): ([\d.]+) times",
+            done.stdout)
         self.assertIsNotNone(parts, done.stdout)
-        self.assertTrue(all(float(part) > 0 for part in parts.groups()), done.stdout)  # how large they are is for benchmarks to say
+        self.assertTrue(all(float(part) > 0 for part in parts.groups()),
+                        done.stdout)  # how large they are is for benchmarks to say
         page = self.page()
         self.assertNotIn("make bench-mechanisms</code>, then", page)
         self.assertIn("<td class=\"n\">243</td>", page)

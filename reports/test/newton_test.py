@@ -7,13 +7,26 @@ from harness.test.program import PROGRAM, ProgramTest
 from reports import newton
 from reports.test import results
 
-STEP = {"path": 1.0, "increment": 1.0, "iterations": 3, "rejected": 0, "corrections": [0.1, 0.01, 1e-4], "residuals": [1.0, None, 1e-6]}
-SUMMARY = {"status": "ok", "reason": "", "steps": 2, "rejected": 1, "iterations": 9, "most_iterations": 5}
-DATA = {"singles": [{"case": "sheet", "parameter": "tilt", "unit": "rad", "values": [0.1, 0.2, 0.3], "formulation": "beam", "elements": 2,
-                     "mixed": [3, 4, 5], "displacement": [5, None, 9]}],
-        "contests": [{"case": "sheet", "parameters": "", "formulation": "beam", "elements": 2, "first_steps": 4, "mixed": SUMMARY,
-                      "displacement": {**SUMMARY, "status": "not_converged", "reason": "Newton diverged"}}],
-        "histories": [{"case": "roll", "formulation": "beam", "elements": 2, "form": form, "status": "ok", "reason": "", "steps": [STEP]} for form in newton.FORMS]}
+STEP = {
+    "path": 1.0, "increment": 1.0, "iterations": 3, "rejected": 0, "corrections": [0.1, 0.01, 1e-4],
+    "residuals": [1.0, None, 1e-6]
+}
+SUMMARY = {
+    "status": "ok", "reason": "", "steps": 2, "rejected": 1, "iterations": 9, "most_iterations": 5
+}
+DATA = {
+    "singles": [{
+        "case": "sheet", "parameter": "tilt", "unit": "rad", "values": [0.1, 0.2, 0.3],
+        "formulation": "beam", "elements": 2, "mixed": [3, 4, 5], "displacement": [5, None, 9]
+    }], "contests": [{
+        "case": "sheet", "parameters": "", "formulation": "beam", "elements": 2, "first_steps": 4,
+        "mixed": SUMMARY,
+        "displacement": {**SUMMARY, "status": "not_converged", "reason": "Newton diverged"}
+    }], "histories": [{
+        "case": "roll", "formulation": "beam", "elements": 2, "form": form, "status": "ok",
+        "reason": "", "steps": [STEP]
+    } for form in newton.FORMS]
+}
 
 
 class Site(results.Site):
@@ -30,6 +43,7 @@ class Site(results.Site):
 
 
 class Newton(ProgramTest):
+
     def test_what_is_written_is_what_is_drawn(self):
         """The steps of a real solution have all that the page asks of one."""
         solved = tool.solve(PROGRAM, "elastica", "", "beamw", "2", 0)

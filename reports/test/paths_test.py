@@ -7,9 +7,11 @@ from reports import paths
 
 
 class Paths(ProgramTest):
+
     @classmethod
     def setUpClass(cls):
-        cls.site = drawn(cls.class_folder(), "-k", "snap_through and beamw_consistent or c_cantilever and collocation")
+        cls.site = drawn(cls.class_folder(), "-k",
+                         "snap_through and beamw_consistent or c_cantilever and collocation")
         cls.page = (cls.site / "paths.html").read_text(encoding="utf-8")
 
     def test_figures(self):
@@ -21,7 +23,9 @@ class Paths(ProgramTest):
             self.assertIn(name, figure)
 
     def test_limit_points_are_listed(self):
-        rows = re.findall(r"<td>limit point</td><td class=\"n\">(-?[\d.]+)</td><td class=\"n\">(-?[\d.]+)</td>", self.page)
+        rows = re.findall(
+            r"<td>limit point</td><td class=\"n\">(-?[\d.]+)</td><td class=\"n\">(-?[\d.]+)</td>",
+            self.page)
         self.assertEqual([float(load) for _, load in rows], [0.0103933, -0.0103933])
 
     def test_conclusions_have_numbers(self):

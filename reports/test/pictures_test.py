@@ -10,10 +10,13 @@ from reports import pictures, shapes
 
 
 class Geometry(unittest.TestCase):
+
     def test_axes(self):
         rotation = Rotation.from_rotvec([0.3, -1.1, 0.7])
         x, y, z, w = rotation.as_quat()
-        np.testing.assert_allclose(shapes.matrices(np.array([w, x, y, z])), rotation.as_matrix().T, atol=1e-15)
+        np.testing.assert_allclose(shapes.matrices(np.array([w, x, y, z])),
+                                   rotation.as_matrix().T,
+                                   atol=1e-15)
 
     def test_hull(self):
         square = np.array([[0, 0, 1.], [1, 0, 1], [1, 1, 1], [0, 1, 1], [0.5, 0.5, 1]])
@@ -26,9 +29,15 @@ class Geometry(unittest.TestCase):
 
     def test_chosen(self):
         """Of an even path, whose middle is a little less than half as far, the end is shown; of one that returns both extremes."""
-        for moved, wanted in (([0, 0.75, 1.499, 2.25, 3], [0, 2, 4]), ([0, 0.6, 1.2, 1.8, 2.4, 3], [0, 3, 5]), ([0, -3, -1.5, 0, 1.5, 3], [0, 1, 5])):
-            s = types.SimpleNamespace(kind=["undeformed"] + ["path"] * (len(moved) - 1), sections=[np.zeros((1, 1, 2))],
-                                      position=np.array(moved, float)[:, None, None] * np.array([1, 0, 0]), axes=np.tile(np.eye(3), (len(moved), 1, 1, 1)))
+        for moved, wanted in (([0, 0.75, 1.499, 2.25,
+                                3], [0, 2, 4]), ([0, 0.6, 1.2, 1.8, 2.4,
+                                                  3], [0, 3, 5]), ([0, -3, -1.5, 0, 1.5,
+                                                                    3], [0, 1, 5])):
+            s = types.SimpleNamespace(
+                kind=["undeformed"] + ["path"] * (len(moved) - 1),
+                sections=[np.zeros((1, 1, 2))],
+                position=np.array(moved, float)[:, None, None] * np.array([1, 0, 0]),
+                axes=np.tile(np.eye(3), (len(moved), 1, 1, 1)))
             self.assertEqual(pictures.chosen(s), wanted)
 
     def test_clusters(self):
@@ -37,11 +46,13 @@ class Geometry(unittest.TestCase):
 
     def test_hinges(self):
         """Points at the ends of members that release something."""
-        ends = types.SimpleNamespace(first=np.array([0, 13, 26, 39]), released=np.array([[0, 32], [1, 0], [0, 0]]))
+        ends = types.SimpleNamespace(first=np.array([0, 13, 26, 39]),
+                                     released=np.array([[0, 32], [1, 0], [0, 0]]))
         self.assertEqual(list(pictures.hinges(ends)), [12, 13])
 
 
 class Report(ProgramTest):
+
     def site(self, *options):
         return drawn(self.folder, "-k", "spherical_joint/default", "-f", "sheet_third", *options)
 

@@ -58,10 +58,9 @@ BESIDE = {
     "mutants.json": {
         "killed": 1,
         "survived": 1,
-        "mutants": [
-            {"fault": "a sign", "check": "test x", "expected": "1", "exit": "0", "killed": k}
-            for k in (False, True)
-        ],
+        "mutants": [{
+            "fault": "a sign", "check": "test x", "expected": "1", "exit": "0", "killed": k
+        } for k in (False, True)],
     },
     "fuzz.json": {
         "executions": 12,
@@ -77,6 +76,7 @@ BESIDE = {
 
 
 class Links(html.parser.HTMLParser):
+
     def __init__(self):
         super().__init__()
         self.found = []
@@ -88,6 +88,7 @@ class Links(html.parser.HTMLParser):
 
 
 class Report(ProgramTest):
+
     @classmethod
     def setUpClass(cls):
         folder = cls.class_folder()
@@ -97,16 +98,16 @@ class Report(ProgramTest):
 
     def test_pages(self):
         for name in (
-            "index.html",
-            "errata.html",
-            "claims.html",
-            "ledger.html",
-            "causes.html",
-            "papers.html",
-            "environment.html",
-            "convergence.html",
-            "warping_torsion.html",
-            "formulation_beamw.html",
+                "index.html",
+                "errata.html",
+                "claims.html",
+                "ledger.html",
+                "causes.html",
+                "papers.html",
+                "environment.html",
+                "convergence.html",
+                "warping_torsion.html",
+                "formulation_beamw.html",
         ):
             self.assertTrue((self.site / name).is_file(), name)
 
@@ -119,9 +120,8 @@ class Report(ProgramTest):
                 target = self.site / name if name else page
                 self.assertTrue(target.is_file(), f"{page.name}: {link}")
                 if anchor:
-                    self.assertIn(
-                        f'id="{anchor}"', target.read_text(encoding="utf-8"), f"{page.name}: {link}"
-                    )
+                    self.assertIn(f'id="{anchor}"', target.read_text(encoding="utf-8"),
+                                  f"{page.name}: {link}")
 
     def test_figures_are_drawn(self):
         figures = list(self.site.glob("*.svg"))

@@ -8,10 +8,12 @@ from reports import case, data
 
 
 class SceneReport(ProgramTest):
+
     def test_without_truths(self):
         scene, results, site = (self.folder / name for name in ("mine.yaml", "mine.h5", "site"))
         scene.write_text(LEAF, encoding="utf-8")
-        done = run("verify", "--shapes", "--scene", scene, "-f", "collocation", "-f", "beamw", "-o", results)
+        done = run("verify", "--shapes", "--scene", scene, "-f", "collocation", "-f", "beamw", "-o",
+                   results)
         self.assertEqual(done.returncode, 3, done)
         drawn = report(results, site)
         self.assertEqual(drawn.returncode, 0, drawn.stderr)
@@ -19,18 +21,29 @@ class SceneReport(ProgramTest):
         self.assertNotIn("Source:", page)
         self.assertTrue((site / "picture_mine.svg").is_file())
         # P L^3/3EI + P L/(k G A)
-        tip = 0.1**3 / (3 * 210e9 * 50e-3 * 0.5e-3**3 / 12)
-        limits = page[page.index("Limits of quantities") : page.index("<summary>Verdicts")]
+        tip = 0.1 ** 3 / (3 * 210e9 * 50e-3 * 0.5e-3 ** 3 / 12)
+        limits = page[page.index("Limits of quantities"):page.index("<summary>Verdicts")]
         found = [float(text) for text in re.findall(r'class="n">([0-9.e-]+) ± ', limits)]
         self.assertEqual(sum(abs(value / tip - 1) < 1e-3 for value in found), 2, found)
         self.assertIn("<details open><summary>Limits of quantities without a truth", page)
 
     def test_what_has_a_truth_is_left_out(self):
-        verdicts = [data.Verdict("u", "no truth"), data.Verdict("v", "no truth"), data.Verdict("w", "skip")]
-        judged = [data.Verdict("u", "no truth"), data.Verdict("v", "pass"), data.Verdict("w", "no truth")]
-        series = [data.Series(key, "", "", "", [], of) for key, of in (("a", verdicts), ("b", judged))]
+        verdicts = [
+            data.Verdict("u", "no truth"),
+            data.Verdict("v", "no truth"),
+            data.Verdict("w", "skip")
+        ]
+        judged = [
+            data.Verdict("u", "no truth"),
+            data.Verdict("v", "pass"),
+            data.Verdict("w", "no truth")
+        ]
+        series = [
+            data.Series(key, "", "", "", [], of) for key, of in (("a", verdicts), ("b", judged))
+        ]
         limits = case.limits_of(data.Point("default", "", series, {"u": "m", "v": "m", "w": "m"}))
-        self.assertEqual([(q, [key for key, _ in found]) for q, found in limits], [("u", ["a", "b"]), ("w", ["b"])])
+        self.assertEqual([(q, [key for key, _ in found]) for q, found in limits],
+                         [("u", ["a", "b"]), ("w", ["b"])])
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ from reports.site import Site
 
 
 class Stability(ProgramTest):
+
     def setUp(self):
         super().setUp()
         run("verify", "-k", "warping_torsion and beamw", "-o", self.folder / "results.h5")
@@ -21,10 +22,12 @@ class Stability(ProgramTest):
         self.assertIn("make stress", self.page())
 
     def test_sweep(self):
-        self.answered("stress", "-k", "decay_free or twist_wagner", "--json", self.folder / "stress.json")
+        self.answered("stress", "-k", "decay_free or twist_wagner", "--json",
+                      self.folder / "stress.json")
         record = read_json(self.folder / "stress.json")
         page = self.page()
-        tried, survived = (sum(f[name] for f in record["formulations"]) for name in ("tried", "survived"))
+        tried, survived = (sum(f[name] for f in record["formulations"])
+                           for name in ("tried", "survived"))
         self.assertIn(f"{tried} in all: {survived} survived", page)
         self.assertLess(survived, tried)
         self.assertTrue((self.folder / "site" / "stability_map.svg").is_file())
@@ -36,11 +39,23 @@ class Stability(ProgramTest):
         """What an extreme needs can depend on what it is driven to."""
 
         def outcome(x, kind):
-            return {"extreme": "thin", "formulation": "beamw", "x": x, "outcome": kind, "error": 1e-9, "condition": None, "iterations": 1, "reason": "", "as_expected": True, "proof": ""}
+            return {
+                "extreme": "thin", "formulation": "beamw", "x": x, "outcome": kind, "error": 1e-9,
+                "condition": None, "iterations": 1, "reason": "", "as_expected": True, "proof": ""
+            }
 
-        extreme = {"name": "thin", "summary": "", "case": "c", "fixed": "", "quantities": ["w"], "judge": "exact", "tolerance": 1e-6, "x_name": "x", "x_unit": "1", "values": [1.0, 2.0]}
-        tally = {"formulation": "beamw", "tried": 1, "survived": 1, "coarse": 0, "named_failures": 0, "wrong": 0, "faults": 0}
-        record = {"extremes": [extreme], "formulations": [tally], "outcomes": [outcome(1.0, "skip"), outcome(2.0, "value")], "unexpected": 0}
+        extreme = {
+            "name": "thin", "summary": "", "case": "c", "fixed": "", "quantities": ["w"],
+            "judge": "exact", "tolerance": 1e-6, "x_name": "x", "x_unit": "1", "values": [1.0, 2.0]
+        }
+        tally = {
+            "formulation": "beamw", "tried": 1, "survived": 1, "coarse": 0, "named_failures": 0,
+            "wrong": 0, "faults": 0
+        }
+        record = {
+            "extremes": [extreme], "formulations": [tally],
+            "outcomes": [outcome(1.0, "skip"), outcome(2.0, "value")], "unexpected": 0
+        }
         (self.folder / "stress.json").write_text(json.dumps(record), encoding="utf-8")
         self.assertIn("1 in all: 1 survived", self.page())
 

@@ -19,6 +19,7 @@ def converge(form):
 
 
 class Forms(unittest.TestCase):
+
     def test_json_and_csv_agree(self):
         series = json.loads(converge("json"))["series"]
         self.assertEqual([s["formulation"] for s in series],
@@ -48,11 +49,17 @@ class Forms(unittest.TestCase):
         series = json.loads(converge("json"))["series"]
         text = converge("text").splitlines()[-1]
         self.assertTrue(text.startswith("for 1 % in every quantity: "), text)
-        told = {name: int(n) for name, n in re.findall(r"([\w:=]+) n = (\d+) \([\d.e-]+ ms\)", text)}
+        told = {
+            name: int(n)
+            for name, n in re.findall(r"([\w:=]+) n = (\d+) \([\d.e-]+ ms\)", text)
+        }
         self.assertEqual(set(told), {s["formulation"] for s in series})
         for one in series:
             counts = [m["elements"] for m in one["quantities"][0]["meshes"]]
-            bad = [k for q in one["quantities"] for k, m in enumerate(q["meshes"]) if abs(m["error"]) > 0.01]
+            bad = [
+                k for q in one["quantities"] for k, m in enumerate(q["meshes"])
+                if abs(m["error"]) > 0.01
+            ]
             self.assertEqual(told[one["formulation"]], counts[max(bad, default=-1) + 1])
 
     def test_without_a_truth_families_agree(self):
@@ -71,7 +78,8 @@ class Forms(unittest.TestCase):
         self.assertTrue(whole["sentence"].startswith("for 1 % in every quantity: "))
         self.assertNotIn("no reference", whole["sentence"])
         alone = run(*new, "-f", "collocation", "-f", "geometrically_exact")
-        self.assertIn("no reference, neither a truth nor an agreement of two families, for ", alone.stdout.splitlines()[-1])
+        self.assertIn("no reference, neither a truth nor an agreement of two families, for ",
+                      alone.stdout.splitlines()[-1])
 
 
 if __name__ == "__main__":

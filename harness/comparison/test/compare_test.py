@@ -9,7 +9,8 @@ TABLES = "cases/warping_torsion"
 
 def of_cell(table):
     """Rows of a table that belong to one cell."""
-    return (table["point"] == b"default") & (table["formulation"] == b"beamw") & (table["elements"] == 4)
+    return (table["point"] == b"default") & (table["formulation"] == b"beamw") & (table["elements"]
+                                                                                  == 4)
 
 
 def change_rows(file, name, change):
@@ -23,6 +24,7 @@ def change_rows(file, name, change):
 
 
 class Compare(ProgramTest):
+
     @classmethod
     def setUpClass(cls):
         folder = cls.class_folder()
@@ -45,16 +47,18 @@ class Compare(ProgramTest):
         self.check(0, ["0 worse, 0 better, 0 changed, 0 gone, 0 new"], lambda file: None)
         done = self.compared(lambda file: None, "--threshold", "error=0,floor=0,work=0")
         self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertEqual(run("compare", self.table, self.old, "--threshold",
-                             "error=0,floor=0,work=0").returncode, 0)
+        self.assertEqual(
+            run("compare", self.table, self.old, "--threshold",
+                "error=0,floor=0,work=0").returncode, 0)
 
     def test_jobs(self):
         """One process and several give the same bits."""
         path = {}
         for jobs in ("1", "2", "5"):
             path[jobs] = self.folder / f"j{jobs}.h5"
-            verify("elastica/default and collocation or sheet_wagner/default and collocation or "
-                   "shear_column/default and beamw_consistent", path[jobs], "-j", jobs)
+            verify(
+                "elastica/default and collocation or sheet_wagner/default and collocation or "
+                "shear_column/default and beamw_consistent", path[jobs], "-j", jobs)
         for jobs in ("2", "5"):
             done = run("compare", path["1"], path[jobs], "--threshold", "error=0,floor=0,work=0")
             self.assertEqual(done.returncode, 0, done.stdout)
@@ -63,10 +67,14 @@ class Compare(ProgramTest):
     def test_lost_value(self):
         """What has no value any more is worse, what has one now is better; the same of a quantity
         that is there or not."""
+
         def lose(file):
+
             def nothing(rows):
                 rows["value"][0] = rows["error"][0] = float("nan")
+
             change_rows(file, "quantities", nothing)
+
         done = self.compared(lose)
         self.assertRegex(done.stdout, r"(?m)^worse .* has no value any more$")
         done = run("compare", self.new, self.old)
@@ -74,28 +82,46 @@ class Compare(ProgramTest):
 
     def test_extra_work(self):
         for count in ("factorisations", "iterations", "strain_evaluations"):
+
             def change(file, count=count):
+
                 def more(rows):
                     rows[count] = 2 * rows[count] + 1
+
                 change_rows(file, "cells", more)
-            self.check(1, ["worse    warping_torsion/default/beamw{n=4}: ", " 1 worse, 0 better"], change)
+
+            self.check(1, ["worse    warping_torsion/default/beamw{n=4}: ", " 1 worse, 0 better"],
+                       change)
 
         def two(rows):
             rows["factorisations"] = 2
-        self.assertEqual(self.compared(lambda file: change_rows(file, "cells", two), "--threshold", "work=1").returncode, 0)
+
+        self.assertEqual(
+            self.compared(lambda file: change_rows(file, "cells", two), "--threshold",
+                          "work=1").returncode, 0)
 
     def test_less_work(self):
+
         def change(file):
+
             def half(rows):
                 rows["strain_evaluations"] //= 2
+
             change_rows(file, "cells", half)
-        self.check(1, ["better   warping_torsion/default/beamw{n=4}: evaluations", "0 worse, 1 better"], change)
+
+        self.check(
+            1, ["better   warping_torsion/default/beamw{n=4}: evaluations", "0 worse, 1 better"],
+            change)
 
     def errors(self, factor):
+
         def change(file):
+
             def scaled(rows):
                 rows["error"] *= factor
+
             change_rows(file, "quantities", scaled)
+
         return change
 
     def test_errors(self):
@@ -105,16 +131,19 @@ class Compare(ProgramTest):
         self.check(1, ["worse"], self.errors(1.005), "--threshold", "error=0.001")
 
     def test_cells(self):
+
         def gone(file):
             change_rows(file, "cells", lambda rows: False)
             change_rows(file, "quantities", lambda rows: False)
 
         def failed(file):
             group, rows = file[TABLES], file[TABLES]["cells"][()]
-            wider = rows.astype([(name, "S12" if name == "status" else rows.dtype[name]) for name in rows.dtype.names])
+            wider = rows.astype([(name, "S12" if name == "status" else rows.dtype[name])
+                                 for name in rows.dtype.names])
             wider["status"][of_cell(wider)] = b"singular"
             del group["cells"]
             group["cells"] = wider
+
         self.check(1, ["gone     warping_torsion/default/beamw n=4"], gone)
         self.check(1, ["worse    warping_torsion/default/beamw n=4: ok -> singular"], failed)
         self.compared(gone)
@@ -124,24 +153,33 @@ class Compare(ProgramTest):
 
     def test_quantities(self):
         """One that has another name is gone, and a new one."""
+
         def rename(file):
+
             def other(rows):
                 rows["quantity"][0] = b"other"
+
             change_rows(file, "quantities", other)
+
         done = self.compared(rename)
         self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stdout, r"(?m)^gone     warping_torsion/default/beamw n=4: (?!other$).+$")
+        self.assertRegex(done.stdout,
+                         r"(?m)^gone     warping_torsion/default/beamw n=4: (?!other$).+$")
         self.assertRegex(done.stdout, r"(?m)^new      warping_torsion/default/beamw n=4: other$")
 
     def test_near_zero(self):
         """A value without a truth has changed beyond the floor of its size, or of near_zero where it may vanish."""
+
         def without_truth(near_zero):
+
             def change(rows):
                 rows["error"], rows["near_zero"] = float("nan"), near_zero * abs(rows["value"])
+
             return lambda file: change_rows(file, "quantities", change)
 
         def move(rows):
             rows["value"] *= 1 + 1e-6
+
         for near_zero, code in ((0, 1), (10, 1), (1000, 0)):
             old = altered(self.old, self.folder / "zero.h5", without_truth(near_zero))
             new = altered(old, self.new, lambda file: change_rows(file, "quantities", move))
@@ -169,33 +207,41 @@ class Compare(ProgramTest):
 
     def test_impossible_counts(self):
         for column in ("iterations", "strain_evaluations", "factorisations"):
-            for count in (-1, 2**63 - 1):
+            for count in (-1, 2 ** 63 - 1):
+
                 def impossible(rows):
                     rows[column][0] = count
+
                 done = self.compared(lambda file: change_rows(file, "cells", impossible))
                 self.assertEqual(done.returncode, 2, done)
                 self.assertIn("missing or damaged", done.stderr)
 
     def test_damaged_cell(self):
+
         def change(file):
             del file[TABLES]["quantities"]
+
         done = self.compared(change)
         self.assertEqual(done.returncode, 2)
         self.assertIn("warping_torsion/quantities is missing or damaged", done.stderr)
 
     def test_strange_tables(self):
         """Columns that are missing or of another type, rows that belong nowhere."""
+
         def drop(name, column):
+
             def change(file):
                 rows = file[TABLES][name][()]
                 del file[TABLES][name]
                 file[TABLES][name] = rows[[c for c in rows.dtype.names if c != column]]
+
             return change
 
         def texts(file):
             rows = file[TABLES]["quantities"][()]
             del file[TABLES]["quantities"]
-            file[TABLES]["quantities"] = rows.astype([(c, "S30" if c == "value" else rows.dtype[c]) for c in rows.dtype.names])
+            file[TABLES]["quantities"] = rows.astype(
+                [(c, "S30" if c == "value" else rows.dtype[c]) for c in rows.dtype.names])
 
         def homeless(file):
             change_rows(file, "cells", lambda rows: False)
@@ -204,7 +250,10 @@ class Compare(ProgramTest):
             rows = file[TABLES]["points"][()]
             del file[TABLES]["points"]
             file[TABLES]["points"] = rows[:0]
-        for change in (drop("cells", "iterations"), drop("cells", "elements"), drop("quantities", "error"), drop("points", "point"), texts, homeless, pointless):
+
+        for change in (drop("cells", "iterations"), drop("cells", "elements"),
+                       drop("quantities", "error"), drop("points",
+                                                         "point"), texts, homeless, pointless):
             done = self.compared(change)
             self.assertEqual(done.returncode, 2, done.stdout)
             self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)

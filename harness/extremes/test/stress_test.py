@@ -18,6 +18,7 @@ def run(*arguments, truths=None):
 
 
 class Stress(ProgramTest):
+
     @classmethod
     def setUpClass(cls):
         done = run("-k", SMALL, "--format", "json")
@@ -30,7 +31,11 @@ class Stress(ProgramTest):
         shutil.copytree(ROOT / "reference", copy, ignore=left_out)
         change(copy)
         packed = self.folder / "truths.h5"
-        self.answered(ROOT / "reference" / "pack.py", "-o", packed, "--folder", copy,
+        self.answered(ROOT / "reference" / "pack.py",
+                      "-o",
+                      packed,
+                      "--folder",
+                      copy,
                       program=sys.executable)
         return packed
 
@@ -44,8 +49,8 @@ class Stress(ProgramTest):
             if o["outcome"] not in ("value", "coarse"):
                 self.assertTrue(o["reason"], o)
             if o["outcome"] == "value":
-                tolerance = next(e["tolerance"] for e in self.record["extremes"]
-                                 if e["name"] == o["extreme"])
+                tolerance = next(
+                    e["tolerance"] for e in self.record["extremes"] if e["name"] == o["extreme"])
                 self.assertLessEqual(abs(o["error"]), tolerance * (1 + 1e-6), o)
                 self.assertGreater(o["condition"], 0)
 
@@ -58,8 +63,7 @@ class Stress(ProgramTest):
             self.assertEqual(f["tried"], len(cells))
             survived = sum(found <= {"value", "coarse"} for found in cells.values())
             self.assertEqual(f["survived"], survived)
-            self.assertEqual(f["tried"],
-                             survived + f["named_failures"] + f["wrong"] + f["faults"])
+            self.assertEqual(f["tried"], survived + f["named_failures"] + f["wrong"] + f["faults"])
         self.assertGreater(sum(f["wrong"] for f in self.record["formulations"]), 0)
 
     def test_formats_agree(self):
@@ -74,42 +78,51 @@ class Stress(ProgramTest):
         self.assertEqual(written.read_text(encoding="utf-8"), run("-k", SMALL).stdout)
 
     def test_wrong_numbers_are_not_silent(self):
+
         def no_findings(folder):
             path = folder / "extreme_findings.csv"
             header = path.read_text(encoding="utf-8").splitlines()[0]
             path.write_text(header + "\n", encoding="utf-8")
+
         done = run("-k", "soft_square", truths=self.altered(no_findings))
         self.assertEqual(done.returncode, 1)
         self.assertIn("unexpected: soft_square E/G=1000 sheet_second buckling_load: wrong",
                       done.stdout)
 
     def test_a_wrong_truth_is_noticed(self):
+
         def one_percent(folder):
             path = folder / "extremes" / "warping_torsion.csv"
             text = path.read_text(encoding="utf-8")
             for right, wrong in (("9.900000000000E-1", "9.8E-1"), ("0.9900000000000", "0.98")):
                 text = text.replace(right, wrong)
             path.write_text(text, encoding="utf-8")
+
         done = run("-k", "decay_free and collocation", truths=self.altered(one_percent))
         self.assertEqual(done.returncode, 1, done.stdout)
 
     def test_a_missing_truth_is_a_fault(self):
+
         def none(folder):
             (folder / "extremes" / "roll_up.csv").unlink()
+
         done = run("-k", "turns", truths=self.altered(none))
         self.assertEqual(done.returncode, 4)
         self.assertIn("no exact value of tip_gap", done.stderr)
 
     def test_a_finding_that_nobody_sees(self):
+
         def another(folder):
             with open(folder / "extreme_findings.csv", "a", encoding="utf-8") as file:
                 file.write("decay_free,1,1,collocation,twist_ratio,singular,planted\n")
+
         done = run("-k", "decay_free and collocation", truths=self.altered(another))
         self.assertEqual(done.returncode, 1)
         self.assertIn("expected singular", done.stdout)
 
     def test_refusals(self):
-        for code, *arguments in ((2, "-k", "nothing_of_this_name"), (3, "-k", "turns and decay_free"), (2, "-k", "and and"),
+        for code, *arguments in ((2, "-k", "nothing_of_this_name"),
+                                 (3, "-k", "turns and decay_free"), (2, "-k", "and and"),
                                  (2, "elastica"), (2, "-f", "bemw"), (4, "--truths", "/none.h5"),
                                  (4, "-k", "turns and collocation", "-o", "/none/table.txt")):
             self.refused(code, "", "stress", *arguments, silent=False)

@@ -19,6 +19,7 @@ SELECT = "sheet_cantilever and C_xx and shear_factor"
 
 
 class Import(ProgramTest):
+
     def read(self, text, status=0, name="theirs.csv"):
         path = self.folder / name
         path.write_bytes(text if isinstance(text, bytes) else text.encode())
@@ -30,7 +31,8 @@ class Import(ProgramTest):
             return [dict(zip(rows.dtype.names, row)) for row in rows]
 
     def test_units_are_converted_and_the_factor_is_stored(self):
-        for unit, factor in (("mm/N", 1e-3), ("m/N", 1), ("m/kN", 1e-3), ("um/mN", 1e-3), ("mm/(kN)", 1e-6)):
+        for unit, factor in (("mm/N", 1e-3), ("m/N", 1), ("m/kN", 1e-3), ("um/mN", 1e-3),
+                             ("mm/(kN)", 1e-6)):
             self.read(f"{HEAD}{COLUMNS}C_xx, {unit}, 2, , , , 2.5,\n")
             row, = self.stored()
             self.assertAlmostEqual(row["value"] / (2.5 * factor), 1, delta=1e-14)
@@ -43,7 +45,8 @@ class Import(ProgramTest):
         series, = self.stored(table="series")
         self.assertEqual(series["formulation"], b"MBDyn 1.7.3, 3-node")
         self.assertTrue(series["imported"].endswith(b"theirs.csv"))
-        self.assertEqual([(c["elements"], c["free"]) for c in self.stored(table="cells")], [(2, 24), (4, 48)])
+        self.assertEqual([(c["elements"], c["free"]) for c in self.stored(table="cells")],
+                         [(2, 24), (4, 48)])
         values = [q["value"] for q in self.stored(table="quantities") if q["quantity"] == b"C_xx"]
         self.assertEqual(values, [3.9408e-4 * 1e-3, 3.97064e-4 * 1e-3])
 
@@ -55,11 +58,17 @@ class Import(ProgramTest):
 """
         said = self.read(text + COLUMNS, 2).stderr
         self.assertIn("theirs.csv:4: unknown header 'modle'; did you mean 'model'?", said)
-        bad = {"C_xy, m/N, 2,,,, 1,": "did you mean 'C_xx'", "C_xx, m/Nm, 2,,,, 1,": "unit 'm/Nm' is unknown",
-               "C_xx, N, 2,,,, 1,": "unit 'N' cannot be converted to 'm/N'", "C_xx_curve, m/N, 2,,,, 1,": "is a curve: give x",
-               "C_zz, m/N, 2,,, 3, 1,": "is no curve: leave x empty", "C_zz, m/N, 0,,,, 1,": "give a whole number",
-               "C_zz, m/N, 2,,,, nan,": "is no number", "C_zz, m/N, 3,,,,,": "value is missing",
-               "C_thz_Mz, rad/(N m), 2,,,, 1,": "what a moment does", "C_zz, m/N, 4,,,, 1, -1": "uncertainty is below zero"}
+        bad = {
+            "C_xy, m/N, 2,,,, 1,": "did you mean 'C_xx'",
+            "C_xx, m/Nm, 2,,,, 1,": "unit 'm/Nm' is unknown",
+            "C_xx, N, 2,,,, 1,": "unit 'N' cannot be converted to 'm/N'",
+            "C_xx_curve, m/N, 2,,,, 1,": "is a curve: give x",
+            "C_zz, m/N, 2,,, 3, 1,": "is no curve: leave x empty",
+            "C_zz, m/N, 0,,,, 1,": "give a whole number", "C_zz, m/N, 2,,,, nan,": "is no number",
+            "C_zz, m/N, 3,,,,,": "value is missing",
+            "C_thz_Mz, rad/(N m), 2,,,, 1,": "what a moment does",
+            "C_zz, m/N, 4,,,, 1, -1": "uncertainty is below zero"
+        }
         said = self.read(HEAD + COLUMNS + "\n".join(bad) + "\n", 2).stderr.splitlines()
         self.assertEqual(len(said), len(bad) + 1)
         for i, (line, (row, words)) in enumerate(zip(said, bad.items())):
@@ -68,90 +77,134 @@ class Import(ProgramTest):
         self.assertFalse((self.folder / "theirs.h5").exists())
 
     def test_headers(self):
-        for change, words in ((("sheet_cantilever", "sheet_cantilevr"), "did you mean 'sheet_cantilever'"), (("warping", "warpin"), "did you mean 'warping'"),
-                              (("import: 1", "import: 2"), "version '2'"), (("MBDyn 1.7.3, 3-node ", "beamw "), "is a formulation of this program"),
-                              (("# program", "# progrm"), "did you mean 'program'"), (("# case", "# axes: x=y y=y z=z\n# case"), "no signed permutation"),
-                              (("# case", "# convention: symmetrised\n# case"), "the moments of the case are spatial")):
+        for change, words in ((("sheet_cantilever", "sheet_cantilevr"),
+                               "did you mean 'sheet_cantilever'"), (("warping", "warpin"),
+                                                                    "did you mean 'warping'"),
+                              (("import: 1", "import: 2"), "version '2'"),
+                              (("MBDyn 1.7.3, 3-node ", "beamw "),
+                               "is a formulation of this program"), (("# program", "# progrm"),
+                                                                     "did you mean 'program'"),
+                              (("# case", "# axes: x=y y=y z=z\n# case"), "no signed permutation"),
+                              (("# case", "# convention: symmetrised\n# case"),
+                               "the moments of the case are spatial")):
             self.assertIn(words, self.read(HEAD.replace(*change) + COLUMNS + ROWS, 2).stderr)
-        self.assertIn("UTF-8", self.read(HEAD.replace("MBDyn", "MB\x1bDyn") + COLUMNS + ROWS, 2).stderr)
+        self.assertIn("UTF-8",
+                      self.read(HEAD.replace("MBDyn", "MB\x1bDyn") + COLUMNS + ROWS, 2).stderr)
         self.assertIn("given again", self.read(HEAD + COLUMNS + ROWS + ROWS, 2).stderr)
 
     def test_axes(self):
         """Their x is our -y: what they call C_ux_Fx is C_uy_Fy of ours; a single row changes the sign."""
-        self.read(HEAD + "# axes: x=-y y=x z=z\n" + COLUMNS + "C_ux_Fx, m/N, 2,,,, 3,\nC_ux_Fy, m/N, 2,,,, 4,\n")
+        self.read(HEAD + "# axes: x=-y y=x z=z\n" + COLUMNS +
+                  "C_ux_Fx, m/N, 2,,,, 3,\nC_ux_Fy, m/N, 2,,,, 4,\n")
         found = {row["quantity"]: (row["value"], row["factor"]) for row in self.stored()}
         self.assertEqual(found, {b"C_uy_Fy": (3, 1), b"C_uy_Fx": (-4, -1)})
 
     def test_mirrored_axes(self):
         """Seen in a mirror a turn about the normal that stays is the other way round."""
-        self.read(HEAD + "# axes: x=x y=-y z=z\n# convention: spatial\n" + COLUMNS + "C_ux_Mz, 1/N, 2,,,, 3,\nC_uy_Mz, 1/N, 2,,,, 4,\nC_thz_Mz, rad/(N m), 2,,,, 5,\n")
-        self.assertEqual({row["quantity"]: row["value"] for row in self.stored()}, {b"C_ux_Mz": -3, b"C_uy_Mz": 4, b"C_thz_Mz": 5})
+        self.read(HEAD + "# axes: x=x y=-y z=z\n# convention: spatial\n" + COLUMNS +
+                  "C_ux_Mz, 1/N, 2,,,, 3,\nC_uy_Mz, 1/N, 2,,,, 4,\nC_thz_Mz, rad/(N m), 2,,,, 5,\n")
+        self.assertEqual({row["quantity"]: row["value"]
+                          for row in self.stored()},
+                         {b"C_ux_Mz": -3, b"C_uy_Mz": 4, b"C_thz_Mz": 5})
 
     def test_two_programs_in_one_file(self):
         self.read(HEAD + COLUMNS + ROWS + "# program: other\n" + ROWS)
-        self.assertEqual({s["formulation"] for s in self.stored(table="series")}, {b"MBDyn 1.7.3, 3-node", b"other"})
+        self.assertEqual({s["formulation"]
+                          for s in self.stored(table="series")}, {b"MBDyn 1.7.3, 3-node", b"other"})
 
     def test_a_scene_of_ones_own_and_a_solid(self):
         leaf = ROOT / "cases/examples/leaf_spring_guide.yaml"
-        self.read(f"# beamwork-import: 1\n# program: CalculiX\n# model: solid\n# case: {leaf}\nquantity,unit,elements,value\nk_drive,N/mm,320,2.85\n")
+        self.read(
+            f"# beamwork-import: 1\n# program: CalculiX\n# model: solid\n# case: {leaf}\nquantity,unit,elements,value\nk_drive,N/mm,320,2.85\n"
+        )
         row, = self.stored("leaf_spring_guide")
         self.assertAlmostEqual(row["value"], 2850, delta=1e-9)
-        done = run("verify", "--scene", str(leaf), "-f", "beamw", "--beside", self.folder / "theirs.h5", "--gate")
+        done = run("verify", "--scene", str(leaf), "-f", "beamw", "--beside",
+                   self.folder / "theirs.h5", "--gate")
         line, = [x for x in done.stdout.splitlines() if "CalculiX" in x]
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("no truth; +8.59 % from another model", line)
 
     def test_beside_informs_and_gates_where_asked(self):
         self.read(HEAD + COLUMNS + ROWS.replace("3.9", "4.9"))
-        beside = ("verify", "-k", SELECT, "-f", "collocation", "--beside", self.folder / "theirs.h5")
+        beside = ("verify", "-k", SELECT, "-f", "collocation", "--beside",
+                  self.folder / "theirs.h5")
         informs, gates = run(*beside), run(*beside, "--gate")
         for done in (informs, gates):
             self.assertIn("MBDyn 1.7.3, 3-node", done.stdout)
         self.assertEqual(informs.returncode, 0, informs.stderr)
         self.assertEqual(gates.returncode, 1, gates.stdout)
-        elsewhere = run("verify", "-k", "elastica/default", "-f", "collocation", "--beside", self.folder / "theirs.h5")
+        elsewhere = run("verify", "-k", "elastica/default", "-f", "collocation", "--beside",
+                        self.folder / "theirs.h5")
         self.assertEqual(elsewhere.returncode, 0)
-        self.assertIn("theirs.h5: nothing of it was run: it is of sheet_cantilever/", elsewhere.stderr)
+        self.assertIn("theirs.h5: nothing of it was run: it is of sheet_cantilever/",
+                      elsewhere.stderr)
         self.assertEqual(len(elsewhere.stderr.splitlines()), 1, elsewhere.stderr)
 
     def test_several_beside(self):
         """Each file once, each program once at a point; what a file has of other points is counted."""
-        self.read(HEAD.replace("MBDyn 1.7.3, 3-node", "rival") + COLUMNS + ROWS + "# case: elastica\nw_over_L, 1, 2,,,, 1,\n")
+        self.read(
+            HEAD.replace("MBDyn 1.7.3, 3-node", "rival") + COLUMNS + ROWS +
+            "# case: elastica\nw_over_L, 1, 2,,,, 1,\n")
         (self.folder / "theirs.h5").rename(self.folder / "rivals.h5")
         self.read(HEAD + COLUMNS + ROWS)
         select = ("verify", "-k", SELECT, "-f", "collocation")
-        done = run(*select, "--beside", self.folder / "theirs.h5", "--beside", self.folder / "rivals.h5")
+        done = run(*select, "--beside", self.folder / "theirs.h5", "--beside",
+                   self.folder / "rivals.h5")
         self.assertEqual(done.returncode, 0, done.stderr)
         for name in ("MBDyn 1.7.3, 3-node", "rival"):
             self.assertEqual(sum(name in line for line in done.stdout.splitlines()), 1, done.stdout)
-        self.assertIn("rivals.h5: 1 of 2 series are of cases or parameters that were not run, the first elastica/default/rival", done.stderr)
+        self.assertIn(
+            "rivals.h5: 1 of 2 series are of cases or parameters that were not run, the first elastica/default/rival",
+            done.stderr)
         (self.folder / "copy.h5").write_bytes((self.folder / "theirs.h5").read_bytes())
-        self.refused(2, "is beside this run already; give it once", *select, "--beside", self.folder / "theirs.h5", "--beside", self.folder / "copy.h5")
-        self.refused(2, "is given twice with one path", *select, "--beside", self.folder / "theirs.h5", "--beside", self.folder / "theirs.h5")
-        self.refused(2, "would replace", *select, "--beside", self.folder / "copy.h5", "--beside", self.folder / "theirs.h5", "-o", self.folder / "theirs.h5")
+        self.refused(2, "is beside this run already; give it once", *select, "--beside",
+                     self.folder / "theirs.h5", "--beside", self.folder / "copy.h5")
+        self.refused(2, "is given twice with one path", *select, "--beside",
+                     self.folder / "theirs.h5", "--beside", self.folder / "theirs.h5")
+        self.refused(2, "would replace", *select, "--beside", self.folder / "copy.h5", "--beside",
+                     self.folder / "theirs.h5", "-o", self.folder / "theirs.h5")
 
     def test_mistakes_as_json(self):
         """Of each file, in one form with those of scenes; a file without any has an empty list."""
-        files = {"good.csv": HEAD + COLUMNS + ROWS, "bad.csv": HEAD + "# modle: solid\n" + COLUMNS + ROWS}
+        files = {
+            "good.csv": HEAD + COLUMNS + ROWS, "bad.csv": HEAD + "# modle: solid\n" + COLUMNS + ROWS
+        }
         for name, text in files.items():
             (self.folder / name).write_text(text, encoding="utf-8")
         paths = [self.folder / name for name in files]
-        done = self.answered("import", *paths, "-o", self.folder / "theirs.h5", "--format", "json", code=2)
+        done = self.answered("import",
+                             *paths,
+                             "-o",
+                             self.folder / "theirs.h5",
+                             "--format",
+                             "json",
+                             code=2)
         decoder, text, found = json.JSONDecoder(), done.stdout.strip(), []
         while text:
             one, end = decoder.raw_decode(text)
             found.append(one)
             text = text[end:].strip()
         self.assertEqual([one["file"] for one in found], [str(path) for path in paths])
-        self.assertEqual([one["mistakes"] for one in found],
-                         [[], [{"line": 4, "column": 1, "text": "unknown header 'modle'; did you mean 'model'?"}]])
-        whole = self.answered("import", paths[0], "-o", self.folder / "theirs.h5", "--format", "json", code=0)
+        self.assertEqual(
+            [one["mistakes"] for one in found],
+            [[], [{"line": 4, "column": 1, "text": "unknown header 'modle'; did you mean 'model'?"}]
+             ])
+        whole = self.answered("import",
+                              paths[0],
+                              "-o",
+                              self.folder / "theirs.h5",
+                              "--format",
+                              "json",
+                              code=0)
         self.assertEqual(json.loads(whole.stdout)["mistakes"], [])
-        self.refused(2, "give text or json", "import", paths[0], "-o", self.folder / "theirs.h5", "--format", "csv")
+        self.refused(2, "give text or json", "import", paths[0], "-o", self.folder / "theirs.h5",
+                     "--format", "csv")
 
     def test_curves(self):
         """Points in the order of their abscissa, whatever their order in the file, and the abscissa in SI is theirs."""
-        self.read(HEAD + COLUMNS + "C_xx_curve, mm/N, 4,,, 0.01, 29,\nC_xx_curve, mm/N, 4,,, 0.005, 14,\n")
+        self.read(HEAD + COLUMNS +
+                  "C_xx_curve, mm/N, 4,,, 0.01, 29,\nC_xx_curve, mm/N, 4,,, 0.005, 14,\n")
         with h5py.File(self.folder / "theirs.h5") as file:
             case = file["cases"]["sheet_cantilever"]
             self.assertEqual(list(case["curve_x"]), [0.005, 0.01])
@@ -167,7 +220,13 @@ class Import(ProgramTest):
             self.assertIn(name, done.stderr)
 
     def mapped(self, name, *files, status=0):
-        return self.answered("import", *files, "--map", name, "-o", self.folder / "theirs.h5", code=status)
+        return self.answered("import",
+                             *files,
+                             "--map",
+                             name,
+                             "-o",
+                             self.folder / "theirs.h5",
+                             code=status)
 
     def test_files_of_mbdyn(self):
         """Written by MBDyn 1.7.3 from data/mbdyn_sheet.mbd: four 3-node beams, 0.06 % from the exact beam."""
@@ -175,7 +234,8 @@ class Import(ProgramTest):
         found = {row["quantity"].decode(): row["value"] for row in self.stored()}
         for name, value in (("u_x", 9.864219e-2 - 0.1), ("F_y", 3492.813), ("M_z", -172.2694)):
             self.assertAlmostEqual(found[name] / value, 1, delta=1e-12)
-        done = run("verify", "-k", "sheet_cantilever and shear_factor and F_y", "-f", "collocation", "--beside", self.folder / "theirs.h5")
+        done = run("verify", "-k", "sheet_cantilever and shear_factor and F_y", "-f", "collocation",
+                   "--beside", self.folder / "theirs.h5")
         line, = [x for x in done.stdout.splitlines() if "MBDyn" in x]
         self.assertIn("3492.813", line)
         self.assertIn("3492.69255", line)
@@ -205,10 +265,17 @@ class Import(ProgramTest):
     def test_mistakes_of_a_map(self):
         path = self.folder / "map.yaml"
         good = (MAPS / "mbdyn.yaml").read_text(encoding="utf-8")
-        for change, words in ((("column: x", "colum: x"), "did you mean 'column'"), (("column: x", "column: ex"), "is no column"), (("label: 9", "label: 7"), "no such row"),
-                              (("  u_x", "  u_xq"), "map.yaml:12: sheet_cantilever has no quantity 'u_xq'; did you mean 'u_x'"), (("unit: m,", "unit: kg,"), "cannot be converted"), (("elements: 4", "elements: four"), "is no number")):
+        for change, words in (
+            (("column: x", "colum: x"),
+             "did you mean 'column'"), (("column: x", "column: ex"),
+                                        "is no column"), (("label: 9", "label: 7"), "no such row"),
+            (("  u_x", "  u_xq"),
+             "map.yaml:12: sheet_cantilever has no quantity 'u_xq'; did you mean 'u_x'"),
+            (("unit: m,", "unit: kg,"), "cannot be converted"), (("elements: 4", "elements: four"),
+                                                                 "is no number")):
             path.write_text(good.replace(*change), encoding="utf-8")
-            said = self.mapped(path, DATA / "mbdyn_sheet.mov", DATA / "mbdyn_sheet.jnt", status=2).stderr
+            said = self.mapped(path, DATA / "mbdyn_sheet.mov", DATA / "mbdyn_sheet.jnt",
+                               status=2).stderr
             self.assertRegex(said, r"map\.yaml:\d+: ")
             self.assertIn(words, said)
 

@@ -14,34 +14,35 @@ POINTS = (
     ("sheet_cantilever", "sheet_third", CANCELLED, "C_uz_Mx", FINE),
     ("sheet_cantilever", "sheet_third_printed", CANCELLED, "C_uz_Mx", FINE),
     ("sheet_cantilever", "beamw", CANCELLED, "C_uz_Mx", FINE),
-    ("sheet_wagner", "sheet_second", ("tip_warping=1",), "C_thx_Mz", "16,32,64,128"),
-    ("sheet_wagner", "sheet_third", ("tip_warping=1",), "C_thx_Mz", "16,32,64,128"),
-    ("sheet_wagner", "sheet_third_printed", ("tip_warping=1",), "C_thx_Mz", "16,32,64,128"),
+    ("sheet_wagner", "sheet_second", ("tip_warping=1", ), "C_thx_Mz", "16,32,64,128"),
+    ("sheet_wagner", "sheet_third", ("tip_warping=1", ), "C_thx_Mz", "16,32,64,128"),
+    ("sheet_wagner", "sheet_third_printed", ("tip_warping=1", ), "C_thx_Mz", "16,32,64,128"),
     ("c_cantilever", "beamw_first", ("omega=40", "w=1"), "lateral", "20,40,80,160"),
     ("c_cantilever", "beamw_first", ("omega=40", "w=1", "rotary_inertia=1"), "lateral",
      "20,40,80,160"),
     ("unsymmetric_column", "beamw_first:mass=lumped", (), "frequency_6", "16,32,64,128"),
-    ("bend_45", "sheet_third", ("force=300",), "u_tangent", "8,16,32,64,128"),
-    ("bend_45", "sheet_third_printed", ("force=300",), "u_tangent", "8,16,32,64,128"),
+    ("bend_45", "sheet_third", ("force=300", ), "u_tangent", "8,16,32,64,128"),
+    ("bend_45", "sheet_third_printed", ("force=300", ), "u_tangent", "8,16,32,64,128"),
 )
 # 64 elements of these sheets are as long as the sheet is thick and show orders of 3.2 and 3.7, which
 # are none: the limit seems known better than it is
-AS_THICK = (("tip_deflection=0.05",), ("tip_warping=1",))
+AS_THICK = (("tip_deflection=0.05", ), ("tip_warping=1", ))
 # undecided or biased on the judged meshes (rules meshes-hexapod, meshes-roll-up), a pass on these
 PASSES = (
-    ("hexapod", "beamw_consistent", ("wagner=0",), "support_stiffness_8", "2,4,8,16,32"),
-    ("hexapod", "beamw_consistent", ("wagner=0",), "support_stiffness_11", "2,4,8,16,32"),
-    *(("roll_up", formulation, ("turns=2",), "tip_gap", "32,64,128,256,512")
+    ("hexapod", "beamw_consistent", ("wagner=0", ), "support_stiffness_8", "2,4,8,16,32"),
+    ("hexapod", "beamw_consistent", ("wagner=0", ), "support_stiffness_11", "2,4,8,16,32"),
+    *(("roll_up", formulation, ("turns=2", ), "tip_gap", "32,64,128,256,512")
       for formulation in ("beamw", "beamw_first", "beamw_vlasov")),
 )
 # frequencies of flexure and torsion that 16 to 128 elements approach with orders of 1.1 to 1.3
-SLOW = (("frequency_3", ()), ("frequency_6", ()), ("frequency_6", ("axial_load=0",)))
+SLOW = (("frequency_3", ()), ("frequency_6", ()), ("frequency_6", ("axial_load=0", )))
 JOINT = "fold_warping=free", "wagner=0", "tilt=0.1", "steps=10"
 FOLDS = "1,2,4,8,16,32,64,128"
 PRINTED = ("beamw", "sheet_second", "sheet_third", "sheet_third_printed", "sheet_second_consistent")
 
 
 class Digits(ProgramTest):
+
     def limit(self, case, formulation, given, quantity, meshes):
         """What the series shows of one quantity."""
         words = [word for one in given for word in ("--set", one)]
@@ -86,7 +87,7 @@ class Digits(ProgramTest):
     def test_shorter_than_the_sheet_is_thick(self):
         """C_uz_My alike: orders of 4.5 and 4.7 agree up to 128 elements, where none is above four:
         the limit is doubted accordingly; 1024 meet the prediction."""
-        what = "sheet_cantilever", "sheet_second", ("tip_warping=1",), "C_uz_My"
+        what = "sheet_cantilever", "sheet_second", ("tip_warping=1", ), "C_uz_My"
         coarse = self.limit(*what, "1,2,3,4,8,16,32,64,128")
         self.assertGreater(coarse["order"], 4.4)
         self.assertEqual(coarse["verdict"], "wrong limit, as predicted")
@@ -97,8 +98,10 @@ class Digits(ProgramTest):
     def from_prediction(self, case, formulation, given, quantity, meshes):
         """{elements: distance of a stiffness from the predicted limit, relative}"""
         found = self.limit(case, formulation, given, quantity, meshes)
-        return {mesh["elements"]: abs(mesh["value"] / found["predicted"] - 1)
-                for mesh in found["meshes"]}
+        return {
+            mesh["elements"]: abs(mesh["value"] / found["predicted"] - 1)
+            for mesh in found["meshes"]
+        }
 
     def test_joints(self):
         """From 32 elements a sheet on they are shorter than it is thick: the distance from the
@@ -115,7 +118,7 @@ class Digits(ProgramTest):
         """The same of its twelve joints at the end of the stroke."""
         for formulation in PRINTED:
             with self.subTest(formulation=formulation):
-                apart = self.from_prediction("hexapod", formulation, ("wagner=0",),
+                apart = self.from_prediction("hexapod", formulation, ("wagner=0", ),
                                              "support_stiffness_11", "32,64")
                 self.assertLess(apart[64], 4e-5)
                 self.assertLess(apart[64], 0.6 * apart[32])

@@ -86,7 +86,8 @@ def turning_frequencies(K, M, G):
     size, vectors = scipy.linalg.eigh(M)
     R = numpy.sqrt(numpy.maximum(size, 0))[:, None] * vectors.T
     half = scipy.linalg.solve_triangular(L, R.T, lower=True)
-    turned = scipy.linalg.solve_triangular(L, scipy.linalg.solve_triangular(L, G, lower=True).T,
+    turned = scipy.linalg.solve_triangular(L,
+                                           scipy.linalg.solve_triangular(L, G, lower=True).T,
                                            lower=True).T
     whole = numpy.block([[-1j * turned, half], [half.T, numpy.zeros_like(K)]])
     inverse = scipy.linalg.eigvalsh(whole)[::-1]
@@ -94,6 +95,7 @@ def turning_frequencies(K, M, G):
 
 
 class Matrices(ProgramTest):
+
     def solve(self, scene, formulation, *more, n=2):
         """Values by name and the folder, or None where it is refused."""
         file, folder = self.folder / "scene.yaml", self.folder / formulation.replace(":", "_")
@@ -130,6 +132,7 @@ class Matrices(ProgramTest):
 
 
 class Frequencies(Matrices):
+
     def test_loaded(self):
         """At rest, prestressed, and bent by a quarter of its length, with a rigid body."""
         checked = 0
@@ -138,8 +141,7 @@ class Frequencies(Matrices):
             if folder is None:
                 continue
             checked += 1
-            for state, stem in (("modal_1", "rest"), ("modal_3", "bent"),
-                                ("modal_4", "stressed")):
+            for state, stem in (("modal_1", "rest"), ("modal_3", "bent"), ("modal_4", "stressed")):
                 found = frequencies(self.read(folder, state, "K"), self.read(folder, state, "M"))
                 self.agree(values, stem, found, formulation)
             self.assertEqual((folder / "modal_3/K.mtx").read_text().splitlines()[2:],
@@ -190,19 +192,20 @@ class Frequencies(Matrices):
 
 
 class Contents(Matrices):
+
     def test_states(self):
         folder = self.solve(LOADED, "beamw")
         states = self.rows(folder, "states.csv")
         self.assertEqual([(s["folder"], s["analysis"], s["kind"], s["station"], float(s["path"]))
                           for s in states],
-                         [("undeformed", "", "", "", 0),
-                          ("modal_1", "analysis_1", "modal", "", 0),
+                         [("undeformed", "", "", "", 0), ("modal_1", "analysis_1", "modal", "", 0),
                           ("static_2_station_0", "analysis_2", "static", "0", 0.5),
                           ("static_2_station_1", "analysis_2", "static", "1", 1),
                           ("modal_3", "analysis_3", "modal", "", 1),
                           ("modal_4", "analysis_4", "modal", "", 0)])
-        self.assertEqual(sorted(os.listdir(folder)), sorted(
-            [s["folder"] for s in states] + ["dofs.csv", "loads.csv", "states.csv"]))
+        self.assertEqual(
+            sorted(os.listdir(folder)),
+            sorted([s["folder"] for s in states] + ["dofs.csv", "loads.csv", "states.csv"]))
 
     def test_follower(self):
         """A load that turns with its node: a tangent without symmetry, and said so."""
@@ -221,16 +224,15 @@ class Contents(Matrices):
             key = (r["node"], r["member"], r["along"], r["unit"])
             count.setdefault(key, []).append(r["component"])
         plain, turns = ["ux", "uy", "uz"], ["rx", "ry", "rz"]
-        self.assertEqual(count, {
-            ("node_1", "", "", "m"): plain, ("node_1", "", "", "rad"): turns,
-            ("node_2", "", "", "rad"): ["angle 1"],
-            ("", "member_0", "0.5", "m"): plain, ("", "member_0", "0.5", "rad"): turns,
-            ("", "member_1", "0.5", "m"): plain, ("", "member_1", "0.5", "rad"): turns,
-            ("", "member_1", "0", "rad"): ["turn 1"],
-            ("", "member_0", "0.5", "rad/m"): ["warping"],
-            ("node_1", "member_0", "1", "rad/m"): ["warping"],
-            ("", "member_1", "0", "rad/m"): ["warping"],
-            ("", "member_1", "0.5", "rad/m"): ["warping"]})
+        self.assertEqual(
+            count, {("node_1", "", "", "m"): plain, ("node_1", "", "", "rad"): turns,
+                    ("node_2", "", "", "rad"): ["angle 1"], ("", "member_0", "0.5", "m"): plain,
+                    ("", "member_0", "0.5", "rad"): turns, ("", "member_1", "0.5", "m"): plain,
+                    ("", "member_1", "0.5", "rad"): turns, ("", "member_1", "0", "rad"): ["turn 1"],
+                    ("", "member_0", "0.5", "rad/m"): ["warping"],
+                    ("node_1", "member_0", "1", "rad/m"): ["warping"],
+                    ("", "member_1", "0", "rad/m"): ["warping"],
+                    ("", "member_1", "0.5", "rad/m"): ["warping"]})
         middle = [r for r in rows if r["member"] == "member_1" and r["along"] == "0.5"]
         self.assertEqual([float(middle[0][k]) for k in "xyz"], [1.5, 2, 0])
 
@@ -264,10 +266,15 @@ class Places(Matrices):
 
     def test_full_disk(self):
         """Complete or not at all."""
+
         def small():
             resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
-        self.refused(4, ["cannot be written", "nothing was left"], *self.WORK, self.folder / "new",
-                     preexec_fn=small, silent=False)
+
+        self.refused(4, ["cannot be written", "nothing was left"],
+                     *self.WORK,
+                     self.folder / "new",
+                     preexec_fn=small,
+                     silent=False)
         self.assertEqual(os.listdir(self.folder), [])
 
 

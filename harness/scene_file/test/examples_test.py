@@ -8,6 +8,7 @@ from harness.test.program import run
 
 
 class ExamplesTest(SceneCase):
+
     def test_examples_pass(self):
         """Every example is understood by `list`; where it has truths, they hold."""
         judged = 0
@@ -23,8 +24,8 @@ class ExamplesTest(SceneCase):
         """All examples at once, every formulation as expected; a case beside them; names once."""
         done = self.answered("verify", "--scene", EXAMPLES)
         self.assertIn("0 verdicts differ", done.stdout)
-        found = re.findall(r"^  (\S+) +k_drive .* biased, as predicted, N50-examples$",
-                           done.stdout, re.M)
+        found = re.findall(r"^  (\S+) +k_drive .* biased, as predicted, N50-examples$", done.stdout,
+                           re.M)
         self.assertEqual(found, ["sheet_third", "sheet_third_printed"])
         verdicts = self.folder / "verdicts.json"
         self.answered("verify", "--built-in", "--scene", EXAMPLES, "-J", verdicts, "-k",
@@ -37,7 +38,8 @@ class ExamplesTest(SceneCase):
         taken = euler.read_text(encoding="utf-8").replace("name: euler_column", "name: c_column")
         taken = self.scene(taken)
         self.refused(2, "is judged already", "verify", "--built-in", "--scene", taken)
-        self.refused(2, "given twice", "solve", "--scene", euler, "--scene", euler, "-f", "beamw", "-n", 1)
+        self.refused(2, "given twice", "solve", "--scene", euler, "--scene", euler, "-f", "beamw",
+                     "-n", 1)
         self.refused(2, "would replace", "verify", "--scene", self.folder, "-o", taken)
 
     def test_leaf_spring_guide(self):
@@ -64,8 +66,9 @@ class ExamplesTest(SceneCase):
 
     def test_cross_flexure_hinge(self):
         """Moment, shift and stiffness at 20 degrees."""
-        got = values(self.record("solve", "--scene", EXAMPLES / "cross_flexure_hinge.yaml", "-f",
-                                 "collocation", "-n", 2))
+        got = values(
+            self.record("solve", "--scene", EXAMPLES / "cross_flexure_hinge.yaml", "-f",
+                        "collocation", "-n", 2))
         for name, value in (("moment", 0.0800992), ("shift_y", 0.838472e-3), ("k_x", 177513.77)):
             self.assertAlmostEqual(got[name] / value, 1, delta=1e-6)
 
@@ -75,8 +78,8 @@ class ExamplesTest(SceneCase):
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 2))
         self.assertAlmostEqual(got["k_x"] / got["k_y"], 1, delta=1e-12)
         turned = path.read_text(encoding="utf-8").replace("{a: 2*pi/3*i}", "{a: 2*pi/3*i + 0.3}")
-        again = values(self.record("solve", "--scene", self.scene(turned), "-f", "collocation",
-                                   "-n", 2))
+        again = values(
+            self.record("solve", "--scene", self.scene(turned), "-f", "collocation", "-n", 2))
         for name, value in got.items():
             self.assertAlmostEqual(again[name] / value, 1, delta=1e-11)
 

@@ -12,6 +12,7 @@ GOOD = ROOT / "harness/scene_file/test/good"
 
 
 class SceneTest(SceneCase):
+
     def test_bad_files(self):
         """Each planted mistake is told at its place, with its remedy, and nothing else is."""
         files = sorted(BAD.glob("*.yaml"))
@@ -28,23 +29,23 @@ class SceneTest(SceneCase):
         path = BAD / "several_mistakes.yaml"
         done = self.answered("scene", "--scene", path, "--format", "json", code=2)
         told = json.loads(done.stdout)
-        self.assertEqual([(m["line"], m["column"]) for m in told["mistakes"]],
-                         [(15, 55), (19, 49), (33, 53), (34, 65)])
+        self.assertEqual([(m["line"], m["column"]) for m in told["mistakes"]], [(15, 55), (19, 49),
+                                                                                (33, 53), (34, 65)])
         self.assertEqual((told["file"], told["more"]), (str(path), 0))
 
     def test_first_scene(self):
         """Ten lines are a scene: P L^3/3EI + P L/(k G A) at the tip."""
         path = self.scene(LEAF)
         record = self.record("solve", "--scene", path, "-f", "collocation", "-n", 1)
-        area, inertia = 50e-3 * 0.5e-3, 50e-3 * 0.5e-3**3 / 12
-        exact = 0.1**3 / (3 * 210e9 * inertia) + 0.1 / (5 / 6 * 81e9 * area)
+        area, inertia = 50e-3 * 0.5e-3, 50e-3 * 0.5e-3 ** 3 / 12
+        exact = 0.1 ** 3 / (3 * 210e9 * inertia) + 0.1 / (5 / 6 * 81e9 * area)
         self.assertAlmostEqual(values(record)["tip_uy"] / exact, 1, delta=1e-9)
 
     def test_bytes(self):
         """Line ends and marks of other editors, and letters of other languages, change nothing."""
         own = self.answered("scene", "--scene", self.scene(LEAF)).stdout
-        for name, text in (("ends", LEAF.replace("\n", "\r\n")), ("mark", "\ufeff" + LEAF),
-                           ("letters", LEAF + "# Größe – 大きさ\n")):
+        for name, text in (("ends", LEAF.replace(
+                "\n", "\r\n")), ("mark", "\ufeff" + LEAF), ("letters", LEAF + "# Größe – 大きさ\n")):
             path = self.folder / "scene.yaml"
             path.write_bytes(text.encode())
             self.assertEqual(self.answered("scene", "--scene", path).stdout, own, name)
@@ -61,8 +62,8 @@ class SceneTest(SceneCase):
             for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):
                 where = ("-f", formulation, "-n", 2, "--format", "json")
                 own, copied = run("solve", case, *where), run("solve", "--scene", path, *where)
-                self.assertEqual((own.returncode, own.stderr),
-                                 (copied.returncode, copied.stderr), (case, formulation))
+                self.assertEqual((own.returncode, own.stderr), (copied.returncode, copied.stderr),
+                                 (case, formulation))
                 if own.stdout:
                     self.assertEqual(values(json.loads(own.stdout)),
                                      values(json.loads(copied.stdout)), (case, formulation))
@@ -94,8 +95,9 @@ class SceneTest(SceneCase):
 
     def test_truths_of_a_point(self):
         """A truth that names parameters holds there only, and `verify` goes there."""
-        path = self.scene(LEAF.replace("width: 50e-3", "width: width").replace(
-            "sections:", "parameters:\n  width: {value: 50e-3, unit: m}\nsections:") +
+        path = self.scene(
+            LEAF.replace("width: 50e-3", "width: width").replace(
+                "sections:", "parameters:\n  width: {value: 50e-3, unit: m}\nsections:") +
             "truths:\n  - {quantity: tip_uy, value: 1.5238e-3, kind: published, uncertainty: 1e-6,"
             " source: book, parameters: {width: 0.1}}\n")
         where = ("solve", "--scene", path, "-f", "collocation", "-n", 1)
@@ -127,8 +129,10 @@ class SceneTest(SceneCase):
 
     def test_list_of_keys(self):
         """--keys names what the schema names, and what the examples use is in both."""
-        listed = {line.split()[0] for line in self.answered("scene", "--keys").stdout.splitlines()
-                  if line.strip()}
+        listed = {
+            line.split()[0]
+            for line in self.answered("scene", "--keys").stdout.splitlines() if line.strip()
+        }
         schema = json.loads(self.answered("scene", "--schema").stdout)
         self.assertLessEqual(set(schema["properties"]), listed)
         for path in EXAMPLES.glob("*.yaml"):

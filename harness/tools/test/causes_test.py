@@ -40,15 +40,15 @@ def words_of_prepare(formulation):
 
 
 class OneThing(unittest.TestCase):
+
     def pairs(self, with_options):
         found = causes.SIBLINGS + causes.OF_VIBRATION
         return [(a, b) for a, b, _ in found if (":" in b) == with_options]
 
     def differing(self, a, b):
         one, other = members(a), members(b)
-        return {
-            name for name in one.keys() | other.keys() if one.get(name) != other.get(name)
-        } - ABOUT
+        return {name
+                for name in one.keys() | other.keys() if one.get(name) != other.get(name)} - ABOUT
 
     def test_formulations(self):
         """One word of `prepare`; or the whole stress function, over the same strains and inertia."""
@@ -72,7 +72,8 @@ class OneThing(unittest.TestCase):
             name, _, option = b.partition(":")
             key, _, value = option.partition("=")
             self.assertEqual((name, option.count(",")), (a, 0))
-            listed = re.search(rf'"{key}",\s*"",[^"]*"([\w|]+)"', choices.replace("\\", " ")).group(1)
+            listed = re.search(rf'"{key}",\s*"",[^"]*"([\w|]+)"', choices.replace("\\",
+                                                                                  " ")).group(1)
             self.assertIn(value, listed.split("|"))
 
     def test_both_ways(self):
@@ -98,6 +99,7 @@ def verdict(rule, case, error):
 
 
 class Choice(unittest.TestCase):
+
     def test_the_worst_of_each_case(self):
         given = [
             verdict("a", "x", 0.1),
@@ -106,9 +108,8 @@ class Choice(unittest.TestCase):
             verdict("", "x", 9),
         ]
         found = causes.worst_of(given)
-        self.assertEqual(
-            {key: v["error"] for key, v in found.items()}, {("a", "x"): -0.3, ("a", "y"): None}
-        )
+        self.assertEqual({key: v["error"]
+                          for key, v in found.items()}, {("a", "x"): -0.3, ("a", "y"): None})
 
     def test_every_rule_before_a_second_case(self):
         keys = [("a", "x"), ("a", "y"), ("b", "x"), ("a", "z")]
@@ -118,6 +119,7 @@ class Choice(unittest.TestCase):
 
 
 class Outcome(unittest.TestCase):
+
     def laboratory(self, errors):
         """errors: {changed parameters, or formulation: error of the limit}"""
         made = causes.Laboratory("program", 0)
@@ -141,14 +143,14 @@ class Outcome(unittest.TestCase):
             return causes.study(self.laboratory(errors), verdict("a", "x", 0.1))["experiments"]
 
     def test_what_takes_the_error_away(self):
-        found = self.study({(): 0.1, ("shear=0",): 1e-6, "beamw_first": 0.1})
+        found = self.study({(): 0.1, ("shear=0", ): 1e-6, "beamw_first": 0.1})
         self.assertEqual(
             [(e["kind"], e["gone"]) for e in found],
             [("finer", False), ("without", True), ("instead", False)],
         )
 
     def test_coarse_meshes(self):
-        self.assertTrue(self.study({(): 1e-5, ("shear=0",): 1e-5, "beamw_first": 1e-5})[0]["gone"])
+        self.assertTrue(self.study({(): 1e-5, ("shear=0", ): 1e-5, "beamw_first": 1e-5})[0]["gone"])
 
     def test_a_failure_is_gone_where_a_value_is_right(self):
         self.assertTrue(causes.is_gone(1e-4, None))

@@ -13,6 +13,7 @@ OPTIONAL = ("chromium", "vtk")  # of single tests: nobody installs them
 
 
 class Folder(ProgramTest):
+
     def script(self, name, *lines):
         path = self.folder / name
         path.write_text("#!/bin/sh\n" + "\n".join(lines) + "\n", encoding="ascii")
@@ -33,10 +34,15 @@ class Dependencies(Folder):
         self.script("id", f"echo {user}")
         asked = self.folder / "asked"
         asked.unlink(missing_ok=True)
-        done = subprocess.run([TOOLS / "dependencies.sh", command, self.folder / "flags.mk"],
-                              capture_output=True, text=True, check=False,
-                              env={"PATH": f"{self.folder}:{os.environ['PATH']}",
-                                   "PYTHON": str(self.folder / "python3"), "CC": "cc"})
+        done = subprocess.run(
+            [TOOLS / "dependencies.sh", command, self.folder / "flags.mk"],
+            capture_output=True,
+            text=True,
+            check=False,
+            env={
+                "PATH": f"{self.folder}:{os.environ['PATH']}",
+                "PYTHON": str(self.folder / "python3"), "CC": "cc"
+            })
         self.assertEqual(done.returncode, 1, "what was missing still is")
         self.assertIn("Run: sudo apt-get install", done.stderr.splitlines()[-1])
         packages = set(done.stderr.splitlines()[-1].partition("apt-get install")[2].split())
@@ -47,8 +53,8 @@ class Dependencies(Folder):
         self.assertTrue({"libgsl-dev", "libhdf5-dev", "libjansson-dev"} <= needs["build"])
         self.assertFalse(any(name.startswith("python3") for name in needs["build"]))
         self.assertEqual(needs["verify"], {"python3-h5py", "python3-numpy"})
-        self.assertTrue({"python3-matplotlib", "python3-jinja2",
-                         "python3-markdown"} <= needs["report"])
+        self.assertTrue(
+            {"python3-matplotlib", "python3-jinja2", "python3-markdown"} <= needs["report"])
         self.assertIn("python3-mpmath", needs["truths"])
         self.assertTrue(needs["report"] | needs["truths"] | needs["verify"] <= needs["test"])
 
@@ -91,6 +97,7 @@ def foreign_imports(path):
 
 
 class Runner(Folder):
+
     def tests(self, *lines):
         package = self.folder / "room"
         package.mkdir(exist_ok=True)
@@ -99,17 +106,20 @@ class Runner(Folder):
         text = f"import unittest\n\n\nclass T(unittest.TestCase):\n{body}\n"
         (package / "made_up_test.py").write_text(text, encoding="ascii")
 
-    def run_tests(self, *programs, python=("room",)):
-        return subprocess.run([TOOLS / "run_tests.sh", self.folder / "logs", *programs, "--",
-                               *python], capture_output=True, text=True, check=False,
-                              cwd=self.folder)
+    def run_tests(self, *programs, python=("room", )):
+        return subprocess.run(
+            [TOOLS / "run_tests.sh", self.folder / "logs", *programs, "--", *python],
+            capture_output=True,
+            text=True,
+            check=False,
+            cwd=self.folder)
 
     def test_counts(self):
         self.script("a_test", "echo PASS: one; echo PASS: two")
         self.tests("def test_good(self):", '    """With words."""',
                    "@unittest.skip('needs chromium')", "def test_skipped(self):",
-                   '    """Says what."""',
-                   "@unittest.skip(\"needs a 'thing'\")", "def test_skipped_too(self):", "    pass")
+                   '    """Says what."""', "@unittest.skip(\"needs a 'thing'\")",
+                   "def test_skipped_too(self):", "    pass")
         done = self.run_tests(self.folder / "a_test")
         lines = done.stdout.splitlines()
         self.assertEqual((done.returncode, lines[-1]), (0, "3 passed, 0 failed, 2 skipped"), done)
@@ -145,8 +155,8 @@ class Runner(Folder):
         self.folder.mkdir()
         self.script("a_test", "echo PASS: one")
         self.tests("def test_good(self):", "    pass")
-        self.assertEqual(self.run_tests(self.folder / "a_test").stdout.splitlines()[-1],
-                         "2 passed, 0 failed")
+        self.assertEqual(
+            self.run_tests(self.folder / "a_test").stdout.splitlines()[-1], "2 passed, 0 failed")
 
 
 class Circles(Folder):
@@ -156,11 +166,15 @@ class Circles(Folder):
         paths = []
         for name, text in sources.items():
             path = self.folder / f"{name}.o"
-            subprocess.run(["cc", "-w", "-x", "c", "-c", "-o", path, "-"], input=text, text=True,
+            subprocess.run(["cc", "-w", "-x", "c", "-c", "-o", path, "-"],
+                           input=text,
+                           text=True,
                            check=True)
             paths.append(path)
         return subprocess.run(["/usr/bin/python3", TOOLS / "circles.py", *paths],
-                              capture_output=True, text=True, check=False)
+                              capture_output=True,
+                              text=True,
+                              check=False)
 
     def test_calls_in_one_direction(self):
         said = self.objects(low="int low(void) { return 1; }",
@@ -184,8 +198,12 @@ class Mutants(Folder):
     """The list of faults, without planting them: DRY=1 only asks whether each still has its place."""
 
     def dry(self, root):
-        return subprocess.run([TOOLS / "mutants.sh", self.folder / "work"], capture_output=True,
-                              text=True, check=False, cwd=root, env=os.environ | {"DRY": "1"})
+        return subprocess.run([TOOLS / "mutants.sh", self.folder / "work"],
+                              capture_output=True,
+                              text=True,
+                              check=False,
+                              cwd=root,
+                              env=os.environ | {"DRY": "1"})
 
     @unittest.skipUnless((ROOT / ".git").exists(), "needs a clone")
     def test_every_fault_has_its_place(self):
