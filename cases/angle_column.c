@@ -1,5 +1,6 @@
-/* Fork-ended column, an equal angle of 120 x 120 x 8 mm: flexural-torsional buckling under an axial force at its centroid, its
- * shear centre or the tip of a leg, and under end moments. code_aster V3.01.103 (SSLL103); constants as printed there. */
+/* Fork-ended column, an equal angle of 120 x 120 x 8 mm: flexural-torsional buckling under an axial
+ * force at its centroid, its shear centre or the tip of a leg, and under end moments. code_aster
+ * V3.01.103 (SSLL103); constants as printed there. */
 #include "cases/case.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
-/* The 45-degree bend: a cantilever along an arc of radius 100, loaded at its tip across the arc's plane.
- * Bathe and Bolourchi (1979); 1 x 1 square section, E = 1e7, nu = 0 (units of the source taken as SI). */
+/* The 45-degree bend: a cantilever along an arc of radius 100, loaded at its tip across the arc's
+ * plane. Bathe and Bolourchi (1979); 1 x 1 square section, E = 1e7, nu = 0 (units of the source
+ * taken as SI). */
 #include "cases/case.h"
 
 #include <math.h>

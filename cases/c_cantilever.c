@@ -1,7 +1,8 @@
-/* C-shaped cantilever under a dead tip force parallel to the web, applied off the shear centre: lateral-torsional deflection far
- * beyond buckling. J section 5.2, Figs. 11-13; the table of section sizes is lost, so both readings of them are offered.
- * Turning: J Eqs. 73, 74 have rotary inertia, hence the centrifugal moments of rotary_inertia=1 (7 % of the force at omega = 20,
- * w = 0.25); whether J's curves of Fig. 13 contain them is not said. */
+/* C-shaped cantilever under a dead tip force parallel to the web, applied off the shear centre:
+ * lateral-torsional deflection far beyond buckling. J section 5.2, Figs. 11-13; the table of
+ * section sizes is lost, so both readings of them are offered. Turning: J Eqs. 73, 74 have rotary
+ * inertia, hence the centrifugal moments of rotary_inertia=1 (7 % of the force at omega = 20, w =
+ * 0.25); whether J's curves of Fig. 13 contain them is not said. */
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>

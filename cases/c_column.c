@@ -1,5 +1,5 @@
-/* Simply supported C-shaped column: buckling under an axial force at the centroid, and natural frequencies.
- * J section 5.1, Tables 1-3. */
+/* Simply supported C-shaped column: buckling under an axial force at the centroid, and natural
+ * frequencies. J section 5.1, Tables 1-3. */
 #include "cases/shared/column.h"
 #include "cases/shared/frequencies.h"
 

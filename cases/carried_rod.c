@@ -1,7 +1,8 @@
-/* A bent and twisted rod carried around as a whole: nothing but its direction may change. L = 1 m, EI = GJ = 1 N m^2.
+/* A bent and twisted rod carried around as a whole: nothing but its direction may change. L = 1 m,
+ * EI = GJ = 1 N m^2.
  *
- * An isotropic rod that carries a moment only has a constant moment in space: with its tip turned by the rotation vector phi it
- * is phi EI/L, turned with the rod. */
+ * An isotropic rod that carries a moment only has a constant moment in space: with its tip turned
+ * by the rotation vector phi it is phi EI/L, turned with the rod. */
 #include "cases/shared/cantilever.h"
 #include "elements/math/pi.h"
 

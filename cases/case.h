@@ -11,9 +11,11 @@ enum { CASE_MAX_PARAMETERS = 32 };
 typedef struct case_type {
     const char *name, *summary, *source;
     const parameter_type *parameters[PARAMETER_PARTS];
-    /* value[i] belongs to the i-th of all parts and is inside its range.  Refuses combinations that make no sense. */
+    /* value[i] belongs to the i-th of all parts and is inside its range.  Refuses combinations that
+     * make no sense. */
     status (*build)(const double value[], scene *s, fault *f);
-    /* The same of a case that is made at run time, in the place of build; context: what it is made from. */
+    /* The same of a case that is made at run time, in the place of build; context: what it is made
+     * from. */
     status (*build_from)(const void *context, const double value[], scene *s, fault *f);
     const void *context;
 } case_type;

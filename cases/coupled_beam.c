@@ -1,6 +1,7 @@
-/* A cantilever of a section by its matrices, with bend-twist, extension-twist and other couplings, as of a composite blade.
- * L = 1 m.  Under forces and a torque at its tip; under its weight, which acts at centres of mass beside the line; rolled up to
- * a helix by a moment about an axis about which it turns; its frequencies; the pressure under which it buckles. */
+/* A cantilever of a section by its matrices, with bend-twist, extension-twist and other couplings,
+ * as of a composite blade. L = 1 m.  Under forces and a torque at its tip; under its weight, which
+ * acts at centres of mass beside the line; rolled up to a helix by a moment about an axis about
+ * which it turns; its frequencies; the pressure under which it buckles. */
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -21,7 +22,8 @@ static const parameter_type parameters[] = {
 
 /* [N] and [N m^2], of N, Qy, Qz, Mx, My, Mz */
 static const double stiff[6] = {1e7, 4e6, 3e6, 800, 1000, 4000};
-/* Of a slice: mass [kg/m], centre of mass [m] times the coupling, moments of inertia about it [kg m] */
+/* Of a slice: mass [kg/m], centre of mass [m] times the coupling, moments of inertia about it [kg
+ * m] */
 static const double mass = 2, centre_y = 0.02, centre_z = -0.01, about_y = 0.8e-3, about_z = 1.8e-3;
 
 static void couple(int row, int column, double part, double C[36])
@@ -74,7 +76,8 @@ static void add_quantities(scene *s, int analysis, int tip, int couples)
                 ->least_order = 1.8;
 }
 
-/* Twist and bending about y have the stiffness [k, b; b, EIy] where nothing pulls; the moment is along its softer axis. */
+/* Twist and bending about y have the stiffness [k, b; b, EIy] where nothing pulls; the moment is
+ * along its softer axis. */
 static void add_helix(scene *s, int tip, const section_spec *spec, double turn)
 {
     const double *C = spec->constants.stiffness, end = 1;

@@ -1,5 +1,5 @@
-/* Deep simply supported beam, 10 m of 2 x 2 m: shear and rotary inertia in bending, and torsional and extensional frequencies
- * among them. NAFEMS test FV5. */
+/* Deep simply supported beam, 10 m of 2 x 2 m: shear and rotary inertia in bending, and torsional
+ * and extensional frequencies among them. NAFEMS test FV5. */
 #include "cases/case.h"
 #include "cases/shared/frequencies.h"
 

@@ -1,4 +1,5 @@
-/* The elastica: cantilever under a dead transverse tip force. L = 1 m, EI = 1 N m^2; EA large and finite. */
+/* The elastica: cantilever under a dead transverse tip force. L = 1 m, EI = 1 N m^2; EA large and
+ * finite. */
 #include "cases/shared/cantilever.h"
 
 #include <stddef.h>

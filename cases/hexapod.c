@@ -1,5 +1,6 @@
-/* Flexure-based hexapod: six cranks, six rods, twelve spherical flexure joints, a platform that moves along z; support
- * stiffness along z with the cranks held.  N section 4.3, Fig. 10; the published sizes are not in the paper: synthetic. */
+/* Flexure-based hexapod: six cranks, six rods, twelve spherical flexure joints, a platform that
+ * moves along z; support stiffness along z with the cranks held.  N section 4.3, Fig. 10; the
+ * published sizes are not in the paper: synthetic. */
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -33,7 +34,8 @@ static const parameter_type parameters[] = {
     {0},
 };
 
-/* Joint axes for a rod: z along `direction`, x in the plane of the rod and the global z axis on the upper side. */
+/* Joint axes for a rod: z along `direction`, x in the plane of the rod and the global z axis on the
+ * upper side. */
 static void joint_axes(const double direction[3], double axes[9])
 {
     double x[3] = {-direction[2] * direction[0], -direction[2] * direction[1],

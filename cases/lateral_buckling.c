@@ -1,5 +1,7 @@
-/* Lateral-torsional buckling of a beam bent about its strong axis, load at the shear centre.  Prebuckling deflection neglected: linear
- * prestress; included: the critical point of the nonlinear path, which the deflection raises by weak EI/strong EI.  L = 1 m, weak EI = GJ = 1 N m^2; load_factor = P L^2/sqrt(EI GJ), a distributed load as its total. */
+/* Lateral-torsional buckling of a beam bent about its strong axis, load at the shear centre.
+ * Prebuckling deflection neglected: linear prestress; included: the critical point of the nonlinear
+ * path, which the deflection raises by weak EI/strong EI.  L = 1 m, weak EI = GJ = 1 N m^2;
+ * load_factor = P L^2/sqrt(EI GJ), a distributed load as its total. */
 #include "cases/case.h"
 
 #include <stddef.h>

@@ -1,5 +1,6 @@
-/* Frame of Lee: a column and a beam, both 120 m long, joined rigidly and hinged at their far ends, under a force on the beam at a
- * fifth of its length from the corner. The path snaps through and, in the deflection of the loaded point, back. */
+/* Frame of Lee: a column and a beam, both 120 m long, joined rigidly and hinged at their far ends,
+ * under a force on the beam at a fifth of its length from the corner. The path snaps through and,
+ * in the deflection of the loaded point, back. */
 #include <stddef.h>
 #include <stdio.h>
 

@@ -1,5 +1,5 @@
-/* A cantilever in the plane under loads of every kind: dead and following, at its tip, on an arm beyond it and along it.
- * L = 1 m, EI = 1 N m^2; EA large and finite. */
+/* A cantilever in the plane under loads of every kind: dead and following, at its tip, on an arm
+ * beyond it and along it. L = 1 m, EI = 1 N m^2; EA large and finite. */
 #include "cases/shared/cantilever.h"
 
 #include <stddef.h>

@@ -1,6 +1,6 @@
-/* The C-shaped column of c_column under equal and opposite end moments about its strong axis of bending in the
- * plane of symmetry (z): buckling moments of both signs, where the monosymmetric Wagner moments matter.
- * Closed forms: reference/derive; c_column's section and fork ends. */
+/* The C-shaped column of c_column under equal and opposite end moments about its strong axis of
+ * bending in the plane of symmetry (z): buckling moments of both signs, where the monosymmetric
+ * Wagner moments matter. Closed forms: reference/derive; c_column's section and fork ends. */
 #include "cases/shared/column.h"
 
 #include <stddef.h>

@@ -1,6 +1,7 @@
-/* Hinged frame of two deep thin strips under end moments in its plane: lateral buckling through the corner.  Argyris et al. (1979),
- * right angle; the first critical moment is pi/L sqrt(EI GJ) for every angle, EI about the weak axis, J = b t^3/3; the second depends
- * on the angle and on EI/GJ. */
+/* Hinged frame of two deep thin strips under end moments in its plane: lateral buckling through the
+ * corner.  Argyris et al. (1979), right angle; the first critical moment is pi/L sqrt(EI GJ) for
+ * every angle, EI about the weak axis, J = b t^3/3; the second depends on the angle and on EI/GJ.
+ */
 #include "cases/case.h"
 
 #include <math.h>

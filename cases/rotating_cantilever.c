@@ -1,6 +1,7 @@
-/* A cantilever that turns steadily: flap and lag frequencies, stretch of the end, force on the root [EI/L^2].  L = 1 m, EI = 1 N m^2, rho A = 1 kg/m, so that
- * frequencies are in sqrt(EI/(rho A L^4)).  The root is at a distance from the axis, which is normal to the beam or inclined
- * towards it; flap is motion in the plane of beam and axis, lag across it.  No shear, no rotary inertia. */
+/* A cantilever that turns steadily: flap and lag frequencies, stretch of the end, force on the root
+ * [EI/L^2].  L = 1 m, EI = 1 N m^2, rho A = 1 kg/m, so that frequencies are in sqrt(EI/(rho A
+ * L^4)).  The root is at a distance from the axis, which is normal to the beam or inclined towards
+ * it; flap is motion in the plane of beam and axis, lag across it.  No shear, no rotary inertia. */
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -43,7 +44,8 @@ static void make_curve(scene_quantity *q, double omega)
     scene_set_curve(q, "angular velocity", "1", omega, 0);
 }
 
-/* Where the axis is along the beam, modes whirl: they are neither flap nor lag, and counted together. */
+/* Where the axis is along the beam, modes whirl: they are neither flap nor lag, and counted
+ * together. */
 static void add_frequencies(scene *s, int rotation, double omega, int curves, int whirl)
 {
     static const struct {

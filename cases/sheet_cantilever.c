@@ -1,5 +1,5 @@
-/* Clamped sheet flexure with a prescribed tip deflection and no tip rotation about z: compliance of the deformed sheet.
- * N section 4.1, Fig. 5. */
+/* Clamped sheet flexure with a prescribed tip deflection and no tip rotation about z: compliance of
+ * the deformed sheet. N section 4.1, Fig. 5. */
 #include "cases/shared/frequencies.h"
 #include "cases/shared/sheet.h"
 #include "cases/shared/sheet_prediction.h"
@@ -23,7 +23,8 @@ static const parameter_type parameters[] = {
     {0},
 };
 
-/* In the plane of bending nothing couples to the motion out of it: the other 18 entries are zero by symmetry. */
+/* In the plane of bending nothing couples to the motion out of it: the other 18 entries are zero by
+ * symmetry. */
 static const int entries[][2] = {
     {0, 0}, {0, 1}, {0, 5}, {1, 0}, {1, 1}, {1, 5}, {5, 0}, {5, 1}, {5, 5},
     {2, 2}, {2, 3}, {2, 4}, {3, 2}, {3, 3}, {3, 4}, {4, 2}, {4, 3}, {4, 4},
@@ -94,7 +95,8 @@ static status build(const double value[], scene *s, fault *f)
     if (s->sections > 0)
         add_predictions(value, s);
     if (value[MODES] > 0) {
-        /* About the last state of the path.  The rotation about z is held in the sense of the rotation vector from there. */
+        /* About the last state of the path.  The rotation about z is held in the sense of the
+         * rotation vector from there. */
         frequencies_add(s, "frequency", scene_add_modal(s, path_analysis), SCENE_ANY,
                         (int)value[MODES]);
         if (value[ROTARY] != 0)

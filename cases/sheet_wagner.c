@@ -1,5 +1,6 @@
-/* The sheet of sheet_cantilever, deflected and rotated about z, then twisted at its tip: du_x/dM_y shows the Wagner torque.
- * N section 4.1, Fig. 6.  Tip rotation R = Ry(phi_y) Rz(phi_z) Rx(phi_x) with phi_y free (zero moment about y). */
+/* The sheet of sheet_cantilever, deflected and rotated about z, then twisted at its tip: du_x/dM_y
+ * shows the Wagner torque. N section 4.1, Fig. 6.  Tip rotation R = Ry(phi_y) Rz(phi_z) Rx(phi_x)
+ * with phi_y free (zero moment about y). */
 #include "cases/shared/sheet.h"
 
 #include <math.h>

@@ -1,7 +1,8 @@
-/* Shallow frame of two hinged bars (von Mises) under a force at its apex: snap-through with two limit points.
+/* Shallow frame of two hinged bars (von Mises) under a force at its apex: snap-through with two
+ * limit points.
  *
- * Half of it: the bar of length L at the angle a, the apex guided. With N = EA (1 - cos a0/cos a), F = 2 N sin a: the force has its
- * extrema +-2 EA (1 - cos^(2/3) a0)^(3/2) at cos^3 a = cos a0. */
+ * Half of it: the bar of length L at the angle a, the apex guided. With N = EA (1 - cos a0/cos a),
+ * F = 2 N sin a: the force has its extrema +-2 EA (1 - cos^(2/3) a0)^(3/2) at cos^3 a = cos a0. */
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>

@@ -1,6 +1,7 @@
-/* A beam that turns against rotational springs.  L = 1 m, EI = 1 N m^2, rho A = 1 kg/m.  Between two supports with equal springs:
- * deflection under a force in the middle, lowest frequency, buckling load.  On one support with a spring: rolled up by a moment.
- * No shear, no rotary inertia. */
+/* A beam that turns against rotational springs.  L = 1 m, EI = 1 N m^2, rho A = 1 kg/m.  Between
+ * two supports with equal springs: deflection under a force in the middle, lowest frequency,
+ * buckling load.  On one support with a spring: rolled up by a moment. No shear, no rotary inertia.
+ */
 #include <stddef.h>
 
 #include "cases/shared/cantilever.h"

@@ -1,8 +1,9 @@
-/* A cantilever whose section changes linearly from root to tip: a wedge, an I with narrowing flanges, a channel whose shear
- * centre and a Z whose principal axes turn along it.  L = 1 m, E = 210 GPa, G = 81 GPa, rho = 7800 kg/m^3.
+/* A cantilever whose section changes linearly from root to tip: a wedge, an I with narrowing
+ * flanges, a channel whose shear centre and a Z whose principal axes turn along it.  L = 1 m, E =
+ * 210 GPa, G = 81 GPa, rho = 7800 kg/m^3.
  *
- * Under forces at the centroid of the tip and a torque: all its displacements; the wedge also with shear, its buckling load and its
- * frequencies.  Only the I warps, held at the root. */
+ * Under forces at the centroid of the tip and a torque: all its displacements; the wedge also with
+ * shear, its buckling load and its frequencies.  Only the I warps, held at the root. */
 #include <stddef.h>
 
 #include "cases/case.h"

@@ -1,7 +1,8 @@
-/* A cantilever with a rigid body at its end, at rest and turning steadily.  L = 1 m, EI = 1 N m^2, rho A = 1 kg/m, so that
- * frequencies are in sqrt(EI/(rho A L^4)).  The body is symmetric about the beam's axis, about which it has no inertia (a thin rod);
- * its centre of mass is beyond the end.  The axis of rotation passes through the root, normal to the beam: flap is motion in the plane
- * of beam and axis, lag across it.  No shear, no rotary inertia of the beam. */
+/* A cantilever with a rigid body at its end, at rest and turning steadily.  L = 1 m, EI = 1 N m^2,
+ * rho A = 1 kg/m, so that frequencies are in sqrt(EI/(rho A L^4)).  The body is symmetric about the
+ * beam's axis, about which it has no inertia (a thin rod); its centre of mass is beyond the end.
+ * The axis of rotation passes through the root, normal to the beam: flap is motion in the plane of
+ * beam and axis, lag across it.  No shear, no rotary inertia of the beam. */
 #include <math.h>
 #include <stddef.h>
 

@@ -1,5 +1,6 @@
-/* Fork-ended column of an unsymmetric, branched thin-walled section under an axial force at the centroid: buckling load, and
- * natural frequencies of the loaded column.  Closed form: one half-wave at a time (reference/derive/column.py). */
+/* Fork-ended column of an unsymmetric, branched thin-walled section under an axial force at the
+ * centroid: buckling load, and natural frequencies of the loaded column.  Closed form: one
+ * half-wave at a time (reference/derive/column.py). */
 #include "cases/case.h"
 #include "cases/shared/forks.h"
 #include "cases/shared/frequencies.h"

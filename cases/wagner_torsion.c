@@ -1,5 +1,6 @@
-/* A strip of 200 x 10 mm twisted at its tip, free to shorten: Wagner torque and shortening in uniform torsion.
- * Exact: M = GJ phi/L + E I_n (phi/L)^3/2 with I_n = t b^5/180 and J = b t^3/3; shortening L (b^2 + t^2)/24 (phi/L)^2. */
+/* A strip of 200 x 10 mm twisted at its tip, free to shorten: Wagner torque and shortening in
+ * uniform torsion. Exact: M = GJ phi/L + E I_n (phi/L)^3/2 with I_n = t b^5/180 and J = b t^3/3;
+ * shortening L (b^2 + t^2)/24 (phi/L)^2. */
 #include "cases/case.h"
 
 #include <stddef.h>

@@ -1,5 +1,6 @@
-/* Non-uniform torsion of a shear-rigid cantilever under a tip torque: hyperbolic functions against cubic ones.
- * twist_ratio = phi GJ/(T L): 1 - tanh(kL)/(kL) with a free tip, 1 - tanh(kL/2)/(kL/2) when the tip cannot warp. */
+/* Non-uniform torsion of a shear-rigid cantilever under a tip torque: hyperbolic functions against
+ * cubic ones. twist_ratio = phi GJ/(T L): 1 - tanh(kL)/(kL) with a free tip, 1 - tanh(kL/2)/(kL/2)
+ * when the tip cannot warp. */
 #include "cases/case.h"
 
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* Buckling of a column, clamped at its foot, under its own weight and a load on its head: one stays, the other grows. L = 1 m,
- * EI = 1 N m^2 in its weak plane. */
+/* Buckling of a column, clamped at its foot, under its own weight and a load on its head: one
+ * stays, the other grows. L = 1 m, EI = 1 N m^2 in its weak plane. */
 #include "cases/case.h"
 
 #include <stddef.h>

@@ -1,6 +1,7 @@
-/* BEAMW repaired: the whole of D in the stiffness, strains that see uniform shear of any size (elements/beamw/helicoidal.h), and modified
- * modes from the strains of the Simo-Reissner beam over the full linear solution (elements/beamw/modified.c); what bends, shears and
- * warps inside the element are internal modes, condensed in equilibrium (elements/beamw/condensed.c). */
+/* BEAMW repaired: the whole of D in the stiffness, strains that see uniform shear of any size
+ * (elements/beamw/helicoidal.h), and modified modes from the strains of the Simo-Reissner beam over
+ * the full linear solution (elements/beamw/modified.c); what bends, shears and warps inside the
+ * element are internal modes, condensed in equilibrium (elements/beamw/condensed.c). */
 #include "elements/beamw/helicoidal.h"
 #include "elements/beamw/inertia.h"
 #include "elements/beamw/prepare.h"

@@ -1,6 +1,6 @@
-/* The geometrically exact beam with warping solved inside the element, by Gauss collocation with exact equilibrium of forces
- * (elements/exact/stages.h).  What the stages need is unknown of the element itself, so that the mixed Newton iteration of the
- * structure solves for it on the way. */
+/* The geometrically exact beam with warping solved inside the element, by Gauss collocation with
+ * exact equilibrium of forces (elements/exact/stages.h).  What the stages need is unknown of the
+ * element itself, so that the mixed Newton iteration of the structure solves for it on the way. */
 #include <math.h>
 #include <string.h>
 
@@ -26,8 +26,8 @@ static int stage_count(const double value[])
     return FEWEST + (int)value[OPTION_STAGES];
 }
 
-/* Frequencies: masses are lumped.  Linear buckling: the inner unknowns are those of the element without stress
- * (elements/exact/prestress.c). */
+/* Frequencies: masses are lumped.  Linear buckling: the inner unknowns are those of the element
+ * without stress (elements/exact/prestress.c). */
 static element_order order(element_analysis analysis, const double value[])
 {
     const int collocated = 2 * stage_count(value);
@@ -143,7 +143,8 @@ static void geometric(const element_data *data, const double sigma[], double G[]
         largest = fmax(largest, fabs(sigma[i]));
     if (!(largest > 0))
         return;
-    /* Of the size of one, so that the part linear in the prestress is neither small nor large beside the stiffness. */
+    /* Of the size of one, so that the part linear in the prestress is neither small nor large
+     * beside the stiffness. */
     for (int i = 0; i < OUTER; i++)
         scaled[i] = sigma[i] / largest;
     exact_prestress_stiffness(s, scaled, G);

@@ -45,13 +45,15 @@ enum element_limit {
                                         another model */
 };
 
-/* What a type offers in one direction only. `list` and `solve` show it; a scene in which it matters is not run. */
+/* What a type offers in one direction only. `list` and `solve` show it; a scene in which it matters
+ * is not run. */
 enum element_lack {
     LACKS_SHEAR_Y = 1 << 0 /* rigid in shear along y, though FEATURE_SHEAR is offered */
 };
 
-/* The theory of shear in stability that the equations of a type have, in bits; 0: rigid in shear.  A type is judged against the
- * truth of its own theory, whatever a scene says; one that offers several takes that of the request's features. */
+/* The theory of shear in stability that the equations of a type have, in bits; 0: rigid in shear.
+ * A type is judged against the truth of its own theory, whatever a scene says; one that offers
+ * several takes that of the request's features. */
 enum shear_theory {
     SHEAR_ENGESSER = 1 << 0, /* the axial force works on 1/2 (v'^2 + w'^2) of the fibre */
     SHEAR_HARINGX = 1 << 1,  /* it works on the rotation of the section (Simo-Reissner) */
@@ -60,14 +62,16 @@ enum shear_theory {
 
 /* What an order of convergence depends on. */
 typedef enum element_analysis {
-    ELEMENT_STATICS, /* equilibrium, linear or not, and what follows from its tangent (compliance, critical points of a path) */
+    ELEMENT_STATICS,   /* equilibrium, linear or not, and what follows from its tangent (compliance,
+                          critical points of a path) */
     ELEMENT_VIBRATION, /* whatever inertia has part in: frequencies, states that turn */
     ELEMENT_BUCKLING,  /* linear: the geometric stiffness of a prestress */
     ELEMENT_ANALYSES
 } element_analysis;
 
-/* Orders in the number of elements: the least that a smooth solution shows, and the highest that any quantity can show, where
- * leading terms vanish.  Loads along members and masses of nodes are lumped: nothing that depends on them has more than two. */
+/* Orders in the number of elements: the least that a smooth solution shows, and the highest that
+ * any quantity can show, where leading terms vanish.  Loads along members and masses of nodes are
+ * lumped: nothing that depends on them has more than two. */
 typedef struct element_order {
     int least, highest;
 } element_order;
@@ -87,8 +91,8 @@ typedef struct element_data
 
 typedef struct node_state {
     double r[3]; /* position [m] */
-    double u
-        [3]; /* displacement since the undeformed state [m]: r - u is the initial position, so that an elongation needs no cancellation */
+    double u[3]; /* displacement since the undeformed state [m]: r - u is the initial position, so
+                    that an elongation needs no cancellation */
     double R[9]; /* node rotation times the element's initial triad; columns nX nY nZ */
     double a;    /* warping amplitude [rad/m]; phi_x' in the shear-rigid limit */
 } node_state;
@@ -126,10 +130,10 @@ typedef struct inertia_output {
 typedef struct element_type {
     const char
         *name; /* file name = exported symbol without element_ = command line = results key */
-    const char *summary; /* one line */
-    const char *source;  /* paper and equations */
-    const char *
-        family; /* one word; types of one family share code or theory: that they agree proves little */
+    const char *summary;     /* one line */
+    const char *source;      /* paper and equations */
+    const char *family;      /* one word; types of one family share code or theory: that they agree
+                                proves little */
     unsigned abi;            /* ELEMENT_ABI */
     unsigned offers;         /* element_feature; theories of shear as in shear_theories */
     unsigned limits;         /* element_limit */
@@ -154,12 +158,14 @@ typedef struct element_type {
     void (*strain)(const element_data *, const node_state x[], strain_output *);
     /* NOT_CONVERGED or SINGULAR when the state is outside what the formulation can evaluate. */
     status (*stress)(const element_data *, const double e[], const double inner[], stress_output *);
-    /* inner += (correction from the last stress) for the strain increment de; returns the dimensionless size of the change. */
+    /* inner += (correction from the last stress) for the strain increment de; returns the
+     * dimensionless size of the change. */
     double (*update)(const element_data *, const double de[], const double memory[],
                      double inner[]);
     /* Inner unknowns of the undeformed state. */
     void (*rest)(const element_data *, double inner[]);
-    /* G[strains x strains] = derivative of C at e = 0 in the direction of the prestress sigma: sum sigma_i Q_i. NULL: zero. */
+    /* G[strains x strains] = derivative of C at e = 0 in the direction of the prestress sigma: sum
+     * sigma_i Q_i. NULL: zero. */
     void (*geometric)(const element_data *, const double sigma[], double G[]);
     /* frame NULL: the frame is at rest. */
     status (*inertia)(const element_data *, const node_state x[], const element_rotating_frame *,

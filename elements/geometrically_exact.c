@@ -1,5 +1,5 @@
-/* The geometrically exact beam (Reissner, Simo) with warping, as general codes offer it: two or three nodes, reduced
- * integration, strains at the integration points. */
+/* The geometrically exact beam (Reissner, Simo) with warping, as general codes offer it: two or
+ * three nodes, reduced integration, strains at the integration points. */
 #include <string.h>
 
 #include "elements/exact/stiffness.h"

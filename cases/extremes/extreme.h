@@ -1,4 +1,5 @@
-/* An extreme: a named case driven to where numbers, not only structures, become unstable. Pure data. */
+/* An extreme: a named case driven to where numbers, not only structures, become unstable. Pure
+ * data. */
 #ifndef BEAMWORK_EXTREME_H
 #define BEAMWORK_EXTREME_H
 

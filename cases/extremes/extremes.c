@@ -1,7 +1,8 @@
 /* The extremes: what is driven where, and what its answer is compared with. SI.
  *
- * Order of the fields: name, group | summary | base case, its parameters | settings | quantities | x, its unit, what it does |
- * elements, count and values of x | judge, the x to compare with, tolerance. */
+ * Order of the fields: name, group | summary | base case, its parameters | settings | quantities |
+ * x, its unit, what it does | elements, count and values of x | judge, the x to compare with,
+ * tolerance. */
 #include <stddef.h>
 
 #include "cases/extremes/extreme.h"

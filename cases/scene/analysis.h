@@ -9,12 +9,13 @@ typedef struct scene scene;
 enum { SCENE_NONE = -1, SCENE_NAME = 48, SCENE_UNIT = 16 }; /* sizes with the final zero */
 
 typedef enum scene_analysis_kind {
-    SCENE_LINEAR,   /* one linear solution with the loads at factor 1 */
-    SCENE_STATIC,   /* nonlinear equilibrium along the path */
-    SCENE_BUCKLING, /* linear prestress about the undeformed state: what the loads have at path 0 stays, what they gain by
-                         path 1 is times the factor; or about the last of a path */
-    SCENE_MODAL,    /* natural frequencies about the present state */
-    SCENE_COMPLIANCE,   /* at every station of the static path before it */
+    SCENE_LINEAR,     /* one linear solution with the loads at factor 1 */
+    SCENE_STATIC,     /* nonlinear equilibrium along the path */
+    SCENE_BUCKLING,   /* linear prestress about the undeformed state: what the loads have at path 0
+                         stays, what they gain by path 1 is times the factor; or about the last
+                         of a path */
+    SCENE_MODAL,      /* natural frequencies about the present state */
+    SCENE_COMPLIANCE, /* at every station of the static path before it */
     SCENE_CONTINUATION, /* path of a load factor, by arc length or by one coordinate */
     SCENE_ROTATION      /* stationary: equilibrium and frequencies in the rotating frame */
 } scene_analysis_kind;

@@ -5,8 +5,9 @@
 #include <stddef.h>
 #include <string.h>
 
-/* The same section seen from the other end, turned by pi about z: y' = -y, z' = z, and sectorial coordinates change their sign
- * with x. Face and axis turn together, so that Qy and Mw keep their signs and Qz does not. */
+/* The same section seen from the other end, turned by pi about z: y' = -y, z' = z, and sectorial
+ * coordinates change their sign with x. Face and axis turn together, so that Qy and Mw keep their
+ * signs and Qz does not. */
 static void mirror_section(section_spec *spec)
 {
     section *c = &spec->constants;

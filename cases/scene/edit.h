@@ -8,7 +8,8 @@ typedef enum scene_edit_kind {
     SCENE_EDIT_NONE,
     SCENE_EDIT_REVERSE, /* every member runs from its q to its p */
     SCENE_EDIT_SPLIT,   /* the first member becomes two, that meet at `amount` of its length */
-    SCENE_EDIT_UNIT /* all lengths in another unit, `amount` of them to the metre; quantities are still reported in metres */
+    SCENE_EDIT_UNIT /* all lengths in another unit, `amount` of them to the metre; quantities are
+                       still reported in metres */
 } scene_edit_kind;
 
 typedef struct scene_edit {

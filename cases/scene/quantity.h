@@ -47,10 +47,11 @@ typedef struct scene_component {
     int node, component; /* SCENE_UX .. SCENE_RZ */
 } scene_component;
 
-/* Resultants of the stresses of what lies towards the end q of a member on what lies towards p, in the principal axes of
- * the turned section, moments about its centroid. The parts of the torque add up to that about the shear centre,
- * Mx - (ys Qz - zs Qy): of Saint-Venant's torsion, of the restrained warping (the bimoment falls by it along the member), and of
- * what stresses along the fibres, which the twist turns, add. */
+/* Resultants of the stresses of what lies towards the end q of a member on what lies towards p, in
+ * the principal axes of the turned section, moments about its centroid. The parts of the torque add
+ * up to that about the shear centre, Mx - (ys Qz - zs Qy): of Saint-Venant's torsion, of the
+ * restrained warping (the bimoment falls by it along the member), and of what stresses along the
+ * fibres, which the twist turns, add. */
 typedef enum scene_resultant {
     SCENE_N,
     SCENE_QY,

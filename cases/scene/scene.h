@@ -13,7 +13,8 @@
 #include "elements/section/section.h"
 #include "elements/shared/status.h"
 
-/* Of a limit, relative: what engineers ask of a model. A limit of its own within it is seen all the same, by its uncertainty. */
+/* Of a limit, relative: what engineers ask of a model. A limit of its own within it is seen all the
+ * same, by its uncertainty. */
 #define SCENE_TOLERANCE 1e-3
 
 /* Most numbers of elements that a scene or a command gives. */
@@ -22,17 +23,22 @@ enum { SCENE_MESHES = 24 };
 /* Components of a node: three translations, three rotations (fixed axes). */
 enum { SCENE_UX, SCENE_UY, SCENE_UZ, SCENE_RX, SCENE_RY, SCENE_RZ };
 
-/* What an end of a member does with its warping coordinate. A value >= 0 is a name: ends with the same value share it. */
+/* What an end of a member does with its warping coordinate. A value >= 0 is a name: ends with the
+ * same value share it. */
 enum { SCENE_WARP_FREE = -1, SCENE_WARP_FIXED = -2 };
 
 /* How one coordinate moves. A value >= 0 is a driver's index. */
 enum { SCENE_FREE = -1, SCENE_HELD = -2 };
 
 typedef enum scene_rotation {
-    SCENE_ROTATION_SPATIAL, /* three increments about fixed axes, each free or held (all held: clamped) */
-    SCENE_ROTATION_SEQUENCE, /* R = exp(axis_1 t_1) exp(axis_2 t_2) exp(axis_3 t_3); each angle free, held or driven */
-    SCENE_ROTATION_VECTOR, /* rotation vector = its three drivers' values: prescribed entirely, any path */
-    SCENE_ROTATION_FORK /* no turn about the section's own axis, the other two free: see scene_fork */
+    SCENE_ROTATION_SPATIAL,  /* three increments about fixed axes, each free or held (all held:
+                                clamped) */
+    SCENE_ROTATION_SEQUENCE, /* R = exp(axis_1 t_1) exp(axis_2 t_2) exp(axis_3 t_3); each angle
+                                free, held or driven */
+    SCENE_ROTATION_VECTOR, /* rotation vector = its three drivers' values: prescribed entirely, any
+                              path */
+    SCENE_ROTATION_FORK /* no turn about the section's own axis, the other two free: see scene_fork
+                         */
 } scene_rotation;
 
 /* A rigid body that moves with a node. */
@@ -46,22 +52,22 @@ typedef struct scene_body {
 
 typedef struct scene_node {
     double position[3]; /* [m] */
-    int attached; /* node this one is rigidly attached to (a rigid body is a node others are attached to), or SCENE_NONE */
+    int attached;       /* node this one is rigidly attached to (a rigid body is a node others are
+                           attached to), or SCENE_NONE */
     int translation[3]; /* SCENE_FREE, SCENE_HELD or a driver */
     scene_rotation rotation;
-    int angle
-        [3]; /* SCENE_FREE, SCENE_HELD or a driver: of the spatial components, the angles or the vector */
-    double axis
-        [3]
-        [3]; /* of the sequence; a zero axis ends it. Of a fork: the section's own axis, and the web's direction */
+    int angle[3]; /* SCENE_FREE, SCENE_HELD or a driver: of the spatial components, the angles or
+                     the vector */
+    double axis[3][3]; /* of the sequence; a zero axis ends it. Of a fork: the section's own axis,
+                          and the web's direction */
     scene_body body;
 } scene_node;
 
 /* What an end of a member does not pass on to its node, in the member's axes there (y as in
- * scene_member): turns, in their order, and shifts.  The end is at r + R_end s, R_end = R exp(a_1 t_1)
- * exp(a_2 t_2) with the node's r, R: of two turns the axis of the first stays with the node, that of
- * the second with the member (a universal joint), shifts are along the turned end.  Three turns are
- * those of a ball. */
+ * scene_member): turns, in their order, and shifts.  The end is at r + R_end s, R_end = R exp(a_1
+ * t_1) exp(a_2 t_2) with the node's r, R: of two turns the axis of the first stays with the node,
+ * that of the second with the member (a universal joint), shifts are along the turned end.  Three
+ * turns are those of a ball. */
 enum { SCENE_RELEASED = 5 };
 typedef struct scene_release {
     int count;                     /* 0: joined */
@@ -72,26 +78,28 @@ typedef struct scene_member {
     int p, q;
     int section, section_q; /* at p and at q; between them it changes linearly in its numbers
                                (elements/section/taper.h), each element has that of its middle */
-    double y_axis
-        [3]; /* direction of the y axis in which the section is described (its part across the member) */
-    int warp_p, warp_q; /* SCENE_WARP_FREE, SCENE_WARP_FIXED or a shared name */
-    double curvature
-        [3]; /* initial torsion, curvatures about local y and z [1/m]; position of interior nodes follows the arc */
-    double strain
-        [3]; /* initial elongation and shear strains that would leave no stress: heat, a misfit */
+    double y_axis[3]; /* direction of the y axis in which the section is described (its part across
+                         the member) */
+    int warp_p, warp_q;  /* SCENE_WARP_FREE, SCENE_WARP_FIXED or a shared name */
+    double curvature[3]; /* initial torsion, curvatures about local y and z [1/m]; position of
+                            interior nodes follows the arc */
+    double strain[3];    /* initial elongation and shear strains that would leave no stress: heat, a
+                            misfit */
     scene_release release[2]; /* at p, q */
     int divisions;            /* 0: the mesh's -n; else this many elements always */
 } scene_member;
 
-/* Between two nodes, or a node and the ground: energy 1/2 d^T K d with d of the six components of q's frame against p's since
- * the undeformed state, in axes that turn with p and were the fixed ones: how far apart, from the initial distance [m], and the
- * rotation vector [rad], of less than 3 rad. */
+/* Between two nodes, or a node and the ground: energy 1/2 d^T K d with d of the six components of
+ * q's frame against p's since the undeformed state, in axes that turn with p and were the fixed
+ * ones: how far apart, from the initial distance [m], and the rotation vector [rad], of less than 3
+ * rad. */
 typedef struct scene_spring {
     int p, q;             /* p: SCENE_NONE: the ground */
     double stiffness[36]; /* K, symmetric, row-major [N/m, N, N m] */
 } scene_spring;
 
-/* One scalar that moves coordinates; piecewise linear in the path parameter between its stations. */
+/* One scalar that moves coordinates; piecewise linear in the path parameter between its stations.
+ */
 typedef struct scene_driver {
     char name[SCENE_NAME];
     int stations;
@@ -169,8 +177,8 @@ int scene_add_member(scene *s, int p, int q, int profile,
 /* Does its section change along it?  Does that of any member? */
 int scene_member_tapers(const scene_member *m);
 int scene_tapers(const scene *s);
-/* The end of a member (0 at p, 1 at q) keeps this component to itself, behind those that it has been
- * told; more than SCENE_RELEASED are refused by scene_validate. */
+/* The end of a member (0 at p, 1 at q) keeps this component to itself, behind those that it has
+ * been told; more than SCENE_RELEASED are refused by scene_validate. */
 void scene_release_end(scene *s, int member, int end, int component);
 int scene_add_spring(scene *s, int p, int q, const double stiffness[36]);
 int scene_add_driver(scene *s, const char *name, int stations, const double path[],
@@ -194,10 +202,12 @@ void scene_hold(scene *s, int node, int first,
 void scene_hold_all(scene *s, int node);
 void scene_drive(scene *s, int node, int component,
                  int driver); /* a translation, or a spatial rotation component */
-/* A fork: its guides stand on both sides of the web, and their normal n = web x axis is fixed.  The web stays between them, R web . n = 0,
- * whichever way the section is bent: R = exp(n t_1) exp(web t_2).  While the bending is in the plane of axis and web, the section does not
- * turn about its own present axis, R axis, and the fork's moment is along it.  (A held SCENE_RX is a moment along the fixed x axis.)
- * axis, web: of the undeformed section, at right angles, of any length.  Translations are held by themselves. */
+/* A fork: its guides stand on both sides of the web, and their normal n = web x axis is fixed.  The
+ * web stays between them, R web . n = 0, whichever way the section is bent: R = exp(n t_1) exp(web
+ * t_2).  While the bending is in the plane of axis and web, the section does not turn about its own
+ * present axis, R axis, and the fork's moment is along it.  (A held SCENE_RX is a moment along the
+ * fixed x axis.) axis, web: of the undeformed section, at right angles, of any length. Translations
+ * are held by themselves. */
 void scene_fork(scene *s, int node, const double axis[3], const double web[3]);
 /* A body of its own, at the node itself or beside it, rigidly joined to it. */
 void scene_set_body(scene *s, int node, scene_body body);
@@ -215,8 +225,8 @@ void scene_meshes_doubled(scene *s, int first, int last);
  * threads at once. */
 status scene_constants(const scene *s, int i, section *out, fault *f);
 
-/* Indices in range, members of positive length, supports that do not contradict, drivers that are used,
- * curves and names unique: refused with the culprit. */
+/* Indices in range, members of positive length, supports that do not contradict, drivers that are
+ * used, curves and names unique: refused with the culprit. */
 status scene_validate(const scene *s, fault *f);
 
 #endif

@@ -4,7 +4,8 @@
 
 #include "elements/math/dense.h"
 
-/* Does a straight member of the node run along the direction, or a curved one end there?  Also 1 when no member ends there. */
+/* Does a straight member of the node run along the direction, or a curved one end there?  Also 1
+ * when no member ends there. */
 static int has_member_along(const scene *s, int node, const double direction[3])
 {
     int ends = 0, along = 0;

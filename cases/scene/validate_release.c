@@ -93,7 +93,8 @@ static void add_supports(const scene_node *n, double P[9])
     add_kept(count, axis, P);
 }
 
-/* Turns that the end of a straight member releases; of a curved one, whose axes are known later, none. */
+/* Turns that the end of a straight member releases; of a curved one, whose axes are known later,
+ * none. */
 static void add_end(const scene_member *m, const scene *s, int end, double P[9])
 {
     const scene_release *r = &m->release[end];

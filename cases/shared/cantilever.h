@@ -1,22 +1,25 @@
-/* A straight cantilever along x with given stiffnesses: what the cases of large displacement have in common. */
+/* A straight cantilever along x with given stiffnesses: what the cases of large displacement have
+ * in common. */
 #ifndef BEAMWORK_CASES_CANTILEVER_H
 #define BEAMWORK_CASES_CANTILEVER_H
 
 #include "cases/case.h"
 
-/* Stiffnesses of a doubly symmetric section that does not warp; GA = 0: shear-rigid. [N, N, N m^2, N m^2] With E = 1 Pa the area
- * is EA, and the density [kg/m^3] belongs to that. */
+/* Stiffnesses of a doubly symmetric section that does not warp; GA = 0: shear-rigid. [N, N, N m^2,
+ * N m^2] With E = 1 Pa the area is EA, and the density [kg/m^3] belongs to that. */
 typedef struct cantilever_stiffness {
     double EA, GA, GJ, EI, density;
 } cantilever_stiffness;
 
-/* Adds section, clamped root at the origin and free tip at (length, 0, 0), the physics and meshes 1 .. 32. */
+/* Adds section, clamped root at the origin and free tip at (length, 0, 0), the physics and meshes 1
+ * .. 32. */
 void cantilever_build(double length, const cantilever_stiffness *k, scene *s, int *root, int *tip);
 
 /* Adds a static path from 0 to 1 in one station; returns the analysis. */
 int cantilever_path(scene *s, int steps);
 
-/* Adds a quantity of the tip at the end of the path; row: SCENE_UX ..; reported = factor * value + offset. */
+/* Adds a quantity of the tip at the end of the path; row: SCENE_UX ..; reported = factor * value +
+ * offset. */
 void cantilever_quantity(scene *s, const char *name, const char *unit, int analysis, int tip,
                          int row, double factor, double offset);
 

@@ -17,7 +17,8 @@ typedef struct channel {
 /* Walls of a C whose web is on the +y side, parallel to z. */
 void channel_section(const channel *c, section_spec *out);
 
-/* The rounded constants printed for the C of 600 mm (J Table 1; D_w corrected, or as misprinted). */
+/* The rounded constants printed for the C of 600 mm (J Table 1; D_w corrected, or as misprinted).
+ */
 void channel_print_constants(int data, section_spec *out);
 
 #endif

@@ -25,8 +25,9 @@ enum {
 extern const parameter_type column_parameters[], column_flexible[], column_rigid[],
     column_stability[];
 
-/* Adds section, nodes, member and fork supports: u at x = 0, v, w and phi_x at both ends; bending rotations and
- * warping are free. ends[0] is the node at x = 0, ends[1] the one at x = length, which can move along x. */
+/* Adds section, nodes, member and fork supports: u at x = 0, v, w and phi_x at both ends; bending
+ * rotations and warping are free. ends[0] is the node at x = 0, ends[1] the one at x = length,
+ * which can move along x. */
 status column_build(const double value[], scene *s, int ends[2], fault *f);
 
 #endif

@@ -70,8 +70,8 @@ static void add_sheet(const double value[], scene *s, int profile, int body, con
     *(from_fold ? &sheet->warp_p : &sheet->warp_q) = at_fold[(int)value[JOINT_FOLD_WARPING]];
 }
 
-/* Fold at one azimuth; up = +1: first set (fold line above the centre), -1: its mirror image in the xy plane.
- * The sheet on the +azimuth side goes to body[0], the other to body[1]. */
+/* Fold at one azimuth; up = +1: first set (fold line above the centre), -1: its mirror image in the
+ * xy plane. The sheet on the +azimuth side goes to body[0], the other to body[1]. */
 static void add_fold(const double value[], scene *s, int profile, const double centre[3],
                      const double axes[9], double azimuth, int up, const int body[2])
 {

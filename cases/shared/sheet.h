@@ -1,4 +1,5 @@
-/* The clamped sheet flexure that several scenes share (N section 4.1): along x, its width along z, its thickness along y. */
+/* The clamped sheet flexure that several scenes share (N section 4.1): along x, its width along z,
+ * its thickness along y. */
 #ifndef BEAMWORK_CASES_SHEET_H
 #define BEAMWORK_CASES_SHEET_H
 
@@ -29,12 +30,13 @@ extern const parameter_type sheet_parameters[], sheet_wagner[], sheet_no_wagner[
 void sheet_section(double width, double thickness, double young, double poisson,
                    double shear_factor, section_spec *out);
 
-/* Section, nodes, member with a clamped root, physics and meshes.  The tip is left free; root and tip are returned.
- * Refuses a tip deflection that the length cannot reach. */
+/* Section, nodes, member with a clamped root, physics and meshes.  The tip is left free; root and
+ * tip are returned. Refuses a tip deflection that the length cannot reach. */
 status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f);
 
 /* Compliance at the tip along a static path, prescribed motion replaced by its reactions: adds
- * the entries C_<response>_<load> whose row and column are listed, as values at the end of the path. */
+ * the entries C_<response>_<load> whose row and column are listed, as values at the end of the
+ * path. */
 void sheet_add_compliance(scene *s, int analysis, const int (*entries)[2], int count);
 
 #endif

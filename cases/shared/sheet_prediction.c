@@ -1,10 +1,10 @@
-/* With the end angles zp, zq of the chord's frame, a = (zp + zq)/2 and c = (zq - zp)/2, eliminating the stresses of N Eq. 49 from
- * the potential gives in the plane of bending
- *   V = 6 EIz a^2/L + 2 EIz c^2/L + g^2/2k,  g = u + L (a^2/10 + c^2/6),  k = L/EA + (L^3/EIz) (a^2/700 + c^2/180),
- * whose axial force is F = g/k.  Out of it, M_x = M~x - u_y (M~yp + M~yq)/L + u_y' M_y (N Eq. 49, its sign corrected) and
- * M_y = M~yp (x - 1) + M~yq x, x = s/L; the terms of N Eq. 50 leave
- *   sum M~y y + int [M_x phi_x' + M_y phi_x M_z/EIz - M_x kappa_x/2 - M_y^2/2EIy - F_z^2/2kGA] ds
- * with the twist rate kappa_x of N Eq. 51. */
+/* With the end angles zp, zq of the chord's frame, a = (zp + zq)/2 and c = (zq - zp)/2, eliminating
+ * the stresses of N Eq. 49 from the potential gives in the plane of bending V = 6 EIz a^2/L + 2 EIz
+ * c^2/L + g^2/2k,  g = u + L (a^2/10 + c^2/6),  k = L/EA + (L^3/EIz) (a^2/700 + c^2/180), whose
+ * axial force is F = g/k.  Out of it, M_x = M~x - u_y (M~yp + M~yq)/L + u_y' M_y (N Eq. 49, its
+ * sign corrected) and M_y = M~yp (x - 1) + M~yq x, x = s/L; the terms of N Eq. 50 leave sum M~y y +
+ * int [M_x phi_x' + M_y phi_x M_z/EIz - M_x kappa_x/2 - M_y^2/2EIy - F_z^2/2kGA] ds with the twist
+ * rate kappa_x of N Eq. 51. */
 #include "cases/shared/sheet_prediction.h"
 
 #include <math.h>
@@ -56,7 +56,8 @@ static void energy(plane *p, double u, double zp, double zq)
     }
 }
 
-/* Forces and stiffness by the tip's X = L + w, Y and rotation; u = sqrt(X^2 + Y^2) - L, zp = -alpha, zq = rotation - alpha. */
+/* Forces and stiffness by the tip's X = L + w, Y and rotation; u = sqrt(X^2 + Y^2) - L, zp =
+ * -alpha, zq = rotation - alpha. */
 static void tip(plane *p, double w, double Y, double force[3], double K[9])
 {
     const double X = p->L + w, l = hypot(X, Y), alpha = atan2(Y, X), n[2] = {X / l, Y / l},
@@ -160,7 +161,8 @@ static double compliance_zz(const section *s, const plane *p, double X, double Y
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
                 K[LOCAL * i + j] -= K[LOCAL * i + 3] * K[LOCAL * 3 + j] / WW;
-    /* phi_x = theta'_x/cos, yp = u_z/l, yq = yp + theta'_y + phi_x sin, with theta' in the chord's axes */
+    /* phi_x = theta'_x/cos, yp = u_z/l, yq = yp + theta'_y + phi_x sin, with theta' in the chord's
+     * axes */
     const double T[3][3] = {
         {0, 1, sine / cosine}, {1 / l, 0, 0}, {1 / l, 0, cosine + sine * sine / cosine}};
     for (int i = 0; i < 3; i++)

@@ -1,4 +1,5 @@
-/* Edits of a scene, field by field: what changes its sign, its side or its place, and what stays. */
+/* Edits of a scene, field by field: what changes its sign, its side or its place, and what stays.
+ */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>

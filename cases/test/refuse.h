@@ -43,7 +43,8 @@ static inline void refuse_one_line(const char *what, const fault *f)
     gsl_test(strchr(f->text, ';') == NULL, "%s: says what to do: %s", what, f->text);
 }
 
-/* Refused, with the culprit at the start of the line; the scene that it was made from is accepted. */
+/* Refused, with the culprit at the start of the line; the scene that it was made from is accepted.
+ */
 static inline void refuse_scene(const refusal *r)
 {
     scene s;

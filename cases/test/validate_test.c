@@ -1,5 +1,6 @@
-/* What springs, members, motions and loads may not be: every refusal names its culprit and says what to do, in one
- * line; and what is refused is one thing only: the scene it was made from is accepted. */
+/* What springs, members, motions and loads may not be: every refusal names its culprit and says
+ * what to do, in one line; and what is refused is one thing only: the scene it was made from is
+ * accepted. */
 #include <math.h>
 
 #include "cases/test/refuse.h"

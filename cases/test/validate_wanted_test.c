@@ -1,5 +1,5 @@
-/* What analyses and quantities may not be: every refusal names its culprit and says what to do, in one
- * line; and what is refused is one thing only: the scene it was made from is accepted. */
+/* What analyses and quantities may not be: every refusal names its culprit and says what to do, in
+ * one line; and what is refused is one thing only: the scene it was made from is accepted. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,8 +1,9 @@
-/* A stress function of condensed internal modes, which follow the stress: bending, shear and warping share the antisymmetric deformation h as
- * equilibrium of the stressed element asks, instead of as in the unstressed one.  With z the bending and warping part of h,
- *   energy = stationary over z and q of  1/2 sum_r k_r u_r^2 + 1/2 z^T Ka z + q . (h - z) - 1/2 q^T F q/(G l),
- * where u = (e1, e2, e3 + e4, e5 + e6, (e7 - e8)/2) and h are those of ebar = e + 1/2 (e, z)^T Q (e, z) (modified.h).  q is dual to
- * h: F = 0 does no harm. */
+/* A stress function of condensed internal modes, which follow the stress: bending, shear and
+ * warping share the antisymmetric deformation h as equilibrium of the stressed element asks,
+ * instead of as in the unstressed one.  With z the bending and warping part of h, energy =
+ * stationary over z and q of  1/2 sum_r k_r u_r^2 + 1/2 z^T Ka z + q . (h - z) - 1/2 q^T F q/(G l),
+ * where u = (e1, e2, e3 + e4, e5 + e6, (e7 - e8)/2) and h are those of ebar = e + 1/2 (e, z)^T Q
+ * (e, z) (modified.h).  q is dual to h: F = 0 does no harm. */
 #ifndef BEAMWORK_BEAMW_CONDENSED_H
 #define BEAMWORK_BEAMW_CONDENSED_H
 

@@ -1,6 +1,7 @@
-/* Rates along a path of constant spatial velocities and spins, in the axes of the middle: v of q against p, s the mean of the
- * nodes' spins and delta their difference.  The middle turns with w = s - tau/2 a x delta and
- *   dpsi/dt = V^-1 delta,  dD/dt = v - w x D,  d(v, s, delta)/dt = -w x (v, s, delta). */
+/* Rates along a path of constant spatial velocities and spins, in the axes of the middle: v of q
+ * against p, s the mean of the nodes' spins and delta their difference.  The middle turns with w =
+ * s - tau/2 a x delta and dpsi/dt = V^-1 delta,  dD/dt = v - w x D,  d(v, s, delta)/dt = -w x (v,
+ * s, delta). */
 #include "elements/beamw/helicoidal.h"
 
 #include <string.h>
@@ -11,7 +12,8 @@
 enum { STRAINS = 8, COORDINATES = 14 };
 enum { RP = 0, TP = 3, AP = 6, RQ = 7, TQ = 10, AQ = 13 };
 
-/* What works on the rates: sum of f . dU/dt + t . dpsi/dt = g . v + mean . s + difference . delta. */
+/* What works on the rates: sum of f . dU/dt + t . dpsi/dt = g . v + mean . s + difference . delta.
+ */
 typedef struct work {
     double g[3], t[3], m[3]; /* dual to D, to psi; m = D x g */
     double p[3];             /* V^-1 t */

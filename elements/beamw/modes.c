@@ -1,5 +1,6 @@
-/* J Eq. 7, its gradient (J Eq. 13, three rows of which are misprinted) and its second derivatives in the exponential
- * chart.  n is the unit vector from p to q; every bending mode is l0 times n . v with v a vector fixed to a node. */
+/* J Eq. 7, its gradient (J Eq. 13, three rows of which are misprinted) and its second derivatives
+ * in the exponential chart.  n is the unit vector from p to q; every bending mode is l0 times n . v
+ * with v a vector fixed to a node. */
 #include "elements/beamw/modes.h"
 
 #include <string.h>
@@ -79,7 +80,8 @@ static void turning(const double u[3], const double v[3], double B[9])
             B[3 * i + j] = (u[i] * v[j] + v[i] * u[j]) / 2 - (i == j ? dot : 0);
 }
 
-/* H += second derivatives of n . v, v fixed to the node at `rotation` (its scale contains the stress). */
+/* H += second derivatives of n . v, v fixed to the node at `rotation` (its scale contains the
+ * stress). */
 static void add_bending(const chord *b, const double v[3], int rotation, double H[N * N])
 {
     const double dot = vec3_dot(b->n, v), l = b->l;

@@ -46,14 +46,16 @@ void beamw_modified_printed(const section *c, unsigned features, element_data *d
     d->modified = 1;
 }
 
-/* Which strains count.  Under a given stress the energy is right to third order when the strains of second order are taken over
- * the linear solution and weighted with its stresses,
- *   e1 = int gx, e2 = l int kx, e3 = int [(l-s) ky - gz], e4 = int [s ky + gz], e5 = int [(l-s) kz + gy], e6 = int [s kz - gy].
- * Strains are those of the Simo-Reissner beam at the centroid (gamma, kappa); e7 and e8 need nothing, since the amplitude at a node
- * is the twist rate kx there less its warping shear, whatever the frame.  Which closed form holds for uniform moment and axial load
- * follows: gamma turns with the section, so that stress resultants couple through the section's rotation (Haringx); the slope w' of
- * the fibre (Engesser, J) enters only when the squares of the shear strains are added to gamma_x, as J's kinematics does
- * (fibres_at below).  Proof and reduction to J Eq. 66: reference/derive/second_order.py. */
+/* Which strains count.  Under a given stress the energy is right to third order when the strains of
+ * second order are taken over the linear solution and weighted with its stresses, e1 = int gx, e2 =
+ * l int kx, e3 = int [(l-s) ky - gz], e4 = int [s ky + gz], e5 = int [(l-s) kz + gy], e6 = int [s
+ * kz - gy]. Strains are those of the Simo-Reissner beam at the centroid (gamma, kappa); e7 and e8
+ * need nothing, since the amplitude at a node is the twist rate kx there less its warping shear,
+ * whatever the frame.  Which closed form holds for uniform moment and axial load follows: gamma
+ * turns with the section, so that stress resultants couple through the section's rotation
+ * (Haringx); the slope w' of the fibre (Engesser, J) enters only when the squares of the shear
+ * strains are added to gamma_x, as J's kinematics does (fibres_at below).  Proof and reduction to J
+ * Eq. 66: reference/derive/second_order.py. */
 
 enum { N = BEAMW_MODIFIED_VARIABLES, Z = BEAMW_STRAINS };
 
@@ -65,13 +67,15 @@ static void add_product(double Q[N * N], double c, const double a[N], const doub
             Q[N * i + j] += c * (a[i] * b[j] + b[i] * a[j]);
 }
 
-/* Linear fields of J section 3.2 at a point, as functionals of e and z: rotation of the section against the middle of the
- * element, twist and bending rates [1/m], shear at the centroid, extension. */
+/* Linear fields of J section 3.2 at a point, as functionals of e and z: rotation of the section
+ * against the middle of the element, twist and bending rates [1/m], shear at the centroid,
+ * extension. */
 typedef struct point_fields {
     double rotation[3][N], rate[3][N], shear_y[N], shear_z[N], extension[N];
 } point_fields;
 
-/* rotation = rate of change times x - 1/2 plus what bends or twists unevenly; shear is constant at the shear centre. */
+/* rotation = rate of change times x - 1/2 plus what bends or twists unevenly; shear is constant at
+ * the shear centre. */
 static void fields_at(const section *c, double l, double x, const beamw_twist *t,
                       const beamw_stiffness_fields *s, point_fields *out)
 {
@@ -97,8 +101,9 @@ static void fields_at(const section *c, double l, double x, const beamw_twist *t
     }
 }
 
-/* Parts of second order of the strains of the Simo-Reissner beam, r' = R (e_x + gamma), R = exp(w~): with w the rotation,
- * kappa = w' - 1/2 w x w',  gamma = u' - w x e_x + 1/2 w x (w x e_x) - w x u'. */
+/* Parts of second order of the strains of the Simo-Reissner beam, r' = R (e_x + gamma), R =
+ * exp(w~): with w the rotation, kappa = w' - 1/2 w x w',  gamma = u' - w x e_x + 1/2 w x (w x e_x)
+ * - w x u'. */
 typedef struct point_strains {
     double gamma[3][N * N], kappa[3][N * N];
 } point_strains;
@@ -123,9 +128,10 @@ static void strains_at(const point_fields *f, point_strains *out)
     add_product(out->gamma[2], 1, f->rotation[1], f->extension);
 }
 
-/* Fibres elongate by gamma_x + z kappa_y - y kappa_z and half the square of how far they lean to the section's normal: all of
- * it after Engesser, (shear_y - z kx, shear_z + y kx); after Haringx the part without shear, kx times the distance from the
- * shear centre.  Its mean and first moments count. */
+/* Fibres elongate by gamma_x + z kappa_y - y kappa_z and half the square of how far they lean to
+ * the section's normal: all of it after Engesser, (shear_y - z kx, shear_z + y kx); after Haringx
+ * the part without shear, kx times the distance from the shear centre.  Its mean and first moments
+ * count. */
 static void fibres_at(const section *c, unsigned features, const point_fields *f,
                       point_strains *out)
 {
@@ -171,7 +177,8 @@ void beamw_modified_consistent(const section *c, unsigned features, double l, co
             Q[5][i] += ds * (from_p * strain.kappa[2][i] - strain.gamma[1][i]);
         }
     }
-    /* The share of the helicoidal strains is in e already: -1/24 psi x (psi x U), what a straight chord is shorter than its arc. */
+    /* The share of the helicoidal strains is in e already: -1/24 psi x (psi x U), what a straight
+     * chord is shorter than its arc. */
     const double psi[3][N] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
     add_product(Q[0], -l / 24, psi[1], psi[1]);
     add_product(Q[0], -l / 24, psi[2], psi[2]);

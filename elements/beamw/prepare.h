@@ -1,4 +1,5 @@
-/* What the BEAMW variants have in common when an element is prepared: a stiffness, modified modes and a mass are chosen. */
+/* What the BEAMW variants have in common when an element is prepared: a stiffness, modified modes
+ * and a mass are chosen. */
 #ifndef BEAMWORK_BEAMW_PREPARE_H
 #define BEAMWORK_BEAMW_PREPARE_H
 

@@ -1,6 +1,7 @@
-/* With h the antisymmetric part of the deformation and A = (e7 - e8)/2, the energy of the linear fields of J section 3.2 is
- *   1/2 [EA/l e1^2 + EIy/l^3 (e3+e4)^2 + EIz/l^3 (e5+e6)^2 + GIt/l^3 (e2^2 + A^2/3) + 4 EIw/l^5 A^2 + h^T K h],
- * K the stiffness of bending and shear in series.  Written so, nothing cancels: neither for Phi -> 0 nor for Phi -> inf. */
+/* With h the antisymmetric part of the deformation and A = (e7 - e8)/2, the energy of the linear
+ * fields of J section 3.2 is 1/2 [EA/l e1^2 + EIy/l^3 (e3+e4)^2 + EIz/l^3 (e5+e6)^2 + GIt/l^3 (e2^2
+ * + A^2/3) + 4 EIw/l^5 A^2 + h^T K h], K the stiffness of bending and shear in series.  Written so,
+ * nothing cancels: neither for Phi -> 0 nor for Phi -> inf. */
 #include "elements/beamw/stiffness.h"
 
 #include <string.h>
@@ -62,9 +63,8 @@ static void series(const section *c, double l, beamw_stiffness_shear kind,
         for (int j = 0; j < 3; j++) {
             if (kind != BEAMW_STIFFNESS_DIAGONAL)
                 K[3 * i + j] = (stiffness[i] * M[3 * i + j] + stiffness[j] * M[3 * j + i]) / 2;
-            else if (
-                i ==
-                j) /* J App. A: bending and shear in series, Saint-Venant torsion of the flexible field */
+            else if (i == j) /* J App. A: bending and shear in series, Saint-Venant torsion of the
+                                flexible field */
                 K[4 * i] = bend[i] * M[4 * i] + (i == W ? torsion * M[4 * i] * M[4 * i] : 0);
             else
                 K[3 * i + j] =

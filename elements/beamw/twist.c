@@ -1,7 +1,8 @@
-/* The complementary energy of B odd about the middle, B = b sinh(lambda (x - 1/2))/sinh(lambda/2), is
- *   1/2 [(T - M)^2 l/(G It) + l (Q, M) f (Q, M) + M^2 l (1/(G It) + f_ww) excess],  M the mean of M_w:
- * bending, shear and warping in series, as with cubic functions, the warping with the stiffness E Iw lambda^2/(l excess).  Of
- * B even it is that of the ends, B a.  Nothing here overflows or cancels for any lambda > 0. */
+/* The complementary energy of B odd about the middle, B = b sinh(lambda (x - 1/2))/sinh(lambda/2),
+ * is 1/2 [(T - M)^2 l/(G It) + l (Q, M) f (Q, M) + M^2 l (1/(G It) + f_ww) excess],  M the mean of
+ * M_w: bending, shear and warping in series, as with cubic functions, the warping with the
+ * stiffness E Iw lambda^2/(l excess).  Of B even it is that of the ends, B a.  Nothing here
+ * overflows or cancels for any lambda > 0. */
 #include "elements/beamw/twist.h"
 
 #include <math.h>

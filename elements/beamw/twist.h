@@ -1,7 +1,8 @@
-/* How the rate of twist is distributed along an element: cubic functions (J Eq. 38), or hyperbolic ones, the exact linear solution
- * with Saint-Venant torsion.  With M_w = -B' constant but for torsion, T = G It kx + M_w and kx - a = f (Q, M_w),
- *   B'' = (lambda/l)^2 B,  lambda^2 = l^2 G It/(E Iw (1 + r)),  r = G It f_ww,
- *   l^2 kx = e2 + A odd(x) + tw even(x);  odd -> 1 - 2x, even -> 6x(1-x) - 1 for lambda -> 0. */
+/* How the rate of twist is distributed along an element: cubic functions (J Eq. 38), or hyperbolic
+ * ones, the exact linear solution with Saint-Venant torsion.  With M_w = -B' constant but for
+ * torsion, T = G It kx + M_w and kx - a = f (Q, M_w), B'' = (lambda/l)^2 B,  lambda^2 = l^2 G It/(E
+ * Iw (1 + r)),  r = G It f_ww, l^2 kx = e2 + A odd(x) + tw even(x);  odd -> 1 - 2x, even -> 6x(1-x)
+ * - 1 for lambda -> 0. */
 #ifndef BEAMWORK_BEAMW_TWIST_H
 #define BEAMWORK_BEAMW_TWIST_H
 
@@ -32,7 +33,8 @@ beamw_twist_shapes beamw_twist_at(const beamw_twist *t, double x);
 
 enum { BEAMW_TWIST_MAX_POINTS = 144 };
 
-/* Points and weights on [0, 1] that integrate products of two of the shapes with polynomials; returns how many. */
+/* Points and weights on [0, 1] that integrate products of two of the shapes with polynomials;
+ * returns how many. */
 int beamw_twist_points(const beamw_twist *t, double x[BEAMW_TWIST_MAX_POINTS],
                        double w[BEAMW_TWIST_MAX_POINTS]);
 

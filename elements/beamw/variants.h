@@ -27,7 +27,8 @@ struct element_data {
 /* Q += c (a b^T + b a^T): the quadratic c (a . e)(b . e). */
 void beamw_variants_add_product(double Q[8 * 8], double c, const double a[8], const double b[8]);
 
-/* Uniform torsion, where nothing warps: e7 and e8 follow e2.  A[n x n] <- T^T A T, and the same for a whole variant. */
+/* Uniform torsion, where nothing warps: e7 and e8 follow e2.  A[n x n] <- T^T A T, and the same for
+ * a whole variant. */
 void beamw_variants_merge_torsion(int n, double A[]);
 void beamw_variants_drop_warping(element_data *d);
 

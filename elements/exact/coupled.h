@@ -1,17 +1,19 @@
-/* Sections by their matrices (elements/section/matrices.h) in the elements of this room: energy 1/2 (gamma, kappa) . C (gamma,
- * kappa) per length and nothing beside it. */
+/* Sections by their matrices (elements/section/matrices.h) in the elements of this room: energy 1/2
+ * (gamma, kappa) . C (gamma, kappa) per length and nothing beside it. */
 #ifndef BEAMWORK_EXACT_COUPLED_H
 #define BEAMWORK_EXACT_COUPLED_H
 
 #include "elements/shared/beam_constants.h"
 
-/* As exact_stage_material: extremum over gamma of the energy less N . (e_x + gamma), a function of (kappa, N). */
+/* As exact_stage_material: extremum over gamma of the energy less N . (e_x + gamma), a function of
+ * (kappa, N). */
 double exact_coupled_material(const beam_constants *c, const double kappa[3], const double N[3],
                               double gradient[6], double M[36]);
 
-/* S [strains x strains] [N/m] of Gauss points that each stand for their part.  At one point the moment is linear along
- * the element with the slope M' = -e_x x N, which adds the flexibility int M' . (C^-1) M' to that of the forces: end loads are
- * carried exactly (stiffness.h).  Amplitudes of warping have no stiffness. */
+/* S [strains x strains] [N/m] of Gauss points that each stand for their part.  At one point the
+ * moment is linear along the element with the slope M' = -e_x x N, which adds the flexibility int
+ * M' . (C^-1) M' to that of the forces: end loads are carried exactly (stiffness.h).  Amplitudes of
+ * warping have no stiffness. */
 status exact_coupled_stiffness(const beam_constants *c, int points, int strains, double length,
                                double S[], fault *f);
 

@@ -70,7 +70,8 @@ static void twist_fields(exact_fields *f)
             }
 }
 
-/* -1/2 w/(k EI) (Q -+ M')^2: what the part of the moment above the points' polynomial makes flexible, M' its slope. */
+/* -1/2 w/(k EI) (Q -+ M')^2: what the part of the moment above the points' polynomial makes
+ * flexible, M' its slope. */
 static void residual_bending(exact_fields *f, int g, int Q, int M, double sign, double flexibility)
 {
     double row[EXACT_FIELDS_MAX_ALL] = {0}; /* on Q, M of the points */
@@ -84,7 +85,8 @@ static void residual_bending(exact_fields *f, int g, int Q, int M, double sign, 
             f->energy[i * f->all + j] -= f->w[g] * flexibility * row[i] * row[j];
 }
 
-/* Stress times strain less half of stress times flexibility, at one point; shears are those of the shear centre. */
+/* Stress times strain less half of stress times flexibility, at one point; shears are those of the
+ * shear centre. */
 static void energy_of_point(const beam_constants *c, exact_fields *f, int g)
 {
     const int e = 6 * g, Q = f->free + EXACT_FIELDS_STRESSES * g;

@@ -1,5 +1,5 @@
-/* What the energy of an element with strains at Gauss points depends on, and the elimination of what the nodes do not show
- * (stiffness.h says why).  Dimensionless (beam_constants.h). */
+/* What the energy of an element with strains at Gauss points depends on, and the elimination of
+ * what the nodes do not show (stiffness.h says why).  Dimensionless (beam_constants.h). */
 #ifndef BEAMWORK_EXACT_FIELDS_H
 #define BEAMWORK_EXACT_FIELDS_H
 
@@ -18,8 +18,8 @@ typedef struct exact_fields {
     int nodes, points, strains, warping_bubbles, free, all, field;
     double x[EXACT_STRAIN_MAX_POINTS], w[EXACT_STRAIN_MAX_POINTS]; /* points of the strains */
     double at[EXACT_STIFFNESS_MAX_FIELD],
-        weight
-            [EXACT_STIFFNESS_MAX_FIELD]; /* points that integrate the fourth power of the twist rate */
+        weight[EXACT_STIFFNESS_MAX_FIELD]; /* points that integrate the fourth power of the twist
+                                              rate */
     double through[EXACT_STIFFNESS_MAX_FIELD]
                   [EXACT_STRAIN_MAX_POINTS]; /* Lagrange polynomials on x, at `at` */
     double twist[EXACT_STIFFNESS_MAX_FIELD][EXACT_FIELDS_MAX_FREE]; /* kappa_x */
@@ -30,7 +30,8 @@ typedef struct exact_fields {
 
 void exact_fields_prepare(const beam_constants *c, int nodes, exact_fields *f);
 
-/* Bubbles and stresses as they follow from the strains: X[all - strains][strains]; 0, or the failing pivot. */
+/* Bubbles and stresses as they follow from the strains: X[all - strains][strains]; 0, or the
+ * failing pivot. */
 int exact_fields_eliminate(const exact_fields *f, double X[]);
 
 #endif

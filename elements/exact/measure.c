@@ -4,7 +4,8 @@
 
 #include "elements/math/dense.h"
 
-/* What 4 y must be multiplied by, y = tan(angle/4), and its first and second derivative with respect to t = y^2. */
+/* What 4 y must be multiplied by, y = tan(angle/4), and its first and second derivative with
+ * respect to t = y^2. */
 static void ratio(exact_measure_kind kind, double t, double m[3])
 {
     if (kind == EXACT_MEASURE_EIGHTH) { /* 2 tan(angle/8)/tan(angle/4) */

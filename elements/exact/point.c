@@ -1,8 +1,7 @@
-/* In the axes of the section, A = u^-1 dQ/m and D = u^-1 dQ'/m, with (A0, A) their scalar and vector parts:
- *   dkappa = 2 D - A0 kappa - 2 eta A - A x kappa,   dv = dy - 2 A x v,
- *   d2kappa = 2 (A0^2 - |A|^2) kappa + 8 eta A0 A + 4 A0 A x kappa - 4 (A0 D + D0 A + A x D),
- *   d2v = 4 A0 A x v + 4 A x (A x v) - 4 A x dy,
- * from the expansion of Q^-1 Q' and of the rotation 2 Im Q/Re Q. */
+/* In the axes of the section, A = u^-1 dQ/m and D = u^-1 dQ'/m, with (A0, A) their scalar and
+ * vector parts: dkappa = 2 D - A0 kappa - 2 eta A - A x kappa,   dv = dy - 2 A x v, d2kappa = 2
+ * (A0^2 - |A|^2) kappa + 8 eta A0 A + 4 A0 A x kappa - 4 (A0 D + D0 A + A x D), d2v = 4 A0 A x v +
+ * 4 A x (A x v) - 4 A x dy, from the expansion of Q^-1 Q' and of the rotation 2 Im Q/Re Q. */
 #include "elements/exact/point.h"
 
 #include <math.h>

@@ -1,8 +1,10 @@
-/* The linear state under sigma gives force, moments and warping torques at the points.  With them, but in the undeformed
- * geometry, the Hessian of the potential is a quadratic polynomial of the prestress; its linear part is the geometric stiffness
- * (the square belongs to strains of the prestressed state, which linear buckling leaves out).  The inner unknowns follow the
- * strains as they do without stress: the error of a critical load is of fourth order in the length of an element, and of second
- * where shear is flexible (c_column: 0.052, 0.0033, 0.00021 % rigid in shear, 1.26, 0.31, 0.078 % with n = 4, 8, 16). */
+/* The linear state under sigma gives force, moments and warping torques at the points.  With them,
+ * but in the undeformed geometry, the Hessian of the potential is a quadratic polynomial of the
+ * prestress; its linear part is the geometric stiffness (the square belongs to strains of the
+ * prestressed state, which linear buckling leaves out).  The inner unknowns follow the strains as
+ * they do without stress: the error of a critical load is of fourth order in the length of an
+ * element, and of second where shear is flexible (c_column: 0.052, 0.0033, 0.00021 % rigid in
+ * shear, 1.26, 0.31, 0.078 % with n = 4, 8, 16). */
 #include "elements/exact/prestress.h"
 
 #include <string.h>
@@ -10,7 +12,8 @@
 #include "elements/exact/sums.h"
 #include "elements/math/dense.h"
 
-/* Linear response: change of all variables under sigma, and how the unknowns follow the strains, Z [unknowns x 8]. */
+/* Linear response: change of all variables under sigma, and how the unknowns follow the strains, Z
+ * [unknowns x 8]. */
 static void linear_state(const exact_stages *s, const double sigma[], double change[], double Z[])
 {
     const int m = s->unknowns, n = m + EXACT_STAGES_OUTER;

@@ -4,7 +4,8 @@
 
 #include "elements/exact/stages.h"
 
-/* Derivative of the condensed stiffness [8 x 8] with respect to the stresses sigma [8] in the undeformed geometry; dimensionless. */
+/* Derivative of the condensed stiffness [8 x 8] with respect to the stresses sigma [8] in the
+ * undeformed geometry; dimensionless. */
 void exact_prestress_stiffness(const exact_stages *s, const double sigma[], double G[]);
 
 #endif

@@ -1,4 +1,5 @@
-/* One Gauss point of a collocation element: geometry, energy, and their derivatives with respect to x, x' and F (milenkovic.h). */
+/* One Gauss point of a collocation element: geometry, energy, and their derivatives with respect to
+ * x, x' and F (milenkovic.h). */
 #ifndef BEAMWORK_EXACT_STAGE_H
 #define BEAMWORK_EXACT_STAGE_H
 
@@ -21,7 +22,8 @@ typedef struct exact_stage {
 void exact_stage_at(int nodes, const double N[], const double dN[], const double x[],
                     const double force[3], const double rest_kappa[3], exact_stage *p);
 
-/* Energy of a point as a function of (kappa, N): gradient [6] and Hessian [36]; T: its warping torque. */
+/* Energy of a point as a function of (kappa, N): gradient [6] and Hessian [36]; T: its warping
+ * torque. */
 double exact_stage_material(const beam_constants *c, const double kappa[3], const double N[3],
                             double T, double gradient[6], double M[36]);
 

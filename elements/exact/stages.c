@@ -67,7 +67,8 @@ void exact_stages_evaluate(const exact_stages *s, const double e[], const double
     out->gradient[s->unknowns + 7] += Sz[last + 1];
 }
 
-/* v -= what initial strains add to it, int R g in the axes half way: strains are counted from the arc without them. */
+/* v -= what initial strains add to it, int R g in the axes half way: strains are counted from the
+ * arc without them. */
 static void less_initial_strain(const element_request *request, double v[3])
 {
     double rotation[3], back[3], added[3], q[4], R[9], middle[3];

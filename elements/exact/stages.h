@@ -1,16 +1,18 @@
 /* One element of a geometrically exact beam with warping, solved by Gauss collocation (ours).
  *
- * In the axes half way between its ends the element has the strains e of strain.h (two nodes): v, the vector from p to q, and
- * 2 X, 8 tan(angle/8) about the axis of the rotation from p to q; and the end amplitudes a.  Orientation is given by a vector x
- * (milenkovic.h), a polynomial of degree p through -X, p - 1 inner values and X.  The force F is constant.  The potential
+ * In the axes half way between its ends the element has the strains e of strain.h (two nodes): v,
+ * the vector from p to q, and 2 X, 8 tan(angle/8) about the axis of the rotation from p to q; and
+ * the end amplitudes a.  Orientation is given by a vector x (milenkovic.h), a polynomial of degree
+ * p through -X, p - 1 inner values and X.  The force F is constant.  The potential
  *
- *   P = F . v + sum_i w_i [-N_x - N_x^2/2EA - 1/2 (N_y, N_z) F (N_y, N_z) + (ys N_z - zs N_y) k + 1/2 rho^2 N_x k^2
- *                          + 1/2 EI_y kappa_y^2 + 1/2 EI_z kappa_z^2 + 1/2 GJ k^2 + c k^4] + warping (warping.h),
- *   N = R^T F, k = kappa_x, over p Gauss points,
+ *   P = F . v + sum_i w_i [-N_x - N_x^2/2EA - 1/2 (N_y, N_z) F (N_y, N_z) + (ys N_z - zs N_y) k +
+ * 1/2 rho^2 N_x k^2
+ *                          + 1/2 EI_y kappa_y^2 + 1/2 EI_z kappa_z^2 + 1/2 GJ k^2 + c k^4] +
+ * warping (warping.h), N = R^T F, k = kappa_x, over p Gauss points,
  *
- * is stationary in F and in the inner x.  In a linear problem this is collocation of the moments' equilibrium m' = F x r' at the
- * Gauss points; N = R^T F is in equilibrium exactly.  The tangent is symmetric, and the error of order 2 p.  All dimensionless
- * (beam_constants.h). */
+ * is stationary in F and in the inner x.  In a linear problem this is collocation of the moments'
+ * equilibrium m' = F x r' at the Gauss points; N = R^T F is in equilibrium exactly.  The tangent is
+ * symmetric, and the error of order 2 p.  All dimensionless (beam_constants.h). */
 #ifndef BEAMWORK_EXACT_STAGES_H
 #define BEAMWORK_EXACT_STAGES_H
 

@@ -30,7 +30,8 @@ static void observe(const exact_strain_line *line, const nodes *s, int g, exact_
     exact_point_at(line->nodes, s->q[0], line->N[g], line->dN[g], y, p);
 }
 
-/* v - v0; the part along x from |v|^2 - |v0|^2 = (2 y0 + dy) . dy, so that a small elongation is no difference of lengths. */
+/* v - v0; the part along x from |v|^2 - |v0|^2 = (2 y0 + dy) . dy, so that a small elongation is no
+ * difference of lengths. */
 static void stretch(const double v[3], const double v0[3], const double y[3], const double dy[3],
                     double e[3])
 {
@@ -119,7 +120,8 @@ static void second(const exact_strain_line *line, const nodes *s, int g, const e
         moment[i] = line->l0 * weight[3 + i];
     }
     if (line->rotation != EXACT_MEASURE_QUARTER) {
-        /* n . psi(x): T^T n takes n's place, and the second derivative of psi meets dx = T^-1 J twice. */
+        /* n . psi(x): T^T n takes n's place, and the second derivative of psi meets dx = T^-1 J
+         * twice. */
         double psi[3], T[9], inner[9], inverse[9], bent[9],
             dx[3 * NODE_COORDINATES * ELEMENT_MAX_NODES], weighted[3];
         int pivot[3];

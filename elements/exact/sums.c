@@ -44,7 +44,8 @@ static void add_point(int nodes, const double N[], const double dN[],
     }
 }
 
-/* Row of the warping energy's argument at point i: kappa_x less the warping shear that Q_y and Q_z make. */
+/* Row of the warping energy's argument at point i: kappa_x less the warping shear that Q_y and Q_z
+ * make. */
 static void warping_row(const exact_stages *s, int i, double D[6][EXACT_STAGE_SPACE], exact_sums *a)
 {
     double row[EXACT_STAGE_SPACE], *dz = &a->dz[i * (s->unknowns + EXACT_STAGES_OUTER)];

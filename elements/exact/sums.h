@@ -1,5 +1,5 @@
-/* What the Gauss points of a collocation element add up to, in terms of x at the nodes, and from there to the element's
- * variables: its unknowns and strains in the order of stages.h. */
+/* What the Gauss points of a collocation element add up to, in terms of x at the nodes, and from
+ * there to the element's variables: its unknowns and strains in the order of stages.h. */
 #ifndef BEAMWORK_EXACT_SUMS_H
 #define BEAMWORK_EXACT_SUMS_H
 

@@ -9,8 +9,8 @@
 
 enum {
     STAGES = EXACT_WARPING_MAX_STAGES,
-    POLYNOMIALS =
-        20, /* resolve layers up to lambda = SHORT to rounding: their energy errs by the square of the amplitude's error */
+    POLYNOMIALS = 20, /* resolve layers up to lambda = SHORT to rounding: their energy errs by the
+                         square of the amplitude's error */
     BUBBLES = POLYNOMIALS,
     FUNCTIONS = BUBBLES + 2, /* 1 - x and x come first */
     INTERVALS = 9,
@@ -51,7 +51,8 @@ static void functions_at(const basis *b, double x, double rest, double value[], 
     slope[k + 1] = l * q - 1 + far;
 }
 
-/* Points that integrate smooth functions and layers of thickness 1/lambda at both ends. rest: 1 - x. */
+/* Points that integrate smooth functions and layers of thickness 1/lambda at both ends. rest: 1 -
+ * x. */
 static void graded_points(double lambda, double x[], double rest[], double w[])
 {
     const double step[] = {0, 1, 4, 12, 40}, thickness = fmin(1 / lambda, 0.01);
@@ -72,7 +73,8 @@ static void graded_points(double lambda, double x[], double rest[], double w[])
         }
 }
 
-/* Mean[stages][functions]: P of every function at the stages; K: 2 x energy of their slopes and of what P does not see. */
+/* Mean[stages][functions]: P of every function at the stages; K: 2 x energy of their slopes and of
+ * what P does not see. */
 static void integrate(const beam_constants *c, const basis *b, int stages, const double x[],
                       const double w[], double mean[STAGES * FUNCTIONS],
                       double K[FUNCTIONS * FUNCTIONS])
@@ -113,7 +115,8 @@ void exact_warping_energy(const beam_constants *c, int stages, const double x[],
         A[SIZE * SIZE] = {0}, X[SIZE * EXACT_WARPING_MAX] = {0};
     int pivot[SIZE];
     integrate(c, &b, stages, x, w, mean, K);
-    /* Unknown: bubbles and w T, T the warping torque at the stages: 1/2 a K a + T w (kappa - P a) - 1/2 flexibility w T^2. */
+    /* Unknown: bubbles and w T, T the warping torque at the stages: 1/2 a K a + T w (kappa - P a) -
+     * 1/2 flexibility w T^2. */
     for (int i = 0; i < b.bubbles; i++) {
         for (int j = 0; j < b.bubbles; j++)
             A[i * size + j] = K[(i + 2) * n + j + 2];
@@ -129,9 +132,8 @@ void exact_warping_energy(const beam_constants *c, int stages, const double x[],
         for (int j = 0; j < 2; j++)
             X[row * m + stages + j] = mean[k * n + j];
     }
-    dense_lu(
-        size, A,
-        pivot); /* never singular: K is positive definite on the bubbles, which outnumber the stages */
+    dense_lu(size, A, pivot); /* never singular: K is positive definite on the bubbles, which
+                                 outnumber the stages */
     dense_lu_solve(size, m, A, pivot, X);
     /* The gradient with respect to z: w T at the stages, and K a - P^T w T at the ends. */
     memset(S, 0, EXACT_WARPING_MAX * EXACT_WARPING_MAX * sizeof *S);

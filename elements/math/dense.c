@@ -6,8 +6,8 @@
 
 enum { WIDEST = 14 };
 
-/* out += sum_l times c[l stride] row l of rows, row length n, in this order; sums of a width that is
- * known where this is inlined stay in registers. skip: rows whose factor is zero. */
+/* out += sum_l times c[l stride] row l of rows, row length n, in this order; sums of a width that
+ * is known where this is inlined stay in registers. skip: rows whose factor is zero. */
 static inline __attribute__((always_inline)) void add_block(int count, int width, double times,
                                                             int skip, const double *restrict c,
                                                             int stride, const double *restrict rows,

@@ -23,7 +23,8 @@ static inline double vec3_norm(const double a[3])
     return hypot(hypot(a[0], a[1]), a[2]);
 }
 
-/* |d| - l0 for d = d0 + moved, |d0| = l0: (2 d - moved) . moved/(|d| + l0), no difference of nearly equal lengths. */
+/* |d| - l0 for d = d0 + moved, |d0| = l0: (2 d - moved) . moved/(|d| + l0), no difference of nearly
+ * equal lengths. */
 static inline double vec3_elongation(const double d[3], const double moved[3], double l0)
 {
     const double sum[3] = {2 * d[0] - moved[0], 2 * d[1] - moved[1], 2 * d[2] - moved[2]};
@@ -76,7 +77,8 @@ int dense_cholesky(int n, double *A);
 void dense_cholesky_solve(int n, int m, const double *L, double *B);
 /* LU with partial pivoting in place; pivot[n]; 0, or 1 + the index of the zero pivot. */
 int dense_lu(int n, double *A, int pivot[]);
-/* The same, and 1 + the index of the first pivot that is a rounding error of the terms it is the difference of. */
+/* The same, and 1 + the index of the first pivot that is a rounding error of the terms it is the
+ * difference of. */
 int dense_lu_regular(int n, double *A, int pivot[]);
 /* Solves A X = B in place with the factors of dense_lu, B(n x m). */
 void dense_lu_solve(int n, int m, const double *LU, const int pivot[], double *B);

@@ -1,5 +1,5 @@
-/* Finite rotations by unit quaternions. Half-angle formulas throughout: sinc keeps the exponential exact near 0, atan2
- * keeps the logarithm exact near 0 and near pi. */
+/* Finite rotations by unit quaternions. Half-angle formulas throughout: sinc keeps the exponential
+ * exact near 0, atan2 keeps the logarithm exact near 0 and near pi. */
 #include "elements/math/rotation.h"
 
 #include <math.h>

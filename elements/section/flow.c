@@ -33,8 +33,9 @@ double flow_moment(const section_spec *s, const section_tree *t, const double *v
            h * length * (x * value[i][far] + x * x / 2 * (value[i][near] - value[i][far]));
 }
 
-/* The walls are taken from the free ends towards the root, so that the moments of everything beyond are known.  Cells
- * are cut where the walls that close them end; what flows across the cuts then makes the warping one-valued. */
+/* The walls are taken from the free ends towards the root, so that the moments of everything beyond
+ * are known.  Cells are cut where the walls that close them end; what flows across the cuts then
+ * makes the warping one-valued. */
 void flow_first_moments(const section_spec *s, const section_tree *t, const double *value[3],
                         flow_moments q[])
 {

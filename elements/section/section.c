@@ -58,12 +58,13 @@ section_spec section_spec_walls(double young, double shear_modulus, int walls,
     return spec;
 }
 
-/* Exact Saint-Venant constant of a rectangle a x b (series; relative error below 1e-15 for every ratio) [m^4]. */
+/* Exact Saint-Venant constant of a rectangle a x b (series; relative error below 1e-15 for every
+ * ratio) [m^4]. */
 static double rectangle_torsion(double a, double b)
 {
     const double h = fmax(a, b), t = fmin(a, b);
-    /* J = h t^3/3 [1 - 192/pi^5 t/h sum over odd n of tanh(n pi h/2t)/n^5]. Of n^-5 alone the sum is
-     * 31/32 zeta(5); tanh - 1 = -2/(exp(n pi h/t) + 1) is nothing from n = 13 on: h >= t */
+    /* J = h t^3/3 [1 - 192/pi^5 t/h sum over odd n of tanh(n pi h/2t)/n^5]. Of n^-5 alone the sum
+     * is 31/32 zeta(5); tanh - 1 = -2/(exp(n pi h/t) + 1) is nothing from n = 13 on: h >= t */
     const double zeta5 = 1.03692775514336993;
     double sum = 0;
     for (int n = 11; n >= 1; n -= 2)
@@ -99,9 +100,10 @@ static status rectangle(const section_spec *s, section *out, fault *f)
     return STATUS_OK;
 }
 
-/* A circular ring, exact: its section stays plane in torsion (Iw = 0). Shear stresses of bending are those of Saint-Venant
- * without Poisson's effect: 1/k = 7/6 + 10/3 m^2/(1 + m^2)^2, m = inner/outer radius (Renton, Int. J. Solids Struct. 28, 1991;
- * Cowper 1966 at nu = 0), 6/7 for a bar and 1/2 for a thin tube. */
+/* A circular ring, exact: its section stays plane in torsion (Iw = 0). Shear stresses of bending
+ * are those of Saint-Venant without Poisson's effect: 1/k = 7/6 + 10/3 m^2/(1 + m^2)^2, m =
+ * inner/outer radius (Renton, Int. J. Solids Struct. 28, 1991; Cowper 1966 at nu = 0), 6/7 for a
+ * bar and 1/2 for a thin tube. */
 static status tube(const section_spec *s, section *out, fault *f)
 {
     const double R = s->diameter / 2, t = s->wall_thickness;
@@ -123,7 +125,8 @@ static status tube(const section_spec *s, section *out, fault *f)
     return STATUS_OK;
 }
 
-/* D = F^-1 where F has stiffness to invert; rows and columns of zeros (rigid in shear) stay zero in both. */
+/* D = F^-1 where F has stiffness to invert; rows and columns of zeros (rigid in shear) stay zero in
+ * both. */
 static status invert_on_support(const double from[9], double to[9], const char *name, fault *f)
 {
     double scaled[9], scale[3];

@@ -1,7 +1,8 @@
 /* Cross-section constants: what a beam element needs to know of a section.
  *
  * Axes: x along the line of centroids, y and z principal.  A section is given
- * by straight thin walls (open, or with closed cells), as a solid rectangle, as a round tube, by its numbers, or by two matrices. */
+ * by straight thin walls (open, or with closed cells), as a solid rectangle, as a round tube, by
+ * its numbers, or by two matrices. */
 #ifndef BEAMWORK_SECTION_H
 #define BEAMWORK_SECTION_H
 
@@ -22,18 +23,18 @@ typedef struct section {
     double Ip;            /* polar moment Iy + Iz about the centroid [m^4] */
     double wagner_y;      /* int y (y^2 + z^2) dA [m^5] */
     double wagner_z;      /* int z (y^2 + z^2) dA [m^5] */
-    double
-        wagner_torque; /* c of the energy E c kx^4 per length: w^5 t / 1440 for a sheet [m^6] (N Eq. 46) */
-    double D
-        [9]; /* shear rigidities / G, order y, z, omega [m^2, m^2, m^4; m^3 off the diagonal]: (Qy, Qz, Mw) = G D (gy, gz, gw) */
+    double wagner_torque; /* c of the energy E c kx^4 per length: w^5 t / 1440 for a sheet [m^6] (N
+                             Eq. 46) */
+    double D[9]; /* shear rigidities / G, order y, z, omega [m^2, m^2, m^4; m^3 off the diagonal]:
+                    (Qy, Qz, Mw) = G D (gy, gz, gw) */
     double F[9]; /* D^-1, kept because it exists when D would be infinite (F = 0: shear-rigid) */
     double axes_angle;              /* beta [rad]: principal y axis from the wall y axis */
     double centroid[2];             /* in wall coordinates [m] */
     int matrices;                   /* 1: a section by its matrices (matrices.h) */
     double stiffness[36], mass[36]; /* of that; else zero */
     int rectangle;                  /* 1: a solid rectangle with the sizes below */
-    double width,
-        height; /* of the rectangle: `width` along z (the sheet's w), `height` along y (its t) [m] */
+    double width, height; /* of the rectangle: `width` along z (the sheet's w), `height` along y
+                             (its t) [m] */
 } section;
 
 typedef enum section_kind {
@@ -55,15 +56,18 @@ typedef struct section_spec {
         int from, to;
         double thickness;
     } wall[SECTION_MAX_WALLS]; /* thickness [m] */
-    int thickness_terms; /* 1: add the t^3 terms of formulation notes section 2 (off for thin-walled work) */
-    double width, height; /* rectangle: along z and along y [m] */
-    double shear_factor
-        [2]; /* rectangle: k for Qy and Qz; 0: 5/6 from the thickness terms; both 0: their warping shear too */
-    int sheet_warping; /* rectangle: Iw = w^3 t^3/144 (same) and It = exact Saint-Venant series in either case */
+    int thickness_terms; /* 1: add the t^3 terms of formulation notes section 2 (off for thin-walled
+                            work) */
+    double width, height;   /* rectangle: along z and along y [m] */
+    double shear_factor[2]; /* rectangle: k for Qy and Qz; 0: 5/6 from the thickness terms; both 0:
+                               their warping shear too */
+    int sheet_warping; /* rectangle: Iw = w^3 t^3/144 (same) and It = exact Saint-Venant series in
+                          either case */
     double diameter, wall_thickness; /* tube: outer diameter; half of it: a solid bar [m] */
-    section
-        constants; /* SECTION_CONSTANTS: taken as given; D or F must be given.  SECTION_MATRICES: stiffness and mass; no material */
-    /* Overrides applied after computing (a printed table's rounded values); NAN: keep what was computed. */
+    section constants; /* SECTION_CONSTANTS: taken as given; D or F must be given. SECTION_MATRICES:
+                          stiffness and mass; no material */
+    /* Overrides applied after computing (a printed table's rounded values); NAN: keep what was
+     * computed. */
     struct {
         double Iw, ys, zs, Dy, Dz, Dw, Dyz, Dyw, Dzw, It, Ip;
     } given;
@@ -84,7 +88,8 @@ section_spec section_spec_walls(double young, double shear_modulus, int walls,
                                 const double thickness[]);
 
 /* STATUS_REFUSED with the culprit (wall 2, the sum of ..., D's eigenvalue) for zero or negative
- * sizes, a cell too many, disconnected walls, a point used by no wall, D not positive definite, G or E not positive, nan. */
+ * sizes, a cell too many, disconnected walls, a point used by no wall, D not positive definite, G
+ * or E not positive, nan. */
 status section_compute(const section_spec *spec, section *out, fault *f);
 
 #endif

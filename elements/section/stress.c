@@ -9,7 +9,8 @@
 
 enum { PER_QY, PER_QZ, PER_WARPING, PER_TWIST };
 
-/* Saint-Venant's torsion of a rectangle, thickness 1, w wide: shear stress at the middle of its long sides per G kappa t. */
+/* Saint-Venant's torsion of a rectangle, thickness 1, w wide: shear stress at the middle of its
+ * long sides per G kappa t. */
 static double long_side(double w)
 {
     double sum = 0;
@@ -18,7 +19,8 @@ static double long_side(double w)
     return 1 - 8 / (PI * PI) * sum;
 }
 
-/* At the middle of its short sides: the alternating sum of tanh/n^2, without the tanh Catalan's constant. */
+/* At the middle of its short sides: the alternating sum of tanh/n^2, without the tanh Catalan's
+ * constant. */
 static double short_side(double w)
 {
     const double catalan = 0.915965594177219015;

@@ -52,7 +52,8 @@ static status check_walls(const section_spec *p, const section_spec *q, fault *f
     return STATUS_OK;
 }
 
-/* Distances [m] of the ends of a wall from the plane that it has in the other section, both about their shear centres. */
+/* Distances [m] of the ends of a wall from the plane that it has in the other section, both about
+ * their shear centres. */
 static double out_of_plane(const section_spec *p, const section_spec *q,
                            const section *const ends[2], int w)
 {

@@ -1,17 +1,19 @@
-/* Sections that change along a member: from one description to another of the same form, linearly in its numbers.
+/* Sections that change along a member: from one description to another of the same form, linearly
+ * in its numbers.
  *
- * Every place is taken as that of a prismatic member with the section there, its centroid on the member's line: what the
- * taper itself adds to the shear stresses is left out, as usual in the theory of beams. */
+ * Every place is taken as that of a prismatic member with the section there, its centroid on the
+ * member's line: what the taper itself adds to the shear stresses is left out, as usual in the
+ * theory of beams. */
 #ifndef BEAMWORK_SECTION_TAPER_H
 #define BEAMWORK_SECTION_TAPER_H
 
 #include "elements/section/section.h"
 
-/* May one description change into the other?  REFUSED: another form (rectangle, walls that hang together in another way, D in
- * one and F in the other ...), and, where the section warps, a shear centre that moves, walls that do not stay in their planes,
- * closed cells that are not the same: the sectorial coordinate of a fibre would change along the member, which couples its
- * warping with torsion in a way that no prismatic piece has.
- * ends: what the two come to. */
+/* May one description change into the other?  REFUSED: another form (rectangle, walls that hang
+ * together in another way, D in one and F in the other ...), and, where the section warps, a shear
+ * centre that moves, walls that do not stay in their planes, closed cells that are not the same:
+ * the sectorial coordinate of a fibre would change along the member, which couples its warping with
+ * torsion in a way that no prismatic piece has. ends: what the two come to. */
 status section_taper_check(const section_spec *p, const section_spec *q,
                            const section *const ends[2], fault *f);
 

@@ -1,5 +1,5 @@
-/* Constants of a section of straight thin walls, open or with closed cells: sectorial coordinate, shear centre.
- * Every integrand along a wall is a polynomial of degree five at most, for which
+/* Constants of a section of straight thin walls, open or with closed cells: sectorial coordinate,
+ * shear centre. Every integrand along a wall is a polynomial of degree five at most, for which
  * three Gauss points are exact. */
 #include "elements/section/walls.h"
 
@@ -54,8 +54,9 @@ static double swept(const section_spec *s, int w, const double y[], const double
     return (y[a] - yp) * (z[b] - z[a]) - (z[a] - zp) * (y[b] - y[a]);
 }
 
-/* Sectorial coordinate about a pole, zero mean: omega = int (y dz - z dy) - int psi/t ds, with the flow psi of
- * Saint-Venant's torsion per G and unit twist, which is constant around each cell and zero without cells. */
+/* Sectorial coordinate about a pole, zero mean: omega = int (y dz - z dy) - int psi/t ds, with the
+ * flow psi of Saint-Venant's torsion per G and unit twist, which is constant around each cell and
+ * zero without cells. */
 static void sectorial(const section_spec *s, const section_tree *t, const double y[],
                       const double z[], double yp, double zp, double area, const double psi[],
                       double omega[])
@@ -76,7 +77,8 @@ static void sectorial(const section_spec *s, const section_tree *t, const double
         omega[p] -= mean;
 }
 
-/* Torsion of the cells: its flow per G and unit twist [m^2], and what it adds to It [m^4] (Bredt). */
+/* Torsion of the cells: its flow per G and unit twist [m^2], and what it adds to It [m^4] (Bredt).
+ */
 static double cell_torsion(const section_spec *s, const section_tree *t, const double y[],
                            const double z[], double psi[])
 {
@@ -209,7 +211,8 @@ status section_walls(const section_spec *s, section *out, fault *f)
     walls_lines lines;
     TRY(walls_lines_of(s, &lines, out, f));
     const double *y = lines.y, *z = lines.z, *omega = lines.omega;
-    /* Walls that meet in one point do not warp along their mid-lines: what is left of Iw is rounding. */
+    /* Walls that meet in one point do not warp along their mid-lines: what is left of Iw is
+     * rounding. */
     const int warps = out->Iw > 1e-24 * out->Ip * out->Ip / out->A;
     if (!warps)
         out->Iw = 0;

@@ -9,16 +9,18 @@ typedef struct walls_lines {
     section_tree tree;
     double y[SECTION_MAX_POINTS], z[SECTION_MAX_POINTS]; /* [m] */
     double omega[SECTION_MAX_POINTS]; /* about the shear centre, zero mean [m^2] */
-    double flow
-        [SECTION_MAX_WALLS]; /* from `from` to `to`, of Saint-Venant's torsion per G and unit twist: that of the cells [m^2] */
-    double pole[2]; /* the shear centre [m] */
+    double flow[SECTION_MAX_WALLS]; /* from `from` to `to`, of Saint-Venant's torsion per G and unit
+                                       twist: that of the cells [m^2] */
+    double pole[2];                 /* the shear centre [m] */
 } walls_lines;
 
-/* A zeroed section's constants but for shear and the moments of higher order; REFUSED as section_walls. */
+/* A zeroed section's constants but for shear and the moments of higher order; REFUSED as
+ * section_walls. */
 status walls_lines_of(const section_spec *spec, walls_lines *lines, section *out, fault *f);
 
 /* Adds geometry and the shear compliance F to a zeroed section; the material is not its concern.
- * REFUSED: closed cell, disconnected wall, unused point, sizes that are not positive, walls on one line. */
+ * REFUSED: closed cell, disconnected wall, unused point, sizes that are not positive, walls on one
+ * line. */
 status section_walls(const section_spec *spec, section *out, fault *f);
 
 #endif

@@ -1,5 +1,5 @@
-/* Section constants made dimensionless with the length l0 of an element and one of its bending stiffnesses, and only those
- * of the physics that is asked for. */
+/* Section constants made dimensionless with the length l0 of an element and one of its bending
+ * stiffnesses, and only those of the physics that is asked for. */
 #ifndef BEAMWORK_BEAM_CONSTANTS_H
 #define BEAMWORK_BEAM_CONSTANTS_H
 
@@ -16,8 +16,9 @@ typedef struct beam_constants {
     double torque;     /* energy torque kappa_x^4 per length */
     double initial[3]; /* strains gx, gy, gz without stress */
     int warping;
-    int coupled; /* 1: of a section by its matrices; only what follows, energy, initial and warping = 0 count (beam_coupled.h) */
-    double C[36];     /* (N, Q, M) = C (gamma, kappa) */
+    int coupled;  /* 1: of a section by its matrices; only what follows, energy, initial and warping
+                     = 0 count (beam_coupled.h) */
+    double C[36]; /* (N, Q, M) = C (gamma, kappa) */
     double mixed[36]; /* (M, -gamma) = mixed (kappa, N) */
 } beam_constants;
 

@@ -1,5 +1,5 @@
-/* Sections by their matrices (elements/section/matrices.h), dimensionless: the stiffness C of (gamma, kappa), and the same with
- * gamma expressed by the force. */
+/* Sections by their matrices (elements/section/matrices.h), dimensionless: the stiffness C of
+ * (gamma, kappa), and the same with gamma expressed by the force. */
 #ifndef BEAMWORK_BEAM_COUPLED_H
 #define BEAMWORK_BEAM_COUPLED_H
 

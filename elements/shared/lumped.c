@@ -15,8 +15,8 @@ static void add_vector(lumped_mass *l, double mass, const double a[3])
     }
 }
 
-/* Inertia J about the centre is that of masses A = (tr J/2) 1 - J = sum_i (A_ii - sum_j A_ij) e_i e_i^T + sum_i<j A_ij (e_i +
- * e_j)(e_i + e_j)^T, of either sign. */
+/* Inertia J about the centre is that of masses A = (tr J/2) 1 - J = sum_i (A_ii - sum_j A_ij) e_i
+ * e_i^T + sum_i<j A_ij (e_i + e_j)(e_i + e_j)^T, of either sign. */
 static lumped_mass of_matrices(const section *c, double length)
 {
     lumped_mass out = {.mass = c->mass[0] * length, .turns = 1};
@@ -95,7 +95,8 @@ static void add_rotation(const lumped_mass *l, double share, const node_state *x
     }
 }
 
-/* Warping moves the section along its normal by -omega a, in a rotating frame away from the axis: a vector a n_X of mass rho Iw. */
+/* Warping moves the section along its normal by -omega a, in a rotating frame away from the axis: a
+ * vector a n_X of mass rho Iw. */
 static void add_warping(double mass, const node_state *x, const element_rotating_frame *frame,
                         int at, int n, inertia_output *out)
 {

@@ -13,7 +13,8 @@ typedef enum status {
     STATUS_REFUSED,       /* the input makes no sense or is not offered */
     STATUS_FAULT,         /* file, disk or memory: not the fault of the physics */
     STATUS_TIME_LIMIT,    /* stopped by the clock */
-    STATUS_NO_VALUE /* all went well, and what was asked for does not exist: no such mode, load or state */
+    STATUS_NO_VALUE /* all went well, and what was asked for does not exist: no such mode, load or
+                       state */
 } status;
 
 enum { FAULT_TEXT = 320 };
@@ -38,7 +39,8 @@ fault_set(fault *f, status s, const char *format, ...);
             return try_;                                                                           \
     } while (0)
 
-/* "ok", "not_converged", "singular", "refused", "fault", "time_limit", "no_value": the words of the result file. */
+/* "ok", "not_converged", "singular", "refused", "fault", "time_limit", "no_value": the words of the
+ * result file. */
 const char *status_name(status s);
 
 #endif

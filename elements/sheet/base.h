@@ -1,4 +1,5 @@
-/* What every sheet-flexure formulation begins with: generalized strains, linear stiffness, Wagner torque and lumped mass. */
+/* What every sheet-flexure formulation begins with: generalized strains, linear stiffness, Wagner
+ * torque and lumped mass. */
 #ifndef BEAMWORK_SHEET_BASE_H
 #define BEAMWORK_SHEET_BASE_H
 

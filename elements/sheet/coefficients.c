@@ -1,13 +1,14 @@
-/* A_ij = int [(Mx_i + B_i')(Mx_j + B_j')/GJ + B_i B_j/EIw + My_i My_j/EIy + Mz_i Mz_j/EIz + Fx_i Fx_j/EA + Fz_i Fz_j/kGA] ds,
- * b_i  = int [(Mx_i + B_i')(phi_x' - k0) + B_i (phi_x' - k0)' + My_i phi_x u_y'' + Mz_i u_y'' - (Mx_i + B_i') kx - My_i ky - Mz_i kz] ds
+/* A_ij = int [(Mx_i + B_i')(Mx_j + B_j')/GJ + B_i B_j/EIw + My_i My_j/EIy + Mz_i Mz_j/EIz + Fx_i
+ * Fx_j/EA + Fz_i Fz_j/kGA] ds, b_i  = int [(Mx_i + B_i')(phi_x' - k0) + B_i (phi_x' - k0)' + My_i
+ * phi_x u_y'' + Mz_i u_y'' - (Mx_i + B_i') kx - My_i ky - Mz_i kz] ds
  *        + (u + int u_y'^2/2 for F~x, yp for M~yp, yq for M~yq),
  * P0   = int [B_0' phi_x' + B_0 phi_x'' - B_0'^2/2GJ - B_0^2/2EIw - B_0' kx] ds,
- * with Mx, Mz of N Eq. 49, B_0 = EIw k0' the bimoment of the ends' twist rates, k0(0) = Wp, k0(L) = Wq, and kx, ky, kz the initial
- * torsion and curvatures (N Eq. 52).  By parts, with the twist rates of torsion.h,
- *   int [(Mx_i + B_i')(Mx_j + B_j')/GJ + B_i B_j/EIw] ds = (L/GJ) lambda^2 int Mx_i g_j dx,
- *   int [(Mx_i + B_i')(phi_x' - k0) + B_i (phi_x' - k0)'] ds = L int Mx_i (phi_x' - k0) dx,
- *   P0 = (EIw/2L) int (lambda^2 k0^2 + k0'^2) dx - kx EIw [k0'].
- * My_i phi_x u_y'' cancels the same term of Mz_i u_y''. */
+ * with Mx, Mz of N Eq. 49, B_0 = EIw k0' the bimoment of the ends' twist rates, k0(0) = Wp, k0(L) =
+ * Wq, and kx, ky, kz the initial torsion and curvatures (N Eq. 52).  By parts, with the twist rates
+ * of torsion.h, int [(Mx_i + B_i')(Mx_j + B_j')/GJ + B_i B_j/EIw] ds = (L/GJ) lambda^2 int Mx_i g_j
+ * dx, int [(Mx_i + B_i')(phi_x' - k0) + B_i (phi_x' - k0)'] ds = L int Mx_i (phi_x' - k0) dx, P0 =
+ * (EIw/2L) int (lambda^2 k0^2 + k0'^2) dx - kx EIw [k0']. My_i phi_x u_y'' cancels the same term of
+ * Mz_i u_y''. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -34,7 +35,8 @@ typedef struct sums {
     double A[SHEET_STRESSES][SHEET_STRESSES][V][V], b[SHEET_STRESSES][V][V], P0[V][V];
 } sums;
 
-/* M_x as modes of torque: M~x, and M~yn z_j times -+ u_y/L + u_y' (x - 1 or x), u_y = L [x (1-x)^2 zp - x^2 (1-x) zq]. */
+/* M_x as modes of torque: M~x, and M~yn z_j times -+ u_y/L + u_y' (x - 1 or x), u_y = L [x (1-x)^2
+ * zp - x^2 (1-x) zq]. */
 static const struct {
     int stress, variable;
 } mode[SHEET_TORSION_MODES] = {{MX, ONE}, {MYP, ZP}, {MYP, ZQ}, {MYQ, ZP}, {MYQ, ZQ}};
@@ -103,7 +105,8 @@ static void add_torsion(const element_request *r,
     out->P0[ONE][WP] = out->P0[ONE][WQ] = -kx * EIw / L * (integral.same + integral.other);
 }
 
-/* Amplitudes that are kept although nothing warps settle at Wp = Wq = px/L: the energy of N Eq. 34 in W - px/L alone. */
+/* Amplitudes that are kept although nothing warps settle at Wp = Wq = px/L: the energy of N Eq. 34
+ * in W - px/L alone. */
 static void add_idle_amplitudes(const element_request *r, sums *out)
 {
     const double L = r->length, k = r->section->shear_modulus * r->section->It * L / 30;

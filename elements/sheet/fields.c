@@ -3,7 +3,8 @@
 #include <string.h>
 
 /* With the antisymmetric cubic c = x - 3x^2 + 2x^3 and the shear share r = Phi/(2 + 2 Phi):
- * a deflection v with end slopes a, b is l0 [a (x-2x^2+x^3) + b (-x^2+x^3) - r (a+b) c], the rotation v' + r (a+b). */
+ * a deflection v with end slopes a, b is l0 [a (x-2x^2+x^3) + b (-x^2+x^3) - r (a+b) c], the
+ * rotation v' + r (a+b). */
 static void bending(double l0, double x, double Phi, int at, double sign, double v[], double dv[],
                     double phi[], double dphi[])
 {

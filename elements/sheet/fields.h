@@ -1,4 +1,5 @@
-/* The linear solution between the nodes as linear functionals of the local coordinates (N Eqs. 14-19). */
+/* The linear solution between the nodes as linear functionals of the local coordinates (N Eqs.
+ * 14-19). */
 #ifndef BEAMWORK_SHEET_FIELDS_H
 #define BEAMWORK_SHEET_FIELDS_H
 
@@ -14,7 +15,8 @@ typedef struct sheet_fields {
     double phi_z[SHEET_LOCAL_COORDINATES], dphi_z[SHEET_LOCAL_COORDINATES];
 } sheet_fields;
 
-/* 1: phi_x is cubic (N Eq. 19); 0: where nothing warps or no amplitude is asked for it is linear. */
+/* 1: phi_x is cubic (N Eq. 19); 0: where nothing warps or no amplitude is asked for it is linear.
+ */
 int sheet_fields_warp(const element_request *request);
 
 /* At s = x l0.  Phi_y, Phi_z: N Eq. 18.  warp: as sheet_fields_warp says. */

@@ -1,7 +1,9 @@
-/* F^T R^p = R(p) = Ry(yp) Rz(zp), whose first row is n seen from p, and F^T R^q = Ry(yq) Rz(zq) Rx(px).
+/* F^T R^p = R(p) = Ry(yp) Rz(zp), whose first row is n seen from p, and F^T R^q = Ry(yq) Rz(zq)
+ * Rx(px).
  *
- * With w_F the spin of the frame, a vector fixed in space has the rate a x w_F in frame axes.  The chord gives
- * w_F,y = -v_z/l and w_F,z = v_y/l; that p does not twist against the frame gives w_F,x. */
+ * With w_F the spin of the frame, a vector fixed in space has the rate a x w_F in frame axes.  The
+ * chord gives w_F,y = -v_z/l and w_F,z = v_y/l; that p does not twist against the frame gives
+ * w_F,x. */
 #include "elements/sheet/local.h"
 
 #include <string.h>
@@ -103,7 +105,8 @@ static void add_product(double c, const double a[SHEET_RATE_TURNS],
                 A[SHEET_RATE_TURNS * i + j] += c * a[i] * b[j];
 }
 
-/* Weights of the accelerations dv/dt, dP/dt, dQ/dt in sum t_k d2q_k/dt2, from those of dw/dt and d(bend)/dt. */
+/* Weights of the accelerations dv/dt, dP/dt, dQ/dt in sum t_k d2q_k/dt2, from those of dw/dt and
+ * d(bend)/dt. */
 static void acceleration_weights(const sheet_local_state *s,
                                  const double t[SHEET_LOCAL_COORDINATES], const double relative[3],
                                  double bend, double g[SHEET_RATE_TURNS])
@@ -156,7 +159,8 @@ void sheet_local_add_second(const sheet_local_state *s,
     /* d(1/cos yp)/dt in zp, d(tan yp)/dt in w_x */
     add_product((bend * s->tan_yp + relative[0] * s->sec_yp * s->sec_yp), w.bend,
                 R + SHEET_LOCAL_YP * SHEET_RATES, A);
-    /* d(across)/dt = .. - yq' zq', d(zq')/dt = .. + yq' across; d(1/cos zq)/dt in px, d(tan zq)/dt in yq */
+    /* d(across)/dt = .. - yq' zq', d(zq')/dt = .. + yq' across; d(1/cos zq)/dt in px, d(tan zq)/dt
+     * in yq */
     for (int j = 0; j < SHEET_RATE_TURNS; j++)
         zq_and_across[j] =
             t[SHEET_LOCAL_ZQ] * w.across[j] - across * R[SHEET_LOCAL_ZQ * SHEET_RATES + j];

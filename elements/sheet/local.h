@@ -1,10 +1,12 @@
-/* Local coordinates of a two-node beam that is simply supported in its own frame (N Eqs. 12, 40, 42).
+/* Local coordinates of a two-node beam that is simply supported in its own frame (N Eqs. 12, 40,
+ * 42).
  *
- * The frame F = (n, j, k): n from p to q, j across n and the z axis of p, k = n x j.  In it the nodes' triads are
- * F^T R^p = Ry(yp) Rz(zp) and F^T R^q = Ry(yq) Rz(zq) Rx(px).
+ * The frame F = (n, j, k): n from p to q, j across n and the z axis of p, k = n x j.  In it the
+ * nodes' triads are F^T R^p = Ry(yp) Rz(zp) and F^T R^q = Ry(yq) Rz(zq) Rx(px).
  *
- * Derivatives are taken with respect to eleven rates along a path of constant velocity and constant spatial spin: in frame
- * axes the relative velocity v of q against p, the spins P and Q of the nodes, and the rates of the two warping amplitudes. */
+ * Derivatives are taken with respect to eleven rates along a path of constant velocity and constant
+ * spatial spin: in frame axes the relative velocity v of q against p, the spins P and Q of the
+ * nodes, and the rates of the two warping amplitudes. */
 #ifndef BEAMWORK_SHEET_LOCAL_H
 #define BEAMWORK_SHEET_LOCAL_H
 
@@ -52,8 +54,8 @@ void sheet_local_add_second(const sheet_local_state *s,
                             const double t[SHEET_LOCAL_COORDINATES],
                             double H[SHEET_RATES * SHEET_RATES]);
 
-/* From rates to the coordinates of the nodes: J[m x 14] = A[m x 11] d(rates)/dx, K[14 x 14] = the same for a symmetric form
- * H[11 x 11]. */
+/* From rates to the coordinates of the nodes: J[m x 14] = A[m x 11] d(rates)/dx, K[14 x 14] = the
+ * same for a symmetric form H[11 x 11]. */
 void sheet_local_nodal_gradient(const sheet_local_state *s, int m, const double A[], double J[]);
 void sheet_local_nodal_form(const sheet_local_state *s, const double H[SHEET_RATES * SHEET_RATES],
                             double K[SHEET_LOCAL_NODAL * SHEET_LOCAL_NODAL]);

@@ -1,4 +1,5 @@
-/* Written as products of v = (1, x), the potential and its derivatives are sums over the few terms that are not zero. */
+/* Written as products of v = (1, x), the potential and its derivatives are sums over the few terms
+ * that are not zero. */
 #include "elements/sheet/potential.h"
 
 #include <string.h>
@@ -7,7 +8,8 @@
 
 enum { N = SHEET_LOCAL_COORDINATES, V = 1 + N };
 
-/* Everything at one x: v = (1, x), Cholesky factor of A, s = A^-1 b, W_i,a = d(b_i - (A s)_i)/dv_a at fixed s. */
+/* Everything at one x: v = (1, x), Cholesky factor of A, s = A^-1 b, W_i,a = d(b_i - (A s)_i)/dv_a
+ * at fixed s. */
 typedef struct point {
     double v[V], L[SHEET_STRESSES * SHEET_STRESSES], b[SHEET_STRESSES], s[SHEET_STRESSES],
         W[SHEET_STRESSES][V];
@@ -50,8 +52,9 @@ static void add_half_work(const point *at, double g[V])
             g[a] += at->s[i] / 2 * at->W[i][a];
 }
 
-/* Terms of P at fixed stresses: g = d(P0 + b.s - s^T A s/2)/dv, h its second derivatives with row <= column; W completed.
- * s.b,a - s^T A,a s/2 is half of s.W_a before and after A,a s is taken from W. Index 0 is no variable: its entries are not used. */
+/* Terms of P at fixed stresses: g = d(P0 + b.s - s^T A s/2)/dv, h its second derivatives with row
+ * <= column; W completed. s.b,a - s^T A,a s/2 is half of s.W_a before and after A,a s is taken from
+ * W. Index 0 is no variable: its entries are not used. */
 static void add_explicit(const sheet_potential *p, point *at, double g[V], double h[V * V])
 {
     const double *v = at->v, *s = at->s;
@@ -135,7 +138,8 @@ status sheet_potential_evaluate(const sheet_potential *p, const double x[N], dou
 }
 
 /* With s_k = A^-1 W_k, W_k = b,k - A,k s, and d a direction:
- * P,kld = s_d.(b,kl - A,kl s) + s_l.W_k,d + s_k.W_l,d - s_k^T A,d s_l, W_k,d = b,kd - A,kd s - A,k s_d. */
+ * P,kld = s_d.(b,kl - A,kl s) + s_l.W_k,d + s_k.W_l,d - s_k^T A,d s_l, W_k,d = b,kd - A,kd s - A,k
+ * s_d. */
 status sheet_potential_third(const sheet_potential *p, const double x[N], const double dx[N],
                              double T[N * N])
 {

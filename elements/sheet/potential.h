@@ -1,5 +1,6 @@
-/* The Hellinger-Reissner potential of N section 3 as a polynomial in the local coordinates (N Eqs. 44-50):
- * P = P0 + b.s - 1/2 s^T A s at the stresses s = A^-1 b, s = (F~x, M~x, M~yp, M~yq, M~zp, M~zq). */
+/* The Hellinger-Reissner potential of N section 3 as a polynomial in the local coordinates (N Eqs.
+ * 44-50): P = P0 + b.s - 1/2 s^T A s at the stresses s = A^-1 b, s = (F~x, M~x, M~yp, M~yq, M~zp,
+ * M~zq). */
 #ifndef BEAMWORK_SHEET_POTENTIAL_H
 #define BEAMWORK_SHEET_POTENTIAL_H
 
@@ -22,11 +23,13 @@ typedef struct sheet_potential {
     sheet_potential_term A[SHEET_TERMS_A], b[SHEET_TERMS_B], P0[SHEET_TERMS_P0];
 } sheet_potential;
 
-/* printed: u_y in M_x with the sign of N Eq. 49 as printed.  Refuses a section without torsional stiffness. */
+/* printed: u_y in M_x with the sign of N Eq. 49 as printed.  Refuses a section without torsional
+ * stiffness. */
 status sheet_coefficients_prepare(const element_request *request, int printed, sheet_potential *out,
                                   fault *f);
 
-/* P[1], its gradient[8] and Hessian[8 x 8] at x; NULL: not wanted.  SINGULAR when A is not positive definite there. */
+/* P[1], its gradient[8] and Hessian[8 x 8] at x; NULL: not wanted.  SINGULAR when A is not positive
+ * definite there. */
 status sheet_potential_evaluate(const sheet_potential *p, const double x[SHEET_LOCAL_COORDINATES],
                                 double *P, double *gradient, double *hessian);
 

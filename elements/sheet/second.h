@@ -1,4 +1,5 @@
-/* Second-order elements of N sections 2.3-2.4: quadratic deformation function, linear stress function (N Eqs. 33-36). */
+/* Second-order elements of N sections 2.3-2.4: quadratic deformation function, linear stress
+ * function (N Eqs. 33-36). */
 #ifndef BEAMWORK_SHEET_SECOND_H
 #define BEAMWORK_SHEET_SECOND_H
 

@@ -3,8 +3,8 @@
  *   gx = u_x' - phi_y (phi_y/2 + u_z') - phi_z (phi_z/2 - u_y') + Ite phi_x'^2/2,
  *   gy = gy0 + phi_x (phi_y + u_z'),  gz = gz0 + phi_x (phi_z - u_y'),
  * over the linear solution N Eqs. 14-19:
- *   e1 = int gx, e2 = L int kx, e3 = int [(L-s) ky - gz], e4 = int [s ky + gz], e5 = int [(L-s) kz + gy], e6 = int [s kz - gy],
- *   e7 = L^2 Wp + L int phi_y' phi_z, e8 = L^2 Wq + L int phi_y' phi_z.
+ *   e1 = int gx, e2 = L int kx, e3 = int [(L-s) ky - gz], e4 = int [s ky + gz], e5 = int [(L-s) kz
+ * + gy], e6 = int [s kz - gy], e7 = L^2 Wp + L int phi_y' phi_z, e8 = L^2 Wq + L int phi_y' phi_z.
  * With Phi = 0 they are N Eq. 37 (the last term of its e1 has L^2 for L). */
 #include "elements/sheet/strains.h"
 

@@ -1,7 +1,8 @@
-/* Deformation functions of N's elements: eight generalized strains, quadratic in the local coordinates,
- * e_i = (Lambda q)_i + 1/2 q^T Q_i q (N Eq. 37), less those of the element free of stress: its nodes along an arc of constant
- * torsion and curvature, initial elongation and shear included.  (The linear initial stresses of N Eq. 52 are not free of
- * stress there: reference/ERRATA.md.) */
+/* Deformation functions of N's elements: eight generalized strains, quadratic in the local
+ * coordinates, e_i = (Lambda q)_i + 1/2 q^T Q_i q (N Eq. 37), less those of the element free of
+ * stress: its nodes along an arc of constant torsion and curvature, initial elongation and shear
+ * included.  (The linear initial stresses of N Eq. 52 are not free of stress there:
+ * reference/ERRATA.md.) */
 #ifndef BEAMWORK_SHEET_STRAINS_H
 #define BEAMWORK_SHEET_STRAINS_H
 
@@ -25,8 +26,9 @@ typedef struct sheet_strains_table {
     } term[SHEET_STRAINS_TERMS];
 } sheet_strains_table;
 
-/* Phi_y, Phi_z: shear parameters of the displacement fields (N Eq. 18); both 0: N Eq. 37, where shear is left out; the
- * section's own: consistent with shear, ours.  Features: warping, trapeze. */
+/* Phi_y, Phi_z: shear parameters of the displacement fields (N Eq. 18); both 0: N Eq. 37, where
+ * shear is left out; the section's own: consistent with shear, ours.  Features: warping, trapeze.
+ */
 status sheet_strains_prepare(const element_request *request, double Phi_y, double Phi_z,
                              sheet_strains_table *out, fault *f);
 

@@ -53,7 +53,8 @@ static void partial_inverse(double L, int warp, third_data *d)
     }
 }
 
-/* x(e), of strains counted from the undeformed arc, and the rows that dx/de has beside its diagonal. */
+/* x(e), of strains counted from the undeformed arc, and the rows that dx/de has beside its
+ * diagonal. */
 static void invert(const third_data *d, const double e[N], double x[N], double row[CURVED][N])
 {
     double whole[N];
@@ -164,7 +165,8 @@ status sheet_third_prepare(const element_request *request, int printed, element_
     return set_rest(request, out, f);
 }
 
-/* At e = 0 along the strain v whose stress is sigma: x' = (dx/de) v, (dx/de)' = X v, C' by the product rule. */
+/* At e = 0 along the strain v whose stress is sigma: x' = (dx/de) v, (dx/de)' = X v, C' by the
+ * product rule. */
 void sheet_third_geometric(const element_data *data, const double sigma[], double G[])
 {
     const third_data *d = data_of(data);

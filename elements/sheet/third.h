@@ -1,5 +1,6 @@
-/* Third-order elements of N section 3: the deformation function of the second-order one, and a stress function from the
- * Hellinger-Reissner potential P = P0 + 1/2 b^T A^-1 b, whose coefficients are integrated once per section and length. */
+/* Third-order elements of N section 3: the deformation function of the second-order one, and a
+ * stress function from the Hellinger-Reissner potential P = P0 + 1/2 b^T A^-1 b, whose coefficients
+ * are integrated once per section and length. */
 #ifndef BEAMWORK_SHEET_THIRD_H
 #define BEAMWORK_SHEET_THIRD_H
 

@@ -6,7 +6,8 @@
 
 enum { COEFFICIENTS = SHEET_TORSION_DEGREE + 1, POINTS = 16, LOADS = SHEET_TORSION_MODES + 2 };
 
-/* Below, the closed form would cancel like lambda^-4; above, the kernel has boundary layers that few points miss. */
+/* Below, the closed form would cancel like lambda^-4; above, the kernel has boundary layers that
+ * few points miss. */
 static const double closed_from = 6;
 
 /* phi_x' per px/L, Wp, Wq (N Eq. 19), and h_p, h_q for lambda -> 0. */
@@ -65,8 +66,8 @@ static void closed(double lambda, const double t[SHEET_TORSION_MODES][COEFFICIEN
     }
 }
 
-/* Green's function sinh(lambda y) sinh(lambda (1 - x))/(lambda sinh(lambda)), y < x, over the triangle y = x z.  It also gives
- * the ends: chord - h solves lambda^2 g - g'' = lambda^2 chord. */
+/* Green's function sinh(lambda y) sinh(lambda (1 - x))/(lambda sinh(lambda)), y < x, over the
+ * triangle y = x z.  It also gives the ends: chord - h solves lambda^2 g - g'' = lambda^2 chord. */
 static void by_quadrature(double lambda, const double t[SHEET_TORSION_MODES][COEFFICIENTS],
                           const double point[POINTS], const double weight[POINTS],
                           sheet_torsion_integrals *out)

@@ -1,4 +1,5 @@
-/* Wagner torque: the energy int E c kx^4 ds of a twisted wide section (N Eqs. 45, 46), kx as N Eq. 26. */
+/* Wagner torque: the energy int E c kx^4 ds of a twisted wide section (N Eqs. 45, 46), kx as N
+ * Eq. 26. */
 #ifndef BEAMWORK_SHEET_WAGNER_H
 #define BEAMWORK_SHEET_WAGNER_H
 

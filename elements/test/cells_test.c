@@ -1,4 +1,5 @@
-/* Closed cells and tubes against closed forms (Bredt 1896; Vlasov 1961), and against other descriptions of themselves. */
+/* Closed cells and tubes against closed forms (Bredt 1896; Vlasov 1961), and against other
+ * descriptions of themselves. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -82,13 +83,15 @@ static void tube_closed_forms(void)
     const section c = sections_computed(&spec);
     gsl_test_rel(c.Iy, PI * (pow(R, 4) - pow(r, 4)) / 4, 1e-14, "tube: bending");
     gsl_test_rel(c.Ip, c.It, 1e-14, "tube: polar moment");
-    /* int |tau|^2 dA for tau = grad(f cos), f = (a s + b/s - s^3)/8, a = 3 (R^2 + r^2), b = 3 R^2 r^2 */
+    /* int |tau|^2 dA for tau = grad(f cos), f = (a s + b/s - s^3)/8, a = 3 (R^2 + r^2), b = 3 R^2
+     * r^2 */
     const double up = 3 * (R * R + r * r) * (pow(R, 4) - pow(r, 4)) / 4 +
                       3 * R * R * r * r * (R * R - r * r) / 2 - (pow(R, 6) - pow(r, 6)) / 6;
     gsl_test_rel(c.F[0], PI / 8 * up / (c.Iz * c.Iz), 1e-13, "tube: shear");
 }
 
-/* Two cells of equal size on a common web: in torsion nothing flows through it (Bredt of the outer wall). */
+/* Two cells of equal size on a common web: in torsion nothing flows through it (Bredt of the outer
+ * wall). */
 static section_spec two_cells(int swapped, double skew)
 {
     static const double point[6][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {0, 1}};

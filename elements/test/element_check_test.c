@@ -96,8 +96,9 @@ static void linear_stiffness(const element_type *type, const section *c, double 
     type->stress(data, e, NULL, &(stress_output){.C = S});
 }
 
-/* Cantilever of one element under tip forces and moments, It = 0: the coupled stiffness is nodally exact.  Exact beam:
- * bending (with torsion and warping) in the stress resultants of the shear centre plus the constant shear strains F Q/G. */
+/* Cantilever of one element under tip forces and moments, It = 0: the coupled stiffness is nodally
+ * exact.  Exact beam: bending (with torsion and warping) in the stress resultants of the shear
+ * centre plus the constant shear strains F Q/G. */
 static void one_element_is_exact(void)
 {
     section c = check_section();
@@ -129,7 +130,8 @@ static void one_element_is_exact(void)
     const double Fy = b[1], Fz = b[2], Mx = b[3], My = b[4], Mz = b[5], B = b[6];
     gsl_test(dense_lu(7, A, pivot), "coupled stiffness of a cantilever is regular");
     dense_lu_solve(7, 1, A, pivot, b);
-    /* Torque about the shear centre is Mx + zs Fy - ys Fz, carried by warping alone: EIw a'' = -T etc. */
+    /* Torque about the shear centre is Mx + zs Fy - ys Fz, carried by warping alone: EIw a'' = -T
+     * etc. */
     const double T = Mx + c.zs * Fy - c.ys * Fz, Q[3] = {Fy, Fz, T};
     double g[3];
     mat3_mul_vec(c.F, Q, g);

@@ -1,4 +1,5 @@
-/* Rotations against what they mean: matrices that turn a plane, products, the shorter way of the logarithm, angles near 0 and near pi. */
+/* Rotations against what they mean: matrices that turn a plane, products, the shorter way of the
+ * logarithm, angles near 0 and near pi. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>

@@ -1,5 +1,5 @@
-/* Section constants that two descriptions share: a rectangle and a wall of its thickness, at any angle; walls with their thickness
- * and the area itself. */
+/* Section constants that two descriptions share: a rectangle and a wall of its thickness, at any
+ * angle; walls with their thickness and the area itself. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -9,7 +9,8 @@
 #include "elements/math/quadrature.h"
 #include "elements/test/sections.h"
 
-/* One wall of length h and thickness t whose middle is at (y, z), turned by `angle` from the y axis. */
+/* One wall of length h and thickness t whose middle is at (y, z), turned by `angle` from the y
+ * axis. */
 static section wall_section(double h, double t, double y, double z, double angle)
 {
     section_spec spec = sections_steel(SECTION_WALLS);
@@ -35,7 +36,8 @@ static section rectangle(double width, double height, double ky, double kz)
     return sections_computed(&spec);
 }
 
-/* Without given factors: shear and warping shear of a wall. Its long side is y; the rectangle's is z where it is wide. */
+/* Without given factors: shear and warping shear of a wall. Its long side is y; the rectangle's is
+ * z where it is wide. */
 static void rectangle_is_a_wall(double h, double t)
 {
     const section wall = wall_section(h, t, 0, 0, 0), wide = rectangle(h, t, 0, 0),
@@ -134,8 +136,8 @@ static void thick_walls(void)
     gsl_test_rel(c.Iz, about_y, 1e-12, "Iz belongs to the y axis that was found");
 }
 
-/* Prandtl's stress function as a double series: 256/pi^6 sum over odd m, n of (a b)/(m^2 n^2 (m^2/a^2 + n^2/b^2)); the terms
- * beyond M are less than a third of 1/M^3. */
+/* Prandtl's stress function as a double series: 256/pi^6 sum over odd m, n of (a b)/(m^2 n^2
+ * (m^2/a^2 + n^2/b^2)); the terms beyond M are less than a third of 1/M^3. */
 static void torsion_of_a_rectangle(double a, double b)
 {
     double sum = 0;
@@ -147,7 +149,8 @@ static void torsion_of_a_rectangle(double a, double b)
     gsl_test_rel(rectangle(b, a, 0, 0).It, rectangle(a, b, 0, 0).It, 1e-14, "the sides exchanged");
 }
 
-/* Torque cubic in the twist rate of a thin rectangle: 1/8 of the variance of y^2 over the area, int (y^2 - mean)^2 dA. */
+/* Torque cubic in the twist rate of a thin rectangle: 1/8 of the variance of y^2 over the area, int
+ * (y^2 - mean)^2 dA. */
 static void wagner_torque(void)
 {
     enum { N = 4 };

@@ -1,6 +1,7 @@
-/* Cantilever of N section 4.1: sheet 100 x 100 x 2.25 mm, tip deflected by 0.15 L without rotation in 15 steps, its warping held;
- * compliances of the tip with the prescribed motion replaced by dead forces and spatial moments, p of every element at the
- * root.  Values from an independent prototype of the same equations. */
+/* Cantilever of N section 4.1: sheet 100 x 100 x 2.25 mm, tip deflected by 0.15 L without rotation
+ * in 15 steps, its warping held; compliances of the tip with the prescribed motion replaced by dead
+ * forces and spatial moments, p of every element at the root.  Values from an independent prototype
+ * of the same equations. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -25,7 +26,8 @@ typedef struct cantilever {
     double e[MOST][N], sigma[MOST][N]; /* unknowns of their own, condensed element by element */
 } cantilever;
 
-/* What one element adds: K += J^T C J + H, force += J^T [P'(e) + C (D(x) - e)] (N section 4, condensed). */
+/* What one element adds: K += J^T C J + H, force += J^T [P'(e) + C (D(x) - e)] (N section 4,
+ * condensed). */
 static void element_terms(const cantilever *c, int i, double K[NODAL * NODAL], double force[NODAL],
                           double J[N * NODAL], double incompatibility[N], double P[N],
                           double C[N * N])
@@ -215,7 +217,8 @@ int main(void)
         {&element_sheet_third, 2, 3.9673504e-7, 2.632057e-8},
         {&element_sheet_third_printed, 1, 3.9472445e-7, 2.470177e-8},
     };
-    /* shear kept in the strains: error in C_zz against the geometrically exact beam, in percent, and half of its last digit */
+    /* shear kept in the strains: error in C_zz against the geometrically exact beam, in percent,
+     * and half of its last digit */
     static const struct {
         int n;
         double percent, rounding;

@@ -1,4 +1,5 @@
-/* Coefficients of the third-order potential against values to 120 digits, and the limits of the stress functions. */
+/* Coefficients of the third-order potential against values to 120 digits, and the limits of the
+ * stress functions. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -45,7 +46,8 @@ static double compliance(const double value[], int k, int l)
     return k >= l ? value[k * (k + 1) / 2 + l] : value[l * (l + 1) / 2 + k];
 }
 
-/* What the table says of the coefficient of v_a v_b in A_ij: every pair of unit torques that makes it. */
+/* What the table says of the coefficient of v_a v_b in A_ij: every pair of unit torques that makes
+ * it. */
 static double expected_compliance(const double value[], int i, int j, int a, int b)
 {
     double sum = 0;
@@ -103,7 +105,8 @@ static void coefficients(void)
              worst);
 }
 
-/* Without warping stiffness the torque twists by t/GJ: the limit lambda -> inf, reached like 1/lambda. */
+/* Without warping stiffness the torque twists by t/GJ: the limit lambda -> inf, reached like
+ * 1/lambda. */
 static void uniform_torsion(void)
 {
     static const double torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1] = {
@@ -133,8 +136,8 @@ static void stiffness_at_rest(const element_type *type, const section *c, unsign
     free(d);
 }
 
-/* Undeformed, the third-order element is the second-order one: with shear in the width only, as N Eq. 50 has it, and up to the
- * hyperbolic twist, which is the cubic one for lambda -> 0. */
+/* Undeformed, the third-order element is the second-order one: with shear in the width only, as N
+ * Eq. 50 has it, and up to the hyperbolic twist, which is the cubic one for lambda -> 0. */
 static void second_order_limit(void)
 {
     section c = {.young = 3.1,

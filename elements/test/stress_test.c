@@ -1,5 +1,6 @@
-/* Stresses at the points of sections: integrated over the walls they are the resultants that made them; a rectangle's torsion is
- * Saint-Venant's, whose published coefficients are Timoshenko's (Theory of Elasticity, 1970, section 109). */
+/* Stresses at the points of sections: integrated over the walls they are the resultants that made
+ * them; a rectangle's torsion is Saint-Venant's, whose published coefficients are Timoshenko's
+ * (Theory of Elasticity, 1970, section 109). */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -89,7 +90,8 @@ static void rectangle(void)
                  1e-12, "lying and standing");
 }
 
-/* Resultants of the stresses that resultants make in walls: Simpson's rule is exact, for all are quadratic along a wall. */
+/* Resultants of the stresses that resultants make in walls: Simpson's rule is exact, for all are
+ * quadratic along a wall. */
 static void integrated(const char *name, const section_spec *spec)
 {
     static const double by[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};

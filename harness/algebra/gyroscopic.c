@@ -124,8 +124,8 @@ static int unaccounted(const solver *s, int wanted)
     return s->out->negative - gyroscopic_index_of(&s->pairs, &s->basis, s->shift, count).negative;
 }
 
-/* K is indefinite: what the count below a gap behind the first `last` pairs proves of them. One that
- * fails proves nothing. */
+/* K is indefinite: what the count below a gap behind the first `last` pairs proves of them. One
+ * that fails proves nothing. */
 static status prove(solver *s, int last, status counted, int below, int *number)
 {
     const gyroscopic_index found = gyroscopic_index_of(&s->pairs, &s->basis, s->shift, last);

@@ -9,8 +9,8 @@
 
 /* REFUSED when `what` needs more than that. bytes: at least so many. */
 status memory_check(double bytes, const char *what, const char *remedy, fault *f);
-/* A copy of `entry`, of `size` bytes, at the end of *list (the address of its pointer), which is freed with free().
- * FAULT: "out of memory for WHAT". */
+/* A copy of `entry`, of `size` bytes, at the end of *list (the address of its pointer), which is
+ * freed with free(). FAULT: "out of memory for WHAT". */
 status memory_append(void *list, int *count, const void *entry, size_t size, const char *what,
                      fault *f);
 

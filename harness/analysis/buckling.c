@@ -1,5 +1,5 @@
-/* Linear buckling about the undeformed state: (K + G_0 + lambda G) x = 0 with G from the stresses of
- * what the loads gain from path 0 to 1, and G_0 of what is there at path 0 and stays. */
+/* Linear buckling about the undeformed state: (K + G_0 + lambda G) x = 0 with G from the stresses
+ * of what the loads gain from path 0 to 1, and G_0 of what is there at path 0 and stays. */
 #include "harness/analysis/buckling.h"
 
 #include <stdlib.h>

@@ -24,7 +24,8 @@ status formulation_parse(const char *text, formulation *out, fault *f);
 /* The type that "name" or "name:key=value,..." means, or NULL. */
 const element_type *formulation_find(const char *key);
 void formulation_default(const element_type *type, formulation *out);
-/* The default with choice `choice` of option `index`; 0 when there is no such choice, or it is the default itself. */
+/* The default with choice `choice` of option `index`; 0 when there is no such choice, or it is the
+ * default itself. */
 int formulation_choice(const element_type *type, int index, int choice, formulation *out);
 /* Features on which the options that differ from their defaults bear (element_judged). */
 unsigned formulation_bears_on(const formulation *chosen);

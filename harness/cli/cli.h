@@ -77,7 +77,8 @@ int cli_run(const char *verb, const char *arguments_doc, const char *doc, const 
 const case_type *cli_scene_case(cli_request *r);
 /* Reads one scene file; EXIT_AS_EXPECTED, or an exit code after messages. */
 int cli_scene_read(const cli_request *r, const char *path, scene_file **out);
-/* Truths of the run: those stored, or, of a scene file, its own at the parameters of the request. */
+/* Truths of the run: those stored, or, of a scene file, its own at the parameters of the request.
+ */
 status cli_truths_read(const cli_request *r, truths *t, fault *f);
 /* Every output can be written and is a file of its own, and none is an input: looked at before the
  * work begins. whole_file: -o is HDF5. truths_path: NULL where no truths are read. */

@@ -46,7 +46,8 @@ static int print_stored(const truths *t, const case_type *type, const double par
     return continuum;
 }
 
-/* Of reference/derive in BEAMWORK_REFERENCE, or in reference/ of the clone in whose build folder the program is. */
+/* Of reference/derive in BEAMWORK_REFERENCE, or in reference/ of the clone in whose build folder
+ * the program is. */
 static status script_path(const char *name, char out[PATH_MAX], fault *f)
 {
     char program[PATH_MAX] = "";

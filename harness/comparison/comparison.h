@@ -35,8 +35,8 @@ typedef struct comparison {
 
 /* "error=0.01,floor=1e-8,work=0.02", any of them. REFUSED names the culprit. */
 status comparison_limits_parse(const char *text, comparison_limits *out, fault *f);
-/* Writes one line for each difference. Names that `select` (of sweep.h; NULL: all) does not hold for
- * are left out. */
+/* Writes one line for each difference. Names that `select` (of sweep.h; NULL: all) does not hold
+ * for are left out. */
 void comparison_run(FILE *to, const results *before, const results *after,
                     const comparison_limits *limits, const char *select, comparison *out);
 int comparison_differs(const comparison *c);

@@ -6,7 +6,8 @@
 const char *const results_work_names[RESULTS_WORKS] = {"iterations", "evaluations",
                                                        "factorisations"};
 
-/* A zeroed item at the end of *list (the address of its pointer), which grows by `step` items; NULL: out of memory. */
+/* A zeroed item at the end of *list (the address of its pointer), which grows by `step` items;
+ * NULL: out of memory. */
 static void *add(void *list, int *count, int step, size_t size)
 {
     char *all;

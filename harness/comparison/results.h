@@ -1,5 +1,6 @@
-/* What a stored run found: errors and work, cell by cell, and in one line for each series of meshes.
- * Read back from results.h5, or from the short table of its series that can be committed. */
+/* What a stored run found: errors and work, cell by cell, and in one line for each series of
+ * meshes. Read back from results.h5, or from the short table of its series that can be committed.
+ */
 #ifndef BEAMWORK_RESULTS_H
 #define BEAMWORK_RESULTS_H
 

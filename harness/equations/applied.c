@@ -22,7 +22,8 @@ void applied_member_axes(const double triad[9], const section *of, double R[9])
     }
 }
 
-/* A load on one vertex. axes: those it is given in; NULL: fixed ones. beside: where it acts besides `at`, in fixed axes. */
+/* A load on one vertex. axes: those it is given in; NULL: fixed ones. beside: where it acts besides
+ * `at`, in fixed axes. */
 static applied of_vertex(const model_state *s, int vertex, const scene_load *load, double scale,
                          const double axes[9], const double beside[3])
 {
@@ -134,7 +135,8 @@ typedef struct load_motion {
     double shift[3];
 } load_motion;
 
-/* In the order of the frame: the body's place and turns, those of the end, its shifts. Returns how many there are. */
+/* In the order of the frame: the body's place and turns, those of the end, its shifts. Returns how
+ * many there are. */
 static int motions_at_release(const entries *all, const applied *what,
                               load_motion out[KINEMATICS_MOST])
 {

@@ -19,8 +19,8 @@ void applied_each(const model *, const model_state *, const scene_load *, double
 /* The same of a load along the member of this element, and of this element alone. */
 void applied_element(const model *, const model_state *, const scene_load *, double scale,
                      int element, void (*take)(void *context, const applied *), void *context);
-/* The undeformed member's axes, y as the scene gives it, from the triad of a place of it, whose y and z are the principal ones of
- * the section. */
+/* The undeformed member's axes, y as the scene gives it, from the triad of a place of it, whose y
+ * and z are the principal ones of the section. */
 void applied_member_axes(const double triad[9], const section *, double axes[9]);
 
 /* What the load times `scale` adds to K, entry by entry; some are zero, some at the same place. */

@@ -72,8 +72,8 @@ static void add_load(const distributed *of, const scene_load *load, const double
     }
 }
 
-/* The same of a section by its matrices: momentum p and h of the velocity v of the line and of omega, -omega x p and -omega x h - v x
- * p on the line. */
+/* The same of a section by its matrices: momentum p and h of the velocity v of the line and of
+ * omega, -omega x p and -omega x h - v x p on the line. */
 static void add_rotating_matrices(const section *c, const double omega[3], const double speed[3],
                                   const double R[9], span_load *out)
 {

@@ -31,8 +31,8 @@ static void take_off(void *context, const applied *what)
         of->force[3 + i] -= moment[i];
 }
 
-/* What the outside exerts on the first (0) and the last (1) node of an element but for the loads along it, in fixed axes:
- * ends[2][7]; and its nodes. */
+/* What the outside exerts on the first (0) and the last (1) node of an element but for the loads
+ * along it, in fixed axes: ends[2][7]; and its nodes. */
 static void ends_of(model *m, const internal_state *s, int i, node_state x[], double ends[2][7])
 {
     const mesh_element *el = &m->element[i];
@@ -57,8 +57,8 @@ static void ends_of(model *m, const internal_state *s, int i, node_state x[], do
     }
 }
 
-/* The element has a section of its own where it changes along the member, whose axes are not those at the place: the angle between
- * them [rad]. */
+/* The element has a section of its own where it changes along the member, whose axes are not those
+ * at the place: the angle between them [rad]. */
 static double axes_turned(const model *m, int member, double place, const mesh_element *el)
 {
     const scene *s = m->scene;

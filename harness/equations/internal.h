@@ -1,8 +1,9 @@
 /* Resultants of the stresses on the sections of a member.
  *
- * At the ends of an element they are what its nodal forces J^T sigma leave when the loads along it that its nodes take are
- * taken off: in equilibrium with everything beyond, whatever a formulation assumes inside.  Between them harness/recovery/span.h
- * carries them on, the same way for all formulations. */
+ * At the ends of an element they are what its nodal forces J^T sigma leave when the loads along it
+ * that its nodes take are taken off: in equilibrium with everything beyond, whatever a formulation
+ * assumes inside.  Between them harness/recovery/span.h carries them on, the same way for all
+ * formulations. */
 #ifndef BEAMWORK_MODEL_INTERNAL_H
 #define BEAMWORK_MODEL_INTERNAL_H
 
@@ -13,22 +14,23 @@
 typedef struct internal_state {
     const model_state *s;
     const double *sigma; /* [elements x strains] stresses; NULL: those of the state */
-    const double *
-        x; /* of a linear solution about s, which is undeformed: its displacements [free + driven]; NULL: s is in equilibrium */
-    double path; /* parameter of the loads */
+    const double *x; /* of a linear solution about s, which is undeformed: its displacements [free +
+                        driven]; NULL: s is in equilibrium */
+    double path;     /* parameter of the loads */
 } internal_state;
 
-/* Of what lies towards `to` on what lies towards `from`, in the principal axes of the turned section, moments about its
- * centroid: N, Qy, Qz [N], Mx, My, Mz [N m], bimoment [N m^2] (work: that of the warping amplitude's rate). end: 0 from, 1 to. */
+/* Of what lies towards `to` on what lies towards `from`, in the principal axes of the turned
+ * section, moments about its centroid: N, Qy, Qz [N], Mx, My, Mz [N m], bimoment [N m^2] (work:
+ * that of the warping amplitude's rate). end: 0 from, 1 to. */
 void internal_at_end(model *, const internal_state *, int member, int end, double out[7]);
 
-/* The same at a place of a member, 0 from .. 1 to of its initial length, and what else span.h has: out[SPAN_VALUES].
- * NOT_CONVERGED: as span_recover. */
+/* The same at a place of a member, 0 from .. 1 to of its initial length, and what else span.h has:
+ * out[SPAN_VALUES]. NOT_CONVERGED: as span_recover. */
 status internal_at(model *, const internal_state *, int member, double place, double out[],
                    fault *);
 
-/* Largest value of `of` over a member, that of the section at x in [0, 1] of an element, counted along the member, from its
- * resultants [SPAN_VALUES]. */
+/* Largest value of `of` over a member, that of the section at x in [0, 1] of an element, counted
+ * along the member, from its resultants [SPAN_VALUES]. */
 typedef double (*internal_measure)(void *context, int element, double x, const double resultants[]);
 status internal_largest(model *, const internal_state *, int member, internal_measure of,
                         void *context, double *out, fault *);

@@ -44,8 +44,8 @@ static status take_local(member_points *of, double place, fault *f)
     return stress_points_of(&spec, &of->local, &of->points, f);
 }
 
-/* The resultants, which are in the principal axes of the element's section, in those of the points; the twist is that of the
- * local stiffness. */
+/* The resultants, which are in the principal axes of the element's section, in those of the points;
+ * the twist is that of the local stiffness. */
 static stress_resultants local_resultants(const member_points *of, int element, const double v[])
 {
     const section *c = of->points.section,

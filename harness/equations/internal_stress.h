@@ -5,7 +5,8 @@
 #include "elements/section/stress.h"
 #include "harness/equations/internal.h"
 
-/* At a place of a member, 0 from .. 1 to [Pa].  REFUSED: given constants, which have no points; else as internal_at. */
+/* At a place of a member, 0 from .. 1 to [Pa].  REFUSED: given constants, which have no points;
+ * else as internal_at. */
 status internal_stress_at(model *, const internal_state *, int member, double place, stress_measure,
                           double *out, fault *);
 /* Of all its sections. */

@@ -1,4 +1,5 @@
-/* Springs about the undeformed state, as linear.h has it for elements: sigma[6 x springs] are the last of its stresses. */
+/* Springs about the undeformed state, as linear.h has it for elements: sigma[6 x springs] are the
+ * last of its stresses. */
 #ifndef BEAMWORK_MODEL_LINEAR_SPRINGS_H
 #define BEAMWORK_MODEL_LINEAR_SPRINGS_H
 

@@ -84,7 +84,8 @@ static void add_holds(linkage *l, int node)
             sum[i];
 }
 
-/* Motion of a point that moves with a part, in the eigenvector of the least value: [6: m, rad]; its size [m]. */
+/* Motion of a point that moves with a part, in the eigenvector of the least value: [6: m, rad]; its
+ * size [m]. */
 static double motion_of(const linkage *l, int part, const double position[3], double motion[N])
 {
     double at[3], G[N * N], of_part[N];

@@ -5,8 +5,9 @@
 #include "harness/model/model.h"
 
 typedef struct row_label {
-    int node; /* of the scene; SCENE_NONE: inside a member, or an end that keeps motions to itself */
-    int member;   /* SCENE_NONE: of the node alone */
+    int node;   /* of the scene; SCENE_NONE: inside a member, or an end that keeps motions to itself
+                 */
+    int member; /* SCENE_NONE: of the node alone */
     double along; /* from the member's beginning, in parts of its length; NAN: of a node alone */
     double position[3];    /* undeformed [m] */
     const char *component; /* "ux", ..., "rz", "angle 1" of a sequence, "turn 1" and "shift 1" of a

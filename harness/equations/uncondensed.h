@@ -5,9 +5,9 @@
 #include "harness/equations/loads.h"
 #include "harness/model/model.h"
 
-/* The uncondensed dense system (column-major A[n x n], b[n] with n = uncondensed_size + conditions),
- * unknowns in the order free coordinates, strains, stresses, drivers of conditions; load[free +
- * driven] is work space. */
+/* The uncondensed dense system (column-major A[n x n], b[n] with n = uncondensed_size +
+ * conditions), unknowns in the order free coordinates, strains, stresses, drivers of conditions;
+ * load[free + driven] is work space. */
 int uncondensed_size(const model *);
 status uncondensed_system(model *, const model_state *, double path, const double drive[],
                           int conditions, const model_condition condition[], double A[], double b[],

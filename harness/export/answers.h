@@ -9,8 +9,8 @@
 
 #include "harness/export/body.h"
 
-/* All steps: linear analyses and compliances of the undeformed structure, then the static path, with
- * one unit load about its last state. FAULT: out of memory. */
+/* All steps: linear analyses and compliances of the undeformed structure, then the static path,
+ * with one unit load about its last state. FAULT: out of memory. */
 status answers_write(const scene *s, const body_numbers *bodies, FILE *to, fault *f);
 
 #endif

@@ -19,7 +19,8 @@ typedef struct brick {
     face face;                     /* of every place along it */
 } brick;
 
-/* Numbers begin where told. along: elements along the member; across it those of its face. REFUSED: a section without a face. */
+/* Numbers begin where told. along: elements along the member; across it those of its face. REFUSED:
+ * a section without a face. */
 status brick_init(brick *out, const scene *s, int member, int along, int first_node,
                   int first_element, fault *f);
 /* First numbers behind it. */

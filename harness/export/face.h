@@ -1,8 +1,10 @@
-/* The cross-section of a solid: a lattice of rectangles in the section's own y, z, some of which are filled.
+/* The cross-section of a solid: a lattice of rectangles in the section's own y, z, some of which
+ * are filled.
  *
- * A straight wall is a strip along its centre line. Where walls meet at right angles each goes on by half the thickness of the
- * other: an L has its whole corner, and the area is that of the walls. Where a wall ends on the side of another (I, T), the walls
- * count the half of its end that lies inside the other twice; the solid has it once. */
+ * A straight wall is a strip along its centre line. Where walls meet at right angles each goes on
+ * by half the thickness of the other: an L has its whole corner, and the area is that of the walls.
+ * Where a wall ends on the side of another (I, T), the walls count the half of its end that lies
+ * inside the other twice; the solid has it once. */
 #ifndef BEAMWORK_FACE_H
 #define BEAMWORK_FACE_H
 
@@ -22,7 +24,8 @@ typedef struct face {
 
 /* Place of corner k of n elements on 0 to 1, dense at both ends. */
 double face_graded(int k, int n);
-/* section: what the spec comes to. REFUSED: tubes, constants, also given ones, walls that are oblique to y and z. */
+/* section: what the spec comes to. REFUSED: tubes, constants, also given ones, walls that are
+ * oblique to y and z. */
 status face_of(const section_spec *spec, const section *constants, face *out, fault *f);
 /* Of what is filled [m^2]. */
 double face_area(const face *);

@@ -1,5 +1,6 @@
-/* Any bytes as results of another program: a CSV with a header (first byte 0), a map of columns (1), or columns that a good map
- * reads (2). What is accepted is a series of finite values that ascend; what is refused has a mistake with a place. */
+/* Any bytes as results of another program: a CSV with a header (first byte 0), a map of columns
+ * (1), or columns that a good map reads (2). What is accepted is a series of finite values that
+ * ascend; what is refused has a mistake with a place. */
 #include <math.h>
 
 #include "harness/fuzz/fuzz_file.h"

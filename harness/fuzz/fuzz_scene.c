@@ -1,5 +1,6 @@
-/* Any bytes as a scene file. What is accepted is a scene that can be written, and what is written reads back as a scene that is
- * written the same way; what is refused has a mistake with a place. */
+/* Any bytes as a scene file. What is accepted is a scene that can be written, and what is written
+ * reads back as a scene that is written the same way; what is refused has a mistake with a place.
+ */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -37,7 +37,8 @@ typedef struct import_block {
     imported *found;
 } import_block;
 
-/* Opens a series: case, parameters and words of the header are checked. found NULL: out of memory. */
+/* Opens a series: case, parameters and words of the header are checked. found NULL: out of memory.
+ */
 import_block import_block_open(import_set *set, const import_header *h, const char *path,
                                mistakes *m);
 /* One value as the file says it. */

@@ -4,8 +4,8 @@
  *   # beamwork-import: 1
  *   # program: MBDyn 1.7.3, 3-node                # as legends show it
  *   # case: sheet_cantilever; warping=0           # case, or scene file beside this one; parameters
- *   # model: beam                                 # or solid, plate, ...: then an error of the model
- *   # convention: spatial                         # of moments, where a quantity depends on it
+ *   # model: beam                                 # or solid, plate, ...: then an error of the
+ * model # convention: spatial                         # of moments, where a quantity depends on it
  *   # axes: x=x y=y z=z                           # theirs = ours: a signed permutation
  *   quantity, unit, elements, unknowns, seconds, x, value, uncertainty
  *   C_xx, mm/N, 4, 48, 3.3e-3, , 3.9706e-4,

@@ -38,7 +38,8 @@ typedef struct wanted {
     imported_row row;
 } wanted;
 
-/* A column by its number, or the name that `columns` gives it; counted from 0, -1 after a mistake. */
+/* A column by its number, or the name that `columns` gives it; counted from 0, -1 after a mistake.
+ */
 static int column_named(const map_reader *r, const document_node *at, const char *name)
 {
     const document_node *columns = document_find(r->root, "columns");

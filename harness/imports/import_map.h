@@ -9,8 +9,8 @@
  *     u_x: {file: .mov, where: {label: 9}, column: x, minus: 0.1, times: 1, unit: m, rows: last}
  *
  * file: how the file's name ends; under: how the last line begins that is no row of numbers; where:
- * columns with these numbers; rows: first, last, or a number counted from 1 (default last), or all: a curve over
- * `abscissa`, a column too. Value = times * (column - minus), in `unit`. */
+ * columns with these numbers; rows: first, last, or a number counted from 1 (default last), or all:
+ * a curve over `abscissa`, a column too. Value = times * (column - minus), in `unit`. */
 #ifndef BEAMWORK_IMPORT_MAP_H
 #define BEAMWORK_IMPORT_MAP_H
 

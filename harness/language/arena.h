@@ -10,7 +10,8 @@ typedef struct arena {
     int failed;         /* 1: memory, or the share of it that a file may take, ran out */
 } arena;
 
-/* Zeroed and aligned for every type; NULL when memory ran out, which `failed` keeps. {0} is an empty arena. */
+/* Zeroed and aligned for every type; NULL when memory ran out, which `failed` keeps. {0} is an
+ * empty arena. */
 void *arena_take(arena *a, size_t size);
 /* The first `length` bytes of a text, and a zero. */
 const char *arena_copy(arena *a, const char *text, size_t length);

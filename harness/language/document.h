@@ -1,7 +1,8 @@
 /* A YAML document as a tree of maps, lists and texts, each with its place in the file.
  *
- * Every scalar is text until somebody asks for a number or a word: there are no implicit types. Anchors, aliases, tags, merge
- * keys, several documents, duplicate keys and what is too deep or too large are refused. */
+ * Every scalar is text until somebody asks for a number or a word: there are no implicit types.
+ * Anchors, aliases, tags, merge keys, several documents, duplicate keys and what is too deep or too
+ * large are refused. */
 #ifndef BEAMWORK_DOCUMENT_H
 #define BEAMWORK_DOCUMENT_H
 
@@ -15,8 +16,9 @@ typedef enum document_kind { DOCUMENT_TEXT, DOCUMENT_LIST, DOCUMENT_MAP } docume
 typedef struct document_node {
     document_kind kind;
     int line, column; /* of its first character, counted from 1 */
-    /* A text that stands in the file as it is: how many columns behind `column` it begins (a quote); -1: its
-     * characters have no place of their own (several lines, escapes, a name that was put in). */
+    /* A text that stands in the file as it is: how many columns behind `column` it begins (a
+     * quote); -1: its characters have no place of their own (several lines, escapes, a name that
+     * was put in). */
     int inset;
     const char *text;            /* of a text: without control characters */
     int count;                   /* entries of a list or map */

@@ -1,7 +1,7 @@
 /* Numbers as expressions: + - * / ^, parentheses, functions, names.
  *
- * ^ binds strongest and to the right (-2^2 = -4, 2^3^2 = 512), then signs, then * and /, then + and -. Values are SI; results
- * must be finite. What is wrong is told at its character. */
+ * ^ binds strongest and to the right (-2^2 = -4, 2^3^2 = 512), then signs, then * and /, then + and
+ * -. Values are SI; results must be finite. What is wrong is told at its character. */
 #ifndef BEAMWORK_EXPRESSION_H
 #define BEAMWORK_EXPRESSION_H
 

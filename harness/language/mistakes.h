@@ -35,7 +35,8 @@ status mistakes_status(const mistakes *m, fault *f);
 
 /* "file:line:column: what", a line each; after them how many more there are. */
 void mistakes_print(const mistakes *m, FILE *to);
-/* {"file": ..., "mistakes": [{"line", "column", "text"}, ...], "more": n}, for editors; FAULT out of memory. */
+/* {"file": ..., "mistakes": [{"line", "column", "text"}, ...], "more": n}, for editors; FAULT out
+ * of memory. */
 status mistakes_json(const mistakes *m, FILE *to, fault *f);
 
 #endif

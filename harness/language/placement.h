@@ -1,4 +1,5 @@
-/* Parts and their instances: sub-assemblies described once in axes of their own, and placed in the scene. */
+/* Parts and their instances: sub-assemblies described once in axes of their own, and placed in the
+ * scene. */
 #ifndef BEAMWORK_PLACEMENT_H
 #define BEAMWORK_PLACEMENT_H
 
@@ -17,7 +18,8 @@ enum { PLACEMENT_LISTS = 4 };
 /* Of a part: "nodes", "members", "springs", "loads". */
 extern const char *const placement_list[PLACEMENT_LISTS];
 
-/* Adds the entries of all instances of the scene behind list[k] of count[k], in the order of placement_list. */
+/* Adds the entries of all instances of the scene behind list[k] of count[k], in the order of
+ * placement_list. */
 void placement_unroll(const document_node *root, const scope *names, arena *a, mistakes *m,
                       unrolled *list[], int count[]);
 

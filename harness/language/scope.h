@@ -23,7 +23,8 @@ const scope *scope_constants(const scope *names, const char *name, const double 
 const scope *scope_find(const scope *names, const char *name, size_t length);
 /* The known name, constant or function nearest to a misspelt one, or NULL. */
 const char *scope_nearest(const scope *names, const char *name);
-/* Can `key` be a new name: a letter, then letters, digits and _, not taken by another or by a function? Else a mistake. */
+/* Can `key` be a new name: a letter, then letters, digits and _, not taken by another or by a
+ * function? Else a mistake. */
 int scope_accepts(const scope *names, const document_node *key, mistakes *m);
 /* Length of the name that the text begins with: letters, digits, _, not a digit first; 0: none. */
 size_t scope_name_length(const char *text);

@@ -1,11 +1,12 @@
-/* Names of loops in texts: $i, or ${i} before letters, is replaced by the loop's whole number or word. */
+/* Names of loops in texts: $i, or ${i} before letters, is replaced by the loop's whole number or
+ * word. */
 #ifndef BEAMWORK_SUBSTITUTE_H
 #define BEAMWORK_SUBSTITUTE_H
 
 #include "harness/language/scope.h"
 
-/* The tree with all names replaced: itself where there are none, else a copy; NULL when memory ran out. What cannot be
- * replaced is a mistake and stays. */
+/* The tree with all names replaced: itself where there are none, else a copy; NULL when memory ran
+ * out. What cannot be replaced is a mistake and stays. */
 const document_node *substitute_node(const document_node *n, const scope *names, arena *a,
                                      mistakes *m);
 

@@ -16,8 +16,8 @@ typedef struct unrolled {
 
 enum { UNROLL_MOST = 10000 };
 
-/* Entries in the file's order, the first loop of an entry outermost: their count. What is wrong with a loop is a mistake, and
- * the entry is left out. */
+/* Entries in the file's order, the first loop of an entry outermost: their count. What is wrong
+ * with a loop is a mistake, and the entry is left out. */
 int unroll_entries(const document_node *collection, const scope *names, arena *a, mistakes *m,
                    unrolled **out);
 /* NAME: EXPR, in order, each known to those after it. */

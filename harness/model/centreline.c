@@ -73,7 +73,8 @@ static void cubic(const span *e, int k, double t, double r[3], double direction[
     }
 }
 
-/* The shorter way between the two triads, then the shortest rotation of its x axis into the line. */
+/* The shorter way between the two triads, then the shortest rotation of its x axis into the line.
+ */
 static void orientation(const span *e, int k, double t, const double direction[3], double q[4])
 {
     double rotation_vector[3], step[4], x[3] = {1, 0, 0}, axis[3];

@@ -1,4 +1,5 @@
-/* Discrete elements, beside those of the members: rigid bodies at nodes, and springs.  None: no work. */
+/* Discrete elements, beside those of the members: rigid bodies at nodes, and springs.  None: no
+ * work. */
 #ifndef BEAMWORK_MODEL_DISCRETE_H
 #define BEAMWORK_MODEL_DISCRETE_H
 
@@ -11,7 +12,8 @@ status discrete_equations(const model *, const model_state *, const mesh_discret
                           double force[], double K[], fault *);
 /* M, G += theirs (rotating_frame_inertia); G NULL: not wanted. */
 void discrete_inertia(const model *, const model_state *, double path, sparse *M, sparse *G);
-/* The tangent in two parts, as in stiffness_parts.h: y += its product with x[free + driven], out += the other. */
+/* The tangent in two parts, as in stiffness_parts.h: y += its product with x[free + driven], out +=
+ * the other. */
 void discrete_material_product(const model *, const model_state *, const double x[], double y[]);
 void discrete_geometric(const model *, const model_state *, double path, sparse *out);
 /* x^T K x of all. */

@@ -10,8 +10,8 @@ const model_state *kinematics_rest(const model *); /* undeformed */
 void kinematics_state_copy(const model *, const model_state *from, model_state *to);
 double kinematics_state_path(const model_state *);
 
-/* Frame of a scene node in a state: position [m] and unit quaternion. For tests of other rooms: what a
- * state keeps is known in this one only. */
+/* Frame of a scene node in a state: position [m] and unit quaternion. For tests of other rooms:
+ * what a state keeps is known in this one only. */
 void kinematics_frame(const model *, const model_state *, int node, double r[3], double q[4]);
 /* Displacement [m] or rotation-vector component [rad] of a scene node since the undeformed
  * state. */
@@ -26,7 +26,8 @@ int kinematics_coordinate(const model *, int node, int component);
 /* Most coordinates that a vertex depends on: those of a body, and those of a released end. */
 enum { KINEMATICS_MOST = 6 + SCENE_RELEASED };
 /* Jacobian of the six spatial increments of a vertex with respect to the coordinates it depends on:
- * returns the count m <= size (6 of a node), fills index[m] and T[6 x m] (row-major, leading dimension m). */
+ * returns the count m <= size (6 of a node), fills index[m] and T[6 x m] (row-major, leading
+ * dimension m). */
 int kinematics_node_jacobian(const model *, const model_state *, int node, int size, int index[],
                              double T[]);
 

@@ -55,7 +55,8 @@ static int same_vector(const double a[3], const double b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Index of the kind of element of a member with this section, length and curvature; made when it is new. */
+/* Index of the kind of element of a member with this section, length and curvature; made when it is
+ * new. */
 static status kind_of(model *m, const scene_member *member, int profile, double length,
                       const double curvature[3], int *out, fault *f)
 {

@@ -77,7 +77,8 @@ int model_shape(const model *, const double x[], double *u, double *position);
 int model_member_vertices(const model *, int member,
                           int vertex[]); /* n + 1 in order; vertex NULL: count only */
 
-/* Numbers that stresses of all elements and springs are: elements x strains, then six per spring. */
+/* Numbers that stresses of all elements and springs are: elements x strains, then six per spring.
+ */
 int model_stresses(const model *);
 /* Section constants the model uses for a section of the scene. */
 const section *model_section(const model *, int index);

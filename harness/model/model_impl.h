@@ -167,8 +167,8 @@ void kinematics_follow(const model *m, model_state *s);
 void kinematics_local(const model *m, const model_state *s, const mesh_element *el,
                       const double dx[], double local[]);
 
-/* eliminate.c: element coordinates -> model coordinates, in place; K[columns x columns]. force: internal, for the second
- * derivatives; NULL entries are skipped. */
+/* eliminate.c: element coordinates -> model coordinates, in place; K[columns x columns]. force:
+ * internal, for the second derivatives; NULL entries are skipped. */
 void eliminate_forces(const model *m, const model_state *s, const mesh_element *el,
                       double force[]); /* [columns] */
 void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el,

@@ -1,7 +1,9 @@
-/* Sections of the elements: those of the scene and, behind them, of members whose section changes along them one for each
- * element, at its middle.  Members that change between the same two and have as many elements share theirs.
+/* Sections of the elements: those of the scene and, behind them, of members whose section changes
+ * along them one for each element, at its middle.  Members that change between the same two and
+ * have as many elements share theirs.
  *
- * The pieces are prismatic: what they come to has an error of second order in their length, whatever the formulation. */
+ * The pieces are prismatic: what they come to has an error of second order in their length,
+ * whatever the formulation. */
 #ifndef BEAMWORK_MODEL_PROFILE_H
 #define BEAMWORK_MODEL_PROFILE_H
 

@@ -1,8 +1,9 @@
-/* Increments in the axes of p: delta = R_p^T (dr_q - dr_p), alpha = R_p^T dphi_p, beta = R_p^T dphi_q, w = R_p^T (r_q - r_p).
- * Translations: exp(-alpha~) (w + delta).  Rotation vector theta of exp(-alpha~) exp(beta~) Theta, to second order exp(gamma~)
- * Theta with gamma = beta - alpha - alpha x beta/2, and log(exp(gamma~) Theta) has the derivative
- *   B = 1 - theta~/2 + c theta~^2, c(x) = (1 - theta/2 cot(theta/2))/x, x = theta^2,
- * and along B gamma the second one (dB[B gamma]) gamma. */
+/* Increments in the axes of p: delta = R_p^T (dr_q - dr_p), alpha = R_p^T dphi_p, beta = R_p^T
+ * dphi_q, w = R_p^T (r_q - r_p). Translations: exp(-alpha~) (w + delta).  Rotation vector theta of
+ * exp(-alpha~) exp(beta~) Theta, to second order exp(gamma~) Theta with gamma = beta - alpha -
+ * alpha x beta/2, and log(exp(gamma~) Theta) has the derivative B = 1 - theta~/2 + c theta~^2, c(x)
+ * = (1 - theta/2 cot(theta/2))/x, x = theta^2, and along B gamma the second one (dB[B gamma])
+ * gamma. */
 #include "harness/model/spring.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
-/* Rigid motions of parts of a structure, and what prevents them: shared with harness/equations/linkage.c. Motions are six
- * numbers: displacement of an origin, turn times the size of the model; what prevents them squares, of lengths. */
+/* Rigid motions of parts of a structure, and what prevents them: shared with
+ * harness/equations/linkage.c. Motions are six numbers: displacement of an origin, turn times the
+ * size of the model; what prevents them squares, of lengths. */
 #ifndef BEAMWORK_MODEL_SUPPORTS_IMPL_H
 #define BEAMWORK_MODEL_SUPPORTS_IMPL_H
 
@@ -10,8 +11,8 @@
  * than its root times the length count as one. */
 extern const double supports_loose;
 
-/* part[vertices]: a vertex that stands for all that elements, springs and bodies join, by supports_root; apart: released
- * ends are not joined to their nodes. */
+/* part[vertices]: a vertex that stands for all that elements, springs and bodies join, by
+ * supports_root; apart: released ends are not joined to their nodes. */
 void supports_join(const model *, int apart, int part[]);
 int supports_root(const int part[], int vertex);
 /* What moves a vertex. */
@@ -20,7 +21,8 @@ int supports_mover(const model *, int vertex, int apart);
 void supports_rigid(const double position[3], double length, double G[36]);
 /* What the supports of a node prevent of the motions about the origin: out[6 x 6]. */
 void supports_prevented(const model *, int node, const double origin[3], double out[36]);
-/* sum[6 x 6] += squares of what springs between the part and the ground prevent, whatever their stiffness. */
+/* sum[6 x 6] += squares of what springs between the part and the ground prevent, whatever their
+ * stiffness. */
 void supports_add_springs(const model *, const int part[], int root, const double origin[3],
                           double sum[36]);
 

@@ -20,7 +20,8 @@ static void add_wall(outline *out, const double a[2], const double b[2], double 
     }
 }
 
-/* Side k of a tube drawn as a polygon: corners lie on its circles, from inside to outside at either end. */
+/* Side k of a tube drawn as a polygon: corners lie on its circles, from inside to outside at either
+ * end. */
 static void add_side(outline *out, const section_spec *spec, int k)
 {
     double(*corner)[2] = out->corner[out->walls++];

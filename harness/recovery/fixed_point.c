@@ -7,7 +7,8 @@
 
 enum { MEMORY = 12, MOST = 100 };
 
-/* Differences of the last moves and of what the map gave, the moves made orthonormal (Gram-Schmidt). */
+/* Differences of the last moves and of what the map gave, the moves made orthonormal
+ * (Gram-Schmidt). */
 typedef struct history {
     int count;
     double move[MEMORY][FIXED_POINT_MAX], given[MEMORY][FIXED_POINT_MAX];

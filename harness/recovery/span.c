@@ -65,7 +65,8 @@ static void loads_of(work *w, double out[N][6])
     }
 }
 
-/* Force and moment about the origin p that end e exerts, whatever section it is thought to act on. */
+/* Force and moment about the origin p that end e exerts, whatever section it is thought to act on.
+ */
 static void about_origin(const span_end *end, double out[6])
 {
     memcpy(out, end->force, 3 * sizeof *out);

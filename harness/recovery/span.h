@@ -1,17 +1,19 @@
 /* What goes through the sections of an element, from the forces at its ends and the loads between.
  *
- * Whatever a formulation assumes inside, its elements' ends are in equilibrium.  Between them the line is the one of the exact
- * beam (Simo-Reissner with warping, the section's constants, the physics that is active) that runs from end frame to end frame under
- *   F' = -q, m' = -r' x F - mu, N = R^T F, M = R^T m, and span_twist.h,
- * from p with the forces at p, which pass in proportion to x into those from q with the forces at q.  An error of the end forces
- * is the only one that is left: a value inside converges as they do, and meets them at the ends. */
+ * Whatever a formulation assumes inside, its elements' ends are in equilibrium.  Between them the
+ * line is the one of the exact beam (Simo-Reissner with warping, the section's constants, the
+ * physics that is active) that runs from end frame to end frame under F' = -q, m' = -r' x F - mu, N
+ * = R^T F, M = R^T m, and span_twist.h, from p with the forces at p, which pass in proportion to x
+ * into those from q with the forces at q.  An error of the end forces is the only one that is left:
+ * a value inside converges as they do, and meets them at the ends. */
 #ifndef BEAMWORK_SPAN_H
 #define BEAMWORK_SPAN_H
 
 #include "elements/element.h"
 #include "harness/recovery/span_curve.h"
 
-/* In the principal axes of the turned section, of what lies towards q on what lies towards p; moments about the centroid. */
+/* In the principal axes of the turned section, of what lies towards q on what lies towards p;
+ * moments about the centroid. */
 enum span_value {
     SPAN_N,
     SPAN_QY,
@@ -20,8 +22,9 @@ enum span_value {
     SPAN_MY,
     SPAN_MZ,
     SPAN_BIMOMENT,
-    /* Parts of the torque about the shear centre, M_x - (ys Qz - zs Qy): G It kappa_x, -B', and what stresses along the turned
-     * fibres add, (rho^2 N + bending terms) kappa_x + 4 E c kappa_x^3 */
+    /* Parts of the torque about the shear centre, M_x - (ys Qz - zs Qy): G It kappa_x, -B', and
+     * what stresses along the turned fibres add, (rho^2 N + bending terms) kappa_x + 4 E c
+     * kappa_x^3 */
     SPAN_MX_SAINT_VENANT,
     SPAN_MX_WARPING,
     SPAN_MX_WAGNER,

@@ -8,8 +8,8 @@
 
 enum { N = SPAN_GRID_POINTS };
 
-/* The turn over a gap of length h, in the axes at its beginning (Blanes, Casas, Ros, BIT 40, 2000): R^T' = -kappa~ R^T at
- * three Gauss points. */
+/* The turn over a gap of length h, in the axes at its beginning (Blanes, Casas, Ros, BIT 40, 2000):
+ * R^T' = -kappa~ R^T at three Gauss points. */
 static void turn_of(const span_grid *g, int gap, const double kappa[], double h, double out[3])
 {
     double at[SPAN_GRID_GAUSS][3] = {{0}}, a[3], b[3], c[3], first[3], second[3], third[3],

@@ -1,5 +1,5 @@
-/* Chebyshev's points of an element, ends included, and what is done with functions through them: integrals, derivatives, values
- * between.  Along [0, 1]. */
+/* Chebyshev's points of an element, ends included, and what is done with functions through them:
+ * integrals, derivatives, values between.  Along [0, 1]. */
 #ifndef BEAMWORK_SPAN_GRID_H
 #define BEAMWORK_SPAN_GRID_H
 

@@ -6,7 +6,8 @@
 
 enum { N = SPAN_GRID_POINTS };
 
-/* Amplitudes [N] of the solution with the bimoment given at one end (0, 1) and the amplitude at the other. */
+/* Amplitudes [N] of the solution with the bimoment given at one end (0, 1) and the amplitude at the
+ * other. */
 static int amplitudes(const span_grid *g, const span_torsion *t, int end, double a[])
 {
     double matrix[N * N];

@@ -1,9 +1,10 @@
 /* Non-uniform torsion between two sections whose bimoments and warping amplitudes are known.
  *
  *   EIw a' = B, B' = -M_w, M_s = K k + M_w, k = a + F_w M_w + f:
- * torque M_s about the shear centre, twist rate k, amplitude a, M_w the part of the restrained warping, K what the twist meets,
- * F_w the flexibility of warping in shear, f what transverse forces add to it.  Of the four values at the ends two decide: the
- * solution with (B_p, a_q) near p passes into the one with (a_p, B_q) near q, each well posed for any K >= 0. */
+ * torque M_s about the shear centre, twist rate k, amplitude a, M_w the part of the restrained
+ * warping, K what the twist meets, F_w the flexibility of warping in shear, f what transverse
+ * forces add to it.  Of the four values at the ends two decide: the solution with (B_p, a_q) near p
+ * passes into the one with (a_p, B_q) near q, each well posed for any K >= 0. */
 #ifndef BEAMWORK_SPAN_TWIST_H
 #define BEAMWORK_SPAN_TWIST_H
 

@@ -5,7 +5,8 @@
 #include "cases/scene/scene.h"
 #include "harness/language/scope.h"
 
-/* names: the parameters. The scene is valid where no mistake was found. The caller frees it in any case. */
+/* names: the parameters. The scene is valid where no mistake was found. The caller frees it in any
+ * case. */
 void build_scene(const document_node *root, const scope *names, arena *a, mistakes *m, scene *out);
 
 /* Sections only, and their constants as names, into a builder with root and names. */

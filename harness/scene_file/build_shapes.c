@@ -29,7 +29,8 @@ static flanged flanged_of(const fields *f)
                      .web_thickness = fields_number(f, "web_thickness", 1)};
 }
 
-/* An open line of three walls: upper flange from y = `upper` to the web, web, lower flange to y = `lower`. */
+/* An open line of three walls: upper flange from y = `upper` to the web, web, lower flange to y =
+ * `lower`. */
 static void add_line(section_spec *spec, const flanged *s, double upper, double lower)
 {
     add_point(spec, upper, s->half);

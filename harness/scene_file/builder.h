@@ -1,7 +1,7 @@
 /* What a scene is built with from a checked tree, and values of its maps by their keys.
  *
- * The tree has the form that keys.h says: what is asked for here is a number, a word, a list where one must be. What has no
- * meaning is a mistake, and some value is returned. */
+ * The tree has the form that keys.h says: what is asked for here is a number, a word, a list where
+ * one must be. What has no meaning is a mistake, and some value is returned. */
 #ifndef BEAMWORK_SCENE_BUILDER_H
 #define BEAMWORK_SCENE_BUILDER_H
 
@@ -79,7 +79,8 @@ void builder_motions(builder *b);
 void builder_loads(builder *b);
 void builder_analyses(builder *b);
 void builder_quantities(builder *b);
-/* Tells that an analysis does not have the quantity `key` at `what`, and which kinds of analysis do. */
+/* Tells that an analysis does not have the quantity `key` at `what`, and which kinds of analysis
+ * do. */
 void builder_no_quantity(const fields *what, const char *analysis, const char *key,
                          scene_analysis_kind is, scene_quantity_kind kind);
 /* Analyses and quantities where the file has none. */

@@ -8,7 +8,8 @@
 /* Lengths of a unit vector below it are round-off. */
 static const double round_off = 1e-12;
 
-/* Of the instance's component c that of the scene, and whether it has the same sign; SCENE_NONE: it is along none. */
+/* Of the instance's component c that of the scene, and whether it has the same sign; SCENE_NONE: it
+ * is along none. */
 static int component_of(const fields *f, int c, int *same)
 {
     double axis[3] = {0};

@@ -18,7 +18,8 @@ static scene_extract displacement(const fields *f)
                             fields_word(f, "component", fields_components, 0));
 }
 
-/* Component of a reaction; turn_1: the moment about the first axis of a sequence, which is fixed in space. */
+/* Component of a reaction; turn_1: the moment about the first axis of a sequence, which is fixed in
+ * space. */
 static int reaction_component(const fields *f, int node)
 {
     enum { TURN_1 = SCENE_RZ + 1 };

@@ -132,7 +132,8 @@ static void read_matrices(const fields *f, section_spec *spec)
     read_matrix(f, "mass", spec->constants.mass);
 }
 
-/* Material and overrides belong to all sections but those of matrices, and masses of their own to these. */
+/* Material and overrides belong to all sections but those of matrices, and masses of their own to
+ * these. */
 static void check_material(const fields *f)
 {
     static const struct {

@@ -4,7 +4,8 @@
 
 #include <stdio.h>
 
-/* A line for each key: name, form, unit, summary, and its words. Keys that are not carried yet are left out. */
+/* A line for each key: name, form, unit, summary, and its words. Keys that are not carried yet are
+ * left out. */
 void key_list_write(FILE *to);
 
 #endif

@@ -1,4 +1,5 @@
-/* What may stand in a scene file: tables of keys, used to check, to describe and to tell what was meant. */
+/* What may stand in a scene file: tables of keys, used to check, to describe and to tell what was
+ * meant. */
 #ifndef BEAMWORK_SCENE_KEYS_H
 #define BEAMWORK_SCENE_KEYS_H
 
@@ -24,7 +25,8 @@ typedef struct scene_key {
     const char *name; /* NULL ends a table */
     key_kind kind;
     int needed; /* 1: must be there */
-    int group; /* keys of one group > 0 exclude each other; with `needed`, one of them must be there */
+    int group; /* keys of one group > 0 exclude each other; with `needed`, one of them must be there
+                */
     int count;
     const char *words; /* "a|b|c" */
     const struct scene_key *below;

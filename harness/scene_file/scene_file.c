@@ -106,7 +106,8 @@ status scene_file_read_bytes(const char *bytes, size_t size, const char *path, s
     return outcome;
 }
 
-/* All bytes of a file, at most one more than a scene file may have: a longer one is refused as such. */
+/* All bytes of a file, at most one more than a scene file may have: a longer one is refused as
+ * such. */
 static status read_bytes(const char *path, char *bytes, size_t room, size_t *size, fault *f)
 {
     FILE *from = fopen(path, "rb");

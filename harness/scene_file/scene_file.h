@@ -10,8 +10,9 @@
 
 typedef struct scene_file scene_file;
 
-/* The file, with its defaults built once to see that they are a scene. Not OK: *out is NULL; REFUSED with all mistakes in m
- * (and the first in f), FAULT when it cannot be read. path must outlive m and the file. */
+/* The file, with its defaults built once to see that they are a scene. Not OK: *out is NULL;
+ * REFUSED with all mistakes in m (and the first in f), FAULT when it cannot be read. path must
+ * outlive m and the file. */
 status scene_file_read(const char *path, scene_file **out, mistakes *m, fault *f);
 /* The same of bytes, which the fuzzer gives; path: as messages call it. */
 status scene_file_read_bytes(const char *bytes, size_t size, const char *path, scene_file **out,

@@ -10,8 +10,8 @@ typedef struct write_head {
     const char *name, *summary, *source;
 } write_head;
 
-/* Loops and expressions are written out, numbers with as many digits as they need. REFUSED: the scene has something that no
- * file can say. */
+/* Loops and expressions are written out, numbers with as many digits as they need. REFUSED: the
+ * scene has something that no file can say. */
 status write_scene(FILE *to, const scene *s, const write_head *head, fault *f);
 
 #endif

@@ -1,4 +1,5 @@
-/* What is released of the prescribed motion of a node borders the tangent of the free coordinates. */
+/* What is released of the prescribed motion of a node borders the tangent of the free coordinates.
+ */
 #ifndef BEAMWORK_BORDER_H
 #define BEAMWORK_BORDER_H
 

@@ -68,8 +68,8 @@ static double spread(const model *m, const sparse *K)
     return largest > 0 ? largest / least : 1;
 }
 
-/* Condition of the stiffness of a model at rest, INFINITY where it cannot be factored; *lost: 1 where
- * it has no digits to spare. */
+/* Condition of the stiffness of a model at rest, INFINITY where it cannot be factored; *lost: 1
+ * where it has no digits to spare. */
 static double condition_at_rest(const analysis_context *c, model *m, int *lost)
 {
     const counters work = *model_counters(m);

@@ -4,7 +4,8 @@
 
 #include "harness/solver/context.h"
 
-/* SINGULAR with the motion where released ends make the undeformed structure a mechanism; else `otherwise`, f as it is. */
+/* SINGULAR with the motion where released ends make the undeformed structure a mechanism; else
+ * `otherwise`, f as it is. */
 status singular_mechanism(const analysis_context *c, status otherwise, fault *f);
 
 /* After the last factorisation failed: the fault with its cause.  A part that the supports leave

@@ -31,8 +31,8 @@ typedef struct cell_result {
 
 /* Formulation, its options and its form of Newton's method. */
 void cell_formulation(cell_request *, const formulation *chosen);
-/* The scene of a case at its parameters, changed by the edit (NULL: as it is), and valid. The caller
- * frees it, also after a failure. */
+/* The scene of a case at its parameters, changed by the edit (NULL: as it is), and valid. The
+ * caller frees it, also after a failure. */
 status cell_scene(const case_type *type, const double parameter[], const scene_edit *edit,
                   scene *out, fault *f);
 status cell_run(const cell_request *, cell_result *, fault *);

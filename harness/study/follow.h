@@ -1,10 +1,10 @@
 /* Modes followed over a parameter of a case.
  *
- * Those of neighbouring values are matched by the modal assurance criterion of the mass matrix M at the
- * new one, (v^T M w)^2/((v^T M v)(w^T M w)), which is 1 of the same shape.  Where a match is below
- * 0.9 the step is halved.  Equal frequencies have no shapes of their own: the shape of before is
- * projected into their space.  Frequencies of followed modes then cross, or avoid each other (veer)
- * while their shapes change places. */
+ * Those of neighbouring values are matched by the modal assurance criterion of the mass matrix M at
+ * the new one, (v^T M w)^2/((v^T M v)(w^T M w)), which is 1 of the same shape.  Where a match is
+ * below 0.9 the step is halved.  Equal frequencies have no shapes of their own: the shape of before
+ * is projected into their space.  Frequencies of followed modes then cross, or avoid each other
+ * (veer) while their shapes change places. */
 #ifndef BEAMWORK_FOLLOW_H
 #define BEAMWORK_FOLLOW_H
 
@@ -39,8 +39,8 @@ typedef struct follow_curves {
 } follow_curves;
 
 /* As many modes as the first modal analysis has frequencies as quantities, the lowest at `from`.
- * REFUSED: no modal analysis, or coordinates that change with the parameter; NOT_CONVERGED: a mode is
- * lost however small the step. */
+ * REFUSED: no modal analysis, or coordinates that change with the parameter; NOT_CONVERGED: a mode
+ * is lost however small the step. */
 status follow_run(const follow_request *, follow_curves *, fault *);
 void follow_free(follow_curves *);
 

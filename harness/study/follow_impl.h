@@ -14,8 +14,8 @@ typedef struct follow_walk {
     follow_shapes *shapes; /* [samples] */
 } follow_walk;
 
-/* follow_solve.c: the modes at a value, matched with those of before (NULL: the first ones), and the
- * worst match. */
+/* follow_solve.c: the modes at a value, matched with those of before (NULL: the first ones), and
+ * the worst match. */
 status follow_solve(follow_walk *, double value, const follow_shapes *before, follow_shapes *out,
                     double *least, fault *);
 

@@ -21,7 +21,8 @@ typedef struct imported_row {
 typedef struct imported {
     char program[FORMULATION_KEY]; /* stands where a formulation's key stands */
     char file[IMPORTED_FILE];
-    /* "beam": the model of the beams; else another one, whose difference is an error of the model */
+    /* "beam": the model of the beams; else another one, whose difference is an error of the model
+     */
     char model[IMPORTED_WORD];
     char convention[IMPORTED_WORD]; /* of moments; empty: not said */
     int gates;                      /* 1: its verdicts count */

@@ -16,8 +16,8 @@ typedef struct derived_value {
  * parameters; FAULT when it could not be run or said something else. *out: malloced. */
 status derive_values(const char *script, const char *case_name, const char *parameters,
                      derived_value **out, int *count, fault *f);
-/* The same of `script` with a scene, as write_scene writes it, on its standard input; what of it no program derives is said on
- * standard error, a line each. */
+/* The same of `script` with a scene, as write_scene writes it, on its standard input; what of it no
+ * program derives is said on standard error, a line each. */
 status derive_scene(const char *script, FILE *scene_text, derived_value **out, int *count,
                     fault *f);
 

@@ -4,8 +4,8 @@
 
 #include <hdf5.h>
 
-/* Closes those that are open, in this order, whatever they are of: a data set, an attribute, a type,
- * a space. */
+/* Closes those that are open, in this order, whatever they are of: a data set, an attribute, a
+ * type, a space. */
 static inline void handles_close(int count, const hid_t handle[])
 {
     for (int i = 0; i < count; i++)

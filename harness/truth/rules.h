@@ -17,8 +17,8 @@ typedef struct rule {
     char *verdicts;     /* "wrong limit|undecided" */
     char *predicted;    /* list of "case/quantity" whose limit is predicted; empty: none */
     char *cause, *proof;
-    /* relative, of the limit from the derived one, or from the truth where none was derived; beyond it
-     * the rule does not explain */
+    /* relative, of the limit from the derived one, or from the truth where none was derived; beyond
+     * it the rule does not explain */
     double largest_error;
     int observed;      /* by the judge: verdicts it explains */
     unsigned foretold; /* by the judge: bits of the predictions that were met */

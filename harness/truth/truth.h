@@ -8,8 +8,8 @@ int truth_holds(const truth *row, const case_type *type, const double value[]);
 /* May a verdict rest on it?  Not on an agreement of formulations, nor on a figure that nobody can
  * compute again. */
 int truth_gates(const truth *row);
-/* Words of truth.kind: the first known one judges; truth_gates says which ones may.  "predicted": the
- * limit that a formulation must have. */
+/* Words of truth.kind: the first known one judges; truth_gates says which ones may.  "predicted":
+ * the limit that a formulation must have. */
 extern const char truth_kinds[];
 /* The continuum's truth of that model (exact before published, no point of a curve), or NULL.  One
  * of the same model gates. */

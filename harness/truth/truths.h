@@ -9,7 +9,8 @@
 #include "harness/truth/rules.h"
 
 enum { TRUTHS_VERSION = 2 };
-#define TRUTH_THEORIES "engesser|haringx" /* of shear in stability; "": the truth depends on none */
+/* Of shear in stability; "": the truth depends on none. */
+#define TRUTH_THEORIES "engesser|haringx"
 
 typedef struct truth {
     const case_type *type;

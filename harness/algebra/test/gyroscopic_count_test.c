@@ -1,5 +1,5 @@
-/* Frequencies in a rotating frame are counted: what the count says beside LAPACK, and what is missing
- * is found or noticed. */
+/* Frequencies in a rotating frame are counted: what the count says beside LAPACK, and what is
+ * missing is found or noticed. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -52,8 +52,8 @@ static void counts(void)
             }
 }
 
-/* `masses` oscillators at 1, 2, 3 ... rad/s that do not touch, others of stiffness 1e6 behind them; the first two of these are a
- * top whose slow precession is `slow` [rad/s]. */
+/* `masses` oscillators at 1, 2, 3 ... rad/s that do not touch, others of stiffness 1e6 behind them;
+ * the first two of these are a top whose slow precession is `slow` [rad/s]. */
 static void oscillators_and_top(int masses, int behind, double slow, problem *p)
 {
     const double k = 1e6, g = (k / slow) - slow; /* root of w^2 + g w - k */

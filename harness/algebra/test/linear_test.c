@@ -1,4 +1,5 @@
-/* Sparse factors against LAPACK on random matrices, inertia, condition and the work that is counted. */
+/* Sparse factors against LAPACK on random matrices, inertia, condition and the work that is
+ * counted. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <lapacke.h>
@@ -150,8 +151,9 @@ static void random_matrices(kind what, const char *name, double allowed)
     gsl_test(!(worst < allowed), "%s: as LAPACK within %.1f eps times the condition", name, worst);
 }
 
-/* The upper triangle and the whole of a symmetric matrix have one condition: of a chain of n springs held at one end, with rows
- * and columns scaled to a diagonal of ones, that is the exact 1-norm. */
+/* The upper triangle and the whole of a symmetric matrix have one condition: of a chain of n
+ * springs held at one end, with rows and columns scaled to a diagonal of ones, that is the exact
+ * 1-norm. */
 static void condition_of_a_triangle(void)
 {
     enum { N = 6 };

@@ -1,5 +1,5 @@
-/* Critical loads where there is none or hardly one, for every formulation: rounding does not look like
- * a load, and loads of one sign do not depend on those of the other. */
+/* Critical loads where there is none or hardly one, for every formulation: rounding does not look
+ * like a load, and loads of one sign do not depend on those of the other. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 

@@ -1,5 +1,5 @@
-/* Critical loads of bars whose answer is known, for every formulation: sign, order and number of equal
- * values, what does not exist. */
+/* Critical loads of bars whose answer is known, for every formulation: sign, order and number of
+ * equal values, what does not exist. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,5 @@
-/* Resultants and stresses inside members that twist far, turn steadily, or have their shear centre beside them. */
+/* Resultants and stresses inside members that twist far, turn steadily, or have their shear centre
+ * beside them. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -6,8 +7,8 @@
 #include "harness/catalogue/registry.h"
 #include "harness/test/ask.h"
 
-/* A strip, free to shorten and to warp, twisted by 0.6 rad: kappa is uniform, M = G J kappa + 4 E c kappa^3, and its edges are
- * stretched. */
+/* A strip, free to shorten and to warp, twisted by 0.6 rad: kappa is uniform, M = G J kappa + 4 E c
+ * kappa^3, and its edges are stretched. */
 static void strip(const element_type *e, ask_tally *tally)
 {
     const double y[3] = {0, 1, 0}, w = 0.04, h = 1e-3, l = 0.4, path[2] = {0, 1},
@@ -44,7 +45,8 @@ static void strip(const element_type *e, ask_tally *tally)
         gsl_test_rel(a.value[i], exact[i], 1e-5, "%s: %s of a twisted strip", e->name, a.name[i]);
 }
 
-/* A blade that turns about z, its root on the axis: N = rho A Omega^2 (l^2 - x^2)/2, but for its stretch of some 1e-6. */
+/* A blade that turns about z, its root on the axis: N = rho A Omega^2 (l^2 - x^2)/2, but for its
+ * stretch of some 1e-6. */
 static void blade(const element_type *e, ask_tally *tally)
 {
     const double y[3] = {0, 1, 0}, l = 0.5, one = 1, omega = 20;
@@ -70,7 +72,8 @@ static void blade(const element_type *e, ask_tally *tally)
     gsl_test_rel(a.value[1], root_stress, 1e-4, "%s: stress at the root", e->name);
 }
 
-/* A C under a force at its centroid, root held: torque F e about the shear centre, B = F e/lambda tanh(lambda l). */
+/* A C under a force at its centroid, root held: torque F e about the shear centre, B = F e/lambda
+ * tanh(lambda l). */
 static void channel(const element_type *e, ask_tally *tally)
 {
     static const double y[3] = {0, 1, 0}, t[3] = {3e-3, 3e-3, 3e-3},
@@ -107,8 +110,9 @@ static void channel(const element_type *e, ask_tally *tally)
     gsl_test_rel(a.value[2], most, 3e-3, "%s: bending and bimoment together", e->name);
 }
 
-/* A bar that tapers from h to h/4 under a force at its thin tip: 6 F b/(w h(b)^2) is largest a third of the length from there,
- * whatever the elements, each of which has the section of its middle. */
+/* A bar that tapers from h to h/4 under a force at its thin tip: 6 F b/(w h(b)^2) is largest a
+ * third of the length from there, whatever the elements, each of which has the section of its
+ * middle. */
 static void tapered(const element_type *e, ask_tally *tally, int elements)
 {
     const double y[3] = {0, 1, 0}, w = 0.02, h = 0.04, l = 0.9, F = 50;

@@ -1,5 +1,5 @@
-/* Resultants inside members against statics, the elastica and Vlasov's torsion, of every formulation; a value inside converges as
- * those at the ends do. */
+/* Resultants inside members against statics, the elastica and Vlasov's torsion, of every
+ * formulation; a value inside converges as those at the ends do. */
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -30,7 +30,8 @@ static int cantilever(scene *s, double Iw)
     return tip;
 }
 
-/* Tip force and moment and a load along: N, Qy, Qz, Mx, My, Mz at 0.35 of the length, and the extremes of Mz. */
+/* Tip force and moment and a load along: N, Qy, Qz, Mx, My, Mz at 0.35 of the length, and the
+ * extremes of Mz. */
 static void statics(const element_type *e, ask_tally *tally, int elements)
 {
     static answer a;
@@ -87,8 +88,8 @@ static double arc(double top, double u)
     return sum;
 }
 
-/* Inextensible cantilever of length 2, EI = 1, under a dead unit force across it: Bernoulli's elastica. M/EI = sqrt(2) u at arc
- * length `beyond` from the tip. */
+/* Inextensible cantilever of length 2, EI = 1, under a dead unit force across it: Bernoulli's
+ * elastica. M/EI = sqrt(2) u at arc length `beyond` from the tip. */
 static double elastica(double beyond)
 {
     double low = 0.5, high = 0.99999, least = 0, most;
@@ -137,7 +138,8 @@ static void bends(const element_type *e, ask_tally *tally)
                  i ? "inside" : "at the root", coarse[i], fine[i]);
 }
 
-/* Torque on a bar that warps, held at its root: B = T/lambda sinh(lambda b)/cosh(lambda l), b from the tip (Vlasov). */
+/* Torque on a bar that warps, held at its root: B = T/lambda sinh(lambda b)/cosh(lambda l), b from
+ * the tip (Vlasov). */
 static int twisted(const element_type *e, ask_tally *tally, int elements, double Iw,
                    double error[4])
 {
@@ -174,8 +176,8 @@ static void twists(const element_type *e, ask_tally *tally)
                  coarse[i], fine[i]);
 }
 
-/* A flat bar, free to warp, pulled, bent and twisted at its tip: M/W at the root, Saint-Venant's shear everywhere; and how a
- * restrained flange beam's stress follows from its bimoment. */
+/* A flat bar, free to warp, pulled, bent and twisted at its tip: M/W at the root, Saint-Venant's
+ * shear everywhere; and how a restrained flange beam's stress follows from its bimoment. */
 static void flat_bar(const element_type *e, ask_tally *tally)
 {
     const double y[3] = {0, 1, 0}, w = 0.05, h = 0.004, l = 0.3;
@@ -237,7 +239,8 @@ static void flanged(const element_type *e, ask_tally *tally)
              a.value[0]);
 }
 
-/* A bar that turns steadily beside one at rest, in either order: each quantity is that of its own analysis. */
+/* A bar that turns steadily beside one at rest, in either order: each quantity is that of its own
+ * analysis. */
 static void turns_beside_rest(const element_type *e, ask_tally *tally, int turning_first)
 {
     const double one = 1, tension = 2; /* rho A Omega^2 l^2/2 */

@@ -1,5 +1,6 @@
-/* Axes of released ends: those in which the section is described, whatever its principal ones; of a curved member those at
- * its end. The nodes are clamped, so that their reactions have no part along them. */
+/* Axes of released ends: those in which the section is described, whatever its principal ones; of a
+ * curved member those at its end. The nodes are clamped, so that their reactions have no part along
+ * them. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 
@@ -22,7 +23,8 @@ static void clamped_ends(scene *s, int first, int last, int member)
                            scene_reaction(i < REACTIONS ? first : last, SCENE_RX + i % REACTIONS));
 }
 
-/* Legs of unequal length: the principal axes are turned by some 20 degrees. Hinges about z, and y and x. */
+/* Legs of unequal length: the principal axes are turned by some 20 degrees. Hinges about z, and y
+ * and x. */
 static status build_angle(const double value[], scene *s, fault *f)
 {
     (void)value;

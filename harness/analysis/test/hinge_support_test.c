@@ -1,5 +1,5 @@
-/* An end that is released from a clamped node is one at a support that lets it go: in every analysis, by every formulation
- * and way of Newton. */
+/* An end that is released from a clamped node is one at a support that lets it go: in every
+ * analysis, by every formulation and way of Newton. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -9,8 +9,8 @@
 #include "harness/catalogue/registry.h"
 #include "harness/test/scenes.h"
 
-/* An end that turns or slides at a support (0), or a clamped node that it is released from (1): answers of every
- * analysis. */
+/* An end that turns or slides at a support (0), or a clamped node that it is released from (1):
+ * answers of every analysis. */
 static int how_supported, what_released, dense; /* dense: without what follows a factored tangent */
 static const char *const released_name[] = {"a hinge", "two turns", "a ball", "a slide"};
 

@@ -1,5 +1,5 @@
-/* Structures with hinges against closed forms: a beam with an inner hinge, a frame with three, columns, vibration, a
- * truss that snaps. */
+/* Structures with hinges against closed forms: a beam with an inner hinge, a frame with three,
+ * columns, vibration, a truss that snaps. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -10,7 +10,8 @@
 
 static const double z_axis[3] = {0, 0, 1};
 
-/* Clamped to a hinge at 0.8 m, from there to a roller at 2 m: force 5 N at the hinge, 3 N/m behind it. */
+/* Clamped to a hinge at 0.8 m, from there to a roller at 2 m: force 5 N at the hinge, 3 N/m behind
+ * it. */
 static status build_beam(const double value[], scene *s, fault *f)
 {
     (void)value;
@@ -33,7 +34,8 @@ static status build_beam(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Two legs of 3 m and two rafters that meet in a hinge 1 m higher, span 4 m: pinned feet, 2 N on the crown. */
+/* Two legs of 3 m and two rafters that meet in a hinge 1 m higher, span 4 m: pinned feet, 2 N on
+ * the crown. */
 static status build_frame(const double value[], scene *s, fault *f)
 {
     static const double at[5][2] = {{0, 0}, {0, 3}, {2, 4}, {4, 3}, {4, 0}};
@@ -60,7 +62,8 @@ static status build_frame(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Clamped at both ends, 2 m long with a hinge in the middle; the far end slides along it under load. */
+/* Clamped at both ends, 2 m long with a hinge in the middle; the far end slides along it under
+ * load. */
 static status build_column(const double value[], scene *s, fault *f)
 {
     (void)value;
@@ -88,7 +91,8 @@ static status build_vibration(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Euler's columns: both ends of a member between clamped nodes released, or one. value: how many. */
+/* Euler's columns: both ends of a member between clamped nodes released, or one. value: how many.
+ */
 static status euler(int released, scene *s)
 {
     const int profile = add_section(s), root = scene_add_node(s, 0, 0, 0),

@@ -1,6 +1,6 @@
-/* Members that turn freely against each other through large angles: a four-bar linkage and a universal joint on their
- * exact ways, without a force in them; a linkage that is bent gives the same in all axes; one that nothing drives is
- * named. */
+/* Members that turn freely against each other through large angles: a four-bar linkage and a
+ * universal joint on their exact ways, without a force in them; a linkage that is bent gives the
+ * same in all axes; one that nothing drives is named. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,5 @@
-/* Linear buckling where one load stays and another grows: along one line the critical factor is less by what stays. */
+/* Linear buckling where one load stays and another grows: along one line the critical factor is
+ * less by what stays. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>

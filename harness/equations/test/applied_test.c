@@ -1,5 +1,5 @@
-/* Loads along members and at offsets: force and moment of all of them, in member axes of any section; an offset is a
- * rigid arm. */
+/* Loads along members and at offsets: force and moment of all of them, in member axes of any
+ * section; an offset is a rigid arm. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -33,7 +33,8 @@ static void to_fixed(const double v[3], double out[3])
         out[i] = along[i] * v[0] + across[i] * v[1] + (i == 2 ? v[2] : 0);
 }
 
-/* Sum of the generalised loads of a member of length 2 at rest, of its vertices' own coordinates. */
+/* Sum of the generalised loads of a member of length 2 at rest, of its vertices' own coordinates.
+ */
 static void sums_of(const scene_load *load, const char *name, double force[3], double moment[3])
 {
     const double end = 1;

@@ -1,5 +1,5 @@
-/* Stiffness of loads on nodes of a rigid body in a turned state: the second derivative of their work,
- * or what the loads change by. */
+/* Stiffness of loads on nodes of a rigid body in a turned state: the second derivative of their
+ * work, or what the loads change by. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>

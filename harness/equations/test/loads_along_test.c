@@ -10,8 +10,8 @@
 enum { MOST = 40 };
 enum { LINE, SPIN };
 
-/* Forces of one component on the vertices of a member of length 2 along x: of a load along it, or of a frame that turns
- * about z. The ends come first. */
+/* Forces of one component on the vertices of a member of length 2 along x: of a load along it, or
+ * of a frame that turns about z. The ends come first. */
 static void forces_along(int what, const char *name, double path, int follows, int nodes,
                          double out[])
 {
@@ -43,7 +43,8 @@ static void forces_along(int what, const char *name, double path, int follows, i
     scene_free(&s);
 }
 
-/* A load along a member: all of it, with its first moment; the second moment is that of the rule (trapezoids; Simpson, exact). */
+/* A load along a member: all of it, with its first moment; the second moment is that of the rule
+ * (trapezoids; Simpson, exact). */
 static void along_a_member(const char *name, int nodes)
 {
     double F[MOST], sum[3] = {0};
@@ -59,7 +60,8 @@ static void along_a_member(const char *name, int nodes)
     gsl_test_rel(sum[2], nodes == 2 ? 3 * 4 : 3 * 8 / 3.0, 1e-14, "%s: its second moment", name);
 }
 
-/* Centrifugal forces grow with the square of the angular velocity, and that with the path where it follows it. */
+/* Centrifugal forces grow with the square of the angular velocity, and that with the path where it
+ * follows it. */
 static void turning_faster(void)
 {
     static const char name[] = "geometrically_exact:nodes=2";

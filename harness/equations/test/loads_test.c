@@ -1,4 +1,5 @@
-/* Loads on nodes of a rigid body in a turned state, against the work they do, and along the path. */
+/* Loads on nodes of a rigid body in a turned state, against the work they do, and along the path.
+ */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>

@@ -6,7 +6,8 @@
 #include "harness/analysis/solve.h"
 #include "harness/catalogue/registry.h"
 
-/* A beam on an arm: what the body at its foot carries is the tip's force, and its moment about the body. */
+/* A beam on an arm: what the body at its foot carries is the tip's force, and its moment about the
+ * body. */
 static void foot_of_an_arm(const element_type *type)
 {
     const double y[3] = {0, 1, 0}, end = 1, P[3] = {0.01, -0.02, 0.03};

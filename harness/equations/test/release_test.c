@@ -1,5 +1,6 @@
-/* Released ends in a turned state: a tangent that is the derivative of the forces, whatever is released, wherever the
- * node is and whatever acts on the member; Newton's method converges as it does with a true tangent. */
+/* Released ends in a turned state: a tangent that is the derivative of the forces, whatever is
+ * released, wherever the node is and whatever acts on the member; Newton's method converges as it
+ * does with a true tangent. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -38,7 +39,8 @@ static void soft_spring(scene *s, int node, double k)
     scene_add_spring(s, SCENE_NONE, node, K);
 }
 
-/* A clamped member to a body, a member from there to a node on a spring; loads of every kind on the second one. */
+/* A clamped member to a body, a member from there to a node on a spring; loads of every kind on the
+ * second one. */
 static void bent(int place, const char *const set[2], scene *s)
 {
     static const double sequence[3][3] = {{0, 0, 1}, {0.6, 0.8, 0}, {1, 0, 0}};

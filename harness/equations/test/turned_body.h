@@ -1,5 +1,5 @@
-/* A beam that ends at a rigid body, in a state that is turned about no special axis, with a load beside
- * the body's own node, and the work which that load does. */
+/* A beam that ends at a rigid body, in a state that is turned about no special axis, with a load
+ * beside the body's own node, and the work which that load does. */
 #ifndef BEAMWORK_TEST_TURNED_BODY_H
 #define BEAMWORK_TEST_TURNED_BODY_H
 

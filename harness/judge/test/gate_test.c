@@ -1,5 +1,5 @@
-/* What the gate says of its counts, and the tables of "reached with n elements", both against what they should be by their
- * definition. */
+/* What the gate says of its counts, and the tables of "reached with n elements", both against what
+ * they should be by their definition. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>

@@ -132,7 +132,8 @@ static void failures(void)
     bench_free(&b);
 }
 
-/* Noise is worth measuring where the last change is tiny or the verdict open, and there is a truth. */
+/* Noise is worth measuring where the last change is tiny or the verdict open, and there is a truth.
+ */
 static void doubtful_noise(void)
 {
     bench b;

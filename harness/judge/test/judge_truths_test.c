@@ -1,5 +1,5 @@
-/* Which truth judges a made-up series, what of it was expected, stored values of meshes, and what the
- * gate says. */
+/* Which truth judges a made-up series, what of it was expected, stored values of meshes, and what
+ * the gate says. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
-/* How often the limit of a sequence lies within its own uncertainty: in families of convergence whose
- * limit is known, and under noise. Seeds are fixed. */
+/* How often the limit of a sequence lies within its own uncertainty: in families of convergence
+ * whose limit is known, and under noise. Seeds are fixed. */
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_test.h>
@@ -83,7 +83,8 @@ static double plateau(const draw *d, int i, double n)
     return 1 / (1 + pow(n / d->bend, d->order));
 }
 
-/* The mean of what decays from an end over 1/bend of the length: first order before it is resolved, then second. */
+/* The mean of what decays from an end over 1/bend of the length: first order before it is resolved,
+ * then second. */
 static double layer(const draw *d, int i, double n)
 {
     (void)i;
@@ -257,13 +258,14 @@ static void coverage_under_noise(void)
 }
 
 /* A low order takes two orders below the least, and one below the nominal before them
- * (judge/verdict.c). In families whose order is low that is all that two orders find; where terms of
- * two signs cross, most of it: of those it cannot be told from an accident.
- * Of all passes of verify with 0 to 3 meshes left out two orders alone call four low. Their orders
- * with more elements, each of twice the ones before: bend_45 force=300 sheet_third_printed u_tangent 0.88 1.71 1.90
- * 1.98 2.04 (512); sheet_wagner wagner=0 sheet_second_consistent C_thy_My 0.98 0.80 1.43 1.82 1.95
- * (512); unsymmetric_column beamw frequency_1, lumped mass, 1.03 1.08 0.48 1.00 1.63 (256), and
- * frequency_2, averaged mass, 1.29 1.19 0.60 1.04 1.64 (256): above the least, 1.5, not yet 2. */
+ * (judge/verdict.c). In families whose order is low that is all that two orders find; where terms
+ * of two signs cross, most of it: of those it cannot be told from an accident. Of all passes of
+ * verify with 0 to 3 meshes left out two orders alone call four low. Their orders with more
+ * elements, each of twice the ones before: bend_45 force=300 sheet_third_printed u_tangent
+ * 0.88 1.71 1.90 1.98 2.04 (512); sheet_wagner wagner=0 sheet_second_consistent C_thy_My 0.98
+ * 0.80 1.43 1.82 1.95 (512); unsymmetric_column beamw frequency_1, lumped mass, 1.03 1.08
+ * 0.48 1.00 1.63 (256), and frequency_2, averaged mass, 1.29 1.19 0.60 1.04 1.64 (256): above the
+ * least, 1.5, not yet 2. */
 static void low_orders(void)
 {
     static const family low[] = {{"n^-1", power, ONE_TERM, 1, 1},

@@ -53,8 +53,8 @@ static mesh_limit of_changes(int changes, const double change[], double noise)
     return limit_of(&(limit_sequence){changes + 1, mesh, v, noise, 2, 4, 0});
 }
 
-/* Sequences worked out by hand on meshes that double: with a ratio r of two changes the limit is change/(r - 1) beyond the last
- * value. */
+/* Sequences worked out by hand on meshes that double: with a ratio r of two changes the limit is
+ * change/(r - 1) beyond the last value. */
 static void worked(void)
 {
     const double pure[] = {-16, -4, -1}, agreeing_by_accident[] = {-20, -4, -1, -0.25},
@@ -63,11 +63,13 @@ static void worked(void)
     gsl_test_abs(of_changes(3, pure, 0).limit_uncertainty, 0, 1e-12, "are of one term");
     gsl_test_rel(of_changes(3, pure, NAN).limit_uncertainty, 1.25 * 0.02 / 3, 1e-6,
                  "2 % of a step is doubted without a measure of noise");
-    /* Ratios 5, 4, 4: the limits are -24 - 4/4 = -25, then twice -25.3333: 1/3 of former change, reduced by order 2 + 2. */
+    /* Ratios 5, 4, 4: the limits are -24 - 4/4 = -25, then twice -25.3333: 1/3 of former change,
+     * reduced by order 2 + 2. */
     gsl_test_rel(of_changes(4, agreeing_by_accident, 0).limit_uncertainty,
                  1.25 * (1.0 / 3 - 0) / 16, 1e-9,
                  "a change of the limit that is small by accident");
-    /* Ratios 4, 4, 4.1667: the limits are twice -21.3333, then -21.24 - 0.24/3.1667 = -21.31579: they do not settle. */
+    /* Ratios 4, 4, 4.1667: the limits are twice -21.3333, then -21.24 - 0.24/3.1667 = -21.31579:
+     * they do not settle. */
     const double change = 4.0 / 3 - 1 - 0.24 * (1 + 6.0 / 19);
     gsl_test_rel(of_changes(4, unsettled, 0).limit_uncertainty, 1.25 * change, 1e-9,
                  "the change of the limit");
@@ -80,7 +82,8 @@ static void worked(void)
     gsl_test(isfinite(slow.order), "is not believed");
 }
 
-/* Two values say no order: first order is assumed, three times the change and four noises. Three values never say two. */
+/* Two values say no order: first order is assumed, three times the change and four noises. Three
+ * values never say two. */
 static void few_meshes(void)
 {
     const double v[] = {1, 1.5, 1.75};
@@ -127,8 +130,9 @@ static void settled(void)
     gsl_test_rel(l.order, 8, 0.02, "shows its order above it");
 }
 
-/* C_uz_My of sheet_second (sheet_cantilever, tip_warping=1) [1e-7/N]: from 64 elements on the trace of another term comes into sight,
- * orders of 4.5 and 4.7 agree where four is the highest, and the limits seem to settle. 1024 elements show the limit. */
+/* C_uz_My of sheet_second (sheet_cantilever, tip_warping=1) [1e-7/N]: from 64 elements on the trace
+ * of another term comes into sight, orders of 4.5 and 4.7 agree where four is the highest, and the
+ * limits seem to settle. 1024 elements show the limit. */
 static void orders_beyond_the_highest(void)
 {
     static const double v[] = {-7.541557376815, -7.572498677944, -7.749537235739, -7.764447957971,

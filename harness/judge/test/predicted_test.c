@@ -1,5 +1,5 @@
-/* When a limit is the one that was derived: at the edges of what is known of both, on either side of
- * the truth, and wherever the uncertainty comes from. */
+/* When a limit is the one that was derived: at the edges of what is known of both, on either side
+ * of the truth, and wherever the uncertainty comes from. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 
@@ -39,8 +39,8 @@ static void with_prediction(bench *b, double limit)
     bench_add_prediction(b, limit);
 }
 
-/* A limit that is known well: the prediction's own uncertainty, whatever the error's size and sign; a
- * part of the error, small as it is, explains nothing. */
+/* A limit that is known well: the prediction's own uncertainty, whatever the error's size and sign;
+ * a part of the error, small as it is, explains nothing. */
 static void sharp_limits(void)
 {
     static const double error[] = {0.003, -0.003, 0.3, -0.03};

@@ -1,5 +1,5 @@
-/* Units of scene files: those of the SI are taken; of others the remedy says the right factor, and a
- * unit that is taken. */
+/* Units of scene files: those of the SI are taken; of others the remedy says the right factor, and
+ * a unit that is taken. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>

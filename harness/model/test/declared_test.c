@@ -1,5 +1,5 @@
-/* What every formulation says of itself: it does not contradict itself, and what it offers it can do,
- * alone, as the cases ask for it and in subsets. */
+/* What every formulation says of itself: it does not contradict itself, and what it offers it can
+ * do, alone, as the cases ask for it and in subsets. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>

@@ -11,8 +11,9 @@
 #include "harness/catalogue/formulation.h"
 #include "harness/model/test/inertia_subject.h"
 
-/* Masses at the nodes of an element stand as the rule for loads does: trapezoids with two nodes, Simpson's with three, whose
- * second moment about the end is exact. The twist has the section's own polar inertia, whatever gives it. */
+/* Masses at the nodes of an element stand as the rule for loads does: trapezoids with two nodes,
+ * Simpson's with three, whose second moment about the end is exact. The twist has the section's own
+ * polar inertia, whatever gives it. */
 static void lumped_moments(const element_type *type, const double options[], const char *name)
 {
     inertia_subject s = {0};

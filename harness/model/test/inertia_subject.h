@@ -34,7 +34,8 @@ static inline void inertia_subject_section(const element_type *type, section *ou
     out->Iw = out->A * pow(0.2, 4); /* so that warping is as large as what is compared with it */
 }
 
-/* Of the section that is there.  0: refused, and the test has failed; data to be freed in any case. */
+/* Of the section that is there.  0: refused, and the test has failed; data to be freed in any case.
+ */
 static inline int inertia_subject_prepare_of(const element_type *type, const double options[],
                                              unsigned features, inertia_subject *s)
 {

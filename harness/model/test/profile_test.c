@@ -1,5 +1,5 @@
-/* Members whose section changes along them: how many kinds of elements there are, the sections that they have, and what no
- * formulation was asked for. */
+/* Members whose section changes along them: how many kinds of elements there are, the sections that
+ * they have, and what no formulation was asked for. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>

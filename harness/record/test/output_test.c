@@ -129,7 +129,8 @@ static void permissions(void)
     folder_remove(&of);
 }
 
-/* A temporary name that is a link somebody put there would be written through; names cannot be told before. */
+/* A temporary name that is a link somebody put there would be written through; names cannot be told
+ * before. */
 static void temporary_names(void)
 {
     enum { NAMES = 50 };

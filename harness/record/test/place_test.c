@@ -1,4 +1,5 @@
-/* What a path leads to: links, the same place under many names, and what is no place for an output. */
+/* What a path leads to: links, the same place under many names, and what is no place for an output.
+ */
 #include <fcntl.h>
 #include <gsl/gsl_test.h>
 #include <string.h>
@@ -8,7 +9,8 @@
 #include "harness/record/output.h"
 #include "harness/record/test/folder.h"
 
-/* The target of a link is replaced, not the link: near, far, over several links, and where nothing is yet. */
+/* The target of a link is replaced, not the link: near, far, over several links, and where nothing
+ * is yet. */
 static void links(void)
 {
     const test_folder of = folder_make();

@@ -1,5 +1,6 @@
-/* A rod integrated from one end as an initial value problem (GSL, 1e-13) gives what both ends are, and what is between: what is
- * recovered from the ends must be that, whatever bends, shears, warps and loads it. */
+/* A rod integrated from one end as an initial value problem (GSL, 1e-13) gives what both ends are,
+ * and what is between: what is recovered from the ends must be that, whatever bends, shears, warps
+ * and loads it. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <gsl/gsl_test.h>

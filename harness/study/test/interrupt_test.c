@@ -1,6 +1,6 @@
-/* No process outlives the one that started it, and who asks to end keeps what is finished. Nothing here
- * depends on the machine's speed: every step waits for an event, and END and WAIT only bound a test
- * that would never end. */
+/* No process outlives the one that started it, and who asks to end keeps what is finished. Nothing
+ * here depends on the machine's speed: every step waits for an event, and END and WAIT only bound a
+ * test that would never end. */
 #include <gsl/gsl_test.h>
 #include <poll.h>
 #include <signal.h>

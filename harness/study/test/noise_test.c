@@ -1,4 +1,5 @@
-/* Noise of a finest mesh: measured where it is wanted, twice the larger difference, and nothing but rounding. */
+/* Noise of a finest mesh: measured where it is wanted, twice the larger difference, and nothing but
+ * rounding. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -11,7 +12,8 @@
 
 static const sweep_request request = {.jobs = 2};
 
-/* All formulations on one case, meshes of one and two elements; the series of formulations that do not run stay empty. */
+/* All formulations on one case, meshes of one and two elements; the series of formulations that do
+ * not run stay empty. */
 static int plan(const case_type *type, sweep *s)
 {
     static const int mesh[] = {1, 2};

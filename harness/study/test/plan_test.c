@@ -88,7 +88,8 @@ static void points(const case_type *type, const int number[2])
     expect(type, 3, row, 2, 0, "of one that holds at none of them");
 }
 
-/* Each series has so many meshes more, the last one of 2^n times the elements; the others as before. */
+/* Each series has so many meshes more, the last one of 2^n times the elements; the others as
+ * before. */
 static void doublings(void)
 {
     const truths none = {.rows = 0};
@@ -111,7 +112,8 @@ static void doublings(void)
     sweep_free(&two);
 }
 
-/* The first case of the registry with as many meshes as a scene can have, or with one of so many elements. */
+/* The first case of the registry with as many meshes as a scene can have, or with one of so many
+ * elements. */
 static status with_meshes(const double value[], scene *s, fault *f)
 {
     double defaults[CASE_MAX_PARAMETERS] = {0};

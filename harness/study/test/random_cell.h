@@ -194,7 +194,8 @@ static inline cell_result random_cell(dice *d)
     return c;
 }
 
-/* Everything that could be forgotten must be filled: a struct that has grown (padding included) needs its new member here. */
+/* Everything that could be forgotten must be filled: a struct that has grown (padding included)
+ * needs its new member here. */
 static inline void random_cell_complete(void)
 {
     gsl_test_int((int)(sizeof(counters) % sizeof(uint64_t)), 0, "counters are filled by words");

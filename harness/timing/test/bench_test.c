@@ -1,4 +1,5 @@
-/* What a benchmark says of times: decided only where the noise allows it; work is counted the same every time. */
+/* What a benchmark says of times: decided only where the noise allows it; work is counted the same
+ * every time. */
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -54,7 +55,8 @@ static void test_against(void)
                  "no pair decides nothing");
 }
 
-/* The median of 101 draws: P(Binomial(101, 1/2) < 34) = 3.2e-4 and P(< 35) = 6.7e-4 enclose the tail of 5e-4. */
+/* The median of 101 draws: P(Binomial(101, 1/2) < 34) = 3.2e-4 and P(< 35) = 6.7e-4 enclose the
+ * tail of 5e-4. */
 static void test_interval(void)
 {
     double a[PAIRS], b[PAIRS];
@@ -93,7 +95,8 @@ static void test_compare(void)
     gsl_test_int(rounds_compare(&even, &even), 0, "times that are equal do not differ");
 }
 
-/* Errors 20 %, 0.5 %, 3 %, 0.2 %, 0.05 %: what counts is the coarsest mesh from which on all are within. */
+/* Errors 20 %, 0.5 %, 3 %, 0.2 %, 0.05 %: what counts is the coarsest mesh from which on all are
+ * within. */
 static void test_reach(void)
 {
     const double error[5] = {0.2, -0.005, 0.03, 0.002, -0.0005};

@@ -1,5 +1,5 @@
-/* reference/defaults.csv, which the deriving programs read, beside the tables of the cases: the same
- * parameters in the same order, the same numbers and words. */
+/* reference/defaults.csv, which the deriving programs read, beside the tables of the cases: the
+ * same parameters in the same order, the same numbers and words. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>

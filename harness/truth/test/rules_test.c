@@ -1,4 +1,5 @@
-/* Rules of the ledger: which verdicts they speak of, under which conditions, and when they are observed. */
+/* Rules of the ledger: which verdicts they speak of, under which conditions, and when they are
+ * observed. */
 #include <gsl/gsl_test.h>
 #include <stdio.h>
 #include <stdlib.h>
