@@ -57,6 +57,11 @@ static status start(analysis_context *c, int analysis, const char *what, newton 
     const model_state *state = NULL;
     step_record unused = {0};
     TRY(newton_alloc(c, n, f));
+    if (c->options->newton == SOLVE_DENSE)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s about a loaded state need the condensed tangent, which newton=dense "
+                         "does not make: give newton=mixed",
+                         what);
     TRY(followed_state(c, analysis, &state, f));
     TRY(symmetric_only(n, what, f));
     kinematics_state_copy(c->model, state, n->state);

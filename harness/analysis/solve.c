@@ -78,16 +78,24 @@ static void run_analyses(analysis_context *c)
     }
 }
 
-/* The matrices of all states, where they are wanted. */
-static void keep_systems(analysis_context *c)
+/* What follows from the solution and cannot be had spoils it, unless it is spoilt already. */
+static void spoil(solve_result *r, status outcome, const fault *f)
+{
+    if (outcome == STATUS_OK || r->status != STATUS_OK)
+        return;
+    r->status = outcome;
+    snprintf(r->reason, sizeof r->reason, "%s", f->text);
+}
+
+/* Shapes and the matrices of all states, where they are wanted. */
+static void keep_states(analysis_context *c)
 {
     fault f = {""};
     solve_result *r = c->result;
-    const status kept = c->options->systems ? collect_systems(c, &r->systems, &f) : STATUS_OK;
-    if (kept == STATUS_OK || r->status != STATUS_OK)
-        return;
-    r->status = kept;
-    snprintf(r->reason, sizeof r->reason, "%s", f.text);
+    if (c->options->shapes > 0)
+        spoil(r, collect_shapes(c, c->options->shapes, &r->shapes, &f), &f);
+    if (c->options->systems)
+        spoil(r, collect_systems(c, &r->systems, &f), &f);
 }
 
 status solve_scene(const scene *s, model *m, const solve_options *options, solve_result *result,
@@ -121,10 +129,7 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
     }
     const counters work =
         *model_counters(m); /* shapes are drawn, not solved for: they do not count */
-    if (c.options->shapes > 0 &&
-        collect_shapes(&c, c.options->shapes, &result->shapes, f) != STATUS_OK)
-        result->status = STATUS_FAULT;
-    keep_systems(&c);
+    keep_states(&c);
     *model_counters(m) = work;
     for (int i = 0; i < s->analyses; i++)
         outcome_free(&c.outcomes[i]);

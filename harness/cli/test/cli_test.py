@@ -36,6 +36,8 @@ class Refusals(ProgramTest):
         self.refused(2, "elements", "solve", "c_column", "-f", "beamw", "-n", "0")
         self.refused(2, "memory", "solve", "c_column", "-f", "beamw", "-n", "10000000")
         self.refused(2, "does not offer", "solve", "c_column", "-f", "beamw_vlasov", "-n", "2")
+        self.refused(2, "give newton=mixed", "solve", "sheet_cantilever", "-f",
+                     "collocation:newton=dense", "-n", "2", "--set", "modes=3")
 
     def test_truth_files(self):
         foreign, cut = self.folder / "foreign.h5", self.folder / "cut.h5"
