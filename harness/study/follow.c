@@ -22,7 +22,8 @@ static status keep_sample(follow_walk *w, double value, int asked, follow_shapes
         w->shapes = kept != NULL ? kept : w->shapes;
         if (more == NULL || kept == NULL) {
             follow_match_free(s);
-            return fault_set(f, STATUS_FAULT, "out of memory for curves of modes");
+            fault_set(f, STATUS_FAULT, "out of memory for curves of modes");
+            return STATUS_FAULT;
         }
         w->room = room;
     }
@@ -30,8 +31,10 @@ static status keep_sample(follow_walk *w, double value, int asked, follow_shapes
     follow_sample *out = &c->sample[c->samples++];
     *out = (follow_sample){.value = value, .asked = asked};
     out->frequency = calloc(2 * modes + 1, sizeof *out->frequency);
-    if (out->frequency == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for curves of modes");
+    if (out->frequency == NULL) {
+        fault_set(f, STATUS_FAULT, "out of memory for curves of modes");
+        return STATUS_FAULT;
+    }
     out->match = out->frequency + modes;
     for (size_t i = 0; i < modes; i++) {
         out->frequency[i] = s->frequency[i] / (2 * PI);
