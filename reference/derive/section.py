@@ -81,6 +81,8 @@ def section(points, walls):
     out.zs = -area_integral(lambda i, j, s: at(omega, i, j, s) * at(y, i, j, s)) / out.Iz
     omega = sectorial(out.ys, out.zs)
     out.Iw = area_integral(lambda i, j, s: at(omega, i, j, s) ** 2)
+    if out.Iw < mpf(10) ** -25 * out.Iy * out.Iz / out.A:  # all walls meet in one point
+        out.Iw = mpf(0)
     out.wagner_y = area_integral(lambda i, j, s: at(y, i, j, s) *
                                  (at(y, i, j, s) ** 2 + at(z, i, j, s) ** 2))
     out.wagner_z = area_integral(lambda i, j, s: at(z, i, j, s) *
@@ -89,6 +91,7 @@ def section(points, walls):
     field, inertia = (y, z, omega), (out.Iz, out.Iy, out.Iw)
     carried = [[mpf(0)] * 3 for _ in p]
     out.F = matrix(3, 3)
+    warps = 3 if out.Iw else 2
     for outer, inner, t in order:
         l = sqrt((y[inner] - y[outer]) ** 2 + (z[inner] - z[outer]) ** 2)
         start = [carried[outer][k] for k in range(3)]
@@ -96,8 +99,8 @@ def section(points, walls):
         def moment(k, s):
             return start[k] + t * l * s * (field[k][outer] * (1 - s / 2) + field[k][inner] * s / 2)
 
-        for a in range(3):
-            for b in range(3):
+        for a in range(warps):
+            for b in range(warps):
                 out.F[a, b] += _integrate(lambda s: moment(a, s) * moment(b, s)) * l / t / (
                     inertia[a] * inertia[b])
         for k in range(3):
