@@ -196,6 +196,13 @@ static double change_of_limit(const limit_sequence *s, const meshes *m, int k, d
     return measured ? change : fmax(change, doubted_step * fabs(value - m->f[k + 2]));
 }
 
+/* Is the middle one the least or the greatest, by more than orders of one term scatter? */
+static int turns(double a, double b, double c)
+{
+    static const double scatter = 0.1;
+    return (a - b) * (b - c) < 0 && fmin(fabs(a - b), fabs(b - c)) > scatter;
+}
+
 /* Two orders agree: what remains is bounded by the change of the limit. 1: it is so. */
 static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
@@ -214,6 +221,7 @@ static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
     out->order = p;
     out->order_uncertainty = apart;
     out->earlier_order = k > 1 ? m->order[k - 2] : NAN;
+    out->order_turns = k > 1 && turns(m->order[k - 2], m->order[k - 1], m->order[k]);
     out->from = (int)m->n[k - 1];
     return 1;
 }

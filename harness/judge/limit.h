@@ -42,8 +42,10 @@ typedef struct mesh_limit {
     /* NAN where none is seen; uncertainty: difference of the last two orders */
     double order, order_uncertainty;
     double earlier_order; /* of the three meshes before those two orders; NAN: none */
-    double noise;         /* [unit of value] that was reckoned with */
-    double last_change;   /* |last value - the one before|; NAN: one mesh */
+    int order_turns; /* 1: of these three orders the middle one is clearly the least or the greatest
+                      */
+    double noise;    /* [unit of value] that was reckoned with */
+    double last_change; /* |last value - the one before|; NAN: one mesh */
     /* coarsest mesh that was used, 0: none; number of meshes left after thinning */
     int from, meshes;
 } mesh_limit;

@@ -101,13 +101,14 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
 }
 
 /* Is the order known and too low?  Two low orders agree by accident where terms of two signs cross
- * or elements are as long as a layer is thick: with five meshes or more the one before them must be
- * below the nominal order too.  Changes that the truth's uncertainty hides say nothing. */
+ * or elements are as long as a layer is thick, and rise again: with five meshes or more the one
+ * before them must be below the nominal order too, and the three go one way.  Changes that the
+ * truth's uncertainty hides say nothing. */
 static int order_is_low(const scene_quantity *q, const verdict *v)
 {
     const double least = q->least_order - order_slack, nominal = ceil(q->least_order);
     return v->fit.kind == LIMIT_ASYMPTOTIC && v->fit.order + v->fit.order_uncertainty < least &&
-           (v->fit.meshes == 4 || v->fit.earlier_order < nominal) &&
+           (v->fit.meshes == 4 || (v->fit.earlier_order < nominal && !v->fit.order_turns)) &&
            v->fit.last_change > v->truth->uncertainty;
 }
 
