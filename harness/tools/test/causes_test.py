@@ -27,10 +27,21 @@ def source(formulation):
     return re.sub(r"/\*.*?\*/", "", text, flags=re.S)
 
 
+def shared():
+    """{name: text} of what formulations of a family declare together."""
+    found = {}
+    for header in (ROOT / "elements").glob("*/*.h"):
+        text = header.read_text(encoding="utf-8").replace("\\\n", " ")
+        found.update(re.findall(r"#define (\w+)[ \t]+(\S.*)", text))
+    return found
+
+
 def members(formulation):
-    """{member: value} of what a formulation declares."""
-    body = source(formulation).split(f"element_{formulation} = {{")[1]
-    return dict(re.findall(r"\.(\w+) =\s*(.*?),\n(?=\s*\.|\};)", body, re.S))
+    """{member: value} of what a formulation declares, by itself or with its family."""
+    body, macros = source(formulation).split(f"element_{formulation} = {{")[1], shared()
+    for _ in range(3):  # they stand in each other
+        body = re.sub(r"(?<![.\w])([A-Z]\w+)(?=,)", lambda m: macros.get(m[1], m[1]), body)
+    return dict(re.findall(r"\.(\w+) =\s*(.*?),\s*(?=\.|\};)", body, re.S))
 
 
 def words_of_prepare(formulation):
