@@ -49,7 +49,9 @@ help: ## this list
 verify: all ## judge every formulation on every case against the stored truths
 	@$(PROGRAM) verify --built-in --scene cases/examples --shapes -o $(BUILD)/results.h5 --json $(BUILD)/verify.json --junit $(BUILD)/junit.xml --markdown $(BUILD)/verify.md $(VERIFY)
 
-tests: all $(TESTS) ## build what make test runs
+# What is fuzzed is compiled too: its own targets only run with clang.
+FUZZED := $(patsubst %.c,$(BUILD)/%.o,$(wildcard harness/fuzz/*.c))
+tests: all $(TESTS) $(FUZZED) ## build what make test runs
 
 test: tests needs-test layers ## run all tests; ends in "N passed, M failed" (and ", K skipped")
 	@BEAMWORK="$(PROGRAM)" BEAMWORK_TRUTHS="$(TRUTHS)" BEAMWORK_REFERENCE="$(CURDIR)/reference" harness/tools/run_tests.sh $(BUILD)/logs $(TESTS) -- $(sort $(PYTHON_TESTS))
@@ -197,4 +199,4 @@ $(TRUTHS): $(wildcard reference/tables/*.csv reference/predicted/*.csv reference
 
 FORCE:
 
--include $(OBJECTS:.o=.d) $(PROGRAM_SOURCES:%.c=$(BUILD)/%.d) $(TEST_SOURCES:%.c=$(BUILD)/%.d) $(KIT:.o=.d)
+-include $(OBJECTS:.o=.d) $(PROGRAM_SOURCES:%.c=$(BUILD)/%.d) $(TEST_SOURCES:%.c=$(BUILD)/%.d) $(KIT:.o=.d) $(FUZZED:.o=.d)

@@ -53,6 +53,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                   "a mistake has a place and one line");
     for (int i = 0; i < set.sweep.seriess && outcome == STATUS_OK; i++)
         check_values(set.sweep.series[i].imported);
-    import_set_free(&set);
+    import_block_free_set(&set);
     return 0;
 }
