@@ -48,30 +48,41 @@ static void pivot(scene *s, int node, int motion)
     n->angle[0] = motion;
 }
 
-static status build_four_bar(const double value[], scene *s, fault *f)
+/* Nodes, bars and their load; turning: of the first node, as pivot takes it. Of the nodes, those of
+ * the bar between. */
+static void add_bars(scene *s, int turning, int *second, int *third)
 {
-    static const double path[] = {0, 1}, z[3] = {0, 0, 1};
-    const double angle[] = {0, turned}, push[3] = {0, -pushed, 0};
-    double joint[2], across[3], stations[STATIONS], load[3];
-    (void)value;
-    (void)f;
+    static const double z[3] = {0, 0, 1};
+    const double push[3] = {0, -pushed, 0};
+    double joint[2], across[3], load[3];
     fourth(begin, joint);
     mat3_mul_vec(Q, z, across);
     mat3_mul_vec(Q, push, load);
-    const int profile = add_section(s), first = add_at(s, 0, 0),
-              second = add_at(s, crank * cos(begin), crank * sin(begin)),
-              third = add_at(s, joint[0], joint[1]), last = add_at(s, ground, 0),
-              drive = scene_add_driver(s, "angle", 2, path, angle);
-    pivot(s, first, drive);
+    const int profile = add_section(s), first = add_at(s, 0, 0);
+    *second = add_at(s, crank * cos(begin), crank * sin(begin));
+    *third = add_at(s, joint[0], joint[1]);
+    const int last = add_at(s, ground, 0);
+    pivot(s, first, turning);
     pivot(s, last, SCENE_FREE);
-    scene_add_member(s, first, second, profile, across);
-    const int bar = scene_add_member(s, second, third, profile, across);
-    scene_add_member(s, third, last, profile, across);
+    scene_add_member(s, first, *second, profile, across);
+    const int bar = scene_add_member(s, *second, *third, profile, across);
+    scene_add_member(s, *third, last, profile, across);
     scene_release_end(s, bar, 0, SCENE_RY); /* y is the normal */
     scene_release_end(s, bar, 1, SCENE_RY);
+    scene_add_load(s, SCENE_FORCE, *third, load[0], load[1], load[2]);
+}
+
+static status build_four_bar(const double value[], scene *s, fault *f)
+{
+    static const double path[] = {0, 1};
+    const double angle[] = {0, turned};
+    double stations[STATIONS];
+    int second, third;
+    (void)value;
+    (void)f;
+    add_bars(s, scene_add_driver(s, "angle", 2, path, angle), &second, &third);
     for (int i = 0; i < STATIONS; i++)
         stations[i] = (i + 1.0) / STATIONS;
-    scene_add_load(s, SCENE_FORCE, third, load[0], load[1], load[2]);
     const int statics = scene_add_static(s, STATIONS, stations, 3);
     for (int i = 0; i < 6; i++) {
         char name[SCENE_NAME];
@@ -200,9 +211,10 @@ static void universal_joint(const char *chosen)
 static status build_loose(const double value[], scene *s, fault *f)
 {
     const double end = 1;
-    build_four_bar(value, s, f);
-    s->drivers = s->analyses = s->quantities = 0;
-    pivot(s, 0, SCENE_FREE);
+    int second, third;
+    (void)value;
+    (void)f;
+    add_bars(s, SCENE_FREE, &second, &third);
     if (turned > 0)
         scene_add_linear(s);
     else
