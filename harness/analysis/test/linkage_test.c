@@ -274,8 +274,10 @@ int main(void)
         }
         in_other_axes(name);
         memcpy(Q, straight, sizeof Q);
-        for (turned = 0; turned < 2; turned++)
+        for (int k = 0; k < 2; k++) {
+            turned = k;
             named(name, build_loose, "node 1 can turn about (0, 0, ");
+        }
         named(name, build_between, "member 0 can turn about (0, 0, ");
     }
     return gsl_test_summary();
