@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "harness/judge/richardson.h"
+
 /* of consecutive meshes; closer ones say nothing that noise does not drown */
 static const double least_refinement = 1.4;
 static const double unmeasured_noise = 3e-11, least_noise = 2.3e-16; /* relative */
@@ -16,7 +18,6 @@ static const double settled_part = 1e-4;
 static const double doubted_step = 0.02;
 static const double sure = 1.25, unsure = 3;
 static const double end_factor = 4; /* noises that a value without extrapolation is doubted by */
-static const double lowest_order = 0.05, bisected_order = 40;
 
 /* The thinned sequence, coarsest mesh first, and what is derived from it. */
 typedef struct meshes {
@@ -32,49 +33,6 @@ const char *limit_kind_name(limit_kind kind)
     static const char *const names[LIMIT_KINDS] = {"none",       "noise-dominated", "settled",
                                                    "asymptotic", "oscillating",     "not yet"};
     return names[kind];
-}
-
-/* (n0^-p - n1^-p)/(n1^-p - n2^-p), which grows with p. */
-static double ratio_at(double p, const double n[3])
-{
-    const double a = pow(n[2] / n[0], p), b = pow(n[2] / n[1], p);
-    return (a - b) / (b - 1);
-}
-
-/* Order from three values by bisection, at most bisected_order; NAN where the changes fit none. */
-static double order_of(const double n[3], const double f[3])
-{
-    const double ratio = (f[0] - f[1]) / (f[1] - f[2]);
-    double low = lowest_order, high = bisected_order;
-    if (!(ratio > ratio_at(low, n)) || isinf(ratio))
-        return NAN;
-    for (int i = 0; i < 60; i++) {
-        const double middle = (low + high) / 2;
-        *(ratio_at(middle, n) < ratio ? &low : &high) = middle;
-    }
-    return (low + high) / 2;
-}
-
-/* Richardson's limit from the last two of three values. */
-static double extrapolate(const double n[3], const double f[3], double p)
-{
-    return f[2] + (f[2] - f[1]) / (pow(n[2] / n[1], p) - 1);
-}
-
-/* Change of the extrapolated limit per change of the values: root of the sum of squares. */
-static double amplification(const double n[3], const double f[3], double p)
-{
-    const double h = 1e-4 * fmin(fabs(f[1] - f[0]), fabs(f[2] - f[1])), base = extrapolate(n, f, p),
-                 lost = 100;
-    double sum = 0;
-    for (int i = 0; i < 3; i++) {
-        double g[3] = {f[0], f[1], f[2]};
-        g[i] += h;
-        const double q = order_of(n, g),
-                     slope = isnan(q) ? lost : (extrapolate(n, g, q) - base) / h;
-        sum += slope * slope;
-    }
-    return sqrt(sum);
 }
 
 /* The finest mesh with a value that is at least least_refinement coarser than one of `fine`
@@ -124,7 +82,7 @@ static void prepare(const limit_sequence *s, meshes *m)
     for (int i = 0; i + 1 < last; i++) {
         const int seen =
             fmin(fabs(m->change[i]), fabs(m->change[i + 1])) > noisy_changes * m->noise;
-        m->order[i] = seen ? order_of(m->n + i, m->f + i) : NAN;
+        m->order[i] = seen ? richardson_order(m->n + i, m->f + i) : NAN;
     }
 }
 
@@ -169,7 +127,7 @@ static int at_noise(const limit_sequence *s, const meshes *m, mesh_limit *out)
 /* Limit of meshes first, first + 1, first + 2 with their own order. */
 static double own_limit(const meshes *m, int first)
 {
-    return extrapolate(m->n + first, m->f + first, m->order[first]);
+    return richardson_limit(m->n + first, m->f + first, m->order[first]);
 }
 
 /* By how much the limit has changed with the last mesh, and the factor of its doubt; the last three
@@ -217,7 +175,7 @@ static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
     out->kind = LIMIT_ASYMPTOTIC;
     out->limit = own_limit(m, k);
     out->limit_uncertainty = factor * change / (pow(refinement(m, 0), remaining_order) - 1) +
-                             m->noise * (1 + 2 * amplification(m->n + k, m->f + k, p));
+                             m->noise * (1 + 2 * richardson_amplification(m->n + k, m->f + k, p));
     out->order = p;
     out->order_uncertainty = apart;
     out->earlier_order = k > 1 ? m->order[k - 2] : NAN;
@@ -250,7 +208,7 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
         rest = fmax(a, b * pow(R, -fmax(before, q)));
     }
     out->kind = LIMIT_NOT_YET;
-    out->limit = extrapolate(m->n + k, m->f + k, fmin(p, highest));
+    out->limit = richardson_limit(m->n + k, m->f + k, fmin(p, highest));
     out->limit_uncertainty = factor * rest / (pow(R, q) - 1) + end_factor * m->noise;
     out->order = p;
     out->order_uncertainty = isnan(before) ? NAN : fabs(p - before);

@@ -1,120 +1,20 @@
-"""export: decks are meshes that fill their members, what they do not carry is refused, and the
-answers of CalculiX, where it is there, are those of beams and plates."""
+"""export: decks are meshes that fill their members, what they do not carry is refused, and what
+CalculiX prints is read."""
 import collections
 import csv
-import os
 import re
-import shutil
-import subprocess
 import sys
 import unittest
 
 import numpy as np
 
 from harness.export import read_back
-from harness.test.program import ROOT, ProgramTest, run
-
-EXAMPLES = ROOT / "cases/examples"
-CCX = shutil.which("ccx")
-needs_ccx = unittest.skipUnless(CCX, "ccx (Debian: calculix-ccx) is not installed")
-
-# A cantilever without Poisson's effect: a beam is exact but for its theory of shear.
-LENGTH, WIDTH, HEIGHT, YOUNG = 0.1, 10e-3, 2e-3, 200e9
-INERTIA = WIDTH * HEIGHT**3 / 12
-CANTILEVER = """\
-beamwork: 1
-sections:
-  bar: {rectangle: {width: 10e-3, thickness: 2e-3}, young: 200e9, shear_modulus: 100e9}
-nodes:
-  base: {at: [0.02, 0, 0], hold: all}
-  tip:  {at: [0.02, 0.1, 0]}
-members:
-  bar: {from: base, to: tip, section: bar, y: [1, 0, 0], warping: fixed}
-loads:
-  push: {force: [{force}, 0, 0], on: tip}
-analyses:
-  run: {kind}
-quantities:
-  deflection: {displacement: {analysis: run, node: tip, component: ux}, unit: m}
-  shortening: {displacement: {analysis: run, node: tip, component: uy}, unit: m}
-  turn:       {displacement: {analysis: run, node: tip, component: rz}, unit: rad}
-"""
-RECTANGLE = "rectangle: {width: 10e-3, thickness: 2e-3}"
-# Sections of walls, the area of their centre lines, and what ends within other walls have twice.
-WALLS = {
-    "channel: {depth: 0.02, flange: 0.01, flange_thickness: 1e-3, web_thickness: 0.6e-3}":
-        (2 * 10e-6 + 12e-6, 0),
-    "zed: {depth: 0.02, flange: 0.01, flange_thickness: 1e-3, web_thickness: 0.6e-3}":
-        (2 * 10e-6 + 12e-6, 0),
-    "angle: {along_y: 0.01, along_z: 0.02, thickness: 1e-3}": (30e-6, 0),
-    "box: {depth: 0.02, flange: 0.01, flange_thickness: 1e-3, web_thickness: 0.6e-3}":
-        (2 * 10e-6 + 2 * 12e-6, 0),
-    "i: {depth: 0.02, flange: 0.01, flange_thickness: 1e-3, web_thickness: 0.6e-3}":
-        (2 * 10e-6 + 12e-6, 2 * 0.5e-3 * 0.6e-3),
-    "points: {a: [0, -0.01], b: [0, 0], c: [0, 0.01], d: [0.02, 0]}, walls: [{from: a, to: b, "
-    "thickness: 1e-3}, {from: b, to: c, thickness: 1e-3}, {from: b, to: d, thickness: 2e-3}]":
-        (20e-6 + 40e-6, 0.5e-3 * 2e-3),
-}
-CHANNEL = "channel: {depth: 0.2, flange: 0.1, flange_thickness: 10e-3, web_thickness: 6e-3}"
-TIP = "at: [0.02, 2, 0]"  # its axis is along y
-PERCENT = {"ux": -0.29, "uy": 0, "uz": 0.04, "rx": -0.19, "ry": 1.32, "rz": -0.26, "twist": 0.89}
-# A linear analysis has none.
-HELD = "  held:       {reaction: {analysis: run, node: base, component: ux}, unit: N}\n"
-PATH = "{static: {stations: [0.5, 1]}}"
-
-
-def cantilever(force, kind="{linear: {}}"):
-    text = CANTILEVER.replace("{force}", f"{force!r}")
-    return text.replace("{kind}", kind) + (HELD if kind == PATH else "")
-
-
-def hinge():
-    """The crossed leaves with one stiffness of the loaded state."""
-    text = (EXAMPLES / "cross_flexure_hinge.yaml").read_text(encoding="utf-8")
-    return re.sub(r"^  (k_y: |- {quantity: k_y,).*\n", "", text, flags=re.M)
-
-
-def numbers(line):
-    return [int(n) for n in line.strip().strip(",").split(",")]
-
-
-def mesh_of(deck):
-    """({node: place [3]}, elements [count, 20]) of a deck."""
-    nodes, elements, card, pending = {}, [], "", []
-    for line in deck.read_text(encoding="utf-8").splitlines():
-        if line.startswith("*"):
-            card = line
-        elif card.startswith("*NODE,"):
-            words = line.split(",")
-            assert int(words[0]) not in nodes, line
-            nodes[int(words[0])] = np.array([float(w) for w in words[1:]])
-        elif card.startswith("*ELEMENT"):
-            pending += numbers(line)
-            if not line.endswith(","):
-                elements.append(pending[1:])
-                pending = []
-    return nodes, np.array(elements)
-
-
-class ExportTest(ProgramTest):
-    def scene(self, text, name="scene.yaml"):
-        path = self.folder / name
-        path.write_text(text, encoding="utf-8")
-        return path
-
-    def deck(self, scene, *options):
-        path = self.folder / "deck.inp"
-        self.answered("export", "--scene", scene, "--to", "calculix", "-o", path, *options)
-        return path
-
-    def solved(self, scene, *options):
-        """{quantity: value} of the solid."""
-        deck = self.deck(scene, *options)
-        done = subprocess.run([CCX, "deck"], cwd=self.folder, capture_output=True, text=True,
-                              check=False, env={**os.environ, "OMP_NUM_THREADS": "1"})
-        self.assertIn("Job finished", done.stdout)
-        self.assertNotIn("*ERROR", done.stdout)
-        return {row[0]: float(row[6]) for row in read_back.rows(deck)[1]}
+from harness.export.test.export_case import (
+    CHANNEL, HEIGHT, LENGTH, PATH, RECTANGLE, WALLS, WIDTH, cantilever, hinge, mesh_of,
+    ExportTest,
+)
+from harness.scene_file.test.scene_case import EXAMPLES
+from harness.test.program import ROOT, run
 
 
 class Decks(ExportTest):
@@ -312,101 +212,6 @@ class Answers(ExportTest):
             self.assertEqual(len(list(csv.reader(file))), 4 + 1 + 4)
         told = self.answered("import", out, "-o", self.folder / "values.h5").stdout
         self.assertIn("4 values, 1 mesh; another model: solid", told)
-
-
-@needs_ccx
-class Solved(ExportTest):
-    def test_cantilever(self):
-        """F L^3/(3 E I) + 6 F L/(5 G A), F L^2/(2 E I)."""
-        found = self.solved(self.scene(cantilever(2.0)), "-n", "10")
-        bent = 2 * LENGTH**3 / (3 * YOUNG * INERTIA)
-        sheared = 1.2 * 2 * LENGTH / (YOUNG / 2 * WIDTH * HEIGHT)
-        self.assertAlmostEqual(found["deflection"] / (bent + sheared), 1, delta=1e-3)
-        self.assertAlmostEqual(found["turn"] / (-2 * LENGTH**2 / (2 * YOUNG * INERTIA)), 1,
-                               delta=1e-3)
-
-    def test_elastica(self):
-        """F L^2/(E I) = 2: deflection 0.49346 L, shortening 0.16064 L (Mattiasson 1981)."""
-        force = 2 * YOUNG * INERTIA / LENGTH**2
-        found = self.solved(self.scene(cantilever(force, PATH)), "-n", "16")
-        self.assertAlmostEqual(found["deflection"] / (0.49346 * LENGTH), 1, delta=2e-3)
-        self.assertAlmostEqual(found["shortening"] / (-0.16064 * LENGTH), 1, delta=2e-3)
-        self.assertAlmostEqual(found["held"] / -force, 1, delta=1e-5)
-
-    def test_arc(self):
-        """The end turned by a: deflection (1 - cos a) L/a, shortening (1 - sin a/a) L; also
-        when the turn is about an axis of no coordinate, as the bar lies askew."""
-        angle, c, s = 1.2, 0.8, 0.6
-        text = cantilever(0.0, PATH).replace(
-            "tip:  {at: [0.02, 0.1, 0]", "tip:  {at: [0.02, 0.08, 0.06], rotation: {vector: [none, "
-            "about_y, about_z]}").replace(
-            "loads:\n  push: {force: [0.0, 0, 0], on: tip}", "motions:\n"
-            "  none:    {unit: rad, path: [0, 1], value: [0, 0]}\n"
-            f"  about_y: {{unit: rad, path: [0, 1], value: [0, {s * angle!r}]}}\n"
-            f"  about_z: {{unit: rad, path: [0, 1], value: [0, {-c * angle!r}]}}")
-        found = self.solved(self.scene(text), "-n", "16")
-        self.assertAlmostEqual(found["deflection"] / ((1 - np.cos(angle)) / angle * LENGTH), 1,
-                               delta=2e-3)
-        self.assertAlmostEqual(found["shortening"] / (-c * (1 - np.sin(angle) / angle) * LENGTH), 1,
-                               delta=2e-3)
-        self.assertAlmostEqual(found["turn"], -c * angle, delta=1e-6)
-
-    def test_compliance(self):
-        """Of a beam's end, with moments: L/(E I), L^2/(2 E I), L/(E A)."""
-        text = cantilever(1.0).replace("run: {linear: {}}", "run: {compliance: {node: tip}}")
-        entries = {"turn_turn": ("rz", "rz", "rad/(N m)", LENGTH / (YOUNG * INERTIA)),
-                   "turn_move": ("rz", "ux", "rad/N", -LENGTH**2 / (2 * YOUNG * INERTIA)),
-                   "move_turn": ("ux", "rz", "1/N", -LENGTH**2 / (2 * YOUNG * INERTIA)),
-                   "along": ("uy", "uy", "m/N", LENGTH / (YOUNG * WIDTH * HEIGHT))}
-        text = text[:text.index("  deflection:")] + "".join(
-            f"  {name}: {{compliance: {{analysis: run, row: {row}, column: {column}}}, "
-            f"unit: {unit}}}\n" for name, (row, column, unit, _) in entries.items())
-        found = self.solved(self.scene(text), "-n", "10")
-        for name, (*_, value) in entries.items():
-            self.assertAlmostEqual(found[name] / value, 1, delta=2e-3, msg=name)
-
-    def test_channel(self):
-        """A channel of 2 m with rigid ends: so many percent more is each compliance of the solid,
-        and the twist by a force on the centroid."""
-        head = cantilever(1.0).replace(RECTANGLE, CHANNEL).replace("at: [0.02, 0.1, 0]", TIP)
-        text = head[:head.index("loads:")] + (
-            "analyses:\n  run: {compliance: {node: tip}}\nquantities:\n" + "".join(
-                f"  {c}: {{compliance: {{analysis: run, row: {c}, column: {c}}}}}\n"
-                for c in PERCENT if c != "twist") +
-            "  twist: {compliance: {analysis: run, row: ry, column: uz}}\n")
-        scene = self.scene(text)
-        solid = self.solved(scene, "-n", "8")
-        told = self.record("solve", "--scene", scene, "-f", "collocation", "-n", "4")
-        more = {q["quantity"]: 100 * (solid[q["quantity"]] / q["value"] - 1)
-                for q in told["quantities"]}
-        for name, percent in PERCENT.items():
-            self.assertAlmostEqual(more[name], percent, delta=0.1, msg=name)
-
-    def test_wagner_moments(self):
-        """A channel of 4 m loaded at its centroid twists, and moves across its load: 12 % more than
-        beams without int y (y^2 + z^2) dA, 0.6 % less than those with it."""
-        text = cantilever(0.0, "{static: {stations: [1]}}").replace(RECTANGLE, CHANNEL).replace(
-            "force: [0.0, 0, 0]", "force: [0, 0, -3e3]").replace("[0.02, 0.1, 0]", "[0.02, 4, 0]")
-        text = text.replace("shear_modulus: 100e9", "shear_modulus: 80e9")
-        scene = self.scene(text + "needs: [shear, trapeze, wagner_moments]\n")
-        solid = self.solved(scene, "-n", "6")["deflection"]
-        plain = self.scene(text, "plain.yaml")
-        for beams, least, most in ((scene, 0.985, 1.005), (plain, 1.1, 1.14)):
-            told = self.record("solve", "--scene", beams, "-f", "collocation", "-n", "8")
-            beam, = [q["value"] for q in told["quantities"] if q["quantity"] == "deflection"]
-            self.assertGreater(solid / beam, least)
-            self.assertLess(solid / beam, most)
-
-    def test_leaf_spring_guide(self):
-        """Plates hold their anticlastic bending: stiffer than beams by what finer meshes keep."""
-        scene = EXAMPLES / "leaf_spring_guide.yaml"
-        solid = self.solved(scene, "-n", "20")
-        told = self.record("solve", "--scene", scene, "-f", "collocation", "-n", "4")
-        more = {q["quantity"]: 100 * (solid[q["quantity"]] / q["value"] - 1)
-                for q in told["quantities"]}
-        for name, percent in (("k_drive", 6.9), ("force", 8.0), ("k_pushed", 6.3),
-                              ("k_support", 1.3), ("shortening", 0.2)):
-            self.assertAlmostEqual(more[name], percent, delta=0.2, msg=name)
 
 
 if __name__ == "__main__":

@@ -16,3 +16,10 @@ class SceneCase(ProgramTest):
         path = self.folder / name
         path.write_text(text, encoding="utf-8")
         return path
+
+    def same_again(self, path, *where):
+        """What it solves to, which is what it solves to when it is written, bit for bit."""
+        again = self.scene(self.answered("scene", "--scene", path).stdout, f"{path.stem}_again.yaml")
+        got, twice = (values(self.record("solve", "--scene", p, *where)) for p in (path, again))
+        self.assertEqual(got, twice)
+        return got
