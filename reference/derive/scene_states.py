@@ -121,8 +121,7 @@ def compliance(scene, level, entry, name):
     scale = np.array([scene.length] * 3 + [1.0] * 3)[:, None] / (
         scene.force * np.array([1.0] * 3 + [scene.length] * 3))[None, :]
     convention, moment = entry.get("moments", "spatial"), now[3:] * scene.force * scene.length
-    return under(C * scale, now[3:] * scene.force * scene.length, entry.get("moments", "spatial"),
-                 name)
+    return under(C * scale, moment, convention, name)
 
 
 def under(C, moment, convention, name):

@@ -6,7 +6,7 @@ with `rotary_inertia`.  Of a body: external load, those of the members' ends and
 import math
 
 import numpy as np
-from scipy.sparse import bmat, coo_matrix
+from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import LinearOperator, eigs, splu
 
 from reference.derive.beam import cross_matrix
