@@ -32,6 +32,16 @@ OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o)
 TESTS := $(TEST_SOURCES:%.c=$(BUILD)/%)
 KIT := $(KIT_SOURCES:%.c=$(BUILD)/%.o)
 
+# All processors, unless -j says otherwise; what is named together is made in that order, and clean comes before all else.
+ifeq ($(MAKELEVEL),0)
+MAKEFLAGS += -j$(shell nproc)
+ifneq ($(and $(filter clean,$(MAKECMDGOALS)),$(word 2,$(MAKECMDGOALS))),)
+$(shell rm -rf "$(BUILD)")
+endif
+in_order = $(if $(word 2,$(1)),$(eval $(word 2,$(1)): | $(word 1,$(1)))$(call in_order,$(wordlist 2,$(words $(1)),$(1))))
+$(call in_order,$(MAKECMDGOALS))
+endif
+
 QUIET := $(filter help clean format mutants,$(or $(MAKECMDGOALS),help))
 ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
@@ -149,7 +159,7 @@ $(BUILD)/flags.mk: harness/tools/dependencies.sh
 
 # What a command needs beside the program; what single tests need is never installed.
 .PHONY: needs-report needs-test needs-truths
-needs-report needs-test needs-truths:
+needs-report needs-test needs-truths: | $(TRUTHS) # one apt at a time
 	@harness/tools/dependencies.sh $(@:needs-%=%)
 
 $(REGISTRY): FORCE

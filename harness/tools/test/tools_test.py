@@ -227,5 +227,39 @@ class Mutants(Folder):
         self.assertIn("SURVIVED  nowhere", done.stdout)
 
 
+
+class Make(Folder):
+    """The Makefile by itself: with goals of the test's own beside it."""
+
+    def make(self, *arguments):
+        goals = self.folder / "goals.mk"
+        goals.write_text(textwrap.dedent("""\
+            .PHONY: slow quick
+            slow: ; @sleep 0.3; echo slow $(MAKEFLAGS)
+            quick: ; @echo quick
+            """),
+                         encoding="ascii")
+        environment = {k: v for k, v in os.environ.items() if not k.startswith("MAKE")}
+        done = subprocess.run(
+            ["make", "-s", "-f", ROOT / "Makefile", "-f", goals, "QUIET=1", *arguments],
+            cwd=ROOT,
+            capture_output=True,
+            text=True,
+            check=True,
+            env=environment)
+        return done.stdout.split("\n")
+
+    def test_takes_all_processors(self):
+        self.assertIn(f" -j{len(os.sched_getaffinity(0))} ", f"{self.make('slow')[0]} ")
+
+    def test_as_many_as_said(self):
+        self.assertIn(" -j1 ", f"{self.make('-j1', 'slow')[0]} ")
+
+    def test_goals_in_their_order(self):
+        self.assertEqual([line.split()[0] for line in self.make("slow", "quick")[:2]],
+                         ["slow", "quick"])
+        self.assertEqual([line.split()[0] for line in self.make("quick", "slow")[:2]],
+                         ["quick", "slow"])
+
 if __name__ == "__main__":
     unittest.main()
