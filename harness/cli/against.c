@@ -132,7 +132,7 @@ static status set_repeats(contestant *a, contestant *b, fault *f)
     return STATUS_OK;
 }
 
-static void set_request(contestant *c, const cli_request *r, const scene *s,
+static void set_request(contestant *c, const command_request *r, const scene *s,
                         const formulation *chosen, int elements)
 {
     c->request = (cell_request){.scene = s, .elements = elements, .keep_all = r->keep_all};
@@ -142,8 +142,8 @@ static void set_request(contestant *c, const cli_request *r, const scene *s,
 
 enum { MOST_ARGUMENTS = 10 + 2 * CASE_MAX_PARAMETERS };
 
-static void set_program(contestant *c, const cli_request *r, const char *program, char elements[16],
-                        const char *arguments[MOST_ARGUMENTS])
+static void set_program(contestant *c, const command_request *r, const char *program,
+                        char elements[16], const char *arguments[MOST_ARGUMENTS])
 {
     int n = 0;
     snprintf(elements, 16, "%d", r->mesh[0]);
@@ -194,8 +194,8 @@ static void show_json(const contestant *a, const contestant *b, const against *v
 }
 
 /* Another formulation in this process; both share the scene. */
-static status set_formulations(const cli_request *r, const case_type *type, scene *s, contestant *a,
-                               contestant *b, fault *f)
+static status set_formulations(const command_request *r, const case_type *type, scene *s,
+                               contestant *a, contestant *b, fault *f)
 {
     formulation other;
     TRY(formulation_parse(r->against, &other, f));
@@ -206,7 +206,7 @@ static status set_formulations(const cli_request *r, const case_type *type, scen
 }
 
 /* With a scene that cli_against frees. */
-static status compete(const cli_request *r, const case_type *type, scene *s, contestant *a,
+static status compete(const command_request *r, const case_type *type, scene *s, contestant *a,
                       contestant *b, against *answer, fault *f)
 {
     if (a->program == NULL)
@@ -218,7 +218,7 @@ static status compete(const cli_request *r, const case_type *type, scene *s, con
     return against_run(lap, a, b, budget_seconds, answer, f);
 }
 
-int cli_against(cli_request *r)
+int cli_against(command_request *r)
 {
     contestant a = {.plant = 0}, b = {.plant = r->plant};
     const char *arguments[2][MOST_ARGUMENTS];
@@ -227,18 +227,18 @@ int cli_against(cli_request *r)
     against answer;
     fault f = {""};
     if (r->case_count != 1 || r->formulations != 1 || r->meshes < 1 || r->meshes > 2)
-        return cli_fail(
+        return message_fail(
             STATUS_REFUSED,
             "--against compares one cell: give one CASE, one -f and one -n (or two: A's and B's)");
     if (r->output != NULL)
-        return cli_fail(STATUS_REFUSED,
-                        "--against writes no file; leave -o away, or give --format json");
-    const case_type *type = cli_case(r);
+        return message_fail(STATUS_REFUSED,
+                            "--against writes no file; leave -o away, or give --format json");
+    const case_type *type = case_input_find(r);
     if (type == NULL)
         return EXIT_REFUSED;
     if (strchr(r->against, '/') != NULL) {
         if (r->plant > 0 || r->meshes != 1)
-            return cli_fail(
+            return message_fail(
                 STATUS_REFUSED,
                 "--plant and a second mesh are for another formulation in the same program");
         set_program(&a, r, "/proc/self/exe", elements[0], arguments[0]);
@@ -247,7 +247,7 @@ int cli_against(cli_request *r)
     const status outcome = compete(r, type, &s, &a, &b, &answer, &f);
     scene_free(&s);
     if (outcome != STATUS_OK)
-        return cli_fail(outcome, f.text);
+        return message_fail(outcome, f.text);
     (r->format[0] == 'j' ? show_json : show)(&a, &b, &answer);
     return EXIT_AS_EXPECTED;
 }

@@ -15,10 +15,10 @@
 
 static const double floor_seconds = 0.002; /* of each round for each cell */
 
-static int all_formulations(formulation out[CLI_MAX_FORMULATIONS])
+static int all_formulations(formulation out[COMMAND_MAX_FORMULATIONS])
 {
     int count = 0;
-    while (registry_formulations[count] != NULL && count < CLI_MAX_FORMULATIONS) {
+    while (registry_formulations[count] != NULL && count < COMMAND_MAX_FORMULATIONS) {
         formulation_default(registry_formulations[count], &out[count]);
         count++;
     }
@@ -27,9 +27,9 @@ static int all_formulations(formulation out[CLI_MAX_FORMULATIONS])
 
 /* The named cases at the parameters given, with the formulations and meshes given (or all, and the
  * case's). */
-static status plan_named(cli_request *r, sweep *s, fault *f)
+static status plan_named(command_request *r, sweep *s, fault *f)
 {
-    formulation all[CLI_MAX_FORMULATIONS];
+    formulation all[COMMAND_MAX_FORMULATIONS];
     const int some = r->formulations > 0, count = some ? r->formulations : all_formulations(all);
     const int named = r->scene == NULL ? r->case_count : 1;
     for (int i = 0; i < named; i++) {
@@ -49,12 +49,12 @@ static status plan_named(cli_request *r, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-static int is_named(const cli_request *r)
+static int is_named(const command_request *r)
 {
     return r->case_count > 0 || r->scene != NULL;
 }
 
-static status write_out(const cli_request *r, const sweep *s, const judgement *j, fault *f)
+static status write_out(const command_request *r, const sweep *s, const judgement *j, fault *f)
 {
     const environment e = environment_now(1);
     if (r->format[0] == 'c')
@@ -66,7 +66,7 @@ static status write_out(const cli_request *r, const sweep *s, const judgement *j
 }
 
 /* With what bench_request frees. */
-static status measure(cli_request *r, truths *t, sweep *s, judgement *j, fault *f)
+static status measure(command_request *r, truths *t, sweep *s, judgement *j, fault *f)
 {
     FILE *progress = isatty(STDERR_FILENO) ? stderr : NULL;
     const sweep_request request = {.select = r->select,
@@ -74,8 +74,8 @@ static status measure(cli_request *r, truths *t, sweep *s, judgement *j, fault *
                                    .formulations = r->formulations,
                                    .formulation = r->formulation,
                                    .progress = progress};
-    TRY(cli_check_files(r, 1, cli_truths_path(r), f));
-    TRY(cli_truths_read(r, t, f));
+    TRY(files_check(r, 1, case_input_truths_path(r), f));
+    TRY(case_input_truths(r, t, f));
     TRY(is_named(r) ? plan_named(r, s, f) : plan_sweep(&request, t, s, f));
     s->threads = r->threads;
     TRY(run_sweep(&request, s, f));
@@ -86,7 +86,7 @@ static status measure(cli_request *r, truths *t, sweep *s, judgement *j, fault *
     return write_out(r, s, j, f);
 }
 
-static int bench_request(cli_request *r)
+static int bench_request(command_request *r)
 {
     truths t = {0};
     sweep s = {0};
@@ -94,21 +94,21 @@ static int bench_request(cli_request *r)
     fault f = {""};
     if (r->against != NULL)
         return cli_against(r);
-    if (r->scene_count > 0 && cli_case(r) == NULL)
+    if (r->scene_count > 0 && case_input_find(r) == NULL)
         return r->refusal;
     if (!is_named(r) && (r->assignments > 0 || r->meshes > 0))
-        return cli_fail(STATUS_REFUSED, "--set and -n are of a case: name it");
+        return message_fail(STATUS_REFUSED, "--set and -n are of a case: name it");
     const status outcome = measure(r, &t, &s, &j, &f);
     judgement_free(&j);
     sweep_free(&s);
     truths_free(&t);
-    return cli_exit(outcome, &f);
+    return message_exit(outcome, &f);
 }
 
 int cli_bench(int count, char **arguments)
 {
     rounds_single_thread(arguments - 1); /* main passes what follows the program's name */
-    return cli_run(
+    return command_run(
         "bench", "[CASE...]",
         "Times every formulation and mesh of the cases named (or, without one, of all cases "
         "at all parameter points that have a truth, selected with -k): the least of enough "

@@ -10,7 +10,7 @@ enum { SAME = 0, DIFFERS = 1, TROUBLE = 2 };
 
 static int trouble(const fault *f)
 {
-    cli_fail(STATUS_FAULT, f->text);
+    message_fail(STATUS_FAULT, f->text);
     return TROUBLE;
 }
 
@@ -41,7 +41,7 @@ static void meet(const char *selection, const results *r, select_words *words)
         select_meet(selection, r->series[i].name, words);
 }
 
-static int compare(const cli_request *r, const results *before, const results *after,
+static int compare(const command_request *r, const results *before, const results *after,
                    const comparison_limits *limits, fault *f)
 {
     comparison c;
@@ -57,14 +57,14 @@ static int compare(const cli_request *r, const results *before, const results *a
 }
 
 /* What is compared, or written; cli_compare frees it. */
-static status read_runs(const cli_request *r, comparison_limits *limits, results *before,
+static status read_runs(const command_request *r, comparison_limits *limits, results *before,
                         results *after, fault *f)
 {
     select_words words;
     if (r->threshold != NULL)
         TRY(comparison_limits_parse(r->threshold, limits, f));
     TRY(select_begin(r->select, &words, f));
-    TRY(cli_check_files(r, 0, NULL, f));
+    TRY(files_check(r, 0, NULL, f));
     TRY(results_read(r->case_name, before, f));
     if (r->second != NULL)
         TRY(results_read(r->second, after, f));
@@ -76,11 +76,11 @@ static status read_runs(const cli_request *r, comparison_limits *limits, results
 
 int cli_compare(int count, char **arguments)
 {
-    cli_request r;
+    command_request r;
     comparison_limits limits = comparison_limits_default;
     results before = {0}, after = {0};
     fault f = {""};
-    cli_parse(
+    command_parse(
         "compare", "OLD [NEW]",
         "Compares errors and work counts of two runs stored by 'verify -o' (HDF5), cell by cell, "
         "or, where one is the short table that is kept of a run, series by series, with the limits "
@@ -89,7 +89,7 @@ int cli_compare(int count, char **arguments)
         "changed, gone or new, 2 trouble (file, usage, nothing in common).",
         "ok2h", count, arguments, &r);
     if (r.case_name == NULL || (r.second == NULL) != (r.output != NULL))
-        return cli_fail(
+        return message_fail(
             STATUS_REFUSED,
             "give two stored runs to compare, or one and -o FILE.csv for its short table");
     const status outcome = read_runs(&r, &limits, &before, &after, &f);

@@ -31,7 +31,7 @@ static status write_form(FILE *to, const char *format, const sweep *s, const tru
     return STATUS_OK;
 }
 
-static status write_out(const cli_request *r, const sweep *s, const truths *t, fault *f)
+static status write_out(const command_request *r, const sweep *s, const truths *t, fault *f)
 {
     output file;
     TRY(output_open(r->output, &file, f));
@@ -39,41 +39,42 @@ static status write_out(const cli_request *r, const sweep *s, const truths *t, f
 }
 
 /* With what converge_request frees. */
-static status converge(const cli_request *r, const case_type *type, sweep *s, truths *t, fault *f)
+static status converge(const command_request *r, const case_type *type, sweep *s, truths *t,
+                       fault *f)
 {
     const sweep_request request = {.jobs = r->jobs,
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
-    TRY(cli_check_files(r, 0, cli_truths_path(r), f));
-    TRY(cli_truths_read(r, t, f));
+    TRY(files_check(r, 0, case_input_truths_path(r), f));
+    TRY(case_input_truths(r, t, f));
     TRY(plan_one(type, r->parameter, r->formulation, r->formulations, r->mesh, r->meshes, s, f));
     TRY(run_sweep(&request, s, f));
     TRY(families_add_truths(s, 0, t, f));
     return write_out(r, s, t, f);
 }
 
-static int converge_request(cli_request *r)
+static int converge_request(command_request *r)
 {
     sweep s = {0};
     truths t = {0};
     fault f = {""};
-    const case_type *type = cli_case(r);
+    const case_type *type = case_input_find(r);
     if (type == NULL)
         return r->refusal;
     if (r->formulations == 0)
-        return cli_fail(
+        return message_fail(
             STATUS_REFUSED,
             "which formulation? Give -f, or -f all; 'beamwork list formulations' shows them");
     const status outcome = converge(r, type, &s, &t, &f);
     const int nothing = sweep_cells(&s) == 0;
     sweep_free(&s);
     truths_free(&t);
-    const int code = cli_exit(outcome, &f);
+    const int code = message_exit(outcome, &f);
     return code == EXIT_AS_EXPECTED && nothing ? EXIT_NOTHING : code;
 }
 
 int cli_converge(int count, char **arguments)
 {
-    return cli_run(
+    return command_run(
         "converge", "CASE",
         "Solves one case on several meshes and shows errors, observed order and the limit.",
         "fnsFojTY", count, arguments, converge_request);

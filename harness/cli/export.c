@@ -13,7 +13,7 @@ enum { DEFAULT_ELEMENTS = 20 };
 
 /* What the deck is of, as an import says it: case or whole path of a scene file; parameters that
  * differ from their defaults. */
-static void name_of(const cli_request *r, const case_type *type, char *text, size_t size)
+static void name_of(const command_request *r, const case_type *type, char *text, size_t size)
 {
     char parameters[PARAMETERS_TEXT], path[PATH_MAX];
     parameters_text(type, r->parameter, parameters, sizeof parameters);
@@ -22,7 +22,7 @@ static void name_of(const cli_request *r, const case_type *type, char *text, siz
              parameters[0] != '\0' ? "; " : "", parameters);
 }
 
-static status write_deck(const cli_request *r, const deck_request *deck, fault *f)
+static status write_deck(const command_request *r, const deck_request *deck, fault *f)
 {
     output file;
     TRY(deck_check(deck, f));
@@ -31,14 +31,14 @@ static status write_deck(const cli_request *r, const deck_request *deck, fault *
 }
 
 /* With a scene that export_request frees. */
-static status export(const cli_request *r, const case_type *type, scene *s, fault *f)
+static status export(const command_request *r, const case_type *type, scene *s, fault *f)
 {
     char of[PARAMETERS_TEXT + PATH_MAX];
     if (r->to == NULL || strcmp(r->to, "calculix") != 0)
         return fault_set(f, STATUS_REFUSED, "which program is the deck for? Say --to calculix");
     if (r->meshes > 1)
         return fault_set(f, STATUS_REFUSED, "a deck has one mesh; give one number with -n");
-    TRY(cli_check_files(r, 0, NULL, f));
+    TRY(files_check(r, 0, NULL, f));
     TRY(cell_scene(type, r->parameter, NULL, s, f));
     name_of(r, type, of, sizeof of);
     const deck_request deck = {
@@ -46,21 +46,21 @@ static status export(const cli_request *r, const case_type *type, scene *s, faul
     return write_deck(r, &deck, f);
 }
 
-static int export_request(cli_request *r)
+static int export_request(command_request *r)
 {
     scene s = {0};
     fault f = {""};
-    const case_type *type = cli_case(r);
+    const case_type *type = case_input_find(r);
     if (type == NULL)
         return r->refusal;
     const status outcome = export(r, type, &s, &f);
     scene_free(&s);
-    return cli_exit(outcome, &f);
+    return message_exit(outcome, &f);
 }
 
 int cli_export(int count, char **arguments)
 {
-    return cli_run(
+    return command_run(
         "export", "[CASE]",
         "Writes a case, or a scene of your own (--scene FILE), as solids in the words of "
         "another program: rectangles and straight walls at right angles as bricks with 20 nodes "

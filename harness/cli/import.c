@@ -7,14 +7,14 @@
 #include "harness/record/place.h"
 #include "harness/record/store.h"
 
-static int as_json(const cli_request *r)
+static int as_json(const command_request *r)
 {
     return strcmp(r->format, "json") == 0;
 }
 
 /* All mistakes of a file, a line each; as JSON where that is the form of the output: then of every
  * file, also of one that has none. */
-static status print_mistakes(const cli_request *r, const mistakes *m, fault *f)
+static status print_mistakes(const command_request *r, const mistakes *m, fault *f)
 {
     if (as_json(r))
         return mistakes_json(m, stdout, f);
@@ -26,7 +26,7 @@ static status print_mistakes(const cli_request *r, const mistakes *m, fault *f)
 }
 
 /* All files by one map: one series. */
-static status read_mapped(const cli_request *r, import_set *set, fault *f)
+static status read_mapped(const command_request *r, import_set *set, fault *f)
 {
     mistakes m = {.file = r->map};
     const status outcome = import_map_read(r->map, r->cases, r->case_count, set, &m, f);
@@ -37,7 +37,7 @@ static status read_mapped(const cli_request *r, import_set *set, fault *f)
 }
 
 /* Reads every file, whatever is wrong with those before. */
-static status read_files(const cli_request *r, import_set *set, fault *f)
+static status read_files(const command_request *r, import_set *set, fault *f)
 {
     status outcome = STATUS_OK;
     for (int i = 0; i < r->case_count; i++) {
@@ -84,13 +84,13 @@ static status check_again(const sweep *s, fault *f)
     return STATUS_OK;
 }
 
-static status import(cli_request *r, import_set *set, fault *f)
+static status import(command_request *r, import_set *set, fault *f)
 {
     if (r->case_count == 0 || r->output == NULL)
         return fault_set(f, STATUS_REFUSED, "give files to import, and -o FILE.h5");
     if (strcmp(r->format, "csv") == 0)
         return fault_set(f, STATUS_REFUSED, "--format: give text or json");
-    TRY(cli_check_files(r, 1, NULL, f));
+    TRY(files_check(r, 1, NULL, f));
     TRY(r->map != NULL ? read_mapped(r, set, f) : read_files(r, set, f));
     TRY(check_again(&set->sweep, f));
     const environment e = environment_now(1);
@@ -102,18 +102,19 @@ static status import(cli_request *r, import_set *set, fault *f)
 
 int cli_import(int count, char **arguments)
 {
-    cli_request r;
+    command_request r;
     import_set set = {0};
     fault f = {""};
-    cli_parse("import", "FILE...",
-              "Reads what other programs found of a case or scene: CSV with a declared header "
-              "(harness/imports/README.md). Names, units and parameters are checked, values "
-              "converted; -o FILE is of the same schema as results of verify, whose --beside takes "
-              "it as one more contestant. --format json: the mistakes of each file, for editors.",
-              "o+mF", count, arguments, &r);
+    command_parse(
+        "import", "FILE...",
+        "Reads what other programs found of a case or scene: CSV with a declared header "
+        "(harness/imports/README.md). Names, units and parameters are checked, values "
+        "converted; -o FILE is of the same schema as results of verify, whose --beside takes "
+        "it as one more contestant. --format json: the mistakes of each file, for editors.",
+        "o+mF", count, arguments, &r);
     r.reads_files = 1;
     const status outcome = import(&r, &set, &f);
     import_block_free_set(&set);
-    cli_close(&r);
-    return cli_exit(outcome, &f);
+    case_input_close(&r);
+    return message_exit(outcome, &f);
 }

@@ -133,20 +133,21 @@ static int list_case(const case_type *type)
     if (outcome == STATUS_OK)
         list_scene(&s);
     scene_free(&s);
-    return cli_exit(outcome, &f);
+    return message_exit(outcome, &f);
 }
 
 int cli_list(int count, char **arguments)
 {
-    cli_request r;
-    cli_parse("list", "[cases|formulations|CASE]",
-              "Shows what there is: cases with their parameters and quantities, formulations with "
-              "their options.",
-              "Y", count, arguments, &r);
+    command_request r;
+    command_parse(
+        "list", "[cases|formulations|CASE]",
+        "Shows what there is: cases with their parameters and quantities, formulations with "
+        "their options.",
+        "Y", count, arguments, &r);
     if (r.scene_count > 0) {
-        const case_type *own = cli_scene_case(&r);
+        const case_type *own = case_input_scene(&r);
         const int code = own != NULL ? list_case(own) : r.refusal;
-        cli_close(&r);
+        case_input_close(&r);
         return code;
     }
     if (r.case_name == NULL || strcmp(r.case_name, "cases") == 0)
@@ -158,6 +159,6 @@ int cli_list(int count, char **arguments)
     if (r.case_name == NULL || strcmp(r.case_name, "cases") == 0 ||
         strcmp(r.case_name, "formulations") == 0)
         return EXIT_AS_EXPECTED;
-    const case_type *type = cli_case(&r);
+    const case_type *type = case_input_find(&r);
     return type != NULL ? list_case(type) : EXIT_REFUSED;
 }

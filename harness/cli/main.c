@@ -79,7 +79,7 @@ static __attribute__((noinline)) int run(int count, char **arguments)
     snprintf(text, sizeof text, "unknown verb '%.60s'%s%s%s; 'beamwork --help' shows them all",
              arguments[1], near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
              near != NULL ? "'?" : "");
-    return cli_fail(STATUS_REFUSED, text);
+    return message_fail(STATUS_REFUSED, text);
 }
 
 /* A stack that is too small ends a program without a word: it is raised as far as we may. 1: it is
@@ -112,5 +112,5 @@ int main(int count, char **arguments)
     gsl_set_error_handler_off();
     /* a file that may not grow is an error of writing, told in one line */
     signal(SIGXFSZ, SIG_IGN);
-    return cli_finish(run(count, arguments));
+    return message_finish(run(count, arguments));
 }

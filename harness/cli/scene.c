@@ -9,7 +9,7 @@
 #include "harness/scene_writer/write.h"
 #include "harness/study/cell.h"
 
-static status describe(FILE *to, const cli_request *r, fault *f)
+static status describe(FILE *to, const command_request *r, fault *f)
 {
     if (r->schema)
         return schema_file_write(to, f);
@@ -18,7 +18,8 @@ static status describe(FILE *to, const cli_request *r, fault *f)
 }
 
 /* With a scene that write_out frees. type NULL: a description of the keys. */
-static status write_to(FILE *to, const cli_request *r, const case_type *type, scene *s, fault *f)
+static status write_to(FILE *to, const command_request *r, const case_type *type, scene *s,
+                       fault *f)
 {
     if (type == NULL)
         return describe(to, r, f);
@@ -27,7 +28,7 @@ static status write_to(FILE *to, const cli_request *r, const case_type *type, sc
     return write_scene(to, s, &head, f);
 }
 
-static status write_out(const cli_request *r, const case_type *type, fault *f)
+static status write_out(const command_request *r, const case_type *type, fault *f)
 {
     output file;
     scene s = {0};
@@ -39,19 +40,19 @@ static status write_out(const cli_request *r, const case_type *type, fault *f)
 
 int cli_scene(int count, char **arguments)
 {
-    cli_request r;
+    command_request r;
     fault f = {""};
-    cli_parse(
+    command_parse(
         "scene", "[CASE]",
         "Writes a case at a parameter point as a scene file, or one of your own (--scene "
         "FILE) again: names kept where scenes have them, loops and expressions written out, "
         "numbers with all their digits. Reading it gives the same scene, bit for bit. "
         "--keys: what may stand in scene files; --schema: the same as JSON Schema, for editors.",
         "soFYHE", count, arguments, &r);
-    const case_type *type = r.schema || r.keys ? NULL : cli_case(&r);
+    const case_type *type = r.schema || r.keys ? NULL : case_input_find(&r);
     int code = r.refusal;
     if (r.schema || r.keys || type != NULL)
-        code = cli_exit(write_out(&r, type, &f), &f);
-    cli_close(&r);
+        code = message_exit(write_out(&r, type, &f), &f);
+    case_input_close(&r);
     return code;
 }

@@ -69,18 +69,19 @@ static status write_json(fault *f)
 
 int cli_schema(int count, char **arguments)
 {
-    cli_request r;
+    command_request r;
     fault f = {""};
-    cli_parse("schema", "",
-              "Describes the result file of verify, bench and solve (-o FILE), and the records of "
-              "JSON and CSV.",
-              "F", count, arguments, &r);
+    command_parse(
+        "schema", "",
+        "Describes the result file of verify, bench and solve (-o FILE), and the records of "
+        "JSON and CSV.",
+        "F", count, arguments, &r);
     if (r.case_name != NULL)
-        return cli_fail(STATUS_REFUSED, "schema takes no case; it describes the files of all");
+        return message_fail(STATUS_REFUSED, "schema takes no case; it describes the files of all");
     if (r.format[0] == 'j')
-        return cli_exit(write_json(&f), &f);
+        return message_exit(write_json(&f), &f);
     if (r.format[0] == 'c')
-        return cli_fail(STATUS_REFUSED, "schema is written as text or json");
+        return message_fail(STATUS_REFUSED, "schema is written as text or json");
     printf("%s, version %d\n%s", SCHEMA_NAME, SCHEMA_VERSION, about);
     for (int i = 0; record_types[i] != NULL; i++)
         show("/cases/CASE/", record_types[i]);

@@ -14,7 +14,8 @@
 #include "harness/tables/table_follow.h"
 #include "harness/tables/table_solution.h"
 
-static status write_to(FILE *to, const cli_request *r, const sweep *s, const truths *t, fault *f)
+static status write_to(FILE *to, const command_request *r, const sweep *s, const truths *t,
+                       fault *f)
 {
     if (strcmp(r->format, "json") == 0)
         return json_write_solution(to, s, t, f);
@@ -25,7 +26,7 @@ static status write_to(FILE *to, const cli_request *r, const sweep *s, const tru
     return STATUS_OK;
 }
 
-static status write_out(const cli_request *r, const sweep *s, const truths *t, fault *f)
+static status write_out(const command_request *r, const sweep *s, const truths *t, fault *f)
 {
     output file;
     if (r->shapes > 0) {
@@ -39,7 +40,7 @@ static status write_out(const cli_request *r, const sweep *s, const truths *t, f
 }
 
 /* The matrices of all states that were reached, where they are wanted. */
-static status write_matrices(const cli_request *r, const sweep *s, fault *f)
+static status write_matrices(const command_request *r, const sweep *s, fault *f)
 {
     const cell_result *cell = &s->series[0].cell[0];
     char title[200];
@@ -51,7 +52,7 @@ static status write_matrices(const cli_request *r, const sweep *s, fault *f)
 }
 
 /* The one cell, solved in this process so that its options reach it. */
-static status solve_cell(const cli_request *r, sweep *s, fault *f)
+static status solve_cell(const command_request *r, sweep *s, fault *f)
 {
     point *p = &s->point[0];
     if (r->matrices != NULL)
@@ -66,7 +67,7 @@ static status solve_cell(const cli_request *r, sweep *s, fault *f)
 }
 
 /* Which analysis was made up where the scene states none. */
-static void tell_analysis(const cli_request *r, const scene *s)
+static void tell_analysis(const command_request *r, const scene *s)
 {
     if (r->scene == NULL || scene_file_states(r->scene, "analyses"))
         return;
@@ -84,7 +85,8 @@ static void tell_analysis(const cli_request *r, const scene *s)
 }
 
 /* NAME=A..B/N: both ends within the limits of the parameter. */
-static status range_of(const cli_request *r, const case_type *type, follow_request *out, fault *f)
+static status range_of(const command_request *r, const case_type *type, follow_request *out,
+                       fault *f)
 {
     const char *ends = strchr(r->follow, '='), *dots = ends != NULL ? strstr(ends, "..") : NULL,
                *slash = dots != NULL ? strchr(dots, '/') : NULL;
@@ -112,7 +114,8 @@ static status range_of(const cli_request *r, const case_type *type, follow_reque
                            r->follow);
 }
 
-static status write_curves(const cli_request *r, const char *name, const follow_curves *c, fault *f)
+static status write_curves(const command_request *r, const char *name, const follow_curves *c,
+                           fault *f)
 {
     output file;
     status written = STATUS_OK;
@@ -127,7 +130,7 @@ static status write_curves(const cli_request *r, const char *name, const follow_
 }
 
 /* --follow: modes over a parameter instead of one solution. */
-static status follow_modes(const cli_request *r, const case_type *type, fault *f)
+static status follow_modes(const command_request *r, const case_type *type, fault *f)
 {
     char name[SCENE_NAME];
     follow_curves curves;
@@ -139,7 +142,7 @@ static status follow_modes(const cli_request *r, const case_type *type, fault *f
                          "--follow gives curves of modes: leave --shapes and --matrices");
     TRY(range_of(r, type, &what, f));
     snprintf(name, sizeof name, "%.*s", (int)strcspn(r->follow, "="), r->follow);
-    TRY(cli_check_files(r, 0, cli_truths_path(r), f));
+    TRY(files_check(r, 0, case_input_truths_path(r), f));
     cell_formulation(&what.cell, &r->formulation[0]);
     what.cell.solve.steps_between = r->steps;
     memcpy(what.cell.parameter, r->parameter, sizeof what.cell.parameter);
@@ -149,52 +152,53 @@ static status follow_modes(const cli_request *r, const case_type *type, fault *f
     return written;
 }
 
-static int solve_request(cli_request *r)
+static int solve_request(command_request *r)
 {
     sweep s;
     fault f = {""};
     truths t = {0};
-    const case_type *type = cli_case(r);
+    const case_type *type = case_input_find(r);
     if (type == NULL)
         return r->refusal;
     if (r->formulations != 1)
-        return cli_fail(STATUS_REFUSED,
-                        "which formulation? Give one -f; 'beamwork list formulations' shows them");
+        return message_fail(
+            STATUS_REFUSED,
+            "which formulation? Give one -f; 'beamwork list formulations' shows them");
     if (r->meshes != 1)
-        return cli_fail(STATUS_REFUSED, "how many elements per member? Give one -n");
+        return message_fail(STATUS_REFUSED, "how many elements per member? Give one -n");
     if (r->follow != NULL)
-        return cli_exit(follow_modes(r, type, &f), &f);
+        return message_exit(follow_modes(r, type, &f), &f);
     if (r->shapes > 0 && r->output == NULL)
-        return cli_fail(STATUS_REFUSED, "--shapes: into which file? Give -o FILE");
-    status outcome = cli_check_files(r, r->shapes > 0, cli_truths_path(r), &f);
+        return message_fail(STATUS_REFUSED, "--shapes: into which file? Give -o FILE");
+    status outcome = files_check(r, r->shapes > 0, case_input_truths_path(r), &f);
     if (outcome != STATUS_OK)
-        return cli_fail(outcome, f.text);
-    outcome = cli_truths_read(r, &t, &f);
+        return message_fail(outcome, f.text);
+    outcome = case_input_truths(r, &t, &f);
     if (outcome != STATUS_OK && r->truths == NULL &&
         r->scene == NULL) /* a solution needs none: say so and go on */
         fprintf(stderr, "beamwork: without truths: %s\n", f.text);
     else if (outcome != STATUS_OK)
-        return cli_fail(outcome, f.text);
+        return message_fail(outcome, f.text);
     outcome = plan_one(type, r->parameter, r->formulation, 1, r->mesh, 1, &s, &f);
     if (outcome != STATUS_OK) {
         truths_free(&t);
-        return cli_fail(outcome, f.text);
+        return message_fail(outcome, f.text);
     }
     tell_analysis(r, &s.point[0].scene);
     const status solved = solve_cell(r, &s, &f);
     fault unwritten = {""};
     int code = EXIT_AS_EXPECTED;
     if (solved == STATUS_REFUSED || solved == STATUS_FAULT) {
-        code = cli_fail(solved, f.text);
+        code = message_fail(solved, f.text);
     } else {
         outcome = write_out(r, &s, &t, &unwritten);
         if (outcome == STATUS_OK)
             outcome = write_matrices(r, &s, &unwritten);
         code = EXIT_AS_EXPECTED;
         if (outcome != STATUS_OK)
-            code = cli_fail(outcome, unwritten.text);
+            code = message_fail(outcome, unwritten.text);
         else if (solved != STATUS_OK)
-            code = cli_fail(solved, f.text);
+            code = message_fail(solved, f.text);
     }
     sweep_free(&s);
     truths_free(&t);
@@ -203,7 +207,7 @@ static int solve_request(cli_request *r)
 
 int cli_solve(int count, char **arguments)
 {
-    return cli_run(
+    return command_run(
         "solve", "CASE",
         "Solves one case with one formulation and one mesh and shows every quantity with its "
         "error.",

@@ -23,22 +23,22 @@ static status write_file(const char *path, const char *format, const extreme_swe
     return output_finish(&file, write_format(format, file.stream, s, f), f);
 }
 
-static status write_out(const cli_request *r, const extreme_sweep *s, fault *f)
+static status write_out(const command_request *r, const extreme_sweep *s, fault *f)
 {
     TRY(write_file(r->output, r->format, s, f));
     return r->json != NULL ? write_file(r->json, "json", s, f) : STATUS_OK;
 }
 
 /* With what cli_stress frees. */
-static status run(const cli_request *r, extreme_sweep *s, fault *f)
+static status run(const command_request *r, extreme_sweep *s, fault *f)
 {
     const extreme_request request = {.select = r->select,
                                      .jobs = r->jobs,
                                      .formulations = r->formulations,
                                      .formulation = r->formulation,
                                      .progress = isatty(STDERR_FILENO) ? stderr : NULL};
-    TRY(cli_check_files(r, 0, cli_truths_path(r), f));
-    TRY(extreme_run(&request, cli_truths_path(r), s, f));
+    TRY(files_check(r, 0, case_input_truths_path(r), f));
+    TRY(extreme_run(&request, case_input_truths_path(r), s, f));
     TRY(write_out(r, s, f));
     if (extreme_sweep_exit(s) == EXIT_NOTHING)
         fprintf(stderr, "beamwork: nothing was tried; see 'beamwork list' and -k\n");
@@ -47,20 +47,21 @@ static status run(const cli_request *r, extreme_sweep *s, fault *f)
 
 int cli_stress(int count, char **arguments)
 {
-    cli_request r;
+    command_request r;
     extreme_sweep s = {0};
     fault f = {""};
-    cli_parse("stress", "",
-              "Drives every formulation to the extremes where numbers become unstable, and judges "
-              "every answer: a value, coarse, a "
-              "named failure, or wrong. Exit status: 0 all as expected, 1 one differs, 2 refused, "
-              "3 nothing was tried, 4 file, disk "
-              "or memory.",
-              "fokjJFT", count, arguments, &r);
+    command_parse(
+        "stress", "",
+        "Drives every formulation to the extremes where numbers become unstable, and judges "
+        "every answer: a value, coarse, a "
+        "named failure, or wrong. Exit status: 0 all as expected, 1 one differs, 2 refused, "
+        "3 nothing was tried, 4 file, disk "
+        "or memory.",
+        "fokjJFT", count, arguments, &r);
     if (r.case_name != NULL)
-        return cli_fail(STATUS_REFUSED, "stress takes no case; select with -k");
+        return message_fail(STATUS_REFUSED, "stress takes no case; select with -k");
     const status outcome = run(&r, &s, &f);
-    const int code = outcome != STATUS_OK ? cli_fail(outcome, f.text) : extreme_sweep_exit(&s);
+    const int code = outcome != STATUS_OK ? message_fail(outcome, f.text) : extreme_sweep_exit(&s);
     extreme_sweep_free(&s);
     return code;
 }

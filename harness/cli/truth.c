@@ -140,17 +140,17 @@ static status print_scene(const case_type *type, const double parameter[], fault
     return outcome;
 }
 
-static int truth_request(cli_request *r)
+static int truth_request(command_request *r)
 {
     truths t;
     fault f = {""};
     char text[PARAMETERS_TEXT];
-    const case_type *type = cli_case(r);
+    const case_type *type = case_input_find(r);
     if (type == NULL)
         return r->refusal;
-    status outcome = cli_truths_read(r, &t, &f);
+    status outcome = case_input_truths(r, &t, &f);
     if (outcome != STATUS_OK)
-        return cli_fail(outcome, f.text);
+        return message_fail(outcome, f.text);
     parameters_text(type, r->parameter, text, sizeof text);
     printf("%s%s%s\n", type->name, text[0] != '\0' ? ": " : "", text);
     const int stored = print_stored(&t, type, r->parameter);
@@ -164,23 +164,24 @@ static int truth_request(cli_request *r)
     if (r->scene == NULL && stored == 0)
         outcome = print_derived(type, r->parameter, &f);
     truths_free(&t);
-    const int code = cli_exit(outcome, &f);
+    const int code = message_exit(outcome, &f);
     return code == EXIT_REFUSED ? EXIT_DIFFERS : code;
 }
 
 int cli_truth(int count, char **arguments)
 {
-    return cli_run("truth", "CASE",
-                   "Shows the truths of a parameter point: value, uncertainty, unit, kind, model, "
-                   "source. Where the tables have none of "
-                   "the case's own model, the "
-                   "deriving program is run to solve for them. A scene of your own (--scene FILE) "
-                   "is solved as a "
-                   "network of geometrically exact beams and rigid bodies, beside what the file "
-                   "has: lines to be "
-                   "pasted into its truths. Exit status: 0 shown, 1 none is stored "
-                   "and no program derives this case "
-                   "or these parameters, or a scene of your own, "
-                   "2 refused, 4 file, disk or memory.",
-                   "sTY", count, arguments, truth_request);
+    return command_run(
+        "truth", "CASE",
+        "Shows the truths of a parameter point: value, uncertainty, unit, kind, model, "
+        "source. Where the tables have none of "
+        "the case's own model, the "
+        "deriving program is run to solve for them. A scene of your own (--scene FILE) "
+        "is solved as a "
+        "network of geometrically exact beams and rigid bodies, beside what the file "
+        "has: lines to be "
+        "pasted into its truths. Exit status: 0 shown, 1 none is stored "
+        "and no program derives this case "
+        "or these parameters, or a scene of your own, "
+        "2 refused, 4 file, disk or memory.",
+        "sTY", count, arguments, truth_request);
 }

@@ -3,7 +3,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "harness/cli/scenes.h"
+#include "harness/cli/cli.h"
+#include "harness/command/scenes.h"
 #include "harness/imports/import_store.h"
 #include "harness/judge/families.h"
 #include "harness/record/json.h"
@@ -60,7 +61,7 @@ static status place_one(const char *path, int partial, char out[PATH_MAX], fault
     return STATUS_OK;
 }
 
-static status place_all(const cli_request *r, int partial, places *out, fault *f)
+static status place_all(const command_request *r, int partial, places *out, fault *f)
 {
     TRY(place_one(r->output, partial, out->output, f));
     TRY(place_one(r->json, partial, out->json, f));
@@ -68,7 +69,7 @@ static status place_all(const cli_request *r, int partial, places *out, fault *f
     return place_one(r->markdown, partial, out->markdown, f);
 }
 
-static status write_all(const cli_request *r, const sweep *s, const judgement *j, fault *f)
+static status write_all(const command_request *r, const sweep *s, const judgement *j, fault *f)
 {
     const environment e = environment_now(r->jobs);
     places to;
@@ -84,7 +85,7 @@ static status write_all(const cli_request *r, const sweep *s, const judgement *j
     return STATUS_OK;
 }
 
-static status judge_and_write(const cli_request *r, const sweep *s, truths *t, judgement *j,
+static status judge_and_write(const command_request *r, const sweep *s, truths *t, judgement *j,
                               fault *f)
 {
     const int whole = r->select == NULL && r->formulations == 0 && s->unfinished == 0 &&
@@ -99,7 +100,7 @@ static status judge_and_write(const cli_request *r, const sweep *s, truths *t, j
 }
 
 /* The first file that is written, or NULL. */
-static const char *first_file(const cli_request *r)
+static const char *first_file(const command_request *r)
 {
     const char *const all[] = {r->output, r->json, r->junit, r->markdown};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
@@ -109,7 +110,7 @@ static const char *first_file(const cli_request *r)
 }
 
 /* What the exit code does not say by itself. */
-static int tell(const cli_request *r, const sweep *s, const judgement *j)
+static int tell(const command_request *r, const sweep *s, const judgement *j)
 {
     const char *file = first_file(r);
     char partial[PATH_MAX];
@@ -161,7 +162,7 @@ static status add_beside(const char *path, int gates, sweep *s, fault *f)
 }
 
 /* With what verify_scenes frees. */
-static status run(const cli_request *r, const scenes *own, sweep *s, truths *t, judgement *j,
+static status run(const command_request *r, const scenes *own, sweep *s, truths *t, judgement *j,
                   fault *f)
 {
     const int states = r->shapes < PICTURED_STATES ? r->shapes : PICTURED_STATES;
@@ -175,11 +176,11 @@ static status run(const cli_request *r, const scenes *own, sweep *s, truths *t, 
                                    .formulation = r->formulation,
                                    .shapes = states,
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
-    TRY(cli_check_files(r, 1, cli_truths_path(r), f));
+    TRY(files_check(r, 1, case_input_truths_path(r), f));
     for (int i = 0; i < own->count; i++)
-        TRY(cli_check_input(r, own->path[i], f));
+        TRY(files_check_input(r, own->path[i], f));
     for (int i = 0; i < r->beside_count; i++)
-        TRY(cli_check_input(r, r->beside[i], f));
+        TRY(files_check_input(r, r->beside[i], f));
     TRY(scenes_truths(own, r, t, f));
     TRY(plan_sweep(&request, t, s, f));
     TRY(run_sweep(&request, s, f));
@@ -190,25 +191,25 @@ static status run(const cli_request *r, const scenes *own, sweep *s, truths *t, 
     return judge_and_write(r, s, t, j, f);
 }
 
-static int verify_scenes(const cli_request *r, const scenes *own)
+static int verify_scenes(const command_request *r, const scenes *own)
 {
     sweep s = {0};
     truths t = {0};
     judgement j = {0};
     fault f = {""};
     const status outcome = run(r, own, &s, &t, &j, &f);
-    const int code = outcome != STATUS_OK ? cli_fail(outcome, f.text) : tell(r, &s, &j);
+    const int code = outcome != STATUS_OK ? message_fail(outcome, f.text) : tell(r, &s, &j);
     judgement_free(&j);
     sweep_free(&s);
     truths_free(&t);
     return code;
 }
 
-static int verify_request(cli_request *r)
+static int verify_request(command_request *r)
 {
     scenes own;
     if (r->case_name != NULL)
-        return cli_fail(STATUS_REFUSED, "verify takes no case; select with -k");
+        return message_fail(STATUS_REFUSED, "verify takes no case; select with -k");
     int code = scenes_read(r, &own);
     if (code == EXIT_AS_EXPECTED)
         code = verify_scenes(r, &own);
@@ -218,7 +219,7 @@ static int verify_request(cli_request *r)
 
 int cli_verify(int count, char **arguments)
 {
-    return cli_run(
+    return command_run(
         "verify", "",
         "Judges every formulation on every case and parameter point that has a truth. Exit "
         "status: 0 every verdict as expected, 1 one differs, 2 refused, 3 nothing was "

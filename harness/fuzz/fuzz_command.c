@@ -2,7 +2,7 @@
  * documented exit code. */
 #include <setjmp.h>
 
-#include "harness/cli/cli.h"
+#include "harness/command/case_input.h"
 #include "harness/fuzz/fuzz.h"
 
 /* Linked with --wrap: the end of the program is the end of one execution. */
@@ -34,7 +34,7 @@ error_t __wrap_argp_parse(const struct argp *parser, int count, char **arguments
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     enum { MOST = 32 };
-    static cli_request r;
+    static command_request r;
     char *argument[MOST + 1] = {NULL}, *rest = NULL, verb[] = "verb";
     int count = 1;
     char *text = fuzz_text(data, size);
@@ -48,9 +48,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     code_of_run = -1;
     running = 1;
     if (setjmp(end_of_run) == 0) {
-        cli_parse("solve", "CASE", "", "fnsFoKSkjJUT2h", count, argument, &r);
-        if (cli_case(&r) != NULL)
-            fuzz_must(r.meshes <= CLI_MAX_MESHES && r.formulations <= CLI_MAX_FORMULATIONS &&
+        command_parse("solve", "CASE", "", "fnsFoKSkjJUT2h", count, argument, &r);
+        if (case_input_find(&r) != NULL)
+            fuzz_must(r.meshes <= COMMAND_MAX_MESHES &&
+                          r.formulations <= COMMAND_MAX_FORMULATIONS &&
                           r.assignments <= CASE_MAX_PARAMETERS,
                       "no list is longer than its array");
     }

@@ -7,7 +7,7 @@ build=$1 factor=${2:-1}
 here=$build/fuzz
 flags="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer"
 command -v clang >/dev/null 2>&1 || { echo "fuzz: clang is needed. Run: sudo apt-get install clang"; exit 1; }
-make -s -j2 BUILD="$here" CC=clang CFLAGS="$flags -fsanitize=fuzzer-no-link" "$here/libbeamwork.a" "$here/harness/cli/options.o" "$here/harness/cli/option_table.o" "$here/harness/cli/messages.o" "$here/harness/cli/case_input.o" >"$build/fuzz.log" 2>&1 ||
+make -s -j2 BUILD="$here" CC=clang CFLAGS="$flags -fsanitize=fuzzer-no-link" "$here/libbeamwork.a" >"$build/fuzz.log" 2>&1 ||
     { tail "$build/fuzz.log"; exit 1; }
 include=$(sed -n 's/^DEP_CFLAGS := //p' "$build/flags.mk") libraries=$(sed -n 's/^DEP_LIBS := //p' "$build/flags.mk")
 rm -rf "$here/seeds" "$here/found" "$here/corpus"
@@ -46,7 +46,7 @@ fuzz import 200000 2000
 fuzz truths 4000 64
 fuzz results 10000 64
 leaks=0 # the C library's argp keeps what it holds when the program ends
-fuzz command 100000 300 "$here/harness/cli/options.o" "$here/harness/cli/option_table.o" "$here/harness/cli/messages.o" "$here/harness/cli/case_input.o" -Wl,--wrap=exit,--wrap=argp_parse
+fuzz command 100000 300 -Wl,--wrap=exit,--wrap=argp_parse
 printf '{"executions": %d, "findings": %d, "inputs": [%s\n]}\n' "$total" "$findings" "$rows" >"$build/fuzz.json"
 echo "$total executions, $findings findings"
 [ "$findings" = 0 ]

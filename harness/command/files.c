@@ -1,10 +1,9 @@
-/* The files of a command line, before the work begins: can each be written, and is each a file of
- * its own? */
+#include "harness/command/files.h"
+
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/cli/cli.h"
 #include "harness/record/output.h"
 #include "harness/record/output_folder.h"
 
@@ -39,7 +38,7 @@ static status check_pair(const named_place *a, const named_place *b, fault *f)
                      a->path, b->option, b->path);
 }
 
-status cli_check_files(const cli_request *r, int whole_file, const char *truths_path, fault *f)
+status files_check(const command_request *r, int whole_file, const char *truths_path, fault *f)
 {
     named_place out[OUTPUTS] = {
         {.option = "-o", .path = r->output, .form = whole_file ? OUTPUT_WHOLE_FILE : OUTPUT_TEXT},
@@ -67,7 +66,7 @@ status cli_check_files(const cli_request *r, int whole_file, const char *truths_
     return STATUS_OK;
 }
 
-status cli_check_input(const cli_request *r, const char *path, fault *f)
+status files_check_input(const command_request *r, const char *path, fault *f)
 {
     const char *const option[OUTPUTS] = {"-o", "--json", "--junit", "--markdown", "--matrices"};
     const char *const out[OUTPUTS] = {r->output, r->json, r->junit, r->markdown, r->matrices};

@@ -2,20 +2,21 @@
 #ifndef BEAMWORK_SCENES_H
 #define BEAMWORK_SCENES_H
 
-#include "harness/cli/cli.h"
+#include "harness/command/case_input.h"
 
 typedef struct scenes {
     int count;
-    char *path[CLI_MAX_CASES]; /* [count] of each file, folders looked into */
-    scene_file *file[CLI_MAX_CASES];
-    const case_type *type[2 * CLI_MAX_CASES + 1]; /* the built-in ones too where they are wanted */
+    char *path[COMMAND_MAX_CASES]; /* [count] of each file, folders looked into */
+    scene_file *file[COMMAND_MAX_CASES];
+    const case_type
+        *type[2 * COMMAND_MAX_CASES + 1]; /* the built-in ones too where they are wanted */
 } scenes;
 
 /* All that --scene names: files, and of a folder every *.yaml in the order of their names; type
  * ends in NULL. Not EXIT_AS_EXPECTED: an exit code, after messages; no two are of one name. */
-int scenes_read(const cli_request *, scenes *out);
+int scenes_read(const command_request *, scenes *out);
 void scenes_free(scenes *);
 /* The built-in truths where those cases are wanted, the ledger, and the truths of each file. */
-status scenes_truths(const scenes *, const cli_request *, truths *t, fault *f);
+status scenes_truths(const scenes *, const command_request *, truths *t, fault *f);
 
 #endif

@@ -1,3 +1,5 @@
+#include "harness/command/command.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,12 +8,13 @@
 
 #include "harness/algebra/team.h"
 #include "harness/catalogue/registry.h"
-#include "harness/cli/cli.h"
-#include "harness/cli/option_table.h"
+#include "harness/command/case_input.h"
+#include "harness/command/message.h"
+#include "harness/command/option_table.h"
 
 static void refuse(const char *text)
 {
-    exit(cli_fail(STATUS_REFUSED, text));
+    exit(message_fail(STATUS_REFUSED, text));
 }
 
 static int whole_number(const char *text, const char *what, long least, long most)
@@ -27,25 +30,25 @@ static int whole_number(const char *text, const char *what, long least, long mos
     return (int)value;
 }
 
-static void add_meshes(cli_request *r, char *list)
+static void add_meshes(command_request *r, char *list)
 {
     for (char *one = strsep(&list, ","); one != NULL; one = strsep(&list, ",")) {
-        if (r->meshes == CLI_MAX_MESHES)
+        if (r->meshes == COMMAND_MAX_MESHES)
             refuse("too many meshes; give at most 24");
         r->mesh[r->meshes++] = whole_number(one, "number of elements", 1, 10000000);
     }
 }
 
-static void add_formulation(cli_request *r, const char *text)
+static void add_formulation(command_request *r, const char *text)
 {
     fault f;
     if (strcmp(text, "all") == 0) {
-        for (int i = 0; registry_formulations[i] != NULL && r->formulations < CLI_MAX_FORMULATIONS;
-             i++)
+        for (int i = 0;
+             registry_formulations[i] != NULL && r->formulations < COMMAND_MAX_FORMULATIONS; i++)
             formulation_default(registry_formulations[i], &r->formulation[r->formulations++]);
         return;
     }
-    if (r->formulations == CLI_MAX_FORMULATIONS)
+    if (r->formulations == COMMAND_MAX_FORMULATIONS)
         refuse("too many formulations");
     if (formulation_parse(text, &r->formulation[r->formulations], &f) != STATUS_OK)
         refuse(f.text);
@@ -55,7 +58,7 @@ static void add_formulation(cli_request *r, const char *text)
     r->formulations++;
 }
 
-static void add_assignment(cli_request *r, const char *text)
+static void add_assignment(command_request *r, const char *text)
 {
     const size_t name = strcspn(text, "=");
     char message[160];
@@ -72,7 +75,7 @@ static void add_assignment(cli_request *r, const char *text)
 
 /* An option that takes one value has it once; lists (-f, -n, --set) and switches may be given
  * again. */
-static void refuse_again(cli_request *r, int key, const struct argp_state *state)
+static void refuse_again(command_request *r, int key, const struct argp_state *state)
 {
     const struct argp_option *o = state->root_argp->options;
     char message[160];
@@ -92,10 +95,10 @@ static void refuse_again(cli_request *r, int key, const struct argp_state *state
 static void show_help(const struct argp_state *state, unsigned what)
 {
     argp_state_help(state, stdout, what & ~(unsigned)(ARGP_HELP_EXIT_OK | ARGP_HELP_EXIT_ERR));
-    exit(cli_finish(EXIT_AS_EXPECTED));
+    exit(message_finish(EXIT_AS_EXPECTED));
 }
 
-static void add_case(cli_request *r, const char *name)
+static void add_case(command_request *r, const char *name)
 {
     if (r->case_count == r->most_arguments)
         refuse("too many arguments; 'beamwork --help' shows the usage");
@@ -116,7 +119,7 @@ static void add_path(const char *path, int most, const char *list[], int *count)
     list[(*count)++] = path;
 }
 
-static error_t take_plain(int key, const char *value, cli_request *r)
+static error_t take_plain(int key, const char *value, command_request *r)
 {
     const verb_option *o = option_table;
     while (o->name != NULL && o->key != key)
@@ -133,7 +136,7 @@ static error_t take_plain(int key, const char *value, cli_request *r)
 
 static error_t take(int key, char *value, struct argp_state *state)
 {
-    cli_request *r = state->input;
+    command_request *r = state->input;
     refuse_again(r, key, state);
     switch (key) {
     case '?':
@@ -153,7 +156,7 @@ static error_t take(int key, char *value, struct argp_state *state)
         add_assignment(r, value);
         return 0;
     case 'B':
-        add_path(value, CLI_MAX_CASES, r->beside, &r->beside_count);
+        add_path(value, COMMAND_MAX_CASES, r->beside, &r->beside_count);
         return 0;
     case 'Y':
         add_path(value, r->most_scenes, r->scene_path, &r->scene_count);
@@ -193,12 +196,12 @@ static error_t take(int key, char *value, struct argp_state *state)
 static int most_arguments(const char *keys)
 {
     if (strchr(keys, '+') != NULL)
-        return CLI_MAX_CASES;
+        return COMMAND_MAX_CASES;
     return strchr(keys, '2') != NULL ? 2 : 1;
 }
 
-void cli_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys,
-               int count, char **arguments, cli_request *out)
+void command_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys,
+                   int count, char **arguments, command_request *out)
 {
     struct argp_option chosen[OPTION_COUNT] = {{0}};
     char name[64];
@@ -217,10 +220,20 @@ void cli_parse(const char *verb, const char *arguments_doc, const char *doc, con
     out->refusal = EXIT_REFUSED;
     out->format = "text";
     out->most_arguments = most_arguments(keys);
-    out->most_scenes = strchr(keys, 'I') != NULL ? CLI_MAX_CASES : 1;
+    out->most_scenes = strchr(keys, 'I') != NULL ? COMMAND_MAX_CASES : 1;
     out->jobs = (int)sysconf(_SC_NPROCESSORS_ONLN);
     snprintf(name, sizeof name, "beamwork %s", verb);
     arguments[0] = name;
     argp_err_exit_status = EXIT_REFUSED;
     argp_parse(&parser, count, arguments, ARGP_NO_HELP, NULL, out);
+}
+
+int command_run(const char *verb, const char *arguments_doc, const char *doc, const char *keys,
+                int count, char **arguments, command_answer *answer)
+{
+    command_request r;
+    command_parse(verb, arguments_doc, doc, keys, count, arguments, &r);
+    const int code = answer(&r);
+    case_input_close(&r);
+    return code;
 }

@@ -1,4 +1,4 @@
-#include "harness/cli/scenes.h"
+#include "harness/command/scenes.h"
 
 #include <glob.h>
 #include <stdio.h>
@@ -7,11 +7,13 @@
 #include <sys/stat.h>
 
 #include "harness/catalogue/registry.h"
+#include "harness/command/message.h"
 
 static status add_path(const char *path, scenes *out, fault *f)
 {
-    if (out->count == CLI_MAX_CASES)
-        return fault_set(f, STATUS_REFUSED, "more than %d scene files; give fewer", CLI_MAX_CASES);
+    if (out->count == COMMAND_MAX_CASES)
+        return fault_set(f, STATUS_REFUSED, "more than %d scene files; give fewer",
+                         COMMAND_MAX_CASES);
     out->path[out->count] = strdup(path);
     if (out->path[out->count] == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for scene files");
@@ -52,7 +54,7 @@ static status add_folder(const char *folder, scenes *out, fault *f)
     return outcome;
 }
 
-static status find_paths(const cli_request *r, scenes *out, fault *f)
+static status find_paths(const command_request *r, scenes *out, fault *f)
 {
     for (int i = 0; i < r->scene_count; i++) {
         struct stat about;
@@ -77,31 +79,31 @@ static status check_name(const case_type *one, const case_type *const *others, c
     return STATUS_OK;
 }
 
-static int add_type(const cli_request *r, int index, int *types, scenes *out)
+static int add_type(const command_request *r, int index, int *types, scenes *out)
 {
     fault f = {""};
-    const int code = cli_scene_read(r, out->path[index], &out->file[index]);
+    const int code = case_input_read(r, out->path[index], &out->file[index]);
     if (code != EXIT_AS_EXPECTED)
         return code;
     const case_type *type = scene_file_case(out->file[index]);
     const status outcome = check_name(type, out->type, out->path[index], &f);
     if (outcome != STATUS_OK)
-        return cli_fail(outcome, f.text);
+        return message_fail(outcome, f.text);
     out->type[(*types)++] = type;
     return EXIT_AS_EXPECTED;
 }
 
-int scenes_read(const cli_request *r, scenes *out)
+int scenes_read(const command_request *r, scenes *out)
 {
     fault f = {""};
     int types = 0;
     memset(out, 0, sizeof *out);
     if (r->built_in || r->scene_count == 0)
-        for (; types < CLI_MAX_CASES && registry_cases[types] != NULL; types++)
+        for (; types < COMMAND_MAX_CASES && registry_cases[types] != NULL; types++)
             out->type[types] = registry_cases[types];
     const status outcome = find_paths(r, out, &f);
     if (outcome != STATUS_OK)
-        return cli_fail(outcome, f.text);
+        return message_fail(outcome, f.text);
     int code = EXIT_AS_EXPECTED;
     for (int i = 0; i < out->count; i++) {
         const int one = add_type(r, i, &types, out);
@@ -119,18 +121,18 @@ void scenes_free(scenes *s)
     memset(s, 0, sizeof *s);
 }
 
-static status add_truths(const scenes *s, const cli_request *r, truths *t, fault *f)
+static status add_truths(const scenes *s, const command_request *r, truths *t, fault *f)
 {
     if (r->built_in || r->scene_count == 0)
-        TRY(truths_read(cli_truths_path(r), t, f));
+        TRY(truths_read(case_input_truths_path(r), t, f));
     else
-        TRY(truths_read_rules(cli_truths_path(r), t, f));
+        TRY(truths_read_rules(case_input_truths_path(r), t, f));
     for (int i = 0; i < s->count; i++)
         TRY(scene_file_truths_add_all(s->file[i], t, f));
     return STATUS_OK;
 }
 
-status scenes_truths(const scenes *s, const cli_request *r, truths *t, fault *f)
+status scenes_truths(const scenes *s, const command_request *r, truths *t, fault *f)
 {
     memset(t, 0, sizeof *t);
     const status outcome = add_truths(s, r, t, f);

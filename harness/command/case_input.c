@@ -1,4 +1,5 @@
-/* The case of a run, built in or a scene file, its parameters, and the truths that belong to it. */
+#include "harness/command/case_input.h"
+
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,21 +7,22 @@
 #include <unistd.h>
 
 #include "harness/catalogue/case_find.h"
-#include "harness/cli/cli.h"
+#include "harness/command/message.h"
 
 /* All mistakes, a line each; as JSON where that is the form of the output. */
-static void tell_mistakes(const cli_request *r, const mistakes *m, status outcome, const fault *f)
+static void tell_mistakes(const command_request *r, const mistakes *m, status outcome,
+                          const fault *f)
 {
     fault unwritten;
     if (m->count == 0)
-        cli_fail(outcome, f->text);
+        message_fail(outcome, f->text);
     else if (strcmp(r->format, "json") != 0)
         mistakes_print(m, stderr);
     else if (mistakes_json(m, stdout, &unwritten) != STATUS_OK)
-        cli_fail(STATUS_FAULT, unwritten.text);
+        message_fail(STATUS_FAULT, unwritten.text);
 }
 
-int cli_scene_read(const cli_request *r, const char *path, scene_file **out)
+int case_input_read(const command_request *r, const char *path, scene_file **out)
 {
     mistakes m;
     fault f = {""};
@@ -31,54 +33,54 @@ int cli_scene_read(const cli_request *r, const char *path, scene_file **out)
     return outcome == STATUS_FAULT ? EXIT_FAULT : EXIT_REFUSED;
 }
 
-const case_type *cli_scene_case(cli_request *r)
+const case_type *case_input_scene(command_request *r)
 {
     if (r->case_name != NULL) {
-        cli_fail(STATUS_REFUSED, "a case and --scene: give one of them");
+        message_fail(STATUS_REFUSED, "a case and --scene: give one of them");
         return NULL;
     }
-    const int code = cli_scene_read(r, r->scene_path[0], &r->scene);
+    const int code = case_input_read(r, r->scene_path[0], &r->scene);
     if (code == EXIT_AS_EXPECTED)
         return scene_file_case(r->scene);
     r->refusal = code;
     return NULL;
 }
 
-static const case_type *named_case(const cli_request *r)
+static const case_type *named_case(const command_request *r)
 {
     fault f;
     if (r->case_name == NULL) {
-        cli_fail(STATUS_REFUSED, "which case? 'beamwork list cases' shows them");
+        message_fail(STATUS_REFUSED, "which case? 'beamwork list cases' shows them");
         return NULL;
     }
     const case_type *type = case_find(r->case_name, &f);
     if (type == NULL)
-        cli_fail(STATUS_REFUSED, f.text);
+        message_fail(STATUS_REFUSED, f.text);
     return type;
 }
 
-const case_type *cli_case(cli_request *r)
+const case_type *case_input_find(command_request *r)
 {
     fault f;
-    const case_type *type = r->scene_count > 0 ? cli_scene_case(r) : named_case(r);
+    const case_type *type = r->scene_count > 0 ? case_input_scene(r) : named_case(r);
     if (type == NULL)
         return NULL;
     parameters_default(type, r->parameter);
     for (int i = 0; i < r->assignments; i++)
         if (parameters_set(type, r->assignment[i], r->parameter, &f) != STATUS_OK) {
-            cli_fail(STATUS_REFUSED, f.text);
+            message_fail(STATUS_REFUSED, f.text);
             return NULL;
         }
     return type;
 }
 
-void cli_close(cli_request *r)
+void case_input_close(command_request *r)
 {
     scene_file_free(r->scene);
     r->scene = NULL;
 }
 
-const char *cli_truths_path(const cli_request *r)
+const char *case_input_truths_path(const command_request *r)
 {
     static char beside[PATH_MAX + 16];
     if (r->truths != NULL)
@@ -94,23 +96,13 @@ const char *cli_truths_path(const cli_request *r)
     return beside;
 }
 
-status cli_truths_read(const cli_request *r, truths *t, fault *f)
+status case_input_truths(const command_request *r, truths *t, fault *f)
 {
     memset(t, 0, sizeof *t);
     if (r->scene == NULL)
-        return truths_read(cli_truths_path(r), t, f);
+        return truths_read(case_input_truths_path(r), t, f);
     const status outcome = scene_file_truths_add(r->scene, r->parameter, t, f);
     if (outcome != STATUS_OK)
         truths_free(t);
     return outcome;
-}
-
-int cli_run(const char *verb, const char *arguments_doc, const char *doc, const char *keys,
-            int count, char **arguments, cli_answer *answer)
-{
-    cli_request r;
-    cli_parse(verb, arguments_doc, doc, keys, count, arguments, &r);
-    const int code = answer(&r);
-    cli_close(&r);
-    return code;
 }

@@ -1,22 +1,23 @@
-/* How the program says that something went wrong, and with which exit status it ends. */
+#include "harness/command/message.h"
+
 #include <stdio.h>
 
-#include "harness/cli/cli.h"
+#include "harness/command/command.h"
 
-int cli_finish(int code)
+int message_finish(int code)
 {
     const int told = code == EXIT_REFUSED || code == EXIT_FAULT; /* that line is enough */
     if ((fflush(stdout) == 0 && !ferror(stdout)) || told)
         return code;
-    return cli_fail(STATUS_FAULT, "standard output cannot be written");
+    return message_fail(STATUS_FAULT, "standard output cannot be written");
 }
 
-int cli_exit(status s, const fault *f)
+int message_exit(status s, const fault *f)
 {
-    return s == STATUS_OK ? EXIT_AS_EXPECTED : cli_fail(s, f->text);
+    return s == STATUS_OK ? EXIT_AS_EXPECTED : message_fail(s, f->text);
 }
 
-int cli_fail(status s, const char *text)
+int message_fail(status s, const char *text)
 {
     fprintf(stderr, "beamwork: %s\n", text);
     switch (s) {

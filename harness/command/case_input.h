@@ -1,0 +1,22 @@
+/* The case of a run, built in or a scene file, its parameters, and the truths that belong to it. */
+#ifndef BEAMWORK_CASE_INPUT_H
+#define BEAMWORK_CASE_INPUT_H
+
+#include "harness/command/command.h"
+#include "harness/truth/truths.h"
+
+/* The case of the request with its parameters, or NULL after a message. */
+const case_type *case_input_find(command_request *r);
+/* Frees what case_input_find has read. */
+void case_input_close(command_request *r);
+/* The case of --scene FILE, or NULL after messages: all its mistakes. */
+const case_type *case_input_scene(command_request *r);
+/* Reads one scene file; EXIT_AS_EXPECTED, or an exit code after messages. */
+int case_input_read(const command_request *r, const char *path, scene_file **out);
+/* Truths of the run: those stored, or, of a scene file, its own at the parameters of the request.
+ */
+status case_input_truths(const command_request *r, truths *t, fault *f);
+/* Default place of the packed truths: BEAMWORK_TRUTHS, or truths.h5 beside the program. */
+const char *case_input_truths_path(const command_request *r);
+
+#endif
