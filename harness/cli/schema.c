@@ -59,6 +59,7 @@ static status write_json(fault *f)
     json_t *records = json_array();
     for (int i = 0; record_types[i] != NULL; i++)
         json_array_append_new(records, json_record_type(record_types[i]));
+    json_array_append_new(records, json_record_type(&record_declaration));
     json_array_append_new(records, json_record_type(&record_truth));
     for (int i = 0; of_extremes[i] != NULL; i++)
         json_array_append_new(records, json_record_type(of_extremes[i]));
@@ -83,6 +84,7 @@ int cli_schema(int count, char **arguments)
     if (r.format[0] == 'c')
         return message_fail(STATUS_REFUSED, "schema is written as text or json");
     printf("%s, version %d\n%s", SCHEMA_NAME, SCHEMA_VERSION, about);
+    show("/", &record_declaration);
     for (int i = 0; record_types[i] != NULL; i++)
         show("/cases/CASE/", record_types[i]);
     show("solve --format json, ", &record_truth);

@@ -133,9 +133,20 @@ static void put_case(record *r, hid_t cases, const gathering *g, const case_type
     H5Gclose(here);
 }
 
+static void put_declarations(record *r, const gathering *g)
+{
+    subjects list = {0};
+    gather_declarations(g, &list);
+    r->bad |= list.bad;
+    if (!r->bad)
+        record_rows_of_type(r, r->file, &record_declaration, list.count, list.row);
+    gather_free(&list);
+}
+
 static void put_cases(record *r, const gathering *g, const environment *e)
 {
     put_environment(r, e);
+    put_declarations(r, g);
     const hid_t cases = record_group(r, r->file, "cases");
     for (int i = 0; i < g->sweep->seriess; i++)
         put_case(r, cases, g, g->sweep->point[g->sweep->series[i].point].type);

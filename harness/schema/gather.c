@@ -227,6 +227,26 @@ static void gather_coverages(const gathering *g, const case_type *of, subjects *
                 }
 }
 
+/* Is there one of this key? */
+static int has_formulation(const subjects *list, const char *key)
+{
+    int i = 0;
+    while (i < list->count && strcmp(list->row[i].series->formulation.key, key) != 0)
+        i++;
+    return i < list->count;
+}
+
+void gather_declarations(const gathering *g, subjects *out)
+{
+    for (int i = 0; i < g->sweep->seriess; i++) {
+        const series *one = &g->sweep->series[i];
+        if (one->imported != NULL || has_formulation(out, one->formulation.key))
+            continue;
+        const subject s = {.sweep = g->sweep, .series = one};
+        add(out, &s);
+    }
+}
+
 void gather_case(const gathering *g, const record_type *type, const case_type *of, subjects *out)
 {
     if (type == &record_point)

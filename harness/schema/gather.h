@@ -23,6 +23,8 @@ void gather_case(const gathering *g, const record_type *type, const case_type *o
 /* Adds those of one mesh; a kind that a mesh has none of adds nothing. */
 void gather_mesh(const gathering *g, const record_type *type, int series_index, int mesh,
                  subjects *out);
+/* One of each formulation that was run here, in the order of the series. */
+void gather_declarations(const gathering *g, subjects *out);
 subject gather_cell(const gathering *g, int series_index, int mesh);
 subject gather_verdict(const gathering *g, const verdict *v);
 subject gather_agreement(const gathering *g, const agreement *a);

@@ -99,6 +99,7 @@ extern const record_type record_point, record_series, record_cell, record_quanti
     record_agreement, record_coverage, record_import;
 extern const record_type *const record_types[]; /* all of them; ends with NULL */
 extern const record_type record_truth;          /* of a quantity, in JSON only */
+extern const record_type record_declaration;    /* of a whole run, in HDF5 only */
 
 /* Pointers to the fields whose key is at most `keys`, in order; their number. */
 int schema_fields(const record_type *type, int keys, const schema_field *out[SCHEMA_MOST_FIELDS]);

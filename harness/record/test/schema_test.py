@@ -14,6 +14,7 @@ from harness.test.program import ROOT, ProgramTest
 
 KEYS = ("point", "formulation", "elements")
 JSON_ONLY = ("extremes", "formulations", "outcomes", "truths")
+OF_THE_RUN = ("declarations",)  # below the root, not below a case
 KINDS = {"int": "i4", "long": "i8", "double": "f8", "flag": "b", "text": "S", "enum": "S"}
 
 
@@ -63,15 +64,31 @@ class Schema(ProgramTest):
                     self.assertEqual(text(file.attrs[name]), str(self.schema[name]))
                 for case in file["cases"].values():
                     for table, fields in self.records.items():
-                        if table not in JSON_ONLY:
+                        if table not in (*JSON_ONLY, *OF_THE_RUN):
                             own = [f for f in fields if not f["said_around"]]
                             self.check_table(case[table], own)
+                for table in OF_THE_RUN:
+                    self.check_table(file[table], self.records[table])
+
+    def test_declarations(self):
+        """Each formulation once, with what its type says of itself."""
+        with h5py.File(self.results) as file:
+            rows = file["declarations"][()]
+            run_here = {text(s["formulation"]) for case in file["cases"].values()
+                        for s in case["series"][()]}
+        self.assertEqual(sorted(text(r["formulation"]) for r in rows), sorted(run_here))
+        own = next(r for r in rows if r["formulation"] == b"collocation")
+        self.assertEqual((own["statics_least"], own["statics_highest"], own["nodes"]), (2, 10, 2))
+        self.assertIn("coupled section", text(own["offers"]).split(", "))
+        self.assertEqual(text(own["shear_theory"]), "haringx")
+        stages = text(own["options"]).split("\n")[0].split("\t")
+        self.assertEqual(stages[:3], ["stages", "3|4|5|6|7|8", "5"])
 
     def test_every_table_is_seen(self):
         """What the other tests walk over is not empty."""
         with h5py.File(self.results) as file:
             for table in self.records:
-                if table not in (*JSON_ONLY, "timings", "agreements", "matrices", "imports"):
+                if table not in (*JSON_ONLY, *OF_THE_RUN, "timings", "agreements", "matrices", "imports"):
                     seen = sum(len(case[table]) for case in file["cases"].values())
                     self.assertGreater(seen, 0, table)
         with h5py.File(self.bench) as file:

@@ -157,6 +157,7 @@ int main(void)
 {
     for (int i = 0; record_types[i] != NULL; i++)
         well_formed(record_types[i]);
+    well_formed(&record_declaration);
     for (int i = 0; registry_cases[i] != NULL; i++)
         parameters_differ(registry_cases[i]);
     pipe_carries_all();
