@@ -7,6 +7,7 @@
 #include "harness/cli/cli.h"
 #include "harness/model/lacks.h"
 #include "harness/model/missing.h"
+#include "harness/scene_writer/meaning.h"
 #include "harness/study/cell.h"
 
 static void list_option(const parameter_type *o)
@@ -113,10 +114,12 @@ static void list_parameters(const case_type *type)
 /* What a case asks for at its default parameters, and who answers. */
 static void list_scene(const scene *s)
 {
-    printf("quantities\n");
-    for (int i = 0; i < s->quantities; i++)
-        printf("  %-28s %s%s\n", s->quantity[i].name, s->quantity[i].unit,
-               s->quantity[i].reduction == SCENE_CURVE ? " (curve)" : "");
+    printf("quantities (along a path: a curve)\n");
+    for (int i = 0; i < s->quantities; i++) {
+        char meaning[MEANING_ROOM];
+        meaning_of_quantity(s, i, meaning, sizeof meaning);
+        printf("  %-28s %-8s %s\n", s->quantity[i].name, s->quantity[i].unit, meaning);
+    }
     printf("formulations\n");
     for (int i = 0; registry_formulations[i] != NULL; i++)
         list_offer(s, registry_formulations[i]);

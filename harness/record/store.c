@@ -6,6 +6,7 @@
 #include "harness/record/record_rows.h"
 #include "harness/record/store_shapes.h"
 #include "harness/record/vtkhdf.h"
+#include "harness/scene_writer/write.h"
 #include "harness/schema/gather.h"
 
 static void put_environment(record *r, const environment *e)
@@ -62,6 +63,25 @@ static void put_points(record *r, hid_t at, const case_type *type, const subject
     record_rows(r, at, record_point.table, count, fields, list->count, list->row);
 }
 
+/* The record of a scene is its text; of a point that was refused, or that no file can say, "". */
+static void put_scenes(record *r, hid_t at, subjects *list)
+{
+    char **text = calloc((size_t)list->count + 1, sizeof *text);
+    r->bad |= text == NULL;
+    for (int i = 0; i < list->count && !r->bad; i++) {
+        const point *p = list->row[i].point;
+        const write_head head = {p->type->name, p->type->summary, p->type->source};
+        text[i] = write_scene_text(p->status == STATUS_OK ? &p->scene : NULL, &head);
+        r->bad |= text[i] == NULL;
+        list->row[i].record = &text[i];
+    }
+    if (!r->bad)
+        record_rows_of_type(r, at, &record_scene, list->count, list->row);
+    for (int i = 0; text != NULL && i < list->count; i++)
+        free(text[i]);
+    free(text);
+}
+
 /* The points of all curves, one after the other: records of curves say where each begins. */
 static void put_curves(record *r, hid_t at, const subjects *list)
 {
@@ -112,6 +132,8 @@ static void put_records(record *r, hid_t at, const gathering *g, const record_ty
     r->bad |= list.bad;
     if (type == &record_point)
         put_points(r, at, of, &list);
+    else if (type == &record_scene)
+        put_scenes(r, at, &list);
     else if (!r->bad)
         record_rows_of_type(r, at, type, list.count, list.row);
     if (type == &record_curve)

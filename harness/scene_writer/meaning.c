@@ -4,39 +4,6 @@
 
 #include "harness/scene_writer/meaning_impl.h"
 
-char meaning_axis(int component)
-{
-    return "xyzxyz"[component];
-}
-
-void meaning_node(FILE *to, const scene *s, const char *preposition, int node)
-{
-    const double *at = s->node[node].position; /* + 0: no minus before a zero */
-    fprintf(to, " %s node_%d (%.4g, %.4g, %.4g)", preposition, node, at[0] + 0, at[1] + 0,
-            at[2] + 0);
-}
-
-void meaning_ordinal(FILE *to, int order)
-{
-    static const char *const word[] = {"first", "second",  "third",  "fourth", "fifth",
-                                       "sixth", "seventh", "eighth", "ninth",  "tenth"};
-    if (order < 10)
-        fputs(word[order], to);
-    else
-        fprintf(to, "%dth", order + 1);
-}
-
-void meaning_coordinate(FILE *to, const scene *s, int node, int component)
-{
-    const int turn = component >= SCENE_RX;
-    fputs(turn ? "rotation" : "displacement", to);
-    meaning_node(to, s, "of", node);
-    if (turn)
-        fprintf(to, ", component %c of its rotation vector", meaning_axis(component));
-    else
-        fprintf(to, " along %c", meaning_axis(component));
-}
-
 /* Does the node follow a motion in this component, or in any of the turns that follow each other?
  */
 static int is_driven(const scene_node *n, int component)

@@ -1,5 +1,7 @@
 #include "harness/scene_writer/write.h"
 
+#include <stdlib.h>
+
 #include "harness/scene_writer/write_impl.h"
 
 static void write_needs(writer *w)
@@ -66,4 +68,22 @@ status write_scene(FILE *to, const scene *s, const write_head *head, fault *f)
                                     "file can say it",
                                     head->name)
                         : STATUS_OK;
+}
+
+char *write_scene_text(const scene *s, const write_head *head)
+{
+    char *text = NULL;
+    size_t size = 0;
+    fault f;
+    FILE *to = open_memstream(&text, &size);
+    if (to == NULL)
+        return NULL;
+    const status written = s != NULL ? write_scene(to, s, head, &f) : STATUS_REFUSED;
+    if (fclose(to) != 0) {
+        free(text);
+        return NULL;
+    }
+    if (written != STATUS_OK)
+        text[0] = '\0';
+    return text;
 }

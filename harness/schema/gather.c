@@ -206,6 +206,35 @@ static void gather_points(const gathering *g, const case_type *of, subjects *out
     }
 }
 
+/* What can be set of a case. */
+static void gather_parameters(subject s, subjects *out)
+{
+    while (parameter_at(s.point->type->parameters, s.index) != NULL) {
+        add(out, &s);
+        s.index++;
+    }
+}
+
+static void gather_meanings(subject s, subjects *out)
+{
+    for (; s.index < s.point->scene.quantities; s.index++)
+        add(out, &s);
+}
+
+/* Of the first point, or of all. */
+static void gather_of_points(const gathering *g, const record_type *type, const case_type *of,
+                             subjects *out)
+{
+    subjects points = {0};
+    gather_points(g, of, &points);
+    out->bad |= points.bad;
+    if (type == &record_parameter && points.count > 0)
+        gather_parameters(points.row[0], out);
+    for (int i = 0; i < points.count && type == &record_meaning; i++)
+        gather_meanings(points.row[i], out);
+    gather_free(&points);
+}
+
 static void gather_agreements(const gathering *g, const case_type *of, subjects *out)
 {
     if (g->judged != NULL)
@@ -249,8 +278,10 @@ void gather_declarations(const gathering *g, subjects *out)
 
 void gather_case(const gathering *g, const record_type *type, const case_type *of, subjects *out)
 {
-    if (type == &record_point)
+    if (type == &record_point || type == &record_scene)
         gather_points(g, of, out);
+    if (type == &record_parameter || type == &record_meaning)
+        gather_of_points(g, type, of, out);
     if (type == &record_agreement)
         gather_agreements(g, of, out);
     if (type == &record_coverage)

@@ -10,7 +10,7 @@ python=${PYTHON:-/usr/bin/python3}
 case $command in
 build) modules= ;;
 verify) modules="h5py numpy" ;;
-report) modules="h5py numpy scipy matplotlib jinja2 markdown" ;;
+report) modules="h5py numpy scipy matplotlib jinja2 markdown yaml" ;;
 truths) modules="numpy scipy mpmath yaml" ;;
 test) modules="h5py numpy scipy matplotlib jinja2 markdown mpmath yaml" ;;
 *) echo "dependencies.sh: unknown command '$command'; give build, verify, report, truths or test" >&2; exit 2 ;;

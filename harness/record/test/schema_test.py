@@ -152,6 +152,44 @@ class Schema(ProgramTest):
                          parameters)
         self.assertEqual((units["length"], row["width"]), (b"m", 0.07))
 
+    def test_scenes(self):
+        """Every point is there as the scene file that `beamwork scene` writes."""
+        with h5py.File(self.results) as file:
+            for name, case in file["cases"].items():
+                scenes = {text(row["point"]): text(row["scene"]) for row in case["scenes"][()]}
+                self.assertEqual(set(scenes), {text(p) for p in case["points"]["point"]})
+                self.assertEqual(scenes["default"], run("scene", name))
+
+    def test_what_can_be_set(self):
+        """The table of parameters has the columns of the points, with their defaults."""
+        with h5py.File(self.results) as file:
+            for case in file["cases"].values():
+                table, points = case["parameters"][()], case["points"]
+                own = points.dtype.names[len(self.names("points", around=False)):]
+                self.assertEqual([text(name) for name in table["parameter"]], list(own))
+                row = next(p for p in points[()] if p["point"] == b"default")
+                for p in table:
+                    value, told = row[text(p["parameter"])], text(p["default"])
+                    self.assertEqual(text(value) if p["choices"] else value,
+                                     told if p["choices"] else float(told))
+                    self.assertTrue(p["choices"] or p["min"] <= value <= p["max"])
+                    self.assertTrue(p["summary"])
+
+    def test_meanings(self):
+        """Every quantity that has values is explained, as `list` says it."""
+        with h5py.File(self.results) as file:
+            for name, case in file["cases"].items():
+                told = {(m["point"], m["quantity"]): text(m["meaning"])
+                        for m in case["meanings"][()]}
+                asked = {(q["point"], q["quantity"]) for q in case["quantities"][()]}
+                self.assertLessEqual(asked, set(told))
+                self.assertGreater(min(len(words) for words in told.values()), 10)
+                curves = {m["quantity"] for m in case["meanings"][()] if m["curve"]}
+                self.assertEqual(curves, {c["quantity"] for c in case["curves"][()]})
+                shown = run("list", name)
+                for (point, _), words in told.items():
+                    self.assertTrue(point != b"default" or words in shown, words)
+
     def test_json_of_convergence(self):
         done = run("converge", "elastica", "-f", "collocation", "-n", "1,2,4", "--format", "json")
         for series in json.loads(done)["series"]:

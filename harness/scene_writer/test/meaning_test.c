@@ -14,18 +14,6 @@
 enum { MOST = 128, KEY = 400, KINDS = SCENE_STRESS + 1 };
 static int seen[KINDS], asked;
 
-static char *written(const scene *s)
-{
-    char *text = NULL;
-    size_t size;
-    fault f;
-    const write_head head = {"any", "", ""};
-    FILE *to = open_memstream(&text, &size);
-    gsl_test(write_scene(to, s, &head, &f) != STATUS_OK, "%s: written", s->name);
-    fclose(to);
-    return text;
-}
-
 /* What a file says of quantity i: the extract, then the factor and the offset. */
 static void key_of(const char *text, const scene_quantity *q, char key[KEY])
 {
@@ -42,7 +30,9 @@ static void key_of(const char *text, const scene_quantity *q, char key[KEY])
 static void check_scene(const scene *s, const char *name)
 {
     static char sentence[MOST][MEANING_ROOM], key[MOST][KEY];
-    char *text = written(s);
+    const write_head head = {"any", "", ""};
+    char *text = write_scene_text(s, &head);
+    gsl_test(text == NULL || text[0] == '\0', "%s: written", name);
     gsl_test(s->quantities > MOST, "%s: %d quantities", name, s->quantities);
     for (int i = 0; i < s->quantities && i < MOST; i++) {
         const size_t size = sizeof sentence[i];
