@@ -1,4 +1,4 @@
-"""Packs the truth tables and the findings into one HDF5 file that the driver reads.
+"""Packs the truth tables, the findings and the glossary into one HDF5 file that the driver reads.
 
 usage: pack.py -o FILE     Layout: reference/README.md.  The file appears complete or not at all.
 """
@@ -8,6 +8,7 @@ import fnmatch
 import math
 import os
 import pathlib
+import re
 import sys
 import zlib
 
@@ -15,6 +16,7 @@ VERSION = 2  # of the packed file; TRUTHS_VERSION of harness/truth/truths.h
 HERE = pathlib.Path(__file__).resolve().parent
 COLUMNS = "case,parameters,formulation,theory,elements,quantity,at,value,unit,uncertainty,kind,model,convention,source".split(",")
 FINDING_COLUMNS = "rule,formulations,cases,condition,quantities,verdicts,largest_error,predicted,cause,proof".split(",")
+GLOSSARY_COLUMNS = "term,also,group,meaning,see".split(",")
 EXTREME_COLUMNS = "extreme,from,to,formulation,quantity,outcome,proof".split(",")
 OUTCOMES = ("value", "coarse", "wrong", "not converged", "singular", "refused", "no value", "fault")
 KINDS = ("exact", "predicted", "independent", "consensus", "agreement", "published", "reconstructed", "experiment", "unrepeatable")
@@ -213,6 +215,32 @@ def read_extreme_findings(path):
     return rows
 
 
+def looked_up(word):
+    """As `beamwork explain` compares words."""
+    return " ".join(re.split(r"[ _-]+", word.lower()))
+
+
+def read_glossary(path):
+    """Entries, each with names of its own; what they send to exists."""
+    rows, names = [], {}
+    for number, row in read_csv(path, GLOSSARY_COLUMNS):
+        where = f"{path.name}:{number}"
+        for column in ("term", "group", "meaning"):
+            if not row[column]:
+                raise Refused(f"{where}: an entry needs {column}")
+        for name in [row["term"], *filter(None, row["also"].split("|"))]:
+            if looked_up(name) in names:
+                raise Refused(f"{where}: '{name}' is explained at {names[looked_up(name)]}")
+            names[looked_up(name)] = where
+        rows.append(row)
+    terms = {row["term"] for row in rows}
+    for row in rows:
+        for word in filter(None, row["see"].split("|")):
+            if word not in terms or word == row["term"]:
+                raise Refused(f"{path.name}: '{row['term']}' sends to '{word}', which is no other term")
+    return rows
+
+
 def write_columns(group, rows, columns):
     import numpy
     for name in columns:
@@ -238,6 +266,7 @@ def pack(folder, out):
     defaults = read_defaults(folder / "defaults.csv")
     truths = read_truths([folder / name for name in TRUTH_FOLDERS], defaults)
     findings = read_findings(folder / "findings.csv", defaults)
+    glossary = read_glossary(folder / "glossary.csv")
     extremes = read_truths([folder / "extremes"], defaults)
     extreme_findings = read_extreme_findings(folder / "extreme_findings.csv")
     temporary = f"{out}.part{os.getpid()}"
@@ -249,6 +278,7 @@ def pack(folder, out):
             for case, rows in sorted(truths.items()):
                 write_columns(group.create_group(case), rows, COLUMNS[1:] + ["hash"])
             write_columns(file.create_group("findings"), findings, FINDING_COLUMNS)
+            write_columns(file.create_group("glossary"), glossary, GLOSSARY_COLUMNS)
             group = file.create_group("extremes")
             for case, rows in sorted(extremes.items()):
                 write_columns(group.create_group(case), rows, COLUMNS[1:] + ["hash"])

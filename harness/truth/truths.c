@@ -5,10 +5,9 @@
 #include <string.h>
 
 #include "harness/catalogue/registry.h"
-#include "harness/truth/checksum.h"
 #include "harness/truth/columns.h"
-#include "harness/truth/handles.h"
 #include "harness/truth/truth_rows.h"
+#include "harness/truth/truths_file.h"
 
 static status read_table(columns *r, const case_type *type, truths *out)
 {
@@ -59,32 +58,6 @@ static void find_strangers(hid_t all, truths *out)
     }
 }
 
-/* Is it ours, and of this version? */
-static status check_schema(hid_t file, const char *path, fault *f)
-{
-    char name[64] = "";
-    int version = 0;
-    const hid_t schema = H5Aexists(file, "schema") > 0 ? H5Aopen(file, "schema", H5P_DEFAULT) : -1;
-    const hid_t type = schema >= 0 ? H5Aget_type(schema) : -1;
-    if (type >= 0 && H5Tget_class(type) == H5T_STRING && !H5Tis_variable_str(type) &&
-        H5Tget_size(type) < sizeof name)
-        H5Aread(schema, type, name);
-    const hid_t number =
-        H5Aexists(file, "version") > 0 ? H5Aopen(file, "version", H5P_DEFAULT) : -1;
-    if (number >= 0)
-        H5Aread(number, H5T_NATIVE_INT, &version);
-    handles_close(3, (const hid_t[]){number, type, schema});
-    if (strcmp(name, "beamwork-truths") != 0)
-        return fault_set(f, STATUS_FAULT, "%s: not a file of truths; build it with 'make all'",
-                         path);
-    if (version != TRUTHS_VERSION)
-        return fault_set(
-            f, STATUS_FAULT,
-            "%s: truths of version %d, this program reads %d; build it again ('make all')", path,
-            version, TRUTHS_VERSION);
-    return STATUS_OK;
-}
-
 /* The tables of one group, one for every case. */
 static status read_tables(const char *path, hid_t file, const char *name, truths *out, fault *f)
 {
@@ -99,24 +72,11 @@ static status read_tables(const char *path, hid_t file, const char *name, truths
     return outcome;
 }
 
-/* FAULT when it is damaged or not ours; below 0: nothing is open. */
-static status open_truths(const char *path, hid_t *file, fault *f)
-{
-    *file = -1;
-    TRY(checksum_check(path, f));
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    *file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (*file < 0)
-        return fault_set(f, STATUS_FAULT, "%s: cannot be read as HDF5; build it with 'make all'",
-                         path);
-    return check_schema(*file, path, f);
-}
-
 /* With what read_file closes. group NULL: no tables. */
 static status read_open(const char *path, const char *group, int with_rules, hid_t *file,
                         truths *out, fault *f)
 {
-    TRY(open_truths(path, file, f));
+    TRY(truths_file_open(path, file, f));
     if (group != NULL)
         TRY(read_tables(path, *file, group, out, f));
     return with_rules ? rules_read(path, *file, &out->rule, &out->rules, f) : STATUS_OK;

@@ -24,6 +24,7 @@ class Pack(unittest.TestCase):
                    ["case,parameter,value,choices", "beam,length,2,", "beam,ends,1,free|fixed"])
         self.write("findings.csv", [",".join(pack.FINDING_COLUMNS)])
         self.write("extreme_findings.csv", [",".join(pack.EXTREME_COLUMNS)])
+        self.write("glossary.csv", [",".join(pack.GLOSSARY_COLUMNS)])
         self.row = [
             "beam", "length=3;ends=free", "", "", "", "load", "", "12.5", "N", "0.1", "exact",
             "same", "", "closed form"
@@ -169,6 +170,22 @@ class Pack(unittest.TestCase):
         self.refused("the same rule", self.row)
         self.write("findings.csv", [",".join(pack.FINDING_COLUMNS), ",".join(good)])
         self.assertEqual(self.run_pack(self.row).returncode, 0)
+
+    def test_refused_entries_of_the_glossary(self):
+        head, good = ",".join(pack.GLOSSARY_COLUMNS), "limit,end,convergence,What values tend to.,"
+        for word, line in (("needs meaning", "order,,convergence,,"),
+                           ("needs group", "order,,,A power.,"), ("needs term", ",,g,A power.,"),
+                           ("is explained at", "order,END,convergence,A power.,"),
+                           ("is explained at", "Limit,,convergence,A power.,"),
+                           ("which is no other term", "order,,convergence,A power.,end"),
+                           ("which is no other term", "order,,convergence,A power.,order")):
+            with self.subTest(line=line):
+                self.write("glossary.csv", [head, good, line])
+                self.refused(word, self.row)
+        self.write("glossary.csv", [head, good, "order,,convergence,A power.,limit"])
+        self.assertEqual(self.run_pack(self.row).returncode, 0)
+        with h5py.File(self.folder / "t.h5") as file:
+            self.assertEqual(list(file["glossary/term"][()]), [b"limit", b"order"])
 
     def test_refused_files(self):
         self.refused("wrong number of fields", self.row[:-1])

@@ -1,6 +1,6 @@
 /* Makes a small file of truths, right or wrong in one respect. */
-#ifndef BEAMWORK_TRUTHS_FILE_H
-#define BEAMWORK_TRUTHS_FILE_H
+#ifndef BEAMWORK_TEST_TRUTHS_FILE_H
+#define BEAMWORK_TEST_TRUTHS_FILE_H
 
 #include <gsl/gsl_test.h>
 #include <hdf5.h>
@@ -141,7 +141,8 @@ static void truths_file_make(const char *path, const recipe *r)
 }
 
 /* Refused with one line that has the word. */
-static void truths_file_refused(const char *path, const char *word, recipe r, const char *what)
+static inline void truths_file_refused(const char *path, const char *word, recipe r,
+                                       const char *what)
 {
     truths t;
     fault f = {""};
