@@ -201,7 +201,7 @@ def write(site):
                soonest=soonest,
                undecided=answers.undecided,
                peers=rows,
-               figure=figure,
+               errors=figure,
                best=best,
                target=TARGET,
                timed=site.bench is not None)

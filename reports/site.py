@@ -6,7 +6,7 @@ import pathlib
 import jinja2
 from markupsafe import Markup, escape
 
-from reports import beside, data, verdicts
+from reports import beside, data, figures, style, verdicts
 from reports.style import Styles, plt
 
 LEVELS = (0.1, 0.01, 0.001, 0.0001)
@@ -49,7 +49,8 @@ def file_of(key):
 
 
 class Site:
-    """One report. cases: data.Case records; about, bench: environment of the results and of the times (None: no benchmark); kinds: truths by kind."""
+    """One report. cases: data.Case records; about, bench: environment of the results and of the
+    times (None: no benchmark); kinds: truths by kind."""
 
     def __init__(self, results, truths, folder, bench=None, others=()):
         self.about, self.cases = data.read_results(results, bench)
@@ -60,8 +61,9 @@ class Site:
         self.kinds = data.read_truth_counts(truths)
         self.results, self.truths, self.folder = results, truths, folder
         self.styles = Styles([s.key for c in self.cases for p in c.points for s in p.series])
-        self.navigation, self.sections = [], []
+        self.navigation, self.sections, self.said = [], [], []
         os.makedirs(folder, exist_ok=True)
+        self.write_assets()
         loader = jinja2.FileSystemLoader(pathlib.Path(__file__).parent / "templates")
         self.templates = jinja2.Environment(loader=loader,
                                             autoescape=True,
@@ -79,8 +81,14 @@ class Site:
                                       kinds_of_verdicts=verdicts.BY_NAME,
                                       remarks=verdicts.remarks,
                                       navigation=self.navigation,
-                                      colour=lambda key: self.styles.of(key)["color"],
+                                      colour=self.styles.fill,
                                       shape=self.styles.shape)
+
+    def write_assets(self):
+        """Style sheet beside the pages, with the colours of formulations, light and dark."""
+        sheet = (pathlib.Path(__file__).parent / "assets" / "style.css").read_text(encoding="utf-8")
+        with open(os.path.join(self.folder, "style.css"), "w", encoding="utf-8") as out:
+            out.write(sheet + style.sheet())
 
     def case(self, name):
         """The case of this name, or None."""
@@ -93,10 +101,31 @@ class Site:
             out.write(self.templates.get_template(template).render(self_name=name, **context))
         os.replace(f"{path}.part", path)
 
+    def points(self, key, columns, rows, title=""):
+        """What plot() wants for a curve whose marks say more than where they are: with the pointer
+        on a mark, or
+        from the keyboard, a box shows title, formulation and the row of the mark.
+
+        key: formulation; columns: names of what is in a row, of which `error` is shown in percent
+        and `time [s]` in
+        the unit that suits; rows: one for each mark that is drawn, in their order, of numbers,
+        texts or None."""
+        def plain(value):
+            return value if isinstance(value, (str, int)) or value is None else (
+                float(f"{value:.9g}") if math.isfinite(value) else None)
+
+        self.said.append({"f": key, "t": title, "c": list(columns),
+                          "r": [[plain(value) for value in row] for row in rows]})
+        look = self.styles.of(key)
+        return {**look, "gid": f"{look['gid']}|{len(self.said) - 1}"}
+
     def image(self, figure, name, tight=True):
-        """Writes a figure as SVG and closes it; returns the file's name for a page's <img src>. tight: cut to what is drawn, which draws it twice."""
-        figure.savefig(os.path.join(self.folder, f"{name}.svg"),
-                       metadata={"Date": None},
-                       bbox_inches="tight" if tight else None)
+        """A figure for the macro `figure` of a page, which puts it into the page itself; it is
+        closed, and kept as a
+        file, too. tight: cut to what is drawn, which draws it twice."""
+        image = figures.image_of(figure, name, self.said, tight)
         plt.close(figure)
-        return f"{name}.svg"
+        self.said.clear()
+        with open(os.path.join(self.folder, image.name), "w", encoding="utf-8") as out:
+            out.write(figures.alone(image.markup))
+        return image

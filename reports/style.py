@@ -1,4 +1,11 @@
-"""One colour and marker per formulation, everywhere the same; distinguishable without colour vision (Okabe and Ito; the last two Tol)."""
+"""One colour and marker per formulation, the same for ever: a new formulation changes none of the
+old ones.
+
+Distinguishable without colour vision (Okabe and Ito; the last two Tol). On a dark page each colour
+has a
+lighter one of the same hue; figures.py writes the variable, base.html says what it is."""
+import zlib
+
 import matplotlib
 import numpy as np
 
@@ -6,40 +13,86 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.markers import MarkerStyle  # noqa: E402
 
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D31",
-           "#882255", "#44AA99")
-MARKERS = "osD^vP*X<>"
+# name: colour, colour on a dark page, marker
+TABLE = {
+    "beamw": ("#0072b2", "#4a9fe0", "o"),
+    "beamw_consistent": ("#d55e00", "#ff8c42", "s"),
+    "beamw_first": ("#009e73", "#2bc495", "D"),
+    "beamw_vlasov": ("#cc79a7", "#eba6cb", "^"),
+    "collocation": ("#e69f00", "#f5b942", "v"),
+    "geometrically_exact": ("#56b4e9", "#8fd2fa", "P"),
+    "sheet_second": ("#000000", "#f4f6f9", "*"),
+    "sheet_second_consistent": ("#8c6d31", "#c9a55c", "X"),
+    "sheet_third": ("#882255", "#d8639b", "<"),
+    "sheet_third_printed": ("#44aa99", "#7fdccd", ">"),
+}
+# Formulations that the table does not name take one of these by their name.
+RESERVE = (("#6a51a3", "#a793dc"), ("#a6761d", "#dfb060"), ("#c51b7d", "#f06cb4"),
+           ("#1b7837", "#5fc07c"), ("#5b6675", "#aab4c2"))
+RESERVE_MARKERS = "hpd8H"
+# Line of an option: the colour is the formulation's.
+LINES = {"mass=lumped": "--", "mass=averaged": ":", "torsion=hyperbolic": "-."}
+RESERVE_LINES = ((0, (6, 1)), (0, (1, 2)), (0, (4, 1, 1, 1)), (0, (8, 3)), (0, (2, 1)))
+
+COLOURS = [(light, dark) for light, dark, _ in TABLE.values()] + list(RESERVE)
+VARIABLES = {light: f"var(--f{i},{light})" for i, (light, _) in enumerate(COLOURS)}
 
 # Text stays text: it can be searched, and the figures stay small.
 plt.rcParams.update({
     "font.size": 9, "axes.grid": True, "grid.alpha": 0.25, "grid.linewidth": 0.5,
     "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False,
     "svg.hashsalt": "beamwork", "svg.fonttype": "none", "font.family": "sans-serif",
-    "lines.markersize": 4.5, "lines.linewidth": 1.2
+    "lines.markersize": 4.5, "lines.linewidth": 1.2,
+    "figure.facecolor": "none", "axes.facecolor": "none"
 })
 
 
+def look(key):
+    """(colour, colour on a dark page, marker) of a formulation with or without options."""
+    name = key.partition(":")[0]
+    number = zlib.crc32(name.encode())
+    return TABLE.get(name) or (*RESERVE[number % len(RESERVE)],
+                               RESERVE_MARKERS[number // 7 % len(RESERVE_MARKERS)])
+
+
+def sheet():
+    """The variables of colours for a style sheet."""
+    light, dark = (":root { %s }" % " ".join(f"--f{i}: {pair[k]};" for i, pair in enumerate(COLOURS))
+                   for k in (0, 1))
+    return f"{light}\n@media screen and (prefers-color-scheme: dark) {{ {dark} }}\n"
+
+
+def line_of(options):
+    return LINES.get(options) or RESERVE_LINES[zlib.crc32(options.encode()) % len(RESERVE_LINES)]
+
+
 class Styles:
-    """keys: all formulation keys of a result file. Options of a formulation share its colour; the line tells them apart."""
+    """keys: all formulation keys of a result file, in the order of their names."""
 
     def __init__(self, keys):
-        self.order = {key: i for i, key in enumerate(sorted(set(keys)))}
-        self.names = {name: i for i, name in enumerate(sorted({key.split(":")[0] for key in keys}))}
+        self.order = sorted(set(keys))
 
-    def of(self, key):
-        name, _, options = key.partition(":")
-        i = self.names[name]
-        same = sorted(k for k in self.order if k.startswith(f"{name}:"))
-        line = ("--", ":", "-.", (0, (6, 1)), (0, (1, 2)))[same.index(key) % 5] if options else "-"
+    @staticmethod
+    def of(key):
+        """What plot() wants to draw the curve of a formulation; its gid says whose it is
+        (figures.py)."""
+        colour, _, marker = look(key)
+        options = key.partition(":")[2]
         return {
-            "color": COLOURS[i % len(COLOURS)], "marker": MARKERS[i % len(MARKERS)],
-            "linestyle": line
+            "color": colour, "marker": marker, "linestyle": line_of(options) if options else "-",
+            "gid": f"f|{key}"
         }
 
-    def shape(self, key):
+    @staticmethod
+    def shape(key):
         """The marker as the path of an SVG picture of 12 by 12, its centre at the origin."""
-        path = MarkerStyle(self.of(key)["marker"])
+        path = MarkerStyle(look(key)[2])
         corners = path.get_path().transformed(path.get_transform()).to_polygons(closed_only=True)
         size = 5.4 / max(np.abs(c).max() for c in corners)
         return " ".join(
             "M" + "L".join(f"{size * x:.1f},{-size * y:.1f}" for x, y in c) + "Z" for c in corners)
+
+    @staticmethod
+    def fill(key):
+        """The colour for a page, which the dark page changes."""
+        return VARIABLES[look(key)[0]]

@@ -29,7 +29,7 @@ class Page(ProgramTest):
         page = self.page()
         self.assertNotIn("make bench-mechanisms</code>, then", page)
         self.assertIn("<td class=\"n\">243</td>", page)
-        self.assertIn("mechanisms_growth.svg", page)
+        self.assertIn('<svg id="mechanisms_growth"', page)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,224 @@
+"""A drawn figure as a short SVG that stands in the page itself.
+
+What matplotlib writes is parsed and written again: coordinates to a tenth of a point, identifiers
+that
+are unique in the page, what children share said once by their parent. Black and grey become the
+colour of
+the text, so that a figure follows the page into the dark; colours of formulations become variables.
+
+Groups whose gid is `f|KEY` (style.py) carry data-f="KEY": what belongs to a formulation.
+`f|KEY|POINTS`
+names what site.points() was told of its marks, too. What has the gid `fixed` keeps its colours."""
+import dataclasses
+import io
+import json
+import re
+import zlib
+from xml.etree import ElementTree
+
+from markupsafe import Markup, escape
+
+from reports import style
+
+SVG, LINK = "{http://www.w3.org/2000/svg}", "{http://www.w3.org/1999/xlink}href"
+INHERITED = ("fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width", "stroke-linejoin",
+             "stroke-linecap", "stroke-dasharray", "font-size", "text-anchor", "clip-path")
+USUAL = {"stroke-linejoin": "round", "stroke-linecap": "butt", "stroke-dashoffset": "0",
+         "stroke-opacity": "1", "fill-opacity": "1", "opacity": "1", "text-anchor": "start"}
+FONT = "'DejaVu Sans',Verdana,sans-serif"
+NUMBER = re.compile(r"-?\d*\.?\d+(?:e-?\d+)?")
+
+
+@dataclasses.dataclass(frozen=True)
+class Image:
+    """A figure of the site. name: of its file; markup: the SVG for the page, without a title;
+    points: what its marks
+    say (points.py), as JSON."""
+    name: str
+    markup: str
+    points: str = ""
+
+    def __str__(self):
+        return self.name
+
+    def inline(self, alt):
+        """The SVG with its description, and its points beside it."""
+        data = f'<script type="application/json">{self.points}</script>' if self.points else ""
+        name = escape(self.name.removesuffix(".svg"))
+        own = f'<svg id="{name}" role="img" aria-label="{escape(alt)}"'
+        return Markup(self.markup.replace("<svg", own, 1) + data)
+
+
+def number(text, digits=1):
+    """Shortest text of a coordinate."""
+    short = f"{float(text):.{digits}f}".rstrip("0").rstrip(".")
+    return "0" if short in ("-0", "") else short
+
+
+def path(text, digits):
+    """Commands of a path without spaces that say nothing."""
+    rounded = NUMBER.sub(lambda found: number(found.group(), digits), text)
+    return re.sub(r"\s*([MLCQzZ])\s*", r"\1", " ".join(rounded.split())).replace(" -", "-")
+
+
+def properties(text):
+    return dict(item.strip().split(": ", 1) for item in text.split(";") if ": " in item)
+
+
+def ink(own, name):
+    """Black and grey as the colour of the text, more or less opaque; white as the paper; known
+    colours as variables."""
+    colour = own.get(name, "none")
+    if not re.fullmatch("#[0-9a-f]{6}", colour):
+        return
+    red, green, blue = (int(colour[i:i + 2], 16) for i in (1, 3, 5))
+    if red == green == blue == 255:
+        own[name] = "var(--paper,#fff)"
+    elif red == green == blue:
+        own[name] = "currentColor"
+        opacity = float(own.get(f"{name}-opacity", 1)) * (1 - red / 255)
+        own[f"{name}-opacity"] = number(opacity, 2)
+    else:
+        own[name] = style.VARIABLES.get(colour, colour)
+
+
+def dressed(element, fixed):
+    """The attributes of an element with its style among them, in the shortest words."""
+    own = properties(element.get("style", ""))
+    own.update({name: element.get(name) for name in ("clip-path",) if element.get(name)})
+    if not fixed:
+        ink(own, "fill")
+        ink(own, "stroke")
+    font = re.match(r"(.*?)([\d.]+)px", own.pop("font", ""))
+    if font:
+        own["font-size"] = number(font.group(2))
+        own.update({"font-style": "italic"} if "italic" in font.group(1) else {})
+        own.update({"font-weight": "bold"} if re.search("bold|700", font.group(1)) else {})
+    if own.get("stroke", "none") == "none" and element.tag not in (f"{SVG}use", f"{SVG}g"):
+        own = {name: value for name, value in own.items() if not name.startswith("stroke")}
+    return {name: value for name, value in own.items() if USUAL.get(name) != value}
+
+
+class Writer:
+    """Writes one figure. prefix: of its identifiers, unique in the page."""
+
+    def __init__(self, root, prefix):
+        text = ElementTree.tostring(root, encoding="unicode")
+        used = dict.fromkeys(re.findall(r'href="#([^"]+)"|url\(#([^)]+)\)', text))
+        self.names = {a or b: f"{prefix}{i:x}" for i, (a, b) in enumerate(used)}
+        self.points = {}
+
+    def attributes(self, element, tag, fixed):
+        own = dressed(element, fixed)
+        if "clip-path" in own:
+            own["clip-path"] = f"url(#{self.names[own['clip-path'][5:-1]]})"
+        name = element.get("id", "")
+        if name in self.names:
+            own["id"] = self.names[name]
+        if name.startswith("f|"):
+            _, own["data-f"], *points = name.split("|")
+            if points:
+                own["data-p"] = str(self.points.setdefault(points[0], len(self.points)))
+        if element.get(LINK):
+            link = element.get(LINK)
+            own["href"] = f"#{self.names[link[1:]]}" if link.startswith("#") else link
+        if "d" in element.attrib:
+            own["d"] = path(element.get("d"), 2 if name else 1)
+        for name in ("x", "y", "width", "height", "cx", "cy", "r"):
+            if name in element.attrib:
+                own[name] = number(element.get(name).split()[0])
+        if "transform" in element.attrib:
+            moved = path(element.get("transform"), 2)
+            own.update({} if moved.startswith("rotate(0 ") else {"transform": moved})
+        return own
+
+    def read(self, element, fixed=False):
+        """(tag, attributes, children, text), or None where nothing is drawn."""
+        tag = element.tag.removeprefix(SVG)
+        fixed = fixed or element.get("id") == "fixed"
+        own = self.attributes(element, tag, fixed)
+        if tag in ("metadata", "style") or (tag in ("path", "rect") and own.get("fill") == "none"
+                                            and "stroke" not in own):
+            return None
+        children = [c for c in (self.read(child, fixed) for child in element) if c]
+        if tag in ("g", "defs") and not children:
+            return None
+        if tag == "g":
+            self.share(own, children)
+            if len(children) == 1 and children[0][0] == "g" and not set(own) & set(children[0][1]):
+                own.update(children[0][1])
+                children = children[0][2]
+        return tag, own, children, (element.text or "").strip() if tag in ("text", "tspan") else ""
+
+    @staticmethod
+    def share(own, children):
+        """What all children say alike is said by their parent."""
+        drawn = [c for c in children if c[0] != "defs"]
+        for name in INHERITED:
+            values = {c[1].get(name) for c in drawn}
+            if len(values) == 1 and len(drawn) > 1 and None not in values and name not in own:
+                if name == "clip-path" and "transform" in own:
+                    continue
+                own[name] = values.pop()
+                for c in drawn:
+                    del c[1][name]
+
+    def write(self, node):
+        tag, own, children, text = node
+        inside = str(escape(text)) + "".join(self.write(child) for child in children)
+        if tag in ("g", ) and not own:
+            return inside
+        words = "".join(f' {name}="{escape(value)}"' for name, value in own.items())
+        return f"<{tag}{words}>{inside}</{tag}>" if inside else f"<{tag}{words}/>"
+
+
+def short(svg, name):
+    """(SVG for a page, points it names) of what matplotlib wrote."""
+    root = ElementTree.fromstring(svg)
+    writer = Writer(root, f"{zlib.crc32(name.encode()):08x}"[:5].translate(
+        str.maketrans("0123456789", "ghijklmnop")))
+    _, _, width, height = (float(x) for x in root.get("viewBox").split())
+    inside = "".join(writer.write(node) for node in map(writer.read, root) if node)
+    size = f'width="{width / 0.75:.0f}" height="{height / 0.75:.0f}"'
+    return (f'<svg viewBox="0 0 {width:g} {height:g}" {size} fill="currentColor" '
+            f'stroke-linejoin="round" font-family="{FONT}">{inside}</svg>', writer.points)
+
+
+def alone(markup):
+    """The same SVG as a file of its own."""
+    names = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
+    return '<?xml version="1.0" encoding="utf-8"?>\n' + markup.replace(
+        "<svg", f"<svg {names}", 1).replace(' href="', ' xlink:href="')
+
+
+def handles_of(legend):
+    """The drawn ones; matplotlib 3.7 gave them another name."""
+    return getattr(legend, "legend_handles", None) or legend.legendHandles
+
+
+def tag_legends(figure):
+    """Entries of legends belong to the formulation of the curve they name."""
+    owners = {}
+    for axes in figure.axes:
+        for artist in axes.get_children():
+            if (artist.get_gid() or "").startswith("f|"):
+                owners[artist.get_label()] = "|".join(artist.get_gid().split("|")[:2])
+    legends = list(figure.legends) + [axes.get_legend() for axes in figure.axes]
+    for legend in filter(None, legends):
+        for words, handle in zip(legend.get_texts(), handles_of(legend)):
+            if words.get_text() in owners:
+                words.set_gid(owners[words.get_text()])
+                handle.set_gid(owners[words.get_text()])
+
+
+def image_of(figure, name, said, tight=True):
+    """The Image of a figure. said: what points() was told; tight: cut to what is drawn, which draws
+    it twice."""
+    tag_legends(figure)
+    out = io.StringIO()
+    figure.savefig(out, format="svg", metadata={"Date": None},
+                   bbox_inches="tight" if tight else None)
+    markup, points = short(out.getvalue(), name)
+    told = [said[int(index)] for index in points]
+    return Image(f"{name}.svg", markup,
+                 json.dumps(told, separators=(",", ":")).replace("<", "\\u003c") if told else "")
