@@ -4,7 +4,7 @@ import functools
 import json
 import pathlib
 
-from reports.index import count_verdicts
+from reports.tally import count_verdicts
 
 NAVIGATION = [("checks.html", "checks")]
 # They have no limits of their own.

@@ -1,28 +1,13 @@
-"""First page: the cheapest way to each error in every case, and the verdicts of all formulations."""
+"""First page: on one screen what was found, whom to believe, and the answer for every case."""
 import functools
 
-from reports import answers, plots, tally
-from reports.case import cheapest_of
-from reports.verdicts import SEVERITY
+from reports import answers, heat, profiles, sentences, tally, trust
+from reports.profile_page import panel
 
 NAVIGATION = [("index.html", "beamwork")]
-
-
-def winners(case):
-    """For the defaults: [(quantity, {level: ways})] of the first judged quantity and of all together."""
-    point = case.points[0]
-    found = dict(cheapest_of(point))
-    names = answers.judged(point)
-    rows = [(names[0], found[names[0]])] if names else []
-    if answers.ALL in found:
-        rows.append((f"all {len(names)} quantities", found[answers.ALL]))
-    return rows
-
-
-def count_verdicts(cases):
-    """{verdict: number} from good to bad, without second names and misprints that repeat what is counted."""
-    return dict(
-        sorted(tally.counts(tally.rows(cases))[0].items(), key=lambda item: SEVERITY[item[0]]))
+LEVEL = 0.01  # of the answers
+MOST_ROWS = 10  # of the table of trust on the first screen
+FIGURE = (4.6, 2.7)  # in
 
 
 def formulation_rows(cases):
@@ -35,19 +20,26 @@ def formulation_rows(cases):
     return rows
 
 
+def table_of(case):
+    """[(quantity, data.Verdict or None, heat.soonest to LEVEL)] at the defaults, all together first."""
+    point = case.points[0]
+    names = answers.judged(point)
+    wanted = ([answers.ALL] if len(names) > 1 else []) + names
+    return [(q, answers.ways(point, q, LEVEL)) for q in wanted]
+
+
 def write(site):
-    column = site.case("c_column")
-    site.write("index.html",
-               "index.html",
-               cases=site.cases,
-               kinds=site.kinds,
-               counts=count_verdicts(site.cases),
-               rows=formulation_rows(site.cases),
-               undecided=answers.undecided,
-               winners={c.name: winners(c)
-                        for c in site.cases},
-               timed=site.bench is not None,
-               column=plots.column_figure(site, column) if column else None)
+    compared = profiles.Compared(site.cases)
+    rows = trust.table(site.cases, compared.problems, compared.keys)
+    lines = {found.case.name: found for found in heat.lines(site.cases)}
+    site.write("index.html", "index.html", cases=site.cases, lines=lines, level=LEVEL,
+               speed=sentences.of_speed(compared, rows),
+               trust=sentences.of_trust(site.cases, rows), truths=sentences.of_truths(site.cases),
+               profile=panel(site, compared, profiles.PICTURES[0], LEVEL, "profile", FIGURE)
+               if compared.any else None, rows=rows[:MOST_ROWS], compared=compared,
+               counts=tally.count_verdicts(site.cases),
+               tables={c.name: table_of(c) for c in site.cases},
+               verdicts=formulation_rows(site.cases), undecided=answers.undecided)
 
 
 def tasks(site):

@@ -13,11 +13,13 @@ from reports.site import Site
 
 PAGES = (
     "index",
+    "profile_page",
     "claims",
     "papers",
     "ledger",
     "causes",
     "errata",
+    "column",
     "case",
     "formulation",
     "pictures",

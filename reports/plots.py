@@ -6,7 +6,6 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormat
 
 from reports import answers, beside
 from reports.style import plt
-from reports.verdicts import OWN_LIMITS
 
 FLOOR = 1e-13   # below it errors are round-off
 CEILING = 1e3   # above it a value is a divergence
@@ -204,31 +203,6 @@ def curves(site, point, quantity, name):
     axes.set_ylabel(labels[1])
     axes.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.01, 0.5))
     return site.image(figure, name)
-
-
-def column_words(verdict):
-    """A verdict with the size of its error where it has a limit of its own."""
-    return f"{verdict.verdict} ({100 * verdict.error:+.3g} %)" if verdict.verdict in OWN_LIMITS else verdict.verdict
-
-
-def column_figure(site, case):
-    """The column under its axial load: the printed form levels off at the wrong limit, the consistent one goes down."""
-    point = next((p for p in case.points if p.parameters == "section_data=printed"), case.points[0])
-    figure, axes = plt.subplots(figsize=(6.4, 3.8))
-    for key in ("beamw", "beamw_consistent"):
-        series = next((s for s in point.series if s.key == key), None)
-        if series is None:
-            continue
-        pairs = finite(series, "buckling_load")
-        axes.plot([m.n for m, _ in pairs], [e for _, e in pairs], label=key, **site.styles.of(key))
-        verdict = answers.verdict_of(series, "buckling_load")
-        axes.annotate(column_words(verdict), (pairs[-1][0].n, pairs[-1][1]), textcoords="offset points", xytext=(-4, 6) if verdict.verdict in OWN_LIMITS else (-10, -6), ha="right", fontsize=8.5, color=site.styles.of(key)["color"])
-        if math.isfinite(verdict.predicted):
-            axes.axhline(abs(verdict.predicted / verdict.truth - 1), color=site.styles.of(key)["color"], linewidth=0.9, linestyle=(0, (4, 3)), zorder=0)
-    axes.set_xlim(1.8, 260)
-    log_axes(axes, "elements over the column", "relative error of the buckling load", True)
-    axes.legend(loc="lower left")
-    return site.image(figure, "column")
 
 
 def peers_figure(site, ours, others, name):

@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass
 
 from reports import data
+from reports.verdicts import SEVERITY
 
 ALIASES = {"C_xx": "C_ux_Fx", "C_zz": "C_uz_Fz"}
 MISPRINTS = {"sheet_third_printed": "sheet_third"}
@@ -78,3 +79,9 @@ def counts(found):
         into, name = (by_verdict, row.verdict.verdict) if own else (left_out, row.standing)
         into[name] = into.get(name, 0) + 1
     return by_verdict, left_out
+
+
+def count_verdicts(cases):
+    """{verdict: number} of those that are counted, from good to bad."""
+    found = counts(rows(cases))[0]
+    return dict(sorted(found.items(), key=lambda item: SEVERITY[item[0]]))

@@ -1,0 +1,144 @@
+"""The problems that formulations are compared on, and what each of them pays to solve one.
+
+A problem is a quantity with an exact truth of the same model, at a parameter point of a case.
+Second names of the same entry are left out. Every case weighs the same, and inside a case every
+problem does: a case with 60 parameter points rules no more than one with a single point.
+
+A formulation has solved a problem to a level with its coarsest mesh whose error, and that of all
+finer ones, is within the level, unless its limit is known to be another one, beyond the level.
+"""
+import math
+from dataclasses import dataclass, field
+
+from reports import answers, tally
+from reports.verdicts import OWN_LIMITS, UNJUDGED
+
+COUNTS = {"time": lambda mesh: mesh.seconds, "unknowns": lambda mesh: max(1, mesh.free)}
+
+
+@dataclass
+class Problem:
+    """tries: {formulation: (data.Series, data.Verdict)} of those that offer what it needs."""
+
+    case: str
+    point: str
+    quantity: str
+    tries: dict
+    meshes: list  # of all runs of the same structure
+    weight: float = math.nan
+    least: dict = field(default_factory=dict)  # what is counted -> least of all those meshes
+
+
+def contestants(cases):
+    """Keys of formulations that were run; without options and kept misprints where others are left."""
+    keys = {s.key for c in cases for p in c.points for s in p.series if not s.missing}
+    plain = {k for k in keys if ":" not in k and tally.corrected(k) is None}
+    return sorted(plain or keys)
+
+
+def tries_of(point, quantity, keys):
+    tries = {}
+    for series in point.series:
+        verdict = answers.verdict_of(series, quantity)
+        judged = verdict and verdict.truth_kind == "exact" and verdict.verdict not in UNJUDGED
+        if judged and series.key in keys and not series.missing:
+            tries[series.key] = series, verdict
+    return tries
+
+
+def problems_of(case, keys):
+    """The problems of a case, each with its share of the case's weight."""
+    found, second_names = [], tally.aliases(case)
+    for point in case.points:
+        meshes = [m for s in point.series for m in s.meshes if s.key in keys and m.status == "ok"]
+        for quantity in answers.judged(point):
+            tries = tries_of(point, quantity, keys) if quantity not in second_names else {}
+            if tries:
+                found.append(Problem(case.name, point.name, quantity, tries, meshes))
+    for problem in found:
+        problem.weight = 1 / len(found)
+        for name, count in COUNTS.items():
+            problem.least[name] = min((count(m) for m in problem.meshes), default=math.nan)
+    return found
+
+
+def problems(cases, keys):
+    return [p for case in cases for p in problems_of(case, keys)]
+
+
+def defect(verdict, level):
+    """Is its limit known to be another one than the truth, and farther from it than the level?"""
+    return verdict.verdict in OWN_LIMITS and abs(verdict.error) > level
+
+
+def any_defect(verdict, level):
+    """Is its limit known to be another one than the truth, however near?"""
+    del level
+    return verdict.verdict in OWN_LIMITS
+
+
+def no_defect(verdict, level):
+    """Whatever is known of the limit, the errors of the meshes count alone."""
+    del verdict, level
+    return False
+
+
+def solved(problem, key, level, forbids=defect):
+    """The data.Mesh that solves it, or None. forbids: which known defect counts as not solved."""
+    if key not in problem.tries:
+        return None
+    series, verdict = problem.tries[key]
+    n = verdict.reach.get(level)
+    if n is None or forbids(verdict, level):
+        return None
+    return next(m for m in series.meshes if m.n == n)
+
+
+def weights(found, key=None):
+    """Weight of each problem, all together 1; of those that a formulation offers, where one is named."""
+    kept = [p for p in found if key is None or key in p.tries]
+    sizes = {}
+    for p in kept:
+        sizes[p.case] = sizes.get(p.case, 0) + p.weight
+    return [(p, p.weight / sizes[p.case] / len(sizes)) for p in kept]
+
+
+def paid(problem, keys, level, count, forbids=defect):
+    """{formulation: what the mesh that solves it counts}; infinite where none does."""
+    meshes = {key: solved(problem, key, level, forbids) for key in keys}
+    return {key: COUNTS[count](m) if m else math.inf for key, m in meshes.items()}
+
+
+def to_the_best(problem, bills, count):
+    """Unit of performance profiles (Dolan and More 2002): the least that any formulation pays."""
+    del problem, count
+    return min(bills.values(), default=math.inf)
+
+
+def to_the_smallest(problem, bills, count):
+    """Unit of data profiles (More and Wild 2009), which hangs on no tolerance and on no rival: the
+    least that any run of the same structure took, however large its error."""
+    del bills
+    return problem.least[count]
+
+
+@dataclass(frozen=True)
+class Question:
+    """What a profile is asked: solved to which level, counted in what, by which unit; which defect
+    forbids."""
+
+    level: float
+    count: str = "time"
+    unit: object = to_the_best
+    forbids: object = defect
+
+
+def factors(found, keys, question):
+    """{formulation: [(problem, what it pays by the unit)]}; infinite where it does not solve it."""
+    out = {key: [] for key in keys}
+    for problem in found:
+        bills = paid(problem, keys, question.level, question.count, question.forbids)
+        unit = question.unit(problem, bills, question.count)
+        for key, bill in bills.items():
+            out[key].append((problem, bill / unit if math.isfinite(bill) else math.inf))
+    return out
