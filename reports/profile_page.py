@@ -11,11 +11,12 @@ READINGS = (defect, no_defect, any_defect)
 
 
 def panel(site, compared, picture, level, name=None, size=(4.4, 3.0)):
-    """A figure with what is read from it as an example: the formulation that is ahead at NEAR."""
+    """A figure with what is read from it as an example: the curve that is ahead at NEAR."""
     curves = compared.profile(picture.question(level), picture.offered)
     at = profiles.places(profiles.FARTHEST[picture.unit])
     factor = NEAR[picture.count]
-    share, ahead = profiles.read_at(curves, at, factor)[0]
+    drawn = {key: curves[key] for key in compared.curves}
+    share, ahead = profiles.read_at(drawn, at, factor)[0]
     name = name or f"{picture.file}_{100 * level:g}"
     return {
         "level": level,
