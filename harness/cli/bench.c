@@ -115,6 +115,7 @@ int cli_bench(int count, char **arguments)
         "repetitions in five alternating rounds on one processor, set-up and solution "
         "apart, with the error. Times whose rounds overlap are undecided. With --against: "
         "one cell in alternation with the same cell of another formulation or program, "
-        "until the noise allows an answer.",
+        "until the noise allows an answer."
+        "\vbeamwork bench spherical_joint -f sheet_third -f collocation -n 1,2",
         "+fnskFojTAXDtY", count, arguments, bench_request);
 }

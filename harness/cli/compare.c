@@ -86,8 +86,10 @@ int cli_compare(int count, char **arguments)
         "or, where one is the short table that is kept of a run, series by series, with the limits "
         "of the default points; a former run is never a truth. -o with OLD alone writes its short "
         "table. Exit status: 0 the same within the thresholds, 1 something is worse, better, "
-        "changed, gone or new, 2 trouble (file, usage, nothing in common).",
-        "ok2h", count, arguments, &r);
+        "changed, gone or new, 2 trouble (file, usage, nothing in common)."
+        "\vbeamwork compare old.h5 new.h5\n"
+        "beamwork compare harness/baseline.csv build/results.h5 --threshold error=0.1",
+        "ok2c", count, arguments, &r);
     if (r.case_name == NULL || (r.second == NULL) != (r.output != NULL))
         return message_fail(
             STATUS_REFUSED,

@@ -76,6 +76,7 @@ int cli_converge(int count, char **arguments)
 {
     return command_run(
         "converge", "CASE",
-        "Solves one case on several meshes and shows errors, observed order and the limit.",
+        "Solves one case on several meshes and shows errors, observed order and the limit."
+        "\vbeamwork converge c_column -f beamw -f beamw_consistent -n 2,4,8,16,32",
         "fnsFojTY", count, arguments, converge_request);
 }

@@ -68,6 +68,8 @@ int cli_export(int count, char **arguments)
         "reduced integration, ends "
         "and bodies rigid; -n elements along each member (default 20), dense at its ends. "
         "What a deck cannot say is refused. harness/export/read_back.py makes an import of "
-        "what the program prints.",
+        "what the program prints."
+        "\vbeamwork export --scene cases/examples/leaf_spring_guide.yaml --to calculix -o "
+        "guide.inp",
         "nsoYO", count, arguments, export_request);
 }

@@ -110,7 +110,8 @@ int cli_import(int count, char **arguments)
         "Reads what other programs found of a case or scene: CSV with a declared header "
         "(harness/imports/README.md). Names, units and parameters are checked, values "
         "converted; -o FILE is of the same schema as results of verify, whose --beside takes "
-        "it as one more contestant. --format json: the mistakes of each file, for editors.",
+        "it as one more contestant. --format json: the mistakes of each file, for editors."
+        "\vbeamwork import theirs.csv -o theirs.h5",
         "o+mF", count, arguments, &r);
     r.reads_files = 1;
     const status outcome = import(&r, &set, &f);

@@ -145,7 +145,9 @@ int cli_list(int count, char **arguments)
     command_parse(
         "list", "[cases|formulations|CASE]",
         "Shows what there is: cases with their parameters and quantities, formulations with "
-        "their options.",
+        "their options."
+        "\vbeamwork list\n"
+        "beamwork list c_column",
         "Y", count, arguments, &r);
     if (r.scene_count > 0) {
         const case_type *own = case_input_scene(&r);

@@ -47,7 +47,9 @@ int cli_scene(int count, char **arguments)
         "Writes a case at a parameter point as a scene file, or one of your own (--scene "
         "FILE) again: names kept where scenes have them, loops and expressions written out, "
         "numbers with all their digits. Reading it gives the same scene, bit for bit. "
-        "--keys: what may stand in scene files; --schema: the same as JSON Schema, for editors.",
+        "--keys: what may stand in scene files; --schema: the same as JSON Schema, for editors."
+        "\vbeamwork scene c_column -o column.yaml\n"
+        "beamwork scene --keys",
         "soFYHE", count, arguments, &r);
     const case_type *type = r.schema || r.keys ? NULL : case_input_find(&r);
     int code = r.refusal;

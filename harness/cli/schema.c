@@ -75,7 +75,8 @@ int cli_schema(int count, char **arguments)
     command_parse(
         "schema", "",
         "Describes the result file of verify, bench and solve (-o FILE), and the records of "
-        "JSON and CSV.",
+        "JSON and CSV."
+        "\vbeamwork schema --format json",
         "F", count, arguments, &r);
     if (r.case_name != NULL)
         return message_fail(STATUS_REFUSED, "schema takes no case; it describes the files of all");

@@ -210,6 +210,7 @@ int cli_solve(int count, char **arguments)
     return command_run(
         "solve", "CASE",
         "Solves one case with one formulation and one mesh and shows every quantity with its "
-        "error.",
+        "error."
+        "\vbeamwork solve c_column -f beamw -n 8 --set section_data=printed",
         "fnsFoKSPRVtTY", count, arguments, solve_request);
 }

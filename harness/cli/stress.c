@@ -56,7 +56,8 @@ int cli_stress(int count, char **arguments)
         "every answer: a value, coarse, a "
         "named failure, or wrong. Exit status: 0 all as expected, 1 one differs, 2 refused, "
         "3 nothing was tried, 4 file, disk "
-        "or memory.",
+        "or memory."
+        "\vbeamwork stress -k \"thin_sheet and collocation\"",
         "fokjJFT", count, arguments, &r);
     if (r.case_name != NULL)
         return message_fail(STATUS_REFUSED, "stress takes no case; select with -k");

@@ -182,6 +182,7 @@ int cli_truth(int count, char **arguments)
         "pasted into its truths. Exit status: 0 shown, 1 none is stored "
         "and no program derives this case "
         "or these parameters, or a scene of your own, "
-        "2 refused, 4 file, disk or memory.",
+        "2 refused, 4 file, disk or memory."
+        "\vbeamwork truth elastica --set load=3",
         "sTY", count, arguments, truth_request);
 }

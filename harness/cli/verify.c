@@ -224,6 +224,8 @@ int cli_verify(int count, char **arguments)
         "Judges every formulation on every case and parameter point that has a truth. Exit "
         "status: 0 every verdict as expected, 1 one differs, 2 refused, 3 nothing was "
         "checked, 4 file, disk or memory, 5 interrupted (Ctrl-C, SIGTERM): what was judged "
-        "until then is in files named .partial",
+        "until then is in files named .partial"
+        "\vbeamwork verify -k \"c_column and collocation\"\n"
+        "beamwork verify -o build/results.h5",
         "fokjJUMLPTYBGIN", count, arguments, verify_request);
 }

@@ -9,7 +9,9 @@
 #include "harness/algebra/team.h"
 #include "harness/catalogue/registry.h"
 #include "harness/command/case_input.h"
+#include "harness/command/help.h"
 #include "harness/command/message.h"
+#include "harness/command/option_check.h"
 #include "harness/command/option_table.h"
 
 static void refuse(const char *text)
@@ -92,9 +94,18 @@ static void refuse_again(command_request *r, int key, const struct argp_state *s
 }
 
 /* As argp's own, but an output that cannot be written is told. */
-static void show_help(const struct argp_state *state, unsigned what)
+static void show_usage(const struct argp_state *state)
 {
-    argp_state_help(state, stdout, what & ~(unsigned)(ARGP_HELP_EXIT_OK | ARGP_HELP_EXIT_ERR));
+    argp_state_help(state, stdout, ARGP_HELP_USAGE & ~(unsigned)ARGP_HELP_EXIT_ERR);
+    exit(message_finish(EXIT_AS_EXPECTED));
+}
+
+/* state->name: "beamwork VERB". */
+static void show_help(const struct argp_state *state)
+{
+    const struct argp *a = state->root_argp;
+    const help_subject s = {strchr(state->name, ' ') + 1, a->args_doc, a->doc, a->options};
+    help_write(stdout, &s);
     exit(message_finish(EXIT_AS_EXPECTED));
 }
 
@@ -140,8 +151,11 @@ static error_t take(int key, char *value, struct argp_state *state)
     refuse_again(r, key, state);
     switch (key) {
     case '?':
+    case KEY_HELP:
+        show_help(state);
+        return 0;
     case KEY_USAGE:
-        show_help(state, key == '?' ? ARGP_HELP_STD_HELP : ARGP_HELP_USAGE);
+        show_usage(state);
         return 0;
     case ARGP_KEY_ARG:
         add_case(r, value);
@@ -203,16 +217,20 @@ static int most_arguments(const char *keys)
 void command_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys,
                    int count, char **arguments, command_request *out)
 {
-    struct argp_option chosen[OPTION_COUNT] = {{0}};
+    struct argp_option chosen[OPTION_COUNT + 1] = {{0}};
     char name[64];
+    fault f;
     int n = 0;
     for (const verb_option *o = option_table; o->name != NULL; o++) {
-        const int always = o->key == '?' || o->key == KEY_USAGE;
+        const int always = o->key == KEY_HELP || o->key == KEY_USAGE;
         if (always || strchr(keys, o->key) != NULL)
             chosen[n++] = (struct argp_option){o->name,     o->key,
                                                o->argument, o->key == 'P' ? OPTION_ARG_OPTIONAL : 0,
                                                o->doc,      always ? -1 : 0};
     }
+    if (option_check(verb, chosen, count, arguments, &f) != STATUS_OK)
+        refuse(f.text);
+    chosen[n] = (struct argp_option){.key = '?', .flags = OPTION_HIDDEN | OPTION_ALIAS};
     const struct argp parser = {
         .options = chosen, .parser = take, .args_doc = arguments_doc, .doc = doc};
     memset(out, 0, sizeof *out);

@@ -22,7 +22,7 @@ const verb_option option_table[OPTION_COUNT] = {
      "of one cell (default 120, 0: none); a cell that exceeds it is a failure of that name", 0},
     {"json", 'J', "FILE", "verdicts as JSON", offsetof(command_request, json)},
     {"junit", 'U', "FILE", "verdicts as JUnit XML", offsetof(command_request, junit)},
-    {"threshold", 'h', "NAME=R[,NAME=R]",
+    {"threshold", 'c', "NAME=R[,NAME=R]",
      "changes that count (default error=0.01,floor=1e-8,work=0.02): of an error relative to "
      "itself, of a value relative to its truth, of a count relative to itself",
      offsetof(command_request, threshold)},
@@ -72,7 +72,7 @@ const verb_option option_table[OPTION_COUNT] = {
     {"schema", 'H', NULL, "describe all keys of scene files as JSON Schema",
      offsetof(command_request, schema)},
     {"keys", 'E', NULL, "list all keys of scene files", offsetof(command_request, keys)},
-    {"help", '?', NULL, "this list", 0},
+    {"help", KEY_HELP, NULL, "this list", 0},
     {"usage", KEY_USAGE, NULL, "the options in short", 0},
     {0},
 };

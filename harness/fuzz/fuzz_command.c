@@ -48,7 +48,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     code_of_run = -1;
     running = 1;
     if (setjmp(end_of_run) == 0) {
-        command_parse("solve", "CASE", "", "fnsFoKSkjJUT2h", count, argument, &r);
+        command_parse("solve", "CASE", "", "fnsFoKSkjJUT2c", count, argument, &r);
         if (case_input_find(&r) != NULL)
             fuzz_must(r.meshes <= COMMAND_MAX_MESHES &&
                           r.formulations <= COMMAND_MAX_FORMULATIONS &&

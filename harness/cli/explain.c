@@ -1,0 +1,244 @@
+/* What the words of the program and of the field mean. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/catalogue/choice.h"
+#include "harness/catalogue/registry.h"
+#include "harness/cli/cli.h"
+#include "harness/scene_writer/meaning.h"
+#include "harness/study/cell.h"
+#include "harness/tables/paragraph.h"
+#include "harness/truth/glossary.h"
+
+enum { INDENT = 2, LONGEST = 200, QUANTITY_PLACES = 4 };
+
+typedef struct dictionary {
+    glossary words;
+    truths ledger;
+} dictionary;
+
+/* "see also: a, b". */
+static void list_further(const char *head, const char *list)
+{
+    char word[GLOSSARY_WORD], line[1024] = "";
+    size_t used = 0;
+    for (int i = 0; glossary_part(list, i, word) && used < sizeof line; i++)
+        used += (size_t)snprintf(line + used, sizeof line - used, "%s%s", i > 0 ? "; " : "", word);
+    if (line[0] != '\0')
+        paragraph_write(stdout, printf("  %s ", head), INDENT, line);
+}
+
+static int explain_entry(const dictionary *d, const char *word)
+{
+    const glossary_entry *e = glossary_find(&d->words, word);
+    if (e == NULL)
+        return 0;
+    printf("%s (%s)\n", e->term, e->group);
+    paragraph_write(stdout, 0, INDENT, e->meaning);
+    list_further("also called:", e->also);
+    list_further("see also:", e->see);
+    return 1;
+}
+
+static int explain_formulation(const char *word)
+{
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        const element_type *t = registry_formulations[i];
+        if (!glossary_same(t->name, word))
+            continue;
+        printf("%s (formulation)\n", t->name);
+        paragraph_write(stdout, 0, INDENT, t->summary);
+        paragraph_write(stdout, printf("  source: "), INDENT, t->source);
+        printf("  next: beamwork list %s\n", t->name);
+        return 1;
+    }
+    return 0;
+}
+
+static int explain_case(const char *word)
+{
+    for (int i = 0; registry_cases[i] != NULL; i++) {
+        const case_type *c = registry_cases[i];
+        if (!glossary_same(c->name, word))
+            continue;
+        printf("%s (case)\n", c->name);
+        paragraph_write(stdout, 0, INDENT, c->summary);
+        paragraph_write(stdout, printf("  source: "), INDENT, c->source);
+        printf("  next: beamwork list %s; beamwork converge %s\n", c->name, c->name);
+        return 1;
+    }
+    return 0;
+}
+
+static int explain_rule(const dictionary *d, const char *word)
+{
+    for (int i = 0; i < d->ledger.rules; i++) {
+        const rule *r = &d->ledger.rule[i];
+        if (!glossary_same(r->name, word))
+            continue;
+        printf("%s (rule of the ledger)\n", r->name);
+        paragraph_write(stdout, printf("  cause: "), INDENT, r->cause);
+        paragraph_write(stdout, printf("  formulations: "), INDENT, r->formulations);
+        paragraph_write(stdout, printf("  cases: "), INDENT, r->cases);
+        if (r->condition[0] != '\0')
+            paragraph_write(stdout, printf("  where: "), INDENT, r->condition);
+        paragraph_write(stdout, printf("  quantities: "), INDENT, r->quantities);
+        list_further("verdicts:", r->verdicts);
+        if (isfinite(r->largest_error))
+            printf("  largest error that it explains: %g %%\n", 100 * r->largest_error);
+        paragraph_write(stdout, printf("  proof: "), INDENT, r->proof);
+        return 1;
+    }
+    return 0;
+}
+
+/* A quantity of one case: what it is there. Returns 1 where the case has it. */
+static int explain_quantity_of(const case_type *type, const char *word, int found)
+{
+    double value[CASE_MAX_PARAMETERS] = {0};
+    char meaning[MEANING_ROOM];
+    scene s;
+    int here = 0;
+    parameters_default(type, value);
+    if (cell_scene(type, value, NULL, &s, NULL) == STATUS_OK)
+        for (int q = 0; q < s.quantities && !here; q++) {
+            here = strcmp(s.quantity[q].name, word) == 0;
+            if (!here || found >= QUANTITY_PLACES)
+                continue;
+            if (found == 0)
+                printf("%s (quantity)\n", word);
+            meaning_of_quantity(&s, q, meaning, sizeof meaning);
+            paragraph_write(stdout, printf("  %s [%s]: ", type->name, s.quantity[q].unit), 4,
+                            meaning);
+        }
+    scene_free(&s);
+    return here;
+}
+
+static int explain_quantity(const char *word)
+{
+    int found = 0;
+    for (int i = 0; registry_cases[i] != NULL; i++)
+        found += explain_quantity_of(registry_cases[i], word, found);
+    if (found > QUANTITY_PLACES)
+        printf("  and in %d more cases\n", found - QUANTITY_PLACES);
+    if (found > 0)
+        printf("  next: beamwork list CASE shows all quantities of a case\n");
+    return found > 0;
+}
+
+/* All that can be looked up, for what is misspelt. */
+typedef struct name_list {
+    int count, room;
+    char (*name)[GLOSSARY_WORD];
+} name_list;
+
+static void add_name(name_list *l, const char *name)
+{
+    if (l->count < l->room)
+        snprintf(l->name[l->count++], GLOSSARY_WORD, "%s", name);
+}
+
+static void add_names(const dictionary *d, name_list *l)
+{
+    char other[GLOSSARY_WORD];
+    for (int k = 0; k < d->words.entries; k++) {
+        add_name(l, d->words.entry[k].term);
+        for (int a = 0; glossary_part(d->words.entry[k].also, a, other); a++)
+            add_name(l, other);
+    }
+    for (int k = 0; registry_formulations[k] != NULL; k++)
+        add_name(l, registry_formulations[k]->name);
+    for (int k = 0; registry_cases[k] != NULL; k++)
+        add_name(l, registry_cases[k]->name);
+    for (int k = 0; k < d->ledger.rules; k++)
+        add_name(l, d->ledger.rule[k].name);
+}
+
+static const char *name_at(const void *context, int i)
+{
+    const name_list *l = context;
+    return i < l->count ? l->name[i] : NULL;
+}
+
+static int refuse_word(const dictionary *d, const char *word)
+{
+    name_list all = {.room = 4096};
+    char text[LONGEST + 4 * GLOSSARY_WORD];
+    all.name = malloc(sizeof *all.name * (size_t)all.room);
+    if (all.name == NULL)
+        return message_fail(STATUS_FAULT, "out of memory for the glossary");
+    add_names(d, &all);
+    const char *near = choice_nearest(word, name_at, &all);
+    snprintf(text, sizeof text,
+             "nothing is known of '%.100s'%s%s%s; 'beamwork explain' lists all words", word,
+             near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
+             near != NULL ? "'?" : "");
+    free(all.name);
+    return message_fail(STATUS_REFUSED, text);
+}
+
+static void list_words(const glossary *g)
+{
+    printf(
+        "words ('beamwork explain WORD'); also names of cases, formulations, quantities, rules of "
+        "the ledger\n");
+    for (int i = 0; i < g->entries;) {
+        const char *group = g->entry[i].group;
+        char line[8192] = "";
+        size_t used = 0;
+        for (; i < g->entries && strcmp(g->entry[i].group, group) == 0 && used < sizeof line; i++)
+            used += (size_t)snprintf(line + used, sizeof line - used, "%s%s", used > 0 ? "; " : "",
+                                     g->entry[i].term);
+        printf("%s\n", group);
+        paragraph_write(stdout, 0, INDENT, line);
+    }
+}
+
+static int explain_word(const dictionary *d, const char *word)
+{
+    const int found = explain_entry(d, word) + explain_formulation(word) + explain_case(word) +
+                      explain_rule(d, word) + explain_quantity(word);
+    return found > 0 ? EXIT_AS_EXPECTED : refuse_word(d, word);
+}
+
+/* Arguments are one word, so that none needs quotes. */
+static int explain_words(const command_request *r, const dictionary *d)
+{
+    char word[LONGEST] = "";
+    size_t used = 0;
+    for (int i = 0; i < r->case_count && used < sizeof word; i++)
+        used += (size_t)snprintf(word + used, sizeof word - used, "%s%s", i > 0 ? " " : "",
+                                 r->cases[i]);
+    if (r->case_count > 0)
+        return explain_word(d, word);
+    list_words(&d->words);
+    return EXIT_AS_EXPECTED;
+}
+
+static int explain_request(command_request *r)
+{
+    dictionary d = {.words = {0}};
+    fault f = {""};
+    const char *path = case_input_truths_path(r);
+    status outcome = glossary_read(path, &d.words, &f);
+    if (outcome == STATUS_OK)
+        outcome = truths_read_rules(path, &d.ledger, &f);
+    const int code = outcome == STATUS_OK ? explain_words(r, &d) : message_fail(outcome, f.text);
+    glossary_free(&d.words);
+    truths_free(&d.ledger);
+    return code;
+}
+
+int cli_explain(int count, char **arguments)
+{
+    return command_run("explain", "[WORD...]",
+                       "Says what a word means: of verdicts, truths, convergence, analyses, "
+                       "physics, elements, times; a case, a formulation, a quantity, a rule of the "
+                       "ledger. Without a word: lists the words."
+                       "\vbeamwork explain haringx\n"
+                       "beamwork explain wrong limit",
+                       "+T", count, arguments, explain_request);
+}
