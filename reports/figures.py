@@ -6,7 +6,8 @@ are unique in the page, what children share said once by their parent. Black and
 colour of
 the text, so that a figure follows the page into the dark; colours of formulations become variables.
 
-Groups whose gid is `f|KEY` (style.py) carry data-f="KEY": what belongs to a formulation.
+Groups whose gid is `f|KEY` (style.py) carry data-f="KEY": what belongs to a formulation, and
+entries of legends data-l="KEY"; data-off names those that are not shown at first.
 `f|KEY|POINTS`
 names what site.points() was told of its marks, too. What has the gid `fixed` keeps its colours."""
 import dataclasses
@@ -106,7 +107,7 @@ class Writer:
         text = ElementTree.tostring(root, encoding="unicode")
         used = dict.fromkeys(re.findall(r'href="#([^"]+)"|url\(#([^)]+)\)', text))
         self.names = {a or b: f"{prefix}{i:x}" for i, (a, b) in enumerate(used)}
-        self.points = {}
+        self.points, self.keys = {}, {}
 
     def attributes(self, element, tag, fixed):
         own = dressed(element, fixed)
@@ -115,8 +116,11 @@ class Writer:
         name = element.get("id", "")
         if name in self.names:
             own["id"] = self.names[name]
+        if name.startswith("l|"):
+            own["data-l"] = name[2:]
         if name.startswith("f|"):
             _, own["data-f"], *points = name.split("|")
+            self.keys[own["data-f"]] = None
             if points:
                 own["data-p"] = str(self.points.setdefault(points[0], len(self.points)))
         if element.get(LINK):
@@ -180,8 +184,9 @@ def short(svg, name):
     _, _, width, height = (float(x) for x in root.get("viewBox").split())
     inside = "".join(writer.write(node) for node in map(writer.read, root) if node)
     size = f'width="{width / 0.75:.0f}" height="{height / 0.75:.0f}"'
+    off = escape(" ".join(style.extra(writer.keys)))
     return (f'<svg viewBox="0 0 {width:g} {height:g}" {size} fill="currentColor" '
-            f'stroke-linejoin="round" font-family="{FONT}">{inside}</svg>', writer.points)
+            f'data-off="{off}" stroke-linejoin="round" font-family="{FONT}">{inside}</svg>', writer.points)
 
 
 def alone(markup):
@@ -202,7 +207,8 @@ def tag_legends(figure):
     for axes in figure.axes:
         for artist in axes.get_children():
             if (artist.get_gid() or "").startswith("f|"):
-                owners[artist.get_label()] = "|".join(artist.get_gid().split("|")[:2])
+                key = artist.get_gid().split("|")[1]
+                owners[artist.get_label()] = owners[key] = f"l|{key}"
     legends = list(figure.legends) + [axes.get_legend() for axes in figure.axes]
     for legend in filter(None, legends):
         for words, handle in zip(legend.get_texts(), handles_of(legend)):

@@ -44,6 +44,15 @@ def finite(series, quantity, errors="errors"):
     return [(m, clipped(getattr(m, errors)[quantity])) for m in series.meshes if math.isfinite(getattr(m, errors).get(quantity, math.nan))]
 
 
+def marks_of(site, point, series, quantity, pairs, errors="errors"):
+    """What plot() wants for the curve of a formulation through these meshes, whose marks say what was found."""
+    v = answers.verdict_of(series, quantity)
+    unit = point.units.get(quantity, "")
+    columns = ("elements", f"value [{unit}]" if unit else "value", "error", "time [s]", "unknowns", "verdict")
+    rows = [(m.n, m.values.get(quantity), getattr(m, errors)[quantity], m.seconds, m.free, v.verdict if v else None) for m, _ in pairs]
+    return site.points(series.key, columns, rows, quantity if errors == "errors" else f"{quantity}, error of the model")
+
+
 def work_of(point):
     """(label, function of a mesh) of what the last panel counts: iterations, or elements evaluated where nothing iterates."""
     iterates = any(m.iterations > 0 for s in point.series for m in s.meshes)
@@ -102,7 +111,7 @@ def draw_failures(panels, axes, point, quantity, styles):
             continue
         for (_, where, _), one in zip(panels, axes):
             if where(mesh) > 0:
-                one.plot([where(mesh)], [1], marker="x", markersize=6, color=styles.of(series.key)["color"], clip_on=False, linestyle="none", transform=one.get_xaxis_transform(), zorder=5)
+                one.plot([where(mesh)], [1], marker="x", markersize=6, color=styles.of(series.key)["color"], gid=styles.of(series.key)["gid"], clip_on=False, linestyle="none", transform=one.get_xaxis_transform(), zorder=5)
                 shown = True
     return shown
 
@@ -130,10 +139,11 @@ def work_precision(site, point, quantity, name):
     figure, axes = plt.subplots(1, len(panels), figsize=(13.5, 3.75 + legend_height(len(drawn) + len(point.others), 6)), sharey=True)
     for series in drawn:
         pairs = finite(series, quantity)
+        look = marks_of(site, point, series, quantity, pairs)
         for (_, where, _), one in zip(panels, axes):
-            one.plot([max(where(m), 1e-3) for m, _ in pairs], [e for _, e in pairs], label=series.key, **site.styles.of(series.key))
+            one.plot([max(where(m), 1e-3) for m, _ in pairs], [e for _, e in pairs], label=series.key, **look)
         noisy = [(m, e) for m, e in pairs if m.clock.most > 1.02 * m.clock.least]
-        axes[1].hlines([e for _, e in noisy], [1e3 * m.clock.least for m, _ in noisy], [1e3 * m.clock.most for m, _ in noisy], color=site.styles.of(series.key)["color"], linewidth=2.5, alpha=0.35)
+        axes[1].hlines([e for _, e in noisy], [1e3 * m.clock.least for m, _ in noisy], [1e3 * m.clock.most for m, _ in noisy], color=look["color"], gid=site.styles.of(series.key)["gid"], linewidth=2.5, alpha=0.35)
     for i, series in enumerate(s for s in point.others if finite(s, quantity)):
         for (_, where, _), one in zip(panels, axes):
             pairs = [(where(m), e) for m, e in finite(series, quantity) if where(m) > 0]   # not everything is said of other programs
@@ -169,7 +179,7 @@ def small_multiples(site, point, quantities, name, errors="errors", ylabel="rela
             pairs = finite(series, quantity, errors)
             if pairs:
                 x = [1e3 * m.seconds if against == "time" else m.n for m, _ in pairs]
-                handles[series.key] = one.plot(x, [e for _, e in pairs], **{**site.styles.of(series.key), "markersize": 3.5})[0]
+                handles[series.key] = one.plot(x, [e for _, e in pairs], **{**marks_of(site, point, series, quantity, pairs, errors), "markersize": 3.5})[0]
         log_axes(one, "", "", against != "time")
         if errors == "errors":
             shade_digits(one, point, quantity)

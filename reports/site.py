@@ -10,6 +10,7 @@ from reports import beside, data, figures, style, verdicts
 from reports.style import Styles, plt
 
 LEVELS = (0.1, 0.01, 0.001, 0.0001)
+ASSETS = pathlib.Path(__file__).parent / "assets"
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 
 
@@ -85,10 +86,11 @@ class Site:
                                       shape=self.styles.shape)
 
     def write_assets(self):
-        """Style sheet beside the pages, with the colours of formulations, light and dark."""
-        sheet = (pathlib.Path(__file__).parent / "assets" / "style.css").read_text(encoding="utf-8")
-        with open(os.path.join(self.folder, "style.css"), "w", encoding="utf-8") as out:
-            out.write(sheet + style.sheet())
+        """Style sheet and scripts beside the pages; the sheet has the colours of formulations."""
+        for asset in ASSETS.iterdir():
+            own = style.sheet() if asset.name == "style.css" else ""
+            with open(os.path.join(self.folder, asset.name), "w", encoding="utf-8") as out:
+                out.write(asset.read_text(encoding="utf-8") + own)
 
     def case(self, name):
         """The case of this name, or None."""

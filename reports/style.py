@@ -30,6 +30,8 @@ TABLE = {
 RESERVE = (("#6a51a3", "#a793dc"), ("#a6761d", "#dfb060"), ("#c51b7d", "#f06cb4"),
            ("#1b7837", "#5fc07c"), ("#5b6675", "#aab4c2"))
 RESERVE_MARKERS = "hpd8H"
+MOST = 8  # curves of a figure that are shown at first
+LAST = ("sheet_third_printed", "beamw_vlasov", "beamw_first")  # shown when there is room
 # Line of an option: the colour is the formulation's.
 LINES = {"mass=lumped": "--", "mass=averaged": ":", "torsion=hyperbolic": "-."}
 RESERVE_LINES = ((0, (6, 1)), (0, (1, 2)), (0, (4, 1, 1, 1)), (0, (8, 3)), (0, (2, 1)))
@@ -47,6 +49,14 @@ plt.rcParams.update({
 })
 
 
+def extra(keys):
+    """Those that a figure of these does without at first: options, then misprints and old forms."""
+    keys = list(keys)
+    last = [k for k in keys if ":" in k] + [k for k in LAST if k in keys]
+    rest = [k for k in keys if k not in last]
+    return (rest + last[::-1])[MOST:]
+
+
 def look(key):
     """(colour, colour on a dark page, marker) of a formulation with or without options."""
     name = key.partition(":")[0]
@@ -57,7 +67,7 @@ def look(key):
 
 def sheet():
     """The variables of colours for a style sheet."""
-    light, dark = (":root { %s }" % " ".join(f"--f{i}: {pair[k]};" for i, pair in enumerate(COLOURS))
+    light, dark = (":root { " + " ".join(f"--f{i}: {p[k]};" for i, p in enumerate(COLOURS)) + " }"
                    for k in (0, 1))
     return f"{light}\n@media screen and (prefers-color-scheme: dark) {{ {dark} }}\n"
 

@@ -44,7 +44,8 @@ class Figures(unittest.TestCase):
         """Curve, handle and words of the legend belong to the formulation; the marks of a curve are
         in the order of
         what is said of them."""
-        self.assertEqual(drawn("a").markup.count('data-f="beamw:mass=lumped"'), 3)
+        self.assertEqual(drawn("a").markup.count('data-f="beamw:mass=lumped"'), 1)
+        self.assertEqual(drawn("a").markup.count('data-l="beamw:mass=lumped"'), 2)
         image = drawn("a", [{"r": [1]}, {"r": ["</script>"]}], "f|beamw|1")
         self.assertIn('data-f="beamw" data-p="0"', image.markup)
         self.assertEqual(json.loads(image.points), [{"r": ["</script>"]}])

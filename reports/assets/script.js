@@ -1,0 +1,177 @@
+// What the pages do with a script: a box says what a mark of a figure stands for (pointer, tap, arrow keys); a
+// formulation is switched off and on in its legend, in all figures of the page; all details open on paper.
+"use strict";
+(() => {
+const SVG = "http://www.w3.org/2000/svg", REACH = 18; // pixels from a mark within which it is meant
+const all = (where, what) => [...where.querySelectorAll(what)];
+const make = (tag, words, parent, more) => {
+  const made = Object.assign(document.createElement(tag), more);
+  made.textContent = words;
+  parent.append(made);
+  return made;
+};
+
+// Numbers as a reader wants them.
+const short = (value, digits) => String(Number(value.toPrecision(digits || 6))).replace("-", "\u2212");
+const seconds = value => value < 1e-3 ? short(1e6 * value, 3) + " \u00b5s" : value < 1 ? short(1e3 * value, 3) + " ms" : short(value, 3) + " s";
+const said = (name, value) => {
+  if (value === null) return "\u2013";
+  if (typeof value == "string") return value;
+  if (name == "error") return short(100 * value, 2) + " %";
+  return name == "time [s]" ? seconds(value) : short(value, 8);
+};
+
+// What the reader switched, by formulation, for as long as the page's window lives.
+const place = "beamwork " + location.pathname;
+let chosen = {};
+try { chosen = JSON.parse(sessionStorage.getItem(place)) || {}; } catch (none) { /* no storage: until the page is left */ }
+const keep = () => { try { sessionStorage.setItem(place, JSON.stringify(chosen)); } catch (none) { /* as above */ } };
+
+// One box for the page, and a live line that is read aloud.
+const box = make("div", "", document.body, { id: "said", hidden: true });
+const aloud = make("div", "", document.body, { className: "aloud" });
+aloud.setAttribute("aria-live", "polite");
+
+class Figure {
+  constructor(frame, svg) {
+    this.frame = frame; this.svg = svg; this.at = null;
+    this.off = new Set((svg.dataset.off || "").split(" ").filter(Boolean));
+    this.keys = [...new Set(all(svg, "[data-f]").map(g => g.dataset.f))];
+    const data = frame.querySelector("script[type='application/json']");
+    const told = data ? JSON.parse(data.textContent) : [];
+    // curves: [{told, group, marks}], the marks in the order of the rows that say what they are
+    this.curves = all(svg, "g[data-p]").map(group => ({ group, told: told[group.dataset.p], marks: all(group, "use") }))
+      .filter(curve => curve.told && curve.marks.length == curve.told.r.length);
+    all(svg, "[data-l]").forEach(entry => this.entry(entry));
+    if (this.curves.length) this.listen();
+    if (this.off.size) this.more();
+    this.show();
+  }
+
+  shown(key) { return key in chosen ? chosen[key] : !this.off.has(key); }
+
+  show() {
+    all(this.svg, "[data-f]").forEach(g => { g.style.display = this.shown(g.dataset.f) ? "" : "none"; });
+    all(this.svg, "[data-l]").forEach(entry => {
+      entry.style.opacity = this.shown(entry.dataset.l) ? "" : 0.35;
+      if (entry.hasAttribute("role")) entry.setAttribute("aria-pressed", this.shown(entry.dataset.l));
+    });
+    if (this.button) {
+      const hidden = this.keys.filter(key => !this.shown(key)).length;
+      this.button.textContent = hidden ? `Show all ${this.keys.length} (${this.keys.length - hidden} are shown)` : "Show fewer";
+    }
+  }
+
+  // An entry of the legend: words and handle; the words take the keyboard.
+  entry(entry) {
+    const key = entry.dataset.l;
+    const turn = event => {
+      chosen[key] = !this.shown(key);
+      keep();
+      figures.forEach(figure => figure.show());
+      event.preventDefault();
+    };
+    entry.style.cursor = "pointer";
+    entry.addEventListener("click", turn);
+    if (!entry.querySelector("text")) return;
+    this.svg.setAttribute("role", "group");
+    entry.setAttribute("role", "button");
+    entry.setAttribute("tabindex", "0");
+    entry.addEventListener("keydown", event => { if (event.key == "Enter" || event.key == " ") turn(event); });
+  }
+
+  more() {
+    this.button = make("button", "", this.frame.parentNode, { className: "more" });
+    this.frame.after(this.button);
+    this.button.addEventListener("click", () => {
+      const some = this.keys.some(key => !this.shown(key));
+      this.keys.forEach(key => { if (some) chosen[key] = true; else delete chosen[key]; });
+      keep();
+      figures.forEach(figure => figure.show());
+    });
+  }
+
+  listen() {
+    const near = event => {
+      const found = this.nearest(event.clientX, event.clientY);
+      if (found) this.point(...found); else this.hide();
+    };
+    this.svg.addEventListener("pointermove", near);
+    this.svg.addEventListener("pointerdown", near);
+    this.svg.addEventListener("pointerleave", event => { if (event.pointerType == "mouse") this.hide(); });
+    this.frame.addEventListener("blur", () => this.hide());
+    this.frame.addEventListener("keydown", event => {
+      const step = { ArrowRight: [0, 1], ArrowLeft: [0, -1], ArrowDown: [1, 0], ArrowUp: [-1, 0] }[event.key];
+      if (event.key == "Escape") this.hide();
+      if (!step || event.target != this.frame) return;
+      event.preventDefault();
+      this.walk(...step);
+    });
+  }
+
+  visible() { return this.curves.filter(curve => this.shown(curve.told.f)); }
+
+  walk(curves, marks) {
+    const there = this.visible();
+    if (!there.length) return;
+    let [curve, mark] = this.at && there.includes(this.at[0]) ? this.at : [there[0], curves ? 0 : -1];
+    if (curves && this.at) curve = there[(there.indexOf(curve) + curves + there.length) % there.length];
+    mark = Math.min(Math.max(mark + marks, 0), curve.marks.length - 1);
+    this.point(curve, mark);
+    aloud.textContent = box.innerText;
+  }
+
+  nearest(x, y) {
+    const to = this.svg.getScreenCTM().inverse(), scale = this.svg.getScreenCTM().a;
+    const there = new DOMPoint(x, y).matrixTransform(to);
+    let best = REACH / scale, found = null;
+    for (const curve of this.visible()) curve.marks.forEach((mark, i) => {
+      const far = Math.hypot(mark.x.baseVal.value - there.x, mark.y.baseVal.value - there.y);
+      if (far < best) { best = far; found = [curve, i]; }
+    });
+    return found;
+  }
+
+  point(curve, i) {
+    this.at = [curve, i];
+    const mark = curve.marks[i], { t, f, c, r } = curve.told;
+    const [x, y] = [mark.x.baseVal.value, mark.y.baseVal.value];
+    if (!this.ring) {
+      this.ring = document.createElementNS(SVG, "circle");
+      for (const [name, value] of Object.entries({ r: 6, fill: "none", stroke: "currentColor", "stroke-width": 1.3, "pointer-events": "none" })) this.ring.setAttribute(name, value);
+      this.svg.append(this.ring);
+    }
+    this.ring.setAttribute("cx", x); this.ring.setAttribute("cy", y); this.ring.style.display = "";
+    box.textContent = "";
+    make("b", f, box);
+    if (t) make("div", t, box);
+    const table = make("table", "", box);
+    c.forEach((name, k) => {
+      const row = make("tr", "", table);
+      make("td", name == "time [s]" ? "time" : name, row);
+      make("td", said(name, r[i][k]), row);
+    });
+    box.hidden = false;
+    const on = new DOMPoint(x, y).matrixTransform(this.svg.getScreenCTM());
+    const { width, height } = box.getBoundingClientRect();
+    const wide = document.documentElement.clientWidth;
+    box.style.left = Math.max(4, on.x + 14 + width < wide ? on.x + 14 : Math.min(on.x - 14 - width, wide - width - 4)) + "px";
+    box.style.top = Math.max(4, Math.min(on.y + 10, innerHeight - height - 6)) + "px";
+  }
+
+  hide() {
+    box.hidden = true; this.at = null;
+    if (this.ring) this.ring.style.display = "none";
+  }
+}
+
+const figures = all(document, "div.figure").filter(frame => frame.querySelector("svg")).map(frame => new Figure(frame, frame.querySelector("svg")));
+addEventListener("scroll", () => { box.hidden = true; }, { passive: true });
+
+// Wide tables can be reached from the keyboard, and paper shows what is folded.
+const reach = () => all(document, ".scroll").forEach(part => { if (part.scrollWidth > part.clientWidth) part.tabIndex = 0; });
+addEventListener("load", reach); addEventListener("resize", reach);
+let folded = [];
+addEventListener("beforeprint", () => { folded = all(document, "details:not([open])"); folded.forEach(part => { part.open = true; }); });
+addEventListener("afterprint", () => folded.forEach(part => { part.open = false; }));
+})();
