@@ -198,6 +198,13 @@ def read_rules(path):
     return [dict(zip(columns, row)) for row in zip(*columns.values())]
 
 
+def read_declarations(path):
+    """{formulation: row of /declarations}; {} for results that were stored without."""
+    with h5py.File(path) as file:
+        found = rows(file, "declarations") if "declarations" in file else []
+    return {row["formulation"]: row for row in found}
+
+
 def read_truth_counts(path):
     """{kind: rows} of the packed truths."""
     try:

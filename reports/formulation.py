@@ -1,20 +1,180 @@
-"""A page for each formulation: all its verdicts, and the cases it is not on."""
+"""A page for each formulation: its theory, what it offers, where it fails and why, how fast it is."""
 import functools
+from dataclasses import dataclass
 
-from reports.site import file_of
+from reports import answers, data, explanation, formulation_figures, ledger, tally
+from reports.site import LEVELS, file_of
+from reports.verdicts import SEVERITY, UNJUDGED, worst
 
 NAVIGATION = []
+ANALYSES = ("statics", "vibration", "buckling")
+# Verdicts that say that more elements do not give the answer.
+WRONG = ("wrong limit, as predicted", "wrong limit", "refused", "diverged")
 
 
-def write(site, key):
-    found = [(c, p, s) for c in site.cases for p in c.points for s in p.series if s.key == key]
-    site.write("formulation.html",
-               f"{file_of(key)}.html",
-               key=key,
-               series=[row for row in found if not row[2].missing],
-               skipped=sorted({(c.name, s.missing)
-                               for c, _, s in found if s.missing}))
+def split(key):
+    """(name, options) of a formulation's key."""
+    name, _, options = key.partition(":")
+    return name, options
+
+
+def options_of(declared):
+    """[(name, choices, default, summary)] from a row of /declarations."""
+    return [tuple(line.split("\t")) for line in declared["options"].split("\n") if line]
+
+
+def standing(series):
+    """The worst verdict of a series that is judged, or None."""
+    judged = [v for v in series.verdicts if v.verdict not in UNJUDGED]
+    return worst(judged) if judged and not series.missing else None
+
+
+def defaults(cases, key):
+    """[(case, point, series)] at the default parameters of every case that knows the formulation."""
+    return [(c, c.points[0], s) for c in cases for s in c.points[0].series if s.key == key]
+
+
+def rules(rows, known, titles):
+    """The rules of the ledger that were shown: with their verdicts, their worst one, their cases."""
+    found = {}
+    for row in rows:
+        if row.verdict.finding:
+            found.setdefault(row.verdict.finding, []).append(row)
+    out = []
+    for rule in known:
+        own = found.get(rule["rule"])
+        if own:
+            # What a kept misprint repeats counts here, on its own page.
+            counted = [tally.Row(r.case, r.parameters, r.formulation, r.verdict, tally.OWN)
+                       for r in own]
+            out.append({**ledger.line(rule, counted, titles),
+                        "where": sorted({r.case for r in own})})
+    return out
+
+
+def not_offered(found):
+    """[(what is missing, cases)] of cases that it is not run on."""
+    missing = {}
+    for case, _, series in found:
+        if series.missing:
+            missing.setdefault(series.missing, []).append(case.name)
+    return sorted(missing.items(), key=lambda item: (-len(item[1]), item[0]))
+
+
+def median(values):
+    ordered = sorted(values)
+    return ordered[len(ordered) // 2] if ordered else None
+
+
+def all_ways(cases):
+    """{(case, level): ways to have all judged quantities at the default parameters}."""
+    return {(c.name, level): answers.ways(c.points[0], answers.ALL, level)
+            for c in cases for level in LEVELS}
+
+
+def speed(found, key, known):
+    """For each level: cases that can be reached, that are, where it is first, cost by the first's."""
+    out = []
+    for level in LEVELS:
+        posed, reached, first, factors = 0, 0, [], []
+        for case, _, series in found:
+            ways = known[case.name, level]
+            if series.missing or not ways:
+                continue
+            posed += 1
+            own = next((w for w in ways if w.key == key), None)
+            if own is None:
+                continue
+            reached += 1
+            factors.append(own.seconds / ways[0].seconds)
+            if own is ways[0] or own in answers.undecided(ways):
+                first.append((case.name, own.n))
+        out.append((level, posed, reached, first, median(factors)))
+    return out
+
+
+def table(found):
+    """[(case, [(point, series, verdicts)], {verdict: number})] of what was judged, as it is shown."""
+    cases = {}
+    for case, point, series in found:
+        if not series.missing:
+            shown = [v for v in series.verdicts if v.verdict not in UNJUDGED]
+            if shown:
+                cases.setdefault(case.name, []).append((point, series, shown))
+    out = []
+    for name, points in cases.items():
+        seen = {}
+        for _, _, shown in points:
+            for v in shown:
+                seen[v.verdict] = seen.get(v.verdict, 0) + 1
+        out.append((name, points, sorted(seen.items(), key=lambda item: -SEVERITY[item[0]])))
+    return out
+
+
+@dataclass(frozen=True)
+class Known:
+    """What all pages take from, found once."""
+
+    rows: list  # tally.Row of every verdict
+    rules: list  # of the ledger
+    declared: dict  # formulation -> row of /declarations
+    ways: dict  # all_ways
+    titles: list  # of the errata
+
+
+def gather(site):
+    return Known(list(tally.rows(site.cases)), data.read_rules(site.truths),
+                 data.read_declarations(site.results), all_ways(site.cases), ledger.headings())
+
+
+def pages_of(site):
+    """{name: page} of cases and formulations, for words of the explanation that name one."""
+    pages = {c.name: f"{c.name}.html" for c in site.cases}
+    return {**pages, **{key: f"{file_of(key)}.html" for key in site.styles.order}}
+
+
+def contents(site, key, known):
+    """The context of a page."""
+    name, options = split(key)
+    everywhere = [(c, p, s) for c in site.cases for p in c.points for s in p.series
+                  if s.key == key]
+    found = defaults(site.cases, key)
+    own = [r for r in known.rows if r.formulation == key and r.standing != tally.ALIAS
+           and r.verdict.verdict not in UNJUDGED]
+    counts = {}
+    for r in own:
+        counts[r.verdict.verdict] = counts.get(r.verdict.verdict, 0) + 1
+    series = everywhere[0][2]
+    failing = [(c.name, standing(s)) for c, _, s in found]
+    return {
+        "key": key,
+        "type": name,
+        "options": options,
+        "summary": series.summary,
+        "source": series.source,
+        "variants": [k for k in site.styles.order if k != key and split(k)[0] == name],
+        "explanation": explanation.of(name, pages_of(site)),
+        "declared": known.declared.get(key),
+        "choices": options_of(known.declared[key]) if key in known.declared else [],
+        "analyses": ANALYSES,
+        "counts": sorted(counts.items(), key=lambda item: SEVERITY[item[0]]),
+        "rules": rules(own, known.rules, known.titles),
+        "wrong": [(c, v) for c, v in failing if v is not None and v.verdict in WRONG],
+        "missing": not_offered(found),
+        "speed": speed(found, key, known.ways),
+        "table": table(everywhere),
+    }
+
+
+def write(site, key, known):
+    context = contents(site, key, known)
+    drawn = [] if context["options"] else formulation_figures.extremes(defaults(site.cases, key))
+    image = site.image(formulation_figures.draw(site, key, drawn), f"{file_of(key)}_errors",
+                       tight=False) if drawn else None
+    site.write("formulation.html", f"{file_of(key)}.html", image=image,
+               drawn=[(c.name, q) for c, _, _, q in drawn], **context)
 
 
 def tasks(site):
-    return [functools.partial(write, site, key) for key in site.styles.order]
+    known = gather(site)
+    return [functools.partial(write, site, key, known) for key in site.styles.order]
