@@ -23,6 +23,15 @@ def options_of(declared):
     return [tuple(line.split("\t")) for line in declared["options"].split("\n") if line]
 
 
+def example(name, choices):
+    """How one of the options is set to another than its default."""
+    for option, values, default, _ in choices:
+        other = next((v for v in values.split("|") if v != default), None)
+        if other and "|" in values:
+            return f"{name}:{option}={other}"
+    return name
+
+
 def standing(series):
     """The worst verdict of a series that is judged, or None."""
     judged = [v for v in series.verdicts if v.verdict not in UNJUDGED]
@@ -145,6 +154,7 @@ def contents(site, key, known):
     for r in own:
         counts[r.verdict.verdict] = counts.get(r.verdict.verdict, 0) + 1
     series = everywhere[0][2]
+    choices = options_of(known.declared[key]) if key in known.declared else []
     failing = [(c.name, standing(s)) for c, _, s in found]
     return {
         "key": key,
@@ -155,7 +165,8 @@ def contents(site, key, known):
         "variants": [k for k in site.styles.order if k != key and split(k)[0] == name],
         "explanation": explanation.of(name, pages_of(site)),
         "declared": known.declared.get(key),
-        "choices": options_of(known.declared[key]) if key in known.declared else [],
+        "choices": choices,
+        "example": example(name, choices),
         "analyses": ANALYSES,
         "counts": sorted(counts.items(), key=lambda item: SEVERITY[item[0]]),
         "rules": rules(own, known.rules, known.titles),

@@ -1,11 +1,14 @@
 """Error against elements of a formulation, in the case where it does best and where it does worst."""
 import math
 
+from matplotlib.ticker import ScalarFormatter
+
 from reports import answers
 from reports.style import plt
 
 FLOOR = 1e-12  # errors below are drawn there
 TITLES = ("least", "largest")
+WRONG = ("wrong limit", "wrong limit, as predicted")
 
 
 def curve(series, quantity):
@@ -15,25 +18,24 @@ def curve(series, quantity):
 
 
 def candidates(found):
-    """[(last error, case, point, series, quantity)]: first judged quantity of each case, three meshes."""
+    """[(error on the finest mesh, case name, quantity, (case, point, series))] with three meshes at least: the first
+    judged quantity of each case, and every one whose limit is known to be wrong."""
     out = []
     for case, point, series in found:
-        names = answers.judged(point)
-        if series.missing or not names:
-            continue
-        points = curve(series, names[0])
-        if len(points) >= 3:
-            out.append((points[-1][1], case.name, case, point, series, names[0]))
-    return sorted(out, key=lambda item: item[:2])
+        names = answers.judged(point)[:1]
+        names += [v.quantity for v in series.verdicts if v.verdict in WRONG]
+        for name in dict.fromkeys(names) if not series.missing else ():
+            points = curve(series, name)
+            if len(points) >= 3:
+                out.append((points[-1][1], case.name, name, (case, point, series)))
+    return sorted(out, key=lambda item: item[:3])
 
 
 def extremes(found):
     """[(case, point, series, quantity)] with the least and the largest error on the finest mesh."""
     known = candidates(found)
-    if not known:
-        return []
-    chosen = [known[0], known[-1]] if len(known) > 1 else known
-    return [item[2:] for item in chosen]
+    chosen = {known[i][:3]: (*known[i][3], known[i][2]) for i in (0, -1)} if known else {}
+    return list(chosen.values())
 
 
 def panel(axes, site, key, item, title):
@@ -42,10 +44,13 @@ def panel(axes, site, key, item, title):
         points = [] if other.missing or other.key == key or ":" in other.key else curve(
             other, quantity)
         if points:
-            axes.loglog(*zip(*points), color="0.75", linewidth=0.8, zorder=1)
-    axes.loglog(*zip(*curve(series, quantity)), **{**site.styles.of(key), "linewidth": 2},
+            axes.plot(*zip(*points), color="0.75", linewidth=0.8, zorder=1)
+    axes.plot(*zip(*curve(series, quantity)), **{**site.styles.of(key), "linewidth": 2},
                 zorder=3)
     axes.set_title(f"{title} error: {case.name}, {quantity}", loc="left", fontsize=9)
+    axes.set_yscale("log")
+    axes.set_xscale("log", base=2)
+    axes.xaxis.set_major_formatter(ScalarFormatter())
     axes.set_xlabel("elements of each member")
     axes.set_ylabel("relative error")
 

@@ -107,7 +107,7 @@ class Parser:
             else:
                 above.append(self.group())
         if primes:
-            above.insert(0, f"<mo>{'′' * primes}</mo>")
+            base = f'<mrow>{base}<mo lspace="0" rspace="0">{"′" * primes}</mo></mrow>'
         if below is None and not above:
             return base
         under = large and "∑" in base
