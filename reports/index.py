@@ -1,12 +1,23 @@
 """First page: on one screen what was found, whom to believe, and the answer for every case."""
 import functools
 
-from reports import answers, heat, profiles, sentences, tally, trust
+from reports import agreed, answers, heat, kinds, profiles, sentences, tally, trust
 from reports.profile_page import panel
 
 NAVIGATION = [("index.html", "beamwork")]
 LEVEL = 0.01  # of the answers
 MOST_ROWS = 10  # of the table of trust on the first screen
+PLACES = (  # where to go next, as far as this site has it
+    ("answers.html", "answers at your tolerance"),
+    ("profiles.html", "profiles"),
+    ("profiles.html#winners", "winners at every tolerance"),
+    ("profiles.html#trust", "trust in full"),
+    ("formulations.html", "formulations"),
+    ("stability.html", "stability"),
+    ("errata.html", "errata"),
+    ("ledger.html", "known causes"),
+    ("glossary.html", "glossary"),
+)
 FIGURE = (4.6, 2.7)  # in
 
 
@@ -32,7 +43,11 @@ def write(site):
     compared = profiles.Compared(site.cases)
     rows = trust.table(site.cases, compared.problems, compared.keys)
     lines = {found.case.name: found for found in heat.lines(site.cases)}
+    written = {file for file, _ in site.navigation}
     site.write("index.html", "index.html", cases=site.cases, lines=lines, level=LEVEL,
+               agreed=agreed.rows([c for c in site.cases if c.name not in lines], LEVEL),
+               places=[(file, words) for file, words in PLACES if file.partition("#")[0] in written],
+               groups=kinds.grouped(site.cases, site.results),
                speed=sentences.of_speed(compared, rows),
                trust=sentences.of_trust(site.cases, rows), truths=sentences.of_truths(site.cases),
                profile=panel(site, compared, profiles.PICTURES[0], LEVEL, "profile", FIGURE)
