@@ -3,10 +3,12 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "harness/algebra/clock.h"
 #include "harness/cli/cli.h"
 #include "harness/command/scenes.h"
 #include "harness/imports/import_store.h"
 #include "harness/judge/families.h"
+#include "harness/judge/sentence.h"
 #include "harness/record/json.h"
 #include "harness/record/junit.h"
 #include "harness/record/markdown.h"
@@ -15,7 +17,9 @@
 #include "harness/study/noise.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
+#include "harness/tables/table_overview.h"
 #include "harness/tables/table_run.h"
+#include "harness/tables/table_unexpected.h"
 #include "harness/tables/table_verdicts.h"
 
 enum { PICTURED_STATES = 5 };
@@ -85,16 +89,47 @@ static status write_all(const command_request *r, const sweep *s, const judgemen
     return STATUS_OK;
 }
 
+/* Is every limit shown? Where it was asked for, or somebody looks at something in particular. */
+static int shows_limits(const command_request *r, const overview *o)
+{
+    return r->verbose || r->select != NULL || o->rows == 1;
+}
+
+/* On standard output, a screen: the matrix, the counts, what is unexpected, and how it ended. */
+static void show(const command_request *r, const sweep *s, const judgement *j, const truths *t,
+                 const overview *o, double seconds)
+{
+    const screen look = screen_of(stdout);
+    char sentence[4 * FAULT_TEXT];
+    if (!r->quiet && shows_limits(r, o)) {
+        table_verdicts(stdout, s, j);
+        table_run_details(stdout, s, j);
+        fputc('\n', stdout);
+    }
+    if (!r->quiet) {
+        table_overview(stdout, look, o);
+        fputc('\n', stdout);
+        table_run(stdout, s, j, seconds);
+    }
+    table_unexpected(stdout, look, s, j, t);
+    sentence_of_run(s, j, sentence, sizeof sentence);
+    table_run_end(stdout, look, sentence);
+}
+
 static status judge_and_write(const command_request *r, const sweep *s, truths *t, judgement *j,
-                              fault *f)
+                              double begun, fault *f)
 {
     const int whole = r->select == NULL && r->formulations == 0 && s->unfinished == 0 &&
                       (r->built_in || r->scene_count == 0);
+    overview o = {0};
     if (r->scene_count > 0)
         TRY(families_add_truths(s, 1, t, f));
     TRY(judgement_make(s, t, whole, j, f));
-    table_verdicts(stdout, s, j);
-    table_run(stdout, s, j, t);
+    const status outcome = overview_make(s, j, &o, f);
+    if (outcome == STATUS_OK)
+        show(r, s, j, t, &o, clock_wall_seconds() - begun);
+    overview_free(&o);
+    TRY(outcome);
     TRY(output_flush(f));
     return write_all(r, s, j, f);
 }
@@ -166,6 +201,7 @@ static status run(const command_request *r, const scenes *own, sweep *s, truths 
                   fault *f)
 {
     const int states = r->shapes < PICTURED_STATES ? r->shapes : PICTURED_STATES;
+    const double begun = clock_wall_seconds();
     const sweep_request request = {.cases = own->type,
                                    .select = r->select,
                                    .jobs = r->jobs,
@@ -188,7 +224,7 @@ static status run(const command_request *r, const scenes *own, sweep *s, truths 
         TRY(measure_noise(&request, t, s, f));
     for (int i = 0; i < r->beside_count; i++)
         TRY(add_beside(r->beside[i], r->gate, s, f));
-    return judge_and_write(r, s, t, j, f);
+    return judge_and_write(r, s, t, j, begun, f);
 }
 
 static int verify_scenes(const command_request *r, const scenes *own)
@@ -210,6 +246,8 @@ static int verify_request(command_request *r)
     scenes own;
     if (r->case_name != NULL)
         return message_fail(STATUS_REFUSED, "verify takes no case; select with -k");
+    if (r->verbose && r->quiet)
+        return message_fail(STATUS_REFUSED, "--verbose and --quiet: give one of them");
     int code = scenes_read(r, &own);
     if (code == EXIT_AS_EXPECTED)
         code = verify_scenes(r, &own);
@@ -227,5 +265,5 @@ int cli_verify(int count, char **arguments)
         "until then is in files named .partial"
         "\vbeamwork verify -k \"c_column and collocation\"\n"
         "beamwork verify -o build/results.h5",
-        "fokjJUMLPTYBGIN", count, arguments, verify_request);
+        "fokjJUMLPTYBGINvq", count, arguments, verify_request);
 }

@@ -48,11 +48,12 @@ typedef struct command_request {
     int reads_files;   /* 1: the arguments are files that are read */
     const char *beside[COMMAND_MAX_CASES]; /* stored imports: contestants of a run */
     int beside_count;
-    const char *map;  /* of columns without a header */
-    int gate;         /* 1: their verdicts count */
-    const char *to;   /* program that a deck is for */
-    int schema, keys; /* 1: describe the keys of scene files as JSON Schema, as a list */
-    double plant;     /* share of its time that is added to every run of the other */
+    const char *map;    /* of columns without a header */
+    int gate;           /* 1: their verdicts count */
+    const char *to;     /* program that a deck is for */
+    int schema, keys;   /* 1: describe the keys of scene files as JSON Schema, as a list */
+    int verbose, quiet; /* 1: every limit, only what is unexpected */
+    double plant;       /* share of its time that is added to every run of the other */
 } command_request;
 
 /* Options shared by the verbs; a verb lists the keys it takes, and '+' when it takes several cases.

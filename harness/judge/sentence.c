@@ -82,3 +82,98 @@ void sentence_of_verdict(const verdict *v, double least_order, char *text, size_
     }
     unjudged(v, text, size);
 }
+
+/* One more part of a text; parts stand side by side with the joint between them. */
+static void add_part(char *text, size_t size, int *parts, const char *joint, const char *part)
+{
+    const size_t used = strlen(text);
+    snprintf(text + used, size - used, "%s%s", (*parts)++ > 0 ? joint : "", part);
+}
+
+static void count_part(char *text, size_t size, int *parts, int count, const char *one,
+                       const char *many)
+{
+    char part[160];
+    if (count == 0)
+        return;
+    snprintf(part, sizeof part, "%d %s", count, count == 1 ? one : many);
+    add_part(text, size, parts, ", ", part);
+}
+
+/* What differs, counted. */
+static void failures(const judgement *j, char *text, size_t size)
+{
+    int parts = 0;
+    count_part(text, size, &parts, j->unexpected, "verdict differs from the expected one",
+               "verdicts differ from the expected ones");
+    count_part(text, size, &parts, j->disagreements, "value differs from its stored one",
+               "values differ from their stored ones");
+    count_part(text, size, &parts, j->flaws, "cell contradicts itself",
+               "cells contradict themselves");
+    count_part(text, size, &parts, j->unobserved, "finding was not observed",
+               "findings were not observed");
+    count_part(text, size, &parts, j->unmet, "truth speaks of nothing that exists",
+               "truths speak of nothing that exists");
+}
+
+/* Verdicts that are no pass and were expected, by a limit that was derived or by a rule alone. */
+typedef struct known {
+    int derived[2]; /* within the tolerance, beyond it */
+    int by_rule;
+} known;
+
+static known count_known(const judgement *j)
+{
+    known out = {{0}, 0};
+    for (int i = 0; i < j->verdicts; i++) {
+        const verdict *v = &j->verdict[i];
+        if (v->rule == NULL || !v->matches)
+            continue;
+        out.derived[0] += v->kind == VERDICT_BIASED_AS_PREDICTED;
+        out.derived[1] += v->kind == VERDICT_WRONG_AS_PREDICTED;
+        out.by_rule +=
+            v->kind != VERDICT_BIASED_AS_PREDICTED && v->kind != VERDICT_WRONG_AS_PREDICTED;
+    }
+    return out;
+}
+
+/* What is no pass and was expected, for somebody who did not expect it. */
+static void expected_findings(const judgement *j, char *text, size_t size)
+{
+    const known k = count_known(j);
+    const int derived = k.derived[0] + k.derived[1];
+    char part[400];
+    int parts = 0;
+    if (derived > 0) {
+        snprintf(
+            part, sizeof part,
+            "%d of them are limits off the truth (%d within the tolerance, %d beyond it) just as "
+            "derived for these formulations",
+            derived, k.derived[0], k.derived[1]);
+        add_part(text, size, &parts, ", ", part);
+    }
+    if (k.by_rule > 0) {
+        snprintf(part, sizeof part, "%d %sare explained by a finding of the ledger", k.by_rule,
+                 derived > 0 ? "more " : "of them ");
+        add_part(text, size, &parts, ", ", part);
+    }
+}
+
+void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size)
+{
+    const int checked = j->judged + j->agreements > 0, bad = judgement_exit(j) == 1;
+    char more[FAULT_TEXT * 4] = "";
+    text[0] = '\0';
+    if (!checked)
+        return;
+    if (bad)
+        failures(j, more, sizeof more);
+    else
+        expected_findings(j, more, sizeof more);
+    const char *word = s->unfinished > 0 ? "INTERRUPTED" : bad ? "FAIL" : "PASS";
+    if (bad)
+        snprintf(text, size, "%s: %s.", word, more);
+    else
+        snprintf(text, size, "%s: %severy verdict is as expected%s%s.", word,
+                 s->unfinished > 0 ? "until then " : "", more[0] != '\0' ? "; " : "", more);
+}

@@ -21,6 +21,8 @@ void scene_file_free(scene_file *);
 
 /* Lives as long as the file. */
 const case_type *scene_file_case(const scene_file *);
+/* The path of the file that a case is made from; NULL: of none. */
+const char *scene_file_path(const case_type *type);
 /* Does the file say anything under this key? */
 int scene_file_states(const scene_file *, const char *key);
 /* Adds the file's truths that hold at a point of its parameters, and their values there. */

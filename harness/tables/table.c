@@ -2,14 +2,27 @@
 
 #include <math.h>
 
+#include "harness/judge/rounding.h"
+
 void table_percent(FILE *to, double error)
 {
-    if (!isfinite(error))
-        fprintf(to, "%11s", "-");
-    else if (fabs(error) >= 1e-4)
-        fprintf(to, " %+9.4f%%", 100 * error);
-    else
-        fprintf(to, " %+10.1e", error);
+    char text[ROUNDING_TEXT];
+    rounding_percent(error, text);
+    fprintf(to, " %11s", text);
+}
+
+void table_known(FILE *to, int width, double value, double uncertainty)
+{
+    char text[ROUNDING_TEXT];
+    rounding_known(value, uncertainty, text);
+    fprintf(to, "%*s", width, text);
+}
+
+void table_digits(FILE *to, int width, double value, int digits)
+{
+    char text[ROUNDING_TEXT];
+    rounding_digits(value, digits, text);
+    fprintf(to, "%*s", width, text);
 }
 
 void table_value(FILE *to, int width, int digits, char conversion, double value)

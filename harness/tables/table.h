@@ -6,8 +6,12 @@
 
 #include "harness/study/sweep.h"
 
-/* A relative error in 11 columns, in percent where that shows it; a dash where there is none. */
+/* A relative error in percent, in 12 columns with a blank before it; a dash where there is none. */
 void table_percent(FILE *to, double error);
+/* A value as far as it is known (harness/judge/rounding.h). */
+void table_known(FILE *to, int width, double value, double uncertainty);
+/* A value with that many digits. */
+void table_digits(FILE *to, int width, double value, int digits);
 /* printf's conversion 'g', 'e' or 'f' in a field of `width`; a dash for what is not finite. */
 void table_value(FILE *to, int width, int digits, char conversion, double value);
 /* "case: parameters" as far as they differ from the defaults. */

@@ -1,60 +1,12 @@
 #include "harness/tables/table_run.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 #include "harness/study/noise.h"
+#include "harness/tables/paragraph.h"
+#include "harness/tables/screen.h"
 #include "harness/tables/table.h"
-
-static void disagreements(FILE *to, const sweep *s, const judgement *j)
-{
-    for (int i = 0; i < j->agreements; i++) {
-        const agreement *a = &j->agreement[i];
-        const series *one = &s->series[a->series];
-        const point *p = &s->point[one->point];
-        if (a->good)
-            continue;
-        fputc('\n', to);
-        table_point(to, p);
-        fprintf(to, ", %s, n = %d, %s: %.12g differs from the stored %.12g\n", one->formulation.key,
-                one->mesh[a->mesh], p->scene.quantity[a->quantity].name, a->value, a->truth->value);
-    }
-}
-
-static void cells_that_contradict_themselves(FILE *to, const sweep *s, const judgement *j)
-{
-    for (int i = 0; i < j->flaws; i++) {
-        const flaw *c = &j->flaw[i];
-        const series *one = &s->series[c->series];
-        fputc('\n', to);
-        table_point(to, &s->point[one->point]);
-        fprintf(to, ", %s, n = %d contradicts itself: %s\n", one->formulation.key,
-                one->mesh[c->mesh], c->why);
-    }
-}
-
-/* What a whole run should have met and did not. */
-static void not_met(FILE *to, const judgement *j, const truths *t)
-{
-    if (j->unobserved > 0)
-        for (int i = 0; i < t->rules; i++)
-            if (!rules_is_observed(&t->rule[i]))
-                fprintf(to, "\nfinding %s %s (%s; %s; %s)\n", t->rule[i].name,
-                        t->rule[i].observed == 0 ? "was not observed"
-                                                 : "names a prediction that no verdict met",
-                        t->rule[i].formulations, t->rule[i].cases, t->rule[i].quantities);
-    if (j->unmet > 0)
-        for (int i = 0; i < t->rows; i++) {
-            const truth *row = &t->row[i];
-            char text[PARAMETERS_TEXT];
-            if (row->met ||
-                (row->formulation[0] != '\0' && formulation_find(row->formulation) == NULL))
-                continue;
-            parameters_text(row->type, row->parameter, text, sizeof text);
-            fprintf(to, "\ntruth of nothing that exists: %s %s, %s%s%s (%s)\n", row->type->name,
-                    text, row->quantity, row->formulation[0] != '\0' ? ", " : "", row->formulation,
-                    row->source);
-        }
-    if (j->unmet > 0 && t->strangers > 0)
-        fprintf(to, "\ntruths of %d unknown cases, the first: %s\n", t->strangers, t->stranger);
-}
 
 /* Cells that have no solution, also where finer meshes have one and decide the verdict. */
 static void failed_cells(FILE *to, const sweep *s)
@@ -123,29 +75,82 @@ static void contradictions(FILE *to, const sweep *s, const judgement *j)
     }
 }
 
-void table_run(FILE *to, const sweep *s, const judgement *j, const truths *t)
+static int count_contradicted(const judgement *j)
 {
-    disagreements(to, s, j);
-    cells_that_contradict_themselves(to, s, j);
+    int count = 0;
+    for (int i = 0; i < j->verdicts; i++) {
+        int before = 0;
+        for (int k = 0; k < i && j->verdict[i].contradicted != NULL; k++)
+            before |= j->verdict[k].contradicted == j->verdict[i].contradicted;
+        count += j->verdict[i].contradicted != NULL && !before;
+    }
+    return count;
+}
+
+void table_run_details(FILE *to, const sweep *s, const judgement *j)
+{
     contradictions(to, s, j);
     failed_cells(to, s);
-    not_met(to, j, t);
     coverage_lines(to, j);
-    fprintf(to, "\n%d cells, %d more for their noise; ", sweep_cells(s), noise_cells(s));
-    if (s->unfinished > 0)
-        fprintf(to, "interrupted, %d more were not done; ", s->unfinished);
-    fprintf(to, "%d verdicts against truths:", j->judged);
+}
+
+/* "9705 pass; 75 undecided". */
+static void print_kinds(FILE *to, const judgement *j)
+{
+    int parts = 0;
     for (int k = 0; k < VERDICT_KINDS; k++)
-        fprintf(to, "%s %d %s", k > 0 ? ";" : "", j->by_kind[k], verdict_name((verdict_kind)k));
-    fprintf(to,
-            "\n%d of %d stored discrete values agree; %d verdicts differ from the expected one; %d "
-            "findings not observed\n",
-            j->agreements - j->disagreements, j->agreements, j->unexpected, j->unobserved);
-    if (j->flaws > 0)
-        fprintf(to, "%d cells contradict themselves\n", j->flaws);
-    if (j->unmet + j->waiting > 0)
-        fprintf(to,
-                "%d truths speak of nothing that exists; %d wait for a formulation that offers "
-                "what they need\n",
-                j->unmet, j->waiting);
+        if (j->by_kind[k] > 0 && k != VERDICT_SKIP && k != VERDICT_NO_TRUTH)
+            fprintf(to, "%s%d %s", parts++ > 0 ? "; " : " ", j->by_kind[k],
+                    verdict_name((verdict_kind)k));
+}
+
+static void print_verdicts(FILE *to, const judgement *j)
+{
+    const int skipped = j->by_kind[VERDICT_SKIP], unknown = j->by_kind[VERDICT_NO_TRUTH];
+    char *text = NULL;
+    size_t size;
+    FILE *line = open_memstream(&text, &size);
+    if (line == NULL)
+        return;
+    fprintf(line, "%d verdict%s against truths:", j->judged, j->judged == 1 ? "" : "s");
+    print_kinds(line, j);
+    if (skipped > 0)
+        fprintf(line, "; besides %d not offered (skip)", skipped);
+    if (unknown > 0)
+        fprintf(line, "%s %d without a truth", skipped > 0 ? " and" : "; besides", unknown);
+    if (fclose(line) == 0)
+        paragraph_write(to, 0, 0, text);
+    free(text);
+}
+
+void table_run(FILE *to, const sweep *s, const judgement *j, double seconds)
+{
+    const int contradicted = count_contradicted(j);
+    fprintf(to, "%d cells, %d more for their noise, in %.3g s", sweep_cells(s), noise_cells(s),
+            seconds);
+    if (s->unfinished > 0)
+        fprintf(to, "; interrupted, %d more were not done", s->unfinished);
+    fputc('\n', to);
+    print_verdicts(to, j);
+    if (j->agreements > 0)
+        fprintf(to, "%d of %d stored discrete values agree\n", j->agreements - j->disagreements,
+                j->agreements);
+    if (j->waiting > 0)
+        fprintf(to, "%d truths wait for a formulation that offers what they need\n", j->waiting);
+    if (contradicted > 0)
+        fprintf(
+            to,
+            "%d published values are contradicted by limits that agree with a better truth (-v)\n",
+            contradicted);
+}
+
+void table_run_end(FILE *to, screen look, const char *sentence)
+{
+    const size_t word = strcspn(sentence, ":");
+    char begin[32];
+    if (sentence[0] == '\0')
+        return;
+    snprintf(begin, sizeof begin, "%.*s", (int)word, sentence);
+    screen_put(to, look, strcmp(begin, "PASS") == 0 ? SCREEN_GOOD : SCREEN_BAD, begin);
+    paragraph_write(to, (int)word, 0, sentence + word);
 }

@@ -22,10 +22,12 @@ class ExamplesTest(SceneCase):
 
     def test_folder(self):
         """All examples at once, every formulation as expected; a case beside them; names once."""
-        done = self.answered("verify", "--scene", EXAMPLES)
-        self.assertIn("0 verdicts differ", done.stdout)
-        found = re.findall(r"^  (\S+) +k_drive .* biased, as predicted, N50-examples$", done.stdout,
-                           re.M)
+        done = self.answered("verify", "--scene", EXAMPLES, "-v")
+        self.assertIn("PASS: every verdict is as expected", done.stdout)
+        block = done.stdout.partition("\nleaf_spring_guide\n")[2]
+        block = block.partition("\n  k_drive [")[2].partition("\n  k_")[0]
+        self.assertIn("[1] N50-examples: ", done.stdout)
+        found = re.findall(r"^    (\S+) .* biased, as predicted \[1\]$", block, re.M)
         self.assertEqual(found, ["sheet_third", "sheet_third_printed"])
         verdicts = self.folder / "verdicts.json"
         self.answered("verify", "--built-in", "--scene", EXAMPLES, "-J", verdicts, "-k",

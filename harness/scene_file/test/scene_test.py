@@ -107,7 +107,7 @@ class SceneTest(SceneCase):
         self.assertAlmostEqual(there["error"], 0, delta=1e-3)
         done = self.answered("verify", "--scene", path, "-f", "collocation")
         self.assertIn("width=0.1", done.stdout)
-        self.assertIn("1 verdicts against truths: 1 pass", done.stdout)
+        self.assertIn("1 verdict against truths: 1 pass", done.stdout)
 
     def test_refusals(self):
         """One line where it is not the file's content."""
