@@ -121,6 +121,11 @@ int rules_hold(const rule *r, const rule_subject *s)
            choice_index(r->verdicts, s->verdict) >= 0 && condition_holds(r->condition, s);
 }
 
+int rules_speak_of(const rule *r, const char *formulation)
+{
+    return list_has_formulation(r->formulations, formulation);
+}
+
 void rules_foretell(rule *r, const rule_subject *s)
 {
     char word[WORD], here[WORD];

@@ -37,6 +37,9 @@ typedef struct rule_subject {
  * that the case does not have does not hold. */
 int rules_hold(const rule *, const rule_subject *);
 
+/* Is the formulation (its key) among those of the rule? */
+int rules_speak_of(const rule *, const char *formulation);
+
 /* Notes that a verdict met a prediction which the rule names. */
 void rules_foretell(rule *, const rule_subject *);
 /* Has a verdict shown it, and verdicts all its predictions? */

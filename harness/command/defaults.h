@@ -1,0 +1,14 @@
+/* Formulation and number of elements where the command line gives none (judge/preference.h). */
+#ifndef BEAMWORK_DEFAULTS_H
+#define BEAMWORK_DEFAULTS_H
+
+#include "harness/command/command.h"
+
+enum { DEFAULTS_NOTE = 2 * FAULT_TEXT + 200 };
+
+/* Fills what is missing of -f and -n for one cell of the case at the parameters of the request.
+ * note: a line for each choice and why; "" where both were given. REFUSED: no formulation offers
+ * what the case needs. */
+status defaults_fill(command_request *r, const case_type *type, char note[DEFAULTS_NOTE], fault *f);
+
+#endif
