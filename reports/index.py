@@ -32,11 +32,12 @@ def formulation_rows(cases):
 
 
 def table_of(case):
-    """[(quantity, data.Verdict or None, heat.soonest to LEVEL)] at the defaults, all together first."""
+    """[(what is asked, ways to LEVEL)] at the defaults: the first judged quantity, and all together."""
     point = case.points[0]
     names = answers.judged(point)
-    wanted = ([answers.ALL] if len(names) > 1 else []) + names
-    return [(q, answers.ways(point, q, LEVEL)) for q in wanted]
+    asked = [(names[0], names[0])] if names else []
+    asked += [(f"all {len(names)} quantities", answers.ALL)] if len(names) > 1 else []
+    return [(words, answers.ways(point, quantity, LEVEL)) for words, quantity in asked]
 
 
 def write(site):

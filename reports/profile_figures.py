@@ -21,14 +21,32 @@ def xlabel(picture):
     return XLABELS[picture.count, picture.unit is to_the_best]
 
 
+def marks_of(site, key, at, shares, marked):
+    """What plot() wants for a curve whose marks say the share, and what is solved at any cost."""
+    rows = [(f"{x:g}", f"{100 * share:.1f} %", f"{100 * shares[-1]:.1f} %")
+            for x, share in list(zip(at, shares))[marked]]
+    return site.points(key, ("factor", "solved", "at any cost"), rows)
+
+
+def legend_of(site, keys, name="profile_legend"):
+    """One legend for all figures of the page."""
+    columns = min(4, len(keys))
+    figure, axes = plt.subplots(figsize=(1.95 * columns, 0.22 * -(-len(keys) // columns) + 0.06))
+    lines = [axes.plot([], [], label=key, **site.styles.of(key))[0] for key in keys]
+    axes.set_axis_off()
+    figure.subplots_adjust(left=0, right=1, top=1, bottom=0)
+    figure.legend(lines, keys, loc="center left", ncol=columns, borderaxespad=0, fontsize=9)
+    return site.image(figure, name, tight=False)
+
+
 def figure_of(site, picture, curves, keys, name, size=(4.4, 3.0)):
     """curves: {formulation: shares at places}. Steps: a share holds from its factor on."""
     farthest = FARTHEST[picture.unit]
     at = places(farthest)
     figure, axes = plt.subplots(figsize=size)
     for i, key in enumerate(keys):
-        axes.plot(at, curves[key][:-1], drawstyle="steps-post", label=key, **site.styles.of(key),
-                  markevery=(i, len(keys)))
+        axes.plot(at, curves[key][:-1], drawstyle="steps-post", markevery=(i, len(keys)),
+                  label=key, **marks_of(site, key, at, curves[key], slice(i, None, len(keys))))
     axes.set_xscale("log")
     axes.set_xlim(1, farthest)
     axes.set_ylim(0, 1.005)

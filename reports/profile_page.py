@@ -2,11 +2,12 @@
 import functools
 
 from reports import heat, profile_figures, profiles, trust
-from reports.problems import Question, any_defect, defect, no_defect
+from reports.problems import (Question, any_defect, defect, no_defect, to_the_best,
+                              to_the_smallest)
 from reports.site import LEVELS
 
 NAVIGATION = [("profiles.html", "profiles")]
-NEAR = {"time": 2, "unknowns": 2}  # factor of the reading example
+NEAR = {to_the_best: 2, to_the_smallest: 10}  # factor of the reading example
 READINGS = (defect, no_defect, any_defect)
 
 
@@ -14,7 +15,7 @@ def panel(site, compared, picture, level, name=None, size=(4.4, 3.0)):
     """A figure with what is read from it as an example: the curve that is ahead at NEAR."""
     curves = compared.profile(picture.question(level), picture.offered)
     at = profiles.places(profiles.FARTHEST[picture.unit])
-    factor = NEAR[picture.count]
+    factor = NEAR[picture.unit]
     drawn = {key: curves[key] for key in compared.curves}
     share, ahead = profiles.read_at(drawn, at, factor)[0]
     name = name or f"{picture.file}_{100 * level:g}"
@@ -41,14 +42,16 @@ def readings(compared):
 
 def write(site):
     compared = profiles.Compared(site.cases)
-    figures, table = {}, None
+    figures, table, legend = {}, None, None
     if compared.any:
         figures = {
             picture.name: [panel(site, compared, picture, level) for level in LEVELS]
             for picture in profiles.PICTURES
         }
+        legend = profile_figures.legend_of(site, compared.curves)
         table = profile_figures.write_table(site, compared)
     site.write("profiles.html", "profiles.html", compared=compared, figures=figures, table=table,
+               legend=legend,
                readings=readings(compared) if compared.any else [],
                lines=heat.lines(site.cases),
                rows=trust.table(site.cases, compared.problems, trust.judged(site.cases)))

@@ -2,11 +2,10 @@
 import math
 from dataclasses import dataclass
 
-from reports import problems
+from reports import problems, style
 from reports.problems import Question, to_the_best, to_the_smallest
 
-MOST_CURVES = 8
-ROUND = (1, 1.1, 1.2, 1.3, 1.4, 1.5, 1.7, 2, 2.3, 2.6, 3, 3.5, 4, 4.5, 5, 6, 7, 8, 9)
+ROUND = (1, 1.2, 1.4, 1.7, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8)  # in each decade, where shares are read
 FARTHEST = {to_the_best: 100, to_the_smallest: 1000}  # where the axis ends
 SLACK = 1e-9  # of a factor: equal bills stay equal in floating point
 
@@ -87,7 +86,8 @@ class Compared:
         self.problems = problems.problems(cases, self.keys)
         self.cases = len({p.case for p in self.problems})
         self._profiles = {}
-        self.curves = self._drawn() if self.any else []
+        extra = style.extra(self.keys)
+        self.curves = [key for key in self.keys if key not in extra] if self.any else []
 
     @property
     def any(self):
@@ -100,9 +100,3 @@ class Compared:
             found = profile(self.problems, self.keys, question, offered)
             self._profiles[question, offered] = found
         return self._profiles[question, offered]
-
-    def _drawn(self, level=0.01):
-        """At most MOST_CURVES formulations: those that solve most to the level, by name."""
-        solved = self.profile(Question(level))
-        best = sorted(self.keys, key=lambda k: (-round(solved[k][-1], 9), k))
-        return sorted(best[:MOST_CURVES])
