@@ -43,15 +43,9 @@ def named(point, key):
 def style(index):
     """Grey, hollow, dotted: taken elsewhere."""
     return {
-        "color": str(0.15 + 0.08 * (index % 8)), "marker": "sDv^<>ph"[index % 8],
-        "markerfacecolor": "white", "linestyle": (0, (1, 1)), "linewidth": 1, "markersize": 6
+        "color": "currentColor", "marker": "sDv^<>ph"[index % 8], "hollow": True,
+        "linestyle": (0, (1, 1)), "linewidth": 1, "markersize": 6, "alpha": 0.85 - 0.08 * (index % 8)
     }
-
-
-def label(key):
-    """A name from a file as text of a figure: no formulas, and never hidden."""
-    plain = key.replace("\\", "\\\\").replace("$", r"\$")
-    return f" {plain}" if plain.startswith("_") else plain
 
 
 def rows(point):

@@ -186,7 +186,8 @@ def short(svg, name):
     size = f'width="{width / 0.75:.0f}" height="{height / 0.75:.0f}"'
     off = escape(" ".join(style.extra(writer.keys)))
     return (f'<svg viewBox="0 0 {width:g} {height:g}" {size} fill="currentColor" '
-            f'data-off="{off}" stroke-linejoin="round" font-family="{FONT}">{inside}</svg>', writer.points)
+            f'data-off="{off}" stroke-linejoin="round" font-family="{FONT}">{inside}</svg>',
+            writer.points)
 
 
 def alone(markup):

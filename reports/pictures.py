@@ -174,7 +174,7 @@ def draw_states(site, case, s):
     for axes in grid.flat[len(states):]:
         axes.axis("off")
     figure.tight_layout()
-    return site.image(figure, f"picture_{case.name}")
+    return site.keep(site.image(figure, f"picture_{case.name}"))
 
 
 def draw_sections(site, case, s):
@@ -201,7 +201,7 @@ def draw_sections(site, case, s):
         if equivalent:
             axes.set_title("only its constants are given", fontsize=7)
     figure.tight_layout()
-    return site.image(figure, f"section_{case.name}")
+    return site.keep(site.image(figure, f"section_{case.name}"))
 
 
 def write_case(site, case):

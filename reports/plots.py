@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
 from reports import answers, beside
-from reports.style import plt
+from reports.chart import Chart
 
 FLOOR = 1e-13   # below it errors are round-off
 CEILING = 1e3   # above it a value is a divergence
@@ -80,15 +80,6 @@ def digits_of(point, quantity):
     return least if least > FLOOR else None
 
 
-def shade_digits(axes, point, quantity):
-    """Grey ground where errors are below the truth's digits, as far down as something is drawn."""
-    digits = digits_of(point, quantity)
-    low, high = axes.get_ylim()
-    if digits and digits > low:
-        axes.axhspan(low, min(digits, high), color="0.93", zorder=-1)
-        axes.set_ylim(low, high)
-
-
 def slope_triangle(axes, point, quantity):
     """Order of the most accurate formulation beside its last points."""
     best = None
@@ -99,136 +90,115 @@ def slope_triangle(axes, point, quantity):
     if best:
         order, n, error = best
         x = np.array([n / 3, n])
-        axes.plot(x, error / 3 * (x / n) ** -order, color="0.55", linewidth=0.8, zorder=0)
-        axes.annotate(f"order {order}", (x[0], error / 3 * 3 ** order), fontsize=7.5, color="0.35", ha="right")
+        axes.plot(x, error / 3 * (x / n) ** -order, back=True, color="currentColor", linewidth=1, alpha=0.55)
+        axes.note(x[0], error / 3 * 3 ** order, f"order {order}")
 
 
-def draw_failures(panels, axes, point, quantity, styles):
+def draw_failures(panels, charts, point, quantity, styles):
     """Crosses on the upper edge of every panel, where a cell has no value."""
-    shown = False
     for series, mesh, _, _ in answers.failures(point):
         if math.isfinite(mesh.values.get(quantity, math.nan)):
             continue
-        for (_, where, _), one in zip(panels, axes):
+        look = styles.of(series.key)
+        for (_, where, _), one in zip(panels, charts):
             if where(mesh) > 0:
-                one.plot([where(mesh)], [1], marker="x", markersize=6, color=styles.of(series.key)["color"], gid=styles.of(series.key)["gid"], clip_on=False, linestyle="none", transform=one.get_xaxis_transform(), zorder=5)
-                shown = True
-    return shown
+                one.cross(where(mesh), look["color"], look["gid"])
 
 
-def legend_height(entries, columns):
-    """In inches, of a legend below a figure."""
-    return 0.2 * math.ceil(entries / columns) + 0.1
+def draw_series(site, point, quantity, panels, charts):
+    """The curves of all formulations and other programs; noise of times as pale bars in the second panel."""
+    for series in point.series:
+        pairs = finite(series, quantity)
+        if not pairs:
+            continue
+        look = marks_of(site, point, series, quantity, pairs)
+        for (_, where, _), one in zip(panels, charts):
+            one.plot([max(where(m), 1e-3) for m, _ in pairs], [e for _, e in pairs], label=series.key, **look)
+        for m, e in pairs:
+            if m.clock.most > 1.02 * m.clock.least:
+                charts[1].plot([1e3 * m.clock.least, 1e3 * m.clock.most], [e, e], back=True, color=look["color"], gid=site.styles.of(series.key)["gid"], linewidth=3, alpha=0.35)
+    for i, series in enumerate(s for s in point.others if finite(s, quantity)):
+        for (_, where, _), one in zip(panels, charts):
+            pairs = [(where(m), e) for m, e in finite(series, quantity) if where(m) > 0]   # not everything is said of other programs
+            one.plot([x for x, _ in pairs], [e for _, e in pairs], label=series.key, **beside.style(i))
 
 
-def finish(figure, legend, columns, left, right, top, bottom, **spacing):
-    """Margins in inches and a legend below: laid out by hand, since finding out takes as long as drawing."""
-    width, height = figure.get_size_inches()
-    handles, labels = legend
-    bottom += legend_height(len(labels), columns)
-    figure.subplots_adjust(left=left / width, right=1 - right / width, top=1 - top / height, bottom=bottom / height, **spacing)
-    figure.legend(handles, labels, loc="lower center", bbox_to_anchor=(0.5, 0), ncol=columns, fontsize=8.5, borderaxespad=0.2)
+def front_line(point, quantity):
+    """Times and errors of the front, as a staircase."""
+    best = [(1e3 * m.seconds, clipped(m.errors[quantity])) for _, m in answers.front(point, quantity)]
+    corners = [(b[0], a[1]) for a, b in zip(best, best[1:])]
+    return [p for pair in zip(best, corners + [None]) for p in pair if p]
 
 
 def work_precision(site, point, quantity, name):
     """Error against elements, time, unknowns and work; the front of time and error in grey; noise as horizontal bars. None when there is no error."""
     panels = panels_of(point)
-    drawn = [s for s in point.series if finite(s, quantity)]
-    if not drawn:
+    if not any(finite(s, quantity) for s in point.series):
         return None
-    figure, axes = plt.subplots(1, len(panels), figsize=(13.5, 3.75 + legend_height(len(drawn) + len(point.others), 6)), sharey=True)
-    for series in drawn:
-        pairs = finite(series, quantity)
-        look = marks_of(site, point, series, quantity, pairs)
-        for (_, where, _), one in zip(panels, axes):
-            one.plot([max(where(m), 1e-3) for m, _ in pairs], [e for _, e in pairs], label=series.key, **look)
-        noisy = [(m, e) for m, e in pairs if m.clock.most > 1.02 * m.clock.least]
-        axes[1].hlines([e for _, e in noisy], [1e3 * m.clock.least for m, _ in noisy], [1e3 * m.clock.most for m, _ in noisy], color=look["color"], gid=site.styles.of(series.key)["gid"], linewidth=2.5, alpha=0.35)
-    for i, series in enumerate(s for s in point.others if finite(s, quantity)):
-        for (_, where, _), one in zip(panels, axes):
-            pairs = [(where(m), e) for m, e in finite(series, quantity) if where(m) > 0]   # not everything is said of other programs
-            one.plot([x for x, _ in pairs], [e for _, e in pairs], label=beside.label(series.key), **beside.style(i))
-    best = answers.front(point, quantity)
-    axes[1].step([1e3 * m.seconds for _, m in best], [clipped(m.errors[quantity]) for _, m in best], where="post", color="0.6", linewidth=4, alpha=0.35, zorder=0)
-    slope_triangle(axes[0], point, quantity)
-    for (label, _, whole), one in zip(panels, axes):
-        log_axes(one, label, "", whole)
-    axes[0].set_ylabel("relative error")
-    for one in axes:
-        shade_digits(one, point, quantity)
-    draw_failures(panels, axes, point, quantity, site.styles)
+    chart = Chart(len(panels), (282, 262))
+    charts = []
+    for label, _, whole in panels:
+        charts.append(chart.panel(xlabel=label, ylabel="" if charts else "relative error", whole=whole, like=charts[0] if charts else None))
+    line = front_line(point, quantity)
+    charts[1].plot([x for x, _ in line], [y for _, y in line], back=True, color="currentColor", linewidth=5, alpha=0.15)
+    draw_series(site, point, quantity, panels, charts)
+    slope_triangle(charts[0], point, quantity)
     tolerance = tolerance_of(point, quantity)
-    if tolerance:
-        for one in axes:
-            one.axhline(tolerance, color="0.45", linewidth=0.8, linestyle=(0, (2, 2)), zorder=0)
-        axes[-1].annotate("tolerance", (1, tolerance), xycoords=("axes fraction", "data"), fontsize=7.5, color="0.35", ha="right", va="bottom")
-    finish(figure, axes[0].get_legend_handles_labels(), 6, left=0.65, right=0.1, top=0.15, bottom=0.5, wspace=0.06)
-    return site.image(figure, name, tight=False)
+    for one in charts:
+        one.below = digits_of(point, quantity)
+        if tolerance:
+            one.level(tolerance, "tolerance" if one is charts[-1] else "")
+    draw_failures(panels, charts, point, quantity, site.styles)
+    return chart.image(site, name)
 
 
 def small_multiples(site, point, quantities, name, errors="errors", ylabel="relative error", against="time"):
     """One small panel for each quantity, error against time (or elements)."""
     columns = min(4, len(quantities))
-    rows = math.ceil(len(quantities) / columns)
-    handles = {s.key: None for s in point.series if any(finite(s, q, errors) for q in quantities)}
-    across = max(1, min(6, 2 * columns - 1))
-    size = (3.35 * columns + 0.3, 2.45 * rows + 0.3 + legend_height(len(handles), across))
-    figure, axes = plt.subplots(rows, columns, figsize=size, squeeze=False)
-    for one, quantity in zip(axes.flat, quantities):
+    chart = Chart(columns, (246, 150), gap=(66, 62))
+    for i, quantity in enumerate(quantities):
+        last = i + columns >= len(quantities)
+        one = chart.panel(quantity, ("time [ms]" if against == "time" else "elements per member") if last else "", "" if i % columns else ylabel, whole=against != "time")
         for series in point.series:
             pairs = finite(series, quantity, errors)
             if pairs:
                 x = [1e3 * m.seconds if against == "time" else m.n for m, _ in pairs]
-                handles[series.key] = one.plot(x, [e for _, e in pairs], **{**marks_of(site, point, series, quantity, pairs, errors), "markersize": 3.5})[0]
-        log_axes(one, "", "", against != "time")
+                one.plot(x, [e for _, e in pairs], label=series.key, **{**marks_of(site, point, series, quantity, pairs, errors), "markersize": 3.5})
         if errors == "errors":
-            shade_digits(one, point, quantity)
-        one.set_title(quantity, fontsize=9)
-    for one in axes.flat[len(quantities):]:
-        one.set_visible(False)
-    for one in axes[:, 0]:
-        one.set_ylabel(ylabel)
-    for column in range(columns):
-        last = max(i for i in range(len(quantities)) if i % columns == column)
-        axes.flat[last].set_xlabel("time [ms]" if against == "time" else "elements per member")
-    finish(figure, (handles.values(), handles.keys()), across, left=0.75, right=0.1, top=0.25, bottom=0.5, wspace=0.3, hspace=0.5)
-    return site.image(figure, name, tight=False)
+            one.below = digits_of(point, quantity)
+    return chart.image(site, name)
 
 
 def curves(site, point, quantity, name):
     """The curve of every formulation on its finest mesh."""
-    figure, axes = plt.subplots(figsize=(6.4, 3.6))
-    labels = None
+    chart = Chart(1, (520, 300))
+    one = None
     for series in point.series:
         meshes = [m for m in series.meshes if quantity in m.curves and len(m.curves[quantity][0]) > 0]
         if not meshes:
             continue
         x, value, x_name, x_unit, unit = meshes[-1].curves[quantity]
-        axes.plot(x, value, label=f"{series.key}, n = {meshes[-1].n}", **{**site.styles.of(series.key), "markersize": 3}, markevery=max(1, len(x) // 12))
-        labels = (f"{x_name} [{x_unit}]", f"{quantity} [{unit}]")
-    if labels is None:
-        plt.close(figure)
-        return None
-    axes.set_xlabel(labels[0])
-    axes.set_ylabel(labels[1])
-    axes.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.01, 0.5))
-    return site.image(figure, name)
+        one = one or chart.panel("", f"{x_name} [{x_unit}]", f"{quantity} [{unit}]", xlog=False, ylog=False)
+        marks = range(0, len(x), max(1, len(x) // 12))
+        names = (f"{x_name} [{x_unit}]", f"{quantity} [{unit}]")
+        look = site.points(series.key, names, [(float(x[i]), float(value[i])) for i in marks], f"n = {meshes[-1].n}")
+        one.plot(x, value, label=f"{series.key}, n = {meshes[-1].n}", marks=marks, **{**look, "markersize": 3})
+    return chart.image(site, name) if one else None
 
 
 def peers_figure(site, ours, others, name):
     """ours: [(key, meshes)], others: {program: [data.Mesh]}: errors against unknowns and time."""
-    figure, axes = plt.subplots(2, 2, figsize=(11, 7), sharey="row", constrained_layout=True)
-    for row, quantity in zip(axes, ("C_xx", "C_zz")):
-        for key, meshes in ours:
+    chart = Chart(2, (470, 260))
+    labels = ("unknowns", "time of the solution [ms]; open marks: taken elsewhere")
+    for quantity in ("C_xx", "C_zz"):
+        row = [chart.panel("", labels[0], f"relative error of {quantity}", whole=True)]
+        row.append(chart.panel("", labels[1], like=row[0]))
+        curves_of = [(key, meshes, site.styles.of(key)) for key, meshes in ours]
+        curves_of += [(f"{program} (elsewhere)", meshes, beside.style(i)) for i, (program, meshes) in enumerate(others.items())]
+        for label, meshes, look in curves_of:
             error = [clipped(m.errors[quantity]) for m in meshes]
-            row[0].plot([m.free for m in meshes], error, label=key, **site.styles.of(key))
-            row[1].plot([1e3 * m.clock.solve for m in meshes], error, **site.styles.of(key))
-        for i, (program, rows) in enumerate(others.items()):
-            row[0].plot([m.free for m in rows], [clipped(m.errors[quantity]) for m in rows], label=f"{beside.label(program)} (elsewhere)", **beside.style(i))
-            row[1].plot([1e3 * m.clock.solve for m in rows], [clipped(m.errors[quantity]) for m in rows], **beside.style(i))
-        for one, label in zip(row, ("unknowns", "time of the solution [ms]; open marks: taken elsewhere")):
-            log_axes(one, label, "", label == "unknowns")
-            one.axhline(0.01, color="0.45", linewidth=0.8, linestyle=(0, (2, 2)), zorder=0)
-        row[0].set_ylabel(f"relative error of {quantity}")
-    figure.legend(*axes[0][0].get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, 0), ncol=3, fontsize=8.5)
-    return site.image(figure, name)
+            row[0].plot([m.free for m in meshes], error, label=label, **look)
+            row[1].plot([1e3 * m.clock.solve for m in meshes], error, label=label, **look)
+        for one in row:
+            one.level(0.01)
+    return chart.image(site, name)

@@ -2,13 +2,13 @@
 import functools
 import math
 
-from reports import answers
+from reports import answers, plots
 from reports.site import LEVELS
 
 NAVIGATION = [("convergence.html", "to print")]
 
 
-def sheet(case):
+def sheet(site, case):
     """The first judged quantity of the defaults: its figure, and for each formulation limit, order, errors, time to every level."""
     point = case.points[0]
     names = answers.judged(point)
@@ -23,14 +23,15 @@ def sheet(case):
     truth = next((v for _, v, _ in rows if math.isfinite(v.truth)), None)
     if truth is None:
         return None
+    image = plots.work_precision(site, point, quantity, f"sheet_{case.name}")
     return {
         "case": case, "quantity": quantity, "unit": point.units[quantity],
-        "image": f"{case.name}_{point.name}_{quantity}.svg", "rows": rows, "truth": truth
+        "image": image and site.keep(image), "rows": rows, "truth": truth
     }
 
 
 def write(site):
-    sheets = [s for s in map(sheet, site.cases) if s]
+    sheets = [s for s in (sheet(site, case) for case in site.cases) if s]
     site.write("convergence.html",
                "convergence.html",
                sheets=sheets,

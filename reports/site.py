@@ -83,7 +83,8 @@ class Site:
                                       remarks=verdicts.remarks,
                                       navigation=self.navigation,
                                       colour=self.styles.fill,
-                                      shape=self.styles.shape)
+                                      shape=self.styles.shape,
+                                      look_of=style.class_of)
 
     def write_assets(self):
         """Style sheet and scripts beside the pages; the sheet has the colours of formulations."""
@@ -123,11 +124,15 @@ class Site:
 
     def image(self, figure, name, tight=True):
         """A figure for the macro `figure` of a page, which puts it into the page itself; it is
-        closed, and kept as a
-        file, too. tight: cut to what is drawn, which draws it twice."""
+        closed.
+        tight: cut to what is drawn, which draws it twice."""
         image = figures.image_of(figure, name, self.said, tight)
         plt.close(figure)
         self.said.clear()
+        return image
+
+    def keep(self, image):
+        """Writes an image as a file of its own, too; its name."""
         with open(os.path.join(self.folder, image.name), "w", encoding="utf-8") as out:
             out.write(figures.alone(image.markup))
-        return image
+        return image.name

@@ -65,11 +65,36 @@ def look(key):
                                RESERVE_MARKERS[number // 7 % len(RESERVE_MARKERS)])
 
 
+def class_of(key):
+    """Class of the style sheet that puts the marker of a formulation before its name."""
+    colour, _, marker = look(key)
+    number = [light for light, _ in COLOURS].index(colour)
+    return f"m{number}" + ("" if key.partition(":")[0] in TABLE else marker)
+
+
+def corners(marker):
+    """Polygon of a marker in percent of a square, for clip-path."""
+    form = MarkerStyle(marker)
+    outline = form.get_path().transformed(form.get_transform()).to_polygons(closed_only=True)[0]
+    half = 2.2 * np.abs(outline).max()
+    return ",".join(f"{50 + 100 * x / half:.0f}% {50 - 100 * y / half:.0f}%" for x, y in outline)
+
+
+def marks():
+    """The rules of class_of()."""
+    known = [(f"m{i}", i, marker) for i, (_, _, marker) in enumerate(TABLE.values())]
+    reserve = [(f"m{i}{marker}", i, marker) for i in range(len(TABLE), len(COLOURS))
+               for marker in RESERVE_MARKERS]
+    return "".join(f".{name}::before {{ background: var(--f{i}); "
+                   f"clip-path: polygon({corners(marker)}); }}\n"
+                   for name, i, marker in known + reserve)
+
+
 def sheet():
-    """The variables of colours for a style sheet."""
+    """Variables of colours and marks of formulations for the style sheet."""
     light, dark = (":root { " + " ".join(f"--f{i}: {p[k]};" for i, p in enumerate(COLOURS)) + " }"
                    for k in (0, 1))
-    return f"{light}\n@media screen and (prefers-color-scheme: dark) {{ {dark} }}\n"
+    return f"{light}\n@media screen and (prefers-color-scheme: dark) {{ {dark} }}\n{marks()}"
 
 
 def line_of(options):

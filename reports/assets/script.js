@@ -32,6 +32,13 @@ const box = make("div", "", document.body, { id: "said", hidden: true });
 const aloud = make("div", "", document.body, { className: "aloud" });
 aloud.setAttribute("aria-live", "polite");
 
+// Where the marks of a curve are, in the figure's own lengths: corners of the line that has marks, or copies of one.
+const marks = group => {
+  const line = all(group, "polyline").find(each => each.style.markerMid || each.style.marker);
+  const at = line ? [...line.points] : all(group, "use").map(use => ({ x: use.x.baseVal.value, y: use.y.baseVal.value }));
+  return at.map(({ x, y }) => ({ x, y }));
+};
+
 class Figure {
   constructor(frame, svg) {
     this.frame = frame; this.svg = svg; this.at = null;
@@ -40,7 +47,7 @@ class Figure {
     const data = frame.querySelector("script[type='application/json']");
     const told = data ? JSON.parse(data.textContent) : [];
     // curves: [{told, group, marks}], the marks in the order of the rows that say what they are
-    this.curves = all(svg, "g[data-p]").map(group => ({ group, told: told[group.dataset.p], marks: all(group, "use") }))
+    this.curves = all(svg, "g[data-p]").map(group => ({ group, told: told[group.dataset.p], marks: marks(group) }))
       .filter(curve => curve.told && curve.marks.length == curve.told.r.length);
     all(svg, "[data-l]").forEach(entry => this.entry(entry));
     if (this.curves.length) this.listen();
@@ -126,7 +133,7 @@ class Figure {
     const there = new DOMPoint(x, y).matrixTransform(to);
     let best = REACH / scale, found = null;
     for (const curve of this.visible()) curve.marks.forEach((mark, i) => {
-      const far = Math.hypot(mark.x.baseVal.value - there.x, mark.y.baseVal.value - there.y);
+      const far = Math.hypot(mark.x - there.x, mark.y - there.y);
       if (far < best) { best = far; found = [curve, i]; }
     });
     return found;
@@ -134,8 +141,7 @@ class Figure {
 
   point(curve, i) {
     this.at = [curve, i];
-    const mark = curve.marks[i], { t, f, c, r } = curve.told;
-    const [x, y] = [mark.x.baseVal.value, mark.y.baseVal.value];
+    const { x, y } = curve.marks[i], { t, f, c, r } = curve.told;
     if (!this.ring) {
       this.ring = document.createElementNS(SVG, "circle");
       for (const [name, value] of Object.entries({ r: 6, fill: "none", stroke: "currentColor", "stroke-width": 1.3, "pointer-events": "none" })) this.ring.setAttribute(name, value);

@@ -17,10 +17,8 @@ class Paths(ProgramTest):
     def test_figures(self):
         for name in ("paths_cantilever", "paths_snap_through"):
             self.assertIn(f'<svg id="{name}"', self.page)
-            self.assertTrue((self.site / f"{name}.svg").is_file())
-        figure = (self.site / "paths_cantilever.svg").read_text(encoding="utf-8")
         for name in ("exact beam (collocation, n = 10)", "exact beam, with int y", "3-D solids"):
-            self.assertIn(name, figure)
+            self.assertIn(name, self.page)
 
     def test_limit_points_are_listed(self):
         rows = re.findall(

@@ -1,0 +1,261 @@
+"""Charts of curves in panels, written as SVG by themselves: most figures of the report are of this
+kind, and matplotlib takes a hundred times as long for their ticks.
+
+A chart has panels in rows; a panel has curves with marks, levels, words and a ground, in the
+coordinates of its data. Lengths of the picture are in pixels. What a curve says of itself (colour,
+marker, line, whose it is) is what style.Styles.of and Site.points return."""
+import functools
+import json
+import math
+import zlib
+
+from markupsafe import escape
+from matplotlib.markers import MarkerStyle
+
+from reports import style
+from reports.axis import Axis
+from reports.figures import FONT, Image, number
+
+INK = "currentColor"
+DASHES = {"-": "", "--": "4.4 1.9", ":": "1.2 2", "-.": "7.7 1.9 1.2 1.9", "none": "none"}
+LETTER = 6.7  # mean width of a letter of 11 pixels
+
+
+@functools.lru_cache(None)
+def marker_path(marker, size):
+    """Corners of a marker as a path about its centre."""
+    form = MarkerStyle(marker)
+    path = form.get_path().transformed(form.get_transform().scale(size))
+    lines = path.to_polygons(closed_only=False)
+    end = "Z" if form.is_filled() else ""
+    return "".join("M" + "L".join(f"{number(x, 2)} {number(-y, 2)}" for x, y in c) + end
+                   for c in lines)
+
+
+def dashes(line):
+    return DASHES[line] if isinstance(line, str) else " ".join(number(1.2 * x) for x in line[1])
+
+
+def colour(given):
+    """As an SVG says it: formulations by their variables, `0.6` a grey of the ink."""
+    return style.VARIABLES.get(given, given)
+
+
+class Panel:
+    """One pair of axes. y may be another panel's axis."""
+
+    def __init__(self, title, xlabel, ylabel, x, y):
+        self.title, self.xlabel, self.ylabel = title, xlabel, ylabel
+        self.x, self.y = x, y
+        self.curves, self.back, self.words, self.lows = [], [], [], []
+
+    def plot(self, x, y, back=False, **look):
+        """A curve. look: color, marker, linestyle, gid, label, markersize, linewidth, alpha,
+        hollow,
+        marks (indices of points that are marked; all). back: behind all others, no label."""
+        self.x.take(x)
+        self.y.take(y)
+        (self.back if back else self.curves).append((x, y, look))
+
+    def level(self, y, words=""):
+        """A dotted line across, with words at its right end."""
+        self.y.take([y])
+        self.lows.append((y, words))
+
+    def ground(self, y):
+        """Grey from y down."""
+        self.below = y
+
+    below = None
+
+    def note(self, x, y, words):
+        """Words that end at a point."""
+        self.words.append((x, y, words))
+
+    def cross(self, x, color, gid):
+        """On the upper edge."""
+        self.x.take([x])
+        self.crosses.append((x, color, gid))
+
+    @functools.cached_property
+    def crosses(self):
+        return []
+
+
+class Chart:
+    """columns: of panels; size: of a panel's axes, in pixels."""
+
+    def __init__(self, columns, size, gap=(62, 52)):
+        self.columns, self.size, self.gap = columns, size, gap
+        self.panels, self.names = [], {}
+
+    def panel(self, title="", xlabel="", ylabel="", xlog=True, ylog=True, whole=False, like=None):
+        """A new panel; like: one that it shares its upright axis with."""
+        y = like.y if like else Axis(ylog)
+        self.panels.append(Panel(title, xlabel, ylabel, Axis(xlog, whole), y))
+        self.panels[-1].shares = like is not None
+        return self.panels[-1]
+
+    def image(self, site, name):
+        """The Image of the chart for the page."""
+        return Writer(self, site, name).image()
+
+
+class Writer:
+    """Writes one chart."""
+
+    def __init__(self, chart, site, name):
+        self.chart, self.name, self.said, self.told = chart, name, site.said, {}
+        code = f"{zlib.crc32(name.encode()):08x}"[:5]
+        self.prefix = code.translate(str.maketrans("0123456789", "ghijklmnop"))
+        self.markers, self.keys, self.labels = {}, {}, {}
+
+    def marker(self, look):
+        """Identifier of a marker, defined once."""
+        size, hollow = look.get("markersize", 4.5) / 0.75, look.get("hollow", False)
+        found = (look["marker"], colour(look["color"]), size, hollow)
+        return self.markers.setdefault(found, f"{self.prefix}{len(self.markers):x}")
+
+    def definitions(self):
+        out = ""
+        for (marker, ink, size, hollow), name in self.markers.items():
+            filled = MarkerStyle(marker).is_filled() and not hollow
+            out += (f'<marker id="{name}" markerUnits="userSpaceOnUse" overflow="visible" '
+                    f'markerWidth="1" markerHeight="1"><path d="{marker_path(marker, size)}" '
+                    f'fill="{ink if filled else "var(--paper,#fff)"}" stroke="{ink}" '
+                    f'stroke-width="{1 if filled else 1.2}"/></marker>')
+        return f"<defs>{out}</defs>" if out else ""
+
+    def whose(self, gid):
+        """Attributes of what belongs to a formulation."""
+        if not (gid or "").startswith("f|"):
+            return ""
+        _, key, *points = gid.split("|")
+        self.keys[key] = None
+        index = f' data-p="{self.told.setdefault(points[0], len(self.told))}"' if points else ""
+        return f' data-f="{escape(key)}"{index}'
+
+    def line(self, points, look):
+        """A curve with its marks."""
+        drawn = " ".join(f"{number(x)},{number(y)}" for x, y in points)
+        dash = dashes(look.get("linestyle", "-"))
+        stroke = colour(look["color"]) if dash != "none" else "none"
+        attributes = f' stroke-dasharray="{dash}"' if dash and dash != "none" else ""
+        if look.get("alpha"):
+            attributes += f' stroke-opacity="{look["alpha"]}"'
+        marks, every = "", look.get("marks")
+        if look.get("marker") and every is None:
+            name = self.marker(look)
+            marks = f' style="marker:url(#{name})"'
+        elif look.get("marker"):
+            name = self.marker(look)
+            at = " ".join(f"{number(points[i][0])},{number(points[i][1])}" for i in every)
+            marks = f'/><polyline stroke="none" points="{at}" style="marker:url(#{name})"'
+        return (f'<g fill="none"{self.whose(look.get("gid"))}><polyline points="{drawn}" '
+                f'stroke="{stroke}" stroke-width="{look.get("linewidth", 1.5)}"'
+                f'{attributes}{marks}/></g>')
+
+    def panel(self, panel, left, top):
+        width, height = self.chart.size
+
+        def across(values):
+            return left + width * panel.x.part(values)
+
+        def up(values):
+            return top + height * (1 - panel.y.part(values))
+
+        def points(x, y):
+            return list(zip(across(x), up(y)))
+
+        bottom, right = top + height, left + width
+        out = []
+        if panel.below and panel.below > panel.y.low:
+            y = max(top, float(up(panel.below)))
+            out.append(f'<path fill="{INK}" fill-opacity=".07" d="M{left} {number(y)}H{right}'
+                       f'V{bottom}H{left}z"/>')
+        xs = [(float(across(t)), words) for t, words in panel.x.ticks()]
+        ys = [(float(up(t)), words) for t, words in panel.y.ticks()]
+        grid = "".join(f"M{number(x)} {top}V{bottom}" for x, _ in xs) + "".join(
+            f"M{left} {number(y)}H{right}" for y, _ in ys)
+        edge = f"M{left} {top}V{bottom}H{right}" + "".join(
+            f"M{number(x)} {bottom}v4" for x, _ in xs) + "".join(
+                f"M{left} {number(y)}h-4" for y, _ in ys)
+        out.append(f'<path stroke="{INK}" stroke-opacity=".12" stroke-width=".6" d="{grid}"/>')
+        out += [self.line(points(x, y), look) for x, y, look in panel.back]
+        for y, words in panel.lows:
+            at = number(float(up(y)))
+            out.append(f'<path stroke="{INK}" stroke-opacity=".55" stroke-dasharray="2 2" '
+                       f'd="M{left} {at}H{right}"/>')
+            if words:
+                out.append(self.text(right, float(up(y)) - 3, words, "end", 10))
+        out += [self.text(float(across(x)), float(up(y)), words, "end", 10)
+                for x, y, words in panel.words]
+        out += [self.line(points(x, y), look) for x, y, look in panel.curves]
+        for x, ink, gid in panel.crosses:
+            look = {"color": ink, "marker": "x", "markersize": 6, "linestyle": "none", "gid": gid}
+            out.append(self.line([(float(across(x)), top)], look))
+        out.append(f'<path fill="none" stroke="{INK}" d="{edge}"/>')
+        out += [self.text(x, bottom + 17, words, "middle") for x, words in xs]
+        if not panel.shares:
+            out += [self.text(left - 7, y + 4, words, "end") for y, words in ys]
+        out += [self.text(left + width / 2, bottom + 34, panel.xlabel, "middle", 11.5)]
+        out += [self.text(left + width / 2, top - 7, panel.title, "middle", 12)]
+        if panel.ylabel:
+            x, y = number(left - 46), number(top + height / 2)
+            out.append(f'<text transform="translate({x} {y}) rotate(-90)" text-anchor="middle" '
+                       f'font-size="11.5">{escape(panel.ylabel)}</text>')
+        for _, _, look in panel.curves:
+            if look.get("label"):
+                self.labels.setdefault(look["label"], look)
+        return "".join(out)
+
+    @staticmethod
+    def text(x, y, words, anchor="start", size=11):
+        if not words:
+            return ""
+        more = (f' text-anchor="{anchor}"' if anchor != "start" else "") + (
+            f' font-size="{size}"' if size != 11 else "")
+        return f'<text x="{number(x)}" y="{number(y)}"{more}>{escape(words)}</text>'
+
+    def legend(self, top, width):
+        """Entries in columns below the panels; (SVG, height)."""
+        wide = 44 + LETTER * max((len(words) for words in self.labels), default=0)
+        columns = max(1, min(len(self.labels), int((width - 20) // wide)))
+        rows = math.ceil(len(self.labels) / columns)
+        out = ""
+        for i, (words, look) in enumerate(self.labels.items()):
+            x, y = 20 + wide * (i // rows), top + 17 * (i % rows)
+            of = (look.get("gid") or "").split("|")
+            entry = f' data-l="{escape(of[1])}"' if of[0] == "f" else ""
+            bare = {**look, "gid": None, "marks": [1]}
+            drawn = self.line([(x, y), (x + 13, y), (x + 26, y)], bare)
+            out += (f'<g{entry}><path stroke="none" fill="none" pointer-events="all" '
+                    f'd="M{number(x)} {y - 8}h{number(wide - 8)}v16H{number(x)}z"/>{drawn}'
+                    f"{self.text(x + 33, y + 4, words)}</g>")
+        return out, 17 * rows
+
+    def image(self):
+        chart = self.chart
+        for axis in {id(a): a for p in chart.panels for a in (p.x, p.y)}.values():
+            axis.settle()
+        shared = any(p.shares for p in chart.panels)
+        columns = min(chart.columns, len(chart.panels))
+        step = (chart.size[0] + (14 if shared else chart.gap[0]), chart.size[1] + chart.gap[1])
+        left, top = 62, 24 if any(p.title for p in chart.panels) else 10
+        rows = math.ceil(len(chart.panels) / columns)
+        out = "".join(
+            self.panel(p, left + step[0] * (i % columns), top + step[1] * (i // columns))
+            for i, p in enumerate(chart.panels))
+        width = left + step[0] * (columns - 1) + chart.size[0] + 14
+        height = top + step[1] * (rows - 1) + chart.size[1] + 40
+        entries, more = self.legend(height + 14, width)
+        height += more + 16
+        off = escape(" ".join(style.extra(self.keys)))
+        markup = (f'<svg viewBox="0 0 {number(width)} {number(height)}" width="{width:.0f}" '
+                  f'height="{height:.0f}" fill="{INK}" data-off="{off}" font-family="{FONT}" '
+                  f'font-size="11" stroke-linejoin="round">'
+                  f"{self.definitions()}{out}{entries}</svg>")
+        told = [self.said[int(index)] for index in self.told]
+        points = json.dumps(told, separators=(",", ":")).replace("<", "\\u003c") if told else ""
+        self.said.clear()
+        return Image(f"{self.name}.svg", markup, points)
