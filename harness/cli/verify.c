@@ -41,11 +41,11 @@ static status write_junit(const char *path, const sweep *s, const judgement *j, 
 }
 
 static status write_markdown(const char *path, const sweep *s, const judgement *j,
-                             const environment *e, fault *f)
+                             const overview *o, const environment *e, fault *f)
 {
     output file;
     TRY(output_open(path, &file, f));
-    markdown_write(file.stream, s, j, e);
+    markdown_write(file.stream, s, j, o, e);
     return output_close(&file, f);
 }
 
@@ -73,7 +73,8 @@ static status place_all(const command_request *r, int partial, places *out, faul
     return place_one(r->markdown, partial, out->markdown, f);
 }
 
-static status write_all(const command_request *r, const sweep *s, const judgement *j, fault *f)
+static status write_all(const command_request *r, const sweep *s, const judgement *j,
+                        const overview *o, fault *f)
 {
     const environment e = environment_now(r->jobs);
     places to;
@@ -85,7 +86,7 @@ static status write_all(const command_request *r, const sweep *s, const judgemen
     if (to.junit[0] != '\0')
         TRY(write_junit(to.junit, s, j, f));
     if (to.markdown[0] != '\0')
-        TRY(write_markdown(to.markdown, s, j, &e, f));
+        TRY(write_markdown(to.markdown, s, j, o, &e, f));
     return STATUS_OK;
 }
 
@@ -100,7 +101,7 @@ static void show(const command_request *r, const sweep *s, const judgement *j, c
                  const overview *o, double seconds)
 {
     const screen look = screen_of(stdout);
-    char sentence[4 * FAULT_TEXT];
+    char sentence[SENTENCE_OF_RUN];
     if (!r->quiet && shows_limits(r, o)) {
         table_verdicts(stdout, s, j);
         table_run_details(stdout, s, j);
@@ -116,6 +117,14 @@ static void show(const command_request *r, const sweep *s, const judgement *j, c
     table_run_end(stdout, look, sentence);
 }
 
+static status show_and_write(const command_request *r, const sweep *s, const judgement *j,
+                             const truths *t, const overview *o, double begun, fault *f)
+{
+    show(r, s, j, t, o, clock_wall_seconds() - begun);
+    TRY(output_flush(f));
+    return write_all(r, s, j, o, f);
+}
+
 static status judge_and_write(const command_request *r, const sweep *s, truths *t, judgement *j,
                               double begun, fault *f)
 {
@@ -125,13 +134,11 @@ static status judge_and_write(const command_request *r, const sweep *s, truths *
     if (r->scene_count > 0)
         TRY(families_add_truths(s, 1, t, f));
     TRY(judgement_make(s, t, whole, j, f));
-    const status outcome = overview_make(s, j, &o, f);
+    status outcome = overview_make(s, j, &o, f);
     if (outcome == STATUS_OK)
-        show(r, s, j, t, &o, clock_wall_seconds() - begun);
+        outcome = show_and_write(r, s, j, t, &o, begun, f);
     overview_free(&o);
-    TRY(outcome);
-    TRY(output_flush(f));
-    return write_all(r, s, j, f);
+    return outcome;
 }
 
 /* The first file that is written, or NULL. */

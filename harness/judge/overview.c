@@ -6,6 +6,8 @@
 
 /* Formulations with options beyond this have one column with all their options. */
 enum { MOST_COLUMNS = 10 };
+/* More cases than that: those that pass share lines. */
+enum { MOST_ROWS = 24 };
 
 static const overview_mark marks[VERDICT_KINDS] = {
     [VERDICT_PASS] = OVERVIEW_PASS,
@@ -166,4 +168,9 @@ int overview_passes(const overview *o, int row)
         passes &= c->mark <= OVERVIEW_PASS && !c->unexpected;
     }
     return passes;
+}
+
+int overview_shown(const overview *o, int row)
+{
+    return o->rows <= MOST_ROWS || !overview_passes(o, row);
 }

@@ -43,6 +43,9 @@ void overview_free(overview *);
 const overview_cell *overview_at(const overview *, int row, int column);
 /* 1: nothing but passes in that row, and what is not judged. */
 int overview_passes(const overview *, int row);
+/* Has a row a line of its own? All have where they are few; else those that pass share lines, so
+ * that the rest is one screen. */
+int overview_shown(const overview *, int row);
 /* "ok", "~3", "!#2": told apart without colour. utf8: 1: with signs beyond ASCII. */
 void overview_text(const overview_cell *, int utf8, char text[OVERVIEW_TEXT]);
 /* What the mark says, in words. */

@@ -148,7 +148,7 @@ static void expected_findings(const judgement *j, char *text, size_t size)
         snprintf(
             part, sizeof part,
             "%d of them are limits off the truth (%d within the tolerance, %d beyond it) just as "
-            "derived for these formulations",
+            "derived for these formulations (beamwork explain \"wrong limit, as predicted\")",
             derived, k.derived[0], k.derived[1]);
         add_part(text, size, &parts, ", ", part);
     }

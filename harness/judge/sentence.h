@@ -6,6 +6,8 @@
 
 /* The verdict in words: "converges to a wrong limit: +0.115 %". */
 void sentence_of_verdict(const verdict *v, double least_order, char *text, size_t size);
+enum { SENTENCE_OF_RUN = 1000 };
+
 /* The whole run in one sentence, which begins with PASS or FAIL (INTERRUPTED where it was) and says
  * what of it was expected although it is not a pass; empty where nothing was checked. */
 void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size);

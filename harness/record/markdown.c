@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "harness/judge/sentence.h"
+
 enum { MOST_ROWS = 50 }; /* a comment is read, not searched: the JSON has the rest */
 
 /* A cell of a table: bars and line ends would break it. */
@@ -86,8 +88,66 @@ static void write_formulations(FILE *to, const sweep *s, const judgement *j)
     }
 }
 
-void markdown_write(FILE *to, const sweep *s, const judgement *j, const environment *e)
+/* The marks that were used, the worst first, with their words. */
+static void write_legend(FILE *to, const overview *o)
 {
+    int used[OVERVIEW_MARKS] = {0}, entries = 0;
+    for (int i = 0; i < o->rows * o->columns; i++)
+        used[o->cell[i].mark] = 1;
+    for (int m = OVERVIEW_MARKS - 1; m >= 0; m--) {
+        char text[OVERVIEW_TEXT];
+        const overview_cell one = {.mark = (overview_mark)m};
+        overview_text(&one, 1, text);
+        if (used[m])
+            fprintf(to, "%s%.*s %s", entries++ > 0 ? "; " : "\n", (int)strcspn(text, "0"), text,
+                    overview_words((overview_mark)m));
+    }
+    fprintf(to,
+            "; **!** not as expected. A mark is the worst verdict over all parameters%s; its "
+            "number: quantities that have it.\n",
+            o->joined ? " and options" : "");
+}
+
+static void write_row(FILE *to, const overview *o, int row)
+{
+    fprintf(to, "| %s", o->row[row]->name);
+    for (int c = 0; c < o->columns; c++) {
+        char text[OVERVIEW_TEXT];
+        const overview_cell *one = overview_at(o, row, c);
+        overview_text(one, 1, text);
+        fprintf(to, one->unexpected ? " | **%s**" : " | %s", text);
+    }
+    fprintf(to, " |\n");
+}
+
+/* A row for each case, a column for each formulation. */
+static void write_overview(FILE *to, const overview *o)
+{
+    int passing = 0;
+    fprintf(to, "\n| case");
+    for (int c = 0; c < o->columns; c++) {
+        fprintf(to, " | ");
+        cell(to, o->column[c]);
+    }
+    fprintf(to, " |\n|---");
+    for (int c = 0; c < o->columns; c++)
+        fprintf(to, "|---");
+    fprintf(to, "|\n");
+    for (int r = 0; r < o->rows; r++)
+        if (overview_shown(o, r))
+            write_row(to, o, r);
+    for (int r = 0; r < o->rows; r++)
+        if (!overview_shown(o, r))
+            fprintf(to, "%s%s",
+                    passing++ > 0 ? ", " : "\nAll pass in what is judged: ", o->row[r]->name);
+    fprintf(to, passing > 0 ? ".\n" : "");
+    write_legend(to, o);
+}
+
+void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview *o,
+                    const environment *e)
+{
+    char sentence[SENTENCE_OF_RUN];
     const int bad = j->unexpected > 0 || j->disagreements > 0 || j->unobserved > 0 ||
                     j->unmet > 0 || j->flaws > 0;
     const char *outcome = bad ? "not as expected" : "as expected";
@@ -109,7 +169,11 @@ void markdown_write(FILE *to, const sweep *s, const judgement *j, const environm
     if (j->flaws > 0)
         fprintf(to, "; %d cells contradict themselves", j->flaws);
     fprintf(to, ". Commit %s, %s.\n", e->commit, e->compiler);
+    sentence_of_run(s, j, sentence, sizeof sentence);
+    if (sentence[0] != '\0')
+        fprintf(to, "\n%s\n", sentence);
     write_unexpected(to, s, j);
+    write_overview(to, o);
     fprintf(to, "\n<details><summary>Verdicts by formulation</summary>\n");
     write_formulations(to, s, j);
     fprintf(to, "\n</details>\n");

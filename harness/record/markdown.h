@@ -5,8 +5,9 @@
 #include <stdio.h>
 
 #include "harness/catalogue/environment.h"
-#include "harness/judge/judgement.h"
+#include "harness/judge/overview.h"
 
-void markdown_write(FILE *to, const sweep *s, const judgement *j, const environment *e);
+void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview *o,
+                    const environment *e);
 
 #endif

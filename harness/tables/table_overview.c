@@ -5,8 +5,7 @@
 
 #include "harness/tables/paragraph.h"
 
-/* More cases than that: those that pass share lines, so that the rest is one screen. */
-enum { MOST_ROWS = 24, WIDEST_WORD = 24, NARROWEST_WORD = 5, HEAD_LINES = 12 };
+enum { WIDEST_WORD = 24, NARROWEST_WORD = 5, HEAD_LINES = 12 };
 
 /* A name in the head, cut into lines. */
 typedef struct head {
@@ -53,12 +52,6 @@ static head head_of(const char *name, int limit)
         name += length;
     }
     return out;
-}
-
-/* Is a row shown by itself? */
-static int is_shown(const overview *o, int row)
-{
-    return o->rows <= MOST_ROWS || !overview_passes(o, row);
 }
 
 /* Width of a block whose names have words of at most `limit`; its heads are filled. */
@@ -134,7 +127,7 @@ static void print_block(FILE *to, screen look, const overview *o, const block *b
 {
     print_head(to, b);
     for (int r = 0; r < o->rows; r++)
-        if (is_shown(o, r))
+        if (overview_shown(o, r))
             print_row(to, look, o, b, r);
 }
 
@@ -142,7 +135,7 @@ static int width_of_names(const overview *o)
 {
     int width = 0;
     for (int r = 0; r < o->rows; r++)
-        if (is_shown(o, r)) {
+        if (overview_shown(o, r)) {
             const int here = paragraph_columns(o->row[r]->name);
             width = here > width ? here : width;
         }
@@ -159,7 +152,7 @@ static void print_passing(FILE *to, const overview *o)
     if (list == NULL)
         return;
     for (int r = 0; r < o->rows; r++)
-        if (!is_shown(o, r))
+        if (!overview_shown(o, r))
             fprintf(list, "%s%s", count++ > 0 ? ", " : "", o->row[r]->name);
     if (fclose(list) == 0 && count > 0) {
         const int begun = fprintf(to, "%d more pass in all that is judged: ", count);

@@ -119,12 +119,14 @@ static void sentences(void)
     for (int i = 3; i < r.j.verdicts; i++)
         r.verdict[i].rule = &known;
     says(&r, "PASS: every verdict is as expected; 3 of them are limits off the truth (1 within the "
-             "tolerance, 2 beyond it) just as derived for these formulations, 4 more are explained "
-             "by a finding of the ledger.");
+             "tolerance, 2 beyond it) just as derived for these formulations (beamwork explain "
+             "\"wrong limit, as predicted\"), 4 more are explained by a finding of the ledger.");
     r.s.unfinished = 7;
     says(&r, "INTERRUPTED: until then every verdict is as expected; 3 of them are limits off the "
-             "truth (1 within the tolerance, 2 beyond it) just as derived for these formulations, "
-             "4 more are explained by a finding of the ledger.");
+             "truth (1 within the tolerance, 2 beyond it) just as derived for these formulations "
+             "(beamwork "
+             "explain \"wrong limit, as predicted\"), 4 more are explained by a finding of the "
+             "ledger.");
     r.s.unfinished = 0;
     add(&r, 0, VERDICT_BIASED, 0, 1);
     says(&r, "FAIL: 1 verdict differs from the expected one.");

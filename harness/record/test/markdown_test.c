@@ -15,7 +15,11 @@ static char *written(const sweep *s, const judgement *j)
     char *text = NULL;
     size_t size = 0;
     FILE *to = open_memstream(&text, &size);
-    markdown_write(to, s, j, &e);
+    overview o;
+    fault f = {""};
+    gsl_test(overview_make(s, j, &o, &f) != STATUS_OK, "overview: %s", f.text);
+    markdown_write(to, s, j, &o, &e);
+    overview_free(&o);
     fclose(to);
     return text;
 }
@@ -39,11 +43,15 @@ int main(void)
                  .error = 0.25,
                  .reason = "left | right\nbelow"};
     judgement j = {.verdicts = 1, .verdict = &v, .judged = 1, .unexpected = 1};
+    flaw flaws[2] = {{.series = 0}};
     char *text = written(&s, &j);
     holds(text, "## beamwork: not as expected");
     holds(text, "1 verdicts against truths in 0 cells: 1 differ");
     holds(text, "| case_of_test | a=1 | `beam:option=2` | load | **wrong limit** | pass | 2.5 | 2 "
                 "| +25 % | left \\| right below |");
+    holds(text, "FAIL: 1 verdict differs from the expected one.");
+    holds(text, "| case | beam:option=2 |\n|---|---|\n| case_of_test | **!≠1** |\n");
+    holds(text, "\n≠ limit off, beyond the tolerance; **!** not as expected.");
     free(text);
 
     v.matches = 1;
@@ -52,6 +60,8 @@ int main(void)
     holds(text, "## beamwork: as expected");
     gsl_test(strstr(text, "**wrong limit**") != NULL, "nothing differs: no table of differences");
     holds(text, "| `beam:option=2` |  |  | 1 |");
+    holds(text, "PASS: every verdict is as expected");
+    holds(text, "| case_of_test | ≠1 |\n");
     free(text);
 
     j.unobserved = 3;
@@ -62,9 +72,11 @@ int main(void)
 
     j.unobserved = 0;
     j.flaws = 2;
+    j.flaw = flaws;
     text = written(&s, &j);
     holds(text, "## beamwork: not as expected");
     holds(text, "2 cells contradict themselves");
+    holds(text, "| case_of_test | **!c2** |\n");
     free(text);
 
     j = (judgement){.verdicts = 0};
