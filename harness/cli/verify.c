@@ -218,7 +218,7 @@ static status run(const command_request *r, const scenes *own, sweep *s, truths 
                                    .formulations = r->formulations,
                                    .formulation = r->formulation,
                                    .shapes = states,
-                                   .progress = isatty(STDERR_FILENO) ? stderr : NULL};
+                                   .progress = isatty(STDERR_FILENO) && !r->quiet ? stderr : NULL};
     TRY(files_check(r, 1, case_input_truths_path(r), f));
     for (int i = 0; i < own->count; i++)
         TRY(files_check_input(r, own->path[i], f));

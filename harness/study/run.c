@@ -6,34 +6,50 @@
 #include <string.h>
 #include <sys/mman.h>
 
+#include "harness/algebra/clock.h"
 #include "harness/study/interrupt.h"
+#include "harness/study/progress.h"
 #include "harness/study/worker.h"
 
-static void report(const sweep_request *request, const sweep *s, const task *t, int done, int count)
+/* What a cell costs, compared with others: its elements, and what it takes without any. */
+static double cost_of(const sweep *s, const task *t)
 {
-    if (request->progress == NULL)
-        return;
+    const double beginning = 4; /* elements */
     const series *one = &s->series[t->series];
-    fprintf(request->progress, "\r\033[K%d/%d %s %s n=%d", done, count,
-            s->point[one->point].type->name, one->formulation.key, one->mesh[t->mesh]);
-    fflush(request->progress);
+    return beginning + (double)one->mesh[t->mesh] * s->point[one->point].scene.members;
 }
 
-static void end_report(const sweep_request *request)
+/* Of the whole work, by what cells cost. */
+static double share_done(const workload *w)
 {
-    if (request->progress != NULL) {
-        fprintf(request->progress, "\r\033[K");
-        fflush(request->progress);
+    double done = 0, all = 0;
+    for (int i = 0; i < w->count; i++) {
+        const double cost = cost_of(w->s, &w->tasks[i]);
+        all += cost;
+        done += w->done[i] ? cost : 0;
     }
+    return all > 0 ? done / all : 0;
+}
+
+static void report(progress *p, const workload *w, int last)
+{
+    const double now = clock_wall_seconds();
+    const task *t = &w->tasks[last];
+    const series *one = &w->s->series[t->series];
+    char what[SCENE_NAME + FORMULATION_KEY + 32];
+    if (!progress_is_due(p, now))
+        return;
+    snprintf(what, sizeof what, "%s, %s, n = %d", w->s->point[one->point].type->name,
+             one->formulation.key, one->mesh[t->mesh]);
+    progress_show(p, now, w->finished, share_done(w), what);
 }
 
 /* One worker that has something to say, or has ended. *running: workers there are. */
-static status attend(const sweep_request *request, workload *w, int self, worker *one, int *running,
-                     fault *f)
+static status attend(progress *p, workload *w, int self, worker *one, int *running, fault *f)
 {
     const int i = worker_receive(w, one);
     if (i >= 0) {
-        report(request, w->s, &w->tasks[i], w->finished, w->count);
+        report(p, w, i);
         return STATUS_OK;
     }
     if (worker_bury(w, self, one))
@@ -74,22 +90,21 @@ static status start_all(const workload *w, crew *c, fault *f)
 }
 
 /* Those that have something to say; the others may be late. */
-static status attend_all(const sweep_request *request, workload *w, crew *c,
-                         const struct pollfd ends[], fault *f)
+static status attend_all(progress *p, workload *w, crew *c, const struct pollfd ends[], fault *f)
 {
     for (int i = 0; i < c->jobs; i++) {
         worker *one = &c->workers[i];
         if (one->from == NULL)
             continue;
         if (ends[i].revents != 0)
-            TRY(attend(request, w, i, one, &c->running, f));
+            TRY(attend(p, w, i, one, &c->running, f));
         else
             worker_stop_late(w, i, one);
     }
     return STATUS_OK;
 }
 
-static status work_off(const sweep_request *request, workload *w, crew *c, fault *f)
+static status work_off(progress *p, workload *w, crew *c, fault *f)
 {
     struct pollfd ends[WORKERS_MOST + 1];
     TRY(start_all(w, c, f));
@@ -97,15 +112,18 @@ static status work_off(const sweep_request *request, workload *w, crew *c, fault
         c->interrupted = wait_for_any(w, c->jobs, c->workers, c->asked, ends);
         if (c->interrupted)
             break;
-        TRY(attend_all(request, w, c, ends, f));
+        TRY(attend_all(p, w, c, ends, f));
     }
     return STATUS_OK;
 }
 
 static status run_parallel(const sweep_request *request, workload *w, crew *c, fault *f)
 {
-    const status outcome = work_off(request, w, c, f);
-    end_report(request);
+    progress p =
+        progress_begin(request->progress, request->things != NULL ? request->things : "cells",
+                       w->count, clock_wall_seconds());
+    const status outcome = work_off(&p, w, c, f);
+    progress_end(&p);
     for (int i = 0; i < c->jobs; i++)
         if (c->workers[i].from != NULL)
             worker_end(w, &c->workers[i]);

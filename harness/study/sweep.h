@@ -62,7 +62,8 @@ typedef struct sweep_request {
     /* most states of a path whose centre lines are kept, of the finest mesh at the defaults; 0:
      * none */
     int shapes;
-    FILE *progress; /* NULL: quiet */
+    FILE *progress;     /* NULL: quiet */
+    const char *things; /* what the cells are called there; NULL: cells */
 } sweep_request;
 
 /* What a selection is asked about: case/parameters/formulation/quantity. */

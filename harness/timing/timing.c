@@ -3,6 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/algebra/clock.h"
+#include "harness/study/progress.h"
+
 static const double longest_elsewhere = 0.05; /* [s] of one run */
 
 static int at_defaults(const sweep *s, const series *one)
@@ -91,23 +94,23 @@ static void round_of_series(sweep *s, int index, double floor, int dense)
     }
 }
 
-status timing_run(sweep *s, double floor, int dense, FILE *progress, fault *f)
+status timing_run(sweep *s, double floor, int dense, FILE *to, fault *f)
 {
+    progress line = progress_begin(to, "times of points", s->points, clock_wall_seconds());
+    char what[PARAMETERS_TEXT + SCENE_NAME];
     for (int i = 0; i < s->seriess; i++) {
         s->series[i].timing = calloc((size_t)s->series[i].meshes + 1, sizeof *s->series[i].timing);
         if (s->series[i].timing == NULL)
             return fault_set(f, STATUS_FAULT, "out of memory for times");
     }
     for (int p = 0; p < s->points; p++) {
-        if (progress != NULL)
-            fprintf(progress, "\r\033[K%d/%d %s %s", p + 1, s->points, s->point[p].type->name,
-                    s->point[p].text);
+        snprintf(what, sizeof what, "%s %s", s->point[p].type->name, s->point[p].text);
+        progress_show(&line, clock_wall_seconds(), p, (double)p / s->points, what);
         for (int round = 0; round < ROUNDS_COUNT; round++)
             for (int i = 0; i < s->seriess; i++)
                 if (s->series[i].point == p)
                     round_of_series(s, i, floor, dense);
     }
-    if (progress != NULL)
-        fprintf(progress, "\r\033[K");
+    progress_end(&line);
     return STATUS_OK;
 }

@@ -18,7 +18,8 @@ typedef struct cell_timing {
 /* floor: least [s] a round spends on a cell. Of several points the defaults are measured in full:
  * there the parts of an iteration too, and what is left out, on the middle mesh of each
  * formulation; elsewhere rounds are short and long cells keep the time of their one run. Cells that
- * crashed are not run again. dense: the published algorithm is timed too. */
-status timing_run(sweep *s, double floor, int dense, FILE *progress, fault *f);
+ * crashed are not run again. dense: the published algorithm is timed too. to: of the progress, or
+ * NULL. */
+status timing_run(sweep *s, double floor, int dense, FILE *to, fault *f);
 
 #endif

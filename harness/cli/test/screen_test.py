@@ -116,6 +116,9 @@ class Screen(ProgramTest):
             self.assertEqual(code, 0)
             self.assertIn("PASS: every", text)
             self.assertNotIn("\x1b[3", text)
+        quiet, code = on_terminal(*SMALL, "-q", TERM="xterm", NO_COLOR="1")
+        self.assertRegex(quiet, r"^PASS: [^\x1b]*$")
+        self.assertNotIn("\r", quiet.replace("\r\n", ""))
         piped = self.answered(*SMALL, env=environment(TERM="xterm", NO_COLOR=""))
         self.assertNotIn("\x1b", piped.stdout + piped.stderr)
 
