@@ -169,20 +169,26 @@ static const char *nearest(const char *word)
     return NULL;
 }
 
+int select_unmet(const char *expression, const select_words *words, char word[SELECT_WORD])
+{
+    const char *at = expression;
+    if (expression == NULL)
+        return 0;
+    for (int i = 0; i < SELECT_WORDS && (at = next_word(at, word)) != NULL; i++)
+        if (!words->met[i])
+            return 1;
+    return 0;
+}
+
 status select_all_met(const char *expression, const select_words *words, fault *f)
 {
     char word[SELECT_WORD];
-    const char *at = expression;
-    if (expression == NULL)
+    if (!select_unmet(expression, words, word))
         return STATUS_OK;
-    for (int i = 0; i < SELECT_WORDS && (at = next_word(at, word)) != NULL; i++) {
-        const char *near = words->met[i] ? NULL : nearest(word);
-        if (!words->met[i])
-            return fault_set(f, STATUS_REFUSED,
-                             "selection '%.60s': nothing is called '%.60s'%s%s%s; 'beamwork list' "
-                             "shows names",
-                             expression, word, near != NULL ? ", did you mean '" : "",
-                             near != NULL ? near : "", near != NULL ? "'?" : "");
-    }
-    return STATUS_OK;
+    const char *near = nearest(word);
+    return fault_set(
+        f, STATUS_REFUSED,
+        "selection '%.60s': nothing is called '%.60s'%s%s%s; 'beamwork list' shows names",
+        expression, word, near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
+        near != NULL ? "'?" : "");
 }

@@ -21,6 +21,8 @@ typedef struct select_words {
  * them or not. expression NULL: all is chosen. */
 status select_begin(const char *expression, select_words *, fault *);
 void select_meet(const char *expression, const char *text, select_words *);
+/* The first word that was never met; 0: all were. */
+int select_unmet(const char *expression, const select_words *, char word[SELECT_WORD]);
 /* STATUS_REFUSED: the first word that was never met, and the nearest name. */
 status select_all_met(const char *expression, const select_words *, fault *);
 

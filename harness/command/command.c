@@ -41,7 +41,7 @@ static void add_meshes(command_request *r, char *list)
     }
 }
 
-static void add_formulation(command_request *r, const char *text)
+void command_add_formulation(command_request *r, const char *text)
 {
     fault f;
     if (strcmp(text, "all") == 0) {
@@ -161,7 +161,7 @@ static error_t take(int key, char *value, struct argp_state *state)
         add_case(r, value);
         return 0;
     case 'f':
-        add_formulation(r, value);
+        command_add_formulation(r, value);
         return 0;
     case 'n':
         add_meshes(r, value);

@@ -72,7 +72,9 @@ const verb_option option_table[OPTION_COUNT] = {
     {"schema", 'H', NULL, "describe all keys of scene files as JSON Schema",
      offsetof(command_request, schema)},
     {"keys", 'E', NULL, "list all keys of scene files", offsetof(command_request, keys)},
-    {"verbose", 'v', NULL, "every limit, not only the overview",
+    {"verbose", 'v', NULL,
+     "verify: every limit, not only the overview; converge: values, times and limits of each "
+     "formulation by itself",
      offsetof(command_request, verbose)},
     {"quiet", 'q', NULL, "only what is unexpected, and the last sentence",
      offsetof(command_request, quiet)},
