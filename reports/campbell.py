@@ -163,6 +163,12 @@ def orders(look, parameters, quantities):
                                for q, v in zip(quantities, found)]
 
 
+def present(site):
+    look = Lookup(site.cases)
+    curves = [finest(look, CASE, at, KEY) for at in (ACROSS, ALONG)]
+    return any(m is not None and m.curves for m in curves) or any(channel_rows(look))
+
+
 def write(site):
     look = Lookup(site.cases)
     quantities = ("flap_1", "flap_3", "lag_1", "stretch")

@@ -27,11 +27,14 @@ def by_rule(record):
     return dict(sorted(found.items()))
 
 
+def present(site):
+    return stored(site, "causes.json") is not None
+
+
 def write(site):
     record = stored(site, "causes.json")
     known = {rule["rule"] for rule in data.read_rules(site.truths)}
-    rules = by_rule(record) if record else {}
-    site.write("causes.html", "causes.html", record=record, rules=rules, known=known)
+    site.write("causes.html", "causes.html", record=record, rules=by_rule(record), known=known)
 
 
 def tasks(site):

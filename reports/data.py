@@ -205,6 +205,18 @@ def read_declarations(path):
     return {row["formulation"]: row for row in found}
 
 
+def read_glossary(path):
+    """[{column: text}] of the words that the truths were packed with; [] where there are none."""
+    try:
+        with h5py.File(path, driver="core", backing_store=False) as file:
+            if "glossary" not in file:
+                return []
+            columns = {name: column(values[()]) for name, values in file["glossary"].items()}
+    except OSError as why:
+        raise Unreadable(f"{path}: cannot be read ({why}); 'make all' packs it") from why
+    return [dict(zip(columns, row)) for row in zip(*columns.values())]
+
+
 def read_truth_counts(path):
     """{kind: rows} of the packed truths."""
     try:

@@ -4,12 +4,31 @@ import json
 import pathlib
 
 NAVIGATION = [("environment.html", "environment")]
+# (command of make, files that it leaves beside the results, what they add)
+ADDS = (
+    ("bench", ("bench.h5", ), "times with their noise"),
+    ("bench-check", ("bench_check.json", ), "planted work that the times must show"),
+    ("bench-mechanisms", ("mechanisms_joint.h5", "mechanisms_hexapod.h5"),
+     "times of the joint and the hexapod beside the published ones"),
+    ("causes", ("causes.json", ), "experiments on the causes of the ledger"),
+    ("newton", ("newton.json", ), "Newton with stresses as unknowns beside displacements only"),
+    ("stress", ("stress.json", ), "every formulation at its extremes"),
+    ("mutants", ("mutants.json", ), "planted faults"),
+    ("fuzz", ("fuzz.json", ), "any bytes as input"),
+)
 
 
 def planted(site):
     """Rows of make bench-check beside the results, or []."""
     path = pathlib.Path(site.results).parent / "bench_check.json"
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else []
+
+
+def more(site):
+    """[(command, what it adds)] of commands that have left nothing beside the results."""
+    here = pathlib.Path(site.results).parent
+    return [(command, what) for command, files, what in ADDS
+            if not any((here / name).is_file() for name in files)]
 
 
 def noise(site):
@@ -31,7 +50,8 @@ def write(site):
                about=site.about,
                bench=site.bench,
                noise=noise(site),
-               planted=planted(site))
+               planted=planted(site),
+               more=more(site))
 
 
 def tasks(site):

@@ -51,6 +51,14 @@ def predictions(rows):
     }
 
 
+def left(v):
+    """What a rule leaves open of a limit: its distance from the derived one, where there is one,
+    else from the truth; in parts of the truth, as errors are."""
+    if not math.isfinite(v.predicted) or not v.error:
+        return abs(v.error)
+    return abs((v.limit - v.predicted) * v.error / (v.limit - v.truth))
+
+
 def line(rule, rows, titles):
     """What the page says of one rule. rows: its verdicts, counted or not."""
     own = [r for r in rows if r.standing == tally.OWN]
@@ -63,6 +71,7 @@ def line(rule, rows, titles):
         "aliases": left_out.get(tally.ALIAS, 0),
         "misprints": left_out.get(tally.MISPRINT, 0),
         "worst": max(known, key=lambda r: abs(r.verdict.error), default=None),
+        "left": max((left(r.verdict) for r in known), default=math.nan),
         "met": predictions(own),
         "link": link_of(rule["proof"], titles),
     }
@@ -86,8 +95,15 @@ def contents(cases, rules):
         of_rule.get(row.verdict.finding, []).append(row)
     judged = [r for r in rows if r.verdict.verdict not in UNJUDGED]
     seen, left_out = tally.counts(judged)
+    lines = [line(rule, of_rule[rule["rule"]], titles) for rule in rules]
+    own = [r for r in judged if r.standing == tally.OWN and r.verdict.verdict != "pass"]
     return {
-        "lines": [line(rule, of_rule[rule["rule"]], titles) for rule in rules],
+        "lines": lines,
+        "explained": {
+            "not_pass": len(own),
+            "all": sum(r.verdict.finding in of_rule for r in own),
+            "met": sum(r.verdict.verdict in AS_PREDICTED for r in own),
+        },
         "seen": sorted(seen.items(), key=lambda item: SEVERITY[item[0]]),
         "aliases": left_out.get(tally.ALIAS, 0),
         "misprints": left_out.get(tally.MISPRINT, 0),

@@ -75,11 +75,17 @@ def figure_of(case, histories):
     return figure
 
 
+def stored(site):
+    """The record beside the results, or None."""
+    return read(os.path.join(os.path.dirname(site.results), "newton.json"))
+
+
+def present(site):
+    return stored(site) is not None
+
+
 def write(site):
-    data = read(os.path.join(os.path.dirname(site.results), "newton.json"))
-    if data is None:
-        site.write("newton.html", "newton.html", singles=[], contests=[], histories=[])
-        return
+    data = stored(site)
     cases = {}
     for h in data["histories"]:
         cases.setdefault(h["case"], []).append(h)

@@ -1,10 +1,12 @@
 """The pages of the report. A page is a module of this package with
 
-    NAVIGATION = [("newton.html", "iterations")]    # file and title in the bar on top of every page
+    NAVIGATION = [("newton.html", "iterations")]    # files and titles for the bar on top of every page
     def tasks(site): return [functools.partial(write, site)]    # functions without arguments that write its files, run side by side
 
 and, if it has something for the pages of cases, def section(site, case), which returns [(heading, markup)].
-A page whose data are missing in the result file is written all the same and says so.
+
+A page that needs more than every result file holds also has def present(site): without its data it is left out
+of the site, of the bar (navigation.py) and of links (has_page in templates).
 """
 import importlib
 import multiprocessing
@@ -13,6 +15,7 @@ from reports.site import Site
 
 PAGES = (
     "index",
+    "lists",
     "profile_page",
     "claims",
     "papers",
@@ -32,6 +35,7 @@ PAGES = (
     "checks",
     "printable",
     "environment",
+    "glossary",
 )
 
 _tasks = [
@@ -42,10 +46,16 @@ def _run(index):
     _tasks[index]()
 
 
+def present(site):
+    """The modules whose data are there."""
+    modules = [importlib.import_module(f"reports.{name}") for name in PAGES]
+    return [m for m in modules if not hasattr(m, "present") or m.present(site)]
+
+
 def build(results, truths, folder, bench=None, others=()):
     """Writes the whole site; returns the number of tasks."""
     site = Site(results, truths, folder, bench, others)
-    modules = [importlib.import_module(f"reports.{name}") for name in PAGES]
+    modules = present(site)
     for module in modules:
         site.navigation += module.NAVIGATION
         site.sections += [module.section] if hasattr(module, "section") else []

@@ -213,17 +213,27 @@ def model_points(site, parameters):
             yield w, at, near[0]
 
 
+def continued(site, case):
+    """Has the case a path at its default parameters?"""
+    found = site.case(case)
+    return found is not None and any("curve" in m.curves for s in found.points[0].series
+                                     if s.key == "beamw_consistent" for m in s.meshes[-1:])
+
+
+def present(site):
+    return site.case(CASE) is not None or any(continued(site, case) for case in SNAPS)
+
+
 def write(site):
     look = Lookup(site.cases)
-    present = site.case(CASE) is not None
+    cantilever = site.case(CASE) is not None
     snaps = [(case, drawn) for case in SNAPS if (drawn := draw_snap(site, look, case))]
-    other = solid(site.truths, EDGES["D"], "curve") if present else None
+    other = solid(site.truths, EDGES["D"], "curve") if cantilever else None
     site.write("paths.html",
                "paths.html",
-               present=present,
-               cantilever=draw_cantilever(site, look) if present else None,
-               convergence=draw_convergence(site, look, "w=1") if present else None,
-               conclusions=list(conclusions(site, look)) if present else [],
+               cantilever=draw_cantilever(site, look) if cantilever else None,
+               convergence=draw_convergence(site, look, "w=1") if cantilever else None,
+               conclusions=list(conclusions(site, look)) if cantilever else [],
                snaps=snaps,
                source=other.source if other else "")
 

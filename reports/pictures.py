@@ -230,6 +230,10 @@ def section(site, case):
     return [("The scene", markup(case, s))] if s is not None else []
 
 
+def present(site):
+    return any(read(site, case) is not None for case in site.cases)
+
+
 def write(site):
     found = [(case, read(site, case)) for case in site.cases]
     site.write("pictures.html",

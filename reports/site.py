@@ -6,7 +6,7 @@ import pathlib
 import jinja2
 from markupsafe import Markup, escape
 
-from reports import beside, data, figures, style, verdicts
+from reports import beside, data, figures, glossary, navigation, style, verdicts
 from reports.style import Styles, plt
 
 LEVELS = (0.1, 0.01, 0.001, 0.0001)
@@ -76,12 +76,14 @@ class Site:
                                       seconds=seconds,
                                       limit=limit,
                                       breakable=breakable,
-                                      file_of=file_of)
+                                      file_of=file_of,
+                                      term=glossary.linker(truths))
         self.templates.globals.update(levels=LEVELS,
                                       nan=math.nan,
                                       kinds_of_verdicts=verdicts.BY_NAME,
                                       remarks=verdicts.remarks,
-                                      navigation=self.navigation,
+                                      bar=self.bar,
+                                      has_page=self.has_page,
                                       colour=self.styles.fill,
                                       shape=self.styles.shape,
                                       look_of=style.class_of)
@@ -92,6 +94,15 @@ class Site:
             own = style.sheet() if asset.name == "style.css" else ""
             with open(os.path.join(self.folder, asset.name), "w", encoding="utf-8") as out:
                 out.write(asset.read_text(encoding="utf-8") + own)
+
+    def has_page(self, name):
+        """Is a page of the bar among those that are written?"""
+        return any(file == name for file, _ in self.navigation)
+
+    def bar(self, name):
+        """(groups of the bar, the one that the page belongs to or None)."""
+        found = navigation.groups(self.navigation)
+        return found, navigation.group_of(name, found, {c.name for c in self.cases})
 
     def case(self, name):
         """The case of this name, or None."""

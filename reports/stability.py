@@ -185,11 +185,17 @@ def findings(record):
             for key, found in rows.items()]
 
 
+def stored(site):
+    """The record beside the results, or None."""
+    return read(os.path.join(os.path.dirname(os.path.abspath(site.results)), "stress.json"))
+
+
+def present(site):
+    return stored(site) is not None
+
+
 def write(site):
-    record = read(os.path.join(os.path.dirname(os.path.abspath(site.results)), "stress.json"))
-    if record is None:
-        site.write("stability.html", "stability.html", record=None)
-        return
+    record = stored(site)
     all_cells = cells(record)
     record["extremes"] = [
         e for e in record["extremes"] if any(name == e["name"] for name, _ in all_cells)

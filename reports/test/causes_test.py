@@ -27,11 +27,11 @@ class Causes(ProgramTest):
 
     def test_page(self):
         site = Site(str(self.folder / "results.h5"), TRUTHS)
-        causes.write(site)
-        self.assertIsNone(site.pages["causes.html"]["record"])
+        self.assertFalse(causes.present(site))
         studies = [{"finding": name, "experiments": []} for name in ("b", "a", "b")]
         record = {"minutes": 1, "not_run": 0, "studies": studies}
         (self.folder / "causes.json").write_text(json.dumps(record), encoding="utf-8")
+        self.assertTrue(causes.present(site))
         causes.write(site)
         rules = site.pages["causes.html"]["rules"]
         self.assertEqual([(name, len(found)) for name, found in rules.items()], [("a", 1),

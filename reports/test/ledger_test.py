@@ -87,6 +87,12 @@ class Ledger(unittest.TestCase):
         found = ledger.contents([case("c", series("k", told[2:]))], [RULE])["lines"][0]["met"]
         self.assertIsNone(found["farthest"])
 
+    def test_what_is_left_open(self):
+        """The distance from a derived limit, in parts of the truth; else that from the truth."""
+        there = {"limit": 2.02, "truth": 2.0, "error": 0.01}
+        self.assertAlmostEqual(ledger.left(verdict("q", "biased", predicted=2.03, **there)), 0.005)
+        self.assertAlmostEqual(ledger.left(verdict("q", "biased", **there)), 0.01)
+
     def test_what_nobody_saw_is_there(self):
         line = self.contents(RULE, {**RULE, "rule": "other", "proof": "test_a"})["lines"][1]
         self.assertEqual((line["seen"], line["worst"], line["met"], line["link"]),

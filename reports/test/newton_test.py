@@ -61,9 +61,9 @@ class Newton(ProgramTest):
 
     def test_page(self):
         site = Site(self.folder)
-        newton.write(site)
-        self.assertEqual(site.pages["newton.html"]["singles"], [])
+        self.assertFalse(newton.present(site))
         (self.folder / "newton.json").write_text(json.dumps(DATA), encoding="utf-8")
+        self.assertTrue(newton.present(site))
         newton.write(site)
         page = site.pages["newton.html"]
         self.assertEqual(page["singles"][0][1][0][2], {"mixed": (0.3, 5), "displacement": (0.1, 5)})

@@ -64,10 +64,11 @@ class Report(ProgramTest):
                 self.assertIn(f'src="{name}"', (site / page).read_text(encoding="utf-8"))
 
     def test_absent(self):
-        """Results without shapes: the page says how to get them."""
-        page = (self.site() / "pictures.html").read_text(encoding="utf-8")
-        self.assertIn("verify --shapes", page)
-        self.assertNotIn("<img", page)
+        """Results without shapes: no page, and how to get it is said with the environment."""
+        site = self.site()
+        self.assertFalse((site / "pictures.html").exists())
+        about = (site / "environment.html").read_text(encoding="utf-8")
+        self.assertIn("verify --shapes", about)
 
 
 if __name__ == "__main__":

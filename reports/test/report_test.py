@@ -1,6 +1,7 @@
 """The report of a small run: every page is there, every link and image resolves, foreign files are refused."""
 import html.parser
 import json
+import re
 import unittest
 import xml.etree.ElementTree
 
@@ -107,6 +108,9 @@ class Report(ProgramTest):
                 "papers.html",
                 "environment.html",
                 "convergence.html",
+                "cases.html",
+                "formulations.html",
+                "glossary.html",
                 "warping_torsion.html",
                 "formulation_beamw.html",
         ):
@@ -123,6 +127,32 @@ class Report(ProgramTest):
                 if anchor:
                     self.assertIn(f'id="{anchor}"', target.read_text(encoding="utf-8"),
                                   f"{page.name}: {link}")
+
+    def test_nothing_is_announced(self):
+        """A page whose data are missing is not there, and no other page links to it."""
+        for name in ("stability.html", "newton.html", "rotation.html", "mechanisms.html"):
+            self.assertFalse((self.site / name).exists(), name)
+        for page in self.site.glob("*.html"):
+            text = page.read_text(encoding="utf-8")
+            if page.name != "environment.html":
+                self.assertNotRegex(text, "then <code>make report|hold no ", page.name)
+        about = (self.site / "environment.html").read_text(encoding="utf-8")
+        self.assertIn("<code>make stress</code>", about)
+        self.assertNotIn("<code>make causes</code>", about)  # it has left its file
+
+    def test_bar(self):
+        """Short, and it says where the reader is: also on pages of cases and of formulations."""
+        for page, title in (("ledger.html", "Ledger"), ("warping_torsion.html", "Cases"),
+                            ("formulation_beamw.html", "Formulations"), ("index.html", "beamwork")):
+            text = (self.site / page).read_text(encoding="utf-8")
+            bar = re.search('<nav class="bar" [^>]*>(.*?)</nav>', text, re.S).group(1)
+            titles = re.findall(r'<a href="[^"]+"([^>]*)>([^<]+)</a>', bar)
+            self.assertLessEqual(sum(len(t.split()) for _, t in titles), 13)
+            self.assertEqual([t for more, t in titles if "aria-current" in more], [title])
+
+    def test_size(self):
+        for page in self.site.glob("*.html"):
+            self.assertLess(page.stat().st_size, 500_000, page.name)
 
     def test_figures_are_drawn(self):
         """They stand in the pages; the sheets to be printed have theirs as files."""

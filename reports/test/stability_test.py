@@ -1,9 +1,9 @@
-"""The page of stability: what a sweep of extremes found is on it; without one it says so."""
+"""The page of stability: what a sweep of extremes found is on it; without one there is none."""
 import json
 import unittest
 
 from harness.test.program import TRUTHS, ProgramTest, read_json, run
-from reports import stability
+from reports import environment, stability
 from reports.site import Site
 
 
@@ -19,7 +19,10 @@ class Stability(ProgramTest):
         return (self.folder / "site" / "stability.html").read_text(encoding="utf-8")
 
     def test_without_a_sweep(self):
-        self.assertIn("make stress", self.page())
+        """There is no page, and what makes it is said with the environment."""
+        site = Site(self.folder / "results.h5", TRUTHS, self.folder / "site")
+        self.assertFalse(stability.present(site))
+        self.assertIn("stress", [command for command, _ in environment.more(site)])
 
     def test_sweep(self):
         self.answered("stress", "-k", "decay_free or twist_wagner", "--json",

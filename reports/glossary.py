@@ -1,0 +1,70 @@
+"""The words of the report and of the program, explained: truths.h5, /glossary."""
+import functools
+import re
+
+from markupsafe import Markup, escape
+
+from reports import data
+
+NAVIGATION = [("glossary.html", "glossary")]
+PAGE = "glossary.html"
+# Groups in the order of a reader's questions; what is not named here comes behind.
+GROUPS = ("verdicts", "convergence", "truths", "time and work", "outcomes of a solution", "stability",
+          "physics", "elements", "solution", "analyses", "structure", "extremes", "program")
+
+
+def present(site):
+    return bool(terms(site.truths))
+
+
+@functools.lru_cache(maxsize=4)
+def terms(truths):
+    """[{term, also, group, meaning, see}] in the order of the file; [] of truths without a glossary."""
+    return data.read_glossary(truths)
+
+
+def anchor(term):
+    """The name of a term in the page's address."""
+    return re.sub(r"[^a-z0-9]+", "-", term.lower()).strip("-") or "term"
+
+
+def split(text):
+    return [word for word in text.split("|") if word]
+
+
+def places(rows):
+    """{term or other name, in small letters: anchor}."""
+    found = {}
+    for row in rows:
+        for name in (row["term"], *split(row["also"])):
+            found.setdefault(name.lower(), anchor(row["term"]))
+    return found
+
+
+def linker(truths):
+    """The filter `term`: words as a link to the glossary, where it has them."""
+    known = places(terms(truths))
+
+    def term(words, name=None):
+        place = known.get((name or words).lower())
+        if place is None:
+            return escape(words)
+        return Markup('<a class="term" href="{}#{}">{}</a>').format(PAGE, place, words)
+
+    return term
+
+
+def grouped(rows):
+    """[(group, rows)] in the order of GROUPS."""
+    names = [*GROUPS, *dict.fromkeys(r["group"] for r in rows if r["group"] not in GROUPS)]
+    return [(name, [r for r in rows if r["group"] == name]) for name in names
+            if any(r["group"] == name for r in rows)]
+
+
+def write(site):
+    rows = [{**r, "also": split(r["also"]), "see": split(r["see"])} for r in terms(site.truths)]
+    site.write("glossary.html", PAGE, groups=grouped(rows), anchor=anchor)
+
+
+def tasks(site):
+    return [functools.partial(write, site)]
