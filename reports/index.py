@@ -18,7 +18,7 @@ PLACES = (  # where to go next, as far as this site has it
     ("ledger.html", "known causes"),
     ("glossary.html", "glossary"),
 )
-FIGURE = (4.6, 2.7)  # in
+FIGURE = (300, 165)  # axes, pixels
 
 
 def formulation_rows(cases):

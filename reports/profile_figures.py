@@ -2,8 +2,8 @@
 import csv
 import os
 
-from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator, PercentFormatter
-
+from reports.axis import Axis
+from reports.chart import Chart
 from reports.problems import to_the_best
 from reports.profiles import FARTHEST, PICTURES, places
 from reports.site import LEVELS
@@ -12,8 +12,8 @@ from reports.style import plt
 XLABELS = {
     ("time", True): "factor to the least time of all",
     ("unknowns", True): "factor to the fewest unknowns of all",
-    ("time", False): "time, by that of the cheapest run of the structure",
-    ("unknowns", False): "unknowns, by those of its smallest model",
+    ("time", False): "time, by the cheapest run",
+    ("unknowns", False): "unknowns, by the smallest model",
 }
 
 
@@ -39,27 +39,52 @@ def legend_of(site, keys, name="profile_legend"):
     return site.image(figure, name, tight=False)
 
 
-def figure_of(site, picture, curves, keys, name, size=(4.4, 3.0)):
-    """curves: {formulation: shares at places}. Steps: a share holds from its factor on."""
-    farthest = FARTHEST[picture.unit]
-    at = places(farthest)
-    figure, axes = plt.subplots(figsize=size)
+class Fixed(Axis):
+    """An axis whose limits and ticks are given. ticks: [(value, words)]"""
+
+    def __init__(self, log, limits, ticks):
+        super().__init__(log)
+        self.low, self.high = limits
+        self.given = ticks
+
+    def take(self, values):
+        """Nothing moves it."""
+
+    def settle(self):
+        """It is."""
+
+    def ticks(self):
+        return self.given
+
+
+def factors(farthest):
+    ticks = [s * 10**i for i in range(4) for s in ((1, 2, 5) if farthest <= 100 else (1,))]
+    return Fixed(True, (1, farthest), [(x, f"{x:g}") for x in ticks if x <= farthest])
+
+
+def stairs(at, shares):
+    """Corners of the curve: a share holds from its factor on."""
+    xs, ys = [at[0]], [shares[0]]
+    for x, y in zip(at[1:], shares[1:]):
+        if y != ys[-1]:
+            xs += [x, x]
+            ys += [ys[-1], y]
+    return xs + [at[-1]], ys + [ys[-1]]
+
+
+def figure_of(site, picture, curves, keys, name, size=(250, 175)):
+    """curves: {formulation: shares at places}; size: of the axes, in pixels."""
+    at = places(FARTHEST[picture.unit])
+    chart = Chart(1, size)
+    panel = chart.panel(xlabel=xlabel(picture), ylabel="share of problems")
+    panel.x = factors(at[-1])
+    panel.y = Fixed(False, (0, 1), [(i / 5, f"{20 * i} %") for i in range(6)])
     for i, key in enumerate(keys):
-        axes.plot(at, curves[key][:-1], drawstyle="steps-post", markevery=(i, len(keys)),
-                  label=key, **marks_of(site, key, at, curves[key], slice(i, None, len(keys))))
-    axes.set_xscale("log")
-    axes.set_xlim(1, farthest)
-    axes.set_ylim(0, 1.005)
-    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if farthest <= 100 else (1,)))
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
-    axes.yaxis.set_major_formatter(PercentFormatter(1))
-    axes.set_xlabel(xlabel(picture))
-    axes.set_ylabel("share of problems")
-    width, height = size
-    figure.subplots_adjust(left=0.62 / width, right=1 - 0.15 / width, top=1 - 0.1 / height,
-                           bottom=0.5 / height)
-    return site.image(figure, name, tight=False)
+        marked = slice(i, None, len(keys))
+        look = marks_of(site, key, at, curves[key], marked)
+        panel.plot(*stairs(at, curves[key][:-1]), **{**look, "marker": None, "gid": f"f|{key}"})
+        panel.plot(at[marked], curves[key][:-1][marked], **{**look, "linestyle": "none"})
+    return chart.image(site, name)
 
 
 def write_table(site, compared, name="profiles.csv"):

@@ -11,7 +11,7 @@ NEAR = {to_the_best: 2, to_the_smallest: 10}  # factor of the reading example
 READINGS = (defect, no_defect, any_defect)
 
 
-def panel(site, compared, picture, level, name=None, size=(4.4, 3.0)):
+def panel(site, compared, picture, level, name=None, size=(250, 175)):
     """A figure with what is read from it as an example: the curve that is ahead at NEAR."""
     curves = compared.profile(picture.question(level), picture.offered)
     at = profiles.places(profiles.FARTHEST[picture.unit])

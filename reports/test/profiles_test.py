@@ -2,7 +2,7 @@
 import math
 import unittest
 
-from reports import data, problems, profiles, sentences, trust
+from reports import data, problems, profile_figures, profiles, sentences, trust
 from reports.problems import Question, any_defect, no_defect, to_the_smallest
 from reports.test.results import series
 
@@ -65,6 +65,21 @@ class Shares(unittest.TestCase):
 
     def test_rounding_keeps_ties(self):
         self.assertEqual(profiles.shares([(1 + 1e-12, 1.0)], [1]), [1, 1])
+
+
+class Stairs(unittest.TestCase):
+
+    def test_a_share_holds_from_its_factor_on(self):
+        found = profile_figures.stairs([1, 2, 3, 5, 10], [0.25, 0.5, 0.5, 0.75, 0.75])
+        self.assertEqual(found, ([1, 2, 2, 5, 5, 10], [0.25, 0.25, 0.5, 0.5, 0.75, 0.75]))
+
+    def test_ticks_are_on_the_axis(self):
+        for farthest in profiles.FARTHEST.values():
+            axis = profile_figures.factors(farthest)
+            values = [value for value, _ in axis.ticks()]
+            self.assertEqual((values[0], values[-1]), (1, farthest))
+            for value, part in zip(axis.part([1, farthest]), (0, 1)):
+                self.assertAlmostEqual(value, part, 12)
 
 
 class ByHand(unittest.TestCase):
