@@ -72,6 +72,14 @@ static int explain_case(const char *word)
     return 0;
 }
 
+/* The rule whose cause this one is "the same" as: the last one before it that says a cause. */
+static const rule *said_before(const truths *ledger, int i)
+{
+    while (i > 0 && strncmp(ledger->rule[i].cause, "the same", 8) == 0)
+        i--;
+    return &ledger->rule[i];
+}
+
 static int explain_rule(const dictionary *d, const char *word)
 {
     for (int i = 0; i < d->ledger.rules; i++) {
@@ -80,6 +88,9 @@ static int explain_rule(const dictionary *d, const char *word)
             continue;
         printf("%s (rule of the ledger)\n", r->name);
         paragraph_write(stdout, printf("  cause: "), INDENT, r->cause);
+        const rule *said = said_before(&d->ledger, i);
+        if (said != r)
+            paragraph_write(stdout, printf("    as %s: ", said->name), 4, said->cause);
         paragraph_write(stdout, printf("  formulations: "), INDENT, r->formulations);
         paragraph_write(stdout, printf("  cases: "), INDENT, r->cases);
         if (r->condition[0] != '\0')

@@ -1,0 +1,77 @@
+"""list: what there is, of a case and of a formulation, and names that are misspelt."""
+import csv
+import re
+import unittest
+
+from harness.test.program import ROOT, ProgramTest, environment
+
+WIDEST = 100
+
+
+def names_of(text, heading):
+    """Names of the lines below a heading."""
+    below = text.partition(heading)[2].partition("\n")[2]
+    return [line.split()[0] for line in re.split(r"\n(?! )", below)[0].splitlines()
+            if re.match("  [^ ]", line)]
+
+
+class Lists(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        text = self.answered("list").stdout
+        self.cases, self.formulations = (names_of(text, word) for word in
+                                         ("cases (", "formulations ("))
+        self.assertGreater(min(len(self.cases), len(self.formulations)), 5)
+
+    def shown(self, name):
+        text = self.answered("list", name).stdout
+        self.assertLessEqual(max(map(len, text.splitlines())), WIDEST, text)
+        return " ".join(text.split()), text
+
+    def test_every_case(self):
+        for name in self.cases:
+            words, text = self.shown(name)
+            self.assertTrue(words.startswith(f"{name}: "))
+            self.assertEqual(names_of(text, "\nformulations"), self.formulations)
+
+    def test_every_formulation(self):
+        """Every case is listed once, by whether it runs; that agrees with the list of the case."""
+        runs = {case: self.shown(case)[0] for case in self.cases}
+        for name in self.formulations:
+            words = self.shown(name)[0]
+            for word in ("source: ", "order of convergence: ", "shear in stability: ", "newton=",
+                         "known findings", "offers"):
+                self.assertIn(word, words, name)
+            told = words.partition("cases, at their default parameters")[2]
+            does = told.partition("not run")[0]
+            for case in self.cases:
+                self.assertEqual(len(re.findall(rf"[ :]{case}[, ]", told)), 1, (name, case))
+                runs_here = re.search(rf"[ :]{case}[, ]", does) is not None
+                self.assertEqual(runs_here, f" {name} runs" in runs[case], (name, case))
+
+    def test_findings(self):
+        """Every rule that names the formulation, with its cause."""
+        with open(ROOT / "reference" / "findings.csv", newline="", encoding="utf-8") as table:
+            rules = list(csv.DictReader(table))
+        for name in self.formulations:
+            words = self.shown(name)[0]
+            for rule in rules:
+                spoken_of = {"*", name} & set(rule["formulations"].split())
+                self.assertEqual(bool(spoken_of), f" {rule['rule']}: " in words, rule["rule"])
+                if spoken_of:
+                    self.assertIn(" ".join(rule["cause"].split()), words)
+        done = self.answered("list", "beamw", env=environment(BEAMWORK_TRUTHS="/nowhere"))
+        self.assertNotIn("finding", done.stdout)
+
+    def test_names(self):
+        self.assertEqual(self.answered("list", "formulations").stdout.splitlines()[0][:13],
+                         "formulations ")
+        self.assertTrue(self.answered("list", "beamw:mass=lumped").stdout.startswith("beamw:mass"))
+        self.refused(2, "did you mean 'collocation'", "list", "collocaton")
+        self.refused(2, "did you mean 'c_column'", "list", "c_colum")
+        self.refused(2, "did you mean 'formulations'", "list", "formulation")
+        self.refused(2, "no option 'mas'", "list", "beamw:mas=lumped")
+
+
+if __name__ == "__main__":
+    unittest.main()
