@@ -27,8 +27,9 @@ static void print_sums(const comparison *c)
     printf("%d %s in both:", c->pairs, c->whole ? "cells" : "series");
     for (int k = 0; k < COMPARISON_KINDS; k++)
         printf("%s %d %s", k > 0 ? "," : "", c->count[k], comparison_kind_names[k]);
+    printf("\nwork:");
     for (int k = 0; k < RESULTS_WORKS; k++)
-        printf("%s %s %.0f -> %.0f", k > 0 ? "," : ";", results_work_names[k], c->work[0][k],
+        printf("%s %s %.0f -> %.0f", k > 0 ? "," : "", results_work_names[k], c->work[0][k],
                c->work[1][k]);
     putchar('\n');
 }

@@ -30,7 +30,8 @@ static void compare_value(const listing *l, const result_value *a, const result_
         if (change != 0)
             kind = change > 0 ? CHANGE_WORSE : CHANGE_BETTER;
         comparison_lines_heading(l, kind);
-        fprintf(l->to, ": error of %s %+.3e -> %+.3e\n", a->quantity, a->error, b->error);
+        fprintf(l->to, ": error of %s %+.4g %% -> %+.4g %%\n", a->quantity, 100 * a->error,
+                100 * b->error);
     } else if (isfinite(a->value) &&
                fabs(b->value - a->value) > m->floor * fmax(fabs(a->value), a->near_zero)) {
         comparison_lines_heading(l, CHANGE_OTHER);

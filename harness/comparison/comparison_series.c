@@ -43,8 +43,8 @@ static int compare_error(const listing *l, const char *which, const result_error
         m->floor + (m->error + last_digit(RESULTS_ERROR_DIGITS)) * a->size)
         return 0;
     comparison_lines_heading(l, b->size > a->size ? CHANGE_WORSE : CHANGE_BETTER);
-    fprintf(l->to, ": %s error %.3e (%s n=%d) -> %.3e (%s n=%d)\n", which, a->size, a->quantity,
-            a->elements, b->size, b->quantity, b->elements);
+    fprintf(l->to, ": %s error %.4g %% (%s n=%d) -> %.4g %% (%s n=%d)\n", which, 100 * a->size,
+            a->quantity, a->elements, 100 * b->size, b->quantity, b->elements);
     return 1;
 }
 

@@ -4,22 +4,45 @@
 #include <string.h>
 
 #include "harness/extremes/extreme_record.h"
+#include "harness/judge/rounding.h"
 #include "harness/record/csv_record.h"
+#include "harness/tables/paragraph.h"
 
-enum { NAME_WIDTH = 26, CELL_WIDTH = 15 };
+enum { NAME_WIDTH = 23, INDENT = 4, WIDEST_CELL = 10, CONDITION_WIDTH = 7 };
 
-/* "1.2e-06", with a sign of what it is: ~ coarse, ! wrong, ? not expected. */
+static const struct {
+    char letter;
+    const char *words;
+} failures[OUTCOME_KINDS] = {[OUTCOME_NOT_CONVERGED] = {'N', "not converged"},
+                             [OUTCOME_SINGULAR] = {'S', "singular"},
+                             [OUTCOME_REFUSED] = {'R', "refused"},
+                             [OUTCOME_NO_VALUE] = {'V', "no value"},
+                             [OUTCOME_FAULT] = {'F', "fault"}};
+
+/* "0.22", "2e-7" [%], with a sign of what it is: ~ coarse, ! wrong, ? not expected; a letter for a
+ * failure. */
 static void cell_text(const extreme_outcome *o, char *text, size_t size)
 {
     static const char *const mark[OUTCOME_KINDS] = {[OUTCOME_COARSE] = "~", [OUTCOME_WRONG] = "!"};
     const char *unexpected = o->as_expected ? "" : "?";
+    char number[ROUNDING_TEXT];
+    const double percent = 100 * fabs(o->error);
     if (o->kind == OUTCOME_SKIP)
         snprintf(text, size, "-");
-    else if (o->kind == OUTCOME_VALUE || o->kind == OUTCOME_COARSE || o->kind == OUTCOME_WRONG)
-        snprintf(text, size, "%.1e%s%s", fabs(o->error), mark[o->kind] != NULL ? mark[o->kind] : "",
+    else if (failures[o->kind].letter != '\0')
+        snprintf(text, size, "%c%s", failures[o->kind].letter, unexpected);
+    else {
+        rounding_digits(percent, percent < 0.01 ? 1 : 2, number);
+        snprintf(text, size, "%s%s%s", number, mark[o->kind] != NULL ? mark[o->kind] : "",
                  unexpected);
-    else
-        snprintf(text, size, "%s%s", outcome_name(o->kind), unexpected);
+    }
+}
+
+/* Columns of a cell of an extreme with so many values. */
+static int width_of_cells(const extreme *e)
+{
+    const int width = (PARAGRAPH_WIDTH - INDENT - NAME_WIDTH - CONDITION_WIDTH) / e->values;
+    return width < WIDEST_CELL ? width : WIDEST_CELL;
 }
 
 static int is_same_line(const extreme_outcome *a, const extreme_outcome *b)
@@ -42,45 +65,61 @@ static void print_head(FILE *to, const extreme *e)
     char fixed[PARAMETERS_TEXT] = "";
     if (e->fixed[0] != '\0')
         snprintf(fixed, sizeof fixed, " (%s)", e->fixed);
-    fprintf(to, "\n%s: %s\n  %s%s, %s\n  %-*s", e->name, e->summary, e->base, fixed,
-            e->judge == EXTREME_EXACT ? "against exact values" : "against its own value",
-            NAME_WIDTH + 14, e->x_name);
+    fputc('\n', to);
+    paragraph_say(to, 0, 0, "%s: %s", e->name, e->summary);
+    paragraph_say(to, 0, 2, "%s%s, %s", e->base, fixed,
+                  e->judge == EXTREME_EXACT ? "against exact values" : "against its own value");
+    if (fprintf(to, "  %-*s", INDENT - 2 + NAME_WIDTH, e->x_name) > INDENT + NAME_WIDTH)
+        fprintf(to, "\n%*s", INDENT + NAME_WIDTH, "");
     for (int k = 0; k < e->values; k++)
-        fprintf(to, " %*g", CELL_WIDTH, e->value[k]);
-    fprintf(to, "  condition\n");
+        fprintf(to, "%*g", width_of_cells(e), e->value[k]);
+    fprintf(to, "%*s\n", CONDITION_WIDTH, "cond.");
 }
 
 /* Errors of a formulation and quantity at all values of x, and the worst condition. */
 static void print_line(FILE *to, const extreme_sweep *s, const extreme_outcome *o)
 {
     double condition = 0;
-    fprintf(to, "  %-*s%-14s", NAME_WIDTH, s->formulation[o->formulation].key,
-            extremes[o->extreme].quantity[o->quantity].name);
+    if (fprintf(to, "    %-*s", NAME_WIDTH, s->formulation[o->formulation].key) >
+        INDENT + NAME_WIDTH)
+        fprintf(to, "\n%*s", INDENT + NAME_WIDTH, "");
     for (int k = 0; k < s->outcomes; k++)
         if (is_same_line(o, &s->outcome[k])) {
             char text[64];
             cell_text(&s->outcome[k], text, sizeof text);
-            fprintf(to, " %*s", CELL_WIDTH, text);
+            fprintf(to, "%*s", width_of_cells(&extremes[o->extreme]), text);
             condition = fmax(condition, extreme_sweep_cell(s, &s->outcome[k])->counters.condition);
         }
-    fprintf(to, "  %.0e\n", condition);
+    fprintf(to, "%*.0e\n", CONDITION_WIDTH, condition);
 }
 
-/* A line for every formulation that runs and every quantity. */
-static void print_extreme(FILE *to, const extreme_sweep *s, int index)
+/* A line for every formulation that runs. */
+static void print_quantity(FILE *to, const extreme_sweep *s, const extreme_outcome *first,
+                           int quantity)
 {
-    const extreme_outcome *first = NULL;
+    int lines = 0;
     for (int i = 0; i < s->outcomes; i++) {
         const extreme_outcome *o = &s->outcome[i];
-        if (o->extreme != index)
+        if (o->extreme != first->extreme || o->quantity != quantity || o->value != first->value ||
+            !runs_anywhere(s, o->extreme, o->formulation))
             continue;
-        if (first == NULL) {
-            first = o;
-            print_head(to, &extremes[index]);
-        }
-        if (o->value == first->value && runs_anywhere(s, index, o->formulation))
-            print_line(to, s, o);
+        if (lines++ == 0)
+            fprintf(to, "  %s\n", extremes[o->extreme].quantity[quantity].name);
+        print_line(to, s, o);
     }
+}
+
+static void print_extreme(FILE *to, const extreme_sweep *s, int index)
+{
+    const extreme *e = &extremes[index];
+    int i = 0;
+    while (i < s->outcomes && s->outcome[i].extreme != index)
+        i++;
+    if (i == s->outcomes)
+        return;
+    print_head(to, e);
+    for (int q = 0; q < EXTREME_MAX_QUANTITIES; q++)
+        print_quantity(to, s, &s->outcome[i], q);
 }
 
 static void print_count(FILE *to, const extreme_count *c)
@@ -107,31 +146,50 @@ static void print_counts(FILE *to, const extreme_sweep *s)
     print_count(to, &sum);
 }
 
+static void print_outcome(FILE *to, const extreme_sweep *s, const extreme_outcome *o)
+{
+    const extreme *e = &extremes[o->extreme];
+    char error[ROUNDING_TEXT];
+    rounding_percent(o->error, error);
+    paragraph_say(to, fprintf(to, "unexpected: "), 2,
+                  "%s %s=%g %s %s: %s (error %s), expected %s; %s", e->name, e->x_name, o->x,
+                  s->formulation[o->formulation].key, e->quantity[o->quantity].name,
+                  outcome_name(o->kind), error,
+                  o->finding != NULL ? o->finding->outcome : "a value", o->reason);
+}
+
 static void print_unexpected(FILE *to, const extreme_sweep *s)
 {
     for (int i = 0; i < s->outcomes; i++) {
         const extreme_outcome *o = &s->outcome[i];
-        const extreme *e = &extremes[o->extreme];
         if (!o->as_expected)
-            fprintf(to, "unexpected: %s %s=%g %s %s: %s (error %.3g), expected %s; %s\n", e->name,
-                    e->x_name, o->x, s->formulation[o->formulation].key,
-                    e->quantity[o->quantity].name, outcome_name(o->kind), o->error,
-                    o->finding != NULL ? o->finding->outcome : "a value", o->reason);
+            print_outcome(to, s, o);
     }
     if (s->unobserved > 0)
         for (int i = 0; i < s->findings; i++)
             if (s->finding[i].observed == 0)
-                fprintf(to, "not observed: %s from %g to %g %s %s: %s\n", s->finding[i].extreme,
-                        s->finding[i].from, s->finding[i].to, s->finding[i].formulation,
-                        s->finding[i].quantity, s->finding[i].outcome);
+                paragraph_say(to, 0, 0, "not observed: %s from %g to %g %s %s: %s",
+                              s->finding[i].extreme, s->finding[i].from, s->finding[i].to,
+                              s->finding[i].formulation, s->finding[i].quantity,
+                              s->finding[i].outcome);
+}
+
+static void print_legend(FILE *to)
+{
+    fprintf(
+        to,
+        "\nerrors in %%; ~ coarse: falls with more elements; ! wrong; ? not expected; - skip\n");
+    for (int k = 0, named = 0; k < OUTCOME_KINDS; k++)
+        if (failures[k].letter != '\0')
+            fprintf(to, "%s%c %s", named++ > 0 ? "; " : "", failures[k].letter, failures[k].words);
+    fprintf(to, "\n\n");
 }
 
 void extreme_table(FILE *to, const extreme_sweep *s)
 {
     for (int i = 0; extremes[i].name != NULL; i++)
         print_extreme(to, s, i);
-    fprintf(to, "\nrelative errors; ~ coarse: falls with more elements; ! wrong; ? not expected; "
-                "- skip\n\n");
+    print_legend(to);
     print_unexpected(to, s);
     print_counts(to, s);
     fprintf(to, "%d outcomes differ from the expected ones, %d findings not observed\n",

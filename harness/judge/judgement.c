@@ -48,9 +48,9 @@ static void expect(const sweep *s, truths *t, verdict *v)
             rules_foretell(r, &subject);
         if (is_beyond(r, v))
             snprintf(v->reason, sizeof v->reason,
-                     "its limit is %.3g from %s, beyond the %.3g of finding %.60s", v->departure,
-                     v->predicted != NULL ? "the derived one" : "the truth", r->largest_error,
-                     r->name);
+                     "its limit is %+.3g %% from %s, beyond the %.3g %% of finding %.60s",
+                     100 * v->departure, v->predicted != NULL ? "the derived one" : "the truth",
+                     100 * r->largest_error, r->name);
         else
             v->expected = v->kind;
     }

@@ -49,13 +49,13 @@ void paragraph_command(FILE *to, int at, int indent, const char *text)
     write_words(to, at, indent, " \\", text);
 }
 
-void paragraph_say(FILE *to, int indent, const char *format, ...)
+void paragraph_say(FILE *to, int at, int indent, const char *format, ...)
 {
     char *text = NULL;
     va_list arguments;
     va_start(arguments, format);
     if (vasprintf(&text, format, arguments) >= 0) {
-        paragraph_write(to, 0, indent, text);
+        paragraph_write(to, at, indent, text);
         free(text);
     }
     va_end(arguments);

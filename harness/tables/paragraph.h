@@ -13,8 +13,8 @@ int paragraph_columns(const char *text);
 void paragraph_write(FILE *to, int at, int indent, const char *text);
 /* The same of a command, whose lines but the last end in " \", as a shell reads it. */
 void paragraph_command(FILE *to, int at, int indent, const char *text);
-/* The same of a printf, of a new line that is indented itself. */
-void paragraph_say(FILE *to, int indent, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+/* paragraph_write of a printf. */
+void paragraph_say(FILE *to, int at, int indent, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
 
 #endif

@@ -2,15 +2,23 @@
 
 #include <math.h>
 
+#include "harness/judge/rounding.h"
 #include "harness/judge/sentence.h"
+#include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
+
+enum { DIGITS = 10, VALUE = 20 };
 
 /* Analytic model beside the elements. */
 static void prediction_line(FILE *to, const scene_quantity *q, const truth *row)
 {
-    fprintf(to, "  prediction%21.14g", q->prediction.value);
+    char source[FAULT_TEXT];
+    int column = fprintf(to, "  prediction");
+    table_digits(to, VALUE - 4, q->prediction.value, DIGITS);
     table_percent(to, row != NULL ? verdict_error(q, q->prediction.value, row->value) : NAN);
-    fprintf(to, " %s, analytic\n", q->prediction.source);
+    snprintf(source, sizeof source, "%s, analytic", q->prediction.source);
+    column += VALUE - 4 + 12 + fprintf(to, "  ");
+    paragraph_write(to, column, 4, source);
 }
 
 static void mesh_line(FILE *to, const series *one, int mesh, int quantity, const scene_quantity *q,
@@ -19,28 +27,35 @@ static void mesh_line(FILE *to, const series *one, int mesh, int quantity, const
     const solve_result *r = &one->cell[mesh].solve;
     const int known = quantity < r->quantities;
     const double x = known ? r->quantity[quantity].value : NAN;
-    fprintf(to, "  %6d", one->mesh[mesh]);
-    table_value(to, 23, 14, 'g', x);
+    char seconds[ROUNDING_TEXT];
+    int column = fprintf(to, "  %6d", one->mesh[mesh]) + VALUE + 12;
+    table_digits(to, VALUE, x, DIGITS);
     table_percent(to, row != NULL ? verdict_error(q, x, row->value) : NAN);
-    fprintf(to, " %10.3g s", r->seconds_setup + r->seconds_solve);
+    rounding_digits(r->seconds_setup + r->seconds_solve, 3, seconds);
+    column += fprintf(to, " %9s s", seconds);
     if (!isfinite(x))
-        fprintf(to, "  %s", known ? r->quantity[quantity].reason : r->reason);
-    fputc('\n', to);
+        paragraph_say(to, column, column + 2, "%s",
+                      known ? r->quantity[quantity].reason : r->reason);
+    else
+        fputc('\n', to);
 }
 
 static void limit_line(FILE *to, const verdict *v, const scene_quantity *q, const truth *row)
 {
-    char sentence[2 * FAULT_TEXT];
-    fprintf(to, "  limit ");
-    table_value(to, 22, 14, 'g', v->fit.limit);
-    fprintf(to, " +- ");
-    table_value(to, 1, 1, 'e', v->fit.limit_uncertainty);
-    fprintf(to, ", order ");
-    table_value(to, 1, 3, 'f', v->fit.order);
+    char sentence[2 * FAULT_TEXT], limit[ROUNDING_TEXT], doubt[ROUNDING_TEXT],
+        known[ROUNDING_TEXT] = "", order[ROUNDING_TEXT];
     sentence_of_verdict(v, q->least_order, sentence, sizeof sentence);
+    rounding_known(v->fit.limit, v->fit.limit_uncertainty, limit);
+    rounding_digits(v->fit.limit_uncertainty, 2, doubt);
+    rounding_digits(v->fit.order, 3, order);
     if (row != NULL)
-        fprintf(to, ", %s %.14g: %s", row->kind, row->value, sentence);
-    fputc('\n', to);
+        rounding_known(row->value, row->uncertainty, known);
+    const int at = fprintf(to, "  limit ");
+    if (row != NULL)
+        paragraph_say(to, at, 4, "%s +- %s, order %s; %s %s: %s", limit, doubt, order, row->kind,
+                      known, sentence);
+    else
+        paragraph_say(to, at, 4, "%s +- %s, order %s", limit, doubt, order);
 }
 
 static void quantity_block(FILE *to, const sweep *s, const truths *t, int index, int quantity)
@@ -66,7 +81,7 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
         const scene *wanted = &s->point[one->point].scene;
         table_series(to, s, i);
         if (one->missing[0] != '\0') {
-            fprintf(to, "  skip: does not offer %s\n", one->missing);
+            paragraph_say(to, 0, 2, "skip: does not offer %s", one->missing);
             continue;
         }
         for (int q = 0; q < wanted->quantities; q++)

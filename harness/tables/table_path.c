@@ -1,8 +1,26 @@
 #include "harness/tables/table_path.h"
 
 #include <math.h>
+#include <stdlib.h>
+
+#include "harness/tables/paragraph.h"
 
 enum { MOST_STEPS = 40 };
+
+/* Of the iterations of a step, in lines below each other where they are many. */
+static void corrections(FILE *to, int column, const solve_result *r, const step_record *k)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *list = open_memstream(&text, &size);
+    if (list == NULL)
+        return;
+    for (int j = 0; j < k->iterations; j++)
+        fprintf(list, " %.0e", r->iteration[k->first + j].correction);
+    if (fclose(list) == 0)
+        paragraph_write(to, column, column, text);
+    free(text);
+}
 
 void table_path_steps(FILE *to, const solve_result *r)
 {
@@ -12,11 +30,9 @@ void table_path_steps(FILE *to, const solve_result *r)
             "iterations", "their corrections");
     for (int i = 0; i < r->steps && i < MOST_STEPS; i++) {
         const step_record *k = &r->step[i];
-        fprintf(to, "%4d %12.8g %12.4g %8d %10d ", i + 1, k->path, k->increment, k->rejected,
-                k->iterations);
-        for (int j = 0; j < k->iterations; j++)
-            fprintf(to, " %.0e", r->iteration[k->first + j].correction);
-        fputc('\n', to);
+        const int column = fprintf(to, "%4d %12.6g %12.4g %8d %10d  ", i + 1, k->path, k->increment,
+                                   k->rejected, k->iterations);
+        corrections(to, column, r, k);
     }
     if (r->steps > MOST_STEPS)
         fprintf(to, "%4s %d more steps: --format json has them all\n", "", r->steps - MOST_STEPS);

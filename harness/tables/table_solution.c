@@ -2,9 +2,13 @@
 
 #include <math.h>
 
+#include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
 #include "harness/tables/table_path.h"
 #include "harness/truth/truth.h"
+
+enum { NAME = 28, VALUE = 20, UNIT = 9, DIGITS = 10, INDENT = 2 };
+static const double least_rounding = 1e-11; /* of any value that is computed */
 
 /* Analytic models beside the elements; they judge nothing. */
 static void predictions(FILE *to, const point *p, const truths *t)
@@ -16,10 +20,35 @@ static void predictions(FILE *to, const point *p, const truths *t)
         if (q->prediction.source == NULL)
             continue;
         snprintf(name, sizeof name, "prediction %s", q->name);
-        fprintf(to, "%-28s %24.15g %-10s", name, q->prediction.value, q->unit);
+        const int column = fprintf(to, "%-*s ", NAME, name) + VALUE + UNIT + 1 + 12;
+        table_digits(to, VALUE, q->prediction.value, DIGITS);
+        fprintf(to, " %-*s", UNIT, q->unit);
         table_percent(to, row != NULL ? verdict_error(q, q->prediction.value, row->value) : NAN);
-        fprintf(to, " %s, analytic\n", q->prediction.source);
+        paragraph_say(to, column, INDENT, "  %s, analytic", q->prediction.source);
     }
+}
+
+/* To the digit that round-off leaves. */
+static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
+{
+    const series *one = &s->series[0];
+    const point *p = &s->point[one->point];
+    const scene_quantity *q = &p->scene.quantity[index];
+    const quantity_result *v = &one->cell[0].solve.quantity[index];
+    const truth *row = t != NULL ? verdict_truth(t, p, &one->formulation, index) : NULL;
+    const int column = fprintf(to, "%-*s ", NAME, q->name) + VALUE + 1;
+    if (v->status != STATUS_OK) {
+        fprintf(to, "%*s ", VALUE, "-");
+        paragraph_write(to, column, INDENT, v->reason);
+        return;
+    }
+    table_known(to, VALUE, v->value, fabs(v->value) * fmax(v->rounding, least_rounding));
+    fprintf(to, " %-*s", UNIT, q->unit);
+    table_percent(to, row != NULL ? verdict_error(q, v->value, row->value) : NAN);
+    fprintf(to, "%s%s", row != NULL ? " against " : "", row != NULL ? row->kind : "");
+    if (v->rounding > 1e-9)
+        fprintf(to, ", round-off %.1e", v->rounding);
+    fputc('\n', to);
 }
 
 void table_solution(FILE *to, const sweep *s, const truths *t)
@@ -28,37 +57,25 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     const point *p = &s->point[one->point];
     const cell_result *c = &one->cell[0];
     table_series(to, s, 0);
-    fprintf(to,
-            "%s%s%s; %d elements, %d free coordinates, %ld iterations, %ld factorisations, %.3g s "
-            "set-up, %.3g s solution\n",
-            status_name(c->solve.status), c->solve.reason[0] != '\0' ? ": " : "", c->solve.reason,
-            c->size.elements, c->size.free, c->counters.iterations, c->counters.factorisations,
-            c->solve.seconds_setup, c->solve.seconds_solve);
+    const int at = fprintf(to, "%s", status_name(c->solve.status));
+    paragraph_say(to, at, INDENT,
+                  "%s%s; %d elements, %d free coordinates, %ld iterations, %ld factorisations, "
+                  "%.3g s set-up, %.3g s solution",
+                  c->solve.reason[0] != '\0' ? ": " : "", c->solve.reason, c->size.elements,
+                  c->size.free, c->counters.iterations, c->counters.factorisations,
+                  c->solve.seconds_setup, c->solve.seconds_solve);
     if (c->counters.negative_pivots > 0)
-        fprintf(to,
-                "unstable: up to %ld negative pivots of the tangent at a state that was reached\n",
-                c->counters.negative_pivots);
+        paragraph_say(
+            to, 0, INDENT,
+            "unstable: up to %ld negative pivots of the tangent at a state that was reached",
+            c->counters.negative_pivots);
     for (int i = 0; i < c->left_out_lines; i++)
-        fprintf(to, "left out: %s\n", c->left_out[i]);
+        paragraph_write(to, fprintf(to, "left out: "), INDENT, c->left_out[i]);
     table_path_events(to, &c->solve);
-    fprintf(to, "%-28s %24s %-10s %11s\n", "quantity", "value", "unit", "error");
-    for (int i = 0; i < c->solve.quantities; i++) {
-        const scene_quantity *q = &p->scene.quantity[i];
-        const quantity_result *v = &c->solve.quantity[i];
-        const truth *row = t != NULL ? verdict_truth(t, p, &one->formulation, i) : NULL;
-        if (q->reduction == SCENE_CURVE)
-            continue;
-        if (v->status != STATUS_OK) {
-            fprintf(to, "%-28s %24s %s\n", q->name, "-", v->reason);
-            continue;
-        }
-        fprintf(to, "%-28s %24.15g %-10s", q->name, v->value, q->unit);
-        table_percent(to, row != NULL ? verdict_error(q, v->value, row->value) : NAN);
-        fprintf(to, "%s%s", row != NULL ? " against " : "", row != NULL ? row->kind : "");
-        if (v->rounding > 1e-9)
-            fprintf(to, ", round-off %.1e", v->rounding);
-        fputc('\n', to);
-    }
+    fprintf(to, "%-*s %*s %-*s %11s\n", NAME, "quantity", VALUE, "value", UNIT, "unit", "error");
+    for (int i = 0; i < c->solve.quantities; i++)
+        if (p->scene.quantity[i].reduction != SCENE_CURVE)
+            quantity_line(to, s, t, i);
     predictions(to, p, t);
     table_path_matrices(to, &c->solve);
     table_path_steps(to, &c->solve);

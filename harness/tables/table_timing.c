@@ -4,6 +4,10 @@
 #include <string.h>
 
 #include "harness/judge/reach.h"
+#include "harness/tables/paragraph.h"
+#include "harness/tables/table.h"
+
+enum { NAME = 23 };
 
 /* First verdict of a series that has a truth, or NULL. */
 static const verdict *first_judged(const judgement *j, int series_index)
@@ -24,29 +28,40 @@ static double error_on(const sweep *s, const verdict *v, int mesh)
                : NAN;
 }
 
+/* Formulation and mesh; a longer name has a line of its own. Returns its columns. */
+static int subject(FILE *to, const series *one, int mesh)
+{
+    if (fprintf(to, "  %-*s", NAME, one->formulation.key) > 2 + NAME)
+        fprintf(to, "\n%*s", 2 + NAME, "");
+    return 2 + NAME + fprintf(to, "%5d", one->mesh[mesh]);
+}
+
 static void row(FILE *to, const sweep *s, const series *one, const verdict *v, int mesh)
 {
     const cell_result *c = &one->cell[mesh];
     const rounds_reading *t = &one->timing[mesh].as_is;
     const double error = v != NULL ? error_on(s, v, mesh) : NAN;
-    fprintf(to, "  %-28s %5d %8d %10ld %12ld %9ld", one->formulation.key, one->mesh[mesh],
-            c->size.free, c->counters.iterations, c->counters.strain_evaluations,
-            c->counters.factorisations);
+    int column = subject(to, one, mesh);
+    column += fprintf(to, "%7d%7ld%9ld%9ld", c->size.free, c->counters.iterations,
+                      c->counters.strain_evaluations, c->counters.factorisations);
     if (t->rounds > 0)
-        fprintf(to, " %9.4g ms %9.4g ms %5.0f%%", 1e3 * t->setup, 1e3 * t->solve,
-                100 * (rounds_most(t) / rounds_least(t) - 1));
+        column += fprintf(to, " %8.4g %8.4g %3.0f %%", 1e3 * t->setup, 1e3 * t->solve,
+                          100 * (rounds_most(t) / rounds_least(t) - 1));
     else
-        fprintf(to, " %12s %12s %6s", "-", "-", "-");
-    if (isfinite(error))
-        fprintf(to, "  %+.3e\n", error);
-    else
-        fprintf(to, "  %s\n", c->solve.reason[0] != '\0' ? c->solve.reason : "-");
+        column += fprintf(to, " %8s %8s %5s", "-", "-", "-");
+    if (isfinite(error) || c->solve.reason[0] == '\0') {
+        table_percent(to, error);
+        fputc('\n', to);
+    } else
+        paragraph_say(to, column, 6, " %s", c->solve.reason);
 }
 
 static void rows(FILE *to, const sweep *s, const judgement *j, int at)
 {
-    fprintf(to, "  %-28s %5s %8s %10s %12s %9s %12s %12s %6s  %s\n", "formulation", "n", "unknowns",
-            "iterations", "evaluations", "factors", "set-up", "solution", "noise", "error");
+    fprintf(to, "%*s%7s%7s%9s%9s %8s %8s\n", 2 + NAME + 5, "", "un-", "itera-", "evalu-",
+            "factori-", "set-up", "solution");
+    fprintf(to, "  %-*s%5s%7s%7s%9s%9s %8s %8s %5s %11s\n", NAME, "formulation", "n", "knowns",
+            "tions", "ations", "sations", "[ms]", "[ms]", "noise", "error");
     for (int i = 0; i < s->seriess; i++)
         for (int k = 0;
              k < s->series[i].meshes && s->series[i].point == at && s->series[i].missing[0] == '\0';
@@ -61,17 +76,17 @@ static void parts_of(FILE *to, const series *one, int mesh)
     const long iterations = one->cell[mesh].counters.iterations;
     if (t->as_is.rounds == 0 || iterations == 0)
         return;
-    fprintf(to, "  %-28s %5d ", one->formulation.key, one->mesh[mesh]);
+    subject(to, one, mesh);
     for (int k = 0; k < PHASES; k++)
         fprintf(to, " %14.4g", 1e6 * t->phase[k] / (double)iterations);
-    if (t->dense.whole.rounds > 0)
-        fprintf(to, "  dense %.4g ms", 1e3 * rounds_least(&t->dense.whole));
-    else if (t->dense.unknowns > 0)
-        fprintf(to, "  dense %ld x %.4g ms", iterations, 1e3 * t->dense.iteration);
-    if (t->dense.unknowns > 0)
-        fprintf(to, " (%d unknowns): %.4g times ours", t->dense.unknowns,
-                dense_reference_seconds(&t->dense, iterations) / rounds_least(&t->as_is));
     fputc('\n', to);
+    if (t->dense.whole.rounds > 0)
+        fprintf(to, "    dense %.4g ms", 1e3 * rounds_least(&t->dense.whole));
+    else if (t->dense.unknowns > 0)
+        fprintf(to, "    dense %ld x %.4g ms", iterations, 1e3 * t->dense.iteration);
+    if (t->dense.unknowns > 0)
+        fprintf(to, " (%d unknowns): %.4g times ours\n", t->dense.unknowns,
+                dense_reference_seconds(&t->dense, iterations) / rounds_least(&t->as_is));
 }
 
 static void parts(FILE *to, const sweep *s, int at)
@@ -84,7 +99,7 @@ static void parts(FILE *to, const sweep *s, int at)
             iterative |= s->series[i].cell[k].counters.iterations > 0;
     if (!iterative)
         return;
-    fprintf(to, "  %-28s %5s ", "microseconds per iteration", "n");
+    fprintf(to, "  %-*s%5s", NAME, "[us] in an iteration", "n");
     for (int k = 0; k < PHASES; k++)
         fprintf(to, " %14s", phase_name((phase)k));
     fputc('\n', to);

@@ -80,7 +80,7 @@ static void print_numbers(FILE *to, const series *one, const verdict *v)
     rounding_digits(v->truth->uncertainty, 2, known);
     rounding_known(v->finest, v->fit.limit_uncertainty, finest);
     rounding_percent(v->error, error);
-    paragraph_say(to, INDENT,
+    paragraph_say(to, 0, INDENT,
                   "limit %s +- %s, off by %s; truth %s +- %s (%s, %s); finest mesh, n = %d: %s",
                   limit, doubt, error, truth_text, known, v->truth->kind, v->truth->source,
                   one->mesh[one->meshes - 1], finest);
@@ -99,12 +99,12 @@ static void print_verdict(FILE *to, screen look, const sweep *s, const verdict *
     screen_put(to, look, SCREEN_BAD, verdict_name(v->kind));
     fprintf(to, ", expected %s\n",
             v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
-    paragraph_say(to, INDENT, "%s", sentence);
+    paragraph_say(to, 0, INDENT, "%s", sentence);
     print_numbers(to, one, v);
     if (v->reason[0] != '\0' && isfinite(v->finest)) /* else it is in the sentence */
-        paragraph_say(to, INDENT, "%s", v->reason);
+        paragraph_say(to, 0, INDENT, "%s", v->reason);
     if (v->rule != NULL)
-        paragraph_say(to, INDENT, "finding %s: %s", v->rule->name, v->rule->cause);
+        paragraph_say(to, 0, INDENT, "finding %s: %s", v->rule->name, v->rule->cause);
     print_command(to, p, one);
 }
 
@@ -113,7 +113,7 @@ static void print_disagreement(FILE *to, const sweep *s, const agreement *a, int
     const series *one = &s->series[a->series];
     const point *p = &s->point[one->point];
     print_subject(to, number, p, one, p->scene.quantity[a->quantity].name);
-    paragraph_say(to, INDENT, "n = %d: %.12g differs from the stored %.12g (%s)",
+    paragraph_say(to, 0, INDENT, "n = %d: %.12g differs from the stored %.12g (%s)",
                   one->mesh[a->mesh], a->value, a->truth->value, a->truth->source);
     print_command(to, p, one);
 }
@@ -125,7 +125,7 @@ static void print_flaw(FILE *to, const sweep *s, const flaw *c, int number)
     char what[32];
     snprintf(what, sizeof what, "n = %d", one->mesh[c->mesh]);
     print_subject(to, number, p, one, what);
-    paragraph_say(to, INDENT, "contradicts itself: %s", c->why);
+    paragraph_say(to, 0, INDENT, "contradicts itself: %s", c->why);
     print_command(to, p, one);
 }
 
@@ -138,10 +138,10 @@ static void print_rules(FILE *to, const truths *t, int *number)
         print_heading(to, ++*number, "finding %s %s", r->name,
                       r->observed == 0 ? "was not observed"
                                        : "names a prediction that no verdict met");
-        paragraph_say(to, INDENT, "formulations: %s", r->formulations);
-        paragraph_say(to, INDENT, "cases: %s", r->cases);
-        paragraph_say(to, INDENT, "quantities: %s", r->quantities);
-        paragraph_say(to, INDENT, "cause: %s", r->cause);
+        paragraph_say(to, 0, INDENT, "formulations: %s", r->formulations);
+        paragraph_say(to, 0, INDENT, "cases: %s", r->cases);
+        paragraph_say(to, 0, INDENT, "quantities: %s", r->quantities);
+        paragraph_say(to, 0, INDENT, "cause: %s", r->cause);
     }
 }
 

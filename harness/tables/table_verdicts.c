@@ -38,7 +38,7 @@ static void print_other_model(const block *b, const truth *other)
 {
     char value[ROUNDING_TEXT];
     rounding_known(other->value, other->uncertainty, value);
-    paragraph_say(b->to, 4, "another model: %s (%s, %s)", value, other->kind, other->source);
+    paragraph_say(b->to, 0, 4, "another model: %s (%s, %s)", value, other->kind, other->source);
 }
 
 /* A quantity and the truth that the verdict and those below it are judged by. */
@@ -109,7 +109,7 @@ static void print_verdict(block *b, const verdict *v)
     fprintf(b->to, "  ");
     paragraph_write(b->to, column, 6, words);
     if (v->reason[0] != '\0')
-        paragraph_say(b->to, 6, "%s", v->reason);
+        paragraph_say(b->to, 0, 6, "%s", v->reason);
 }
 
 /* The verdicts of a quantity, those judged by the same truth together. */
@@ -155,7 +155,7 @@ static void print_skipped(block *b)
                 b->verdict[k] = NULL;
         }
         if (fclose(line) == 0)
-            paragraph_say(b->to, 2, "%s", text);
+            paragraph_say(b->to, 0, 2, "%s", text);
         free(text);
     }
 }
@@ -163,7 +163,7 @@ static void print_skipped(block *b)
 static void print_rules(const block *b)
 {
     for (int i = 0; i < b->rules; i++)
-        paragraph_say(b->to, 2, "[%d] %s: %s", i + 1, b->rule[i]->name, b->rule[i]->cause);
+        paragraph_say(b->to, 0, 2, "[%d] %s: %s", i + 1, b->rule[i]->name, b->rule[i]->cause);
 }
 
 static void print_point(block *b, const judgement *j, int index)
