@@ -25,10 +25,11 @@ KIT_SOURCES := $(sort $(filter-out %_test.c,$(wildcard elements/test/*.c harness
 PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py reports/test/*_test.py harness/*/test/*_test.py))))
 
 REGISTRY := $(BUILD)/registry.c
+PRICES := $(BUILD)/price_table.c
 LIBRARY := $(BUILD)/libbeamwork.a
 PROGRAM := $(BUILD)/beamwork
 TRUTHS := $(BUILD)/truths.h5
-OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o)
+OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o) $(PRICES:.c=.o)
 TESTS := $(TEST_SOURCES:%.c=$(BUILD)/%)
 KIT := $(KIT_SOURCES:%.c=$(BUILD)/%.o)
 
@@ -47,7 +48,7 @@ ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
-.PHONY: help all verify test tests newton stress bench bench-check bench-mechanisms bench-elements causes mutants layers asan tidy format format-check check clean report truths FORCE
+.PHONY: help all verify test tests newton stress bench prices bench-check bench-mechanisms bench-elements causes mutants layers asan tidy format format-check check clean report truths FORCE
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -88,6 +89,9 @@ stress: all ## drive every formulation to extremes; a table, and build/stress.js
 
 bench: all ## time every formulation on every case into build/bench.h5
 	@$(PROGRAM) bench -o $(BUILD)/bench.h5
+
+prices: all ## what counted work costs, fitted to measured times: half an hour on a quiet machine; harness/timing/prices.csv
+	@$(PYTHON) harness/tools/prices.py $(PROGRAM) -o harness/timing/prices.csv
 
 bench-mechanisms: all ## joint and hexapod: growth with the elements, parts of an iteration, the dense reference
 	@$(PROGRAM) bench spherical_joint -f sheet_third -f sheet_second -f collocation -n 1,2,4,8,16,32 --dense -o $(BUILD)/mechanisms_joint.h5
@@ -165,6 +169,9 @@ needs-report needs-test needs-truths: | $(TRUTHS) # one apt at a time
 $(REGISTRY): FORCE
 	@harness/tools/registry.sh $@ $(FORMULATIONS) $(CASES)
 
+$(PRICES): harness/timing/prices.csv harness/tools/price_table.sh
+	@harness/tools/price_table.sh $@ $<
+
 # The list of objects: when a source disappears, the archive is made anew.
 $(BUILD)/objects.list: FORCE
 	@mkdir -p $(@D); echo '$(CC) $(CFLAGS) $(OBJECTS)' | cmp -s - $@ || echo '$(CC) $(CFLAGS) $(OBJECTS)' >$@
@@ -180,7 +187,8 @@ $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
 	$(call SAY,compile $<)$(CC) $(BASE_CFLAGS) $(CFLAGS) $(DEP_CFLAGS) $(DEFINES) -MMD -MP -c $< -o $@
 
-$(REGISTRY:.c=.o): $(REGISTRY)
+$(PRICES:.c=.o): harness/timing/price.h
+$(REGISTRY:.c=.o) $(PRICES:.c=.o): $(BUILD)/%.o: $(BUILD)/%.c
 	$(call SAY,compile $<)$(CC) $(BASE_CFLAGS) $(CFLAGS) $(DEP_CFLAGS) -c $< -o $@
 
 $(LIBRARY): $(OBJECTS) $(BUILD)/objects.list

@@ -1,24 +1,62 @@
-"""Which formulation, with how many elements, reaches a tolerance soonest: the answers that pages show."""
-import math
-from dataclasses import dataclass
+"""Which formulation, with how many elements, reaches a tolerance soonest: the answers that pages show.
 
+One rule, that of harness/judge/reach.h: n is the least mesh from which on the error of every mesh is
+within the level; formulations stand in the order of the cost of their counted work on that mesh, so
+that two runs say the same; those whose costs differ by less than prices are known tie; one that does
+not pass in what is asked is never the cheapest and stands beside. Measured times are shown.
+
+    found = answers.answer(point, quantity, level)    # quantity: a name, or ALL
+    found.best       [Way] the cheapest one, and those within noise of it; empty: none
+    found.dearer     [Way] the other ones that pass, by cost
+    found.defective  [Way] within the level too, but with a verdict that is not a pass, by cost
+    found.faster     [Way] of the dearer ones: measured faster than the cheapest in every round
+    found.missed     [key] not within the level on these meshes
+    found.unjudged   [key] without a truth of their theory in all that is asked
+"""
+import math
+from dataclasses import dataclass, field
+
+from reports import data
 from reports import verdicts as words
 
 ALL = "all quantities"
+SOUND = ("pass", *words.UNJUDGED)
 
 
 @dataclass
 class Way:
-    """The cheapest mesh of a formulation that stays within a level on every finer mesh too."""
+    """The least mesh from which on a formulation stays within a level."""
     key: str
     n: int
-    clock: object  # data.Clock
-    error: float
+    cost: float  # [s] of counted work, at the prices of the reference machine
+    clock: object  # data.Clock: measured
+    error: float  # of largest size of what is asked, on that mesh
     worst: object  # data.Verdict: the worst of those that it takes
+    defects: list  # verdicts of them that are not a pass
 
     @property
     def seconds(self):
         return self.clock.least
+
+
+@dataclass
+class Answer:
+    """What reaches a level, of one quantity or of all of a point."""
+    quantity: str
+    level: float
+    best: list = field(default_factory=list)
+    dearer: list = field(default_factory=list)
+    defective: list = field(default_factory=list)
+    faster: list = field(default_factory=list)
+    missed: list = field(default_factory=list)
+    unjudged: list = field(default_factory=list)
+
+    @property
+    def ways(self):
+        """All that are within the level: [(Way, rank, tie)]; a defect has no rank."""
+        ranked = self.best + self.dearer
+        return [(w, i + 1, len(self.best) > 1 and i < len(self.best))
+                for i, w in enumerate(ranked)] + [(w, 0, False) for w in self.defective]
 
 
 def judged(point):
@@ -41,21 +79,78 @@ def error_of(mesh, quantities):
     return math.nan if any(not math.isfinite(e) for e in errors) else max(errors, key=abs)
 
 
+def first_within(series, quantity, level):
+    """Elements of the least mesh from which on every error is within the level, or None."""
+    found = None
+    for mesh in reversed(series.meshes):
+        if not abs(mesh.errors.get(quantity, math.nan)) <= level:
+            break
+        found = mesh.n
+    return found
+
+
+def reach(series, v, level):
+    """The same: as the judge has stored it, at its levels."""
+    if not math.isfinite(v.truth):
+        return None
+    return v.reach.get(level) if level in data.REACH else first_within(series, v.quantity, level)
+
+
+def verdicts_on(series, quantities):
+    """Verdicts on all of them, or None where one has no truth of the formulation's theory."""
+    found = [verdict_of(series, q) for q in quantities]
+    known = not series.missing and found and all(v and math.isfinite(v.truth) for v in found)
+    return found if known else None
+
+
 def way(series, quantities, level):
     """The way of one formulation to have all these quantities within the level, or None."""
-    verdicts = [verdict_of(series, q) for q in quantities]
-    if series.missing or not verdicts or any(v is None or level not in v.reach for v in verdicts):
+    verdicts = verdicts_on(series, quantities)
+    if verdicts is None:
         return None
-    first = max(v.reach[level] for v in verdicts)
-    mesh = min((m for m in series.meshes if m.n >= first), key=lambda m: m.seconds)
-    return Way(series.key, mesh.n, mesh.clock, error_of(mesh, quantities), words.worst(verdicts))
+    counts = [reach(series, v, level) for v in verdicts]
+    if None in counts:
+        return None
+    mesh = next(m for m in series.meshes if m.n == max(counts))
+    return Way(series.key, mesh.n, mesh.cost, mesh.clock, error_of(mesh, quantities),
+               words.worst(verdicts), [v for v in verdicts if v.verdict not in SOUND])
 
 
-def ways(point, quantity, level):
-    """Of all formulations, the cheapest first."""
+def defect_words(w):
+    """What is known against a way, in words: the worst of it."""
+    if w.worst.verdict in words.OWN_LIMITS:
+        return "with a limit of its own"
+    return {"low order": "of low order", "undecided": "with a limit that is not known"}.get(
+        w.worst.verdict, w.worst.verdict)
+
+
+def by_cost(w):
+    return math.isnan(w.cost), w.cost, w.key
+
+
+def answer(point, quantity, level):
+    """The Answer of a point: see above."""
     quantities = judged(point) if quantity == ALL else [quantity]
-    found = [way(series, quantities, level) for series in point.series]
-    return sorted((w for w in found if w is not None), key=lambda w: w.seconds)
+    out, sound = Answer(quantity, level), []
+    for series in point.series:
+        found = way(series, quantities, level)
+        if found is not None:
+            (out.defective if found.defects else sound).append(found)
+        elif verdicts_on(series, quantities):
+            out.missed.append(series.key)
+        elif not series.missing:
+            out.unjudged.append(series.key)
+    sound.sort(key=by_cost)
+    out.defective.sort(key=by_cost)
+    ties = sum(not w.cost > point.noise * sound[0].cost for w in sound)
+    out.best, out.dearer = sound[:ties], sound[ties:]
+    out.faster = [w for w in out.dearer if faster(w.clock, sound[0].clock)]
+    return out
+
+
+def faster(a, b):
+    """Were all rounds of one clock below all rounds of the other?"""
+    return a.repeats > 1 and b.repeats > 1 and a.most < b.least
 
 
 def differ(a, b):
@@ -63,19 +158,6 @@ def differ(a, b):
     if a.repeats > 1 and b.repeats > 1:
         return a.most < b.least or b.most < a.least
     return max(a.least, b.least) > 2 * min(a.least, b.least)
-
-
-def undecided(found):
-    """The ways whose times the noise does not tell from the first one's."""
-    return [w for w in found[1:] if not differ(w.clock, found[0].clock)]
-
-
-def speed_up(found):
-    """(least, most) factor from the first to the next formulation that is truly slower, and its key; None when there is none."""
-    for w in found[1:]:
-        if differ(w.clock, found[0].clock):
-            return w.seconds / found[0].seconds, w.key
-    return None
 
 
 def front(point, quantity):

@@ -41,23 +41,21 @@ def figures_of(site, case, index):
 
 
 def table_of(point, quantity):
-    """[(formulation, {level: (way, factor to the cheapest, undecided)})]: how soon each formulation is within each level."""
+    """[(formulation, {level: (way, factor to the cheapest, tie)})]: what each formulation needs for each level."""
     rows = {}
     for level in LEVELS:
-        found = answers.ways(point, quantity, level)
-        for w in found:
-            rows.setdefault(w.key,
-                            {})[level] = (w, w.seconds / found[0].seconds, w is not found[0] and
-                                          not answers.differ(w.clock, found[0].clock))
-    return sorted(rows.items(),
-                  key=lambda r: (-len(r[1]), min(w[0].seconds for w in r[1].values())))
+        found = answers.answer(point, quantity, level)
+        for w, _, tie in found.ways:
+            factor = w.cost / found.best[0].cost if found.best else math.nan
+            rows.setdefault(w.key, {})[level] = (w, factor, tie)
+    return sorted(rows.items(), key=lambda r: (-len(r[1]), min(w[0].cost for w in r[1].values())))
 
 
 def cheapest_of(point):
-    """[(quantity, {level: ways})], with all quantities together first."""
+    """[(quantity, {level: answers.Answer})], with all quantities together first."""
     names = answers.judged(point)
     wanted = ([answers.ALL] if len(names) > 1 else []) + names
-    return [(q, {level: answers.ways(point, q, level) for level in LEVELS}) for q in wanted]
+    return [(q, {level: answers.answer(point, q, level) for level in LEVELS}) for q in wanted]
 
 
 def limits_of(point):
@@ -94,7 +92,6 @@ def write(site, case):
                case=case,
                parts=[parts_of(site, case, i) for i in range(len(case.points))],
                sections=sections,
-               undecided=answers.undecided,
                differ=answers.differ,
                timed=site.bench is not None)
 

@@ -161,8 +161,8 @@ def headlines(site):
         rows.append(row_dense(dense, claim, ("sheet_third", 1), ("sheet_second", 2)))
         point = look.points.get((claim[0], ""))
         for level in LEVELS if point else ():
-            found = answers.ways(point, answers.ALL, level)
-            soonest += [(claim[0], level, found)] if found else []
+            found = answers.answer(point, answers.ALL, level)
+            soonest += [(claim[0], level, found)] if found.ways else []
     return [r for r in rows if r], soonest
 
 
@@ -174,7 +174,7 @@ def both(mesh):
 def peers(site):
     """(rows by unknowns, figure, answer) of the case that other programs were run on."""
     point = Lookup(site.cases).points.get(("sheet_cantilever", canonical(PEERS)))
-    ours, reached, out = [], [], []
+    ours, out = [], []
     others = {
         s.key: [m for m in s.meshes if all(map(math.isfinite, both(m)))]
         for s in point.others
@@ -185,10 +185,10 @@ def peers(site):
         meshes = [m for m in series.meshes if all(map(math.isfinite, both(m)))]
         ours += [(series.key, meshes)] if meshes else []
         out += [(series.key, m.n, m.free, *both(m), m.clock.solve, True) for m in meshes]
-        reached += [(m.clock.solve, series.key, m.n) for m in meshes
-                    if max(map(abs, both(m))) <= TARGET[0]]
     figure = plots.peers_figure(site, ours, others, "peers") if ours else None
-    return sorted(out, key=lambda row: (row[2], row[0])), figure, min(reached, default=None)
+    ways = [answers.way(s, ["C_xx", "C_zz"], TARGET[0]) for s in (point.series if point else [])]
+    best = min((w for w in ways if w and not w.defects), key=answers.by_cost, default=None)
+    return sorted(out, key=lambda row: (row[2], row[0])), figure, best
 
 
 def write(site):
@@ -199,7 +199,6 @@ def write(site):
                claims=claims(site.cases, site.truths),
                headlines=compared,
                soonest=soonest,
-               undecided=answers.undecided,
                peers=rows,
                errors=figure,
                best=best,

@@ -71,7 +71,11 @@ def read_cell(row):
     work = {name: float(value) for name, value in row.items() if isinstance(value, (int, float))}
     clock = Clock(setup, solve, setup + solve, setup + solve, 1)
     return Mesh(row["elements"], row["status"], row["reason"], clock, row["free"],
-                row["iterations"], row["left_out"], work)
+                row["iterations"],
+                row["left_out"],
+                work,
+                cost=row.get("cost", math.nan),
+                priced=row.get("priced", True))
 
 
 def read_meshes(group):
@@ -98,7 +102,7 @@ def read_verdict(row):
     return Verdict(**own, reach={level: row[name] for level, name in REACH.items() if row[name]})
 
 
-def read_points(group, meshes, units):
+def read_points(group, meshes, units, noise):
     series, points = {}, []
     for row in rows(group, "series"):
         series[of_series(row)] = Series(row["formulation"], row["summary"], row["source"],
@@ -113,7 +117,8 @@ def read_points(group, meshes, units):
                      key=lambda s: s.key)
         ours, others = [s for s in own if not s.imported], [s for s in own if s.imported]
         points.append(
-            Point(row["point"], row["parameters"], ours, units.get(row["point"], {}), others))
+            Point(row["point"], row["parameters"], ours, units.get(row["point"], {}), others,
+                  noise))
     return sorted(points, key=lambda p: (p.name != "default", p.parameters))
 
 
@@ -124,7 +129,7 @@ def read_case(path, name, bench=None):
         meshes, units = read_meshes(group)
         read_timings(group, meshes)
         case = Case(name, text(group.attrs["summary"]), text(group.attrs["source"]),
-                    read_points(group, meshes, units), rows(group, "coverages"))
+                    read_points(group, meshes, units, float(file.attrs.get("cost_noise", 1))), rows(group, "coverages"))
     if bench:
         read_bench(bench, name, meshes)
     return case

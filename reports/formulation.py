@@ -76,8 +76,8 @@ def median(values):
 
 
 def all_ways(cases):
-    """{(case, level): ways to have all judged quantities at the default parameters}."""
-    return {(c.name, level): answers.ways(c.points[0], answers.ALL, level)
+    """{(case, level): answers.Answer for all judged quantities at the default parameters}."""
+    return {(c.name, level): answers.answer(c.points[0], answers.ALL, level)
             for c in cases for level in LEVELS}
 
 
@@ -87,16 +87,16 @@ def speed(found, key, known):
     for level in LEVELS:
         posed, reached, first, factors = 0, 0, [], []
         for case, _, series in found:
-            ways = known[case.name, level]
-            if series.missing or not ways:
+            answer = known[case.name, level]
+            if series.missing or not answer.best:
                 continue
             posed += 1
-            own = next((w for w in ways if w.key == key), None)
+            own = next((w for w in answer.best + answer.dearer if w.key == key), None)
             if own is None:
                 continue
             reached += 1
-            factors.append(own.seconds / ways[0].seconds)
-            if own is ways[0] or own in answers.undecided(ways):
+            factors.append(own.cost / answer.best[0].cost)
+            if own in answer.best:
                 first.append((case.name, own.n))
         out.append((level, posed, reached, first, median(factors)))
     return out

@@ -17,8 +17,8 @@ class Line:
 
 def soonest(point, quantity, level):
     """The way that wins, or None where no formulation is there."""
-    found = answers.ways(point, quantity, level)
-    return found[0] if found else None
+    found = answers.answer(point, quantity, level)
+    return found.best[0] if found.best else None
 
 
 def line(case, quantity=None):

@@ -32,12 +32,12 @@ def formulation_rows(cases):
 
 
 def table_of(case):
-    """[(what is asked, ways to LEVEL)] at the defaults: the first judged quantity, and all together."""
+    """[(what is asked, answers.Answer to LEVEL)] at the defaults: the first judged quantity, and all together."""
     point = case.points[0]
     names = answers.judged(point)
     asked = [(names[0], names[0])] if names else []
     asked += [(f"all {len(names)} quantities", answers.ALL)] if len(names) > 1 else []
-    return [(words, answers.ways(point, quantity, LEVEL)) for words, quantity in asked]
+    return [(words, answers.answer(point, quantity, LEVEL)) for words, quantity in asked]
 
 
 def write(site):
@@ -55,7 +55,7 @@ def write(site):
                if compared.any else None, rows=rows[:MOST_ROWS], compared=compared,
                counts=tally.count_verdicts(site.cases),
                tables={c.name: table_of(c) for c in site.cases},
-               verdicts=formulation_rows(site.cases), undecided=answers.undecided)
+               verdicts=formulation_rows(site.cases))
 
 
 def tasks(site):

@@ -49,6 +49,8 @@ class Mesh:
     parts: dict = field(default_factory=dict)  # part of Newton's iterations -> seconds
     dense: Dense = None
     predictions: dict = field(default_factory=dict)  # quantity -> value of an analytic model
+    cost: float = math.nan  # [s] of counted work, at the prices of the reference machine
+    priced: bool = True  # by prices of its formulation, not by those of any
 
     @property
     def seconds(self):
@@ -116,6 +118,7 @@ class Point:
     series: list
     units: dict
     others: list = field(default_factory=list)  # series of other programs (reports/beside.py)
+    noise: float = 1.25  # costs whose ratio is below it tie
 
 
 @dataclass

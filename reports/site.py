@@ -6,7 +6,7 @@ import pathlib
 import jinja2
 from markupsafe import Markup, escape
 
-from reports import beside, data, figures, glossary, navigation, style, verdicts
+from reports import answers, beside, data, figures, glossary, navigation, style, verdicts
 from reports.style import Styles, plt
 
 LEVELS = (0.1, 0.01, 0.001, 0.0001)
@@ -82,6 +82,7 @@ class Site:
                                       nan=math.nan,
                                       kinds_of_verdicts=verdicts.BY_NAME,
                                       remarks=verdicts.remarks,
+                                      defect_words=answers.defect_words,
                                       bar=self.bar,
                                       has_page=self.has_page,
                                       colour=self.styles.fill,

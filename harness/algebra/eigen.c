@@ -80,6 +80,15 @@ static status count_existing(candidates *p, int enough, double scale, double lea
     return STATUS_OK;
 }
 
+/* Both sides (NULL: not asked for) from all eigenvectors. */
+static status solve_densely(candidates *up, candidates *down, const int wanted[2], eigen_result *r,
+                            fault *f)
+{
+    const double n = r->n;
+    r->dense_operations += n * n * n;
+    return eigen_dense_add((candidates *[]){up, down}, wanted, f);
+}
+
 /* Candidates until the inertia says that no eigenvalue above the last wanted one is missing. */
 static status fill(candidates *p, int wanted, double scale, double least, eigen_result *r, fault *f)
 {
@@ -127,8 +136,8 @@ static status one_sparse(candidates *p, int side, int wanted, eigen_side *out, e
         fill(p, wanted, scale, fmax(negligible * scale, candidates_least(p->n, scale)), r, &why);
     if (out->status == STATUS_NOT_CONVERGED && p->n <= DENSE_AT_LAST_UP_TO) {
         p->count = 0;
-        out->status = eigen_dense_add((candidates *[]){side == 0 ? p : NULL, side == 0 ? NULL : p},
-                                      (int[]){wanted, wanted}, &why);
+        out->status = solve_densely(side == 0 ? p : NULL, side == 0 ? NULL : p,
+                                    (int[]){wanted, wanted}, r, &why);
     }
     if (out->status == STATUS_OK)
         return STATUS_OK;
@@ -232,7 +241,7 @@ static status find(const eigen_problem *e, candidates *up, candidates *down, eig
 {
     const int most = (e->largest > e->smallest ? e->largest : e->smallest) + SPARE + 1;
     if ((r->n <= DENSE_UP_TO && !e->iterate) || most >= r->n)
-        return eigen_dense_add((candidates *[]){up, down}, (int[]){e->largest, e->smallest}, f);
+        return solve_densely(up, down, (int[]){e->largest, e->smallest}, r, f);
     TRY(one_sparse(up, 0, e->largest, &r->positive, r, f));
     return one_sparse(down, 1, e->smallest, &r->negative, r, f);
 }

@@ -47,6 +47,7 @@ typedef struct eigen_result {
     int n;
     eigen_side positive, negative;
     long solutions, factorisations;
+    double dense_operations; /* n^3 of what was solved densely */
 } eigen_result;
 
 /* REFUSED when K is not positive definite; NOT_CONVERGED when one of the sides is: what either side

@@ -113,6 +113,7 @@ static status start(solver *s, int count, fault *f)
             subspace_add(&s->basis, e.positive.mode + (size_t)i * (size_t)s->basis.n);
     s->out->solutions += e.solutions;
     s->out->factorisations += e.factorisations;
+    s->out->dense_operations += e.dense_operations;
     eigen_free(&e);
     return outcome;
 }

@@ -154,8 +154,7 @@ static status solve(analysis_context *c, int analysis, buckling *b, fault *f)
                        .context = &b->of};
     wanted_of(c, analysis, &p);
     const status result = eigen_solve(&p, &b->found, f);
-    model_counters(c->model)->solutions += b->found.solutions;
-    model_counters(c->model)->factorisations += b->found.factorisations;
+    context_count_eigen(c, &b->found);
     return result;
 }
 

@@ -164,8 +164,7 @@ static status solve(analysis_context *c, int analysis, linear_system *s, modal_f
                              .K_product = stiffness_product,
                              .context = about};
     const status result = eigen_solve(&p, e, f);
-    model_counters(c->model)->solutions += e->solutions;
-    model_counters(c->model)->factorisations += e->factorisations;
+    context_count_eigen(c, e);
     return result;
 }
 

@@ -187,6 +187,7 @@ static status find_modes(analysis_context *c, const gyroscopic_problem *problem,
     const status found = gyroscopic_solve(problem, result, f);
     model_counters(c->model)->solutions += result->solutions;
     model_counters(c->model)->factorisations += result->factorisations;
+    model_counters(c->model)->dense_operations += result->dense_operations;
     TRY(found);
     return take_modes(c, result, out, f);
 }

@@ -31,7 +31,7 @@ static void write_text(FILE *to, int verbose, const sweep *s, const truths *t)
         fputc('\n', to);
     } else if (running(s) > 1)
         table_beside(to, s, t);
-    reach_line_write(to, s, t);
+    reach_line_write(to, s, t, REACH_LINE_LEVEL);
 }
 
 static status write_form(FILE *to, const command_request *r, const sweep *s, const truths *t,

@@ -140,6 +140,7 @@ static void geometric_of(model *m, int i, const double sigma[], double H[], doub
     else
         memset(G, 0, (size_t)(m->strains * m->strains) * sizeof *G);
     m->counters.strain_evaluations++;
+    m->counters.geometric_evaluations++;
 }
 
 status linear_geometric_stiffness(model *m, const double sigma[], double path, sparse *out,

@@ -148,8 +148,8 @@ void model_free(model *m)
 
 model_size model_sizes(const model *m)
 {
-    return (model_size){m->elements, m->vertices, m->free,    m->driven,
-                        m->strains,  m->inner,    m->features};
+    return (model_size){m->elements, m->vertices, m->free,  m->driven,
+                        m->strains,  m->inner,    m->kinds, m->features};
 }
 
 int model_stresses(const model *m)

@@ -38,6 +38,7 @@ void model_free(model *);
 
 typedef struct model_size {
     int elements, vertices, free, driven, strains, inner; /* per element for the last two */
+    int kinds; /* of elements, each prepared once; identical ones share it */
     unsigned features;
 } model_size;
 model_size model_sizes(const model *);
@@ -52,12 +53,14 @@ int model_left_out(const model *, const char *const **lines);
 /* Work done so far; the solver adds its own. */
 typedef struct counters {
     long strain_evaluations, stress_evaluations, inertia_evaluations;
+    long geometric_evaluations; /* of the stiffness of a prestress */
     long iterations, steps, rejected_steps, factorisations, solutions;
     long factor_entries;
     double factor_flops;
-    long negative_pivots; /* most of a symmetric tangent at a state that was reached */
-    double condition;     /* largest estimate of the solved systems (factor_condition), where it was
-                             asked for; else 0 */
+    double dense_operations; /* n^3 of every eigenvalue problem solved densely */
+    long negative_pivots;    /* most of a symmetric tangent at a state that was reached */
+    double condition; /* largest estimate of the solved systems (factor_condition), where it was
+                         asked for; else 0 */
 } counters;
 counters *model_counters(model *);
 phases *model_phases(model *);

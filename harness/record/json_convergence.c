@@ -48,7 +48,7 @@ static json_t *sentence_of(const sweep *s, const truths *t)
     FILE *to = open_memstream(&text, &size);
     if (to == NULL)
         return NULL;
-    reach_line_write(to, s, t);
+    reach_line_write(to, s, t, REACH_LINE_LEVEL);
     json_t *out = fclose(to) == 0 && size > 0 ? json_stringn(text, size - 1) : NULL;
     free(text);
     return out;

@@ -2,83 +2,125 @@
 
 #include <stdlib.h>
 
-/* A series that reaches the level. */
-typedef struct reached {
-    const char *key;
-    int elements;
-    double seconds;
-} reached;
-
-static int sooner(const void *a, const void *b)
+static const char *defect_words(verdict_kind kind)
 {
-    const double p = ((const reached *)a)->seconds, q = ((const reached *)b)->seconds;
-    return (p > q) - (p < q);
-}
-
-static int find_reached(const sweep *s, const truths *t, reached *out)
-{
-    int count = 0;
-    for (int i = 0; i < s->seriess; i++) {
-        const series *one = &s->series[i];
-        const int mesh = reach_every(s, t, i, REACH_LINE_LEVEL);
-        if (mesh < 0)
-            continue;
-        const solve_result *r = &one->cell[mesh].solve;
-        out[count++] =
-            (reached){one->formulation.key, one->mesh[mesh], r->seconds_setup + r->seconds_solve};
-    }
-    qsort(out, (size_t)count, sizeof *out, sooner);
-    return count;
-}
-
-static void write_unreached(FILE *to, const sweep *s, const truths *t)
-{
-    const char *before = "; not reached by ";
-    for (int i = 0; i < s->seriess; i++) {
-        if (s->series[i].missing[0] != '\0' || reach_every(s, t, i, REACH_LINE_LEVEL) >= 0)
-            continue;
-        fprintf(to, "%s%s", before, s->series[i].formulation.key);
-        before = ", ";
+    switch (kind) {
+    case VERDICT_LOW_ORDER:
+        return "of low order";
+    case VERDICT_UNDECIDED:
+        return "with a limit that is not known";
+    default:
+        return "with a limit of its own";
     }
 }
 
-/* Number of quantities that formulations have a reference for; those without are named. */
-static int write_unreferenced(FILE *to, const sweep *s, const truths *t)
+static void write_reached(FILE *to, const sweep *s, const reached *r)
 {
-    const char *before = "; no reference, neither a truth nor an agreement of two families, for ";
+    const series *one = &s->series[r->series];
+    fprintf(to, "%s n = %d (%.2g ms)", one->formulation.key, one->mesh[r->mesh], 1e3 * r->cost);
+}
+
+/* The cheapest ones, those behind them, those with a defect. */
+static void write_ranking(FILE *to, const reach_question *q, const reached list[], int count)
+{
+    const int ties = reach_ties(list, count);
+    int sound = 0;
+    while (sound < count && list[sound].defect == NULL)
+        sound++;
+    for (int i = 0; i < sound; i++) {
+        fputs(i == 0 ? "" : i < ties ? ", " : "; ", to);
+        write_reached(to, q->s, &list[i]);
+        if (ties > 1 && i == ties - 1)
+            fputs(": within noise of each other", to);
+    }
+    if (sound == 0)
+        fputs("no formulation that is right in all of it", to);
+    for (int i = sound; i < count; i++) {
+        if (i == sound)
+            fprintf(to, "; also within %g %%: ", 100 * q->level);
+        else
+            fputs(", ", to);
+        write_reached(to, q->s, &list[i]);
+        fprintf(to, " %s", defect_words(list[i].defect->kind));
+    }
+}
+
+static int is_reached(const reached list[], int count, int series_index)
+{
+    int found = 0;
+    for (int i = 0; i < count; i++)
+        found |= list[i].series == series_index;
+    return found;
+}
+
+/* Those of one kind (reach_asks) that are not in the list. */
+static void write_others(FILE *to, const reach_question *q, const reached list[], int count,
+                         int kind, const char *words)
+{
+    for (int i = 0; i < q->s->seriess; i++) {
+        if (reach_asks(q, i) != kind || is_reached(list, count, i))
+            continue;
+        fprintf(to, "%s%s", words, q->s->series[i].formulation.key);
+        words = ", ";
+    }
+}
+
+static int has_reference(const reach_question *q, int quantity)
+{
     int known = 0;
-    if (s->seriess > 0)
-        for (int q = 0; q < s->point[s->series[0].point].scene.quantities; q++) {
-            const point *p = &s->point[s->series[0].point];
-            int found = 0;
-            if (p->scene.quantity[q].reduction == SCENE_CURVE)
-                continue;
-            for (int i = 0; i < s->seriess; i++)
-                found |= verdict_reference(t, p, &s->series[i].formulation, q) != NULL;
-            known += found;
-            if (found)
-                continue;
-            if (to != NULL)
-                fprintf(to, "%s%s", before, p->scene.quantity[q].name);
-            before = ", ";
-        }
+    for (int i = 0; i < q->verdicts; i++)
+        known |= q->verdict[i].quantity == quantity && q->verdict[i].truth != NULL &&
+                 q->s->series[q->verdict[i].series].point == q->point;
     return known;
 }
 
-void reach_line_write(FILE *to, const sweep *s, const truths *t)
+/* Number of quantities that formulations have a reference for; those without are named. */
+static int write_unreferenced(FILE *to, const reach_question *q)
 {
-    reached *all = calloc((size_t)s->seriess + 1, sizeof *all);
-    const int count = all != NULL ? find_reached(s, t, all) : 0;
-    const int known = write_unreferenced(NULL, s, t);
-    fprintf(to, "for 1 %% in every quantity: ");
+    const char *before = "; no reference, neither a truth nor an agreement of two families, for ";
+    const scene *here = &q->s->point[q->point].scene;
+    int known = 0;
+    for (int i = 0; i < here->quantities; i++) {
+        if (here->quantity[i].reduction == SCENE_CURVE)
+            continue;
+        if (has_reference(q, i)) {
+            known++;
+            continue;
+        }
+        if (to != NULL)
+            fprintf(to, "%s%s", before, here->quantity[i].name);
+        before = ", ";
+    }
+    return known;
+}
+
+static void write_answer(FILE *to, const reach_question *q, reached list[])
+{
+    const int count = reach_ranking(q, list), known = write_unreferenced(NULL, q);
+    fprintf(to, "for %g %% in every quantity: ", 100 * q->level);
     if (count == 0)
-        fprintf(to, known > 0 ? "no formulation on these meshes" : "nothing to measure by");
-    for (int i = 0; i < count; i++)
-        fprintf(to, "%s%s n = %d (%.2g ms)", i > 0 ? "; " : "", all[i].key, all[i].elements,
-                1e3 * all[i].seconds);
-    if (known > 0)
-        write_unreached(to, s, t);
-    write_unreferenced(to, s, t);
+        fputs(known > 0 ? "no formulation on these meshes" : "nothing to measure by", to);
+    else
+        write_ranking(to, q, list, count);
+    if (known > 0) {
+        write_others(to, q, list, count, 1, "; not reached by ");
+        write_others(to, q, list, count, 0, "; without a truth of its theory in all of it: ");
+    }
+    write_unreferenced(to, q);
+}
+
+void reach_line_write(FILE *to, const sweep *s, const truths *t, double level)
+{
+    reach_question q = {.s = s,
+                        .point = s->seriess > 0 ? s->series[0].point : 0,
+                        .quantity = REACH_EVERY,
+                        .level = level};
+    verdict *all = reach_verdicts(s, t, &q.verdicts);
+    reached *list = calloc((size_t)s->seriess + 1, sizeof *list);
+    q.verdict = all;
+    if (all != NULL && list != NULL && s->points > 0)
+        write_answer(to, &q, list);
     fputc('\n', to);
     free(all);
+    free(list);
 }

@@ -1,5 +1,6 @@
 #include "harness/record/store.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,9 +9,11 @@
 #include "harness/record/vtkhdf.h"
 #include "harness/scene_writer/write.h"
 #include "harness/schema/gather.h"
+#include "harness/timing/price.h"
 
 static void put_environment(record *r, const environment *e)
 {
+    char noise[32];
     record_text(r, r->file, "schema", SCHEMA_NAME);
     record_count(r, r->file, "schema_version", SCHEMA_VERSION);
     record_text(r, r->file, "program_version", e->version);
@@ -21,6 +24,8 @@ static void put_environment(record *r, const environment *e)
     record_text(r, r->file, "processor", e->processor);
     record_text(r, r->file, "clock", e->clock);
     record_count(r, r->file, "threads", e->threads);
+    snprintf(noise, sizeof noise, "%.15g", price_noise);
+    record_text(r, r->file, "cost_noise", noise); /* ratios of costs below it tie */
 }
 
 /* A column of its own for each parameter. The record is the point: the offset counts its

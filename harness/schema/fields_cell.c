@@ -1,8 +1,10 @@
 /* Records of parameter points, of series of meshes and of one mesh: size, work, times. */
+#include <math.h>
 #include <string.h>
 
 #include "elements/feature.h"
 #include "harness/schema/fields_keys.h"
+#include "harness/timing/price.h"
 
 static void get_features(const subject *s, field_value *out)
 {
@@ -20,6 +22,25 @@ static void get_left_out(const subject *s, field_value *out)
          i < cell->left_out_lines && used + strlen(cell->left_out[i]) + 3 < sizeof out->room; i++)
         used += (size_t)sprintf(out->room + used, "%s%s", i > 0 ? "; " : "", cell->left_out[i]);
     out->text = out->room;
+}
+
+static void get_strains(const subject *s, field_value *out)
+{
+    const model_size *size = &fields_keys_cell(s)->size;
+    out->whole = size->strains + size->inner;
+}
+
+/* What was run elsewhere has no counts. */
+static void get_cost(const subject *s, field_value *out)
+{
+    schema_set_number(out, s->series->imported == NULL
+                               ? price_cost(&s->series->formulation, fields_keys_cell(s))
+                               : NAN);
+}
+
+static void get_priced(const subject *s, field_value *out)
+{
+    out->whole = price_own(price_rows, &s->series->formulation);
 }
 
 static const schema_field fields_of_point[] = {
@@ -64,10 +85,18 @@ static const schema_field fields_of_cell[] = {
      .word = fields_keys_word_of_status, .words = STATUSES},
     {"reason", "", FIELD_TEXT, "why it failed", CELL(solve.reason)},
     {"elements_total", "1", FIELD_INT, "elements of the whole structure", CELL(size.elements)},
+    {"element_kinds", "1", FIELD_INT, "of them that differ: each is prepared once",
+     CELL(size.kinds)},
     {"free", "1", FIELD_INT, "unknown coordinates", CELL(size.free)},
     {"driven", "1", FIELD_INT, "prescribed coordinates", CELL(size.driven)},
+    {"strains", "1", FIELD_INT, "strains of an element, its inner unknowns too",
+     .get = get_strains},
     {"features", "", FIELD_TEXT, "physics that the model has", .get = get_features},
     {"left_out", "", FIELD_TEXT, "coordinates that were left out, and why", .get = get_left_out},
+    {"cost", "s", FIELD_DOUBLE, "counted work at the prices of the reference machine",
+     .get = get_cost},
+    {"priced", "", FIELD_FLAG, "its formulation has prices of its own, not those of any",
+     .get = get_priced},
     {"seconds_setup", "s", FIELD_DOUBLE, "of the processor, in one run: set-up",
      CELL(solve.seconds_setup)},
     {"seconds_solve", "s", FIELD_DOUBLE, "of the processor, in one run: the rest",
@@ -83,6 +112,8 @@ static const schema_field fields_of_work[] = {
      WORK(stress_evaluations)},
     {"inertia_evaluations", "1", FIELD_LONG, "mass matrices of elements",
      WORK(inertia_evaluations)},
+    {"geometric_evaluations", "1", FIELD_LONG, "stiffnesses of a prestress of elements",
+     WORK(geometric_evaluations)},
     {"iterations", "1", FIELD_LONG, "Newton iterations, rejected steps included", WORK(iterations)},
     {"load_steps", "1", FIELD_LONG, "load steps that were kept", WORK(steps)},
     {"rejected_steps", "1", FIELD_LONG, "load steps that were tried in vain", WORK(rejected_steps)},
@@ -90,6 +121,8 @@ static const schema_field fields_of_work[] = {
     {"solutions", "1", FIELD_LONG, "right-hand sides solved for", WORK(solutions)},
     {"factor_entries", "1", FIELD_LONG, "entries of the last factor", WORK(factor_entries)},
     {"factor_flops", "1", FIELD_DOUBLE, "operations of all factorisations", WORK(factor_flops)},
+    {"dense_operations", "1", FIELD_DOUBLE, "n^3 of the eigenvalue problems solved densely",
+     WORK(dense_operations)},
     {"negative_pivots", "1", FIELD_LONG, "most of a symmetric tangent at a state that was reached",
      WORK(negative_pivots)},
     {0}};

@@ -29,6 +29,8 @@ void context_count_condition(const analysis_context *c, factor *fa, const sparse
 
 void context_count_eigen(const analysis_context *c, const eigen_result *e)
 {
-    model_counters(c->model)->solutions += e->solutions;
-    model_counters(c->model)->factorisations += e->factorisations;
+    counters *n = model_counters(c->model);
+    n->solutions += e->solutions;
+    n->factorisations += e->factorisations;
+    n->dense_operations += e->dense_operations;
 }

@@ -1,11 +1,13 @@
 #include "harness/tables/table_timing.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "harness/judge/reach.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
+#include "harness/timing/timing.h"
 
 enum { NAME = 23 };
 
@@ -110,50 +112,38 @@ static void parts(FILE *to, const sweep *s, int at)
             parts_of(to, &s->series[i], k);
 }
 
-static const rounds_reading *time_of(const sweep *s, const verdict *v, int mesh)
+static const rounds_reading *time_of(const sweep *s, const reached *r)
 {
-    return &s->series[v->series].timing[mesh].as_is;
+    return &s->series[r->series].timing[r->mesh].as_is;
 }
 
-/* Least time within the level among the formulations of a point, and those which the noise does not
- * tell from it. */
-static void cheapest(FILE *to, const sweep *s, const judgement *j, int at, int quantity,
-                     double level)
+static void way(FILE *to, const sweep *s, const reached *r)
 {
-    const verdict *best = NULL;
-    int best_mesh = -1;
-    for (int i = 0; i < j->verdicts; i++) {
-        const verdict *v = &j->verdict[i];
-        if (s->series[v->series].point != at || v->quantity != quantity)
-            continue;
-        const int mesh = reach_fastest(s, v, level);
-        if (mesh < 0 || time_of(s, v, mesh)->rounds == 0)
-            continue;
-        if (best == NULL ||
-            rounds_least(time_of(s, v, mesh)) < rounds_least(time_of(s, best, best_mesh))) {
-            best = v;
-            best_mesh = mesh;
+    const series *one = &s->series[r->series];
+    fprintf(to, "%s, n = %d", one->formulation.key, one->mesh[r->mesh]);
+    if (time_of(s, r)->rounds > 0)
+        fprintf(to, ", %.4g ms", 1e3 * rounds_least(time_of(s, r)));
+}
+
+/* The cheapest by counted work among the formulations of a point, those within its noise, and which
+ * of the others was faster in every round all the same. */
+static void cheapest(FILE *to, const reach_question *q, reached list[])
+{
+    const int count = reach_ranking(q, list), ties = reach_ties(list, count);
+    const char *before = "; dearer by its counts, faster in every round: ";
+    fprintf(to, "  %s within %g %%: ", q->s->point[q->point].scene.quantity[q->quantity].name,
+            100 * q->level);
+    for (int i = 0; i < ties; i++) {
+        fputs(i > 0 ? "; " : "", to);
+        way(to, q->s, &list[i]);
+    }
+    fputs(ties == 0 ? "none" : ties > 1 ? ": within noise of each other" : "", to);
+    for (int i = ties; i < count && ties > 0 && list[i].defect == NULL; i++)
+        if (rounds_compare(time_of(q->s, &list[i]), time_of(q->s, &list[0])) < 0) {
+            fputs(before, to);
+            way(to, q->s, &list[i]);
+            before = "; ";
         }
-    }
-    fprintf(to, "  %s within %g %%: ", s->point[at].scene.quantity[quantity].name, 100 * level);
-    if (best == NULL) {
-        fprintf(to, "none\n");
-        return;
-    }
-    fprintf(to, "%s, n = %d, %.4g ms", s->series[best->series].formulation.key,
-            s->series[best->series].mesh[best_mesh],
-            1e3 * rounds_least(time_of(s, best, best_mesh)));
-    for (int i = 0, named = 0; i < j->verdicts; i++) {
-        const verdict *v = &j->verdict[i];
-        const int mesh = v != best && s->series[v->series].point == at && v->quantity == quantity
-                             ? reach_fastest(s, v, level)
-                             : -1;
-        if (mesh >= 0 && rounds_compare(time_of(s, v, mesh), time_of(s, best, best_mesh)) == 0)
-            fprintf(to, "%s%s, n = %d", named++ == 0 ? " (undecided: " : "; ",
-                    s->series[v->series].formulation.key, s->series[v->series].mesh[mesh]);
-        if (i + 1 == j->verdicts && named > 0)
-            fprintf(to, ")");
-    }
     fputc('\n', to);
 }
 
@@ -166,11 +156,26 @@ static int has_truth(const sweep *s, const judgement *j, int at, int quantity)
     return 0;
 }
 
+/* What is cheapest for the quantities of a point, or for the first that has a truth; 0: none has.
+ */
+static int answers(FILE *to, const sweep *s, const judgement *j, int at, int every, reached list[])
+{
+    int shown = 0;
+    for (int q = 0; q < s->point[at].scene.quantities && (every || shown == 0); q++)
+        if (has_truth(s, j, at, q))
+            for (int level = 0; level < REACH_LEVELS; level++, shown = 1) {
+                const reach_question asked = {s,  j->verdict, j->verdicts,
+                                              at, q,          reach_level[level]};
+                cheapest(to, &asked, list);
+            }
+    return shown;
+}
+
 void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh)
 {
-    for (int p = 0; p < s->points; p++) {
+    reached *list = calloc((size_t)s->seriess + 1, sizeof *list);
+    for (int p = 0; p < s->points && list != NULL; p++) {
         const point *here = &s->point[p];
-        int shown = 0;
         if (!every_mesh && strcmp(here->name, "default") != 0)
             continue;
         fprintf(to, "%s%s%s\n", here->type->name, here->text[0] != '\0' ? " " : "", here->text);
@@ -178,11 +183,8 @@ void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh)
             rows(to, s, j, p);
         if (every_mesh)
             parts(to, s, p);
-        for (int q = 0; q < here->scene.quantities && (every_mesh || shown == 0); q++)
-            if (has_truth(s, j, p, q))
-                for (int level = 0; level < REACH_LEVELS; level++, shown = 1)
-                    cheapest(to, s, j, p, q, reach_level[level]);
-        if (!shown)
+        if (!answers(to, s, j, p, every_mesh, list))
             fprintf(to, "  no truth\n");
     }
+    free(list);
 }

@@ -59,9 +59,9 @@ class Remarks(unittest.TestCase):
 
     def test_the_mark_is_that_of_the_worst(self):
         """A way for all quantities is as good as its worst verdict, however they are ordered."""
-        good = verdict("a", "pass", error=0.0)
-        biased, more = (verdict("b", "biased", error=e) for e in (1e-4, -3e-4))
-        wrong = verdict("c", "wrong limit", error=0.1)
+        good = verdict("a", "pass", truth=1.0, error=0.0)
+        biased, more = (verdict("b", "biased", truth=1.0, error=e) for e in (1e-4, -3e-4))
+        wrong = verdict("c", "wrong limit", truth=1.0, error=0.1)
         self.assertIs(verdicts.worst([good, biased, more]), more)
         self.assertIs(verdicts.worst([wrong, biased, good]), wrong)
         series = data.Series("k", "", "", "", [], [good, wrong, biased])
@@ -70,7 +70,7 @@ class Remarks(unittest.TestCase):
         )
         series.meshes.append(mesh)
         for v in series.verdicts:
-            v.reach = {0.1: 2}
+            v.reach = {0.1: 4}
         self.assertIs(answers.way(series, ["a", "b", "c"], 0.1).worst, wrong)
 
 

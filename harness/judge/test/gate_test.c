@@ -8,6 +8,7 @@
 
 #include "harness/judge/reach.h"
 #include "harness/judge/test/bench.h"
+#include "harness/timing/timing.h"
 
 /* Counts of which each alone fails the gate. */
 static const size_t failing[] = {
@@ -128,20 +129,10 @@ static int by_definition(const double error[MESHES], double level)
     return -1;
 }
 
-static int fastest_by_definition(const timed *t, int first)
-{
-    int best = first;
-    if (first >= 0)
-        for (int i = first; i < MESHES; i++)
-            if (t->timing[i].as_is.round[0] < t->timing[best].as_is.round[0])
-                best = i;
-    return best;
-}
-
-static void reached(void)
+static void meshes_reached(void)
 {
     timed t;
-    int wrong[REACH_LEVELS] = {0}, slow = 0, seen[MESHES + 1] = {0};
+    int wrong[REACH_LEVELS] = {0}, seen[MESHES + 1] = {0};
     timed_make(&t);
     for (int round = 0; round < 20000; round++) {
         double error[MESHES];
@@ -149,18 +140,16 @@ static void reached(void)
         for (int i = 0; i < MESHES; i++) {
             t.b.quantity[i].value = truth_value + error[i] * fabs(truth_value);
             error[i] = verdict_error(&t.b.p.scene.quantity[0], t.b.quantity[i].value, truth_value);
-            t.timing[i].as_is.round[0] = uniform();
+            t.timing[i].as_is.round[0] = uniform(); /* which has no say */
         }
         for (int k = 0; k < REACH_LEVELS; k++) {
             const int right = by_definition(error, reach_level[k]);
             wrong[k] += reach_mesh(&t.b.s, &t.v, reach_level[k]) != right;
-            slow += reach_fastest(&t.b.s, &t.v, reach_level[k]) != fastest_by_definition(&t, right);
             seen[right + 1]++;
         }
     }
     for (int k = 0; k < REACH_LEVELS; k++)
         gsl_test_int(wrong[k], 0, "wrong meshes at level %g", reach_level[k]);
-    gsl_test_int(slow, 0, "wrong fastest meshes");
     for (int i = 0; i <= MESHES; i++)
         gsl_test(seen[i] == 0, "every answer occurs: %d (%d times)", i - 1, seen[i]);
     bench_free(&t.b);
@@ -183,7 +172,6 @@ static void unreached(void)
     gsl_test_int(reach_mesh(&t.b.s, &t.v, 0.1), 0, "exact from the first mesh on");
     t.v.truth = NULL;
     gsl_test_int(reach_mesh(&t.b.s, &t.v, 0.1), -1, "no truth");
-    gsl_test_int(reach_fastest(&t.b.s, &t.v, 0.1), -1, "no truth, no fastest");
     t.v.truth = &t.b.row[0];
     strcpy(t.b.one.missing, "shear");
     gsl_test_int(reach_mesh(&t.b.s, &t.v, 0.1), -1, "not offered");
@@ -193,8 +181,6 @@ static void unreached(void)
     t.b.cell[MESHES - 1].solve.quantities = 1;
     t.b.cell[2].solve.quantities = 0;
     gsl_test_int(reach_mesh(&t.b.s, &t.v, 0.1), 3, "no value on a coarse one: those behind it");
-    t.b.one.timing = NULL;
-    gsl_test_int(reach_fastest(&t.b.s, &t.v, 0.1), 3, "without times the coarsest");
     bench_free(&t.b);
 }
 
@@ -203,7 +189,7 @@ int main(void)
     exit_codes();
     failures_together();
     levels();
-    reached();
+    meshes_reached();
     unreached();
     return gsl_test_summary();
 }

@@ -79,7 +79,9 @@ static void make(bench *b)
                                          .solutions = 18,
                                          .factor_entries = 19,
                                          .factor_flops = 20,
-                                         .negative_pivots = 21};
+                                         .negative_pivots = 21,
+                                         .geometric_evaluations = 22,
+                                         .dense_operations = 23};
     }
     b->s = (sweep){.points = 1, .seriess = 1, .point = &b->p, .series = &b->one};
     b->v.truth = &b->row;
@@ -117,7 +119,8 @@ static void work(const gathering *g)
     static const char *const name[] = {
         "strain_evaluations", "stress_evaluations", "inertia_evaluations", "iterations",
         "load_steps",         "rejected_steps",     "factorisations",      "solutions",
-        "factor_entries",     "factor_flops",       "negative_pivots"};
+        "factor_entries",     "factor_flops",       "negative_pivots",     "geometric_evaluations",
+        "dense_operations"};
     const subject s = gather_cell(g, 0, 3);
     for (size_t i = 0; i < sizeof name / sizeof name[0]; i++)
         expect(&record_cell, &s, name[i], 0, 11 + (double)i);
