@@ -180,8 +180,7 @@ def contents(site, key, known):
 def write(site, key, known):
     context = contents(site, key, known)
     drawn = [] if context["options"] else formulation_figures.extremes(defaults(site.cases, key))
-    image = site.image(formulation_figures.draw(site, key, drawn), f"{file_of(key)}_errors",
-                       tight=False) if drawn else None
+    image = formulation_figures.draw(site, key, drawn, f"{file_of(key)}_errors") if drawn else None
     site.write("formulation.html", f"{file_of(key)}.html", image=image,
                drawn=[(c.name, q) for c, _, _, q in drawn], **context)
 

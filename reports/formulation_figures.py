@@ -1,14 +1,13 @@
-"""Error against elements of a formulation, in the case where it does best and where it does worst."""
+"""Error against elements of a formulation, where it is least and where it is largest."""
 import math
 
-from matplotlib.ticker import ScalarFormatter
-
 from reports import answers
-from reports.style import plt
+from reports.chart import Chart
 
 FLOOR = 1e-12  # errors below are drawn there
 TITLES = ("least", "largest")
 WRONG = ("wrong limit", "wrong limit, as predicted")
+GREY = {"back": True, "color": "currentColor", "alpha": 0.25, "linewidth": 1}
 
 
 def curve(series, quantity):
@@ -18,8 +17,8 @@ def curve(series, quantity):
 
 
 def candidates(found):
-    """[(error on the finest mesh, case name, quantity, (case, point, series))] with three meshes at least: the first
-    judged quantity of each case, and every one whose limit is known to be wrong."""
+    """[(error on the finest mesh, case name, quantity, (case, point, series))] with three meshes at
+    least: the first judged quantity of each case, and every one whose limit is known to be wrong."""
     out = []
     for case, point, series in found:
         names = answers.judged(point)[:1]
@@ -38,28 +37,18 @@ def extremes(found):
     return list(chosen.values())
 
 
-def panel(axes, site, key, item, title):
-    case, point, series, quantity = item
-    for other in point.series:
-        points = [] if other.missing or other.key == key or ":" in other.key else curve(
-            other, quantity)
-        if points:
-            axes.plot(*zip(*points), color="0.75", linewidth=0.8, zorder=1)
-    axes.plot(*zip(*curve(series, quantity)), **{**site.styles.of(key), "linewidth": 2},
-                zorder=3)
-    axes.set_title(f"{title} error: {case.name}, {quantity}", loc="left", fontsize=9)
-    axes.set_yscale("log")
-    axes.set_xscale("log", base=2)
-    axes.xaxis.set_major_formatter(ScalarFormatter())
-    axes.set_xlabel("elements of each member")
-    axes.set_ylabel("relative error")
-
-
-def draw(site, key, items):
+def draw(site, key, items, name):
     """Two panels; grey: the other formulations."""
-    figure, axes = plt.subplots(1, len(items), figsize=(4.8 * len(items), 3.1), squeeze=False)
-    for one, item, title in zip(axes[0], items, TITLES):
-        panel(one, site, key, item, title)
-    figure.subplots_adjust(left=0.62 / (4.8 * len(items)), right=0.99, bottom=0.16, top=0.9,
-                           wspace=0.25)
-    return figure
+    chart = Chart(2, (380, 230))
+    for (case, point, series, quantity), title in zip(items, TITLES):
+        one = chart.panel(f"{title}: {case.name}, {quantity}", "elements per member",
+                          "relative error", whole=True)
+        for other in point.series:
+            points = [] if other.missing or other.key == key else curve(other, quantity)
+            if points and ":" not in other.key:
+                one.plot(*zip(*points), **GREY)
+        own = curve(series, quantity)
+        errors = {m.n: m.errors[quantity] for m in series.meshes if quantity in m.errors}
+        look = site.points(key, ("n", "error"), [(n, errors[n]) for n, _ in own], case.name)
+        one.plot(*zip(*own), **{**look, "linewidth": 2})
+    return chart.image(site, name)

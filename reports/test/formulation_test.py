@@ -79,6 +79,13 @@ class Pages(ProgramTest):
                     right = worst is not None and worst.verdict in RIGHT
                     self.assertEqual(right, is_for, f"{name}, {case}: {worst}")
 
+    def test_who_offers_all(self):
+        """A text says so of those that are run on everything, and of no others."""
+        offers = {key: set(row["offers"].split(", ")) for key, row in self.known.declared.items()}
+        everything = set().union(*offers.values())
+        for name, text in texts().items():
+            self.assertEqual("all the physics" in text, offers[name] == everything, name)
+
     def test_source_orders_and_rules(self):
         for key, page in self.pages.items():
             declared = self.known.declared[key]
