@@ -1,29 +1,31 @@
-"""Pictures of every scene, undeformed and deformed, with its sections and modes (shapes.py).
+"""Pictures of every scene, undeformed and deformed, with its modes (shapes.py): a still one, and
+what can be turned
+(viewer.py).
 
 Surfaces are projected in parallel and painted from back to front."""
 import functools
 import html
 import math
+import os
 
 import numpy as np
-from matplotlib.collections import PolyCollection
 
+from reports import viewer
 from reports.shapes import CLAMPED, bodies, distance, exaggeration, read, strips
-from reports.style import plt
 
 NAVIGATION = [("pictures.html", "pictures")]
 FAR, NEARLY = 0.45, 0.9  # of the largest distance: below a half and the whole, which evenly spaced states miss by a little
 
-MEMBER, BODY, SUPPORT, REST = np.array([0.52, 0.71, 0.87]), np.array([0.93, 0.80,
-                                                                      0.62]), "#1c2430", "#8b95a3"
+MEMBER, BODY, SUPPORT = np.array([0.52, 0.71, 0.87]), np.array([0.93, 0.80, 0.62]), "#1c2430"
 LIGHT = np.array([0.35, -0.55, 0.76])
-MOST_STRIPS, MOST_MODES = 900, 4
+MOST_STRIPS, MOST_MODES = 500, 4
 
 
 class View:
     """Parallel projection, z upwards."""
 
     def __init__(self, azimuth=-58, elevation=24):
+        self.angles = (azimuth, elevation)
         a, e = math.radians(azimuth), math.radians(elevation)
         self.towards = np.array([math.cos(e) * math.cos(a), math.cos(e) * math.sin(a), math.sin(e)])
         self.right = np.array([-math.sin(a), math.cos(a), 0])
@@ -57,7 +59,8 @@ def shade(polygon, colour):
 
 
 def supports(s):
-    """Nodes that stay in place: held ones that are no bodies, what is attached to a clamped body, hinges."""
+    """Nodes that stay in place: held ones that are no bodies, what is attached to a clamped body,
+    hinges."""
     owner = {int(b) for b in s.body}
     return [
         i for i, (b, held) in enumerate(zip(s.body, s.held))
@@ -72,62 +75,69 @@ def hinges(s):
     return ends[s.released != 0]
 
 
-def paint(axes, view, s, state, scale):
-    """One state over the pale undeformed one."""
+def drawn_polygons(s, state, scale):
+    """[(corners, colour)] of one state, and of the undeformed one behind it (colour None)."""
     every = max(1, math.ceil(len(s.position[0]) / MOST_STRIPS))
-    if state > 0:
-        rest = view.flat(strips(s, 0, 1, every))
-        axes.add_collection(
-            PolyCollection(rest,
-                           facecolors="#e9ecf0",
-                           edgecolors="#dde1e7",
-                           linewidths=0.3,
-                           zorder=0))
-    polygons = [(p, shade(p, MEMBER), 0.95) for p in strips(s, state, scale, every)]
-    polygons += [(f, shade(f, BODY) if len(f) > 2 else 0.8 * BODY, 0.3)
-                 for f in bodies(s, state, scale)]
-    polygons.sort(key=lambda item: view.depth(item[0]).mean())
-    edge = [(*(0.88 * c), 0.9) if alpha > 0.5 else (*c, 1) if len(p) == 2 else (*c, 0.3)
-            for p, c, alpha in polygons]
-    drawn = PolyCollection([view.flat(p) for p, _, _ in polygons],
-                           facecolors=[(*c, alpha) for _, c, alpha in polygons],
-                           edgecolors=edge,
-                           linewidths=[3.5 if len(p) == 2 else 0.35 for p, _, _ in polygons],
-                           capstyle="round",
-                           zorder=1)
-    axes.add_collection(drawn)
+    rest = [(p, None) for p in strips(s, 0, 1, every)] if state else []
+    here = [(p, shade(p, MEMBER)) for p in strips(s, state, scale, every)]
+    here += [(f, shade(f, BODY) if len(f) > 2 else 0.8 * BODY) for f in bodies(s, state, scale)]
+    return rest, here
+
+
+class Sheet:
+    """The picture's frame: millimetres of paper for metres of the scene."""
+
+    def __init__(self, view, points, width=560, most=380):
+        flat = view.flat(points)
+        low, high = flat.min(axis=0), flat.max(axis=0)
+        span = np.maximum(high - low, 1e-12)
+        self.scale = min((width - 20) / span[0], (most - 40) / span[1])
+        self.width, self.height = width, max(60, round(span[1] * self.scale) + 40)
+        self.view, self.low = view, low - [(width / self.scale - span[0]) / 2, 30 / self.scale]
+
+    def at(self, points):
+        """Places on the sheet, in pixels, to a tenth."""
+        x, y = ((self.view.flat(np.asarray(points)) - self.low) * self.scale).T
+        return [f"{a:.1f} {self.height - b:.1f}" for a, b in zip(x, y)]
+
+    def polygon(self, corners):
+        return "M" + "L".join(self.at(corners)) + ("z" if len(corners) > 2 else "")
+
+    def bar(self):
+        """A bar of a round length."""
+        length = 10 ** math.floor(math.log10(0.4 * self.width / self.scale))
+        words = f"{length:g} m" if length >= 1 else f"{1e3 * length:g} mm"
+        x, y = 10 + length * self.scale, self.height - 10
+        return (f'<path stroke="#5b6675" stroke-width="1.5" d="M10 {y}H{x:.1f}"/>'
+                f'<text x="{x + 6:.1f}" y="{y + 4}" font-size="11" fill="#5b6675">{words}</text>')
+
+
+def still(s, state):
+    """One state over the pale undeformed one, as SVG: what is seen where nothing can be turned."""
+    scale, view = exaggeration(s, state), best_view(s, [state])
+    rest, here = drawn_polygons(s, state, scale)
     nodes = s.nodes[0] + scale * (s.nodes[state] - s.nodes[0])
-    at = supports(s)
-    spots = view.flat(nodes[at]) if at else np.empty((0, 2))
-    axes.plot(spots[:, 0], spots[:, 1], "s", color=SUPPORT, markersize=3, zorder=2)
-    joints = view.flat(s.position[0][hinges(s)] + scale *
-                       (s.position[state] - s.position[0])[hinges(s)])
-    axes.plot(joints[:, 0],
-              joints[:, 1],
-              "o",
-              color=SUPPORT,
-              markerfacecolor="white",
-              markersize=4,
-              zorder=3)
+    sheet = Sheet(view, np.concatenate([p for p, _ in rest + here] + [nodes]))
+    behind = "".join(sheet.polygon(p) for p, _ in rest)
+    out = [f'<path fill="#e9ecf0" stroke="#dde1e7" stroke-width=".4" d="{behind}"/>']
+    for p, colour in sorted(here, key=lambda item: view.depth(item[0]).mean()):
+        edge, width = (0.88 * colour, 0.5) if len(p) > 2 else (colour, 3.5)
+        out.append(f'<path fill="{hexadecimal(colour)}" stroke="{hexadecimal(edge)}" '
+                   f'stroke-width="{width}" d="{sheet.polygon(p)}"/>')
+    out += [f'<path stroke="{SUPPORT}" stroke-width="5" d="M{p}h.1"/>'
+            for p in sheet.at(nodes[supports(s)])]
+    joints = (s.position[0] + scale * (s.position[state] - s.position[0]))[hinges(s)]
+    for p in sheet.at(joints) if len(joints) else []:
+        x, y = p.split()
+        out.append(f'<circle cx="{x}" cy="{y}" r="2.5" fill="#fff" stroke="{SUPPORT}"/>')
+    size = f'width="{sheet.width}" height="{sheet.height}"'
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {sheet.width} {sheet.height}" '
+            f'{size} font-family="sans-serif" stroke-linejoin="round" stroke-linecap="square">'
+            f'{"".join(out)}{sheet.bar()}</svg>')
 
 
-def frame(axes, view, s, states):
-    """Limits that hold all drawn states, with a bar of a round length."""
-    everything = np.concatenate([view.flat(strips(s, k, e, 1)).reshape(-1, 2) for k, e in states] +
-                                [view.flat(s.nodes[k]) for k, e in states if e == 1])
-    low, high = everything.min(axis=0), everything.max(axis=0)
-    margin = 0.04 * (high - low).max()
-    length = 10 ** math.floor(math.log10(0.5 * max(high[0] - low[0], 1e-9)))
-    axes.set_xlim(low[0] - margin, high[0] + margin)
-    axes.set_ylim(low[1] - 3 * margin, high[1] + margin)
-    axes.plot([low[0], low[0] + length], [low[1] - 2 * margin] * 2, color="#1c2430", linewidth=1.5)
-    axes.text(low[0] + 1.1 * length,
-              low[1] - 2 * margin,
-              f"{length:g} m" if length >= 1 else f"{1e3 * length:g} mm",
-              va="center",
-              fontsize=8)
-    axes.set_aspect("equal")
-    axes.axis("off")
+def hexadecimal(colour):
+    return "#" + "".join(f"{round(255 * min(1, c)):02x}" for c in colour)
 
 
 def title_of(s, state, scale):
@@ -141,7 +151,8 @@ def title_of(s, state, scale):
 
 
 def chosen(s):
-    """States worth a picture: of a path the first that has moved far and the last that is farthest from it, a linear solution, the first modes."""
+    """States worth a picture: of a path the first that has moved far and the last that is farthest
+    from it, a linear solution, the first modes."""
     path = [k for k, kind in enumerate(s.kind) if kind == "path"]
     out = [0]
     if path:
@@ -156,78 +167,42 @@ def chosen(s):
     return out
 
 
-def draw_states(site, case, s):
-    states = [(k, exaggeration(s, k)) for k in chosen(s)]
-    view = best_view(s, [k for k, _ in states])
-    flat = view.flat(s.position[0])
-    tall = np.ptp(flat[:, 1]) > 0.35 * np.ptp(flat[:, 0])
-    columns = min(len(states), 3)
-    rows = math.ceil(len(states) / columns)
-    figure, grid = plt.subplots(rows,
-                                columns,
-                                figsize=(4.4 * columns, (3.9 if tall else 2.2) * rows),
-                                squeeze=False)
-    for axes, (state, scale) in zip(grid.flat, states):
-        paint(axes, view, s, state, scale)
-        frame(axes, view, s, [(0, 1), (state, scale)])
-        axes.set_title(title_of(s, state, scale), fontsize=9)
-    for axes in grid.flat[len(states):]:
-        axes.axis("off")
-    figure.tight_layout()
-    return site.keep(site.image(figure, f"picture_{case.name}"))
-
-
-def draw_sections(site, case, s):
-    count = len(s.sections)
-    figure, grid = plt.subplots(1, count, figsize=(2.6 * count, 2.2), squeeze=False)
-    for axes, walls, equivalent in zip(grid[0], s.sections, s.equivalent):
-        millimetres = 1e3 * walls
-        axes.add_collection(
-            PolyCollection(millimetres[:, :, ::-1],
-                           facecolors=[(*MEMBER, 1)],
-                           edgecolors=[(*(0.5 * MEMBER), 1)],
-                           linewidths=0.6))
-        span = np.abs(millimetres).max()
-        axes.plot([0], [0], "+", color="#1c2430", markersize=7)
-        axes.set_xlim(-1.15 * span, 1.15 * span)
-        low, high = millimetres[:, :, 0].min(), millimetres[:, :, 0].max()
-        pad = max(0.15 * span, 0.1 * (high - low))
-        axes.set_ylim(low - pad, high + pad)
-        axes.set_aspect("equal")
-        axes.set_xlabel("z [mm]", fontsize=8)
-        axes.set_ylabel("y [mm]", fontsize=8)
-        axes.tick_params(labelsize=7)
-        axes.grid(False)
-        if equivalent:
-            axes.set_title("only its constants are given", fontsize=7)
-    figure.tight_layout()
-    return site.keep(site.image(figure, f"section_{case.name}"))
+def draw(site, case, s):
+    """The still picture and the shape that can be turned, as files."""
+    worth = chosen(s)
+    first = worth[min(1, len(worth) - 1)]
+    start = max((k for k in worth if s.kind[k] == "path"), default=first)
+    with open(os.path.join(site.folder, f"picture_{case.name}.svg"), "w", encoding="utf-8") as out:
+        out.write(still(s, start))
+    view = best_view(s, [start])
+    found = viewer.shape(s, title_of, supports(s), hinges(s), start, view.angles)
+    viewer.store(site, case.name, found)
 
 
 def write_case(site, case):
     s = read(site, case)
     if s is not None:
-        draw_states(site, case, s)
-        draw_sections(site, case, s)
+        draw(site, case, s)
 
 
 def caption(s):
     return (
-        f"Computed with {html.escape(s.formulation)}, n = {s.n}; between the nodes a cubic through their axes. Grey: undeformed; sand: rigid bodies; black: held; circles: released ends. "
+        f"Computed with {html.escape(s.formulation)}, n = {s.n}; between the nodes a cubic through "
+        "their axes. Pale: undeformed; sand: rigid bodies; squares: held; circles: released ends. "
         "Modes: largest displacement a tenth of the size, or largest turn half a radian.")
 
 
 def markup(case, s):
+    """The place of the viewer with the still picture in it: case pages take it from here."""
     name = html.escape(case.name)
-    return (
-        f'<figure><img src="picture_{name}.svg" alt="{name}, undeformed and deformed"><figcaption>{caption(s)}</figcaption></figure>'
-        f'<figure><img src="section_{name}.svg" alt="section of {name}"><figcaption>Section in its principal axes; the cross is its centroid.</figcaption></figure>'
-    )
+    image = f'<img src="picture_{name}.svg" alt="{name}, undeformed and deformed" loading="lazy">'
+    place = viewer.markup(case.name, image, f"{case.name} in space")
+    return f"<figure>{place}<figcaption>{caption(s)}</figcaption></figure>"
 
 
 def section(site, case):
     s = read(site, case)
-    return [("The scene", markup(case, s))] if s is not None else []
+    return [("In space", markup(case, s))] if s is not None else []
 
 
 def present(site):

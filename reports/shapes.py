@@ -109,6 +109,11 @@ def axes_of(s, state, scale):
     return s.axes[0] @ np.swapaxes(turned, -1, -2)
 
 
+def is_thick(wall):
+    """Drawn with all its sides, not as its mid-line."""
+    return np.linalg.norm(wall[0] - wall[1]) > THIN * np.linalg.norm(wall[1] - wall[2])
+
+
 def strips(s, state, scale, every):
     """Quadrilaterals [.. x 4 x 3] of all members."""
     out = []
@@ -122,7 +127,7 @@ def strips(s, state, scale, every):
         walls = s.sections[section]
         here = walls + along * (s.far.get(i, walls) - walls)  # [points x walls x 4 x 2]
         for k, wall in enumerate(walls):
-            thick = np.linalg.norm(wall[0] - wall[1]) > THIN * np.linalg.norm(wall[1] - wall[2])
+            thick = is_thick(wall)
             corners = here[:, k] if thick else (here[:, k, ::2] + here[:, k, 1::2]) / 2
             edges = [r + c[:, :1] * y + c[:, 1:] * z for c in np.moveaxis(corners, 1, 0)]
             pairs = [(k, (k + 1) % 4) for k in range(4)] if thick else [(0, 1)]
@@ -135,18 +140,26 @@ def strips(s, state, scale, every):
     return np.concatenate(out)
 
 
-def hull(points):
-    """Faces of the convex hull; of points in a plane the polygon, of points in a line the segment."""
-    points = np.unique(np.round(points, 12), axis=0)
-    middle = points.mean(axis=0)
-    _, extent, axes = np.linalg.svd(points - middle, full_matrices=False)
-    rank = int((extent > 1e-6 * max(extent[0], 1e-300)).sum()) if len(points) > 1 else 0
+def hull_faces(points):
+    """Faces of the convex hull as indices; of points in a plane the polygon, of points in a line
+    the segment."""
+    rounded, index = np.unique(np.round(points, 12), axis=0, return_index=True)
+    middle = rounded.mean(axis=0)
+    _, extent, axes = np.linalg.svd(rounded - middle, full_matrices=False)
+    rank = int((extent > 1e-6 * max(extent[0], 1e-300)).sum()) if len(rounded) > 1 else 0
+    flat = (rounded - middle) @ axes.T
     if rank == 3:
-        return [points[list(f)] for f in ConvexHull(points).simplices]
-    flat = (points - middle) @ axes.T
-    if rank == 2:
-        return [points[ConvexHull(flat[:, :2]).vertices]]
-    return [points[[flat[:, 0].argmin(), flat[:, 0].argmax()]]] if rank == 1 else []
+        faces = ConvexHull(rounded).simplices
+    elif rank == 2:
+        faces = [ConvexHull(flat[:, :2]).vertices]
+    else:
+        faces = [[flat[:, 0].argmin(), flat[:, 0].argmax()]] if rank == 1 else []
+    return [index[list(face)] for face in faces]
+
+
+def hull(points):
+    """The same as points."""
+    return [points[face] for face in hull_faces(points)]
 
 
 def clusters(points):
@@ -160,14 +173,22 @@ def clusters(points):
     return [np.flatnonzero(group == g) for g in np.unique(group)]
 
 
+def groups_of_bodies(s):
+    """[(nodes of a rigid body, groups of those that lie together)]. A body has its own node too
+    when that is a hinge, which is held in part."""
+    out = []
+    for b in sorted({int(b) for b in s.body if b >= 0}):
+        attached = np.append(np.flatnonzero(s.body == b), [b] * (s.held[b] not in (0, CLAMPED)))
+        attached = attached.astype(int)
+        out.append((attached, clusters(s.nodes[0][attached])))
+    return out
+
+
 def bodies(s, state, scale):
-    """Faces, and rods between their middles. A body has its own node too when that is a hinge, which is held in part."""
+    """Faces, and rods between their middles."""
     faces = []
     nodes = s.nodes[0] + scale * (s.nodes[state] - s.nodes[0])
-    for b in sorted({int(b) for b in s.body if b >= 0}):
-        attached = list(
-            np.flatnonzero(s.body == b)) + ([b] if s.held[b] not in (0, CLAMPED) else [])
-        groups = clusters(s.nodes[0][attached])
+    for attached, groups in groups_of_bodies(s):
         for group in groups:
             faces += hull(nodes[attached][group])
         if len(groups) > 1:

@@ -174,6 +174,8 @@ class Figure {
 const figures = all(document, "div.figure").filter(frame => frame.querySelector("svg")).map(frame => new Figure(frame, frame.querySelector("svg")));
 addEventListener("scroll", () => { box.hidden = true; }, { passive: true });
 
+if (document.querySelector("div.viewer")) document.head.append(Object.assign(document.createElement("script"), { src: "viewer.js" }));
+
 // Wide tables can be reached from the keyboard, and paper shows what is folded.
 const reach = () => all(document, ".scroll").forEach(part => { if (part.scrollWidth > part.clientWidth) part.tabIndex = 0; });
 addEventListener("load", reach); addEventListener("resize", reach);

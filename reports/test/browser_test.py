@@ -24,9 +24,12 @@ addEventListener("load", () => {{
 </script></body></html>"""
 
 
-def chromium(folder, *arguments):
+def chromium(folder, *arguments, software=False):
+    """software: with WebGL drawn by the processor."""
+    graphics = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"
+                ] if software else ["--disable-gpu"]
     return subprocess.run([
-        CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files",
+        CHROMIUM, "--headless", "--no-sandbox", *graphics, "--allow-file-access-from-files",
         f"--user-data-dir={folder}/profile", "--enable-logging=stderr", "--window-size=1400,1000",
         *arguments
     ],
