@@ -1,47 +1,68 @@
-"""A page for each case: errors against work, the cheapest way to each error, curves, verdicts of every parameter point, failures, what was left out."""
+"""A page for each case: its scene, what is asked, which formulation answers, one figure per
+question, the rest folded."""
 import functools
 import math
 
-from reports import answers, beside, plots
+from reports import answers, beside, case_truth, plots, question_figures, scene_drawing
 from reports.site import LEVELS
 
 NAVIGATION = []
 MOST_POINTS = 4  # parameter points with a figure
-MOST_PANELS = 24  # small figures of the other quantities
+MOST_PANELS = 9  # small figures of the other quantities, and of model errors
+# of verdicts on one page; with more, other parameter points have pages of their own
+MOST_ROWS = 1500
+
+# Figures about the first quantity, and the formulations that are not in them.
+NOTHING = {"elements": None, "time": None, "work": None, "further": None,
+           "left_out": []}
+
+
+def question_of(site, point, quantity, name):
+    """{what: image} of the figures about the first quantity."""
+    shown, further = plots.leading(point, quantity)
+
+    def draw(series, kind, *abscissae):
+        return question_figures.errors_figure(site, point, quantity, series, abscissae,
+                                              f"{name}_{kind}") if series else None
+
+    return {"elements": draw(shown, "elements", "elements"), "time": draw(shown, "time", "time"),
+            "work": draw(shown, "work", "unknowns", "work"),
+            "further": draw(further[:plots.MOST_CURVES], "further", "elements", "time"),
+            "left_out": [s.key for s in further]}
 
 
 def figures_of(site, case, index):
-    """{kind: [(caption, file)]} of one parameter point."""
+    """What is drawn of one parameter point."""
     point = case.points[index]
     name = f"{case.name}_{point.name}"
-    quantities = answers.judged(point)
-    out = {"main": [], "others": [], "model": [], "curves": []}
-    if index >= MOST_POINTS and not point.others:
-        return out
-    if quantities:
-        drawn = plots.work_precision(site, point, quantities[0], f"{name}_{quantities[0]}")
-        out["main"] = [(quantities[0], drawn)] if drawn else []
-    others = [q for q in quantities[1:]
-              if any(plots.finite(s, q) for s in point.series)][:MOST_PANELS]
+    quantities = [q for q in answers.judged(point)
+                  if any(plots.finite(s, q) for s in point.series)]
+    out = {"main": NOTHING, "others": None, "model": None, "curves": []}
+    if index == 0 and quantities:
+        out["main"] = question_of(site, point, quantities[0], name)
+    elif quantities and (index < MOST_POINTS or point.others):
+        shown, _ = plots.leading(point, quantities[0])
+        out["main"] = {**NOTHING, "elements": question_figures.errors_figure(
+            site, point, quantities[0], shown, ("elements", "time"), name)}
+    others = quantities[1:][:MOST_PANELS]
+    out["panels_left_out"] = quantities[1:][MOST_PANELS:]
     if others and index == 0:
-        out["others"] = [(", ".join(others),
-                          plots.small_multiples(site, point, others, f"{name}_others"))]
-    modelled = [
-        q for q in point.units if any(plots.finite(s, q, "model_errors") for s in point.series)
-    ][:MOST_PANELS]
-    if modelled:
-        out["model"] = [(", ".join(modelled),
-                         plots.small_multiples(site, point, modelled, f"{name}_model",
-                                               "model_errors", "model error", "elements"))]
+        out["others"] = question_figures.small_multiples(site, point, others, f"{name}_others")
+    modelled = [q for q in point.units
+                if any(plots.finite(s, q, "model_errors") for s in point.series)][:MOST_PANELS]
+    if modelled and (index == 0 or point.others):
+        out["model"] = question_figures.small_multiples(site, point, modelled, f"{name}_model",
+                                                        "model_errors", "model error", "elements")
     if index == 0:
         names = sorted({q for s in point.series for m in s.meshes for q in m.curves})
-        out["curves"] = [(q, f) for q, f in ((q, plots.curves(site, point, q, f"{name}_{q}_curve"))
-                                             for q in names) if f]
+        drawn = ((q, question_figures.curves(site, point, q, f"{name}_{q}_curve")) for q in names)
+        out["curves"] = [(q, image) for q, image in drawn if image]
     return out
 
 
 def table_of(point, quantity):
-    """[(formulation, {level: (way, factor to the cheapest, tie)})]: what each formulation needs for each level."""
+    """[(formulation, {level: (way, factor to the cheapest, tie)})]: what each formulation needs for
+    each level."""
     rows = {}
     for level in LEVELS:
         found = answers.answer(point, quantity, level)
@@ -68,32 +89,66 @@ def limits_of(point):
             if q in point.units and all(v.verdict in ("no truth", "skip") for _, v in found)]
 
 
+def verdicts_of(point):
+    """[(series, verdicts)] for the table."""
+    return [(s, [v for v in s.verdicts
+                 if v.verdict not in ("skip", "no truth") or math.isfinite(v.model_truth)])
+            for s in point.series]
+
+
 def parts_of(site, case, index):
     """What a page shows of one parameter point."""
     point = case.points[index]
     names = answers.judged(point)
+    noise = [100 * (m.clock.most / m.clock.least - 1) for s in point.series for m in s.meshes
+             if m.clock.repeats > 1 and m.clock.least > 0]
+    shown, cells = case_truth.matrix(point)
     return {
-        "point": point, "figures": figures_of(
-            site, case, index), "table": table_of(point, names[0]) if names else [],
-        "quantity": names[0] if names else None, "limits": limits_of(point),
-        "others": beside.rows(point), "cheapest": cheapest_of(point),
-        "front": answers.front(point, names[0]) if names else [],
-        "failures": answers.failures(point), "savings": answers.savings(point), "noise": sorted(
-            100 * (m.clock.most / m.clock.least - 1) for s in point.series for m in s.meshes
-            if m.clock.repeats > 1 and m.clock.least > 0), "has_model": any(
+        "point": point, "figures": figures_of(site, case, index), "quantity":
+            names[0] if names else None, "table": table_of(point, names[0]) if names else [],
+        "limits": limits_of(point), "others": beside.rows(point), "cheapest": cheapest_of(point),
+        "front": answers.front(point, names[0]) if names else [], "failures":
+            answers.failures(point), "savings": answers.savings(point), "noise": sorted(noise),
+        "shown": shown, "cells": cells, "verdicts": verdicts_of(point), "tally":
+            case_truth.tally_of(point), "has_model": any(
                 math.isfinite(v.model_error) for s in point.series for v in s.verdicts)
     }
 
 
+def rows_of(point):
+    return sum(len(s.verdicts) for s in point.series)
+
+
+def own_pages(case):
+    """Do its other parameter points have pages of their own?"""
+    return sum(rows_of(p) for p in case.points[1:]) > MOST_ROWS
+
+
+def page_of(case, index):
+    """Where a parameter point is shown."""
+    point = case.points[index]
+    if index and own_pages(case):
+        return f"{case.name}_{point.name}.html"
+    return f"{case.name}.html#{point.name}"
+
+
 def write(site, case):
     sections = [found for section in site.sections for found in section(site, case)]
-    site.write("case.html",
-               f"{case.name}.html",
-               case=case,
-               parts=[parts_of(site, case, i) for i in range(len(case.points))],
-               sections=sections,
-               differ=answers.differ,
-               timed=site.bench is not None)
+    parts = [parts_of(site, case, i) for i in range(len(case.points))]
+    at = site.cases.index(case)
+    shared = {
+        "case": case, "differ": answers.differ,
+        "timed": site.bench is not None, "before": site.cases[at - 1] if at else None,
+        "after": site.cases[at + 1] if at + 1 < len(site.cases) else None, "all_of": answers.ALL
+    }
+    apart = own_pages(case)
+    site.write("case.html", f"{case.name}.html", **shared, part=parts[0],
+               further=[] if apart else parts[1:],
+               places=[(part, page_of(case, i)) for i, part in enumerate(parts)],
+               drawing=scene_drawing.drawing(site, case),
+               quantities=case_truth.quantities(case.points[0]), sections=sections)
+    for i, part in enumerate(parts[1:] if apart else (), 1):
+        site.write("case_point.html", page_of(case, i), **shared, part=part)
 
 
 def tasks(site):

@@ -3,7 +3,8 @@ import functools
 import math
 import pathlib
 
-from reports import answers, data, plots
+from reports import answers, data
+from reports.peers import figure_of
 from reports.site import LEVELS
 
 NAVIGATION = [("claims.html", "claims")]
@@ -185,7 +186,7 @@ def peers(site):
         meshes = [m for m in series.meshes if all(map(math.isfinite, both(m)))]
         ours += [(series.key, meshes)] if meshes else []
         out += [(series.key, m.n, m.free, *both(m), m.clock.solve, True) for m in meshes]
-    figure = plots.peers_figure(site, ours, others, "peers") if ours else None
+    figure = figure_of(site, ours, others, "peers") if ours else None
     ways = [answers.way(s, ["C_xx", "C_zz"], TARGET[0]) for s in (point.series if point else [])]
     best = min((w for w in ways if w and not w.defects), key=answers.by_cost, default=None)
     return sorted(out, key=lambda row: (row[2], row[0])), figure, best

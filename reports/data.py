@@ -122,6 +122,19 @@ def read_points(group, meshes, units, noise):
     return sorted(points, key=lambda p: (p.name != "default", p.parameters))
 
 
+def read_words(group, points):
+    """Scenes and meanings of quantities, of the points; what can be set of the case."""
+    if "scenes" not in group:
+        return []
+    scenes = {row["point"]: row["scene"] for row in rows(group, "scenes")}
+    meanings = {}
+    for row in rows(group, "meanings"):
+        meanings.setdefault(row["point"], {})[row["quantity"]] = row["meaning"]
+    for point in points:
+        point.scene, point.meanings = scenes[point.name], meanings.get(point.name, {})
+    return rows(group, "parameters")
+
+
 def read_case(path, name, bench=None):
     """A case; with the times of a benchmark where one is given."""
     with h5py.File(path) as file:
@@ -129,7 +142,9 @@ def read_case(path, name, bench=None):
         meshes, units = read_meshes(group)
         read_timings(group, meshes)
         case = Case(name, text(group.attrs["summary"]), text(group.attrs["source"]),
-                    read_points(group, meshes, units, float(file.attrs.get("cost_noise", 1))), rows(group, "coverages"))
+                    read_points(group, meshes, units, float(file.attrs.get("cost_noise", 1))),
+                    rows(group, "coverages"))
+        case.parameters = read_words(group, case.points)
     if bench:
         read_bench(bench, name, meshes)
     return case

@@ -2,7 +2,7 @@
 import functools
 import math
 
-from reports import answers, plots
+from reports import answers, plots, question_figures
 from reports.site import LEVELS
 
 NAVIGATION = [("convergence.html", "to print")]
@@ -23,7 +23,9 @@ def sheet(site, case):
     truth = next((v for _, v, _ in rows if math.isfinite(v.truth)), None)
     if truth is None:
         return None
-    image = plots.work_precision(site, point, quantity, f"sheet_{case.name}")
+    image = question_figures.errors_figure(site, point, quantity,
+                                           plots.leading(point, quantity)[0],
+                                           ("elements", "time"), f"sheet_{case.name}")
     return {
         "case": case, "quantity": quantity, "unit": point.units[quantity],
         "image": image and site.keep(image), "rows": rows, "truth": truth

@@ -119,6 +119,8 @@ class Point:
     units: dict
     others: list = field(default_factory=list)  # series of other programs (reports/beside.py)
     noise: float = 1.25  # costs whose ratio is below it tie
+    scene: str = ""  # as a scene file
+    meanings: dict = field(default_factory=dict)  # quantity -> what it is, in one line
 
 
 @dataclass
@@ -129,3 +131,4 @@ class Case:
     source: str
     points: list
     coverages: list = field(default_factory=list)  # rows: formulation, left_out, series, covered
+    parameters: list = field(default_factory=list)  # rows: parameter, unit, default, min, max, choices, summary

@@ -1,0 +1,112 @@
+"""What a drawing shows, in words: supports, motions, loads, springs, sections."""
+import numpy as np
+
+from reports.drawing import geometry, loads
+from reports.drawing.members import spring_words
+from reports.drawing.supports import held_of
+from reports.drawing.words import length, number, vector
+
+CONSTANTS = (("A", "m²"), ("Iy", "m⁴"), ("Iz", "m⁴"), ("It", "m⁴"), ("Iw", "m⁶"))
+MOST = 12  # lines of one kind
+
+
+def place(position):
+    return f"({', '.join(map(number, position))})"
+
+
+def support(scene, node):
+    held = held_of(scene, node)
+    words = ["all held"] if len(held) == 6 else [f"{', '.join(held)} held"] if held else []
+    if node.fork is not None:
+        words.append("in a fork (no turn about the section's own axis)")
+    words += [f"{motion} drives {component}" for component, motion in node.driven.items()
+              if component not in held]
+    words += [f"turn about {place(t.axis)} {'free' if t.angle == 'free' else 'by ' + t.angle}"
+              for t in node.turns if t.angle != "held"]
+    words += [f"rotation vector ({', '.join(node.vector)})"] if node.vector else []
+    return f"{node.name} {place(node.position)}: {'; '.join(words)}" if words else ""
+
+
+def motion(name, reach):
+    return f"{name}: unknown" if reach is None else \
+        f"{name}: from {number(reach[0])} to {number(reach[1])}"
+
+
+def load(one):
+    kind = one.kind.replace("_", " ")
+    said = f"{kind} {vector(one.vector, loads.UNITS[one.kind])} {axis(one)}on {one.on}"
+    said += f", {place(one.at)} m beside it" if one.at.any() else ""
+    said += ", in the member's axes" if one.member_axes else ""
+    said += ", turns with it" if one.follower else ""
+    return said + ("" if one.grows else ", constant")
+
+
+def axis(one):
+    """Along which axis, where it is one."""
+    along = np.flatnonzero(one.vector)
+    sign = "-" if len(along) and one.vector[along[0]] < 0 else "+"
+    way = "about" if "moment" in one.kind else "along"
+    return f"{way} {sign}{'xyz'[along[0]]} " if len(along) == 1 else ""
+
+
+def spring(one):
+    return f"{one.name}, {one.ends[0] or 'ground'} to {one.ends[1]}: {', '.join(spring_words(one))}"
+
+
+def shape(section):
+    if "rectangle" in section:
+        r = section["rectangle"]
+        return f"rectangle, {length(float(r['width']))} (z) by {length(float(r['thickness']))} (y)"
+    if "tube" in section:
+        return f"tube, {length(float(section['tube']['diameter']))} outside"
+    if "walls" in section:
+        return f"{len(section['walls'])} walls"
+    if "constants" in section:
+        return ", ".join(f"{name} = {number(float(section['constants'][name]))} {unit}"
+                         for name, unit in CONSTANTS if name in section["constants"])
+    return "stiffness as a 6 x 6 matrix"
+
+
+def section(name, said):
+    material = [f"E = {number(float(said['young']))} Pa"] if "young" in said else []
+    if "shear_modulus" in said:
+        material.append(f"G = {number(float(said['shear_modulus']))} Pa")
+    if float(said.get("density", 0)):
+        material.append(f"density {number(float(said['density']))} kg/m³")
+    return f"{name}: {'; '.join([shape(said)] + material)}"
+
+
+def mass(node):
+    return f"{node.name}: {number(node.mass)} kg, {place(node.centre)} m from it"
+
+
+def shortened(lines):
+    """Few of many lines."""
+    found = [line for line in lines if line]
+    return found[:MOST] + [f"and {len(found) - MOST} more"] if len(found) > MOST else found
+
+
+def describe(scene):
+    """[(heading, lines)] of what there is."""
+    spin = scene.spin
+    turning = [] if spin is None else [f"{place(spin.omega)} rad/s about {place(spin.centre)}"]
+    kinds = (("Supports", [support(scene, n) for n in scene.nodes.values()]),
+             ("Motions", [motion(*m) for m in scene.motions.items()]),
+             ("Axes turn with", turning),
+             ("Loads", [load(one) for one in scene.loads]),
+             ("Springs", [spring(one) for one in scene.springs]),
+             ("Masses", [mass(n) for n in scene.nodes.values() if n.mass]),
+             ("Sections", [section(*s) for s in scene.sections.items()]))
+    return [(heading, shortened(lines)) for heading, lines in kinds if any(lines)]
+
+
+def counts(scene):
+    """How large it is, in words."""
+    bodies = {n.part_of for n in scene.nodes.values() if n.part_of}
+    several = ((len(scene.members), "member"), (len(bodies), "rigid body"))
+    words = [f"{n} {what if n == 1 else {'rigid body': 'rigid bodies'}.get(what, what + 's')}"
+             for n, what in several if n]
+    curved = any(m.curvature.any() for m in scene.members.values())
+    solid = any(geometry.outline(s) for s in scene.sections.values())
+    return ", ".join(words) + (", curved" if curved else "") + \
+        ("" if solid else "; the section is known by its constants only")

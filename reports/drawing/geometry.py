@@ -1,0 +1,107 @@
+"""Where members and their sections lie in space, undeformed."""
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+STEPS = 24  # of a curved member
+
+
+@dataclass
+class Line:
+    """Axis of a member: points [n x 3] and the triads there [n x 3 x 3], rows x, y, z."""
+    points: np.ndarray
+    axes: np.ndarray
+
+
+def triad(x, y):
+    """Rows: along x, y as far as it is across, and the third."""
+    x = x / np.linalg.norm(x)
+    y = y - x * (x @ y)
+    y = y / np.linalg.norm(y)
+    return np.array([x, y, np.cross(x, y)])
+
+
+def chord(k, s):
+    """Where the arc of torsion and curvature k [1/m] is after a length s, in the triad at its
+    beginning."""
+    w = np.linalg.norm(k)
+    e = np.array([1.0, 0, 0])
+    if w * s < 1e-9:
+        return s * e
+    first = np.cross(k, e)
+    return (s * e + (1 - np.cos(w * s)) / w**2 * first +
+            (w * s - np.sin(w * s)) / w**3 * np.cross(k, first))
+
+
+def arc_length(k, distance):
+    """Of the arc whose ends are so far apart."""
+    length = distance
+    for _ in range(60):
+        length += distance - np.linalg.norm(chord(k, length))
+    return length
+
+
+def line_of(scene, member):
+    """The axis of a member between its nodes."""
+    p, q = (scene.nodes[name].position for name in member.ends)
+    B = triad(q - p, member.y)
+    k = member.curvature
+    if not k.any():
+        return Line(np.array([p, q]), np.array([B, B]))
+    length = arc_length(k, np.linalg.norm(q - p))
+    R = B.T @ triad(chord(k, length), np.array([0, 1.0, 0]))  # columns: the triad at p
+    along = np.linspace(0, length, STEPS + 1)
+    turned = Rotation.from_rotvec(np.outer(along, k)).as_matrix()
+    return Line(np.array([p + R @ chord(k, s) for s in along]),
+                np.swapaxes(R @ turned, -1, -2))
+
+
+def rectangle(y, z, height, width):
+    """Corners [4 x 2] about (y, z)."""
+    return np.array([y, z]) + 0.5 * np.array([[-height, -width], [height, -width],
+                                              [height, width], [-height, width]])
+
+
+def walls_of(section):
+    """Strips [4 x 2] of thin walls about their centroid, and the mid-lines [walls x 2 x 2]."""
+    points = {name: np.array([float(v) for v in p]) for name, p in section["points"].items()}
+    ends = np.array([[points[w["from"]], points[w["to"]]] for w in section["walls"]])
+    thickness = np.array([float(w["thickness"]) for w in section["walls"]])
+    areas = thickness * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    ends = ends - (areas[:, None] * ends.mean(axis=1)).sum(axis=0) / areas.sum()
+    strips = []
+    for (a, b), t in zip(ends, thickness):
+        across = 0.5 * t * np.array([a[1] - b[1], b[0] - a[0]]) / np.linalg.norm(b - a)
+        strips.append(np.array([a - across, b - across, b + across, a + across]))
+    return strips, ends, thickness
+
+
+def circle(radius, count=24):
+    angle = 2 * np.pi * np.arange(count) / count
+    return radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+
+def outline(section):
+    """Polygons [n x 2] in (y, z) of a section, in m; [] where only its constants are known."""
+    if "rectangle" in section:
+        r = section["rectangle"]
+        return [rectangle(0, 0, float(r["thickness"]), float(r["width"]))]
+    if "walls" in section:
+        return walls_of(section)[0]
+    if "tube" in section:
+        return [circle(0.5 * float(section["tube"]["diameter"]))]
+    return []
+
+
+def prism(line, here, there):
+    """Quadrilaterals [m x 4 x 3] of the sides of a member, from outline `here` at its beginning to
+    `there`."""
+    share = np.linspace(0, 1, len(line.points))[:, None, None]
+    rings = (1 - share) * here + share * there  # [points x corners x 2]
+    y, z = line.axes[:, None, 1], line.axes[:, None, 2]
+    edges = line.points[:, None] + rings[..., :1] * y + rings[..., 1:] * z
+    n = edges.shape[1]
+    sides = [np.stack([edges[:-1, k], edges[:-1, (k + 1) % n], edges[1:, (k + 1) % n],
+                       edges[1:, k]], axis=1) for k in range(n)]
+    return np.concatenate(sides), [edges[0], edges[-1]]

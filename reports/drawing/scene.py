@@ -1,0 +1,172 @@
+"""A written scene (`beamwork scene CASE`) as plain records; lengths in m, forces in N."""
+from dataclasses import dataclass, field
+
+import numpy as np
+import yaml
+
+COMPONENTS = ("ux", "uy", "uz", "rx", "ry", "rz")
+Loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader)  # every scalar is text until it is read
+
+
+@dataclass
+class Turn:
+    """A turn about an axis, which is free, held or follows a motion."""
+    axis: np.ndarray
+    angle: str
+
+
+@dataclass
+class Node:
+    """position [m]; held: components that do not move; driven: {component: motion}."""
+    name: str
+    position: np.ndarray
+    part_of: str = ""
+    held: tuple = ()
+    driven: dict = field(default_factory=dict)
+    turns: list = field(default_factory=list)  # one after the other, each with its own axis
+    vector: tuple = ()  # motions of a rotation vector
+    fork: np.ndarray = None  # axis and web of a fork [2 x 3]
+    mass: float = 0
+    centre: np.ndarray = None  # of the mass, from the node [m]
+
+
+@dataclass
+class Member:
+    """y: direction of the y axis of its section; released: components at both ends."""
+    name: str
+    ends: tuple  # names of two nodes
+    sections: tuple  # names of the sections at both
+    y: np.ndarray
+    curvature: np.ndarray
+    released: tuple
+
+
+@dataclass
+class Load:
+    """kind: force, moment, distributed, distributed_moment, gravity; on: a node or a member."""
+    name: str
+    kind: str
+    vector: np.ndarray
+    on: str
+    at: np.ndarray  # of a force, from the node or the centroids [m]
+    member_axes: bool
+    follower: bool
+    grows: bool  # with the path parameter
+
+
+@dataclass
+class Spring:
+    """Between two nodes; ends[0] is empty where it stands on the ground."""
+    name: str
+    ends: tuple
+    stiffness: np.ndarray  # diagonal [6]
+
+
+@dataclass
+class Spin:
+    """Axes that turn. omega [rad/s] at the end of the path, centre [m]."""
+    omega: np.ndarray
+    centre: np.ndarray
+
+
+@dataclass
+class Scene:
+    """What a scene file says."""
+    name: str
+    sections: dict  # name -> what the file says of it
+    nodes: dict
+    members: dict
+    loads: list
+    springs: list
+    motions: dict  # name -> (least, largest value), or None where it is unknown
+    spin: Spin = None
+    asked: set = field(default_factory=set)  # nodes that quantities are of
+
+
+def numbers(values):
+    return np.array([float(v) for v in values]) + 0.0
+
+
+def read_node(name, said):
+    rotation = said.get("rotation", {})
+    fork = said.get("fork")
+    return Node(name,
+                numbers(said["at"]),
+                said.get("part_of", ""),
+                tuple(said.get("hold", ())),
+                dict(said.get("drive", {})),
+                [Turn(numbers(t["axis"]), t["angle"]) for t in rotation.get("sequence", ())],
+                tuple(rotation.get("vector", ())),
+                np.array([numbers(fork["axis"]), numbers(fork["web"])]) if fork else None,
+                float(said.get("mass", 0)),
+                numbers(said.get("centre", (0, 0, 0))))
+
+
+def read_member(name, said):
+    section = said["section"]
+    both = tuple(section) if isinstance(section, list) else (section, section)
+    release = said.get("release", {})
+    return Member(name, (said["from"], said["to"]), both, numbers(said["y"]),
+                  numbers(said.get("curvature", (0, 0, 0))),
+                  (tuple(release.get("from", ())), tuple(release.get("to", ()))))
+
+
+KINDS = ("force", "moment", "distributed", "distributed_moment", "gravity")
+
+
+def read_load(name, said):
+    kind = next(k for k in KINDS if k in said)
+    factors = numbers(said.get("factor", (0, 1)))
+    return Load(name, kind, numbers(said[kind]) * factors[-1], said["on"],
+                numbers(said.get("at", (0, 0, 0))), said.get("axes") == "member",
+                said.get("follower") == "true", bool(np.ptp(factors)) if "path" in said else True)
+
+
+def read_spring(name, said):
+    stiffness = numbers(said["stiffness"])
+    diagonal = stiffness if len(stiffness) == 6 else stiffness.reshape(6, 6).diagonal()
+    return Spring(name, (said.get("from", ""), said["to"]), diagonal)
+
+
+def read_motion(said):
+    if "value" not in said:
+        return None
+    values = numbers(said["value"])
+    return values.min(), values.max()
+
+
+def read_spin(analyses):
+    """Of the first analysis whose axes turn."""
+    for said in analyses.values():
+        kind, what = next(iter(said.items()))
+        turning = what if kind == "rotation" else what.get("spin")
+        if turning:
+            last = float(what["stations"][-1]) if kind == "rotation" else 1
+            return Spin(numbers(turning["omega"]) * last, numbers(turning["centre"]))
+    return None
+
+
+def nodes_asked(said):
+    """Names of the nodes that quantities are of."""
+    own = {name: next(iter(what.values())) for name, what in said["analyses"].items()}
+    out = set()
+    for quantity in (said.get("quantities") or {}).values():
+        what = next(iter(quantity.values()))
+        out.add(what.get("node") or own[what["analysis"]].get("node", ""))
+    return out - {""}
+
+
+def read(text):
+    """The scene of a file's text, or None where there is no text."""
+    if not text:
+        return None
+    said = yaml.load(text, Loader)
+
+    def all_of(key, reader):
+        return {name: reader(name, what) for name, what in (said.get(key) or {}).items()}
+
+    return Scene(said["name"], said["sections"], all_of("nodes", read_node),
+                 all_of("members", read_member), list(all_of("loads", read_load).values()),
+                 list(all_of("springs", read_spring).values()),
+                 all_of("motions", lambda _, what: read_motion(what)), read_spin(said["analyses"]),
+                 nodes_asked(said))

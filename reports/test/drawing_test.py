@@ -1,0 +1,104 @@
+"""Scenes drawn: an arrow for each load, a symbol for each support, labels that keep clear of each
+other."""
+import itertools
+import unittest
+
+import numpy as np
+
+from harness.test.program import ROOT, run
+from reports.drawing import describe, draw, geometry, loads, scene, sections, supports, view
+from reports.drawing.canvas import boxes_overlap
+from reports.style import plt
+
+
+def written():
+    """{name: text} of all cases and examples as scene files."""
+    found = {p.stem: ("scene", p.stem) for p in (ROOT / "cases").glob("*.c")}
+    found.update({p.stem: ("scene", "--scene", str(p))
+                  for p in (ROOT / "cases" / "examples").glob("*.yaml")})
+    return {name: run(*arguments).stdout for name, arguments in sorted(found.items())}
+
+
+class Drawings(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scenes = {name: scene.read(text) for name, text in written().items()}
+
+    def test_all_of_them(self):
+        self.assertGreaterEqual(len(self.scenes), 49)
+
+    def test_everything_is_on_the_drawing(self):
+        for name, one in self.scenes.items():
+            figure = draw.draw(one)
+            marks = [a.get_gid() for a in figure.findobj() if a.get_gid()]
+            wanted = [load.name for load in one.loads] + [s.name for s in one.springs]
+            wanted += [f"support_{n.name}" for n in supports.supported(one)]
+            wanted += ["spin"] if one.spin is not None and one.spin.omega.any() else []
+            for mark in wanted:
+                self.assertEqual(marks.count(mark), 1, f"{name}: {mark}")
+            moved = [n.name for n in one.nodes.values() for _ in loads.motions_of(one, n)]
+            self.assertEqual(len([m for m in marks if m.startswith("motion_")]), len(moved), name)
+            plt.close(figure)
+
+    def test_labels_keep_clear(self):
+        for name, one in self.scenes.items():
+            canvas = draw.compose(one)
+            for a, b in itertools.combinations(canvas.boxes, 2):
+                self.assertLess(boxes_overlap(a, b), 12, f"{name}: {a} {b}")
+
+    def test_sections(self):
+        """Every shape has its figure; constants have none."""
+        for name, one in self.scenes.items():
+            figure = sections.draw(one)
+            shapes = [s for s in one.sections.values() if geometry.outline(s)]
+            self.assertEqual(figure is not None, bool(shapes), name)
+            plt.close(figure)
+
+    def test_words(self):
+        """Every load, spring and section has its line, however many they are."""
+        for name, one in self.scenes.items():
+            said = dict(describe.describe(one))
+            for heading, own in (("Loads", one.loads), ("Springs", one.springs),
+                                 ("Sections", one.sections)):
+                lines = min(len(own), describe.MOST + 1)
+                self.assertEqual(len(said.get(heading, [])), lines, f"{name}: {heading}")
+
+
+class Geometry(unittest.TestCase):
+    def test_arc(self):
+        """A quarter of a circle of radius 2 between its ends."""
+        one = scene.read("""
+name: arc
+sections: {s: {rectangle: {width: 0.1, thickness: 0.1}}}
+nodes: {p: {at: [0, 0, 0]}, q: {at: [2, 2, 0]}}
+members: {m: {from: p, to: q, section: s, y: [0, 1, 0], curvature: [0, 0, 0.5]}}
+analyses: {a: {linear: {}}}
+""")
+        line = geometry.line_of(one, one.members["m"])
+        radius = np.linalg.norm(line.points - [0, 2, 0], axis=1)
+        self.assertLess(abs(radius - 2).max(), 1e-9)
+        self.assertLess(abs(line.axes[0][0] - [1, 0, 0]).max(), 1e-9)
+        self.assertLess(abs(line.axes[-1][0] - [0, 1, 0]).max(), 1e-9)
+
+    def test_walls_about_their_centroid(self):
+        channel = {"points": {"a": ["0", "0"], "b": ["1", "0"], "c": ["1", "2"]},
+                   "walls": [{"from": "a", "to": "b", "thickness": "0.1"},
+                             {"from": "b", "to": "c", "thickness": "0.1"}]}
+        _, ends, thickness = geometry.walls_of(channel)
+        areas = thickness * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        self.assertLess(abs((areas[:, None] * ends.mean(axis=1)).sum(axis=0)).max(), 1e-15)
+
+    def test_plane_structures_face_on(self):
+        frame = np.array([[0, 0, 0], [0, 0, 3.0], [4, 0, 3]])
+        down, out = [np.array([0, 0, -1.0])], [np.array([0, 1.0, 0])]
+        self.assertTrue(view.choose(frame, down, [], True).face_on)
+        self.assertTrue(view.choose(frame, [], out, True).face_on)  # a moment about the normal
+        self.assertFalse(view.choose(frame, out, [], True).face_on)
+        self.assertFalse(view.choose(frame[:2], down, [], True).face_on)  # its section is seen
+
+    def test_nothing_written(self):
+        self.assertIsNone(scene.read(""))
+
+
+if __name__ == "__main__":
+    unittest.main()
