@@ -96,6 +96,8 @@ static int bench_request(command_request *r)
         return cli_against(r);
     if (r->scene_count > 0 && case_input_find(r) == NULL)
         return r->refusal;
+    if (r->error != NULL || r->keep_all)
+        return message_fail(STATUS_REFUSED, "--error and --keep-all are of --against");
     if (!is_named(r) && (r->assignments > 0 || r->meshes > 0))
         return message_fail(STATUS_REFUSED, "--set and -n are of a case: name it");
     const status outcome = measure(r, &t, &s, &j, &f);
@@ -113,9 +115,13 @@ int cli_bench(int count, char **arguments)
         "Times every formulation and mesh of the cases named (or, without one, of all cases "
         "at all parameter points that have a truth, selected with -k): the least of enough "
         "repetitions in five alternating rounds on one processor, set-up and solution "
-        "apart, with the error. Times whose rounds overlap are undecided. With --against: "
-        "one cell in alternation with the same cell of another formulation or program, "
-        "until the noise allows an answer."
-        "\vbeamwork bench spherical_joint -f sheet_third -f collocation -n 1,2",
-        "+fnskFojTAXDtY", count, arguments, bench_request);
+        "apart, with the error. Times whose rounds overlap are undecided. With --against "
+        "FORMULATION: both at equal error, each with the least elements from which on the error "
+        "of every quantity (-k: of those selected) is within it, in alternation until the noise "
+        "allows an answer; with -n: at these meshes. With --against PROGRAM: the same cell of "
+        "another build."
+        "\vbeamwork bench spherical_joint -f sheet_third -f collocation -n 1,2\n"
+        "beamwork bench c_column -f collocation --against beamw_consistent --error 1%,0.1%\n"
+        "beamwork bench --scene leaf.yaml --against ../before/beamwork",
+        "+fnskFojTAeXDtYK", count, arguments, bench_request);
 }

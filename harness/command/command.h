@@ -29,7 +29,8 @@ typedef struct command_request {
     formulation formulation[COMMAND_MAX_FORMULATIONS];
     int formulations;
     int mesh[COMMAND_MAX_MESHES], meshes;
-    const char *format, *output, *json, *junit, *markdown, *truths, *select, *threshold, *against;
+    const char *format, *output, *json, *junit, *markdown, *truths, *select, *threshold, *against,
+        *error;
     const char *follow;   /* NAME=A..B/N: modes over a parameter */
     const char *matrices; /* folder for the matrices of all states */
     int jobs, keep_all, steps;

@@ -43,26 +43,37 @@ static void fill_elements(command_request *r, const scene *s, char note[DEFAULTS
     add(note, choice, why, "-n N");
 }
 
-static status fill(command_request *r, const case_type *type, scene *s, char note[DEFAULTS_NOTE],
-                   fault *f)
+static status fill(command_request *r, const case_type *type, scene *s, int elements,
+                   char note[DEFAULTS_NOTE], fault *f)
 {
     TRY(cell_scene(type, r->parameter, NULL, s, f));
     if (r->matrices != NULL)
         scene_need(s, FEATURE_MASS);
     if (r->formulations == 0)
         TRY(fill_formulation(r, type, s, note, f));
-    if (r->meshes == 0)
+    if (elements && r->meshes == 0)
         fill_elements(r, s, note);
     return STATUS_OK;
 }
 
-status defaults_fill(command_request *r, const case_type *type, char note[DEFAULTS_NOTE], fault *f)
+static status fill_scene(command_request *r, const case_type *type, int elements,
+                         char note[DEFAULTS_NOTE], fault *f)
 {
     scene s = {0};
-    note[0] = '\0';
-    if (r->formulations > 0 && r->meshes > 0)
-        return STATUS_OK;
-    const status outcome = fill(r, type, &s, note, f);
+    const status outcome = fill(r, type, &s, elements, note, f);
     scene_free(&s);
     return outcome;
+}
+
+status defaults_formulation(command_request *r, const case_type *type, char note[DEFAULTS_NOTE],
+                            fault *f)
+{
+    note[0] = '\0';
+    return r->formulations > 0 ? STATUS_OK : fill_scene(r, type, 0, note, f);
+}
+
+status defaults_fill(command_request *r, const case_type *type, char note[DEFAULTS_NOTE], fault *f)
+{
+    note[0] = '\0';
+    return r->formulations > 0 && r->meshes > 0 ? STATUS_OK : fill_scene(r, type, 1, note, f);
 }

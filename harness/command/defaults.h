@@ -10,5 +10,8 @@ enum { DEFAULTS_NOTE = 2 * FAULT_TEXT + 200 };
  * note: a line for each choice and why; "" where both were given. REFUSED: no formulation offers
  * what the case needs. */
 status defaults_fill(command_request *r, const case_type *type, char note[DEFAULTS_NOTE], fault *f);
+/* The same of -f alone. */
+status defaults_formulation(command_request *r, const case_type *type, char note[DEFAULTS_NOTE],
+                            fault *f);
 
 #endif

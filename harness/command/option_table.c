@@ -42,8 +42,15 @@ const verb_option option_table[OPTION_COUNT] = {
     {"markdown", 'M', "FILE", "summary as Markdown, for a pull request",
      offsetof(command_request, markdown)},
     {"against", 'A', "OTHER",
-     "compare in alternation with another formulation, or with another program (a path with a '/')",
+     "compare in alternation with another formulation (without -n: at equal error), or with "
+     "another "
+     "program (a path with a '/': at equal n)",
      offsetof(command_request, against)},
+    {"error", 'e', "R[,R...]",
+     "with --against: errors at which to compare, such as 1%,0.1% (default: those of 10, 1, 0.1 "
+     "and "
+     "0.01 % that both reach)",
+     offsetof(command_request, error)},
     {"threads", 't', "N",
      "threads that share the loop over elements (default 1); results are the same", 0},
     {"dense", 'D', NULL, "time the published algorithm (newton=dense) beside every cell",

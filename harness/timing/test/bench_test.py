@@ -2,11 +2,14 @@
 asserted: see make bench-check."""
 import csv
 import io
+import re
 import unittest
 
 import h5py
 
-from harness.test.program import ProgramTest
+from harness.test.program import PROGRAM, ROOT, ProgramTest
+
+LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 
 
 class Bench(ProgramTest):
@@ -55,11 +58,66 @@ class Bench(ProgramTest):
 
     def test_refusals(self):
         cell = ("elastica", "-f", "beamw", "-n", "1")
-        for arguments in (("nonsense",), ("-n", "2"), ("elastica", "--against", "beamw"),
+        for arguments in (("nonsense",), ("-n", "2"),
+                          ("elastica", "c_column", "--against", "beamw"),
+                          (*cell, "--against", "beamw", "--error", "1%"), (*cell, "--error", "1%"),
                           (*cell, "--against", "nonsense"),
                           (*cell, "--against", "beamw_first", "-o", "x.h5"),
                           (*cell, "--against", "./x", "--plant", "20")):
             self.refused(2, "", "bench", *arguments)
+
+    def test_refused_errors(self):
+        work = ("bench", "elastica", "-f", "collocation", "--against", "beamw", "--error")
+        for error in ("0", "1", "100%", "1%,", ",1%", "-1%", "nan", "1%%", "1 %", ""):
+            self.refused(2, "--error", *work, error)
+        self.refused(2, "does not offer shear", "bench", "c_column", "-f", "beamw", "--against",
+                     "beamw_vlasov", "--error", "1%")
+        self.refused(2, "did you mean 'theta'", *work, "1%", "-k", "thetta")
+        self.refused(2, "leaves one formulation", *work, "1%", "-k", "beamw")
+
+    def least(self, case, formulation, level, *words):
+        """Elements from which on every error is within the level, from converge."""
+        series = self.record("converge", *case, "-f", formulation, *words)["series"][0]
+        meshes = [m["elements"] for m in series["quantities"][0]["meshes"]]
+        bad = [k for q in series["quantities"] for k, m in enumerate(q["meshes"])
+               if not abs(m["error"]) <= level]
+        first = max(bad, default=-1) + 1
+        return meshes[first] if first < len(meshes) else None
+
+    def test_equal_error(self):
+        """Meshes by the rule, times of these meshes."""
+        answer = self.record("bench", "elastica", "-f", "collocation", "--against", "beamw",
+                             "--error", "1%,0.001%", "-k", "theta")
+        self.assertEqual(answer["quantities"], ["theta"])
+        for one, level in zip(answer["comparisons"], (0.01, 1e-5), strict=True):
+            self.assertEqual(one["error"], level)
+            for side, name in (("a", "collocation"), ("b", "beamw")):
+                least = self.least(("elastica",), name, level, "-k", "theta")
+                self.assertEqual(one[f"elements_{side}"], least)
+        met, missed = answer["comparisons"]
+        self.assertLessEqual(max(met["error_a"], met["error_b"]), 0.01)
+        self.assertLessEqual(met["low"], met["ratio"])
+        self.assertLessEqual(met["ratio"], met["high"])
+        self.assertTrue(met["outcome"] != "faster" or met["high"] < 1, met)
+        self.assertTrue(met["outcome"] != "slower" or met["low"] > 1, met)
+        self.assertEqual(missed["outcome"], "not reached")
+        self.assertIsNone(missed["elements_b"])
+
+    def test_equal_error_of_a_scene(self):
+        """By default errors that both reach; where one converges to something else, it says so."""
+        text = self.answered("bench", "--scene", LEAF, "-f", "sheet_third", "--against",
+                             "collocation", "-k", "k_pushed").stdout
+        self.assertEqual(re.findall(r"(?m)^at ([\d.]+) %: ", text), ["10", "1", "0.1"])
+        self.assertRegex(text, r"(?m)^sheet_third, k_pushed: converges to the limit that was deri")
+
+    def test_another_build(self):
+        """A case and a scene, at equal n; formulation and elements are chosen where not given."""
+        answer = self.record("bench", "--scene", LEAF, "-f", "collocation", "-n", "1", "--against",
+                             PROGRAM)
+        self.assertEqual({w["a"] for w in answer["work"]}, {w["b"] for w in answer["work"]})
+        text = self.answered("bench", "warping_torsion", "--against", PROGRAM).stdout
+        self.assertRegex(text, r"\A-f \S+: .*\n-n \d+: .*\nA ")
+        self.assertIn("the same work", text)
 
     def test_stranger(self):
         self.refused(4, "/bin/true", "bench", "elastica", "-f", "beamw", "-n", "1",

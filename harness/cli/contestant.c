@@ -1,0 +1,186 @@
+#include "harness/cli/contestant.h"
+
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "harness/algebra/clock.h"
+#include "harness/timing/rounds.h"
+
+enum { MOST_REPEATS = 10000 };
+static const double budget_seconds = 3, lap_seconds = 0.002;
+
+/* The pure numbers of a cell's record. */
+static void set_counted(contestant *c)
+{
+    const schema_field *list[SCHEMA_MOST_FIELDS];
+    const int fields = schema_fields(&record_cell, 0, list);
+    c->counts = 0;
+    for (int i = 0; i < fields; i++)
+        if (strcmp(list[i]->unit, "1") == 0)
+            c->counted[c->counts++] = list[i];
+}
+
+static void count_cell(contestant *c, cell_result *cell)
+{
+    const series one = {.meshes = 1, .mesh = {c->request.elements}, .cell = cell};
+    const subject s = {.series = &one, .record = cell};
+    for (int i = 0; i < c->counts; i++) {
+        field_value v;
+        schema_read(&s, c->counted[i], &v);
+        c->count[i] = c->counted[i]->kind == FIELD_DOUBLE ? *v.numbers : (double)v.whole;
+    }
+}
+
+static status lap_here(contestant *c, double *seconds, fault *f)
+{
+    const double start = clock_processor_seconds();
+    for (int i = 0; i < c->repeats; i++) {
+        cell_result cell;
+        const status outcome = cell_run(&c->request, &cell, f);
+        count_cell(c, &cell);
+        cell_result_free(&cell);
+        if (outcome != STATUS_OK)
+            return outcome;
+    }
+    const double end = start + (1 + c->plant) * (clock_processor_seconds() - start);
+    do /* planted work */
+        *seconds = clock_processor_seconds() - start;
+    while (start + *seconds < end);
+    return STATUS_OK;
+}
+
+/* What the program wrote: its seconds and its work. */
+static status read_lap(contestant *c, FILE *from, double *seconds, fault *f)
+{
+    json_error_t where;
+    json_t *root = json_loadf(from, 0, &where), *cell = json_object_get(root, record_cell.name);
+    *seconds = json_number_value(json_object_get(cell, "seconds_setup")) +
+               json_number_value(json_object_get(cell, "seconds_solve"));
+    for (int i = 0; i < c->counts; i++)
+        c->count[i] = json_number_value(json_object_get(cell, c->counted[i]->name));
+    json_decref(root);
+    return *seconds > 0 ? STATUS_OK
+                        : fault_set(f, STATUS_FAULT,
+                                    "%s: its 'solve --format json' tells no seconds", c->program);
+}
+
+static status lap_elsewhere(contestant *c, double *seconds, fault *f)
+{
+    int ends[2], how = 0;
+    const pid_t child = pipe(ends) == 0 ? fork() : -1;
+    if (child < 0)
+        return fault_set(f, STATUS_FAULT, "cannot start %s", c->program);
+    if (child == 0) {
+        dup2(ends[1], STDOUT_FILENO);
+        close(ends[0]);
+        close(ends[1]);
+        execv(c->program, (char **)c->argument);
+        _exit(EXIT_FAULT);
+    }
+    close(ends[1]);
+    FILE *from = fdopen(ends[0], "r");
+    const status outcome = from != NULL
+                               ? read_lap(c, from, seconds, f)
+                               : fault_set(f, STATUS_FAULT, "cannot read from %s", c->program);
+    if (from != NULL)
+        fclose(from);
+    waitpid(child, &how, 0);
+    if (WIFEXITED(how) && WEXITSTATUS(how) == EXIT_AS_EXPECTED)
+        return outcome;
+    return fault_set(f, STATUS_FAULT, "%s does not solve that cell", c->program);
+}
+
+static status lap(void *what, double *seconds, fault *f)
+{
+    contestant *c = what;
+    return c->program != NULL ? lap_elsewhere(c, seconds, f) : lap_here(c, seconds, f);
+}
+
+/* Enough repeats for a lap that the clock can tell. */
+static status set_repeats(contestant *a, contestant *b, fault *f)
+{
+    double first = 0, second = 0;
+    a->repeats = b->repeats = 1;
+    for (int i = 0; i < 2; i++) { /* the first one warms up */
+        TRY(lap(a, &first, f));
+        TRY(lap(b, &second, f));
+    }
+    const double shorter = first < second ? first : second;
+    if (a->program == NULL && shorter < lap_seconds)
+        a->repeats = b->repeats =
+            lap_seconds / shorter < MOST_REPEATS ? 1 + (int)(lap_seconds / shorter) : MOST_REPEATS;
+    return STATUS_OK;
+}
+
+void contestant_here(contestant *c, const command_request *r, const scene *s,
+                     const formulation *chosen, int elements)
+{
+    memset(c, 0, sizeof *c);
+    c->request = (cell_request){.scene = s, .elements = elements, .keep_all = r->keep_all};
+    cell_formulation(&c->request, chosen);
+    snprintf(c->name, sizeof c->name, "%s, n = %d", chosen->key, elements);
+}
+
+void contestant_elsewhere(contestant *c, const command_request *r, const char *program)
+{
+    int n = 0;
+    memset(c, 0, sizeof *c);
+    snprintf(c->elements, sizeof c->elements, "%d", r->mesh[0]);
+    const char *const first[] = {
+        program, "solve", "--format", "json", "-f", r->formulation[0].key, "-n", c->elements};
+    for (size_t i = 0; i < sizeof first / sizeof first[0]; i++)
+        c->argument[n++] = first[i];
+    if (r->scene_count > 0)
+        c->argument[n++] = "--scene";
+    c->argument[n++] = r->scene_count > 0 ? r->scene_path[0] : r->case_name;
+    if (r->keep_all)
+        c->argument[n++] = "--keep-all";
+    for (int i = 0; i < r->assignments; i++) {
+        c->argument[n++] = "--set";
+        c->argument[n++] = r->assignment[i];
+    }
+    c->argument[n] = NULL;
+    c->program = program;
+    snprintf(c->name, sizeof c->name, "%.500s, n = %s", program, c->elements);
+}
+
+status contestant_compete(contestant *a, contestant *b, against *out, fault *f)
+{
+    set_counted(a);
+    set_counted(b);
+    rounds_pin();
+    TRY(set_repeats(a, b, f));
+    return against_run(lap, a, b, budget_seconds, out, f);
+}
+
+void contestant_show(const contestant *a, const contestant *b, const against *v)
+{
+    int same = 1;
+    printf("A  %-40s %10.4g ms\nB  %-40s %10.4g ms\n", a->name, 1e3 * v->a / a->repeats, b->name,
+           1e3 * v->b / b->repeats);
+    printf("B takes %.4f times as long as A (%.4f to %.4f with 99.9 %% confidence, %d pairs): %s\n",
+           v->ratio, v->low, v->high, v->pairs, against_name(v->outcome));
+    for (int i = 0; i < a->counts; i++)
+        if (a->count[i] != b->count[i]) {
+            printf("%s %s %.10g against %.10g", same ? "work differs:" : ",", a->counted[i]->name,
+                   a->count[i], b->count[i]);
+            same = 0;
+        }
+    printf(same ? "the same work\n" : "\n");
+}
+
+json_t *contestant_json(const contestant *a, const contestant *b, const against *v)
+{
+    json_t *work = json_array();
+    for (int i = 0; i < a->counts; i++)
+        json_array_append_new(work, json_pack("{s:s,s:f,s:f}", "name", a->counted[i]->name, "a",
+                                              a->count[i], "b", b->count[i]));
+    return json_pack("{s:s,s:s,s:f,s:f,s:f,s:f,s:f,s:i,s:s,s:o}", "a", a->name, "b", b->name,
+                     "seconds_a", v->a / a->repeats, "seconds_b", v->b / b->repeats, "ratio",
+                     v->ratio, "low", v->low, "high", v->high, "pairs", v->pairs, "outcome",
+                     against_name(v->outcome), "work", work);
+}
