@@ -1,4 +1,4 @@
-"""On the page of the column: the printed form levels off at the limit derived for it, ours goes down."""
+"""On the page of the column: the printed form levels off where it was derived to."""
 import math
 
 from reports import answers, plots
@@ -49,7 +49,8 @@ def section(site, case):
     if not image:
         return []
     return [("Convergence to a wrong limit, as predicted",
-             f'<figure><div class="figure" tabindex="0">{image.inline(ALT)}</div><figcaption>J Table 2, printed constants: '
+             f'<figure><div class="figure" tabindex="0">{image.inline(ALT)}</div>'
+             '<figcaption>J Table 2, printed constants: '
              'the printed second-order modes do not see shear. The limit that follows from the '
              'printed formulas was derived by itself (dashed); the program meets it, and it is not '
              'the exact load, to which the consistent modes converge.</figcaption></figure>')]

@@ -47,7 +47,7 @@ def write(site):
     written = {file for file, _ in site.navigation}
     site.write("index.html", "index.html", cases=site.cases, lines=lines, level=LEVEL,
                agreed=agreed.rows([c for c in site.cases if c.name not in lines], LEVEL),
-               places=[(file, words) for file, words in PLACES if file.partition("#")[0] in written],
+               places=[place for place in PLACES if place[0].partition("#")[0] in written],
                groups=kinds.grouped(site.cases, site.results),
                speed=sentences.of_speed(compared, rows),
                trust=sentences.of_trust(site.cases, rows), truths=sentences.of_truths(site.cases),

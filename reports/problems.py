@@ -13,7 +13,10 @@ from dataclasses import dataclass, field
 from reports import answers, tally
 from reports.verdicts import OWN_LIMITS, UNJUDGED
 
-COUNTS = {"time": lambda mesh: mesh.seconds, "unknowns": lambda mesh: max(1, mesh.free)}
+COUNTS = {  # what a mesh is paid in
+    "cost": lambda mesh: mesh.cost,  # [s] counted work at the prices of the reference machine
+    "unknowns": lambda mesh: max(1, mesh.free),
+}
 
 
 @dataclass
@@ -30,7 +33,7 @@ class Problem:
 
 
 def contestants(cases):
-    """Keys of formulations that were run; without options and kept misprints where others are left."""
+    """Keys of formulations that were run, without options and kept misprints where it can be."""
     keys = {s.key for c in cases for p in c.points for s in p.series if not s.missing}
     plain = {k for k in keys if ":" not in k and tally.corrected(k) is None}
     return sorted(plain or keys)
@@ -58,7 +61,7 @@ def problems_of(case, keys):
     for problem in found:
         problem.weight = 1 / len(found)
         for name, count in COUNTS.items():
-            problem.least[name] = min((count(m) for m in problem.meshes), default=math.nan)
+            problem.least[name] = min(map(count, problem.meshes), default=math.nan)
     return found
 
 
@@ -95,7 +98,7 @@ def solved(problem, key, level, forbids=defect):
 
 
 def weights(found, key=None):
-    """Weight of each problem, all together 1; of those that a formulation offers, where one is named."""
+    """Weight of each problem, all together 1; key: of those that this formulation offers."""
     kept = [p for p in found if key is None or key in p.tries]
     sizes = {}
     for p in kept:
@@ -128,7 +131,7 @@ class Question:
     forbids."""
 
     level: float
-    count: str = "time"
+    count: str = "cost"
     unit: object = to_the_best
     forbids: object = defect
 

@@ -10,9 +10,9 @@ from reports.site import LEVELS
 from reports.style import plt
 
 XLABELS = {
-    ("time", True): "factor to the least time of all",
+    ("cost", True): "factor to the least cost of all",
     ("unknowns", True): "factor to the fewest unknowns of all",
-    ("time", False): "time, by the cheapest run",
+    ("cost", False): "cost, by the cheapest run",
     ("unknowns", False): "unknowns, by the smallest model",
 }
 
@@ -88,7 +88,7 @@ def figure_of(site, picture, curves, keys, name, size=(250, 175)):
 
 
 def write_table(site, compared, name="profiles.csv"):
-    """Every curve, of all the formulations, drawn or not; at factor "any": what is solved at all."""
+    """Every curve, drawn or not; at factor "any": what is solved at all."""
     path = os.path.join(site.folder, name)
     with open(f"{path}.part", "w", encoding="utf-8", newline="") as out:
         table = csv.writer(out)

@@ -51,7 +51,7 @@ def write(site):
         legend = profile_figures.legend_of(site, compared.curves)
         table = profile_figures.write_table(site, compared)
     site.write("profiles.html", "profiles.html", compared=compared, figures=figures, table=table,
-               legend=legend,
+               legend=legend, noise=site.cases[0].points[0].noise if site.cases else 1,
                readings=readings(compared) if compared.any else [],
                lines=heat.lines(site.cases),
                rows=trust.table(site.cases, compared.problems, trust.judged(site.cases)))

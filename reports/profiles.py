@@ -1,4 +1,4 @@
-"""Performance profiles and data profiles: what share of the problems a formulation solves within a factor."""
+"""Performance profiles and data profiles: what share of the problems is solved within a factor."""
 import math
 from dataclasses import dataclass
 
@@ -28,10 +28,10 @@ class Picture:
 
 
 PICTURES = (
-    Picture("time", "time"),
-    Picture("time_offered", "time", offered=True),
+    Picture("cost", "cost"),
+    Picture("cost_offered", "cost", offered=True),
     Picture("unknowns", "unknowns"),
-    Picture("data_time", "time", to_the_smallest),
+    Picture("data_cost", "cost", to_the_smallest),
     Picture("data_unknowns", "unknowns", to_the_smallest),
 )
 
@@ -43,7 +43,7 @@ def places(farthest):
 
 
 def shares(pairs, at):
-    """Share of the weight of problems solved within each factor, and at last of those solved at all.
+    """Share of the weight of problems solved within each factor, and at last at any.
 
     pairs: [(factor, weight)] of one formulation, infinite where it does not solve; at: ascending.
     """
@@ -73,7 +73,7 @@ def profile(found, keys, question, offered=False):
 
 
 def read_at(curves, at, factor):
-    """[(share within the factor, formulation)], the largest first; the factor is one of the places."""
+    """[(share within the factor, formulation)], the largest first; factor: one of the places."""
     i = at.index(factor)
     return sorted(((values[i], key) for key, values in curves.items()), reverse=True)
 

@@ -1,4 +1,4 @@
-"""What was found, in three sentences: of speed, of trust, of the truths. Numbers only; the template has the words."""
+"""What was found, in three sentences: of speed, of trust, of the truths. The template has words."""
 import math
 
 from reports import tally, trust
@@ -7,7 +7,7 @@ NAMED = 3  # cases that a sentence names
 
 
 def ahead(values):
-    """The formulations with the largest value, as far as it is drawn: to a percent; and the value."""
+    """The formulations with the largest value, to a percent, and that value."""
     most = max(values.values())
     return sorted(k for k, v in values.items() if round(100 * v) == round(100 * most)), most
 
@@ -31,7 +31,7 @@ def of_speed(compared, rows):
 
 
 def of_trust(cases, rows):
-    """Who never tends to a wrong limit, who does most often and where, how much of it was derived."""
+    """Who never tends to a wrong limit, who does most often and where, how much was derived."""
     if not rows:
         return None
     worst = max(rows, key=lambda r: (r.wrong, r.key))

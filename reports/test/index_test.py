@@ -1,4 +1,4 @@
-"""The first page: what its lists are made of, and that it has nothing empty where there is little to show."""
+"""The first page: what its lists are made of; nothing is empty where there is little to show."""
 import re
 import unittest
 

@@ -9,14 +9,14 @@ from reports.test.results import series
 LEVEL = 0.01
 
 
-def tried(key, quantities, seconds=1.0, missing=""):
+def tried(key, quantities, cost=1.0, missing=""):
     """A formulation with one mesh; quantities: {name: (verdict, error, reaches the level)}."""
     found = series(key, [
         data.Verdict(name, kind, truth=1.0, truth_kind="exact", error=error, truth_uncertainty=1e-9,
                      reach={LEVEL: 1} if reached else {})
         for name, (kind, error, reached) in quantities.items()
     ])
-    found.meshes[0].clock = data.Clock(0, seconds, seconds, seconds, 1)
+    found.meshes[0].cost = cost
     found.missing = missing
     return found
 
@@ -31,7 +31,7 @@ GOOD, POOR = ("pass", 0.0, True), ("pass", 0.0, False)
 
 
 def two():
-    """Two formulations, two cases: a is twice as fast as b, but solves one of two in the second."""
+    """Two formulations, two cases: a costs half of b, but solves one of two in the second."""
     first = case("first", [tried("a", {"u": GOOD}, 1), tried("b", {"u": GOOD}, 2)])
     second = case("second", [tried("a", {"u": GOOD, "v": POOR}, 1),
                              tried("b", {"u": GOOD, "v": GOOD}, 4)])
