@@ -7,28 +7,21 @@ from reports.site import LEVELS
 
 @dataclass
 class Line:
-    """A case at its defaults. ways: {level: the answers.Way that is there soonest, or None}."""
+    """A case at its defaults: all its judged quantities together."""
 
     case: object  # data.Case
     quantities: list  # with a truth to judge by
-    quantity: str  # one of them, or answers.ALL
-    ways: dict
+    found: dict  # level -> answers.Answer
 
 
-def soonest(point, quantity, level):
-    """The way that wins, or None where no formulation is there."""
-    found = answers.answer(point, quantity, level)
-    return found.best[0] if found.best else None
-
-
-def line(case, quantity=None):
-    """For one quantity, or for all that are judged; None where nothing is."""
+def line(case):
+    """None where nothing is judged."""
     point = case.points[0]
     names = answers.judged(point)
     if not names:
         return None
-    wanted = quantity or (answers.ALL if len(names) > 1 else names[0])
-    return Line(case, names, wanted, {level: soonest(point, wanted, level) for level in LEVELS})
+    asked = answers.ALL if len(names) > 1 else names[0]
+    return Line(case, names, {level: answers.answer(point, asked, level) for level in LEVELS})
 
 
 def lines(cases):

@@ -32,7 +32,7 @@ def formulation_rows(cases):
 
 
 def table_of(case):
-    """[(what is asked, answers.Answer to LEVEL)] at the defaults: the first judged quantity, and all together."""
+    """[(what is asked, answers.Answer)] at the defaults: the first judged quantity, all together."""
     point = case.points[0]
     names = answers.judged(point)
     asked = [(names[0], names[0])] if names else []
