@@ -33,6 +33,7 @@ class Way:
     error: float  # of largest size of what is asked, on that mesh
     worst: object  # data.Verdict: the worst of those that it takes
     defects: list  # verdicts of them that are not a pass
+    priced: bool = True  # by prices of its formulation, not by those of any
 
     @property
     def seconds(self):
@@ -113,15 +114,20 @@ def way(series, quantities, level):
         return None
     mesh = next(m for m in series.meshes if m.n == max(counts))
     return Way(series.key, mesh.n, mesh.cost, mesh.clock, error_of(mesh, quantities),
-               words.worst(verdicts), [v for v in verdicts if v.verdict not in SOUND])
+               words.worst(verdicts), [v for v in verdicts if v.verdict not in SOUND], mesh.priced)
+
+
+def words_of(v):
+    """What a verdict that is not a pass says against a formulation."""
+    if v.verdict in words.OWN_LIMITS:
+        return "with a limit of its own"
+    return {"low order": "of low order", "undecided": "with a limit that is not known"}.get(
+        v.verdict, v.verdict)
 
 
 def defect_words(w):
-    """What is known against a way, in words: the worst of it."""
-    if w.worst.verdict in words.OWN_LIMITS:
-        return "with a limit of its own"
-    return {"low order": "of low order", "undecided": "with a limit that is not known"}.get(
-        w.worst.verdict, w.worst.verdict)
+    """The same of a way: the worst of it."""
+    return words_of(w.worst)
 
 
 def by_cost(w):

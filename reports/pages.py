@@ -16,6 +16,7 @@ from reports.site import Site
 PAGES = (
     "index",
     "lists",
+    "answers_page",
     "profile_page",
     "claims",
     "papers",

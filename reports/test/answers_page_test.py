@@ -1,0 +1,122 @@
+"""The page of answers and the tables beside it: the reader's tolerance by the rule of the judge."""
+import csv
+import html
+import json
+import re
+import sys
+import unittest
+
+from harness.test.program import ROOT, ProgramTest, drawn, run
+from reports import answers, answers_page, answers_table, data
+from reports.test.browser_test import CHROMIUM, chromium
+from reports.test.results import verdict
+
+SELECTION = "elastica/default or warping_torsion/default"
+LEVELS = (0.1, 0.03, 0.01, 0.004, 1e-3, 2e-4, 1e-4, 1e-6)
+
+
+class Page(ProgramTest):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder_ = cls.class_folder()
+        cls.site = drawn(cls.folder_, "-k", SELECTION)
+        _, cls.cases = data.read_results(cls.folder_ / "results.h5")
+        cls.page = (cls.site / "answers.html").read_text(encoding="utf-8")
+        cls.points = json.loads(re.search(r'id="points">(.*?)</script>', cls.page, re.S).group(1))
+
+    def test_the_stored_meshes_are_those_of_the_rule(self):
+        seen = 0
+        for case in self.cases:
+            for point in case.points:
+                for series in point.series:
+                    for v in series.verdicts:
+                        for level in data.REACH:
+                            rule = answers.first_within(series, v.quantity, level)
+                            self.assertEqual(v.reach.get(level), rule, (series.key, level))
+                            seen += rule is not None
+        self.assertGreater(seen, 20)
+
+    def test_points_say_what_the_answers_say(self):
+        """By the rule of the script, at any tolerance."""
+        for one, case in zip(self.points["cases"], self.cases):
+            for quantity, found in one["asked"]:
+                for level in LEVELS:
+                    sound = answers.answer(case.points[0], quantity, level)
+                    right = {w.key: w.n for w, _, _ in sound.ways}
+                    told = {}
+                    for index, _, errors in found:
+                        at = next((i for i, e in enumerate(errors)
+                                   if e is not None and e <= level), None)
+                        if at is not None:
+                            told[self.points["keys"][index]] = one["meshes"][str(index)][0][at]
+                    self.assertEqual(told, right, (case.name, quantity, level))
+
+    def test_tables(self):
+        rows = list(csv.DictReader(
+            (self.site / "answers.csv").read_text(encoding="utf-8").splitlines()))
+        whole = json.loads((self.site / "answers.json").read_text(encoding="utf-8"))
+        self.assertEqual(len(rows), len(whole["answers"]))
+        for a, b in zip(rows, whole["answers"]):
+            self.assertEqual((a["formulation"], int(a["n"]), float(a["tolerance"])),
+                             (b["formulation"], b["n"], b["tolerance"]))
+        first = [r for r in whole["answers"] if r["rank"] == 1 and r["case"] == "elastica"]
+        found = {level: answers.answer(self.cases[0].points[0], answers_table.asked(
+            self.cases[0].points[0])[0], level).best[0].key for level in data.REACH}
+        self.assertEqual({r["tolerance"]: r["formulation"] for r in first
+                          if r["quantity"] == first[0]["quantity"]}, found)
+
+    def test_terminal(self):
+        done = run("-m", "reports.answers_table", self.folder_ / "results.h5", "--error", "0.3%",
+                   program=sys.executable, cwd=ROOT)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("0.3 %: ", done.stdout)
+        bad = run("-m", "reports.answers_table", self.folder_ / "results.h5", "--error", "3",
+                  program=sys.executable, cwd=ROOT)
+        self.assertEqual(bad.returncode, 2)
+        self.assertIn("give an error such as 0.3%", bad.stderr)
+        self.assertIn("cannot be read", run("-m", "reports.answers_table", "no.h5",
+                                            program=sys.executable, cwd=ROOT).stderr)
+
+    def test_without_script_the_standard_levels(self):
+        for level in ("10 %", "1 %", "0.1 %", "0.01 %"):
+            self.assertIn(f"<th>{level}</th>", self.page)
+        point = self.cases[0].points[0]
+        words = answers_table.sentence(
+            answers.answer(point, answers_table.asked(point)[0], 0.01))
+        self.assertIn(f"<td>{html.escape(words)}</td>", self.page)
+
+    @unittest.skipUnless(CHROMIUM, "needs chromium")
+    def test_the_script_answers(self):
+        done = chromium(self.folder_, "--dump-dom", "--virtual-time-budget=2000",
+                        f"file://{self.site}/answers.html")
+        point = self.cases[0].points[0]
+        found = answers.answer(point, answers_table.asked(point)[0], 0.01)
+        told = ", ".join(f"{w.key} n = {w.n}" for w in found.best)
+        self.assertIn("least cost within 1 %", done.stdout)
+        self.assertIn(f"<td>{told}", done.stdout)
+        right = sum(bool(answers.answer(c.points[0], answers_table.asked(c.points[0])[0],
+                                        0.01).best) for c in self.cases)
+        self.assertTrue(f"{right} of {len(self.cases)} reached" in done.stdout)
+
+
+class Names(unittest.TestCase):
+
+    def test_nothing_of_a_file_ends_the_script(self):
+        text = answers_page.embedded({"case": "</script><b>&"})
+        self.assertNotIn("<", text)
+        self.assertEqual(json.loads(text), {"case": "</script><b>&"})
+
+    def test_rounding_never_lets_a_mesh_in(self):
+        for value in (0.0100000004, 0.0099999996, 1 / 3, 1.23456789e-7):
+            self.assertGreaterEqual(answers_page.outward(value), value)
+            self.assertLess(answers_page.outward(value), value * (1 + 2e-5))
+
+    def test_defects_have_words(self):
+        self.assertEqual(answers_page.defect_of([verdict("u", "pass")]), "")
+        self.assertEqual(answers_page.defect_of([verdict("u", "pass"), verdict("v", "biased")]),
+                         "with a limit of its own")
+
+
+if __name__ == "__main__":
+    unittest.main()
