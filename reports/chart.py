@@ -32,6 +32,13 @@ def marker_path(marker, size):
                    for c in lines)
 
 
+def form(marker, size):
+    """A marker as an element that takes fill and stroke."""
+    if marker == "o":
+        return f'circle r="{number(0.5 * size, 2)}"'
+    return f'path d="{marker_path(marker, size)}"'
+
+
 def dashes(line):
     return DASHES[line] if isinstance(line, str) else " ".join(number(1.2 * x) for x in line[1])
 
@@ -121,7 +128,7 @@ class Writer:
         for (marker, ink, size, hollow), name in self.markers.items():
             filled = MarkerStyle(marker).is_filled() and not hollow
             out += (f'<marker id="{name}" markerUnits="userSpaceOnUse" overflow="visible" '
-                    f'markerWidth="1" markerHeight="1"><path d="{marker_path(marker, size)}" '
+                    f'markerWidth="1" markerHeight="1"><{form(marker, size)} '
                     f'fill="{ink if filled else "var(--paper,#fff)"}" stroke="{ink}" '
                     f'stroke-width="{1 if filled else 1.2}"/></marker>')
         return f"<defs>{out}</defs>" if out else ""

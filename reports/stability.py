@@ -4,7 +4,8 @@ import json
 import math
 import os
 
-from reports.style import plt
+from reports import stability_map
+from reports.chart import Chart
 
 NAVIGATION = [("stability.html", "stability")]
 
@@ -18,6 +19,7 @@ MEANING = {
     "coarse": "outside it, falls with more elements", "named": "a named refusal or failure",
     "wrong": "a wrong number, known and explained below", "fault": "crashed"
 }
+FLOOR = 1e-16  # of what is drawn
 NAMED = ("not converged", "singular", "refused", "no value")
 
 
@@ -72,106 +74,29 @@ def largest(found, name):
     return f"{max(values):.2g}" if values and max(values) > 0 else "–"
 
 
-def draw_map(site, record, all_cells):
-    """Rows: formulations; columns: extremes, each a strip of the values it was driven to, from left to right as in the tables."""
-    extremes, keys = record["extremes"], [f["formulation"] for f in record["formulations"]]
-    figure, ax = plt.subplots(figsize=(0.47 * len(extremes) + 2.6, 0.34 * len(keys) + 2.2))
-    for column, extreme in enumerate(extremes):
-        width = 0.9 / len(extreme["values"])
-        for row, key in enumerate(keys):
-            found = all_cells.get((extreme["name"], key))
-            if found is None:
-                ax.text(column + 0.45,
-                        row + 0.45,
-                        "–",
-                        ha="center",
-                        va="center",
-                        color="#9aa3ad",
-                        fontsize=8)
-                continue
-            for i, x in enumerate(extreme["values"]):
-                cell = found.get(x)
-                if cell is None:
-                    ax.text(column + (i + 0.5) * width,
-                            row + 0.45,
-                            "–",
-                            ha="center",
-                            va="center",
-                            color="#9aa3ad",
-                            fontsize=6)
-                    continue
-                ax.add_patch(
-                    plt.Rectangle((column + i * width, row + 0.05),
-                                  width,
-                                  0.8,
-                                  facecolor=LOOK[cell.kind][0],
-                                  edgecolor="white",
-                                  linewidth=0.4))
-                ax.text(column + (i + 0.5) * width,
-                        row + 0.45,
-                        cell.mark,
-                        ha="center",
-                        va="center",
-                        fontsize=6,
-                        color="white" if cell.kind == "wrong" else "black")
-    ax.set_xlim(-0.1, len(extremes))
-    ax.set_ylim(len(keys), -0.1)
-    ax.set_xticks([i + 0.45 for i in range(len(extremes))], [e["name"] for e in extremes],
-                  rotation=60,
-                  ha="right",
-                  rotation_mode="anchor",
-                  fontsize=7)
-    ax.set_yticks([i + 0.45 for i in range(len(keys))], keys, fontsize=8)
-    ax.tick_params(length=0)
-    ax.grid(False)
-    for side in ax.spines.values():
-        side.set_visible(False)
-    present = [
-        k for k in LOOK if any(c.kind == k for found in all_cells.values() for c in found.values())
-    ]
-    handles = [plt.Rectangle((0, 0), 1, 1, facecolor=LOOK[k][0]) for k in present]
-    ax.legend(handles, [f"{k} {LOOK[k][1]}  {MEANING[k]}" for k in present],
-              loc="lower center",
-              bbox_to_anchor=(0.5, 1.0),
-              ncols=2,
-              fontsize=7.5)
-    return site.image(figure, "stability_map")
-
-
 def draw_curve(site, extreme, keys, all_cells):
-    """Error against what is driven; a failure is a triangle on the upper edge."""
-    figure, ax = plt.subplots(figsize=(6.2, 2.7))
-    floor = 1e-16
+    """Error against what is driven; a failure is a cross on the upper edge."""
+    low, high = min(extreme["values"]), max(extreme["values"])
+    unit = "" if extreme["x_unit"] == "1" else f" [{extreme['x_unit']}]"
+    chart = Chart(1, (540, 190))
+    panel = chart.panel("", extreme["x_name"] + unit, "relative error",
+                        xlog=low > 0 and high / low >= 20)
+    panel.y.take([FLOOR / 2, 1])
+    panel.level(extreme["tolerance"], "tolerance")
     for key in keys:
         found = all_cells.get((extreme["name"], key))
         if found is None:
             continue
-        points = [(x, max(found[x].error, floor)) for x in extreme["values"]
+        points = [(x, min(1, max(found[x].error, FLOOR))) for x in extreme["values"]
                   if x in found and math.isfinite(found[x].error)]
-        style = site.styles.of(key) if key in site.styles.order else {
-            "color": "#5b6675", "marker": "."
-        }
-        ax.plot([x for x, _ in points], [e for _, e in points], label=key, alpha=0.85, **style)
-        failed = [
-            x for x in extreme["values"] if x in found and found[x].kind in ("named", "fault")
-        ]
-        ax.plot(failed, [1] * len(failed),
-                "^",
-                color=style["color"],
-                markersize=8,
-                markerfacecolor="none",
-                clip_on=False)
-    ax.axhline(extreme["tolerance"], color="#5b6675", linewidth=0.8, linestyle=":")
-    ax.set_yscale("log")
-    ax.set_ylim(floor / 2, 1)
-    if min(extreme["values"]) > 0 and max(extreme["values"]) / min(extreme["values"]) >= 20:
-        ax.set_xscale("log")
-    ax.set_xlabel(
-        f"{extreme['x_name']}{'' if extreme['x_unit'] == '1' else ' [' + extreme['x_unit'] + ']'}")
-    ax.set_ylabel("relative error")
-    ax.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize=7)
-    figure.tight_layout()
-    return site.image(figure, f"stability_{extreme['name']}")
+        look = site.points(key, (extreme["x_name"] + unit, "error", "outcome"),
+                           [(x, found[x].error, found[x].outcome) for x, _ in points])
+        if points:
+            panel.plot([x for x, _ in points], [e for _, e in points], label=key, **look)
+        for x in extreme["values"]:
+            if x in found and found[x].kind in ("named", "fault"):
+                panel.cross(x, look["color"], site.styles.of(key)["gid"])
+    return chart.image(site, f"stability_{extreme['name']}")
 
 
 def findings(record):
@@ -209,7 +134,7 @@ def write(site):
                "stability.html",
                record=record,
                total=total,
-               image=draw_map(site, record, all_cells),
+               image=stability_map.draw(record, all_cells, LOOK, MEANING),
                cells=all_cells,
                keys=keys,
                findings=findings(record),
