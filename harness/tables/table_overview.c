@@ -199,8 +199,10 @@ static void print_legend(FILE *to, screen look, const overview *o)
 void table_overview(FILE *to, screen look, const overview *o)
 {
     block b = {.name = width_of_names(o), .head = calloc((size_t)o->columns + 1, sizeof(head))};
-    if (b.head == NULL)
+    if (b.head == NULL || o->rows == 0) {
+        free(b.head);
         return;
+    }
     for (; b.from < o->columns && b.name > 0; b.from = b.to) {
         lay_out(o, look, &b);
         print_block(to, look, o, &b);

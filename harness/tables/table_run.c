@@ -112,7 +112,8 @@ static void print_verdicts(FILE *to, const judgement *j)
     FILE *line = open_memstream(&text, &size);
     if (line == NULL)
         return;
-    fprintf(line, "%d verdict%s against truths:", j->judged, j->judged == 1 ? "" : "s");
+    fprintf(line, "%d verdict%s against truths%s", j->judged, j->judged == 1 ? "" : "s",
+            j->judged > 0 ? ":" : "");
     print_kinds(line, j);
     if (skipped > 0)
         fprintf(line, "; besides %d not offered (skip)", skipped);
