@@ -1,4 +1,5 @@
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@
 #include "harness/study/narrow.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
+#include "harness/tables/paragraph.h"
 #include "harness/tables/table_beside.h"
 #include "harness/tables/table_convergence.h"
 
@@ -24,6 +26,22 @@ static int running(const sweep *s)
     return count;
 }
 
+/* What it comes to, in lines of words. */
+static void write_answer(FILE *to, const sweep *s, const truths *t)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *line = open_memstream(&text, &size);
+    if (line == NULL)
+        return;
+    reach_line_write(line, s, t, REACH_LINE_LEVEL);
+    if (fclose(line) == 0) {
+        text[strcspn(text, "\n")] = '\0';
+        paragraph_write(to, 0, 0, text);
+    }
+    free(text);
+}
+
 static void write_text(FILE *to, int verbose, const sweep *s, const truths *t)
 {
     if (verbose || running(s) == 1) {
@@ -31,7 +49,7 @@ static void write_text(FILE *to, int verbose, const sweep *s, const truths *t)
         fputc('\n', to);
     } else if (running(s) > 1)
         table_beside(to, s, t);
-    reach_line_write(to, s, t, REACH_LINE_LEVEL);
+    write_answer(to, s, t);
 }
 
 static status write_form(FILE *to, const command_request *r, const sweep *s, const truths *t,

@@ -243,8 +243,7 @@ static void write_missing(FILE *to, const sweep *s)
             if (strcmp(s->series[k].missing, missing) == 0)
                 snprintf(line + strlen(line), sizeof line - strlen(line), "%s%s", k > i ? ", " : "",
                          s->series[k].formulation.key);
-        const int at = fprintf(to, "not run, does not offer %s: ", missing);
-        paragraph_write(to, at, 4, line);
+        paragraph_say(to, fprintf(to, "not run, "), 4, "does not offer %s: %s", missing, line);
     }
 }
 

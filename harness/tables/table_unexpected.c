@@ -23,8 +23,8 @@ static void print_settings(FILE *to, const char *parameters)
             fputc(*parameters, to);
 }
 
-/* The command that shows a series again. */
-static void print_command(FILE *to, const point *p, const series *one)
+/* The command that shows a series again; quantity: one of them, or NULL. */
+static void print_command(FILE *to, const point *p, const series *one, const char *quantity)
 {
     char *text = NULL;
     size_t size;
@@ -38,6 +38,8 @@ static void print_command(FILE *to, const point *p, const series *one)
     fprintf(line, " -f %s -n ", one->formulation.key);
     for (int i = 0; i < one->meshes; i++)
         fprintf(line, "%s%d", i > 0 ? "," : "", one->mesh[i]);
+    if (quantity != NULL)
+        fprintf(line, " -k %s", quantity);
     if (fclose(line) == 0)
         paragraph_command(to, 0, INDENT, text);
     free(text);
@@ -105,7 +107,7 @@ static void print_verdict(FILE *to, screen look, const sweep *s, const verdict *
         paragraph_say(to, 0, INDENT, "%s", v->reason);
     if (v->rule != NULL)
         paragraph_say(to, 0, INDENT, "finding %s: %s", v->rule->name, v->rule->cause);
-    print_command(to, p, one);
+    print_command(to, p, one, q->name);
 }
 
 static void print_disagreement(FILE *to, const sweep *s, const agreement *a, int number)
@@ -115,7 +117,7 @@ static void print_disagreement(FILE *to, const sweep *s, const agreement *a, int
     print_subject(to, number, p, one, p->scene.quantity[a->quantity].name);
     paragraph_say(to, 0, INDENT, "n = %d: %.12g differs from the stored %.12g (%s)",
                   one->mesh[a->mesh], a->value, a->truth->value, a->truth->source);
-    print_command(to, p, one);
+    print_command(to, p, one, p->scene.quantity[a->quantity].name);
 }
 
 static void print_flaw(FILE *to, const sweep *s, const flaw *c, int number)
@@ -126,7 +128,7 @@ static void print_flaw(FILE *to, const sweep *s, const flaw *c, int number)
     snprintf(what, sizeof what, "n = %d", one->mesh[c->mesh]);
     print_subject(to, number, p, one, what);
     paragraph_say(to, 0, INDENT, "contradicts itself: %s", c->why);
-    print_command(to, p, one);
+    print_command(to, p, one, NULL);
 }
 
 static void print_rules(FILE *to, const truths *t, int *number)

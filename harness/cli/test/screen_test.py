@@ -2,6 +2,7 @@
 import os
 import pty
 import re
+import shlex
 import shutil
 import subprocess
 import unittest
@@ -86,10 +87,12 @@ class Screen(ProgramTest):
                           "    wrong limit, as predicted, expected pass\n", block)
             self.assertIn("-2.7801 %", block)
             self.assertEqual(len(re.findall(r"^ \d\. ", block, re.M)), 5)
-            again = re.findall(r"^    beamwork (converge .* -f beamw -n .*)$", block, re.M)[0]
-        self.assertIn("--set section_data=printed", again)
+            again = block[block.index("    beamwork "):].partition("\n\n")[0]
+            again = shlex.split(again.replace("\\\n", ""))
+        self.assertEqual(again[:5], ["beamwork", "converge", "c_column", "--set",
+                                     "section_data=printed"])
         limit, = re.findall(r"limit ([\d.]+) \+- ", block.partition(" 2. ")[0])
-        self.assertIn(limit[:6], self.answered(*again.split()).stdout)
+        self.assertIn(limit[:6], self.answered(*again[1:]).stdout)
 
     def test_marks_of_the_unexpected(self):
         text = self.answered(*SELECT, "--truths", self.without_a_rule(), code=1, env=ASCII).stdout
@@ -105,6 +108,27 @@ class Screen(ProgramTest):
         self.assertRegex(self.answered(*chosen, "-v").stdout, long)
         self.assertNotRegex(self.answered(*chosen, "-q").stdout, long)
         self.refused(2, "give one of them", *chosen, "-q", "-v")
+
+    def test_widths(self):
+        """Tables of every verb, with the longest names there are."""
+        longest = ("-f", "beamw_consistent:torsion=hyperbolic", "-f", "collocation")
+        for words in (("solve", "c_column", *longest[:2], "-n", "2"),
+                      ("solve", "sheet_cantilever", "-f", "sheet_third", "-n", "1"),
+                      ("converge", "shear_elastica", "-n", "1,2,4"),
+                      ("converge", "shear_elastica", "-n", "1,2,4", "-v"),
+                      ("bench", "shear_elastica", *longest, "-n", "1,2", "--dense"),
+                      ("stress", "-k", "decay_free"), ("stress", "-k", "twist_wagner")):
+            text = self.answered(*words).stdout
+            self.assertGreater(len(text.splitlines()), 3)
+            self.columns(text)
+
+    def test_errors_in_percent(self):
+        """The same error as the JSON has it, in every verb."""
+        case = ("shear_elastica", "-f", "beamw", "-n", "4")
+        error = 100 * self.record("solve", *case)["quantities"][0]["error"]
+        shown = f"{error:+.4f} %"
+        for verb in ("solve", "converge", "bench"):
+            self.assertIn(shown, self.answered(verb, *case).stdout)
 
     def test_colour(self):
         """On a terminal that has it, unless it is not wanted."""
