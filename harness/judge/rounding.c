@@ -36,7 +36,7 @@ void rounding_digits(double value, int digits, char text[ROUNDING_TEXT])
     }
     const int exponent = exponent_of(value, digits), behind = digits - 1 - exponent;
     const int widest = digits > 9 ? digits : 9; /* places before the point */
-    if (exponent < -4 || exponent >= widest)
+    if (exponent < -3 || exponent >= widest)
         with_exponent(value, digits, 0, text);
     else if (behind >= 0)
         snprintf(text, ROUNDING_TEXT, "%.*f", behind, value);

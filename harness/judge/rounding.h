@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_ROUNDING_H
 #define BEAMWORK_ROUNDING_H
 
-enum { ROUNDING_TEXT = 32, ROUNDING_MOST = 12 /* digits */ };
+enum { ROUNDING_TEXT = 32, ROUNDING_MOST = 11 /* digits */ };
 
 /* With that many digits, "-" where it is not finite; without an exponent where that is short:
  * "0.0031", "3.1e-9". */

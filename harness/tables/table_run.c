@@ -8,22 +8,38 @@
 #include "harness/tables/screen.h"
 #include "harness/tables/table.h"
 
+/* "case (parameters), formulation, n = 1, 2: WHY" of the meshes of a series without a solution; the
+ * reason of the finest of them. */
+static void failed_series(FILE *to, const sweep *s, int index, int *lines)
+{
+    const series *one = &s->series[index];
+    const point *p = &s->point[one->point];
+    const solve_result *last = NULL;
+    char meshes[16 * SERIES_MAX_MESHES] = "";
+    for (int k = 0; k < one->meshes && one->missing[0] == '\0'; k++) {
+        const size_t used = strlen(meshes);
+        if (one->cell[k].solve.status == STATUS_OK)
+            continue;
+        snprintf(meshes + used, sizeof meshes - used, "%s%d", last != NULL ? ", " : "",
+                 one->mesh[k]);
+        last = &one->cell[k].solve;
+    }
+    if (last == NULL)
+        return;
+    if ((*lines)++ == 0)
+        fprintf(to, "\ncells without a solution\n");
+    const int at = fprintf(to, "  %s", p->type->name);
+    paragraph_say(to, at, 4, "%s%s%s, %s, n = %s: %s: %s", p->text[0] != '\0' ? " (" : "", p->text,
+                  p->text[0] != '\0' ? ")" : "", one->formulation.key, meshes,
+                  status_name(last->status), last->reason);
+}
+
 /* Cells that have no solution, also where finer meshes have one and decide the verdict. */
 static void failed_cells(FILE *to, const sweep *s)
 {
-    int count = 0;
+    int lines = 0;
     for (int i = 0; i < s->seriess; i++)
-        if (s->series[i].missing[0] == '\0')
-            for (int k = 0; k < s->series[i].meshes; k++) {
-                const series *one = &s->series[i];
-                const solve_result *r = &one->cell[k].solve;
-                if (r->status == STATUS_OK)
-                    continue;
-                if (count++ == 0)
-                    fprintf(to, "\ncells without a solution\n");
-                fprintf(to, "  %s, %s, n = %d: %s: %.110s\n", s->point[one->point].type->name,
-                        one->formulation.key, one->mesh[k], status_name(r->status), r->reason);
-            }
+        failed_series(to, s, i, &lines);
 }
 
 /* How often the limits of each formulation hold what they promise, over all cases. */
@@ -65,13 +81,15 @@ static void contradictions(FILE *to, const sweep *s, const judgement *j)
             }
         if (count == 0 || before)
             continue;
-        fputc('\n', to);
-        table_point(to, &s->point[s->series[v->series].point]);
-        fprintf(to,
-                ", %s: the published %.10g +- %.1g is contradicted by %d limits, the first %.10g "
-                "(%s)\n",
-                v->contradicted->quantity, v->contradicted->value, v->contradicted->uncertainty,
-                count, v->fit.limit, s->series[v->series].formulation.key);
+        const point *p = &s->point[s->series[v->series].point];
+        fprintf(to, "\n%s", p->type->name);
+        paragraph_say(
+            to, (int)strlen(p->type->name), 2,
+            "%s%s, %s: the published %.10g +- %.1g is contradicted by %d limits, the first "
+            "%.10g (%s)",
+            p->text[0] != '\0' ? ": " : "", p->text, v->contradicted->quantity,
+            v->contradicted->value, v->contradicted->uncertainty, count, v->fit.limit,
+            s->series[v->series].formulation.key);
     }
 }
 

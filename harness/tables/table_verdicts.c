@@ -8,7 +8,7 @@
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
 
-enum { NAME = 23, LIMIT = 15, DOUBT = 7, ORDER = 5, MOST_RULES = 16 };
+enum { NAME = 23, LIMIT = 16, DOUBT = 7, ORDER = 5, MOST_RULES = 16 };
 
 /* One point's part of the table. */
 typedef struct block {
@@ -29,7 +29,7 @@ static const series *series_of(const block *b, const verdict *v)
 
 static void print_columns(const block *b)
 {
-    fprintf(b->to, "    %-*s %*s %*s %*s %12s  %s\n", b->name, "formulation", LIMIT, "limit", DOUBT,
+    fprintf(b->to, "    %-*s %*s %*s %*s %12s %s\n", b->name, "formulation", LIMIT, "limit", DOUBT,
             "+-", ORDER, "order", "error", "verdict");
 }
 
@@ -94,7 +94,7 @@ static void verdict_words(block *b, const verdict *v, char *text, size_t size)
 static void print_verdict(block *b, const verdict *v)
 {
     const char *name = series_of(b, v)->formulation.key;
-    const int column = 4 + b->name + LIMIT + DOUBT + ORDER + 3 + 12 + 2;
+    const int column = 4 + b->name + LIMIT + DOUBT + ORDER + 3 + 12 + 1;
     char words[160];
     const int begun = fprintf(b->to, "    %-*s", b->name, name);
     if (begun > 4 + b->name)
@@ -106,7 +106,7 @@ static void print_verdict(block *b, const verdict *v)
     table_value(b->to, ORDER + 1, 2, 'f', v->fit.order);
     table_percent(b->to, v->error);
     verdict_words(b, v, words, sizeof words);
-    fprintf(b->to, "  ");
+    fputc(' ', b->to);
     paragraph_write(b->to, column, 6, words);
     if (v->reason[0] != '\0')
         paragraph_say(b->to, 0, 6, "%s", v->reason);
