@@ -1,5 +1,4 @@
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -29,17 +28,9 @@ static int running(const sweep *s)
 /* What it comes to, in lines of words. */
 static void write_answer(FILE *to, const sweep *s, const truths *t)
 {
-    char *text = NULL;
-    size_t size;
-    FILE *line = open_memstream(&text, &size);
-    if (line == NULL)
-        return;
-    reach_line_write(line, s, t, REACH_LINE_LEVEL);
-    if (fclose(line) == 0) {
-        text[strcspn(text, "\n")] = '\0';
-        paragraph_write(to, 0, 0, text);
-    }
-    free(text);
+    paragraph words;
+    reach_line_write(paragraph_begin(&words, to), s, t, REACH_LINE_LEVEL);
+    paragraph_end(&words, 0, 0);
 }
 
 static void write_text(FILE *to, int verbose, const sweep *s, const truths *t)

@@ -23,8 +23,9 @@ static void write_words(FILE *to, int at, int indent, const char *joint, const c
 {
     const int width = PARAGRAPH_WIDTH - columns_of(joint, strlen(joint));
     int column = at, begun = 0; /* begun: a word stands on this line */
-    for (text += strspn(text, " "); *text != '\0'; text += strspn(text, " ")) {
-        const size_t word = strcspn(text, " ");
+    static const char blank[] = " \n";
+    for (text += strspn(text, blank); *text != '\0'; text += strspn(text, blank)) {
+        const size_t word = strcspn(text, blank);
         const int wide = columns_of(text, word);
         if (begun && column + 1 + wide > width) {
             fprintf(to, "%s\n", joint);
@@ -44,9 +45,30 @@ void paragraph_write(FILE *to, int at, int indent, const char *text)
     write_words(to, at, indent, "", text);
 }
 
-void paragraph_command(FILE *to, int at, int indent, const char *text)
+FILE *paragraph_begin(paragraph *p, FILE *to)
 {
-    write_words(to, at, indent, " \\", text);
+    *p = (paragraph){.to = to};
+    p->words = open_memstream(&p->text, &p->size);
+    return p->words != NULL ? p->words : to;
+}
+
+static void end_with(paragraph *p, int at, int indent, const char *joint)
+{
+    if (p->words == NULL)
+        fputc('\n', p->to);
+    else if (fclose(p->words) == 0)
+        write_words(p->to, at, indent, joint, p->text);
+    free(p->text);
+}
+
+void paragraph_end(paragraph *p, int at, int indent)
+{
+    end_with(p, at, indent, "");
+}
+
+void paragraph_end_command(paragraph *p, int at, int indent)
+{
+    end_with(p, at, indent, " \\");
 }
 
 void paragraph_say(FILE *to, int at, int indent, const char *format, ...)

@@ -145,20 +145,18 @@ static int width_of_names(const overview *o)
 /* Cases that pass everywhere, where they have no rows. */
 static void print_passing(FILE *to, const overview *o)
 {
-    char *text = NULL;
-    size_t size;
-    int count = 0;
-    FILE *list = open_memstream(&text, &size);
-    if (list == NULL)
+    paragraph words;
+    int all = 0, named = 0;
+    for (int r = 0; r < o->rows; r++)
+        all += !overview_shown(o, r);
+    if (all == 0)
         return;
+    FILE *list = paragraph_begin(&words, to);
+    fprintf(list, "%d more pass in all that is judged: ", all);
     for (int r = 0; r < o->rows; r++)
         if (!overview_shown(o, r))
-            fprintf(list, "%s%s", count++ > 0 ? ", " : "", o->row[r]->name);
-    if (fclose(list) == 0 && count > 0) {
-        const int begun = fprintf(to, "%d more pass in all that is judged: ", count);
-        paragraph_write(to, begun, 2, text);
-    }
-    free(text);
+            fprintf(list, "%s%s", named++ > 0 ? ", " : "", o->row[r]->name);
+    paragraph_end(&words, 0, 0);
 }
 
 /* "text", behind what is in the line already or in a new one. */

@@ -1,7 +1,6 @@
 #include "harness/tables/table_path.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "harness/tables/paragraph.h"
 
@@ -10,16 +9,11 @@ enum { MOST_STEPS = 40 };
 /* Of the iterations of a step, in lines below each other where they are many. */
 static void corrections(FILE *to, int column, const solve_result *r, const step_record *k)
 {
-    char *text = NULL;
-    size_t size;
-    FILE *list = open_memstream(&text, &size);
-    if (list == NULL)
-        return;
+    paragraph words;
+    FILE *list = paragraph_begin(&words, to);
     for (int j = 0; j < k->iterations; j++)
         fprintf(list, " %.0e", r->iteration[k->first + j].correction);
-    if (fclose(list) == 0)
-        paragraph_write(to, column, column, text);
-    free(text);
+    paragraph_end(&words, column, column);
 }
 
 void table_path_steps(FILE *to, const solve_result *r)

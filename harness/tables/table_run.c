@@ -125,11 +125,8 @@ static void print_kinds(FILE *to, const judgement *j)
 static void print_verdicts(FILE *to, const judgement *j)
 {
     const int skipped = j->by_kind[VERDICT_SKIP], unknown = j->by_kind[VERDICT_NO_TRUTH];
-    char *text = NULL;
-    size_t size;
-    FILE *line = open_memstream(&text, &size);
-    if (line == NULL)
-        return;
+    paragraph words;
+    FILE *line = paragraph_begin(&words, to);
     fprintf(line, "%d verdict%s against truths%s", j->judged, j->judged == 1 ? "" : "s",
             j->judged > 0 ? ":" : "");
     print_kinds(line, j);
@@ -137,9 +134,7 @@ static void print_verdicts(FILE *to, const judgement *j)
         fprintf(line, "; besides %d not offered (skip)", skipped);
     if (unknown > 0)
         fprintf(line, "%s %d without a truth", skipped > 0 ? " and" : "; besides", unknown);
-    if (fclose(line) == 0)
-        paragraph_write(to, 0, 0, text);
-    free(text);
+    paragraph_end(&words, 0, 0);
 }
 
 void table_run(FILE *to, const sweep *s, const judgement *j, double seconds)

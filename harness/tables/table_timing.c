@@ -127,11 +127,13 @@ static void way(FILE *to, const sweep *s, const reached *r)
 
 /* The cheapest by counted work among the formulations of a point, those within its noise, and which
  * of the others was faster in every round all the same. */
-static void cheapest(FILE *to, const reach_question *q, reached list[])
+static void cheapest(FILE *out, const reach_question *q, reached list[])
 {
+    paragraph words;
+    FILE *to = paragraph_begin(&words, out);
     const int count = reach_ranking(q, list), ties = reach_ties(list, count);
     const char *before = "; dearer by its counts, faster in every round: ";
-    fprintf(to, "  %s within %g %%: ", q->s->point[q->point].scene.quantity[q->quantity].name,
+    fprintf(to, "%s within %g %%: ", q->s->point[q->point].scene.quantity[q->quantity].name,
             100 * q->level);
     for (int i = 0; i < ties; i++) {
         fputs(i > 0 ? "; " : "", to);
@@ -144,7 +146,7 @@ static void cheapest(FILE *to, const reach_question *q, reached list[])
             way(to, q->s, &list[i]);
             before = "; ";
         }
-    fputc('\n', to);
+    paragraph_end(&words, 0, 2);
 }
 
 static int has_truth(const sweep *s, const judgement *j, int at, int quantity)

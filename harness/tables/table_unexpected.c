@@ -26,12 +26,11 @@ static void print_settings(FILE *to, const char *parameters)
 /* The command that shows a series again; quantity: one of them, or NULL. */
 static void print_command(FILE *to, const point *p, const series *one, const char *quantity)
 {
-    char *text = NULL;
-    size_t size;
+    paragraph words;
     const char *path = scene_file_path(p->type);
-    FILE *line = one->imported == NULL ? open_memstream(&text, &size) : NULL;
-    if (line == NULL)
+    if (one->imported != NULL)
         return;
+    FILE *line = paragraph_begin(&words, to);
     fprintf(line, "beamwork converge %s%s", path != NULL ? "--scene " : "",
             path != NULL ? path : p->type->name);
     print_settings(line, p->text);
@@ -40,9 +39,7 @@ static void print_command(FILE *to, const point *p, const series *one, const cha
         fprintf(line, "%s%d", i > 0 ? "," : "", one->mesh[i]);
     if (quantity != NULL)
         fprintf(line, " -k %s", quantity);
-    if (fclose(line) == 0)
-        paragraph_command(to, 0, INDENT, text);
-    free(text);
+    paragraph_end_command(&words, 0, INDENT);
 }
 
 /* A numbered heading. */

@@ -73,6 +73,18 @@ static int number_of_rule(block *b, const rule *r)
     return i + 1;
 }
 
+/* How far the limit is from what it is not judged by. */
+static void add_difference(const verdict *v, char *text, size_t size)
+{
+    const truth *other = v->model_truth;
+    if (other->theory[0] != '\0')
+        snprintf(text, size, "; %+.3g %% from %s", 100 * v->model_error, other->theory);
+    else
+        snprintf(text, size, "; %+.3g %% from %s (%s)", 100 * v->model_error,
+                 strcmp(other->kind, "agreement") == 0 ? "where families agree" : "another model",
+                 other->kind);
+}
+
 /* What stands in the last column. */
 static void verdict_words(block *b, const verdict *v, char *text, size_t size)
 {
@@ -85,10 +97,7 @@ static void verdict_words(block *b, const verdict *v, char *text, size_t size)
     else if (number > 0)
         used += snprintf(text + used, size - (size_t)used, " [%d]", number);
     if (v->truth == NULL && isfinite(v->model_error))
-        snprintf(text + used, size - (size_t)used, "; %+.3g %% from %s (%s)", 100 * v->model_error,
-                 strcmp(v->model_truth->kind, "agreement") == 0 ? "where families agree"
-                                                                : "another model",
-                 v->model_truth->kind);
+        add_difference(v, text + used, size - (size_t)used);
 }
 
 static void print_verdict(block *b, const verdict *v)
@@ -137,12 +146,11 @@ static void print_skipped(block *b)
 {
     for (int i = 0; i < b->count; i++) {
         const verdict *first = b->verdict[i];
-        char *text = NULL;
-        size_t size;
+        paragraph words;
         int names = 0, last = -1;
-        FILE *line = first != NULL ? open_memstream(&text, &size) : NULL;
-        if (line == NULL)
+        if (first == NULL)
             continue;
+        FILE *line = paragraph_begin(&words, b->to);
         fprintf(line, "skip: %s: ", first->reason);
         for (int k = i; k < b->count; k++) {
             const verdict *v = b->verdict[k];
@@ -154,9 +162,7 @@ static void print_skipped(block *b)
             if (v != first)
                 b->verdict[k] = NULL;
         }
-        if (fclose(line) == 0)
-            paragraph_say(b->to, 0, 2, "%s", text);
-        free(text);
+        paragraph_end(&words, 0, 2);
     }
 }
 
