@@ -31,6 +31,11 @@ def question_of(site, point, quantity, name):
             "left_out": [s.key for s in further]}
 
 
+def told_of(point, quantity):
+    """Is any of its errors more than round-off?"""
+    return any(e > plots.FLOOR for s in point.series for _, e in plots.finite(s, quantity))
+
+
 def figures_of(site, case, index):
     """What is drawn of one parameter point."""
     point = case.points[index]
@@ -38,16 +43,19 @@ def figures_of(site, case, index):
     quantities = [q for q in answers.judged(point)
                   if any(plots.finite(s, q) for s in point.series)]
     out = {"main": NOTHING, "others": None, "model": None, "curves": []}
+    main = plots.telling(point, quantities) if quantities else None
+    out["quantity"] = main
     if index == 0 and quantities:
-        out["main"] = question_of(site, point, quantities[0], name)
+        out["main"] = question_of(site, point, main, name)
     elif quantities and (index < MOST_POINTS or point.others):
-        shown, _ = plots.leading(point, quantities[0])
+        shown, _ = plots.leading(point, main)
         out["main"] = {**NOTHING, "elements": question_figures.errors_figure(
-            site, point, quantities[0], shown, ("elements", "time"), name)}
-    others = quantities[1:][:MOST_PANELS]
-    out["panels_left_out"] = quantities[1:][MOST_PANELS:]
+            site, point, main, shown, ("elements", "time"), name)}
+    others = [q for q in quantities if q != main and told_of(point, q)]
+    out["panels_left_out"] = others[MOST_PANELS:]
     if others and index == 0:
-        out["others"] = question_figures.small_multiples(site, point, others, f"{name}_others")
+        out["others"] = question_figures.small_multiples(site, point, others[:MOST_PANELS],
+                                                         f"{name}_others")
     modelled = [q for q in point.units
                 if any(plots.finite(s, q, "model_errors") for s in point.series)][:MOST_PANELS]
     if modelled and (index == 0 or point.others):
@@ -89,11 +97,14 @@ def limits_of(point):
             if q in point.units and all(v.verdict in ("no truth", "skip") for _, v in found)]
 
 
-def verdicts_of(point):
-    """[(series, verdicts)] for the table."""
-    return [(s, [v for v in s.verdicts
-                 if v.verdict not in ("skip", "no truth") or math.isfinite(v.model_truth)])
-            for s in point.series]
+def verdicts_of(point, index):
+    """[(series, verdicts)] for the table: of the first parameter point all that say something, of
+    the others what is not a pass."""
+    def told(v):
+        own = v.verdict not in ("skip", "no truth", *(("pass",) if index else ()))
+        return own or math.isfinite(v.model_truth) and v.verdict != "pass"
+
+    return [(s, [v for v in s.verdicts if told(v)]) for s in point.series]
 
 
 def parts_of(site, case, index):
@@ -103,13 +114,15 @@ def parts_of(site, case, index):
     noise = [100 * (m.clock.most / m.clock.least - 1) for s in point.series for m in s.meshes
              if m.clock.repeats > 1 and m.clock.least > 0]
     shown, cells = case_truth.matrix(point)
+    figures = figures_of(site, case, index)
+    main = figures["quantity"] or (names[0] if names else None)
     return {
-        "point": point, "figures": figures_of(site, case, index), "quantity":
-            names[0] if names else None, "table": table_of(point, names[0]) if names else [],
+        "point": point, "figures": figures, "quantity":
+            main, "table": table_of(point, main) if main else [],
         "limits": limits_of(point), "others": beside.rows(point), "cheapest": cheapest_of(point),
-        "front": answers.front(point, names[0]) if names else [], "failures":
+        "front": answers.front(point, main) if main else [], "failures":
             answers.failures(point), "savings": answers.savings(point), "noise": sorted(noise),
-        "shown": shown, "cells": cells, "verdicts": verdicts_of(point), "tally":
+        "shown": shown, "cells": cells, "verdicts": verdicts_of(point, index), "tally":
             case_truth.tally_of(point), "has_model": any(
                 math.isfinite(v.model_error) for s in point.series for v in s.verdicts)
     }

@@ -8,6 +8,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormat
 from reports import answers, style, tally
 
 FLOOR = 1e-13  # below it errors are round-off
+NEARLY = 1e-10  # errors that no reader asks about
 CEILING = 1e3  # above it a value is a divergence
 MOST_CURVES = style.MOST  # of formulations in a figure
 OPEN = "open: below the truth's own digits"
@@ -98,6 +99,17 @@ def leading(point, quantity):
     plain = [s for s in order if not any(rank(s)[:2])]
     first = {s.key for s in (plain or order)[:MOST_CURVES]}
     return [s for s in drawn if s.key in first], [s for s in drawn if s.key not in first]
+
+
+def telling(point, quantities):
+    """The first of these that tells most formulations from its truth on their coarsest mesh, where
+    there is one; else the first."""
+    def tells(quantity):
+        least = max(digits_of(point, quantity) or 0, NEARLY)
+        first = [pairs[0][1] for pairs in (finite(s, quantity) for s in point.series) if pairs]
+        return sum(e > least for e in first) > len(first) / 2
+
+    return next((q for q in quantities if tells(q)), quantities[0])
 
 
 def marks_of(site, point, series, quantity, meshes, errors="errors"):

@@ -4,7 +4,7 @@ from reports import beside, plots, tally
 from reports.chart import Chart
 from reports.plots import MOST_CURVES, finite
 
-ONE = (660, 290)  # axes of a figure with one panel [pixels]
+ONE = (520, 280)  # axes of a figure with one panel [pixels]
 TWO = (400, 260)  # of each of two beside each other
 SMALL = (250, 150)  # of one among many
 

@@ -1,6 +1,7 @@
 #include "harness/scene_writer/meaning.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "harness/scene_writer/meaning_impl.h"
 
@@ -193,9 +194,9 @@ static void extracted(FILE *to, const scene *s, const scene_quantity *q)
     meaning_state(to, s, q);
 }
 
-void meaning_of_quantity(const scene *s, int quantity, char *text, size_t size)
+/* Without the name of its analysis. */
+static void put_sentence(const scene *s, const scene_quantity *q, char *text, size_t size)
 {
-    const scene_quantity *q = &s->quantity[quantity];
     FILE *to = fmemopen(text, size, "w");
     text[0] = '\0';
     if (to == NULL)
@@ -209,4 +210,30 @@ void meaning_of_quantity(const scene *s, int quantity, char *text, size_t size)
         fprintf(to, ", plus %.10g", q->offset);
     fclose(to);
     text[size - 1] = '\0';
+}
+
+/* Does another analysis of the same kind answer in the same words? */
+static int has_twin(const scene *s, const scene_quantity *q, const char *text)
+{
+    char other[MEANING_ROOM];
+    for (int i = 0; i < s->quantities; i++) {
+        const scene_quantity *r = &s->quantity[i];
+        if (r->analysis == q->analysis || r->what.kind != q->what.kind)
+            continue;
+        put_sentence(s, r, other, sizeof other);
+        if (strcmp(other, text) == 0)
+            return 1;
+    }
+    return 0;
+}
+
+void meaning_of_quantity(const scene *s, int quantity, char *text, size_t size)
+{
+    const scene_quantity *q = &s->quantity[quantity];
+    char sentence[MEANING_ROOM];
+    put_sentence(s, q, sentence, sizeof sentence);
+    if (has_twin(s, q, sentence))
+        snprintf(text, size, "%s (analysis_%d)", sentence, q->analysis);
+    else
+        snprintf(text, size, "%s", sentence);
 }

@@ -65,15 +65,6 @@ static void along_path(FILE *to, const scene *s, const scene_quantity *q, const 
     }
 }
 
-/* Where another analysis of its kind has the same words. */
-static int has_twin(const scene *s, int analysis)
-{
-    for (int i = 0; i < s->analyses; i++)
-        if (i != analysis && s->analysis[i].kind == s->analysis[analysis].kind)
-            return 1;
-    return 0;
-}
-
 void meaning_state(FILE *to, const scene *s, const scene_quantity *q)
 {
     const scene_analysis *a = &s->analysis[q->analysis], *path = path_of(s, a);
@@ -89,6 +80,4 @@ void meaning_state(FILE *to, const scene *s, const scene_quantity *q)
         fprintf(to, ", while the axes turn at %.10g rad/s", speed(path));
     if (a->kind == SCENE_COMPLIANCE && scene_compliance_of(a)->moments != SCENE_MOMENTS_SPATIAL)
         fprintf(to, ", moments %s", scene_moments_name(scene_compliance_of(a)->moments));
-    if (has_twin(s, q->analysis))
-        fprintf(to, " (analysis_%d)", q->analysis);
 }
