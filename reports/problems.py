@@ -56,7 +56,7 @@ def problems_of(case, keys):
         meshes = [m for s in point.series for m in s.meshes if s.key in keys and m.status == "ok"]
         for quantity in answers.judged(point):
             tries = tries_of(point, quantity, keys) if quantity not in second_names else {}
-            if tries:
+            if tries and any(math.isfinite(m.cost) for m in meshes):
                 found.append(Problem(case.name, point.name, quantity, tries, meshes))
     for problem in found:
         problem.weight = 1 / len(found)

@@ -26,7 +26,7 @@ def of_speed(compared, rows):
         "near_share": near_share,
         "most": most,
         "most_share": most_share,
-        "most_factor": min(r.factor for r in known if r.key in most),
+        "most_factor": max(r.factor for r in known if r.key in most),
     }
 
 

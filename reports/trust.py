@@ -84,7 +84,7 @@ def table(cases, found, keys):
     counts, measured = counted(cases), factors(found, contestants(cases), Question(LEVEL))
     rows = [Row(key, counts[key]) for key in keys if sum(counts.get(key, {}).values())]
     for row in rows:
-        if row.key in measured:
+        if row.key in measured and found:
             speed(row, found, measured[row.key])
     return sorted(rows, key=order)
 

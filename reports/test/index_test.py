@@ -96,6 +96,8 @@ class Small(ProgramTest):
                      "beamw_vlasov")
         page = self.whole((site / "index.html").read_text(encoding="utf-8"))
         self.assertEqual(page.count("<figure>"), 1)
+        answers = page[page.index('id="answers"'):page.index("</section>")]
+        self.assertRegex(answers, r'n&nbsp;=&nbsp;\d+ <span class="pass" title="[^"]*">✓</span>')
         table = (site / "profiles.csv").read_text(encoding="utf-8").splitlines()
         self.assertEqual(table[0], "picture,level,factor,beamw_vlasov,collocation")
         self.assertEqual(len({len(line.split(",")) for line in table}), 1)

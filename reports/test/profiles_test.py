@@ -175,6 +175,14 @@ class Contestants(unittest.TestCase):
         self.assertEqual(len(compared.curves), 8)
         self.assertEqual(sorted(compared.profile(Question(LEVEL))), keys)
 
+    def test_without_counted_work(self):
+        """Results of an older program have no costs."""
+        tries = [tried(k, {"u": GOOD}, math.nan) for k in "ab"]
+        compared = profiles.Compared([case("one", tries)])
+        row, _ = trust.table([case("one", tries)], compared.problems, compared.keys)
+        self.assertFalse(compared.any)
+        self.assertTrue(math.isnan(row.solved) and math.isnan(row.factor))
+
     def test_nothing_to_compare(self):
         alone = profiles.Compared([case("one", [tried("a", {"u": GOOD})])])
         none = profiles.Compared([case("one", [tried("a", {}), tried("b", {})])])
