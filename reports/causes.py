@@ -34,7 +34,9 @@ def present(site):
 def write(site):
     record = stored(site, "causes.json")
     known = {rule["rule"] for rule in data.read_rules(site.truths)}
-    site.write("causes.html", "causes.html", record=record, rules=by_rule(record), known=known)
+    solved = sum(any(e["gone"] for e in s["experiments"]) for s in record["studies"])
+    site.write("causes.html", "causes.html", record=record, rules=by_rule(record), known=known,
+               solved=solved)
 
 
 def tasks(site):

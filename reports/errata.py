@@ -10,9 +10,10 @@ NAVIGATION = [("errata.html", "errata")]
 
 def write(site):
     text = (ROOT / "reference" / "ERRATA.md").read_text(encoding="utf-8")
-    site.write("errata.html",
-               "errata.html",
-               body=markdown.markdown(text, extensions=["tables", "toc"]))
+    parser = markdown.Markdown(extensions=["tables", "toc"])
+    body = parser.convert(text)
+    parts = [(t["id"], t["name"]) for top in parser.toc_tokens for t in top["children"]]
+    site.write("errata.html", "errata.html", body=body, parts=parts)
 
 
 def tasks(site):

@@ -7,6 +7,7 @@ from reports.site import LEVELS, file_of
 from reports.verdicts import SEVERITY, UNJUDGED, worst
 
 NAVIGATION = []
+CHOICE = "When to choose it"  # heading of a text, to which what is measured is added
 ANALYSES = ("statics", "vibration", "buckling")
 # Verdicts that say that more elements do not give the answer.
 WRONG = ("wrong limit, as predicted", "wrong limit", "refused", "diverged")
@@ -82,15 +83,17 @@ def all_ways(cases):
 
 
 def speed(found, key, known):
-    """For each level: cases that can be reached, that are, where it is first, cost by the first's."""
+    """For each level: cases that one reaches, that it reaches, those of them that it does not pass,
+    where it is first, cost by the first's."""
     out = []
     for level in LEVELS:
-        posed, reached, first, factors = 0, 0, [], []
+        posed, reached, first, factors, doubtful = 0, 0, [], [], 0
         for case, _, series in found:
             answer = known[case.name, level]
             if series.missing or not answer.best:
                 continue
             posed += 1
+            doubtful += any(w.key == key for w in answer.defective)
             own = next((w for w in answer.best + answer.dearer if w.key == key), None)
             if own is None:
                 continue
@@ -98,7 +101,7 @@ def speed(found, key, known):
             factors.append(own.cost / answer.best[0].cost)
             if own in answer.best:
                 first.append((case.name, own.n))
-        out.append((level, posed, reached, first, median(factors)))
+        out.append((level, posed, reached, doubtful, first, median(factors)))
     return out
 
 
@@ -168,6 +171,7 @@ def contents(site, key, known):
         "choices": choices,
         "example": example(name, choices),
         "analyses": ANALYSES,
+        "choice": CHOICE,
         "counts": sorted(counts.items(), key=lambda item: SEVERITY[item[0]]),
         "rules": rules(own, known.rules, known.titles),
         "wrong": [(c, v) for c, v in failing if v is not None and v.verdict in WRONG],

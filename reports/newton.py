@@ -40,6 +40,12 @@ def singles(data):
     return list(cases.items())
 
 
+def farther(data):
+    """(contestants, those for which the mixed form goes farther in one step, and less far)."""
+    best = [[largest(s["values"], s[form])[0] or 0 for form in FORMS] for s in data["singles"]]
+    return len(best), sum(m > d for m, d in best), sum(m < d for m, d in best)
+
+
 def contests(data):
     """[(case, [(contestant, first steps, {form: summary})])]"""
     cases = {}
@@ -93,6 +99,7 @@ def write(site):
              for case, rows in cases.items()]
     site.write("newton.html",
                "newton.html",
+               farther=farther(data),
                singles=singles(data),
                contests=contests(data),
                histories=drawn)

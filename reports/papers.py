@@ -57,7 +57,8 @@ def write(site):
     ]
     papers = [(title, [r for r in rows if r["paper"] == letter]) for letter, title in NAMES.items()]
     site.write(
-        "papers.html", "papers.html", papers=[(title, counts(of), of) for title, of in papers]
+        "papers.html", "papers.html", papers=[(title, counts(of), of) for title, of in papers],
+        total=[(status, n) for status, n in counts(rows) if n]
     )
 
 

@@ -19,7 +19,7 @@ def texts():
 
 def claims(text):
     """[(is it for them?, cases named)] of the bullets on when to choose a formulation."""
-    said = dict(explanation.sections(text))["When to choose it"]
+    said = dict(explanation.sections(text))[formulation.CHOICE]
     bullets = re.findall(r"^\* \*\*(For|Not for)\*\* (.*)$", said, flags=re.M)
     return [(kind == "For", re.findall(r"`(\w+)`", words)) for kind, words in bullets]
 
@@ -103,6 +103,17 @@ class Pages(ProgramTest):
             self.assertGreater(page.count("<math"), 1, key)
             for left in ("$", "\\", "EQUATION"):
                 self.assertNotIn(left, page, key)
+
+    def test_what_is_measured_of_the_choice(self):
+        """Cases where it is the cheapest, and where it is wrong, from the data."""
+        self.assertRegex(self.pages["beamw_first"],
+                         r'however many elements[^\n]*>c_column</a> \(buckling_load, \+32 %\)')
+        self.assertNotIn("however many elements, at the", self.pages["collocation"])
+        for key, page in self.pages.items():
+            cheapest = [c for (c, level), answer in self.known.ways.items()
+                        if level == 0.01 and any(w.key == key for w in answer.best)]
+            said = re.search("cheapest to 1 % among those that pass(.*)", page).group(1)
+            self.assertEqual(re.findall(r">(\w+)</a>", said), sorted(cheapest), key)
 
     def test_options_share_the_text(self):
         self.assertIn("<h2>Theory</h2>", self.pages["beamw:mass=lumped"])
