@@ -172,9 +172,14 @@ def both(mesh):
     return [mesh.errors.get(q, math.nan) for q in ("C_xx", "C_zz")]
 
 
+def peers_point(site):
+    """The parameter point that other programs were run on, or None."""
+    return Lookup(site.cases).points.get(("sheet_cantilever", canonical(PEERS)))
+
+
 def peers(site):
     """(rows by unknowns, figure, answer) of the case that other programs were run on."""
-    point = Lookup(site.cases).points.get(("sheet_cantilever", canonical(PEERS)))
+    point = peers_point(site)
     ours, out = [], []
     others = {
         s.key: [m for m in s.meshes if all(map(math.isfinite, both(m)))]
@@ -208,8 +213,8 @@ def write(site):
 
 
 def section(site, case):
-    """On the page of the peers' case: their figure."""
-    if case.name != "sheet_cantilever":
+    """On the page of the peers' case, where it was run at their parameters: where they are."""
+    if case.name != "sheet_cantilever" or peers_point(site) is None:
         return []
     return [(
         "Other programs on this case",

@@ -21,6 +21,8 @@ def rendered(text):
     text = DISPLAY.sub(lambda found: keep(found, True), text)
     text = INLINE.sub(lambda found: keep(found, False), text)
     page = markdown.markdown(text, extensions=["tables"])
+    # What follows an equation without a space stays on its line.
+    page = re.sub(r"(EQUATION\d+E)([.,;:)]+)(?!<)", r'<span class="whole">\1\2</span>', page)
     return re.sub(r"EQUATION(\d+)E", lambda found: equations[int(found.group(1))], page)
 
 

@@ -84,24 +84,22 @@ def all_ways(cases):
 
 def speed(found, key, known):
     """For each level: cases that one reaches, that it reaches, those of them that it does not pass,
-    where it is first, cost by the first's."""
+    where it is first, rank and cost by the first's in the median."""
     out = []
     for level in LEVELS:
-        posed, reached, first, factors, doubtful = 0, 0, [], [], 0
+        posed, doubtful, first, factors, ranks = 0, 0, [], [], []
         for case, _, series in found:
             answer = known[case.name, level]
             if series.missing or not answer.best:
                 continue
             posed += 1
             doubtful += any(w.key == key for w in answer.defective)
-            own = next((w for w in answer.best + answer.dearer if w.key == key), None)
-            if own is None:
-                continue
-            reached += 1
-            factors.append(own.cost / answer.best[0].cost)
-            if own in answer.best:
-                first.append((case.name, own.n))
-        out.append((level, posed, reached, doubtful, first, median(factors)))
+            for own, rank, _ in answer.ways:
+                if own.key == key and rank:
+                    ranks.append(1 if own in answer.best else rank)
+                    factors.append(own.cost / answer.best[0].cost)
+                    first += [(case.name, own.n)] if own in answer.best else []
+        out.append((level, posed, len(ranks), doubtful, first, median(ranks), median(factors)))
     return out
 
 

@@ -1,8 +1,11 @@
 """The bar and the words: pages in their groups, words linked where the glossary has them."""
+import tempfile
 import unittest
 
+import h5py
+
 from harness.test.program import TRUTHS
-from reports import glossary, navigation
+from reports import data, glossary, navigation
 
 PAGES = [("index.html", "beamwork"), ("ledger.html", "ledger"), ("claims.html", "claims"),
          ("errata.html", "errata"), ("cases.html", "all cases"), ("environment.html", "environment"),
@@ -41,6 +44,14 @@ class Words(unittest.TestCase):
                          '<a class="term" href="glossary.html#wrong-limit">wrong limit</a>')
         self.assertIn('#verdict">Verdicts</a>', str(term("Verdicts", "verdict")))
         self.assertEqual(str(term("<no such word>")), "&lt;no such word&gt;")
+
+    def test_truths_without_words(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = f"{folder}/truths.h5"
+            with h5py.File(path, "w") as file:
+                file.create_group("truths")
+            self.assertEqual(data.read_glossary(path), [])
+            self.assertEqual(str(glossary.linker(path)("verdict")), "verdict")
 
     def test_other_names(self):
         known = glossary.places([{"term": "wrong limit", "also": "wrong", "see": ""}])
