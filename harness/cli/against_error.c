@@ -8,6 +8,7 @@
 
 #include "harness/cli/contestant.h"
 #include "harness/command/defaults.h"
+#include "harness/command/errors.h"
 #include "harness/judge/families.h"
 #include "harness/judge/meeting.h"
 #include "harness/judge/reach.h"
@@ -24,7 +25,7 @@ enum { LEVELS = 8, LINE = 1000, NAMED = 2 * FORMULATION_KEY };
 typedef struct duel {
     sweep s; /* two series: A and B */
     truths t;
-    int levels, asked; /* asked: 1: by --error */
+    int levels, asked; /* asked: so many by --error */
     double level[LEVELS];
     char note[DEFAULTS_NOTE];
 } duel;
@@ -36,30 +37,6 @@ typedef struct bout {
     contestant one[2];
     against answer;
 } bout;
-
-/* "1%,0.1%" or "0.01". */
-static status read_levels(const char *text, duel *d, fault *f)
-{
-    for (const char *at = text; *at != '\0' || at == text; at += *at == ',') {
-        char *end;
-        double value = strtod(at, &end);
-        if (*end == '%' && end > at) {
-            value /= 100;
-            end++;
-        }
-        if (end == at || (*end != ',' && *end != '\0') || (*end == ',' && end[1] == '\0') ||
-            !(value > 0 && value < 1) || d->levels == LEVELS)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "--error '%.60s': give at most %d errors between 0 and 100 %%, such as "
-                "1%%,0.1%%",
-                text, LEVELS);
-        d->level[d->levels++] = value;
-        at = end;
-    }
-    d->asked = 1;
-    return STATUS_OK;
-}
 
 /* Not again where a former level has met on the same meshes. */
 static status measure(const duel *d, const command_request *r, const bout *former, int formers,
@@ -192,7 +169,7 @@ static void show_json(const duel *d, const bout m[])
 /* The levels that are asked for, or those of reach_level that both reach; their number. */
 static int choose_levels(duel *d, bout m[LEVELS])
 {
-    for (int i = 0; i < REACH_LEVELS && !d->asked; i++) {
+    for (int i = 0; i < REACH_LEVELS && d->asked == 0; i++) {
         const meeting here = meeting_at(&d->s, &d->t, reach_level[i]);
         if (meeting_holds(&here))
             d->level[d->levels++] = reach_level[i];
@@ -239,7 +216,8 @@ static status fight(duel *d, command_request *r, const case_type *type, fault *f
     const sweep_request request = {.jobs = r->jobs,
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
     if (r->error != NULL)
-        TRY(read_levels(r->error, d, f));
+        TRY(errors_parse(r->error, LEVELS, d->level, &d->levels, f));
+    d->asked = d->levels;
     TRY(defaults_formulation(r, type, d->note, f));
     TRY(formulation_parse(r->against, &r->formulation[1], f));
     TRY(case_input_truths(r, &d->t, f));

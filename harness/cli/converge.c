@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
+#include "harness/command/errors.h"
 #include "harness/judge/families.h"
 #include "harness/record/csv.h"
 #include "harness/record/json.h"
@@ -26,32 +27,37 @@ static int running(const sweep *s)
 }
 
 /* What it comes to, in lines of words. */
-static void write_answer(FILE *to, const sweep *s, const truths *t)
+static void write_answer(FILE *to, double level, const sweep *s, const truths *t)
 {
     paragraph words;
-    reach_line_write(paragraph_begin(&words, to), s, t, REACH_LINE_LEVEL);
+    reach_line_write(paragraph_begin(&words, to), s, t, level);
     paragraph_end(&words, 0, 0);
 }
 
-static void write_text(FILE *to, int verbose, const sweep *s, const truths *t)
+static void write_text(FILE *to, const command_request *r, double level, const sweep *s,
+                       const truths *t)
 {
-    if (verbose || running(s) == 1) {
+    if (r->verbose || running(s) == 1) {
         table_convergence(to, s, t);
         fputc('\n', to);
     } else if (running(s) > 1)
         table_beside(to, s, t);
-    write_answer(to, s, t);
+    write_answer(to, level, s, t);
 }
 
 static status write_form(FILE *to, const command_request *r, const sweep *s, const truths *t,
                          fault *f)
 {
+    double level = REACH_LINE_LEVEL;
+    int levels;
+    if (r->error != NULL)
+        TRY(errors_parse(r->error, 1, &level, &levels, f));
     if (strcmp(r->format, "json") == 0)
-        return json_convergence_write(to, s, t, f);
+        return json_convergence_write(to, s, t, level, f);
     if (strcmp(r->format, "csv") == 0)
         csv_convergence(to, s, t);
     else
-        write_text(to, r->verbose, s, t);
+        write_text(to, r, level, s, t);
     return STATUS_OK;
 }
 
@@ -102,8 +108,8 @@ int cli_converge(int count, char **arguments)
         "formulations side by side, a table for each quantity; of one, or with -v of each, with "
         "values and times. Without -f: all formulations that offer what the case needs; without "
         "-n: the case's own meshes. The last line says which formulation reaches 1 % with how many "
-        "elements."
+        "elements, or the error given by --error."
         "\vbeamwork converge c_column -k buckling_load\n"
         "beamwork converge c_column -f beamw -f beamw_consistent -n 2,4,8,16,32",
-        "fnskFojTYv", count, arguments, converge_request);
+        "fnskeFojTYv", count, arguments, converge_request);
 }

@@ -41,20 +41,20 @@ static json_t *quantity_of(const gathering *g, int series_index, int quantity)
 }
 
 /* The last line of the text. */
-static json_t *sentence_of(const sweep *s, const truths *t)
+static json_t *sentence_of(const sweep *s, const truths *t, double level)
 {
     char *text = NULL;
     size_t size = 0;
     FILE *to = open_memstream(&text, &size);
     if (to == NULL)
         return NULL;
-    reach_line_write(to, s, t, REACH_LINE_LEVEL);
+    reach_line_write(to, s, t, level);
     json_t *out = fclose(to) == 0 && size > 0 ? json_stringn(text, size - 1) : NULL;
     free(text);
     return out;
 }
 
-status json_convergence_write(FILE *to, const sweep *s, const truths *t, fault *f)
+status json_convergence_write(FILE *to, const sweep *s, const truths *t, double level, fault *f)
 {
     const gathering g = {s, NULL, t};
     json_t *all = json_array();
@@ -72,6 +72,6 @@ status json_convergence_write(FILE *to, const sweep *s, const truths *t, fault *
         json_array_append_new(all, out);
     }
     return json_finish(json_pack("{s:i,s:o,s:o}", "schema_version", SCHEMA_VERSION,
-                                 record_series.table, all, "sentence", sentence_of(s, t)),
+                                 record_series.table, all, "sentence", sentence_of(s, t, level)),
                        to, f);
 }

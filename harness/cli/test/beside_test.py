@@ -60,7 +60,7 @@ class Beside(ProgramTest):
 
     def test_tables_are_those_of_json(self):
         text = self.agree("elastica", "-n", "1,2,4,8")
-        self.assertLessEqual(max(map(len, text.splitlines()[:-1])), WIDEST)
+        self.assertLessEqual(max(map(len, text.splitlines())), WIDEST)
 
     def test_values_where_there_is_nothing_to_measure_by(self):
         text = self.agree("c_column", "-k", "buckling_load", "-n", "2,4,8,16")
@@ -100,6 +100,13 @@ class Beside(ProgramTest):
         self.assertRegex(chosen, r"(?m)^not run, does not offer shear: \w+$")
         self.assertGreater(len(next(iter(tables(self.answered(
             "converge", "elastica", "-k", "theta").stdout).values()))), 6)
+
+    def test_another_error(self):
+        work = ("converge", "elastica", "-k", "theta", "--error")
+        self.assertIn("\nfor 0.1 % in every quantity: ", self.answered(*work, "0.1%").stdout)
+        self.assertIn("for 0.1 % in", self.record(*work, "0.1%")["sentence"])
+        for error in ("1%,2%", "0", "2", ""):
+            self.refused(2, "--error", *work, error)
 
     def test_one_or_verbose(self):
         """Values and times of each formulation by itself."""
