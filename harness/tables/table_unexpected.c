@@ -153,9 +153,9 @@ static void print_unmet(FILE *to, const truths *t, int *number)
         if (row->met || (row->formulation[0] != '\0' && formulation_find(row->formulation) == NULL))
             continue;
         parameters_text(row->type, row->parameter, text, sizeof text);
-        print_heading(to, ++*number, "truth of nothing that exists: %s %s, %s%s%s (%s)",
-                      row->type->name, text, row->quantity, row->formulation[0] != '\0' ? ", " : "",
-                      row->formulation, row->source);
+        print_heading(to, ++*number, "truth of nothing that exists: %s%s%s, %s%s%s (%s)",
+                      row->type->name, text[0] != '\0' ? ": " : "", text, row->quantity,
+                      row->formulation[0] != '\0' ? ", " : "", row->formulation, row->source);
     }
     if (t->strangers > 0) {
         print_heading(to, ++*number, "truths of %d unknown cases, the first: %s", t->strangers,
