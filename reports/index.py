@@ -8,14 +8,14 @@ NAVIGATION = [("index.html", "beamwork")]
 LEVEL = 0.01  # of the answers
 MOST_ROWS = 10  # of the table of trust on the first screen
 PLACES = (  # where to go next, as far as this site has it
-    ("answers.html", "answers at your tolerance"),
+    ("answers.html", "your tolerance"),
     ("profiles.html", "profiles"),
-    ("profiles.html#winners", "winners at every tolerance"),
+    ("profiles.html#winners", "winners at each tolerance"),
     ("profiles.html#trust", "trust in full"),
     ("formulations.html", "formulations"),
     ("stability.html", "stability"),
     ("errata.html", "errata"),
-    ("ledger.html", "known causes"),
+    ("ledger.html", "causes"),
     ("glossary.html", "glossary"),
 )
 FIGURE = (300, 165)  # axes, pixels
