@@ -25,6 +25,7 @@ PAGES = (
     "errata",
     "column",
     "case",
+    "explorer",
     "formulation",
     "pictures",
     "mechanisms",

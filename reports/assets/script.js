@@ -172,6 +172,14 @@ class Figure {
 }
 
 const figures = all(document, "div.figure").filter(frame => frame.querySelector("svg")).map(frame => new Figure(frame, frame.querySelector("svg")));
+// Figures that come later (explorer.js) take part, too: one for each frame.
+window.beamwork = {
+  figure(frame) {
+    all(frame.parentNode, "button.more").forEach(button => button.remove());
+    for (let i = figures.length; i--;) if (figures[i].frame == frame) figures.splice(i, 1);
+    figures.push(new Figure(frame, frame.querySelector("svg")));
+  }
+};
 addEventListener("scroll", () => { box.hidden = true; }, { passive: true });
 
 if (document.querySelector("div.viewer")) document.head.append(Object.assign(document.createElement("script"), { src: "viewer.js" }));
