@@ -5,7 +5,6 @@ A chart has panels in rows; a panel has curves with marks, levels, words and a g
 coordinates of its data. Lengths of the picture are in pixels. What a curve says of itself (colour,
 marker, line, whose it is) is what style.Styles.of and Site.points return."""
 import functools
-import json
 import math
 import zlib
 
@@ -14,7 +13,7 @@ from matplotlib.markers import MarkerStyle
 
 from reports import style
 from reports.axis import Axis
-from reports.figures import FONT, Image, number
+from reports.figures import FONT, MARKERS, Image, number, said_of
 
 INK = "currentColor"
 DASHES = {"-": "", "--": "4.4 1.9", ":": "1.2 2", "-.": "7.7 1.9 1.2 1.9", "none": "none"}
@@ -113,25 +112,21 @@ class Writer:
 
     def __init__(self, chart, site, name):
         self.chart, self.name, self.said, self.told = chart, name, site.said, {}
-        code = f"{zlib.crc32(name.encode()):08x}"[:5]
-        self.prefix = code.translate(str.maketrans("0123456789", "ghijklmnop"))
-        self.markers, self.keys, self.labels = {}, {}, {}
+        self.keys, self.labels = {}, {}
 
-    def marker(self, look):
-        """Identifier of a marker, defined once."""
+    @staticmethod
+    def marker(look):
+        """Identifier of a marker, which is defined once in a page."""
         size, hollow = look.get("markersize", 4.5) / 0.75, look.get("hollow", False)
-        found = (look["marker"], colour(look["color"]), size, hollow)
-        return self.markers.setdefault(found, f"{self.prefix}{len(self.markers):x}")
-
-    def definitions(self):
-        out = ""
-        for (marker, ink, size, hollow), name in self.markers.items():
-            filled = MarkerStyle(marker).is_filled() and not hollow
-            out += (f'<marker id="{name}" markerUnits="userSpaceOnUse" overflow="visible" '
-                    f'markerWidth="1" markerHeight="1"><{form(marker, size)} '
-                    f'fill="{ink if filled else "var(--paper,#fff)"}" stroke="{ink}" '
-                    f'stroke-width="{1 if filled else 1.2}"/></marker>')
-        return f"<defs>{out}</defs>" if out else ""
+        marker, ink = look["marker"], colour(look["color"])
+        filled = MarkerStyle(marker).is_filled() and not hollow
+        drawn = (f'markerUnits="userSpaceOnUse" overflow="visible" markerWidth="1" '
+                 f'markerHeight="1"><{form(marker, size)} '
+                 f'fill="{ink if filled else "var(--paper,#fff)"}" stroke="{ink}" '
+                 f'stroke-width="{1 if filled else 1.2}"/></marker>')
+        name = f"k{zlib.crc32(drawn.encode()):x}"
+        MARKERS[name] = f'<marker id="{name}" {drawn}'
+        return name
 
     def whose(self, gid):
         """Attributes of what belongs to a formulation."""
@@ -261,8 +256,7 @@ class Writer:
         markup = (f'<svg viewBox="0 0 {number(width)} {number(height)}" width="{width:.0f}" '
                   f'height="{height:.0f}" fill="{INK}" data-off="{off}" font-family="{FONT}" '
                   f'font-size="11" stroke-linejoin="round">'
-                  f"{self.definitions()}{out}{entries}</svg>")
+                  f"{out}{entries}</svg>")
         told = [self.said[int(index)] for index in self.told]
-        points = json.dumps(told, separators=(",", ":")).replace("<", "\\u003c") if told else ""
         self.said.clear()
-        return Image(f"{self.name}.svg", markup, points)
+        return Image(f"{self.name}.svg", markup, said_of(told))

@@ -13,6 +13,7 @@ names what site.points() was told of its marks, too. What has the gid `fixed` ke
 import dataclasses
 import io
 import json
+import math
 import re
 import zlib
 from xml.etree import ElementTree
@@ -48,6 +49,46 @@ class Image:
         name = escape(self.name.removesuffix(".svg"))
         own = f'<svg id="{name}" role="img" aria-label="{escape(alt)}"'
         return Markup(self.markup.replace("<svg", own, 1) + data)
+
+
+MARKERS = {}  # identifier of a marker of charts: its definition
+
+
+def with_markers(page):
+    """The page with the definitions of the markers that its charts use, once."""
+    used = sorted(set(re.findall(r"marker:url\(#(\w+)\)", page)) & set(MARKERS))
+    if not used:
+        return page
+    defined = "".join(MARKERS[name] for name in used)
+    hidden = '<svg width="0" height="0" style="position:absolute" aria-hidden="true"><defs>'
+    return page.replace("</main>", f"{hidden}{defined}</defs></svg>\n</main>", 1)
+
+
+def plain(value, digits):
+    """A number as short as it may be, a text as it is, None for what is neither."""
+    if isinstance(value, (str, int)) or value is None:
+        return value
+    if not math.isfinite(value):
+        return None
+    short = float(f"{value:.{digits}g}")
+    return int(short) if short == int(short) and abs(short) < 1e6 else short
+
+
+def said_of(told):
+    """What marks say, as JSON for script.js: heads are said once (h), and so are values that are the
+    same in all rows of a curve (k)."""
+    if not told:
+        return ""
+    heads, curves = [], []
+    for one in told:
+        head, rows = one["c"], one["r"]
+        heads += [] if head in heads else [head]
+        same = {k: rows[0][k] for k in range(len(head)) if rows and
+                all(row[k] == rows[0][k] for row in rows)}
+        left = [[v for k, v in enumerate(row) if k not in same] for row in rows]
+        curves.append({"f": one["f"], "t": one["t"], "h": heads.index(head), "k": same, "r": left})
+    text = json.dumps({"h": heads, "s": curves}, separators=(",", ":"), ensure_ascii=False)
+    return text.replace("<", "\\u003c")
 
 
 def number(text, digits=1):
@@ -193,6 +234,8 @@ def short(svg, name):
 def alone(markup):
     """The same SVG as a file of its own."""
     names = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
+    used = [MARKERS[m] for m in sorted(set(re.findall(r"marker:url\(#(\w+)\)", markup)))]
+    markup = markup.replace("</svg>", f"<defs>{''.join(used)}</defs></svg>") if used else markup
     return '<?xml version="1.0" encoding="utf-8"?>\n' + markup.replace(
         "<svg", f"<svg {names}", 1).replace(' href="', ' xlink:href="')
 
@@ -227,5 +270,4 @@ def image_of(figure, name, said, tight=True):
                    bbox_inches="tight" if tight else None)
     markup, points = short(out.getvalue(), name)
     told = [said[int(index)] for index in points]
-    return Image(f"{name}.svg", markup,
-                 json.dumps(told, separators=(",", ":")).replace("<", "\\u003c") if told else "")
+    return Image(f"{name}.svg", markup, said_of(told))

@@ -112,25 +112,22 @@ class Site:
     def write(self, template, name, **context):
         """Renders a template into a page of the site."""
         path = os.path.join(self.folder, name)
+        text = self.templates.get_template(template).render(self_name=name, **context)
         with open(f"{path}.part", "w", encoding="utf-8") as out:
-            out.write(self.templates.get_template(template).render(self_name=name, **context))
+            out.write(figures.with_markers(text))
         os.replace(f"{path}.part", path)
 
     def points(self, key, columns, rows, title=""):
         """What plot() wants for a curve whose marks say more than where they are: with the pointer
-        on a mark, or
-        from the keyboard, a box shows title, formulation and the row of the mark.
+        on a mark, or from the keyboard, a box shows title, formulation and the row of the mark.
 
         key: formulation; columns: names of what is in a row, of which `error` is shown in percent
-        and `time [s]` in
-        the unit that suits; rows: one for each mark that is drawn, in their order, of numbers,
-        texts or None."""
-        def plain(value):
-            return value if isinstance(value, (str, int)) or value is None else (
-                float(f"{value:.9g}") if math.isfinite(value) else None)
-
+        and `time [s]` in the unit that suits; rows: one for each mark that is drawn, in their
+        order, of numbers, texts or None."""
+        digits = [{"error": 3, "time [s]": 4}.get(name, 8) for name in columns]
         self.said.append({"f": key, "t": title, "c": list(columns),
-                          "r": [[plain(value) for value in row] for row in rows]})
+                          "r": [[figures.plain(v, d) for v, d in zip(row, digits)]
+                                for row in rows]})
         look = self.styles.of(key)
         return {**look, "gid": f"{look['gid']}|{len(self.said) - 1}"}
 

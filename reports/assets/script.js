@@ -45,7 +45,11 @@ class Figure {
     this.off = new Set((svg.dataset.off || "").split(" ").filter(Boolean));
     this.keys = [...new Set(all(svg, "[data-f]").map(g => g.dataset.f))];
     const data = frame.querySelector("script[type='application/json']");
-    const told = data ? JSON.parse(data.textContent) : [];
+    const { h, s: told } = data ? JSON.parse(data.textContent) : { s: [] };
+    told.forEach(one => { // heads and values that all rows share are said once
+      one.c = h[one.h];
+      one.r = one.r.map(row => one.c.map((_, k) => k in one.k ? one.k[k] : row.shift()));
+    });
     // curves: [{told, group, marks}], the marks in the order of the rows that say what they are
     this.curves = all(svg, "g[data-p]").map(group => ({ group, told: told[group.dataset.p], marks: marks(group) }))
       .filter(curve => curve.told && curve.marks.length == curve.told.r.length);

@@ -83,9 +83,9 @@ class Behaviour(ProgramTest):
         self.assertEqual(set(out["again"]), {False})
 
     def test_at_most_eight(self):
-        """Ten formulations are drawn, eight shown until the button is pressed."""
+        """Of ten formulations drawn eight are shown until the button is pressed."""
         out = self.done(
-            "elastica.html", """
+            "explorer.html", """
             const shown = () => new Set([...svg.querySelectorAll("[data-f]")].filter(g => g.style.display != "none").map(g => g.dataset.f)).size;
             out.first = shown(); q("button.more").click(); out.then = shown(); q("button.more").click(); out.last = shown();""")
         self.assertEqual(out, {"first": 8, "then": 10, "last": 8})

@@ -46,9 +46,13 @@ class Figures(unittest.TestCase):
         what is said of them."""
         self.assertEqual(drawn("a").markup.count('data-f="beamw:mass=lumped"'), 1)
         self.assertEqual(drawn("a").markup.count('data-l="beamw:mass=lumped"'), 2)
-        image = drawn("a", [{"r": [1]}, {"r": ["</script>"]}], "f|beamw|1")
+        image = drawn("a", [{}, {"f": "beamw", "t": "", "c": ["a", "b"],
+                                 "r": [[1, "</script>"], [2, "</script>"]]}], "f|beamw|1")
         self.assertIn('data-f="beamw" data-p="0"', image.markup)
-        self.assertEqual(json.loads(image.points), [{"r": ["</script>"]}])
+        self.assertEqual(json.loads(image.points), {
+            "h": [["a", "b"]],
+            "s": [{"f": "beamw", "t": "", "h": 0, "k": {"1": "</script>"}, "r": [[1], [2]]}]
+        })
         self.assertNotIn("</", image.points)
 
 
