@@ -1,4 +1,4 @@
-"""A page for each formulation: its theory, what it offers, where it fails and why, how fast it is."""
+"""A page for each formulation: theory, what it offers, where it fails and why, how fast it is."""
 import functools
 from dataclasses import dataclass
 
@@ -40,12 +40,12 @@ def standing(series):
 
 
 def defaults(cases, key):
-    """[(case, point, series)] at the default parameters of every case that knows the formulation."""
+    """[(case, point, series)] at the default parameters of every case that knows it."""
     return [(c, c.points[0], s) for c in cases for s in c.points[0].series if s.key == key]
 
 
 def rules(rows, known, titles):
-    """The rules of the ledger that were shown: with their verdicts, their worst one, their cases."""
+    """The rules of the ledger that were shown: their verdicts, worst one and cases."""
     found = {}
     for row in rows:
         if row.verdict.finding:
@@ -104,7 +104,7 @@ def speed(found, key, known):
 
 
 def table(found):
-    """[(case, [(point, series, verdicts)], {verdict: number})] of what was judged, as it is shown."""
+    """[(case, [(point, series, verdicts)], [(verdict, number)])] of what was judged."""
     cases = {}
     for case, point, series in found:
         if not series.missing:
@@ -174,7 +174,8 @@ def contents(site, key, known):
         "rules": rules(own, known.rules, known.titles),
         "wrong": [(c, v) for c, v in failing if v is not None and v.verdict in WRONG],
         "missing": not_offered(found),
-        "speed": speed(found, key, known.ways),
+        "speed": (fast := speed(found, key, known.ways)),
+        "posed": any(row[1] for row in fast),
         "table": table(everywhere),
     }
 

@@ -18,7 +18,7 @@ def curve(series, quantity):
 
 def candidates(found):
     """[(error on the finest mesh, case name, quantity, (case, point, series))] with three meshes at
-    least: the first judged quantity of each case, and every one whose limit is known to be wrong."""
+    least: the first judged quantity of each case, and those whose limit is known to be wrong."""
     out = []
     for case, point, series in found:
         names = answers.judged(point)[:1]

@@ -9,8 +9,9 @@ from reports import data
 NAVIGATION = [("glossary.html", "glossary")]
 PAGE = "glossary.html"
 # Groups in the order of a reader's questions; what is not named here comes behind.
-GROUPS = ("verdicts", "convergence", "truths", "time and work", "outcomes of a solution", "stability",
-          "physics", "elements", "solution", "analyses", "structure", "extremes", "program")
+GROUPS = ("verdicts", "convergence", "truths", "time and work", "outcomes of a solution",
+          "stability", "physics", "elements", "solution", "analyses", "structure",
+          "extremes", "program")
 
 
 def present(site):
@@ -19,7 +20,7 @@ def present(site):
 
 @functools.lru_cache(maxsize=4)
 def terms(truths):
-    """[{term, also, group, meaning, see}] in the order of the file; [] of truths without a glossary."""
+    """[{term, also, group, meaning, see}] in the order of the file; [] where there is none."""
     return data.read_glossary(truths)
 
 

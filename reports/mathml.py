@@ -1,7 +1,7 @@
 """Equations as MathML, which browsers draw without network and script: a small part of LaTeX.
 
-Letters, numbers and operators; `_`, `^` and `'`; groups in braces; Greek letters and symbols of
-SYMBOLS; names of functions; \\frac, \\sqrt, \\mathbf, \\mathrm, \\text; accents; \\left and \\right.
+Letters, numbers and operators; `_`, `^` and `'`; groups in braces; Greek letters and symbols;
+names of functions; \\frac, \\sqrt, \\mathbf, \\mathrm, \\text; accents; \\left and \\right.
 What it does not know is refused with its name.
 """
 import re
@@ -11,7 +11,8 @@ from markupsafe import escape
 GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ",
     "eta": "η", "theta": "θ", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ",
-    "pi": "π", "rho": "ρ", "sigma": "σ", "tau": "τ", "phi": "ϕ", "varphi": "φ", "psi": "ψ", "omega": "ω",
+    "pi": "π", "rho": "ρ", "sigma": "σ", "tau": "τ",
+    "phi": "ϕ", "varphi": "φ", "psi": "ψ", "omega": "ω",
     "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ", "Lambda": "Λ", "Pi": "Π", "Sigma": "Σ",
     "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω", "partial": "∂", "infty": "∞", "ell": "ℓ"
 }

@@ -171,6 +171,8 @@ def write(site):
                cells=cells,
                rows=rows,
                known=farthest(rows),
+               stiffer={key: value_of(site, key, 1, "") / reference - 1
+                        for key in ("sheet_second", "sheet_third")},
                parts=PARTS,
                reference=reference,
                shell=PUBLISHED_SHELL,

@@ -1,4 +1,4 @@
-"""Pages of formulations: they explain, and what their texts say of cases agrees with the verdicts."""
+"""Pages of formulations explain, and what their texts say of cases agrees with the verdicts."""
 import re
 import unittest
 
@@ -46,7 +46,8 @@ class Texts(unittest.TestCase):
             self.assertIn(culprit, str(caught.exception))
 
     def test_words_that_name_a_page(self):
-        made = explanation.linked(explanation.rendered("see `elastica`, `x`"), {"elastica": "e.html"})
+        words = explanation.rendered("see `elastica`, `x`")
+        made = explanation.linked(words, {"elastica": "e.html"})
         self.assertIn('<a href="e.html">elastica</a>', made)
         self.assertIn("<code>x</code>", made)
 

@@ -1,4 +1,4 @@
-"""The page of the ledger: what is counted under a rule, what only repeats, how predictions are met."""
+"""The page of the ledger: what a rule counts, what only repeats, how predictions are met."""
 import unittest
 
 from harness.test.program import TRUTHS

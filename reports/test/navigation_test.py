@@ -8,8 +8,8 @@ from harness.test.program import TRUTHS
 from reports import data, glossary, navigation
 
 PAGES = [("index.html", "beamwork"), ("ledger.html", "ledger"), ("claims.html", "claims"),
-         ("errata.html", "errata"), ("cases.html", "all cases"), ("environment.html", "environment"),
-         ("a_new_page.html", "new")]
+         ("errata.html", "errata"), ("cases.html", "all cases"),
+         ("environment.html", "environment"), ("a_new_page.html", "new")]
 
 
 class Bar(unittest.TestCase):
@@ -20,7 +20,8 @@ class Bar(unittest.TestCase):
     def test_groups(self):
         self.assertEqual([g.title for g in self.groups],
                          ["beamwork", "Cases", "Papers & errata", "Ledger", "About"])
-        self.assertEqual(self.groups[2].pages, (("claims.html", "claims"), ("errata.html", "errata")))
+        self.assertEqual(self.groups[2].pages,
+                         (("claims.html", "claims"), ("errata.html", "errata")))
 
     def test_a_page_of_no_group(self):
         """It is not lost."""
