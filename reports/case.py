@@ -7,8 +7,8 @@ from reports import answers, beside, case_truth, plots, question_figures, scene_
 from reports.site import LEVELS
 
 NAVIGATION = []
-MOST_POINTS = 4  # parameter points with a figure
-MOST_PANELS = 9  # small figures of the other quantities, and of model errors
+MOST_POINTS = 3  # parameter points with a figure
+MOST_PANELS = 6  # small figures of the other quantities, and of model errors
 # of verdicts on one page; with more, other parameter points have pages of their own
 MOST_ROWS = 1500
 
@@ -22,8 +22,9 @@ def question_of(site, point, quantity, name):
     shown, further = plots.leading(point, quantity)
 
     def draw(series, kind, *abscissae):
-        return question_figures.errors_figure(site, point, quantity, series, abscissae,
-                                              f"{name}_{kind}") if series else None
+        return question_figures.errors_figure(
+            site, point, quantity, series, abscissae, f"{name}_{kind}",
+            told=len(abscissae) == 1) if series else None
 
     return {"elements": draw(shown, "elements", "elements"), "time": draw(shown, "time", "time"),
             "work": draw(shown, "work", "unknowns", "work"),
@@ -50,7 +51,7 @@ def figures_of(site, case, index):
     elif quantities and (index < MOST_POINTS or point.others):
         shown, _ = plots.leading(point, main)
         out["main"] = {**NOTHING, "elements": question_figures.errors_figure(
-            site, point, main, shown, ("elements", "time"), name)}
+            site, point, main, shown, ("elements",), name, told=False)}
     others = [q for q in quantities if q != main and told_of(point, q)]
     out["panels_left_out"] = others[MOST_PANELS:]
     if others and index == 0:
@@ -119,7 +120,7 @@ def parts_of(site, case, index):
     return {
         "point": point, "figures": figures, "quantity":
             main, "table": table_of(point, main) if main else [],
-        "limits": limits_of(point), "others": beside.rows(point), "cheapest": cheapest_of(point),
+        "limits": limits_of(point) if index == 0 or not names else [], "others": beside.rows(point), "cheapest": cheapest_of(point),
         "front": answers.front(point, main) if main else [], "failures":
             answers.failures(point), "savings": answers.savings(point), "noise": sorted(noise),
         "shown": shown, "cells": cells, "verdicts": verdicts_of(point, index), "tally":

@@ -119,15 +119,15 @@ def marks_of(site, point, series, quantity, meshes, errors="errors"):
     unit = point.units.get(quantity, "")
     columns = ("elements", f"value [{unit}]" if unit else "value", "error", "time [s]", "unknowns",
                "verdict")
-    rows = [(m.n, m.values.get(quantity), getattr(m, errors)[quantity], m.seconds, m.free,
-             v.verdict if v else None) for m in meshes]
+    rows = [(m.n, m.values.get(quantity), float(f"{getattr(m, errors)[quantity]:.3g}"),
+             float(f"{m.seconds:.3g}"), m.free, v.verdict if v else None) for m in meshes]
     title = quantity if errors == "errors" else f"{quantity}, error of the model"
     return site.points(series.key, columns, rows, title)
 
 
-def draw_series(site, panel, point, series, quantity, where, errors="errors", **look):
+def draw_series(site, panel, point, series, quantity, where, errors="errors", told=True, **look):
     """The curve of a formulation. Marks below the truth's digits are open and lie on these digits,
-    on the grey ground."""
+    on the grey ground. told: what was found is said of each mark."""
     digits = digits_of(point, quantity) if errors == "errors" else None
     pairs = [(m, e) for m, e in finite(series, quantity, errors) if where(m) > 0]
     if not pairs:
@@ -136,12 +136,16 @@ def draw_series(site, panel, point, series, quantity, where, errors="errors", **
     x, y = [where(m) for m, _ in pairs], [max(e, digits or 0) for _, e in pairs]
     known = [i for i, low in enumerate(below) if not low]
     lost = [i for i, low in enumerate(below) if low]
-    own = marks_of(site, point, series, quantity, [pairs[i][0] for i in known], errors)
-    panel.plot(x, y, label=series.key, marks=known, **{**own, **look})
+
+    def own(which):
+        meshes = [pairs[i][0] for i in which]
+        return {**(marks_of(site, point, series, quantity, meshes, errors) if told else
+                   site.styles.of(series.key)), **look}
+
+    panel.plot(x, y, label=series.key, marks=known, **own(known))
     if lost:
-        own = marks_of(site, point, series, quantity, [pairs[i][0] for i in lost], errors)
         panel.plot([x[i] for i in lost], [y[i] for i in lost],
-                   **{**own, **look, "linestyle": "none", "hollow": True})
+                   **own(lost) | {"linestyle": "none", "hollow": True})
         panel.plot([], [], label=OPEN, color="currentColor", marker="o", hollow=True,
                    linestyle="none")
     if lost or digits and min(y) < 3 * digits:

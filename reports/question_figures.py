@@ -9,9 +9,9 @@ TWO = (400, 260)  # of each of two beside each other
 SMALL = (250, 150)  # of one among many
 
 
-def errors_figure(site, point, quantity, shown, abscissae, name):
+def errors_figure(site, point, quantity, shown, abscissae, name, told=True):
     """Error of one quantity against elements, time, unknowns or work, a panel for each that is
-    named. None when there is no error."""
+    named. None when there is no error. told: marks say what was found."""
     if not any(finite(s, quantity) for s in [*shown, *point.others]):
         return None
     chart = Chart(len(abscissae), ONE if len(abscissae) == 1 else TWO)
@@ -21,17 +21,17 @@ def errors_figure(site, point, quantity, shown, abscissae, name):
         panel = chart.panel(xlabel=label, ylabel="" if first else f"relative error of {quantity}",
                             whole=whole, like=first)
         first = first or panel
-        draw_errors(site, panel, point, quantity, shown, abscissa)
+        draw_errors(site, panel, point, quantity, shown, abscissa, told)
         plots.draw_failures(site, panel, shown, quantity, where)
     return chart.image(site, name)
 
 
-def draw_errors(site, panel, point, quantity, shown, abscissa):
+def draw_errors(site, panel, point, quantity, shown, abscissa, told):
     _, where, _ = plots.against(point, abscissa)
     if abscissa == "time":
         draw_times(site, panel, point, shown, quantity)
     for series in shown:
-        plots.draw_series(site, panel, point, series, quantity, where)
+        plots.draw_series(site, panel, point, series, quantity, where, told=told)
     for i, series in enumerate(point.others):
         pairs = [(where(m), e) for m, e in finite(series, quantity) if where(m) > 0]
         if pairs:  # not everything is said of other programs

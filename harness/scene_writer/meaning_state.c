@@ -33,13 +33,13 @@ static void at_station(FILE *to, const scene *s, const scene_quantity *q, const 
         fputs(", at rest", to);
     } else if (a->kind == SCENE_ROTATION) {
         fprintf(to, ", turning at %.10g rad/s", speed(a) * at);
-    } else if (q->reduction != SCENE_AT) {
-        fprintf(to, ", at the end of the %s", path_name(a));
     } else if (a->kind == SCENE_CONTINUATION) {
         const scene_control *control = &scene_continuation_of(a)->control;
         fputs(", where the ", to);
         meaning_coordinate(to, s, control->node, control->component);
         fprintf(to, " is %.10g m", at);
+    } else if (q->reduction != SCENE_AT) {
+        fputs(", at the end of the static path", to);
     } else {
         fprintf(to, ", at %.10g on the static path (0 to %.10g)", at, last);
     }
