@@ -3,7 +3,8 @@
 One rule, that of harness/judge/reach.h: n is the least mesh from which on the error of every mesh is
 within the level; formulations stand in the order of the cost of their counted work on that mesh, so
 that two runs say the same; those whose costs differ by less than prices are known tie; one that does
-not pass in what is asked is never the cheapest and stands beside. Measured times are shown.
+not pass in what is asked is never the cheapest and stands beside. Measured times are shown. Variants
+that only repeat the formulation without their options are left out.
 
     found = answers.answer(point, quantity, level)    # quantity: a name, or ALL
     found.best       [Way] the cheapest one, and those within noise of it; empty: none
@@ -104,6 +105,18 @@ def verdicts_on(series, quantities):
     return found if known else None
 
 
+def repeats(point, series, quantities):
+    """Is it a variant that does what the formulation does without these options: the same errors by
+    the same work on every mesh?"""
+    name, colon, _ = series.key.partition(":")
+    plain = next((s for s in point.series if colon and s.key == name and not s.missing), None)
+
+    def done(one):
+        return repr([(m.n, m.cost, [m.errors.get(q) for q in quantities]) for m in one.meshes])
+
+    return plain is not None and done(plain) == done(series)
+
+
 def way(series, quantities, level):
     """The way of one formulation to have all these quantities within the level, or None."""
     verdicts = verdicts_on(series, quantities)
@@ -139,6 +152,8 @@ def answer(point, quantity, level):
     quantities = judged(point) if quantity == ALL else [quantity]
     out, sound = Answer(quantity, level), []
     for series in point.series:
+        if repeats(point, series, quantities):
+            continue
         found = way(series, quantities, level)
         if found is not None:
             (out.defective if found.defects else sound).append(found)

@@ -49,7 +49,7 @@ def points_of(case, keys):
         found = []
         for series in point.series:
             verdicts = answers.verdicts_on(series, names)
-            if verdicts and series.meshes:
+            if verdicts and series.meshes and not answers.repeats(point, series, names):
                 found.append([keys.index(series.key), defect_of(verdicts),
                               staying(series, names)])
         asked.append([quantity, found])

@@ -16,6 +16,7 @@ from reports import answers, data
 
 COLUMNS = ("case", "parameters", "quantity", "tolerance", "formulation", "n", "cost", "seconds",
            "error", "rank", "tie", "defect", "priced")
+UNITS = {"cost": "s", "seconds": "s", "tolerance": "1", "error": "1"}
 LEVELS = tuple(data.REACH)
 
 
@@ -27,7 +28,7 @@ def asked(point):
 
 def short(value):
     """A number with the digits that are worth keeping; None where there is none."""
-    return float(f"{value:.6g}") if math.isfinite(value) else None
+    return float(f"{value:.4g}") if math.isfinite(value) else None
 
 
 def rows(cases, levels=LEVELS, everywhere=False):
@@ -55,11 +56,11 @@ def as_csv(found):
 
 
 def as_json(found, about):
-    """One object with what was run; a row for each line."""
+    """One object: what was run, names and units of the columns, the rows one for each line."""
     head = {"commit": about.get("commit", ""), "clock": about.get("clock", ""),
-            "units": {"cost": "s", "seconds": "s", "tolerance": "1", "error": "1"}}
-    lines = ",\n".join(json.dumps(row, separators=(",", ":")) for row in found)
-    return f'{json.dumps(head)[:-1]}, "answers": [\n{lines}\n]}}\n'
+            "columns": COLUMNS, "units": UNITS}
+    lines = ",\n".join(json.dumps(list(row.values()), separators=(",", ":")) for row in found)
+    return f'{json.dumps(head)[:-1]}, "rows": [\n{lines}\n]}}\n'
 
 
 def sentence(answer):

@@ -54,6 +54,30 @@ static json_t *sentence_of(const sweep *s, const truths *t, double level)
     return out;
 }
 
+/* Formulations within the level, in the order of the line; rank 0: its verdict is not a pass. */
+static json_t *answers_of(const sweep *s, const truths *t, double level)
+{
+    json_t *out = json_array();
+    reach_question q = {.s = s, .point = 0, .quantity = REACH_EVERY, .level = level};
+    verdict *all = reach_verdicts(s, t, &q.verdicts);
+    reached *list = calloc((size_t)s->seriess + 1, sizeof *list);
+    q.verdict = all;
+    const int count = all != NULL && list != NULL ? reach_ranking(&q, list) : 0;
+    const int ties = list != NULL ? reach_ties(list, count) : 0;
+    for (int i = 0; i < count; i++) {
+        const series *one = &s->series[list[i].series];
+        const verdict *bad = list[i].defect;
+        json_array_append_new(out, json_pack("{s:s,s:i,s:f,s:i,s:b,s:s}", "formulation",
+                                             one->formulation.key, "elements",
+                                             one->mesh[list[i].mesh], "cost", list[i].cost, "rank",
+                                             bad == NULL ? i + 1 : 0, "tie", ties > 1 && i < ties,
+                                             "defect", bad == NULL ? "" : verdict_name(bad->kind)));
+    }
+    free(all);
+    free(list);
+    return out;
+}
+
 status json_convergence_write(FILE *to, const sweep *s, const truths *t, double level, fault *f)
 {
     const gathering g = {s, NULL, t};
@@ -71,7 +95,8 @@ status json_convergence_write(FILE *to, const sweep *s, const truths *t, double 
         json_object_set_new(out, record_quantity.table, quantities);
         json_array_append_new(all, out);
     }
-    return json_finish(json_pack("{s:i,s:o,s:o}", "schema_version", SCHEMA_VERSION,
-                                 record_series.table, all, "sentence", sentence_of(s, t, level)),
+    return json_finish(json_pack("{s:i,s:o,s:f,s:o,s:o}", "schema_version", SCHEMA_VERSION,
+                                 record_series.table, all, "level", level, "answers",
+                                 answers_of(s, t, level), "sentence", sentence_of(s, t, level)),
                        to, f);
 }

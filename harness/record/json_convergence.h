@@ -6,8 +6,8 @@
 
 #include "harness/study/sweep.h"
 
-/* Every quantity of every series over its meshes, with limit, order and verdict; level: of
- * the sentence (reach_line.h). */
+/* Every quantity of every series over its meshes, with limit, order and verdict; which formulations
+ * are within the level (relative error) in every quantity. */
 status json_convergence_write(FILE *to, const sweep *s, const truths *t, double level, fault *f);
 
 #endif

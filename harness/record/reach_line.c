@@ -1,6 +1,7 @@
 #include "harness/record/reach_line.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static const char *defect_words(verdict_kind kind)
 {
@@ -20,6 +21,26 @@ static void write_reached(FILE *to, const sweep *s, const reached *r)
     fprintf(to, "%s n = %d (%.2g ms)", one->formulation.key, one->mesh[r->mesh], 1e3 * r->cost);
 }
 
+/* Those with a defect, the ones of the same words together. */
+static void write_defective(FILE *to, const reach_question *q, const reached list[], int count)
+{
+    for (int i = 0; i < count; i++) {
+        const char *words = defect_words(list[i].defect->kind), *before = "";
+        int told = 0;
+        for (int k = 0; k < i; k++)
+            told |= strcmp(words, defect_words(list[k].defect->kind)) == 0;
+        if (told)
+            continue;
+        fprintf(to, "; also within %g %%, %s: ", 100 * q->level, words);
+        for (int k = i; k < count; k++)
+            if (strcmp(words, defect_words(list[k].defect->kind)) == 0) {
+                fputs(before, to);
+                write_reached(to, q->s, &list[k]);
+                before = ", ";
+            }
+    }
+}
+
 /* The cheapest ones, those behind them, those with a defect. */
 static void write_ranking(FILE *to, const reach_question *q, const reached list[], int count)
 {
@@ -34,15 +55,8 @@ static void write_ranking(FILE *to, const reach_question *q, const reached list[
             fputs(": within noise of each other", to);
     }
     if (sound == 0)
-        fputs("no formulation that is right in all of it", to);
-    for (int i = sound; i < count; i++) {
-        if (i == sound)
-            fprintf(to, "; also within %g %%: ", 100 * q->level);
-        else
-            fputs(", ", to);
-        write_reached(to, q->s, &list[i]);
-        fprintf(to, " %s", defect_words(list[i].defect->kind));
-    }
+        fputs("no formulation that passes in all of it", to);
+    write_defective(to, q, list + sound, count - sound);
 }
 
 static int is_reached(const reached list[], int count, int series_index)

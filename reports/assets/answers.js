@@ -25,7 +25,7 @@ const reached = (one, found, level) => {
 };
 const ties = (list, noise) => list.filter(way => !way.defect && !(way.cost > noise * list[0].cost)).length;
 
-const name = way => `${way.key} n = ${way.n}`;
+const name = way => `${way.key} n\u00a0=\u00a0${way.n}`;
 const beside = (list, cell, level) => {
   for (const words of [...new Set(list.map(way => way.defect))])
     make("div", `also within ${level}, ${words}: ` + list.filter(way => way.defect == words).map(name).join(", "), cell, "beside");
@@ -38,9 +38,9 @@ const range = values => {
 };
 const row = (one, quantity, found, level, percent) => {
   const list = reached(one, found, level), tied = ties(list, one.noise), line = document.createElement("tr");
-  const link = make("a", one.case, make("td", "", line));
-  link.href = one.case + ".html";
-  make("td", quantity, line);
+  const place = make("td", "", line);
+  make("a", one.case, place).href = one.case + ".html";
+  make("div", quantity, place, "beside");
   const best = make("td", tied ? list.slice(0, tied).map(name).join(", ") : "not reached by one that passes", line, tied ? "" : "skip");
   if (tied > 1) make("div", "within noise of each other", best, "noise");
   beside(list.filter(way => way.defect), best, percent);
@@ -59,7 +59,7 @@ const show = () => {
   if (!good) { field("count").textContent = "Give a tolerance from 0.0001 to 10 %."; return; }
   const level = Number((typed / 100).toPrecision(15)), each = field("which").value == "each", only = field("case").value;
   head.replaceChildren();
-  for (const words of ["case", "quantity", `least cost within ${typed} %`, "cost", "measured", "then, by cost"]) make("th", words, head);
+  for (const words of ["case", `least cost within ${typed} %`, "cost", "measured", "then, by cost"]) make("th", words, head);
   body.replaceChildren();
   let rows = 0, answered = 0;
   for (const one of data.cases)

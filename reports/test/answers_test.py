@@ -88,6 +88,16 @@ class Order(unittest.TestCase):
         self.assertEqual(answered(), before)
 
 
+    def test_variants_that_repeat(self):
+        plain, same = series("one", (0.02, 0.001), (1, 2)), series("one:mass=lumped", (0.02, 0.001),
+                                                                   (1, 2))
+        self.assertEqual(told(answer(plain, same).best), [("one", 2)])
+        self.assertEqual(told(answer(same).best), [("one:mass=lumped", 2)])
+        for other in (series("one:mass=lumped", (0.03, 0.001), (1, 2)),
+                      series("one:mass=lumped", (0.02, 0.001), (1, 2.1))):
+            self.assertEqual(len(answer(plain, other).best), 2)
+
+
 class Defects(unittest.TestCase):
 
     def test_never_the_cheapest(self):

@@ -67,6 +67,36 @@ class Forms(unittest.TestCase):
             ]
             self.assertEqual(told[one["formulation"]], counts[max(bad, default=-1) + 1])
 
+    def test_at_an_error_of_ones_own(self):
+        """The answers of JSON and of the last line, at the level that is asked for."""
+        at = {}
+        for said, level in (("10%", 0.1), ("0.3%", 0.003), ("0.003", 0.003)):
+            command = ("converge", "elastica", "-f", "all", "-n", "1,2,4,8,16", "--error", said)
+            whole = json.loads(run(*command, "--format", "json").stdout)
+            line = whole["sentence"]
+            self.assertEqual(whole["level"], level)
+            self.assertTrue(line.startswith(f"for {100 * level:g} % in every quantity: "), line)
+            for one in whole["answers"]:
+                self.assertIn(f"{one['formulation']} n = {one['elements']} (", line)
+            ranked = [one for one in whole["answers"] if one["rank"]]
+            self.assertEqual([one["rank"] for one in ranked], list(range(1, len(ranked) + 1)))
+            self.assertEqual([one["cost"] for one in ranked],
+                             sorted(one["cost"] for one in ranked))
+            at[said] = [(one["formulation"], one["elements"]) for one in whole["answers"]]
+        self.assertEqual(at["0.3%"], at["0.003"])
+        self.assertNotEqual(at["0.3%"], at["10%"])
+
+    def test_what_is_wrong_is_told_beside(self):
+        whole = json.loads(run("converge", "shear_elastica", "-f", "all", "--error", "1%",
+                               "--format", "json").stdout)
+        wrong = [one for one in whole["answers"] if one["defect"]]
+        self.assertTrue(wrong)
+        self.assertTrue(all(one["rank"] == 0 and not one["tie"] for one in wrong))
+        self.assertIn("; also within 1 %, with a limit of its own: ", whole["sentence"])
+        cheapest = whole["answers"][0]
+        self.assertEqual(cheapest["defect"], "")
+        self.assertLess(min(one["cost"] for one in wrong), cheapest["cost"])
+
     def test_without_a_truth_families_agree(self):
         """Its truths are those of another stroke."""
         new = ("converge", "--scene", str(LEAF), "--set", "stroke=0.009")
