@@ -78,7 +78,9 @@ def write(site):
     table = [(c.name, quantity, [answers_table.sentence(answers.answer(c.points[0], quantity, level))
                                  for level in LEVELS])
              for c in cases for quantity in answers_table.asked(c.points[0])[:1]]
-    site.write("answers.html", "answers.html", table=table, timed=site.bench is not None,
+    unpriced = sorted({s.key for c in cases for s in c.points[0].series
+                       for m in s.meshes if not m.priced})
+    site.write("answers.html", "answers.html", table=table, unpriced=unpriced, timed=site.bench is not None,
                points=embedded({"keys": keys, "cases": [points_of(c, keys) for c in cases]}))
     found = answers_table.rows(site.cases)
     for name, text in (("answers.csv", answers_table.as_csv(found)),

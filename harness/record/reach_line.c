@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/timing/price.h"
+
 static const char *defect_words(verdict_kind kind)
 {
     switch (kind) {
@@ -57,6 +59,19 @@ static void write_ranking(FILE *to, const reach_question *q, const reached list[
     if (sound == 0)
         fputs("no formulation that passes in all of it", to);
     write_defective(to, q, list + sound, count - sound);
+}
+
+/* Those whose cost is that of any formulation with as many strains. */
+static void write_unpriced(FILE *to, const sweep *s, const reached list[], int count)
+{
+    const char *before = "; without prices of its own: ";
+    for (int i = 0; i < count; i++) {
+        const formulation *one = &s->series[list[i].series].formulation;
+        if (price_own(price_rows, one))
+            continue;
+        fprintf(to, "%s%s", before, one->key);
+        before = ", ";
+    }
 }
 
 static int is_reached(const reached list[], int count, int series_index)
@@ -116,6 +131,7 @@ static void write_answer(FILE *to, const reach_question *q, reached list[])
         fputs(known > 0 ? "no formulation on these meshes" : "nothing to measure by", to);
     else
         write_ranking(to, q, list, count);
+    write_unpriced(to, q->s, list, count);
     if (known > 0) {
         write_others(to, q, list, count, 1, "; not reached by ");
         write_others(to, q, list, count, 0, "; without a truth of its theory in all of it: ");

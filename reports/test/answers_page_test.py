@@ -9,7 +9,7 @@ import unittest
 from harness.test.program import ROOT, ProgramTest, drawn, run
 from reports import answers, answers_page, answers_table, data
 from reports.test.browser_test import CHROMIUM, chromium
-from reports.test.results import verdict
+from reports.test.results import Site, verdict
 
 SELECTION = "elastica/default or warping_torsion/default"
 LEVELS = (0.1, 0.03, 0.01, 0.004, 1e-3, 2e-4, 1e-4, 1e-6)
@@ -78,6 +78,18 @@ class Page(ProgramTest):
         self.assertIn("give an error such as 0.3%", bad.stderr)
         self.assertIn("cannot be read", run("-m", "reports.answers_table", "no.h5",
                                             program=sys.executable, cwd=ROOT).stderr)
+
+    def test_what_has_no_prices_is_told(self):
+        self.assertNotIn("Without prices of their own", self.page)
+        for mesh in self.cases[0].points[0].series[0].meshes:
+            mesh.priced = False
+        site = Site(cases=self.cases)
+        site.folder, site.about, site.bench = self.folder, {}, None
+        answers_page.write(site)
+        self.assertEqual(site.pages["answers.html"]["unpriced"],
+                         [self.cases[0].points[0].series[0].key])
+        for mesh in self.cases[0].points[0].series[0].meshes:
+            mesh.priced = True
 
     def test_without_script_the_standard_levels(self):
         for level in ("10 %", "1 %", "0.1 %", "0.01 %"):

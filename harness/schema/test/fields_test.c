@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "harness/schema/gather.h"
+#include "harness/timing/price.h"
 
 enum { MESHES = 6, STATIONS = 3, STEPS = 2 };
 static const case_type made_up = {.name = "made_up"};
@@ -125,6 +126,9 @@ static void work(const gathering *g)
     for (size_t i = 0; i < sizeof name / sizeof name[0]; i++)
         expect(&record_cell, &s, name[i], 0, 11 + (double)i);
     expect(&record_cell, &s, "elements", 0, 8);
+    expect(&record_cell, &s, "priced", 0, 0);
+    expect(&record_cell, &s, "cost", 0, price_cost(&s.series->formulation, &s.series->cell[3]));
+    gsl_test(!(number_of(&record_cell, &s, "cost", 0) > 0), "a formulation without prices costs");
 }
 
 static void levels(const gathering *g, const bench *b)
