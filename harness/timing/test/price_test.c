@@ -42,7 +42,7 @@ static void which_rows(void)
     gsl_test_abs(cost_of("new"), 5 * 11 * 100, 0, "without a row: by evaluations and strains");
 }
 
-static void own(void)
+static void who_has_prices(void)
 {
     formulation f = {.type = NULL};
     strcpy(f.key, "new");
@@ -51,19 +51,19 @@ static void own(void)
     gsl_test_int(price_own(rows, &f), 1, "prices of its own");
 }
 
-/* The committed table: every formulation has prices, and they are what a cell is worth. */
+/* The committed table: what a cell costs, of a new formulation too. */
 static void committed(void)
 {
     const cell_result cell = counted();
-    int seen = 0;
+    int seen = 0, own = 0;
     for (int i = 0; registry_formulations[i] != NULL; i++, seen++) {
         formulation f;
         formulation_default(registry_formulations[i], &f);
-        gsl_test_int(price_own(price_rows, &f), 1, "%s has prices: make prices", f.key);
+        own += price_own(price_rows, &f);
         gsl_test(!(price_cost(&f, &cell) > 0 && price_cost(&f, &cell) < 1), "%s costs %g s", f.key,
                  price_cost(&f, &cell));
     }
-    gsl_test(seen < 2, "%d formulations", seen);
+    gsl_test(seen < 2 || own < 2, "%d formulations, %d with prices", seen, own);
     for (const price_row *r = price_rows; r->formulation != NULL; r++)
         gsl_test(!(r->seconds > 0), "%s: %g s", r->formulation, r->seconds);
     gsl_test(!(price_noise > 1 && price_noise < 2), "noise %g", price_noise);
@@ -72,7 +72,7 @@ static void committed(void)
 int main(void)
 {
     which_rows();
-    own();
+    who_has_prices();
     committed();
     return gsl_test_summary();
 }
