@@ -99,18 +99,41 @@ class Page(ProgramTest):
             answers.answer(point, answers_table.asked(point)[0], 0.01))
         self.assertIn(f"<td>{html.escape(words)}</td>", self.page)
 
+    def asked(self, *said):
+        """The page's document after the fields were given these values."""
+        script = "".join(f"field({name!r}, {value!r});" for name, value in said)
+        (self.site / "ask.js").write_text(
+            "const field = (name, value) => { const at = document.getElementById(name);"
+            "at.value = value; at.dispatchEvent(new Event('input', { bubbles: true })); };" + script,
+            encoding="utf-8")
+        page = self.page.replace("</head>", '<script src="ask.js" defer></script></head>')
+        (self.site / "asked.html").write_text(page, encoding="utf-8")
+        return chromium(self.folder_, "--dump-dom", "--virtual-time-budget=2000",
+                        f"file://{self.site}/asked.html").stdout
+
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_the_script_answers(self):
-        done = chromium(self.folder_, "--dump-dom", "--virtual-time-budget=2000",
-                        f"file://{self.site}/answers.html")
-        point = self.cases[0].points[0]
-        found = answers.answer(point, answers_table.asked(point)[0], 0.01)
-        told = ", ".join(f"{w.key} n&nbsp;=&nbsp;{w.n}" for w in found.best)
-        self.assertIn("least cost within 1 %", done.stdout)
-        self.assertIn(f"<td>{told}", done.stdout)
-        right = sum(bool(answers.answer(c.points[0], answers_table.asked(c.points[0])[0],
-                                        0.01).best) for c in self.cases)
-        self.assertTrue(f"{right} of {len(self.cases)} reached" in done.stdout)
+        for said, level in (((), 0.01), ((("tolerance", "0.3"),), 0.003),
+                            ((("tolerance", "0,02 %"),), 2e-4)):
+            page = self.asked(*said)
+            self.assertIn(f"least cost within {100 * level:g} %", page)
+            right = 0
+            for case in self.cases:
+                point = case.points[0]
+                found = answers.answer(point, answers_table.asked(point)[0], level)
+                told = ", ".join(f"{w.key} n&nbsp;=&nbsp;{w.n}" for w in found.best)
+                right += bool(found.best)
+                self.assertTrue(not told or f"<td>{told}" in page, told)
+            self.assertTrue(f"{right} of {len(self.cases)} reached" in page)
+
+    @unittest.skipUnless(CHROMIUM, "needs chromium")
+    def test_the_script_asks_again(self):
+        for value in ("20", "0", "much", ""):
+            self.assertTrue("Give a tolerance from 0.0001 to 10 %." in
+                            self.asked(("tolerance", value)), value)
+        page = self.asked(("which", "each"), ("case", "elastica"))
+        rows = len(answers_table.asked(self.cases[0].points[0])) - 1
+        self.assertTrue(f"{rows} of {rows} reached" in page)
 
 
 class Names(unittest.TestCase):
