@@ -8,6 +8,7 @@ A formulation has solved a problem to a level with its coarsest mesh whose error
 finer ones, is within the level, unless its limit is known to be another one, beyond the level.
 """
 import math
+from collections import Counter
 from dataclasses import dataclass, field
 
 from reports import answers, tally
@@ -28,7 +29,6 @@ class Problem:
     quantity: str
     tries: dict
     meshes: list  # of all runs of the same structure
-    weight: float = math.nan
     least: dict = field(default_factory=dict)  # what is counted -> least of all those meshes
 
 
@@ -44,22 +44,21 @@ def tries_of(point, quantity, keys):
     for series in point.series:
         verdict = answers.verdict_of(series, quantity)
         judged = verdict and verdict.truth_kind == "exact" and verdict.verdict not in UNJUDGED
-        if judged and series.key in keys and not series.missing:
+        if judged and series.key in keys:
             tries[series.key] = series, verdict
     return tries
 
 
 def problems_of(case, keys):
-    """The problems of a case, each with its share of the case's weight."""
+    """The problems of a case, with the least that any run of their structure took."""
     found, second_names = [], tally.aliases(case)
     for point in case.points:
-        meshes = [m for s in point.series for m in s.meshes if s.key in keys and m.status == "ok"]
+        meshes = [m for s in point.series for m in s.meshes if m.status == "ok"]
         for quantity in answers.judged(point):
             tries = tries_of(point, quantity, keys) if quantity not in second_names else {}
             if tries and any(math.isfinite(m.cost) for m in meshes):
                 found.append(Problem(case.name, point.name, quantity, tries, meshes))
     for problem in found:
-        problem.weight = 1 / len(found)
         for name, count in COUNTS.items():
             problem.least[name] = min(map(count, problem.meshes), default=math.nan)
     return found
@@ -100,10 +99,8 @@ def solved(problem, key, level, forbids=defect):
 def weights(found, key=None):
     """Weight of each problem, all together 1; key: of those that this formulation offers."""
     kept = [p for p in found if key is None or key in p.tries]
-    sizes = {}
-    for p in kept:
-        sizes[p.case] = sizes.get(p.case, 0) + p.weight
-    return [(p, p.weight / sizes[p.case] / len(sizes)) for p in kept]
+    sizes = Counter(p.case for p in kept)
+    return [(p, 1 / sizes[p.case] / len(sizes)) for p in kept]
 
 
 def paid(problem, keys, level, count, forbids=defect):

@@ -98,6 +98,12 @@ class ByHand(unittest.TestCase):
         self.assertEqual(at(self.compared, question, 2), {"a": 0.75, "b": 0.5})
         self.assertEqual(at(self.compared, question, 4), {"a": 0.75, "b": 1})
 
+    def test_a_run_that_failed_is_no_unit(self):
+        cases = [case("one", [tried("a", {"u": GOOD}, 3), tried("b", {"u": POOR}, 1)])]
+        cases[0].points[0].series[1].meshes[0].status = "singular"
+        question = Question(LEVEL, unit=to_the_smallest)
+        self.assertEqual(at(profiles.Compared(cases), question, 1), {"a": 1, "b": 0})
+
     def test_ties_are_the_best_both(self):
         question = Question(LEVEL, "unknowns")
         self.assertEqual(at(self.compared, question, 1), {"a": 0.75, "b": 1})
@@ -163,6 +169,10 @@ class Contestants(unittest.TestCase):
         keys = ("sheet_third", "sheet_third_printed", "beamw", "beamw:mass=lumped")
         found = problems.contestants([case("one", [tried(k, {"u": GOOD}) for k in keys])])
         self.assertEqual(found, ["beamw", "sheet_third"])
+
+    def test_what_only_options_were_run_on_is_no_problem(self):
+        cases = [case("one", [tried("a", {"u": GOOD})], [tried("a:mass=lumped", {"u": GOOD})])]
+        self.assertEqual([p.point for p in problems.problems(cases, ["a"])], ["p0"])
 
     def test_unless_nothing_else_was_run(self):
         found = problems.contestants([case("one", [tried("beamw:mass=lumped", {"u": GOOD})])])
