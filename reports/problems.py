@@ -60,7 +60,8 @@ def problems_of(case, keys):
                 found.append(Problem(case.name, point.name, quantity, tries, meshes))
     for problem in found:
         for name, count in COUNTS.items():
-            problem.least[name] = min(map(count, problem.meshes), default=math.nan)
+            known = filter(math.isfinite, map(count, problem.meshes))
+            problem.least[name] = min(known, default=math.nan)
     return found
 
 
