@@ -97,7 +97,7 @@ class Answers(ProgramTest):
             file["findings/quantities"][...] = b"gone"
         seal(path)
         done = self.answered("verify", *selection, code=1)
-        self.assertIn("-2.7801 %  wrong limit", done.stdout)
+        self.assertIn("-2.7801 % wrong limit", done.stdout)
 
     def test_jobs_agree(self):
         one = run("verify", "-k", "warping_torsion", "-j", "1")
