@@ -47,7 +47,7 @@ static void of_case(const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
     char words[200], own[64], case_name[64], wrong[] = "wrong limit", doubt[] = "undecided",
-                                             elsewhere[] = "another_case";
+                                             elsewhere[] = "another_case", any[] = "*";
     fault f = {""};
     scene s;
     parameters_default(type, value);
@@ -60,11 +60,13 @@ static void of_case(const case_type *type)
     snprintf(own, sizeof own, "%s", t->name);
     snprintf(case_name, sizeof case_name, "%s", type->name);
     const rule here = made_up(own, case_name, wrong), there = made_up(own, elsewhere, wrong),
-               open = made_up(own, case_name, doubt);
+               open = made_up(own, case_name, doubt), all = made_up(any, case_name, wrong);
     gsl_test(choose(&s, type, value, &here, 1).one.type == t, "%s: not with a defect here",
              type->name);
     gsl_test(choose(&s, type, value, &open, 1).one.type != t, "%s: a doubt is no defect",
              type->name);
+    gsl_test(strstr(choose(&s, type, value, &all, 1).why, "but has a known defect here") == NULL,
+             "%s: where all have one, it is said", type->name);
     const chosen other = choose(&s, type, value, &there, 1);
     gsl_test(other.one.type == t && strstr(other.why, "no known defect here") == NULL,
              "%s: a defect elsewhere is none here", type->name);
