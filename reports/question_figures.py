@@ -75,7 +75,7 @@ def small_multiples(site, point, quantities, name, errors="errors", ylabel="rela
                     abscissa="time"):
     """One small panel for each quantity, the same formulations in all."""
     columns = min(3, len(quantities))
-    chart = Chart(columns, SMALL, gap=(66, 62))
+    chart = Chart(columns, SMALL if len(quantities) > 1 else ONE, gap=(66, 62))
     label, where, whole = plots.against(point, abscissa)
     shown = shown_in_all(point, quantities, errors)
     for i, quantity in enumerate(quantities):

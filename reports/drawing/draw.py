@@ -4,6 +4,7 @@ import numpy as np
 from reports.drawing import geometry, loads, members, sizes, supports, view
 from reports.drawing.canvas import Canvas, SOFT
 
+FAR = 5  # sizes of a structure from which an axis is no longer drawn
 MOST_NAMES = 9  # nodes whose names are written
 
 
@@ -52,13 +53,22 @@ def put_names(canvas, look, scene):
         canvas.label(look(node.position), node.name, SOFT, 8, near=5)
 
 
+def near_spin(scene, points):
+    """Is the axis about which all turns so near that it can be drawn?"""
+    if scene.spin is None:
+        return False
+    away = np.linalg.norm(scene.spin.centre - points.mean(axis=0))
+    return away < FAR * np.linalg.norm(np.ptp(points, axis=0))
+
+
 def compose(scene):
     """A canvas with the scene on it."""
     lines = {name: geometry.line_of(scene, m) for name, m in scene.members.items()}
     points = skeleton(scene, lines)
     solid = any(geometry.outline(s) for s in scene.sections.values())
     look = view.choose(points, *directions(scene), solid)
-    look = view.scaled(look, np.vstack([points, body(scene, lines)]))
+    centre = scene.spin.centre[None] if near_spin(scene, points) else points[:0]
+    look = view.scaled(look, np.vstack([points, body(scene, lines), centre]))
     canvas = Canvas()
 
     def into(name):
@@ -73,7 +83,8 @@ def compose(scene):
     supports.put_supports(canvas, look, scene, lines)
     loads.put_loads(canvas, look, scene, lines, into)
     loads.put_motions(canvas, look, scene, into)
-    loads.put_spin(canvas, look, scene, np.linalg.norm(np.ptp(points, axis=0)))
+    if near_spin(scene, points):
+        loads.put_spin(canvas, look, scene, np.linalg.norm(np.ptp(points, axis=0)))
     put_names(canvas, look, scene)
     canvas.place_labels()
     canvas.labels = []

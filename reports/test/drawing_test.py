@@ -96,6 +96,23 @@ analyses: {a: {linear: {}}}
         self.assertFalse(view.choose(frame, out, [], True).face_on)
         self.assertFalse(view.choose(frame[:2], down, [], True).face_on)  # its section is seen
 
+    def test_far_axes(self):
+        """An axis of turning far away would make the structure small: it is told in words."""
+        text = """
+name: turns
+sections: {s: {rectangle: {width: 0.1, thickness: 0.1}}}
+nodes: {p: {at: [0, 0, 0], hold: [ux]}, q: {at: [1, 0, 0]}}
+members: {m: {from: p, to: q, section: s, y: [0, 1, 0]}}
+analyses: {a: {rotation: {omega: [0, 0, 2], centre: [%d, 0, 0], stations: [0, 1]}}}
+"""
+        for centre, drawn in ((0, 1), (-100, 0)):
+            one = scene.read(text % centre)
+            figure = draw.draw(one)
+            marks = [a.get_gid() for a in figure.findobj()]
+            self.assertEqual(marks.count("spin"), drawn)
+            self.assertIn("Axes turn with", dict(describe.describe(one)))
+            plt.close(figure)
+
     def test_nothing_written(self):
         self.assertIsNone(scene.read(""))
 
