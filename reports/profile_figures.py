@@ -30,7 +30,7 @@ def marks_of(site, key, at, shares, marked):
 
 def legend_of(site, keys, name="profile_legend"):
     """One legend for all figures of the page."""
-    columns = min(4, len(keys))
+    columns = min(2, len(keys))
     figure, axes = plt.subplots(figsize=(1.95 * columns, 0.22 * -(-len(keys) // columns) + 0.06))
     lines = [axes.plot([], [], label=key, **site.styles.of(key))[0] for key in keys]
     axes.set_axis_off()
