@@ -16,8 +16,9 @@ AXES = (("elements per member", "n"), ("time [s]", "s"), ("cost of counted work 
 
 def listed(values, digits):
     """Numbers as one text."""
-    return " ".join(f"{v:.{digits}g}" if v is not None and math.isfinite(v) else "-"
+    text = " ".join(f"{v:.{digits}g}" if v is not None and math.isfinite(v) else "-"
                     for v in values)
+    return text.replace("e-0", "e-").replace("e+0", "e").replace("e+", "e")
 
 
 def series_of(series, names):
@@ -38,7 +39,7 @@ def series_of(series, names):
         verdict = answers.verdict_of(series, name)
         errors = [abs(m.errors.get(name, math.nan)) for m in series.meshes]
         known = any(math.isfinite(e) for e in errors)
-        out["q"].append([listed(found, 7), listed(errors, 3) if known else "",
+        out["q"].append([listed(found, 7), listed(errors, 2) if known else "",
                          verdict.verdict if verdict else ""])
     return out
 

@@ -47,7 +47,9 @@ class Image:
         """The SVG with its description, and its points beside it."""
         data = f'<script type="application/json">{self.points}</script>' if self.points else ""
         name = escape(self.name.removesuffix(".svg"))
-        own = f'<svg id="{name}" role="img" aria-label="{escape(alt)}"'
+        width = re.search(r' width="(\d+)"', self.markup)
+        own = (f'<svg id="{name}" role="img" aria-label="{escape(alt)}" '
+               f'style="--width:{width[1] if width else 700}px"')
         return Markup(self.markup.replace("<svg", own, 1) + data)
 
 

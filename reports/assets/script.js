@@ -158,7 +158,7 @@ class Figure {
     const table = make("table", "", box);
     c.forEach((name, k) => {
       const row = make("tr", "", table);
-      make("td", name == "time [s]" ? "time" : name, row);
+      make("td", name == "time [s]" ? "time" : name.replace(" [1]", ""), row);
       make("td", said(name, r[i][k]), row);
     });
     box.hidden = false;
@@ -189,7 +189,7 @@ addEventListener("scroll", () => { box.hidden = true; }, { passive: true });
 if (document.querySelector("div.viewer")) document.head.append(Object.assign(document.createElement("script"), { src: "viewer.js" }));
 
 // Wide tables can be reached from the keyboard, and paper shows what is folded.
-const reach = () => all(document, ".scroll").forEach(part => { if (part.scrollWidth > part.clientWidth) part.tabIndex = 0; });
+const reach = () => all(document, ".scroll, div.figure").forEach(part => { if (part.scrollWidth > part.clientWidth) part.tabIndex = 0; });
 addEventListener("load", reach); addEventListener("resize", reach);
 let folded = [];
 addEventListener("beforeprint", () => { folded = all(document, "details:not([open])"); folded.forEach(part => { part.open = true; }); });
