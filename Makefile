@@ -17,7 +17,7 @@ BASE_CFLAGS := -std=c11 -D_GNU_SOURCE -I. -fno-math-errno -ffp-contract=off -fPI
 FORMULATIONS := $(sort $(wildcard elements/*.c))
 CASES := $(sort $(wildcard cases/*.c))
 LIBRARY_SOURCES := $(FORMULATIONS) $(CASES) $(sort $(wildcard elements/*/*.c cases/*/*.c harness/*/*.c))
-LIBRARY_SOURCES := $(filter-out elements/test/% cases/test/% harness/test/% harness/cli/% harness/fuzz/%,$(LIBRARY_SOURCES))
+LIBRARY_SOURCES := $(filter-out elements/test/% elements/examples/% cases/test/% harness/test/% harness/cli/% harness/fuzz/%,$(LIBRARY_SOURCES))
 PROGRAM_SOURCES := $(sort $(wildcard harness/cli/*.c))
 TEST_SOURCES := $(sort $(wildcard elements/test/*_test.c cases/test/*_test.c harness/*/test/*_test.c))
 # What tests share; a room's own test folder is never part of the library.

@@ -25,7 +25,7 @@
 #include "elements/shared/parameter.h"
 #include "elements/shared/status.h"
 
-enum { ELEMENT_ABI = 2 };
+enum { ELEMENT_ABI = 3 };
 enum {
     ELEMENT_MAX_NODES = 3,
     NODE_COORDINATES = 7,
@@ -49,6 +49,15 @@ enum element_limit {
  * is not run. */
 enum element_lack {
     LACKS_SHEAR_Y = 1 << 0 /* rigid in shear along y, though FEATURE_SHEAR is offered */
+};
+
+/* What a type leaves to differences of what it gives (harness/adapters): of sixth order in the
+ * rotation chart, exact to about ten digits, and slow. Results say so; such times rank nothing. */
+enum element_left {
+    LEAVES_J = 1 << 0,      /* strain gives e only */
+    LEAVES_H = 1 << 1,      /* strain gives no H */
+    LEAVES_FORCE = 1 << 2,  /* force gives the energy only */
+    LEAVES_TANGENT = 1 << 3 /* force gives no K */
 };
 
 /* The theory of shear in stability that the equations of a type have, in bits; 0: rigid in shear.
@@ -78,10 +87,11 @@ typedef struct element_order {
 
 typedef struct element_request {
     const section *section;
-    double length;         /* l0 [m] */
-    unsigned features;     /* exactly what is to be active */
-    const double *options; /* values in the order of type->options */
-    double curvature[3];   /* initial torsion and curvatures kx, ky, kz [1/m] */
+    double length;                   /* l0 [m] */
+    unsigned features;               /* exactly what is to be active */
+    const double *options;           /* values in the order of type->options */
+    const struct element_type *type; /* as its file gives it */
+    double curvature[3];             /* initial torsion and curvatures kx, ky, kz [1/m] */
     double
         strain[3]; /* initial elongation and shear strains gx, gy, gz of the stress-free element */
 } element_request;
@@ -127,47 +137,76 @@ typedef struct inertia_output {
     double *G;         /* [7n x 7n] gyroscopic, skew: M x'' + G x' + (K + N) x = 0 */
 } inertia_output;
 
+/* Of the whole element, for types without strains and stresses of their own. */
+typedef struct force_output {
+    double *energy; /* [1] [J] */
+    double
+        *F; /* [7 nodes] d energy/dx: forces on the nodes [N], moments [N m], bimoments [N m^2] */
+    double *K; /* [7 nodes x 7 nodes] dF/dx; only its symmetric part counts, so that it may be the
+                  derivative of F along spatial increments or the second one of the energy in the
+                  exponential chart */
+} force_output;
+
+/* What is optional is NULL or 0 where it is left out, and then means what stands behind it. */
 typedef struct element_type {
+    /* Required. */
+    unsigned abi; /* ELEMENT_ABI; of files outside elements/ */
+    size_t size;  /* sizeof(element_type) of the header it was compiled with; likewise */
     const char
         *name; /* file name = exported symbol without element_ = command line = results key */
-    const char *summary;     /* one line */
-    const char *source;      /* paper and equations */
-    const char *family;      /* one word; types of one family share code or theory: that they agree
-                                proves little */
-    unsigned abi;            /* ELEMENT_ABI */
-    unsigned offers;         /* element_feature; theories of shear as in shear_theories */
-    unsigned limits;         /* element_limit */
-    unsigned lacks;          /* element_lack */
-    const char *lacks_by;    /* the equations that leave it out; NULL: nothing is lacking */
-    unsigned shear_theories; /* shear_theory */
-    const char
-        *own_theory; /* of SHEAR_OWN, one line: what it is and where it is derived; else NULL */
-    const parameter_type *options[PARAMETER_PARTS]; /* -f name:key=value */
-    /* [options] element_feature: verify judges every choice of an option where a quantity depends
-     * on one of these; 0: its default. NULL: the defaults. */
-    const unsigned *judged;
-    element_order (*order)(element_analysis, const double options[]); /* NULL: least 2, highest 4 */
-    /* Sizes may depend on the options (stages, nodes). */
-    int (*nodes)(const double options[]);   /* NULL: 2 */
-    int (*strains)(const double options[]); /* NULL: 8 */
-    int (*inner)(const double options[]);   /* element unknowns of its own; NULL: 0 */
-    int (*memory)(const double options[]);  /* doubles kept between stress and update; NULL: 0 */
+    const char *summary; /* one line */
+    const char *source;  /* paper and equations */
+    const char *family;  /* one word; types of one family share code or theory: that they agree
+                            proves little */
+    unsigned offers;     /* element_feature; theories of shear as in shear_theories */
     size_t (*data_size)(const element_request *);
     /* Once per kind of element.  Refuses what it cannot do, naming it. */
     status (*prepare)(const element_request *, element_data *, fault *);
+
+    /* Required: these two, or `force` in their place. */
     void (*strain)(const element_data *, const node_state x[], strain_output *);
     /* NOT_CONVERGED or SINGULAR when the state is outside what the formulation can evaluate. */
     status (*stress)(const element_data *, const double e[], const double inner[], stress_output *);
+    /* Codes that give force and tangent of node states, or an energy that is the same wherever a
+     * rigid motion takes the element. The places of the nodes relative to the first one are its
+     * strains. Straight elements only; no linear buckling: how a prestress acts without deformation
+     * is a matter of strains. */
+    status (*force)(const element_data *, const node_state x[], force_output *);
+
+    /* Optional: what it is judged by. */
+    unsigned leaves;         /* element_left: nothing is left to differences */
+    unsigned limits;         /* element_limit: none */
+    unsigned lacks;          /* element_lack: nothing */
+    const char *lacks_by;    /* the equations that leave it out */
+    unsigned shear_theories; /* shear_theory: none, rigid in shear */
+    const char *own_theory;  /* of SHEAR_OWN, one line: what it is and where it is derived */
+    element_order (*order)(element_analysis, const double options[]); /* least 2, highest 4 */
+
+    /* Optional: -f name:key=value. */
+    const parameter_type *options[PARAMETER_PARTS]; /* none */
+    /* [options] element_feature: verify judges every choice of an option where a quantity depends
+     * on one of these, 0: its default alone. Left out: the defaults alone. */
+    const unsigned *judged;
+
+    /* Optional: sizes, which may depend on the options (stages, nodes). */
+    int (*nodes)(const double options[]);   /* 2 */
+    int (*strains)(const double options[]); /* 8 */
+    int (*inner)(const double options[]);   /* element unknowns of its own: 0 */
+    int (*memory)(const double options[]);  /* doubles kept between stress and update: 0 */
+
+    /* Optional: of types with inner unknowns. */
     /* inner += (correction from the last stress) for the strain increment de; returns the
      * dimensionless size of the change. */
     double (*update)(const element_data *, const double de[], const double memory[],
                      double inner[]);
-    /* Inner unknowns of the undeformed state. */
+    /* Inner unknowns of the undeformed state: zero. */
     void (*rest)(const element_data *, double inner[]);
+
+    /* Optional: further physics. */
     /* G[strains x strains] = derivative of C at e = 0 in the direction of the prestress sigma: sum
-     * sigma_i Q_i. NULL: zero. */
+     * sigma_i Q_i: zero. */
     void (*geometric)(const element_data *, const double sigma[], double G[]);
-    /* frame NULL: the frame is at rest. */
+    /* frame NULL: the frame is at rest. Left out: the mass lumped at the nodes. */
     status (*inertia)(const element_data *, const node_state x[], const element_rotating_frame *,
                       inertia_output *);
 } element_type;

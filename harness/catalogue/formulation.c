@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/catalogue/choice.h"
-#include "harness/catalogue/registry.h"
+#include "harness/catalogue/formulations.h"
 
 const parameter_type formulation_common[] = {
     {"newton", "", SOLVE_MIXED, 0, 0, "mixed|displacement|dense",
@@ -31,17 +31,13 @@ solve_newton formulation_newton(const formulation *chosen)
 static const char *formulation_name(const void *context, int i)
 {
     (void)context;
-    return registry_formulations[i] != NULL ? registry_formulations[i]->name : NULL;
+    const element_type *type = formulations_at(i);
+    return type != NULL ? type->name : NULL;
 }
 
 const element_type *formulation_find(const char *key)
 {
-    const size_t length = strcspn(key, ":");
-    for (int i = 0; registry_formulations[i] != NULL; i++)
-        if (strlen(registry_formulations[i]->name) == length &&
-            strncmp(registry_formulations[i]->name, key, length) == 0)
-            return registry_formulations[i];
-    return NULL;
+    return formulations_named(key, strcspn(key, ":"));
 }
 
 static void write_key(formulation *out)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "harness/catalogue/choice.h"
+#include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 
 typedef struct scanner {
@@ -137,7 +138,8 @@ static const char *registered(const void *context, int i)
         cases++;
     if (i < cases)
         return registry_cases[i]->name;
-    return registry_formulations[i - cases] != NULL ? registry_formulations[i - cases]->name : NULL;
+    const element_type *type = formulations_at(i - cases);
+    return type != NULL ? type->name : NULL;
 }
 
 status select_begin(const char *expression, select_words *words, fault *f)

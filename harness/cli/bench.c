@@ -3,7 +3,7 @@
 #include <unistd.h>
 
 #include "harness/catalogue/case_find.h"
-#include "harness/catalogue/registry.h"
+#include "harness/catalogue/formulations.h"
 #include "harness/cli/cli.h"
 #include "harness/record/csv.h"
 #include "harness/record/output.h"
@@ -18,8 +18,8 @@ static const double floor_seconds = 0.002; /* of each round for each cell */
 static int all_formulations(formulation out[COMMAND_MAX_FORMULATIONS])
 {
     int count = 0;
-    while (registry_formulations[count] != NULL && count < COMMAND_MAX_FORMULATIONS) {
-        formulation_default(registry_formulations[count], &out[count]);
+    while (formulations_at(count) != NULL && count < COMMAND_MAX_FORMULATIONS) {
+        formulation_default(formulations_at(count), &out[count]);
         count++;
     }
     return count;

@@ -4,6 +4,7 @@
 
 #include "elements/feature.h"
 #include "harness/catalogue/choice.h"
+#include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 #include "harness/cli/cli.h"
 #include "harness/cli/list_formulation.h"
@@ -18,9 +19,9 @@ enum { COLUMN = 27 };
 static void list_formulations(void)
 {
     printf("formulations ('beamwork list FORMULATION' tells about one)\n");
-    for (int i = 0; registry_formulations[i] != NULL; i++)
-        paragraph_write(stdout, printf("  %-*s", COLUMN - 2, registry_formulations[i]->name),
-                        COLUMN, registry_formulations[i]->summary);
+    for (int i = 0; formulations_at(i) != NULL; i++)
+        paragraph_write(stdout, printf("  %-*s", COLUMN - 2, formulations_at(i)->name), COLUMN,
+                        formulations_at(i)->summary);
     printf("options of all of them (-f NAME:OPTION=VALUE)\n");
     for (const parameter_type *o = formulation_common; o->name != NULL; o++)
         list_formulation_option(o);
@@ -89,8 +90,8 @@ static void list_scene(const scene *s)
                         40, meaning);
     }
     printf("formulations\n");
-    for (int i = 0; registry_formulations[i] != NULL; i++)
-        list_offer(s, registry_formulations[i]);
+    for (int i = 0; formulations_at(i) != NULL; i++)
+        list_offer(s, formulations_at(i));
 }
 
 static int list_case(const case_type *type)
@@ -118,10 +119,8 @@ static const char *name_at(const void *context, int i)
     for (int k = 0; registry_cases[k] != NULL; k++, i--)
         if (i == 0)
             return registry_cases[k]->name;
-    for (int k = 0; registry_formulations[k] != NULL; k++, i--)
-        if (i == 0)
-            return registry_formulations[k]->name;
-    return NULL;
+    const element_type *type = formulations_at(i);
+    return type != NULL ? type->name : NULL;
 }
 
 static int refuse(const char *name)
@@ -193,5 +192,5 @@ int cli_list(int count, char **arguments)
         "\vbeamwork list\n"
         "beamwork list c_column\n"
         "beamwork list collocation",
-        "YT", count, arguments, list_request);
+        "YTx", count, arguments, list_request);
 }

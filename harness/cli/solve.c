@@ -5,6 +5,7 @@
 #include "harness/catalogue/parameters.h"
 #include "harness/cli/cli.h"
 #include "harness/command/defaults.h"
+#include "harness/command/guard.h"
 #include "harness/record/csv.h"
 #include "harness/record/follow_record.h"
 #include "harness/record/json.h"
@@ -69,6 +70,7 @@ static status solve_cell(const command_request *r, sweep *s, fault *f)
     request.solve.shapes = r->shapes;
     request.solve.systems = r->matrices != NULL;
     request.threads = r->threads;
+    guard_formulation(&r->formulation[0], r->time_limit);
     return cell_run(&request, &s->series[0].cell[0], f);
 }
 
@@ -226,5 +228,5 @@ int cli_solve(int count, char **arguments)
         "changes by more than 0.1 % from the mesh before: the output says both."
         "\vbeamwork solve elastica\n"
         "beamwork solve c_column -f beamw -n 8 --set section_data=printed",
-        "fnsFoKSPRVtTY", count, arguments, solve_request);
+        "fnsFoKSPRVtTYL", count, arguments, solve_request);
 }

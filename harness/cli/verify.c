@@ -8,6 +8,7 @@
 #include "harness/command/scenes.h"
 #include "harness/imports/import_store.h"
 #include "harness/judge/families.h"
+#include "harness/judge/proposal.h"
 #include "harness/judge/sentence.h"
 #include "harness/record/json.h"
 #include "harness/record/junit.h"
@@ -49,9 +50,17 @@ static status write_markdown(const char *path, const sweep *s, const judgement *
     return output_close(&file, f);
 }
 
+static status write_proposal(const char *path, const sweep *s, const judgement *j, fault *f)
+{
+    output file;
+    TRY(output_open(path, &file, f));
+    proposal_write(file.stream, s, j);
+    return output_close(&file, f);
+}
+
 /* Where each file goes: of an interrupted run, under names that say so. */
 typedef struct places {
-    char output[PATH_MAX], json[PATH_MAX], junit[PATH_MAX], markdown[PATH_MAX];
+    char output[PATH_MAX], json[PATH_MAX], junit[PATH_MAX], markdown[PATH_MAX], propose[PATH_MAX];
 } places;
 
 static status place_one(const char *path, int partial, char out[PATH_MAX], fault *f)
@@ -70,7 +79,8 @@ static status place_all(const command_request *r, int partial, places *out, faul
     TRY(place_one(r->output, partial, out->output, f));
     TRY(place_one(r->json, partial, out->json, f));
     TRY(place_one(r->junit, partial, out->junit, f));
-    return place_one(r->markdown, partial, out->markdown, f);
+    TRY(place_one(r->markdown, partial, out->markdown, f));
+    return place_one(r->propose, partial, out->propose, f);
 }
 
 static status write_all(const command_request *r, const sweep *s, const judgement *j,
@@ -87,6 +97,8 @@ static status write_all(const command_request *r, const sweep *s, const judgemen
         TRY(write_junit(to.junit, s, j, f));
     if (to.markdown[0] != '\0')
         TRY(write_markdown(to.markdown, s, j, o, &e, f));
+    if (to.propose[0] != '\0')
+        TRY(write_proposal(to.propose, s, j, f));
     return STATUS_OK;
 }
 
@@ -144,7 +156,7 @@ static status judge_and_write(const command_request *r, const sweep *s, truths *
 /* The first file that is written, or NULL. */
 static const char *first_file(const command_request *r)
 {
-    const char *const all[] = {r->output, r->json, r->junit, r->markdown};
+    const char *const all[] = {r->output, r->json, r->junit, r->markdown, r->propose};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         if (all[i] != NULL)
             return all[i];
@@ -272,5 +284,5 @@ int cli_verify(int count, char **arguments)
         "until then is in files named .partial"
         "\vbeamwork verify -k \"c_column and collocation\"\n"
         "beamwork verify -o build/results.h5",
-        "fokjJUMLPTYBGINvq", count, arguments, verify_request);
+        "fokjJUMLPTYBGINvqp", count, arguments, verify_request);
 }

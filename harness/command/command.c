@@ -7,7 +7,8 @@
 #include <unistd.h>
 
 #include "harness/algebra/team.h"
-#include "harness/catalogue/registry.h"
+#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/plugin.h"
 #include "harness/command/case_input.h"
 #include "harness/command/help.h"
 #include "harness/command/message.h"
@@ -45,9 +46,9 @@ void command_add_formulation(command_request *r, const char *text)
 {
     fault f;
     if (strcmp(text, "all") == 0) {
-        for (int i = 0;
-             registry_formulations[i] != NULL && r->formulations < COMMAND_MAX_FORMULATIONS; i++)
-            formulation_default(registry_formulations[i], &r->formulation[r->formulations++]);
+        for (int i = 0; formulations_at(i) != NULL && r->formulations < COMMAND_MAX_FORMULATIONS;
+             i++)
+            formulation_default(formulations_at(i), &r->formulation[r->formulations++]);
         return;
     }
     if (r->formulations == COMMAND_MAX_FORMULATIONS)
@@ -58,6 +59,28 @@ void command_add_formulation(command_request *r, const char *text)
         if (strcmp(r->formulation[i].key, r->formulation[r->formulations].key) == 0)
             refuse("a formulation is given twice; give it once");
     r->formulations++;
+}
+
+static void load_formulation(const char *path)
+{
+    const element_type *type;
+    fault f;
+    if (plugin_load(path, &type, &f) != STATUS_OK || formulations_add(type, &f) != STATUS_OK)
+        refuse(f.text);
+}
+
+/* When all options are known: those that --element loads can be named before it. */
+static void add_formulations(command_request *r)
+{
+    for (int i = 0; i < r->named_formulations; i++)
+        command_add_formulation(r, r->named_formulation[i]);
+}
+
+static void name_formulation(command_request *r, const char *text)
+{
+    if (r->named_formulations == COMMAND_MAX_FORMULATIONS)
+        refuse("too many formulations");
+    r->named_formulation[r->named_formulations++] = text;
 }
 
 static void add_assignment(command_request *r, const char *text)
@@ -83,7 +106,7 @@ static void refuse_again(command_request *r, int key, const struct argp_state *s
     char message[160];
     while (o->name != NULL && o->key != key)
         o++;
-    if (o->name == NULL || o->arg == NULL || strchr("fnsYB", key) != NULL)
+    if (o->name == NULL || o->arg == NULL || strchr("fxnsYB", key) != NULL)
         return;
     for (int i = 0; i < r->given_count; i++)
         if (r->given[i] == key) {
@@ -161,7 +184,13 @@ static error_t take(int key, char *value, struct argp_state *state)
         add_case(r, value);
         return 0;
     case 'f':
-        command_add_formulation(r, value);
+        name_formulation(r, value);
+        return 0;
+    case 'x':
+        load_formulation(value);
+        return 0;
+    case ARGP_KEY_END:
+        add_formulations(r);
         return 0;
     case 'n':
         add_meshes(r, value);
@@ -223,7 +252,9 @@ void command_parse(const char *verb, const char *arguments_doc, const char *doc,
     int n = 0;
     for (const verb_option *o = option_table; o->name != NULL; o++) {
         const int always = o->key == KEY_HELP || o->key == KEY_USAGE;
-        if (always || strchr(keys, o->key) != NULL)
+        const int taken =
+            strchr(keys, o->key) != NULL || (o->key == 'x' && strchr(keys, 'f') != NULL);
+        if (always || taken)
             chosen[n++] = (struct argp_option){o->name,     o->key,
                                                o->argument, o->key == 'P' ? OPTION_ARG_OPTIONAL : 0,
                                                o->doc,      always ? -1 : 0};

@@ -26,11 +26,13 @@ typedef struct command_request {
     double parameter[CASE_MAX_PARAMETERS];
     const char *assignment[CASE_MAX_PARAMETERS];
     int assignments;
+    const char *named_formulation[COMMAND_MAX_FORMULATIONS]; /* as -f says them */
+    int named_formulations;
     formulation formulation[COMMAND_MAX_FORMULATIONS];
     int formulations;
     int mesh[COMMAND_MAX_MESHES], meshes;
-    const char *format, *output, *json, *junit, *markdown, *truths, *select, *threshold, *against,
-        *error;
+    const char *format, *output, *json, *junit, *markdown, *propose, *truths, *select, *threshold,
+        *against, *error;
     const char *follow;   /* NAME=A..B/N: modes over a parameter */
     const char *matrices; /* folder for the matrices of all states */
     int jobs, keep_all, steps;

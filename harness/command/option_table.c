@@ -5,6 +5,8 @@
 const verb_option option_table[OPTION_COUNT] = {
     {"formulation", 'f', "NAME[:KEY=VALUE,...]",
      "formulation and its options; again for another, 'all' for every one", 0},
+    {"element", 'x', "FILE",
+     "a formulation of your own: a shared object (with a '/': ./mine.so); again for another", 0},
     {"elements", 'n', "N[,N...]", "elements per member", 0},
     {"set", 's', "NAME=VALUE", "value of a case parameter (SI); again for another", 0},
     {"format", 'F', "text|json|csv", "form of the output (default text)", 0},
@@ -79,6 +81,9 @@ const verb_option option_table[OPTION_COUNT] = {
     {"schema", 'H', NULL, "describe all keys of scene files as JSON Schema",
      offsetof(command_request, schema)},
     {"keys", 'E', NULL, "list all keys of scene files", offsetof(command_request, keys)},
+    {"propose", 'p', "FILE",
+     "findings that new formulations would need, as rows for a ledger (CSV)",
+     offsetof(command_request, propose)},
     {"verbose", 'v', NULL,
      "verify: every limit, not only the overview; converge: values, times and limits of each "
      "formulation by itself",

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "harness/catalogue/case_find.h"
-#include "harness/catalogue/registry.h"
+#include "harness/catalogue/formulations.h"
 #include "harness/study/plan.h"
 
 /* Decimal fractions as a table of truths has them. */
@@ -56,7 +56,7 @@ static int is_selected(const extreme_request *request, const extreme *e, const f
 static status list_formulations(const extreme_request *request, extreme_sweep *out, fault *f)
 {
     int all = 0;
-    while (registry_formulations[all] != NULL)
+    while (formulations_at(all) != NULL)
         all++;
     out->formulations = request->formulations > 0 ? request->formulations : all;
     out->formulation = calloc((size_t)out->formulations + 1, sizeof *out->formulation);
@@ -67,7 +67,7 @@ static status list_formulations(const extreme_request *request, extreme_sweep *o
         if (request->formulations > 0)
             out->formulation[i] = request->formulation[i];
         else
-            formulation_default(registry_formulations[i], &out->formulation[i]);
+            formulation_default(formulations_at(i), &out->formulation[i]);
         out->count[i].formulation = out->formulation[i].key;
     }
     return STATUS_OK;

@@ -39,6 +39,8 @@ typedef struct judgement {
     flaw *flaw; /* [flaws] */
     int by_kind[VERDICT_KINDS];
     int unexpected; /* verdicts that differ from the expected one */
+    int is_new;     /* verdicts of new formulations, which do not gate ... */
+    int proposed;   /* ... and those among them that would need a finding */
     int disagreements;
     int judged; /* verdicts that compare with a truth */
     /* rules of the ledger that no verdict showed, or predictions of theirs (whole runs only) */

@@ -157,6 +157,13 @@ static void expected_findings(const judgement *j, char *text, size_t size)
                  derived > 0 ? "more " : "of them ");
         add_part(text, size, &parts, ", ", part);
     }
+    if (j->is_new > 0) {
+        snprintf(part, sizeof part,
+                 "%d are of new formulations, which do not gate: %d of these are no pass and would "
+                 "need a finding (--propose FILE writes them down)",
+                 j->is_new, j->proposed);
+        add_part(text, size, &parts, "; ", part);
+    }
 }
 
 void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size)

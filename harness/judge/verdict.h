@@ -43,8 +43,10 @@ typedef struct verdict {
     double tolerance;   /* absolute, uncertainty of the truth included */
     /* 1: the limit differs from the truth by less than the truth is uncertain */
     int below_digits;
-    int matches;      /* 1: verdict as expected */
-    const rule *rule; /* the one that explains what is not a pass; NULL: none */
+    int matches;       /* 1: verdict as expected */
+    int needs_finding; /* 1: of a new formulation, which does not gate: in the ledger it would need
+                          a rule */
+    const rule *rule;  /* the one that explains what is not a pass; NULL: none */
     char reason[FAULT_TEXT];
 } verdict;
 

@@ -70,7 +70,7 @@ static status kind_of(model *m, const scene_member *member, int profile, double 
         }
     mesh_kind *k = &m->kind[m->kinds];
     element_request request = {
-        .section = &m->section[profile], .length = length, .options = m->options};
+        .section = &m->section[profile], .length = length, .options = m->options, .type = m->given};
     memcpy(request.curvature, curvature, sizeof request.curvature);
     memcpy(request.strain, member->strain, sizeof request.strain);
     TRY(features_of_section(m, profile, &request.features, f));

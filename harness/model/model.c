@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/adapters/adapters.h"
 #include "harness/algebra/memory.h"
 #include "harness/model/discrete.h"
 #include "harness/model/features.h"
@@ -15,19 +16,22 @@
 #include "harness/model/profile.h"
 #include "harness/model/spring.h"
 
-static void choose_options(model *m, const double options[])
+static status choose_options(model *m, const double options[], fault *f)
 {
-    const element_type *t = m->type;
+    const element_type *t = m->given;
     parameter_defaults(t->options, m->options);
     if (options != NULL)
         for (int i = 0; i < parameter_count(t->options); i++)
             m->options[i] = options[i];
+    TRY(adapters_complete(t, m->options, &m->completed, f));
+    m->type = &m->completed;
     m->nodes = element_nodes(t, m->options);
     m->coordinates = NODE_COORDINATES * m->nodes;
-    m->strains = element_strains(t, m->options);
-    m->inner = element_inner(t, m->options);
-    m->memory = element_memory(t, m->options);
+    m->strains = element_strains(m->type, m->options);
+    m->inner = element_inner(m->type, m->options);
+    m->memory = element_memory(m->type, m->options);
     m->work_size = m->strains * (m->coordinates + m->strains + 2) + m->memory;
+    return STATUS_OK;
 }
 
 static int stations_of(const scene_analysis *a)
@@ -80,7 +84,7 @@ static status build(model *m, const model_request *request, fault *f)
     m->features = features_needed_of(s, type) | (type->offers & FEATURE_CURVATURE);
     if (m->keep_all)
         m->features |= FEATURE_WARPING | FEATURE_ECCENTRIC;
-    choose_options(m, request->options);
+    TRY(choose_options(m, request->options, f));
     m->driver_coordinate = malloc(((size_t)s->drivers + 1) * sizeof *m->driver_coordinate);
     if (m->driver_coordinate == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for drivers");
@@ -90,6 +94,8 @@ static status build(model *m, const model_request *request, fault *f)
     TRY(coordinates_number(m, f));
     if (lacks_of(s, type, words, sizeof words))
         TRY(coordinates_note_left_out(m, f, "%s", words));
+    if (adapters_words(type)[0] != '\0')
+        TRY(coordinates_note_left_out(m, f, "%s", adapters_words(type)));
     return allocate(m, f);
 }
 
@@ -100,7 +106,7 @@ status model_alloc(const model_request *request, model **out, fault *f)
     if (m == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a model");
     m->scene = request->scene;
-    m->type = request->type;
+    m->given = m->type = request->type;
     m->keep_all = request->keep_all;
     const status outcome = build(m, request, f);
     if (outcome == STATUS_OK)
@@ -112,7 +118,7 @@ status model_alloc(const model_request *request, model **out, fault *f)
 
 status model_coarse(const model *m, model **out, fault *f)
 {
-    const model_request request = {m->scene, m->type, m->options, 1, m->keep_all};
+    const model_request request = {m->scene, m->given, m->options, 1, m->keep_all};
     return model_alloc(&request, out, f);
 }
 

@@ -81,7 +81,9 @@ typedef struct element_part {
 
 struct model {
     const scene *scene;
-    const element_type *type;
+    const element_type *given; /* as its file has it */
+    const element_type *type;  /* with what that leaves out: given, or &completed */
+    element_type completed;
     double options[ELEMENT_MAX_OPTIONS];
     int keep_all, nodes, coordinates, strains, inner, memory; /* per element: nodes, 7 nodes, ... */
     unsigned features;

@@ -3,7 +3,9 @@
 #include <string.h>
 
 #include "elements/feature.h"
+#include "harness/adapters/adapters.h"
 #include "harness/catalogue/formulation.h"
+#include "harness/catalogue/formulations.h"
 #include "harness/schema/fields_keys.h"
 
 static const element_type *type_of(const subject *s)
@@ -104,6 +106,16 @@ static void get_options(const subject *s, field_value *out)
     out->text = out->room;
 }
 
+static void get_differences(const subject *s, field_value *out)
+{
+    schema_set_text(out, adapters_words(type_of(s)));
+}
+
+static void get_is_new(const subject *s, field_value *out)
+{
+    out->whole = formulations_is_new(type_of(s));
+}
+
 static const schema_field fields[] = {
     {"formulation", "", FIELD_TEXT, "name, options that differ from their defaults",
      OF(SERIES, series, formulation.key), .key = KEY},
@@ -115,6 +127,9 @@ static const schema_field fields[] = {
     {"offers", "", FIELD_TEXT, "physics that it has, between commas", .get = get_offers},
     {"limits", "", FIELD_TEXT, "what it is restricted to", .get = get_limits},
     {"lacks", "", FIELD_TEXT, "what it offers in one direction only", .get = get_lacks},
+    {"differences", "", FIELD_TEXT, "what it leaves to differences: its times rank nothing",
+     .get = get_differences},
+    {"is_new", "", FIELD_FLAG, "loaded from outside: it does not gate", .get = get_is_new},
     {"shear_theory", "", FIELD_TEXT, "of shear in stability", .get = get_theory},
     {"statics_least", "1", FIELD_INT, "order of convergence in statics", .get = get_order},
     {"statics_highest", "1", FIELD_INT, "the same where leading terms vanish", .offset = 1,

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 #include "harness/model/missing.h"
 #include "harness/truth/truth.h"
@@ -162,11 +163,11 @@ static void choose_stored(const truths *t, const point *p, chosen *out)
 
 static void choose_all(const truths *t, const point *p, chosen *out)
 {
-    for (int i = 0; registry_formulations[i] != NULL && out->count < MOST_FORMULATIONS; i++)
-        formulation_default(registry_formulations[i], &out->list[out->count++]);
+    for (int i = 0; formulations_at(i) != NULL && out->count < MOST_FORMULATIONS; i++)
+        formulation_default(formulations_at(i), &out->list[out->count++]);
     if (p->text[0] == '\0')
-        for (int i = 0; registry_formulations[i] != NULL; i++)
-            choose_options(registry_formulations[i], out);
+        for (int i = 0; formulations_at(i) != NULL; i++)
+            choose_options(formulations_at(i), out);
     choose_stored(t, p, out);
 }
 

@@ -10,7 +10,7 @@ import unittest
 from harness.cli.test.work import VERBS, WORK
 from harness.test.program import TRUTHS, ProgramTest, environment, run
 
-LISTS = ("formulation", "elements", "set")  # may be given again
+LISTS = ("formulation", "element", "elements", "set")  # may be given again
 # the C library's argp leaves a byte when it exits
 HELP = environment(ASAN_OPTIONS="detect_leaks=0")
 

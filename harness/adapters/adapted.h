@@ -1,0 +1,37 @@
+/* Data of an element whose type is completed: the type's own behind those of the adapter. */
+#ifndef BEAMWORK_ADAPTED_H
+#define BEAMWORK_ADAPTED_H
+
+#include <stddef.h>
+
+#include "elements/element.h"
+#include "elements/shared/lumped.h"
+
+struct element_data {
+    const element_type *given;
+    int nodes, strains; /* of the completed type */
+    double length;      /* [m] */
+    lumped_mass mass;   /* where the type has no inertia of its own */
+    max_align_t own[];  /* element_data of the type */
+};
+
+static inline const element_data *adapted_own(const element_data *d)
+{
+    return (const element_data *)d->own;
+}
+
+/* differences.c: J and H of a type that gives e, or e and J. */
+void differences_strain(const element_data *d, const node_state x[], strain_output *out);
+/* H [7n x 7n] of strains with a Jacobian: jacobian(d, x, J) fills J [strains x 7n]. */
+typedef void differences_jacobian(const element_data *d, const node_state x[], double J[]);
+void differences_curvature(const element_data *d, const node_state x[], differences_jacobian *,
+                           const double s[], double H[]);
+
+/* relative.c: strains and stresses of a type that gives a force or an energy. */
+int relative_strains_two(const double options[]);   /* of two nodes */
+int relative_strains_three(const double options[]); /* of three */
+void relative_strain(const element_data *d, const node_state x[], strain_output *out);
+status relative_stress(const element_data *d, const double e[], const double inner[],
+                       stress_output *out);
+
+#endif

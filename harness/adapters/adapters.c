@@ -1,0 +1,131 @@
+#include "harness/adapters/adapters.h"
+
+#include <string.h>
+
+#include "harness/adapters/adapted.h"
+
+static size_t data_size(const element_request *request)
+{
+    const element_type *given = request->type;
+    return sizeof(element_data) + (given->data_size != NULL ? given->data_size(request) : 0);
+}
+
+static status prepare(const element_request *request, element_data *out, fault *f)
+{
+    const element_type *given = request->type;
+    out->given = given;
+    out->nodes = element_nodes(given, request->options);
+    out->strains = given->force == NULL ? element_strains(given, request->options)
+                   : out->nodes == 2    ? relative_strains_two(request->options)
+                                        : relative_strains_three(request->options);
+    out->length = request->length;
+    out->mass = lumped_of(request->section, request->features, request->length);
+    return given->prepare(request, (element_data *)out->own, f);
+}
+
+static status stress(const element_data *d, const double e[], const double inner[],
+                     stress_output *out)
+{
+    return d->given->stress(adapted_own(d), e, inner, out);
+}
+
+static double update(const element_data *d, const double de[], const double memory[],
+                     double inner[])
+{
+    return d->given->update(adapted_own(d), de, memory, inner);
+}
+
+static void rest(const element_data *d, double inner[])
+{
+    d->given->rest(adapted_own(d), inner);
+}
+
+static void geometric(const element_data *d, const double sigma[], double G[])
+{
+    d->given->geometric(adapted_own(d), sigma, G);
+}
+
+static status inertia(const element_data *d, const node_state x[],
+                      const element_rotating_frame *frame, inertia_output *out)
+{
+    return d->given->inertia(adapted_own(d), x, frame, out);
+}
+
+static status lumped(const element_data *d, const node_state x[],
+                     const element_rotating_frame *frame, inertia_output *out)
+{
+    return lumped_element(&d->mass, d->nodes, x, frame, out);
+}
+
+/* The same beam with data behind those of the adapter. */
+static void wrap(const element_type *given, element_type *out)
+{
+    *out = *given;
+    out->data_size = data_size;
+    out->prepare = prepare;
+    out->stress = stress;
+    out->update = given->update != NULL ? update : NULL;
+    out->rest = given->rest != NULL ? rest : NULL;
+    out->geometric = given->geometric != NULL ? geometric : NULL;
+    out->inertia = given->inertia != NULL ? inertia : lumped;
+    out->strain = differences_strain;
+}
+
+static void make_relative(int nodes, element_type *out)
+{
+    out->offers &= ~(unsigned)(FEATURE_CURVATURE | FEATURE_GEOMETRIC);
+    out->strains = nodes == 2 ? relative_strains_two : relative_strains_three;
+    out->inner = NULL;
+    out->memory = NULL;
+    out->strain = relative_strain;
+    out->stress = relative_stress;
+    out->geometric = NULL;
+}
+
+static status refuse(const element_type *given, const char *what, fault *f)
+{
+    return fault_set(f, STATUS_REFUSED, "formulation %s: %s", given->name, what);
+}
+
+static status check(const element_type *given, const double options[], fault *f)
+{
+    const int nodes = element_nodes(given, options);
+    if (given->prepare == NULL)
+        return refuse(given, "without 'prepare' it learns nothing of its section", f);
+    if ((given->force != NULL) == (given->strain != NULL || given->stress != NULL))
+        return refuse(given, "give either 'strain' and 'stress', or 'force'", f);
+    if (given->force == NULL && (given->strain == NULL || given->stress == NULL))
+        return refuse(given, "'strain' and 'stress' belong together", f);
+    if (nodes < 2 || nodes > ELEMENT_MAX_NODES)
+        return refuse(given, "an element has two or three nodes", f);
+    if (given->force == NULL && (element_strains(given, options) < 1 ||
+                                 element_strains(given, options) > ELEMENT_MAX_STRAINS))
+        return refuse(given, "an element has 1 to 24 strains", f);
+    return STATUS_OK;
+}
+
+status adapters_complete(const element_type *given, const double options[], element_type *out,
+                         fault *f)
+{
+    TRY(check(given, options, f));
+    *out = *given;
+    if (given->leaves == 0 && given->force == NULL && given->inertia != NULL &&
+        given->data_size != NULL)
+        return STATUS_OK;
+    wrap(given, out);
+    if (given->force != NULL)
+        make_relative(element_nodes(given, options), out);
+    return STATUS_OK;
+}
+
+const char *adapters_words(const element_type *given)
+{
+    if (given->force != NULL && given->leaves & LEAVES_FORCE)
+        return "forces and stiffness (differences of its energy instead)";
+    if (given->force != NULL && given->leaves & LEAVES_TANGENT)
+        return "stiffness (differences of its forces instead)";
+    if (given->leaves & LEAVES_J)
+        return "derivatives of its strains (differences instead)";
+    return given->leaves & LEAVES_H ? "second derivatives of its strains (differences instead)"
+                                    : "";
+}
