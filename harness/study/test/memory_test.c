@@ -19,11 +19,13 @@ void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
 void *__real_realloc(void *old, size_t size);
 void __real_free(void *old);
+FILE *__real_open_memstream(char **text, size_t *size);
 void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
 void *__wrap_realloc(void *old, size_t size);
 void __wrap_free(void *old);
 char *__wrap_strdup(const char *text);
+FILE *__wrap_open_memstream(char **text, size_t *size);
 char *__wrap_strndup(const char *text, size_t size);
 
 static long calls, refused_call, live; /* refused_call: 0 none */
@@ -74,6 +76,14 @@ char *__wrap_strndup(const char *text, size_t size)
 char *__wrap_strdup(const char *text)
 {
     return __wrap_strndup(text, strlen(text));
+}
+
+/* What it writes is freed by us. */
+FILE *__wrap_open_memstream(char **text, size_t *size)
+{
+    FILE *file = refuse() ? NULL : __real_open_memstream(text, size);
+    live += file != NULL;
+    return file;
 }
 
 /* What is tried: 0 after `value` (a sum of what came out) was set. */

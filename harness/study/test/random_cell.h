@@ -59,8 +59,8 @@ static inline void fill_text(dice *d, size_t size, char text[])
 
 static inline void fill_counts(dice *d, cell_result *c)
 {
-    int *const size[] = {&c->size.elements, &c->size.vertices, &c->size.free,
-                         &c->size.driven,   &c->size.strains,  &c->size.inner};
+    int *const size[] = {&c->size.elements, &c->size.vertices, &c->size.free, &c->size.driven,
+                         &c->size.strains,  &c->size.inner,    &c->size.kinds};
     for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
         *size[i] = whole(d, 1 << 30);
     c->size.features = (unsigned)roll(d);
@@ -199,7 +199,7 @@ static inline cell_result random_cell(dice *d)
 static inline void random_cell_complete(void)
 {
     gsl_test_int((int)(sizeof(counters) % sizeof(uint64_t)), 0, "counters are filled by words");
-    gsl_test_int((int)sizeof(model_size), 7 * (int)sizeof(int), "sizes as filled above");
+    gsl_test_int((int)sizeof(model_size), 8 * (int)sizeof(int), "sizes as filled above");
     gsl_test_int((int)sizeof(step_record), (int)(6 * sizeof(double) + 6 * sizeof(int)),
                  "steps as filled above");
     gsl_test_int((int)sizeof(iteration_record), (int)(3 * sizeof(double)),
