@@ -72,10 +72,6 @@ static status build(model *m, const model_request *request, fault *f)
     const scene *s = request->scene;
     const element_type *type = request->type;
     char words[200];
-    if (type->abi != ELEMENT_ABI)
-        return fault_set(f, STATUS_REFUSED,
-                         "formulation %s was written for another version of the element interface",
-                         type->name);
     TRY(profile_scene(m, f));
     if (missing_words(s, type, words, sizeof words))
         return fault_set(f, STATUS_REFUSED,
