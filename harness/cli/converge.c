@@ -45,13 +45,9 @@ static void write_text(FILE *to, const command_request *r, double level, const s
     write_answer(to, level, s, t);
 }
 
-static status write_form(FILE *to, const command_request *r, const sweep *s, const truths *t,
-                         fault *f)
+static status write_form(FILE *to, const command_request *r, double level, const sweep *s,
+                         const truths *t, fault *f)
 {
-    double level = REACH_LINE_LEVEL;
-    int levels;
-    if (r->error != NULL)
-        TRY(errors_parse(r->error, 1, &level, &levels, f));
     if (strcmp(r->format, "json") == 0)
         return json_convergence_write(to, s, t, level, f);
     if (strcmp(r->format, "csv") == 0)
@@ -61,11 +57,12 @@ static status write_form(FILE *to, const command_request *r, const sweep *s, con
     return STATUS_OK;
 }
 
-static status write_out(const command_request *r, const sweep *s, const truths *t, fault *f)
+static status write_out(const command_request *r, double level, const sweep *s, const truths *t,
+                        fault *f)
 {
     output file;
     TRY(output_open(r->output, &file, f));
-    return output_finish(&file, write_form(file.stream, r, s, t, f), f);
+    return output_finish(&file, write_form(file.stream, r, level, s, t, f), f);
 }
 
 /* With what converge_request frees. */
@@ -73,13 +70,17 @@ static status converge(command_request *r, const case_type *type, sweep *s, trut
 {
     const sweep_request request = {.jobs = r->jobs,
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
+    double level = REACH_LINE_LEVEL;
+    int levels;
+    if (r->error != NULL)
+        TRY(errors_parse(r->error, 1, &level, &levels, f));
     TRY(files_check(r, 0, case_input_truths_path(r), f));
     TRY(case_input_truths(r, t, f));
     TRY(plan_one(type, r->parameter, r->formulation, r->formulations, r->mesh, r->meshes, s, f));
     TRY(narrow_to(s, r->select, f));
     TRY(run_sweep(&request, s, f));
     TRY(families_add_truths(s, 0, t, f));
-    return write_out(r, s, t, f);
+    return write_out(r, level, s, t, f);
 }
 
 static int converge_request(command_request *r)

@@ -31,8 +31,13 @@ static void print_command(FILE *to, const point *p, const series *one, const cha
     if (one->imported != NULL)
         return;
     FILE *line = paragraph_begin(&words, to);
-    fprintf(line, "beamwork converge %s%s", path != NULL ? "--scene " : "",
-            path != NULL ? path : p->type->name);
+    if (path != NULL) /* blanks in it stay one word of the shell */
+        fprintf(line,
+                strchr(path, ' ') != NULL ? "beamwork converge --scene '%s'"
+                                          : "beamwork converge --scene %s",
+                path);
+    else
+        fprintf(line, "beamwork converge %s", p->type->name);
     print_settings(line, p->text);
     fprintf(line, " -f %s -n ", one->formulation.key);
     for (int i = 0; i < one->meshes; i++)
