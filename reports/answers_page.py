@@ -83,7 +83,9 @@ def write(site):
     site.write("answers.html", "answers.html", table=table, unpriced=unpriced, timed=site.bench is not None,
                points=embedded({"keys": keys, "cases": [points_of(c, keys) for c in cases]}))
     found = answers_table.rows(site.cases)
-    for name, text in (("answers.csv", answers_table.as_csv(found)),
+    first = {c.name: answers_table.asked(c.points[0])[:1] for c in cases}
+    together = [row for row in found if row["quantity"] in first[row["case"]]]
+    for name, text in (("answers.csv", answers_table.as_csv(together)),
                        ("answers.json", answers_table.as_json(found, site.about))):
         with open(os.path.join(site.folder, name), "w", encoding="utf-8") as out:
             out.write(text)

@@ -18,6 +18,7 @@ COLUMNS = ("case", "parameters", "quantity", "tolerance", "formulation", "n", "c
            "error", "rank", "tie", "defect", "priced")
 UNITS = {"cost": "s", "seconds": "s", "tolerance": "1", "error": "1"}
 LEVELS = tuple(data.REACH)
+ASKED = 4  # columns that say what is asked; the others are of each answer
 
 
 def asked(point):
@@ -28,7 +29,7 @@ def asked(point):
 
 def short(value):
     """A number with the digits that are worth keeping; None where there is none."""
-    return float(f"{value:.4g}") if math.isfinite(value) else None
+    return float(f"{value:.3g}") if math.isfinite(value) else None
 
 
 def rows(cases, levels=LEVELS, everywhere=False):
@@ -56,11 +57,20 @@ def as_csv(found):
 
 
 def as_json(found, about):
-    """One object: what was run, names and units of the columns, the rows one for each line."""
+    """One object: what was run, names and units of the columns, and a line for each question:
+    case, parameters, quantity, tolerance, then its answers as lists, each beginning with the
+    index of its formulation."""
+    keys = sorted({row["formulation"] for row in found})
     head = {"commit": about.get("commit", ""), "clock": about.get("clock", ""),
-            "columns": COLUMNS, "units": UNITS}
-    lines = ",\n".join(json.dumps(list(row.values()), separators=(",", ":")) for row in found)
-    return f'{json.dumps(head)[:-1]}, "rows": [\n{lines}\n]}}\n'
+            "asked": COLUMNS[:ASKED], "columns": COLUMNS[ASKED:], "units": UNITS,
+            "formulations": keys}
+    index, lines = {key: i for i, key in enumerate(keys)}, {}
+    for row in found:
+        question, answer = list(row.values())[:ASKED], list(row.values())[ASKED:]
+        lines.setdefault(tuple(question), []).append([index[answer[0]], *answer[1:]])
+    text = ",\n".join(json.dumps([*asked_of, ways], separators=(",", ":"))
+                      for asked_of, ways in lines.items())
+    return f'{json.dumps(head)[:-1]}, "answers": [\n{text}\n]}}\n'
 
 
 def sentence(answer):

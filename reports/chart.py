@@ -17,6 +17,7 @@ from reports.figures import FONT, MARKERS, Image, number, said_of
 
 INK = "currentColor"
 DASHES = {"-": "", "--": "4.4 1.9", ":": "1.2 2", "-.": "7.7 1.9 1.2 1.9", "none": "none"}
+WIDTH = 1.5  # of a curve that says nothing else
 LETTER = 6.7  # mean width of a letter of 11 pixels
 
 
@@ -145,17 +146,24 @@ class Writer:
         attributes = f' stroke-dasharray="{dash}"' if dash and dash != "none" else ""
         if look.get("alpha"):
             attributes += f' stroke-opacity="{look["alpha"]}"'
+        if look.get("linewidth", WIDTH) != WIDTH and stroke != "none":
+            attributes += f' stroke-width="{look["linewidth"]}"'
         marks, every = "", look.get("marks")
-        if look.get("marker") and every is None:
+        if look.get("marker") and (every is None or list(every) == list(range(len(points)))):
             name = self.marker(look)
-            marks = f' style="marker:url(#{name})"'
+            marks = f' style="marker{look.get("where", "")}:url(#{name})"'
         elif look.get("marker"):
             name = self.marker(look)
             at = " ".join(f"{number(points[i][0])},{number(points[i][1])}" for i in every)
             marks = f'/><polyline stroke="none" points="{at}" style="marker:url(#{name})"'
-        return (f'<g fill="none"{self.whose(look.get("gid"))}><polyline points="{drawn}" '
-                f'stroke="{stroke}" stroke-width="{look.get("linewidth", 1.5)}"'
-                f'{attributes}{marks}/></g>')
+        whose = self.whose(look.get("gid"))
+        line = f'<polyline points="{drawn}" stroke="{stroke}"{attributes}{marks}/>'
+        return f"<g{whose}>{line}</g>" if whose else line
+
+    def lines(self, curves):
+        """Curves, [(points, look)], in one group."""
+        drawn = "".join(self.line(*curve) for curve in curves)
+        return f'<g fill="none">{drawn}</g>' if drawn else ""
 
     def panel(self, panel, left, top):
         width, height = self.chart.size
@@ -183,23 +191,23 @@ class Writer:
             f"M{number(x)} {bottom}v4" for x, _ in xs) + "".join(
                 f"M{left} {number(y)}h-4" for y, _ in ys)
         out.append(f'<path stroke="{INK}" stroke-opacity=".12" stroke-width=".6" d="{grid}"/>')
-        out += [self.line(points(x, y), look) for x, y, look in panel.back]
+        out.append(self.lines((points(x, y), look) for x, y, look in panel.back))
         for y, words in panel.lows:
             at = number(float(up(y)))
-            out.append(f'<path stroke="{INK}" stroke-opacity=".55" stroke-dasharray="2 2" '
+            out.append(f'<path stroke="{INK}" stroke-width="1" stroke-opacity=".55" stroke-dasharray="2 2" '
                        f'd="M{left} {at}H{right}"/>')
             if words:
                 out.append(self.text(right, float(up(y)) - 3, words, "end", 10))
         out += [self.text(float(across(x)), float(up(y)), words, "end", 10)
                 for x, y, words in panel.words]
-        out += [self.line(points(x, y), look) for x, y, look in panel.curves]
-        for x, ink, gid in panel.crosses:
-            look = {"color": ink, "marker": "x", "markersize": 6, "linestyle": "none", "gid": gid}
-            out.append(self.line([(float(across(x)), top)], look))
-        out.append(f'<path fill="none" stroke="{INK}" d="{edge}"/>')
-        out += [self.text(x, bottom + 17, words, "middle") for x, words in xs]
+        cross = {"marker": "x", "markersize": 6, "linestyle": "none"}
+        out.append(self.lines([(points(x, y), look) for x, y, look in panel.curves] + [
+            ([(float(across(x)), top)], {**cross, "color": ink, "gid": gid})
+            for x, ink, gid in panel.crosses]))
+        out.append(f'<path fill="none" stroke="{INK}" stroke-width="1" d="{edge}"/>')
+        out.append(self.texts([(x, bottom + 17, words) for x, words in xs], "middle"))
         if not panel.shares:
-            out += [self.text(left - 7, y + 4, words, "end") for y, words in ys]
+            out.append(self.texts([(left - 7, y + 4, words) for y, words in ys], "end"))
         out += [self.text(left + width / 2, bottom + 34, panel.xlabel, "middle", 11.5)]
         out += [self.text(left + width / 2, top - 7, panel.title, "middle", 12)]
         if panel.ylabel:
@@ -219,6 +227,10 @@ class Writer:
             f' font-size="{size}"' if size != 11 else "")
         return f'<text x="{number(x)}" y="{number(y)}"{more}>{escape(words)}</text>'
 
+    def texts(self, some, anchor):
+        """[(x, y, words)] that are held alike."""
+        return f'<g text-anchor="{anchor}">{"".join(self.text(*one) for one in some)}</g>'
+
     def legend(self, top, width):
         """Entries in columns below the panels; (SVG, height)."""
         wide = 44 + LETTER * max((len(words) for words in self.labels), default=0)
@@ -229,10 +241,10 @@ class Writer:
             x, y = 20 + wide * (i // rows), top + 17 * (i % rows)
             of = (look.get("gid") or "").split("|")
             entry = f' data-l="{escape(of[1])}"' if of[0] == "f" else ""
-            bare = {**look, "gid": None, "marks": [1]}
-            drawn = self.line([(x, y), (x + 13, y), (x + 26, y)], bare)
-            out += (f'<g{entry}><path stroke="none" fill="none" pointer-events="all" '
-                    f'd="M{number(x)} {y - 8}h{number(wide - 8)}v16H{number(x)}z"/>{drawn}'
+            bare = {**look, "gid": None, "marks": None, "where": "-mid"}
+            drawn = self.lines([([(x, y), (x + 13, y), (x + 26, y)], bare)])
+            out += (f'<g{entry}><path fill="none" d="M{number(x)} {number(y - 8)}'
+                    f'h{number(wide - 8)}v16H{number(x)}z"/>{drawn}'
                     f"{self.text(x + 33, y + 4, words)}</g>")
         return out, 17 * rows
 
@@ -255,7 +267,7 @@ class Writer:
         off = escape(" ".join(style.extra(self.keys)))
         markup = (f'<svg viewBox="0 0 {number(width)} {number(height)}" width="{width:.0f}" '
                   f'height="{height:.0f}" fill="{INK}" data-off="{off}" font-family="{FONT}" '
-                  f'font-size="11" stroke-linejoin="round">'
+                  f'font-size="11" stroke-width="{WIDTH}" stroke-linejoin="round">'
                   f"{out}{entries}</svg>")
         told = [self.said[int(index)] for index in self.told]
         self.said.clear()

@@ -58,7 +58,7 @@ MARKERS = {}  # identifier of a marker of charts: its definition
 
 def with_markers(page):
     """The page with the definitions of the markers that its charts use, once."""
-    used = sorted(set(re.findall(r"marker:url\(#(\w+)\)", page)) & set(MARKERS))
+    used = sorted(set(re.findall(r"marker(?:-mid)?:url\(#(\w+)\)", page)) & set(MARKERS))
     if not used:
         return page
     defined = "".join(MARKERS[name] for name in used)
@@ -236,7 +236,7 @@ def short(svg, name):
 def alone(markup):
     """The same SVG as a file of its own."""
     names = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
-    used = [MARKERS[m] for m in sorted(set(re.findall(r"marker:url\(#(\w+)\)", markup)))]
+    used = [MARKERS[m] for m in sorted(set(re.findall(r"marker(?:-mid)?:url\(#(\w+)\)", markup)))]
     markup = markup.replace("</svg>", f"<defs>{''.join(used)}</defs></svg>") if used else markup
     return '<?xml version="1.0" encoding="utf-8"?>\n' + markup.replace(
         "<svg", f"<svg {names}", 1).replace(' href="', ' xlink:href="')

@@ -3,6 +3,7 @@ import functools
 from dataclasses import dataclass
 
 from reports import answers, data, explanation, formulation_figures, ledger, tally
+from reports.case import page_of
 from reports.site import LEVELS, file_of
 from reports.verdicts import SEVERITY, UNJUDGED, worst
 
@@ -104,20 +105,25 @@ def speed(found, key, known):
 
 
 def table(found):
-    """[(case, [(point, series, verdicts)], [(verdict, number)])] of what was judged."""
+    """[(case, judged parameter points, [(verdict, number)], worst verdict, its page, its point)]
+    of what was judged; the three last are None where all is a pass."""
     cases = {}
     for case, point, series in found:
-        if not series.missing:
-            shown = [v for v in series.verdicts if v.verdict not in UNJUDGED]
-            if shown:
-                cases.setdefault(case.name, []).append((point, series, shown))
+        shown = [] if series.missing else [v for v in series.verdicts if v.verdict not in UNJUDGED]
+        if shown:
+            cases.setdefault(case.name, (case, []))[1].append((point, shown))
     out = []
-    for name, points in cases.items():
-        seen = {}
-        for _, _, shown in points:
+    for case, points in cases.values():
+        seen, of = {}, {}
+        for point, shown in points:
             for v in shown:
                 seen[v.verdict] = seen.get(v.verdict, 0) + 1
-        out.append((name, points, sorted(seen.items(), key=lambda item: -SEVERITY[item[0]])))
+                of[id(v)] = point
+        v = worst([v for _, shown in points for v in shown])
+        point = of[id(v)]
+        where = (v, page_of(case, case.points.index(point)), point)
+        counts = sorted(seen.items(), key=lambda item: -SEVERITY[item[0]])
+        out.append((case, len(points), counts, *(where if v.verdict != "pass" else (None,) * 3)))
     return out
 
 

@@ -42,8 +42,10 @@ function draw() {
   for (const one of point.s) {
     const found = one.q[q];
     if (!found || !looks[one.f]) continue;
-    const column = key => numbers(one[key]), [x, n, s, c, u, i] = [x_key, "n", "s", "c", "u", "i"].map(column), [value, off] = [numbers(found[0]), numbers(found[1])];
-    const rows = n.map((_, k) => ({ x: x[k], y: error ? Math.min(Math.max(off[k], 1e-13), 1e3) : value[k], row: [n[k], value[k], Number.isFinite(off[k]) ? off[k] : null, s[k], Number.isFinite(c[k]) ? c[k] : null, u[k], i[k], found[2]] })).filter(r => r.x > 0 && Number.isFinite(r.y));
+    const told = text => typeof text == "number" ? data.w[text] : text, column = key => numbers(told(one[key])), [x, n, s, c, u, i] = [x_key, "n", "s", "c", "u", "i"].map(column);
+    const [values, signed, verdict, truth] = found.map(told), parts = numbers(signed), off = parts.map(Math.abs);
+    const value = values ? numbers(values) : parts.map(e => Number((truth * (1 + e)).toPrecision(7))); // of what has a truth only errors are stored
+    const rows = n.map((_, k) => ({ x: x[k], y: error ? Math.min(Math.max(off[k], 1e-13), 1e3) : value[k], row: [n[k], value[k], Number.isFinite(off[k]) ? Number(off[k].toPrecision(2)) : null, s[k], Number.isFinite(c[k]) ? c[k] : null, u[k], i[k], verdict] })).filter(r => r.x > 0 && Number.isFinite(r.y));
     if (rows.length) curves.push({ key: one.f, rows });
   }
   const place = find("explored"), words = find("explored-words");

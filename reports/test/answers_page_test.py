@@ -56,9 +56,16 @@ class Page(ProgramTest):
         rows = list(csv.DictReader(
             (self.site / "answers.csv").read_text(encoding="utf-8").splitlines()))
         whole = json.loads((self.site / "answers.json").read_text(encoding="utf-8"))
-        found = [dict(zip(whole["columns"], row)) for row in whole["rows"]]
-        self.assertEqual(len(rows), len(found))
-        for a, b in zip(rows, found):
+        found = []
+        for *question, ways in whole["answers"]:
+            for way in ways:
+                row = dict(zip(whole["asked"] + whole["columns"], question + way))
+                found.append({**row, "formulation": whole["formulations"][row["formulation"]]})
+        self.assertEqual(found, answers_table.rows(self.cases))
+        first = {c.name: answers_table.asked(c.points[0])[0] for c in self.cases}
+        together = [r for r in found if r["quantity"] == first[r["case"]]]
+        self.assertEqual(len(rows), len(together))
+        for a, b in zip(rows, together):
             self.assertEqual((a["formulation"], int(a["n"]), float(a["tolerance"])),
                              (b["formulation"], b["n"], b["tolerance"]))
         first = [r for r in found if r["rank"] == 1 and r["case"] == "elastica"]
