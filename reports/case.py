@@ -108,6 +108,12 @@ def verdicts_of(point, index):
     return [(s, [v for v in s.verdicts if told(v)]) for s in point.series]
 
 
+def causes_of(point):
+    """[(rule of the ledger, its cause)] of the verdicts of a point."""
+    return sorted({v.finding: v.cause for s in point.series for v in s.verdicts
+                   if v.finding and not s.missing}.items())
+
+
 def parts_of(site, case, index):
     """What a page shows of one parameter point."""
     point = case.points[index]
@@ -123,7 +129,7 @@ def parts_of(site, case, index):
         "limits": limits_of(point) if index == 0 or not names else [], "others": beside.rows(point), "cheapest": cheapest_of(point),
         "front": answers.front(point, main) if main else [], "failures":
             answers.failures(point), "savings": answers.savings(point), "noise": sorted(noise),
-        "shown": shown, "cells": cells, "verdicts": verdicts_of(point, index), "tally":
+        "causes": causes_of(point), "shown": shown, "cells": cells, "verdicts": verdicts_of(point, index), "tally":
             case_truth.tally_of(point), "has_model": any(
                 math.isfinite(v.model_error) for s in point.series for v in s.verdicts)
     }

@@ -27,6 +27,7 @@ INHERITED = ("fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width",
              "stroke-linecap", "stroke-dasharray", "font-size", "text-anchor", "clip-path")
 USUAL = {"stroke-linejoin": "round", "stroke-linecap": "butt", "stroke-dashoffset": "0",
          "stroke-opacity": "1", "fill-opacity": "1", "opacity": "1", "text-anchor": "start"}
+SHORT = {"separators": (",", ":"), "ensure_ascii": False}  # of JSON
 FONT = "'DejaVu Sans',Verdana,sans-serif"
 NUMBER = re.compile(r"-?\d*\.?\d+(?:e-?\d+)?")
 
@@ -77,19 +78,23 @@ def plain(value, digits):
 
 
 def said_of(told):
-    """What marks say, as JSON for script.js: heads are said once (h), and so are values that are the
-    same in all rows of a curve (k)."""
+    """What marks say, as JSON for script.js: heads are said once (h), and so are columns (v); values
+    that are the same in all rows of a curve (k) are in none. A curve names its columns (r)."""
     if not told:
         return ""
-    heads, curves = [], []
+    heads, curves, columns = [], [], {}
     for one in told:
         head, rows = one["c"], one["r"]
         heads += [] if head in heads else [head]
         same = {k: rows[0][k] for k in range(len(head)) if rows and
                 all(row[k] == rows[0][k] for row in rows)}
-        left = [[v for k, v in enumerate(row) if k not in same] for row in rows]
-        curves.append({"f": one["f"], "t": one["t"], "h": heads.index(head), "k": same, "r": left})
-    text = json.dumps({"h": heads, "s": curves}, separators=(",", ":"), ensure_ascii=False)
+        own = [json.dumps([row[k] for row in rows], **SHORT) for k in range(len(head))
+               if k not in same]
+        curves.append({"f": one["f"], "t": one["t"], "h": heads.index(head), "k": same,
+                       "n": len(rows),
+                       "r": [columns.setdefault(column, len(columns)) for column in own]})
+    text = (f'{{"h":{json.dumps(heads, **SHORT)},"v":[{",".join(columns)}],'
+            f'"s":{json.dumps(curves, **SHORT)}}}')
     return text.replace("<", "\\u003c")
 
 

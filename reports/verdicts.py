@@ -74,9 +74,12 @@ def of_limit(v):
     return words
 
 
-def remarks(v):
-    """Short sentences for a verdict's cell in a table."""
+def remarks(v, distance=True):
+    """Short sentences for a verdict's cell in a table; distance: of a limit from the truth, too,
+    which a table with a column for it does without."""
     words = of_limit(v) if math.isfinite(v.limit) else []
+    if not distance and v.verdict in OWN_LIMITS:
+        words = words[1:]
     if v.below_digits:
         words.append("error below the truth's digits")
     if math.isfinite(v.contradicted):

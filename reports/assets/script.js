@@ -45,10 +45,11 @@ class Figure {
     this.off = new Set((svg.dataset.off || "").split(" ").filter(Boolean));
     this.keys = [...new Set(all(svg, "[data-f]").map(g => g.dataset.f))];
     const data = frame.querySelector("script[type='application/json']");
-    const { h, s: told } = data ? JSON.parse(data.textContent) : { s: [] };
-    told.forEach(one => { // heads and values that all rows share are said once
+    const { h, v, s: told } = data ? JSON.parse(data.textContent) : { s: [] };
+    told.forEach(one => { // heads, columns that curves share and values that all rows share are said once
       one.c = h[one.h];
-      one.r = one.r.map(row => one.c.map((_, k) => k in one.k ? one.k[k] : row.shift()));
+      const columns = one.r.slice(), of = one.c.map((_, k) => k in one.k ? null : v[columns.shift()]);
+      one.r = Array.from({ length: one.n }, (_, i) => of.map((column, k) => column ? column[i] : one.k[k]));
     });
     // curves: [{told, group, marks}], the marks in the order of the rows that say what they are
     this.curves = all(svg, "g[data-p]").map(group => ({ group, told: told[group.dataset.p], marks: marks(group) }))

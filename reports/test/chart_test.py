@@ -77,7 +77,8 @@ class Charts(unittest.TestCase):
         """Both panels speak of the same points; the curve is where its values are."""
         image = self.drawn()
         self.assertEqual(image.markup.count('data-f="beamw" data-p="0"'), 2)
-        self.assertEqual(json.loads(image.points)["s"][0]["r"], [[1, 0.5], [2, 0.25]])
+        said = json.loads(image.points)
+        self.assertEqual([said["v"][i] for i in said["s"][0]["r"]], [[1, 2], [0.5, 0.25]])
         self.assertIn('data-l="beamw"', image.markup)
         curve = re.search(r'data-p="0"><polyline points="([^"]+)"', image.markup).group(1)
         (x0, y0), (x1, y1) = (map(float, p.split(",")) for p in curve.split())

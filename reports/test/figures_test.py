@@ -51,7 +51,8 @@ class Figures(unittest.TestCase):
         self.assertIn('data-f="beamw" data-p="0"', image.markup)
         self.assertEqual(json.loads(image.points), {
             "h": [["a", "b"]],
-            "s": [{"f": "beamw", "t": "", "h": 0, "k": {"1": "</script>"}, "r": [[1], [2]]}]
+            "v": [[1, 2]],
+            "s": [{"f": "beamw", "t": "", "h": 0, "k": {"1": "</script>"}, "n": 2, "r": [0]}]
         })
         self.assertNotIn("</", image.points)
 
