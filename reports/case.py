@@ -152,6 +152,11 @@ def page_of(case, index):
     return f"{case.name}.html#{point.name}"
 
 
+def signs_of(parts):
+    """Of the verdicts that stand in matrices."""
+    return {cell.sign for part in parts for _, cells in part["cells"] for cell in cells}
+
+
 def write(site, case):
     sections = [found for section in site.sections for found in section(site, case)]
     parts = [parts_of(site, case, i) for i in range(len(case.points))]
@@ -164,11 +169,13 @@ def write(site, case):
     apart = own_pages(case)
     site.write("case.html", f"{case.name}.html", **shared, part=parts[0],
                further=[] if apart else parts[1:],
+               signs=signs_of(parts[:1] if apart else parts),
                places=[(part, page_of(case, i)) for i, part in enumerate(parts)],
                drawing=scene_drawing.drawing(site, case),
                quantities=case_truth.quantities(case.points[0]), sections=sections)
     for i, part in enumerate(parts[1:] if apart else (), 1):
-        site.write("case_point.html", page_of(case, i), **shared, part=part)
+        site.write("case_point.html", page_of(case, i), **shared, part=part,
+                   signs=signs_of([part]))
 
 
 def tasks(site):

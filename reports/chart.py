@@ -121,8 +121,7 @@ class Writer:
         size, hollow = look.get("markersize", 4.5) / 0.75, look.get("hollow", False)
         marker, ink = look["marker"], colour(look["color"])
         filled = MarkerStyle(marker).is_filled() and not hollow
-        drawn = (f'markerUnits="userSpaceOnUse" overflow="visible" markerWidth="1" '
-                 f'markerHeight="1"><{form(marker, size)} '
+        drawn = (f'markerUnits="userSpaceOnUse" overflow="visible"><{form(marker, size)} '
                  f'fill="{ink if filled else "var(--paper,#fff)"}" stroke="{ink}" '
                  f'stroke-width="{1 if filled else 1.2}"/></marker>')
         name = f"k{zlib.crc32(drawn.encode()):x}"
@@ -205,9 +204,11 @@ class Writer:
             ([(float(across(x)), top)], {**cross, "color": ink, "gid": gid})
             for x, ink, gid in panel.crosses]))
         out.append(f'<path fill="none" stroke="{INK}" stroke-width="1" d="{edge}"/>')
-        out.append(self.texts([(x, bottom + 17, words) for x, words in xs], "middle"))
+        out.append(f'<g text-anchor="middle" transform="translate(0 {number(bottom + 17)})">' +
+                   "".join(f'<text x="{number(x)}">{words}</text>' for x, words in xs) + "</g>")
         if not panel.shares:
-            out.append(self.texts([(left - 7, y + 4, words) for y, words in ys], "end"))
+            out.append(f'<g text-anchor="end" transform="translate({number(left - 7)} 4)">' +
+                       "".join(f'<text y="{number(y)}">{words}</text>' for y, words in ys) + "</g>")
         out += [self.text(left + width / 2, bottom + 34, panel.xlabel, "middle", 11.5)]
         out += [self.text(left + width / 2, top - 7, panel.title, "middle", 12)]
         if panel.ylabel:
@@ -227,10 +228,6 @@ class Writer:
             f' font-size="{size}"' if size != 11 else "")
         return f'<text x="{number(x)}" y="{number(y)}"{more}>{escape(words)}</text>'
 
-    def texts(self, some, anchor):
-        """[(x, y, words)] that are held alike."""
-        return f'<g text-anchor="{anchor}">{"".join(self.text(*one) for one in some)}</g>'
-
     def legend(self, top, width):
         """Entries in columns below the panels; (SVG, height)."""
         wide = 44 + LETTER * max((len(words) for words in self.labels), default=0)
@@ -242,10 +239,10 @@ class Writer:
             of = (look.get("gid") or "").split("|")
             entry = f' data-l="{escape(of[1])}"' if of[0] == "f" else ""
             bare = {**look, "gid": None, "marks": None, "where": "-mid"}
-            drawn = self.lines([([(x, y), (x + 13, y), (x + 26, y)], bare)])
-            out += (f'<g{entry}><path fill="none" d="M{number(x)} {number(y - 8)}'
-                    f'h{number(wide - 8)}v16H{number(x)}z"/>{drawn}'
-                    f"{self.text(x + 33, y + 4, words)}</g>")
+            drawn = self.line([(0, 0), (13, 0), (26, 0)], bare)
+            out += (f'<g{entry} transform="translate({number(x)} {number(y)})"><g fill="none">'
+                    f'<path d="M0-8h{number(wide - 8)}v16H0z"/>{drawn}</g>'
+                    f"{self.text(33, 4, words)}</g>")
         return out, 17 * rows
 
     def image(self):

@@ -51,7 +51,12 @@ class Image:
         width = re.search(r' width="(\d+)"', self.markup)
         own = (f'<svg id="{name}" role="img" aria-label="{escape(alt)}" '
                f'style="--width:{width[1] if width else 700}px"')
-        return Markup(self.markup.replace("<svg", own, 1) + data)
+        return Markup(by_name(self.markup).replace("<svg", own, 1) + data)
+
+
+def by_name(markup):
+    """Colours of formulations by their names only, which a page has from its style sheet."""
+    return re.sub(r"var\((--f\d+),#[0-9a-f]{6}\)", r"var(\1)", markup)
 
 
 MARKERS = {}  # identifier of a marker of charts: its definition
@@ -62,7 +67,7 @@ def with_markers(page):
     used = sorted(set(re.findall(r"marker(?:-mid)?:url\(#(\w+)\)", page)) & set(MARKERS))
     if not used:
         return page
-    defined = "".join(MARKERS[name] for name in used)
+    defined = by_name("".join(MARKERS[name] for name in used))
     hidden = '<svg width="0" height="0" style="position:absolute" aria-hidden="true"><defs>'
     return page.replace("</main>", f"{hidden}{defined}</defs></svg>\n</main>", 1)
 
@@ -195,12 +200,28 @@ class Writer:
         children = [c for c in (self.read(child, fixed) for child in element) if c]
         if tag in ("g", "defs") and not children:
             return None
+        children = self.joined(children)
         if tag == "g":
             self.share(own, children)
             if len(children) == 1 and children[0][0] == "g" and not set(own) & set(children[0][1]):
                 own.update(children[0][1])
                 children = children[0][2]
         return tag, own, children, (element.text or "").strip() if tag in ("text", "tspan") else ""
+
+    @staticmethod
+    def joined(children):
+        """Lines that follow each other and look alike as one path."""
+        out = []
+        for child in children:
+            tag, own, _, _ = child
+            look = {name: value for name, value in own.items() if name != "d"}
+            last = out[-1] if out else None
+            if tag == "path" and own.get("fill") == "none" and "id" not in own and last and (
+                    last[0] == "path" and {**last[1], "d": ""} == {**look, "d": ""}):
+                last[1]["d"] += own["d"]
+            else:
+                out.append(child)
+        return out
 
     @staticmethod
     def share(own, children):
@@ -230,7 +251,8 @@ def short(svg, name):
     writer = Writer(root, f"{zlib.crc32(name.encode()):08x}"[:5].translate(
         str.maketrans("0123456789", "ghijklmnop")))
     _, _, width, height = (float(x) for x in root.get("viewBox").split())
-    inside = "".join(writer.write(node) for node in map(writer.read, root) if node)
+    nodes = writer.joined([node for node in map(writer.read, root) if node])
+    inside = "".join(map(writer.write, nodes))
     size = f'width="{width / 0.75:.0f}" height="{height / 0.75:.0f}"'
     off = escape(" ".join(style.extra(writer.keys)))
     return (f'<svg viewBox="0 0 {width:g} {height:g}" {size} fill="currentColor" '

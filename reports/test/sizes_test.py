@@ -5,8 +5,12 @@ import re
 import unittest
 
 from harness.test.program import ProgramTest, drawn
+from reports import data
 from reports.site import ASSETS
 
+FORMULATION = 45_000
+VERDICT = 160  # for each row of a table of verdicts, in the mean
+VALUE = 16  # for each value of the results in the data of the explorer
 PAGE, FIGURE, SCRIPT, VIEWER, SHEET = 500_000, 90_000, 10_000, 13_000, 20_000  # bytes
 
 
@@ -40,6 +44,29 @@ class Sizes(ProgramTest):
             self.assertIn('<link rel="stylesheet" href="style.css">', text)
             markers = re.findall(r'<marker id="(\w+)"', text)
             self.assertEqual(len(markers), len(set(markers)), page.name)
+
+    def test_verdicts(self):
+        """Once, in short rows, on the pages of cases; those of formulations count them."""
+        rows = 0
+        for page in self.site.glob("*.html"):
+            text = page.read_text(encoding="utf-8")
+            for table in re.findall('<table class="verdicts">.*?</table>', text, re.S):
+                self.assertFalse(page.name.startswith("formulation_"))
+                self.assertLess(len(table) / table.count("<tr"), VERDICT, page.name)
+                rows += table.count("<tr")
+            if page.name.startswith("formulation_"):
+                self.assertLess(len(text), FORMULATION, page.name)
+        self.assertGreater(rows, 200)
+
+    def test_data(self):
+        """Of the explorer, by the number of values and errors in the results."""
+        _, cases = data.read_results(str(self.site.parent / "results.h5"))
+        for case in cases:
+            number = sum(len(found) for p in case.points for s in p.series for m in s.meshes
+                         for found in (m.values, m.errors))
+            self.assertGreater(number, 50)
+            size = (self.site / f"data_{case.name}.js").stat().st_size
+            self.assertLess(size / number, VALUE, case.name)
 
     def test_assets(self):
         for name, most in (("script.js", SCRIPT), ("viewer.js", VIEWER), ("explorer.js", SCRIPT)):
