@@ -73,5 +73,6 @@ void rounding_percent(double error, char text[ROUNDING_TEXT])
         with_exponent(percent, 2, 1, text);
     else
         snprintf(text, ROUNDING_TEXT, "%+.*f", size < some ? 4 : 1, percent);
-    strcat(text, " %");
+    const size_t used = strlen(text);
+    snprintf(text + used, ROUNDING_TEXT - used, " %%");
 }
