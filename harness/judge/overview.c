@@ -132,8 +132,8 @@ static void fill(const sweep *s, const judgement *j, overview *out)
 status overview_make(const sweep *s, const judgement *j, overview *out, fault *f)
 {
     const size_t most = (size_t)s->seriess + 1;
-    *out =
-        (overview){.row = calloc(most, sizeof *out->row), .column = calloc(most, sizeof(void *))};
+    *out = (overview){.row = calloc(most, sizeof(void *)),
+                      .column = calloc(most, sizeof *out->column)};
     if (out->row == NULL || out->column == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the overview");
     find_rows(s, out);
