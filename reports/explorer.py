@@ -13,6 +13,7 @@ import os
 from reports import answers, chart, style
 
 NAVIGATION = [("explorer.html", "explorer")]
+COLUMNS = "fnscui"  # of a series: formulation, then as in AXES
 AXES = (("elements per member", "n"), ("time [s]", "s"), ("cost of counted work [s]", "c"),
         ("unknowns", "u"), ("iterations", "i"))
 
@@ -41,34 +42,28 @@ def follow(values, errors, truth):
 
 
 def columns_of(values, errors, verdict):
-    """[values, errors, verdict, truth] of a quantity; empty where there are none, or where values
-    follow from the others."""
+    """[errors, verdict, truth, values] of a quantity: empty texts where there are none, without
+    values where they follow from the others."""
     said = verdict.verdict if verdict else ""
     truth = verdict.truth if verdict else math.nan
     if math.isfinite(truth) and follow(values, errors, truth):
-        return ["", " ".join(map(error_text, errors)), said, f"{truth:.12g}"]
+        return [" ".join(map(error_text, errors)), said, f"{truth:.12g}"]
     known = any(math.isfinite(e) for e in errors)
-    return [listed(values, 7), listed(errors, 2) if known else "", said]
+    return [listed(errors, 2) if known else "", said, "", listed(values, 7)]
 
 
 def series_of(series, names):
-    """One formulation at one parameter point: columns of its meshes, then those of each quantity
-    (None where it has none)."""
-    out = {
-        "f": series.key, "n": listed([m.n for m in series.meshes], 6),
-        "s": listed([m.seconds for m in series.meshes], 3),
-        "c": listed([m.cost for m in series.meshes], 3),
-        "u": listed([m.free for m in series.meshes], 9),
-        "i": listed([m.iterations for m in series.meshes], 9), "q": []
-    }
+    """One formulation at one parameter point: the formulation, columns of its meshes in the order
+    of COLUMNS, then a list of those of each quantity (0 where it has none)."""
+    meshes, out = series.meshes, []
     for name in names:
-        found = [m.values.get(name, math.nan) for m in series.meshes]
-        if not any(math.isfinite(v) for v in found):
-            out["q"].append(None)
-            continue
-        errors = [m.errors.get(name, math.nan) for m in series.meshes]
-        out["q"].append(columns_of(found, errors, answers.verdict_of(series, name)))
-    return out
+        found = [m.values.get(name, math.nan) for m in meshes]
+        errors = [m.errors.get(name, math.nan) for m in meshes]
+        known = any(math.isfinite(v) for v in found)
+        out.append(columns_of(found, errors, answers.verdict_of(series, name)) if known else 0)
+    return [series.key, listed([m.n for m in meshes], 6), listed([m.seconds for m in meshes], 3),
+            listed([m.cost for m in meshes], 3), listed([m.free for m in meshes], 9),
+            listed([m.iterations for m in meshes], 9), out]
 
 
 def data_of(case):
@@ -83,19 +78,18 @@ def data_of(case):
     return shared(points)
 
 
-COLUMNS = "nscui"
-
-
 def shared(points):
     """{"w": texts that are needed more than once, "points": with their index instead}."""
     every = [s for p in points for s in p["s"]]
-    count = collections.Counter(
-        text for s in every for text in [*(s[k] for k in COLUMNS), *(t for q in s["q"] if q for t in q)])
+    count = collections.Counter()
+    for *columns, quantities in every:
+        count.update(columns)
+        count.update(text for found in quantities if found for text in found)
     often = [text for text, times in count.most_common() if times > 1 and len(text) > 1]
     index = {text: i for i, text in enumerate(often)}
     for s in every:
-        s.update({k: index.get(s[k], s[k]) for k in COLUMNS})
-        s["q"] = [q and [index.get(text, text) for text in q] for q in s["q"]]
+        s[:-1] = [index.get(text, text) for text in s[:-1]]
+        s[-1] = [found and [index.get(text, text) for text in found] for found in s[-1]]
     return {"w": often, "points": points}
 
 
@@ -117,7 +111,7 @@ def looks(site):
 
 def write(site):
     chosen = {"cases": [c.name for c in site.cases], "looks": looks(site), "axes": AXES,
-              "extra": style.extra(site.styles.order)}
+              "columns": COLUMNS, "extra": style.extra(site.styles.order)}
     site.write("explorer.html", "explorer.html", cases=site.cases,
                chosen=json.dumps(chosen, separators=(",", ":")).replace("<", "\\u003c"))
 

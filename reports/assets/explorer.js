@@ -3,7 +3,7 @@
 "use strict";
 (() => {
 const find = id => document.getElementById(id);
-const { cases, looks, axes, extra } = JSON.parse(find("chosen").textContent);
+const { cases, looks, axes, columns: order, extra } = JSON.parse(find("chosen").textContent);
 const form = find("choice"), fields = form.elements, loaded = {}, waiting = {};
 const safe = text => String(text).replace(/[&<>"]/g, c => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" }[c]));
 const numbers = text => text ? text.split(" ").map(word => word == "-" ? NaN : Number(word)) : [];
@@ -40,13 +40,13 @@ function draw() {
   const data = loaded[fields.case.value], point = data.points[fields.point.value], q = Number(fields.quantity.value), [x_name, x_key] = axes.find(([, key]) => key == fields.x.value);
   const [name, unit] = point.q[q], error = fields.y.value == "e", curves = [];
   for (const one of point.s) {
-    const found = one.q[q];
-    if (!found || !looks[one.f]) continue;
-    const told = text => typeof text == "number" ? data.w[text] : text, column = key => numbers(told(one[key])), [x, n, s, c, u, i] = [x_key, "n", "s", "c", "u", "i"].map(column);
-    const [values, signed, verdict, truth] = found.map(told), parts = numbers(signed), off = parts.map(Math.abs);
+    const told = text => typeof text == "number" ? data.w[text] : text, of = told(one[0]), found = one[order.length][q];
+    if (!found || !looks[of]) continue;
+    const column = key => numbers(told(one[order.indexOf(key)])), [x, n, s, c, u, i] = [x_key, "n", "s", "c", "u", "i"].map(column);
+    const [signed, verdict, truth, values] = found.map(told), parts = numbers(signed), off = parts.map(Math.abs);
     const value = values ? numbers(values) : parts.map(e => Number((truth * (1 + e)).toPrecision(7))); // of what has a truth only errors are stored
     const rows = n.map((_, k) => ({ x: x[k], y: error ? Math.min(Math.max(off[k], 1e-13), 1e3) : value[k], row: [n[k], value[k], Number.isFinite(off[k]) ? Number(off[k].toPrecision(2)) : null, s[k], Number.isFinite(c[k]) ? c[k] : null, u[k], i[k], verdict] })).filter(r => r.x > 0 && Number.isFinite(r.y));
-    if (rows.length) curves.push({ key: one.f, rows });
+    if (rows.length) curves.push({ key: of, rows });
   }
   const place = find("explored"), words = find("explored-words");
   place.textContent = "";

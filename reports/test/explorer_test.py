@@ -47,19 +47,19 @@ class Explorer(ProgramTest):
 
         def values(columns):
             """Of what has a truth they follow from the errors."""
-            plain, errors, _, *truth = map(told, columns)
+            errors, _, truth, *plain = map(told, columns)
             if plain:
-                return plain.split()
-            return [e if e == "-" else float(truth[0]) * (1 + float(e)) for e in errors.split()]
+                return plain[0].split()
+            return [e if e == "-" else float(truth) * (1 + float(e)) for e in errors.split()]
 
         self.assertEqual(len(points), len(case.points))
         seen = 0
         for point, found in zip(case.points, points):
             names = [name for name, _ in found["q"]]
             for series, one in zip((s for s in point.series if s.meshes), found["s"]):
-                self.assertEqual(series.key, one["f"])
-                self.assertEqual([m.n for m in series.meshes], [int(n) for n in told(one["n"]).split()])
-                for name, columns in zip(names, one["q"]):
+                self.assertEqual(series.key, told(one[0]))
+                self.assertEqual([m.n for m in series.meshes], [int(n) for n in told(one[1]).split()])
+                for name, columns in zip(names, one[-1]):
                     for mesh, value in zip(series.meshes, values(columns) if columns else ()):
                         wanted = mesh.values.get(name, math.nan)
                         if value == "-":
