@@ -129,7 +129,8 @@ def parts_of(site, case, index):
         "limits": limits_of(point) if index == 0 or not names else [], "others": beside.rows(point), "cheapest": cheapest_of(point),
         "front": answers.front(point, main) if main else [], "failures":
             answers.failures(point), "savings": answers.savings(point), "noise": sorted(noise),
-        "causes": causes_of(point), "shown": shown, "cells": cells, "verdicts": verdicts_of(point, index), "tally":
+        "causes": causes_of(point), "shown": shown, "cells": cells,
+        "verdicts": verdicts_of(point, index), "tally":
             case_truth.tally_of(point), "has_model": any(
                 math.isfinite(v.model_error) for s in point.series for v in s.verdicts)
     }

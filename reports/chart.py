@@ -13,7 +13,8 @@ from matplotlib.markers import MarkerStyle
 
 from reports import style
 from reports.axis import Axis
-from reports.figures import FONT, MARKERS, Image, number, said_of
+from reports.figures import FONT, Image, number, said_of
+from reports.markers import MARKERS
 
 INK = "currentColor"
 DASHES = {"-": "", "--": "4.4 1.9", ":": "1.2 2", "-.": "7.7 1.9 1.2 1.9", "none": "none"}
@@ -193,8 +194,8 @@ class Writer:
         out.append(self.lines((points(x, y), look) for x, y, look in panel.back))
         for y, words in panel.lows:
             at = number(float(up(y)))
-            out.append(f'<path stroke="{INK}" stroke-width="1" stroke-opacity=".55" stroke-dasharray="2 2" '
-                       f'd="M{left} {at}H{right}"/>')
+            out.append(f'<path stroke="{INK}" stroke-width="1" stroke-opacity=".55" '
+                       f'stroke-dasharray="2 2" d="M{left} {at}H{right}"/>')
             if words:
                 out.append(self.text(right, float(up(y)) - 3, words, "end", 10))
         out += [self.text(float(across(x)), float(up(y)), words, "end", 10)

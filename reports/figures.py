@@ -20,7 +20,7 @@ from xml.etree import ElementTree
 
 from markupsafe import Markup, escape
 
-from reports import style
+from reports import markers, style
 
 SVG, LINK = "{http://www.w3.org/2000/svg}", "{http://www.w3.org/1999/xlink}href"
 INHERITED = ("fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width", "stroke-linejoin",
@@ -51,25 +51,7 @@ class Image:
         width = re.search(r' width="(\d+)"', self.markup)
         own = (f'<svg id="{name}" role="img" aria-label="{escape(alt)}" '
                f'style="--width:{width[1] if width else 700}px"')
-        return Markup(by_name(self.markup).replace("<svg", own, 1) + data)
-
-
-def by_name(markup):
-    """Colours of formulations by their names only, which a page has from its style sheet."""
-    return re.sub(r"var\((--f\d+),#[0-9a-f]{6}\)", r"var(\1)", markup)
-
-
-MARKERS = {}  # identifier of a marker of charts: its definition
-
-
-def with_markers(page):
-    """The page with the definitions of the markers that its charts use, once."""
-    used = sorted(set(re.findall(r"marker(?:-mid)?:url\(#(\w+)\)", page)) & set(MARKERS))
-    if not used:
-        return page
-    defined = by_name("".join(MARKERS[name] for name in used))
-    hidden = '<svg width="0" height="0" style="position:absolute" aria-hidden="true"><defs>'
-    return page.replace("</main>", f"{hidden}{defined}</defs></svg>\n</main>", 1)
+        return Markup(markers.by_name(self.markup).replace("<svg", own, 1) + data)
 
 
 def plain(value, digits):
@@ -83,8 +65,9 @@ def plain(value, digits):
 
 
 def said_of(told):
-    """What marks say, as JSON for script.js: heads are said once (h), and so are columns (v); values
-    that are the same in all rows of a curve (k) are in none. A curve names its columns (r)."""
+    """What marks say, as JSON for script.js: heads are said once (h), and so are columns (v);
+    values that are the same in all rows of a curve (k) are in none. A curve names its columns
+    (r)."""
     if not told:
         return ""
     heads, curves, columns = [], [], {}
@@ -263,7 +246,7 @@ def short(svg, name):
 def alone(markup):
     """The same SVG as a file of its own."""
     names = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
-    used = [MARKERS[m] for m in sorted(set(re.findall(r"marker(?:-mid)?:url\(#(\w+)\)", markup)))]
+    used = [markers.MARKERS[m] for m in markers.used(markup)]
     markup = markup.replace("</svg>", f"<defs>{''.join(used)}</defs></svg>") if used else markup
     return '<?xml version="1.0" encoding="utf-8"?>\n' + markup.replace(
         "<svg", f"<svg {names}", 1).replace(' href="', ' xlink:href="')

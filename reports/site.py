@@ -6,7 +6,7 @@ import pathlib
 import jinja2
 from markupsafe import Markup, escape
 
-from reports import answers, beside, data, figures, glossary, navigation, style, verdicts
+from reports import answers, beside, data, figures, glossary, markers, navigation, style, verdicts
 from reports.style import Styles, plt
 
 LEVELS = (0.1, 0.01, 0.001, 0.0001)
@@ -114,7 +114,7 @@ class Site:
         path = os.path.join(self.folder, name)
         text = self.templates.get_template(template).render(self_name=name, **context)
         with open(f"{path}.part", "w", encoding="utf-8") as out:
-            out.write(figures.with_markers(text))
+            out.write(markers.with_markers(text))
         os.replace(f"{path}.part", path)
 
     def points(self, key, columns, rows, title=""):

@@ -34,7 +34,7 @@ aloud.setAttribute("aria-live", "polite");
 
 // Where the marks of a curve are, in the figure's own lengths: corners of the line that has marks, or copies of one.
 const marks = group => {
-  const line = all(group, "polyline").find(each => each.style.markerMid || each.style.marker);
+  const line = all(group, "polyline").find(each => getComputedStyle(each).markerMid != "none");
   const at = line ? [...line.points] : all(group, "use").map(use => ({ x: use.x.baseVal.value, y: use.y.baseVal.value }));
   return at.map(({ x, y }) => ({ x, y }));
 };
