@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "harness/judge/rounding.h"
 #include "harness/judge/sentence.h"
 
 static void passed(const verdict *v, char *text, size_t size)
@@ -18,14 +19,27 @@ static void passed(const verdict *v, char *text, size_t size)
                  digits);
 }
 
+/* The doubt about a limit, in percent of the truth; in the quantity's unit where the truth is zero
+ * or too small to measure by: its error is then told of what counts as near zero. */
+static void doubt_of(const verdict *v, char text[2 * ROUNDING_TEXT])
+{
+    const double size = fabs(v->truth->value), apart = fabs(v->fit.limit - v->truth->value);
+    const int by_truth = size > 0 && fabs(v->error) * size >= apart * (1 - 1e-9);
+    char digits[ROUNDING_TEXT];
+    rounding_digits(v->fit.limit_uncertainty * (by_truth ? 100 / size : 1), 2, digits);
+    snprintf(text, 2 * ROUNDING_TEXT, "%s%s", digits, by_truth ? " %" : " in its unit");
+}
+
 static void undecided(const verdict *v, char *text, size_t size)
 {
-    if (isfinite(v->fit.limit_uncertainty))
-        snprintf(
-            text, size, "undecided: its limit is %+.3g %% off, known to %.2g only (%s, %d meshes)",
-            100 * v->error, v->fit.limit_uncertainty, limit_kind_name(v->fit.kind), v->fit.meshes);
-    else
+    char doubt[2 * ROUNDING_TEXT];
+    if (!isfinite(v->fit.limit_uncertainty)) {
         snprintf(text, size, "undecided: one mesh shows no limit");
+        return;
+    }
+    doubt_of(v, doubt);
+    snprintf(text, size, "undecided: its limit is %+.3g %% off, known to %s only (%s, %d meshes)",
+             100 * v->error, doubt, limit_kind_name(v->fit.kind), v->fit.meshes);
 }
 
 static void unjudged(const verdict *v, char *text, size_t size)
@@ -137,6 +151,21 @@ static known count_known(const judgement *j)
     return out;
 }
 
+/* Verdicts of formulations that do not gate, and how many of them would need a finding. */
+static void new_ones(const judgement *j, char *text, size_t size)
+{
+    const char *whose = j->is_new == 1 ? "is of a new formulation, which does not gate"
+                                       : "are of new formulations, which do not gate";
+    if (j->proposed == 0)
+        snprintf(text, size, "%d %s: none needs a finding", j->is_new, whose);
+    else
+        snprintf(text, size,
+                 "%d %s: %d of these %s no pass and would need a finding (--propose FILE writes %s "
+                 "down)",
+                 j->is_new, whose, j->proposed, j->proposed == 1 ? "is" : "are",
+                 j->proposed == 1 ? "it" : "them");
+}
+
 /* What is no pass and was expected, for somebody who did not expect it. */
 static void expected_findings(const judgement *j, char *text, size_t size)
 {
@@ -145,23 +174,20 @@ static void expected_findings(const judgement *j, char *text, size_t size)
     char part[400];
     int parts = 0;
     if (derived > 0) {
-        snprintf(
-            part, sizeof part,
-            "%d of them are limits off the truth (%d within the tolerance, %d beyond it) just as "
-            "derived for these formulations (beamwork explain \"wrong limit, as predicted\")",
-            derived, k.derived[0], k.derived[1]);
+        snprintf(part, sizeof part,
+                 "%d of them %s off the truth (%d within the tolerance, %d beyond it) just as "
+                 "derived for %s (beamwork explain \"wrong limit, as predicted\")",
+                 derived, derived == 1 ? "is a limit" : "are limits", k.derived[0], k.derived[1],
+                 derived == 1 ? "its formulation" : "these formulations");
         add_part(text, size, &parts, ", ", part);
     }
     if (k.by_rule > 0) {
-        snprintf(part, sizeof part, "%d %sare explained by a finding of the ledger", k.by_rule,
-                 derived > 0 ? "more " : "of them ");
+        snprintf(part, sizeof part, "%d %s%s explained by a finding of the ledger", k.by_rule,
+                 derived > 0 ? "more " : "of them ", k.by_rule == 1 ? "is" : "are");
         add_part(text, size, &parts, ", ", part);
     }
     if (j->is_new > 0) {
-        snprintf(part, sizeof part,
-                 "%d are of new formulations, which do not gate: %d of these are no pass and would "
-                 "need a finding (--propose FILE writes them down)",
-                 j->is_new, j->proposed);
+        new_ones(j, part, sizeof part);
         add_part(text, size, &parts, "; ", part);
     }
 }

@@ -78,7 +78,12 @@ static void doubts(void)
         b.quantity[i].value = 3 + (i % 2 ? 0.01 : -0.01);
     bench_expect(&b, VERDICT_UNDECIDED, 1, "alternating values");
     bench_says(&b,
-               "undecided: its limit is -0.333 % off, known to 0.06 only (oscillating, 5 meshes)");
+               "undecided: its limit is -0.333 % off, known to 2.0 % only (oscillating, 5 meshes)");
+    b.p.scene.quantity[0].near_zero = 5;
+    bench_expect(&b, VERDICT_UNDECIDED, 1, "of a truth below what counts as near zero");
+    bench_says(&b, "undecided: its limit is -0.2 % off, known to 0.060 in its unit only "
+                   "(oscillating, 5 meshes)");
+    b.p.scene.quantity[0].near_zero = 0;
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 1e-6 : -1e-6);
     bench_expect(&b, VERDICT_PASS, 0, "alternating values that surely stay inside the tolerance");

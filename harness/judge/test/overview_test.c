@@ -141,6 +141,36 @@ static void sentences(void)
     says(&r, "");
 }
 
+/* One is told as one. */
+static void single_ones(void)
+{
+    run r;
+    rule known = {.name = words[WHY]};
+    make(&r);
+    add(&r, 0, VERDICT_WRONG_AS_PREDICTED, 1, 1);
+    add(&r, 0, VERDICT_UNDECIDED, 1, 1);
+    for (int i = 0; i < r.j.verdicts; i++)
+        r.verdict[i].rule = &known;
+    says(&r, "PASS: every verdict is as expected; 1 of them is a limit off the truth (0 within the "
+             "tolerance, 1 beyond it) just as derived for its formulation (beamwork explain "
+             "\"wrong limit, as predicted\"), 1 more is explained by a finding of the ledger.");
+    make(&r);
+    add(&r, 0, VERDICT_PASS, 1, 3);
+    r.j.is_new = 2;
+    says(&r, "PASS: every verdict is as expected; 2 are of new formulations, which do not gate: "
+             "none needs a finding.");
+    r.j.proposed = 1;
+    says(&r, "PASS: every verdict is as expected; 2 are of new formulations, which do not gate: 1 "
+             "of these is no pass and would need a finding (--propose FILE writes it down).");
+    r.j.proposed = 2;
+    says(&r, "PASS: every verdict is as expected; 2 are of new formulations, which do not gate: 2 "
+             "of these are no pass and would need a finding (--propose FILE writes them down).");
+    r.j.is_new = 1;
+    r.j.proposed = 0;
+    says(&r, "PASS: every verdict is as expected; 1 is of a new formulation, which does not gate: "
+             "none needs a finding.");
+}
+
 /* Formulations with options share columns where they are many. */
 static void columns(void)
 {
@@ -168,6 +198,7 @@ int main(void)
     the_worst();
     the_unexpected();
     sentences();
+    single_ones();
     columns();
     return gsl_test_summary();
 }
