@@ -20,11 +20,12 @@ static void predictions(FILE *to, const point *p, const truths *t)
         if (q->prediction.source == NULL)
             continue;
         snprintf(name, sizeof name, "prediction %s", q->name);
-        const int column = fprintf(to, "%-*s ", NAME, name) + VALUE + UNIT + 1 + 12;
+        const int column = fprintf(to, "%-*s ", NAME, name) + VALUE + UNIT + 1 + 12 + 2;
         table_digits(to, VALUE, q->prediction.value, DIGITS);
         fprintf(to, " %-*s", UNIT, q->unit);
         table_percent(to, row != NULL ? verdict_error(q, q->prediction.value, row->value) : NAN);
-        paragraph_say(to, column, INDENT, "  %s, analytic", q->prediction.source);
+        fputs("  ", to);
+        paragraph_say(to, column, INDENT, "%s, analytic", q->prediction.source);
     }
 }
 
