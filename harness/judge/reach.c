@@ -30,6 +30,18 @@ int reach_is_defect(verdict_kind kind)
     return kind != VERDICT_PASS && kind != VERDICT_NO_TRUTH && kind != VERDICT_SKIP;
 }
 
+const char *reach_defect_words(verdict_kind kind)
+{
+    switch (kind) {
+    case VERDICT_LOW_ORDER:
+        return "of low order";
+    case VERDICT_UNDECIDED:
+        return "with a limit that is not known";
+    default:
+        return "with a limit of its own";
+    }
+}
+
 /* Is the quantity asked for: by itself, or as one that some formulation has a truth for? */
 static int is_asked(const reach_question *q, int quantity)
 {

@@ -29,6 +29,8 @@ typedef struct reach_question {
 int reach_mesh(const sweep *s, const verdict *v, double level);
 /* Is the formulation known to be wrong, or not known to be right, by such a verdict? */
 int reach_is_defect(verdict_kind kind);
+/* What is known of a formulation with such a defect that is within a level all the same. */
+const char *reach_defect_words(verdict_kind kind);
 /* Formulations that are within the level: those without a defect first, each by cost, then by name.
  * Returns how many; out: room for all series. Other programs, which count nothing, are left out. */
 int reach_ranking(const reach_question *q, reached out[]);

@@ -1,21 +1,11 @@
 #include "harness/record/reach_line.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/judge/rounding.h"
 #include "harness/timing/price.h"
-
-static const char *defect_words(verdict_kind kind)
-{
-    switch (kind) {
-    case VERDICT_LOW_ORDER:
-        return "of low order";
-    case VERDICT_UNDECIDED:
-        return "with a limit that is not known";
-    default:
-        return "with a limit of its own";
-    }
-}
 
 static void write_reached(FILE *to, const sweep *s, const reached *r)
 {
@@ -27,15 +17,15 @@ static void write_reached(FILE *to, const sweep *s, const reached *r)
 static void write_defective(FILE *to, const reach_question *q, const reached list[], int count)
 {
     for (int i = 0; i < count; i++) {
-        const char *words = defect_words(list[i].defect->kind), *before = "";
+        const char *words = reach_defect_words(list[i].defect->kind), *before = "";
         int told = 0;
         for (int k = 0; k < i; k++)
-            told |= strcmp(words, defect_words(list[k].defect->kind)) == 0;
+            told |= strcmp(words, reach_defect_words(list[k].defect->kind)) == 0;
         if (told)
             continue;
         fprintf(to, "; also within %g %%, %s: ", 100 * q->level, words);
         for (int k = i; k < count; k++)
-            if (strcmp(words, defect_words(list[k].defect->kind)) == 0) {
+            if (strcmp(words, reach_defect_words(list[k].defect->kind)) == 0) {
                 fputs(before, to);
                 write_reached(to, q->s, &list[k]);
                 before = ", ";
@@ -103,30 +93,66 @@ static int has_reference(const reach_question *q, int quantity)
     return known;
 }
 
-/* Number of quantities that formulations have a reference for; those without are named. */
-static int write_unreferenced(FILE *to, const reach_question *q)
+/* What is asked: all quantities but curves, or those with a reference; the others are named.
+ * Returns how many have one. */
+static int write_asked(FILE *to, const reach_question *q)
 {
-    const char *before = "; no reference, neither a truth nor an agreement of two families, for ";
+    const char *before = " (without a reference: ";
     const scene *here = &q->s->point[q->point].scene;
-    int known = 0;
-    for (int i = 0; i < here->quantities; i++) {
-        if (here->quantity[i].reduction == SCENE_CURVE)
-            continue;
-        if (has_reference(q, i)) {
-            known++;
-            continue;
+    int known = 0, all = 0;
+    for (int i = 0; i < here->quantities; i++)
+        if (here->quantity[i].reduction != SCENE_CURVE) {
+            all++;
+            known += has_reference(q, i);
         }
-        if (to != NULL)
-            fprintf(to, "%s%s", before, here->quantity[i].name);
-        before = ", ";
+    fprintf(to, "for %g %% in ", 100 * q->level);
+    if (known == all) {
+        fputs("every quantity: ", to);
+        return known;
     }
+    if (known > 0)
+        fprintf(to, "%d of %d quantities", known, all);
+    else
+        fputs("no quantity", to);
+    for (int i = 0; i < here->quantities; i++)
+        if (here->quantity[i].reduction != SCENE_CURVE && !has_reference(q, i)) {
+            fprintf(to, "%s%s", before, here->quantity[i].name);
+            before = ", ";
+        }
+    fputs("): ", to);
     return known;
+}
+
+/* Is it the difference from a solid, a plate or a shell, that somebody computed? */
+static int is_of_another_model(const verdict *v)
+{
+    const truth *other = v->model_truth;
+    return other != NULL && isfinite(v->model_error) && strcmp(other->model, "other") == 0 &&
+           strcmp(other->kind, "agreement") != 0 && strcmp(other->kind, "experiment") != 0;
+}
+
+/* How far those that pass (where none does: the cheapest one) are from another model at most. */
+static void write_model_error(FILE *to, const reach_question *q, const reached list[], int count)
+{
+    const verdict *most = NULL;
+    for (int i = 0; i < count && (i == 0 || list[i].defect == NULL); i++)
+        for (int k = 0; k < q->verdicts; k++) {
+            const verdict *v = &q->verdict[k];
+            if (v->series == list[i].series && is_of_another_model(v) &&
+                (most == NULL || fabs(v->model_error) > fabs(most->model_error)))
+                most = v;
+        }
+    if (most == NULL)
+        return;
+    char percent[ROUNDING_TEXT];
+    rounding_digits(100 * fabs(most->model_error), 2, percent);
+    fprintf(to, "; of another model (solid, plate): up to %s %% off (%s)", percent,
+            q->s->point[q->point].scene.quantity[most->quantity].name);
 }
 
 static void write_answer(FILE *to, const reach_question *q, reached list[])
 {
-    const int count = reach_ranking(q, list), known = write_unreferenced(NULL, q);
-    fprintf(to, "for %g %% in every quantity: ", 100 * q->level);
+    const int count = reach_ranking(q, list), known = write_asked(to, q);
     if (count == 0)
         fputs(known > 0 ? "no formulation on these meshes" : "nothing to measure by", to);
     else
@@ -136,7 +162,7 @@ static void write_answer(FILE *to, const reach_question *q, reached list[])
         write_others(to, q, list, count, 1, "; not reached by ");
         write_others(to, q, list, count, 0, "; without a truth of its theory in all of it: ");
     }
-    write_unreferenced(to, q);
+    write_model_error(to, q, list, count);
 }
 
 void reach_line_write(FILE *to, const sweep *s, const truths *t, double level)

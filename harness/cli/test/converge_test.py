@@ -97,6 +97,20 @@ class Forms(unittest.TestCase):
         self.assertEqual(cheapest["defect"], "")
         self.assertLess(min(one["cost"] for one in wrong), cheapest["cost"])
 
+    def test_of_another_model(self):
+        """The largest difference from a solid of those that pass; nothing where none is stored."""
+        whole = json.loads(run("converge", "sheet_cantilever", "-f", "collocation", "-f", "beamw",
+                               "-n", "2,4,8", "--format", "json").stdout)
+        right = {one["formulation"] for one in whole["answers"] if not one["defect"]}
+        self.assertEqual(right, {"collocation"})
+        most = max((q for s in whole["series"] if s["formulation"] in right
+                    for q in s["quantities"] if q["model_truth_kind"] == "independent"),
+                   key=lambda q: abs(q["model_error"]))
+        self.assertTrue(whole["sentence"].endswith(
+            f"; of another model (solid, plate): up to {100 * abs(most['model_error']):.2g} % off "
+            f"({most['quantity']})"), whole["sentence"])
+        self.assertNotIn("another model", answer(converge("text")))
+
     def test_without_a_truth_families_agree(self):
         """Its truths are those of another stroke."""
         new = ("converge", "--scene", str(LEAF), "--set", "stroke=0.009")
@@ -111,10 +125,14 @@ class Forms(unittest.TestCase):
             self.assertIn("agree", one["message"])
             self.assertTrue(all("error" in m for m in one["meshes"]))
         self.assertTrue(whole["sentence"].startswith("for 1 % in every quantity: "))
-        self.assertNotIn("no reference", whole["sentence"])
+        self.assertNotIn("without a reference", whole["sentence"])
         alone = run(*new, "-f", "collocation", "-f", "geometrically_exact")
-        self.assertIn("no reference, neither a truth nor an agreement of two families, for ",
-                      answer(alone.stdout))
+        names = sorted({q["quantity"] for q in quantities})
+        said = re.match(r"for 1 % in (?:no quantity|(\d+) of (\d+) quantities) "
+                        r"\(without a reference: ([^)]*)\): ", answer(alone.stdout))
+        missing = said[3].split(", ")
+        self.assertLessEqual(set(missing), set(names))
+        self.assertEqual(int(said[1] or 0) + len(missing), int(said[2] or len(names)))
 
 
 if __name__ == "__main__":
