@@ -18,6 +18,7 @@ typedef struct case_type {
      * from. */
     status (*build_from)(const void *context, const double value[], scene *s, fault *f);
     const void *context;
+    const char *file; /* of a scene file; NULL: built in */
 } case_type;
 
 static inline status case_build(const case_type *c, const double value[], scene *s, fault *f)

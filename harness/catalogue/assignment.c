@@ -56,9 +56,10 @@ static const char *name_at(const void *context, int i)
 static status unknown(const assignment_list *l, const char *name, fault *f)
 {
     const char *near = choice_nearest(name, name_at, l);
-    return fault_set(f, STATUS_REFUSED, "%s has no %s '%.60s'%s%s%s; 'beamwork list %s' shows them",
-                     l->owner, l->what, name, near != NULL ? ", did you mean '" : "",
-                     near != NULL ? near : "", near != NULL ? "'?" : "", l->shown_by);
+    return fault_set(f, STATUS_REFUSED,
+                     "%s has no %s '%.60s'%s%s%s; 'beamwork list %s%.150s' shows them", l->owner,
+                     l->what, name, near != NULL ? ", did you mean '" : "",
+                     near != NULL ? near : "", near != NULL ? "'?" : "", l->option, l->shown_by);
 }
 
 status assignment_set(const assignment_list *l, const char *text, double value[], int any[],

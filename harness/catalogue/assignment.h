@@ -11,6 +11,7 @@ typedef struct assignment_list {
     const parameter_type *part[PARAMETER_PARTS];
     const char *what;     /* "parameter" */
     const char *owner;    /* the case or the formulation */
+    const char *option;   /* of `beamwork list`, before the next: "--scene " or "" */
     const char *shown_by; /* argument of `beamwork list` that shows them */
     char separator;       /* between assignments */
 } assignment_list;

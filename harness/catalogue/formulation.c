@@ -15,7 +15,11 @@ const parameter_type formulation_common[] = {
 
 assignment_list formulation_options(const element_type *type)
 {
-    assignment_list list = {{NULL}, "option", type->name, "formulations", ','};
+    assignment_list list = {.what = "option",
+                            .owner = type->name,
+                            .option = "",
+                            .shown_by = "formulations",
+                            .separator = ','};
     int parts = 0;
     for (; parts < PARAMETER_PARTS - 1 && type->options[parts] != NULL; parts++)
         list.part[parts] = type->options[parts];

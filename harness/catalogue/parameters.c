@@ -5,7 +5,11 @@
 
 assignment_list parameters_list(const case_type *c)
 {
-    assignment_list list = {{NULL}, "parameter", c->name, c->name, ';'};
+    assignment_list list = {.what = "parameter",
+                            .owner = c->name,
+                            .option = c->file != NULL ? "--scene " : "",
+                            .shown_by = c->file != NULL ? c->file : c->name,
+                            .separator = ';'};
     memcpy(list.part, c->parameters, sizeof list.part);
     return list;
 }

@@ -139,13 +139,33 @@ static void check_value(const document_node *n, const scene_key *k, const docume
     }
 }
 
+/* Keys of other programs that no key here resembles, and what says the same. */
+static const char *elsewhere(const scene_key *table, const char *name)
+{
+    static const char *const poisson[] = {"poisson", "poissons_ratio", "poisson_ratio", "nu"};
+    for (size_t i = 0; table == keys_section && i < sizeof poisson / sizeof poisson[0]; i++)
+        if (strcmp(name, poisson[i]) == 0)
+            return "; give shear_modulus: E/(2*(1 + nu))";
+    return NULL;
+}
+
+/* Of an unknown key: the one that is meant, or where all are. */
+static const char *remedy_of(const known_keys *known, const char *name, char text[FAULT_TEXT])
+{
+    const char *other = elsewhere(known->table, name);
+    const char *near = other == NULL ? choice_nearest(name, name_at, known) : NULL;
+    return mistakes_remedy(near, other != NULL ? other : "; 'beamwork scene --schema' lists all",
+                           text);
+}
+
 /* A key that is not there: unless it is what a misspelt one means. */
 static int is_meant(const document_node *map, const known_keys *known, const char *name)
 {
     for (int i = 0; i < map->count; i++) {
         const char *text = map->key[i]->text;
-        const char *near =
-            find(known->table, text) == NULL ? choice_nearest(text, name_at, known) : NULL;
+        const char *near = find(known->table, text) == NULL && elsewhere(known->table, text) == NULL
+                               ? choice_nearest(text, name_at, known)
+                               : NULL;
         if (near != NULL && strcmp(near, name) == 0)
             return 1;
     }
@@ -214,8 +234,7 @@ static void check_map(const document_node *map, const known_keys *known, const d
             check_value(map->item[i], k, map->key[i], m);
         else
             document_mistake(m, map->key[i], 0, "%.40s has no key '%.40s'%s", name->text, text,
-                             mistakes_remedy(choice_nearest(text, name_at, known),
-                                             "; 'beamwork scene --schema' lists all", remedy));
+                             remedy_of(known, text, remedy));
     }
     check_missing(map, known, name, m);
 }

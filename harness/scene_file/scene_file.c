@@ -96,6 +96,7 @@ status scene_file_read_bytes(const char *bytes, size_t size, const char *path, s
     file->path = path;
     file->type.build_from = build_from;
     file->type.context = file;
+    file->type.file = path;
     read_all(file, bytes, size, m);
     m->out_of_memory |= file->arena.failed;
     const status outcome = mistakes_status(m, f);

@@ -33,6 +33,13 @@ class SceneTest(SceneCase):
                                                                                 (33, 53), (34, 65)])
         self.assertEqual((told["file"], told["more"]), (str(path), 0))
 
+    def test_unknown_parameter(self):
+        """A refusal says the command that lists the parameters, and it does."""
+        path = self.scene(LEAF)
+        self.refused(2, f"'beamwork list --scene {path}' shows them", "solve", "--scene", path,
+                     "--set", "force=3")
+        self.answered("list", "--scene", path)
+
     def test_first_scene(self):
         """Ten lines are a scene: P L^3/3EI + P L/(k G A) at the tip."""
         path = self.scene(LEAF)
