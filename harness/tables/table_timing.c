@@ -125,28 +125,60 @@ static void way(FILE *to, const sweep *s, const reached *r)
         fprintf(to, ", %.4g ms", 1e3 * rounds_least(time_of(s, r)));
 }
 
-/* The cheapest by counted work among the formulations of a point, those within its noise, and which
- * of the others was faster in every round all the same. */
-static void cheapest(FILE *out, const reach_question *q, reached list[])
+/* Behind those that pass: which of the others was faster in every round all the same. */
+static void faster_ones(FILE *to, const sweep *s, const reached list[], int count, int ties)
 {
-    paragraph words;
-    FILE *to = paragraph_begin(&words, out);
-    const int count = reach_ranking(q, list), ties = reach_ties(list, count);
     const char *before = "; dearer by its counts, faster in every round: ";
-    fprintf(to, "%s within %g %%: ", q->s->point[q->point].scene.quantity[q->quantity].name,
-            100 * q->level);
+    for (int i = ties; i < count && list[i].defect == NULL; i++)
+        if (rounds_compare(time_of(s, &list[i]), time_of(s, &list[0])) < 0) {
+            fputs(before, to);
+            way(to, s, &list[i]);
+            before = "; ";
+        }
+}
+
+/* Where none passes: those that are within the error, the ones of the same defect together. */
+static void defective_ones(FILE *to, const sweep *s, const reached list[], int count)
+{
+    for (int i = 0; i < count; i++) {
+        int told = 0;
+        const char *words = reach_defect_words(list[i].defect->kind);
+        for (int k = 0; k < i; k++)
+            told |= strcmp(words, reach_defect_words(list[k].defect->kind)) == 0;
+        for (int k = told ? count : i; k < count; k++)
+            if (strcmp(words, reach_defect_words(list[k].defect->kind)) == 0) {
+                if (k > i)
+                    fputs("; ", to);
+                else
+                    fprintf(to, "; also within it, %s: ", words);
+                way(to, s, &list[k]);
+            }
+    }
+}
+
+/* The cheapest by counted work among the formulations of a point, and those within its noise. A
+ * text that the caller frees; NULL: out of memory. */
+static char *cheapest(const reach_question *q, reached list[])
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *to = open_memstream(&text, &size);
+    if (to == NULL)
+        return NULL;
+    const int count = reach_ranking(q, list), ties = reach_ties(list, count);
     for (int i = 0; i < ties; i++) {
         fputs(i > 0 ? "; " : "", to);
         way(to, q->s, &list[i]);
     }
-    fputs(ties == 0 ? "none" : ties > 1 ? ": within noise of each other" : "", to);
-    for (int i = ties; i < count && ties > 0 && list[i].defect == NULL; i++)
-        if (rounds_compare(time_of(q->s, &list[i]), time_of(q->s, &list[0])) < 0) {
-            fputs(before, to);
-            way(to, q->s, &list[i]);
-            before = "; ";
-        }
-    paragraph_end(&words, 0, 2);
+    if (ties > 0) {
+        fputs(ties > 1 ? ": within noise of each other" : "", to);
+        faster_ones(to, q->s, list, count, ties);
+    } else {
+        fputs(count > 0 ? "none that passes" : "none", to);
+        defective_ones(to, q->s, list, count);
+    }
+    fclose(to);
+    return text;
 }
 
 static int has_truth(const sweep *s, const judgement *j, int at, int quantity)
@@ -158,19 +190,75 @@ static int has_truth(const sweep *s, const judgement *j, int at, int quantity)
     return 0;
 }
 
+/* What is cheapest for a quantity at every level. */
+typedef struct answer {
+    int quantity, told; /* 1: its lines are written */
+    char *text[REACH_LEVELS];
+} answer;
+
+static int same_text(const char *a, const char *b)
+{
+    return a != NULL && b != NULL && strcmp(a, b) == 0;
+}
+
+static int same_answer(const answer *a, const answer *b)
+{
+    int same = 1;
+    for (int i = 0; i < REACH_LEVELS; i++)
+        same &= same_text(a->text[i], b->text[i]);
+    return same;
+}
+
+/* "u_x, F_y within 10, 1 %: collocation, n = 1": a line for the quantities whose answers are those
+ * of the first, and in it neighbouring levels that say the same. */
+static void write_together(FILE *out, const scene *here, answer a[], int count)
+{
+    for (int level = 0, next; level < REACH_LEVELS; level = next) {
+        paragraph words;
+        FILE *to = paragraph_begin(&words, out);
+        const char *before = "";
+        for (int i = 0; i < count; i++)
+            if (i == 0 || same_answer(&a[i], &a[0])) {
+                a[i].told = 1;
+                fprintf(to, "%s%s", before, here->quantity[a[i].quantity].name);
+                before = ", ";
+            }
+        before = " within ";
+        for (next = level; next < REACH_LEVELS; next++) {
+            if (next > level && !same_text(a->text[next], a->text[level]))
+                break;
+            fprintf(to, "%s%g", before, 100 * reach_level[next]);
+            before = ", ";
+        }
+        fprintf(to, " %%: %s", a->text[level] != NULL ? a->text[level] : "out of memory");
+        paragraph_end(&words, 0, 2);
+    }
+}
+
 /* What is cheapest for the quantities of a point, or for the first that has a truth; 0: none has.
  */
 static int answers(FILE *to, const sweep *s, const judgement *j, int at, int every, reached list[])
 {
-    int shown = 0;
-    for (int q = 0; q < s->point[at].scene.quantities && (every || shown == 0); q++)
-        if (has_truth(s, j, at, q))
-            for (int level = 0; level < REACH_LEVELS; level++, shown = 1) {
-                const reach_question asked = {s,  j->verdict, j->verdicts,
-                                              at, q,          reach_level[level]};
-                cheapest(to, &asked, list);
-            }
-    return shown;
+    const scene *here = &s->point[at].scene;
+    answer *a = calloc((size_t)here->quantities + 1, sizeof *a);
+    int count = 0;
+    for (int q = 0; a != NULL && q < here->quantities && (every || count == 0); q++) {
+        if (!has_truth(s, j, at, q))
+            continue;
+        a[count].quantity = q;
+        for (int level = 0; level < REACH_LEVELS; level++) {
+            const reach_question asked = {s, j->verdict, j->verdicts, at, q, reach_level[level]};
+            a[count].text[level] = cheapest(&asked, list);
+        }
+        count++;
+    }
+    for (int i = 0; i < count; i++)
+        if (!a[i].told)
+            write_together(to, here, &a[i], count - i);
+    for (int i = 0; i < count * REACH_LEVELS; i++)
+        free(a[i / REACH_LEVELS].text[i % REACH_LEVELS]);
+    free(a);
+    return count;
 }
 
 void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh)

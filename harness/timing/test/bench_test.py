@@ -26,8 +26,22 @@ class Bench(ProgramTest):
 
     def test_several_cases(self):
         done = self.answered("bench", "elastica", "warping_torsion", "-f", "collocation", "-n", "1")
-        self.assertIn("w_over_L within 10 %", done.stdout)
-        self.assertIn("twist_ratio within 10 %", done.stdout)
+        text = " ".join(done.stdout.split())
+        self.assertIn("w_over_L, u_over_L, theta within 10, 1, 0.1, 0.01 %: ", text)
+        self.assertIn("twist_ratio within 10, 1, 0.1, 0.01 %: ", text)
+
+    def test_none_that_passes(self):
+        """Within the error with a limit of its own; lines that say the same are one."""
+        done = self.answered("bench", "shear_elastica", "-f", "beamw", "-f", "sheet_third", "-n",
+                             "2,4,8,16")
+        text = " ".join(done.stdout.split())
+        self.assertRegex(text, r"\b[uv] within 10\b[^%]* %: none that passes; also within it, with a "
+                               r"limit of its own: beamw, n = \d+, [\d.]+ ms")
+        told = re.findall(r"(?m)^  (\S[\w, ]*) within ([\d., ]+) %: ", done.stdout)
+        for name in {n for names, _ in told for n in names.split(", ")}:
+            levels = [level for names, some in told if name in names.split(", ")
+                      for level in some.split(", ")]
+            self.assertEqual(levels, ["10", "1", "0.1", "0.01"], name)
 
     def test_file(self):
         path = self.folder / "bench.h5"
