@@ -117,8 +117,8 @@ const element_type beamwork_element = {
     .summary = "two nodes, one point, shear-deformable, without warping",
     .source = "Reissner, J. Appl. Math. Phys. 32 (1981), one point of integration",
     .family = "example",
-    .offers = FEATURE_SHEAR | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS |
-              FEATURE_ROTARY_INERTIA | FEATURE_HARINGX,
+    .offers =
+        FEATURE_SHEAR | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .shear_theories = SHEAR_HARINGX,
     .limits = LIMIT_DOUBLY_SYMMETRIC,
     .leaves = LEAVES_J,

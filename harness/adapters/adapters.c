@@ -73,7 +73,7 @@ static void wrap(const element_type *given, element_type *out)
 
 static void make_relative(int nodes, element_type *out)
 {
-    out->offers &= ~(unsigned)(FEATURE_CURVATURE | FEATURE_GEOMETRIC);
+    out->offers &= ~(unsigned)FEATURE_CURVATURE;
     out->strains = nodes == 2 ? relative_strains_two : relative_strains_three;
     out->inner = NULL;
     out->memory = NULL;

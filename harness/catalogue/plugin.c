@@ -48,6 +48,9 @@ static status copy(const char *path, const element_type *loaded, const element_t
     if (t == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for %.100s", path);
     memcpy(t, loaded, loaded->size);
+    /* a type that has a theory of shear offers it */
+    t->offers |= t->shear_theories & SHEAR_ENGESSER ? FEATURE_ENGESSER : 0;
+    t->offers |= t->shear_theories & SHEAR_HARINGX ? FEATURE_HARINGX : 0;
     const status outcome = check(path, t, f);
     if (outcome != STATUS_OK)
         free(t);

@@ -2,6 +2,7 @@
  * another program. */
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "harness/cli/against_error.h"
 #include "harness/cli/contestant.h"
@@ -71,12 +72,16 @@ static status against_meshes(command_request *r, const case_type *type, fault *f
 
 static status against_other(command_request *r, const case_type *type, fault *f)
 {
-    if (strchr(r->against, '/') != NULL)
-        return r->error == NULL && r->select == NULL
-                   ? against_program(r, type, f)
-                   : fault_set(f, STATUS_REFUSED,
-                               "another program is compared at equal n: leave "
-                               "--error and -k away");
+    const int is_program = strchr(r->against, '/') != NULL;
+    if (is_program && access(r->against, X_OK) != 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "no program %.200s; give the path of another build's beamwork",
+                         r->against);
+    if (is_program && (r->error != NULL || r->select != NULL))
+        return fault_set(f, STATUS_REFUSED,
+                         "another program is compared at equal n: leave --error and -k away");
+    if (is_program)
+        return against_program(r, type, f);
     if (r->meshes == 0)
         return against_error(r, type, f);
     if (r->error != NULL || r->select != NULL)

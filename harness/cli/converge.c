@@ -78,9 +78,21 @@ static status converge(command_request *r, const case_type *type, sweep *s, trut
     TRY(case_input_truths(r, t, f));
     TRY(plan_one(type, r->parameter, r->formulation, r->formulations, r->mesh, r->meshes, s, f));
     TRY(narrow_to(s, r->select, f));
+    if (s->points > 0)
+        case_input_tell_analysis(r, &s->point[0].scene);
     TRY(run_sweep(&request, s, f));
     TRY(families_add_truths(s, 0, t, f));
     return write_out(r, level, s, t, f);
+}
+
+/* Has any cell one? */
+static int has_solution(const sweep *s)
+{
+    int found = 0;
+    for (int i = 0; i < s->seriess; i++)
+        for (int k = 0; s->series[i].missing[0] == '\0' && k < s->series[i].meshes; k++)
+            found |= s->series[i].cell[k].solve.status == STATUS_OK;
+    return found;
 }
 
 static int converge_request(command_request *r)
@@ -94,11 +106,13 @@ static int converge_request(command_request *r)
     if (r->formulations == 0)
         command_add_formulation(r, "all");
     const status outcome = converge(r, type, &s, &t, &f);
-    const int nothing = sweep_cells(&s) == 0;
+    const int nothing = sweep_cells(&s) == 0, solved = has_solution(&s);
     sweep_free(&s);
     truths_free(&t);
     const int code = message_exit(outcome, &f);
-    return code == EXIT_AS_EXPECTED && nothing ? EXIT_NOTHING : code;
+    if (code == EXIT_AS_EXPECTED && nothing)
+        return EXIT_NOTHING;
+    return code == EXIT_AS_EXPECTED && !solved ? EXIT_DIFFERS : code;
 }
 
 int cli_converge(int count, char **arguments)

@@ -74,24 +74,6 @@ static status solve_cell(const command_request *r, sweep *s, fault *f)
     return cell_run(&request, &s->series[0].cell[0], f);
 }
 
-/* Which analysis was made up where the scene states none. */
-static void tell_analysis(const command_request *r, const scene *s)
-{
-    if (r->scene == NULL || scene_file_states(r->scene, "analyses"))
-        return;
-    const scene_analysis *a = &s->analysis[0];
-    if (a->kind == SCENE_LINEAR) {
-        fprintf(stderr, "beamwork: the scene states no analysis; this is a linear one, as "
-                        "analyses: {run: {linear: {}}}\n");
-        return;
-    }
-    const scene_path *path = scene_path_of(a);
-    fprintf(stderr,
-            "beamwork: the scene states no analysis; its motions are followed to their end, as "
-            "analyses: {run: {static: {stations: [%g]}}}\n",
-            path->value[path->stations - 1]);
-}
-
 /* NAME=A..B/N: both ends within the limits of the parameter. */
 static status range_of(const command_request *r, const case_type *type, follow_request *out,
                        fault *f)
@@ -186,7 +168,7 @@ static status write_all(const command_request *r, const char *note, const sweep 
 static int solve_and_write(const command_request *r, const char *note, sweep *s, const truths *t)
 {
     fault f = {""}, unwritten = {""};
-    tell_analysis(r, &s->point[0].scene);
+    case_input_tell_analysis(r, &s->point[0].scene);
     const status solved = solve_cell(r, s, &f);
     if (solved == STATUS_REFUSED || solved == STATUS_FAULT)
         return message_fail(solved, f.text);

@@ -106,3 +106,20 @@ status case_input_truths(const command_request *r, truths *t, fault *f)
         truths_free(t);
     return outcome;
 }
+
+void case_input_tell_analysis(const command_request *r, const scene *s)
+{
+    if (r->scene == NULL || scene_file_states(r->scene, "analyses"))
+        return;
+    const scene_analysis *a = &s->analysis[0];
+    if (a->kind == SCENE_LINEAR) {
+        fprintf(stderr, "beamwork: the scene states no analysis; this is a linear one, as "
+                        "analyses: {run: {linear: {}}}\n");
+        return;
+    }
+    const scene_path *path = scene_path_of(a);
+    fprintf(stderr,
+            "beamwork: the scene states no analysis; its motions are followed to their end, as "
+            "analyses: {run: {static: {stations: [%g]}}}\n",
+            path->value[path->stations - 1]);
+}

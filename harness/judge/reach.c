@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/adapters/adapters.h"
 #include "harness/timing/price.h"
 
 const double reach_level[REACH_LEVELS] = {0.1, 0.01, 0.001, 0.0001};
@@ -76,6 +77,11 @@ int reach_asks(const reach_question *q, int series_index)
     return 1;
 }
 
+static int is_by_differences(const formulation *chosen)
+{
+    return chosen->type != NULL && adapters_words(chosen->type)[0] != '\0';
+}
+
 /* Of one series. 0: it is not within the level in all that is asked. */
 static int reach_one(const reach_question *q, int series_index, reached *out)
 {
@@ -96,7 +102,9 @@ static int reach_one(const reach_question *q, int series_index, reached *out)
     }
     if (out->mesh < 0)
         return 0;
-    out->cost = price_cost(&one->formulation, &one->cell[out->mesh]);
+    out->cost = is_by_differences(&one->formulation)
+                    ? INFINITY
+                    : price_cost(&one->formulation, &one->cell[out->mesh]);
     return 1;
 }
 
@@ -128,8 +136,9 @@ int reach_ranking(const reach_question *q, reached out[])
 int reach_ties(const reached list[], int count)
 {
     int ties = 0;
-    while (ties < count && list[ties].defect == NULL &&
-           list[ties].cost <= price_noise * list[0].cost)
+    while (
+        ties < count && list[ties].defect == NULL &&
+        (ties == 0 || (isfinite(list[ties].cost) && list[ties].cost <= price_noise * list[0].cost)))
         ties++;
     return ties;
 }

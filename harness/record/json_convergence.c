@@ -1,5 +1,6 @@
 #include "harness/record/json_convergence.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "harness/record/json.h"
@@ -67,11 +68,12 @@ static json_t *answers_of(const sweep *s, const truths *t, double level)
     for (int i = 0; i < count; i++) {
         const series *one = &s->series[list[i].series];
         const verdict *bad = list[i].defect;
-        json_array_append_new(out, json_pack("{s:s,s:i,s:f,s:i,s:b,s:s}", "formulation",
-                                             one->formulation.key, "elements",
-                                             one->mesh[list[i].mesh], "cost", list[i].cost, "rank",
-                                             bad == NULL ? i + 1 : 0, "tie", ties > 1 && i < ties,
-                                             "defect", bad == NULL ? "" : verdict_name(bad->kind)));
+        json_array_append_new(
+            out, json_pack("{s:s,s:i,s:o,s:i,s:b,s:s}", "formulation", one->formulation.key,
+                           "elements", one->mesh[list[i].mesh], "cost",
+                           isfinite(list[i].cost) ? json_real(list[i].cost) : json_null(), "rank",
+                           bad == NULL ? i + 1 : 0, "tie", ties > 1 && i < ties, "defect",
+                           bad == NULL ? "" : verdict_name(bad->kind)));
     }
     free(all);
     free(list);

@@ -10,7 +10,11 @@
 static void write_reached(FILE *to, const sweep *s, const reached *r)
 {
     const series *one = &s->series[r->series];
-    fprintf(to, "%s n = %d (%.2g ms)", one->formulation.key, one->mesh[r->mesh], 1e3 * r->cost);
+    fprintf(to, "%s n = %d", one->formulation.key, one->mesh[r->mesh]);
+    if (isfinite(r->cost))
+        fprintf(to, " (%.2g ms)", 1e3 * r->cost);
+    else
+        fputs(" (its derivatives are differences: no rank)", to);
 }
 
 /* Those with a defect, the ones of the same words together. */

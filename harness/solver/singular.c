@@ -68,8 +68,18 @@ static double spread(const model *m, const sparse *K)
     return largest > 0 ? largest / least : 1;
 }
 
-/* Condition of the stiffness of a model at rest, INFINITY where it cannot be factored; *lost: 1
- * where it has no digits to spare. */
+enum { LOST = 1, NO_NUMBER };
+
+static int has_no_number(const sparse *K)
+{
+    int found = 0;
+    for (int k = 0; K->value != NULL && k < K->column[K->n]; k++)
+        found |= !isfinite(K->value[k]);
+    return found;
+}
+
+/* Condition of the stiffness of a model at rest, INFINITY where it cannot be factored; *lost: LOST
+ * where it has no digits to spare, NO_NUMBER where entries are none. */
 static double condition_at_rest(const analysis_context *c, model *m, int *lost)
 {
     const counters work = *model_counters(m);
@@ -83,6 +93,8 @@ static double condition_at_rest(const analysis_context *c, model *m, int *lost)
         condition = INFINITY;
     *lost = outcome == STATUS_SINGULAR ||
             (outcome == STATUS_OK && !(condition * spread(m, &s.K) <= no_digits));
+    if (outcome != STATUS_OK && has_no_number(&s.K))
+        *lost = NO_NUMBER;
     linear_system_free(&s);
     *model_counters(m) = work;
     return condition;
@@ -133,7 +145,11 @@ void singular_explain(analysis_context *c, fault *f)
     if (singular_mechanism(c, STATUS_OK, f) != STATUS_OK)
         return;
     condition_at_rest(c, c->model, &lost);
-    if (lost)
+    if (lost == NO_NUMBER)
+        fault_set(f, STATUS_SINGULAR,
+                  "the formulation returned what is no number: look at its energy, stresses or "
+                  "derivatives at rest");
+    else if (lost)
         explain_loss(c, f);
     else
         fault_set(f, STATUS_SINGULAR,

@@ -70,6 +70,12 @@ class Example(Loaded):
         self.assertIn("timoshenko", out)
         self.assertIn("collocation", out)
 
+    def test_differences_rank_nothing(self):
+        out = self.answered("converge", "tapered_cantilever", "--element", self.object, "-f",
+                            "timoshenko", "-f", "geometrically_exact").stdout
+        answer = " ".join(out[out.rindex("for 1 %"):].split())
+        self.assertRegex(answer, r"geometrically_exact n = \d+ .*timoshenko n = \d+ \(its deriv")
+
     def test_named_before_it_is_loaded(self):
         self.answered("solve", "-f", "timoshenko", "elastica", "-n", "8", "--element", self.object)
 
@@ -165,4 +171,9 @@ class Hostile(Loaded):
         made = self.example(("out->e[0] -= d->length;", "out->e[0] = NAN;"))
         done = run("solve", *CASE, "-n", "2", "--element", made)
         self.assertEqual(done.returncode, 1, done)
-        self.cell(made)
+        self.assertIn("no number", done.stderr)
+        self.cell(made, "no number")
+
+    def test_no_cell_has_a_solution(self):
+        made = self.example(("out->e[0] -= d->length;", "out->e[0] = NAN;"))
+        self.answered("converge", *CASE, "-n", "2", "--element", made, code=1)
