@@ -122,10 +122,10 @@ static void show(const duel *d, const bout m[])
         if (meeting_asks(&d->s, &d->t, q))
             snprintf(line + strlen(line), sizeof line - strlen(line), "%s%s",
                      line[0] != '\0' ? ", " : "", d->s.point[0].scene.quantity[q].name);
-    const int at = printf(
-        "%s, %s against %s, at equal error (99.9 %% confidence) in every one of: ",
-        d->s.point[0].type->name, d->s.series[0].formulation.key, d->s.series[1].formulation.key);
-    paragraph_write(stdout, at, 2, line);
+    const int at = printf("%s, ", d->s.point[0].type->name);
+    paragraph_say(stdout, at, 2,
+                  "%s against %s, at equal error (99.9 %% confidence) in every one of: %s",
+                  d->s.series[0].formulation.key, d->s.series[1].formulation.key, line);
     for (int i = 0; i < d->levels; i++)
         show_meeting(d, d->level[i], &m[i]);
     show_defects(d);

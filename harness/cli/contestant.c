@@ -8,9 +8,10 @@
 #include <unistd.h>
 
 #include "harness/algebra/clock.h"
+#include "harness/tables/paragraph.h"
 #include "harness/timing/rounds.h"
 
-enum { MOST_REPEATS = 10000 };
+enum { MOST_REPEATS = 10000, NAME = 40 };
 static const double budget_seconds = 3, lap_seconds = 0.002;
 
 /* The pure numbers of a cell's record. */
@@ -157,20 +158,47 @@ status contestant_compete(contestant *a, contestant *b, against *out, fault *f)
     return against_run(lap, a, b, budget_seconds, out, f);
 }
 
+/* Its name and time; a long name has lines of its own. */
+static void show_one(char letter, const contestant *c, double seconds)
+{
+    int at = printf("%c  ", letter);
+    if (paragraph_columns(c->name) <= NAME)
+        at += printf("%s", c->name);
+    else {
+        paragraph_write(stdout, at, at, c->name);
+        at = 0;
+    }
+    printf("%*s %10.4g ms\n", NAME + 3 - at, "", 1e3 * seconds / c->repeats);
+}
+
+static void show_work(const contestant *a, const contestant *b)
+{
+    int first = 0;
+    while (first < a->counts && a->count[first] == b->count[first])
+        first++;
+    if (first == a->counts) {
+        puts("the same work");
+        return;
+    }
+    paragraph words;
+    const int at = printf("work differs: ");
+    FILE *to = paragraph_begin(&words, stdout);
+    for (int i = first; i < a->counts; i++)
+        if (a->count[i] != b->count[i])
+            fprintf(to, "%s%s %.10g against %.10g", i > first ? ", " : "", a->counted[i]->name,
+                    a->count[i], b->count[i]);
+    paragraph_end(&words, at, 2);
+}
+
 void contestant_show(const contestant *a, const contestant *b, const against *v)
 {
-    int same = 1;
-    printf("A  %-40s %10.4g ms\nB  %-40s %10.4g ms\n", a->name, 1e3 * v->a / a->repeats, b->name,
-           1e3 * v->b / b->repeats);
-    printf("B takes %.4f times as long as A (%.4f to %.4f with 99.9 %% confidence, %d pairs): %s\n",
-           v->ratio, v->low, v->high, v->pairs, against_name(v->outcome));
-    for (int i = 0; i < a->counts; i++)
-        if (a->count[i] != b->count[i]) {
-            printf("%s %s %.10g against %.10g", same ? "work differs:" : ",", a->counted[i]->name,
-                   a->count[i], b->count[i]);
-            same = 0;
-        }
-    printf(same ? "the same work\n" : "\n");
+    show_one('A', a, v->a);
+    show_one('B', b, v->b);
+    const int at = printf("B takes ");
+    paragraph_say(stdout, at, 2,
+                  "%.4f times as long as A (%.4f to %.4f with 99.9 %% confidence, %d pairs): %s",
+                  v->ratio, v->low, v->high, v->pairs, against_name(v->outcome));
+    show_work(a, b);
 }
 
 json_t *contestant_json(const contestant *a, const contestant *b, const against *v)

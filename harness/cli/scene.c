@@ -8,12 +8,13 @@
 #include "harness/scene_writer/schema_file.h"
 #include "harness/scene_writer/write.h"
 #include "harness/study/cell.h"
+#include "harness/tables/paragraph.h"
 
 static status describe(FILE *to, const command_request *r, fault *f)
 {
     if (r->schema)
         return schema_file_write(to, f);
-    key_list_write(to);
+    key_list_write(to, paragraph_write);
     return STATUS_OK;
 }
 

@@ -9,14 +9,21 @@
 #include "harness/cli/cli.h"
 #include "harness/scene_writer/write.h"
 #include "harness/study/cell.h"
+#include "harness/tables/paragraph.h"
 #include "harness/truth/derive.h"
 #include "harness/truth/truth.h"
 
+enum { NAME = 28, INDENT = 6 };
+
+/* Two lines: the value, and where it comes from. */
 static void print_value(const char *quantity, double value, double uncertainty, const char *unit,
                         const char *kind, const char *whose, const char *source, const char *note)
 {
-    printf("  %-28s %24.16g +- %-8.1e %-8s %-13s %-5s %s%s%s\n", quantity, value, uncertainty, unit,
-           kind, whose, source, note[0] != '\0' ? "; " : "", note);
+    const int name = printf("  %-*s", NAME, quantity);
+    if (name > NAME + 2)
+        printf("\n%*s", NAME + 2, "");
+    printf(" %24.16g +- %-8.1e %-8s %-13s %s\n", value, uncertainty, unit, kind, whose);
+    paragraph_say(stdout, 0, INDENT, "%s%s%s", source, note[0] != '\0' ? "; " : "", note);
 }
 
 /* Stored rows of this point; returns how many are of the continuum and of the same model. */

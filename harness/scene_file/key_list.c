@@ -4,6 +4,8 @@
 
 #include "harness/scene_file/keys.h"
 
+enum { DESCRIPTION = 1000 };
+
 static const char *form_of(const scene_key *k, char text[32])
 {
     switch (k->kind) {
@@ -37,36 +39,51 @@ static const char *form_of(const scene_key *k, char text[32])
     return "...";
 }
 
-static void write_table(FILE *to, const scene_key *table, int depth)
+/* "summary [unit] (word, word) *". */
+static void describe(const scene_key *k, char text[DESCRIPTION])
+{
+    int used = snprintf(text, DESCRIPTION, "%s%s%s%s", k->summary, k->unit != NULL ? " [" : "",
+                        k->unit != NULL ? k->unit : "", k->unit != NULL ? "]" : "");
+    const char *joint = " (";
+    for (const char *at = k->words; at != NULL && used < DESCRIPTION; joint = ", ") {
+        const size_t length = strcspn(at, "|");
+        used +=
+            snprintf(text + used, (size_t)(DESCRIPTION - used), "%s%.*s", joint, (int)length, at);
+        at = at[length] != '\0' ? at + length + 1 : NULL;
+    }
+    if (used < DESCRIPTION)
+        snprintf(text + used, (size_t)(DESCRIPTION - used), "%s%s", k->words != NULL ? ")" : "",
+                 !k->needed     ? ""
+                 : k->group > 0 ? "; one of these *"
+                                : " *");
+}
+
+static void write_table(FILE *to, const scene_key *table, int depth, key_list_say *say)
 {
     for (; table != NULL && table->name != NULL; table++) {
-        char form[32];
+        char form[32], text[DESCRIPTION];
         if (table->kind == KEY_LATER)
             continue;
         const int indent = 2 * depth;
-        fprintf(to, "%*s%-*s %-12s %s%s%s%s", indent, "", 26 - indent, table->name,
-                form_of(table, form), table->summary, table->unit != NULL ? " [" : "",
-                table->unit != NULL ? table->unit : "", table->unit != NULL ? "]" : "");
-        if (table->words != NULL)
-            fprintf(to, " (%s)", table->words);
-        if (table->needed)
-            fputs(table->group > 0 ? "; one of these *" : " *", to);
-        fputc('\n', to);
+        describe(table, text);
+        const int at = fprintf(to, "%*s%-*s %-12s ", indent, "", 26 - indent, table->name,
+                               form_of(table, form));
+        say(to, at, at, text);
         if (table->kind == KEY_MAP || table->kind == KEY_ENTRIES || table->kind == KEY_LIST)
-            write_table(to, table->below, depth + 1);
+            write_table(to, table->below, depth + 1, say);
     }
 }
 
-void key_list_write(FILE *to)
+void key_list_write(FILE *to, key_list_say *say)
 {
-    fputs(
-        "Scene files, version 1. *: must be there. EXPR: number, + - * / ^ ( ), names, pi, deg, "
-        "abs sign sqrt exp log sin cos tan asin acos atan\n"
+    say(to, fprintf(to, "Scene files, version 1. "), 2,
+        "*: must be there. EXPR: number, + - * / ^ ( ), names, pi, deg, "
+        "abs sign sqrt exp log sin cos tan asin acos atan "
         "atan2 hypot floor ceil mod min max; SI only. [EXPR, ...] may be a range: a..b, a..b step "
-        "c, a..b/n. A word may be the name of a parameter.\n"
-        "Every entry (NAME: {...}, - {...}) may have these; $i in its name and texts is "
-        "replaced:\n",
-        to);
-    write_table(to, keys_loop, 1);
-    write_table(to, keys_root, 0);
+        "c, a..b/n. A word may be the name of a parameter.");
+    say(to, fprintf(to, "Every entry "), 2,
+        "(NAME: {...}, - {...}) may have these; $i in its name and texts is "
+        "replaced:");
+    write_table(to, keys_loop, 1, say);
+    write_table(to, keys_root, 0, say);
 }

@@ -41,6 +41,21 @@ class Screen(ProgramTest):
         for line in text.splitlines():
             self.assertLessEqual(len(line), 100, line)
 
+    def test_widths(self):
+        """Long names, sources and descriptions are continued on lines of their own."""
+        long_name = "collocation:stages=3,newton=displacement"
+        for words in (("truth", "c_column"), ("truth", "warping_torsion"), ("scene", "--keys"),
+                      ("bench", "c_column", "-f", "collocation", "--against", "beamw_consistent",
+                       "--error", "10%"),
+                      ("bench", "elastica", "-f", long_name, "-n", "1", "--against",
+                       "beamw_consistent")):
+            self.columns(self.answered(*words).stdout)
+
+    def test_source_of_a_prediction(self):
+        """It stands apart from the error."""
+        text = self.answered("solve", "sheet_cantilever", "-f", "sheet_third", "-n", "1").stdout
+        self.assertRegex(text, r"(?m)^prediction C_xx .* %  N Eq\. 54, analytic$")
+
     def without_a_rule(self):
         """Truths whose ledger does not know what these cases show."""
         path = self.folder / "t.h5"
