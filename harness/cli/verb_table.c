@@ -86,13 +86,13 @@ static int help(void)
     return EXIT_AS_EXPECTED;
 }
 
-/* VERB -h in other words. */
-static int help_of(char *name)
+/* VERB -h in other words; a verb may start the program anew with what stands before its name. */
+static int help_of(char *program, char *name)
 {
     char option[] = "--help";
-    char *arguments[] = {name, option, NULL};
+    char *arguments[] = {program, name, option, NULL};
     const verb *v = find(name);
-    return v != NULL ? v->run(2, arguments) : refuse(name);
+    return v != NULL ? v->run(2, arguments + 1) : refuse(name);
 }
 
 static int version(void)
@@ -107,7 +107,7 @@ int verb_table_run(int count, char **arguments)
 {
     const char *first = count > 1 ? arguments[1] : "help";
     if (strcmp(first, "help") == 0 && count > 2)
-        return help_of(arguments[2]);
+        return help_of(arguments[0], arguments[2]);
     if (strcmp(first, "help") == 0 || strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)
         return help();
     if (strcmp(first, "--version") == 0)
