@@ -246,7 +246,7 @@ static int most_arguments(const char *keys)
 void command_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys,
                    int count, char **arguments, command_request *out)
 {
-    struct argp_option chosen[OPTION_COUNT + 1] = {{0}};
+    struct argp_option chosen[OPTION_MOST + 1] = {{0}};
     char name[64];
     fault f;
     int n = 0;

@@ -2,7 +2,7 @@
 
 #include "harness/command/command.h"
 
-const verb_option option_table[OPTION_COUNT] = {
+const verb_option option_table[OPTION_MOST] = {
     {"formulation", 'f', "NAME[:KEY=VALUE,...]",
      "formulation and its options; again for another, 'all' for every one", 0},
     {"element", 'x', "FILE",

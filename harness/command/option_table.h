@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-enum { KEY_HELP = 'h', KEY_USAGE = 256, OPTION_COUNT = 39 /* with the end */ };
+enum { KEY_HELP = 'h', KEY_USAGE = 256, OPTION_MOST = 64 /* with the end */ };
 
 /* An option of the verbs. member: of the request, takes it as it is: its text, or 1 where it has no
  * argument; 0: see take. */
@@ -15,6 +15,6 @@ typedef struct verb_option {
     size_t member;
 } verb_option;
 
-extern const verb_option option_table[OPTION_COUNT]; /* ends with a name of NULL */
+extern const verb_option option_table[OPTION_MOST]; /* ends with a name of NULL */
 
 #endif
