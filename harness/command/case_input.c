@@ -100,7 +100,8 @@ status case_input_truths(const command_request *r, truths *t, fault *f)
 {
     memset(t, 0, sizeof *t);
     if (r->scene == NULL)
-        return truths_read(case_input_truths_path(r), t, f);
+        return truths_read_case(case_input_truths_path(r),
+                                r->case_name != NULL ? case_find(r->case_name, f) : NULL, t, f);
     const status outcome = scene_file_truths_add(r->scene, r->parameter, t, f);
     if (outcome != STATUS_OK)
         truths_free(t);

@@ -31,6 +31,7 @@ find_libraries() {
     pkg-config --exists hdf5 2>/dev/null || need libhdf5-dev
     have_header klu.h || need libsuitesparse-dev
     pkg-config --exists yaml-0.1 2>/dev/null || need libyaml-dev
+    pkg-config --exists zlib 2>/dev/null || need zlib1g-dev
     pkg-config --exists arpack 2>/dev/null || need libarpack2-dev
     pkg-config --exists jansson 2>/dev/null || need libjansson-dev
 }
@@ -60,7 +61,7 @@ fi
 flags=$2
 mkdir -p "$(dirname "$flags")"
 {
-    echo "DEP_CFLAGS := $(pkg-config --cflags gsl lapacke hdf5 arpack jansson yaml-0.1 | sed 's/-I/-isystem /g') -isystem /usr/include/suitesparse"
-    echo "DEP_LIBS := $(pkg-config --libs gsl lapacke hdf5 arpack jansson yaml-0.1) -lklu -lbtf -lcolamd -lldl -lamd -lsuitesparseconfig -llapack -lblas -lpthread -lm"
+    echo "DEP_CFLAGS := $(pkg-config --cflags gsl lapacke hdf5 arpack jansson yaml-0.1 zlib | sed 's/-I/-isystem /g') -isystem /usr/include/suitesparse"
+    echo "DEP_LIBS := $(pkg-config --libs gsl lapacke hdf5 arpack jansson yaml-0.1 zlib) -lklu -lbtf -lcolamd -lldl -lamd -lsuitesparseconfig -llapack -lblas -lpthread -lm"
 } >"$flags.new"
 mv "$flags.new" "$flags"

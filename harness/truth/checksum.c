@@ -5,19 +5,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* CRC-32 of IEEE 802.3, as of zlib; a sum is begun with 0 and continued with the sum so far. */
+#include <zlib.h>
+
+/* CRC-32 of IEEE 802.3; a sum is begun with 0 and continued with the sum so far. */
 static uint32_t checksum(uint32_t sum, const unsigned char *data, size_t size)
 {
-    uint32_t table[256];
-    for (uint32_t i = 0; i < 256; i++) {
-        table[i] = i;
-        for (int bit = 0; bit < 8; bit++)
-            table[i] = table[i] & 1 ? 0xedb88320u ^ table[i] >> 1 : table[i] >> 1;
-    }
-    sum = ~sum;
-    for (size_t i = 0; i < size; i++)
-        sum = table[(sum ^ data[i]) & 255] ^ sum >> 8;
-    return ~sum;
+    return (uint32_t)crc32_z(sum, data, size);
 }
 
 static void write_line(size_t size, uint32_t sum, char out[CHECKSUM_LENGTH + 1])

@@ -39,16 +39,14 @@ status columns_strings(const columns *r, const char *column, char **out)
         columns_length(r->group, column) == r->rows ? H5Dopen2(r->group, column, H5P_DEFAULT) : -1;
     const hid_t stored = set >= 0 ? H5Dget_type(set) : -1;
     int good = stored >= 0 && H5Tget_class(stored) == H5T_STRING && !H5Tis_variable_str(stored);
-    const size_t size = good ? H5Tget_size(stored) + 1 : 1;
+    const size_t size = good ? H5Tget_size(stored) : 1;
     char *all = good && size < 100000 ? calloc((size_t)r->rows + 1, size) : NULL;
-    const hid_t memory = good ? H5Tcopy(H5T_C_S1) : -1;
-    good = good && all != NULL && memory >= 0 && H5Tset_size(memory, size) >= 0 &&
-           H5Tset_cset(memory, H5Tget_cset(stored)) >= 0 &&
-           H5Dread(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, all) >= 0;
+    /* as they are stored: HDF5 clears a large buffer for each conversion */
+    good = good && all != NULL && H5Dread(set, stored, H5S_ALL, H5S_ALL, H5P_DEFAULT, all) >= 0;
     for (int i = 0; i < r->rows && good; i++)
         good = (out[i] = strndup(all + (size_t)i * size, size)) != NULL;
     free(all);
-    handles_close(3, (const hid_t[]){memory, stored, set});
+    handles_close(2, (const hid_t[]){stored, set});
     return good ? STATUS_OK : columns_broken(r, column);
 }
 

@@ -95,6 +95,13 @@ static status read_columns(const columns *r, loose_columns *loose, truth *row)
     return columns_strings(r, "parameters", loose->parameters);
 }
 
+/* Does row i repeat the parameters of the one before? */
+static int is_of_same_point(const loose_columns *loose, int i)
+{
+    return i > 0 && loose->hash[i] == loose->hash[i - 1] &&
+           strcmp(loose->parameters[i], loose->parameters[i - 1]) == 0;
+}
+
 static status fill_rows(const columns *r, const case_type *type, const loose_columns *loose,
                         truth *row)
 {
@@ -102,8 +109,12 @@ static status fill_rows(const columns *r, const case_type *type, const loose_col
         row[i].type = type;
         row[i].elements = loose->elements[i];
         row[i].on_curve = !isnan(row[i].at);
-        TRY(check_row(r, type, i, loose->parameters[i], loose->hash[i], row[i].parameter,
-                      row[i].any));
+        if (is_of_same_point(loose, i)) {
+            memcpy(row[i].parameter, row[i - 1].parameter, sizeof row[i].parameter);
+            memcpy(row[i].any, row[i - 1].any, sizeof row[i].any);
+        } else
+            TRY(check_row(r, type, i, loose->parameters[i], loose->hash[i], row[i].parameter,
+                          row[i].any));
         const char *wrong = wrong_column(&row[i]);
         if (wrong != NULL)
             return columns_broken(r, wrong);

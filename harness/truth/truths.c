@@ -36,8 +36,10 @@ static status read_case(const char *path, hid_t all, const case_type *type, trut
     return outcome;
 }
 
-static status read_cases(const char *path, hid_t all, truths *out, fault *f)
+static status read_cases(const char *path, hid_t all, const case_type *only, truths *out, fault *f)
 {
+    if (only != NULL)
+        return read_case(path, all, only, out, f);
     for (int i = 0; registry_cases[i] != NULL; i++)
         TRY(read_case(path, all, registry_cases[i], out, f));
     return STATUS_OK;
@@ -58,60 +60,71 @@ static void find_strangers(hid_t all, truths *out)
     }
 }
 
-/* The tables of one group, one for every case. */
-static status read_tables(const char *path, hid_t file, const char *name, truths *out, fault *f)
+/* What is read of a file. */
+typedef struct wanted {
+    const char *group; /* of tables, one for every case; NULL: none */
+    const case_type *only;
+    int rules;
+} wanted;
+
+static status read_tables(const char *path, hid_t file, const wanted *what, truths *out, fault *f)
 {
-    const hid_t all = H5Gopen2(file, name, H5P_DEFAULT);
+    const hid_t all = H5Gopen2(file, what->group, H5P_DEFAULT);
     if (all < 0)
         return fault_set(f, STATUS_FAULT, "%s: no %s in it; build it again ('make all')", path,
-                         name);
-    const status outcome = read_cases(path, all, out, f);
+                         what->group);
+    const status outcome = read_cases(path, all, what->only, out, f);
     if (outcome == STATUS_OK)
         find_strangers(all, out);
     H5Gclose(all);
     return outcome;
 }
 
-/* With what read_file closes. group NULL: no tables. */
-static status read_open(const char *path, const char *group, int with_rules, hid_t *file,
-                        truths *out, fault *f)
+/* With what read_file closes. */
+static status read_open(const char *path, const wanted *what, hid_t *file, truths *out, fault *f)
 {
     TRY(truths_file_open(path, file, f));
-    if (group != NULL)
-        TRY(read_tables(path, *file, group, out, f));
-    return with_rules ? rules_read(path, *file, &out->rule, &out->rules, f) : STATUS_OK;
+    if (what->group != NULL)
+        TRY(read_tables(path, *file, what, out, f));
+    return what->rules ? rules_read(path, *file, &out->rule, &out->rules, f) : STATUS_OK;
 }
 
-static status read_file(const char *path, const char *group, int with_rules, truths *out, fault *f)
+static status read_file(const char *path, const wanted *what, truths *out, fault *f)
 {
     hid_t file;
-    const status outcome = read_open(path, group, with_rules, &file, out, f);
+    const status outcome = read_open(path, what, &file, out, f);
     if (file >= 0)
         H5Fclose(file);
     return outcome;
 }
 
-status truths_read(const char *path, truths *out, fault *f)
+static status read_new(const char *path, const wanted *what, truths *out, fault *f)
 {
     memset(out, 0, sizeof *out);
-    const status outcome = read_file(path, "truths", 1, out, f);
+    const status outcome = read_file(path, what, out, f);
     if (outcome != STATUS_OK)
         truths_free(out);
     return outcome;
+}
+
+status truths_read(const char *path, truths *out, fault *f)
+{
+    return truths_read_case(path, NULL, out, f);
+}
+
+status truths_read_case(const char *path, const case_type *type, truths *out, fault *f)
+{
+    return read_new(path, &(wanted){.group = "truths", .only = type, .rules = 1}, out, f);
 }
 
 status truths_read_rules(const char *path, truths *out, fault *f)
 {
-    memset(out, 0, sizeof *out);
-    const status outcome = read_file(path, NULL, 1, out, f);
-    if (outcome != STATUS_OK)
-        truths_free(out);
-    return outcome;
+    return read_new(path, &(wanted){.rules = 1}, out, f);
 }
 
 status truths_read_extremes(const char *path, truths *out, fault *f)
 {
-    return read_file(path, "extremes", 0, out, f);
+    return read_file(path, &(wanted){.group = "extremes"}, out, f);
 }
 
 void truths_free(truths *t)

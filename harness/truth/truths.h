@@ -37,6 +37,8 @@ typedef struct truths {
 /* FAULT for a missing, truncated or foreign file and for a stale row (its case's defaults have
  * changed since). */
 status truths_read(const char *path, truths *out, fault *f);
+/* The same of one case (NULL: of all). */
+status truths_read_case(const char *path, const case_type *type, truths *out, fault *f);
 /* The ledger alone. */
 status truths_read_rules(const char *path, truths *out, fault *f);
 /* Adds the exact values at the extremes, which no verification runs. On failure the truths read
