@@ -208,7 +208,7 @@ $(BUILD)/%_test: $(BUILD)/%_test.o $(KIT) $(LIBRARY)
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
 
 # A test of what happens when memory runs out: allocations of our own code pass through it.
-$(BUILD)/harness/study/test/memory_test: LDFLAGS += -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=free,--wrap=strdup,--wrap=strndup,--wrap=open_memstream
+$(BUILD)/harness/study/test/memory_test: private LDFLAGS += -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=free,--wrap=strdup,--wrap=strndup,--wrap=open_memstream
 
 $(TRUTHS): $(wildcard reference/tables/*.csv reference/predicted/*.csv reference/extremes/*.csv reference/*.csv) reference/pack.py
 	@harness/tools/dependencies.sh verify
