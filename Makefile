@@ -5,6 +5,7 @@ BUILD ?= build
 CFLAGS ?= -O3 -g
 PYTHON := /usr/bin/python3
 VERSION := $(shell sed -n 's/^version: *//p' CITATION.cff)
+RELEASED := $(shell sed -n 's/^date-released: *//p' CITATION.cff)
 COMMIT := $(shell git describe --always --dirty --abbrev=12 --exclude='*' 2>/dev/null || echo unknown)
 
 WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wformat=2 -Wvla -Wwrite-strings
@@ -81,6 +82,12 @@ ifndef RESULTS
 endif
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) $(if $(wildcard $(BUILD)/bench.h5),--bench $(BUILD)/bench.h5) --beside $(BUILD)/peers.h5 -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
 
+.PHONY: man
+man: all ## write the manual pages: build/man; 'man -l build/man/beamwork.1' shows one
+	@mkdir -p $(BUILD)/man
+	@for page in $$($(PROGRAM) help --man); do $(PROGRAM) help --man $$page >$(BUILD)/man/$$page || exit 1; done
+	@harness/packaging/element_page.sh $(VERSION) $(RELEASED) >$(BUILD)/man/beamwork-element.7
+
 newton: all ## the two forms of Newton's method side by side, for the report; build/newton.json
 	@$(PYTHON) harness/tools/newton.py $(PROGRAM) -o $(BUILD)/newton.json
 
@@ -144,7 +151,7 @@ asan: ## tests under the address and undefined-behaviour sanitizers
 	@$(MAKE) --no-print-directory BUILD="$(BUILD)/asan" CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer" test
 
 tidy: ## clang-tidy, findings are errors
-	@clang-tidy --quiet --warnings-as-errors='*' $(LIBRARY_SOURCES) $(PROGRAM_SOURCES) -- $(BASE_CFLAGS) $(DEP_CFLAGS) -DBEAMWORK_VERSION='""' -DBEAMWORK_COMMIT='""' -DBEAMWORK_CFLAGS='""'
+	@clang-tidy --quiet --warnings-as-errors='*' $(LIBRARY_SOURCES) $(PROGRAM_SOURCES) -- $(BASE_CFLAGS) $(DEP_CFLAGS) -DBEAMWORK_VERSION='""' -DBEAMWORK_RELEASED='""' -DBEAMWORK_COMMIT='""' -DBEAMWORK_CFLAGS='""'
 
 format: ## rewrite the C sources in the house's layout
 	@git ls-files '*.c' '*.h' | xargs clang-format -i
@@ -197,9 +204,9 @@ $(LIBRARY): $(OBJECTS) $(BUILD)/objects.list
 
 # What a build says of itself is compiled in one place only.
 $(BUILD)/identity: FORCE
-	@mkdir -p $(@D); echo '$(VERSION) $(COMMIT) $(CFLAGS)' | cmp -s - $@ || echo '$(VERSION) $(COMMIT) $(CFLAGS)' >$@
+	@mkdir -p $(@D); echo '$(VERSION) $(RELEASED) $(COMMIT) $(CFLAGS)' | cmp -s - $@ || echo '$(VERSION) $(RELEASED) $(COMMIT) $(CFLAGS)' >$@
 $(BUILD)/harness/catalogue/environment.o: $(BUILD)/identity
-$(BUILD)/harness/catalogue/environment.o: DEFINES := -DBEAMWORK_VERSION='"$(VERSION)"' -DBEAMWORK_COMMIT='"$(COMMIT)"' -DBEAMWORK_CFLAGS='"$(CFLAGS)"'
+$(BUILD)/harness/catalogue/environment.o: DEFINES := -DBEAMWORK_VERSION='"$(VERSION)"' -DBEAMWORK_RELEASED='"$(RELEASED)"' -DBEAMWORK_COMMIT='"$(COMMIT)"' -DBEAMWORK_CFLAGS='"$(CFLAGS)"'
 
 $(PROGRAM): $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) $(LIBRARY)
 	$(call SAY,link $@)$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)

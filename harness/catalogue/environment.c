@@ -27,6 +27,7 @@ static void read_processor(char *out, int size)
 environment environment_now(int threads)
 {
     environment e = {.version = BEAMWORK_VERSION,
+                     .released = BEAMWORK_RELEASED,
                      .commit = BEAMWORK_COMMIT,
                      .flags = BEAMWORK_CFLAGS,
                      .threads = threads};

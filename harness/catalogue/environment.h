@@ -3,7 +3,7 @@
 #define BEAMWORK_ENVIRONMENT_H
 
 typedef struct environment {
-    const char *version, *commit, *compiler, *flags;
+    const char *version, *released /* 2026-11-21 */, *commit, *compiler, *flags;
     char libraries[256], processor[128], clock[32]; /* ISO 8601, UTC */
     int threads;
 } environment;

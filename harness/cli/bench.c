@@ -5,6 +5,7 @@
 #include "harness/catalogue/case_find.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/cli/cli.h"
+#include "harness/command/help.h"
 #include "harness/record/csv.h"
 #include "harness/record/output.h"
 #include "harness/record/store.h"
@@ -109,7 +110,8 @@ static int bench_request(command_request *r)
 
 int cli_bench(int count, char **arguments)
 {
-    rounds_single_thread(arguments - 1); /* main passes what follows the program's name */
+    if (!help_asked(count, arguments))
+        rounds_single_thread(arguments - 1); /* main passes what follows the program's name */
     return command_run(
         "bench", "[CASE...]",
         "Times every formulation and mesh of the cases named (or, without one, of all cases "

@@ -6,6 +6,9 @@
 #include "harness/catalogue/choice.h"
 #include "harness/catalogue/environment.h"
 #include "harness/cli/cli.h"
+#include "harness/command/help.h"
+#include "harness/manual/manual.h"
+#include "harness/tables/paragraph.h"
 
 typedef struct verb {
     const char *name;
@@ -53,6 +56,31 @@ static const char *name_at(const void *context, int i)
     return left == 0 ? "help" : NULL;
 }
 
+static const manual_row examples[] = {
+    {"beamwork list", "what there is"},
+    {"beamwork solve elastica", "one answer, with its error"},
+    {"beamwork converge c_column -k buckling_load", "formulations side by side"},
+    {"beamwork explain \"wrong limit\"", "what a word means"},
+    {NULL, NULL},
+};
+static const manual_row statuses[] = {
+    {"0", "as expected"},
+    {"1", "a verdict differs (solve: not converged or singular)"},
+    {"2", "refused input"},
+    {"3", "nothing was checked"},
+    {"4", "file, disk or memory"},
+    {"5", "interrupted: what was judged is in *.partial.*"},
+    {NULL, NULL},
+};
+static const manual_program about = {
+    .summary = "verification and benchmark of three-dimensional beam finite elements",
+    .question = "Which formulation, with how many elements, reaches my tolerance soonest, and can "
+                "I believe it?",
+    .examples = examples,
+    .statuses = statuses,
+    .of_compare = "compare, as diff: 0 the same, 1 different, 2 trouble.",
+};
+
 static int refuse(const char *name)
 {
     char text[200];
@@ -63,36 +91,89 @@ static int refuse(const char *name)
     return message_fail(STATUS_REFUSED, text);
 }
 
+static void write_statuses(void)
+{
+    paragraph text;
+    const int at = printf("exit status:");
+    FILE *to = paragraph_begin(&text, stdout);
+    for (const manual_row *row = statuses; row->name != NULL; row++)
+        fprintf(to, "%s %s%s ", row->name, row->text, row[1].name != NULL ? ";" : "");
+    fprintf(to, "(%.*s)", (int)strlen(about.of_compare) - 1, about.of_compare);
+    paragraph_end(&text, at, at + 1);
+}
+
 static int help(void)
 {
-    printf("beamwork: verification and benchmark of three-dimensional beam finite elements.\n"
-           "Which formulation, with how many elements, reaches my tolerance soonest, and can I\n"
-           "believe it?\n\n"
-           "usage: beamwork VERB [OPTION...]     beamwork help VERB (or VERB -h): its options\n");
+    printf("beamwork: %s.\n", about.summary);
+    paragraph_write(stdout, 0, 0, about.question);
+    printf("\nusage: beamwork VERB [OPTION...]     beamwork help VERB (or VERB -h): its options\n");
     for (int i = 0; i < VERBS; i++)
         if (verbs[i].run == NULL)
             printf("\n%s\n", verbs[i].name);
         else
             printf("  %-10s %s\n", verbs[i].name, verbs[i].summary);
-    printf("\nto begin with\n"
-           "  beamwork list                         what there is\n"
-           "  beamwork solve elastica               one answer, with its error\n"
-           "  beamwork converge c_column -k buckling_load   formulations side by side\n"
-           "  beamwork explain \"wrong limit\"        what a word means\n"
-           "\nexit status: 0 as expected; 1 a verdict differs (solve: not converged or singular);\n"
-           "  2 refused input; 3 nothing was checked; 4 file, disk or memory; 5 interrupted: what\n"
-           "  was judged is in *.partial.* (compare, as diff: 0 the same, 1 different, 2 trouble)\n"
-           "\nbeamwork --version: versions of the program and its libraries\n");
+    printf("\nto begin with\n");
+    for (const manual_row *row = examples; row->name != NULL; row++)
+        printf("  %-45s %s\n", row->name, row->text);
+    printf("\n");
+    write_statuses();
+    printf("\nbeamwork --version: versions of the program and its libraries\n"
+           "beamwork help --man: names of its manual pages; with one of them: that page\n");
     return EXIT_AS_EXPECTED;
 }
 
-/* VERB -h in other words; a verb may start the program anew with what stands before its name. */
+/* VERB -h in other words. */
 static int help_of(char *program, char *name)
 {
     char option[] = "--help";
     char *arguments[] = {program, name, option, NULL};
     const verb *v = find(name);
     return v != NULL ? v->run(2, arguments + 1) : refuse(name);
+}
+
+static int write_program_page(void)
+{
+    manual_row rows[VERBS + 1] = {{NULL, NULL}};
+    manual_program whole = about;
+    for (int i = 0; i < VERBS; i++)
+        rows[i] = (manual_row){verbs[i].name, verbs[i].summary};
+    whole.verbs = rows;
+    manual_write_program(stdout, &whole);
+    return EXIT_AS_EXPECTED;
+}
+
+/* Not a verb: a page about files. */
+static void (*file_page(const char *name))(FILE *)
+{
+    if (strcmp(name, "beamwork-scene.5") == 0)
+        return manual_write_scene;
+    return strcmp(name, "beamwork-results.5") == 0 ? manual_write_results : NULL;
+}
+
+static int list_pages(void)
+{
+    printf("beamwork.1\nbeamwork-scene.5\nbeamwork-results.5\n");
+    for (int i = 0; name_at(NULL, i) != NULL; i++)
+        if (find(name_at(NULL, i)) != NULL)
+            printf("beamwork-%s.1\n", name_at(NULL, i));
+    return EXIT_AS_EXPECTED;
+}
+
+/* "beamwork.1", "beamwork-scene.5", "beamwork-solve.1" or "solve". */
+static int write_page(char *first, const char *name)
+{
+    char bare[80];
+    if (strcmp(name, "beamwork.1") == 0)
+        return write_program_page();
+    if (file_page(name) != NULL)
+        return file_page(name)(stdout), EXIT_AS_EXPECTED;
+    const char *from = strncmp(name, "beamwork-", 9) == 0 ? name + 9 : name;
+    snprintf(bare, sizeof bare, "%.*s", (int)strcspn(from, "."), from);
+    const verb *v = find(bare);
+    const manual_row row = {v != NULL ? v->name : NULL, v != NULL ? v->summary : NULL};
+    if (v != NULL)
+        help_use(manual_write_verb, &row);
+    return help_of(first, bare);
 }
 
 static int version(void)
@@ -106,6 +187,8 @@ static int version(void)
 int verb_table_run(int count, char **arguments)
 {
     const char *first = count > 1 ? arguments[1] : "help";
+    if (strcmp(first, "help") == 0 && count > 2 && strcmp(arguments[2], "--man") == 0)
+        return count > 3 ? write_page(arguments[0], arguments[3]) : list_pages();
     if (strcmp(first, "help") == 0 && count > 2)
         return help_of(arguments[0], arguments[2]);
     if (strcmp(first, "help") == 0 || strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)

@@ -30,8 +30,9 @@ static void write_examples(FILE *to, const char *lines)
     }
 }
 
-void help_write(FILE *to, const help_subject *s)
+static void write_text(FILE *to, const help_subject *s, const void *context)
 {
+    (void)context;
     char doc[TEXT];
     const size_t length = strcspn(s->doc, "\v");
     snprintf(doc, sizeof doc, "%.*s", (int)length, s->doc);
@@ -43,4 +44,23 @@ void help_write(FILE *to, const help_subject *s)
         write_option(to, o);
     if (s->doc[length] == '\v')
         write_examples(to, s->doc + length + 1);
+}
+
+static help_writer *used = write_text;
+static const void *used_context;
+
+void help_use(help_writer *writer, const void *context)
+{
+    used = writer;
+    used_context = context;
+}
+
+void help_write(FILE *to, const help_subject *s)
+{
+    used(to, s, used_context);
+}
+
+int help_asked(int count, char *const arguments[])
+{
+    return count == 2 && (strcmp(arguments[1], "--help") == 0 || strcmp(arguments[1], "-h") == 0);
 }

@@ -12,7 +12,13 @@ typedef struct help_subject {
     const struct argp_option *chosen; /* what it takes, ending with a name of NULL */
 } help_subject;
 
-/* Usage, what it does, options, examples: within PARAGRAPH_WIDTH columns. */
+/* How it is written: as a text for a terminal, a manual page, words that complete a line. */
+typedef void help_writer(FILE *to, const help_subject *s, const void *context);
+/* From now on -h of every verb is written by this one. */
+void help_use(help_writer *writer, const void *context);
+/* As help_use said; else usage, what it does, options, examples: within PARAGRAPH_WIDTH columns. */
 void help_write(FILE *to, const help_subject *s);
+/* Is help all that a verb is called for? arguments[0]: the verb. */
+int help_asked(int count, char *const arguments[]);
 
 #endif

@@ -58,32 +58,55 @@ static void describe(const scene_key *k, char text[DESCRIPTION])
                                 : " *");
 }
 
-static void write_table(FILE *to, const scene_key *table, int depth, key_list_say *say)
+static void walk(const scene_key *table, int depth, key_list_take *take, void *context)
 {
     for (; table != NULL && table->name != NULL; table++) {
         char form[32], text[DESCRIPTION];
         if (table->kind == KEY_LATER)
             continue;
-        const int indent = 2 * depth;
         describe(table, text);
-        const int at = fprintf(to, "%*s%-*s %-12s ", indent, "", 26 - indent, table->name,
-                               form_of(table, form));
-        say(to, at, at, text);
+        take(context, depth, table->name, form_of(table, form), text);
         if (table->kind == KEY_MAP || table->kind == KEY_ENTRIES || table->kind == KEY_LIST)
-            write_table(to, table->below, depth + 1, say);
+            walk(table->below, depth + 1, take, context);
     }
+}
+
+void key_list_loops(key_list_take *take, void *context)
+{
+    walk(keys_loop, 0, take, context);
+}
+
+void key_list_all(key_list_take *take, void *context)
+{
+    walk(keys_root, 0, take, context);
+}
+
+const char *const key_list_head[2] = {
+    "Scene files, version 1. *: must be there. EXPR: number, + - * / ^ ( ), names, pi, deg, abs "
+    "sign sqrt exp log sin cos tan asin acos atan atan2 hypot floor ceil mod min max; SI only. "
+    "[EXPR, ...] may be a range: a..b, a..b step c, a..b/n. A word may be the name of a parameter.",
+    "Every entry (NAME: {...}, - {...}) may have these; $i in its name and texts is replaced:"};
+
+typedef struct list {
+    FILE *to;
+    int depth; /* of what stands at the root of what is walked */
+    key_list_say *say;
+} list;
+
+static void write_key(void *context, int depth, const char *name, const char *form,
+                      const char *text)
+{
+    const list *l = context;
+    const int indent = 2 * (l->depth + depth);
+    const int at = fprintf(l->to, "%*s%-*s %-12s ", indent, "", 26 - indent, name, form);
+    l->say(l->to, at, at, text);
 }
 
 void key_list_write(FILE *to, key_list_say *say)
 {
-    say(to, fprintf(to, "Scene files, version 1. "), 2,
-        "*: must be there. EXPR: number, + - * / ^ ( ), names, pi, deg, "
-        "abs sign sqrt exp log sin cos tan asin acos atan "
-        "atan2 hypot floor ceil mod min max; SI only. [EXPR, ...] may be a range: a..b, a..b step "
-        "c, a..b/n. A word may be the name of a parameter.");
-    say(to, fprintf(to, "Every entry "), 2,
-        "(NAME: {...}, - {...}) may have these; $i in its name and texts is "
-        "replaced:");
-    write_table(to, keys_loop, 1, say);
-    write_table(to, keys_root, 0, say);
+    list loops = {to, 1, say}, all = {to, 0, say};
+    for (int i = 0; i < 2; i++)
+        say(to, 0, 2, key_list_head[i]);
+    key_list_loops(write_key, &loops);
+    key_list_all(write_key, &all);
 }
