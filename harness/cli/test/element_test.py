@@ -1,69 +1,25 @@
-"""Formulations from outside: the example as a stranger compiles it, and files that mean harm."""
-import csv
+"""Formulations from outside: the first example beside the others, and files that mean harm."""
 import json
-import os
-import subprocess
 
-from harness.test.program import ROOT, ProgramTest, environment, run
+from harness.cli.test.plugin import EXAMPLES, WARNINGS, PluginTest, compile_shared
+from harness.test.program import environment, run
 
-EXAMPLE = ROOT / "elements" / "examples" / "timoshenko.c"
+EXAMPLE = EXAMPLES / "timoshenko.c"
 CASE = ("elastica", "-f", "timoshenko")
 CRASHES = environment(ASAN_OPTIONS="handle_segv=0")  # a crash is one, also under sanitizers
 
 
-class Loaded(ProgramTest):
-
-    def compiled(self, source, name="mine.so"):
-        """The path of a shared object made of this text."""
-        text, made = self.folder / f"{name}.c", self.folder / name
-        text.write_text(source, encoding="utf-8")
-        subprocess.run([os.environ.get("CC", "cc"), "-O1", "-shared", "-fPIC", "-I", ROOT, text,
-                        "-o", made],
-                       check=True)
-        return made
+class Loaded(PluginTest):
 
     def example(self, *changes):
-        """The example with parts of its text replaced, each of which must be there."""
-        text = EXAMPLE.read_text(encoding="utf-8")
-        for before, after in changes:
-            self.assertIn(before, text)
-            text = text.replace(before, after, 1)
-        return self.compiled(text)
+        return self.altered(EXAMPLE.name, *changes)
 
 
 class Example(Loaded):
 
     @classmethod
     def setUpClass(cls):
-        cls.object = cls.class_folder() / "timoshenko.so"
-        subprocess.run([os.environ.get("CC", "cc"), "-O2", "-Wall", "-Wextra", "-Werror", "-shared",
-                        "-fPIC", "-I", ROOT, EXAMPLE, "-o", cls.object],
-                       check=True)
-
-    def test_short(self):
-        lines = EXAMPLE.read_text(encoding="utf-8").splitlines()
-        self.assertLessEqual(len(lines), 130)
-        self.assertEqual([line for line in lines if line.startswith('#include "')],
-                         ['#include "elements/element.h"'])
-
-    def test_judged_like_the_others(self):
-        """Ten cases, statics, vibration and buckling: limits of order two that are right."""
-        record, needed = self.folder / "v.json", self.folder / "needed.csv"
-        cases = ("tapered_cantilever", "deep_beam", "weighted_column", "tip_body", "sprung_beam",
-                 "loaded_cantilever", "bend_45", "elastica", "snap_through", "right_angle_frame")
-        self.answered("verify", "--element", self.object, "-f", "timoshenko", "-k",
-                      " or ".join(f"{case}/default" for case in cases), "--json", record,
-                      "--propose", needed)
-        found = json.loads(record.read_text(encoding="utf-8"))["verdicts"]
-        passed = {v["case"] for v in found if v["verdict"] == "pass"}
-        self.assertEqual(passed - {"shear_elastica"}, set(cases))
-        self.assertNotIn("wrong limit", {v["verdict"] for v in found})
-        with open(needed, newline="", encoding="utf-8") as rows:
-            rules = list(csv.DictReader(rows))
-        self.assertEqual(
-            {(r["cases"], r["verdicts"]) for r in rules},
-            {(v["case"], v["verdict"]) for v in found
-             if v["verdict"] not in ("pass", "skip", "no truth")})
+        cls.object = compile_shared(EXAMPLE, cls.class_folder() / "timoshenko.so", *WARNINGS)
 
     def test_beside_the_others(self):
         out = self.answered("converge", "tapered_cantilever", "--element", self.object, "-f",

@@ -1,0 +1,47 @@
+"""Every example of a formulation: compiled as a stranger would, short, and judged on ten cases."""
+from harness.cli.test.plugin import EXAMPLES, WARNINGS, PluginTest, compile_shared
+from harness.test.program import read_json
+
+STATICS_AND_FREQUENCIES = ("tapered_cantilever", "deep_beam", "tip_body", "sprung_beam",
+                           "loaded_cantilever", "elastica", "snap_through", "right_angle_frame")
+
+
+class Judged:
+    """What holds for each: limits that are right, and as many lines as its page says."""
+
+    lines = 0
+    cases = ()
+
+    @classmethod
+    def setUpClass(cls):
+        cls.object = compile_shared(EXAMPLES / f"{cls.example}.c",
+                                    cls.class_folder() / f"{cls.example}.so", *WARNINGS)
+
+    def test_short(self):
+        lines = (EXAMPLES / f"{self.example}.c").read_text(encoding="utf-8").splitlines()
+        self.assertLessEqual(len(lines), self.lines)
+        self.assertEqual([line for line in lines if line.startswith('#include "')],
+                         ['#include "elements/element.h"'])
+
+    def test_judged_like_the_others(self):
+        """Ten cases, statics, vibration and buckling."""
+        record = self.folder / "v.json"
+        self.assertEqual(len(self.cases), 10)
+        self.answered("verify", "--element", self.object, "-f", self.example, "-k",
+                      " or ".join(f"{case}/default" for case in self.cases), "--json", record)
+        found = [v for v in read_json(record)["verdicts"]
+                 if v["verdict"] not in ("skip", "no truth")]
+        self.assertEqual({v["case"] for v in found} - {"shear_elastica"}, set(self.cases))
+        self.assertEqual([v for v in found if v["verdict"] != "pass"], [])
+
+
+class Timoshenko(Judged, PluginTest):
+    example = "timoshenko"
+    lines = 130
+    cases = (*STATICS_AND_FREQUENCIES, "weighted_column", "bend_45")
+
+
+class Corotational(Judged, PluginTest):
+    example = "corotational"
+    lines = 190
+    cases = (*STATICS_AND_FREQUENCIES, "weighted_column", "lateral_buckling")

@@ -1,0 +1,33 @@
+"""Formulations from outside, as a stranger compiles them: for the tests of `--element`."""
+import os
+import subprocess
+
+from harness.test.program import ROOT, ProgramTest
+
+EXAMPLES = ROOT / "elements" / "examples"
+WARNINGS = ("-Wall", "-Wextra", "-Werror")
+
+
+def compile_shared(source, made, *options):
+    """The shared object made of this file, with no header but those that are public."""
+    subprocess.run([os.environ.get("CC", "cc"), "-O1", *options, "-shared", "-fPIC", "-I", ROOT,
+                    source, "-lm", "-o", made],
+                   check=True)
+    return made
+
+
+class PluginTest(ProgramTest):
+
+    def compiled(self, text, name="mine.so"):
+        """The path of a shared object made of this text."""
+        source = self.folder / f"{name}.c"
+        source.write_text(text, encoding="utf-8")
+        return compile_shared(source, self.folder / name)
+
+    def altered(self, example, *changes):
+        """An example with parts of its text replaced, each of which must be there."""
+        text = (EXAMPLES / example).read_text(encoding="utf-8")
+        for before, after in changes:
+            self.assertIn(before, text)
+            text = text.replace(before, after, 1)
+        return self.compiled(text)
