@@ -24,9 +24,14 @@ static void read_processor(char *out, int size)
         fclose(cpu);
 }
 
+const char *environment_version(void)
+{
+    return BEAMWORK_VERSION;
+}
+
 environment environment_now(int threads)
 {
-    environment e = {.version = BEAMWORK_VERSION,
+    environment e = {.version = environment_version(),
                      .released = BEAMWORK_RELEASED,
                      .commit = BEAMWORK_COMMIT,
                      .flags = BEAMWORK_CFLAGS,

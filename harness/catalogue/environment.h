@@ -9,5 +9,6 @@ typedef struct environment {
 } environment;
 
 environment environment_now(int threads);
+const char *environment_version(void); /* of the program, "0.12.0" */
 
 #endif

@@ -3,13 +3,13 @@
 #include <string.h>
 
 #include "elements/feature.h"
-#include "harness/catalogue/choice.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 #include "harness/cli/cli.h"
 #include "harness/cli/list_formulation.h"
-#include "harness/model/lacks.h"
-#include "harness/model/missing.h"
+#include "harness/request/list_json.h"
+#include "harness/request/list_subject.h"
+#include "harness/request/runs_on.h"
 #include "harness/scene_writer/meaning.h"
 #include "harness/study/cell.h"
 #include "harness/tables/paragraph.h"
@@ -45,12 +45,13 @@ static void list_cases(void)
 
 static void list_offer(const scene *s, const element_type *type)
 {
-    char words[200];
+    runs_on here;
     const int at = printf("  %-28s ", type->name);
-    if (missing_words(s, type, words, sizeof words))
-        paragraph_write(stdout, at + printf("does not offer "), at, words);
-    else if (lacks_of(s, type, words, sizeof words))
-        paragraph_write(stdout, at + printf("runs without "), at, words);
+    runs_on_scene(s, type, &here);
+    if (!here.runs)
+        paragraph_write(stdout, at + printf("does not offer "), at, here.words);
+    else if (here.words[0] != '\0')
+        paragraph_write(stdout, at + printf("runs without "), at, here.words);
     else
         printf("runs\n");
 }
@@ -108,78 +109,67 @@ static int list_case(const case_type *type)
     return message_exit(outcome, &f);
 }
 
-/* All names that may be asked about, one after the other. */
-static const char *name_at(const void *context, int i)
+/* The ledger, where there is one. */
+static void read_ledger(const command_request *r, truths *ledger)
 {
-    static const char *const words[] = {"cases", "formulations"};
-    (void)context;
-    if (i < 2)
-        return words[i];
-    i -= 2;
-    for (int k = 0; registry_cases[k] != NULL; k++, i--)
-        if (i == 0)
-            return registry_cases[k]->name;
-    const element_type *type = formulations_at(i);
-    return type != NULL ? type->name : NULL;
+    memset(ledger, 0, sizeof *ledger);
+    truths_read_rules(case_input_truths_path(r), ledger, NULL);
 }
 
-static int refuse(const char *name)
+static void show_formulation(const command_request *r, const formulation *chosen)
 {
-    char text[300];
-    const char *near = choice_nearest(name, name_at, NULL);
-    snprintf(text, sizeof text,
-             "'%.60s' is neither a case nor a formulation%s%s%s; 'beamwork list' shows them all",
-             name, near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
-             near != NULL ? "'?" : "");
-    return message_fail(STATUS_REFUSED, text);
-}
-
-/* A formulation, perhaps with options: what the ledger says of it too, where there is one. */
-static int list_one_formulation(const command_request *r)
-{
-    formulation chosen;
-    truths ledger = {0};
-    fault f;
-    if (formulation_parse(r->case_name, &chosen, &f) != STATUS_OK)
-        return message_fail(STATUS_REFUSED, f.text);
-    const int known = truths_read_rules(case_input_truths_path(r), &ledger, NULL) == STATUS_OK;
-    list_formulation(&chosen, known ? ledger.rule : NULL, ledger.rules);
+    truths ledger;
+    read_ledger(r, &ledger);
+    list_formulation(chosen, ledger.rule, ledger.rules);
     truths_free(&ledger);
-    return EXIT_AS_EXPECTED;
 }
 
-static void list_all(int cases, int formulations)
+static int show(const command_request *r, const list_subject *what)
 {
-    if (cases)
+    if (what->type != NULL)
+        return list_case(what->type);
+    if (what->chosen.type != NULL)
+        show_formulation(r, &what->chosen);
+    if (what->cases)
         list_cases();
-    if (formulations) {
+    if (what->formulations) {
         list_formulations();
         list_features();
     }
+    return EXIT_AS_EXPECTED;
 }
 
-static int list_name(const command_request *r)
+static int write_json(const command_request *r, const list_subject *what)
 {
-    const char *name = r->case_name;
-    char bare[SCENE_NAME];
-    snprintf(bare, sizeof bare, "%.*s", (int)strcspn(name, ":"), name);
-    for (int i = 0; registry_cases[i] != NULL; i++)
-        if (strcmp(registry_cases[i]->name, name) == 0)
-            return list_case(registry_cases[i]);
-    return formulation_find(bare) != NULL ? list_one_formulation(r) : refuse(name);
+    truths ledger;
+    fault f = {""};
+    if (what->type == NULL && what->chosen.type == NULL)
+        return message_exit(list_json_all(stdout, what->cases, what->formulations, &f), &f);
+    if (what->type != NULL) {
+        double value[CASE_MAX_PARAMETERS] = {0};
+        parameters_default(what->type, value);
+        return message_exit(list_json_case(stdout, what->type, value, &f), &f);
+    }
+    read_ledger(r, &ledger);
+    const status written =
+        list_json_formulation(stdout, &what->chosen, ledger.rule, ledger.rules, &f);
+    truths_free(&ledger);
+    return message_exit(written, &f);
 }
 
 static int list_request(command_request *r)
 {
-    const char *name = r->case_name;
+    list_subject what = {.cases = 0};
+    fault f;
     if (r->scene_count > 0) {
-        const case_type *own = case_input_scene(r);
-        return own != NULL ? list_case(own) : r->refusal;
-    }
-    const int cases = name == NULL || strcmp(name, "cases") == 0,
-              formulations = name == NULL || strcmp(name, "formulations") == 0;
-    list_all(cases, formulations);
-    return cases || formulations ? EXIT_AS_EXPECTED : list_name(r);
+        what.type = case_input_scene(r);
+        if (what.type == NULL)
+            return r->refusal;
+    } else if (list_subject_find(r->case_name, &what, &f) != STATUS_OK)
+        return message_fail(STATUS_REFUSED, f.text);
+    if (strcmp(r->format, "csv") == 0)
+        return message_fail(STATUS_REFUSED, "list: --format text or json");
+    return strcmp(r->format, "json") == 0 ? write_json(r, &what) : show(r, &what);
 }
 
 int cli_list(int count, char **arguments)
@@ -192,5 +182,5 @@ int cli_list(int count, char **arguments)
         "\vbeamwork list\n"
         "beamwork list c_column\n"
         "beamwork list collocation",
-        "YTx", count, arguments, list_request);
+        "FYTx", count, arguments, list_request);
 }

@@ -4,13 +4,11 @@
 #include <string.h>
 
 #include "elements/feature.h"
-#include "harness/catalogue/registry.h"
-#include "harness/model/lacks.h"
-#include "harness/model/missing.h"
+#include "harness/request/runs_on.h"
 #include "harness/schema/schema.h"
 #include "harness/tables/paragraph.h"
 
-enum { COLUMN = 26, LINE = 4000, WORDS = 200 };
+enum { COLUMN = 26, LINE = 4000 };
 
 static const unsigned theories = FEATURE_ENGESSER | FEATURE_HARINGX;
 
@@ -120,35 +118,8 @@ static void show_rules(const formulation *chosen, const rule *rules, int count)
         printf("known findings: none\n");
 }
 
-/* A case at its default parameters. */
-typedef struct listed_case {
-    const char *name;
-    int runs;
-    char words[WORDS]; /* what is missing, or lacking in one direction */
-} listed_case;
-
-static int ask_cases(const element_type *t, listed_case out[], int room)
-{
-    int count = 0;
-    for (; registry_cases[count] != NULL && count < room; count++) {
-        const case_type *type = registry_cases[count];
-        listed_case *here = &out[count];
-        double value[CASE_MAX_PARAMETERS] = {0};
-        scene s;
-        *here = (listed_case){.name = type->name};
-        parameters_default(type, value);
-        if (cell_scene(type, value, NULL, &s, NULL) == STATUS_OK) {
-            here->runs = !missing_words(&s, t, here->words, sizeof here->words);
-            if (here->runs && !lacks_of(&s, t, here->words, sizeof here->words))
-                here->words[0] = '\0';
-        }
-        scene_free(&s);
-    }
-    return count;
-}
-
 /* Those of one kind whose words are the same, behind the first of them. */
-static void show_alike(const listed_case all[], int count, int first, const char *head)
+static void show_alike(const runs_on all[], int count, int first, const char *head)
 {
     char line[LINE];
     int names = 0;
@@ -166,8 +137,8 @@ static void show_alike(const listed_case all[], int count, int first, const char
 static void show_cases(const element_type *t)
 {
     enum { ROOM = 256 };
-    static listed_case all[ROOM];
-    const int count = ask_cases(t, all, ROOM);
+    static runs_on all[ROOM];
+    const int count = runs_on_cases(t, all, ROOM);
     printf("cases, at their default parameters\n");
     for (int i = 0; i < count; i++)
         if (all[i].runs && all[i].words[0] == '\0')

@@ -12,7 +12,6 @@
 #include "harness/record/output.h"
 #include "harness/record/store.h"
 #include "harness/record/system_folder.h"
-#include "harness/study/plan.h"
 #include "harness/tables/table_follow.h"
 #include "harness/tables/table_solution.h"
 
@@ -56,22 +55,6 @@ static status write_matrices(const command_request *r, const sweep *s, fault *f)
     snprintf(title, sizeof title, "%s, %s, %d elements per member", s->point[0].scene.name,
              r->formulation[0].key, r->mesh[0]);
     return system_folder_write(r->matrices, title, &s->point[0].scene, &cell->solve.systems, f);
-}
-
-/* The one cell, solved in this process so that its options reach it. */
-static status solve_cell(const command_request *r, sweep *s, fault *f)
-{
-    point *p = &s->point[0];
-    if (r->matrices != NULL)
-        scene_need(&p->scene, FEATURE_MASS);
-    cell_request request = {.scene = &p->scene, .elements = r->mesh[0], .keep_all = r->keep_all};
-    cell_formulation(&request, &r->formulation[0]);
-    request.solve.steps_between = r->steps;
-    request.solve.shapes = r->shapes;
-    request.solve.systems = r->matrices != NULL;
-    request.threads = r->threads;
-    guard_formulation(&r->formulation[0], r->time_limit);
-    return cell_run(&request, &s->series[0].cell[0], f);
 }
 
 /* NAME=A..B/N: both ends within the limits of the parameter. */
@@ -145,8 +128,8 @@ static status follow_modes(command_request *r, const case_type *type, fault *f)
 }
 
 /* What is needed before the solution; solve_request frees it. */
-static status prepare(command_request *r, const case_type *type, char note[DEFAULTS_NOTE], sweep *s,
-                      truths *t, fault *f)
+static status prepare(command_request *r, const case_type *type, char note[DEFAULTS_NOTE],
+                      solution_request *what, sweep *s, truths *t, fault *f)
 {
     TRY(files_check(r, r->shapes > 0, case_input_truths_path(r), f));
     const status known = case_input_truths(r, t, f);
@@ -155,7 +138,8 @@ static status prepare(command_request *r, const case_type *type, char note[DEFAU
     else
         TRY(known);
     TRY(defaults_fill(r, type, note, f));
-    return plan_one(type, r->parameter, r->formulation, 1, r->mesh, 1, s, f);
+    *what = defaults_request(r, type);
+    return solution_plan(what, s, f);
 }
 
 static status write_all(const command_request *r, const char *note, const sweep *s, const truths *t,
@@ -165,11 +149,14 @@ static status write_all(const command_request *r, const char *note, const sweep 
     return write_matrices(r, s, f);
 }
 
-static int solve_and_write(const command_request *r, const char *note, sweep *s, const truths *t)
+/* Solved in this process. */
+static int solve_and_write(const command_request *r, const char *note, const solution_request *what,
+                           sweep *s, const truths *t)
 {
     fault f = {""}, unwritten = {""};
     case_input_tell_analysis(r, &s->point[0].scene);
-    const status solved = solve_cell(r, s, &f);
+    guard_formulation(&what->formulation, r->time_limit);
+    const status solved = solution_run(what, s, &f);
     if (solved == STATUS_REFUSED || solved == STATUS_FAULT)
         return message_fail(solved, f.text);
     const status written = write_all(r, note, s, t, &unwritten);
@@ -192,9 +179,10 @@ static int solve_request(command_request *r)
         return message_exit(follow_modes(r, type, &f), &f);
     if (r->shapes > 0 && r->output == NULL)
         return message_fail(STATUS_REFUSED, "--shapes: into which file? Give -o FILE");
-    const status ready = prepare(r, type, note, &s, &t, &f);
+    solution_request what;
+    const status ready = prepare(r, type, note, &what, &s, &t, &f);
     const int code =
-        ready == STATUS_OK ? solve_and_write(r, note, &s, &t) : message_fail(ready, f.text);
+        ready == STATUS_OK ? solve_and_write(r, note, &what, &s, &t) : message_fail(ready, f.text);
     sweep_free(&s);
     truths_free(&t);
     return code;

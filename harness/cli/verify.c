@@ -1,6 +1,5 @@
 #include <limits.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <unistd.h>
 
 #include "harness/algebra/clock.h"
@@ -15,9 +14,7 @@
 #include "harness/record/markdown.h"
 #include "harness/record/output.h"
 #include "harness/record/store.h"
-#include "harness/study/noise.h"
-#include "harness/study/plan.h"
-#include "harness/study/run.h"
+#include "harness/request/verification.h"
 #include "harness/tables/table_overview.h"
 #include "harness/tables/table_run.h"
 #include "harness/tables/table_unexpected.h"
@@ -185,18 +182,6 @@ static int tell(const command_request *r, const sweep *s, const judgement *j)
     return code;
 }
 
-/* The finest meshes again where the verdicts may turn on their noise. */
-static status measure_noise(const sweep_request *request, const truths *t, sweep *s, fault *f)
-{
-    char *wanted = malloc((size_t)s->seriess + 1);
-    if (wanted == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for noise");
-    judgement_doubts(s, t, wanted);
-    const status outcome = noise_measure(request, wanted, s, f);
-    free(wanted);
-    return outcome;
-}
-
 /* Other programs as contestants; those of no point of this run are told. */
 static status add_beside(const char *path, int gates, sweep *s, fault *f)
 {
@@ -237,10 +222,7 @@ static status run(const command_request *r, const scenes *own, sweep *s, truths 
     for (int i = 0; i < r->beside_count; i++)
         TRY(files_check_input(r, r->beside[i], f));
     TRY(scenes_truths(own, r, t, f));
-    TRY(plan_sweep(&request, t, s, f));
-    TRY(run_sweep(&request, s, f));
-    if (s->unfinished == 0)
-        TRY(measure_noise(&request, t, s, f));
+    TRY(verification_run(&request, t, s, f));
     for (int i = 0; i < r->beside_count; i++)
         TRY(add_beside(r->beside[i], r->gate, s, f));
     return judge_and_write(r, s, t, j, begun, f);

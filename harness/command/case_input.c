@@ -1,13 +1,12 @@
 #include "harness/command/case_input.h"
 
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "harness/catalogue/case_find.h"
 #include "harness/command/message.h"
+#include "harness/truth/truths_place.h"
 
 /* All mistakes, a line each; as JSON where that is the form of the output. */
 static void tell_mistakes(const command_request *r, const mistakes *m, status outcome,
@@ -82,18 +81,11 @@ void case_input_close(command_request *r)
 
 const char *case_input_truths_path(const command_request *r)
 {
-    static char beside[PATH_MAX + 16];
+    static char found[PATH_MAX];
     if (r->truths != NULL)
         return r->truths;
-    if (getenv("BEAMWORK_TRUTHS") != NULL)
-        return getenv("BEAMWORK_TRUTHS");
-    const ssize_t length = readlink("/proc/self/exe", beside, PATH_MAX);
-    if (length <= 0)
-        return "truths.h5";
-    beside[length] = '\0';
-    char *slash = strrchr(beside, '/');
-    snprintf(slash + 1, 16, "truths.h5");
-    return beside;
+    truths_place(found);
+    return found;
 }
 
 status case_input_truths(const command_request *r, truths *t, fault *f)

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "harness/algebra/team.h"
+#include "harness/catalogue/formulation_list.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/plugin.h"
 #include "harness/command/case_input.h"
@@ -14,6 +15,7 @@
 #include "harness/command/message.h"
 #include "harness/command/option_check.h"
 #include "harness/command/option_table.h"
+#include "harness/request/meshes.h"
 
 static void refuse(const char *text)
 {
@@ -33,32 +35,19 @@ static int whole_number(const char *text, const char *what, long least, long mos
     return (int)value;
 }
 
-static void add_meshes(command_request *r, char *list)
+static void add_meshes(command_request *r, const char *list)
 {
-    for (char *one = strsep(&list, ","); one != NULL; one = strsep(&list, ",")) {
-        if (r->meshes == COMMAND_MAX_MESHES)
-            refuse("too many meshes; give at most 24");
-        r->mesh[r->meshes++] = whole_number(one, "number of elements", 1, 10000000);
-    }
+    fault f;
+    if (meshes_parse(list, COMMAND_MAX_MESHES, r->mesh, &r->meshes, &f) != STATUS_OK)
+        refuse(f.text);
 }
 
 void command_add_formulation(command_request *r, const char *text)
 {
     fault f;
-    if (strcmp(text, "all") == 0) {
-        for (int i = 0; formulations_at(i) != NULL && r->formulations < COMMAND_MAX_FORMULATIONS;
-             i++)
-            formulation_default(formulations_at(i), &r->formulation[r->formulations++]);
-        return;
-    }
-    if (r->formulations == COMMAND_MAX_FORMULATIONS)
-        refuse("too many formulations");
-    if (formulation_parse(text, &r->formulation[r->formulations], &f) != STATUS_OK)
+    if (formulation_list_add(text, COMMAND_MAX_FORMULATIONS, r->formulation, &r->formulations,
+                             &f) != STATUS_OK)
         refuse(f.text);
-    for (int i = 0; i < r->formulations; i++)
-        if (strcmp(r->formulation[i].key, r->formulation[r->formulations].key) == 0)
-            refuse("a formulation is given twice; give it once");
-    r->formulations++;
 }
 
 static void load_formulation(const char *path)

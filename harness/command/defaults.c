@@ -3,8 +3,22 @@
 #include <string.h>
 
 #include "harness/command/case_input.h"
-#include "harness/judge/preference.h"
-#include "harness/model/features.h"
+#include "harness/request/solution.h"
+
+solution_request defaults_request(const command_request *r, const case_type *type)
+{
+    solution_request out = {.type = type,
+                            .parameter = r->parameter,
+                            .elements = r->meshes > 0 ? r->mesh[0] : 0,
+                            .keep_all = r->keep_all,
+                            .steps = r->steps,
+                            .shapes = r->shapes,
+                            .threads = r->threads,
+                            .systems = r->matrices != NULL};
+    if (r->formulations > 0)
+        out.formulation = r->formulation[0];
+    return out;
+}
 
 /* A line of the note. */
 static void add(char note[DEFAULTS_NOTE], const char *choice, const char *why, const char *option)
@@ -13,67 +27,49 @@ static void add(char note[DEFAULTS_NOTE], const char *choice, const char *why, c
     snprintf(note + used, DEFAULTS_NOTE - used, "%s: %s; %s gives another\n", choice, why, option);
 }
 
-static status fill_formulation(command_request *r, const case_type *type, const scene *s,
-                               char note[DEFAULTS_NOTE], fault *f)
+/* What was chosen becomes what was given. */
+static void take(command_request *r, const solution_request *chosen, const solution_choice *why,
+                 char note[DEFAULTS_NOTE])
+{
+    char choice[FORMULATION_KEY + 16];
+    if (why->formulation[0] != '\0') {
+        r->formulation[0] = chosen->formulation;
+        r->formulations = 1;
+        snprintf(choice, sizeof choice, "-f %s", r->formulation[0].key);
+        add(note, choice, why->formulation, "-f NAME");
+    }
+    if (why->elements[0] != '\0') {
+        r->mesh[0] = chosen->elements;
+        r->meshes = 1;
+        snprintf(choice, sizeof choice, "-n %d", r->mesh[0]);
+        add(note, choice, why->elements, "-n N");
+    }
+}
+
+static status choose(command_request *r, const case_type *type, int elements,
+                     char note[DEFAULTS_NOTE], fault *f)
 {
     truths ledger = {0};
-    char why[FAULT_TEXT], choice[FORMULATION_KEY + 16];
-    const rule_subject where = {
-        .type = type, .parameter = r->parameter, .features = features_needed(s)};
-    const int known = truths_read_rules(case_input_truths_path(r), &ledger, NULL) == STATUS_OK;
-    const status outcome = preference_formulation(s, &where, known ? ledger.rule : NULL,
-                                                  ledger.rules, &r->formulation[0], why, f);
+    solution_choice why;
+    solution_request wanted = defaults_request(r, type);
+    if (r->formulations == 0)
+        truths_read_rules(case_input_truths_path(r), &ledger, NULL); /* it may be missing */
+    const status outcome = solution_choose(&wanted, ledger.rule, ledger.rules, elements, &why, f);
     truths_free(&ledger);
     TRY(outcome);
-    r->formulations = 1;
-    snprintf(choice, sizeof choice, "-f %s", r->formulation[0].key);
-    add(note, choice, why, "-f NAME");
+    take(r, &wanted, &why, note);
     return STATUS_OK;
-}
-
-static void fill_elements(command_request *r, const scene *s, char note[DEFAULTS_NOTE])
-{
-    char why[FAULT_TEXT], choice[32];
-    cell_request cell = {.scene = s, .keep_all = r->keep_all, .threads = r->threads};
-    cell_formulation(&cell, &r->formulation[0]);
-    cell.solve.steps_between = r->steps;
-    r->mesh[0] = preference_elements(&cell, why);
-    r->meshes = 1;
-    snprintf(choice, sizeof choice, "-n %d", r->mesh[0]);
-    add(note, choice, why, "-n N");
-}
-
-static status fill(command_request *r, const case_type *type, scene *s, int elements,
-                   char note[DEFAULTS_NOTE], fault *f)
-{
-    TRY(cell_scene(type, r->parameter, NULL, s, f));
-    if (r->matrices != NULL)
-        scene_need(s, FEATURE_MASS);
-    if (r->formulations == 0)
-        TRY(fill_formulation(r, type, s, note, f));
-    if (elements && r->meshes == 0)
-        fill_elements(r, s, note);
-    return STATUS_OK;
-}
-
-static status fill_scene(command_request *r, const case_type *type, int elements,
-                         char note[DEFAULTS_NOTE], fault *f)
-{
-    scene s = {0};
-    const status outcome = fill(r, type, &s, elements, note, f);
-    scene_free(&s);
-    return outcome;
 }
 
 status defaults_formulation(command_request *r, const case_type *type, char note[DEFAULTS_NOTE],
                             fault *f)
 {
     note[0] = '\0';
-    return r->formulations > 0 ? STATUS_OK : fill_scene(r, type, 0, note, f);
+    return r->formulations > 0 ? STATUS_OK : choose(r, type, 0, note, f);
 }
 
 status defaults_fill(command_request *r, const case_type *type, char note[DEFAULTS_NOTE], fault *f)
 {
     note[0] = '\0';
-    return r->formulations > 0 && r->meshes > 0 ? STATUS_OK : fill_scene(r, type, 1, note, f);
+    return r->formulations > 0 && r->meshes > 0 ? STATUS_OK : choose(r, type, 1, note, f);
 }

@@ -3,9 +3,12 @@
 #define BEAMWORK_DEFAULTS_H
 
 #include "harness/command/command.h"
+#include "harness/request/solution.h"
 
 enum { DEFAULTS_NOTE = 2 * FAULT_TEXT + 200 };
 
+/* The one cell that is asked for: the first -f and -n, where there are any. */
+solution_request defaults_request(const command_request *r, const case_type *type);
 /* Fills what is missing of -f and -n for one cell of the case at the parameters of the request.
  * note: a line for each choice and why; "" where both were given. REFUSED: no formulation offers
  * what the case needs. */

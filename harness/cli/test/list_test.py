@@ -63,6 +63,33 @@ class Lists(ProgramTest):
         done = self.answered("list", "beamw", env=environment(BEAMWORK_TRUTHS="/nowhere"))
         self.assertNotIn("finding", done.stdout)
 
+    def test_json(self):
+        """The same, for programs."""
+        every = self.record("list")
+        self.assertEqual([one["case"] for one in every["cases"]], self.cases)
+        self.assertEqual([one["formulation"] for one in every["formulations"]], self.formulations)
+        self.assertEqual({**self.record("list", "cases"), **self.record("list", "formulations")},
+                         every)
+        case = self.record("list", "c_column")
+        self.assertEqual({one["name"] for one in case["parameters"] if one["choices"]},
+                         {"section_data", "shear_stability"})
+        self.assertEqual([one["formulation"] for one in case["formulations"]], self.formulations)
+        one = self.record("list", "beamw:mass=lumped")
+        option = {entry["name"]: entry for entry in one["options"]}["mass"]
+        self.assertEqual((option["value"], option["default"] in option["choices"]),
+                         ("lumped", True))
+        self.assertNotEqual(option["value"], option["default"])
+        self.assertEqual([here["case"] for here in one["cases"]], self.cases)
+        for here in one["cases"]:
+            there = {who["formulation"]: who for who in
+                     self.record("list", here["case"])["formulations"]}["beamw"]
+            self.assertEqual((here["runs"], here["without"]), (there["runs"], there["without"]))
+        words = self.shown("beamw")[0]
+        self.assertTrue(one["findings"])
+        for rule in one["findings"]:
+            self.assertIn(" ".join(rule["cause"].split()), words)
+        self.refused(2, "text or json", "list", "--format", "csv")
+
     def test_names(self):
         self.assertEqual(self.answered("list", "formulations").stdout.splitlines()[0][:13],
                          "formulations ")

@@ -1,0 +1,61 @@
+#include "harness/request/solution.h"
+
+#include "harness/judge/preference.h"
+#include "harness/model/features.h"
+#include "harness/study/plan.h"
+
+static cell_request cell_of(const solution_request *r, const scene *s)
+{
+    cell_request out = {
+        .scene = s, .elements = r->elements, .keep_all = r->keep_all, .threads = r->threads};
+    cell_formulation(&out, &r->formulation);
+    out.solve.steps_between = r->steps;
+    return out;
+}
+
+/* With a scene that solution_choose frees. */
+static status choose(solution_request *r, const rule *rules, int count, int elements, scene *s,
+                     solution_choice *why, fault *f)
+{
+    TRY(cell_scene(r->type, r->parameter, NULL, s, f));
+    if (r->systems)
+        scene_need(s, FEATURE_MASS);
+    if (r->formulation.type == NULL) {
+        const rule_subject where = {
+            .type = r->type, .parameter = r->parameter, .features = features_needed(s)};
+        TRY(preference_formulation(s, &where, rules, count, &r->formulation, why->formulation, f));
+    }
+    if (elements && r->elements == 0) {
+        const cell_request cell = cell_of(r, s);
+        r->elements = preference_elements(&cell, why->elements);
+    }
+    return STATUS_OK;
+}
+
+status solution_choose(solution_request *r, const rule *rules, int count, int elements,
+                       solution_choice *why, fault *f)
+{
+    scene s = {0};
+    *why = (solution_choice){"", ""};
+    if (r->formulation.type != NULL && (!elements || r->elements > 0))
+        return STATUS_OK;
+    const status outcome = choose(r, rules, count, elements, &s, why, f);
+    scene_free(&s);
+    return outcome;
+}
+
+status solution_plan(const solution_request *r, sweep *s, fault *f)
+{
+    TRY(plan_one(r->type, r->parameter, &r->formulation, 1, &r->elements, 1, s, f));
+    if (r->systems)
+        scene_need(&s->point[0].scene, FEATURE_MASS);
+    return STATUS_OK;
+}
+
+status solution_run(const solution_request *r, sweep *s, fault *f)
+{
+    cell_request request = cell_of(r, &s->point[0].scene);
+    request.solve.shapes = r->shapes;
+    request.solve.systems = r->systems;
+    return cell_run(&request, &s->series[0].cell[0], f);
+}

@@ -1,0 +1,32 @@
+/* One cell of a case: asked for, chosen where nobody said, and solved. Command line and library
+ * both ask through it. */
+#ifndef BEAMWORK_SOLUTION_H
+#define BEAMWORK_SOLUTION_H
+
+#include "harness/study/sweep.h"
+
+typedef struct solution_request {
+    const case_type *type;
+    const double *parameter; /* of the case */
+    formulation formulation; /* type NULL: to be chosen */
+    int elements;            /* of each member; 0: to be chosen */
+    int keep_all, steps, shapes, threads;
+    int systems; /* 1: the matrices of small motions about all states are kept */
+} solution_request;
+
+/* What was chosen, and why: one line each; "" where it was given. */
+typedef struct solution_choice {
+    char formulation[FAULT_TEXT], elements[FAULT_TEXT];
+} solution_choice;
+
+/* Fills the formulation (harness/judge/preference.h), and the elements where they are wanted; rules
+ * NULL: the ledger is not known. REFUSED: no formulation offers what the case needs. */
+status solution_choose(solution_request *, const rule *rules, int count, int elements,
+                       solution_choice *why, fault *f);
+/* One point, series and mesh, not yet run; sweep_free frees them, also after a failure. */
+status solution_plan(const solution_request *, sweep *, fault *);
+/* Solves the one cell in this process. A cell that is not solved is a result all the same: not
+ * after REFUSED and FAULT. */
+status solution_run(const solution_request *, sweep *, fault *);
+
+#endif
