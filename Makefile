@@ -63,7 +63,7 @@ verify: all ## judge every formulation on every case against the stored truths
 
 # What is fuzzed is compiled too: its own targets only run with clang.
 FUZZED := $(patsubst %.c,$(BUILD)/%.o,$(wildcard harness/fuzz/*.c))
-tests: all $(TESTS) $(FUZZED) ## build what make test runs
+tests: all library $(TESTS) $(FUZZED) ## build what make test runs
 
 test: tests needs-test layers ## run all tests; ends in "N passed, M failed" (and ", K skipped")
 	@BEAMWORK="$(PROGRAM)" BEAMWORK_TRUTHS="$(TRUTHS)" BEAMWORK_REFERENCE="$(CURDIR)/reference" harness/tools/run_tests.sh $(BUILD)/logs $(TESTS) -- $(sort $(PYTHON_TESTS))
@@ -217,10 +217,12 @@ $(BUILD)/%_test: $(BUILD)/%_test.o $(KIT) $(LIBRARY)
 # A test of what happens when memory runs out: allocations of our own code pass through it.
 $(BUILD)/harness/study/test/memory_test: private LDFLAGS += -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=free,--wrap=strdup,--wrap=strndup,--wrap=open_memstream
 
-$(TRUTHS): $(wildcard reference/tables/*.csv reference/predicted/*.csv reference/extremes/*.csv reference/*.csv reference/*.py)
+$(TRUTHS): $(wildcard reference/tables/*.csv reference/predicted/*.csv reference/extremes/*.csv reference/*.csv) reference/pack.py
 	@harness/tools/dependencies.sh verify
 	@mkdir -p $(@D)
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) reference/pack.py -o $@
+
+include harness/library/library.mk
 
 FORCE:
 

@@ -1,0 +1,31 @@
+#include "harness/library/contestants.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "harness/study/worker.h"
+
+status contestants_parse(const char *names, formulation list[CONTESTANTS_MOST], int *count,
+                         fault *f)
+{
+    char one[FORMULATION_KEY + 64];
+    *count = 0;
+    for (const char *at = names != NULL ? names : ""; *at != '\0';) {
+        const int blanks = (int)strspn(at, " "), length = (int)strcspn(at + blanks, " ");
+        at += blanks;
+        if (length >= (int)sizeof one)
+            return fault_set(f, STATUS_REFUSED, "formulation '%.60s...': the name is too long", at);
+        snprintf(one, sizeof one, "%.*s", length, at);
+        if (length > 0)
+            TRY(formulation_list_add(one, CONTESTANTS_MOST, list, count, f));
+        at += length;
+    }
+    return STATUS_OK;
+}
+
+int contestants_jobs(void)
+{
+    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    return processors < 1 ? 1 : processors < WORKERS_MOST ? (int)processors : WORKERS_MOST;
+}

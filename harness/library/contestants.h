@@ -1,0 +1,14 @@
+/* Formulations and processes of a call. */
+#ifndef BEAMWORK_CONTESTANTS_H
+#define BEAMWORK_CONTESTANTS_H
+
+#include "harness/catalogue/formulation_list.h"
+
+enum { CONTESTANTS_MOST = 64 };
+
+/* Names between blanks; NULL: none is named, count 0. */
+status contestants_parse(const char *names, formulation list[CONTESTANTS_MOST], int *count,
+                         fault *f);
+int contestants_jobs(void); /* processes where nobody said how many */
+
+#endif

@@ -1,0 +1,18 @@
+# The C library: a shared one whose only symbols are the functions of beamwork.h, and a static one
+# whose other symbols are local, so that they clash with nobody's.
+SHARED := $(BUILD)/libbeamwork.so.0
+STATIC := $(BUILD)/static/libbeamwork.a
+LIBRARY_DOORS := $(patsubst %.c,$(BUILD)/%.o,$(sort $(wildcard harness/library/*.c)))
+EXPORTS := harness/library/exports.map
+
+.PHONY: library
+library: $(SHARED) $(STATIC) $(TRUTHS) ## the C library: build/libbeamwork.so.0, build/static/libbeamwork.a
+
+$(SHARED): $(LIBRARY_DOORS) $(LIBRARY) $(EXPORTS)
+	$(call SAY,link $@)$(CC) $(CFLAGS) -shared -Wl,-soname,$(@F) -Wl,--version-script=$(EXPORTS) -o $@ $(LIBRARY_DOORS) $(LIBRARY) $(LDFLAGS) $(DEP_LIBS)
+
+$(STATIC): $(LIBRARY_DOORS) $(LIBRARY)
+	@mkdir -p $(@D)
+	$(call SAY,link $@)$(LD) -r -o $(@D)/beamwork.o $(LIBRARY_DOORS) $(LIBRARY)
+	@objcopy --wildcard --keep-global-symbol='bw_*' $(@D)/beamwork.o
+	@rm -f $@ && $(AR) rcs $@ $(@D)/beamwork.o

@@ -1,0 +1,99 @@
+/* Numbers of a result that are put into arrays when they are asked for. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/library/result_handle.h"
+
+/* The field of a step, among those that are numbers; -1: none. */
+static int field_of(const char *name, const schema_field **out)
+{
+    const schema_field *list[SCHEMA_MOST_FIELDS];
+    const int count = schema_fields(&record_step, 0, list);
+    for (int i = 0; i < count && i < RESULT_COLUMNS; i++)
+        if (strcmp(list[i]->name, name) == 0 && list[i]->kind != FIELD_TEXT &&
+            list[i]->kind != FIELD_ENUM && list[i]->count == 0) {
+            *out = list[i];
+            return i;
+        }
+    return -1;
+}
+
+static double number_of(const subject *s, const schema_field *field)
+{
+    field_value v;
+    schema_read(s, field, &v);
+    return field->kind == FIELD_DOUBLE ? *v.numbers : (double)v.whole;
+}
+
+static double *read_column(const bw_result *r, const schema_field *field)
+{
+    const gathering g = {&r->sweep, NULL, r->truths};
+    subjects list = {0};
+    gather_mesh(&g, &record_step, 0, 0, &list);
+    double *out = list.bad ? NULL : malloc(((size_t)list.count + 1) * sizeof *out);
+    for (int i = 0; out != NULL && i < list.count; i++)
+        out[i] = number_of(&list.row[i], field);
+    gather_free(&list);
+    return out;
+}
+
+size_t bw_result_steps(bw_result *r, const char *column, const double **values)
+{
+    const schema_field *field = NULL;
+    const int i = r != NULL && column != NULL ? field_of(column, &field) : -1;
+    if (i >= 0 && r->column[i] == NULL)
+        r->column[i] = read_column(r, field);
+    const double *found = i >= 0 ? r->column[i] : NULL;
+    if (values != NULL)
+        *values = found;
+    return found != NULL ? (size_t)result_handle_solution(r)->steps : 0;
+}
+
+static const shapes *shapes_of(const bw_result *r)
+{
+    static const shapes none = {0};
+    return r != NULL ? &result_handle_solution(r)->shapes : &none;
+}
+
+static double *read_positions(const shapes *s)
+{
+    const size_t count = (size_t)s->states * (size_t)s->points;
+    double *out = malloc((3 * count + 1) * sizeof *out);
+    for (size_t i = 0; out != NULL && i < count; i++)
+        memcpy(out + 3 * i, s->point[i].r, sizeof s->point[i].r);
+    return out;
+}
+
+size_t bw_result_shapes(bw_result *r, size_t *points, const double **position)
+{
+    const shapes *s = shapes_of(r);
+    if (s->states > 0 && r->position == NULL)
+        r->position = read_positions(s);
+    const double *found = s->states > 0 ? r->position : NULL;
+    if (points != NULL)
+        *points = found != NULL ? (size_t)s->points : 0;
+    if (position != NULL)
+        *position = found;
+    return found != NULL ? (size_t)s->states : 0;
+}
+
+size_t bw_result_members(const bw_result *r, const int **first)
+{
+    const shapes *s = shapes_of(r);
+    if (first != NULL)
+        *first = s->states > 0 ? s->first : NULL;
+    return s->states > 0 ? (size_t)s->members : 0;
+}
+
+const char *bw_result_shape_kind(const bw_result *r, size_t state)
+{
+    const shapes *s = shapes_of(r);
+    return state < (size_t)s->states ? shapes_kind_name(s->state[state].kind) : NULL;
+}
+
+double bw_result_shape_value(const bw_result *r, size_t state)
+{
+    const shapes *s = shapes_of(r);
+    return state < (size_t)s->states ? s->state[state].value : NAN;
+}

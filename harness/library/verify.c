@@ -1,0 +1,113 @@
+#include "harness/judge/families.h"
+#include "harness/library/call.h"
+#include "harness/library/contestants.h"
+#include "harness/library/known.h"
+#include "harness/library/options.h"
+#include "harness/library/source.h"
+#include "harness/library/text.h"
+#include "harness/record/json.h"
+#include "harness/record/output.h"
+#include "harness/record/store.h"
+#include "harness/request/verification.h"
+#include "harness/study/worker.h"
+
+enum { TIME_LIMIT = 120 /* [s] of a cell */, LONGEST = 1000000, DOUBLINGS = 10, PICTURES = 5 };
+
+/* What is asked, and what answers it; verify frees it. */
+typedef struct trial {
+    const bw_scene *scene;
+    const char *results;
+    sweep_request request;
+    const case_type *type[2];
+    formulation formulation[CONTESTANTS_MOST];
+    json_t *kept;
+    truths truths;
+    sweep sweep;
+    judgement judgement;
+} trial;
+
+static status read_truths(trial *v, fault *f)
+{
+    if (v->scene == NULL)
+        return known_read_all(&v->truths, f);
+    const scene_file *file = source_file(v->scene->from);
+    TRY(known_read(file == NULL ? source_case(v->scene->from) : NULL, &v->truths, f));
+    return file != NULL ? scene_file_truths_add_all(file, &v->truths, f) : STATUS_OK;
+}
+
+static status prepare(trial *v, const char *names, const char *options, fault *f)
+{
+    sweep_request *r = &v->request;
+    const call_option table[] = {{"jobs", OPTION_WHOLE, &r->jobs, 1, WORKERS_MOST},
+                                 {"time_limit", OPTION_WHOLE, &r->time_limit, 0, LONGEST},
+                                 {"doublings", OPTION_WHOLE, &r->doublings, 0, DOUBLINGS},
+                                 {"shapes", OPTION_WHOLE, &r->shapes, 0, PICTURES},
+                                 {.name = NULL}};
+    place where;
+    TRY(options_read(options, table, &v->kept, f));
+    TRY(contestants_parse(names, v->formulation, &r->formulations, f));
+    r->formulation = v->formulation;
+    if (v->scene != NULL) {
+        v->type[0] = source_case(v->scene->from);
+        r->cases = v->type;
+    }
+    if (v->results != NULL)
+        TRY(output_try(v->results, OUTPUT_WHOLE_FILE, &where, f));
+    return read_truths(v, f);
+}
+
+static status judge(trial *v, fault *f)
+{
+    const sweep_request *r = &v->request;
+    const int whole = r->select == NULL && r->formulations == 0 && v->scene == NULL;
+    TRY(verification_run(r, &v->truths, &v->sweep, f));
+    if (v->scene != NULL)
+        TRY(families_add_truths(&v->sweep, 1, &v->truths, f));
+    return judgement_make(&v->sweep, &v->truths, whole, &v->judgement, f);
+}
+
+static status store(const trial *v, const environment *e, fault *f)
+{
+    if (v->results == NULL)
+        return STATUS_OK;
+    known_lock();
+    const status outcome = store_write(v->results, &v->sweep, &v->judgement, e, f);
+    known_unlock();
+    return outcome;
+}
+
+static status answer(trial *v, char **json, fault *f)
+{
+    text t;
+    TRY(judge(v, f));
+    const environment e = environment_now(v->request.jobs);
+    TRY(store(v, &e, f));
+    TRY(text_begin(&t, f));
+    return text_end(&t, json_write_verdicts(t.to, &v->sweep, &v->judgement, &e, f), json, f);
+}
+
+static status verify(trial *v, const char *names, const char *options, char **json, fault *f)
+{
+    if (json == NULL)
+        return fault_set(f, STATUS_REFUSED, "bw_verify: give a place for the text");
+    *json = NULL;
+    status outcome = prepare(v, names, options, f);
+    if (outcome == STATUS_OK)
+        outcome = answer(v, json, f);
+    judgement_free(&v->judgement);
+    sweep_free(&v->sweep);
+    truths_free(&v->truths);
+    json_decref(v->kept);
+    return outcome;
+}
+
+bw_status bw_verify(const bw_scene *from, const char *formulations, const char *select,
+                    const char *options, const char *results, char **json, char **why)
+{
+    call c;
+    call_begin(&c, why);
+    trial v = {.scene = from,
+               .results = results,
+               .request = {.select = select, .jobs = contestants_jobs(), .time_limit = TIME_LIMIT}};
+    return call_end(&c, verify(&v, formulations, options, json, &c.fault));
+}
