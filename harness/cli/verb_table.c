@@ -7,6 +7,8 @@
 #include "harness/catalogue/environment.h"
 #include "harness/cli/cli.h"
 #include "harness/command/help.h"
+#include "harness/completion/completion.h"
+#include "harness/completion/offer.h"
 #include "harness/manual/manual.h"
 #include "harness/tables/paragraph.h"
 
@@ -176,6 +178,35 @@ static int write_page(char *first, const char *name)
     return help_of(first, bare);
 }
 
+/* The verb itself, and what is none. */
+static void complete_verb(const char *begun, int others)
+{
+    const offer o = {stdout, begun, 0, begun};
+    for (int i = 0; i < VERBS; i++)
+        if (verbs[i].run != NULL)
+            offer_text(&o, verbs[i].name, verbs[i].summary);
+    if (others) {
+        offer_text(&o, "help", "of a verb");
+        offer_text(&o, "--help", "all verbs");
+        offer_text(&o, "--version", "versions of the program and its libraries");
+    }
+}
+
+/* What may stand in the place of the last word; shells ask (harness/completion). */
+static int complete(char *first, int count, char **words)
+{
+    const completion_line line = {count - 1, words + 1};
+    const verb *v = count > 1 ? find(words[0]) : NULL;
+    if (count == 1)
+        complete_verb(words[0], 1);
+    else if (count == 2 && strcmp(words[0], "help") == 0)
+        complete_verb(words[1], 0);
+    if (v == NULL)
+        return EXIT_AS_EXPECTED;
+    help_use(completion_write, &line);
+    return help_of(first, words[0]);
+}
+
 static int version(void)
 {
     const environment e = environment_now(1);
@@ -189,6 +220,8 @@ int verb_table_run(int count, char **arguments)
     const char *first = count > 1 ? arguments[1] : "help";
     if (strcmp(first, "help") == 0 && count > 2 && strcmp(arguments[2], "--man") == 0)
         return count > 3 ? write_page(arguments[0], arguments[3]) : list_pages();
+    if (strcmp(first, "help") == 0 && count > 3 && strcmp(arguments[2], "--complete") == 0)
+        return complete(arguments[0], count - 3, arguments + 3);
     if (strcmp(first, "help") == 0 && count > 2)
         return help_of(arguments[0], arguments[2]);
     if (strcmp(first, "help") == 0 || strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)
