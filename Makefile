@@ -217,7 +217,7 @@ $(BUILD)/%_test: $(BUILD)/%_test.o $(KIT) $(LIBRARY)
 # A test of what happens when memory runs out: allocations of our own code pass through it.
 $(BUILD)/harness/study/test/memory_test: private LDFLAGS += -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=free,--wrap=strdup,--wrap=strndup,--wrap=open_memstream
 
-$(TRUTHS): $(wildcard reference/tables/*.csv reference/predicted/*.csv reference/extremes/*.csv reference/*.csv) reference/pack.py
+$(TRUTHS): $(wildcard reference/tables/*.csv reference/predicted/*.csv reference/extremes/*.csv reference/*.csv reference/*.py)
 	@harness/tools/dependencies.sh verify
 	@mkdir -p $(@D)
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) reference/pack.py -o $@

@@ -1,4 +1,4 @@
-"""Packs the truth tables, the findings and the glossary into one HDF5 file that the driver reads.
+"""Packs the truth tables, the findings, the formulations that gate and the glossary into one HDF5 file that the driver reads.
 
 usage: pack.py -o FILE     Layout: reference/README.md.  The file appears complete or not at all.
 """
@@ -8,15 +8,18 @@ import fnmatch
 import math
 import os
 import pathlib
-import re
 import sys
 import zlib
 
-VERSION = 2  # of the packed file; TRUTHS_VERSION of harness/truth/truths.h
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from reference.accepted import ACCEPTED_COLUMNS, read_accepted  # noqa: E402
+from reference.glossary import GLOSSARY_COLUMNS, read_glossary  # noqa: E402
+from reference.table import Refused, read_csv  # noqa: E402
+
+VERSION = 3  # of the packed file; TRUTHS_VERSION of harness/truth/truths.h
 HERE = pathlib.Path(__file__).resolve().parent
 COLUMNS = "case,parameters,formulation,theory,elements,quantity,at,value,unit,uncertainty,kind,model,convention,source".split(",")
 FINDING_COLUMNS = "rule,formulations,cases,condition,quantities,verdicts,largest_error,predicted,cause,proof".split(",")
-GLOSSARY_COLUMNS = "term,also,group,meaning,see".split(",")
 EXTREME_COLUMNS = "extreme,from,to,formulation,quantity,outcome,proof".split(",")
 OUTCOMES = ("value", "coarse", "wrong", "not converged", "singular", "refused", "no value", "fault")
 KINDS = ("exact", "predicted", "independent", "consensus", "agreement", "published", "reconstructed", "experiment", "unrepeatable")
@@ -28,26 +31,11 @@ TRUTH_FOLDERS = ("tables", "predicted")
 VERDICTS = ("biased", "biased, as predicted", "wrong limit", "wrong limit, as predicted", "undecided", "low order", "diverged", "refused")
 
 
-class Refused(Exception):
-    """A row that makes no sense; the text names it."""
-
-
 def fnv1a(text):
     value = 14695981039346656037
     for byte in text.encode():
         value = (value ^ byte) * 1099511628211 % 2 ** 64
     return value
-
-
-def read_csv(path, columns):
-    with open(path, newline="", encoding="utf-8") as table:
-        reader = csv.DictReader(table)
-        if reader.fieldnames != columns:
-            raise Refused(f"{path.name}: columns must be {','.join(columns)}")
-        for number, row in enumerate(reader, 2):
-            if None in row or None in row.values():
-                raise Refused(f"{path.name}:{number}: wrong number of fields")
-            yield number, row
 
 
 def read_defaults(path):
@@ -215,32 +203,6 @@ def read_extreme_findings(path):
     return rows
 
 
-def looked_up(word):
-    """As `beamwork explain` compares words."""
-    return " ".join(re.split(r"[ _-]+", word.lower()))
-
-
-def read_glossary(path):
-    """Entries, each with names of its own; what they send to exists."""
-    rows, names = [], {}
-    for number, row in read_csv(path, GLOSSARY_COLUMNS):
-        where = f"{path.name}:{number}"
-        for column in ("term", "group", "meaning"):
-            if not row[column]:
-                raise Refused(f"{where}: an entry needs {column}")
-        for name in [row["term"], *filter(None, row["also"].split("|"))]:
-            if looked_up(name) in names:
-                raise Refused(f"{where}: '{name}' is explained at {names[looked_up(name)]}")
-            names[looked_up(name)] = where
-        rows.append(row)
-    terms = {row["term"] for row in rows}
-    for row in rows:
-        for word in filter(None, row["see"].split("|")):
-            if word not in terms or word == row["term"]:
-                raise Refused(f"{path.name}: '{row['term']}' sends to '{word}', which is no other term")
-    return rows
-
-
 def write_columns(group, rows, columns):
     import numpy
     for name in columns:
@@ -267,6 +229,7 @@ def pack(folder, out):
     truths = read_truths([folder / name for name in TRUTH_FOLDERS], defaults)
     findings = read_findings(folder / "findings.csv", defaults)
     glossary = read_glossary(folder / "glossary.csv")
+    accepted = read_accepted(folder / "accepted.csv")
     extremes = read_truths([folder / "extremes"], defaults)
     extreme_findings = read_extreme_findings(folder / "extreme_findings.csv")
     temporary = f"{out}.part{os.getpid()}"
@@ -279,6 +242,7 @@ def pack(folder, out):
                 write_columns(group.create_group(case), rows, COLUMNS[1:] + ["hash"])
             write_columns(file.create_group("findings"), findings, FINDING_COLUMNS)
             write_columns(file.create_group("glossary"), glossary, GLOSSARY_COLUMNS)
+            write_columns(file.create_group("accepted"), accepted, ACCEPTED_COLUMNS)
             group = file.create_group("extremes")
             for case, rows in sorted(extremes.items()):
                 write_columns(group.create_group(case), rows, COLUMNS[1:] + ["hash"])

@@ -4,7 +4,11 @@
 
 #include "harness/catalogue/registry.h"
 
+enum { MOST_ACCEPTED = 256 };
+
 static const element_type *loaded[FORMULATIONS_MOST_LOADED + 1];
+static const element_type *accepted[MOST_ACCEPTED + 1];
+static int are_told, all_are_accepted;
 
 const element_type *formulations_at(int i)
 {
@@ -23,12 +27,40 @@ const element_type *formulations_named(const char *name, size_t length)
     return NULL;
 }
 
+static int is_among(const element_type *const list[], const element_type *t)
+{
+    int i = 0;
+    while (list[i] != NULL && list[i] != t)
+        i++;
+    return list[i] != NULL;
+}
+
+int formulations_is_loaded(const element_type *t)
+{
+    return is_among(loaded, t);
+}
+
 int formulations_is_new(const element_type *t)
 {
-    int found = 0;
-    for (int i = 0; i < FORMULATIONS_MOST_LOADED && loaded[i] != NULL; i++)
-        found |= loaded[i] == t;
-    return found;
+    if (all_are_accepted)
+        return 0;
+    return formulations_is_loaded(t) || (are_told && !is_among(accepted, t));
+}
+
+void formulations_accept(const char *name)
+{
+    int count = 0;
+    const element_type *t = formulations_named(name, strlen(name));
+    are_told = 1;
+    while (accepted[count] != NULL)
+        count++;
+    if (t != NULL && !is_among(accepted, t) && count < MOST_ACCEPTED)
+        accepted[count] = t;
+}
+
+void formulations_accept_all(void)
+{
+    all_are_accepted = 1;
 }
 
 status formulations_add(const element_type *t, fault *f)

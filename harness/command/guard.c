@@ -42,7 +42,7 @@ static void stand_on_another_stack(void)
 
 void guard_formulation(const formulation *chosen, int seconds)
 {
-    if (!formulations_is_new(chosen->type))
+    if (!formulations_is_loaded(chosen->type))
         return;
     struct sigaction action = {.sa_handler = tell, .sa_flags = SA_ONSTACK | SA_RESETHAND};
     stand_on_another_stack();

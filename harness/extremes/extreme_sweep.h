@@ -14,6 +14,7 @@ typedef struct extreme_count {
 
 typedef struct extreme_sweep {
     int formulations, outcomes, findings, unexpected, unobserved;
+    int is_new; /* outcomes of new formulations that would need a finding: they do not gate */
     formulation *formulation;
     sweep first, neighbours;
     extreme_outcome *outcome;

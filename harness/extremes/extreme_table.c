@@ -192,6 +192,11 @@ void extreme_table(FILE *to, const extreme_sweep *s)
     print_legend(to);
     print_unexpected(to, s);
     print_counts(to, s);
+    if (s->is_new > 0)
+        paragraph_say(to, 0, 0,
+                      "%d outcomes of new formulations, which do not gate, are neither a value nor "
+                      "coarse and would need findings",
+                      s->is_new);
     fprintf(to, "%d outcomes differ from the expected ones, %d findings not observed\n",
             s->unexpected, s->unobserved);
 }

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/catalogue/formulations.h"
+
 /* Formulations with options beyond this have one column with all their options. */
 enum { MOST_COLUMNS = 10 };
 /* More cases than that: those that pass share lines. */
@@ -78,15 +80,28 @@ static int row_of(const overview *o, const case_type *type)
     return i;
 }
 
+static int is_new(const series *one)
+{
+    return one->imported == NULL && formulations_is_new(one->formulation.type);
+}
+
+static void add_columns(const sweep *s, overview *out, int of_new)
+{
+    for (int i = 0; i < s->seriess; i++) {
+        const char *name = name_of(&s->series[i], out->joined);
+        if (is_new(&s->series[i]) == of_new && column_of(out, name) == out->columns)
+            out->column[out->columns++] = name;
+    }
+}
+
+/* New formulations stand behind the others. */
 static void find_columns(const sweep *s, overview *out, int joined)
 {
     out->joined = joined;
     out->columns = 0;
-    for (int i = 0; i < s->seriess; i++) {
-        const char *name = name_of(&s->series[i], joined);
-        if (column_of(out, name) == out->columns)
-            out->column[out->columns++] = name;
-    }
+    add_columns(s, out, 0);
+    out->accepted = out->columns;
+    add_columns(s, out, 1);
 }
 
 static void find_rows(const sweep *s, overview *out)

@@ -28,7 +28,8 @@ typedef struct overview_cell {
 
 typedef struct overview {
     int rows, columns;
-    int joined; /* 1: a column has a formulation with all its options */
+    int joined;   /* 1: a column has a formulation with all its options */
+    int accepted; /* columns before those of new formulations, which do not gate */
     const case_type **row;
     const char **column; /* names, which live as long as the sweep */
     overview_cell *cell; /* [rows*columns] */

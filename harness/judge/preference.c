@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "harness/catalogue/choice.h"
+#include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 #include "harness/model/features.h"
 #include "harness/model/lacks.h"
@@ -82,7 +83,7 @@ status preference_formulation(const scene *s, const rule_subject *where, const r
     standing best = {{0}};
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *type = registry_formulations[i];
-        if (!can_run(s, type))
+        if (formulations_is_new(type) || !can_run(s, type)) /* nobody knows its defects yet */
             continue;
         const standing here = standing_of(s, type, where, rules, rules != NULL ? count : 0);
         if (chosen != NULL && !is_better(&here, &best))

@@ -106,6 +106,8 @@ static void write_legend(FILE *to, const overview *o)
             "; **!** not as expected. A mark is the worst verdict over all parameters%s; its "
             "number: quantities that have it.\n",
             o->joined ? " and options" : "");
+    if (o->accepted < o->columns)
+        fprintf(to, "\n(new): not accepted yet; its verdicts do not gate.\n");
 }
 
 static void write_row(FILE *to, const overview *o, int row)
@@ -128,6 +130,7 @@ static void write_overview(FILE *to, const overview *o)
     for (int c = 0; c < o->columns; c++) {
         fprintf(to, " | ");
         cell(to, o->column[c]);
+        fputs(c >= o->accepted ? " (new)" : "", to);
     }
     fprintf(to, " |\n|---");
     for (int c = 0; c < o->columns; c++)

@@ -129,7 +129,7 @@ static const schema_field fields[] = {
     {"lacks", "", FIELD_TEXT, "what it offers in one direction only", .get = get_lacks},
     {"differences", "", FIELD_TEXT, "what it leaves to differences: its times rank nothing",
      .get = get_differences},
-    {"is_new", "", FIELD_FLAG, "loaded from outside: it does not gate", .get = get_is_new},
+    {"is_new", "", FIELD_FLAG, "not accepted yet: its verdicts do not gate", .get = get_is_new},
     {"shear_theory", "", FIELD_TEXT, "of shear in stability", .get = get_theory},
     {"statics_least", "1", FIELD_INT, "order of convergence in statics", .get = get_order},
     {"statics_highest", "1", FIELD_INT, "the same where leading terms vanish", .offset = 1,

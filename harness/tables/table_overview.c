@@ -40,9 +40,14 @@ static int piece_of(const char *name, int limit, int *cut)
     return most < limit - 1 ? most : limit - 1;
 }
 
-static head head_of(const char *name, int limit)
+/* mark: a line above the name, or "". */
+static head head_of(const char *name, int limit, const char *mark)
 {
     head out = {0};
+    if (mark[0] != '\0') {
+        out.width = snprintf(out.line[0], sizeof out.line[0], "%s", mark);
+        out.lines = 1;
+    }
     while (*name != '\0' && out.lines < HEAD_LINES) {
         int cut;
         const int length = piece_of(name, limit, &cut);
@@ -60,7 +65,7 @@ static int width_with(const overview *o, screen look, block *b, int limit)
     char text[OVERVIEW_TEXT];
     int sum = b->name;
     for (int c = b->from; c < b->to; c++) {
-        b->head[c] = head_of(o->column[c], limit);
+        b->head[c] = head_of(o->column[c], limit, c >= o->accepted ? "(new)" : "");
         for (int r = 0; r < o->rows; r++) {
             overview_text(overview_at(o, r, c), look.utf8, text);
             const int width = paragraph_columns(text);
@@ -192,6 +197,8 @@ static void print_legend(FILE *to, screen look, const overview *o)
     }
     fprintf(to, "\nA mark is the worst verdict%s; its number: quantities that have it.\n",
             o->joined ? " over all parameters and options" : " over all parameters");
+    if (o->accepted < o->columns)
+        fprintf(to, "(new): not accepted yet; its verdicts do not gate.\n");
 }
 
 void table_overview(FILE *to, screen look, const overview *o)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "harness/catalogue/registry.h"
+#include "harness/truth/accepted.h"
 #include "harness/truth/columns.h"
 #include "harness/truth/truth_rows.h"
 #include "harness/truth/truths_file.h"
@@ -86,7 +87,10 @@ static status read_open(const char *path, const wanted *what, hid_t *file, truth
     TRY(truths_file_open(path, file, f));
     if (what->group != NULL)
         TRY(read_tables(path, *file, what, out, f));
-    return what->rules ? rules_read(path, *file, &out->rule, &out->rules, f) : STATUS_OK;
+    if (!what->rules)
+        return STATUS_OK;
+    TRY(accepted_read(path, *file, f));
+    return rules_read(path, *file, &out->rule, &out->rules, f);
 }
 
 static status read_file(const char *path, const wanted *what, truths *out, fault *f)

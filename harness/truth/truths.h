@@ -8,7 +8,7 @@
 #include "harness/catalogue/parameters.h"
 #include "harness/truth/rules.h"
 
-enum { TRUTHS_VERSION = 2 };
+enum { TRUTHS_VERSION = 3 };
 /* Of shear in stability; "": the truth depends on none. */
 #define TRUTH_THEORIES "engesser|haringx"
 
@@ -35,11 +35,11 @@ typedef struct truths {
 } truths;
 
 /* FAULT for a missing, truncated or foreign file and for a stale row (its case's defaults have
- * changed since). */
+ * changed since). Formulations that gate are made known (formulations_accept). */
 status truths_read(const char *path, truths *out, fault *f);
 /* The same of one case (NULL: of all). */
 status truths_read_case(const char *path, const case_type *type, truths *out, fault *f);
-/* The ledger alone. */
+/* The ledger and the formulations that gate, alone. */
 status truths_read_rules(const char *path, truths *out, fault *f);
 /* Adds the exact values at the extremes, which no verification runs. On failure the truths read
  * before stay. */

@@ -12,7 +12,7 @@ import h5py
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
-from reference import pack  # noqa: E402
+from reference import accepted, glossary, pack  # noqa: E402
 
 
 class Pack(unittest.TestCase):
@@ -24,7 +24,8 @@ class Pack(unittest.TestCase):
                    ["case,parameter,value,choices", "beam,length,2,", "beam,ends,1,free|fixed"])
         self.write("findings.csv", [",".join(pack.FINDING_COLUMNS)])
         self.write("extreme_findings.csv", [",".join(pack.EXTREME_COLUMNS)])
-        self.write("glossary.csv", [",".join(pack.GLOSSARY_COLUMNS)])
+        self.write("glossary.csv", [",".join(glossary.GLOSSARY_COLUMNS)])
+        self.write("accepted.csv", [",".join(accepted.ACCEPTED_COLUMNS)])
         self.row = [
             "beam", "length=3;ends=free", "", "", "", "load", "", "12.5", "N", "0.1", "exact",
             "same", "", "closed form"
@@ -172,7 +173,7 @@ class Pack(unittest.TestCase):
         self.assertEqual(self.run_pack(self.row).returncode, 0)
 
     def test_refused_entries_of_the_glossary(self):
-        head, good = ",".join(pack.GLOSSARY_COLUMNS), "limit,end,convergence,What values tend to.,"
+        head, good = ",".join(glossary.GLOSSARY_COLUMNS), "limit,end,convergence,What values tend to.,"
         for word, line in (("needs meaning", "order,,convergence,,"),
                            ("needs group", "order,,,A power.,"), ("needs term", ",,g,A power.,"),
                            ("is explained at", "order,END,convergence,A power.,"),
@@ -186,6 +187,22 @@ class Pack(unittest.TestCase):
         self.assertEqual(self.run_pack(self.row).returncode, 0)
         with h5py.File(self.folder / "t.h5") as file:
             self.assertEqual(list(file["glossary/term"][()]), [b"limit", b"order"])
+
+    def test_refused_rows_of_what_is_accepted(self):
+        head, good = ",".join(accepted.ACCEPTED_COLUMNS), "beam,2026-11-21,0.1.0"
+        for word, line in (("without options", "beam:mass=lumped,2026-11-21,0.1.0"),
+                           ("without options", ",2026-11-21,0.1.0"),
+                           ("is accepted at", "beam,2026-11-22,0.1.0"),
+                           ("is no day", "other,yesterday,0.1.0"),
+                           ("is no version", "other,2026-11-21,first"),
+                           ("wrong number of fields", "other,2026-11-21")):
+            with self.subTest(line=line):
+                self.write("accepted.csv", [head, good, line])
+                self.refused(word, self.row)
+        self.write("accepted.csv", [head, good, "other,2026-11-22,0.1.0"])
+        self.assertEqual(self.run_pack(self.row).returncode, 0)
+        with h5py.File(self.folder / "t.h5") as file:
+            self.assertEqual(list(file["accepted/formulation"][()]), [b"beam", b"other"])
 
     def test_refused_files(self):
         self.refused("wrong number of fields", self.row[:-1])

@@ -6,7 +6,7 @@
 
 #include "elements/math/pi.h"
 #include "harness/analysis/test/bar.h"
-#include "harness/catalogue/registry.h"
+#include "harness/test/accepted.h"
 
 static void compressed(scene *s, const double direction[3])
 {
@@ -119,8 +119,8 @@ static void columns(const element_type *e, ask_tally *tally, const double direct
 
 int main(void)
 {
-    for (int i = 0; registry_formulations[i] != NULL; i++) {
-        const element_type *e = registry_formulations[i];
+    for (int i = 0; accepted_at(i) != NULL; i++) {
+        const element_type *e = accepted_at(i);
         ask_tally tally = {0};
         columns(e, &tally, along_x);
         columns(e, &tally, oblique);

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "harness/catalogue/registry.h"
+#include "harness/test/accepted.h"
 #include "harness/test/ask.h"
 
 /* A strip, free to shorten and to warp, twisted by 0.6 rad: kappa is uniform, M = G J kappa + 4 E c
@@ -207,8 +207,8 @@ static void in_other_words(const element_type *e, ask_tally *tally)
 
 int main(void)
 {
-    for (int i = 0; registry_formulations[i] != NULL; i++) {
-        const element_type *e = registry_formulations[i];
+    for (int i = 0; accepted_at(i) != NULL; i++) {
+        const element_type *e = accepted_at(i);
         ask_tally tally = {0};
         strip(e, &tally);
         blade(e, &tally);

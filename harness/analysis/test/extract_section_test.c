@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "harness/catalogue/registry.h"
+#include "harness/test/accepted.h"
 #include "harness/test/ask.h"
 
 static section_spec bar(double Iw)
@@ -273,8 +273,8 @@ static void turns_beside_rest(const element_type *e, ask_tally *tally, int turni
 
 int main(void)
 {
-    for (int i = 0; registry_formulations[i] != NULL; i++) {
-        const element_type *e = registry_formulations[i];
+    for (int i = 0; accepted_at(i) != NULL; i++) {
+        const element_type *e = accepted_at(i);
         ask_tally tally = {0};
         statics(e, &tally, 1);
         statics(e, &tally, 3);

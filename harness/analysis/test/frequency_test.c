@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "elements/math/pi.h"
-#include "harness/catalogue/registry.h"
+#include "harness/test/accepted.h"
 #include "harness/test/ask.h"
 
 enum { MODES = 10, ELEMENTS = 24, RIGID = 6 };
@@ -178,8 +178,8 @@ static void loaded_on_arm(const element_type *e, ask_tally *tally)
 
 int main(void)
 {
-    for (int i = 0; registry_formulations[i] != NULL; i++) {
-        const element_type *e = registry_formulations[i];
+    for (int i = 0; accepted_at(i) != NULL; i++) {
+        const element_type *e = accepted_at(i);
         ask_tally tally = {0};
         cantilever(e, &tally);
         nothing_held(e, &tally);

@@ -6,7 +6,7 @@
 
 #include "elements/math/pi.h"
 #include "harness/analysis/test/hinged.h"
-#include "harness/catalogue/registry.h"
+#include "harness/test/accepted.h"
 
 static const double z_axis[3] = {0, 0, 1};
 
@@ -226,9 +226,9 @@ static void roof(const char *chosen)
 
 int main(void)
 {
-    for (int i = 0; registry_formulations[i] != NULL; i++) {
-        statics(registry_formulations[i]->name, 1e-2);
-        roof(registry_formulations[i]->name);
+    for (int i = 0; accepted_at(i) != NULL; i++) {
+        statics(accepted_at(i)->name, 1e-2);
+        roof(accepted_at(i)->name);
     }
     eigenvalues("beamw", 16, 1e-5);
     eigenvalues("geometrically_exact", 32, 1e-5);

@@ -7,8 +7,8 @@
 
 #include "harness/analysis/solve.h"
 #include "harness/catalogue/formulation.h"
-#include "harness/catalogue/registry.h"
 #include "harness/model/missing.h"
+#include "harness/test/accepted.h"
 
 static const double length = 1, wide = 0.08, young = 2e11, shear_modulus = 8e10, share = 5.0 / 6;
 
@@ -98,12 +98,12 @@ static void one(const element_type *type, double thickness, int direction, int m
 int main(void)
 {
     static const double thickness[] = {0.001, 0.003, 0.01, 0.03, 0.05, 0.06, 0.1, 0.3};
-    for (int i = 0; registry_formulations[i] != NULL; i++)
-        for (size_t k = 0; k < sizeof thickness / sizeof *thickness &&
-                           (registry_formulations[i]->offers & FEATURE_SHEAR);
+    for (int i = 0; accepted_at(i) != NULL; i++)
+        for (size_t k = 0;
+             k < sizeof thickness / sizeof *thickness && (accepted_at(i)->offers & FEATURE_SHEAR);
              k++)
             for (int direction = 1; direction <= 2; direction++)
                 for (int members = 1; members <= 3; members += 2)
-                    one(registry_formulations[i], thickness[k], direction, members);
+                    one(accepted_at(i), thickness[k], direction, members);
     return gsl_test_summary();
 }

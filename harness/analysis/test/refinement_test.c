@@ -10,6 +10,7 @@
 #include "harness/catalogue/formulation.h"
 #include "harness/catalogue/registry.h"
 #include "harness/solver/refinement.h"
+#include "harness/test/accepted.h"
 #include "harness/test/ask.h"
 
 static const double length = 1;
@@ -137,11 +138,11 @@ static void compliance_of_many(void)
 int main(void)
 {
     sequences();
-    for (int i = 0; registry_formulations[i] != NULL; i++) {
+    for (int i = 0; accepted_at(i) != NULL; i++) {
         ask_tally tally = {0};
-        slender_bars(registry_formulations[i], &tally);
-        too_slender(registry_formulations[i]);
-        ask_conclude(&tally, registry_formulations[i], "slender bars");
+        slender_bars(accepted_at(i), &tally);
+        too_slender(accepted_at(i));
+        ask_conclude(&tally, accepted_at(i), "slender bars");
     }
     compliance_of_many();
     return gsl_test_summary();

@@ -2,6 +2,8 @@
  * that closes a run. */
 #include "harness/judge/overview.h"
 
+#include "harness/catalogue/formulations.h"
+
 #include "harness/judge/test/bench.h"
 
 enum { VERDICTS = 40 };
@@ -193,6 +195,26 @@ static void columns(void)
     }
 }
 
+/* They stand behind the others, whatever their order in the run. */
+static void new_ones(void)
+{
+    static const element_type mine = {.name = "mine"};
+    run r;
+    overview o;
+    fault f = {""};
+    make(&r);
+    for (int i = 0; i < 6; i += 3)
+        r.one[i].formulation.type = &mine;
+    gsl_test(overview_make(&r.s, &r.j, &o, &f) != STATUS_OK, "made");
+    gsl_test(o.accepted != 3 || strcmp(o.column[0], "a") != 0, "none is new");
+    overview_free(&o);
+    gsl_test(formulations_add(&mine, &f) != STATUS_OK, "added: %s", f.text);
+    gsl_test(overview_make(&r.s, &r.j, &o, &f) != STATUS_OK, "made");
+    gsl_test(o.columns != 3 || o.accepted != 2 || strcmp(o.column[2], "a") != 0,
+             "the new one is the last");
+    overview_free(&o);
+}
+
 int main(void)
 {
     the_worst();
@@ -200,5 +222,6 @@ int main(void)
     sentences();
     single_ones();
     columns();
+    new_ones();
     return gsl_test_summary();
 }

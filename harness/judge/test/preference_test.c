@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 #include "harness/model/features.h"
 #include "harness/model/lacks.h"
@@ -119,6 +120,27 @@ static void nothing_offers_all(void)
     scene_free(&s);
 }
 
+/* Only one is accepted: it is chosen, or nothing is. */
+static void no_new_one(void)
+{
+    const element_type *accepted = registry_formulations[0];
+    int choices = 0;
+    formulations_accept(accepted->name);
+    for (int i = 0; registry_cases[i] != NULL; i++) {
+        double value[CASE_MAX_PARAMETERS] = {0};
+        fault f = {""};
+        scene s;
+        parameters_default(registry_cases[i], value);
+        gsl_test(cell_scene(registry_cases[i], value, NULL, &s, &f) != STATUS_OK, "%s", f.text);
+        const chosen one = choose(&s, registry_cases[i], value, NULL, 0);
+        choices += one.outcome == STATUS_OK;
+        gsl_test(one.outcome == STATUS_OK && one.one.type != accepted, "%s: %s is chosen and new",
+                 s.name, one.one.key);
+        scene_free(&s);
+    }
+    gsl_test(choices == 0, "the accepted one is chosen");
+}
+
 int main(void)
 {
     for (int i = 0; registry_cases[i] != NULL; i++)
@@ -127,5 +149,6 @@ int main(void)
         if (i % 4 == 0) /* a sample */
             of_meshes(registry_cases[i]);
     nothing_offers_all();
+    no_new_one();
     return gsl_test_summary();
 }

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "harness/analysis/solve.h"
-#include "harness/catalogue/registry.h"
 #include "harness/model/model_impl.h"
+#include "harness/test/accepted.h"
 #include "harness/test/ask.h"
 
 enum { SECTIONS = 2, MOST_MEMBERS = 3 };
@@ -164,8 +164,8 @@ static void sections(const element_type *type)
 int main(void)
 {
     int offered = 0;
-    for (int i = 0; registry_formulations[i] != NULL; i++) {
-        const element_type *type = registry_formulations[i];
+    for (int i = 0; accepted_at(i) != NULL; i++) {
+        const element_type *type = accepted_at(i);
         counts(type);
         arcs(type);
         lengths(type);

@@ -23,8 +23,12 @@ static const screen plain = {0, 0};
 static void make(bench *b, int rows, int columns, const char *name)
 {
     memset(b, 0, sizeof *b);
-    b->o = (overview){
-        .rows = rows, .columns = columns, .row = b->row, .column = b->column, .cell = b->cell};
+    b->o = (overview){.rows = rows,
+                      .columns = columns,
+                      .accepted = columns,
+                      .row = b->row,
+                      .column = b->column,
+                      .cell = b->cell};
     for (int i = 0; i < MOST; i++) {
         snprintf(b->case_name[i], NAME, "case_%d", i);
         snprintf(b->name[i], NAME, "%s_%d", name, i);
@@ -100,6 +104,21 @@ static void heads(void)
     free(text);
 }
 
+/* New formulations are marked above their names, and what that means is said once. */
+static void new_ones(void)
+{
+    static bench b;
+    make(&b, 1, 3, "beam");
+    char *text = shown(&b, plain);
+    gsl_test_int(count(text, "(new)"), 0, "none is new");
+    free(text);
+    b.o.accepted = 1;
+    text = shown(&b, plain);
+    gsl_test_int(count(text, "(new)"), 3, "two are new, and what that means");
+    gsl_test_int(count(text, "do not gate"), 1, "they do not gate");
+    free(text);
+}
+
 /* Where there are many cases, those that pass share lines; the others never do. */
 static void passing(void)
 {
@@ -150,6 +169,7 @@ int main(void)
 {
     widths();
     heads();
+    new_ones();
     passing();
     legend();
     return gsl_test_summary();

@@ -18,7 +18,7 @@
 /* What a file is made with; the defaults are right. */
 typedef struct recipe {
     const char *schema, *case_group, *kind, *model, *theory, *convention, *formulation, *parameters,
-        *left_out_column, *rule_cases, *condition, *predicted;
+        *left_out_column, *rule_cases, *condition, *predicted, *accepted;
     int version, elements, short_column;
     double value, uncertainty, at;
     uint64_t hash_change;
@@ -108,6 +108,13 @@ static void put_rule(hid_t file, const recipe *r, const case_type *type)
     H5Gclose(at);
 }
 
+static void put_accepted(hid_t file, const recipe *r)
+{
+    const hid_t at = H5Gcreate2(file, "accepted", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    put_text(at, r, "formulation", or_else(r->accepted, registry_formulations[0]->name));
+    H5Gclose(at);
+}
+
 static void truths_file_checksum(const char *path)
 {
     static char all[1 << 20];
@@ -134,6 +141,7 @@ static void truths_file_make(const char *path, const recipe *r)
     H5Aclose(a);
     put_truth(file, r, registry_cases[0]);
     put_rule(file, r, registry_cases[0]);
+    put_accepted(file, r);
     H5Tclose(type);
     H5Sclose(scalar);
     H5Fclose(file);

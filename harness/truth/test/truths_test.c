@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "elements/test/random.h"
+#include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 #include "harness/truth/test/truths_file.h"
 #include "harness/truth/truth.h"
@@ -206,6 +207,31 @@ static void damaged_files(const char *path)
     gsl_test_int(broken, 0, "damaged files without a clear refusal");
 }
 
+/* Those that the table names gate, the others of the tree do not; until a table is read all do. */
+static void accepted_ones(const char *path)
+{
+    truths t;
+    fault f = {""};
+    recipe r = right;
+    for (int i = 0; registry_formulations[i] != NULL; i++)
+        gsl_test(formulations_is_new(registry_formulations[i]), "%s gates before a table is read",
+                 registry_formulations[i]->name);
+    r.accepted = "no_such_formulation";
+    truths_file_make(path, &r);
+    gsl_test(truths_read_rules(path, &t, &f) != STATUS_OK, "one that is not here %s", f.text);
+    truths_free(&t);
+    truths_file_make(path, &right);
+    gsl_test(truths_read_rules(path, &t, &f) != STATUS_OK, "the first one is accepted %s", f.text);
+    truths_free(&t);
+    for (int i = 0; registry_formulations[i] != NULL; i++)
+        gsl_test_int(formulations_is_new(registry_formulations[i]), i > 0, "%s is new",
+                     registry_formulations[i]->name);
+    r.left_out_column = "formulation";
+    truths_file_make(path, &r);
+    gsl_test(truths_read_rules(path, &t, &f) != STATUS_FAULT || strstr(f.text, "accepted") == NULL,
+             "a table without its column: %s", f.text);
+}
+
 static void strangers(const char *path)
 {
     truths t;
@@ -227,8 +253,8 @@ static void strangers(const char *path)
 
 int main(void)
 {
-    static void (*const all[])(const char *) = {good_file, wrong_files, rows_that_do_not_judge,
-                                                any_value, new_columns, damaged_files,
-                                                strangers};
+    static void (*const all[])(const char *) = {accepted_ones,          good_file, wrong_files,
+                                                rows_that_do_not_judge, any_value, new_columns,
+                                                damaged_files,          strangers};
     return truths_file_run((int)(sizeof all / sizeof all[0]), all);
 }

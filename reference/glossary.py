@@ -1,0 +1,32 @@
+"""The glossary: words of the program and the report, explained."""
+import re
+
+from reference.table import Refused, read_csv
+
+GLOSSARY_COLUMNS = "term,also,group,meaning,see".split(",")
+
+
+def looked_up(word):
+    """As `beamwork explain` compares words."""
+    return " ".join(re.split(r"[ _-]+", word.lower()))
+
+
+def read_glossary(path):
+    """Entries, each with names of its own; what they send to exists."""
+    rows, names = [], {}
+    for number, row in read_csv(path, GLOSSARY_COLUMNS):
+        where = f"{path.name}:{number}"
+        for column in ("term", "group", "meaning"):
+            if not row[column]:
+                raise Refused(f"{where}: an entry needs {column}")
+        for name in [row["term"], *filter(None, row["also"].split("|"))]:
+            if looked_up(name) in names:
+                raise Refused(f"{where}: '{name}' is explained at {names[looked_up(name)]}")
+            names[looked_up(name)] = where
+        rows.append(row)
+    terms = {row["term"] for row in rows}
+    for row in rows:
+        for word in filter(None, row["see"].split("|")):
+            if word not in terms or word == row["term"]:
+                raise Refused(f"{path.name}: '{row['term']}' sends to '{word}', which is no other term")
+    return rows

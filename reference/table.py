@@ -1,0 +1,17 @@
+"""Tables of the truths as CSV: rows with declared columns, and what is refused of them."""
+import csv
+
+
+class Refused(Exception):
+    """A row that makes no sense; the text names it."""
+
+
+def read_csv(path, columns):
+    with open(path, newline="", encoding="utf-8") as table:
+        reader = csv.DictReader(table)
+        if reader.fieldnames != columns:
+            raise Refused(f"{path.name}: columns must be {','.join(columns)}")
+        for number, row in enumerate(reader, 2):
+            if None in row or None in row.values():
+                raise Refused(f"{path.name}:{number}: wrong number of fields")
+            yield number, row
