@@ -1,4 +1,4 @@
-/* A first guess of the next state of a path: the parabola (or the line) through the last ones. */
+/* A first guess of the next state of a path: the polynomial through the last ones. */
 #include "harness/equations/extrapolate.h"
 
 #include <math.h>
@@ -97,15 +97,47 @@ static int turns_by_itself(const model *m, int vertex)
                      : m->vertex[vertex].body == vertex && m->vertex[vertex].angles == 0;
 }
 
-int extrapolate_state(const model *m, int count, const model_state *const at[], double path,
-                      model_state *out)
+/* Weights of the states for a guess at `path`; 0: there is none. */
+static int weigh(const model *m, int count, const model_state *const at[], double path,
+                 double weight[])
 {
-    double weight[MODEL_EXTRAPOLATED];
     const double step = path - at[count - 1]->path;
     if (count < 2 || !(step <= far * (at[count - 1]->path - at[count - 2]->path)))
         return 0;
     lagrange(count, at, path, weight);
-    if (!smooth(m, count, at, path, weight))
+    return smooth(m, count, at, path, weight);
+}
+
+static double largest_error(int count, const double weight[], const model_state *const at[],
+                            const double *first, size_t size)
+{
+    const ptrdiff_t offset = first - at[0]->block;
+    double largest = 0;
+    for (size_t k = 0; k < size; k++) {
+        double sum = -at[count]->block[offset + (ptrdiff_t)k];
+        for (int i = 0; i < count; i++)
+            sum += weight[i] * at[i]->block[offset + (ptrdiff_t)k];
+        largest = fmax(largest, fabs(sum));
+    }
+    return largest;
+}
+
+double extrapolate_error(const model *m, int count, const model_state *const at[])
+{
+    double weight[MODEL_EXTRAPOLATED];
+    weight[0] = 1;
+    if (count > 1 && !weigh(m, count, at, at[count]->path, weight))
+        return INFINITY;
+    return fmax(
+        largest_error(count, weight, at, at[0]->u, 3 * (size_t)m->vertices),
+        largest_error(count, weight, at, at[0]->e, (size_t)m->elements * (size_t)m->strains));
+}
+
+int extrapolate_state(const model *m, int count, const model_state *const at[], double path,
+                      model_state *out)
+{
+    double weight[MODEL_EXTRAPOLATED];
+    if (!weigh(m, count, at, path, weight))
         return 0;
     for (size_t k = 0; k < out->size; k++) {
         double sum = 0;

@@ -4,11 +4,15 @@
 
 #include "harness/model/model.h"
 
-/* First guess of the state at `path` from the last `count` ones (two: a line, three: a parabola),
- * oldest first. 0: there is none, because what is prescribed bends, or the step is too long; `out`
- * is untouched then. */
-enum { MODEL_EXTRAPOLATED = 3 };
+/* First guess of the state at `path` from the last `count` ones (two: a line, three: a parabola,
+ * ...), oldest first. 0: there is none, because what is prescribed bends, or the step is too long;
+ * `out` is untouched then. */
+enum { MODEL_EXTRAPOLATED = 5 };
 int extrapolate_state(const model *, int count, const model_state *const at[], double path,
                       model_state *out);
+/* How far a guess of at[count] from the `count` states before it would have been off: the largest
+ * error of a displacement or strain [m]; of one: had it been taken as it is. INFINITY: there would
+ * have been none. */
+double extrapolate_error(const model *, int count, const model_state *const at[]);
 
 #endif

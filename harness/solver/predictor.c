@@ -1,14 +1,25 @@
 #include "harness/solver/predictor.h"
 
+#include <math.h>
+
 #include "harness/equations/extrapolate.h"
 #include "harness/model/kinematics.h"
 
-enum { SMOOTH_ITERATIONS = 4 };
+/* Of the first step, so that a line may go on from it. */
+enum { EASY_ITERATIONS = 4 };
+/* Largest error of a guess, relative to that of no guess, with which it spares iterations. */
+static const double worthwhile = 0.3;
+
+/* The last k of the first `count` states. */
+static const model_state *const *last(const predictor *t, int count, int k)
+{
+    return (const model_state *const *)t->at + count - k;
+}
 
 status predictor_alloc(const model *m, predictor *t, fault *f)
 {
     *t = (predictor){0};
-    for (int i = 0; i < MODEL_EXTRAPOLATED; i++)
+    for (int i = 0; i <= MODEL_EXTRAPOLATED; i++)
         TRY(kinematics_state_alloc(m, &t->at[i], f));
     t->count = 1; /* the undeformed state */
     return STATUS_OK;
@@ -16,7 +27,7 @@ status predictor_alloc(const model *m, predictor *t, fault *f)
 
 void predictor_free(predictor *t)
 {
-    for (int i = 0; i < MODEL_EXTRAPOLATED; i++)
+    for (int i = 0; i <= MODEL_EXTRAPOLATED; i++)
         kinematics_state_free(t->at[i]);
 }
 
@@ -28,26 +39,36 @@ void predictor_forget(predictor *t)
 void predictor_add(const model *m, const model_state *s, int iterations, predictor *t)
 {
     t->iterations = iterations;
-    if (t->count == MODEL_EXTRAPOLATED) {
+    if (t->count == MODEL_EXTRAPOLATED + 1) {
         model_state *oldest = t->at[0];
-        for (int i = 1; i < MODEL_EXTRAPOLATED; i++)
+        for (int i = 1; i <= MODEL_EXTRAPOLATED; i++)
             t->at[i - 1] = t->at[i];
         t->at[--t->count] = oldest;
     }
-    kinematics_state_copy(m, s, t->at[t->count++]);
+    kinematics_state_copy(m, s, t->at[t->count]);
+    for (int k = 1; k <= MODEL_EXTRAPOLATED; k++)
+        t->error[k] = k <= t->count ? extrapolate_error(m, k, last(t, t->count, k)) : INFINITY;
+    t->count++;
 }
 
-/* With as many states as go on smoothly; behind a bend the older ones are forgotten. */
-void predictor_guess(const model *m, predictor *t, double path, model_state *s)
+/* From as many states as would have guessed the last one best; from one more where the error still
+ * went down with their number. 0: better from none. */
+static int states_of_least_error(const predictor *t)
 {
-    if (t->iterations > SMOOTH_ITERATIONS)
-        return;
-    for (int first = 0; first + 1 < t->count; first++)
-        if (extrapolate_state(m, t->count - first, (const model_state *const *)t->at + first, path,
-                              s))
+    int best = 2;
+    if (t->count == 2)
+        return t->iterations <= EASY_ITERATIONS ? 2 : 0;
+    for (int k = 3; k < t->count && k <= MODEL_EXTRAPOLATED; k++)
+        if (t->error[k] < t->error[best])
+            best = k;
+    if (!(t->error[best] < worthwhile * t->error[1]))
+        return 0;
+    return best + 1 == t->count && best < MODEL_EXTRAPOLATED ? best + 1 : best;
+}
+
+void predictor_guess(const model *m, const predictor *t, double path, model_state *s)
+{
+    for (int k = t->count >= 2 ? states_of_least_error(t) : 0; k >= 2; k--)
+        if (extrapolate_state(m, k, last(t, t->count, k), path, s))
             return;
-    if (t->count > 1) {
-        kinematics_state_copy(m, t->at[t->count - 1], t->at[0]);
-        t->count = 1;
-    }
 }

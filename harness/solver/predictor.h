@@ -6,9 +6,10 @@
 #include "harness/model/model.h"
 
 typedef struct predictor {
-    int count,
-        iterations; /* of the last step: one that took many was too long to extrapolate from */
-    model_state *at[MODEL_EXTRAPOLATED];
+    int count, iterations; /* of the last step */
+    model_state *at[MODEL_EXTRAPOLATED + 1];
+    /* [m] of a guess of the last state from k states before it; k = 1: that it stays as it was */
+    double error[MODEL_EXTRAPOLATED + 1];
 } predictor;
 
 status predictor_alloc(const model *, predictor *, fault *); /* holds the undeformed state */
@@ -16,6 +17,6 @@ void predictor_free(predictor *);
 void predictor_add(const model *, const model_state *, int iterations, predictor *);
 void predictor_forget(predictor *);
 /* Moves s, the last state, to a guess of the one at `path`, or leaves it as it is. */
-void predictor_guess(const model *, predictor *, double path, model_state *s);
+void predictor_guess(const model *, const predictor *, double path, model_state *s);
 
 #endif

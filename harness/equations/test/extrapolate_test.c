@@ -81,8 +81,8 @@ static double error_of_guess(const model *m, int degree, int count, const double
 /* Steps of different lengths, more of them than are kept. */
 static void smooth_paths(const model *m)
 {
-    static const double path[] = {0.2, 0.35, 0.45, 0.58, 0.72, 0.88, 1};
-    for (int count = MODEL_EXTRAPOLATED; count <= 6; count++)
+    static const double path[] = {0.1, 0.2, 0.35, 0.45, 0.58, 0.72, 0.88, 1};
+    for (int count = MODEL_EXTRAPOLATED + 1; count <= 7; count++)
         for (int degree = 0; degree <= MOST_DEGREE; degree++) {
             const double error = error_of_guess(m, degree, count, path, path[count]);
             if (degree < MODEL_EXTRAPOLATED)
@@ -97,11 +97,35 @@ static void smooth_paths(const model *m)
 /* A step half as long again as the last one is the longest that is guessed. */
 static void long_steps(const model *m)
 {
-    static const double path[] = {0.3, 0.4, 0.5};
-    const double within = error_of_guess(m, 2, 3, path, 0.5 + 0.149),
-                 beyond = error_of_guess(m, 2, 3, path, 0.5 + 0.151);
+    static const double path[] = {0.1, 0.2, 0.3, 0.4, 0.5};
+    const double within = error_of_guess(m, 2, 5, path, 0.5 + 0.149),
+                 beyond = error_of_guess(m, 2, 5, path, 0.5 + 0.151);
     gsl_test(!(within < 1e-13), "a longer step is guessed (%.1e)", within);
     gsl_test(!(beyond > 1e-3), "a much longer one starts where the last ended (%.1e)", beyond);
+}
+
+/* Two states behind a kink a line goes on from them, whatever came before. */
+static void kinks(const model *m)
+{
+    static const double kink = 0.45;
+    predictor t;
+    model_state *s, *exact;
+    fault f = {""};
+    gsl_test(predictor_alloc(m, &t, &f) != STATUS_OK ||
+                 kinematics_state_alloc(m, &s, &f) != STATUS_OK ||
+                 kinematics_state_alloc(m, &exact, &f) != STATUS_OK,
+             "states: %s", f.text);
+    for (double path = 0.1; path < 0.75; path += 0.1) {
+        fill(m, 1, fabs(path - kink), s);
+        s->path = path;
+        predictor_add(m, s, 3, &t);
+    }
+    predictor_guess(m, &t, 0.8, s);
+    fill(m, 1, 0.8 - kink, exact);
+    gsl_test(!(apart(m, s, exact) < 1e-12), "behind a kink: error %.1e", apart(m, s, exact));
+    predictor_free(&t);
+    kinematics_state_free(s);
+    kinematics_state_free(exact);
 }
 
 int main(void)
@@ -111,6 +135,7 @@ int main(void)
     if (corner("geometrically_exact", 2, 0, &s, &m)) {
         smooth_paths(m);
         long_steps(m);
+        kinks(m);
     }
     model_free(m);
     scene_free(&s);
