@@ -56,11 +56,11 @@ void predictor_add(const model *m, const model_state *s, int iterations, predict
 static int states_of_least_error(const predictor *t)
 {
     int best = 2;
-    if (t->count == 2)
-        return t->iterations <= EASY_ITERATIONS ? 2 : 0;
     for (int k = 3; k < t->count && k <= MODEL_EXTRAPOLATED; k++)
         if (t->error[k] < t->error[best])
             best = k;
+    if (isinf(t->error[best])) /* nothing is known of guesses */
+        return t->iterations <= EASY_ITERATIONS ? 2 : 0;
     if (!(t->error[best] < worthwhile * t->error[1]))
         return 0;
     return best + 1 == t->count && best < MODEL_EXTRAPOLATED ? best + 1 : best;
