@@ -34,6 +34,34 @@ static void print_sums(const comparison *c)
     putchar('\n');
 }
 
+/* A line for each count of series that are in one of the two only and are no change. */
+static void print_left(const command_request *r, const results *run[2], const comparison *c)
+{
+    const char *const path[] = {r->case_name, r->second};
+    for (int i = 0; i < 2; i++) {
+        if (c->outside[i] > 0)
+            printf("%d series of %s %s outside the selection of %s\n", c->outside[i], path[i],
+                   c->outside[i] == 1 ? "is" : "are", path[1 - i]);
+        if (c->fresh[i] == 0)
+            continue;
+        printf("%d series of new formulations, which do not gate, %s in %s only:", c->fresh[i],
+               c->fresh[i] == 1 ? "is" : "are", path[i]);
+        for (const char *at = run[i]->part.fresh; *at != '\0'; at += *at == '\n') {
+            printf(" %.*s", (int)strcspn(at, "\n"), at);
+            at += strcspn(at, "\n");
+        }
+        putchar('\n');
+    }
+}
+
+static void print_partial(const comparison *c)
+{
+    if (c->partial > 0)
+        printf("%d series %s compared by work and limits only: some of their quantities were left "
+               "out\n",
+               c->partial, c->partial == 1 ? "is" : "are");
+}
+
 static void meet(const char *selection, const results *r, select_words *words)
 {
     for (int i = 0; i < r->cells; i++)
@@ -48,6 +76,8 @@ static int compare(const command_request *r, const results *before, const result
     comparison c;
     comparison_run(stdout, before, after, limits, r->select, &c);
     print_sums(&c);
+    print_left(r, (const results *[]){before, after}, &c);
+    print_partial(&c);
     if (output_flush(f) != STATUS_OK)
         return trouble(f);
     if (c.pairs > 0)
@@ -85,7 +115,9 @@ int cli_compare(int count, char **arguments)
         "compare", "OLD [NEW]",
         "Compares errors and work counts of two runs stored by 'verify -o' (HDF5), cell by cell, "
         "or, where one is the short table that is kept of a run, series by series, with the limits "
-        "of the default points; a former run is never a truth. -o with OLD alone writes its short "
+        "of the default points; a former run is never a truth. What one of them was not asked for "
+        "(verify -k, -f, --scene) and new formulations in one of them are counted, and no change. "
+        "-o with OLD alone writes its short "
         "table. Exit status: 0 the same within the thresholds, 1 something is worse, better, "
         "changed, gone or new, 2 trouble (file, usage, nothing in common)."
         "\vbeamwork compare old.h5 new.h5\n"

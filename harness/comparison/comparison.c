@@ -42,8 +42,28 @@ static int selected(const char *select, const char *name)
     return select == NULL || select_matches(select, name) > 0;
 }
 
+/* A series that is in one of the two only, or a mesh of it (elements > 0). which: 0: the old one
+ * has it. *last: the series that was counted last, in the order of their names. */
+static void tell_lone(const listing *l, int which, const char **last)
+{
+    const results *here = which == 0 ? l->before : l->after,
+                  *other = which == 0 ? l->after : l->before;
+    int *count = NULL;
+    if (!results_part_wants(other, here, l->name))
+        count = &l->out->outside[which];
+    else if (results_part_is_fresh(&here->part, l->name))
+        count = &l->out->fresh[which];
+    if (count == NULL) {
+        comparison_lines_lone(l, which == 0 ? CHANGE_GONE : CHANGE_NEW);
+        return;
+    }
+    *count += *last == NULL || strcmp(*last, l->name) != 0;
+    *last = l->name;
+}
+
 static void run_cells(listing l, const results *before, const results *after, const char *select)
 {
+    const char *last = NULL;
     for (int i = 0, k = 0; i < before->cells || k < after->cells;) {
         int order = i == before->cells ? 1 : -1; /* all of one are done */
         if (i < before->cells && k < after->cells)
@@ -58,12 +78,13 @@ static void run_cells(listing l, const results *before, const results *after, co
         if (order == 0)
             comparison_cells(&l, a, b);
         else
-            comparison_lines_lone(&l, a != NULL ? CHANGE_GONE : CHANGE_NEW);
+            tell_lone(&l, a == NULL, &last);
     }
 }
 
 static void run_series(listing l, const results *before, const results *after, const char *select)
 {
+    const char *last = NULL;
     for (int i = 0, k = 0; i < before->seriess || k < after->seriess;) {
         int order = i == before->seriess ? 1 : -1;
         if (i < before->seriess && k < after->seriess)
@@ -77,14 +98,14 @@ static void run_series(listing l, const results *before, const results *after, c
         if (order == 0)
             comparison_series(&l, a, b);
         else
-            comparison_lines_lone(&l, a != NULL ? CHANGE_GONE : CHANGE_NEW);
+            tell_lone(&l, a == NULL, &last);
     }
 }
 
 void comparison_run(FILE *to, const results *before, const results *after,
                     const comparison_limits *limits, const char *select, comparison *out)
 {
-    const listing l = {to, limits, out, "", 0};
+    const listing l = {to, limits, out, before, after, "", 0};
     memset(out, 0, sizeof *out);
     out->whole = before->whole && after->whole;
     out->judged = before->limits && after->limits;

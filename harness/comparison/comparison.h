@@ -31,12 +31,17 @@ typedef struct comparison {
     int pairs;                     /* cells or series in both */
     int count[COMPARISON_KINDS];   /* lines of each kind */
     double work[2][RESULTS_WORKS]; /* sums over the pairs: old | new */
+    /* series that are in one only, old | new, and are no change: outside what the other run was
+     * asked for; of formulations that do not gate yet */
+    int outside[2], fresh[2];
+    int partial; /* series of which some quantities were left out: their errors are not compared */
 } comparison;
 
 /* "error=0.01,floor=1e-8,work=0.02", any of them. REFUSED names the culprit. */
 status comparison_limits_parse(const char *text, comparison_limits *out, fault *f);
-/* Writes one line for each difference. Names that `select` (of sweep.h; NULL: all) does not hold
- * for are left out. */
+/* Writes one line for each difference. What lies outside the selection of one of the two is
+ * counted, not written, and so are series of new formulations in one of them. Names that `select`
+ * (of sweep.h; NULL: all) does not hold for are left out. */
 void comparison_run(FILE *to, const results *before, const results *after,
                     const comparison_limits *limits, const char *select, comparison *out);
 int comparison_differs(const comparison *c);

@@ -78,6 +78,8 @@ static void compare_limits(const listing *l, const result_series *a, const resul
 {
     for (int i = 0; i < a->limits; i++) {
         const result_limit *old = &a->limit[i], *new = limit_named(b, old->quantity);
+        if (new == NULL && !results_part_selects(&l->after->part, l->name, old->quantity))
+            continue;
         if (new == NULL) {
             comparison_lines_heading(l, CHANGE_WORSE);
             fprintf(l->to, ": %s has no limit any more\n", old->quantity);
@@ -92,7 +94,8 @@ static void compare_limits(const listing *l, const result_series *a, const resul
         fprintf(l->to, ": limit of %s %.10g -> %.10g\n", old->quantity, old->value, new->value);
     }
     for (int i = 0; i < b->limits; i++)
-        if (limit_named(a, b->limit[i].quantity) == NULL) {
+        if (limit_named(a, b->limit[i].quantity) == NULL &&
+            results_part_selects(&l->before->part, l->name, b->limit[i].quantity)) {
             comparison_lines_heading(l, CHANGE_BETTER);
             fprintf(l->to, ": %s has a limit now\n", b->limit[i].quantity);
         }
@@ -102,7 +105,11 @@ void comparison_series(const listing *l, const result_series *a, const result_se
 {
     if (compare_meshes(l, a, b)) { /* sums over other meshes say nothing */
         comparison_lines_work(l, a->work, b->work, a->meshes);
-        compare_errors(l, a, b);
+        if (results_part_is_partial(l->before, l->name) ||
+            results_part_is_partial(l->after, l->name))
+            l->out->partial++; /* errors are judged of what is selected only */
+        else
+            compare_errors(l, a, b);
     }
     if (l->out->judged)
         compare_limits(l, a, b);

@@ -58,6 +58,7 @@ void results_free(results *r)
         free(r->series[i].mesh);
         free(r->series[i].limit);
     }
+    results_part_free(&r->part);
     free(r->cell);
     free(r->series);
     memset(r, 0, sizeof *r);

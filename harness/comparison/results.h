@@ -68,7 +68,15 @@ typedef struct result_series {
     result_limit *limit;         /* [limits] of a default point, in the order of its quantities */
 } result_series;
 
+/* What a run says it was asked for: what lies outside was left out, not lost. NULL: all. */
+typedef struct results_part {
+    char *select;               /* expression of harness/catalogue/select.h */
+    char *cases, *formulations; /* a line each */
+    char *fresh;                /* formulations that do not gate yet, a line each; NULL: none */
+} results_part;
+
 typedef struct results {
+    results_part part;
     int cells, seriess;
     int whole;             /* 1: with cells, 0: with series only */
     int limits;            /* 1: limits were judged */
@@ -89,6 +97,19 @@ result_limit *results_add_limit(result_series *s);
 int results_order(const result_cell *a, const result_cell *b); /* of name, then elements */
 /* Fills the series from the cells, which are in order. FAULT: out of memory. */
 status results_series_summarise(results *r, fault *f);
+
+/* Is the text one of the lines? lines NULL: no. */
+int results_part_has(const char *lines, const char *text);
+/* Was the quantity of a series (case/parameters/formulation) asked for? */
+int results_part_selects(const results_part *p, const char *series, const char *quantity);
+/* Was a series that `other` alone has asked for, of the run r: any of its quantities, as the two
+ * know them? */
+int results_part_wants(const results *r, const results *other, const char *series);
+/* Were some quantities of a series that r has left out? */
+int results_part_is_partial(const results *r, const char *series);
+/* Is its formulation new to the run? */
+int results_part_is_fresh(const results_part *p, const char *series);
+void results_part_free(results_part *);
 
 status results_hdf5_read(const char *path, results *out, fault *f);
 status results_table_read(const char *path, FILE *from, results *out, fault *f);

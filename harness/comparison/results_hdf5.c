@@ -1,5 +1,8 @@
 /* Reading results.h5 back. Nothing is believed: a file may be foreign, cut short or damaged. */
+#include <stdlib.h>
 #include <string.h>
+
+#include "harness/catalogue/select.h"
 
 #include "harness/comparison/results_case.h"
 #include "harness/comparison/table_reader.h"
@@ -43,6 +46,57 @@ static status read_tables(const char *path, hid_t file, results *out, fault *f)
     return outcome;
 }
 
+/* A text attribute as a copy, NULL where it is not there; 0: out of memory. */
+static int read_text(hid_t file, const char *name, char **out)
+{
+    enum { MOST = 1 << 16 };
+    char *room = malloc(MOST);
+    *out = NULL;
+    if (room != NULL && table_reader_attribute_text(file, name, room, MOST) && room[0] != '\0')
+        *out = strdup(room);
+    const int good = room != NULL && (*out != NULL || H5Aexists(file, name) <= 0);
+    free(room);
+    return good;
+}
+
+typedef struct declared_row {
+    char formulation[FORMULATION_KEY];
+    signed char is_new;
+} declared_row;
+
+/* Keys of formulations that do not gate; files that declare none have none. */
+static status read_fresh(const char *path, hid_t file, results_part *out, fault *f)
+{
+    static const table_column columns[] = {
+        {"formulation", FIELD_TEXT, offsetof(declared_row, formulation), FORMULATION_KEY},
+        {"is_new", FIELD_FLAG, offsetof(declared_row, is_new), 0}};
+    void *rows;
+    if (H5Lexists(file, "declarations", H5P_DEFAULT) <= 0)
+        return STATUS_OK;
+    const int count =
+        table_reader_rows(file, "declarations", 2, columns, sizeof(declared_row), &rows);
+    const declared_row *row = rows;
+    size_t size = 0;
+    FILE *to = count >= 0 ? open_memstream(&out->fresh, &size) : NULL;
+    for (int i = 0; to != NULL && i < count; i++)
+        if (row[i].is_new)
+            fprintf(to, "%s%s", ftell(to) > 0 ? "\n" : "", row[i].formulation);
+    const int good = to != NULL && fclose(to) == 0;
+    free(rows);
+    return good ? STATUS_OK : results_case_damaged(path, "", "declarations", f);
+}
+
+static status read_part(const char *path, hid_t file, results_part *out, fault *f)
+{
+    if (!read_text(file, "selection", &out->select) ||
+        !read_text(file, "selection_cases", &out->cases) ||
+        !read_text(file, "selection_formulations", &out->formulations))
+        return results_case_damaged(path, "", "selection", f);
+    if (out->select != NULL && select_matches(out->select, "") < 0)
+        return results_case_damaged(path, "", "selection", f);
+    return read_fresh(path, file, out, f);
+}
+
 static status read_file(const char *path, hid_t file, results *out, fault *f)
 {
     char schema[64];
@@ -58,6 +112,7 @@ static status read_file(const char *path, hid_t file, results *out, fault *f)
             f, STATUS_FAULT,
             "%.120s: results of version %ld, this program reads %d; run 'beamwork verify -o' again",
             path, version, SCHEMA_VERSION);
+    TRY(read_part(path, file, &out->part, f));
     return read_tables(path, file, out, f);
 }
 

@@ -15,6 +15,8 @@ static hid_t memory_type(hid_t member, const table_column *c)
         return class == H5T_INTEGER ? H5Tcopy(H5T_NATIVE_INT) : -1;
     if (c->kind == FIELD_LONG)
         return class == H5T_INTEGER ? H5Tcopy(H5T_NATIVE_LONG) : -1;
+    if (c->kind == FIELD_FLAG)
+        return class == H5T_ENUM && H5Tget_size(member) == 1 ? H5Tcopy(member) : -1;
     if (c->kind == FIELD_DOUBLE)
         return class == H5T_FLOAT ? H5Tcopy(H5T_NATIVE_DOUBLE) : -1;
     if (class != H5T_STRING || H5Tis_variable_str(member) != 0 || H5Tget_size(member) >= c->room)

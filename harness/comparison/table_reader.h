@@ -7,8 +7,8 @@
 
 #include "harness/schema/schema.h"
 
-/* Into a member of the row: INT, LONG, DOUBLE, or a text of at most room - 1 bytes (an ENUM is
- * stored as its word). */
+/* Into a member of the row: INT, LONG, DOUBLE, FLAG (a signed char), or a text of at most room - 1
+ * bytes (an ENUM is stored as its word). */
 typedef struct table_column {
     const char *name;
     field_kind kind;

@@ -160,6 +160,46 @@ static void put_case(record *r, hid_t cases, const gathering *g, const case_type
     H5Gclose(here);
 }
 
+/* Attribute of names, a line each. at(s, i): name i, NULL behind the last. */
+static void put_names(record *r, const char *attribute, const sweep *s,
+                      const char *(*at)(const sweep *s, int i))
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *to = open_memstream(&text, &size);
+    if (to == NULL) {
+        r->bad = 1;
+        return;
+    }
+    for (int i = 0; at(s, i) != NULL; i++)
+        fprintf(to, "%s%s", i > 0 ? "\n" : "", at(s, i));
+    r->bad |= fclose(to) != 0;
+    if (!r->bad && size > 0)
+        record_text(r, r->file, attribute, text);
+    free(text);
+}
+
+static const char *case_at(const sweep *s, int i)
+{
+    return s->cases[i] != NULL ? s->cases[i]->name : NULL;
+}
+
+static const char *given_at(const sweep *s, int i)
+{
+    return i < s->givens ? s->given[i].key : NULL;
+}
+
+/* What a run was asked for: what lies outside was left out, not lost. */
+static void put_selection(record *r, const sweep *s)
+{
+    if (s->cases == NULL)
+        return;
+    if (s->select != NULL && s->select[0] != '\0')
+        record_text(r, r->file, "selection", s->select);
+    put_names(r, "selection_cases", s, case_at);
+    put_names(r, "selection_formulations", s, given_at);
+}
+
 static void put_declarations(record *r, const gathering *g)
 {
     subjects list = {0};
@@ -173,6 +213,7 @@ static void put_declarations(record *r, const gathering *g)
 static void put_cases(record *r, const gathering *g, const environment *e)
 {
     put_environment(r, e);
+    put_selection(r, g->sweep);
     put_declarations(r, g);
     const hid_t cases = record_group(r, r->file, "cases");
     for (int i = 0; i < g->sweep->seriess; i++)

@@ -218,7 +218,7 @@ static status plan_all(const sweep_request *request, const truths *t, sweep *out
 {
     select_words words;
     TRY(select_begin(request->select, &words, f));
-    TRY(plan_points(request->cases != NULL ? request->cases : registry_cases, t, out, f));
+    TRY(plan_points(out->cases, t, out, f));
     for (int i = 0; i < out->points; i++)
         TRY(plan_series(request, t, out, i, &words, f));
     TRY(select_all_met(request->select, &words, f));
@@ -229,6 +229,9 @@ status plan_sweep(const sweep_request *request, const truths *t, sweep *out, fau
 {
     memset(out, 0, sizeof *out);
     out->select = request->select;
+    out->cases = request->cases != NULL ? request->cases : registry_cases;
+    out->given = request->formulation;
+    out->givens = request->formulations;
     out->doublings = request->doublings;
     const status outcome = plan_all(request, t, out, f);
     if (outcome != STATUS_OK)

@@ -41,6 +41,11 @@ typedef struct series {
 typedef struct sweep {
     /* of the request: what it leaves out is not judged either; NULL: nothing is left out */
     const char *select;
+    /* of the request, as they live there: its cases (NULL: it was planned by hand), and its
+     * formulations where it is restricted to some */
+    const case_type *const *cases;
+    const formulation *given;
+    int givens;
     int shapes;     /* of the request */
     int doublings;  /* of the request */
     int threads;    /* of the loop over elements in every cell; 0, 1: one */
