@@ -169,8 +169,8 @@ typedef struct element_type {
     status (*stress)(const element_data *, const double e[], const double inner[], stress_output *);
     /* Codes that give force and tangent of node states, or an energy that is the same wherever a
      * rigid motion takes the element. The places of the nodes relative to the first one are its
-     * strains. Straight elements only; in linear
-     * buckling the places carry the prestress: right in the limit of many elements. */
+     * strains. Straight elements only; in linear buckling the strains of the prestress count inside
+     * each element: an error of their size. */
     status (*force)(const element_data *, const node_state x[], force_output *);
 
     /* Optional: what it is judged by. */

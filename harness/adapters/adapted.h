@@ -27,11 +27,10 @@ typedef void differences_jacobian(const element_data *d, const node_state x[], d
 void differences_curvature(const element_data *d, const node_state x[], differences_jacobian *,
                            const double s[], double H[]);
 
-/* relative.c: strains and stresses of a type that gives a force or an energy. */
-int relative_strains_two(const double options[]);   /* of two nodes */
-int relative_strains_three(const double options[]); /* of three */
-void relative_strain(const element_data *d, const node_state x[], strain_output *out);
+/* relative.c: stresses of a type that gives a force or an energy. */
 status relative_stress(const element_data *d, const double e[], const double inner[],
                        stress_output *out);
+/* Derivative of C at rest along the strains of this prestress: by differences. */
+void relative_geometric(const element_data *d, const double sigma[], double G[]);
 
 #endif

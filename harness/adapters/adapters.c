@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "harness/adapters/adapted.h"
+#include "harness/adapters/places.h"
 
 static size_t data_size(const element_request *request)
 {
@@ -16,8 +16,8 @@ static status prepare(const element_request *request, element_data *out, fault *
     out->given = given;
     out->nodes = element_nodes(given, request->options);
     out->strains = given->force == NULL ? element_strains(given, request->options)
-                   : out->nodes == 2    ? relative_strains_two(request->options)
-                                        : relative_strains_three(request->options);
+                   : out->nodes == 2    ? places_strains_two(request->options)
+                                        : places_strains_three(request->options);
     out->length = request->length;
     out->mass = lumped_of(request->section, request->features, request->length);
     return given->prepare(request, (element_data *)out->own, f);
@@ -74,12 +74,12 @@ static void wrap(const element_type *given, element_type *out)
 static void make_relative(int nodes, element_type *out)
 {
     out->offers &= ~(unsigned)FEATURE_CURVATURE;
-    out->strains = nodes == 2 ? relative_strains_two : relative_strains_three;
+    out->strains = nodes == 2 ? places_strains_two : places_strains_three;
     out->inner = NULL;
     out->memory = NULL;
-    out->strain = relative_strain;
+    out->strain = places_strain;
     out->stress = relative_stress;
-    out->geometric = NULL;
+    out->geometric = relative_geometric;
 }
 
 static status refuse(const element_type *given, const char *what, fault *f)

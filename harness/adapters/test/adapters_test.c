@@ -139,6 +139,47 @@ static void compare(const subject *whole, const subject *part, const char *what,
              what, worst[0], worst[1], worst[2]);
 }
 
+/* Geometric stiffness [n x n] of linear buckling: about the undeformed element, prestressed by
+ * small motions v [n] of its nodes. */
+static double prestressed(const subject *s, const double v[], double K[])
+{
+    const int n = s->coordinates, m = s->strains;
+    const double none[N] = {0};
+    double e[M], J[M * N], strain[M], sigma[M], C[M * M], G[M * M] = {0}, work[M * N];
+    node_state x[ELEMENT_MAX_NODES];
+    nodes_place(s->nodes, length, none, x);
+    s->type.strain(s->data, x, &(strain_output){.e = e, .J = J});
+    dense_mul_vec(m, n, J, v, strain);
+    gsl_test(s->type.stress(s->data, e, NULL, &(stress_output){.C = C}) != STATUS_OK, "at rest");
+    dense_mul_vec(m, m, C, strain, sigma);
+    s->type.strain(s->data, x, &(strain_output){.s = sigma, .H = K});
+    if (s->type.geometric != NULL)
+        s->type.geometric(s->data, sigma, G);
+    dense_add_congruence(m, n, J, G, K, work);
+    double F[N] = {0};
+    dense_add_transpose_mul(n, m, 1, J, sigma, F);
+    return F[n - NODE_COORDINATES];
+}
+
+/* What an axial force does to the stiffness against twist [N m]: nothing but what the formulation
+ * knows of fibres that lengthen. */
+static void twists_as(const subject *whole, const subject *part, const char *what, double bound)
+{
+    const int n = whole->coordinates, last = n - NODE_COORDINATES;
+    double v[N] = {0}, K[2][N * N], worst = 0;
+    v[last] = 1e-3 * length;
+    if (whole->nodes == 3)
+        v[NODE_COORDINATES] = v[last] / 2;
+    const double force = prestressed(whole, v, K[0]);
+    prestressed(part, v, K[1]);
+    for (int k = 0; k < whole->nodes; k++)
+        worst = fmax(worst, fabs(K[1][3 * n + NODE_COORDINATES * k + 3] -
+                                 K[0][3 * n + NODE_COORDINATES * k + 3]));
+    gsl_test(!(worst < bound * force * length && force > 0),
+             "%s, %s: geometric stiffness against twist agrees (%.1e of %.1e)", whole->type.name,
+             what, worst, K[0][3 * n + 3]);
+}
+
 static void without(const element_type *given, const section *c, unsigned leaves, const char *what)
 {
     element_type bare = *given;
@@ -168,16 +209,17 @@ static void forces_only(const element_type *given, const section *c)
     static const struct {
         unsigned leaves;
         const char *what;
-        double bound;
-    } way[] = {{0, "force and tangent", 1e-10},
-               {LEAVES_TANGENT, "force", 1e-9},
-               {LEAVES_FORCE | LEAVES_TANGENT, "energy", 1e-7}};
+        double bound, buckling;
+    } way[] = {{0, "force and tangent", 1e-10, 1e-9},
+               {LEAVES_TANGENT, "force", 1e-9, 1e-9},
+               {LEAVES_FORCE | LEAVES_TANGENT, "energy", 1e-7, 1e-7}};
     for (size_t i = 0; i < sizeof way / sizeof way[0]; i++) {
         const element_type bare = by_force(given, way[i].leaves);
         subject part;
         start(given, c, &source);
         start(&bare, c, &part);
         compare(&source, &part, way[i].what, way[i].bound);
+        twists_as(&source, &part, way[i].what, way[i].buckling);
         free(part.data);
         free(source.data);
     }

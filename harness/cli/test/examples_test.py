@@ -45,3 +45,13 @@ class Corotational(Judged, PluginTest):
     example = "corotational"
     lines = 190
     cases = (*STATICS_AND_FREQUENCIES, "weighted_column", "lateral_buckling")
+
+    def test_converges_as_the_others(self):
+        """A tangent that is not symmetric, and a chord that hardly stretches: as few iterations."""
+        for axial in ("1e4", "1e12"):
+            iterations = {
+                name: self.record("solve", "elastica", "--element", self.object, "-f", name, "-n",
+                                  "8", "-s", "load=10", "-s", f"axial={axial}")["cell"]["iterations"]
+                for name in (self.example, "beamw_first")
+            }
+            self.assertLessEqual(iterations[self.example], iterations["beamw_first"] + 1)
