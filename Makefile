@@ -82,12 +82,6 @@ ifndef RESULTS
 endif
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) $(if $(wildcard $(BUILD)/bench.h5),--bench $(BUILD)/bench.h5) --beside $(BUILD)/peers.h5 -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
 
-.PHONY: man
-man: all ## write the manual pages: build/man; 'man -l build/man/beamwork.1' shows one
-	@mkdir -p $(BUILD)/man
-	@for page in $$($(PROGRAM) help --man); do $(PROGRAM) help --man $$page >$(BUILD)/man/$$page || exit 1; done
-	@harness/packaging/element_page.sh $(VERSION) $(RELEASED) >$(BUILD)/man/beamwork-element.7
-
 newton: all ## the two forms of Newton's method side by side, for the report; build/newton.json
 	@$(PYTHON) harness/tools/newton.py $(PROGRAM) -o $(BUILD)/newton.json
 
@@ -223,6 +217,7 @@ $(TRUTHS): $(wildcard reference/tables/*.csv reference/predicted/*.csv reference
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) reference/pack.py -o $@
 
 include harness/library/library.mk
+include harness/packaging/packaging.mk
 
 FORCE:
 

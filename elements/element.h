@@ -82,11 +82,12 @@ typedef enum element_analysis {
  * any quantity can show, where leading terms vanish.  Loads along members and masses of nodes are
  * lumped: nothing that depends on them has more than two. */
 typedef struct element_order {
-    int least, highest;
+    int least, highest; /* of a smooth solution; of any quantity */
 } element_order;
 
+/* What an element is made for. */
 typedef struct element_request {
-    const section *section;
+    const section *section;          /* its constants */
     double length;                   /* l0 [m] */
     unsigned features;               /* exactly what is to be active */
     const double *options;           /* values in the order of type->options */
@@ -99,6 +100,7 @@ typedef struct element_request {
 typedef struct element_data
     element_data; /* opaque; one per kind of element, shared by identical ones */
 
+/* A node as it is. */
 typedef struct node_state {
     double r[3]; /* position [m] */
     double u[3]; /* displacement since the undeformed state [m]: r - u is the initial position, so
@@ -113,6 +115,7 @@ typedef struct element_rotating_frame {
     double centre[3]; /* a point of its axis [m] */
 } element_rotating_frame;
 
+/* What `strain` fills. */
 typedef struct strain_output {
     double *e;       /* [strains] [m] */
     double *J;       /* [strains x 7 nodes] de/dx */
@@ -120,6 +123,7 @@ typedef struct strain_output {
     double *H;       /* [7 nodes x 7 nodes] sum_i s_i d2e_i/dx2, overwritten */
 } strain_output;
 
+/* What `stress` fills. */
 typedef struct stress_output {
     double *energy;   /* [1] [J] */
     double *sigma;    /* [strains] [N]; with inner unknowns: after eliminating their residual */
@@ -128,6 +132,7 @@ typedef struct stress_output {
     double *memory; /* [memory] filled by stress, read by update: the eliminated inner equations */
 } stress_output;
 
+/* What `inertia` fills. */
 typedef struct inertia_output {
     double *M; /* [7n x 7n] mass matrix: translations [kg] */
     /* In a rotating frame; zero without one. */
@@ -159,11 +164,13 @@ typedef struct element_type {
     const char *family;  /* one word; types of one family share code or theory: that they agree
                             proves little */
     unsigned offers;     /* element_feature; theories of shear as in shear_theories */
+    /* Bytes of its element_data. */
     size_t (*data_size)(const element_request *);
     /* Once per kind of element.  Refuses what it cannot do, naming it. */
     status (*prepare)(const element_request *, element_data *, fault *);
 
     /* Required: these two, or `force` in their place. */
+    /* Of the states of its nodes: e with its derivatives. */
     void (*strain)(const element_data *, const node_state x[], strain_output *);
     /* NOT_CONVERGED or SINGULAR when the state is outside what the formulation can evaluate. */
     status (*stress)(const element_data *, const double e[], const double inner[], stress_output *);

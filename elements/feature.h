@@ -25,10 +25,11 @@ enum element_feature {
     FEATURE_END = 1 << 14
 };
 
+/* What a bit is called. */
 typedef struct feature_row {
-    unsigned bit;
-    const char *name; /* without a comma */
-    const char *summary;
+    unsigned bit;        /* element_feature */
+    const char *name;    /* without a comma */
+    const char *summary; /* one line */
 } feature_row;
 
 /* For results and rules; "unknown" for what is no single bit. */
@@ -57,6 +58,7 @@ static inline const feature_row *feature_row_of(unsigned bit)
     return one;
 }
 
+/* As files and results have it. */
 static inline const char *feature_name(unsigned bit)
 {
     return feature_row_of(bit)->name;

@@ -3,6 +3,7 @@
 #ifndef BEAMWORK_PARAMETER_H
 #define BEAMWORK_PARAMETER_H
 
+/* An entry. */
 typedef struct parameter_type {
     const char *name;    /* NULL ends the table */
     const char *unit;    /* SI; "1" for a number, "" for a choice */

@@ -6,6 +6,7 @@
 #ifndef BEAMWORK_STATUS_H
 #define BEAMWORK_STATUS_H
 
+/* How it ended. */
 typedef enum status {
     STATUS_OK,
     STATUS_NOT_CONVERGED, /* an iteration ended without meeting its criterion */
@@ -19,6 +20,7 @@ typedef enum status {
 
 enum { FAULT_TEXT = 320 };
 
+/* What is wrong, for a user. */
 typedef struct fault {
     char text[FAULT_TEXT]; /* one line, no newline, '\0'-terminated */
 } fault;

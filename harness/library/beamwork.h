@@ -30,6 +30,7 @@
 extern "C" {
 #endif
 
+/* How a call ended. */
 typedef enum bw_status {
     BW_OK,
     BW_NOT_CONVERGED, /* an iteration ended without meeting its criterion */
@@ -66,6 +67,7 @@ BW_API bw_status bw_scene_case(const char *name, bw_scene **out, char **why);
 /* A scene file's bytes; name: what messages call it (NULL: "scene"). */
 BW_API bw_status bw_scene_read(const char *text, size_t size, const char *name, bw_scene **out,
                                char **why);
+/* The same of a file. */
 BW_API bw_status bw_scene_open(const char *path, bw_scene **out, char **why);
 /* "NAME=VALUE", as --set: "thickness=0.5e-3". Results made before keep theirs. */
 BW_API bw_status bw_scene_set(bw_scene *scene, const char *assignment, char **why);
@@ -90,7 +92,9 @@ BW_API int bw_result_elements(const bw_result *result);            /* of each me
 
 /* Quantities, counted from 0; NULL: there is no such one. */
 BW_API int bw_result_quantities(const bw_result *result);
+/* Its name, ... */
 BW_API const char *bw_result_name(const bw_result *result, int quantity);
+/* ... and its SI unit. */
 BW_API const char *bw_result_unit(const bw_result *result, int quantity);
 /* [unit of the quantity]; NaN: it has no value, or there is no such quantity. */
 BW_API double bw_result_value(const bw_result *result, const char *quantity);
@@ -107,9 +111,9 @@ BW_API size_t bw_result_steps(bw_result *result, const char *column, const doubl
 BW_API size_t bw_result_shapes(bw_result *result, size_t *points, const double **position);
 /* *first [members + 1]: the point where each member begins; the number of members. */
 BW_API size_t bw_result_members(const bw_result *result, const int **first);
-/* What a state is: "path", "buckling", ...; and its path parameter, load factor or frequency [Hz].
- * NULL, NaN: there is no such state. */
+/* What a state is: "path", "buckling", ...; NULL: there is no such state. */
 BW_API const char *bw_result_shape_kind(const bw_result *result, size_t state);
+/* Its path parameter, load factor or frequency [Hz]; NaN: there is no such state. */
 BW_API double bw_result_shape_value(const bw_result *result, size_t state);
 
 /* Formulations side by side, as `beamwork converge --format json`. formulations: separated by

@@ -1,0 +1,87 @@
+#!/usr/bin/python3
+"""A header of the house as doxygen reads it: comments before and behind a declaration document it.
+
+usage: filter.py HEADER
+"""
+import pathlib
+import re
+import sys
+
+COMMENT = re.compile(r"/\*(.*?)\*/", re.DOTALL)
+FEATURE = re.compile(r'\{(FEATURE_\w+),\s*"([^"]+)",\s*"([^"]+)"\}')
+GROUP = re.compile(r"\A\s*((?:Required|Optional)\b[^.:]*)[.:]")
+
+
+def escaped(text):
+    """What doxygen would take for commands and tags; not inside `code`."""
+    parts = text.split("`")
+    parts[::2] = [re.sub(r"([\\<>@#&]|--)", r"\\\1", part) for part in parts[::2]]
+    return "`".join(parts)
+
+
+def is_behind(source, start):
+    """Does it stand behind something on its line, or continue there?"""
+    return bool(source[source.rfind("\n", 0, start) + 1:start].strip())
+
+
+def comments(source):
+    """Each as documentation of what it stands before, or, behind something, of that."""
+    seen = []
+
+    def one(found):
+        text = escaped(found[1])
+        seen.append(found)
+        if len(seen) == 1:
+            return "/** @file\n *" + text + "*/"
+        return ("/**<" if is_behind(source, found.start()) else "/**") + text + "*/"
+    return COMMENT.sub(one, source)
+
+
+def features(source):
+    """The bits of physics, each with the row of the table that follows them."""
+    for bit, name, summary in FEATURE.findall(source):
+        source = re.sub(rf"^( +{bit} = [^,\n]+,)$", lambda line, text=f"{name}: {summary}":
+                        f"{line[1]} /* {text} */", source, count=1, flags=re.MULTILINE)
+    return source
+
+
+def groups(source):
+    """Members behind "Required: ..." or "Optional: ..." stand together under these words."""
+    out, is_open = [], False
+    for line in source.split("\n"):
+        text = line.strip().removeprefix("/*").removesuffix("*/")
+        found = GROUP.match(text) if line.startswith("    /*") else None
+        if found:
+            close = "    /**@}*/\n" if is_open else ""
+            name = text.strip().rstrip(".").replace("`", "")
+            line = f"{close}    /**@name {escaped(name)} */\n    /**@{{*/"
+            is_open = True
+        elif is_open and line.startswith("}"):
+            line = "    /**@}*/\n" + line
+            is_open = False
+        out.append(line)
+    return "\n".join(out)
+
+
+def apart(source):
+    """Members that are declared together share what stands behind them."""
+    return re.sub(r"^( +[\w ]+?)((?: \w+(?:\[\w*\])?,)+)( \w+(?:\[\w*\])?; +)(/\*.*?\*/)",
+                  lambda found: found[1] + found[2].replace(",", f" {found[4]},") + found[3]
+                  + found[4], source, flags=re.MULTILINE | re.DOTALL)
+
+
+def main(path):
+    """Writes the header to standard output."""
+    source = apart(features(pathlib.Path(path).read_text(encoding="utf-8")))
+    marked = groups(source)
+    # what groups() wrote is documentation already
+    parts = re.split(r"(/\*\*@.*?\*/)", marked, flags=re.DOTALL)
+    kept = parts[1::2]
+    text = comments("\0".join(parts[::2]))
+    for one in kept:
+        text = text.replace("\0", one, 1)
+    sys.stdout.write(text)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
