@@ -118,13 +118,15 @@ BW_API double bw_result_shape_value(const bw_result *result, size_t state);
 
 /* Formulations side by side, as `beamwork converge --format json`. formulations: separated by
  * blanks, "all" or NULL: all that offer what the scene needs. meshes: "1,2,4"; NULL: the scene's.
- * options: "error" (0.01: what `answers` asks for), "select" (as -k), "jobs" (processes). */
+ * options: "error" (0.01: what `answers` asks for), "select" (as -k), "jobs" (processes), "stop" (a
+ * file descriptor: once it can be read, as a pipe that somebody writes to, the processes end, and
+ * the call with TIME_LIMIT). */
 BW_API bw_status bw_converge(const bw_scene *scene, const char *formulations, const char *meshes,
                              const char *options, char **json, char **why);
 /* Verdicts, as `beamwork verify --json`. scene NULL: all built-in cases; else that scene's file at
  * its defaults and the points of its truths, or that case. select: as -k, NULL: all. results: an
  * HDF5 file to write, NULL: none. options: "jobs", "time_limit" ([s] of a cell, 120), "doublings",
- * "shapes". OK also where verdicts differ from the expected ones: the document counts them
+ * "shapes", "stop". OK also where verdicts differ from the expected ones: the document counts them
  * ("unexpected"). */
 BW_API bw_status bw_verify(const bw_scene *scene, const char *formulations, const char *select,
                            const char *options, const char *results, char **json, char **why);

@@ -29,3 +29,10 @@ int contestants_jobs(void)
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
     return processors < 1 ? 1 : processors < WORKERS_MOST ? (int)processors : WORKERS_MOST;
 }
+
+status contestants_finished(const sweep *s, fault *f)
+{
+    return s->unfinished == 0 ? STATUS_OK
+                              : fault_set(f, STATUS_TIME_LIMIT, "stopped before %d cells were done",
+                                          s->unfinished);
+}

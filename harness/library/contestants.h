@@ -3,6 +3,7 @@
 #define BEAMWORK_CONTESTANTS_H
 
 #include "harness/catalogue/formulation_list.h"
+#include "harness/study/sweep.h"
 
 enum { CONTESTANTS_MOST = 64 };
 
@@ -10,5 +11,7 @@ enum { CONTESTANTS_MOST = 64 };
 status contestants_parse(const char *names, formulation list[CONTESTANTS_MOST], int *count,
                          fault *f);
 int contestants_jobs(void); /* processes where nobody said how many */
+/* TIME_LIMIT: who may end the run did so before all cells were done. */
+status contestants_finished(const sweep *, fault *);
 
 #endif

@@ -1,3 +1,5 @@
+#include <limits.h>
+
 #include "harness/judge/families.h"
 #include "harness/library/call.h"
 #include "harness/library/contestants.h"
@@ -20,7 +22,7 @@ typedef struct study {
     const char *select;
     json_t *kept;
     formulation formulation[CONTESTANTS_MOST];
-    int formulations, mesh[SCENE_MESHES], meshes, jobs;
+    int formulations, mesh[SCENE_MESHES], meshes, jobs, stop;
     truths truths;
     sweep sweep;
 } study;
@@ -38,6 +40,7 @@ static status prepare(study *s, const char *names, const char *meshes, const cha
     const call_option table[] = {{"error", OPTION_SHARE, &s->level, 0, 0},
                                  {"select", OPTION_WORDS, &s->select, 0, 0},
                                  {"jobs", OPTION_WHOLE, &s->jobs, 1, WORKERS_MOST},
+                                 {"stop", OPTION_WHOLE, &s->stop, 1, INT_MAX},
                                  {.name = NULL}};
     TRY(options_read(options, table, &s->kept, f));
     TRY(contestants_parse(names, s->formulation, &s->formulations, f));
@@ -53,9 +56,10 @@ static status prepare(study *s, const char *names, const char *meshes, const cha
 
 static status write(study *s, char **json, fault *f)
 {
-    const sweep_request request = {.jobs = s->jobs};
+    const sweep_request request = {.jobs = s->jobs, .stop = s->stop};
     text t;
     TRY(run_sweep(&request, &s->sweep, f));
+    TRY(contestants_finished(&s->sweep, f));
     TRY(families_add_truths(&s->sweep, 0, &s->truths, f));
     TRY(text_begin(&t, f));
     return text_end(&t, json_convergence_write(t.to, &s->sweep, &s->truths, s->level, f), json, f);

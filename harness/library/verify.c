@@ -1,3 +1,5 @@
+#include <limits.h>
+
 #include "harness/judge/families.h"
 #include "harness/library/call.h"
 #include "harness/library/contestants.h"
@@ -42,6 +44,7 @@ static status prepare(trial *v, const char *names, const char *options, fault *f
                                  {"time_limit", OPTION_WHOLE, &r->time_limit, 0, LONGEST},
                                  {"doublings", OPTION_WHOLE, &r->doublings, 0, DOUBLINGS},
                                  {"shapes", OPTION_WHOLE, &r->shapes, 0, PICTURES},
+                                 {"stop", OPTION_WHOLE, &r->stop, 1, INT_MAX},
                                  {.name = NULL}};
     place where;
     TRY(options_read(options, table, &v->kept, f));
@@ -61,6 +64,7 @@ static status judge(trial *v, fault *f)
     const sweep_request *r = &v->request;
     const int whole = r->select == NULL && r->formulations == 0 && v->scene == NULL;
     TRY(verification_run(r, &v->truths, &v->sweep, f));
+    TRY(contestants_finished(&v->sweep, f));
     if (v->scene != NULL)
         TRY(families_add_truths(&v->sweep, 1, &v->truths, f));
     return judgement_make(&v->sweep, &v->truths, whole, &v->judgement, f);

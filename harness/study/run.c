@@ -163,12 +163,15 @@ static status run_all(const sweep_request *request, workload *w, fault *f)
     interrupt asked = {.descriptor = -1};
     if (request->interruptible)
         interrupt_begin(&asked);
+    else if (request->stop > 0)
+        asked.descriptor = request->stop;
     crew c = {.jobs = smaller(smaller(request->jobs, WORKERS_MOST), w->count),
               .asked = asked.descriptor};
     const status outcome = run_parallel(request, w, &c, f);
     if (c.interrupted)
         keep_finished(w->s, w);
-    interrupt_end(&asked);
+    if (request->interruptible)
+        interrupt_end(&asked);
     return outcome;
 }
 
