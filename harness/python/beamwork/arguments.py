@@ -1,0 +1,66 @@
+"""What users give, as the library takes it; what cannot be meant ends here with one line."""
+import json
+import operator
+import os
+
+from .errors import Refused
+
+
+def utf8(value, what):
+    """The bytes of a text or path; None stays None."""
+    if value is None:
+        return None
+    if isinstance(value, os.PathLike):
+        value = os.fspath(value)
+    if not isinstance(value, str):
+        raise TypeError(f"{what}: a text is expected, not {type(value).__name__}")
+    if not value or "\0" in value:
+        raise Refused(f"{what}: {'an empty text' if not value else 'a text with a zero'} "
+                      "means nothing here")
+    return value.encode("utf-8", "surrogateescape")
+
+
+def required(value, what):
+    """The bytes of a text that must be there."""
+    if value is None:
+        raise TypeError(f"{what}: a text is expected, not None")
+    return utf8(value, what)
+
+
+def names(values, what):
+    """Formulations, separated by blanks; None where there are none."""
+    return b" ".join(required(v, what) for v in values) if values else None
+
+
+def whole(value, what):
+    """A whole number, at least 1."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{what}: a whole number is expected, not {value!r}") from None
+    if isinstance(value, bool) or not 1 <= number < 2**31:
+        raise Refused(f"{what} is {value!r}: a whole number from 1 is expected")
+    return number
+
+
+def whole_list(values, what):
+    """Whole numbers, separated by commas; None stays None."""
+    if values is None:
+        return None
+    try:
+        listed = list(values)
+    except TypeError:
+        raise TypeError(f"{what}: a list is expected, not {values!r}") from None
+    if not listed:
+        raise Refused(f"{what}: an empty list; leave it out for the scene's own")
+    return ",".join(str(whole(v, what)) for v in listed).encode()
+
+
+def options(values, **more):
+    """Options as JSON, those of more that are there among them; None where there are none."""
+    values = {**values, **{key: value for key, value in more.items() if value is not None}}
+    try:
+        return json.dumps(values, allow_nan=False,
+                          default=lambda v: v.item()).encode() if values else None
+    except (TypeError, ValueError, AttributeError):
+        raise TypeError(f"options are numbers, words, True and False, not {values!r}") from None

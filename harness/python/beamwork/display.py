@@ -1,0 +1,102 @@
+"""What notebooks show: small tables of HTML, all texts escaped, digits as far as they are known."""
+import html
+import math
+
+_MOST_ROWS = 40
+
+
+def escape(value):
+    return html.escape(str(value), quote=True)
+
+
+def significant(value, digits):
+    """A number with so many digits; nothing where there is none."""
+    if value is None or not math.isfinite(value):
+        return ""
+    return f"{value:.{max(1, digits)}g}"
+
+
+def known(value, uncertainty):
+    """A value with the digits that its uncertainty leaves, 2 to 12; 7 where it is unknown."""
+    if value is None or not math.isfinite(value):
+        return ""
+    if value == 0 or uncertainty is None or not math.isfinite(uncertainty):
+        return significant(value, 7)
+    if uncertainty == 0:
+        return significant(value, 12)
+    lost = math.log10(abs(uncertainty / value))
+    return significant(value, min(12, max(2, math.ceil(-lost) + 1)))
+
+
+def percent(error):
+    """A relative error in percent with its sign and two digits."""
+    if error is None or not math.isfinite(error):
+        return ""
+    return "0 %" if error == 0 else f"{100 * error:+.2g} %"
+
+
+def plain(value):
+    if value is None:
+        return ""
+    return significant(value, 7) if isinstance(value, float) else str(value)
+
+
+def table(head, rows, title=""):
+    """A table: title, names of columns, rows of texts; at most 40 rows, the rest is counted."""
+    rows = list(rows)
+    parts = ["<table>"]
+    if title:
+        parts.append(f"<caption style='text-align:left'>{escape(title)}</caption>")
+    parts.append("<tr>" + "".join(f"<th>{escape(h)}</th>" for h in head) + "</tr>")
+    for row in rows[:_MOST_ROWS]:
+        parts.append("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>")
+    if len(rows) > _MOST_ROWS:
+        parts.append(f"<tr><td colspan='{len(head)}'>and {len(rows) - _MOST_ROWS} more</td></tr>")
+    return "".join(parts) + "</table>"
+
+
+def scene(described, text):
+    return (f"<p>{escape(described)}</p><details><summary>scene file</summary>"
+            f"<pre>{escape(text)}</pre></details>")
+
+
+def result(shown):
+    rows = []
+    for name, value in shown.values.items():
+        error = shown.errors.get(name)
+        off = None if error is None else abs(error * value)
+        rows.append((name, known(value, off), shown.units[name], percent(error)))
+    for name in shown.curves:
+        rows.append((name, f"curve of {len(shown.curve(name).x)} points", shown.units[name], ""))
+    return table(("quantity", "value", "unit", "error"), rows, str(shown))
+
+
+def convergence(shown):
+    """A row for each limit: the errors over the meshes, and what is said of it."""
+    meshes = sorted({r["elements"] for r in shown})
+    errors = {(r["formulation"], r["quantity"], r["elements"]): r for r in shown}
+
+    def cell(limit, elements):
+        record = errors.get((limit["formulation"], limit["quantity"], elements))
+        if record is None:
+            return ""
+        if record["status"] != "ok":
+            return record["status"].replace("_", " ")
+        return percent(record["error"]) or known(record["value"], limit["limit_uncertainty"])
+
+    rows = ([r["quantity"], r["formulation"]] + [cell(r, n) for n in meshes] +
+            [known(r["limit"], r["limit_uncertainty"]), r["unit"],
+             significant(r["order"], 3), r["verdict"]] for r in shown.limits)
+    head = ["quantity", "formulation", *(f"n = {n}" for n in meshes), "limit", "unit", "order",
+            "verdict"]
+    return table(head, rows, shown.sentence)
+
+
+def verdicts(shown):
+    counted = ", ".join(f"{n} {word}" for word, n in shown.counts.items() if n)
+    title = f"{'PASS' if shown.passed else 'FAIL'}: {counted}"
+    rows = ((r["case"], r["parameters"], r["formulation"], r["quantity"], r["verdict"],
+             known(r["limit"], r["limit_uncertainty"]), percent(r["error"]))
+            for r in shown.unexpected or shown)
+    return table(("case", "parameters", "formulation", "quantity", "verdict", "limit", "error"),
+                 rows, title + ("; not as expected:" if shown.unexpected else ""))

@@ -1,0 +1,74 @@
+"""What goes wrong, each with one line that names culprit and remedy."""
+import json
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """One mistake of a scene: where (line and column from 1; 0: nowhere), and what is meant."""
+    file: str
+    line: int
+    column: int
+    text: str
+    entry: str = ""  # of a scene built in Python: which of its entries, as nodes['tip']
+
+    def __str__(self):
+        place = f"{self.file}:{self.line}:{self.column}" if self.line else self.file
+        return f"{self.entry or place}: {self.text}"
+
+
+class Error(Exception):
+    """Every failure of the library; result: what was computed until then, or None."""
+    result = None
+    partial = None  # the library's memory of it
+
+
+class Refused(Error, ValueError):
+    """An input that cannot be meant; mistakes: those of a scene, each a Mistake, in their order."""
+    mistakes = ()
+
+
+class NotConverged(Error):
+    """Newton's method found no state of equilibrium."""
+
+
+class Singular(Error):
+    """Nothing holds the structure, or it has lost its stiffness."""
+
+
+class Fault(Error):
+    """A file, the disk, memory, or a process that ended."""
+
+
+class TimeLimit(Error):
+    """Stopped by the clock."""
+
+
+class NoValue(Error):
+    """What was asked for does not exist, as a critical load of a structure that has none."""
+
+
+_OF_STATUS = {1: NotConverged, 2: Singular, 3: Refused, 4: Fault, 5: TimeLimit, 6: NoValue}
+
+
+def of_status(status, why, entries=()):
+    """The exception of a status of the library. why: its line, or the JSON of all mistakes of a
+    scene; entries: of each line of a scene's text the entry that wrote it."""
+    try:
+        document = json.loads(why)
+    except ValueError:
+        document = None
+    if not isinstance(document, dict) or not isinstance(document.get("mistakes"), list):
+        return _OF_STATUS.get(status, Fault)(why or f"status {status} of the library")
+
+    def entry(line):
+        return entries[line - 1] if 0 < line <= len(entries) else ""
+
+    mistakes = tuple(
+        Mistake(document.get("file", ""), m["line"], m["column"], m["text"], entry(m["line"]))
+        for m in document["mistakes"])
+    more = document.get("more", 0) + len(mistakes) - 1
+    line = str(mistakes[0]) if mistakes else "the scene is refused"
+    error = Refused(line + (f" (and {more} more: mistakes)" if more > 0 else ""))
+    error.mistakes = mistakes
+    return error

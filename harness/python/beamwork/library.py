@@ -1,0 +1,176 @@
+"""The C library: where it is, its functions, and what it gives that must be freed."""
+import ctypes
+import os
+import pathlib
+import shutil
+import threading
+from ctypes import POINTER, c_char_p, c_double, c_int, c_size_t, c_void_p
+
+from .errors import Error, of_status
+
+FILE = "libbeamwork.so.0"
+
+
+def places():
+    """Where the library is looked for, in this order."""
+    asked = os.environ.get("BEAMWORK_LIBRARY")
+    if asked:
+        return [pathlib.Path(asked)]
+    here = pathlib.Path(__file__).resolve().parent
+    found = [here / FILE, here.parent / FILE]
+    for folder in here.parents:  # PREFIX/lib/python3/dist-packages/beamwork: PREFIX/lib
+        found += [folder / FILE, folder / "lib" / FILE, folder / "build" / FILE]
+        found += sorted((folder / "lib").glob(f"*/{FILE}"))
+    program = shutil.which("beamwork")
+    if program:
+        folder = pathlib.Path(program).resolve().parent
+        found += [folder / FILE, folder.parent / "lib" / FILE]
+    return found + [pathlib.Path(FILE)]  # where the system looks
+
+
+def _load():
+    tried = places()
+    for path in tried:
+        if path.name == str(path) or path.is_file():
+            try:
+                return ctypes.CDLL(str(path)), path
+            except OSError as error:
+                if path.name != str(path):
+                    raise ImportError(f"beamwork: {path} cannot be loaded: {error}") from None
+    what = f"BEAMWORK_LIBRARY={tried[0]} is no file" if len(tried) == 1 else f"no {FILE}"
+    raise ImportError(f"beamwork: {what}; run 'make library' in a clone of beamwork, or name the "
+                      "file in BEAMWORK_LIBRARY")
+
+
+_text = POINTER(c_void_p)
+# Arguments behind the status; every one of them ends with 'why'.
+_CALLS = {
+    "truths": [c_char_p],
+    "list": [c_char_p, _text],
+    "formulation_load": [c_char_p, _text],
+    "scene_case": [c_char_p, _text],
+    "scene_read": [c_char_p, c_size_t, c_char_p, _text],
+    "scene_open": [c_char_p, _text],
+    "scene_set": [c_void_p, c_char_p],
+    "scene_write": [c_void_p, _text],
+    "scene_json": [c_void_p, _text],
+    "solve": [c_void_p, c_char_p, c_int, c_char_p, _text],
+    "result_json": [c_void_p, _text],
+    "converge": [c_void_p, c_char_p, c_char_p, c_char_p, _text],
+    "verify": [c_void_p, c_char_p, c_char_p, c_char_p, c_char_p, _text],
+}
+_ARRAY = POINTER(POINTER(c_double))
+# Functions without a status: their result, their arguments.
+_OTHERS = {
+    "version": (c_char_p, []),
+    "free_text": (None, [c_void_p]),
+    "scene_free": (None, [c_void_p]),
+    "result_free": (None, [c_void_p]),
+    "result_quantities": (c_int, [c_void_p]),
+    "result_name": (c_char_p, [c_void_p, c_int]),
+    "result_unit": (c_char_p, [c_void_p, c_int]),
+    "result_value": (c_double, [c_void_p, c_char_p]),
+    "result_error": (c_double, [c_void_p, c_char_p]),
+    "result_curve": (c_size_t, [c_void_p, c_char_p, _ARRAY, _ARRAY]),
+    "result_formulation": (c_char_p, [c_void_p]),
+    "result_elements": (c_int, [c_void_p]),
+    "result_shapes": (c_size_t, [c_void_p, POINTER(c_size_t), _ARRAY]),
+    "result_members": (c_size_t, [c_void_p, POINTER(POINTER(c_int))]),
+    "result_shape_kind": (c_char_p, [c_void_p, c_size_t]),
+    "result_shape_value": (c_double, [c_void_p, c_size_t]),
+}
+
+
+def _declare(library, path):
+    declared = {}
+    calls = {name: (c_int, [*arguments, _text]) for name, arguments in _CALLS.items()}
+    for name, (returns, arguments) in {**calls, **_OTHERS}.items():
+        try:
+            function = getattr(library, f"bw_{name}")
+        except AttributeError:
+            raise ImportError(f"beamwork: {path} has no bw_{name}: it is of another version than "
+                              "this module") from None
+        function.restype, function.argtypes = returns, arguments
+        declared[name] = function
+    return declared
+
+
+_library, path = _load()
+_functions = _declare(_library, path)
+version = _functions["version"]().decode()
+
+
+class Owned:
+    """A pointer that the library allots, freed with this object; lock: one thread at a time."""
+    __slots__ = ("pointer", "lock", "_free", "__weakref__")
+
+    def __init__(self, kind):
+        self.pointer, self.lock = c_void_p(), threading.RLock()
+        self._free = _functions[f"{kind}_free" if kind != "text" else "free_text"]
+
+    def __del__(self):
+        if self.pointer:
+            self._free(self.pointer)
+
+    def text(self):
+        """What a text says; '' where there is none."""
+        return ctypes.string_at(self.pointer).decode("utf-8", "replace") if self.pointer else ""
+
+
+def call(name, *arguments, entries=()):
+    """Calls bw_NAME; raises what its status says. entries: see errors.of_status."""
+    why = Owned("text")
+    status = _functions[name](*arguments, ctypes.byref(why.pointer))
+    if status != 0:
+        raise of_status(status, why.text(), entries)
+
+
+def text_of(name, *arguments, entries=()):
+    """The text that bw_NAME gives."""
+    text = Owned("text")
+    call(name, *arguments, ctypes.byref(text.pointer), entries=entries)
+    return text.text()
+
+
+def owned_by(kind, name, *arguments, entries=()):
+    """The scene or result that bw_NAME makes; of a failure with a result it is error.partial."""
+    made = Owned(kind)
+    try:
+        call(name, *arguments, ctypes.byref(made.pointer), entries=entries)
+    except Error as error:
+        error.partial = made if made.pointer else None
+        raise
+    return made
+
+
+def stoppable(work):
+    """What work(descriptor) gives, in a thread beside: Ctrl-C makes the descriptor readable, which
+    ends the library's processes, and is raised here once it has come back."""
+    if threading.current_thread() is not threading.main_thread():
+        return work(None)
+    outcome, (readable, writable) = [], os.pipe()
+
+    def run():
+        try:
+            outcome.append((work(readable), None))
+        except BaseException as error:  # pylint: disable=broad-exception-caught
+            outcome.append((None, error))
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    try:
+        while thread.is_alive():
+            thread.join(0.5)
+    finally:
+        os.close(writable)  # which can be read, as the end
+        thread.join()
+        os.close(readable)
+    found, error = outcome[0]
+    if error is not None:
+        raise error
+    return found
+
+
+def ask(name, *arguments):
+    """What a function without a status gives."""
+    return _functions[name](*arguments)

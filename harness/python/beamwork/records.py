@@ -1,0 +1,83 @@
+"""Tables of results: lists of records, as arrays and as frames of pandas."""
+import numpy
+
+from . import display
+
+
+class Records(list):
+    """A list of records (dicts with the same keys), with its columns as arrays and a frame."""
+
+    def column(self, key):
+        """[records] array of one key: floats where all are numbers (None: NaN), else objects."""
+        values = [record.get(key) for record in self]
+        if not any(key in record for record in self):
+            known = ", ".join(self[0]) if self else "there are no records"
+            raise KeyError(f"no column {key!r}: {known}")
+        if all(v is None or isinstance(v, (int, float)) for v in values):
+            return numpy.array([numpy.nan if v is None else v for v in values], dtype=float)
+        return numpy.array(values, dtype=object)
+
+    def where(self, **wanted):
+        """The records whose keys have these values, as where(formulation="beamw", elements=2)."""
+        return Records(r for r in self if all(r.get(k) == v for k, v in wanted.items()))
+
+    def frame(self):
+        """The records as a pandas.DataFrame; ImportError where pandas is not installed."""
+        try:
+            import pandas
+        except ImportError:
+            raise ImportError("beamwork: frame() needs pandas; the records are a list of dicts "
+                              "without it") from None
+        return pandas.DataFrame.from_records(list(self))
+
+    def _repr_html_(self):
+        keys = list(dict.fromkeys(k for record in self for k in record))
+        return display.table(keys, ([display.plain(r.get(k)) for k in keys] for r in self))
+
+
+class Convergence(Records):
+    """Cells of all formulations and meshes: a record for each quantity of each.
+
+    Keys: formulation, elements, quantity, unit, status, value, truth, error (relative, NaN: no
+    truth), cost (of counted work, s), seconds_solve and all that the program writes of a cell.
+
+    limits: Records of formulation, quantity, limit, limit_uncertainty, order, verdict, message.
+    answers: Records of formulation, elements, cost, rank: who reaches `level` soonest.
+    sentence: what it comes to.  document: all as `beamwork converge --format json` writes it."""
+
+    def __init__(self, document):
+        super().__init__()
+        self.document = document
+        self.limits = Records()
+        for series in document.get("series", []):
+            label = {"case": series["case"], "formulation": series["formulation"]}
+            for quantity in series["quantities"]:
+                own = {key: value for key, value in quantity.items() if key != "meshes"}
+                self.limits.append({**label, **own})
+                self.extend({**label, **mesh} for mesh in quantity["meshes"])
+        self.answers = Records(document.get("answers", []))
+        self.level = document.get("level")
+        self.sentence = document.get("sentence", "")
+
+    def _repr_html_(self):
+        return display.convergence(self)
+
+
+class Verdicts(Records):
+    """Verdicts of formulations on cases: a record for each quantity of each series.
+
+    Keys: case, parameters, formulation, quantity, verdict, expected, as_expected, message, limit,
+    limit_uncertainty, truth, error (relative) and all that `verify --json` writes.
+
+    passed: nothing is unexpected.  unexpected: those records.  counts: {verdict: how many}.
+    document: all as `beamwork verify --json` writes it."""
+
+    def __init__(self, document):
+        super().__init__(document.get("verdicts", []))
+        self.document = document
+        self.counts = document.get("counts", {})
+        self.unexpected = Records(r for r in self if not r.get("as_expected", True))
+        self.passed = bool(document.get("passed", not document.get("unexpected")))
+
+    def _repr_html_(self):
+        return display.verdicts(self)

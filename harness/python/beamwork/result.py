@@ -1,0 +1,191 @@
+"""What one cell gives: a scene solved with one formulation on one mesh."""
+import ctypes
+import difflib
+import functools
+import json
+import math
+import types
+from typing import NamedTuple
+
+import numpy
+
+from . import display
+from .library import Owned, ask, text_of
+
+
+class Curve(NamedTuple):
+    """Points of a quantity along a path: x and y [points] in SI units."""
+    x: numpy.ndarray
+    y: numpy.ndarray
+
+
+class Shapes(NamedTuple):
+    """Centre lines. position: [states, points, 3] m, the first state undeformed; first: [members +
+    1] point where each member begins; kinds, values: [states] what a state is ("path", "buckling",
+    ...), and its path parameter, load factor or frequency [Hz]."""
+    position: numpy.ndarray
+    first: numpy.ndarray
+    kinds: list
+    values: numpy.ndarray
+
+
+class _Memory:
+    """Memory of a result as numpy sees it; an array made of it keeps the result alive."""
+
+    def __init__(self, owner, array, *shape):
+        self.owner = owner
+        size = ctypes.sizeof(array._type_)
+        kind = "f" if array._type_ is ctypes.c_double else "i"
+        self.__array_interface__ = {"version": 3, "shape": shape, "typestr": f"={kind}{size}",
+                                    "data": (ctypes.cast(array, ctypes.c_void_p).value, True)}
+
+
+class Result:
+    """Answers of one cell. `result["k_drive"]` is a value [SI]; curves: `result.curve(name)`.
+
+    values: {quantity: value}; errors: {quantity: relative error against its truth}; units.
+    curves: names of the quantities that are curves.
+    case, formulation, elements, parameters, cell (status, unknowns, counted work, times).
+    document: all as `beamwork solve --format json` writes it (read once, when it is asked for).
+
+    Its memory is the library's, and is freed with the last of the result and the arrays of its
+    curves. It may be used from several threads; it is not pickled (result.document is)."""
+
+    def __init__(self, handle: Owned):
+        self._handle = handle
+        values, errors, units, curves = {}, {}, {}, []
+        with handle.lock:
+            for i in range(ask("result_quantities", handle.pointer)):
+                raw = ask("result_name", handle.pointer, i)
+                name = raw.decode()
+                units[name] = ask("result_unit", handle.pointer, i).decode()
+                if self._points(raw)[0]:
+                    curves.append(name)
+                    continue
+                values[name] = ask("result_value", handle.pointer, raw)
+                error = ask("result_error", handle.pointer, raw)
+                if not math.isnan(error):
+                    errors[name] = error
+        self.values = types.MappingProxyType(values)
+        self.errors = types.MappingProxyType(errors)
+        self.units = types.MappingProxyType(units)
+        self.curves = tuple(curves)
+        self.formulation = ask("result_formulation", handle.pointer).decode()
+        self.elements = ask("result_elements", handle.pointer)
+
+    def _open(self):
+        if self._handle is None:
+            raise ValueError("the result is closed")
+        return self._handle
+
+    def _points(self, name):
+        x, y = ctypes.POINTER(ctypes.c_double)(), ctypes.POINTER(ctypes.c_double)()
+        count = ask("result_curve", self._open().pointer, name, ctypes.byref(x), ctypes.byref(y))
+        return count, x, y
+
+    def _missing(self, name, among):
+        near = difflib.get_close_matches(str(name), among, 1)
+        hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(among) or 'none'}"
+        return KeyError(f"no quantity {name!r}: {hint}")
+
+    def __getitem__(self, name):
+        """A value [its unit in SI]; KeyError for a name that is none, or that of a curve."""
+        if name in self.curves:
+            raise KeyError(f"{name!r} is a curve: result.curve({name!r})")
+        try:
+            return self.values[name]
+        except (KeyError, TypeError):
+            raise self._missing(name, list(self.values)) from None
+
+    def __iter__(self):
+        return iter(self.values)
+
+    def __len__(self):
+        return len(self.values)
+
+    def __contains__(self, name):
+        return name in self.values
+
+    def curve(self, name):
+        """Curve(x, y) of a quantity along its path: read-only views of the result's own arrays."""
+        if name not in self.curves:
+            raise self._missing(name, list(self.curves))
+        with self._open().lock:
+            count, *arrays = self._points(name.encode())
+        return Curve(*(numpy.asarray(_Memory(self._handle, a, count)) for a in arrays))
+
+    @property
+    def shapes(self):
+        """Shapes of the solution where they were asked for (solve(..., shapes=20)), else None."""
+        handle, points = self._open(), ctypes.c_size_t()
+        position, first = ctypes.POINTER(ctypes.c_double)(), ctypes.POINTER(ctypes.c_int)()
+        with handle.lock:
+            states = ask("result_shapes", handle.pointer, ctypes.byref(points),
+                         ctypes.byref(position))
+            if not states:
+                return None
+            members = ask("result_members", handle.pointer, ctypes.byref(first))
+            kinds = [ask("result_shape_kind", handle.pointer, i).decode() for i in range(states)]
+            values = [ask("result_shape_value", handle.pointer, i) for i in range(states)]
+        return Shapes(numpy.asarray(_Memory(handle, position, states, points.value, 3)),
+                      numpy.asarray(_Memory(handle, first, members + 1)), kinds,
+                      numpy.array(values))
+
+    @functools.cached_property
+    def document(self):
+        """All that is known of the cell, as `beamwork solve --format json` writes it."""
+        with self._open().lock:
+            return json.loads(text_of("result_json", self._handle.pointer))
+
+    case = property(lambda self: self.document["case"], doc="name of the case or scene")
+    parameters = property(lambda self: self.document["parameters"], doc="{name: value}")
+    cell = property(lambda self: self.document["cell"], doc="status, unknowns, work, times [s]")
+
+    @property
+    def steps(self):
+        """{column: [steps] array}: path, increment, iterations, rejected, correction, ..."""
+        return self._columns("steps")
+
+    @property
+    def iterations(self):
+        """{column: [iterations] array}: step, iteration, residual, correction, ..."""
+        return self._columns("iterations")
+
+    def _columns(self, key):
+        rows = self.document.get(key, [])
+        return {name: numpy.array([math.nan if row[name] is None else row[name] for row in rows])
+                for name in (rows[0] if rows else ())}
+
+    @property
+    def matrices(self):
+        """Of each state of compliance analyses: dicts of node, path, moments, and compliance and
+        stiffness, [6, 6] arrays in ux, uy, uz, rx, ry, rz (None: there is none)."""
+        def array(value):
+            return None if value is None else numpy.array(value, dtype=float)
+
+        return [{**m, "compliance": array(m["compliance"]), "stiffness": array(m["stiffness"])}
+                for m in self.document.get("matrices", [])]
+
+    def close(self):
+        """Lets go of the library's memory; arrays of curves keep theirs."""
+        self._handle = None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def __reduce__(self):
+        raise TypeError("a Result is memory of the library and is not pickled: pickle "
+                        "result.document, or dict(result.values)")
+
+    def __str__(self):
+        d = self.document
+        return f"{d['case']}, {d['formulation']}, n = {d['elements']}: {d['cell']['status']}"
+
+    def __repr__(self):
+        return "<Result, closed>" if self._handle is None else f"<Result {self}>"
+
+    def _repr_html_(self):
+        return display.result(self)

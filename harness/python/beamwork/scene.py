@@ -1,0 +1,217 @@
+"""Scenes: a built-in case, a scene file, or one built here of dicts."""
+import copy
+import json
+import os
+import threading
+from collections.abc import Mapping
+
+from . import arguments, display
+from .arguments import required, utf8
+from .errors import Error
+from .library import call, owned_by, stoppable, text_of
+from .records import Convergence, Verdicts
+from .result import Result
+from .writing import ENTRIES, HEAD, LISTS, number, scene_text
+
+
+def verified(scene, formulations, select, results, options, lines=()):
+    """Verdicts by the library; scene: its pointer, or None for all built-in cases."""
+    chosen, words = arguments.names(formulations, "formulation"), utf8(select, "select")
+    into = utf8(results, "results")
+    return Verdicts(json.loads(stoppable(
+        lambda stop: text_of("verify", scene, chosen, words, arguments.options(options, stop=stop),
+                             into, entries=lines))))
+
+
+class Scene:
+    """A structure, its loads, and what is asked of it, as in a scene file; all values are SI.
+
+    scene = Scene.case("c_column"), Scene.open("leaf.yaml"), Scene.text(yaml) or, built here,
+
+        scene = Scene("leaf")
+        scene.sections["leaf"] = dict(rectangle=dict(width=50e-3, thickness=0.5e-3),
+                                      young=210e9, shear_modulus=81e9)
+        scene.nodes["base"] = dict(at=[0, 0, 0], hold="all")
+        scene.nodes["tip"] = dict(at=[0.1, 0, 0])
+        scene.members["leaf"] = dict(from_="base", to="tip", section="leaf", y=[0, 1, 0])
+        scene.loads["push"] = dict(force=[0, 1, 0], on="tip")
+
+    Keys are those of a scene file (`beamwork scene --keys`); `from_` is `from`. Numbers may be
+    numpy's, texts may be expressions ("2*pi/3"). parameters, let, sections, nodes, members,
+    springs, motions, loads, analyses, quantities, parts and instances are dicts of entries; truths,
+    needs and meshes are lists. Entries may be changed between solutions.
+
+    Mistakes raise Refused, all together (error.mistakes). A scene may be used from several threads,
+    one after the other."""
+    __slots__ = ("summary", "source", "_name", "_make", "_written", "_entries", "_values",
+                 "_handle", "_lines", "_lock", "__weakref__")
+
+    def __init__(self, name="scene", *, summary="", source=""):
+        self._name, self.summary, self.source = name, summary, source
+        self._make = None  # of scenes that are not built here: what makes the handle
+        self._entries = {key: [] if key in LISTS else {} for key in ENTRIES}
+        self._values, self._written, self._handle, self._lines = {}, None, None, ()
+        self._lock = threading.RLock()
+
+    @classmethod
+    def _made(cls, name, make):
+        scene = cls(name)
+        scene._make = make
+        scene._ready()
+        return scene
+
+    @classmethod
+    def case(cls, name):
+        """A built-in case (beamwork.cases())."""
+        raw = required(name, "case")
+        return cls._made(name, lambda: owned_by("scene", "scene_case", raw))
+
+    @classmethod
+    def open(cls, path):
+        """A scene file, as it is now."""
+        raw = required(path, "path")
+        return cls._made(os.fspath(path), lambda: owned_by("scene", "scene_open", raw))
+
+    @classmethod
+    def text(cls, text, name="scene"):
+        """The text of a scene file; name: what mistakes call it."""
+        content, label = required(text, "text"), required(name, "name")
+        return cls._made(name,
+                         lambda: owned_by("scene", "scene_read", content, len(content), label))
+
+    def __getattr__(self, key):
+        if key not in ENTRIES:
+            raise AttributeError(f"a scene has no {key!r}: {', '.join(ENTRIES)}")
+        if self._make is not None:
+            raise AttributeError(f"{key}: the entries of {self._name} are in its text, "
+                                 "scene.write(); a scene of dicts begins with Scene()")
+        return self._entries[key]
+
+    def __setattr__(self, key, value):
+        if key in ENTRIES:
+            getattr(self, key)  # AttributeError where there are no entries
+            if not isinstance(value, (list, tuple) if key in LISTS else Mapping):
+                raise TypeError(f"{key}: {'a list' if key in LISTS else 'a dict'} is expected")
+            self._entries[key] = value
+        elif key in type(self).__slots__:
+            super().__setattr__(key, value)
+        else:
+            raise AttributeError(f"a scene has no {key!r}: {', '.join(ENTRIES)}")
+
+    def _ready(self):
+        """The library's scene as it is now, with all values that were set."""
+        lines = ()
+        if self._make is None:
+            head = dict(zip(HEAD, (self._name, self.summary, self.source)))
+            text, lines = scene_text(head, self._entries)
+            if text != self._written:
+                self._handle = None
+        if self._handle is None:
+            if self._make is None:
+                content = text.encode()
+                handle = owned_by("scene", "scene_read", content, len(content),
+                                  required(self._name, "name"), entries=lines)
+                self._written = text
+            else:
+                handle = self._make()
+            for assignment in self._values.values():
+                call("scene_set", handle.pointer, assignment)
+            self._handle, self._lines = handle, lines
+        return self._handle
+
+    def set(self, **values):
+        """Values of parameters, as set(thickness=0.5e-3, kind="wide"); all of them or, where one is
+        refused, none. Returns the scene."""
+        assignments = {}
+        for key, value in values.items():
+            value = value.tolist() if hasattr(value, "tolist") else value
+            if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+                raise TypeError(f"{key}: a number or a word is expected, not {value!r}")
+            word = value if isinstance(value, str) else number(value, key)
+            required(word, key)
+            assignments[key] = required(f"{key}={word}", key)
+        with self._lock:
+            before = self._values
+            self._values = {**before, **assignments}
+            try:
+                handle = self._ready()
+                for assignment in assignments.values():
+                    call("scene_set", handle.pointer, assignment)
+            except BaseException:
+                self._values, self._handle = before, None
+                raise
+        return self
+
+    def write(self, path=None):
+        """The scene as a file says it, loops and expressions written out, 17 digits: the text; with
+        path: into that file too."""
+        with self._lock:
+            text = text_of("scene_write", self._ready().pointer, entries=self._lines)
+        if path is not None:
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+        return text
+
+    def solve(self, formulation=None, elements=None, **options):
+        """The Result of one formulation on one mesh.
+
+        formulation: as "beamw" or "beamw:mass=lumped"; None: one is chosen that offers all that is
+        needed.  elements: of each member; None: the coarsest mesh at which no value changes by more
+        than 0.1 %.  options: keep_all, steps, shapes, threads, ... (see beamwork.h).
+
+        Raises Refused, NotConverged, Singular or Fault; error.result is what was found until then,
+        or None. Ctrl-C raises KeyboardInterrupt when the solution has ended."""
+        name = utf8(formulation, "formulation")
+        count = 0 if elements is None else arguments.whole(elements, "elements")
+        asked = arguments.options(options)
+        with self._lock:
+            try:
+                return Result(owned_by("result", "solve", self._ready().pointer, name, count, asked,
+                                       entries=self._lines))
+            except Error as error:
+                if error.partial is not None:
+                    error.result = Result(error.partial)
+                raise
+
+    def converge(self, *formulations, meshes=None, **options):
+        """The Convergence of formulations (none named: all that can) over meshes (None: the
+        scene's own): errors, limits with their uncertainty, orders, and who is soonest.
+
+        options: error (0.01: what `answers` asks for), select ("C_zz or C_xx"), jobs (processes).
+        """
+        chosen = arguments.names(formulations, "formulation")
+        sizes = arguments.whole_list(meshes, "meshes")
+        with self._lock:
+            pointer = self._ready().pointer
+            return Convergence(json.loads(stoppable(
+                lambda stop: text_of("converge", pointer, chosen, sizes,
+                                     arguments.options(options, stop=stop),
+                                     entries=self._lines))))
+
+    def verify(self, *formulations, select=None, results=None, **options):
+        """The Verdicts of formulations on this scene by its truths; as beamwork.verify."""
+        with self._lock:
+            return verified(self._ready().pointer, formulations, select, results, options,
+                            self._lines)
+
+    def copy(self):
+        """One of its own with the same entries and values."""
+        return copy.deepcopy(self)
+
+    __copy__ = copy
+
+    def __deepcopy__(self, memo):
+        made = Scene(self._name, summary=self.summary, source=self.source)
+        made._make, made._values = self._make, dict(self._values)
+        made._entries = copy.deepcopy(self._entries, memo)
+        return made
+
+    def __reduce__(self):
+        raise TypeError("a Scene is memory of the library and is not pickled: pickle scene.write()")
+
+    def __repr__(self):
+        kind = "built" if self._make is None else "read"
+        return f"<Scene {self._name}, {kind}{''.join(f', {k}' for k in self._values)}>"
+
+    def _repr_html_(self):
+        return display.scene(repr(self)[1:-1], self.write())

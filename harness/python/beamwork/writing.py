@@ -1,0 +1,98 @@
+"""A scene of dicts and lists as the text of a scene file; numbers with all their bits."""
+import math
+import re
+from collections.abc import Mapping
+
+from .errors import Refused
+
+# What a scene file begins with, in its order; then what is a list of entries, each on a line.
+HEAD = ("name", "summary", "source")
+ENTRIES = ("parameters", "let", "sections", "nodes", "members", "springs", "motions", "loads",
+           "analyses", "quantities", "truths", "needs", "meshes", "parts", "instances")
+LISTS = ("truths", "needs", "meshes")
+_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
+_DEEPEST = 40
+
+
+def number(value, where):
+    """A float or an integer in the least digits that give the same bits when they are read."""
+    if not math.isfinite(value):
+        raise Refused(f"{where} is {value}: a finite number is expected")
+    return repr(value)
+
+
+def quoted(text, where):
+    """As a word, or between quotation marks."""
+    if not text.isprintable():
+        raise Refused(f"{where}: {text[:40]!r} has a character that is not printed; write it in "
+                      "one line, without tabs")
+    if _WORD.match(text):
+        return text
+    plain = text.replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{plain}"'
+
+
+def written(value, where, depth=0):
+    """On one line: dicts as {key: value}, lists and arrays as [a, b]. A key 'from_' is 'from'."""
+    if depth > _DEEPEST:
+        raise Refused(f"{where} is nested deeper than {_DEEPEST}")
+    if hasattr(value, "tolist"):  # numpy: an array, or a number of its own
+        value = value.tolist()
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, (int, float)):
+        return number(value, where)
+    if isinstance(value, str):
+        if not value:
+            raise Refused(f"{where} is an empty text")
+        return quoted(value, where)
+    if isinstance(value, Mapping):
+        pairs = (f"{name(key, where)}: {written(v, f'{where}[{key!r}]', depth + 1)}"
+                 for key, v in value.items())
+        return "{" + ", ".join(pairs) + "}"
+    if isinstance(value, (list, tuple, range)):
+        return "[" + ", ".join(
+            written(v, f"{where}[{i}]", depth + 1) for i, v in enumerate(value)) + "]"
+    raise Refused(f"{where} is {type(value).__name__}: numbers, texts, lists and dicts are written")
+
+
+def name(key, where):
+    """A key as it is written; from_ and for_, which Python takes as keywords, without the _."""
+    if not isinstance(key, str) or not key:
+        raise Refused(f"{where}: the key {key!r} is no name")
+    return quoted(key[:-1] if key in ("from_", "for_") else key, where)
+
+
+def scene_text(head, entries):
+    """Text of a scene file, and of each of its lines which entry wrote it ('' : none).
+
+    head: {key of HEAD: text}; entries: {key of ENTRIES: dict of entries, or a list}."""
+    lines, owners = ["beamwork: 1"], [""]
+
+    def add(line, owner):
+        lines.append(line)
+        owners.append(owner)
+
+    for key in HEAD:
+        if head.get(key):
+            add(f"{key}: {written(head[key], key)}", key)
+    for key in ENTRIES:
+        value = entries.get(key)
+        if value is None:
+            continue
+        value = value.tolist() if hasattr(value, "tolist") else value
+        if not isinstance(value, (list, tuple, range) if key in LISTS else Mapping):
+            raise Refused(f"{key} is {type(value).__name__}: "
+                          f"{'a list' if key in LISTS else 'a dict of names'} is expected")
+        if not value:
+            continue
+        if key in ("needs", "meshes"):
+            add(f"{key}: {written(value, key)}", key)
+            continue
+        add(f"{key}:", key)
+        pairs = enumerate(value) if key in LISTS else value.items()
+        for label, entry in pairs:
+            owner = f"{key}[{label!r}]"
+            begin = "  - " if key in LISTS else f"  {name(label, key)}: "
+            add(begin + written(entry, owner), owner)
+    return "\n".join(lines) + "\n", owners

@@ -1,0 +1,75 @@
+"""The notebook of sheet flexures runs, in Jupyter and as a script, and finds what it says."""
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+import unittest
+from unittest import mock
+
+from harness.python.test.module import FOLDER, SETTINGS, ModuleTest
+from harness.test.program import environment
+
+NOTEBOOK = FOLDER / "sheet_flexures.ipynb"
+NEEDS = [name for name in ("nbclient", "nbformat", "ipykernel", "matplotlib")
+         if importlib.util.find_spec(name) is None]
+
+
+def words_of(cell):
+    """All that a cell has shown, as text and HTML."""
+    shown = []
+    for output in cell["outputs"]:
+        shown.append(output.get("text", ""))
+        shown += [str(text) for kind, text in output.get("data", {}).items() if "image" not in kind]
+    return "\n".join(shown)
+
+
+class Notebook(ModuleTest):
+
+    def test_stored_without_outputs(self):
+        stored = json.loads(NOTEBOOK.read_text(encoding="utf-8"))
+        code = [cell for cell in stored["cells"] if cell["cell_type"] == "code"]
+        self.assertGreater(len(code), 5)
+        self.assertEqual([cell["outputs"] for cell in code], [[]] * len(code))
+
+    @unittest.skipIf(NEEDS, f"needs {', '.join(NEEDS)}")
+    def test_in_jupyter(self):
+        """Run headless: figures are drawn, and the claims of the paper are found as written."""
+        import nbclient  # pylint: disable=import-outside-toplevel
+        import nbformat  # pylint: disable=import-outside-toplevel
+        notebook = nbformat.read(NOTEBOOK, as_version=4)
+        settings = {**SETTINGS, "MPLCONFIGDIR": str(self.folder), "IPYTHONDIR": str(self.folder)}
+        with mock.patch.dict(os.environ, settings):
+            nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3",
+                                    resources={"metadata": {"path": str(FOLDER)}}).execute()
+        code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+        images = [output for cell in code for output in cell.outputs
+                  if "image/png" in output.get("data", {})]
+        self.assertEqual(len(images), 3)
+        told = [words_of(cell) for cell in code]
+        claims = next(text for text in told if "N says" in text)
+        self.assertEqual((claims.count("<td>reproduced</td>"), claims.count("<td>not so</td>")),
+                         (7, 1))
+        limits = next(text for text in told if "derived for it" in text)
+        for word in ("+0.25812 %", "+0.12193 %", "-0.03620 %"):
+            self.assertIn(word, limits)
+        self.assertTrue(any("for 1 % in every quantity" in text and "sheet_third n = 1 (" in text
+                            for text in told))
+
+    @unittest.skipIf("matplotlib" in NEEDS, "needs matplotlib")
+    def test_as_a_script(self):
+        """Its code alone, one cell behind the other."""
+        stored = json.loads(NOTEBOOK.read_text(encoding="utf-8"))
+        path = self.folder / "sheet_flexures.py"
+        path.write_text("\n".join("".join(cell["source"]) for cell in stored["cells"]
+                                  if cell["cell_type"] == "code"), encoding="utf-8")
+        done = subprocess.run([sys.executable, path], text=True, check=False, cwd=self.folder,
+                              env=environment(**SETTINGS, MPLBACKEND="Agg",
+                                              MPLCONFIGDIR=str(self.folder)),
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("for 1 % in every quantity", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
